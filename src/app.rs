@@ -12,8 +12,10 @@ mod path_prompt;
 mod pictures;
 mod saving;
 mod startup;
+mod tour;
 
 use chromascope_core::query::NearestBlackBodyQuery;
+use chromascope_core::query::render::picture::PicturesQuery;
 use egui::{Event, Ui};
 
 use crate::action::history::History;
@@ -66,6 +68,10 @@ pub struct ChromascopeApp {
     /// The control that had the keyboard in the last frame.
     focus: Option<egui::Id>,
     closing: closing::Closing,
+    /// What the user had before the tour.
+    interrupted: Option<tour::Interrupted>,
+    /// Picture of the window about the program.
+    portrait: Background<PicturesQuery>,
     place: layout::WindowPlace,
     ctx: egui::Context,
 }
@@ -116,6 +122,8 @@ impl ChromascopeApp {
             first_frame: None,
             focus: None,
             closing: closing::Closing::default(),
+            interrupted: None,
+            portrait: Background::on(executor, "portrait", repaint()),
             place: layout::WindowPlace::default(),
             ctx: ctx.clone(),
         }
@@ -148,7 +156,7 @@ impl ChromascopeApp {
 
     /// Part of the view that is saved between runs.
     pub fn saved_view(&self) -> SavedView {
-        let mut saved = self.view.saved.clone();
+        let mut saved = self.own_view().clone();
         saved.import.failing = self.opened.failing();
         let own = &self.history.document().own;
         saved.import.unseen.clone_from(&self.view.import.unseen);
@@ -294,10 +302,15 @@ impl eframe::App for ChromascopeApp {
 
     fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
         self.view.point = None;
+        self.view.draw_in(ui.input(|input| input.time));
+        if self.view.locus_share.is_some() {
+            ui.ctx().request_repaint();
+        }
         self.view.table_copies = false;
         let document = self.history.document();
         let source = self.view.selected.as_ref().and_then(PlotItem::source);
-        self.view.selected_elsewhere = source.is_some_and(|id| document.compared(id.kind, &id.name).is_none());
+        self.view.selected_elsewhere = source.is_some_and(|id| document.compared(id.kind, &id.name).is_none())
+            || matches!(self.view.selected, Some(PlotItem::DataSet { .. }));
         self.show(ui);
         self.view.reset_plots = false;
         let hovered = self.view.next_hovered.take();
@@ -321,6 +334,7 @@ impl eframe::App for ChromascopeApp {
     }
 
     fn on_exit(&mut self, _: Option<&eframe::glow::Context>) {
+        self.end_tour();
         self.save_layout(true);
         if let Err(why) = self.files.save_document(self.history.document()) {
             log::error!("the document is not saved: {why}");

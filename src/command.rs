@@ -72,6 +72,10 @@ pub enum Command {
     SaveCorrection(CorrectionForm),
     /// Put a pane's picture on the clipboard.
     CopyPicture(PaneKind),
+    /// Put a pane's figure, the swatches and the conditions on the clipboard as one picture.
+    CopyCard(PaneKind),
+    /// Save that picture.
+    SaveCard(PaneKind),
     /// Put a pane's numbers on the clipboard.
     CopyNumbers(PaneKind),
     /// Show another workspace.
@@ -92,6 +96,10 @@ pub enum Command {
     SetSurround(Surround),
     /// Opens the help page of this name.
     Help(&'static str),
+    /// Go through the tour.
+    Tour(TourMove),
+    /// Show or hide the window about the program.
+    ToggleAbout,
     /// Search the library.
     FocusSearch,
     /// Open the palette of commands.
@@ -110,6 +118,19 @@ pub enum Command {
     NextPane,
     /// End the program.
     Quit,
+}
+
+/// A step through the tour.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TourMove {
+    /// To its first step.
+    Begin,
+    /// To the step before.
+    Back,
+    /// To the next step; from the last one, to the end.
+    Next,
+    /// To the end: the user's own document comes back.
+    End,
 }
 
 /// A form to save in.

@@ -4,8 +4,10 @@ pub mod accuracy;
 pub mod chromaticity;
 pub mod correction;
 pub mod curves;
+pub mod data_set;
 pub mod light;
 pub mod metrics;
+pub mod portrait;
 pub mod recorded;
 pub mod render;
 pub mod report_card;
@@ -13,6 +15,7 @@ pub mod skipped_work;
 pub mod spectra;
 pub mod strip;
 pub mod swatches;
+pub mod thumbnail;
 
 use std::sync::Arc;
 

@@ -37,6 +37,13 @@ pub enum PlotItem {
     },
     /// The light on the scene.
     Light,
+    /// A set of the library that is no sensor: a chart, a light, a filter, a material.
+    DataSet {
+        /// Its kind.
+        kind: SetKind,
+        /// Its name in the catalog.
+        name: String,
+    },
 }
 
 /// Relation of a drawn item to the hovered or selected one.
@@ -51,12 +58,21 @@ pub enum Relation {
 }
 
 impl PlotItem {
+    /// A set of the library.
+    pub fn of_set(kind: SetKind, name: &str) -> Self {
+        let name = name.to_owned();
+        match kind {
+            SetKind::Camera | SetKind::Observer => Self::Sensor(SensorId { kind, name }),
+            _ => Self::DataSet { kind, name },
+        }
+    }
+
     /// The sensor it belongs to, if any.
     pub fn source(&self) -> Option<&SensorId> {
         match self {
             Self::Sensor(source) | Self::Radiator { source, .. } => Some(source),
             Self::Patch { source, .. } => source.as_ref(),
-            Self::Light => None,
+            Self::Light | Self::DataSet { .. } => None,
         }
     }
 
@@ -96,8 +112,8 @@ impl PlotItem {
                     Relation::Other
                 }
             }
-            (Self::Light | Self::Patch { source: None, .. }, _)
-            | (_, Self::Light | Self::Patch { source: None, .. })
+            (Self::Light | Self::DataSet { .. } | Self::Patch { source: None, .. }, _)
+            | (_, Self::Light | Self::DataSet { .. } | Self::Patch { source: None, .. })
             | (Self::Patch { .. }, Self::Patch { .. }) => Relation::Other,
             _ if self.source() == drawn.source() => Relation::Same,
             _ if is_reference(drawn.source()) => Relation::Reference,

@@ -9,6 +9,7 @@ pub mod metrics;
 pub mod recorded;
 pub mod render;
 pub mod table;
+pub mod tour;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
@@ -86,6 +87,14 @@ pub struct View {
     pub focus_temperature: bool,
     /// The help window.
     pub help: HelpView,
+    /// Step of the tour, while it is played.
+    pub tour: Option<usize>,
+    /// True while the window about the program is open.
+    pub about: bool,
+    /// Share of the loci that is drawn, while they draw in.
+    pub locus_share: Option<f64>,
+    /// Time of egui in seconds at which the loci began to draw in.
+    pub draws_since: Option<f64>,
     /// The command palette with its typed text, while open.
     pub palette: Option<String>,
     /// Times are neither shown nor renewed: for pictures that are compared.
@@ -122,6 +131,10 @@ pub struct SavedView {
     pub spectra_layout: SpectraLayout,
     /// True if the bars of differences are shown.
     pub difference_bars: bool,
+    /// Nothing moves by itself.
+    pub reduced_motion: bool,
+    /// The loci are to draw in, as on the first start.
+    pub draws_in: bool,
     /// Groups of the library that are folded.
     pub folded: BTreeSet<String>,
     /// Files opened lately, the newest first.
@@ -147,11 +160,20 @@ impl Default for SavedView {
             swatch_style: SwatchStyle::default(),
             spectra_layout: SpectraLayout::default(),
             difference_bars: true,
+            reduced_motion: false,
+            draws_in: false,
             folded: ["observers", "charts", "illuminants", "materials"].map(str::to_owned).into(),
             recent: Vec::new(),
             render: RenderLook::default(),
             import: ImportMemory::default(),
         }
+    }
+}
+
+impl SavedView {
+    /// View of the first start, under the system's wish for motion.
+    pub fn first(reduced_motion: bool) -> Self {
+        Self { reduced_motion, draws_in: !reduced_motion, ..Self::default() }
     }
 }
 
@@ -198,6 +220,8 @@ pub struct Status {
     pub weight: Weight,
     /// Import item and line that `[Change]` or `[Show line]` opens.
     pub change: Option<(ImportItem, Option<usize>)>,
+    /// Time of egui in seconds when it was first shown.
+    pub since: Option<f64>,
 }
 
 /// Severity of a message.
@@ -215,12 +239,28 @@ pub enum Weight {
 impl View {
     /// Shows a message in the status bar.
     pub fn say(&mut self, text: impl Into<String>) {
-        self.status = Status { text: text.into(), weight: Weight::Note, change: None };
+        self.status = Status { text: text.into(), ..Status::default() };
     }
 
     /// Shows an error in the status bar.
     pub fn fail(&mut self, text: impl Into<String>) {
-        self.status = Status { text: text.into(), weight: Weight::Error, change: None };
+        self.status = Status { text: text.into(), weight: Weight::Error, ..Status::default() };
+    }
+
+    /// Lets the loci draw in, once; `now` is egui's time in seconds.
+    pub fn draw_in(&mut self, now: f64) {
+        /// Duration in seconds.
+        const DURATION: f64 = 1.2;
+        if std::mem::take(&mut self.saved.draws_in) && !self.saved.reduced_motion {
+            self.draws_since = Some(now);
+        }
+        let part = self.draws_since.map(|since| (now - since) / DURATION);
+        let moving = part.filter(|part| *part < 1.0 && !self.saved.reduced_motion);
+        if moving.is_none() {
+            self.draws_since = None;
+        }
+        // Fast at first, slow at the end.
+        self.locus_share = moving.map(|part| 1.0 - (1.0 - part.clamp(0.0, 1.0)).powi(3));
     }
 
     /// Puts a file at the head of those opened lately.

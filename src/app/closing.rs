@@ -36,6 +36,7 @@ impl ChromascopeApp {
         if !ctx.input(|input| input.viewport().close_requested()) || self.closing == Closing::Agreed {
             return;
         }
+        self.end_tour();
         if self.files.save_document(self.history.document()).is_err() {
             ctx.send_viewport_cmd(ViewportCommand::CancelClose);
             self.closing = Closing::Asked;

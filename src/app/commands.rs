@@ -53,6 +53,7 @@ impl ChromascopeApp {
     /// Runs the commands of keys, menus and panes.
     pub(super) fn carry_out(&mut self, ctx: &egui::Context) {
         for command in std::mem::take(&mut self.commands) {
+            self.end_tour_before(&command);
             self.carry_out_one(ctx, command);
         }
     }
@@ -111,6 +112,8 @@ impl ChromascopeApp {
             Command::SaveSet(kind, name, form) => self.save_set(kind, &name, form),
             Command::SaveCorrection(form) => self.save_correction(form),
             Command::CopyPicture(pane) => self.copy_picture(ctx, pane),
+            Command::CopyCard(pane) => self.copy_card(ctx, pane),
+            Command::SaveCard(pane) => self.save_card(pane),
             Command::CopyNumbers(pane) => self.copy_numbers(ctx, pane),
             Command::Show(workspace) => {
                 self.view.saved.workspace = workspace;
@@ -137,6 +140,8 @@ impl ChromascopeApp {
             Command::SetTheme(preference) => ctx.set_theme(preference),
             Command::SetSurround(surround) => self.view.saved.surround = surround,
             Command::Help(page) => self.view.help.open(page, 0),
+            Command::Tour(to) => self.tour(to),
+            Command::ToggleAbout => self.view.about = !self.view.about,
             Command::FocusSearch if self.view.help.page.is_some() => self.view.help.focus_search = true,
             Command::FocusSearch => {
                 self.view.saved.layout.library = true;
@@ -229,7 +234,7 @@ impl ChromascopeApp {
         }
         let rendering = self.arrangement.panes.iter().any(|(pane, _)| *pane == PaneKind::RENDER);
         let view = &mut self.view;
-        if view.palette.take().is_some() || view.help.escape() {
+        if view.palette.take().is_some() || view.help.escape() || std::mem::take(&mut view.about) {
             return;
         }
         if std::mem::take(&mut view.inspector_over) {
@@ -251,7 +256,11 @@ impl ChromascopeApp {
             *mode = RenderMode::Grid;
             return;
         }
-        view.status = crate::view::Status::default();
+        if view.status != crate::view::Status::default() {
+            view.status = crate::view::Status::default();
+            return;
+        }
+        self.end_tour();
     }
 
     /// Measures the cost of the scene.
@@ -298,7 +307,7 @@ impl ChromascopeApp {
     }
 
     /// The pane's figure as on screen, or a message that it has none.
-    fn figure(&mut self, pane: PaneKind) -> Option<Figure> {
+    pub(super) fn figure(&mut self, pane: PaneKind) -> Option<Figure> {
         let scene = Scene { document: self.history.document(), catalog: &self.catalog, results: &self.results };
         let figure = panes::figure(pane, &self.figure_input(&scene));
         if figure.is_none() {
@@ -365,6 +374,7 @@ impl ChromascopeApp {
 
     /// Puts a document that was read in the place of this one, as one step.
     fn take_document(&mut self, mut opened: crate::files::OpenedDocument) {
+        self.end_tour();
         if opened.before != *self.history.document() {
             // The document changed meanwhile: its current state is saved.
             return self.files.open_document(&opened.path, self.history.document().clone());
@@ -383,7 +393,8 @@ impl ChromascopeApp {
 
     /// Saves the document as soon as it changes.
     pub(super) fn autosave(&mut self, ctx: &egui::Context) {
-        self.files.autosave(self.history.document(), ctx);
+        let document = self.interrupted.as_ref().map_or(&self.history, |own| &own.history).document();
+        self.files.autosave(document, ctx);
     }
 
     /// True if a set of this kind and name is on the list.

@@ -24,6 +24,7 @@ impl ChromascopeApp {
             opened: &self.opened,
             recorded: &self.recorded,
             radiators: &self.radiators,
+            portrait: &self.portrait,
             studio: &mut self.studio,
             laboratory: &mut self.laboratory,
             ranking: &mut self.ranking,
@@ -43,6 +44,7 @@ impl ChromascopeApp {
         };
         let menu = bar(ui, "menu", 30.0, true);
         let conditions = bar(ui, "conditions", 48.0, true);
+        let tour = context.view.tour.map(|_| bar(ui, "tour", panes::help::tour::HEIGHT, true));
         let standing: Vec<(Standing, Rect)> = self
             .files
             .standing()
@@ -54,6 +56,9 @@ impl ChromascopeApp {
         let area = CentralPanel::default().frame(Frame::NONE.fill(theme.panel)).show(ui, |ui| ui.max_rect()).inner;
         panes::menu::show(ui, menu, &self.history, &mut context);
         panes::scene_bar::show(ui, conditions, &mut context);
+        if let Some(rect) = tour {
+            panes::help::tour::show(ui, rect, &mut context);
+        }
         for (standing, rect) in standing {
             if notice::show(ui, rect, &standing, &theme) {
                 self.files.dismiss(standing.kind);

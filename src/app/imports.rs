@@ -23,6 +23,7 @@ use words::{opened_again, put_to_use, renamed};
 impl ChromascopeApp {
     /// Begins to read. The document stays as it is until that is done.
     pub(super) fn open(&mut self, requests: Vec<Request>) {
+        self.end_tour();
         let memory = self.view.saved.import.clone();
         self.opened.open(requests, move |bytes| {
             if memory.remembered.is_empty() { ImportOverrides::default() } else { memory.wishes(&Likeness::of(bytes)) }
@@ -80,6 +81,7 @@ impl ChromascopeApp {
     }
 
     fn bring_in(&mut self, sets: Vec<Imported>, [message, failure]: [String; 2], paths: Vec<PathBuf>) {
+        self.end_tour();
         for path in paths {
             self.view.remember_file(path);
         }
@@ -128,6 +130,7 @@ impl ChromascopeApp {
 
     /// Puts sets that were read again in their places, as one step.
     fn put_in_place(&mut self, sets: Vec<(String, Result<Imported, String>)>, why: Why, ticket: u64) {
+        self.end_tour();
         let (mut with, mut failures, mut again) = (Vec::new(), Vec::new(), Vec::new());
         for (name, result) in sets {
             // Items that were renamed, removed or reloaded meanwhile are no longer concerned.

@@ -60,7 +60,8 @@ pub fn run(paths: Vec<PathBuf>, start: Instant) -> Result<(), WindowError> {
         APP_ID,
         options,
         Box::new(move |cc| {
-            let mut saved: SavedView = cc.storage.and_then(|s| eframe::get_value(s, LAYOUT_KEY)).unwrap_or_default();
+            let known: Option<SavedView> = cc.storage.and_then(|s| eframe::get_value(s, LAYOUT_KEY));
+            let mut saved = known.unwrap_or_else(|| SavedView::first(files::reduces_motion()));
             saved.render.mend();
             let history = History::new(kept.kept_document());
             let mut app = ChromascopeApp::new(&cc.egui_ctx, history, saved, kept);

@@ -4,6 +4,7 @@ mod drawing;
 mod edges;
 mod fit;
 mod frame;
+mod ghost;
 mod ground;
 mod labels;
 mod loci;
@@ -103,6 +104,7 @@ fn draw<'a>(
     }
     if scene.document.overlays.loci {
         loci::add(&mut drawing, &sources);
+        ghost::add(&mut drawing);
     }
     if scene.document.overlays.patches {
         points::add(&mut drawing, &sources);
@@ -170,18 +172,24 @@ pub fn overview(scene: &Scene<'_>, shown: [[f64; 2]; 2], size: [f64; 2]) -> Pane
 
 /// The size of a saved figure in points, with the strip below the diagram.
 const SIZE: [f64; 2] = [640.0, 480.0];
-const STRIP: f64 = 120.0;
+/// Height in points of the strip below it.
+pub const STRIP: f64 = 120.0;
 
 /// The figure as it is saved: diagram, strip, legend, caption, and the numbers of all points.
 pub fn figure(scene: &Scene<'_>, view: &View) -> Figure {
+    figure_sized(scene, view, SIZE)
+}
+
+/// The figure with a diagram of a size in points.
+pub fn figure_sized(scene: &Scene<'_>, view: &View, size: [f64; 2]) -> Figure {
     // Hovering is not shown on paper.
     let paper = View { saved: view.saved.clone(), ..View::default() };
-    let built = build(scene, &paper, None, SIZE);
-    let mut figure = Figure::new("Chromaticity", SIZE);
+    let built = build(scene, &paper, None, size);
+    let mut figure = Figure::new("Chromaticity", size);
     figure.panels.push(built.panel);
     figure.panels.extend(built.lens.map(|lens| lens.panel));
-    if let Some(mut strip) = super::strip::build(scene, [SIZE[0], STRIP]) {
-        strip.panel.area = Rect::from_min_size([0.0, SIZE[1]], [SIZE[0], STRIP]);
+    if let Some(mut strip) = super::strip::build(scene, [size[0], STRIP]) {
+        strip.panel.area = Rect::from_min_size([0.0, size[1]], [size[0], STRIP]);
         figure.size[1] += STRIP;
         figure.panels.push(strip.panel);
     }

@@ -317,5 +317,6 @@ pub fn describe(scene: &Scene<'_>, thing: &PlotItem, nm: f64) -> Vec<String> {
             }
             Err(error) => vec![error.to_string()],
         },
+        PlotItem::DataSet { name, .. } => vec![name.clone()],
     }
 }

@@ -280,9 +280,14 @@ const SIZE: [f64; 2] = [700.0, 300.0];
 
 /// The figure as it is saved (in rows with the five patches, the paper's Figure 5), with all numbers.
 pub fn figure(scene: &Scene<'_>, view: &View) -> Figure {
+    figure_sized(scene, view, SIZE)
+}
+
+/// The figure in a width, and at least a height, in points.
+pub fn figure_sized(scene: &Scene<'_>, view: &View, size: [f64; 2]) -> Figure {
     let paper = View { saved: view.saved.clone(), ..View::default() };
-    let built = build(scene, &paper, SIZE);
-    let mut figure = Figure::new("Swatches", [SIZE[0], built.height.max(120.0)]);
+    let built = build(scene, &paper, size);
+    let mut figure = Figure::new("Swatches", [size[0], built.height.max(120.0)]);
     let mut panel = built.panel;
     panel.area = Rect::from_min_size([0.0, 0.0], figure.size);
     figure.panels.push(Panel { marks: panel.marks, ..Panel::board("Swatches", panel.area, panel.background) });

@@ -2,6 +2,7 @@
 
 use chromascope_core::accuracy::RelTolerance;
 use chromascope_core::query::NearestBlackBodyQuery;
+use chromascope_core::query::render::picture::PicturesQuery;
 use chromascope_core::render::{Quality, Shadows};
 use chromascope_figure::Figure;
 use egui::{Rect, Ui};
@@ -63,6 +64,8 @@ pub struct PaneContext<'a> {
     pub recorded: &'a RecordedStore,
     /// Finds the nearest blackbody of a color, on demand.
     pub radiators: &'a Background<NearestBlackBodyQuery>,
+    /// Picture of the window about the program.
+    pub portrait: &'a Background<PicturesQuery>,
     /// Renderer of the pictures.
     pub studio: &'a mut RenderService,
     /// Profiler of the scene.

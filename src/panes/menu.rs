@@ -5,7 +5,7 @@ use egui::{Align, Button, Layout, Rect, Ui, UiBuilder, Vec2};
 use super::context::PaneContext;
 use crate::action::history::History;
 use crate::action::{Action, SceneAction};
-use crate::command::{Command, Format, shortcut_of};
+use crate::command::{Command, Format, TourMove, shortcut_of};
 use crate::document::start::Start;
 use crate::theme::{ROW, Surround, UNIT};
 use crate::workspaces::{PaneKind, Workspace};
@@ -167,6 +167,7 @@ fn edit(ui: &mut Ui, history: &History, context: &mut PaneContext<'_>) {
         ui.close();
     }
     item(ui, &format!("Copy picture of {}", context.title(pane)), Command::CopyPicture(pane), context);
+    item(ui, &format!("Copy {} as card", context.title(pane)), Command::CopyCard(pane), context);
     ui.separator();
     item(ui, "Pin the selection", Command::Pin, context);
     item(ui, "Find anything…", Command::FindAnything, context);
@@ -215,6 +216,7 @@ fn view(ui: &mut Ui, context: &mut PaneContext<'_>) {
             }
         }
     });
+    ui.checkbox(&mut context.view.saved.reduced_motion, "Reduce motion");
     ui.menu_button("Surround of swatches", |ui| {
         for (surround, words) in
             [(Surround::Middle, "Middle gray, L* 50"), (Surround::Dark, "Dark gray"), (Surround::Light, "Light gray")]
@@ -228,7 +230,11 @@ fn view(ui: &mut Ui, context: &mut PaneContext<'_>) {
 }
 
 fn help(ui: &mut Ui, context: &mut PaneContext<'_>) {
+    item(ui, "Tour: the paper in five steps", Command::Tour(TourMove::Begin), context);
+    ui.separator();
     for page in crate::help::pages() {
         item(ui, &page.title, Command::Help(page.name), context);
     }
+    ui.separator();
+    item(ui, "About Chromascope", Command::ToggleAbout, context);
 }

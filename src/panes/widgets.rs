@@ -108,7 +108,9 @@ fn export_menu(ui: &mut Ui, &Pane { kind, title, .. }: &Pane, context: &mut Pane
             ("Figure as PNG…", Command::Export(kind, Format::Png)),
             ("Numbers as CSV…", Command::Export(kind, Format::Csv)),
             ("Numbers as JSON…", Command::Export(kind, Format::Json)),
+            ("Card as PNG…", Command::SaveCard(kind)),
             ("Copy picture", Command::CopyPicture(kind)),
+            ("Copy as card", Command::CopyCard(kind)),
             ("Copy numbers", Command::CopyNumbers(kind)),
         ] {
             if ui.button(words).clicked() {

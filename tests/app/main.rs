@@ -44,6 +44,7 @@ mod same_file;
 mod save_prompt;
 mod save_set;
 mod screenshots;
+mod shell;
 mod spectral_images;
 mod starts;
 mod table;

@@ -48,6 +48,9 @@ fn add_one(drawing: &mut Drawing<'_>, source: &ComparedSensor, locus: &[LocusPoi
         drawing.refused.push(format!("{}: chromaticity undefined (X + Y + Z = 0)", source.label));
     }
     let below = drawing.scene.extrapolated_below(source.kind, &source.name).map(|(below, _)| below);
+    let drawn = drawing.view.locus_share.map_or(points.len(), |share| (share * points.len() as f64) as usize);
+    let points: Vec<[f64; 2]> =
+        points.into_iter().enumerate().map(|(index, point)| if index < drawn { point } else { GAP }).collect();
     let [measured, beyond] = split(&points, |index| locus[index].temperature.get(), below);
     let line = |points| {
         let line = Mark::new(tag, &source.label, Shape::Line { points, closed: false });
@@ -59,7 +62,7 @@ fn add_one(drawing: &mut Drawing<'_>, source: &ComparedSensor, locus: &[LocusPoi
         drawing.loci.insert(drawing.marks.len());
         drawing.marks.push(line(beyond).with_dash(Dash::Dotted));
     }
-    if drawing.sketch {
+    if drawing.sketch || drawing.view.locus_share.is_some() {
         return;
     }
     if source.is_reference {

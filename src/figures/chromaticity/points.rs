@@ -155,6 +155,7 @@ pub fn describe(scene: &Scene<'_>, thing: &PlotItem) -> Vec<String> {
         PlotItem::Patch { source: Some(source), patch } => describe_patch(scene, source, patch),
         PlotItem::Patch { source: None, patch } => vec![patch.clone()],
         PlotItem::Light => vec![format!("light {}", scene.light_name())],
+        PlotItem::DataSet { name, .. } => vec![name.clone()],
     }
 }
 

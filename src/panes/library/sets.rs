@@ -12,7 +12,8 @@ use crate::command::Command;
 use crate::document::own::OwnSet;
 use crate::document::{Light, SetKind};
 use crate::panes::context::PaneContext;
-use crate::panes::widgets::{facts, focus_rim, lines};
+use crate::panes::widgets::{focus_rim, lines};
+use crate::plot_item::PlotItem;
 use crate::theme::{ROW, UNIT};
 use crate::view::import::ImportItem;
 
@@ -204,17 +205,25 @@ fn set(ui: &mut Ui, entry: &Entry, context: &mut PaneContext<'_>) {
     }
     let color = if enabled { context.theme.text } else { context.theme.weak };
     let shown = if entry.kind == SetKind::Illuminant && entry.name == "E" { "E, equal energy" } else { &entry.name };
-    lines::elided(ui, words, shown, TextStyle::Body, color);
+    let cut = lines::elided(ui, words, shown, TextStyle::Body, color);
     if enabled && response.clicked() && (ticks || !on) {
         choose(entry, !on, context);
     }
-    let (scene, theme) = (context.scene, context.theme);
-    response.on_hover_ui(|ui| {
-        if !enabled {
-            ui.label("The reference cannot be removed; choose another reference first.");
-        }
-        facts::tooltip(ui, &scene, &theme, entry);
-    });
+    // Source, terms and curve stand in the inspector, a sensor's locus in the diagram, where they cover nothing.
+    if response.hovered() || response.has_focus() {
+        context.view.hover(Some(&PlotItem::of_set(entry.kind, &entry.name)));
+    }
+    let also = entry.also.clone().filter(|also| *also != entry.name);
+    if !enabled || cut || also.is_some() {
+        response.on_hover_ui(|ui| {
+            ui.set_max_width(row.width());
+            ui.strong(&entry.name);
+            also.map(|also| ui.label(also));
+            if !enabled {
+                ui.small("The reference cannot be removed; choose another reference first.");
+            }
+        });
+    }
 }
 
 /// A box with a tick, or a ring with a point.

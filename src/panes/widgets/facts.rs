@@ -12,7 +12,7 @@ use crate::document::SetKind;
 use crate::document::own::Role;
 use crate::format::number;
 use crate::scene::Scene;
-use crate::theme::{SMALL, Theme, UNIT};
+use crate::theme::{SMALL, Theme};
 
 /// A fact with its caption.
 pub type Fact = (&'static str, String);
@@ -147,13 +147,13 @@ pub fn show(ui: &mut Ui, theme: &Theme, facts: &[Fact]) {
     }
 }
 
-/// Tooltip of a data set's name.
+/// A data set in short, for the pointer on its name: name, further names, range, terms.
 pub fn tooltip(ui: &mut Ui, scene: &Scene<'_>, theme: &Theme, entry: &Entry) {
-    ui.set_max_width(360.0);
+    ui.set_max_width(280.0);
     ui.strong(&entry.name);
     if let Some(also) = &entry.also {
         ui.label(also);
     }
-    ui.add_space(UNIT);
-    show(ui, theme, &of(scene, entry, true));
+    let short = of(scene, entry, true).into_iter().filter(|(caption, _)| ["Range", "Terms"].contains(caption));
+    show(ui, theme, &short.collect::<Vec<_>>());
 }

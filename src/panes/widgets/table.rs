@@ -54,6 +54,7 @@ pub struct DataTable<'a> {
     item: Option<&'a dyn Fn(usize) -> Option<PlotItem>>,
     first: Option<Sorting>,
     compact: bool,
+    scrolls: bool,
 }
 
 /// User actions on a table in a frame; rows are counted in the given order.
@@ -69,7 +70,13 @@ impl<'a> DataTable<'a> {
     /// A table of a pane, with columns named by its heads. `id` names its order and columns in what is saved between runs.
     pub fn new(pane: PaneKind, id: &'a str, table: &'a Table) -> Self {
         let columns = table.columns.iter().map(|head| Column::from_head(head)).collect();
-        Self { pane, id, table, columns, note: None, item: None, first: None, compact: false }
+        Self { pane, id, table, columns, note: None, item: None, first: None, compact: false, scrolls: false }
+    }
+
+    /// Compact table that is as wide as its columns need, for a place that scrolls.
+    #[must_use]
+    pub fn with_scrolling(self) -> Self {
+        Self { scrolls: true, ..self }
     }
 
     /// Table with descriptions of its columns.
@@ -131,7 +138,8 @@ impl<'a> DataTable<'a> {
         let order: Vec<usize> = (0..table.table.rows.len()).collect();
         let mut body = table.body(shown, order, &TableLook::default(), context);
         let height = body.head_height() + COMPACT_LINE * table.table.rows.len() as f32;
-        let (rect, _) = ui.allocate_exact_size(Vec2::new(ui.available_width(), height), egui::Sense::hover());
+        let width = ui.available_width().max(if table.scrolls { body.least_width() } else { 0.0 });
+        let (rect, _) = ui.allocate_exact_size(Vec2::new(width, height), egui::Sense::hover());
         body.show(ui, rect, None);
         body.output
     }
@@ -151,7 +159,8 @@ impl<'a> DataTable<'a> {
                     note.uncertainty.map(|by| (by, note.decimals))
                 })
             });
-            Layout::of(column, self.table, index, uncertainties, self.compact)
+            let decimals = |row: usize| self.note.and_then(|note| note(row, index).decimals);
+            Layout::of(column, self.table, index, uncertainties, self.compact.then_some(&decimals))
         });
         Body::new(self, layouts.collect(), shown, order, look, context)
     }

@@ -132,6 +132,12 @@ impl<'a> Body<'a> {
         table.show(&mut child, self);
     }
 
+    /// Width that the columns of a compact table need.
+    pub(super) fn least_width(&self) -> f32 {
+        let widths = self.shown.iter().map(|&column| self.layouts[column].width);
+        widths.sum::<f32>() - SPARE * self.shown.len().saturating_sub(1) as f32
+    }
+
     /// Lays out all rows, visible or not: a few within other text.
     fn lay_out(&mut self, ui: &mut Ui, rect: Rect, widths: &[f32]) {
         let edges: Vec<f32> = std::iter::once(rect.left())
@@ -222,12 +228,14 @@ impl<'a> Body<'a> {
             ui.painter().rect_filled(ground, 2.0, self.theme.shade(share));
         }
         let written = note.words.clone().unwrap_or_else(|| words(value, layout.form, note.decimals));
+        // Rows of a compact table are quantities of their own: their points stand apart anyway.
+        let written = if self.of.compact { written.trim_end() } else { &written };
         let mut place = rect;
         place.max.x -= layout.uncertainty;
         if layout.form == Form::Text {
-            lines::elided(ui, place, &written, TextStyle::Monospace, ink);
+            lines::elided(ui, place, written, TextStyle::Monospace, ink);
         } else {
-            lines::right_aligned(ui, place, &written, TextStyle::Monospace, ink);
+            lines::right_aligned(ui, place, written, TextStyle::Monospace, ink);
         }
         let Some(uncertainty) = note.uncertainty else { return };
         let behind = uncertainty_words(uncertainty, layout.form, note.decimals);
@@ -236,13 +244,19 @@ impl<'a> Body<'a> {
     }
 }
 
-/// Spreads columns over a width, or narrows the first, which holds names.
+/// Spreads columns over a width; or takes the spare air of all but the first, and then narrows the first, which holds names.
 fn fit(widths: &mut [f32], width: f32) {
+    let others = widths.len().saturating_sub(1).max(1) as f32;
+    let spare = ((widths.iter().sum::<f32>() - width) / others).clamp(0.0, SPARE);
+    widths.iter_mut().skip(1).for_each(|other| *other -= spare);
     let all: f32 = widths.iter().sum();
     if let Some(first) = widths.first_mut() {
         *first = (*first + width - all).clamp(first.min(24.0), *first);
     }
 }
+
+/// Air of a compact table's column that it can do without.
+const SPARE: f32 = 2.0 * UNIT;
 
 impl TableDelegate for Body<'_> {
     fn prepare(&mut self, _: &PrefetchInfo) {

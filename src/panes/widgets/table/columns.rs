@@ -83,15 +83,21 @@ pub(super) struct Layout {
     pub(super) shades: Option<[f64; 2]>,
 }
 
+/// Decimals of each row, where it has fewer than its column.
+pub(super) type RowDecimals<'a> = &'a dyn Fn(usize) -> Option<usize>;
+
 impl Layout {
-    /// Layout of a column. `uncertainties` are its cells', with decimals of their own.
+    /// Layout of a column. `uncertainties` are its cells', with decimals of their own; `compact` has the decimals of a compact
+    /// table's rows, which hold quantities of their own.
     pub(super) fn of(
         column: &Column,
         table: &Table,
         index: usize,
         uncertainties: impl Iterator<Item = (f64, Option<usize>)>,
-        compact: bool,
+        compact: Option<RowDecimals<'_>>,
     ) -> Self {
+        let row_decimals = compact;
+        let compact = compact.is_some();
         let size = if compact { TextSize::Small } else { TextSize::Body };
         let cells = || table.rows.iter().filter_map(|row| row.get(index));
         let numbers = || cells().filter_map(|cell| if let Cell::Number(value) = cell { Some(*value) } else { None });
@@ -104,7 +110,16 @@ impl Layout {
         let extremes = numbers().fold([0.0_f64; 2], |[low, high], value| [low.min(value), high.max(value)]);
         let written = |value: f64| text_width(&words(value, form, None), TextSize::Mono);
         let number = if form == Form::Text { numbers().map(written).fold(0.0, f64::max) } else { 0.0 };
-        let number = extremes.into_iter().map(written).fold(number, f64::max);
+        let number = match row_decimals {
+            Some(decimals) => {
+                let rows = table.rows.iter().enumerate().filter_map(|(row, cells)| match cells.get(index) {
+                    Some(Cell::Number(value)) => Some(words(*value, form, decimals(row))),
+                    _ => None,
+                });
+                rows.map(|words| text_width(words.trim_end(), TextSize::Mono)).fold(number, f64::max)
+            }
+            None => extremes.into_iter().map(written).fold(number, f64::max),
+        };
         let number = if numbers().next().is_some() { number } else { 0.0 };
         let behind = uncertainties
             .map(|(by, own)| text_width(&uncertainty_words(by, form, own), TextSize::Small) + f64::from(UNIT))
