@@ -4,6 +4,7 @@ pub mod accuracy;
 pub mod chromaticity;
 pub mod correction;
 pub mod curves;
+mod labels;
 pub mod light;
 pub mod metrics;
 pub mod recorded;

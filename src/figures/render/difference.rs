@@ -19,9 +19,30 @@ pub struct Scale {
 }
 
 impl Scale {
-    /// Possible upper limits of the scale for a metric of two decimals, with the number of equal steps.
-    const ENDS: [(f32, u8); 10] =
-        [(0.5, 5), (1.0, 4), (2.0, 4), (5.0, 5), (10.0, 5), (15.0, 3), (20.0, 4), (30.0, 3), (50.0, 5), (100.0, 4)];
+    /// Possible upper limits of the scale for a metric of two decimals, with the number of equal steps: close to each
+    /// other, so that the data reach near the end.
+    const ENDS: [(f32, u8); 20] = [
+        (0.2, 4),
+        (0.3, 3),
+        (0.4, 4),
+        (0.5, 5),
+        (0.6, 3),
+        (0.8, 4),
+        (1.0, 5),
+        (1.5, 3),
+        (2.0, 4),
+        (3.0, 3),
+        (4.0, 4),
+        (5.0, 5),
+        (6.0, 3),
+        (8.0, 4),
+        (10.0, 5),
+        (12.0, 4),
+        (15.0, 3),
+        (20.0, 4),
+        (30.0, 3),
+        (50.0, 5),
+    ];
 
     /// Least scale that holds all maps.
     pub fn of(shot: &RenderedFrame) -> Self {
@@ -33,7 +54,7 @@ impl Scale {
     fn holding(largest: f32, metric: Metric) -> Self {
         let unit = 0.1_f32.powi(i32::try_from(metric.decimals).unwrap_or(2) - 2);
         let fits = |end: &&(f32, u8)| end.0 * unit >= largest;
-        let &(end, steps) = Self::ENDS.iter().find(fits).unwrap_or(&Self::ENDS[9]);
+        let &(end, steps) = Self::ENDS.iter().find(fits).unwrap_or(&(100.0, 5));
         Self { end: end * unit, steps, unit }
     }
 
@@ -69,8 +90,14 @@ pub(super) fn scale(scale: Scale, name: &str, [x, y]: [f64; 2], width: f64, ink:
     marks
 }
 
-/// A map as width, height and RGBA: the color scale where light falls, black where none does, transparent outside the
-/// mesh.
+/// The ground of maps and of the hatch: darker than any color of the scale, whatever the surround.
+const GROUND: [u8; 4] = [0x12, 0x12, 0x12, 255];
+/// Diagonal lines where no light falls.
+const HATCH: [u8; 4] = [0x6A, 0x6A, 0x6A, 255];
+/// Distance of these lines in pixels.
+const HATCH_PITCH: usize = 6;
+
+/// A map as width, height and RGBA: the color scale where light falls, hatched where none does, dark outside the mesh.
 pub fn map(shot: &RenderedFrame, at: usize, end: f32) -> ([usize; 2], Vec<u8>) {
     let nothing = ([0, 0], Vec::new());
     let Some(made) = shot.made() else { return nothing };
@@ -83,10 +110,11 @@ pub fn map(shot: &RenderedFrame, at: usize, end: f32) -> ([usize; 2], Vec<u8>) {
         let (row, column) = (sample as usize / size.columns(), sample as usize % size.columns());
         row / each * width + column / each
     };
-    let mut rgba = vec![0; 4 * width * height];
+    let mut rgba = GROUND.repeat(width * height);
     let (pixels, _) = rgba.as_chunks_mut::<4>();
-    for &sample in geometry.seen() {
-        pixels[pixel(sample)] = [0, 0, 0, 255];
+    for at in geometry.seen().iter().map(|sample| pixel(*sample)) {
+        let is_line = (at / width + at % width) % HATCH_PITCH < 2;
+        pixels[at] = if is_line { HATCH } else { GROUND };
     }
     for (&sample, value) in geometry.samples().iter().step_by(difference.stride).zip(&difference.map) {
         let [r, g, b] = difference_ramp(value / end);
@@ -100,12 +128,26 @@ mod tests {
     use super::*;
 
     #[test]
+    fn data_reach_near_the_end_of_the_scale() {
+        let ratio = |largest: f32| largest / Scale::holding(largest, Metric::DELTA_E_2000).end;
+        assert!((200..3000).all(|hundredths| (0.6..=1.0).contains(&ratio(hundredths as f32 / 100.0))));
+    }
+
+    #[test]
+    fn ground_and_hatch_are_no_colors_of_the_scale() {
+        let far = |a: [u8; 4], b: [u8; 3]| (0..3).any(|i| a[i].abs_diff(b[i]) > 40);
+        let colors = || (0..=100).map(|share| difference_ramp(share as f32 / 100.0));
+        assert!(colors().all(|color| far(GROUND, color)));
+    }
+
+    #[test]
     fn ticks_are_round_in_the_metrics_units() {
         let ticks =
             |largest, metric| Scale::holding(largest, metric).ticks().map(|(_, words)| words).collect::<Vec<_>>();
-        assert_eq!(ticks(12.0, Metric::DELTA_E_2000), ["0", "5", "10", "15"]);
-        assert_eq!(ticks(0.9, Metric::DELTA_E_2000), ["0", "0.25", "0.5", "0.75", "1"]);
+        assert_eq!(ticks(12.1, Metric::DELTA_E_2000), ["0", "5", "10", "15"]);
+        assert_eq!(ticks(0.9, Metric::DELTA_E_2000), ["0", "0.2", "0.4", "0.6", "0.8", "1"]);
         assert_eq!(ticks(0.14, Metric::XY), ["0", "0.05", "0.1", "0.15"]);
+        assert_eq!(ticks(10.6, Metric::DELTA_E_2000), ["0", "3", "6", "9", "12"]);
         assert_eq!(ticks(7e9, Metric::UV_PRIME).last().map(String::as_str), Some("1"));
     }
 }
