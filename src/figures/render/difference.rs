@@ -14,6 +14,8 @@ use crate::theme::difference_ramp;
 pub struct Scale {
     /// End, in the metric's units.
     pub end: f32,
+    /// True if a few differences are larger.
+    exceeded: bool,
     steps: u8,
     unit: f32,
 }
@@ -44,18 +46,23 @@ impl Scale {
         (50.0, 5),
     ];
 
-    /// Least scale that holds all maps.
+    /// Scale of all maps: the least that holds 95 % of the samples bright enough to be judged, with a fifth to spare, so
+    /// that the few largest of a rim do not flatten the others.
     pub fn of(shot: &RenderedFrame) -> Self {
         let differences = shot.made().map(|made| made.differences).unwrap_or_default();
-        let largest = differences.iter().flatten().map(|difference| difference.max as f32).fold(0.0, f32::max);
-        Self::holding(largest, shot.query.metric())
+        let (mut most, mut largest) = (0.0_f64, 0.0_f64);
+        for difference in differences.iter().flatten() {
+            let usual = difference.bright.map_or(difference.max, |bright| (1.2 * bright.p95).min(difference.max));
+            (most, largest) = (most.max(usual), largest.max(difference.max));
+        }
+        Self::holding(most as f32, largest as f32, shot.query.metric())
     }
 
-    fn holding(largest: f32, metric: Metric) -> Self {
+    fn holding(most: f32, largest: f32, metric: Metric) -> Self {
         let unit = 0.1_f32.powi(i32::try_from(metric.decimals).unwrap_or(2) - 2);
-        let fits = |end: &&(f32, u8)| end.0 * unit >= largest;
+        let fits = |end: &&(f32, u8)| end.0 * unit >= most;
         let &(end, steps) = Self::ENDS.iter().find(fits).unwrap_or(&(100.0, 5));
-        Self { end: end * unit, steps, unit }
+        Self { end: end * unit, exceeded: largest > end * unit, steps, unit }
     }
 
     /// Ticks: share of the scale, and value in words.
@@ -63,7 +70,8 @@ impl Scale {
         (0..=self.steps).map(move |step| {
             let share = f32::from(step) / f32::from(self.steps);
             let hundredths = (share * self.end / self.unit * 100.0).round();
-            (share, number(f64::from(hundredths) / 100.0 * f64::from(self.unit)))
+            let or_more = if share == 1.0 && self.exceeded { "≥ " } else { "" };
+            (share, format!("{or_more}{}", number(f64::from(hundredths) / 100.0 * f64::from(self.unit))))
         })
     }
 }
@@ -129,7 +137,7 @@ mod tests {
 
     #[test]
     fn data_reach_near_the_end_of_the_scale() {
-        let ratio = |largest: f32| largest / Scale::holding(largest, Metric::DELTA_E_2000).end;
+        let ratio = |largest: f32| largest / Scale::holding(largest, largest, Metric::DELTA_E_2000).end;
         assert!((200..3000).all(|hundredths| (0.6..=1.0).contains(&ratio(hundredths as f32 / 100.0))));
     }
 
@@ -142,12 +150,15 @@ mod tests {
 
     #[test]
     fn ticks_are_round_in_the_metrics_units() {
-        let ticks =
-            |largest, metric| Scale::holding(largest, metric).ticks().map(|(_, words)| words).collect::<Vec<_>>();
+        let ticks = |largest, metric| {
+            Scale::holding(largest, largest, metric).ticks().map(|(_, words)| words).collect::<Vec<_>>()
+        };
         assert_eq!(ticks(12.1, Metric::DELTA_E_2000), ["0", "5", "10", "15"]);
         assert_eq!(ticks(0.9, Metric::DELTA_E_2000), ["0", "0.2", "0.4", "0.6", "0.8", "1"]);
         assert_eq!(ticks(0.14, Metric::XY), ["0", "0.05", "0.1", "0.15"]);
         assert_eq!(ticks(10.6, Metric::DELTA_E_2000), ["0", "3", "6", "9", "12"]);
-        assert_eq!(ticks(7e9, Metric::UV_PRIME).last().map(String::as_str), Some("1"));
+        assert_eq!(ticks(7e9, Metric::UV_PRIME).last().map(String::as_str), Some("≥ 1"));
+        let few_are_larger = Scale::holding(0.05, 0.12, Metric::XY).ticks().last();
+        assert_eq!(few_are_larger, Some((1.0, "≥ 0.05".to_owned())));
     }
 }
