@@ -30,6 +30,7 @@ impl Name {
             (Anchor::TOP, [0.0, 6.0]),
             (Anchor::RIGHT_BOTTOM, [-4.0, -2.0]),
             (Anchor::LEFT_BOTTOM, [4.0, -2.0]),
+            (Anchor::LEFT_BOTTOM, [9.0, -2.0]),
         ];
         let places = self.points.iter().flat_map(|at| sides.map(|(anchor, offset)| (*at, anchor, offset)));
         let mark = room.place(&self.text, self.ink, false, &places.collect::<Vec<Place>>())?;
