@@ -11,7 +11,7 @@ mod pictures;
 mod texture;
 mod triangles;
 
-use chromascope_figure::{Axis, LegendEntry, Panel, Projection, Tag, Ticks, fit_equal};
+use chromascope_figure::{LegendEntry, Panel, Projection, Tag, Ticks, fit_equal};
 use egui::{Id, Painter, Pos2, Rect, Response, Sense, Ui, Vec2};
 use egui_plot::{Plot, PlotUi};
 
@@ -158,12 +158,8 @@ fn named(response: Response, panel: &Panel) -> Response {
 
 /// The plot inside the box that also holds the tick labels.
 fn plot_rect(panel: &Panel, rect: Rect) -> Rect {
-    let room = |axis: &Axis, points: f64| match axis.ticks {
-        Ticks::None => 0.0,
-        Ticks::Auto | Ticks::At(_) => points as f32,
-    };
-    let left = room(&panel.y, Projection::LEFT);
-    let bottom = room(&panel.x, Projection::BOTTOM);
+    let left = if panel.y.ticks == Ticks::None { 0.0 } else { Projection::LEFT as f32 };
+    let bottom = Projection::bottom(&panel.x) as f32;
     let max = Pos2::new(rect.right() - 1.0, rect.bottom() - bottom.max(1.0));
     Rect::from_min_max(rect.min + Vec2::new(left.max(1.0), 1.0), max.max(rect.min + Vec2::splat(2.0)))
 }

@@ -173,7 +173,7 @@ pub fn overview(scene: &Scene<'_>, shown: [[f64; 2]; 2], size: [f64; 2]) -> Pane
 /// The size of a saved figure in points, with the strip below the diagram.
 const SIZE: [f64; 2] = [640.0, 480.0];
 /// Height in points of the strip below it.
-pub const STRIP: f64 = 120.0;
+pub const STRIP: f64 = 136.0;
 
 /// The figure as it is saved: diagram, strip, legend, caption, and the numbers of all points.
 pub fn figure(scene: &Scene<'_>, view: &View) -> Figure {

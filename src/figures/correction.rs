@@ -56,8 +56,8 @@ pub fn panel(file: &CorrectionFile, size: [f64; 2]) -> Option<Panel> {
     let mired = |point: &TwoLightPoint| point.temperature.mired();
     let cold_to_hot = [mired(first).max(mired(last)), mired(first).min(mired(last))];
     let ticks = (0..5).filter_map(|i| points.get(i * (points.len() - 1) / 4));
-    let ticks = ticks.map(|point| (mired(point), format!("{:.0} K", point.temperature.get()))).collect();
-    let x = Axis::new("", cold_to_hot).with_ticks(Ticks::At(ticks)).with_grid(true);
+    let ticks = ticks.map(|point| (mired(point), format!("{:.0}", point.temperature.get()))).collect();
+    let x = Axis::new("color temperature (K)", cold_to_hot).with_ticks(Ticks::At(ticks)).with_grid(true);
     let y = Axis::new("mean ΔE*00", [0.0, (top * 1.1).max(1e-6)]).with_grid(true);
     let mut panel = Panel::new(title(file), Rect::from_min_size([0.0, 0.0], size), x, y);
     panel.marks = CURVES

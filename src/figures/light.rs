@@ -28,8 +28,10 @@ pub fn bars(rendition: &Rendition, area: Rect) -> Option<Panel> {
     let low = values.iter().map(|(_, value)| *value).fold(0.0, f64::min);
     let floor = if low < 0.0 { (low / 50.0).floor() * 50.0 } else { 0.0 };
     let names = values.iter().enumerate().map(|(index, (name, _))| (index as f64 + 0.5, name.clone())).collect();
-    let x = Axis::new("", [0.0, values.len() as f64]).with_ticks(Ticks::At(names)).with_grid(false);
-    let y = Axis::new("", [floor, 125.0]).with_ticks(Ticks::Auto).with_grid(true);
+    let x = Axis::new("test color (Ra: mean of R1 to R8)", [0.0, values.len() as f64])
+        .with_ticks(Ticks::At(names))
+        .with_grid(false);
+    let y = Axis::new("color rendering index", [floor, 140.0]).with_ticks(Ticks::Auto).with_grid(true);
     let mut panel = Panel::new("rendering indices", area, x, y);
     for (index, (name, value)) in values.iter().enumerate() {
         let middle = index as f64 + 0.5;

@@ -94,7 +94,9 @@ pub fn figure(input: &FigureInput<'_>) -> Option<Figure> {
         Some(_) if made.image().is_some() => {
             format!("Maps of {} from the reference. {}", measure.name(), caption(scene, shot))
         }
-        Some(_) => format!("Maps of {} from the reference; black: no light. {}", measure.name(), caption(scene, shot)),
+        Some(_) => {
+            format!("Maps of {} from the reference; hatched: no light. {}", measure.name(), caption(scene, shot))
+        }
         None => caption(scene, shot),
     };
     if shown.len() > 1 || !shot.sources.iter().all(|source| source.is_reference) {

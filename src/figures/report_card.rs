@@ -131,8 +131,8 @@ fn sensitivities(scene: &Scene<'_>, id: &SensorId, area: Rect) -> Panel {
 fn locus(scene: &Scene<'_>, id: &SensorId, area: Rect) -> Panel {
     let diagram = scene.document.diagram;
     let [cold, hot] = LOCUS_RANGE_K.map(|kelvin| 1e6 / kelvin);
-    let ticks = [1000.0, 1500.0, 2500.0, 6500.0].map(|kelvin| (1e6 / kelvin, format!("{kelvin:.0} K")));
-    let x = Axis::new("", [cold, hot]).with_ticks(Ticks::At(ticks.into()));
+    let ticks = [1000.0, 1500.0, 2500.0, 6500.0].map(|kelvin| (1e6 / kelvin, format!("{kelvin:.0}")));
+    let x = Axis::new("blackbody temperature (K)", [cold, hot]).with_ticks(Ticks::At(ticks.into()));
     let pair = scene
         .locus(id.kind, &id.name)
         .and_then(|own| Ok((own, scene.locus(SetKind::Observer, &scene.document.reference)?)));

@@ -18,7 +18,7 @@ pub(super) fn panel(
     let inside = painter.with_clip_rect(view.rect.intersect(painter.clip_rect()));
     inside.rect_filled(view.rect, 0.0, theme.ink(panel.background));
     let x_ticks = panel.x.ticks_over(view.x, f64::from(view.rect.width()));
-    let y_ticks = panel.y.ticks_over(view.y, f64::from(view.rect.height()));
+    let y_ticks = panel.y.vertical_ticks_over(view.y, f64::from(view.rect.height()));
     let thin = Stroke::new(crate::theme::LINE_GRID as f32, theme.grid);
     if panel.x.grid {
         for tick in &x_ticks {

@@ -21,9 +21,9 @@ use crate::workspaces::PaneKind;
 /// Pick radius, in points.
 const REACH: f32 = 10.0;
 /// The strip's height in points.
-const STRIP: f32 = 100.0;
+const STRIP: f32 = 124.0;
 /// Below this height of the diagram there is no strip.
-const WITH_STRIP: f32 = 330.0;
+const WITH_STRIP: f32 = 350.0;
 /// The overview's size in points.
 const OVERVIEW: Vec2 = Vec2::new(96.0, 104.0);
 

@@ -36,6 +36,7 @@ mod opened;
 mod own_data;
 mod panes;
 mod path_box;
+mod plots;
 mod recompute;
 mod recorded;
 mod reducer;

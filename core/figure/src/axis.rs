@@ -9,7 +9,8 @@ pub const MIN_LABEL_SPACING: f64 = 60.0;
 /// A linear axis.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Axis {
-    /// Quantity and unit.
+    /// Quantity and unit, or a symbol of at most two characters. Symbols of x stand in the plot's corner, all else below
+    /// its tick labels.
     pub label: String,
     /// Value at the left or bottom end, value at the right or top end. The first may be the larger one.
     pub range: [f64; 2],
@@ -63,6 +64,11 @@ impl Axis {
         Self { grid, ..self }
     }
 
+    /// True if the label of a horizontal axis is a line of its own below the tick labels.
+    pub fn has_title_line(&self) -> bool {
+        self.ticks != Ticks::None && self.label.chars().count() > 2
+    }
+
     /// The range, or one of length 1 around its value (around 0.5 if it has none) where it has no length.
     pub fn proper_range(&self) -> [f64; 2] {
         proper(self.range)
@@ -79,6 +85,12 @@ impl Axis {
         };
         thin_out(&mut ticks, range, length);
         ticks
+    }
+
+    /// Ticks of a vertical axis drawn `length` points long. Labels given for it may stand closer: lines of text are low.
+    pub fn vertical_ticks_over(&self, range: [f64; 2], length: f64) -> Vec<Tick> {
+        let closer = if matches!(self.ticks, Ticks::At(_)) { 3.5 } else { 1.0 };
+        self.ticks_over(range, closer * length)
     }
 }
 

@@ -24,7 +24,7 @@ pub(super) fn scale(ui: &mut Ui, painter: &Painter, rect: Rect, scale: Scale, na
     }
     let dark = Pos2::new(rect.right() - 8.0, bar.center().y);
     let is_image = context.scene.document.render.mesh.is_image();
-    let words = if is_image { "gray: no value" } else { "black: no light" };
+    let words = if is_image { "dark: no value" } else { "hatched: no light" };
     painter.text(dark, Align2::RIGHT_CENTER, words, font, color);
     let response = ui.interact(rect, ui.scope_id().with("difference scale"), Sense::hover());
     let said = format!("Scale of {name} from the reference, from 0 to {}", scale.end);
