@@ -15,6 +15,7 @@ mod cpu_renderer;
 mod doubt;
 mod exports;
 mod figure;
+mod finding;
 mod focus;
 mod help;
 mod import;
