@@ -156,10 +156,7 @@ impl ChromascopeApp {
             Command::Escape => self.escape(),
             Command::NextPane => self.next_pane(ctx),
             Command::GoTo(pane) => self.go_to(ctx, pane),
-            Command::Seek(pane, control) => {
-                self.go_to(ctx, pane);
-                panes::widgets::seek(ctx, control);
-            }
+            Command::Seek(pane, control) => self.seek(ctx, pane, control),
             Command::Quit => ctx.send_viewport_cmd(ViewportCommand::Close),
         }
     }
@@ -317,6 +314,12 @@ impl ChromascopeApp {
         let left_out = if view.saved.workspace.keeps_right_column() { PaneKind::LIBRARY } else { PaneKind::INSPECTOR };
         view.inspector_over = self.arrangement.narrow && pane == left_out;
         self.give_keyboard(ctx, pane);
+    }
+
+    /// Goes to the control of a name in a pane.
+    fn seek(&mut self, ctx: &egui::Context, pane: PaneKind, control: &'static str) {
+        self.go_to(ctx, pane);
+        panes::widgets::seek(ctx, control);
     }
 
     /// Gives a pane the keyboard.

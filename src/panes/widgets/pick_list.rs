@@ -116,8 +116,8 @@ impl PickList<'_> {
         if !ui.memory(|memory| memory.has_focus(self.id)) {
             return 0;
         }
-        let pressed = |key| ui.input_mut(|input| input.count_and_consume_key(Modifiers::NONE, key)) as isize;
-        let page = PAGE as isize;
+        let pressed = |key| ui.input_mut(|input| input.count_and_consume_key(Modifiers::NONE, key)).cast_signed();
+        let page = PAGE.cast_signed();
         pressed(Key::ArrowDown) - pressed(Key::ArrowUp) + page * (pressed(Key::PageDown) - pressed(Key::PageUp))
     }
 

@@ -27,7 +27,7 @@ pub fn along(
     if !has_keys(ui, pane, context) {
         return false;
     }
-    let pressed = |key| ui.input_mut(|input| input.count_and_consume_key(Modifiers::NONE, key)) as isize;
+    let pressed = |key| ui.input_mut(|input| input.count_and_consume_key(Modifiers::NONE, key)).cast_signed();
     let right = pressed(Key::ArrowRight) - pressed(Key::ArrowLeft);
     let down = pressed(Key::ArrowDown) - pressed(Key::ArrowUp);
     if right != 0 || down != 0 {

@@ -204,7 +204,7 @@ pub(super) fn render(context: &PaneContext<'_>) -> Vec<Found> {
     let own = context.scene.entries(SetKind::Chart).filter(Entry::is_own);
     for entry in own.chain(context.scene.entries(SetKind::Material)) {
         set("Material", format!("Material: {}", entry.name), "reflectance surface", &|to| {
-            to.material.clone_from(&entry.name)
+            to.material.clone_from(&entry.name);
         });
     }
     found
