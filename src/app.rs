@@ -227,6 +227,10 @@ impl ChromascopeApp {
         if self.files.is_asking() {
             return self.keep_keys_for_path(ctx);
         }
+        if ctx.input(|input| input.pointer.any_pressed()) {
+            (self.view.by_keyboard, self.view.cursor) = (false, None);
+        }
+        focus::enter_pane(ctx, &mut self.view);
         let typing = ctx.text_edit_focused();
         let focused = self.view.focused.unwrap_or(PaneKind::CHROMATICITY);
         for binding in key_bindings(focused) {

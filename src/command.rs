@@ -7,8 +7,9 @@ use crate::action::Action;
 use crate::document::SetKind;
 use crate::document::own::{Fingerprint, ImportOverrides};
 use crate::export::spectra::Form;
-use crate::plot_item::SensorId;
+use crate::plot_item::{PlotItem, SensorId};
 use crate::theme::Surround;
+use crate::view::ViewChoice;
 use crate::view::correction::CorrectionForm;
 use crate::view::import::ImportItem;
 use crate::workspaces::{PaneKind, Workspace};
@@ -94,8 +95,12 @@ pub enum Command {
     SetTheme(egui::ThemePreference),
     /// The gray around swatches.
     SetSurround(Surround),
-    /// Opens the help page of this name.
-    Help(&'static str),
+    /// How plots and pictures stand.
+    Look(ViewChoice),
+    /// Select a thing.
+    Select(PlotItem),
+    /// Open the help page of this name at a block.
+    Help(&'static str, usize),
     /// Go through the tour.
     Tour(TourMove),
     /// Show or hide the window about the program.
@@ -116,6 +121,10 @@ pub enum Command {
     Escape,
     /// Go to the next pane.
     NextPane,
+    /// Show a pane and give it the keyboard.
+    GoTo(PaneKind),
+    /// Go to the control of this name in a pane.
+    Seek(PaneKind, &'static str),
     /// End the program.
     Quit,
 }
@@ -234,11 +243,23 @@ pub fn key_bindings(focused: PaneKind) -> Vec<KeyBinding> {
     }
     let always = |key, command, words| KeyBinding { shortcut: plain(key), command, words, rests_while_typing: false };
     keys.extend([
-        always(Key::F1, Command::Help(crate::help::FIRST), "Help"),
+        always(Key::F1, Command::Help(crate::help::FIRST, 0), "Help"),
         always(Key::F6, Command::NextPane, "Next pane"),
         always(Key::Escape, Command::Escape, "One step back"),
     ]);
     keys
+}
+
+/// Themes with their names.
+pub const THEMES: [(egui::ThemePreference, &str); 3] = [
+    (egui::ThemePreference::System, "System"),
+    (egui::ThemePreference::Dark, "Dark"),
+    (egui::ThemePreference::Light, "Light"),
+];
+
+/// A key as it is written here.
+pub fn key_name(shortcut: KeyboardShortcut) -> String {
+    shortcut.format(&egui::ModifierNames::NAMES, cfg!(target_os = "macos"))
 }
 
 /// The key of a command, if it has one.

@@ -227,6 +227,23 @@ pub struct Overlays {
     pub rec2020: bool,
 }
 
+impl Overlays {
+    /// Each switch with what it shows.
+    pub fn labeled(&mut self) -> [(&mut bool, &'static str); 9] {
+        [
+            (&mut self.loci, "Planckian loci"),
+            (&mut self.patches, "Patches"),
+            (&mut self.camera_spectral_loci, "Cameras' spectral loci: errors that no 3×3 matrix can correct"),
+            (&mut self.daylight, "Daylight locus"),
+            (&mut self.whites, "Standard whites and the light"),
+            (&mut self.isotherms, "Isotherms: lines of equal CCT, to Duv ±0.03"),
+            (&mut self.srgb, "sRGB"),
+            (&mut self.dci_p3, "DCI-P3"),
+            (&mut self.rec2020, "Rec. 2020"),
+        ]
+    }
+}
+
 impl Default for Overlays {
     fn default() -> Self {
         Self {

@@ -58,6 +58,18 @@ pub enum Surround {
 }
 
 impl Surround {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Middle, Self::Dark, Self::Light];
+
+    /// The name on screen.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Middle => "Middle gray, L* 50",
+            Self::Dark => "Dark gray",
+            Self::Light => "Light gray",
+        }
+    }
+
     /// The gray.
     pub const fn color(self) -> Color32 {
         match self {

@@ -6,6 +6,7 @@ pub mod diagram;
 pub mod help;
 pub mod import;
 pub mod metrics;
+pub mod pick;
 pub mod recorded;
 pub mod render;
 pub mod table;
@@ -29,8 +30,9 @@ use diagram::DiagramView;
 use help::HelpView;
 use import::{ImportItem, ImportMemory, ImportView};
 use metrics::MetricsLook;
+use pick::PickState;
 use recorded::RecordedView;
-use render::{RenderLook, RenderView};
+use render::{RenderLook, RenderMode, RenderView};
 use table::TableLook;
 
 /// View state of the window.
@@ -69,7 +71,7 @@ pub struct View {
     pub render: RenderView,
     /// State of the Correction pane.
     pub correction: CorrectionView,
-    /// State of the Accuracy pane.
+    /// State of the Numerics workspace.
     pub accuracy: AccuracyView,
     /// State of the Recorded pane.
     pub recorded: RecordedView,
@@ -95,8 +97,14 @@ pub struct View {
     pub locus_share: Option<f64>,
     /// Time of egui in seconds at which the loci began to draw in.
     pub draws_since: Option<f64>,
-    /// The command palette with its typed text, while open.
-    pub palette: Option<String>,
+    /// The palette that finds anything, while open.
+    pub palette: Option<PickState>,
+    /// The keyboard walks through panes: the pane that has it is framed.
+    pub by_keyboard: bool,
+    /// Under the keyboard in the pane that has it.
+    pub cursor: Option<PlotItem>,
+    /// Tab leads into the pane that has the keyboard.
+    pub tab_enters: bool,
     /// Times are neither shown nor renewed: for pictures that are compared.
     pub fixed_clock: bool,
     /// Documents that other windows saved, with their ages.
@@ -170,10 +178,36 @@ impl Default for SavedView {
     }
 }
 
+/// A choice of how plots and pictures stand.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ViewChoice {
+    /// The part of the diagram.
+    Diagram(DiagramFit),
+    /// Arrangement of swatches.
+    Swatches(SwatchLayout),
+    /// The reference within a swatch.
+    SwatchStyle(SwatchStyle),
+    /// Arrangement of spectra.
+    Spectra(SpectraLayout),
+    /// Arrangement of pictures.
+    Pictures(RenderMode),
+}
+
 impl SavedView {
     /// View of the first start, under the system's wish for motion.
     pub fn first(reduced_motion: bool) -> Self {
         Self { reduced_motion, draws_in: !reduced_motion, ..Self::default() }
+    }
+
+    /// True if a choice is made.
+    pub fn has(&self, choice: ViewChoice) -> bool {
+        match choice {
+            ViewChoice::Diagram(to) => self.diagram_fit == to,
+            ViewChoice::Swatches(to) => self.swatch_layout == to,
+            ViewChoice::SwatchStyle(to) => self.swatch_style == to,
+            ViewChoice::Spectra(to) => self.spectra_layout == to,
+            ViewChoice::Pictures(to) => self.render.mode == to,
+        }
     }
 }
 
@@ -224,6 +258,19 @@ pub struct Status {
     pub since: Option<f64>,
 }
 
+impl Status {
+    /// The message, unless it leads to an item.
+    fn leads_to(&self, item: &ImportItem) -> bool {
+        self.change.as_ref().is_some_and(|(led, _)| led == item)
+    }
+
+    /// Nothing, if the message only leads to an item; else the message.
+    #[must_use]
+    pub fn without(self, item: &ImportItem) -> Self {
+        if self.leads_to(item) { Self::default() } else { self }
+    }
+}
+
 /// Severity of a message.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Weight {
@@ -237,6 +284,21 @@ pub enum Weight {
 }
 
 impl View {
+    /// Makes a choice of how plots and pictures stand.
+    pub fn choose(&mut self, choice: ViewChoice) {
+        let saved = &mut self.saved;
+        match choice {
+            ViewChoice::Diagram(to) => {
+                saved.diagram_fit = to;
+                self.reset_plots = true;
+            }
+            ViewChoice::Swatches(to) => saved.swatch_layout = to,
+            ViewChoice::SwatchStyle(to) => saved.swatch_style = to,
+            ViewChoice::Spectra(to) => saved.spectra_layout = to,
+            ViewChoice::Pictures(to) => saved.render.mode = to,
+        }
+    }
+
     /// Shows a message in the status bar.
     pub fn say(&mut self, text: impl Into<String>) {
         self.status = Status { text: text.into(), ..Status::default() };

@@ -39,6 +39,8 @@ impl PaneKind {
     pub const METHODS: Self = Self::new("Accuracy");
     /// Skipped work, and the time it saved.
     pub const WORK_SAVED: Self = Self::new("SkippedWork");
+    /// Counts of samples and methods of the pictures.
+    pub const STATISTICS: Self = Self::new("Statistics");
     /// Cameras by figures of merit.
     pub const METRICS: Self = Self::new("Metrics");
     /// Two cameras side by side.
@@ -53,6 +55,11 @@ impl PaneKind {
     pub const RECORDED: Self = Self::new("Recorded");
     /// Allowed error.
     pub const TOLERANCE: Self = Self::new("Tolerance");
+
+    /// The workspace that it is listed under: the one it starts in, else Metrics.
+    pub fn group(self) -> Workspace {
+        Layout::home(self).unwrap_or(Workspace::Metrics)
+    }
 
     /// A pane of this id. Ids stay: layouts of earlier runs name them.
     pub const fn new(id: &'static str) -> Self {
@@ -126,14 +133,15 @@ pub enum Workspace {
     Metrics,
     /// The user's files and their interpretation.
     Import,
-    /// Run time and error of each method on the scene, and the skipped work.
-    Accuracy,
+    /// Run time and error of each method on the scene, the skipped work, the statistics of the pictures.
+    #[serde(alias = "Accuracy")]
+    Numerics,
 }
 
 impl Workspace {
     /// All workspaces, in the order of their tabs and keys.
     pub const ALL: [Self; 6] =
-        [Self::Compare, Self::Spectra, Self::Render, Self::Metrics, Self::Import, Self::Accuracy];
+        [Self::Compare, Self::Spectra, Self::Render, Self::Metrics, Self::Import, Self::Numerics];
 
     /// The tab's title.
     pub const fn title(self) -> &'static str {
@@ -143,13 +151,13 @@ impl Workspace {
             Self::Render => "Render",
             Self::Metrics => "Metrics",
             Self::Import => "Import",
-            Self::Accuracy => "Accuracy",
+            Self::Numerics => "Numerics",
         }
     }
 
     /// True where a narrow window hides the library instead of the right column.
     pub const fn keeps_right_column(self) -> bool {
-        matches!(self, Self::Render | Self::Metrics | Self::Import | Self::Accuracy)
+        matches!(self, Self::Render | Self::Metrics | Self::Import | Self::Numerics)
     }
 }
 
@@ -190,8 +198,9 @@ pub struct Layout {
     pub metrics: [Option<PaneKind>; 4],
     /// Import: center upper, center lower, right upper, right lower.
     pub import: [Option<PaneKind>; 4],
-    /// Accuracy: center upper, center lower, right upper, right lower.
-    pub accuracy: [Option<PaneKind>; 4],
+    /// Numerics: center upper, center lower, right upper, right lower.
+    #[serde(alias = "accuracy")]
+    pub numerics: [Option<PaneKind>; 4],
 }
 
 impl Default for Layout {
@@ -217,7 +226,12 @@ impl Default for Layout {
                 Some(PaneKind::LIGHT),
             ],
             import: [Some(PaneKind::IMPORT), Some(PaneKind::CURVES), Some(PaneKind::INTERPRETATION), None],
-            accuracy: [Some(PaneKind::METHODS), Some(PaneKind::WORK_SAVED), Some(PaneKind::TOLERANCE), None],
+            numerics: [
+                Some(PaneKind::METHODS),
+                Some(PaneKind::WORK_SAVED),
+                Some(PaneKind::TOLERANCE),
+                Some(PaneKind::STATISTICS),
+            ],
         }
     }
 }
@@ -231,7 +245,7 @@ impl Layout {
             Workspace::Render => &self.render,
             Workspace::Metrics => &self.metrics,
             Workspace::Import => &self.import,
-            Workspace::Accuracy => &self.accuracy,
+            Workspace::Numerics => &self.numerics,
         }
     }
 
@@ -243,7 +257,7 @@ impl Layout {
             Workspace::Render => &mut self.render,
             Workspace::Metrics => &mut self.metrics,
             Workspace::Import => &mut self.import,
-            Workspace::Accuracy => &mut self.accuracy,
+            Workspace::Numerics => &mut self.numerics,
         }
     }
 
@@ -254,6 +268,12 @@ impl Layout {
                 *place = place.filter(|pane| exists(*pane));
             }
         }
+    }
+
+    /// The workspace that a pane starts in, if it starts in one.
+    pub fn home(pane: PaneKind) -> Option<Workspace> {
+        let start = Self::default();
+        Workspace::ALL.into_iter().find(|workspace| start.places(*workspace).contains(&Some(pane)))
     }
 
     /// True if a workspace shows a pane.

@@ -1,5 +1,6 @@
 //! Carrying out commands.
 
+use std::cmp::Ordering;
 use std::sync::Arc;
 
 use chromascope_figure::{Figure, Table};
@@ -22,6 +23,7 @@ use crate::theme::Theme;
 use crate::view::SavedView;
 use crate::view::accuracy::Shows;
 use crate::view::import::Stop;
+use crate::view::pick::PickState;
 use crate::view::render::RenderMode;
 use crate::workspaces::{Layout, PaneKind, Workspace};
 
@@ -139,7 +141,9 @@ impl ChromascopeApp {
             }
             Command::SetTheme(preference) => ctx.set_theme(preference),
             Command::SetSurround(surround) => self.view.saved.surround = surround,
-            Command::Help(page) => self.view.help.open(page, 0),
+            Command::Look(choice) => self.view.choose(choice),
+            Command::Select(item) => self.view.selected = Some(item),
+            Command::Help(page, block) => self.view.help.open(page, block),
             Command::Tour(to) => self.tour(to),
             Command::ToggleAbout => self.view.about = !self.view.about,
             Command::FocusSearch if self.view.help.page.is_some() => self.view.help.focus_search = true,
@@ -149,13 +153,15 @@ impl ChromascopeApp {
                 self.view.inspector_over |= self.library_left_out();
                 self.view.focus_search = true;
             }
-            Command::FindAnything => self.view.palette = Some(String::new()),
+            Command::FindAnything => self.view.palette = Some(PickState::default()),
             Command::FocusTemperature => self.view.focus_temperature = true,
             Command::ToggleSource(index) => self.toggle_source(index),
             Command::Pin => self.pin(),
             Command::ToggleDifference => self.toggle_difference(),
             Command::Escape => self.escape(),
             Command::NextPane => self.next_pane(ctx),
+            Command::GoTo(pane) => self.go_to(ctx, pane),
+            Command::Seek(pane, control) => self.seek(ctx, pane, control),
             Command::Quit => ctx.send_viewport_cmd(ViewportCommand::Close),
         }
     }
@@ -245,6 +251,9 @@ impl ChromascopeApp {
             view.say("Rendering stopped; the pictures so far are unchanged.");
             return;
         }
+        if view.cursor.take().is_some() {
+            return;
+        }
         if view.selected.take().is_some() || (rendering && view.render.pinned.take().is_some()) {
             return;
         }
@@ -256,6 +265,7 @@ impl ChromascopeApp {
             *mode = RenderMode::Grid;
             return;
         }
+        view.by_keyboard = false;
         if view.status != crate::view::Status::default() {
             view.status = crate::view::Status::default();
             return;
@@ -269,7 +279,7 @@ impl ChromascopeApp {
         let scene = Scene { document, catalog: &self.catalog, results: &self.results };
         let own = self.meshes.chosen(&document.render.mesh);
         self.laboratory.run(SceneRunJob::of(&scene, own.as_ref(), self.view.saved.render.orbit));
-        self.view.saved.workspace = Workspace::Accuracy;
+        self.view.saved.workspace = Workspace::Numerics;
         if matches!(self.view.accuracy.shows, Shows::Bench(_)) {
             self.view.accuracy.shows = Shows::default();
         }
@@ -277,7 +287,11 @@ impl ChromascopeApp {
 
     /// Moves to the next pane, or to the next part of one that has several, with the keyboard focus.
     fn next_pane(&mut self, ctx: &egui::Context) {
-        let shown: Vec<PaneKind> = self.arrangement.panes.iter().map(|(pane, _)| *pane).collect();
+        let mut shown = self.arrangement.panes.clone();
+        // As they are read: column by column, from above.
+        shown
+            .sort_by(|(_, a), (_, b)| (a.left(), a.top()).partial_cmp(&(b.left(), b.top())).unwrap_or(Ordering::Equal));
+        let shown: Vec<PaneKind> = shown.into_iter().map(|(pane, _)| pane).collect();
         let import = &mut self.view.import;
         let picks =
             self.opened.preview().and_then(|preview| preview.table.clone().ok()).is_some_and(|t| t.curves.len() > 1);
@@ -287,17 +301,48 @@ impl ChromascopeApp {
         }
         let now = self.view.focused.and_then(|focused| shown.iter().position(|pane| *pane == focused));
         let next = now.map_or(0, |index| (index + 1) % shown.len().max(1));
-        self.view.focused = shown.get(next).copied();
+        if let Some(pane) = shown.get(next).copied() {
+            self.give_keyboard(ctx, pane);
+        }
+    }
+
+    /// Shows a pane, in its own workspace unless this one shows it, and gives it the keyboard.
+    fn go_to(&mut self, ctx: &egui::Context, pane: PaneKind) {
+        let view = &mut self.view;
+        if view.maximized != Some(pane) {
+            view.maximized = None;
+        }
+        if !view.saved.layout.shows(view.saved.workspace, pane) {
+            if let Some(home) = Layout::home(pane) {
+                view.saved.workspace = home;
+            }
+            if !view.saved.layout.shows(view.saved.workspace, pane) {
+                view.saved.layout.toggle(view.saved.workspace, pane);
+            }
+        }
+        let left_out = if view.saved.workspace.keeps_right_column() { PaneKind::LIBRARY } else { PaneKind::INSPECTOR };
+        view.inspector_over = self.arrangement.narrow && pane == left_out;
+        self.give_keyboard(ctx, pane);
+    }
+
+    /// Goes to the control of a name in a pane.
+    fn seek(&mut self, ctx: &egui::Context, pane: PaneKind, control: &'static str) {
+        self.go_to(ctx, pane);
+        panes::widgets::seek(ctx, control);
+    }
+
+    /// Gives a pane the keyboard.
+    fn give_keyboard(&mut self, ctx: &egui::Context, pane: PaneKind) {
+        let import = &mut self.view.import;
+        (self.view.focused, self.view.by_keyboard, self.view.cursor) = (Some(pane), true, None);
         import.stop = match self.view.focused {
             Some(PaneKind::IMPORT) => Some(Stop::Files),
             Some(PaneKind::INTERPRETATION) => Some(Stop::Switches),
             _ => None,
         };
         import.focus = import.stop;
-        if let Some(pane) = self.view.focused {
-            self.view.say(format!("{} (F fills the window, Ctrl+E exports)", panes::title(pane)));
-        }
-        // Keys for the next pane must not act on the previously focused one.
+        self.view.say(format!("{} (F fills the window, Ctrl+E exports)", panes::title(pane)));
+        // Keys that are meant for the next pane must not move what the last one had.
         ctx.memory_mut(|memory| memory.focused().map(|id| memory.surrender_focus(id)));
     }
 

@@ -88,6 +88,10 @@ impl ChromascopeApp {
                 ui.painter().rect_stroke(rect, 0.0, egui::Stroke::new(1.0, theme.line), egui::StrokeKind::Inside);
             });
         }
+        let framed = context.view.focused.filter(|_| context.view.by_keyboard && context.view.palette.is_none());
+        if let Some((_, rect)) = self.arrangement.panes.iter().find(|(pane, _)| Some(*pane) == framed) {
+            focus::frame(ui, *rect, &theme);
+        }
         panes::status_bar::show(ui, status, &self.arrangement, &mut context);
         panes::help::show(ui, &self.history, &mut context);
         path_prompt::show(ui, &theme, &mut self.files);

@@ -15,9 +15,10 @@ use crate::catalog::likeness::Likeness;
 use crate::catalog::opened::{OpenFile, OpenedEvent, Request, Why};
 use crate::command::Command;
 use crate::document::own::{Fingerprint, ImportOverrides, OwnSet};
+use crate::panes::import;
 use crate::view::import::{ImportItem, of_a_kind};
 use crate::view::{Status, Weight};
-use crate::workspaces::Workspace;
+use crate::workspaces::{PaneKind, Workspace};
 use words::{opened_again, put_to_use, renamed};
 
 impl ChromascopeApp {
@@ -70,9 +71,15 @@ impl ChromascopeApp {
                 OpenedEvent::Image(path) => self.open_image(&path),
                 OpenedEvent::Document(path) => self.push(Command::OpenDocument(path)),
                 OpenedEvent::Failed(message, files) => {
-                    self.view.fail(message);
+                    let first = files.first().map(|file| ImportItem::File(*file));
                     self.view.import.unseen.extend(files.iter().copied().map(ImportItem::File));
-                    self.view.status.change = files.first().map(|file| (ImportItem::File(*file), None));
+                    // Where the list of files is in sight, it says which failed and why.
+                    let mut panes = self.arrangement.panes.iter();
+                    let in_list = panes.any(|(pane, rect)| *pane == PaneKind::IMPORT && import::lists_files(*rect));
+                    if first.is_none() || !in_list {
+                        self.view.fail(message);
+                        self.view.status.change = first.map(|first| (first, None));
+                    }
                 }
             }
         }
@@ -296,6 +303,8 @@ impl ChromascopeApp {
 
     /// Opens Import with a file selected.
     pub(super) fn show_import(&mut self, item: ImportItem, line: Option<usize>) {
+        // What the message was about is on show from now on.
+        self.view.status = std::mem::take(&mut self.view.status).without(&item);
         self.view.import.select(item);
         self.view.import.line = line;
         self.view.saved.workspace = Workspace::Import;

@@ -87,15 +87,16 @@ fn time(row: &SkippedWork) -> String {
 
 /// As numbers.
 pub fn table(sections: &[Section]) -> Table {
-    let mut table = Table::new(["skipped", "count", "of", "time saved (ms)", "measured by", "when"]);
+    let mut table = Table::new(["skipped", "time saved (ms)", "measured by", "count", "of", "share (%)", "when"]);
     for section in sections {
         for row in &section.rows {
             table.push([
                 row.what.as_ref().into(),
-                Cell::Number(row.count as f64),
-                row.of.map(|of| of as f64).into(),
                 (row.saved > 0.0).then_some(row.saved * 1e3).into(),
                 row.how.as_str().into(),
+                Cell::Number(row.count as f64),
+                row.of.map(|of| of as f64).into(),
+                row.of.filter(|of| *of > 0).map(|of| 100.0 * row.count as f64 / of as f64).into(),
                 section.when.into(),
             ]);
         }

@@ -80,17 +80,7 @@ fn switches(ui: &mut Ui, context: &mut PaneContext<'_>) {
 fn overlays(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let before = context.scene.document.overlays;
     let mut overlays = before;
-    for (on, words) in [
-        (&mut overlays.loci, "Planckian loci"),
-        (&mut overlays.patches, "Patches"),
-        (&mut overlays.camera_spectral_loci, "Cameras' spectral loci: errors that no 3×3 matrix can correct"),
-        (&mut overlays.daylight, "Daylight locus"),
-        (&mut overlays.whites, "Standard whites and the light"),
-        (&mut overlays.isotherms, "Isotherms: lines of equal CCT, to Duv ±0.03"),
-        (&mut overlays.srgb, "sRGB"),
-        (&mut overlays.dci_p3, "DCI-P3"),
-        (&mut overlays.rec2020, "Rec. 2020"),
-    ] {
+    for (on, words) in overlays.labeled() {
         ui.checkbox(on, words);
     }
     if overlays != before {
@@ -112,6 +102,7 @@ fn diagram(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
         let shown = plot(ui, id.with("lens"), lens, Rect::from_min_max(area[0], area[1]), false, context);
         point_at(lens, &shown, context);
     }
+    widgets::walk::along(ui, PaneKind::CHROMATICITY, context, widgets::walk::patches_by_sensor);
     if context.view.diagram.zoomed.is_some() && rect.width() > 420.0 && rect.height() > 240.0 {
         let place = Rect::from_min_size(shown.view.rect.right_top() + Vec2::new(-OVERVIEW.x - 6.0, 6.0), OVERVIEW);
         let size = [f64::from(OVERVIEW.x), f64::from(OVERVIEW.y)];

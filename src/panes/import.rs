@@ -30,6 +30,11 @@ const PATIENCE: Duration = Duration::from_millis(100);
 pub const PANE: Pane =
     Pane { kind: PaneKind::IMPORT, title: "Import", show, figure: None, under_conditions: false, table: true };
 
+/// True if files are listed one below the other in a pane of this rectangle.
+pub fn lists_files(pane: Rect) -> bool {
+    pane.width() - 4.0 * UNIT >= NARROW
+}
+
 /// Shows the pane in its rectangle.
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let body = widgets::pane(ui, &PANE, rect, context, switches);
@@ -44,8 +49,9 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
         return;
     }
     keep_selected(ui, &entries, context);
-    let below = if body.width() < NARROW { files::drop_down(ui, body, &entries, context) } else { body };
-    let text = if body.width() < NARROW {
+    let is_narrow = !lists_files(rect);
+    let below = if is_narrow { files::drop_down(ui, body, &entries, context) } else { body };
+    let text = if is_narrow {
         below
     } else {
         let cut = body.left() + FILES;

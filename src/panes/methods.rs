@@ -101,7 +101,7 @@ fn benchmark(ui: &mut Ui, body: Rect, workload: Workload, context: &mut PaneCont
             return;
         }
         None => {
-            nothing(ui, body, "Nothing measured yet. A quick run takes a few seconds.", context);
+            nothing(ui, body, "Nothing measured yet.", context);
             return;
         }
         Some(Err(why)) => {
@@ -221,8 +221,7 @@ fn run(ui: &mut Ui, now: Shows, context: &mut PaneContext<'_>) {
         Shows::Scene(_) => context.laboratory.measured.run.is_some(),
         Shows::Bench(workload) => context.laboratory.measured.reports.contains_key(&workload),
     };
-    let hint = "Measures the methods and the work saved on this scene. Takes a few seconds. Results are lost when \
-                the program ends; export them to save them.";
+    let hint = "Measures the methods and the work saved on this scene. Takes a few seconds.";
     if ui.button(if again { "Run again" } else { "Run" }).on_hover_text(hint).clicked() {
         context.push(measure(now));
     }
@@ -235,19 +234,13 @@ fn measure(shows: Shows) -> Command {
     }
 }
 
-/// A message with a button to start the measurement.
-fn nothing(ui: &mut Ui, body: Rect, words: &str, context: &mut PaneContext<'_>) {
-    let place = Rect::from_center_size(body.center(), Vec2::new(body.width().min(420.0), 96.0)).intersect(body);
+/// A sentence in place of a picture.
+fn nothing(ui: &mut Ui, body: Rect, words: &str, context: &PaneContext<'_>) {
+    let place = Rect::from_center_size(body.center(), Vec2::new(body.width().min(420.0), 48.0)).intersect(body);
     let layout = egui::Layout::top_down(egui::Align::Center);
     let mut child = ui.new_child(UiBuilder::new().id_salt("nothing measured").max_rect(place).layout(layout));
     child.label(words);
-    child.label(RichText::new(super::NOT_KEPT).small().color(context.theme.weak));
-    child.add_space(UNIT);
-    if context.laboratory.busy().is_some() {
-        child.label("Measuring…");
-    } else if child.button("Run").clicked() {
-        context.push(measure(context.view.accuracy.shows));
-    }
+    child.label(if context.laboratory.busy().is_some() { "Measuring…" } else { "Run, above, takes a few seconds." });
 }
 
 /// Instructions for a build that includes the benchmark.

@@ -4,7 +4,6 @@ mod image;
 mod material;
 mod pixel;
 mod scene;
-mod statistics;
 mod surface;
 mod view;
 
@@ -60,7 +59,6 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
         if below == 0.0 {
             group(ui, "Pixel", true, context, pixel::show);
         }
-        group(ui, "Statistics", false, context, statistics::show);
         ui.add_space(2.0 * UNIT);
     });
     if below > 0.0 {
@@ -139,6 +137,7 @@ impl Dial<'_> {
             slider = slider.logarithmic(true).smallest_positive(least);
         }
         let response = ui.add(slider).on_hover_text(self.hint);
+        widgets::take_sought(&response, self.name);
         (response.changed() && value.is_finite() && value != now).then(|| short_value(value))
     }
 }

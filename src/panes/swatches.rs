@@ -1,5 +1,6 @@
 //! Patches as colors.
 
+use chromascope_figure::Shape;
 use egui::{Id, Rect, ScrollArea, Ui, UiBuilder, Vec2};
 
 use super::context::{Pane, PaneContext};
@@ -109,6 +110,13 @@ fn board(ui: &mut Ui, area: Rect, built: &swatches::Built, context: &mut PaneCon
     context.view.hover(thing.as_ref());
     if shown.response.clicked() {
         context.view.click(thing.as_ref());
+    }
+    if widgets::walk::along(ui, PaneKind::SWATCHES, context, widgets::walk::patches_by_sensor) {
+        let cursor = context.view.cursor.as_ref();
+        let mark = built.panel.marks.iter().find(|mark| cursor.is_some() && built.things.get(mark.tag) == cursor);
+        if let Some(Shape::Rect { min, max }) = mark.map(|mark| &mark.shape) {
+            ui.scroll_to_rect(Rect::from_two_pos(shown.view.at(*min), shown.view.at(*max)), None);
+        }
     }
     if let Some(thing) = thing {
         let lines = chromaticity::describe(&context.scene, &thing);

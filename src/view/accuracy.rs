@@ -1,10 +1,10 @@
-//! View state of the Accuracy pane.
+//! View state of the Numerics workspace.
 
 use chromascope_measure::Workload;
 
 use crate::profiler::Subject;
 
-/// View state of the Accuracy pane.
+/// View state of the Numerics workspace.
 #[derive(Clone, Debug, Default)]
 pub struct AccuracyView {
     /// Selected measurement.

@@ -78,8 +78,6 @@ pub struct RenderView {
     pub cancelled: bool,
     /// The pictures as textures.
     pub textures: PictureTextures,
-    /// Search text of the material list.
-    pub material_search: String,
 }
 
 impl RenderView {

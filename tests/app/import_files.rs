@@ -37,7 +37,13 @@ fn open_path(window: &mut Window, path: &Path) {
     window.state_mut().view_mut().status = chromascope::view::Status::default();
     window.state_mut().push(Command::OpenPath(path.to_owned()));
     window.run_steps(2);
-    until(window, "a file", |app| !app.view().status.text.is_empty() && app.opened().progress().is_none());
+    // In Import the list says what failed, elsewhere the status line.
+    let failed = |app: &ChromascopeApp| {
+        app.opened().files().iter().any(|file| file.failure.is_some() && file.origin.path.as_deref() == Some(path))
+    };
+    until(window, "a file", |app| {
+        (!app.view().status.text.is_empty() || failed(app)) && app.opened().progress().is_none()
+    });
     settle(window);
 }
 

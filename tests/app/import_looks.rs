@@ -135,7 +135,7 @@ fn notes_are_led_to_where_they_are_out_of_sight() {
             || node.label().is_some_and(|l| l.contains("counted once"))
     });
     assert!(note.into_iter().any(inside), "the note is in sight");
-    assert!(says(&window, "Decisions"));
+    assert!(says(&window, "decisions"));
 }
 
 #[test]

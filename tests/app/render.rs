@@ -341,14 +341,14 @@ fn a_material_is_found_by_typing() {
     let mut window = small();
     window.get_by_label_contains("Material: ").click();
     window.run_steps(2);
-    window.get_by_role_and_label(Role::TextInput, "Search materials").focus();
+    window.get_by_role_and_label(Role::TextInput, "Filter Material").focus();
     window.run_steps(2);
-    window.get_by_role_and_label(Role::TextInput, "Search materials").type_text("grass");
+    window.get_by_role_and_label(Role::TextInput, "Filter Material").type_text("grass");
     window.run_steps(2);
     window.get_by_label("Grass 025 (Vrhel)").click();
     window.run_steps(3);
     assert_eq!(document(&window).render.material, "Grass 025 (Vrhel)");
-    assert!(window.query_by_label("Search materials").is_none(), "the list is closed");
+    assert!(window.query_by_label("Filter Material").is_none(), "the list is closed");
 }
 
 #[test]

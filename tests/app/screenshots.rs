@@ -252,12 +252,12 @@ impl Measured {
     }
 }
 
-/// The Accuracy workspace with what was measured once.
+/// The Numerics workspace with what was measured once.
 pub(crate) fn accuracy(size: [f32; 2], theme: egui::Theme) -> Harness<'static, ChromascopeApp> {
     let mut harness = open(size, theme);
     let Measured { run, remembered } = Measured::kept();
     let view = harness.state_mut().view_mut();
-    view.saved.workspace = Workspace::Accuracy;
+    view.saved.workspace = Workspace::Numerics;
     view.fixed_clock = true;
     let measured = &mut harness.state_mut().laboratory_mut().measured;
     (measured.run, measured.remembered) = (Some(std::sync::Arc::new(run)), remembered);

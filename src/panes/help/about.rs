@@ -74,8 +74,8 @@ fn text(ui: &mut Ui, context: &mut PaneContext<'_>) {
     ui.horizontal_wrapped(|ui| {
         for (words, command) in [
             ("Take the tour", Command::Tour(TourMove::Begin)),
-            ("Data and sources", Command::Help("data")),
-            ("Equations", Command::Help("model")),
+            ("Data and sources", Command::Help("data", 0)),
+            ("Equations", Command::Help("model", 0)),
         ] {
             if ui.button(words).clicked() {
                 context.view.about = false;

@@ -45,11 +45,34 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, shown: &ImportSelection, context: &m
     match (&shown.look, preview) {
         (Some(look), Some(Ok(preview))) => {
             forms(ui, foot, context);
+            let body = wrong(ui, body, shown, context);
             lines_of(ui, body, shown, look, preview, context);
         }
         (_, Some(Err(error))) => message(ui, body, &sentence(&error.to_string()), context.theme.error),
         _ => message(ui, body, "Reading…", context.theme.weak),
     }
+}
+
+/// Below the text, the reason that it could not be read; a click shows the line. Returns the rectangle above.
+fn wrong(ui: &Ui, body: Rect, shown: &ImportSelection, context: &mut PaneContext<'_>) -> Rect {
+    let Some(error) = shown.error() else { return body };
+    let theme = context.theme;
+    let words = sentence(&error.to_string());
+    let place = Rect::from_min_max(egui::pos2(body.left(), body.bottom() - ROW), body.max);
+    ui.painter().rect_filled(place, 0.0, theme.panel);
+    lines::warning_mark(ui.painter(), place.left_center() + Vec2::new(2.0 * UNIT, 0.0), theme.error);
+    let text = place.with_min_x(place.left() + 5.0 * UNIT);
+    let cut = lines::elided(ui, text, &words, TextStyle::Body, theme.error);
+    let response = ui.interact(place, Id::unique("reason below the text"), Sense::click());
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &words));
+    if let Some(line) = error.line().filter(|_| response.clicked()) {
+        context.view.import.line = Some(line);
+        ui.ctx().request_repaint();
+    }
+    if cut {
+        response.on_hover_text(words);
+    }
+    body.with_max_y(place.top())
 }
 
 /// Legend of the marks' styles.

@@ -1,8 +1,9 @@
 //! Settings of the reader: each shows the decision with its confidence, and accepts another choice.
 
-use egui::Ui;
+use egui::{CollapsingHeader, RichText, Ui};
 use spectral_file::{
-    Certainty, Decided, DecimalMark, Delimiter, Orientation, Reader, Role, SpectralFile, Values, WavelengthUnit,
+    Certainty, Decided, DecimalMark, Delimiter, Orientation, ReadOptions, ReadReport, Reader, Role, SpectralFile,
+    Values, WavelengthUnit,
 };
 
 use super::{CONTENT, CONTENT_SHORT, Closed, list, parts};
@@ -61,6 +62,9 @@ const READERS: [(Reader, &str); 11] = [
     (Reader::Camspec, "Camera database"),
 ];
 
+/// Head of the switches of a file's format where none of them is in doubt.
+const SETTLED: &str = "File format: all certain";
+
 /// Maximum number of columns to choose from.
 const COLUMNS: usize = 60;
 /// Maximum number of parts to choose from.
@@ -111,19 +115,12 @@ fn closed<T: Copy>(
         Certainty::Open => "open",
         Certainty::Certain | Certainty::Chosen => "certain",
     };
-    let how = if guess && wordy { format!("{sure}: {}", lower(&decided.why)) } else { sure.to_owned() };
-    Closed { value: name(decided.value), how, guess, why: decided.why.clone() }
+    Closed { value: name(decided.value), how: sure.to_owned(), guess, why: decided.why.clone() }
 }
 
 /// A choice without what its caption says anyway.
 fn short(words: &str) -> &str {
     ["Down", "Across", "Table"].into_iter().find(|short| words.starts_with(short)).unwrap_or(words)
-}
-
-/// Text in the form for the middle of a sentence.
-fn lower(words: &str) -> String {
-    let mut letters = words.chars();
-    letters.next().map_or_else(String::new, |first| first.to_lowercase().chain(letters).collect())
 }
 
 /// The switches that matter for the file.
@@ -132,13 +129,41 @@ pub(super) fn show(ui: &mut Ui, shown: &ImportSelection, wishes: &mut ImportOver
     let table = shown.table();
     let reading = table.map(|table| &table.reading);
     let options = &mut wishes.options;
-    let gap = 2.0 * UNIT;
     let whole = ui.available_width() - 2.0;
-    let half = ((whole - gap) / 2.0).floor();
     Switch { words: "This is a", wish: &mut options.role, decided: table.map(|table| &table.role), choices: &ROLES }
         .show(ui, theme, whole, true);
     let decided = reading.map(|reading| &reading.values);
     Switch { words: "Values are", wish: &mut options.values, decided, choices: &VALUES }.show(ui, theme, whole, true);
+    let is_settled = shown.error().is_none() && reading.is_some_and(|reading| is_certain(reading, options));
+    if is_settled {
+        let head = RichText::new(SETTLED).small();
+        let whole = whole - ui.spacing().indent;
+        CollapsingHeader::new(head).id_salt(SETTLED).show(ui, |ui| format(ui, shown, options, theme, whole));
+    } else {
+        format(ui, shown, options, theme, whole);
+    }
+}
+
+/// True if nothing of the file's format is a guess or a person's choice.
+fn is_certain(reading: &ReadReport, options: &ReadOptions) -> bool {
+    let certainties = [
+        reading.wavelength_unit.certainty,
+        reading.reader.certainty,
+        reading.decimal_mark.certainty,
+        reading.delimiter.certainty,
+        reading.orientation.certainty,
+    ];
+    let asked = ReadOptions { role: options.role, values: options.values, ..ReadOptions::default() };
+    // Which of several tables is read is a choice that stays in sight.
+    certainties.iter().all(|certainty| *certainty == Certainty::Certain) && *options == asked && reading.parts.len() < 2
+}
+
+/// The switches of the file's format.
+fn format(ui: &mut Ui, shown: &ImportSelection, options: &mut ReadOptions, theme: &Theme, whole: f32) {
+    let gap = 2.0 * UNIT;
+    let half = ((whole - gap) / 2.0).floor();
+    let table = shown.table();
+    let reading = table.map(|table| &table.reading);
     let unit = reading.map(|reading| &reading.wavelength_unit);
     let columns = columns(table, options.reader);
     pair(ui, gap, |ui| {

@@ -24,10 +24,19 @@ fn renaming_id() -> Id {
     Id::unique("renamed sensor")
 }
 
+fn id(source: &ComparedSensor) -> Id {
+    Id::unique(("compared", source.kind, &source.name))
+}
+
+/// Gives the name of a sensor the keyboard.
+pub(super) fn focus(ui: &Ui, source: &ComparedSensor) {
+    ui.memory_mut(|memory| memory.request_focus(id(source).with("label")));
+}
+
 /// One sensor: key, label, tag, menu.
 pub(super) fn row(ui: &mut Ui, source: &ComparedSensor, context: &mut PaneContext<'_>) {
     let (rect, _) = ui.allocate_exact_size(Vec2::new(ui.available_width(), ROW), Sense::hover());
-    let id = ui.scope_id().with(("compared", source.kind, &source.name));
+    let id = id(source);
     key(ui, Rect::from_min_size(rect.min, Vec2::new(lines::KEY + UNIT, ROW)), id, source, context);
     let dots = Rect::from_min_max(egui::pos2(rect.right() - lines::DOTS, rect.top()), rect.max);
     let mut words = Rect::from_min_max(

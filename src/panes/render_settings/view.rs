@@ -58,7 +58,7 @@ fn lens_and_quality(ui: &mut Ui, settings: &RenderSettings, context: &mut PaneCo
         }
     });
     if settings.quality == QualityLevel::Tolerance {
-        let hint = "Largest error of a picture, relative to its brightest sample. The Accuracy workspace shows the method \
+        let hint = "Largest error of a picture, relative to its brightest sample. The Numerics workspace shows the method \
              for each camera.";
         let id = ui.make_persistent_id("tolerance field");
         if let Some(to) = widgets::tolerance::field(ui, id, settings.tolerance, "Tolerance", hint, context) {

@@ -3,7 +3,6 @@
 use chromascope_figure::{Ink, LegendEntry, Stroke};
 use egui::{Color32, Painter, Pos2, Rect, Response, Sense, Shape, TextStyle, TextWrapMode, Ui, Vec2, WidgetText};
 
-use super::focus_rim;
 use crate::paint;
 use crate::scene::ComparedSensor;
 use crate::theme::{FADED, ROW, Theme};
@@ -58,6 +57,11 @@ pub fn key_and_label(ui: &mut Ui, source: &ComparedSensor, theme: &Theme) -> Res
     let cut = elided(ui, words, &source.label, TextStyle::Body, theme.text);
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, &source.label));
     if cut { response.on_hover_text(&source.label) } else { response }
+}
+
+/// The rim of what the keyboard is on.
+pub fn focus_rim(response: &Response, theme: &Theme) -> egui::Stroke {
+    if response.has_focus() { egui::Stroke::new(1.5, theme.text) } else { egui::Stroke::NONE }
 }
 
 /// A small button of three dots that opens a row's menu.
