@@ -177,7 +177,8 @@ pub const STRIP: f64 = 136.0;
 
 /// The figure as it is saved: diagram, strip, legend, caption, and the numbers of all points.
 pub fn figure(scene: &Scene<'_>, view: &View) -> Figure {
-    figure_sized(scene, view, SIZE)
+    let strip = view.room.strip && super::strip::build(scene, [SIZE[0], STRIP]).is_some();
+    figure_sized(scene, view, view.room.size(SIZE, if strip { STRIP } else { 0.0 }))
 }
 
 /// The figure with a diagram of a size in points.
@@ -188,7 +189,7 @@ pub fn figure_sized(scene: &Scene<'_>, view: &View, size: [f64; 2]) -> Figure {
     let mut figure = Figure::new("Chromaticity", size);
     figure.panels.push(built.panel);
     figure.panels.extend(built.lens.map(|lens| lens.panel));
-    if let Some(mut strip) = super::strip::build(scene, [size[0], STRIP]) {
+    if let Some(mut strip) = super::strip::build(scene, [size[0], STRIP]).filter(|_| view.room.strip) {
         strip.panel.area = Rect::from_min_size([0.0, size[1]], [size[0], STRIP]);
         figure.size[1] += STRIP;
         figure.panels.push(strip.panel);

@@ -13,6 +13,7 @@ use chromascope_figure::{
 use crate::document::SetKind;
 use crate::format::fixed;
 use crate::scene::Scene;
+use crate::view::View;
 
 /// The size of the saved figure in points: bars left, vectors right.
 const SIZE: [f64; 2] = [640.0, 300.0];
@@ -117,11 +118,13 @@ fn label(text: &str, at: [f64; 2], anchor: Anchor, role: InkRole) -> Mark {
 }
 
 /// The figure as it is saved; none while there is nothing to show.
-pub fn figure(scene: &Scene<'_>) -> Option<Figure> {
+pub fn figure(scene: &Scene<'_>, view: &View) -> Option<Figure> {
     let rendition = scene.rendition().ok()?;
-    let left = bars(&rendition, Rect::from_min_size([0.0, 0.0], [SIZE[0] - SIZE[1], SIZE[1]]));
-    let right = vectors(&rendition, Rect::from_min_size([SIZE[0] - SIZE[1], 0.0], [SIZE[1], SIZE[1]]));
-    let mut figure = Figure::new(format!("Rendition of {}", scene.light_name()), SIZE);
+    let [width, height] = view.room.size(SIZE, 0.0);
+    let side = height.min(0.5 * width);
+    let left = bars(&rendition, Rect::from_min_size([0.0, 0.0], [width - side, height]));
+    let right = vectors(&rendition, Rect::from_min_size([width - side, 0.0], [side, height]));
+    let mut figure = Figure::new(format!("Rendition of {}", scene.light_name()), [width, height]);
     figure.panels.extend(left.into_iter().chain(right));
     figure.caption = format!(
         "{}. Left: color rendering indices, CIE 13.3. Right: color vectors of ANSI/IES TM-30, the reference dashed.",

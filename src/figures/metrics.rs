@@ -132,7 +132,8 @@ pub fn figure(input: &FigureInput<'_>) -> Option<Figure> {
     let largest_first = metric.better == Better::Higher;
     rows.sort_by(|a, b| if largest_first { b.2.total_cmp(&a.2) } else { a.2.abs().total_cmp(&b.2.abs()) });
     let unit = if unit(&metric).is_empty() { String::new() } else { format!(" in {}", unit(&metric)) };
-    let mut figure = Figure::new(format!("{}{unit}", metric.label), [WIDTH, 24.0 + ROW * rows.len() as f64]);
+    let width = view.room.width.unwrap_or(WIDTH).max(NAMES + 120.0);
+    let mut figure = Figure::new(format!("{}{unit}", metric.label), [width, 24.0 + ROW * rows.len() as f64]);
     let mut panel = Panel::board("Metrics", Rect::from_min_size([0.0; 2], figure.size), Ink::new(InkRole::Plot));
     let text = |words: &str, at: [f64; 2], anchor: Anchor, size: TextSize| {
         let ink = Ink::new(InkRole::Text);
@@ -142,7 +143,7 @@ pub fn figure(input: &FigureInput<'_>) -> Option<Figure> {
     panel.marks.push(text(&figure.title, [8.0, 12.0], Anchor::LEFT, TextSize::Body));
     let largest =
         rows.iter().map(|row| row.2.abs() + row.1.uncertainty.unwrap_or(0.0)).fold(f64::MIN_POSITIVE, f64::max);
-    let x = |value: f64| NAMES + (WIDTH - NAMES - 72.0) * (value.abs() / largest).clamp(0.0, 1.0);
+    let x = |value: f64| NAMES + (width - NAMES - 72.0) * (value.abs() / largest).clamp(0.0, 1.0);
     for (index, (camera, value, number)) in rows.iter().enumerate() {
         let y = 24.0 + ROW * index as f64 + ROW / 2.0;
         let name = &ranked.cameras[*camera].id.name;
@@ -155,7 +156,7 @@ pub fn figure(input: &FigureInput<'_>) -> Option<Figure> {
                 Mark::new(Tag::default(), "uncertainty", Shape::Segments { segments }).with_stroke(InkRole::Text, 1.2),
             );
         }
-        panel.marks.push(text(&fixed(*number, metric.decimals), [WIDTH - 8.0, y], Anchor::RIGHT, TextSize::Small));
+        panel.marks.push(text(&fixed(*number, metric.decimals), [width - 8.0, y], Anchor::RIGHT, TextSize::Small));
     }
     figure.panels.push(panel);
     figure.caption = format!("Lines: ± one standard uncertainty of the sensitivities. {}", conditions(scene));

@@ -113,7 +113,7 @@ const KEY: f64 = 18.0;
 
 /// The figure as it is saved (in rows with the five patches, the paper's Figure 5), with all numbers.
 pub fn figure(scene: &Scene<'_>, view: &View) -> Figure {
-    figure_sized(scene, view, SIZE)
+    figure_sized(scene, view, view.room.size(SIZE, KEY))
 }
 
 /// The figure in a width, and at least a height, in points.
