@@ -41,7 +41,7 @@ fn written(arguments: &MatrixArguments, request: &Request, scene: &Scene<'_>) ->
     if arguments.format == Format::Clf {
         let idt = scene.results.ask(&scene.input_device_transform(*kind, name, exposure)?);
         let idt =
-            idt.as_ref().as_ref().map_err(|error| SceneError::Idt { name: name.clone(), error: error.clone() })?;
+            idt.as_ref().as_ref().map_err(|error| SceneError::Idt { name: name.clone(), error: *error })?;
         if let Some(note) = idt_note(idt) {
             say(&format!("chromascope: {note}; --white-at-one fits it there\n"));
         }
