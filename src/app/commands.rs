@@ -117,16 +117,7 @@ impl ChromascopeApp {
             Command::CopyCard(pane) => self.copy_card(ctx, pane),
             Command::SaveCard(pane) => self.save_card(pane),
             Command::CopyNumbers(pane) => self.copy_numbers(ctx, pane),
-            Command::Show(workspace) => {
-                self.view.saved.workspace = workspace;
-                self.view.maximized = None;
-                self.view.inspector_over = false;
-                // Keys and exports never refer to a pane that is not visible.
-                let shown = self.view.focused.is_some_and(|pane| self.view.saved.layout.shows(workspace, pane));
-                if !shown {
-                    self.view.focused = self.view.saved.layout.places(workspace)[0];
-                }
-            }
+            Command::Show(workspace) => self.show_workspace(workspace),
             Command::Maximize(pane) => {
                 self.view.maximized = if self.view.maximized == Some(pane) { None } else { Some(pane) };
             }
@@ -163,6 +154,17 @@ impl ChromascopeApp {
             Command::GoTo(pane) => self.go_to(ctx, pane),
             Command::Seek(pane, control) => self.seek(ctx, pane, control),
             Command::Quit => ctx.send_viewport_cmd(ViewportCommand::Close),
+        }
+    }
+
+    fn show_workspace(&mut self, workspace: Workspace) {
+        self.view.saved.workspace = workspace;
+        self.view.maximized = None;
+        self.view.inspector_over = false;
+        // Keys and exports never refer to a pane that is not visible.
+        let shown = self.view.focused.is_some_and(|pane| self.view.saved.layout.shows(workspace, pane));
+        if !shown {
+            self.view.focused = self.view.saved.layout.places(workspace)[0];
         }
     }
 

@@ -40,8 +40,7 @@ fn written(arguments: &MatrixArguments, request: &Request, scene: &Scene<'_>) ->
     let exposure = if arguments.white_at_one { IdtExposure::WhiteAtOne } else { IdtExposure::Rawtoaces };
     if arguments.format == Format::Clf {
         let idt = scene.results.ask(&scene.input_device_transform(*kind, name, exposure)?);
-        let idt =
-            idt.as_ref().as_ref().map_err(|error| SceneError::Idt { name: name.clone(), error: error.clone() })?;
+        let idt = idt.as_ref().as_ref().map_err(|error| SceneError::Idt { name: name.clone(), error: *error })?;
         if let Some(note) = idt_note(idt) {
             say(&format!("chromascope: {note}; --white-at-one fits it there\n"));
         }

@@ -209,7 +209,7 @@ impl CorrectionFile {
     /// [`CorrectionFileError`] without a transform, or for a name that the format cannot hold.
     pub fn clf(&self) -> Result<String, CorrectionFileError> {
         let light = self.lights.first().map_or("", String::as_str);
-        clf(&self.camera, light, self.idt.as_ref().map_err(IdtError::clone)?)
+        clf(&self.camera, light, self.idt.as_ref().map_err(|error| *error)?)
     }
 
     /// Everything in words and aligned numbers.

@@ -46,7 +46,7 @@ fn wait(window: &mut Window, seconds: f64) {
 }
 
 fn row(window: &mut Window, name: &str) -> egui::Rect {
-    window.state_mut().view_mut().search = name.to_owned();
+    name.clone_into(&mut window.state_mut().view_mut().search);
     window.run();
     window.get_by_role_and_label(Role::CheckBox, name).rect()
 }

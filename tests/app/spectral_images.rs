@@ -169,7 +169,9 @@ fn a_large_image_is_decimated_and_says_so() {
     bytes_image(&path, [2100, 1000], &[420, 520, 620], |x, _, _| (x / 10) as u8);
     let image = load(&path).unwrap();
     assert_eq!(screen_steps(&image.info), [6, 2]);
-    let window = opened(Document::colorimetry(), &path, [1280.0, 800.0]);
+    let mut window = opened(Document::colorimetry(), &path, [1280.0, 800.0]);
+    // The message about the opened file fades.
+    window.run_steps(40);
     let shot = window.state().studio().frame().cloned().unwrap();
     let made = shot.made().unwrap().image().unwrap();
     assert_eq!((made.placed().size().width, made.placed().size().height), (1050, 500));

@@ -29,7 +29,8 @@ pub(super) fn show(ui: &mut Ui, kind: SetKind, name: &str, context: &mut PaneCon
     let known = facts::of(&scene, &entry, true);
     facts::show(ui, &theme, &known);
     if buttons(ui, context) {
-        copy_text(ui, known.iter().map(|(caption, words)| format!("{caption}\t{words}\n")).collect(), context);
+        let lines: Vec<String> = known.iter().map(|(caption, words)| format!("{caption}\t{words}\n")).collect();
+        copy_text(ui, lines.concat(), context);
     }
 }
 
