@@ -2,15 +2,18 @@
 
 use chromascope_core::colorimetry::Xy;
 use chromascope_core::query::Locus;
-use chromascope_figure::{Anchor, Axis, Dash, Ink, InkRole, Mark, Marker, Panel, Projection, Rect, Shape, Ticks};
+use chromascope_figure::{
+    Anchor, Axis, Cell, Dash, Figure, Ink, InkRole, Mark, Marker, Panel, Projection, Rect, Shape, Table, Ticks,
+};
 
-use super::chromaticity::{distance_symbol, id};
+use super::chromaticity::{self, distance_symbol, id};
 use super::labels::{Place, Room};
 use crate::document::{Diagram, LOCUS_RANGE_K, SetKind};
 use crate::format::number;
 use crate::plot_item::{PickIndex, PlotItem};
 use crate::scene::locus::{distance, split};
 use crate::scene::{ComparedSensor, Scene};
+use crate::view::View;
 
 /// The strip with the items of its lines.
 #[derive(Clone, Debug)]
@@ -74,6 +77,20 @@ pub fn build(scene: &Scene<'_>, size: [f64; 2]) -> Option<Strip> {
     panel.marks.extend(cut(&panel.marks, top, room.height()));
     panel.marks.extend(texts.into_iter().flatten());
     Some(Strip { panel, things })
+}
+
+/// Size of a saved figure in points.
+const SIZE: [f64; 2] = [640.0, 180.0];
+
+/// The strip as a figure of its own, with its numbers; none where no sensor can be compared with the reference.
+pub fn figure(scene: &Scene<'_>, view: &View) -> Option<Figure> {
+    let size = view.room.size(SIZE, 0.0);
+    let whole = chromaticity::figure(scene, view);
+    let mut figure = Figure::new("Distance to the reference over temperature", size);
+    figure.panels.push(build(scene, size)?.panel);
+    let is_locus = |row: &Vec<Cell>| row.get(1) == Some(&Cell::from("locus"));
+    figure.table = Table { rows: whole.table.rows.into_iter().filter(is_locus).collect(), ..whole.table };
+    Some(Figure { legend: whole.legend, legend_place: whole.legend_place, caption: whole.caption, ..figure })
 }
 
 /// Lines and signs of the sensors; none where there are none.
