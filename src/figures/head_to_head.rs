@@ -47,7 +47,7 @@ pub fn figure(input: &FigureInput<'_>) -> Option<Figure> {
     let mut panel =
         Panel::board("Head to head", Rect::from_min_size([0.0, 0.0], figure.size), Ink::new(InkRole::Plot));
     // Right ends of the columns of numbers.
-    let ends = [0.62, 0.76, 0.90, 1.0].map(|share| share * width - 6.0);
+    let ends = [0.46, 0.65, 0.84, 1.0].map(|share| share * width - 6.0);
     let mut line = 0.5;
     for (letter, name) in [("A", name_a), ("B", name_b)] {
         panel.marks.push(text(&format!("{letter}: {name}"), [6.0, ROW * line], Anchor::LEFT, TextSize::Body));

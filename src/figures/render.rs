@@ -108,8 +108,10 @@ struct PictureCell<'a> {
     at: usize,
     source: &'a ComparedSensor,
     label: String,
-    /// Lines at the left, the name before the difference.
+    /// Lines of the name, then of the difference, at the left.
     lines: Vec<(String, TextSize)>,
+    /// Number of lines of the name.
+    named: usize,
     /// Words at the right end of the first line.
     note: String,
 }
@@ -127,11 +129,14 @@ impl<'a> PictureCell<'a> {
         let both = text_width(&label, TextSize::Body) + text_width(&note, TextSize::Body) + Self::KEY + 2.0 * GAP;
         let lines = |text: &str, size, room| wrapped(text, size, room).into_iter().map(move |line| (line, size));
         if both <= width {
-            return Self { at, source, lines: vec![(label.clone(), TextSize::Body)], label, note };
+            return Self { at, source, lines: vec![(label.clone(), TextSize::Body)], named: 1, label, note };
         }
-        let name = lines(&label, TextSize::Body, width - Self::KEY);
-        let lines = name.chain(lines(&note, TextSize::Small, width)).collect();
-        Self { at, source, label, lines, note: String::new() }
+        let fits = text_width(&label, TextSize::Body) + Self::KEY <= width;
+        let name = lines(&label, if fits { TextSize::Body } else { TextSize::Small }, width - Self::KEY);
+        let name: Vec<_> = name.collect();
+        let named = name.len();
+        let lines = name.into_iter().chain(lines(&note, TextSize::Small, width)).collect();
+        Self { at, source, label, lines, named, note: String::new() }
     }
 
     fn heading(&self, [x, y]: [f64; 2], width: f64, ink: Ink) -> Vec<Mark> {
@@ -140,7 +145,7 @@ impl<'a> PictureCell<'a> {
         let mark = Mark::new(PickIndex::NONE, self.label.clone(), marker).with_stroke(ink, 1.5);
         let mut marks = vec![if self.source.marker.has_inside() { mark.with_fill(ink) } else { mark }];
         for (row, (words, size)) in self.lines.iter().enumerate() {
-            let inset = if *size == TextSize::Body { Self::KEY } else { 0.0 };
+            let inset = if row < self.named { Self::KEY } else { 0.0 };
             marks.push(text(words, [x + inset, middle + LINE * row as f64], Anchor::LEFT, (*size, ink)));
         }
         if !self.note.is_empty() {
