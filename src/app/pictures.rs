@@ -36,12 +36,12 @@ impl ChromascopeApp {
         let rendering = (*rendering).as_ref().ok()?;
         let document = self.history.document();
         let scene = Scene { document, catalog: &self.catalog, results: &self.results };
-        let white = document.white.name();
+        let [light, white] = scene.rendered_conditions();
         let shading = &shot.query.shading;
         let provenance = Provenance {
             source: &source.name,
             balance: if rendering.is_rgb { &white } else { "none" },
-            illuminant: &scene.light_name(),
+            illuminant: &light,
             material: &document.render.material,
             mesh: &document.render.mesh.name(),
             quality: shading.quality,
@@ -49,6 +49,8 @@ impl ChromascopeApp {
             viewpoint: shading.geometry.visibility.viewpoint,
             surface: shading.surface,
             reading: shading.reading,
+            sky: document.render.sky,
+            thin: document.render.thin,
         };
         Some(exr_bytes(image, rendering, &provenance).map_err(|error| error.to_string()))
     }

@@ -5,6 +5,7 @@ mod drawn;
 mod images;
 mod shadow;
 mod skipping;
+mod sky;
 mod smooth;
 mod studio;
 mod visibility;

@@ -12,7 +12,7 @@ use crate::theme::ROW;
 /// A list of all reflectances, with a field to search it.
 pub(super) fn choice(ui: &mut Ui, now: &str, context: &mut PaneContext<'_>) {
     let combo = ComboBox::from_id_salt("material")
-        .width(ui.available_width().min(270.0))
+        .width(ui.available_width())
         .height(16.0 * ROW)
         .truncate()
         .close_behavior(egui::PopupCloseBehavior::CloseOnClickOutside)

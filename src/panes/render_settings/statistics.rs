@@ -8,11 +8,14 @@ use crate::panes::widgets::table::show_pairs;
 use crate::workspaces::PaneKind;
 
 /// Stages in the order they follow each other, as counted and as shown.
-const STAGES: [(&str, &str); 8] = [
+const STAGES: [(&str, &str); 11] = [
     ("mesh", "mesh"),
     ("shadow tree", "shadow tree"),
     ("visibility", "visibility"),
     ("geometry", "angles, shadows"),
+    ("sky visibility", "sky from vertices"),
+    ("sky", "sky from samples"),
+    ("sky reflectance", "reflectance of sky"),
     ("shading", "surface"),
     ("plan", "integration methods"),
     ("camera image", "signals"),
@@ -31,6 +34,7 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
         "samples",
         &[
             ("Lit", geometry.lit.to_string()),
+            ("Lit from behind", geometry.through.to_string()),
             ("Facing away", geometry.facing_away.to_string()),
             ("In shadow", format!("{}, {} rays", geometry.shadowed, geometry.rays)),
             ("Below threshold", shading.dark.to_string()),
