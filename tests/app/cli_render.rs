@@ -249,7 +249,7 @@ fn a_cie_observer_has_no_red_green_and_blue() {
 #[test]
 fn statistics_are_json() {
     let folder = folder("stats");
-    let smooth = ["--sigma", "3e-7", "--tau", "3e-6", "--patch", "2e-6,2e-6", "--stats", "-"];
+    let smooth = ["--sigma", "3e-7", "--tau", "3e-6", "--patch", "2e-6,2e-6", "--sky", "0", "--stats", "-"];
     let output = run(&folder, &[&SMALL[..], &D70, &smooth].concat());
     let message = String::from_utf8_lossy(&output.stderr);
     assert!(output.status.success() && message.contains("sphere_nikon-d70-2007.png: Δxy 0.0"), "{message}");
