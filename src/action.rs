@@ -36,7 +36,7 @@ pub enum Action {
 /// Changes to the list of compared sensors.
 #[derive(Clone, Debug, PartialEq)]
 pub enum CompareAction {
-    /// Puts a sensor on show.
+    /// Adds a sensor to the comparison.
     Add(SetKind, String),
     /// Takes a sensor off; the reference stays.
     Remove(SetKind, String),
@@ -71,7 +71,7 @@ pub enum SceneAction {
     SetSubset(Subset),
     /// Another white.
     SetWhite(WhiteBalanceChoice),
-    /// Another way to the diagram.
+    /// Another color transform.
     SetWay(TransformChoice),
     /// Another color correction; where Eq 13 was chosen, a transform is fitted to the default observer.
     SetCorrection(CorrectionChoice),
@@ -79,23 +79,25 @@ pub enum SceneAction {
     SetDifference(Metric),
     /// Other coordinates.
     SetDiagram(Diagram),
-    /// Other things on the diagram.
+    /// Other marks on the diagram.
     SetOverlays(Overlays),
 }
 
-/// Changes to the rendered scene. The settings are a record of independent numbers, so a change is the record as it is to be,
-/// with the name of what was moved.
+/// Changes to the rendered scene. The settings are independent numbers, so that a change consists of the new settings and the
+/// name of the changed one.
 #[derive(Clone, Debug, PartialEq)]
 pub enum RenderAction {
     /// Other settings.
     Set {
-        /// What was changed, as the menu calls it.
+        /// Name of the changed setting, as shown in the menu.
         what: &'static str,
         /// The settings as they are to be.
         to: Box<RenderSettings>,
     },
-    /// Looks at a mesh file of the user's, which was read.
+    /// Selects the user's mesh file, which was read.
     Open(PathBuf),
+    /// Shows a spectral image.
+    OpenImage(PathBuf),
     /// The paper's Figure 8: the head under sunlight, balanced to D55.
     Figure8,
     /// The paper's Figure 9: the fern under sunlight, balanced to D55.
@@ -109,8 +111,8 @@ pub enum RenderAction {
 /// Changes to the user's own sets.
 #[derive(Clone, Debug, PartialEq)]
 pub enum OwnAction {
-    /// Brings sets in. One alone is put to use; of several, cameras are put on show while there are places, and light and
-    /// chart stay. A name that is taken becomes one that is free.
+    /// Adds imported sets. A single set is put to use; of several, cameras are added to the comparison while the palette
+    /// has room, and light and chart stay. A name in use is replaced by a free one.
     Import {
         /// The sets.
         sets: Vec<OwnSet>,
@@ -126,9 +128,9 @@ pub enum OwnAction {
         /// Names that it may not have.
         built_in: BuiltInNames,
     },
-    /// Puts other versions of some sets in their places, because of what the step is called.
+    /// Replaces some sets by other versions, as a step of the given name.
     ReplaceAll {
-        /// What the step is called.
+        /// Name of the undo step.
         what: String,
         /// The names they had, and the sets as they are to be.
         with: Vec<(String, OwnSet)>,
@@ -140,12 +142,12 @@ pub enum OwnAction {
 }
 
 impl Action {
-    /// What the step is called in the menu.
+    /// Returns the name of the undo step, as shown in the menu.
     pub fn name(&self) -> String {
         match self {
             Self::Compare(action) => action.name(),
             Self::Scene(action) => action.name().to_owned(),
-            Self::Render(RenderAction::Open(path)) => {
+            Self::Render(RenderAction::Open(path) | RenderAction::OpenImage(path)) => {
                 let name = path.file_name().unwrap_or(path.as_os_str());
                 format!("Open {}", name.to_string_lossy())
             }
@@ -190,7 +192,7 @@ impl Action {
     }
 }
 
-/// Begins again from a named start, with the imported sets at hand.
+/// Begins again from a named start, with the imported sets available.
 fn begin(document: &mut Document, start: Start) {
     let own = std::mem::take(&mut document.own);
     let unknown = std::mem::take(&mut document.unknown);
@@ -303,6 +305,7 @@ impl RenderAction {
         match self {
             Self::Set { what, .. } => what,
             Self::Open(_) => "Open a mesh",
+            Self::OpenImage(_) => "Open a spectral image",
             Self::Figure8 => "Figure 8",
             Self::Figure9 => "Figure 9",
             Self::PaperFigure8 => "Figure 8, as in the paper",
@@ -318,6 +321,10 @@ impl RenderAction {
             }
             Self::Open(path) => {
                 document.render.mesh = MeshChoice::File(path.clone());
+                return;
+            }
+            Self::OpenImage(path) => {
+                document.render.mesh = MeshChoice::Image(path.clone());
                 return;
             }
             Self::Figure8 => {
@@ -370,8 +377,8 @@ impl OwnAction {
     }
 }
 
-/// Opens a file again that a set was made of. The same contents leave the set as it is, with all that a person chose for it; other
-/// contents take their place under its name.
+/// Reopens the file of a set. Unchanged contents leave the set and the user's settings as they are; changed contents replace the
+/// set's under its name.
 fn bring_again(document: &mut Document, index: usize, set: &OwnSet, alone: bool, built_in: &BuiltInNames) {
     let name = document.own[index].name.clone();
     if set.fingerprint != document.own[index].fingerprint {
@@ -385,7 +392,7 @@ fn bring_again(document: &mut Document, index: usize, set: &OwnSet, alone: bool,
     }
 }
 
-/// Puts another version of a set in its place. What it is used as stays, unless that has become something else.
+/// Replaces a set by another version. Its uses stay, unless its kind has changed.
 fn replace(document: &mut Document, name: &str, with: &OwnSet, built_in: &BuiltInNames) {
     let Some(index) = document.own.iter().position(|set| set.name == name) else { return };
     let before = SetKind::of_own(&document.own[index]);

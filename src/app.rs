@@ -1,4 +1,4 @@
-//! The program in its window: takes in events, carries out commands, shows panes.
+//! The window: handles events, runs commands and shows panes.
 
 mod closing;
 mod commands;
@@ -12,9 +12,10 @@ mod path_prompt;
 mod pictures;
 mod saving;
 mod startup;
+mod tour;
 
 use chromascope_core::query::NearestBlackBodyQuery;
-use chromascope_core::query::correction::CorrectionSheetQuery;
+use chromascope_core::query::render::picture::PicturesQuery;
 use egui::{Event, Ui};
 
 use crate::action::history::History;
@@ -22,6 +23,7 @@ use crate::catalog::Catalog;
 use crate::catalog::meshes::MeshStore;
 use crate::catalog::opened::Opened;
 use crate::catalog::recorded_store::RecordedStore;
+use crate::catalog::spectral_images::ImageStore;
 use crate::command::{Command, key_bindings};
 use crate::figures::curves::CurveCache;
 use crate::files::Files;
@@ -50,10 +52,10 @@ pub struct ChromascopeApp {
     view: View,
     files: Files,
     meshes: MeshStore,
+    images: ImageStore,
     opened: Opened,
     recorded: RecordedStore,
     radiators: Background<NearestBlackBodyQuery>,
-    corrections: Background<CorrectionSheetQuery>,
     studio: RenderService,
     laboratory: Profiler,
     ranking: Ranking,
@@ -66,6 +68,10 @@ pub struct ChromascopeApp {
     /// The control that had the keyboard in the last frame.
     focus: Option<egui::Id>,
     closing: closing::Closing,
+    /// What the user had before the tour.
+    interrupted: Option<tour::Interrupted>,
+    /// Picture of the window about the program.
+    portrait: Background<PicturesQuery>,
     place: layout::WindowPlace,
     ctx: egui::Context,
 }
@@ -76,7 +82,7 @@ impl ChromascopeApp {
         Self::on(&Executor::default(), ctx, history, saved, files)
     }
 
-    /// Starts with a document, and has an executor do what is done beside the window.
+    /// Creates the app with a document and an executor for background work.
     pub fn on(
         executor: &Executor,
         ctx: &egui::Context,
@@ -87,8 +93,11 @@ impl ChromascopeApp {
         saved.layout.retain(|pane| panes::by_kind(pane).is_some());
         theme::apply(ctx);
         files.wake(ctx);
-        let [window, also, third, fourth, fifth, sixth, seventh] = [(); 7].map(|()| ctx.clone());
-        let opened = Opened::on(executor, move || also.request_repaint());
+        let repaint = || {
+            let ctx = ctx.clone();
+            move || ctx.request_repaint()
+        };
+        let opened = Opened::on(executor, repaint());
         opened.recall(saved.import.failing.clone());
         let import = ImportView { unseen: saved.import.unseen.clone(), ..ImportView::default() };
         let catalog = Catalog::built_in();
@@ -98,14 +107,14 @@ impl ChromascopeApp {
             results: executor.results(),
             view: View { saved, import, kept: files.kept_documents(), ..View::default() },
             files,
-            meshes: MeshStore::on(executor, move || window.request_repaint()),
+            meshes: MeshStore::on(executor, repaint()),
+            images: ImageStore::on(executor, repaint()),
             opened,
-            recorded: RecordedStore::on(executor, move || fifth.request_repaint()),
-            radiators: Background::on(executor, "blackbodies", move || third.request_repaint()),
-            corrections: Background::on(executor, "color corrections", move || sixth.request_repaint()),
+            recorded: RecordedStore::on(executor, repaint()),
+            radiators: Background::on(executor, "blackbodies", repaint()),
             studio: RenderService::on(executor, ctx),
-            laboratory: Profiler::on(executor, move || fourth.request_repaint()),
-            ranking: Ranking::on(executor, move || seventh.request_repaint()),
+            laboratory: Profiler::on(executor, repaint()),
+            ranking: Ranking::on(executor, repaint()),
             curves: None,
             commands: Vec::new(),
             last_read: std::collections::HashMap::new(),
@@ -113,12 +122,14 @@ impl ChromascopeApp {
             first_frame: None,
             focus: None,
             closing: closing::Closing::default(),
+            interrupted: None,
+            portrait: Background::on(executor, "portrait", repaint()),
             place: layout::WindowPlace::default(),
             ctx: ctx.clone(),
         }
     }
 
-    /// Takes in where the window was in the last run.
+    /// Restores the window's position and size from the last run.
     pub fn restore_place(&mut self, storage: Option<&dyn eframe::Storage>) {
         self.place = layout::WindowPlace::restored(storage);
     }
@@ -145,7 +156,7 @@ impl ChromascopeApp {
 
     /// Part of the view that is saved between runs.
     pub fn saved_view(&self) -> SavedView {
-        let mut saved = self.view.saved.clone();
+        let mut saved = self.own_view().clone();
         saved.import.failing = self.opened.failing();
         let own = &self.history.document().own;
         saved.import.unseen.clone_from(&self.view.import.unseen);
@@ -166,12 +177,17 @@ impl ChromascopeApp {
         &self.meshes
     }
 
+    /// The user's spectral images.
+    pub fn images(&self) -> &ImageStore {
+        &self.images
+    }
+
     /// The spectral files that were opened.
     pub fn opened(&self) -> &Opened {
         &self.opened
     }
 
-    /// True if a path is being asked for.
+    /// True if a path is being requested.
     pub fn is_asking(&self) -> bool {
         self.files.is_asking()
     }
@@ -186,12 +202,12 @@ impl ChromascopeApp {
         &self.laboratory
     }
 
-    /// Where cameras are ranked.
+    /// Camera ranking service.
     pub fn ranking(&self) -> &Ranking {
         &self.ranking
     }
 
-    /// The same, for tests to set up.
+    /// Mutable access to the profiler, for tests.
     pub fn laboratory_mut(&mut self) -> &mut Profiler {
         &mut self.laboratory
     }
@@ -201,7 +217,7 @@ impl ChromascopeApp {
         self.commands.push(command.into());
     }
 
-    /// Says when the first frame was complete, counted from `start`.
+    /// Reports when the first frame was complete, counted from `start`.
     pub fn report_first_frame(&mut self, start: std::time::Instant) {
         self.first_frame = Some(start);
     }
@@ -211,6 +227,10 @@ impl ChromascopeApp {
         if self.files.is_asking() {
             return self.keep_keys_for_path(ctx);
         }
+        if ctx.input(|input| input.pointer.any_pressed()) {
+            (self.view.by_keyboard, self.view.cursor) = (false, None);
+        }
+        focus::enter_pane(ctx, &mut self.view);
         let typing = ctx.text_edit_focused();
         let focused = self.view.focused.unwrap_or(PaneKind::CHROMATICITY);
         for binding in key_bindings(focused) {
@@ -239,8 +259,8 @@ impl ChromascopeApp {
         }
     }
 
-    /// While a path is asked for, keys are meant for that: none is a shortcut, and until the box or dialog has the keyboard
-    /// they go nowhere. Esc closes the box, and brings it where a dialog does not come.
+    /// While a path is requested, no key is a shortcut, and until the prompt or dialog has the keyboard focus all keys are
+    /// discarded. Esc closes the prompt, and opens it where a dialog fails to appear.
     fn keep_keys_for_path(&mut self, ctx: &egui::Context) {
         self.view.blink = false;
         let escape = ctx.input_mut(|input| input.consume_key(egui::Modifiers::NONE, egui::Key::Escape));
@@ -273,6 +293,7 @@ impl eframe::App for ChromascopeApp {
         self.take_dropped(ctx);
         self.take_opened();
         self.take_meshes();
+        self.take_images();
         self.take_input(ctx);
         focus::into_sight(ctx, &mut self.focus);
         self.carry_out(ctx);
@@ -285,16 +306,21 @@ impl eframe::App for ChromascopeApp {
 
     fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
         self.view.point = None;
+        self.view.draw_in(ui.input(|input| input.time));
+        if self.view.locus_share.is_some() {
+            ui.ctx().request_repaint();
+        }
         self.view.table_copies = false;
         let document = self.history.document();
         let source = self.view.selected.as_ref().and_then(PlotItem::source);
-        self.view.selected_elsewhere = source.is_some_and(|id| document.compared(id.kind, &id.name).is_none());
+        self.view.selected_elsewhere = source.is_some_and(|id| document.compared(id.kind, &id.name).is_none())
+            || matches!(self.view.selected, Some(PlotItem::DataSet { .. }));
         self.show(ui);
         self.view.reset_plots = false;
         let hovered = self.view.next_hovered.take();
         if hovered != self.view.hovered {
             self.view.hovered = hovered;
-            // What is under the pointer is marked in panes that were already drawn.
+            // Another frame marks the hovered item in panes that were already drawn.
             ui.ctx().request_repaint();
         }
         let focus_moved = ui.memory(egui::Memory::focused) != self.focus;
@@ -312,6 +338,7 @@ impl eframe::App for ChromascopeApp {
     }
 
     fn on_exit(&mut self, _: Option<&eframe::glow::Context>) {
+        self.end_tour();
         self.save_layout(true);
         if let Err(why) = self.files.save_document(self.history.document()) {
             log::error!("the document is not saved: {why}");

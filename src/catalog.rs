@@ -1,9 +1,10 @@
-//! The data sets there are: built in, and the user's own.
+//! Catalog of the data sets, built in and imported.
 //!
-//! The index is made of headers alone; a set's figures are parsed when a question first asks for them
-//! ([`load`]), and cached with the other answers.
+//! The index consists of headers alone; a set's values are parsed when a query first needs them ([`load`]), and are
+//! cached with the other answers.
 
 pub mod chart_picture;
+pub mod file_store;
 pub mod import;
 pub mod likeness;
 pub mod load;

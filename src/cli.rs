@@ -1,8 +1,7 @@
-//! The same answers without a window: `locus`, `patches`, `compare`, `matrix`, `light`, `render`, `identify`, `inspect`, `bench`,
-//! `list`.
+//! Command-line interface: `locus`, `patches`, `compare`, `matrix`, `light`, `render`, `identify`, `inspect`, `bench`, `list`.
 //!
-//! Arguments become a [`Document`](crate::document::Document) and are answered through [`Scene`](crate::scene::Scene), as in the
-//! window, so that the two cannot disagree. Nothing here needs a display or a graphics library.
+//! Arguments become a [`Document`](crate::document::Document), which is evaluated through [`Scene`](crate::scene::Scene), as in
+//! the window, so that the two cannot disagree. Nothing here needs a display or a graphics library.
 
 mod arguments;
 mod bench;
@@ -34,7 +33,7 @@ pub use self::tables::list;
 use crate::catalog::Catalog;
 pub use crate::terminal::say;
 
-/// What the command line asks for.
+/// Action requested by the command line.
 pub enum Outcome {
     /// A window with these files.
     Window(Vec<PathBuf>),
@@ -82,7 +81,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Outcome {
     })
 }
 
-/// True if what stands for a file is a bare word that no file has: a command that was mistyped.
+/// True if an argument in the place of a file is a bare word and no such file exists: a mistyped command.
 fn is_mistyped_command(file: &Path) -> bool {
     file.components().count() == 1 && file.extension().is_none() && !file.exists()
 }
@@ -93,7 +92,7 @@ fn explain(error: &clap::Error) -> u8 {
     if error.use_stderr() {
         say(&text);
     } else {
-        // Nothing can be said when the terminal is gone.
+        // No message can be written once the terminal is closed.
         let _gone = show(&text);
     }
     u8::try_from(error.exit_code()).unwrap_or(2)

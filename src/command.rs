@@ -7,8 +7,9 @@ use crate::action::Action;
 use crate::document::SetKind;
 use crate::document::own::{Fingerprint, ImportOverrides};
 use crate::export::spectra::Form;
-use crate::plot_item::SensorId;
+use crate::plot_item::{PlotItem, SensorId};
 use crate::theme::Surround;
+use crate::view::ViewChoice;
 use crate::view::correction::CorrectionForm;
 use crate::view::import::ImportItem;
 use crate::workspaces::{PaneKind, Workspace};
@@ -22,15 +23,15 @@ pub enum Command {
     Undo,
     /// Bring it again.
     Redo,
-    /// Ask for files to open.
+    /// Show the dialog for files to open.
     Open,
-    /// Ask for a file of recorded raw values.
+    /// Show the dialog for a file of recorded raw values.
     OpenRecorded,
-    /// Ask for a folder whose files are to be opened.
+    /// Show the dialog for a folder of files to open.
     OpenFolder,
-    /// Open a document in place of this one, which is kept.
+    /// Open a document in place of this one, which is saved first.
     OpenDocument(std::path::PathBuf),
-    /// Delete a document that another window kept.
+    /// Delete a document that another window saved.
     RemoveDocument(std::path::PathBuf),
     /// Open a file or folder of the given path.
     OpenPath(std::path::PathBuf),
@@ -38,7 +39,7 @@ pub enum Command {
     ShowImport(ImportItem, Option<usize>),
     /// Have a file read otherwise.
     Wish(ImportItem, Box<ImportOverrides>),
-    /// Give up what was tried on the file on show.
+    /// Discard the settings tried on the selected file.
     TakeWishBack,
     /// Leave all to the content again, for a file and those like it.
     ForgetChoices(ImportItem),
@@ -54,7 +55,7 @@ pub enum Command {
     ReadAgain(String),
     /// Stop reading files.
     StopReading,
-    /// Measure what the scene costs.
+    /// Measure the cost of the scene.
     SpectralWeights,
     /// Measure a workload of the bench.
     MeasureWorkload(Workload),
@@ -68,10 +69,14 @@ pub enum Command {
     ExportExr(SensorId),
     /// Save the curves of a set of the library.
     SaveSet(SetKind, String, Form),
-    /// Save the color correction on show.
+    /// Save the current color correction.
     SaveCorrection(CorrectionForm),
     /// Put a pane's picture on the clipboard.
     CopyPicture(PaneKind),
+    /// Put a pane's figure, the swatches and the conditions on the clipboard as one picture.
+    CopyCard(PaneKind),
+    /// Save that picture.
+    SaveCard(PaneKind),
     /// Put a pane's numbers on the clipboard.
     CopyNumbers(PaneKind),
     /// Show another workspace.
@@ -80,7 +85,7 @@ pub enum Command {
     Maximize(PaneKind),
     /// Show a pane, or hide it.
     TogglePane(PaneKind),
-    /// The inspector, beside or over the rest.
+    /// Show the inspector, in its column or over the center.
     ToggleInspector,
     /// Let plots show their own ranges.
     ResetView,
@@ -90,8 +95,16 @@ pub enum Command {
     SetTheme(egui::ThemePreference),
     /// The gray around swatches.
     SetSurround(Surround),
-    /// Opens the help page of this name.
-    Help(&'static str),
+    /// How plots and pictures stand.
+    Look(ViewChoice),
+    /// Select a thing.
+    Select(PlotItem),
+    /// Open the help page of this name at a block.
+    Help(&'static str, usize),
+    /// Go through the tour.
+    Tour(TourMove),
+    /// Show or hide the window about the program.
+    ToggleAbout,
     /// Search the library.
     FocusSearch,
     /// Open the palette of commands.
@@ -104,12 +117,29 @@ pub enum Command {
     Pin,
     /// Show or hide the bars of differences.
     ToggleDifference,
-    /// Let go, one thing at a time.
+    /// Clear the selection and similar states, one at a time.
     Escape,
     /// Go to the next pane.
     NextPane,
+    /// Show a pane and give it the keyboard.
+    GoTo(PaneKind),
+    /// Go to the control of this name in a pane.
+    Seek(PaneKind, &'static str),
     /// End the program.
     Quit,
+}
+
+/// A step through the tour.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TourMove {
+    /// To its first step.
+    Begin,
+    /// To the step before.
+    Back,
+    /// To the next step; from the last one, to the end.
+    Next,
+    /// To the end: the user's own document comes back.
+    End,
 }
 
 /// A form to save in.
@@ -146,11 +176,11 @@ impl From<Action> for Command {
     }
 }
 
-/// A key and what it does. One table makes the keys, the menus' hints and the page of help.
+/// A key and its command. One table serves the keys, the menus' hints and the help page.
 pub struct KeyBinding {
     /// The key.
     pub shortcut: KeyboardShortcut,
-    /// What it does.
+    /// Command that the shortcut runs.
     pub command: Command,
     /// In words.
     pub words: &'static str,
@@ -213,11 +243,23 @@ pub fn key_bindings(focused: PaneKind) -> Vec<KeyBinding> {
     }
     let always = |key, command, words| KeyBinding { shortcut: plain(key), command, words, rests_while_typing: false };
     keys.extend([
-        always(Key::F1, Command::Help(crate::help::FIRST), "Help"),
+        always(Key::F1, Command::Help(crate::help::FIRST, 0), "Help"),
         always(Key::F6, Command::NextPane, "Next pane"),
         always(Key::Escape, Command::Escape, "One step back"),
     ]);
     keys
+}
+
+/// Themes with their names.
+pub const THEMES: [(egui::ThemePreference, &str); 3] = [
+    (egui::ThemePreference::System, "System"),
+    (egui::ThemePreference::Dark, "Dark"),
+    (egui::ThemePreference::Light, "Light"),
+];
+
+/// A key as it is written here.
+pub fn key_name(shortcut: KeyboardShortcut) -> String {
+    shortcut.format(&egui::ModifierNames::NAMES, cfg!(target_os = "macos"))
 }
 
 /// The key of a command, if it has one.

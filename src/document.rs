@@ -1,7 +1,7 @@
-//! Ground state: what is compared, under what. Saved; knows no window.
+//! Document: the compared sensors and their conditions. Saved; independent of the window.
 //!
-//! Everything that can be computed from it and the data sets is not in here. The JSON it is saved as is the session file:
-//! versioned, unknown fields kept, the user's own data by value.
+//! Contains nothing that can be computed from it and the data sets. The JSON it is saved as is the session file:
+//! versioned, unknown fields preserved, the user's own data by value.
 
 pub mod correction;
 pub mod kept;
@@ -27,17 +27,17 @@ use start::Start;
 /// The version of the saved form that this program writes.
 pub const VERSION: u32 = 4;
 
-/// What is compared, under which light, with what settings.
+/// Complete description of a comparison: sensors, light, chart and settings.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Document {
-    /// Which program wrote it: `chromascope`.
+    /// Name of the program that wrote the document: `chromascope`.
     pub format: String,
     /// The version of this form.
     pub version: u32,
-    /// The start that it was made from, and that a reset goes back to.
+    /// The start configuration that it was made from, to which a reset returns.
     pub start: Start,
-    /// The cameras and observers on show, in the order of the list. The reference is among them.
+    /// The compared cameras and observers, in the order of the list. The reference is among them.
     pub compared: Vec<Compared>,
     /// The observer that the others are compared to.
     pub reference: String,
@@ -50,13 +50,13 @@ pub struct Document {
     pub temperature_k: f64,
     /// The patches.
     pub chart: String,
-    /// How many of them.
+    /// Subset of the chart's patches.
     pub subset: Subset,
     /// The color a perfect white is to take.
     pub white: WhiteBalanceChoice,
-    /// The way from signals to the diagram.
+    /// Color transform from sensor signals to XYZ.
     pub transform: TransformChoice,
-    /// How fitted color transforms are fitted.
+    /// Method by which color transforms are fitted.
     #[serde(skip_serializing_if = "CorrectionChoice::is_default")]
     pub correction: CorrectionChoice,
     /// Metric of the differences from the reference.
@@ -64,31 +64,31 @@ pub struct Document {
     pub difference: Metric,
     /// The diagram's coordinates.
     pub diagram: Diagram,
-    /// What the diagram shows besides.
+    /// Optional overlays of the chromaticity diagram.
     pub overlays: Overlays,
-    /// What the Render pane looks at.
+    /// Mesh, material and view of the Render pane.
     pub render: RenderSettings,
     /// The user's own sets, by value.
     #[serde(with = "own::list")]
     pub own: Vec<Shared<OwnSet>>,
-    /// What a newer version wrote and this one does not know.
+    /// Fields written by a newer version and preserved unchanged.
     #[serde(flatten)]
     pub unknown: serde_json::Map<String, serde_json::Value>,
 }
 
-/// A camera or observer on show.
+/// A compared camera or observer.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Compared {
     /// Its name in the catalog.
     pub name: String,
     /// Camera or observer.
     pub kind: SetKind,
-    /// Its place in the palette, kept while it is compared.
+    /// Its place in the palette, constant while it is compared.
     pub slot: u8,
     /// True if its curves are drawn.
     #[serde(default = "yes")]
     pub visible: bool,
-    /// What the user calls it, if not its name.
+    /// Display label, if different from the name.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub label: Option<String>,
 }
@@ -103,7 +103,7 @@ fn yes() -> bool {
 pub enum Light {
     /// A data set.
     Set(String),
-    /// A black body of the document's temperature.
+    /// A blackbody of the document's temperature.
     BlackBody,
     /// CIE daylight of the document's temperature.
     Daylight,
@@ -131,11 +131,11 @@ pub enum WhiteBalanceChoice {
     Light(String),
     /// CIE daylight of a temperature in kelvins.
     Daylight(f64),
-    /// A black body of a temperature in kelvins.
+    /// A blackbody of a temperature in kelvins.
     BlackBody(f64),
 }
 
-/// The way from signals to the diagram.
+/// Color transform from sensor signals to XYZ.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum TransformChoice {
@@ -202,7 +202,7 @@ pub enum Diagram {
     UvPrime,
 }
 
-/// What the diagram shows besides loci and patches.
+/// Overlays of the chromaticity diagram other than loci and patches.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default)]
 #[expect(clippy::struct_excessive_bools, reason = "independent switches of one menu")]
@@ -227,6 +227,23 @@ pub struct Overlays {
     pub rec2020: bool,
 }
 
+impl Overlays {
+    /// Each switch with what it shows.
+    pub fn labeled(&mut self) -> [(&mut bool, &'static str); 9] {
+        [
+            (&mut self.loci, "Planckian loci"),
+            (&mut self.patches, "Patches"),
+            (&mut self.camera_spectral_loci, "Cameras' spectral loci: errors that no 3×3 matrix can correct"),
+            (&mut self.daylight, "Daylight locus"),
+            (&mut self.whites, "Standard whites and the light"),
+            (&mut self.isotherms, "Isotherms: lines of equal CCT, to Duv ±0.03"),
+            (&mut self.srgb, "sRGB"),
+            (&mut self.dci_p3, "DCI-P3"),
+            (&mut self.rec2020, "Rec. 2020"),
+        ]
+    }
+}
+
 impl Default for Overlays {
     fn default() -> Self {
         Self {
@@ -249,11 +266,11 @@ pub const PAPER_REFERENCE: &str = "Stiles & Burch 1955 2°";
 pub const FIT_TARGET: &str = CIE_1931;
 /// The CIE 1931 2° standard observer.
 pub const CIE_1931: &str = "CIE 1931 2°";
-/// The chart on show unless the user says otherwise.
+/// Default chart.
 pub const CHART: &str = "ColorChecker 24 (Ohta 1997)";
 /// The light on the scene unless the user says otherwise.
 pub const LIGHT: &str = "E";
-/// The most sensors that are compared at once: each has a place of its own in the palette.
+/// Maximum number of compared sensors: each has a place of its own in the palette.
 pub const MOST_COMPARED: usize = 256;
 /// The temperatures of a locus unless the user says otherwise, in kelvins.
 pub const LOCUS_RANGE_K: [f64; 2] = [1000.0, 20_000.0];
@@ -300,7 +317,7 @@ impl Document {
         Start::Paper.document()
     }
 
-    /// Puts a sensor on show, in the first free place of the palette.
+    /// Adds a sensor to the comparison, in the first free place of the palette.
     pub fn compare(&mut self, name: &str, kind: SetKind) {
         if self.compared.len() >= MOST_COMPARED || self.compared.iter().any(|c| c.kind == kind && c.name == name) {
             return;
@@ -310,7 +327,7 @@ impl Document {
         self.compared.push(Compared { name: name.to_owned(), kind, slot, visible: true, label: None });
     }
 
-    /// The sensor of this name on show.
+    /// The compared sensor of this name.
     pub fn compared(&self, kind: SetKind, name: &str) -> Option<&Compared> {
         self.compared.iter().find(|c| c.kind == kind && c.name == name)
     }

@@ -1,5 +1,6 @@
 //! Figures out of the program: SVG from the figure, PNG from that SVG, both in the bundled fonts.
 
+pub mod card;
 pub mod profile;
 pub mod render;
 pub mod spectra;
@@ -83,7 +84,17 @@ pub fn svg(figure: &Figure, theme: &Theme, paper: Paper) -> String {
 
 /// The SVG as a picture with `scale` pixels per point (1/72 inch).
 pub fn png(svg: &str, scale: f32) -> Result<RgbaImage, ExportError> {
+    drawn(&usvg::Tree::from_str(svg, &options())?, scale)
+}
+
+/// The SVG as a picture that is as large as fits into a width and a height in pixels.
+pub fn png_within(svg: &str, room: [f64; 2]) -> Result<RgbaImage, ExportError> {
     let tree = usvg::Tree::from_str(svg, &options())?;
+    let own = [tree.size().width(), tree.size().height()];
+    drawn(&tree, (room[0] as f32 / own[0]).min(room[1] as f32 / own[1]))
+}
+
+fn drawn(tree: &usvg::Tree, scale: f32) -> Result<RgbaImage, ExportError> {
     let size = tree.size();
     let [width, height] = [size.width(), size.height()].map(|side| (side * scale).ceil() as u32);
     let too_large = || ExportError::Size { width, height };
@@ -91,7 +102,7 @@ pub fn png(svg: &str, scale: f32) -> Result<RgbaImage, ExportError> {
         return Err(too_large());
     }
     let mut pixels = tiny_skia::Pixmap::new(width, height).ok_or_else(too_large)?;
-    resvg::render(&tree, tiny_skia::Transform::from_scale(scale, scale), &mut pixels.as_mut());
+    resvg::render(tree, tiny_skia::Transform::from_scale(scale, scale), &mut pixels.as_mut());
     let straight = pixels.pixels().iter().flat_map(|pixel| {
         let color = pixel.demultiply();
         [color.red(), color.green(), color.blue(), color.alpha()]

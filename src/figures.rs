@@ -4,8 +4,11 @@ pub mod accuracy;
 pub mod chromaticity;
 pub mod correction;
 pub mod curves;
+pub mod data_set;
+mod labels;
 pub mod light;
 pub mod metrics;
+pub mod portrait;
 pub mod recorded;
 pub mod render;
 pub mod report_card;
@@ -13,6 +16,7 @@ pub mod skipped_work;
 pub mod spectra;
 pub mod strip;
 pub mod swatches;
+pub mod thumbnail;
 
 use std::sync::Arc;
 
@@ -22,23 +26,23 @@ use crate::render_service::{RenderService, RenderedFrame};
 use crate::scene::Scene;
 use crate::view::View;
 
-/// What a saved figure is made of: the scene, how it is looked at, and what was last made of it beside the window.
+/// Input of an exported figure: the scene, the view and the latest background results.
 #[derive(Clone)]
 pub struct FigureInput<'a> {
     /// The scene.
     pub scene: &'a Scene<'a>,
-    /// How it is looked at.
+    /// View settings.
     pub view: &'a View,
-    /// The pictures on show.
+    /// The current pictures.
     pub pictures: Option<&'a RenderedFrame>,
-    /// What was measured.
+    /// Latest measurements.
     pub measured: &'a Measured,
-    /// What the file in Import was last understood as.
+    /// Latest preview of the file selected in Import.
     pub preview: Option<Arc<FilePreview>>,
 }
 
 impl<'a> FigureInput<'a> {
-    /// A scene with what was last made of it.
+    /// Input of a scene with its latest background results.
     pub fn of(
         (scene, view): (&'a Scene<'a>, &'a View),
         studio: &'a RenderService,
@@ -49,7 +53,7 @@ impl<'a> FigureInput<'a> {
         Self { scene, view, pictures, measured: &laboratory.measured, preview: opened.preview() }
     }
 
-    /// A scene of which nothing was made beside the window.
+    /// A scene of which nothing was made in the background.
     pub fn new(scene: &'a Scene<'a>, view: &'a View) -> Self {
         static NOTHING: Measured = Measured::NOTHING;
         Self { scene, view, pictures: None, measured: &NOTHING, preview: None }

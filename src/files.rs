@@ -1,6 +1,6 @@
-//! Files in and out: dialogs, reading, atomic writing, the document kept between runs.
+//! File input and output: dialogs, reading, atomic writing, the document saved between runs.
 //!
-//! Dialogs, reads and writes run on threads of their own and come back through [`Files::poll`]; the window never waits.
+//! Dialogs, reads and writes run on their own threads and return through [`Files::poll`]; the window never waits.
 
 mod asking;
 mod atomic;
@@ -9,6 +9,7 @@ mod event;
 mod keep;
 mod kept;
 mod last;
+mod motion;
 mod profile;
 mod prompt;
 mod save;
@@ -29,6 +30,7 @@ pub use atomic::{write_atomically, write_atomically_with};
 pub use dialogs::{Answer, DialogLog, Dialogs, Question};
 pub use event::{FileEvent, OpenedDocument};
 pub use last::{install_panic_hook, save_last, save_on_exit, save_on_signals};
+pub use motion::reduces_motion;
 pub use profile::Copy;
 pub use prompt::PathPrompt;
 pub use save::{FileForm, SaveRequest};
@@ -40,12 +42,12 @@ pub struct Files {
     receiver: Receiver<Note>,
     keeper: keep::Keeper,
     prompt: Option<PathPrompt>,
-    /// The system's dialogs; none where paths are asked for in the window alone.
+    /// The system's dialogs; none where paths are requested in the window alone.
     dialogs: Option<Arc<dyn Dialogs>>,
     waiting: Option<asking::Waiting>,
     /// True while something to be saved is being computed.
     making: bool,
-    /// Number of files being computed that are no longer wanted.
+    /// Number of canceled computations of files that are still running.
     unwanted: usize,
     ticket: u64,
     home: Option<PathBuf>,
@@ -57,7 +59,8 @@ pub struct Files {
 }
 
 impl Files {
-    /// With the folder that the document is kept in between runs, if any. It is this window's until it closes.
+    /// Creates it with the folder in which the document is saved between runs, if any. The folder is locked by this
+    /// window until it closes.
     pub fn new(folder: Option<PathBuf>) -> Self {
         Self::on(&Executor::default(), folder)
     }
@@ -83,13 +86,13 @@ impl Files {
         }
     }
 
-    /// Asks for paths in the window alone, as where the system has no dialogs.
+    /// Uses path prompts in the window only, as where the system has no dialogs.
     #[must_use]
     pub fn without_dialogs(self) -> Self {
         Self { dialogs: None, ..self }
     }
 
-    /// Asks for paths with other dialogs than the system's.
+    /// Uses other dialogs than the system's.
     #[must_use]
     pub fn with_dialogs(self, dialogs: Arc<dyn Dialogs>) -> Self {
         Self { dialogs: Some(dialogs), ..self }
@@ -134,7 +137,7 @@ impl Files {
                     self.making = false;
                     events.push(FileEvent::Failed(sentence));
                 }
-                // What was asked for meanwhile goes first.
+                // What was requested meanwhile goes first.
                 Note::NotSaved(prompt) => self.prompt = self.prompt.take().or(Some(prompt)),
                 Note::Completed(done) => self.completed(done),
             }
@@ -167,7 +170,7 @@ impl Files {
 
     fn note(&self, note: Note) {
         let _closed = self.sender.send(note);
-        // It is taken in with the next frame.
+        // It is processed in the next frame.
         if let Some(ctx) = &self.wake {
             ctx.request_repaint();
         }

@@ -1,4 +1,4 @@
-//! Numbers, times and messages of libraries as text for people.
+//! Numbers, times and messages of libraries as text for display.
 
 use std::path::Path;
 
@@ -36,7 +36,7 @@ pub(crate) fn capitalized(words: &str) -> String {
     letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }
 
-/// A message of a library as a sentence: with a capital at its start and a full stop.
+/// A library's message as a sentence: with a capital at its start and a full stop.
 pub(crate) fn sentence(words: &str) -> String {
     format!("{}.", capitalized(words))
 }
@@ -58,8 +58,8 @@ pub(crate) fn io_reason(error: &std::io::Error) -> String {
     text[..end].to_lowercase()
 }
 
-/// Rows of a file that are in no curve: a sentence for those merged into others and one for those left out, each with the lines of
-/// at most `told` rows.
+/// Rows of a file that are in no curve: a sentence for the merged and one for the omitted ones, each with the line numbers of at
+/// most `told` rows.
 pub(crate) fn dropped_rows(rows: &[DroppedRow], told: usize) -> Vec<String> {
     let (merged, left): (Vec<&DroppedRow>, Vec<&DroppedRow>) =
         rows.iter().partition(|row| row.why == Dropped::Averaged);

@@ -29,7 +29,7 @@ const ORDER: [&str; 14] = [
     "data",
 ];
 
-/// Pages for those who change the program.
+/// Pages for developers.
 const LAST: [&str; 2] = ["benchmark", "architecture"];
 
 /// The page that opens first.

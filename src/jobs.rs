@@ -1,11 +1,10 @@
-//! Work beside the window: a named thread for each place on screen that waits for long answers.
+//! Background work: a named thread for each view that waits for long computations.
 //!
-//! The latest request wins and stops the one before it; the last answer stays on show; a panic stays where it happened. A request
-//! is one question in stages from coarse to fine, or a list of questions ([`Background::progress`] counts those answered, and
-//! [`Results::known`] has their answers as they come). The
-//! threads share the answers and, for their loops, the common rayon pool, of which none is a part: no thread of the pool ever
-//! begins a whole job while it waits for a piece of another. Tests run the same work on a [driven](Executor::driven) executor: on
-//! their own thread, when they say so, by a clock that they move.
+//! The latest request stops the one before it; the last answer stays visible meanwhile; a panic fails its own request only. A
+//! request is one query in stages from coarse to fine, or a list of queries ([`Background::progress`] counts the finished ones,
+//! and [`Results::known`] has their answers as they arrive). The threads share the cache and, for their loops, the common rayon
+//! pool, to which none of them belongs: no thread of the pool starts a whole job while it waits for a part of another. Tests run
+//! the same work on a [driven](Executor::driven) executor: on their own thread and clock.
 
 mod desk;
 mod executor;
@@ -25,13 +24,13 @@ use chromascope_core::render::Stop;
 
 use crate::results::Results;
 
-/// Something to be done beside the window. Every [`Query`] is one; what is measured is another, as asking again measures again.
+/// Work to be done in the background. Every [`Query`] is a job; so is a measurement, which is repeated at each request.
 pub trait Job: Clone + PartialEq + Send + Sync + 'static {
     /// Its outcome.
     type Answer: Send + Sync + 'static;
 
-    /// Does it, with answers that all share. What comes of it once [`Results::stop`](chromascope_core::query::Ask::stop) is set is
-    /// thrown away.
+    /// Runs the job with the shared cache. The result is discarded if [`Results::stop`](chromascope_core::query::Ask::stop) was
+    /// set meanwhile.
     fn run(&self, results: &Results) -> Arc<Self::Answer>;
 }
 
@@ -43,7 +42,7 @@ impl<Q: Query> Job for Q {
     }
 }
 
-/// Answers of one kind of job, made on a thread of their own.
+/// Runs one kind of job on a thread of its own and holds its latest answer.
 pub struct Background<J: Job> {
     desk: Arc<Desk<State<J>>>,
     name: String,
@@ -53,7 +52,7 @@ pub struct Background<J: Job> {
 }
 
 struct State<J: Job> {
-    /// The stages of the latest request, from coarse to fine; what is to be made next.
+    /// The stages of the latest request, from coarse to fine, and the next one.
     stages: Arc<[J]>,
     next: usize,
     stop: Arc<AtomicBool>,
@@ -65,15 +64,15 @@ struct State<J: Job> {
     closed: bool,
 }
 
-/// An answer on show.
+/// The latest answer.
 pub struct Shown<J: Job> {
-    /// What it answers.
+    /// Job that produced the answer.
     pub job: J,
     /// The answer.
     pub answer: Arc<J::Answer>,
     /// True if it is of the latest request.
     pub current: bool,
-    /// How long it took, earlier stages not included.
+    /// Time taken by this stage alone.
     pub time: Duration,
     /// A number that no other answer has.
     pub serial: u64,
@@ -119,14 +118,14 @@ impl<J: Job> Background<J> {
         Self { desk, name: name.to_owned(), executor: executor.clone(), is_queued: Rc::default() }
     }
 
-    /// Asks for stages from coarse to fine. The same request again changes nothing; another stops the one before it.
+    /// Requests stages from coarse to fine. The same request again changes nothing; another stops the one before it.
     pub fn ask(&self, stages: Vec<J>) {
         if *self.desk.lock().stages != *stages {
             self.ask_anew(stages);
         }
     }
 
-    /// Asks for stages even if they are those of the latest request.
+    /// Requests stages even if they are those of the latest request.
     pub fn ask_anew(&self, stages: Vec<J>) {
         let mut state = self.desk.lock();
         state.stop.store(true, Ordering::Relaxed);
@@ -157,22 +156,22 @@ impl<J: Job> Background<J> {
         });
     }
 
-    /// Stops what is being made: nobody looks. The answer on show stays.
+    /// Stops the current work, as its result is no longer needed. The last answer stays available.
     pub fn rest(&self) {
         self.ask(Vec::new());
     }
 
-    /// The last answer with its question, which may not be the latest that was asked.
+    /// The last answer with its query, which may not be the latest requested.
     pub fn shown(&self) -> Option<Shown<J>> {
         self.desk.lock().shown.clone()
     }
 
-    /// For how long the latest request has been worked on, if it still is.
+    /// Running time of the latest request, if it is still running.
     pub fn busy(&self) -> Option<Duration> {
         self.desk.lock().begun.map(|begun| self.desk.clock().since(begun))
     }
 
-    /// The stages of the latest request, and how many of them are made.
+    /// The stages of the latest request, and the number of finished ones.
     pub fn progress(&self) -> (Arc<[J]>, usize) {
         let state = self.desk.lock();
         (Arc::clone(&state.stages), state.next)
@@ -183,7 +182,7 @@ impl<J: Job> Background<J> {
         self.desk.lock().failure.clone()
     }
 
-    /// Waits until the latest request is answered or has failed. For tests and programs without a window.
+    /// Waits until the latest request has finished or failed. For tests and programs without a window.
     pub fn wait(&self) {
         self.desk.settle(&self.executor, |state| state.begun.is_none() || state.failure.is_some());
     }
@@ -241,7 +240,7 @@ fn step<J: Job>(desk: &Desk<State<J>>, results: &Results) {
     desk.tell();
 }
 
-/// What a panic said.
+/// Message of a panic.
 fn said(panic: &(dyn std::any::Any + Send)) -> String {
     let text = panic.downcast_ref::<&str>().map(|text| (*text).to_owned());
     text.or_else(|| panic.downcast_ref::<String>().cloned()).unwrap_or_else(|| "an unknown failure".to_owned())
@@ -273,7 +272,7 @@ mod tests {
         (executor, worker)
     }
 
-    /// The answer on show, whether it is of the latest request, and how many stages of that are made.
+    /// The latest answer, whether it is of the latest request, and how many stages of that are finished.
     fn shown(worker: &Background<Doubled>) -> Option<(u32, bool, usize)> {
         worker.shown().map(|shown| (*shown.answer, shown.current, worker.progress().1))
     }

@@ -1,17 +1,17 @@
 //! Chromascope's window and command line, as a library for its tests.
 //!
 //! ```text
-//! format  terminal  theme      text for people, standard error, colors and sizes
-//! document ─► action           what is compared under what; its changes, and undo
-//! results ─► jobs              answers, the only cache; computations beside the window
+//! format  terminal  theme      text for display, standard error, colors and sizes
+//! document ─► action           the comparison and its conditions; its changes, and undo
+//! results ─► jobs              answers, the only cache; computations in the background
 //! catalog ─► scene             data sets; names become data, choices become queries
 //! files  export                the document and the user's files; pictures and tables out
-//! plot_item  paint  workspaces what marks stand for; figures on screen; which panes stand where
+//! plot_item  paint  workspaces items of marks; figures on screen; arrangement of panes
 //! render_service  bench  profiler   pictures of meshes; run time against error
-//! view ─► command              what is looked at; what keys, menus and panes ask for
+//! view ─► command              the view state; requests of keys, menus and panes
 //! ranking                      figures of merit of many cameras
 //! figures                      answers become figures
-//! panes  cli                   show them, and ask for changes
+//! panes  cli                   show them, and request changes
 //! app                          the window
 //! ```
 //!

@@ -17,7 +17,7 @@ fn main() -> ExitCode {
         .format_timestamp_millis()
         .target(env_logger::Target::Pipe(Box::new(terminal::StandardError)))
         .build();
-    // Errors come through whatever the environment says: by them dialogs that are not there are told from Cancel.
+    // Errors are logged regardless of the environment: they distinguish unavailable dialogs from Cancel.
     log::set_max_level(logger.filter().max(log::LevelFilter::Error));
     if let Err(error) = log::set_boxed_logger(Box::new(files::DialogLog::new(logger))) {
         terminal::say(&format!("chromascope: no log: {error}\n"));

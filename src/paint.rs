@@ -11,7 +11,7 @@ mod pictures;
 mod texture;
 mod triangles;
 
-use chromascope_figure::{Axis, LegendEntry, Panel, Projection, Tag, Ticks, fit_equal};
+use chromascope_figure::{LegendEntry, Panel, Projection, Tag, Ticks, fit_equal};
 use egui::{Id, Painter, Pos2, Rect, Response, Sense, Ui, Vec2};
 use egui_plot::{Plot, PlotUi};
 
@@ -27,8 +27,10 @@ pub enum Emphasis {
     Normal,
     /// Under the pointer, in this pane or another: thicker rim, thin ring.
     Hovered,
-    /// Chosen: ring around points, casing around lines.
+    /// Chosen: wider line, ring around points.
     Selected,
+    /// Part or whole of what is chosen: wider line.
+    Related,
     /// Something else is chosen.
     Faded,
 }
@@ -116,7 +118,7 @@ pub fn plot(ui: &mut Ui, id: Id, panel: &Panel, theme: &Theme, rect: Rect, optio
         .allow_double_click_reset(options.zoomable)
         .default_x_bounds(x[0].min(x[1]), x[0].max(x[1]))
         .default_y_bounds(y[0].min(y[1]), y[0].max(y[1]))
-        // Until the user zooms, these bounds are taken anew in each frame: they follow panel and window.
+        // Until the user zooms, these bounds are updated in each frame: they follow panel and window.
         .auto_bounds(true)
         .set_margin_fraction(Vec2::ZERO)
         .invert_x(x[0] > x[1])
@@ -156,17 +158,13 @@ fn named(response: Response, panel: &Panel) -> Response {
 
 /// The plot inside the box that also holds the tick labels.
 fn plot_rect(panel: &Panel, rect: Rect) -> Rect {
-    let room = |axis: &Axis, points: f64| match axis.ticks {
-        Ticks::None => 0.0,
-        Ticks::Auto | Ticks::At(_) => points as f32,
-    };
-    let left = room(&panel.y, Projection::LEFT);
-    let bottom = room(&panel.x, Projection::BOTTOM);
+    let left = if panel.y.ticks == Ticks::None { 0.0 } else { Projection::LEFT as f32 };
+    let bottom = Projection::bottom(&panel.x) as f32;
     let max = Pos2::new(rect.right() - 1.0, rect.bottom() - bottom.max(1.0));
     Rect::from_min_max(rect.min + Vec2::new(left.max(1.0), 1.0), max.max(rect.min + Vec2::splat(2.0)))
 }
 
-/// The ranges that fill the plot, all the panel asks for within.
+/// The axis ranges that fill the plot and contain the panel's ranges.
 fn shown_ranges(panel: &Panel, inner: Rect) -> ([f64; 2], [f64; 2]) {
     if panel.equal_aspect {
         let size = [f64::from(inner.width()), f64::from(inner.height())];

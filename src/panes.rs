@@ -1,6 +1,6 @@
-//! The panes: each reads the document, asks for answers, and says what is to be done. None knows another.
+//! Panes: each reads the document, requests answers and issues commands. None depends on another.
 //!
-//! A new pane is one file and its line in [`ALL`] (with the `mod` line that Rust wants):
+//! A new pane is one file and its line in [`ALL`] (with its `mod` line):
 //!
 //! ```diff
 //! --- /dev/null
@@ -57,6 +57,7 @@ pub mod render_settings;
 pub mod report_card;
 pub mod scene_bar;
 pub mod spectra;
+pub mod statistics;
 pub mod status_bar;
 pub mod swatches;
 pub mod tolerance;
@@ -91,12 +92,10 @@ pub const ALL: &[&Pane] = &[
     &methods::PANE,
     &work_saved::PANE,
     &tolerance::PANE,
+    &statistics::PANE,
     &recorded::PANE,
     &correction::PANE,
 ];
-
-/// Note where something is measured.
-const NOT_KEPT: &str = "Measured results are lost when the program ends; export them to save them.";
 
 /// A pane, if there is one of this id.
 pub fn by_kind(kind: PaneKind) -> Option<&'static Pane> {

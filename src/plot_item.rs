@@ -1,4 +1,4 @@
-//! What a person can point at: the same thing in every pane.
+//! Items that can be hovered, selected or pinned, shared by all panes.
 
 use std::collections::HashMap;
 use std::hash::{DefaultHasher, Hash, Hasher};
@@ -23,12 +23,12 @@ pub enum PlotItem {
     Sensor(SensorId),
     /// A patch, through one sensor or (a column head, a reflectance curve) through none.
     Patch {
-        /// The sensor, if one is meant.
+        /// The sensor, if any.
         source: Option<SensorId>,
         /// The patch's name.
         patch: String,
     },
-    /// A black body through a sensor.
+    /// A blackbody through a sensor.
     Radiator {
         /// The sensor.
         source: SensorId,
@@ -37,30 +37,46 @@ pub enum PlotItem {
     },
     /// The light on the scene.
     Light,
+    /// A set of the library that is no sensor: a chart, a light, a filter, a material.
+    DataSet {
+        /// Its kind.
+        kind: SetKind,
+        /// Its name in the catalog.
+        name: String,
+    },
 }
 
-/// How a drawn thing stands to the one that is pointed at or chosen.
+/// Relation of a drawn item to the hovered or selected one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Relation {
-    /// It is that thing, or that thing's part or whole.
+    /// Identical item, or a part or the whole of it.
     Same,
-    /// It is what the thing is compared with: the reference's patch beside a camera's.
+    /// The item's reference: the reference's patch for a camera's.
     Reference,
     /// Neither.
     Other,
 }
 
 impl PlotItem {
+    /// A set of the library.
+    pub fn of_set(kind: SetKind, name: &str) -> Self {
+        let name = name.to_owned();
+        match kind {
+            SetKind::Camera | SetKind::Observer => Self::Sensor(SensorId { kind, name }),
+            _ => Self::DataSet { kind, name },
+        }
+    }
+
     /// The sensor it belongs to, if any.
     pub fn source(&self) -> Option<&SensorId> {
         match self {
             Self::Sensor(source) | Self::Radiator { source, .. } => Some(source),
             Self::Patch { source, .. } => source.as_ref(),
-            Self::Light => None,
+            Self::Light | Self::DataSet { .. } => None,
         }
     }
 
-    /// A number that equal things share.
+    /// Hash of the item; equal items have equal hashes.
     fn hashed(&self) -> u64 {
         let kelvin = if let Self::Radiator { kelvin, .. } = self { (*kelvin + 0.0).to_bits() } else { 0 };
         let mut hasher = DefaultHasher::new();
@@ -76,7 +92,12 @@ impl PlotItem {
         }
     }
 
-    /// How a drawn thing stands to this one.
+    /// True if both are patches, or equal: neither is part of the other.
+    pub fn is_alike(&self, other: &Self) -> bool {
+        self == other || matches!((self, other), (Self::Patch { .. }, Self::Patch { .. }))
+    }
+
+    /// Returns the relation of a drawn item to this one.
     pub fn relation_to(&self, drawn: &Self, reference: &str) -> Relation {
         let is_reference = |s: Option<&SensorId>| s.is_some_and(|s| s.kind == SetKind::Observer && s.name == reference);
         let same_source = |a: Option<&SensorId>, b: Option<&SensorId>| a.is_none() || b.is_none() || a == b;
@@ -91,8 +112,8 @@ impl PlotItem {
                     Relation::Other
                 }
             }
-            (Self::Light | Self::Patch { source: None, .. }, _)
-            | (_, Self::Light | Self::Patch { source: None, .. })
+            (Self::Light | Self::DataSet { .. } | Self::Patch { source: None, .. }, _)
+            | (_, Self::Light | Self::DataSet { .. } | Self::Patch { source: None, .. })
             | (Self::Patch { .. }, Self::Patch { .. }) => Relation::Other,
             _ if self.source() == drawn.source() => Relation::Same,
             _ if is_reference(drawn.source()) => Relation::Reference,
@@ -101,19 +122,19 @@ impl PlotItem {
     }
 }
 
-/// The things that a figure's marks stand for.
+/// The items of a figure's marks.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PickIndex {
     all: Vec<PlotItem>,
-    /// Indices of the things of each hash: a chart may have a hundred thousand patches.
+    /// Indices of the items of each hash: a chart may have a hundred thousand patches.
     places: HashMap<u64, Vec<usize>>,
 }
 
 impl PickIndex {
-    /// The tag for marks that stand for nothing.
+    /// The tag of marks without an item.
     pub const NONE: Tag = Tag(0);
 
-    /// A tag for a thing; equal things get the same.
+    /// Returns the tag of an item; equal items share a tag.
     pub fn tag(&mut self, thing: PlotItem) -> Tag {
         let places = self.places.entry(thing.hashed()).or_default();
         let known = places.iter().copied().find(|&index| self.all[index] == thing);
@@ -125,7 +146,7 @@ impl PickIndex {
         Tag(u32::try_from(index + 1).unwrap_or(0))
     }
 
-    /// What a tag stands for.
+    /// Returns the item of a tag.
     pub fn get(&self, tag: Tag) -> Option<&PlotItem> {
         self.all.get((tag.0 as usize).checked_sub(1)?)
     }

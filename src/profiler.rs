@@ -1,7 +1,7 @@
-//! What the scene on show costs by each method, with its error, and what was left out of it: measured, not estimated.
+//! Measured cost and error of each method for the visible scene, and the work skipped.
 //!
-//! A run computes with answers of its own, so that nothing remembered makes it look cheap. It is a job, not a question: asking
-//! again measures again.
+//! A run starts with an empty cache, so that cached answers do not distort its times. It is a [`Job`], not a `Query`: each
+//! request measures again.
 
 mod asked;
 pub mod bench;
@@ -29,16 +29,16 @@ pub use conditions::Conditions;
 use plans::{PlanAnswer, PlansQuery};
 pub use skipped_work::{LOCI, PATCHES, SkippedWork};
 
-/// Measures what the scene costs by each method, and what was left out.
+/// Measures the cost of each method for a scene, and the skipped work.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SceneRunJob {
-    /// What is rendered, in words.
+    /// Description of the rendered scene.
     pub scene: String,
     /// The pictures; none where there is nothing to render.
     pub pictures: Option<PicturesQuery>,
-    /// The sources that are not on show.
+    /// The sensors that are not visible.
     pub hidden: Vec<SourceOf>,
-    /// The sensors on show.
+    /// The visible sensors.
     pub sensors: Vec<Shared<Sensor>>,
     /// The loci of the diagram.
     pub loci: Vec<LocusQuery>,
@@ -46,31 +46,31 @@ pub struct SceneRunJob {
     pub patches: Vec<PatchColorsQuery>,
 }
 
-/// What was measured.
+/// Measurements of a scene.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct SceneRun {
-    /// What it was of, and on what.
+    /// Conditions of the measurement.
     #[serde(default)]
     pub conditions: Conditions,
     /// Of each kind of work its methods.
     pub trials: Vec<Trial>,
-    /// What was not computed.
+    /// Work that was skipped.
     #[serde(alias = "left_out")]
     pub skipped_work: Vec<SkippedWork>,
-    /// How long measuring took.
+    /// Total time of the measurement.
     pub time: Duration,
 }
 
 /// The methods of one kind of work, side by side.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Trial {
-    /// What is computed.
+    /// Kind of work.
     pub subject: Subject,
     /// Number of inputs measured on.
     pub inputs: usize,
     /// The methods, the reference first.
     pub points: Vec<Point>,
-    /// Which of them pictures take as things are set; none if it is not among them.
+    /// Index of the method that the current settings select; `None` if it is not in the list.
     #[serde(default)]
     pub set: Option<usize>,
 }
@@ -81,7 +81,7 @@ pub enum Subject {
     /// The spectral integral of the rendered samples.
     #[default]
     Integral,
-    /// Black bodies through a sensor.
+    /// Blackbodies through a sensor.
     Loci,
 }
 
@@ -97,7 +97,7 @@ impl Subject {
         }
     }
 
-    /// The same, said at length.
+    /// Long title.
     pub const fn words(self) -> &'static str {
         match self {
             Self::Integral => "The diffuse spectral integral of the samples that the visible scene renders",
@@ -105,7 +105,7 @@ impl Subject {
         }
     }
 
-    /// What a time is the time of.
+    /// Unit of work that a time refers to.
     pub const fn per(self) -> &'static str {
         match self {
             Self::Integral => "a sample through a sensor",
@@ -113,7 +113,7 @@ impl Subject {
         }
     }
 
-    /// What an error is relative to.
+    /// Quantity that an error is relative to.
     pub const fn error_of(self) -> &'static str {
         match self {
             Self::Integral => "of the peak J(κ, 0)",
@@ -135,12 +135,12 @@ impl Job for SceneRunJob {
     }
 }
 
-/// Answers of their own: whoever asks remembers those of runs before, whose times would be those of looking them up.
+/// An empty cache: cached answers of earlier runs would be timed as lookups.
 fn fresh(ask: &impl Ask) -> Results {
     Results::default().until(ask.stop())
 }
 
-/// Measures what the program costs on a workload of its own, whatever the scene.
+/// Measures the program on a benchmark workload, independent of the scene.
 #[derive(Clone, Debug, PartialEq, Eq)]
 struct BenchJob(Workload);
 
@@ -154,14 +154,14 @@ impl Job for BenchJob {
     }
 }
 
-/// What was measured last.
+/// Latest measurements.
 #[derive(Clone, Debug)]
 pub struct Measured {
     /// The last run on the scene.
     pub run: Option<Arc<SceneRun>>,
     /// True if it is of the scene as it is now.
     pub is_current: bool,
-    /// What was remembered since the start.
+    /// Work saved by the cache since the program started.
     pub remembered: Vec<SkippedWork>,
     /// The last reports of the bench, or why there is none.
     pub reports: BTreeMap<Workload, Arc<Result<Report, String>>>,
@@ -172,9 +172,9 @@ impl Measured {
     pub const NOTHING: Self = Self { run: None, is_current: false, remembered: Vec::new(), reports: BTreeMap::new() };
 }
 
-/// Where runs are made, and the last ones.
+/// Background measurements and their latest results.
 pub struct Profiler {
-    /// What was measured last.
+    /// Latest measurements.
     pub measured: Measured,
     worker: Background<SceneRunJob>,
     bench: Background<BenchJob>,
@@ -210,7 +210,7 @@ impl Profiler {
         plans.job.plans_for(pictures, &plans.answer)
     }
 
-    /// Measures a scene, anew even if it is the same.
+    /// Measures a scene, again even if it is unchanged.
     pub fn run(&self, scene: SceneRunJob) {
         self.worker.ask_anew(vec![scene]);
     }
@@ -220,13 +220,14 @@ impl Profiler {
         self.bench.ask_anew(vec![BenchJob(workload)]);
     }
 
-    /// Gives up what is being measured.
+    /// Stops the measurement.
     pub fn stop(&self) {
         self.worker.rest();
         self.bench.rest();
     }
 
-    /// Takes in what was measured; a run is current if it is of this scene. A report that was stopped is not kept.
+    /// Updates the latest measurements; a run is current if it is of this scene. A report that was stopped is
+    /// discarded.
     pub fn refresh(&mut self, scene: &SceneRunJob) {
         if let Some(shown) = self.worker.shown() {
             (self.measured.run, self.measured.is_current) = (Some(shown.answer), shown.job == *scene);
@@ -236,7 +237,7 @@ impl Profiler {
         }
     }
 
-    /// For how long it has been measured, if it still is.
+    /// Running time of the measurement, if it is still running.
     pub fn busy(&self) -> Option<Duration> {
         self.worker.busy().or_else(|| self.bench.busy())
     }

@@ -1,18 +1,25 @@
-//! Figures of merit of many cameras, made beside the window a few at a time.
+//! Figures of merit of many cameras, computed in the background a few at a time.
 //!
-//! The latest request wins; what nobody asks for in a frame is stopped. Until all cameras are done the last whole answer stays.
+//! The latest request stops the one before it, and one that no frame repeats is stopped. Until all cameras are done, the last
+//! complete ranking stays.
 
 use std::sync::Arc;
 use std::time::Duration;
 
-use chromascope_core::metamers::{Confusion, MetamerPair};
-use chromascope_core::query::{Ask, CameraMetrics, CameraMetricsQuery, Metamers, MetamersQuery, Query, Shared, WhyNot};
+use chromascope_core::camera::RenderingError;
+use chromascope_core::correction::aces::IdtExposure;
+use chromascope_core::metamers::Confusion;
+use chromascope_core::query::{Ask, CameraMetrics, Query, Shared};
 
 use crate::catalog::Entry;
+use crate::catalog::load::LoadError;
 use crate::document::{Document, SetKind};
-use crate::jobs::{Background, Executor};
+use crate::export::profile::{CorrectionFile, CorrectionFileQuery};
+use crate::jobs::{Background, Executor, Shown};
 use crate::plot_item::SensorId;
-use crate::scene::Scene;
+use crate::scene::metrics::{CatalogMetamersQuery, CatalogMetricsQuery, FoundMetamers};
+use crate::scene::recorded::RecordedRankingQuery;
+use crate::scene::{Scene, SceneError};
 use crate::view::metrics::RankedCameras;
 
 /// Cameras between two reports of progress.
@@ -25,63 +32,70 @@ pub struct RankedCamera {
     pub id: SensorId,
     /// True if the user brought it.
     pub is_own: bool,
-    /// The question for its figures of merit, or the reason that there is none.
-    pub query: Result<CameraMetricsQuery, String>,
+    /// Query for its figures of merit, or the reason that there is none.
+    pub query: Result<CatalogMetricsQuery, String>,
 }
 
 /// Cameras with their figures of merit.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Ranked {
-    /// The cameras, as asked for.
+    /// The requested cameras.
     pub cameras: Vec<RankedCamera>,
     /// Their figures of merit: reason for none, or none while they are being made.
     pub metrics: Vec<Option<Result<Arc<CameraMetrics>, String>>>,
 }
 
-/// The first so many of some questions.
+/// The first `count` queries of a list.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 struct FirstQuery {
-    all: Shared<Vec<CameraMetricsQuery>>,
+    all: Shared<Vec<CatalogMetricsQuery>>,
     count: usize,
 }
 
 impl Query for FirstQuery {
-    type Answer = Vec<Arc<CameraMetrics>>;
+    type Answer = Vec<Result<Arc<CameraMetrics>, LoadError>>;
     const NAME: &'static str = "ranking";
     const KEPT: usize = 2;
 
     fn answer(&self, ask: &impl Ask) -> Self::Answer {
-        self.all.iter().take(self.count).map(|query| ask.ask(query)).collect()
+        self.all.iter().take(self.count).map(|query| (*ask.ask(query)).clone()).collect()
     }
 }
 
-/// Two reflectances that are confused: set and name of each, and what each set is.
-#[derive(Clone, Debug, PartialEq)]
-pub struct MetamerRow {
-    /// The pair.
-    pub pair: MetamerPair,
-    /// Name of its set, and of each in it.
-    pub names: [[String; 2]; 2],
-    /// What each set is.
-    pub kinds: [SetKind; 2],
+/// A thread for one query at a time, which rests in frames that do not ask.
+struct Worker<Q: Query> {
+    thread: Background<Q>,
+    is_asked: bool,
 }
 
-/// Metamers of a camera.
-#[derive(Clone, Debug, PartialEq)]
-pub struct FoundMetamers {
-    /// What was found, or the reason that nothing could be.
-    pub metamers: Arc<Result<Metamers, WhyNot>>,
-    /// The pairs by name, worst first.
-    pub rows: Vec<MetamerRow>,
+impl<Q: Query> Worker<Q> {
+    fn on(executor: &Executor, name: &str, wake: impl Fn() + Send + Sync + 'static) -> Self {
+        Self { thread: Background::on(executor, name, wake), is_asked: false }
+    }
+
+    /// The last answer, which may be of an earlier question; an error if this question has none.
+    fn ask(&mut self, query: Q) -> Result<Option<Shown<Q>>, String> {
+        self.is_asked = true;
+        self.thread.ask(vec![query]);
+        self.thread.failure().map_or_else(|| Ok(self.thread.shown()), Err)
+    }
+
+    fn end_frame(&mut self) {
+        if !std::mem::take(&mut self.is_asked) {
+            self.thread.rest();
+        }
+    }
 }
 
-/// Where cameras are ranked, and the last ranking.
+/// Camera ranking in the background, and its latest result.
 pub struct Ranking {
     worker: Background<FirstQuery>,
-    searcher: Background<MetamersQuery>,
-    is_searching: bool,
+    searcher: Worker<CatalogMetamersQuery>,
+    card: Worker<CatalogMetricsQuery>,
+    recorded: Worker<RecordedRankingQuery>,
+    corrections: Worker<CorrectionFileQuery>,
     asked: Option<Arc<Vec<RankedCamera>>>,
-    /// Document and choice of cameras that they were asked for.
+    /// Document and choice of cameras of the request.
     of: Option<(Document, RankedCameras)>,
     is_asked: bool,
     whole: Option<Arc<Ranked>>,
@@ -94,8 +108,10 @@ impl Ranking {
     /// Ranks on an executor; `wake` is called after each few cameras.
     pub fn on(executor: &Executor, wake: impl Fn() + Send + Sync + Clone + 'static) -> Self {
         Self {
-            searcher: Background::on(executor, "metamers", wake.clone()),
-            is_searching: false,
+            searcher: Worker::on(executor, "metamers", wake.clone()),
+            card: Worker::on(executor, "report card", wake.clone()),
+            recorded: Worker::on(executor, "recorded ranking", wake.clone()),
+            corrections: Worker::on(executor, "color corrections", wake.clone()),
             worker: Background::on(executor, "ranking", wake),
             asked: None,
             of: None,
@@ -107,8 +123,7 @@ impl Ranking {
         }
     }
 
-    /// Asks for the cameras of a scene and takes in what was made of them since the last frame. The same request again changes
-    /// nothing.
+    /// Requests the cameras of a scene and applies the results since the last frame. Repeating the same request has no effect.
     pub fn ask(&mut self, scene: &Scene<'_>, which: RankedCameras) -> Arc<Ranked> {
         self.is_asked = true;
         if self.of.as_ref().is_none_or(|(document, cameras)| document != scene.document || *cameras != which) {
@@ -126,34 +141,56 @@ impl Ranking {
     ///
     /// # Errors
     ///
-    /// A sentence that says why there is no such question.
+    /// The reason that there is no query.
     pub fn metamers(
         &mut self,
         scene: &Scene<'_>,
         camera: &SensorId,
         confusion: Confusion,
-    ) -> Result<Option<FoundMetamers>, String> {
-        self.is_searching = true;
-        let (query, sets) =
-            scene.metamers_query(camera.kind, &camera.name, confusion).map_err(|error| error.to_string())?;
-        self.searcher.ask(vec![query.clone()]);
-        if let Some(why) = self.searcher.failure() {
-            return Err(why);
-        }
-        let Some(shown) = self.searcher.shown().filter(|shown| shown.current) else { return Ok(None) };
-        let row = |pair: &MetamerPair| {
-            let [a, b] = pair.places.map(|place| {
-                let [set, patch] = query.at(place)?;
-                let name = query.sets.get(set)?.patches().get(patch)?.name.clone();
-                let kind =
-                    if scene.entry(SetKind::Chart, &sets[set]).is_ok() { SetKind::Chart } else { SetKind::Material };
-                Some(([sets[set].clone(), name], kind))
-            });
-            let ((first, a), (second, b)) = a.zip(b)?;
-            Some(MetamerRow { pair: *pair, names: [first, second], kinds: [a, b] })
+    ) -> Result<Option<Arc<Result<FoundMetamers, String>>>, String> {
+        let query = scene.metamers_query(camera.kind, &camera.name, confusion).map_err(|error| error.to_string())?;
+        Ok(self.searcher.ask(query)?.filter(|shown| shown.current).map(|shown| shown.answer))
+    }
+
+    /// Figures of merit of one camera; the last ones while those of other conditions are made.
+    ///
+    /// # Errors
+    ///
+    /// A sentence that says why there are none.
+    pub fn card(&mut self, scene: &Scene<'_>, camera: &SensorId) -> Result<Option<Arc<CameraMetrics>>, String> {
+        let conditions = scene.metrics_conditions(scene.document.temperature_k);
+        let entry = scene.entry(camera.kind, &camera.name);
+        let (conditions, entry) =
+            conditions.and_then(|conditions| Ok((conditions, entry?))).map_err(|error| error.to_string())?;
+        let query = CatalogMetricsQuery::new(&entry, Shared::new(conditions));
+        let Some(shown) = self.card.ask(query.clone())?.filter(|shown| shown.job.is_of_same_camera(&query)) else {
+            return Ok(None);
         };
-        let rows = (*shown.answer).as_ref().map_or_else(|_| Vec::new(), |m| m.pairs.iter().filter_map(row).collect());
-        Ok(Some(FoundMetamers { metamers: shown.answer, rows }))
+        (*shown.answer).clone().map(Some).map_err(|error| unloaded(camera, error))
+    }
+
+    /// Cameras by their fit to recorded values; those of an earlier question while they are fitted.
+    ///
+    /// # Errors
+    ///
+    /// A sentence that says why there are none.
+    pub fn recorded(&mut self, query: RecordedRankingQuery) -> Result<Option<Shown<RecordedRankingQuery>>, String> {
+        self.recorded.ask(query)
+    }
+
+    /// The color correction of a camera; none while it is made.
+    ///
+    /// # Errors
+    ///
+    /// A sentence that says why there is none.
+    pub fn correction(&mut self, scene: &Scene<'_>, camera: &str) -> Result<Option<Arc<CorrectionFile>>, String> {
+        if scene.document.transform.is_eq_13() {
+            let error = SceneError::Rendering { name: camera.to_owned(), error: RenderingError::NotFitted };
+            return Err(error.to_string());
+        }
+        let query = CorrectionFileQuery::new(scene, (SetKind::Camera, camera), None, IdtExposure::Rawtoaces);
+        let shown = self.corrections.ask(query.map_err(|error| error.to_string())?)?.filter(|shown| shown.current);
+        shown.map(|shown| (*shown.answer).clone()).transpose().map_err(|error| error.to_string())
     }
 
     fn ask_for(&mut self, cameras: Vec<RankedCamera>) {
@@ -174,8 +211,8 @@ impl Ranking {
         }
     }
 
-    /// Shows what is done; over a whole answer only once all is.
-    fn take_in(&mut self, made: &[Arc<CameraMetrics>]) {
+    /// Shows the results; after a complete ranking only when all are available.
+    fn take_in(&mut self, made: &[Result<Arc<CameraMetrics>, LoadError>]) {
         self.done = made.len();
         let shown = self.with(made);
         if self.progress().is_none() {
@@ -186,12 +223,12 @@ impl Ranking {
         }
     }
 
-    /// The cameras asked for, with the figures of merit of the first that have any.
-    fn with(&self, made: &[Arc<CameraMetrics>]) -> Arc<Ranked> {
+    /// The requested cameras, with the figures of merit of the first that have any.
+    fn with(&self, made: &[Result<Arc<CameraMetrics>, LoadError>]) -> Arc<Ranked> {
         let cameras = self.asked.as_deref().cloned().unwrap_or_default();
         let mut made = made.iter();
         let metrics = cameras.iter().map(|camera| match &camera.query {
-            Ok(_) => made.next().map(|metrics| Ok(Arc::clone(metrics))),
+            Ok(_) => made.next().map(|metrics| metrics.clone().map_err(|error| unloaded(&camera.id, error))),
             Err(why) => Some(Err(why.clone())),
         });
         let metrics = metrics.collect();
@@ -204,7 +241,7 @@ impl Ranking {
         (self.done < all).then_some((self.done, all))
     }
 
-    /// For how long the latest request has been worked on, if it still is.
+    /// Running time of the latest request, if it is still running.
     pub fn busy(&self) -> Option<Duration> {
         self.worker.busy()
     }
@@ -214,11 +251,12 @@ impl Ranking {
         self.worker.failure()
     }
 
-    /// Ends a frame: what was not asked for in it is stopped, and asked for again once somebody looks.
+    /// Ends a frame: a request that it did not repeat is stopped, and resumes when repeated.
     pub fn end_frame(&mut self) {
-        if !std::mem::take(&mut self.is_searching) {
-            self.searcher.rest();
-        }
+        self.searcher.end_frame();
+        self.card.end_frame();
+        self.recorded.end_frame();
+        self.corrections.end_frame();
         if !std::mem::take(&mut self.is_asked) && self.progress().is_some() {
             self.worker.rest();
             (self.asked, self.of) = (None, None);
@@ -228,31 +266,40 @@ impl Ranking {
     /// Waits until all is done. For tests.
     pub fn wait(&self) {
         self.worker.wait();
-        self.searcher.wait();
+        self.searcher.thread.wait();
+        self.card.thread.wait();
+        self.recorded.thread.wait();
     }
 }
 
-/// The cameras of a choice, each with its question.
+/// The cameras of a choice, each with its query. Loads none of them.
 fn cameras(scene: &Scene<'_>, which: RankedCameras) -> Vec<RankedCamera> {
     let is_chosen = |entry: &Entry| match which {
         RankedCameras::Library => true,
         RankedCameras::Compared => scene.document.compared(SetKind::Camera, &entry.name).is_some(),
         RankedCameras::Yours => entry.is_own(),
     };
-    let chosen = scene.entries(SetKind::Camera).filter(is_chosen);
-    chosen
-        .map(|entry| RankedCamera {
-            query: scene.camera_metrics_query(SetKind::Camera, &entry.name).map_err(|error| error.to_string()),
-            is_own: entry.is_own(),
-            id: SensorId { kind: SetKind::Camera, name: entry.name },
-        })
-        .collect()
+    let conditions = scene.metrics_conditions(scene.document.temperature_k);
+    let conditions = conditions.map(Shared::new).map_err(|error| error.to_string());
+    let camera = |entry: Entry| RankedCamera {
+        query: conditions.clone().map(|conditions| CatalogMetricsQuery::new(&entry, conditions)),
+        is_own: entry.is_own(),
+        id: SensorId { kind: SetKind::Camera, name: entry.name },
+    };
+    scene.entries(SetKind::Camera).filter(is_chosen).map(camera).collect()
 }
 
-/// Cameras of a choice with their figures of merit, at once: what the window has asked for is known, all else is computed.
+/// Sentence for a camera whose table is damaged.
+fn unloaded(camera: &SensorId, error: LoadError) -> String {
+    SceneError::Load { name: camera.name.clone(), error }.to_string()
+}
+
+/// Figures of merit of a choice of cameras, without delay: cached answers are used, all others are computed.
 pub fn ranked(scene: &Scene<'_>, which: RankedCameras) -> Ranked {
     let cameras = cameras(scene, which);
-    let metrics =
-        |camera: &RankedCamera| Some(camera.query.as_ref().map(|query| scene.results.ask(query)).map_err(Clone::clone));
+    let metrics = |camera: &RankedCamera| {
+        let query = camera.query.as_ref().map_err(Clone::clone);
+        Some(query.and_then(|query| (*scene.results.ask(query)).clone().map_err(|error| unloaded(&camera.id, error))))
+    };
     Ranked { metrics: cameras.iter().map(metrics).collect(), cameras }
 }

@@ -1,42 +1,32 @@
-//! Where pictures are made: one worker, and what it last made.
+//! Background rendering: one worker and its latest pictures.
 
+pub mod made;
 pub mod pixel;
 
 use std::sync::Arc;
 use std::time::Duration;
 
-use chromascope_core::camera::RenderingError;
-use chromascope_core::query::render::picture::{Pictures, PicturesQuery};
-use chromascope_core::query::{Ask as _, Query};
+use chromascope_core::query::Ask as _;
 
 use crate::jobs::{Background, Executor, Job};
 use crate::results::Results;
 use crate::scene::ComparedSensor;
+use crate::scene::spectral_image::PixelSpectrumQuery;
+use made::{MadePictures, NoPictures, PicturesAnswer, PicturesOf};
 
 /// For this many seconds after the last change something is taken to be moving.
 pub const REST_AFTER: f64 = 0.15;
 
-/// Reason that there are no pictures.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum NoPictures {
-    /// Making them was stopped.
-    #[error("rendering was stopped")]
-    Stopped,
-    /// A color cannot be computed.
-    #[error(transparent)]
-    Rendering(#[from] RenderingError),
-}
-
-/// Pictures with the question that they answer.
+/// Pictures with the query that they answer.
 #[derive(Clone, Debug)]
 pub struct RenderedFrame {
-    /// The question.
-    pub query: PicturesQuery,
-    /// The sensors, in the question's order.
+    /// The query.
+    pub query: PicturesOf,
+    /// The sensors, in the query's order.
     pub sources: Arc<[ComparedSensor]>,
     /// The answer.
-    pub answer: Arc<<PicturesQuery as Query>::Answer>,
-    /// How long it took.
+    pub answer: Arc<PicturesAnswer>,
+    /// Time taken.
     pub time: Duration,
     /// True if nothing finer is to come.
     pub is_last: bool,
@@ -46,16 +36,12 @@ pub struct RenderedFrame {
 
 impl RenderedFrame {
     /// The pictures, or why there are none.
-    pub fn pictures(&self) -> Result<&Pictures, NoPictures> {
-        match &*self.answer {
-            Ok(Some(pictures)) => Ok(pictures),
-            Ok(None) => Err(NoPictures::Stopped),
-            Err(error) => Err(NoPictures::Rendering(*error)),
-        }
+    pub fn pictures(&self) -> Result<MadePictures<'_>, NoPictures> {
+        self.answer.pictures()
     }
 
     /// The pictures, if there are any.
-    pub fn made(&self) -> Option<&Pictures> {
+    pub fn made(&self) -> Option<MadePictures<'_>> {
         self.pictures().ok()
     }
 }
@@ -63,7 +49,7 @@ impl RenderedFrame {
 /// Pictures to be made. Names and marks of the sensors change nothing in them.
 #[derive(Clone)]
 struct PicturesJob {
-    query: PicturesQuery,
+    query: PicturesOf,
     sources: Arc<[ComparedSensor]>,
     /// True if nothing finer is to come.
     is_last: bool,
@@ -78,19 +64,23 @@ impl PartialEq for PicturesJob {
 }
 
 impl Job for PicturesJob {
-    type Answer = <PicturesQuery as Query>::Answer;
+    type Answer = PicturesAnswer;
 
     fn run(&self, results: &Results) -> Arc<Self::Answer> {
-        results.ask(&self.query)
+        Arc::new(match &self.query {
+            PicturesOf::Mesh(query) => PicturesAnswer::Mesh(results.ask(query)),
+            PicturesOf::Image(query) => PicturesAnswer::Image(results.ask(query)),
+        })
     }
 }
 
 /// The worker and its last answer.
 pub struct RenderService {
     worker: Background<PicturesJob>,
+    spectrum: Background<PixelSpectrumQuery>,
     frame: Option<Arc<RenderedFrame>>,
     is_hidden: bool,
-    wanted: Option<PicturesQuery>,
+    wanted: Option<PicturesOf>,
     changed_at: f64,
     asked: bool,
     is_looked_at: bool,
@@ -104,8 +94,9 @@ impl RenderService {
 
     /// Makes pictures on an executor.
     pub fn on(executor: &Executor, ctx: &egui::Context) -> Self {
-        let window = ctx.clone();
+        let [window, also] = [(); 2].map(|()| ctx.clone());
         Self {
+            spectrum: Background::on(executor, "spectrum of a pixel", move || also.request_repaint()),
             worker: Background::on(executor, "pictures", move || window.request_repaint()),
             frame: None,
             is_hidden: false,
@@ -116,10 +107,10 @@ impl RenderService {
         }
     }
 
-    /// Says what is to be shown in the end, at a time in seconds. Returns for how long it is still taken to be moving.
-    pub fn want(&mut self, wanted: &PicturesQuery, now: f64) -> Option<f64> {
+    /// Sets the final request, at a time in seconds. Returns the remaining time for which it counts as moving.
+    pub fn want(&mut self, wanted: &PicturesOf, now: f64) -> Option<f64> {
         if self.wanted.as_ref() != Some(wanted) {
-            // What is shown for the first time did not move.
+            // A first request is not a movement.
             if self.wanted.is_some() {
                 self.changed_at = now;
             }
@@ -129,58 +120,58 @@ impl RenderService {
         (rest > 0.0).then_some(rest)
     }
 
-    /// True if the finest pictures of the same shaded mesh are on show, so that only their development can differ.
-    pub fn only_develops(&self, wanted: &PicturesQuery) -> bool {
-        self.frame.as_ref().is_some_and(|frame| frame.is_last && frame.query.shading == wanted.shading)
+    /// True if the finest pictures of the same signals are available, so that only their development can differ.
+    pub fn only_develops(&self, wanted: &PicturesOf) -> bool {
+        self.frame.as_ref().is_some_and(|frame| frame.is_last && frame.query.has_signals_of(wanted))
     }
 
-    /// Asks for stages from coarse to fine. While something moves, what is being made is waited for: a picture a little late is
-    /// better than none.
-    pub fn ask(&mut self, stages: Vec<PicturesQuery>, sources: &[ComparedSensor], moving: bool) {
+    /// Requests stages from coarse to fine. While something moves, the running stage is not interrupted: a slightly late
+    /// picture is better than none.
+    pub fn ask(&mut self, stages: Vec<PicturesOf>, sources: &[ComparedSensor], moving: bool) {
         self.asked = true;
         let (latest, _) = self.worker.progress();
         let was_moving = latest.first().is_some_and(|job| job.moving);
         // What ends in the same pictures is on its way already, or there.
         let same_end = !moving && !was_moving && latest.last().map(|job| &job.query) == stages.last();
-        // At rest, the coarse pictures that are on their way are the first of those wanted: stopping them would waste a mesh or a
-        // tree that is being built.
+        // At rest, a running coarse stage is the first of the requested ones: stopping it would waste a mesh or a tree under
+        // construction.
         let begun = moving || latest.first().map(|job| &job.query) == stages.first();
         if same_end || (begun && was_moving && self.worker.busy().is_some()) {
             return;
         }
         let sources: Arc<[ComparedSensor]> = sources.into();
-        let job = |query: PicturesQuery| {
+        let job = |query: PicturesOf| {
             let is_last = self.wanted.as_ref() == Some(&query);
             PicturesJob { query, sources: Arc::clone(&sources), is_last, moving }
         };
         self.worker.ask(stages.into_iter().map(job).collect());
     }
 
-    /// Stops what is being made; what was made so far stays on show.
+    /// Stops rendering; finished pictures stay visible.
     pub fn stay(&mut self) {
         self.asked = true;
         self.worker.rest();
     }
 
-    /// Takes pictures off show: those that are wanted now cannot be made.
+    /// Discards the pictures, as the requested ones cannot be made.
     pub fn hide(&mut self) {
         self.is_hidden = true;
     }
 
-    /// Takes in what was made.
+    /// Applies finished work.
     pub fn refresh(&mut self) {
         self.is_hidden = false;
         let Some(shown) = self.worker.shown() else { return };
         if self.frame.as_ref().is_none_or(|frame| frame.serial != shown.serial) {
             let PicturesJob { query, sources, is_last, .. } = shown.job;
-            // What was only remembered took no time worth telling.
+            // Cached pictures have no render time worth showing.
             let remembered = self.frame.as_ref().filter(|frame| frame.query == query).map(|frame| frame.time);
             let (time, serial) = (remembered.unwrap_or(shown.time), shown.serial);
             self.frame = Some(Arc::new(RenderedFrame { query, sources, answer: shown.answer, time, is_last, serial }));
         }
     }
 
-    /// Closes a frame: pictures that nobody asked for in it are not made.
+    /// Ends a frame: pictures that it did not request are not computed.
     pub fn end_frame(&mut self) {
         self.is_looked_at = std::mem::take(&mut self.asked);
         if !self.is_looked_at {
@@ -188,27 +179,34 @@ impl RenderService {
         }
     }
 
-    /// True if pictures were asked for in the last frame.
+    /// True if pictures were requested in the last frame.
     pub fn is_looked_at(&self) -> bool {
         self.is_looked_at
     }
 
-    /// The pictures on show: the last that were made.
+    /// The latest pictures.
     pub fn frame(&self) -> Option<&Arc<RenderedFrame>> {
         self.frame.as_ref().filter(|_| !self.is_hidden)
     }
 
-    /// True if pictures were made before, on show or not.
+    /// True if pictures were made before, visible or not.
     pub fn has_made(&self) -> bool {
         self.frame.is_some()
     }
 
-    /// True if the pictures on show are those that are wanted in the end.
+    /// True if the latest pictures are the final ones of the request.
     pub fn is_settled(&self) -> bool {
         self.frame.as_ref().is_some_and(|frame| self.wanted.as_ref() == Some(&frame.query))
     }
 
-    /// For how long the latest request has been worked on, if it still is.
+    /// Wavelengths in nanometers and samples of a pixel of an image, or why there are none; none until they are read.
+    pub fn spectrum(&self, query: PixelSpectrumQuery) -> Option<Result<Vec<[f64; 2]>, String>> {
+        self.spectrum.ask(vec![query]);
+        let shown = self.spectrum.shown().filter(|shown| shown.current)?;
+        Some((*shown.answer).as_ref().map(Vec::clone).map_err(ToString::to_string))
+    }
+
+    /// Running time of the latest request, if it is still running.
     pub fn busy(&self) -> Option<Duration> {
         self.worker.busy()
     }
@@ -218,8 +216,9 @@ impl RenderService {
         self.worker.failure()
     }
 
-    /// Waits until the latest request is answered. For tests.
+    /// Waits until the latest request has finished. For tests.
     pub fn wait(&self) {
         self.worker.wait();
+        self.spectrum.wait();
     }
 }

@@ -1,8 +1,8 @@
-//! What has been computed: the only cache, shared by the window and all work beside it.
+//! Query cache, shared by the window and all background work.
 //!
-//! A question that equals one asked before is not computed again. No lock is held while an answer is computed. Who asks what
-//! another thread is computing waits for that answer; as no question depends on itself, two threads never wait for each other.
-//! Threads of the rayon pool never wait: one that did could be the one that the other thread's loop needs, so it computes itself.
+//! Each query is computed once. No lock is held during a computation. A thread that needs an answer which another thread is
+//! computing waits for it; as no query depends on itself, two threads never wait for each other. Threads of the rayon pool
+//! compute the answer themselves instead of waiting: a waiting one could be the one that the other thread's loop needs.
 
 mod answers;
 
@@ -18,18 +18,18 @@ use chromascope_core::render::Stop;
 
 use answers::{Answers, Asked, Kind};
 
-/// Counters of one kind of question.
+/// Counters of one kind of query.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Count {
-    /// Answers that were remembered.
+    /// Cache hits.
     pub hits: u64,
-    /// Answers that were computed.
+    /// Cache misses: answers that were computed.
     pub misses: u64,
     /// Number of times that an answer was waited for while another thread computed it.
     pub waits: u64,
-    /// Time spent computing, questions asked on the way included.
+    /// Time spent computing, nested queries included.
     pub time: Duration,
-    /// Time spent computing, without questions asked on the way.
+    /// Time spent computing, without nested queries.
     pub own_time: Duration,
 }
 
@@ -44,11 +44,11 @@ pub struct Results {
     depth: Cell<u32>,
 }
 
-/// The answers of each kind of question.
+/// The answers of each kind of query.
 #[derive(Default)]
 struct Store {
     kinds: RwLock<HashMap<TypeId, Arc<dyn Kind>>>,
-    /// Number of questions asked.
+    /// Number of lookups.
     clock: AtomicU64,
 }
 
@@ -59,7 +59,7 @@ impl Clone for Results {
 }
 
 impl Results {
-    /// Access to the same answers until they are no longer wanted. Those that are being made then are not remembered.
+    /// Access to the same cache until stopped. Answers that are being computed then are not cached.
     #[must_use]
     pub fn until(&self, stop: Stop) -> Self {
         Self { store: Arc::clone(&self.store), stop, ..Self::default() }
@@ -77,13 +77,13 @@ impl Results {
         self.last_work.get()
     }
 
-    /// Hits, misses and time of each kind of question since the start, on all threads.
+    /// Hits, misses and time of each kind of query since the start, on all threads.
     pub fn counts(&self) -> BTreeMap<&'static str, Count> {
         let kinds = self.store.kinds.read().unwrap_or_else(PoisonError::into_inner);
         kinds.values().map(|kind| kind.count()).filter(|(_, count)| *count != Count::default()).collect()
     }
 
-    /// The answer to a question, if it is remembered.
+    /// The cached answer to a query, if any.
     pub fn known<Q: Query>(&self, query: &Q) -> Option<Arc<Q::Answer>> {
         self.answers::<Q>().known(query, self.now())
     }
@@ -113,7 +113,7 @@ impl Ask for Results {
         let start = Instant::now();
         let before = self.asked_on_the_way.replace(Duration::ZERO);
         self.depth.set(self.depth.get() + 1);
-        // Nothing is locked here: the answer may ask further questions.
+        // No lock is held here: the computation may evaluate further queries.
         let (answer, claim) = match answers.claim(query, self.now(), &self.stop) {
             Asked::Known(answer) => (answer, None),
             Asked::Ours(claim) => (Arc::new(query.answer(self)), Some(claim)),
@@ -147,7 +147,7 @@ mod tests {
 
     use super::*;
 
-    /// A question whose answers come through a channel: a test says when it is answered, and by what; by nothing, it fails.
+    /// A query answered through a channel: the test decides when and with what; a closed channel makes it fail.
     #[derive(Clone)]
     struct Slow {
         begun: Sender<()>,

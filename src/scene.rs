@@ -1,6 +1,6 @@
-//! The document as questions: names become data, choices become queries, failures become sentences.
+//! Document as queries: names become data, choices become queries, failures become messages.
 //!
-//! Panes, exports and the command line all ask through here, so that they cannot disagree.
+//! Used by panes, exports and the command line alike, so that they cannot disagree.
 
 pub mod conditions;
 pub mod correction;
@@ -49,7 +49,7 @@ pub enum SceneError {
     /// A name that no set has, as in a session from elsewhere.
     #[error("no {kind} is named \"{name}\" here; open its file, or choose another", kind = kind.singular())]
     NoSet {
-        /// What was looked for.
+        /// Kind of the data set.
         kind: SetKind,
         /// Its name.
         name: String,
@@ -95,14 +95,14 @@ pub enum SceneError {
     Lighting(#[from] LightingError),
 }
 
-/// How a sensor is drawn and called, everywhere.
+/// Name and appearance of a compared sensor, the same in all panes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ComparedSensor {
     /// Camera or observer.
     pub kind: SetKind,
     /// Its name in the catalog.
     pub name: String,
-    /// What it is called on screen.
+    /// Label on screen.
     pub label: String,
     /// Its color's role.
     pub role: InkRole,
@@ -118,7 +118,7 @@ pub struct ComparedSensor {
     pub visible: bool,
 }
 
-/// A condition under which the numbers do not mean what a reader expects.
+/// A condition under which the values have an unusual meaning.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Caution {
     /// The reference is an XYZ observer while Eq 13 takes RGB: no camera can be compared with it.
@@ -182,7 +182,7 @@ impl<'a> Scene<'a> {
         self.find(kind, name).map(Cow::into_owned)
     }
 
-    /// The same without a copy of a built-in set's header, which may name thousands of columns.
+    /// Finds a set without copying a built-in set's header, which may name thousands of columns.
     fn find(&self, kind: SetKind, name: &str) -> Result<Cow<'a, Entry>, SceneError> {
         let own = |is_it: &dyn Fn(&str) -> bool| {
             let mut sets = self.document.own.iter().filter(|set| SetKind::of_own(set) == kind);
@@ -238,7 +238,7 @@ impl<'a> Scene<'a> {
         if self.document.filters.is_empty() {
             return self.loaded(&light, name);
         }
-        // Sorted, so that the order of the filters makes no other question.
+        // Sorted, so that the order of the filters does not change the query.
         let mut names = self.document.filters.clone();
         names.sort();
         let filters = names.iter().map(|name| self.filter(name)).collect::<Result<_, _>>()?;
@@ -272,7 +272,7 @@ impl<'a> Scene<'a> {
         self.document.filters.iter().fold(light, |name, filter| format!("{name} × {filter}"))
     }
 
-    /// The patches on show.
+    /// The current patches.
     pub fn patches(&self) -> Result<Shared<PatchSet>, SceneError> {
         let five = self.document.subset == Subset::Five && self.has_five();
         self.patch_set(&self.document.chart, five.then_some(PAPER_FIVE.as_slice()))
@@ -339,7 +339,7 @@ impl<'a> Scene<'a> {
             .ok_or_else(|| SceneError::WhiteBalanceTarget(name.to_owned()))
     }
 
-    /// The way to the diagram with what it needs.
+    /// The color transform with its data.
     pub fn transform(&self) -> Result<ColorTransformSpec, SceneError> {
         match &self.document.transform {
             TransformChoice::Paper => Ok(ColorTransformSpec::Paper),
@@ -352,7 +352,7 @@ impl<'a> Scene<'a> {
         }
     }
 
-    /// The question of how a sensor's signals come to the diagram.
+    /// Query for the conversion of a sensor's signals to chromaticities.
     pub fn rendering_of(&self, kind: SetKind, name: &str) -> Result<RenderingQuery, SceneError> {
         Ok(RenderingQuery {
             sensor: self.sensor(kind, name)?,
@@ -362,7 +362,7 @@ impl<'a> Scene<'a> {
         })
     }
 
-    /// The temperatures of the loci on show.
+    /// The temperatures of the visible loci.
     pub fn locus_temperatures() -> Result<Temperatures, SceneError> {
         let [from, to] = LOCUS_RANGE_K;
         Ok(Temperatures::Range { from: Kelvin::new(from)?, to: Kelvin::new(to)?, count: LOCUS_POINTS })
@@ -380,7 +380,7 @@ impl<'a> Scene<'a> {
         }
     }
 
-    /// A sensor's Planckian locus over the range on show.
+    /// A sensor's Planckian locus over the visible range.
     pub fn locus(&self, kind: SetKind, name: &str) -> Result<Arc<Locus>, SceneError> {
         self.locus_at(kind, name, Self::locus_temperatures()?)
     }
@@ -390,7 +390,7 @@ impl<'a> Scene<'a> {
         self.locus_at(kind, name, Temperatures::List(vec![self.temperature()?]))
     }
 
-    /// The patches on show through a sensor.
+    /// The current patches through a sensor.
     pub fn patch_colors(&self, kind: SetKind, name: &str) -> Result<Vec<PatchColor>, SceneError> {
         let query = PatchColorsQuery { rendering: self.rendering_of(kind, name)?, patches: self.patches()? };
         let answer = self.results.ask(&query);
@@ -408,7 +408,7 @@ impl<'a> Scene<'a> {
         Ok(self.results.ask(&SpectralLocusQuery { observer: self.sensor(SetKind::Observer, FIT_TARGET)? }))
     }
 
-    /// True if a sensor may be compared with the reference on this way to the diagram.
+    /// True if a sensor may be compared with the reference under this color transform.
     pub fn comparable(&self, kind: SetKind, name: &str) -> Result<Result<(), DifferenceError>, SceneError> {
         if self.document.transform != TransformChoice::Paper {
             return Ok(Ok(()));
@@ -454,7 +454,7 @@ impl<'a> Scene<'a> {
         sources
     }
 
-    /// How one sensor is drawn. Observers beside the reference are told apart by markers alone.
+    /// Appearance of one sensor. Observers other than the reference differ by marker only.
     fn source(&self, compared: &Compared, observers: &mut u8) -> ComparedSensor {
         let entry = self.find(compared.kind, &compared.name).ok();
         let short = entry.as_ref().map_or_else(|| compared.name.clone(), |entry| entry.short.clone());

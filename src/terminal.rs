@@ -1,4 +1,4 @@
-//! Text for people on a terminal: nothing in it is an order to the terminal.
+//! Text for display on a terminal: without control sequences.
 
 use std::borrow::Cow;
 use std::fmt::Write as _;
@@ -25,9 +25,9 @@ pub fn shown(text: &str) -> Cow<'_, str> {
     Cow::Owned(plain)
 }
 
-/// Says something on standard error.
+/// Writes a message to standard error.
 pub fn say(text: &str) {
-    // Nothing can be said when the terminal is gone.
+    // No message can be written once the terminal is closed.
     let _gone = io::stderr().lock().write_all(shown(text).as_bytes());
 }
 
@@ -46,7 +46,7 @@ impl Write for StandardError {
     }
 }
 
-/// Reports a panic in one line, with the file's name alone: where the program was built is nobody's business.
+/// Reports a panic in one line, with the file name alone: the build directory is private.
 pub fn report_panic(info: &std::panic::PanicHookInfo<'_>) {
     let thread = std::thread::current();
     let place = info.location().map_or_else(String::new, |place| {
@@ -55,7 +55,7 @@ pub fn report_panic(info: &std::panic::PanicHookInfo<'_>) {
     });
     let words = info.payload_as_str().unwrap_or("no message");
     say(&format!("chromascope: thread {} panicked{place}: {words}\n", thread.name().unwrap_or("without a name")));
-    // A backtrace names the places of sources where those are known: in builds of whoever looks for the cause.
+    // A backtrace names source files where they are known, in builds for debugging.
     if cfg!(debug_assertions) {
         say(&format!("{}\n", std::backtrace::Backtrace::capture()));
     }

@@ -25,13 +25,9 @@ pub const MONO: f32 = TextSize::Mono.points();
 pub const LINE_TAIL: f64 = 1.2;
 /// Width of grid lines.
 pub const LINE_GRID: f64 = 1.0;
-/// Radius of a marker.
-pub const MARKER: f64 = 6.0;
-/// Radius of a marker where there are many.
-pub const MARKER_SMALL: f64 = 4.5;
 /// Opacity of the colors in a chromaticity diagram.
-pub const DIAGRAM_FILL: f32 = 0.16;
-/// Opacity of what is not selected while something is.
+pub const DIAGRAM_FILL: f32 = 0.1;
+/// Opacity of unselected items while something is selected.
 pub const FADED: f32 = 0.35;
 
 /// Width of the ring around the control that has the keyboard.
@@ -62,6 +58,18 @@ pub enum Surround {
 }
 
 impl Surround {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Middle, Self::Dark, Self::Light];
+
+    /// The name on screen.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Middle => "Middle gray, L* 50",
+            Self::Dark => "Dark gray",
+            Self::Light => "Light gray",
+        }
+    }
+
     /// The gray.
     pub const fn color(self) -> Color32 {
         match self {
@@ -113,7 +121,7 @@ pub struct Theme {
     pub surround: Surround,
     /// The reference.
     pub reference: Color32,
-    /// Observers beside the reference.
+    /// Observers other than the reference.
     pub observer: Color32,
     /// Compared sources by slot.
     pub sources: [Color32; 8],
@@ -294,7 +302,8 @@ impl Palette for Theme {
     }
 }
 
-/// Steps of the ramp of differences: even in L*, from blue over gray to yellow, which all kinds of color vision tell apart.
+/// Steps of the color scale of differences: uniform in L*, from blue through gray to yellow, distinguishable in all kinds
+/// of color vision.
 const DIFFERENCE_RAMP: [[u8; 3]; 9] = [
     [0x00, 0x33, 0x78],
     [0x2E, 0x48, 0x80],

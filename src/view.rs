@@ -1,13 +1,16 @@
-//! What is looked at and how: selection, panes, layout. Not part of the document, no steps of undo.
+//! View state: selection, panes and layout. Not part of the document, and not undoable.
 
 pub mod accuracy;
 pub mod correction;
+pub mod diagram;
 pub mod help;
 pub mod import;
 pub mod metrics;
+pub mod pick;
 pub mod recorded;
 pub mod render;
 pub mod table;
+pub mod tour;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
@@ -22,76 +25,95 @@ use crate::workspaces::{Layout, PaneKind, Workspace};
 use accuracy::AccuracyView;
 use chromascope_figure::Tag;
 use correction::CorrectionView;
+pub use diagram::DiagramFit;
+use diagram::DiagramView;
 use help::HelpView;
 use import::{ImportItem, ImportMemory, ImportView};
 use metrics::MetricsLook;
+use pick::PickState;
 use recorded::RecordedView;
-use render::{RenderLook, RenderView};
+use render::{RenderLook, RenderMode, RenderView};
 use table::TableLook;
 
-/// What is looked at and how.
+/// View state of the window.
 #[derive(Debug, Default)]
 #[expect(clippy::struct_excessive_bools, reason = "independent one-frame requests and switches")]
 pub struct View {
-    /// What is kept between runs.
+    /// State saved between runs.
     pub saved: SavedView,
     /// Under the pointer now, in any pane.
     pub hovered: Option<PlotItem>,
     /// Under the pointer in the frame that is being made; becomes `hovered` at its end.
     pub next_hovered: Option<PlotItem>,
-    /// What the coordinates under the pointer are, where it is on no thing.
+    /// Text of the coordinates under the pointer, where it is over no item.
     pub point: Option<String>,
     /// Chosen by a click.
     pub selected: Option<PlotItem>,
-    /// The selection belongs to a sensor that is not compared: nothing that is drawn fades beside it.
+    /// True if the selection belongs to a sensor that is not compared: nothing drawn is dimmed for it.
     pub selected_elsewhere: bool,
     /// Pair of metamers that was clicked, as a row.
     pub metamers: Option<usize>,
-    /// Kept beside each other, A, B, …
+    /// Pinned items, labeled A, B, …
     pub pinned: Vec<PlotItem>,
-    /// What is typed into the library's search.
+    /// Search text of the library.
     pub search: String,
     /// The pane that fills the window.
     pub maximized: Option<PaneKind>,
     /// The pane that keys and exports mean.
     pub focused: Option<PaneKind>,
-    /// True if the column that a narrow window leaves out lies over the center.
+    /// True if the column that a narrow window omits lies over the center.
     pub inspector_over: bool,
-    /// What is looked at in Import.
+    /// Shown part of the diagram.
+    pub diagram: DiagramView,
+    /// State of the Import pane.
     pub import: ImportView,
-    /// What the Render pane shows now.
+    /// State of the Render pane.
     pub render: RenderView,
-    /// What is looked at in Correction.
+    /// State of the Correction pane.
     pub correction: CorrectionView,
-    /// What is looked at in Accuracy.
+    /// State of the Numerics workspace.
     pub accuracy: AccuracyView,
-    /// What is looked at in Recorded.
+    /// State of the Recorded pane.
     pub recorded: RecordedView,
     /// Plots show their own ranges again in this frame.
     pub reset_plots: bool,
-    /// The reference stands in for every camera while B is held.
+    /// True while B is held: the reference replaces every camera.
     pub blink: bool,
     /// The search field takes the keyboard in this frame.
     pub focus_search: bool,
-    /// A field in which Esc takes back what is typed has the keyboard.
+    /// True if a field has the keyboard in which Esc discards the typed text.
     pub keeps_escape: bool,
-    /// A table is on show in the pane that keys mean: it copies its own rows.
+    /// True if the focused pane shows a table, which copies its own rows.
     pub table_copies: bool,
     /// The temperature field takes the keyboard in this frame.
     pub focus_temperature: bool,
     /// The help window.
     pub help: HelpView,
-    /// The palette of commands, with what is typed into it, while open.
-    pub palette: Option<String>,
+    /// Step of the tour, while it is played.
+    pub tour: Option<usize>,
+    /// True while the window about the program is open.
+    pub about: bool,
+    /// Share of the loci that is drawn, while they draw in.
+    pub locus_share: Option<f64>,
+    /// Time of egui in seconds at which the loci began to draw in.
+    pub draws_since: Option<f64>,
+    /// The palette that finds anything, while open.
+    pub palette: Option<PickState>,
+    /// The keyboard walks through panes: the pane that has it is framed.
+    pub by_keyboard: bool,
+    /// Under the keyboard in the pane that has it.
+    pub cursor: Option<PlotItem>,
+    /// Tab leads into the pane that has the keyboard.
+    pub tab_enters: bool,
     /// Times are neither shown nor renewed: for pictures that are compared.
     pub fixed_clock: bool,
-    /// Documents that other windows kept, and how long ago.
+    /// Documents that other windows saved, with their ages.
     pub kept: Vec<(PathBuf, String)>,
     /// The last message.
     pub status: Status,
 }
 
-/// The part of the view that is kept between runs.
+/// The part of the view that is saved between runs.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct SavedView {
@@ -103,28 +125,32 @@ pub struct SavedView {
     pub tables: BTreeSet<PaneKind>,
     /// Order and columns of tables, by table.
     pub looks: BTreeMap<String, TableLook>,
-    /// What is looked at in Metrics.
+    /// Settings of the Metrics pane.
     pub metrics: MetricsLook,
     /// The gray around swatches.
     pub surround: Surround,
     /// True if the diagram fits the data or shows all.
     pub diagram_fit: DiagramFit,
-    /// True if swatches stand in rows or as charts.
+    /// Arrangement of swatches: rows or charts.
     pub swatch_layout: SwatchLayout,
-    /// How the reference stands within a swatch.
+    /// Arrangement of camera and reference within a swatch.
     pub swatch_style: SwatchStyle,
-    /// True if curves lie over each other or each sensor has its own plot.
+    /// Arrangement of curves: in one plot or one plot per sensor.
     pub spectra_layout: SpectraLayout,
     /// True if the bars of differences are shown.
     pub difference_bars: bool,
+    /// Nothing moves by itself.
+    pub reduced_motion: bool,
+    /// The loci are to draw in, as on the first start.
+    pub draws_in: bool,
     /// Groups of the library that are folded.
     pub folded: BTreeSet<String>,
     /// Files opened lately, the newest first.
     #[serde(with = "crate::document::paths::list")]
     pub recent: Vec<PathBuf>,
-    /// Where the rendered mesh is seen from, and how pictures stand.
+    /// Viewpoint and arrangement of rendered pictures.
     pub render: RenderLook,
-    /// How kinds of files were wished to be read.
+    /// Remembered import settings by kind of file.
     pub import: ImportMemory,
 }
 
@@ -142,6 +168,8 @@ impl Default for SavedView {
             swatch_style: SwatchStyle::default(),
             spectra_layout: SpectraLayout::default(),
             difference_bars: true,
+            reduced_motion: false,
+            draws_in: false,
             folded: ["observers", "charts", "illuminants", "materials"].map(str::to_owned).into(),
             recent: Vec::new(),
             render: RenderLook::default(),
@@ -150,17 +178,40 @@ impl Default for SavedView {
     }
 }
 
-/// What part of the diagram is shown.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub enum DiagramFit {
-    /// What holds the data.
-    #[default]
-    Data,
-    /// The whole spectral locus.
-    Whole,
+/// A choice of how plots and pictures stand.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ViewChoice {
+    /// The part of the diagram.
+    Diagram(DiagramFit),
+    /// Arrangement of swatches.
+    Swatches(SwatchLayout),
+    /// The reference within a swatch.
+    SwatchStyle(SwatchStyle),
+    /// Arrangement of spectra.
+    Spectra(SpectraLayout),
+    /// Arrangement of pictures.
+    Pictures(RenderMode),
 }
 
-/// How swatches are arranged.
+impl SavedView {
+    /// View of the first start, under the system's wish for motion.
+    pub fn first(reduced_motion: bool) -> Self {
+        Self { reduced_motion, draws_in: !reduced_motion, ..Self::default() }
+    }
+
+    /// True if a choice is made.
+    pub fn has(&self, choice: ViewChoice) -> bool {
+        match choice {
+            ViewChoice::Diagram(to) => self.diagram_fit == to,
+            ViewChoice::Swatches(to) => self.swatch_layout == to,
+            ViewChoice::SwatchStyle(to) => self.swatch_style == to,
+            ViewChoice::Spectra(to) => self.spectra_layout == to,
+            ViewChoice::Pictures(to) => self.render.mode == to,
+        }
+    }
+}
+
+/// Arrangement of swatches.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum SwatchLayout {
     /// Five patches in rows, more as charts.
@@ -172,10 +223,10 @@ pub enum SwatchLayout {
     Charts,
 }
 
-/// How the reference stands within a swatch.
+/// Arrangement of camera and reference within a swatch.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum SwatchStyle {
-    /// Left half truth, right half sensor.
+    /// Left half reference, right half sensor.
     #[default]
     Split,
     /// The reference inside the sensor's swatch.
@@ -184,7 +235,7 @@ pub enum SwatchStyle {
     Whole,
 }
 
-/// How spectra are arranged.
+/// Arrangement of spectra.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum SpectraLayout {
     /// All sensors in one plot.
@@ -197,35 +248,81 @@ pub enum SpectraLayout {
 /// A message at the foot of the window.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Status {
-    /// What it says; empty for the standing invitation.
+    /// Message text; empty for the default hint.
     pub text: String,
-    /// How grave it is.
+    /// Severity.
     pub weight: Weight,
-    /// What `[Change]` or `[Show line]` leads to in Import, and the line.
+    /// Import item and line that `[Change]` or `[Show line]` opens.
     pub change: Option<(ImportItem, Option<usize>)>,
+    /// Time of egui in seconds when it was first shown.
+    pub since: Option<f64>,
 }
 
-/// How grave a message is.
+impl Status {
+    /// The message, unless it leads to an item.
+    fn leads_to(&self, item: &ImportItem) -> bool {
+        self.change.as_ref().is_some_and(|(led, _)| led == item)
+    }
+
+    /// Nothing, if the message only leads to an item; else the message.
+    #[must_use]
+    pub fn without(self, item: &ImportItem) -> Self {
+        if self.leads_to(item) { Self::default() } else { self }
+    }
+}
+
+/// Severity of a message.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Weight {
-    /// Something to know.
+    /// Information.
     #[default]
     Note,
-    /// Something to look at.
+    /// Warning that the user should check.
     Warning,
     /// Something failed; nothing was changed.
     Error,
 }
 
 impl View {
-    /// Says something at the foot of the window.
-    pub fn say(&mut self, text: impl Into<String>) {
-        self.status = Status { text: text.into(), weight: Weight::Note, change: None };
+    /// Makes a choice of how plots and pictures stand.
+    pub fn choose(&mut self, choice: ViewChoice) {
+        let saved = &mut self.saved;
+        match choice {
+            ViewChoice::Diagram(to) => {
+                saved.diagram_fit = to;
+                self.reset_plots = true;
+            }
+            ViewChoice::Swatches(to) => saved.swatch_layout = to,
+            ViewChoice::SwatchStyle(to) => saved.swatch_style = to,
+            ViewChoice::Spectra(to) => saved.spectra_layout = to,
+            ViewChoice::Pictures(to) => saved.render.mode = to,
+        }
     }
 
-    /// Says that something failed.
+    /// Shows a message in the status bar.
+    pub fn say(&mut self, text: impl Into<String>) {
+        self.status = Status { text: text.into(), ..Status::default() };
+    }
+
+    /// Shows an error in the status bar.
     pub fn fail(&mut self, text: impl Into<String>) {
-        self.status = Status { text: text.into(), weight: Weight::Error, change: None };
+        self.status = Status { text: text.into(), weight: Weight::Error, ..Status::default() };
+    }
+
+    /// Lets the loci draw in, once; `now` is egui's time in seconds.
+    pub fn draw_in(&mut self, now: f64) {
+        /// Duration in seconds.
+        const DURATION: f64 = 1.2;
+        if std::mem::take(&mut self.saved.draws_in) && !self.saved.reduced_motion {
+            self.draws_since = Some(now);
+        }
+        let part = self.draws_since.map(|since| (now - since) / DURATION);
+        let moving = part.filter(|part| *part < 1.0 && !self.saved.reduced_motion);
+        if moving.is_none() {
+            self.draws_since = None;
+        }
+        // Fast at first, slow at the end.
+        self.locus_share = moving.map(|part| 1.0 - (1.0 - part.clamp(0.0, 1.0)).powi(3));
     }
 
     /// Puts a file at the head of those opened lately.
@@ -236,19 +333,20 @@ impl View {
         recent.truncate(10);
     }
 
-    /// The pointer is on a thing.
+    /// Hovers an item.
     pub fn hover(&mut self, thing: Option<&PlotItem>) {
         if let Some(thing) = thing {
             self.next_hovered = Some(thing.clone());
         }
     }
 
-    /// A thing was clicked: it is chosen, or let go if it was.
+    /// Selects a clicked item, or clears the selection if it was selected.
     pub fn click(&mut self, thing: Option<&PlotItem>) {
         self.selected = if self.selected.as_ref() == thing { None } else { thing.cloned() };
     }
 
-    /// Lets go of sensors that a step removed from the comparison: they are no longer selected, pinned or under the pointer.
+    /// Removes references to sensors that a step removed from the comparison: they are no longer selected, pinned or
+    /// hovered.
     pub fn let_go_of_removed(&mut self, before: &[Compared], after: &[Compared]) {
         let has = |list: &[Compared], id: &SensorId| list.iter().any(|c| c.kind == id.kind && c.name == id.name);
         let gone = |id: &SensorId| has(before, id) && !has(after, id);
@@ -263,12 +361,15 @@ impl View {
         self.render.chosen.take_if(|id| gone(id));
     }
 
-    /// How a drawn thing stands out.
+    /// Returns the emphasis of a drawn item.
     pub fn emphasis(&self, drawn: &PlotItem, reference: &str) -> Emphasis {
         let standing = |of: &Option<PlotItem>| of.as_ref().map(|thing| thing.relation_to(drawn, reference));
         let pinned = self.pinned.iter().any(|thing| thing == drawn);
         match (standing(&self.hovered), standing(&self.selected)) {
-            (_, Some(Relation::Same)) => Emphasis::Selected,
+            (_, Some(Relation::Same)) if self.selected.as_ref().is_some_and(|thing| thing.is_alike(drawn)) => {
+                Emphasis::Selected
+            }
+            (_, Some(Relation::Same)) => Emphasis::Related,
             (Some(Relation::Same), _) => Emphasis::Hovered,
             _ if pinned => Emphasis::Selected,
             (_, Some(Relation::Other)) if !self.selected_elsewhere => Emphasis::Faded,
@@ -276,7 +377,7 @@ impl View {
         }
     }
 
-    /// How a figure's tagged mark stands out.
+    /// Returns the emphasis of a figure's tagged mark.
     pub fn emphasis_of(&self, things: &PickIndex, tag: Tag, reference: &str) -> Emphasis {
         things.get(tag).map_or(Emphasis::Normal, |thing| self.emphasis(thing, reference))
     }

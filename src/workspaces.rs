@@ -27,7 +27,7 @@ impl PaneKind {
     pub const INSPECTOR: Self = Self::new("Inspector");
     /// A mesh through each sensor.
     pub const RENDER: Self = Self::new("Render");
-    /// Mesh, surface, light and view of what is rendered.
+    /// Mesh, surface, light and view of the render.
     pub const RENDER_SETTINGS: Self = Self::new("RenderSetup");
     /// The user's files, and the text of one with the marks of how it was read.
     pub const IMPORT: Self = Self::new("Import");
@@ -39,6 +39,8 @@ impl PaneKind {
     pub const METHODS: Self = Self::new("Accuracy");
     /// Skipped work, and the time it saved.
     pub const WORK_SAVED: Self = Self::new("SkippedWork");
+    /// Counts of samples and methods of the pictures.
+    pub const STATISTICS: Self = Self::new("Statistics");
     /// Cameras by figures of merit.
     pub const METRICS: Self = Self::new("Metrics");
     /// Two cameras side by side.
@@ -47,10 +49,17 @@ impl PaneKind {
     pub const REPORT_CARD: Self = Self::new("ReportCard");
     /// The light judged.
     pub const LIGHT: Self = Self::new("Light");
+    /// The color correction of a camera.
+    pub const CORRECTION: Self = Self::new("Correction");
     /// Raw values of a real camera against the library.
     pub const RECORDED: Self = Self::new("Recorded");
     /// Allowed error.
     pub const TOLERANCE: Self = Self::new("Tolerance");
+
+    /// The workspace that it is listed under: the one it starts in, else Metrics.
+    pub fn group(self) -> Workspace {
+        Layout::home(self).unwrap_or(Workspace::Metrics)
+    }
 
     /// A pane of this id. Ids stay: layouts of earlier runs name them.
     pub const fn new(id: &'static str) -> Self {
@@ -98,7 +107,7 @@ impl<'de> DeserializeSeed<'de> for AnyVariant {
     }
 }
 
-/// A pane by an id read from a file. Each id is kept once, however often layouts are read.
+/// Pane of an id read from a file. Each id is leaked only once, however often layouts are read.
 fn interned(id: String) -> PaneKind {
     static IDS: Mutex<BTreeSet<&'static str>> = Mutex::new(BTreeSet::new());
     let mut ids = IDS.lock().unwrap_or_else(PoisonError::into_inner);
@@ -118,20 +127,21 @@ pub enum Workspace {
     Compare,
     /// Large spectra.
     Spectra,
-    /// A mesh through each camera, beside what it is made of.
+    /// Rendered mesh through each camera, beside its components.
     Render,
     /// Cameras by figures of merit.
     Metrics,
-    /// The user's files, and what was understood of them.
+    /// The user's files and their interpretation.
     Import,
-    /// Run time and error of each method on the scene, and the skipped work.
-    Accuracy,
+    /// Run time and error of each method on the scene, the skipped work, the statistics of the pictures.
+    #[serde(alias = "Accuracy")]
+    Numerics,
 }
 
 impl Workspace {
     /// All workspaces, in the order of their tabs and keys.
     pub const ALL: [Self; 6] =
-        [Self::Compare, Self::Spectra, Self::Render, Self::Metrics, Self::Import, Self::Accuracy];
+        [Self::Compare, Self::Spectra, Self::Render, Self::Metrics, Self::Import, Self::Numerics];
 
     /// The tab's title.
     pub const fn title(self) -> &'static str {
@@ -141,13 +151,13 @@ impl Workspace {
             Self::Render => "Render",
             Self::Metrics => "Metrics",
             Self::Import => "Import",
-            Self::Accuracy => "Accuracy",
+            Self::Numerics => "Numerics",
         }
     }
 
-    /// True where a narrow window hides the library and keeps the right column.
+    /// True where a narrow window hides the library instead of the right column.
     pub const fn keeps_right_column(self) -> bool {
-        matches!(self, Self::Render | Self::Metrics | Self::Import | Self::Accuracy)
+        matches!(self, Self::Render | Self::Metrics | Self::Import | Self::Numerics)
     }
 }
 
@@ -164,7 +174,7 @@ pub enum Splitter {
     RightRows,
 }
 
-/// Sizes and places, kept between runs.
+/// Sizes and places, saved between runs.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Layout {
@@ -188,8 +198,9 @@ pub struct Layout {
     pub metrics: [Option<PaneKind>; 4],
     /// Import: center upper, center lower, right upper, right lower.
     pub import: [Option<PaneKind>; 4],
-    /// Accuracy: center upper, center lower, right upper, right lower.
-    pub accuracy: [Option<PaneKind>; 4],
+    /// Numerics: center upper, center lower, right upper, right lower.
+    #[serde(alias = "accuracy")]
+    pub numerics: [Option<PaneKind>; 4],
 }
 
 impl Default for Layout {
@@ -208,9 +219,19 @@ impl Default for Layout {
             ],
             spectra: [Some(PaneKind::SPECTRA), None, Some(PaneKind::INSPECTOR), None],
             render: [Some(PaneKind::RENDER), None, Some(PaneKind::RENDER_SETTINGS), None],
-            metrics: [Some(PaneKind::METRICS), None, Some(PaneKind::HEAD_TO_HEAD), Some(PaneKind::LIGHT)],
+            metrics: [
+                Some(PaneKind::METRICS),
+                Some(PaneKind::CORRECTION),
+                Some(PaneKind::HEAD_TO_HEAD),
+                Some(PaneKind::LIGHT),
+            ],
             import: [Some(PaneKind::IMPORT), Some(PaneKind::CURVES), Some(PaneKind::INTERPRETATION), None],
-            accuracy: [Some(PaneKind::METHODS), Some(PaneKind::WORK_SAVED), Some(PaneKind::TOLERANCE), None],
+            numerics: [
+                Some(PaneKind::METHODS),
+                Some(PaneKind::WORK_SAVED),
+                Some(PaneKind::TOLERANCE),
+                Some(PaneKind::STATISTICS),
+            ],
         }
     }
 }
@@ -224,7 +245,7 @@ impl Layout {
             Workspace::Render => &self.render,
             Workspace::Metrics => &self.metrics,
             Workspace::Import => &self.import,
-            Workspace::Accuracy => &self.accuracy,
+            Workspace::Numerics => &self.numerics,
         }
     }
 
@@ -236,7 +257,7 @@ impl Layout {
             Workspace::Render => &mut self.render,
             Workspace::Metrics => &mut self.metrics,
             Workspace::Import => &mut self.import,
-            Workspace::Accuracy => &mut self.accuracy,
+            Workspace::Numerics => &mut self.numerics,
         }
     }
 
@@ -249,19 +270,25 @@ impl Layout {
         }
     }
 
+    /// The workspace that a pane starts in, if it starts in one.
+    pub fn home(pane: PaneKind) -> Option<Workspace> {
+        let start = Self::default();
+        Workspace::ALL.into_iter().find(|workspace| start.places(*workspace).contains(&Some(pane)))
+    }
+
     /// True if a workspace shows a pane.
     pub fn shows(&self, workspace: Workspace, pane: PaneKind) -> bool {
         if pane == PaneKind::LIBRARY { self.library } else { self.places(workspace).contains(&Some(pane)) }
     }
 
-    /// Shows or hides a pane; shown, it takes its own place, else the first free one, else the last.
+    /// Shows or hides a pane. A pane is shown in its own place, else in the first free one, else in the last.
     pub fn toggle(&mut self, workspace: Workspace, pane: PaneKind) {
         if pane == PaneKind::LIBRARY {
             self.library = !self.library;
             return;
         }
         let home = Self::default().places(workspace).iter().position(|p| *p == Some(pane));
-        // Where a workspace has no place of its own for it, the inspector stands at the right like everywhere.
+        // In a workspace without a place for the inspector, it is on the right, as elsewhere.
         let home = home.or((pane == PaneKind::INSPECTOR).then_some(3));
         let places = self.places_mut(workspace);
         if let Some(shown) = places.iter_mut().find(|p| **p == Some(pane)) {
@@ -292,23 +319,23 @@ pub struct Arrangement {
     pub panes: Vec<(PaneKind, Rect)>,
     /// Borders with theirs.
     pub splitters: Vec<(Splitter, Rect)>,
-    /// A pane that lies over the others.
+    /// A pane that overlaps the others.
     pub over: Option<(PaneKind, Rect)>,
     /// The window is too narrow for one of the columns.
     pub narrow: bool,
 }
 
-/// Below this width a column is left out: the right one, in Render and Import the library.
+/// Below this width a column is omitted: the right one, in Render and Import the library.
 const NARROW: f32 = 1100.0;
-/// Once left out, it returns only this much above.
+/// Once omitted, it returns only this much above.
 const HYSTERESIS: f32 = 40.0;
 /// Above this width the columns grow.
 const LARGE: f32 = 1800.0;
 /// Width of a border.
 const GAP: f32 = 4.0;
 
-/// Arranges a workspace in an area. `was_narrow` keeps a window at the limit from flickering; `column_over` lays the column that
-/// a narrow window leaves out over the center.
+/// Arranges a workspace in an area. `was_narrow` prevents a window at the limit from flickering; `column_over` lays the omitted
+/// column of a narrow window over the center.
 pub fn arrange(
     workspace: Workspace,
     layout: &Layout,

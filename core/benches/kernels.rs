@@ -1,8 +1,9 @@
-//! The core's kernels one by one, each repeated as often as asked: for counting instructions, which repeat where times do not.
+//! Benchmarks of the core's kernels one by one, each repeated a given number of times: for counting instructions, which are
+//! repeatable where times are not.
 //!
 //! ```text
-//! kernels                      the names, each with how often to run it
-//! kernels NAME COUNT           runs one so many times and says nothing
+//! kernels                      the names, each with its number of runs
+//! kernels NAME COUNT           runs one COUNT times without output
 //! kernels --quick              time of each as a ratio to a plain product of 401 samples in the same run
 //! ```
 //! `.ci/instructions` counts under callgrind: the difference of two counts of runs, over their difference, is free of what
@@ -40,7 +41,7 @@ fn main() {
     }
 }
 
-/// What is asked for by a name: work that is ready to run again and again.
+/// A kernel that is ready to run repeatedly.
 type Work = Box<dyn FnMut() -> f64>;
 
 fn repeat(work: &mut Work, count: u64) {

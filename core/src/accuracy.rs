@@ -1,13 +1,13 @@
-//! Allowed errors, and the refusal where one cannot be kept.
+//! Tolerances, and the error where one cannot be met.
 //!
-//! What takes an [`RelTolerance`] chooses the cheapest way whose error it has checked, and says [`Unmet`] where none is exact
-//! enough. Relative to what an error is, each says itself: a peak, a value, the largest of three signals.
+//! A function that takes a [`RelTolerance`] uses the fastest method whose error it has checked, and returns [`Unmet`] if none
+//! is accurate enough. The scale of the relative error is documented there: a peak, a value, the largest of three signals.
 
 use std::cmp::Ordering;
 use std::fmt;
 use std::hash::{Hash, Hasher};
 
-/// The largest relative error that is allowed: above 0, below 1. Equal and hashed by its bits, so that questions can hold it.
+/// The largest relative error that is allowed: above 0, below 1. Equal and hashed by its bits, so that queries can hold it.
 #[derive(Clone, Copy, Debug)]
 pub struct RelTolerance {
     max_relative_error: f64,
@@ -38,7 +38,7 @@ impl RelTolerance {
         self.max_relative_error
     }
 
-    /// True if an error is within it. What is no number is not.
+    /// True if an error is within it. NaN never is.
     pub fn allows(self, relative_error: f64) -> bool {
         relative_error <= self.max_relative_error
     }
@@ -48,7 +48,7 @@ impl RelTolerance {
         Self::at_best(self.max_relative_error * share)
     }
 
-    /// Smallest tolerance that can be kept. Errors of 1 and more, and NaN, count as the largest below 1.
+    /// Smallest supported tolerance. Errors of 1 and more, and NaN, count as the largest below 1.
     pub(crate) fn at_best(relative_error: f64) -> Self {
         let largest = 1.0 - f64::EPSILON;
         let clamped = if relative_error < largest { relative_error.max(f64::MIN_POSITIVE) } else { largest };
@@ -108,12 +108,12 @@ pub struct NotATolerance {
     pub value: f64,
 }
 
-/// A request that no way meets.
+/// A tolerance that no method meets.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, thiserror::Error)]
 #[error("an error of {asked:.1} cannot be promised; the best that can be is {best:.1}")]
 pub struct Unmet {
-    /// Tolerance asked for.
+    /// Requested tolerance.
     pub asked: RelTolerance,
-    /// The smallest error that can be promised.
+    /// The smallest error bound that is available.
     pub best: RelTolerance,
 }

@@ -9,7 +9,6 @@ pub mod dng;
 pub mod minimize;
 pub mod root_polynomial;
 
-use std::hash::{Hash, Hasher};
 use std::sync::Arc;
 
 use rayon::prelude::*;
@@ -85,7 +84,7 @@ impl CorrectionMethod {
 }
 
 /// Color correction: its method and conditions.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Correction {
     /// Method.
     pub method: CorrectionMethod,
@@ -98,14 +97,6 @@ pub struct Correction {
 impl Default for Correction {
     fn default() -> Self {
         Self { method: CorrectionMethod::LeastSquares, keeps_white: true, weights: ClassWeights::default() }
-    }
-}
-
-impl Eq for Correction {}
-
-impl Hash for Correction {
-    fn hash<H: Hasher>(&self, state: &mut H) {
-        (self.method, self.keeps_white, self.weights).hash(state);
     }
 }
 
@@ -171,21 +162,27 @@ impl Training<'_> {
         }
     }
 
-    /// XYZ of each sample by the fit to all others; none where the others do not determine one.
+    /// XYZ of each sample by the fit to all others; none where the others do not determine one. `fitted` is the fit to all.
+    /// Incomplete once `stop` says so.
     ///
     /// Linear fits by the residual over one minus the leverage (Allen's PRESS 1974), which equals refitting; others are refitted.
     ///
     /// # Errors
     ///
     /// [`FitError`] where all samples together do not determine a fit.
-    pub fn leave_one_out(self, correction: &Correction, white: Xyz) -> Result<Vec<Option<DVec3>>, FitError> {
+    pub fn leave_one_out(
+        self,
+        correction: &Correction,
+        white: Xyz,
+        fitted: &RgbTransform,
+        stop: impl Fn() -> bool + Sync,
+    ) -> Result<Vec<Option<DVec3>>, FitError> {
         let keep = correction.keeps_white.then_some(white.to_vector());
-        let fitted = self.fit(correction, white)?;
         let leverages = match correction.method {
             CorrectionMethod::None => vec![0.0; self.samples.len()],
             CorrectionMethod::LeastSquares => self.linear(keep, |rgb| rgb.to_array().to_vec())?.leverages,
             CorrectionMethod::RootPolynomial(degree) => self.linear(keep, |rgb| degree.terms(rgb))?.leverages,
-            CorrectionMethod::Minimize(_) => return Ok(self.refitted(correction, white)),
+            CorrectionMethod::Minimize(_) => return Ok(self.refitted(correction, white, fitted, stop)),
         };
         let left_out = |((sample, target), leverage): ((&DVec3, &DVec3), f64)| {
             let error = (fitted.xyz(*sample) - *target) / (1.0 - leverage);
@@ -194,14 +191,23 @@ impl Training<'_> {
         Ok(self.samples.iter().zip(self.targets).zip(leverages).map(left_out).collect())
     }
 
-    /// XYZ of each sample by a new fit without it.
-    pub fn refitted(self, correction: &Correction, white: Xyz) -> Vec<Option<DVec3>> {
+    /// XYZ of each sample by a new fit without it; `fitted` is the fit to all. Once `stop` says so, nothing is fitted any more.
+    pub fn refitted(
+        self,
+        correction: &Correction,
+        white: Xyz,
+        fitted: &RgbTransform,
+        stop: impl Fn() -> bool + Sync,
+    ) -> Vec<Option<DVec3>> {
         // Fits that are searched for begin at that of all samples: it is near.
-        let near = match (correction.method, self.fit(correction, white)) {
-            (CorrectionMethod::Minimize(objective), Ok(RgbTransform::Matrix(matrix))) => Some((objective, matrix)),
+        let near = match (correction.method, fitted) {
+            (CorrectionMethod::Minimize(objective), RgbTransform::Matrix(matrix)) => Some((objective, *matrix)),
             _ => None,
         };
         let without = |left: usize| {
+            if stop() {
+                return None;
+            }
             let kept = |i: &usize| *i != left;
             let places: Vec<usize> = (0..self.samples.len()).filter(kept).collect();
             let samples: Vec<DVec3> = places.iter().map(|&i| self.samples[i]).collect();

@@ -13,7 +13,7 @@ pub enum DataError {
     Unknown {
         /// Folder that was searched.
         folder: &'static str,
-        /// Name that was asked for.
+        /// Requested name.
         name: String,
     },
     /// The file cannot be read.

@@ -12,9 +12,9 @@
 //! camera::rendering          ∫ C S L dλ → balanced RGB → XYZ           Eq 11, 13, 16
 //! camera::locus              ∫ C E(T) dλ                                Eq 14, 15
 //! colorimetry                XYZ → xy, u′v′, L*a*b*, ΔE, sRGB
-//! light::temperature         XYZ → nearest black body, Duv
+//! light::temperature         XYZ → nearest blackbody, Duv
 //! rendition                  light → Ra, Rf and Rg, SSI
-//! camera::locus_table        black bodies → xy, for very many temperatures
+//! camera::locus_table        blackbodies → xy, for very many temperatures
 //! camera::quality            Vora, Luther, metamerism index, noise
 //! metamers                   pairs that a camera confuses
 //! camera::batch              ∫ C S L dλ for very many S and C

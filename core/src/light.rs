@@ -1,4 +1,4 @@
-//! Lights: black bodies and daylight by formula; measured ones are plain spectra.
+//! Lights: blackbodies and daylight by formula; measured ones are plain spectra.
 
 pub mod daylight;
 pub mod filter;

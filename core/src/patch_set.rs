@@ -75,7 +75,7 @@ impl PatchSet {
         &self.patches
     }
 
-    /// Those with the given names, in the order of the names; names that the set does not have are left out.
+    /// Those with the given names, in the order of the names; names that the set does not have are omitted.
     #[must_use]
     pub fn subset(&self, names: &[&str]) -> Self {
         let found = names.iter().filter_map(|name| self.patches.iter().find(|patch| patch.name == *name));

@@ -1,7 +1,7 @@
 //! Queries: each a value that holds everything its answer depends on.
 //!
-//! Equality of questions is the whole rule of invalidation: no flags, no revisions. A program that keeps answers
-//! (`Results` in the app) and one that does not ([`Direct`], for the command line and tests) ask in the same words.
+//! Equality of queries is the only rule of invalidation: no flags, no revisions. A caching evaluator (`Results` in the
+//! app) and one without a cache ([`Direct`], for the command line and tests) have the same interface.
 
 pub mod ask;
 pub mod compare;

@@ -1,8 +1,8 @@
 //! Reflectance of rough surfaces: the model (Eq 1–4) and its parts.
 //!
-//! A surface whose heights are normally distributed with deviation σ and correlated as exp(−r²/τ²) sends part of the light
-//! into the mirror direction and spreads the rest (Beckmann and Spizzichino 1963), through Fresnel's transmittances
-//! (Wolff 1994) and a form factor (Vernold and Harvey 1998; Ragheb and Hancock 2006).
+//! A surface whose heights are normally distributed with RMS roughness σ and autocorrelation exp(−r²/τ²) reflects part of
+//! the light into the specular direction and scatters the rest (Beckmann and Spizzichino 1963), with Fresnel's
+//! transmittances (Wolff 1994) and a form factor (Vernold and Harvey 1998; Ragheb and Hancock 2006).
 //!
 //! ```text
 //! P = ρ0² e^-g + D                              Eq 1
@@ -11,7 +11,7 @@
 //! G² = T(θi) T(θs) cos θi,  T = 1 − F           Eq 3
 //! g = σ² v_z²,  b = τ² (v_x² + v_y²) / 4
 //! ```
-//! φi = π as in the paper, so that the mirror direction is θs = θi, φs = 0. Past [`Surface::new`] everything is total: finite
+//! φi = π as in the paper, so that the specular direction is θs = θi, φs = 0. Past [`Surface::new`] everything is total: finite
 //! for any σ up to 1 m, any direction, any index, any wavelength.
 
 pub mod coherent;

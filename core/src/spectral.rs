@@ -1,4 +1,4 @@
-//! Spectra: samples over wavelength, the grid everything is integrated on, and what was assumed on the way there.
+//! Spectra: samples over wavelength, the integration grid, and the assumptions of the resampling.
 //!
 //! A [`SpectralDistribution`] is what was measured. A [`GridSpectrum`] is the same on the standard grid (380–780 nm at
 //! 1 nm), with the ranges where nothing was measured. A [`Sensor`] is three sensitivities ready to integrate.

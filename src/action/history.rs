@@ -7,16 +7,16 @@ use crate::document::names::BuiltInNames;
 /// Largest number of steps.
 const DEPTH: usize = 200;
 
-/// One step: what was done, and the document before (undo) or after it (redo).
+/// One step: its name, and the document before (undo) or after it (redo).
 #[derive(Clone, Debug)]
 struct Step {
     name: String,
     document: Document,
-    /// What later changes of the same gesture must be to belong to this step; none for what is no gesture.
+    /// Action that later changes of the same gesture must extend to be merged into this step; `None` if not a gesture.
     action: Option<Action>,
 }
 
-/// The document with the steps that led to it.
+/// The document with its undo history.
 #[derive(Clone, Debug, Default)]
 pub struct History {
     document: Document,
@@ -67,7 +67,7 @@ impl History {
         self.gesture = true;
     }
 
-    /// Puts another document in the place of this one, as a step of its own.
+    /// Replaces the document, as a step of its own.
     pub fn replace(&mut self, name: String, document: Document) {
         let before = std::mem::replace(&mut self.document, document);
         self.redo.clear();
@@ -75,7 +75,7 @@ impl History {
         self.gesture = false;
     }
 
-    /// Carries out an action that repeats the last step, as part of it: undo takes all of them back at once.
+    /// Applies an action that continues the last step: one undo reverts all of them.
     pub fn apply_again(&mut self, action: &Action) {
         if self.undo_name() != Some(&action.name()) {
             self.apply(action);

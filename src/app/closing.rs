@@ -1,4 +1,4 @@
-//! Closing the window: not before all is saved, or a person says that it need not be.
+//! Closing of the window, once everything is saved or the user decides otherwise.
 
 use std::sync::Arc;
 
@@ -16,12 +16,12 @@ const WIDTH: f32 = 420.0;
 /// Progress of closing.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) enum Closing {
-    /// Nobody wants to.
+    /// Not requested.
     #[default]
     No,
-    /// It is asked what becomes of changes that could not be saved.
+    /// The user is asked about changes that could not be saved.
     Asked,
-    /// A path is being asked for, for the document as it was then.
+    /// A path prompt is open, for the document as it was then.
     Elsewhere(Arc<Document>),
     /// Nothing holds it up.
     Agreed,
@@ -36,18 +36,19 @@ impl ChromascopeApp {
         if !ctx.input(|input| input.viewport().close_requested()) || self.closing == Closing::Agreed {
             return;
         }
+        self.end_tour();
         if self.files.save_document(self.history.document()).is_err() {
             ctx.send_viewport_cmd(ViewportCommand::CancelClose);
             self.closing = Closing::Asked;
         }
     }
 
-    /// Takes in that something was saved: the document elsewhere, after which nothing holds the window open.
+    /// Handles a completed save: the document saved elsewhere no longer holds the window open.
     pub(super) fn saved(&mut self, ctx: &Context, what: &str) {
         if let Closing::Elsewhere(document) = &self.closing
             && what == DOCUMENT
         {
-            // What was changed since is not in that file.
+            // Later changes are not in that file.
             if **document == *self.history.document() {
                 self.close(ctx);
             } else {
@@ -61,7 +62,7 @@ impl ChromascopeApp {
         ctx.send_viewport_cmd(ViewportCommand::Close);
     }
 
-    /// Shows the question, if it is open.
+    /// Shows the prompt, if it is open.
     pub(super) fn ask_about_closing(&mut self, ui: &Ui, theme: &Theme) {
         if self.closing != Closing::Asked {
             return;

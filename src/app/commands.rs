@@ -1,5 +1,6 @@
 //! Carrying out commands.
 
+use std::cmp::Ordering;
 use std::sync::Arc;
 
 use chromascope_figure::{Figure, Table};
@@ -22,6 +23,7 @@ use crate::theme::Theme;
 use crate::view::SavedView;
 use crate::view::accuracy::Shows;
 use crate::view::import::Stop;
+use crate::view::pick::PickState;
 use crate::view::render::RenderMode;
 use crate::workspaces::{Layout, PaneKind, Workspace};
 
@@ -50,9 +52,10 @@ impl ChromascopeApp {
         }
     }
 
-    /// Does what keys, menus and panes asked for.
+    /// Runs the commands of keys, menus and panes.
     pub(super) fn carry_out(&mut self, ctx: &egui::Context) {
         for command in std::mem::take(&mut self.commands) {
+            self.end_tour_before(&command);
             self.carry_out_one(ctx, command);
         }
     }
@@ -111,17 +114,10 @@ impl ChromascopeApp {
             Command::SaveSet(kind, name, form) => self.save_set(kind, &name, form),
             Command::SaveCorrection(form) => self.save_correction(form),
             Command::CopyPicture(pane) => self.copy_picture(ctx, pane),
+            Command::CopyCard(pane) => self.copy_card(ctx, pane),
+            Command::SaveCard(pane) => self.save_card(pane),
             Command::CopyNumbers(pane) => self.copy_numbers(ctx, pane),
-            Command::Show(workspace) => {
-                self.view.saved.workspace = workspace;
-                self.view.maximized = None;
-                self.view.inspector_over = false;
-                // A pane that is not in sight is not what keys and exports mean.
-                let shown = self.view.focused.is_some_and(|pane| self.view.saved.layout.shows(workspace, pane));
-                if !shown {
-                    self.view.focused = self.view.saved.layout.places(workspace)[0];
-                }
-            }
+            Command::Show(workspace) => self.show_workspace(workspace),
             Command::Maximize(pane) => {
                 self.view.maximized = if self.view.maximized == Some(pane) { None } else { Some(pane) };
             }
@@ -136,7 +132,11 @@ impl ChromascopeApp {
             }
             Command::SetTheme(preference) => ctx.set_theme(preference),
             Command::SetSurround(surround) => self.view.saved.surround = surround,
-            Command::Help(page) => self.view.help.open(page, 0),
+            Command::Look(choice) => self.view.choose(choice),
+            Command::Select(item) => self.view.selected = Some(item),
+            Command::Help(page, block) => self.view.help.open(page, block),
+            Command::Tour(to) => self.tour(to),
+            Command::ToggleAbout => self.view.about = !self.view.about,
             Command::FocusSearch if self.view.help.page.is_some() => self.view.help.focus_search = true,
             Command::FocusSearch => {
                 self.view.saved.layout.library = true;
@@ -144,14 +144,27 @@ impl ChromascopeApp {
                 self.view.inspector_over |= self.library_left_out();
                 self.view.focus_search = true;
             }
-            Command::FindAnything => self.view.palette = Some(String::new()),
+            Command::FindAnything => self.view.palette = Some(PickState::default()),
             Command::FocusTemperature => self.view.focus_temperature = true,
             Command::ToggleSource(index) => self.toggle_source(index),
             Command::Pin => self.pin(),
             Command::ToggleDifference => self.toggle_difference(),
             Command::Escape => self.escape(),
             Command::NextPane => self.next_pane(ctx),
+            Command::GoTo(pane) => self.go_to(ctx, pane),
+            Command::Seek(pane, control) => self.seek(ctx, pane, control),
             Command::Quit => ctx.send_viewport_cmd(ViewportCommand::Close),
+        }
+    }
+
+    fn show_workspace(&mut self, workspace: Workspace) {
+        self.view.saved.workspace = workspace;
+        self.view.maximized = None;
+        self.view.inspector_over = false;
+        // Keys and exports never refer to a pane that is not visible.
+        let shown = self.view.focused.is_some_and(|pane| self.view.saved.layout.shows(workspace, pane));
+        if !shown {
+            self.view.focused = self.view.saved.layout.places(workspace)[0];
         }
     }
 
@@ -161,7 +174,7 @@ impl ChromascopeApp {
         self.view.maximized = None;
     }
 
-    /// In a narrow window the inspector lies over the rest; else it has its place.
+    /// In a narrow window the inspector overlaps the rest; else it has its own place.
     fn toggle_inspector(&mut self) {
         if self.arrangement.narrow && !self.view.saved.workspace.keeps_right_column() {
             self.view.inspector_over ^= true;
@@ -170,7 +183,7 @@ impl ChromascopeApp {
         }
     }
 
-    /// True if a narrow window has no place for the library beside the rest.
+    /// True if a narrow window has no room for the library.
     fn library_left_out(&self) -> bool {
         self.arrangement.narrow && self.view.saved.workspace.keeps_right_column()
     }
@@ -183,7 +196,7 @@ impl ChromascopeApp {
         }
     }
 
-    /// The bars under swatches; where pictures are meant, their maps.
+    /// Toggles the bars under swatches or, for pictures, the difference maps.
     fn toggle_difference(&mut self) {
         let mode = &mut self.view.saved.render.mode;
         match (self.view.focused, *mode) {
@@ -229,7 +242,7 @@ impl ChromascopeApp {
         }
         let rendering = self.arrangement.panes.iter().any(|(pane, _)| *pane == PaneKind::RENDER);
         let view = &mut self.view;
-        if view.palette.take().is_some() || view.help.escape() {
+        if view.palette.take().is_some() || view.help.escape() || std::mem::take(&mut view.about) {
             return;
         }
         if std::mem::take(&mut view.inspector_over) {
@@ -238,6 +251,9 @@ impl ChromascopeApp {
         if rendering && view.render.is_waiting() && !view.render.cancelled {
             view.render.cancelled = true;
             view.say("Rendering stopped; the pictures so far are unchanged.");
+            return;
+        }
+        if view.cursor.take().is_some() {
             return;
         }
         if view.selected.take().is_some() || (rendering && view.render.pinned.take().is_some()) {
@@ -251,24 +267,33 @@ impl ChromascopeApp {
             *mode = RenderMode::Grid;
             return;
         }
-        view.status = crate::view::Status::default();
+        view.by_keyboard = false;
+        if view.status != crate::view::Status::default() {
+            view.status = crate::view::Status::default();
+            return;
+        }
+        self.end_tour();
     }
 
-    /// Measures what the scene costs.
+    /// Measures the cost of the scene.
     fn measure(&mut self) {
         let document = self.history.document();
         let scene = Scene { document, catalog: &self.catalog, results: &self.results };
         let own = self.meshes.chosen(&document.render.mesh);
         self.laboratory.run(SceneRunJob::of(&scene, own.as_ref(), self.view.saved.render.orbit));
-        self.view.saved.workspace = Workspace::Accuracy;
+        self.view.saved.workspace = Workspace::Numerics;
         if matches!(self.view.accuracy.shows, Shows::Bench(_)) {
             self.view.accuracy.shows = Shows::default();
         }
     }
 
-    /// Goes to the next pane, or to the next part of one that has several; the keyboard goes there too.
+    /// Moves to the next pane, or to the next part of one that has several, with the keyboard focus.
     fn next_pane(&mut self, ctx: &egui::Context) {
-        let shown: Vec<PaneKind> = self.arrangement.panes.iter().map(|(pane, _)| *pane).collect();
+        let mut shown = self.arrangement.panes.clone();
+        // As they are read: column by column, from above.
+        shown
+            .sort_by(|(_, a), (_, b)| (a.left(), a.top()).partial_cmp(&(b.left(), b.top())).unwrap_or(Ordering::Equal));
+        let shown: Vec<PaneKind> = shown.into_iter().map(|(pane, _)| pane).collect();
         let import = &mut self.view.import;
         let picks =
             self.opened.preview().and_then(|preview| preview.table.clone().ok()).is_some_and(|t| t.curves.len() > 1);
@@ -278,27 +303,58 @@ impl ChromascopeApp {
         }
         let now = self.view.focused.and_then(|focused| shown.iter().position(|pane| *pane == focused));
         let next = now.map_or(0, |index| (index + 1) % shown.len().max(1));
-        self.view.focused = shown.get(next).copied();
+        if let Some(pane) = shown.get(next).copied() {
+            self.give_keyboard(ctx, pane);
+        }
+    }
+
+    /// Shows a pane, in its own workspace unless this one shows it, and gives it the keyboard.
+    fn go_to(&mut self, ctx: &egui::Context, pane: PaneKind) {
+        let view = &mut self.view;
+        if view.maximized != Some(pane) {
+            view.maximized = None;
+        }
+        if !view.saved.layout.shows(view.saved.workspace, pane) {
+            if let Some(home) = Layout::home(pane) {
+                view.saved.workspace = home;
+            }
+            if !view.saved.layout.shows(view.saved.workspace, pane) {
+                view.saved.layout.toggle(view.saved.workspace, pane);
+            }
+        }
+        let left_out = if view.saved.workspace.keeps_right_column() { PaneKind::LIBRARY } else { PaneKind::INSPECTOR };
+        view.inspector_over = self.arrangement.narrow && pane == left_out;
+        self.give_keyboard(ctx, pane);
+    }
+
+    /// Goes to the control of a name in a pane.
+    fn seek(&mut self, ctx: &egui::Context, pane: PaneKind, control: &'static str) {
+        self.go_to(ctx, pane);
+        panes::widgets::seek(ctx, control);
+    }
+
+    /// Gives a pane the keyboard.
+    fn give_keyboard(&mut self, ctx: &egui::Context, pane: PaneKind) {
+        let import = &mut self.view.import;
+        (self.view.focused, self.view.by_keyboard, self.view.cursor) = (Some(pane), true, None);
         import.stop = match self.view.focused {
             Some(PaneKind::IMPORT) => Some(Stop::Files),
             Some(PaneKind::INTERPRETATION) => Some(Stop::Switches),
             _ => None,
         };
         import.focus = import.stop;
-        if let Some(pane) = self.view.focused {
-            self.view.say(format!("{} (F fills the window, Ctrl+E exports)", panes::title(pane)));
-        }
+        self.view.say(format!("{} (F fills the window, Ctrl+E exports)", panes::title(pane)));
         // Keys that are meant for the next pane must not move what the last one had.
         ctx.memory_mut(|memory| memory.focused().map(|id| memory.surrender_focus(id)));
     }
 
-    /// What a pane's figure of a scene is made of.
+    /// Input for a pane's figure of a scene.
     pub fn figure_input<'a>(&'a self, scene: &'a Scene<'a>) -> FigureInput<'a> {
         FigureInput::of((scene, &self.view), &self.studio, &self.laboratory, &self.opened)
     }
 
     /// The pane's figure as on screen, or a message that it has none.
-    fn figure(&mut self, pane: PaneKind) -> Option<Figure> {
+    pub(super) fn figure(&mut self, pane: PaneKind) -> Option<Figure> {
         let scene = Scene { document: self.history.document(), catalog: &self.catalog, results: &self.results };
         let figure = panes::figure(pane, &self.figure_input(&scene));
         if figure.is_none() {
@@ -309,7 +365,7 @@ impl ChromascopeApp {
         figure
     }
 
-    /// Asks where to save a pane's figure. The ending of the path decides in which form, the asked for one is offered.
+    /// Asks where to save a pane's figure. The path's extension decides the format; the requested one is offered.
     fn export(&mut self, pane: PaneKind, format: Format) {
         let Some(figure) = self.figure(pane) else { return };
         let figure = Arc::new(figure);
@@ -365,8 +421,9 @@ impl ChromascopeApp {
 
     /// Puts a document that was read in the place of this one, as one step.
     fn take_document(&mut self, mut opened: crate::files::OpenedDocument) {
+        self.end_tour();
         if opened.before != *self.history.document() {
-            // It went on meanwhile: what it is now is kept.
+            // The document changed meanwhile: its current state is saved.
             return self.files.open_document(&opened.path, self.history.document().clone());
         }
         let name = crate::format::file_name(&opened.path);
@@ -381,9 +438,10 @@ impl ChromascopeApp {
         self.view.kept = self.files.kept_documents();
     }
 
-    /// Keeps the document on disk as soon as it changed, so that nothing is lost.
+    /// Saves the document as soon as it changes.
     pub(super) fn autosave(&mut self, ctx: &egui::Context) {
-        self.files.autosave(self.history.document(), ctx);
+        let document = self.interrupted.as_ref().map_or(&self.history, |own| &own.history).document();
+        self.files.autosave(document, ctx);
     }
 
     /// True if a set of this kind and name is on the list.
@@ -392,7 +450,7 @@ impl ChromascopeApp {
     }
 }
 
-/// A figure's file in a form; the error is a sentence.
+/// A figure's file in a format; the error is a message.
 fn file_of(figure: &Figure, numbers: &Table, format: Format) -> Result<Vec<u8>, String> {
     let svg = || export::svg(figure, &Theme::LIGHT, export::Paper::default());
     match format {

@@ -1,9 +1,10 @@
-//! The keyboard's place on screen: a ring around the control that has it, which is scrolled into sight.
+//! Keyboard focus: a ring around the focused control, which is scrolled into view.
 
 use egui::accesskit::{Action, ActionRequest, TreeId};
-use egui::{Context, Event, Id, Stroke, StrokeKind};
+use egui::{Context, Event, FocusDirection, Id, Key, Modifiers, Rect, Stroke, StrokeKind, Ui};
 
 use crate::theme::{FOCUS, Theme};
+use crate::view::View;
 
 /// Draws a ring around the control that has the keyboard, whatever draws the control. A second line of the ground's color
 /// within shows the ring on any color.
@@ -19,8 +20,28 @@ pub(super) fn ring(ctx: &Context, theme: &Theme) {
     painter.rect_stroke(rect, 3.0, Stroke::new(FOCUS, theme.focus), StrokeKind::Inside);
 }
 
-/// Scrolls a control that has just got the keyboard into sight. Only the control's own scroll areas know how: they are asked
-/// as a screen reader does.
+/// Frames the pane that has the keyboard while one goes from pane to pane with it.
+pub(super) fn frame(ui: &Ui, rect: Rect, theme: &Theme) {
+    let painter = ui.painter();
+    painter.rect_stroke(rect.shrink(FOCUS), 0.0, Stroke::new(1.0, theme.panel), StrokeKind::Inside);
+    painter.rect_stroke(rect, 0.0, Stroke::new(FOCUS, theme.focus), StrokeKind::Inside);
+}
+
+/// Tab leads into the pane that has the keyboard, not to the first control of the window.
+pub(super) fn enter_pane(ctx: &Context, view: &mut View) {
+    let free = ctx.memory(|memory| memory.focused().is_none());
+    view.tab_enters = free
+        && view.by_keyboard
+        && view.focused.is_some()
+        && view.palette.is_none()
+        && ctx.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Tab));
+    if view.tab_enters {
+        ctx.memory_mut(|memory| memory.move_focus(FocusDirection::None));
+    }
+}
+
+/// Scrolls a newly focused control into view. Only its own scroll areas can do so: they receive the request that a screen
+/// reader would send.
 pub(super) fn into_sight(ctx: &Context, before: &mut Option<Id>) {
     let focused = ctx.memory(egui::Memory::focused);
     if *before == focused {

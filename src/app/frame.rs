@@ -1,4 +1,4 @@
-//! One frame: bars, panes, the borders between them, and what lies over them.
+//! One frame: bars, panes, the borders between them, and overlays.
 
 use egui::{Align2, CentralPanel, CursorIcon, Frame, Panel, Rect, Sense, Ui};
 
@@ -20,10 +20,11 @@ impl ChromascopeApp {
             theme,
             view: &mut self.view,
             meshes: &self.meshes,
+            images: &self.images,
             opened: &self.opened,
             recorded: &self.recorded,
             radiators: &self.radiators,
-            corrections: &self.corrections,
+            portrait: &self.portrait,
             studio: &mut self.studio,
             laboratory: &mut self.laboratory,
             ranking: &mut self.ranking,
@@ -43,6 +44,7 @@ impl ChromascopeApp {
         };
         let menu = bar(ui, "menu", 30.0, true);
         let conditions = bar(ui, "conditions", 48.0, true);
+        let tour = context.view.tour.map(|_| bar(ui, "tour", panes::help::tour::HEIGHT, true));
         let standing: Vec<(Standing, Rect)> = self
             .files
             .standing()
@@ -54,6 +56,9 @@ impl ChromascopeApp {
         let area = CentralPanel::default().frame(Frame::NONE.fill(theme.panel)).show(ui, |ui| ui.max_rect()).inner;
         panes::menu::show(ui, menu, &self.history, &mut context);
         panes::scene_bar::show(ui, conditions, &mut context);
+        if let Some(rect) = tour {
+            panes::help::tour::show(ui, rect, &mut context);
+        }
         for (standing, rect) in standing {
             if notice::show(ui, rect, &standing, &theme) {
                 self.files.dismiss(standing.kind);
@@ -82,6 +87,10 @@ impl ChromascopeApp {
                 panes::show(ui, pane, rect, &mut context);
                 ui.painter().rect_stroke(rect, 0.0, egui::Stroke::new(1.0, theme.line), egui::StrokeKind::Inside);
             });
+        }
+        let framed = context.view.focused.filter(|_| context.view.by_keyboard && context.view.palette.is_none());
+        if let Some((_, rect)) = self.arrangement.panes.iter().find(|(pane, _)| Some(*pane) == framed) {
+            focus::frame(ui, *rect, &theme);
         }
         panes::status_bar::show(ui, status, &self.arrangement, &mut context);
         panes::help::show(ui, &self.history, &mut context);

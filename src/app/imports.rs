@@ -15,21 +15,23 @@ use crate::catalog::likeness::Likeness;
 use crate::catalog::opened::{OpenFile, OpenedEvent, Request, Why};
 use crate::command::Command;
 use crate::document::own::{Fingerprint, ImportOverrides, OwnSet};
+use crate::panes::import;
 use crate::view::import::{ImportItem, of_a_kind};
 use crate::view::{Status, Weight};
-use crate::workspaces::Workspace;
+use crate::workspaces::{PaneKind, Workspace};
 use words::{opened_again, put_to_use, renamed};
 
 impl ChromascopeApp {
     /// Begins to read. The document stays as it is until that is done.
     pub(super) fn open(&mut self, requests: Vec<Request>) {
+        self.end_tour();
         let memory = self.view.saved.import.clone();
         self.opened.open(requests, move |bytes| {
             if memory.remembered.is_empty() { ImportOverrides::default() } else { memory.wishes(&Likeness::of(bytes)) }
         });
     }
 
-    /// Files that were dropped on the window, all at once.
+    /// Files dropped on the window in one gesture.
     pub(super) fn take_dropped(&mut self, ctx: &egui::Context) {
         let dropped = ctx.input(|input| input.raw.dropped_files.clone());
         if dropped.is_empty() {
@@ -66,11 +68,18 @@ impl ChromascopeApp {
                     self.view.import.follow(&ImportItem::File(old), &now);
                 }
                 OpenedEvent::Mesh(path) => self.open_mesh(&path),
+                OpenedEvent::Image(path) => self.open_image(&path),
                 OpenedEvent::Document(path) => self.push(Command::OpenDocument(path)),
                 OpenedEvent::Failed(message, files) => {
-                    self.view.fail(message);
+                    let first = files.first().map(|file| ImportItem::File(*file));
                     self.view.import.unseen.extend(files.iter().copied().map(ImportItem::File));
-                    self.view.status.change = files.first().map(|file| (ImportItem::File(*file), None));
+                    // Where the list of files is in sight, it says which failed and why.
+                    let mut panes = self.arrangement.panes.iter();
+                    let in_list = panes.any(|(pane, rect)| *pane == PaneKind::IMPORT && import::lists_files(*rect));
+                    if first.is_none() || !in_list {
+                        self.view.fail(message);
+                        self.view.status.change = first.map(|first| (first, None));
+                    }
                 }
             }
         }
@@ -79,6 +88,7 @@ impl ChromascopeApp {
     }
 
     fn bring_in(&mut self, sets: Vec<Imported>, [message, failure]: [String; 2], paths: Vec<PathBuf>) {
+        self.end_tour();
         for path in paths {
             self.view.remember_file(path);
         }
@@ -102,7 +112,7 @@ impl ChromascopeApp {
             self.view.status.weight = Weight::Warning;
         }
         let items: Vec<ImportItem> = brought.iter().map(|set| ImportItem::Set(set.name.clone())).collect();
-        // What is being tried on another file goes on.
+        // Trials on other files continue.
         let trying = self.view.import.selected.as_ref().is_some_and(|item| self.view.import.pending(item).is_some());
         for (set, item) in brought.iter().zip(&items) {
             self.view.import.tried.remove(item);
@@ -127,9 +137,10 @@ impl ChromascopeApp {
 
     /// Puts sets that were read again in their places, as one step.
     fn put_in_place(&mut self, sets: Vec<(String, Result<Imported, String>)>, why: Why, ticket: u64) {
+        self.end_tour();
         let (mut with, mut failures, mut again) = (Vec::new(), Vec::new(), Vec::new());
         for (name, result) in sets {
-            // What was renamed or removed meanwhile, or was read anew since, is no longer what this is about.
+            // Items that were renamed, removed or reloaded meanwhile are no longer concerned.
             let Some(set) = self.history.document().own.iter().find(|set| set.name == name).cloned() else { continue };
             if self.last_read.get(&name).is_some_and(|last| *last > ticket) {
                 continue;
@@ -176,8 +187,8 @@ impl ChromascopeApp {
         }
     }
 
-    /// Carries out what was wished for the set on show, as soon as its file could be read so and something is taken of it. Until
-    /// then the document stays as it was.
+    /// Applies the settings tried on the selected set once its file was read with them and yields a curve. Until then the
+    /// document is unchanged.
     fn settle_wishes(&mut self) {
         let Some(ImportItem::Set(name)) = self.view.import.selected.clone() else { return };
         let item = ImportItem::Set(name.clone());
@@ -200,13 +211,13 @@ impl ChromascopeApp {
         self.history.end_gesture();
     }
 
-    /// Changes the document; what is looked at in Import follows sets to their new names.
+    /// Changes the document; the selection in Import follows sets to their new names.
     pub(super) fn change(&mut self, action: &Action) {
         self.step(|history| history.apply(action));
     }
 
-    /// Goes to another state of the document; what is looked at in Import follows sets to their new names, and sensors that
-    /// are no longer compared are let go.
+    /// Goes to another state of the document; the selection in Import follows sets to their new names, and sensors that are
+    /// no longer compared are deselected.
     pub(super) fn step(&mut self, go: impl FnOnce(&mut History)) {
         let before = self.history.document();
         let (own, compared) = (before.own.clone(), before.compared.clone());
@@ -216,7 +227,7 @@ impl ChromascopeApp {
         self.follow_selection(&own);
     }
 
-    /// Keeps the same contents visible when a step turned the visible file into a set, or removed that set.
+    /// Keeps the same contents visible when a step turned the selected file into a set, or removed that set.
     fn follow_selection(&mut self, before: &[Shared<OwnSet>]) {
         let own = &self.history.document().own;
         let now = match &self.view.import.selected {
@@ -235,18 +246,18 @@ impl ChromascopeApp {
         }
     }
 
-    /// Goes one step back or forward. What was said of a step that is taken back is no longer so.
+    /// Undoes or redoes a step. Messages about a step that was undone are cleared.
     pub(super) fn travel(&mut self, go: impl FnOnce(&mut History), words: Option<String>) {
         let before = self.history.document().clone();
         self.step(go);
         if before != *self.history.document() {
-            // What was said before may be of what is no more.
+            // Earlier messages may refer to something that no longer exists.
             self.view.status = Status::default();
             self.view.say(words.unwrap_or_default());
         }
     }
 
-    /// Watches the files of the sets there are and those that could not be read, and forgets what is beyond memory.
+    /// Watches the files of the sets and those that could not be read, and drops the oldest beyond the memory limit.
     fn follow_files(&mut self) {
         let document = self.history.document();
         let paths: BTreeSet<PathBuf> = if self.view.saved.import.watch {
@@ -277,7 +288,7 @@ impl ChromascopeApp {
         }
     }
 
-    /// Reads a set's file again, because a person asks.
+    /// Reloads a set's file at the user's request.
     pub(super) fn read_again(&mut self, name: &str) {
         let Some(set) = self.history.document().own.iter().find(|set| set.name == name) else { return };
         match &set.path {
@@ -290,8 +301,10 @@ impl ChromascopeApp {
         }
     }
 
-    /// Opens Import with a file on show.
+    /// Opens Import with a file selected.
     pub(super) fn show_import(&mut self, item: ImportItem, line: Option<usize>) {
+        // What the message was about is on show from now on.
+        self.view.status = std::mem::take(&mut self.view.status).without(&item);
         self.view.import.select(item);
         self.view.import.line = line;
         self.view.saved.workspace = Workspace::Import;
@@ -299,7 +312,7 @@ impl ChromascopeApp {
         self.view.inspector_over = false;
     }
 
-    /// Makes a set of each of these parts of a file; which curves are taken was said of another part.
+    /// Makes a set of each of these parts of a file; a choice of curves belongs to another part and is not applied.
     pub(super) fn use_parts(&mut self, file: Fingerprint, parts: &[usize], wishes: &ImportOverrides) {
         let wishes = |part: usize| {
             let mut wishes = ImportOverrides { taken: None, channels: None, ..wishes.clone() };
@@ -348,7 +361,7 @@ impl ChromascopeApp {
         }
     }
 
-    /// Has a file read as its content says, and forgets what was wished for its kind.
+    /// Reads a file by its contents alone, and forgets the settings remembered for its kind.
     pub(super) fn forget_choices(&mut self, item: &ImportItem) {
         if let Some((file, _)) = self.file_and_wishes(item) {
             self.view.saved.import.forget(&Likeness::of(&file.bytes));

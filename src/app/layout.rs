@@ -56,7 +56,7 @@ impl WindowPlace {
         Self { settings, normal, seen: Seen::default() }
     }
 
-    /// Looks where the window is, if it changed.
+    /// Records the window's position, if it changed.
     pub(super) fn follow(&mut self, ctx: &egui::Context, frame: &eframe::Frame) {
         let now = ctx.input(|input| {
             let viewport = input.viewport();
@@ -74,7 +74,7 @@ impl WindowPlace {
 }
 
 impl ChromascopeApp {
-    /// Keeps the layout, beside the window or, with `now`, before it goes on.
+    /// Saves the layout, in the background or, with `now`, before returning.
     pub(super) fn save_layout(&mut self, now: bool) {
         let mut values = Values::default();
         if let Some(settings) = &self.place.settings {

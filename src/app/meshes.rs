@@ -1,6 +1,6 @@
-//! Opening the user's meshes: read first, then looked at.
+//! Opening of the user's meshes and spectral images: read first, then shown.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use super::ChromascopeApp;
 use crate::action::{Action, RenderAction};
@@ -9,26 +9,57 @@ use crate::format::file_name;
 use crate::workspaces::Workspace;
 
 impl ChromascopeApp {
+    /// Begins to read the header of a spectral image. The document stays as it is until that is done.
+    pub(super) fn open_image(&mut self, path: &Path) {
+        self.meshes.cancel();
+        self.images.open(path);
+        self.view.say(format!("Reading {}…", file_name(path)));
+    }
+
+    /// Shows spectral images whose headers were read.
+    pub(super) fn take_images(&mut self) {
+        for opened in self.images.poll() {
+            match opened.result {
+                Ok(image) => {
+                    let message = image.message();
+                    self.show_scene(RenderAction::OpenImage(opened.path.clone()), opened.path, message);
+                }
+                Err(sentence) => self.view.fail(sentence),
+            }
+        }
+        let wanted = match &self.history.document().render.mesh {
+            MeshChoice::Image(path) => Some(path.as_path()),
+            _ => None,
+        };
+        self.images.keep(wanted);
+    }
+
+    /// Shows a file that was read in the Render workspace.
+    fn show_scene(&mut self, action: RenderAction, path: PathBuf, message: String) {
+        self.view.remember_file(path);
+        self.history.apply(&Action::Render(action));
+        self.history.end_gesture();
+        self.view.saved.workspace = Workspace::Render;
+        self.view.maximized = None;
+        self.view.say(message);
+    }
+
     /// Begins to read a mesh. The document stays as it is until that is done.
     pub(super) fn open_mesh(&mut self, path: &Path) {
         let before = self.meshes.opening().filter(|before| before != path);
+        self.images.cancel();
         self.meshes.open(path);
         let given_up =
             before.map(|before| format!(" {} was canceled: one mesh is shown at a time.", file_name(&before)));
         self.view.say(format!("Reading {}… Esc stops.{}", file_name(path), given_up.unwrap_or_default()));
     }
 
-    /// Shows meshes that were read, and stops reading what nobody wants any more.
+    /// Shows meshes that were read, and stops reads that are no longer needed.
     pub(super) fn take_meshes(&mut self) {
         for opened in self.meshes.poll() {
             match opened.result {
                 Ok(mesh) => {
-                    self.view.remember_file(opened.path.clone());
-                    self.history.apply(&Action::Render(RenderAction::Open(opened.path)));
-                    self.history.end_gesture();
-                    self.view.saved.workspace = Workspace::Render;
-                    self.view.maximized = None;
-                    self.view.say(mesh.message.clone());
+                    self.show_scene(RenderAction::Open(opened.path.clone()), opened.path, mesh.message.clone());
                 }
                 Err(sentence) => self.view.fail(sentence),
             }
@@ -42,7 +73,7 @@ impl ChromascopeApp {
 
     /// Stops reading a mesh, if one is being opened.
     pub(super) fn stop_opening(&mut self) -> bool {
-        let Some(path) = self.meshes.cancel() else { return false };
+        let Some(path) = self.meshes.cancel().or_else(|| self.images.cancel()) else { return false };
         self.view.say(format!("Reading {} stopped. Nothing was changed.", file_name(&path)));
         true
     }

@@ -6,10 +6,10 @@ use crate::files::{Files, PathPrompt};
 use crate::theme::{ROW, Theme};
 
 const WIDTH: f32 = 420.0;
-/// So many rows of completions are in sight.
+/// Number of visible rows of completions.
 const ROWS: f32 = 5.0;
 
-/// The way on that was chosen in the box.
+/// The action chosen in the prompt.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Step {
     /// The path is taken.
@@ -18,7 +18,7 @@ enum Step {
     Complete,
 }
 
-/// Shows the question, if one is open.
+/// Shows the prompt, if it is open.
 pub(super) fn show(ui: &Ui, theme: &Theme, files: &mut Files) {
     let Some(prompt) = files.prompt_mut() else { return };
     let title = prompt.save.as_ref().map_or_else(|| "Open".to_owned(), |request| format!("Save {}", request.what));
@@ -30,7 +30,7 @@ pub(super) fn show(ui: &Ui, theme: &Theme, files: &mut Files) {
         .resizable(false)
         .anchor(Align2::CENTER_TOP, Vec2::new(0.0, 96.0))
         .show(ui.ctx(), |ui| step = content(ui, theme, prompt));
-    // Esc is the program's: it closes what is in front.
+    // Esc is handled by the program: it closes the front overlay.
     match step {
         _ if !open => *files.prompt_mut() = None,
         Some(Step::Take) => files.take_prompt(),
@@ -113,7 +113,7 @@ fn candidates(ui: &mut Ui, prompt: &mut PathPrompt) {
     }
 }
 
-/// Puts the cursor behind the text, where typing goes on.
+/// Places the cursor at the end of the text.
 fn cursor_to_end(ui: &Ui, id: egui::Id, text: &str) {
     use egui::text::{CCursor, CCursorRange};
     let mut state = TextEdit::load_state(ui.ctx(), id).unwrap_or_default();

@@ -1,15 +1,64 @@
-//! Rendered pictures as files.
+//! Cards and rendered pictures out of the window.
 
 use chromascope_core::query::Ask as _;
+use chromascope_figure::{Figure, LegendPlace};
 
 use super::ChromascopeApp;
-use crate::export::render::{Provenance, exr_bytes};
+use crate::export;
+use crate::export::card::{self, Card};
+use crate::export::render::{ImageProvenance, Provenance, exr_bytes, image_exr_bytes};
 use crate::figures::render::index_of;
+use crate::figures::{chromaticity, swatches};
 use crate::files::{FileForm, SaveRequest};
+use crate::panes;
 use crate::plot_item::SensorId;
 use crate::scene::Scene;
+use crate::workspaces::PaneKind;
 
 impl ChromascopeApp {
+    /// A card of a pane's figure, or a message that it has none.
+    fn card(&mut self, pane: PaneKind) -> Option<Card> {
+        let shown = self.figure(pane)?;
+        let scene = Scene { document: self.history.document(), catalog: &self.catalog, results: &self.results };
+        let beside = pane != PaneKind::SWATCHES && pane != PaneKind::METRICS;
+        let swatches = beside.then(|| swatches::figure_sized(&scene, &self.view, card::swatches_size()));
+        let figure = if pane == PaneKind::CHROMATICITY {
+            let [width, height] = card::figure_size();
+            let figure = chromaticity::figure_sized(&scene, &self.view, [width, height - chromaticity::STRIP]);
+            Figure { legend_place: LegendPlace::LowerRight, ..figure }
+        } else {
+            shown
+        };
+        Some(Card { figure, swatches })
+    }
+
+    /// Puts a card of a pane's figure on the clipboard.
+    pub(super) fn copy_card(&mut self, ctx: &egui::Context, pane: PaneKind) {
+        let Some(card) = self.card(pane) else { return };
+        match card.picture() {
+            Ok(picture) => {
+                let size = [picture.width() as usize, picture.height() as usize];
+                ctx.copy_image(egui::ColorImage::from_rgba_unmultiplied(size, picture.as_raw()));
+                self.view.say(format!("{}: card copied, {} × {} pixels.", panes::title(pane), size[0], size[1]));
+            }
+            Err(error) => self.view.fail(error.to_string()),
+        }
+    }
+
+    /// Asks where to save a card of a pane's figure.
+    pub(super) fn save_card(&mut self, pane: PaneKind) {
+        let Some(card) = self.card(pane) else { return };
+        let make = move || {
+            let file = card.picture().and_then(|picture| export::png_file(&picture));
+            file.map_err(|error| error.to_string())
+        };
+        let title = panes::title(pane);
+        let name = format!("{}-card.png", title.to_lowercase());
+        let forms = vec![FileForm::new("png", make)];
+        let what = format!("{title} as a card");
+        self.files.ask_to_save(SaveRequest { what, name, forms, note: String::new() });
+    }
+
     /// Saves a source's picture with its numbers.
     pub(super) fn export_exr(&mut self, source: &SensorId) {
         match self.exr(source) {
@@ -31,16 +80,23 @@ impl ChromascopeApp {
             return Some(Err("The pictures are not finished yet; save again when rendering is complete.".to_owned()));
         }
         let index = index_of(shot, source)?;
-        let image = shot.made()?.images.get(index)?.as_ref()?;
-        let rendering = self.results.ask(&shot.query.sources.get(index)?.rendering);
+        let rendering = self.results.ask(shot.query.rendering(index)?);
         let rendering = (*rendering).as_ref().ok()?;
         let document = self.history.document();
         let scene = Scene { document, catalog: &self.catalog, results: &self.results };
         let [light, white] = scene.rendered_conditions();
-        let shading = &shot.query.shading;
+        let balance = if rendering.is_rgb { &white } else { "none" };
+        if let Some(made) = shot.made()?.image() {
+            let (image, illuminant) = (document.render.mesh.name(), light.clone());
+            let provenance = ImageProvenance { source: &source.name, balance, illuminant: &illuminant, image: &image };
+            let bytes = image_exr_bytes(made.placed(), made.signals(index)?, rendering, &provenance);
+            return Some(bytes.map_err(|error| error.to_string()));
+        }
+        let image = shot.made()?.mesh()?.images.get(index)?.as_ref()?;
+        let shading = &shot.query.mesh()?.shading;
         let provenance = Provenance {
             source: &source.name,
-            balance: if rendering.is_rgb { &white } else { "none" },
+            balance,
             illuminant: &light,
             material: &document.render.material,
             mesh: &document.render.mesh.name(),

@@ -8,10 +8,10 @@ use crate::files::{FileForm, SaveRequest};
 use crate::results::Results;
 use crate::scene::Scene;
 use crate::view::correction::CorrectionForm;
-use chromascope_core::correction::aces::IdtExposure;
 
 impl ChromascopeApp {
-    /// Writes a set beside the window and asks where to save it; what differs in the file is said once it is there.
+    /// Writes a set in the background and asks where to save it; differences from the set are reported when it is
+    /// written.
     pub(super) fn save_set(&mut self, kind: SetKind, name: &str, form: Form) {
         let scene = Scene { document: self.history.document(), catalog: &self.catalog, results: &self.results };
         let entry = match scene.entry(kind, name) {
@@ -31,19 +31,14 @@ impl ChromascopeApp {
         });
     }
 
-    /// Asks where to save the color correction on show.
+    /// Asks where to save the current color correction.
     pub(super) fn save_correction(&mut self, form: CorrectionForm) {
         let Some(file) = self.view.correction.shown.clone() else { return };
-        let scene = Scene { document: self.history.document(), catalog: &self.catalog, results: &self.results };
-        let idt = scene.input_device_transform(SetKind::Camera, &file.camera, IdtExposure::Rawtoaces);
-        let bytes = match (form, &idt) {
-            (CorrectionForm::Dcp, _) => file.dcp().map_err(|error| error.to_string()),
-            (CorrectionForm::Icc, _) => file.icc().map_err(|error| error.to_string()),
-            (CorrectionForm::Clf, Ok(idt)) => profile::clf(&file.camera, &scene.light_name(), idt)
-                .map(String::into_bytes)
-                .map_err(|error| error.to_string()),
-            (CorrectionForm::Clf, Err(error)) => Err(error.to_string()),
-            (CorrectionForm::Text, idt) => Ok(file.text(idt.as_deref().ok()).into_bytes()),
+        let bytes = match form {
+            CorrectionForm::Dcp => file.dcp().map_err(|error| error.to_string()),
+            CorrectionForm::Icc => file.icc().map_err(|error| error.to_string()),
+            CorrectionForm::Clf => file.clf().map(String::into_bytes).map_err(|error| error.to_string()),
+            CorrectionForm::Text => Ok(file.text().into_bytes()),
         };
         let (what, name) = (format!("{}, color correction", file.camera), profile::file_name(&file, form.ending()));
         match bytes {

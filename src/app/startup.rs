@@ -47,7 +47,7 @@ pub fn run(paths: Vec<PathBuf>, start: Instant) -> Result<(), WindowError> {
         .with_min_inner_size([900.0, 600.0])
         .with_drag_and_drop(true)
         .with_icon(icon());
-    // The window's place is kept by the program itself, and read by eframe.
+    // The window's position is saved by the program itself and read by eframe.
     let mut options = NativeOptions { viewport, persist_window: false, ..NativeOptions::default() };
     prefer_x11(&mut options);
     let mut kept = Files::new(eframe::storage_dir(APP_ID));
@@ -60,7 +60,8 @@ pub fn run(paths: Vec<PathBuf>, start: Instant) -> Result<(), WindowError> {
         APP_ID,
         options,
         Box::new(move |cc| {
-            let mut saved: SavedView = cc.storage.and_then(|s| eframe::get_value(s, LAYOUT_KEY)).unwrap_or_default();
+            let known: Option<SavedView> = cc.storage.and_then(|s| eframe::get_value(s, LAYOUT_KEY));
+            let mut saved = known.unwrap_or_else(|| SavedView::first(files::reduces_motion()));
             saved.render.mend();
             let history = History::new(kept.kept_document());
             let mut app = ChromascopeApp::new(&cc.egui_ctx, history, saved, kept);

@@ -9,7 +9,7 @@ use image::{DynamicImage, ImageReader, Limits};
 
 use super::recorded::{Levels, RawRow};
 
-/// Most bytes that a picture may take in memory.
+/// Maximum number of bytes of a picture in memory.
 const MAX_BYTES: u64 = 1 << 30;
 /// Value from which on sixteen bits are clipped.
 const CLIP: f64 = 65535.0;
@@ -89,7 +89,7 @@ impl ChartPicture {
         Image { width: across, height: down, rgba: rgba.into() }
     }
 
-    /// Means of the patches; NaN stands for nothing, infinity for a channel with a clipped pixel.
+    /// Means of the patches; NaN marks a missing patch, infinity a channel with a clipped pixel.
     ///
     /// # Errors
     ///

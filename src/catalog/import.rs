@@ -1,4 +1,4 @@
-//! From the bytes of a user's file to a set of their own, with what was decided on the way.
+//! Import of a file's bytes as an own set, with the decisions made.
 
 use std::path::{Path, PathBuf};
 
@@ -6,7 +6,7 @@ use spectral_file::{Certainty, Effect, ReadError, Role, SpectralFile, Values, Wa
 
 use crate::document::own::{Fingerprint, ImportOverrides, OwnCurve, OwnSet, ReadAs};
 
-/// Of a file with more curves, so many are taken until a person chooses others.
+/// Default maximum number of curves taken from a file.
 pub const TAKEN_AT_FIRST: usize = 200;
 
 /// A set as it was read.
@@ -14,7 +14,7 @@ pub const TAKEN_AT_FIRST: usize = 200;
 pub struct Imported {
     /// The set.
     pub set: OwnSet,
-    /// Summary of the import in one sentence, with what a person should know first.
+    /// Summary of the import in one sentence, with what the user should know first.
     pub message: String,
     /// True if something that changes numbers was guessed.
     pub guessed: bool,
@@ -43,7 +43,7 @@ pub fn import(file: &str, bytes: &[u8], role: Option<Role>) -> Result<Imported, 
     import_as(&Origin::named(file, bytes), bytes, &ImportOverrides::for_role(role), Watch::none())
 }
 
-/// Reads bytes with a person's overrides; the watch may stop it.
+/// Reads bytes with the user's overrides; the watch may stop it.
 pub fn import_as(
     origin: &Origin,
     bytes: &[u8],
@@ -75,7 +75,7 @@ pub fn imported(origin: &Origin, table: &SpectralFile, wishes: &ImportOverrides)
     Imported { message, guessed: !guesses.is_empty(), set: own_set(origin, table, wishes, &taken) }
 }
 
-/// The guesses, and what is not decided, that change numbers or what a set is used as.
+/// Guesses and open decisions that change values or the use of a set.
 pub fn weighty_guesses(table: &SpectralFile) -> Vec<spectral_file::Decision> {
     let decisions = table.decisions().into_iter();
     decisions.filter(|decision| decision.certainty.is_doubtful() && decision.effect != Effect::Report).collect()
@@ -86,7 +86,7 @@ pub fn taken(table: &SpectralFile, wishes: &ImportOverrides) -> Vec<usize> {
     let count = table.curves.len();
     if let Some(wished) = &wishes.taken {
         let taken: Vec<usize> = wished.iter().copied().filter(|index| *index < count).collect();
-        // Where the file lost all curves that were wished for, the wish means nothing any more.
+        // If none of the chosen curves exists any more, the choice is void.
         if !taken.is_empty() || wished.is_empty() {
             return taken;
         }
@@ -140,7 +140,7 @@ fn own_set(origin: &Origin, table: &SpectralFile, wishes: &ImportOverrides, take
     }
 }
 
-/// Name of the part of a file that a person chose of several.
+/// Name of the part of a file that the user chose of several.
 fn part_name(table: &SpectralFile, wishes: &ImportOverrides) -> Option<String> {
     let part = wishes.options.part.filter(|_| table.reading.parts.len() > 1)?;
     let known = table.reading.parts.get(part.checked_sub(1)?)?;

@@ -14,9 +14,9 @@ pub struct Likeness {
 
 /// Number of bytes examined.
 const LOOK: usize = 1 << 14;
-/// So many lines with something in them are enough.
+/// Maximum number of non-empty lines compared.
 const LINES: usize = 24;
-/// A longer line is no header; its beginning tells enough.
+/// A longer line is no header; its beginning suffices.
 const WIDTH: usize = 120;
 /// The share of their lines that two files of a kind have in common.
 const ALIKE: f64 = 0.7;
@@ -34,7 +34,7 @@ impl Likeness {
         Self { shapes, words }
     }
 
-    /// True if there is more than numbers to tell a kind by, so that it is worth remembering.
+    /// True if the kind is identified by more than numbers, so that it is worth remembering.
     pub fn is_telling(&self) -> bool {
         self.words
     }

@@ -1,4 +1,4 @@
-//! Questions that bring a set's figures into the form the core computes with.
+//! Queries that convert a set's values to the form used by the core.
 
 use chromascope_core::light::filter::{filtered, transmittance};
 use chromascope_core::light::{DaylightBasis, DaylightError, RadiationConstants, planckian::black_body};
@@ -112,7 +112,7 @@ impl Query for SensorQuery {
     }
 }
 
-/// The tables of each of some camera models. All cameras of a ranking ask for the same ones.
+/// The tables of each of some camera models. All cameras of a ranking request the same ones.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct ReplicatesQuery(pub Vec<Vec<Place>>);
 
@@ -143,12 +143,12 @@ impl LoadedLight {
     }
 }
 
-/// Illuminant as a question to the catalog.
+/// Illuminant as a query to the catalog.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub enum LightQuery {
     /// A data set.
     Set(Place),
-    /// A black body.
+    /// A blackbody.
     BlackBody(Kelvin),
     /// CIE daylight.
     Daylight(Kelvin),
@@ -239,7 +239,7 @@ impl Query for StandardsQuery {
 pub struct PatchesQuery {
     /// The set.
     pub place: Place,
-    /// The patches wanted; none for all.
+    /// The selected patches; `None` for all.
     pub names: Option<&'static [&'static str]>,
 }
 
@@ -250,7 +250,7 @@ impl Query for PatchesQuery {
     fn answer(&self, ask: &impl Ask) -> Self::Answer {
         let mut named = curves(&self.place, ask)?;
         if let Some(names) = self.names {
-            // Only what is shown is resampled.
+            // Only visible curves are resampled.
             named = names.iter().filter_map(|name| named.iter().find(|(n, _)| n == name).cloned()).collect();
         }
         Ok(Shared::new(PatchSet::new(named)))

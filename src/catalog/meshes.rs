@@ -1,255 +1,288 @@
-//! The user's mesh files: read beside the window, remembered by path, read anew when they changed.
-//!
-//! A document holds a mesh's path alone. [`MeshStore::get`] is what a picture asks: it begins to read at the first question and
-//! never waits. [`MeshStore::open`] is what a person asks: the file is read before anything is changed, and what came of it is
-//! taken from [`MeshStore::poll`]; opening another file meanwhile stops the first.
+//! Reading of mesh files: returns the mesh with notes for the user, or an error message.
 
-mod read;
-
-pub use read::{ENDINGS, LoadedMesh, MAX_FILE_BYTES, MeshFailure, is_mesh, read};
-
-use std::collections::HashMap;
-use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::path::{Path, PathBuf};
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::ffi::OsStr;
+use std::fs::File;
+use std::io::{self, Read as _};
+use std::path::Path;
 
 use chromascope_core::query::Shared;
 use chromascope_mesh::Mesh;
+use chromascope_mesh::reading::{MeshReadError, Note, ReadMesh, read_mesh};
 
+use super::file_store::{FileFailure, FileState, FileStore, FromFile, Opened as OpenedFile, Stamp};
 use crate::document::render::MeshChoice;
-use crate::format::file_name;
-use crate::jobs::{Desk, Executor};
-use read::Stamp;
+use crate::format::{capitalized, file_name, io_reason};
 
-/// Meshes that nobody looks at are remembered up to this many bytes, so that undo need not read them again.
-const REMEMBERED_BYTES: usize = 256_000_000;
-
+/// The mesh files that were requested.
+pub type MeshStore = FileStore<LoadedMesh>;
 /// State of a mesh file.
+pub type MeshState = FileState<LoadedMesh>;
+/// Outcome of opening a mesh file.
+pub type Opened = OpenedFile<LoadedMesh>;
+
+/// The largest mesh file that is read, in bytes.
+pub const MAX_FILE_BYTES: u64 = 1_000_000_000;
+/// Number of bytes read between two checks of the stop signal.
+const CHUNK_BYTES: u64 = 4 << 20;
+/// Endings of mesh files.
+pub const ENDINGS: [&str; 3] = ["obj", "ply", "stl"];
+
+/// A mesh from a file.
 #[derive(Clone, Debug)]
-pub enum MeshState {
-    /// It is being read.
-    Loading,
-    /// It was read.
-    Ready(Arc<LoadedMesh>),
-    /// It gives no mesh: why, and what to do.
-    Failed(String),
+pub struct LoadedMesh {
+    /// The mesh.
+    pub mesh: Shared<Mesh>,
+    /// Tolerated findings, most serious first.
+    pub notes: Vec<String>,
+    /// The file's name and its counts: `head.obj: 4429 vertices, 8812 triangles, open edges 36`.
+    pub summary: String,
+    /// The summary with the most severe note that the counts do not already imply, in full sentences.
+    pub message: String,
 }
 
-/// Outcome of opening a file.
-#[derive(Clone, Debug)]
-pub struct Opened {
-    /// The file.
-    pub path: PathBuf,
-    /// The mesh, or a sentence that says why there is none.
-    pub result: Result<Arc<LoadedMesh>, String>,
-}
+impl FromFile for LoadedMesh {
+    type Failure = MeshFailure;
+    type Version = Stamp;
+    const THREAD: &'static str = "meshes";
 
-/// The mesh files that were asked for.
-pub struct MeshStore {
-    desk: Arc<Desk<State>>,
-    executor: Executor,
-}
+    fn read_unless(
+        path: &Path,
+        unless: Option<Stamp>,
+        stop: &dyn Fn() -> bool,
+    ) -> Result<Option<(Self, Stamp)>, MeshFailure> {
+        read_unless(path, unless, stop)
+    }
 
-#[derive(Default)]
-struct State {
-    known: HashMap<PathBuf, Known>,
-    opening: Option<PathBuf>,
-    opened: Vec<Opened>,
-    clock: u64,
-}
+    fn bytes(&self) -> usize {
+        size_of_val(self.mesh.positions()) + size_of_val(self.mesh.normals()) + size_of_val(self.mesh.triangles())
+    }
 
-/// One file. With nothing in it, nothing was tried yet.
-#[derive(Default)]
-struct Known {
-    mesh: Option<(Arc<LoadedMesh>, Stamp)>,
-    failure: Option<String>,
-    /// Says to the thread that reads it that nobody wants it any more.
-    reading: Option<Arc<AtomicBool>>,
-    asked: u64,
-}
-
-impl Known {
-    fn stop(&mut self) {
-        if let Some(stop) = self.reading.take() {
-            stop.store(true, Ordering::Relaxed);
-        }
+    fn summary(&self) -> &str {
+        &self.summary
     }
 }
 
 impl MeshStore {
-    /// Knows no file yet. `wake` is called when a file was read, from the thread that read it.
-    pub fn new(wake: impl Fn() + Send + Sync + 'static) -> Self {
-        Self::on(&Executor::default(), wake)
-    }
-
-    /// Reads files on an executor.
-    pub fn on(executor: &Executor, wake: impl Fn() + Send + Sync + 'static) -> Self {
-        Self { desk: Arc::new(Desk::new(executor, State::default(), wake)), executor: executor.clone() }
-    }
-
-    /// State of a file. The first call starts reading; a mesh stays visible while its file is reloaded.
-    pub fn get(&self, path: &Path) -> MeshState {
-        let mut state = self.desk.lock();
-        state.clock += 1;
-        let now = state.clock;
-        let known = state.known_at(path);
-        known.asked = now;
-        if let Some((mesh, _)) = &known.mesh {
-            return MeshState::Ready(Arc::clone(mesh));
-        }
-        if known.reading.is_none() {
-            if let Some(failure) = &known.failure {
-                return MeshState::Failed(failure.clone());
-            }
-            self.begin(&mut state, path, None);
-        }
-        MeshState::Loading
-    }
-
-    /// The mesh that a document chose, if it is a file's and was read.
+    /// Returns the mesh of a document, if it is from a file and was read.
     pub fn chosen(&self, choice: &MeshChoice) -> Option<Shared<Mesh>> {
         let MeshChoice::File(path) = choice else { return None };
         match self.get(path) {
-            MeshState::Ready(mesh) => Some(mesh.mesh.clone()),
-            MeshState::Loading | MeshState::Failed(_) => None,
+            FileState::Ready(mesh) => Some(mesh.mesh.clone()),
+            FileState::Loading | FileState::Failed(_) => None,
         }
     }
+}
 
-    /// Opens a file for a person: [`MeshStore::poll`] tells what came of it. What was being opened before is given up.
-    pub fn open(&self, path: &Path) {
-        let mut state = self.desk.lock();
-        state.give_up_opening();
-        state.opening = Some(path.to_owned());
-        let known = state.known_at(path);
-        let unless = known.mesh.as_ref().map(|(_, stamp)| *stamp);
-        if known.reading.is_none() {
-            self.begin(&mut state, path, unless);
-        }
+/// Reason that a file gives no mesh.
+#[derive(Debug, thiserror::Error)]
+pub enum MeshFailure {
+    /// There is no such file.
+    #[error("{file} is not in {folder}")]
+    Missing {
+        /// The file's name.
+        file: String,
+        /// Folder that was searched.
+        folder: String,
+    },
+    /// The system does not give it out.
+    #[error("{file}: {}", io_reason(.error))]
+    Io {
+        /// The file's name.
+        file: String,
+        /// Reason.
+        error: io::Error,
+    },
+    /// A folder or a device.
+    #[error("{0} is not a file")]
+    NoFile(String),
+    /// It exceeds the size limit.
+    #[error(
+        "{file}: {} MB, but the limit is {} MB; simplify the mesh or export a part of it",
+        .bytes / 1_000_000,
+        MAX_FILE_BYTES / 1_000_000
+    )]
+    TooLarge {
+        /// The file's name.
+        file: String,
+        /// Its size.
+        bytes: u64,
+    },
+    /// There is no memory for it.
+    #[error("{file}: not enough memory for its {} MB; close other programs or simplify the mesh", .bytes / 1_000_000)]
+    NoMemory {
+        /// The file's name.
+        file: String,
+        /// Its size.
+        bytes: u64,
+    },
+    /// Its contents make no mesh.
+    #[error("{file}{}{error}", joint(.error))]
+    Mesh {
+        /// The file's name.
+        file: String,
+        /// Cause, with its position.
+        error: MeshReadError,
+    },
+    /// The program broke on it.
+    #[error("{0} could not be read because of an error in this program; please report it with the file")]
+    Broken(String),
+    /// The read was canceled.
+    #[error("reading {0} stopped")]
+    Stopped(String),
+}
+
+impl FileFailure for MeshFailure {
+    fn io(file: String, error: io::Error) -> Self {
+        Self::Io { file, error }
     }
 
-    /// Reads a file again, changed or not. Its mesh stays on show meanwhile, and afterwards if it can no longer be read.
-    pub fn reload(&self, path: &Path) {
-        let mut state = self.desk.lock();
-        state.known_at(path).stop();
-        self.begin(&mut state, path, None);
+    fn broken(file: String) -> Self {
+        Self::Broken(file)
     }
 
-    /// What came of opening, once for each file that was not given up.
-    pub fn poll(&self) -> Vec<Opened> {
-        std::mem::take(&mut self.desk.lock().opened)
+    fn stopped(file: String) -> Self {
+        Self::Stopped(file)
     }
 
-    /// The file that is being opened.
-    pub fn opening(&self) -> Option<PathBuf> {
-        self.desk.lock().opening.clone()
+    fn on_opening(&self) -> String {
+        format!("{}. Nothing was changed.", self.beginning())
     }
 
-    /// Gives up opening. Returns the file that was being opened.
-    pub fn cancel(&self) -> Option<PathBuf> {
-        self.desk.lock().give_up_opening()
-    }
-
-    /// Stops reading what is neither wanted nor being opened, and lets go of meshes beyond what is worth remembering.
-    pub fn keep(&self, wanted: Option<&Path>) {
-        let mut state = self.desk.lock();
-        let opening = state.opening.clone();
-        let needed = |path: &Path| Some(path) == wanted || Some(path) == opening.as_deref();
-        for (path, known) in &mut state.known {
-            if !needed(path) {
-                known.stop();
-            }
-        }
-        state.known.retain(|path, known| needed(path) || known.mesh.is_some() || known.failure.is_some());
-        let size = |known: &Known| known.mesh.as_ref().map_or(0, |(mesh, _)| mesh.bytes());
-        loop {
-            let spare = || state.known.iter().filter(|(path, _)| !needed(path));
-            if spare().map(|(_, known)| size(known)).sum::<usize>() <= REMEMBERED_BYTES {
-                return;
-            }
-            let oldest = spare().filter(|(_, known)| known.mesh.is_some()).min_by_key(|(_, known)| known.asked);
-            let Some(oldest) = oldest.map(|(path, _)| path.clone()) else { return };
-            state.known.remove(&oldest);
-        }
-    }
-
-    /// Reads on a thread of its own, so that a folder of a server that is gone holds up no other file.
-    fn begin(&self, state: &mut State, path: &Path, unless: Option<Stamp>) {
-        let stop: Arc<AtomicBool> = Arc::default();
-        state.known_at(path).reading = Some(Arc::clone(&stop));
-        let (desk, file) = (Arc::clone(&self.desk), path.to_owned());
-        let work = move || {
-            let result = read_once(&file, unless, &|| stop.load(Ordering::Relaxed));
-            desk.lock().take(&file, &stop, result);
-            desk.tell();
+    fn on_show(&self) -> String {
+        let remedy = match self {
+            Self::Missing { .. } => "; open it from where it is now, or choose Head or Fern.",
+            Self::Io { .. } | Self::Stopped(..) => "; open it again, or choose Head or Fern.",
+            _ => ". Open another mesh, or choose Head or Fern.",
         };
-        if let Err(error) = self.executor.spawn("meshes", work) {
-            let failure = MeshFailure::Io { file: file_name(path), error };
-            let stop = state.known_at(path).reading.clone().unwrap_or_default();
-            state.take(path, &stop, Err(failure));
+        self.beginning() + remedy
+    }
+}
+
+impl MeshFailure {
+    /// The message as the beginning of a sentence: only a sentence's own first word takes a capital, a file's name stays as it is.
+    fn beginning(&self) -> String {
+        match self {
+            Self::Stopped(..) => capitalized(&self.to_string()),
+            _ => self.to_string(),
         }
     }
 }
 
-impl Drop for MeshStore {
-    fn drop(&mut self) {
-        self.desk.lock().known.values_mut().for_each(Known::stop);
+/// Separator between a file's name and a message, which may begin with a position in the file.
+fn joint(error: &MeshReadError) -> &'static str {
+    use MeshReadError as E;
+    match error {
+        E::Number { .. }
+        | E::NotFinite { .. }
+        | E::TooFar { .. }
+        | E::TooFewNumbers { .. }
+        | E::Index { .. }
+        | E::NoSuchVertex { .. }
+        | E::NoSuchNormal { .. }
+        | E::FaceTooShort { .. }
+        | E::FaceTooLong { .. }
+        | E::Syntax { .. } => ", ",
+        E::Empty
+        | E::NotAMesh { .. }
+        | E::NoFaces { .. }
+        | E::NoArea { .. }
+        | E::TooLarge { .. }
+        | E::Truncated { .. }
+        | E::Unfinished { .. }
+        | E::Stopped => ": ",
     }
 }
 
-impl State {
-    fn known_at(&mut self, path: &Path) -> &mut Known {
-        self.known.entry(path.to_owned()).or_default()
-    }
-
-    /// Takes what a thread read; none for a file that is as it was.
-    fn take(&mut self, path: &Path, stop: &Arc<AtomicBool>, result: Result<Option<(LoadedMesh, Stamp)>, MeshFailure>) {
-        let Some(known) = self.known.get_mut(path) else { return };
-        if known.reading.as_ref().is_none_or(|reading| !Arc::ptr_eq(reading, stop)) {
-            return;
-        }
-        known.reading = None;
-        let mut sentence = None;
-        match result {
-            Ok(Some((mesh, stamp))) => {
-                log::info!("read {}", mesh.summary);
-                known.mesh = Some((Arc::new(mesh), stamp));
-                known.failure = None;
-            }
-            Ok(None) => {}
-            Err(failure) => {
-                log::warn!("{failure}");
-                known.failure = Some(failure.on_show());
-                sentence = Some(failure.on_opening());
-            }
-        }
-        if self.opening.as_deref() != Some(path) {
-            return;
-        }
-        self.opening = None;
-        let result = match (sentence, &known.mesh) {
-            (Some(sentence), _) => Err(sentence),
-            (None, Some((mesh, _))) => Ok(Arc::clone(mesh)),
-            (None, None) => return,
-        };
-        self.opened.push(Opened { path: path.to_owned(), result });
-    }
-
-    fn give_up_opening(&mut self) -> Option<PathBuf> {
-        let path = self.opening.take()?;
-        let known = self.known_at(&path);
-        known.stop();
-        known.failure = Some(MeshFailure::Stopped(file_name(&path)).on_show());
-        Some(path)
-    }
+/// Reads a mesh file. `stop` is polled, and ends the reading with [`MeshFailure::Stopped`].
+pub fn read(path: &Path, stop: &dyn Fn() -> bool) -> Result<LoadedMesh, MeshFailure> {
+    // Nothing to compare with, so there is always something.
+    read_unless(path, None, stop)?.map(|(mesh, _)| mesh).ok_or_else(|| MeshFailure::Stopped(file_name(path)))
 }
 
-/// Reads, and has a panic come out as a failure of this file alone.
-fn read_once(
+/// Reads a file unless its stamp is still this one.
+fn read_unless(
     path: &Path,
     unless: Option<Stamp>,
     stop: &dyn Fn() -> bool,
 ) -> Result<Option<(LoadedMesh, Stamp)>, MeshFailure> {
-    let read = catch_unwind(AssertUnwindSafe(|| read::read_unless(path, unless, stop)));
-    read.unwrap_or_else(|_| Err(MeshFailure::Broken(file_name(path))))
+    let file = file_name(path);
+    let failed = |error: io::Error| match error.kind() {
+        io::ErrorKind::NotFound => {
+            let folder = path.parent().map_or_else(String::new, |folder| folder.display().to_string());
+            MeshFailure::Missing { file: file.clone(), folder }
+        }
+        _ => MeshFailure::Io { file: file.clone(), error },
+    };
+    // Opening a pipe would block until another process writes into it.
+    if !std::fs::metadata(path).map_err(failed)?.is_file() {
+        return Err(MeshFailure::NoFile(file));
+    }
+    let source = File::open(path).map_err(failed)?;
+    let known = source.metadata().map_err(failed)?;
+    let stamp = Stamp::of(&known);
+    if unless == Some(stamp) {
+        return Ok(None);
+    }
+    if stamp.bytes() > MAX_FILE_BYTES {
+        return Err(MeshFailure::TooLarge { file, bytes: stamp.bytes() });
+    }
+    let bytes = contents(source, stamp.bytes(), stop).map_err(|error| match error.kind() {
+        io::ErrorKind::OutOfMemory => MeshFailure::NoMemory { file: file.clone(), bytes: stamp.bytes() },
+        io::ErrorKind::Interrupted => MeshFailure::Stopped(file.clone()),
+        _ => failed(error),
+    })?;
+    match read_mesh(&bytes, path.extension().and_then(OsStr::to_str), stop) {
+        Ok(mesh) => Ok(Some((loaded(&file, mesh), stamp))),
+        Err(MeshReadError::Stopped) => Err(MeshFailure::Stopped(file)),
+        Err(error) => Err(MeshFailure::Mesh { file, error }),
+    }
+}
+
+/// The bytes of a file, in pieces, for a disk can be slow.
+fn contents(source: File, size: u64, stop: &dyn Fn() -> bool) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    let room = usize::try_from(size).unwrap_or(usize::MAX);
+    bytes.try_reserve_exact(room).map_err(|_| io::Error::from(io::ErrorKind::OutOfMemory))?;
+    // A file that grows meanwhile is read as long as it was.
+    let mut rest = source.take(size);
+    while (&mut rest).take(CHUNK_BYTES).read_to_end(&mut bytes)? > 0 {
+        if stop() {
+            return Err(io::Error::from(io::ErrorKind::Interrupted));
+        }
+    }
+    Ok(bytes)
+}
+
+fn loaded(file: &str, read: ReadMesh) -> LoadedMesh {
+    let ReadMesh { mesh, report, .. } = read;
+    let open = report.boundary_edges;
+    let open = if open == 0 { "closed".to_owned() } else { format!("open edges {open}") };
+    let plural = if report.triangles == 1 { "" } else { "s" };
+    let summary = format!("{file}: {} vertices, {} triangle{plural}, {open}", report.vertices, report.triangles);
+    let notes = report.notes();
+    let first = notes.iter().find(|note| !matches!(note, Note::Open { .. } | Note::Skipped { .. }));
+    let message = first.map_or_else(|| format!("{summary}."), |note| format!("{summary}. {note}."));
+    LoadedMesh { mesh: Shared::new(mesh), notes: notes.iter().map(ToString::to_string).collect(), summary, message }
+}
+
+/// True if a file is a mesh rather than spectra: by its name's ending, else by its first bytes.
+pub fn is_mesh(path: &Path, beginning: &[u8]) -> bool {
+    let ending = path.extension().and_then(OsStr::to_str);
+    if ending.is_some_and(|ending| ENDINGS.iter().any(|known| ending.eq_ignore_ascii_case(known))) {
+        return true;
+    }
+    let text = String::from_utf8_lossy(beginning);
+    let mut lines = text.lines().map(str::trim).filter(|line| !line.is_empty());
+    match lines.next() {
+        Some("ply") => true,
+        Some(first) if first.starts_with("solid") => lines.next().is_some_and(|line| line.starts_with("facet")),
+        _ => text.lines().any(is_vertex),
+    }
+}
+
+/// `v`, and three numbers or more.
+fn is_vertex(line: &str) -> bool {
+    let mut words = line.split_whitespace();
+    let numbers = |words: std::str::SplitWhitespace<'_>| words.take_while(|word| word.parse::<f64>().is_ok()).count();
+    words.next() == Some("v") && numbers(words) >= 3
 }

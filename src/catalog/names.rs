@@ -1,4 +1,4 @@
-//! Finding a set by what a person types.
+//! Lookup of data sets by typed name.
 
 use super::Entry;
 
@@ -8,7 +8,7 @@ pub enum NameError {
     /// Nothing of that name.
     #[error("no {kind} is named \"{name}\"{}", suggest(.nearest))]
     Unknown {
-        /// Kind of thing that was looked for.
+        /// Kind of data set searched for.
         kind: &'static str,
         /// Name as typed.
         name: String,
@@ -58,12 +58,12 @@ pub fn matches_search(entry: &Entry, search: &str) -> bool {
     search.split_whitespace().map(folded).all(|word| text.contains(&word))
 }
 
-/// An entry that a typed name stands for.
+/// The entry that a typed name matches.
 #[derive(Clone, Debug)]
 pub struct Found<'a> {
     /// The entry.
     pub entry: &'a Entry,
-    /// True if its own name was typed; case, punctuation and words such as "illuminant" aside.
+    /// True if its own name was typed, ignoring case, punctuation and words such as "illuminant".
     pub exact: bool,
     /// Other tables of the same model.
     pub others: Vec<&'a str>,
@@ -78,7 +78,7 @@ impl<'a> Found<'a> {
         Self { entry, exact: false, others: Vec::new() }
     }
 
-    /// The choice in words, where another name than the entry's was typed.
+    /// The choice in words, if another name than the entry's was typed.
     pub fn note(&self) -> Option<String> {
         let others = match self.others.as_slice() {
             [] => String::new(),
@@ -91,7 +91,7 @@ impl<'a> Found<'a> {
 /// Words that distinguish no two sets.
 const NOISE: [&str; 8] = ["cie", "illuminant", "standard", "observer", "light", "deg", "degree", "degrees"];
 
-/// The words of a name, in small letters. Periods join: `A.M.P.A.S.` and `FL3.10` are one word each.
+/// The words of a name, in lower case. Periods join: `A.M.P.A.S.` and `FL3.10` are one word each.
 fn words(text: &str) -> Vec<String> {
     let joined = text.replace('.', "");
     // The masculine ordinal is typed for a degree sign, and counts as a letter.
@@ -99,7 +99,7 @@ fn words(text: &str) -> Vec<String> {
     joined.split(between).filter(|word| !word.is_empty()).map(str::to_lowercase).collect()
 }
 
-/// The words of a name that tell it from others: without "CIE", "illuminant" and the like, unless there are no others.
+/// The distinguishing words of a name: without "CIE", "illuminant" and the like, unless there are no others.
 pub fn telling_words(text: &str) -> Vec<String> {
     let all = words(text);
     let angle = |word: &str| {
@@ -112,11 +112,12 @@ pub fn telling_words(text: &str) -> Vec<String> {
     if telling.is_empty() { all } else { telling }
 }
 
-/// The entry that a typed name stands for.
+/// Finds the entry that a typed name matches.
 ///
-/// Case, punctuation and words that distinguish no two sets are ignored. In this order: the exact name; the name that has all the
-/// words as whole words; the only name that contains the text. Of several names with all the words, one whose words all others have
-/// too is meant (`EOS R5`, not `EOS R5 Mark II`); of several tables of one model, told apart by parentheses alone, the first measured.
+/// Case, punctuation and words that distinguish no two sets are ignored. In this order: the exact name; the name that contains all the
+/// words as whole words; the only name that contains the text. Of several names with all the words, the one whose words are contained
+/// in all others is used (`EOS R5`, not `EOS R5 Mark II`); of several tables of one model, which differ in parentheses only, the first
+/// measured.
 pub fn find<'a>(
     entries: impl Iterator<Item = &'a Entry>,
     kind: &'static str,
@@ -129,7 +130,7 @@ pub fn find<'a>(
         return Err(NameError::Unknown { kind, name: name.to_owned(), nearest: Vec::new() });
     }
     if let Some(entry) = exact(&entries, &folded(name), &wanted) {
-        // A short name is not listed, and may leave out what tells two sets apart.
+        // A short name is not listed, and may omit the words that distinguish two sets.
         let is_short = folded(&entry.name) != folded(name) && telling_words(&entry.name).concat() != wanted;
         return Ok(if is_short { Found::near(entry) } else { Found::exact(entry) });
     }
@@ -162,7 +163,7 @@ pub fn find<'a>(
     Err(NameError::Unknown { kind, name: name.to_owned(), nearest: nearest(&entries, &wanted) })
 }
 
-/// The entry of exactly this name or short name, else the only one whose telling words are the wanted ones.
+/// The entry of exactly this name or short name, else the only one whose distinguishing words equal the typed ones.
 fn exact<'a>(entries: &[&'a Entry], typed: &str, wanted: &str) -> Option<&'a Entry> {
     let by = |text: fn(&Entry) -> &str| entries.iter().copied().find(|e| folded(text(e)) == typed);
     by(|e| &e.name).or_else(|| by(|e| &e.short)).or_else(|| {
@@ -208,7 +209,7 @@ fn ambiguous(name: &str, candidates: &[&Entry]) -> NameError {
     NameError::Ambiguous { name: name.to_owned(), candidates: named }
 }
 
-/// Up to three names that are like the wanted one.
+/// Up to three names similar to the typed one.
 fn nearest(entries: &[&Entry], wanted: &str) -> Vec<String> {
     let alike = |name: &str| strsim::jaro_winkler(&folded(name), wanted);
     let score = |name: &str| alike(name).max(alike(&without_remarks(name)));

@@ -1,8 +1,8 @@
-//! The spectral files that were opened in this run: read beside the window, kept as bytes so that they can be read otherwise.
+//! Spectral files opened in this run: read in the background, with their bytes cached so that the settings can be changed.
 //!
-//! Nothing here changes a document. What came of opening is taken from [`Opened::poll`]; a file stays known whether it could be
-//! read or not, so that a person can look at its text and at what was understood ([`Opened::look`]), flip a switch, and look
-//! again.
+//! Nothing here changes a document. The results of opening are returned by [`Opened::poll`]. A file stays listed whether it
+//! could be read or not, so that the user can see its text and its interpretation ([`Opened::look`]), change a setting, and see
+//! the effect.
 
 mod file;
 mod look;
@@ -24,18 +24,18 @@ use crate::document::own::{Fingerprint, ImportOverrides, OwnSet};
 use crate::format::file_name;
 use crate::jobs::{self, Background, Executor};
 
-/// Files that no set is made of are forgotten, the oldest first, beyond so many bytes in all.
+/// Maximum total bytes of files without a set; beyond it the oldest are dropped.
 const REMEMBERED_BYTES: usize = 256_000_000;
 
 /// A file on disk that could not be read, as it is remembered between runs.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Failing {
-    /// Where it is.
+    /// Path of the file.
     #[serde(with = "crate::document::paths")]
     pub path: PathBuf,
     /// Fingerprint of the contents.
     pub fingerprint: Fingerprint,
-    /// Reason, as a sentence that names the file.
+    /// Reason, as a message that names the file.
     pub why: String,
 }
 
@@ -44,18 +44,18 @@ pub struct Failing {
 pub enum OpenedEvent {
     /// Sets were read.
     Read {
-        /// The sets, each with what was guessed on reading.
+        /// The sets, each with its guesses.
         sets: Vec<Imported>,
         /// Summary of the contents and the decisions, in one sentence.
         message: String,
-        /// Number of files beside them could not be read, and why the first could not; may be empty.
+        /// Number of further files that could not be read, and the reason for the first; may be empty.
         failure: String,
         /// The files on disk that they came from.
         paths: Vec<PathBuf>,
-        /// Files beside them that could not be read, but whose text can be looked at.
+        /// Further files that could not be read, but whose text can be shown.
         failed: Vec<Fingerprint>,
     },
-    /// Sets were read again, for a reason that is told.
+    /// Sets were read again, for the given reason.
     Reread {
         /// The sets by the names they had: each as it is now, or why it stays as it was.
         sets: Vec<(String, Result<Imported, String>)>,
@@ -64,7 +64,7 @@ pub enum OpenedEvent {
         /// A later reading has a larger number.
         ticket: u64,
     },
-    /// A file that could not be read has other contents now, which stand in its place.
+    /// New contents of a file that could not be read before.
     Replaced {
         /// Fingerprint of the former contents.
         old: Fingerprint,
@@ -75,9 +75,11 @@ pub enum OpenedEvent {
     },
     /// A mesh is to be opened, which is not read yet.
     Mesh(PathBuf),
+    /// A spectral image is to be opened, which is not read yet.
+    Image(PathBuf),
     /// A document of this program is to be opened, which is not read yet.
     Document(PathBuf),
-    /// Nothing could be read; nothing was changed. The files whose text can be looked at.
+    /// No file could be read, and nothing was changed. Contains the files whose text can be shown.
     Failed(String, Vec<Fingerprint>),
 }
 
@@ -99,7 +101,7 @@ pub struct Progress {
     pub share: f32,
     /// Number of the file, from 1, and the count of files.
     pub file: [usize; 2],
-    /// For how long.
+    /// Running time.
     pub time: Duration,
 }
 
@@ -134,7 +136,7 @@ struct Job {
 }
 
 impl Opened {
-    /// Knows no file yet. `wake` is called when something was read, from the thread that read it.
+    /// Creates an empty store. `wake` is called when something was read, from the thread that read it.
     pub fn new(wake: impl Fn() + Send + Sync + 'static) -> Self {
         Self::on(&Executor::default(), wake)
     }
@@ -148,7 +150,7 @@ impl Opened {
         Self { desk: Arc::new(desk), look, executor: executor.clone() }
     }
 
-    /// Reads files, folders or bytes; `remembered` says what a person wished for files like one whose text is given.
+    /// Reads files, folders or bytes; `remembered` returns the user's settings for files like one with the given text.
     pub fn open(&self, requests: Vec<Request>, remembered: impl Fn(&[u8]) -> ImportOverrides + Send + 'static) {
         self.begin(move |desk, job| {
             let events = reading::open(requests, &remembered, desk, job);
@@ -171,21 +173,21 @@ impl Opened {
         });
     }
 
-    /// Brings back the contents that a set was made of, if its file is still as it was. Asked for once.
+    /// Reloads the contents that a set was made of, if its file is unchanged. Requested once.
     pub fn fetch(&self, set: &OwnSet) {
         let (Some(path), Some(fingerprint)) = (set.path.clone(), set.fingerprint) else { return };
         let mut state = self.desk.lock();
         if state.lost.contains(&fingerprint) || state.file(fingerprint).is_some() {
             return;
         }
-        // What is being looked for counts as lost until it is found, so that it is looked for once.
+        // The search counts as failed until the file is found, so that it is done once.
         state.lost.push(fingerprint);
         drop(state);
         self.begin(move |desk, job| reading::fetch(&path, fingerprint, desk, job));
     }
 
-    /// Reads files that could not be read in an earlier run, so that their text can be looked at again. Nothing comes of it but
-    /// that they are known; those that are no more are not.
+    /// Reads files that failed in an earlier run, so that their text can be shown again. They are only listed; missing files
+    /// are dropped.
     pub fn recall(&self, failing: Vec<Failing>) {
         if !failing.is_empty() {
             self.begin(move |desk, job| reading::recall(failing, desk, job));
@@ -244,7 +246,7 @@ impl Opened {
         self.desk.lock().files.retain(|file| file.origin.fingerprint != fingerprint);
     }
 
-    /// Forgets the oldest files of which no set is made, beyond what is worth remembering.
+    /// Drops the oldest files without a set, beyond the memory limit.
     pub fn keep(&self, wanted: &[Fingerprint]) {
         let mut state = self.desk.lock();
         let size = |state: &State| state.files.iter().map(|file| file.bytes.len()).sum::<usize>();
@@ -261,22 +263,22 @@ impl Opened {
         self.preview().filter(|preview| preview.fingerprint == file.origin.fingerprint)
     }
 
-    /// What [`look`](Self::look) last found, whatever the file.
+    /// Latest preview that [`look`](Self::look) produced, of any file.
     pub fn preview(&self) -> Option<Arc<FilePreview>> {
         self.look.shown().map(|shown| shown.answer)
     }
 
-    /// For how long [`look`](Self::look) has been at it.
+    /// Running time of [`look`](Self::look).
     pub fn looking(&self) -> Option<Duration> {
         self.look.busy()
     }
 
-    /// Nobody looks.
+    /// Stops the preview, which is not visible.
     pub fn rest(&self) {
         self.look.rest();
     }
 
-    /// Waits until everything that was asked for is read. For tests.
+    /// Waits until everything that was requested is read. For tests.
     pub fn wait(&self) {
         self.desk.settle(&self.executor, |state| state.running.is_empty());
         self.look.wait();
@@ -344,7 +346,7 @@ impl Job {
         }
     }
 
-    /// Goes on to a file, one of so many.
+    /// Records the progress: file number `file` of `count`.
     fn at(&self, path: &Path, file: usize, count: usize) {
         *self.name.lock().unwrap_or_else(PoisonError::into_inner) = file_name(path);
         for (place, number) in self.place.iter().zip([file, count]) {
@@ -353,7 +355,7 @@ impl Job {
         self.share.store(0, Ordering::Relaxed);
     }
 
-    /// Takes in how far it is; says whether to go on.
+    /// Records the share of the file read; returns whether to continue.
     fn go_on(&self, share: f32) -> bool {
         self.share.store(share.to_bits(), Ordering::Relaxed);
         !self.stop.load(Ordering::Relaxed)

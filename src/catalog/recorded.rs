@@ -1,12 +1,12 @@
-//! Raw RGB that a real camera recorded, from tables, and its patches' spectra beside it.
+//! Raw RGB recorded by a real camera, read from tables, with the spectra of its patches.
 //!
 //! ```text
 //! patch,R,G,B                    patch,R,G,B,400,410,…
 //! dark skin,812,655,410          dark skin,812,655,410,0.055,0.058,…
 //! ```
-//! One row a patch. Columns R, G and B (or red, green and blue) hold linear raw values; commas, semicolons or tabs separate. An empty
-//! cell, `-` or NaN is a missing value. Lines that begin with `#` are comments. Without heads, three numbers a row are R, G and B. What
-//! stands beside them with wavelengths for heads is a spectral table, read as any other.
+//! One row per patch. Columns R, G and B (or red, green and blue) hold linear raw values, separated by commas, semicolons or tabs. An
+//! empty cell, `-` or NaN is a missing value. Lines that begin with `#` are comments. Without a header, three numbers per row are R, G
+//! and B. Further columns with wavelengths as headers form a spectral table, read as any other.
 
 use chromascope_core::camera::recorded::{RecordedPatch, Signal};
 use chromascope_core::spectral::GridSpectrum;
@@ -27,12 +27,12 @@ pub struct RawRow {
     pub rgb: [f64; 3],
 }
 
-/// Raw values, and the spectra beside them.
+/// Raw values with their spectra.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RawTable {
     /// The rows.
     pub rows: Vec<RawRow>,
-    /// The same table without R, G and B, line by line, if it has spectra.
+    /// The table's text without the columns R, G and B, if it contains spectra.
     pub spectra: Option<String>,
 }
 
@@ -73,7 +73,7 @@ pub enum RawTableError {
         /// Number of heads.
         expected: usize,
     },
-    /// A cell that is no number.
+    /// A cell that is not a number.
     #[error("line {line}, column {column}: \"{text}\" is not a number; leave a missing value empty")]
     Number {
         /// The line, from 1.
@@ -101,7 +101,7 @@ pub enum JoinError {
         /// The first of the spectra's names.
         known: String,
     },
-    /// A name that stands twice.
+    /// A name that occurs twice.
     #[error("line {line}: \"{name}\" was named before; name each patch once")]
     Twice {
         /// The line, from 1.
@@ -252,7 +252,7 @@ fn row(
     Ok(RawRow { line, name, rgb })
 }
 
-/// Patches with spectrum and raw values: by name where every row has one, else in order. Spectra without a row are left out.
+/// Patches with spectrum and raw values: by name where every row has one, else in order. Spectra without a row are omitted.
 ///
 /// # Errors
 ///

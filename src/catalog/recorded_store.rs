@@ -1,5 +1,6 @@
-//! The file of recorded raw values that is on show: read beside the window.
+//! Selected file of recorded raw values, read in the background.
 
+use std::fmt;
 use std::fs::File;
 use std::io::Read as _;
 use std::path::{Path, PathBuf};
@@ -13,7 +14,7 @@ use spectral_file::{ReadOptions, Role};
 
 use super::chart_picture::ChartPicture;
 use super::recorded::{self, Levels, RawRow};
-use crate::format::io_reason;
+use crate::format::{file_name, io_reason};
 use crate::jobs::Executor;
 
 /// Endings of pictures of charts.
@@ -23,7 +24,7 @@ const MAX_BYTES: u64 = 1 << 30;
 /// Longest side of a picture as it is shown.
 const SHOWN: usize = 1024;
 
-/// Spectra beside raw values.
+/// Spectra of the recorded patches.
 #[derive(Clone, Debug)]
 pub struct TableSpectra {
     /// By the names of their patches.
@@ -48,7 +49,13 @@ pub struct RecordedFile {
     pub content: RecordedContent,
 }
 
-/// State of the file on show.
+impl fmt::Debug for RecordedFile {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_tuple("RecordedFile").field(&self.name).finish()
+    }
+}
+
+/// State of the selected file.
 #[derive(Clone, Default)]
 pub enum RecordedState {
     /// None was opened.
@@ -58,7 +65,7 @@ pub enum RecordedState {
     Loading(String),
     /// It was read.
     Ready(Arc<RecordedFile>),
-    /// It gives no values: a sentence.
+    /// It contains no values: the reason.
     Failed(String),
 }
 
@@ -70,17 +77,17 @@ pub struct RecordedStore {
 }
 
 impl RecordedStore {
-    /// Knows no file yet. `wake` is called when one was read, from the thread that read it.
+    /// Creates an empty store. `wake` is called when a file was read, from the thread that read it.
     pub fn on(executor: &Executor, wake: impl Fn() + Send + Sync + 'static) -> Self {
         Self { state: Arc::default(), executor: executor.clone(), wake: Arc::new(wake) }
     }
 
-    /// State of the file on show.
+    /// State of the selected file.
     pub fn state(&self) -> RecordedState {
         self.state.lock().unwrap_or_else(PoisonError::into_inner).1.clone()
     }
 
-    /// Begins to read a file in place of the one on show.
+    /// Starts reading a file in place of the selected one.
     pub fn open(&self, path: &Path) {
         let ticket = {
             let mut state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
@@ -105,17 +112,16 @@ impl RecordedStore {
     }
 }
 
-fn file_name(path: &Path) -> String {
-    path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
-}
-
-/// Reads a table or a picture; the error is a sentence with the file's name.
+/// Reads a table or a picture; the error is a message with the file's name.
 fn read(path: &PathBuf) -> Result<RecordedFile, String> {
     let name = file_name(path);
     let failed = |why: String| format!("{name}: {why}");
     let mut bytes = Vec::new();
     let file = File::open(path).map_err(|error| failed(io_reason(&error)))?;
-    file.take(MAX_BYTES).read_to_end(&mut bytes).map_err(|error| failed(io_reason(&error)))?;
+    file.take(MAX_BYTES + 1).read_to_end(&mut bytes).map_err(|error| failed(io_reason(&error)))?;
+    if bytes.len() as u64 > MAX_BYTES {
+        return Err(failed(format!("larger than {} MB; cut or bin the picture", MAX_BYTES >> 20)));
+    }
     let is_picture = path.extension().is_some_and(|own| PICTURES.iter().any(|ending| own.eq_ignore_ascii_case(ending)));
     let content = if is_picture {
         let picture = ChartPicture::decode(&bytes).map_err(|error| failed(error.to_string()))?;
@@ -129,7 +135,7 @@ fn read(path: &PathBuf) -> Result<RecordedFile, String> {
     Ok(RecordedFile { name, content })
 }
 
-/// Spectra beside the raw values.
+/// Spectra in the file of the raw values.
 fn spectra(text: &str) -> Result<TableSpectra, String> {
     let table = spectral_file::read(text.as_bytes(), &ReadOptions::default()).map_err(|error| error.to_string())?;
     let are_radiances = table.role.value == Role::Illuminant;
@@ -146,12 +152,12 @@ impl RecordedFile {
         !matches!(&self.content, RecordedContent::Table(_, Some(_)))
     }
 
-    /// Patches with spectra and raw values. `chart` are the radiances of the chart on show, `light` is the light on show, `corners` those
-    /// of the chart in a picture.
+    /// Patches with spectra and raw values. `chart` is the current chart's radiances, `light` the current light, `corners` the chart's
+    /// corners in a picture.
     ///
     /// # Errors
     ///
-    /// A sentence where values and spectra do not belong together.
+    /// A message where values and spectra do not belong together.
     pub fn patches(
         &self,
         chart: &[(String, GridSpectrum)],

@@ -1,4 +1,4 @@
-//! What can be said on the command line.
+//! Command-line arguments.
 
 use std::ffi::OsString;
 use std::path::PathBuf;
@@ -73,7 +73,7 @@ whatever the sensor, so its colors have distances in the diagrams, but no \u{394
 A file's reflectances are fractions or percent, its wavelengths nm or µm; guesses are reported on standard error. Numbers above one whose
 scale the file does not state need --values percent or --values plain; a file of radiances is refused as a chart.";
 
-/// What can be computed without a window.
+/// Subcommands, which run without a window.
 #[derive(Debug, clap::Subcommand)]
 pub(super) enum Subcommand {
     /// Planckian loci as CSV: chromaticity, distances to the reference, CCT error and arc length of blackbodies by temperature
@@ -94,7 +94,7 @@ pub(super) enum Subcommand {
     /// Pictures of a mesh under a light, through cameras and observers, as PNG or OpenEXR
     #[command(after_help = super::render::arguments::EXAMPLES)]
     Render(Box<RenderArguments>),
-    /// Which table of sensitivities is a camera's: raw RGB of known patches against all cameras, ranked by log error
+    /// Cameras ranked by how well their sensitivities explain the raw RGB of known patches, by log error
     #[command(after_help = super::identify::arguments::EXAMPLES)]
     Identify(Box<IdentifyArguments>),
     /// Contents of files of spectra and the decisions made when reading them; curves as CSV or JSON
@@ -134,7 +134,7 @@ pub(super) struct CommonArguments {
     pub(super) force: bool,
 }
 
-/// What `locus` takes.
+/// Arguments of `locus`.
 #[derive(Debug, Args)]
 pub(super) struct LocusArguments {
     #[command(flatten)]
@@ -153,7 +153,7 @@ pub(super) struct LocusArguments {
     pub(super) temperatures: Vec<f64>,
 }
 
-/// What `patches` takes.
+/// Arguments of `patches`.
 #[derive(Debug, Args)]
 pub(super) struct PatchesArguments {
     #[command(flatten)]

@@ -1,4 +1,4 @@
-//! True if a file holds what the option asks for that names it.
+//! Checks that a file contains the quantity that its option requires.
 
 use spectral_file::{Certainty, ReadOptions, SpectralFile, Warning};
 
@@ -6,7 +6,7 @@ use super::error::CliError;
 use crate::document::own::{OwnSet, Role};
 use crate::terminal::say;
 
-/// Refuses as reflectances what the file says is something else, and numbers whose scale nobody said.
+/// Rejects as reflectances data that the file declares as another quantity, and values of unknown scale.
 pub(super) fn reflectances(path: &str, role: Role, table: &SpectralFile) -> Result<(), CliError> {
     if !role.is_fraction() {
         return Ok(());
@@ -36,7 +36,7 @@ pub(super) fn reflectances(path: &str, role: Role, table: &SpectralFile) -> Resu
     Ok(())
 }
 
-/// Says what a file is taken as that does not say what it holds.
+/// Reports the assumed quantity of a file that does not state it.
 pub(super) fn say_role(path: &str, role: Role, table: &SpectralFile, bytes: &[u8]) {
     // Only a file that names no quantity can be open.
     let unnamed = table.reading.quantity.certainty == Certainty::Chosen;

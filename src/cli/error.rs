@@ -15,7 +15,7 @@ pub(super) enum CliError {
     /// A file could not be read.
     #[error("{}", .0)]
     File(String),
-    /// Some of several files failed; each was told of.
+    /// Some of several files failed; each was reported.
     #[error("{failed} of {count} files failed")]
     Failed {
         /// Number.

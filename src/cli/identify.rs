@@ -7,7 +7,7 @@ use std::path::Path;
 
 use chromascope_core::camera::chart_grid::ChartGrid;
 use chromascope_core::camera::recorded::Freedom;
-use chromascope_core::query::{RecordedSet, Shared};
+use chromascope_core::query::{Ask as _, RecordedSet, Shared};
 use chromascope_core::spectral::{GridSpectrum, Quantity};
 
 use self::arguments::{Format, Held, IdentifyArguments};
@@ -23,9 +23,9 @@ use crate::scene::Scene;
 /// Spectra by the names of their patches.
 type Spectra = Vec<(String, GridSpectrum)>;
 
-/// Ranks the cameras, and writes what came of it.
+/// Ranks the cameras and writes the result.
 pub(super) fn run(arguments: &IdentifyArguments) -> Result<(), CliError> {
-    let (mut request, names) = Request::of_cameras(arguments.per, &arguments.camera)?;
+    let mut request = Request::of_cameras("--camera", &arguments.camera, arguments.per)?;
     request.values = arguments.values;
     let levels = levels(arguments)?;
     let recorded = recorded_set(&mut request, arguments, levels)?;
@@ -37,7 +37,8 @@ pub(super) fn run(arguments: &IdentifyArguments) -> Result<(), CliError> {
     outputs::check(files, &request.inputs(), arguments.force)?;
     let results = Results::default();
     let scene = Scene { document: &request.document, catalog: &request.catalog, results: &results };
-    let ranked = scene.ranked_cameras(&recorded, freedom, &names)?;
+    let names: Vec<String> = request.sources.iter().map(|(_, name)| name.clone()).collect();
+    let ranked = (*results.ask(&scene.recorded_ranking(&recorded, freedom, &names)?)).clone()?;
     if let Some(Err(why)) = ranked.first().map(|camera| &camera.fit) {
         return Err(CliError::File(format!("{}: {why}", file_of(arguments))));
     }

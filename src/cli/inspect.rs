@@ -1,4 +1,4 @@
-//! `inspect`: what is in files of spectra, how they were understood, and their curves as plain tables.
+//! `inspect`: contents of spectral files, their interpretation, and their curves as plain tables.
 
 pub(super) mod arguments;
 mod json;
@@ -30,7 +30,7 @@ use crate::terminal::say;
 enum Failure {
     /// The system says no.
     Disk(String),
-    /// The content is not understood.
+    /// The content is not recognized.
     Read(ReadError),
     /// Only sensitivities are responses to something.
     NoCamera(Role),
@@ -69,7 +69,7 @@ impl Failure {
     }
 }
 
-/// Reads the files one by one, and says about each what is asked for. One that fails does not keep the others back.
+/// Reads the files one by one and writes the requested output of each. A failed file does not stop the others.
 pub(super) fn run(arguments: &InspectArguments) -> Result<(), CliError> {
     let (files, several) = files(&arguments.files)?;
     let out = Out::new(arguments, &files, several)?;
@@ -98,7 +98,7 @@ pub(super) fn run(arguments: &InspectArguments) -> Result<(), CliError> {
     }
 }
 
-/// Says about a file what is asked for. What keeps all files back is the outer error.
+/// Writes the requested output of a file. The outer error ends the whole run.
 fn answer(
     file: &Path,
     (index, end): (usize, &str),

@@ -30,7 +30,7 @@ struct Answer {
     patches: Vec<String>,
 }
 
-/// Answers for each light in the order given.
+/// Results for each light in the given order.
 pub(super) fn run(arguments: &LightArguments, matches: &ArgMatches) -> Result<(), CliError> {
     let mut request = Request::of_sources(&arguments.sources, matches)?;
     request.set_chart(arguments.chart.as_deref())?;
@@ -67,7 +67,7 @@ fn answer(scene: &Scene<'_>, cameras: &[String]) -> Result<Answer, CliError> {
     })
 }
 
-/// Reasons for the values that a light does not have, each told once.
+/// Reasons for missing values of a light, each listed once.
 fn reasons(answer: &Answer) -> Vec<String> {
     let Rendition { rendering, fidelity, similarity, .. } = &answer.rendition;
     let mut reasons: Vec<String> = [

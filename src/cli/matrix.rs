@@ -10,15 +10,14 @@ use arguments::{Format, MatrixArguments};
 use super::error::CliError;
 use super::outputs;
 use super::request::Request;
-use crate::document::SetKind;
-use crate::export::profile::{CorrectionFile, clf, idt_note};
+use crate::export::profile::{CorrectionFileQuery, clf, idt_note};
 use crate::results::Results;
 use crate::scene::{Scene, SceneError};
 use crate::terminal::say;
 
 /// Writes the color correction of a camera.
 pub(super) fn run(arguments: &MatrixArguments) -> Result<(), CliError> {
-    let mut request = Request::of_camera(&arguments.camera, arguments.per)?;
+    let mut request = Request::of_cameras("CAMERA", std::slice::from_ref(&arguments.camera), arguments.per)?;
     request.set_light(&arguments.illuminant)?;
     request.set_fit_target(&arguments.fit_to)?;
     request.set_correction(arguments.fit, &arguments.training)?;
@@ -40,13 +39,15 @@ fn written(arguments: &MatrixArguments, request: &Request, scene: &Scene<'_>) ->
     let [(kind, name)] = request.sources.as_slice() else { return Ok(Vec::new()) };
     let exposure = if arguments.white_at_one { IdtExposure::WhiteAtOne } else { IdtExposure::Rawtoaces };
     if arguments.format == Format::Clf {
-        let idt = scene.input_device_transform(*kind, name, exposure)?;
-        if let Some(note) = idt_note(&idt) {
+        let idt = scene.results.ask(&scene.input_device_transform(*kind, name, exposure)?);
+        let idt = idt.as_ref().as_ref().map_err(|error| SceneError::Idt { name: name.clone(), error: *error })?;
+        if let Some(note) = idt_note(idt) {
             say(&format!("chromascope: {note}; --white-at-one fits it there\n"));
         }
-        return Ok(clf(name, &scene.light_name(), &idt)?.into_bytes());
+        return Ok(clf(name, &scene.light_name(), idt)?.into_bytes());
     }
-    let file = correction_file(scene, *kind, name, arguments.model.as_deref())?;
+    let query = CorrectionFileQuery::new(scene, (*kind, name), arguments.model.as_deref(), exposure)?;
+    let file = (*scene.results.ask(&query)).clone()?;
     if let Some(Err(error)) = &file.sheet.second {
         return Err(SceneError::Rendering { name: name.clone(), error: *error }.into());
     }
@@ -54,21 +55,6 @@ fn written(arguments: &MatrixArguments, request: &Request, scene: &Scene<'_>) ->
         Format::Dng => file.dng()?.into_bytes(),
         Format::Dcp => file.dcp()?,
         Format::Icc => file.icc()?,
-        Format::Text | Format::Clf => {
-            let idt = scene.input_device_transform(*kind, name, exposure);
-            file.text(idt.ok().as_deref()).into_bytes()
-        }
+        Format::Text | Format::Clf => file.text().into_bytes(),
     })
-}
-
-fn correction_file(
-    scene: &Scene<'_>,
-    kind: SetKind,
-    name: &str,
-    model: Option<&str>,
-) -> Result<CorrectionFile, CliError> {
-    let query = scene.correction_sheet(kind, name)?;
-    let answer = scene.results.ask(&query);
-    let sheet = (*answer).clone().map_err(|error| SceneError::Rendering { name: name.to_owned(), error })?;
-    Ok(CorrectionFile::new(scene, name, model, sheet)?)
 }

@@ -1,7 +1,7 @@
 //! Files that commands write: checked before anything is written, then written whole or not at all.
 //!
-//! No command writes over a file that it reads, nor over any other file unless told to by `--force`. Streams (standard output,
-//! pipes, devices such as `/dev/null`) are written into.
+//! No command overwrites a file that it reads, nor any other file without `--force`. Streams (standard output, pipes, devices
+//! such as `/dev/null`) are written into.
 
 use std::fs;
 use std::io::{self, Write as _};
@@ -12,7 +12,7 @@ use crate::files::write_atomically_with;
 use crate::scene::SceneError;
 use crate::terminal;
 
-/// Bytes that are passed on to an output at once.
+/// Block size of output.
 const BUFFER: usize = 1 << 16;
 
 /// A file as the file system knows it, by whatever name or link it is reached.
@@ -62,7 +62,7 @@ pub(super) fn check<'a>(
         if inputs.contains(&identity) {
             return Err(CliError::Input(path.to_owned()));
         }
-        // A link that leads nowhere is something that exists, too.
+        // A dangling link exists, too.
         if !force && fs::symlink_metadata(path).is_ok() && !path.is_dir() {
             return Err(CliError::Exists(path.to_owned()));
         }
@@ -79,7 +79,7 @@ pub(super) fn is_standard_output(path: &Path) -> bool {
     ["-", "/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"].iter().any(|name| path == Path::new(name))
 }
 
-/// True if a path is an open file of the shell's. What that leads to is the shell's business.
+/// True if a path is a file descriptor opened by the shell, which decides where it leads.
 pub(super) fn is_descriptor(path: &Path) -> bool {
     let number = |rest: &Path| rest.to_str().is_some_and(|text| text.parse::<u32>().is_ok());
     let in_folder = |folder: &&str| path.strip_prefix(folder).is_ok_and(number);
@@ -92,7 +92,7 @@ fn is_stream(path: &Path) -> bool {
     is_standard_output(path) || is_descriptor(path) || no_file()
 }
 
-/// Says something to people on standard output.
+/// Writes a message to standard output.
 pub(super) fn show(text: &str) -> Result<(), CliError> {
     put(&terminal::shown(text), None)
 }
@@ -152,7 +152,7 @@ pub(super) fn stream(
     };
     match (done, because) {
         (_, Some(because)) => Err(because),
-        // Whoever read it has seen enough, as `head` does.
+        // The reader has closed the pipe, as `head` does.
         (Err(error), None) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
         (Err(error), None) => {
             Err(CliError::Output { path: path.unwrap_or(Path::new("standard output")).to_owned(), error })

@@ -1,8 +1,8 @@
-//! What sensitivities in camera files are a response to.
+//! Response basis of sensitivities in camera files: energy or photons.
 
 use clap::ValueEnum;
 
-/// What sensitivities are a response to.
+/// Response basis of sensitivities.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(super) enum Per {
     /// Equal energy at each wavelength

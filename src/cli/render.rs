@@ -31,7 +31,7 @@ use crate::results::{Count, Results};
 use crate::scene::{ComparedSensor, Scene, SceneError};
 use crate::terminal::say;
 
-/// Makes the pictures, writes them, and says what came of it.
+/// Renders the pictures, writes them and reports the result.
 pub(super) fn run(arguments: &RenderArguments, matches: &ArgMatches) -> Result<(), CliError> {
     if let Some(path) = &arguments.image {
         return image::run(arguments, path, matches);
@@ -43,7 +43,7 @@ pub(super) fn run(arguments: &RenderArguments, matches: &ArgMatches) -> Result<(
     let files = Instant::now();
     made.write(arguments)?;
     let times = Times { all: start.elapsed(), reading: setup.reading, writing: files.elapsed() };
-    // Before anything is asked for the sake of measuring.
+    // Before any query is evaluated for the measurement.
     let counts = results.counts();
     let lines = made.lines(&counts, &times);
     let to_stdout = arguments.stats.as_deref().is_some_and(is_standard_output);
@@ -58,14 +58,14 @@ pub(super) fn run(arguments: &RenderArguments, matches: &ArgMatches) -> Result<(
     }
 }
 
-/// Where time went that no question counts.
+/// Times that no query records.
 struct Times {
     all: Duration,
     reading: Duration,
     writing: Duration,
 }
 
-/// Pictures with what they are of.
+/// Rendered pictures with their setup.
 struct Made<'a> {
     setup: &'a Setup,
     scene: Scene<'a>,
@@ -85,7 +85,7 @@ impl<'a> Made<'a> {
         let mesh = scene.mesh_of(setup.own_mesh.as_ref());
         let mesh = mesh.ok_or_else(|| CliError::File(format!("{}: no mesh", arguments.mesh.display())))?;
         let query = scene.pictures_of(&sources, mesh, setup.viewpoint, setup.finish, None)?;
-        // Exposure goes by the reference, on show or not. What cannot be shown is said before anything large is computed.
+        // Exposure refers to the reference, compared or not. Errors are reported before anything large is computed.
         rendering(&scene, &document.reference, &query.reference)?;
         for (source, of) in sources.iter().zip(&query.sources) {
             rendering(&scene, &source.name, &of.rendering)?;
@@ -185,7 +185,7 @@ impl<'a> Made<'a> {
         Some(planned.explanation.map_or_else(|| bounds.clone(), |explanation| format!("{explanation}; {bounds}")))
     }
 
-    /// How far a picture is from the reference, in words.
+    /// Difference of a picture from the reference, in words.
     fn difference(&self, index: usize) -> String {
         match (&self.pictures.differences[index], self.not_comparable[index]) {
             _ if self.sources[index].is_reference => "the reference".to_owned(),
@@ -197,7 +197,7 @@ impl<'a> Made<'a> {
     }
 }
 
-/// What goes into a file.
+/// Contents of an output file.
 enum Content<'a> {
     Png(&'a Picture),
     Exr { image: &'a CameraImage, rendering: Box<Rendering>, provenance: Box<Provenance<'a>> },

@@ -1,4 +1,4 @@
-//! From arguments to a document: names and files become what is compared, under what.
+//! Conversion of arguments to a document: names and files become sensors and conditions.
 
 use std::ffi::{OsStr, OsString};
 use std::fs;
@@ -28,20 +28,22 @@ use crate::document::{CHART, CIE_1931, Document, Light, SetKind, Subset, Transfo
 use crate::format::io_reason;
 use crate::terminal::say;
 
-/// The name of the paper's five patches as a chart of their own.
+/// Name of the paper's five patches as a chart.
 pub(super) const FIVE: &str = "ColorChecker five";
+/// Kinds of sets of reflectances.
+const REFLECTANCES: [SetKind; 2] = [SetKind::Chart, SetKind::Material];
 
-/// A document made of arguments, and the sensors in the order they were named.
+/// Document made from arguments, and the sensors in the order they were named.
 pub(super) struct Request {
-    /// What is compared, under what.
+    /// Document made from the arguments.
     pub(super) document: Document,
     /// The built-in sets.
     pub(super) catalog: Catalog,
-    /// The sensors asked for.
+    /// The requested sensors.
     pub(super) sources: Vec<(SetKind, String)>,
-    /// The start that stands where nothing was named.
+    /// The start used where nothing was named.
     pub(super) preset: Start,
-    /// What the values of files of reflectances stand for, if it was said.
+    /// Quantity of the values in reflectance files, if given.
     pub(super) values: Option<Values>,
     per: Option<Per>,
     read: Vec<PathBuf>,
@@ -63,16 +65,9 @@ impl Request {
 
     /// Reads sensors, reference and color transform; the rest is the preset's.
     pub(super) fn of_sources(arguments: &SourceArguments, matches: &ArgMatches) -> Result<Self, CliError> {
-        let preset = arguments.preset;
-        let document = Document { compared: Vec::new(), ..preset.document() };
-        let catalog = Catalog::built_in();
-        let (sources, read) = (Vec::new(), Vec::new());
-        let mut request = Self { document, catalog, sources, preset, values: None, per: arguments.per, read };
+        let mut request = Self::of_preset(arguments.preset, arguments.per);
         request.sources = request.named_sources(arguments, matches)?;
-        if arguments.per.is_some() && request.document.own.is_empty() {
-            let reason = "only sensitivities from a file can be taken otherwise; name one with --camera".to_owned();
-            return Err(CliError::Argument { argument: "--per", reason });
-        }
+        request.check_per("--camera")?;
         request.set_transform(arguments)?;
         if arguments.names_no_sensor() {
             request.sources = request.presets_sources();
@@ -80,14 +75,29 @@ impl Request {
         Ok(request)
     }
 
-    /// A request that compares nothing: the preset's conditions, and cameras by name.
-    pub(super) fn of_cameras(per: Option<Per>, cameras: &[OsString]) -> Result<(Self, Vec<String>), CliError> {
-        let preset = Start::Colorimetry;
+    /// Cameras alone, under the colorimetry preset.
+    pub(super) fn of_cameras(argument: &'static str, cameras: &[OsString], per: Option<Per>) -> Result<Self, CliError> {
+        let mut request = Self::of_preset(Start::Colorimetry, per);
+        let camera = |name: &OsString| Ok((SetKind::Camera, request.camera(argument, name)?));
+        request.sources = cameras.iter().map(camera).collect::<Result<_, CliError>>()?;
+        request.check_per(argument)?;
+        Ok(request)
+    }
+
+    /// A preset's conditions, with nothing to compare.
+    fn of_preset(preset: Start, per: Option<Per>) -> Self {
         let document = Document { compared: Vec::new(), ..preset.document() };
         let (catalog, sources, read) = (Catalog::built_in(), Vec::new(), Vec::new());
-        let mut request = Self { document, catalog, sources, preset, values: None, per, read };
-        let names = cameras.iter().map(|name| request.camera("--camera", name)).collect::<Result<_, _>>()?;
-        Ok((request, names))
+        Self { document, catalog, sources, preset, values: None, per, read }
+    }
+
+    /// Refuses a unit of sensitivities where none are from a file.
+    fn check_per(&self, cameras: &str) -> Result<(), CliError> {
+        if self.per.is_none() || !self.document.own.is_empty() {
+            return Ok(());
+        }
+        let reason = format!("only sensitivities from a file can be taken otherwise; give {cameras} a file");
+        Err(CliError::Argument { argument: "--per", reason })
     }
 
     /// The preset's sensors, with the reference that was named in the place of the preset's.
@@ -128,7 +138,7 @@ impl Request {
             .map(|(_, kind, name)| {
                 let found = match kind {
                     SetKind::Camera => self.camera("--camera", name)?,
-                    _ => self.name("--observer", kind, &name.to_string_lossy())?,
+                    _ => self.name("--observer", &[kind], &name.to_string_lossy())?,
                 };
                 Ok((kind, found))
             })
@@ -137,7 +147,7 @@ impl Request {
 
     fn set_transform(&mut self, arguments: &SourceArguments) -> Result<(), CliError> {
         if let Some(reference) = &arguments.reference {
-            self.document.reference = self.name("--reference", SetKind::Observer, reference)?;
+            self.document.reference = self.name("--reference", &[SetKind::Observer], reference)?;
         }
         let names_fit = arguments.names_fit();
         let fitted = match (arguments.transform, names_fit) {
@@ -153,7 +163,7 @@ impl Request {
         let reference = self.catalog.get(SetKind::Observer, &self.document.reference);
         let transform = match &arguments.fit_to {
             _ if !fitted => TransformChoice::Paper,
-            Some(target) => TransformChoice::Observer(self.name("--fit-to", SetKind::Observer, target)?),
+            Some(target) => TransformChoice::Observer(self.name("--fit-to", &[SetKind::Observer], target)?),
             None if reference.is_some_and(Entry::counts_in_xyz) => {
                 TransformChoice::Observer(self.document.reference.clone())
             }
@@ -163,32 +173,30 @@ impl Request {
         Ok(())
     }
 
-    /// One camera alone, under the colorimetry preset.
-    pub(super) fn of_camera(camera: &OsStr, per: Option<Per>) -> Result<Self, CliError> {
-        let preset = Start::Colorimetry;
-        let document = Document { compared: Vec::new(), ..preset.document() };
-        let (catalog, sources, read) = (Catalog::built_in(), Vec::new(), Vec::new());
-        let mut request = Self { document, catalog, sources, preset, values: None, per, read };
-        request.sources = vec![(SetKind::Camera, request.camera("CAMERA", camera)?)];
-        if per.is_some() && request.document.own.is_empty() {
-            let reason = "only sensitivities from a file can be taken otherwise; name one".to_owned();
-            return Err(CliError::Argument { argument: "--per", reason });
-        }
-        Ok(request)
+    fn camera(&mut self, argument: &'static str, given: &OsStr) -> Result<String, CliError> {
+        self.set_or_file(argument, &[SetKind::Camera], Role::Camera, given)
     }
 
-    /// The name of a camera, or of the file of one.
-    fn camera(&mut self, argument: &str, given: &OsStr) -> Result<String, CliError> {
-        if self.means_file(argument, &[SetKind::Camera], given) {
-            Ok(self.open(Path::new(given), Role::Camera)?.name.clone())
-        } else {
-            self.name(argument, SetKind::Camera, &given.to_string_lossy())
+    /// The name of a set of these kinds, or of the file of one.
+    fn set_or_file(
+        &mut self,
+        argument: &'static str,
+        kinds: &[SetKind],
+        role: Role,
+        given: &OsStr,
+    ) -> Result<String, CliError> {
+        if self.means_file(argument, kinds, given) {
+            return Ok(self.open(Path::new(given), role)?.name.clone());
+        }
+        match kinds {
+            [SetKind::Illuminant] => self.illuminant(argument, &given.to_string_lossy()),
+            _ => self.name(argument, kinds, &given.to_string_lossy()),
         }
     }
 
     /// Chooses the observer that color transforms are fitted to.
     pub(super) fn set_fit_target(&mut self, target: &str) -> Result<(), CliError> {
-        let target = self.name("--fit-to", SetKind::Observer, target)?;
+        let target = self.name("--fit-to", &[SetKind::Observer], target)?;
         self.document.set_transform(TransformChoice::Observer(target));
         Ok(())
     }
@@ -200,15 +208,7 @@ impl Request {
             choice.weights[*class as usize] = *weight;
         }
         if let Some(training) = &fit.training {
-            choice.training = if self.means_file("--training", &[SetKind::Chart, SetKind::Material], training) {
-                self.open(Path::new(training), Role::Reflectance)?.name.clone()
-            } else {
-                let typed = training.to_string_lossy();
-                let sets = [SetKind::Chart, SetKind::Material].into_iter().flat_map(|kind| self.catalog.of_kind(kind));
-                let found = find(sets, "chart", &typed)?;
-                tell("--training", &typed, &found);
-                found.entry.name.clone()
-            };
+            choice.training = self.set_or_file("--training", &REFLECTANCES, Role::Reflectance, training)?;
         }
         self.document.correction = choice;
         Ok(())
@@ -216,16 +216,12 @@ impl Request {
 
     /// Chooses the second calibration light.
     pub(super) fn set_second_light(&mut self, given: &OsStr) -> Result<(), CliError> {
-        let name = if self.means_file("--second-illuminant", &[SetKind::Illuminant], given) {
-            self.open(Path::new(given), Role::Illuminant)?.name.clone()
-        } else {
-            self.illuminant("--second-illuminant", &given.to_string_lossy())?
-        };
+        let name = self.set_or_file("--second-illuminant", &[SetKind::Illuminant], Role::Illuminant, given)?;
         self.document.correction.second_light = Some(name);
         Ok(())
     }
 
-    /// True if an argument means a file. A built-in set's own name means that set, even beside a file that is called so.
+    /// True if an argument is a file path. A built-in set's name refers to that set even if a file of that name exists.
     fn means_file(&self, argument: &str, kinds: &[SetKind], given: &OsStr) -> bool {
         let typed = given.to_string_lossy();
         let built_in = kinds.iter().any(|kind| self.catalog.get(*kind, &typed).is_some());
@@ -239,17 +235,12 @@ impl Request {
 
     /// Chooses the light.
     pub(super) fn set_light(&mut self, given: &OsStr) -> Result<(), CliError> {
-        let illuminant = &*given.to_string_lossy();
-        if let Some((light, kelvin)) = radiator("--illuminant", illuminant)? {
+        if let Some((light, kelvin)) = radiator("--illuminant", &given.to_string_lossy())? {
             self.document.light = if light == Radiator::Daylight { Light::Daylight } else { Light::BlackBody };
             self.document.temperature_k = kelvin;
             return Ok(());
         }
-        let name = if self.means_file("--illuminant", &[SetKind::Illuminant], given) {
-            self.open(Path::new(given), Role::Illuminant)?.name.clone()
-        } else {
-            self.illuminant("--illuminant", illuminant)?
-        };
+        let name = self.set_or_file("--illuminant", &[SetKind::Illuminant], Role::Illuminant, given)?;
         self.document.light = Light::Set(name);
         Ok(())
     }
@@ -257,11 +248,7 @@ impl Request {
     /// Puts filters in front of the light.
     pub(super) fn set_filters(&mut self, filters: &[OsString]) -> Result<(), CliError> {
         for given in filters {
-            let name = if self.means_file("--filter", &[SetKind::Filter], given) {
-                self.open(Path::new(given), Role::Transmittance)?.name.clone()
-            } else {
-                self.name("--filter", SetKind::Filter, &given.to_string_lossy())?
-            };
+            let name = self.set_or_file("--filter", &[SetKind::Filter], Role::Transmittance, given)?;
             if self.document.filters.contains(&name) {
                 let reason = format!("{name} is there already; a filter can be used once");
                 return Err(CliError::Argument { argument: "--filter", reason });
@@ -274,7 +261,7 @@ impl Request {
     /// Chooses the patches.
     pub(super) fn set_chart(&mut self, chart: Option<&OsStr>) -> Result<(), CliError> {
         let Some(chart) = chart else { return Ok(()) };
-        if self.means_file("--chart", &[SetKind::Chart, SetKind::Material], chart) {
+        if self.means_file("--chart", &REFLECTANCES, chart) {
             self.document.subset = Subset::All;
             let set = self.open(Path::new(chart), Role::Reflectance)?;
             self.document.chart.clone_from(&set.name);
@@ -314,7 +301,7 @@ impl Request {
                 }
                 set.name.clone()
             }
-            _ => self.name("--material", SetKind::Material, material)?,
+            _ => self.name("--material", &[SetKind::Material], material)?,
         };
         Ok(())
     }
@@ -326,7 +313,7 @@ impl Request {
             short: FIVE.to_owned(),
             ..chart.clone()
         });
-        let sets = [SetKind::Chart, SetKind::Material].into_iter().flat_map(|kind| self.catalog.of_kind(kind));
+        let sets = REFLECTANCES.into_iter().flat_map(|kind| self.catalog.of_kind(kind));
         let found = find(sets.chain(&five), "chart", typed)?;
         tell("--chart", typed, &found);
         Ok(found.entry.name.clone())
@@ -348,7 +335,7 @@ impl Request {
         let formula = match telling_words(typed).concat().as_str() {
             "daylight" => "daylight",
             "blackbody" | "planckian" | "planckianradiator" => "blackbody",
-            _ => return self.name(argument, SetKind::Illuminant, typed),
+            _ => return self.name(argument, &[SetKind::Illuminant], typed),
         };
         let sets = self.catalog.of_kind(SetKind::Illuminant).map(|entry| entry.name.as_str());
         let sets: Vec<&str> = sets.filter(|name| name.to_lowercase().starts_with(formula)).collect();
@@ -358,9 +345,10 @@ impl Request {
         Err(CliError::Argument { argument, reason })
     }
 
-    /// The catalog's name for what was typed; another one than that is said.
-    fn name(&self, argument: &str, kind: SetKind, typed: &str) -> Result<String, CliError> {
-        let found = find(self.catalog.of_kind(kind), kind.singular(), typed)?;
+    /// The catalog's name for the typed one; a difference is reported.
+    fn name(&self, argument: &str, kinds: &[SetKind], typed: &str) -> Result<String, CliError> {
+        let sets = kinds.iter().flat_map(|kind| self.catalog.of_kind(*kind));
+        let found = find(sets, kinds.first().map_or("", |kind| kind.singular()), typed)?;
         tell(argument, typed, &found);
         Ok(found.entry.name.clone())
     }
@@ -429,15 +417,15 @@ pub(super) fn told(path: &Path) -> String {
     spectral_file::on_one_line(&path.to_string_lossy()).into_owned()
 }
 
-/// Says what was taken for a name that is not exact.
+/// Reports the match of an inexact name.
 fn tell(argument: &str, typed: &str, found: &Found<'_>) {
     if let Some(note) = found.note() {
         say(&format!("chromascope: {argument} \"{typed}\": {note}\n"));
     }
 }
 
-/// A file's bytes, of one that is too large as many as show it. Pipes, sockets and devices are refused as in a folder: nothing may
-/// ever come of them, or no end. What a shell opened for the command (`<(...)`) is read.
+/// A file's bytes, truncated just beyond the limit if it is too large. Pipes, sockets and devices are rejected, as in a folder:
+/// they may never end. File descriptors opened by the shell (`<(...)`) are read.
 pub(super) fn read(path: &Path) -> io::Result<Vec<u8>> {
     let known = fs::metadata(path)?;
     if !(known.is_file() || known.is_dir() || is_shells(path, &known)) {
@@ -493,6 +481,6 @@ fn is_file(argument: &OsStr) -> bool {
     let ends_as_file = path
         .extension()
         .is_some_and(|ending| ["csv", "txt", "tsv", "dat"].iter().any(|known| ending.eq_ignore_ascii_case(known)));
-    // A name is text, so what is none is a file's.
+    // A name is text, so that other arguments are file paths.
     path.is_file() || ends_as_file || argument.to_str().is_none_or(|typed| typed.contains(['/', '\\']))
 }

@@ -30,7 +30,7 @@ const LOCUS_HEAD: &str = "sensor,temperature_k,x,y,u_prime,v_prime,distance_xy,d
 const PATCHES_HEAD: &str = "sensor,patch,r,g,b,x_tristimulus,y_tristimulus,z_tristimulus,x,y,u_prime,v_prime,\
                             lab_l,lab_a,lab_b,cct_k,duv";
 
-/// Temperatures that are computed at once; a table of millions of them is written as it is made.
+/// Number of temperatures computed together; a table of millions of them is written as it is computed.
 const PART: usize = 1024;
 
 /// Writes loci, one row for each sensor and temperature.
@@ -40,7 +40,7 @@ pub(super) fn locus(arguments: &LocusArguments, matches: &ArgMatches) -> Result<
     check_out(&arguments.common, &request)?;
     let results = Results::default();
     let scene = Scene { document: &request.document, catalog: &request.catalog, results: &results };
-    // What cannot be computed is said before anything is written.
+    // Values that cannot be computed are reported before anything is written.
     for (kind, name) in &request.sources {
         scene.locus_at(*kind, name, Temperatures::List(temperatures.part(0..1)))?;
         let _comparable = scene.comparable(*kind, name)?;
@@ -88,7 +88,7 @@ fn locus_rows(
             let row = [places, rest].concat();
             out.write_all(row_of(&[&field(name), &point.temperature.get().to_string()], &row, &conditions).as_bytes())?;
         }
-        // Answers that were written long ago are let go.
+        // Answers that were already written are dropped.
         scene.results.end_frame();
     }
     Ok(())
@@ -109,7 +109,7 @@ fn head(columns: &str) -> String {
     format!("{columns},{}\n", CONDITIONS.join(","))
 }
 
-/// Says once what keeps differences from the reference empty, or from being those of the color transform alone.
+/// Reports once the reason that differences from the reference are empty or not those of the color transform alone.
 pub(super) fn say_caution(scene: &Scene<'_>, request: &Request) -> Result<(), SceneError> {
     let Some(caution) = scene.caution() else { return Ok(()) };
     let remedy = match caution {

@@ -15,7 +15,7 @@ pub struct CorrectionChoice {
     /// Method.
     #[serde(with = "method_id")]
     pub method: CorrectionMethod,
-    /// True if a perfect diffuser keeps its color.
+    /// True if a perfect diffuser's color is preserved.
     pub keeps_white: bool,
     /// Chart or material whose reflectances are fitted over.
     pub training: String,

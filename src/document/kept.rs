@@ -1,5 +1,5 @@
-//! The document as it is kept between runs: small, for it is written with every change. The curves of imported sets stand in
-//! files of their own, each written once; the document names the file and the place in it.
+//! Document as saved between runs: small, as it is written with every change. The curves of imported sets are in files of
+//! their own, each written once; the document names the file and the place in it.
 
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -8,14 +8,14 @@ use super::Document;
 use super::own::{OwnCurve, OwnSet};
 use super::session::{SessionError, from_value};
 
-/// Key of a set whose curves stand elsewhere.
+/// Key of a set whose curves are in another file.
 const CURVES_IN: &str = "curves_in";
 
 /// The file that holds a set's curves, by name, and their place in its list.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Place(pub String, pub usize);
 
-/// A document that was read, with what it lacks.
+/// A document that was read, with its missing parts.
 #[derive(Debug)]
 pub struct Kept {
     /// The document.
@@ -43,7 +43,7 @@ pub fn to_json(document: &Document, places: &[(&OwnSet, &Place)]) -> Result<Stri
     Ok(serde_json::to_string_pretty(&value)? + "\n")
 }
 
-/// A document from JSON, with curves from their places: `curves` reads a file's list. A set that cannot be read is left out.
+/// A document from JSON, with curves from their places: `curves` reads a file's list. A set that cannot be read is omitted.
 pub fn from_json(
     json: &str,
     curves: &mut dyn FnMut(&Place) -> Result<Vec<OwnCurve>, String>,

@@ -20,7 +20,7 @@ pub enum SetKind {
     Filter,
     /// Single reflectances.
     Material,
-    /// Spectra of the user's of which nobody has said what they are of.
+    /// The user's spectra of unknown quantity.
     Unsorted,
 }
 

@@ -30,7 +30,7 @@ fn numbers<'de, D: serde::Deserializer<'de>>(from: D) -> Result<Vec<f64>, D::Err
     Ok(numbers.into_iter().map(|number| number.unwrap_or(f64::NAN)).collect())
 }
 
-/// A person's overrides for reading a file. What is open is decided by its content.
+/// The user's overrides for reading a file. What is open is decided by its content.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(default)]
 pub struct ImportOverrides {
@@ -51,7 +51,7 @@ impl ImportOverrides {
     }
 }
 
-/// Units of the file as the reader understood them, before conversion.
+/// Units of the file as interpreted, before conversion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub struct ReadAs {
     /// The unit of the wavelengths.
@@ -73,7 +73,7 @@ pub struct OwnSet {
     /// Fingerprint of that file's contents.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fingerprint: Option<Fingerprint>,
-    /// A person's overrides for reading it.
+    /// The user's overrides for reading it.
     #[serde(default)]
     pub wishes: ImportOverrides,
     /// Role it is used in.
@@ -92,7 +92,7 @@ pub struct OwnSet {
     pub channels: [usize; 3],
     /// The curves, as read.
     pub curves: Vec<OwnCurve>,
-    /// Decisions made on reading, one line each, for people.
+    /// Decisions made on reading, one line each, for display.
     #[serde(default)]
     pub decisions: Vec<String>,
 }
@@ -156,7 +156,7 @@ impl OwnSet {
             for nm in &mut wavelengths {
                 *nm = self.unit.nanometers(self.read_as.unit.from_nanometers(*nm));
             }
-            // Wave numbers and frequencies run the other way.
+            // Wave numbers and frequencies are in the opposite order.
             if wavelengths.first() > wavelengths.last() {
                 wavelengths.reverse();
                 values.reverse();

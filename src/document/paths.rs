@@ -27,7 +27,8 @@ fn bytes<S: Serializer>(path: &Path, serializer: S) -> Result<S::Ok, S::Error> {
     serializer.collect_seq(path.as_os_str().as_bytes())
 }
 
-/// Elsewhere such a path holds half a character: what can be told of it is better than no document.
+/// Such a path from another system contains an incomplete character: a lossy conversion is better than losing the
+/// document.
 #[cfg(not(unix))]
 fn bytes<S: Serializer>(path: &Path, serializer: S) -> Result<S::Ok, S::Error> {
     serializer.serialize_str(&path.to_string_lossy())

@@ -49,7 +49,7 @@ pub fn decade(tolerance: f64) -> f64 {
 pub struct RenderSettings {
     /// Mesh to render.
     pub mesh: MeshChoice,
-    /// About how many triangles the program's own meshes have.
+    /// Approximate number of triangles of the program's own meshes.
     pub triangles: usize,
     /// The name of a reflectance.
     pub material: String,
@@ -95,6 +95,10 @@ pub struct RenderSettings {
     /// True if the scene is under [`SUN`] and balanced to [`BALANCE`] until a light or a white is chosen.
     #[serde(default)]
     pub sunlight: bool,
+    /// Quantity of a spectral image's samples.
+    pub image_quantity: QuantityChoice,
+    /// Sample of a spectral image that stands for 1, beyond the file's own scale.
+    pub image_scale: f64,
 }
 
 impl Default for RenderSettings {
@@ -123,6 +127,8 @@ impl Default for RenderSettings {
             thin: false,
             exposure_ev: 0.0,
             sunlight: true,
+            image_quantity: QuantityChoice::File,
+            image_scale: 1.0,
         }
     }
 }
@@ -134,6 +140,9 @@ impl RenderSettings {
         self.triangles = self.triangles.clamp(*TRIANGLES.start(), *TRIANGLES.end());
         self.exposure_ev = if self.exposure_ev.is_finite() { self.exposure_ev.clamp(-20.0, 20.0) } else { 0.0 };
         self.sky = if self.sky.is_finite() { self.sky.clamp(0.0, 1.0) } else { 0.0 };
+        if !(self.image_scale > 0.0 && self.image_scale.is_finite()) {
+            self.image_scale = usual.image_scale;
+        }
         if !TOLERANCES.contains(&self.tolerance) {
             self.tolerance = usual.tolerance;
         }
@@ -179,7 +188,7 @@ impl RenderSettings {
 
     /// Exactness of the integrals once nothing moves.
     pub fn quality(&self) -> Quality {
-        // Outside the range only until the session was mended.
+        // Outside the range only until the session is validated.
         RelTolerance::new(self.tolerance).map_or(Quality::Reference, |tolerance| self.quality.quality(tolerance))
     }
 
@@ -216,6 +225,8 @@ pub enum MeshChoice {
     Plane,
     /// A file of the user's.
     File(#[serde(with = "super::paths")] PathBuf),
+    /// A spectral image in place of a mesh.
+    Image(#[serde(with = "super::paths")] PathBuf),
 }
 
 impl MeshChoice {
@@ -226,9 +237,27 @@ impl MeshChoice {
             Self::Fern => "fern".to_owned(),
             Self::Sphere => "sphere".to_owned(),
             Self::Plane => "plane".to_owned(),
-            Self::File(path) => crate::format::file_name(path),
+            Self::File(path) | Self::Image(path) => crate::format::file_name(path),
         }
     }
+
+    /// True for a spectral image: no surface, light direction or viewpoint matters to it.
+    pub const fn is_image(&self) -> bool {
+        matches!(self, Self::Image(_))
+    }
+}
+
+/// Quantity of a spectral image's samples.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum QuantityChoice {
+    /// The file's statement.
+    #[default]
+    File,
+    /// Reflectance, lit by the scene's light.
+    Reflectance,
+    /// Radiance, taken as it is.
+    Radiance,
 }
 
 /// Origin of σ and τ.

@@ -1,4 +1,4 @@
-//! The document as JSON: what is kept between runs, and what session files are.
+//! Document as JSON, as saved between runs and in session files.
 
 use chromascope_core::colorimetry::Metric;
 use chromascope_core::query::Shared;
@@ -44,7 +44,7 @@ pub fn is_session(beginning: &[u8]) -> bool {
     spaceless.starts_with("{\"format\":\"chromascope\"")
 }
 
-/// A document from JSON. Fields that are not known are kept; fields that are missing have their defaults.
+/// A document from JSON. Unknown fields are preserved; missing fields have their defaults.
 pub fn from_json(json: &str) -> Result<Document, SessionError> {
     let mut elsewhere = |_: &kept::Place| Err("its curves are in another file".to_owned());
     let read = kept::from_json(json, &mut elsewhere)?;
@@ -91,12 +91,12 @@ fn rename_fields(value: &mut serde_json::Value) {
     }
 }
 
-/// Names of built-in sets that version 1 used, with what they are called now.
+/// Names of built-in sets used in version 1, with their present names.
 const RENAMED: [(&str, &str); 2] =
     [("Nikon D70", "Nikon D70 (2007 figure)"), ("Canon EOS 10D", "Canon EOS 10D (2007 figure)")];
 
-/// Brings a document of version 1 to the present form: cameras by their present names; what it leaves out is the paper's start,
-/// which was the only one.
+/// Converts a document of version 1 to the present format: cameras by their present names; missing parts are those of the
+/// paper's start, which was the only one.
 fn renew(value: &mut serde_json::Value, own: &[OwnSet]) -> Result<(), SessionError> {
     let Some(old) = value.as_object_mut() else { return Ok(()) };
     let is_own = |name: &String| own.iter().any(|set| set.role == Role::Camera && set.name == *name);

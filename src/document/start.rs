@@ -1,4 +1,4 @@
-//! The named starts: what is compared, and under which conditions, on the first screen and after a reset.
+//! Named starts: the comparison and its conditions on the first screen and after a reset.
 
 use super::kind::SetKind;
 use super::render::model::SpecularChoice;

@@ -8,7 +8,7 @@ use super::{CHART, Document, LIGHT, Light, Subset, TRAINING, WhiteBalanceChoice}
 use chromascope_core::query::Shared;
 use std::collections::{HashMap, HashSet};
 
-/// So many cameras at once have a color and a marker of their own.
+/// Number of cameras with a color and a marker of their own.
 pub const PLACES: usize = 8;
 
 /// Holder of a name.
@@ -21,7 +21,7 @@ pub enum Holder {
 }
 
 impl Document {
-    /// Holder of the name wanted for an own set of a kind; `None` if it is free. `except` is the index of the set itself.
+    /// Present holder of a name for an own set of a kind; `None` if it is free. `except` is the index of the set itself.
     pub fn holder_of(
         &self,
         kind: SetKind,
@@ -39,15 +39,15 @@ impl Document {
         }
     }
 
-    /// A name that no other set of the kind has and no other own set: `Nikon D70 (own)` beside a built-in one, else
-    /// `leaf (2)`.
+    /// A name that no other set of the kind and no other own set has: `Nikon D70 (own)` if a built-in one is named so,
+    /// else `leaf (2)`.
     pub fn free_name(&self, kind: SetKind, wanted: &str, except: Option<usize>, built_in: &BuiltInNames) -> String {
         let others = self.own.iter().enumerate().filter(|(index, _)| Some(*index) != except);
         let taken: HashSet<String> = others.map(|(_, set)| caseless(&set.name)).collect();
         free_name(kind, wanted, &taken, built_in, &mut HashMap::new())
     }
 
-    /// Shows what was just opened: a camera in the list, a chart as the patches, a light as the light.
+    /// Uses a newly opened set: a camera in the comparison, a chart as the patches, a light as the light.
     pub fn put_to_use(&mut self, set: &Shared<OwnSet>) {
         match SetKind::of_own(set) {
             SetKind::Camera | SetKind::Observer => self.compare(&set.name, SetKind::Camera),
@@ -61,7 +61,7 @@ impl Document {
         }
     }
 
-    /// Shows what was opened among others: a camera, while there are places for more.
+    /// Uses one of several opened sets: a camera, while the palette has room.
     pub fn put_beside(&mut self, set: &Shared<OwnSet>) {
         let shown = self.compared.iter().filter(|compared| compared.kind == SetKind::Camera).count();
         if SetKind::of_own(set) == SetKind::Camera && shown < PLACES {
@@ -69,7 +69,7 @@ impl Document {
         }
     }
 
-    /// Keeps an own set that has another name now in the uses it had; it gets no others.
+    /// Updates the uses of an own set after it was renamed; adds none.
     pub fn follow_name(&mut self, kind: SetKind, old: &str, new: &str) {
         match kind {
             SetKind::Camera | SetKind::Observer => {
@@ -137,7 +137,7 @@ impl Document {
         }
     }
 
-    /// Renames imported sets of a session from elsewhere whose names another set has; what used them goes on doing so.
+    /// Renames imported sets of a session from elsewhere whose names are in use; their uses follow.
     pub fn part_names(&mut self, built_in: &BuiltInNames) {
         let mut taken: HashSet<String> = self.own.iter().map(|set| caseless(&set.name)).collect();
         let (mut seen, mut numbers) = (HashSet::new(), HashMap::new());

@@ -1,21 +1,26 @@
 //! Color corrections out of the program: text, DNG values, DCP, ICC, CLF.
 
 use std::fmt::Write as _;
+use std::sync::Arc;
 
 use chromascope_core::colorimetry::Xyz;
 use chromascope_core::correction::RgbTransform;
-use chromascope_core::correction::aces::Idt;
+use chromascope_core::correction::aces::{Idt, IdtError, IdtExposure};
 use chromascope_core::correction::dng::ProfileMatrix;
 use chromascope_core::correction::root_polynomial::RootPolynomial;
 use chromascope_core::glam::{DMat3, DVec3};
-use chromascope_core::query::ErrorSummary;
-use chromascope_core::query::correction::{CorrectionSheet, CorrectionUnder, StimulusCheck};
+use chromascope_core::patch_set::PatchSet;
+use chromascope_core::query::correction::{
+    CorrectionSheet, CorrectionSheetQuery, CorrectionUnder, IdtQuery, StimulusCheck,
+};
+use chromascope_core::query::{Ask, ErrorSummary, Query, Shared};
 use chromascope_core::units::Kelvin;
 use chromascope_profile::clf::Clf;
 use chromascope_profile::dcp::{Calibration, CalibrationIlluminant, Dcp};
 use chromascope_profile::icc::{D50, IccProfile};
 use chromascope_profile::{Matrix, ProfileError};
 
+use crate::document::SetKind;
 use crate::format::slug;
 use crate::scene::correction::exif_light;
 use crate::scene::{Scene, SceneError};
@@ -28,6 +33,9 @@ pub enum CorrectionFileError {
         "{0} files hold a 3×3 matrix, which a root polynomial or a singular matrix is not; choose a matrix that is fitted"
     )]
     NoMatrix(&'static str),
+    /// The camera has no ACES input transform under the light.
+    #[error(transparent)]
+    Idt(#[from] IdtError),
     /// The format cannot hold it.
     #[error(transparent)]
     Profile(#[from] ProfileError),
@@ -50,22 +58,36 @@ pub struct CorrectionFile {
     pub training: Vec<String>,
     /// The correction.
     pub sheet: CorrectionSheet,
+    /// ACES input transform under the first light.
+    pub idt: Result<Idt, IdtError>,
 }
 
-impl CorrectionFile {
-    /// A correction of a camera of the scene. `model` is the camera's name in raw files, if that is another.
+/// Query for the color correction of a camera of the scene, with its ACES input transform.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct CorrectionFileQuery {
+    camera: String,
+    model: String,
+    correction: String,
+    lights: Vec<String>,
+    metric: &'static str,
+    training: Shared<PatchSet>,
+    sheet: CorrectionSheetQuery,
+    idt: IdtQuery,
+}
+
+impl CorrectionFileQuery {
+    /// Query for a camera. `model` is the camera's name in raw files, if that is another.
     ///
     /// # Errors
     ///
-    /// [`SceneError`] where the training reflectances are not there.
+    /// [`SceneError`] where the camera, a light or the training reflectances are not available.
     pub fn new(
         scene: &Scene<'_>,
-        camera: &str,
+        (kind, camera): (SetKind, &str),
         model: Option<&str>,
-        sheet: CorrectionSheet,
+        exposure: IdtExposure,
     ) -> Result<Self, SceneError> {
         let choice = &scene.document.correction;
-        let training = scene.patch_set(&choice.training, None)?;
         Ok(Self {
             camera: camera.to_owned(),
             model: model.unwrap_or(camera).to_owned(),
@@ -74,11 +96,33 @@ impl CorrectionFile {
                 .chain(choice.second_light.clone().map(|light| scene.with_filters(light)))
                 .collect(),
             metric: scene.correction_metric().symbol,
-            training: training.patches().iter().map(|patch| patch.name.clone()).collect(),
-            sheet,
+            training: scene.patch_set(&choice.training, None)?,
+            sheet: scene.correction_sheet(kind, camera)?,
+            idt: scene.input_device_transform(kind, camera, exposure)?,
         })
     }
+}
 
+impl Query for CorrectionFileQuery {
+    type Answer = Result<Arc<CorrectionFile>, SceneError>;
+    const NAME: &'static str = "color correction with its names";
+
+    fn answer(&self, ask: &impl Ask) -> Self::Answer {
+        let sheet = (*ask.ask(&self.sheet)).clone();
+        Ok(Arc::new(CorrectionFile {
+            camera: self.camera.clone(),
+            model: self.model.clone(),
+            correction: self.correction.clone(),
+            lights: self.lights.clone(),
+            metric: self.metric,
+            training: self.training.patches().iter().map(|patch| patch.name.clone()).collect(),
+            sheet: sheet.map_err(|error| SceneError::Rendering { name: self.camera.clone(), error })?,
+            idt: (*ask.ask(&self.idt)).clone(),
+        }))
+    }
+}
+
+impl CorrectionFile {
     /// Lights with the correction under each.
     pub fn unders(&self) -> impl Iterator<Item = (&String, &CorrectionUnder)> {
         let second = self.sheet.second.as_ref().and_then(|second| second.as_ref().ok());
@@ -158,8 +202,18 @@ impl CorrectionFile {
         Ok(text)
     }
 
+    /// ACES input transform in Common LUT Format.
+    ///
+    /// # Errors
+    ///
+    /// [`CorrectionFileError`] without a transform, or for a name that the format cannot hold.
+    pub fn clf(&self) -> Result<String, CorrectionFileError> {
+        let light = self.lights.first().map_or("", String::as_str);
+        clf(&self.camera, light, self.idt.as_ref().map_err(|error| *error)?)
+    }
+
     /// Everything in words and aligned numbers.
-    pub fn text(&self, idt: Option<&Idt>) -> String {
+    pub fn text(&self) -> String {
         let mut text = format!("{}\n{}\n", self.camera, self.correction);
         for (name, under) in self.unders() {
             let kelvin = under.temperature.map_or(String::new(), |kelvin| format!(", {:.0} K", kelvin.get()));
@@ -177,7 +231,7 @@ impl CorrectionFile {
                 let _ = writeln!(text, "{kelvin:8.0}{mixed:10.3}{first:10.3}{second:10.3}{own:10.3}");
             }
         }
-        if let Some(idt) = idt {
+        if let Ok(idt) = &self.idt {
             let [r, g, b] = idt.balance;
             let _ =
                 writeln!(text, "\nACES IDT (rawtoaces), after balance {r:.7} {g:.7} {b:.7}\n{}", aligned(idt.matrix));
@@ -210,7 +264,7 @@ impl CorrectionFile {
         }
     }
 
-    /// Errors before and after, of training and left out, as aligned lines.
+    /// Training and leave-one-out errors before and after, as aligned lines.
     pub fn errors_text(&self, under: &CorrectionUnder) -> String {
         let report = &under.report;
         let mut lines =
@@ -270,7 +324,7 @@ pub fn aligned(matrix: DMat3) -> String {
     [row(0), row(1), row(2)].join("\n")
 }
 
-/// What a correction makes of a stimulus: its numbers, and what they mean.
+/// Lines of text on a corrected stimulus: the values and their interpretation.
 pub fn check_lines(check: &StimulusCheck, metric: &str) -> [String; 2] {
     let Xyz { x, y, z } = check.xyz;
     let what = check.peak_nm.map_or_else(|| "white".to_owned(), |nm| format!("{nm:.0} nm"));

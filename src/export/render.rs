@@ -63,8 +63,8 @@ pub fn png_bytes(picture: &Picture) -> Result<Vec<u8>, PictureError> {
 /// The bytes of an OpenEXR file: the balanced signals of Eq 12 as R G B (where the source has such), tristimulus values as
 /// X Y Z, coverage as A; 32-bit floats, linear, before exposure.
 ///
-/// A pixel is the mean over all its samples, those beside the mesh counted as 0: colors are multiplied by A, as usual in
-/// OpenEXR. The same picture gives the same bytes.
+/// A pixel is the mean over all its samples, those outside the mesh counted as 0: colors are premultiplied by A, as
+/// usual in OpenEXR. The same picture gives the same bytes.
 pub fn exr_bytes(
     image: &CameraImage,
     rendering: &Rendering,

@@ -87,7 +87,7 @@ pub fn fits(entry: &Entry, form: Form) -> Result<(), WriteError> {
         Place::BuiltIn { column: None, .. } => entry.header.as_ref().map_or(0, |header| header.columns.len()),
         Place::Own(set) => set.curves.len(),
     };
-    // What the samples are does not matter; a menu asks in every frame.
+    // The sample values are irrelevant; a menu calls this in every frame.
     let curve = Trace { name: "", wavelengths_nm: &[400.0, 700.0], values: &[0.0, 0.0] };
     let curves = vec![curve; count];
     form.format.fits(&Sheet { content: content(entry), curves: &curves, ..Sheet::default() })
@@ -162,7 +162,8 @@ fn header_comments(kind: SetKind, header: &Header) -> Vec<(String, String)> {
         comments.push(("note".to_owned(), format!("Origin: {origin}.")));
     }
     comments.extend(header.notes.iter().map(|note| ("note".to_owned(), note.clone())));
-    // Formats have a place for what a camera responds to, but not for the evidence; for observers all is said in words.
+    // The formats have a field for the response basis of a camera, but none for its evidence; for observers both are in
+    // words.
     if let Some(response) = header.response.as_ref().filter(|_| matches!(kind, SetKind::Camera | SetKind::Observer)) {
         comments.push(("note".to_owned(), format!("Response: {response}.")));
     }
@@ -182,8 +183,8 @@ fn own_unit(set: &OwnSet) -> Option<String> {
     set.curves.iter().all(|curve| curve.unit.as_ref() == Some(unit)).then(|| unit.clone())
 }
 
-/// Who made a camera and what they call it, where its name begins with a maker. What stands in parentheses at the end tells
-/// measurements apart, not cameras.
+/// Maker and model of a camera, where its name begins with a maker. A final parenthesis distinguishes measurements, not
+/// cameras.
 fn maker_and_model(name: &str) -> (Option<&str>, Option<&str>) {
     const MAKERS: [&str; 16] = [
         "ARRI",
@@ -211,7 +212,7 @@ fn maker_and_model(name: &str) -> (Option<&str>, Option<&str>) {
     found.filter(|(_, model)| !model.is_empty()).unzip()
 }
 
-/// A set's name as that of a file: what some systems do not take in names becomes a hyphen.
+/// File name of a set: characters that some systems do not allow become hyphens.
 fn file_name(name: &str) -> String {
     let plain = |c: char| if c.is_alphanumeric() || ".()_ ".contains(c) { c } else { '-' };
     let name: String = name.chars().map(plain).collect();

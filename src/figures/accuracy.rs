@@ -1,4 +1,4 @@
-//! Run time against error of the scene on show, as measured.
+//! Run time against error for the visible scene, as measured.
 
 use chromascope_figure::{Cell, Figure, InkRole, LegendEntry, LegendPlace, Marker, Panel, Rect, Stroke, Table, Tag};
 use chromascope_measure::Measurement;
@@ -37,7 +37,7 @@ pub fn panel(trial: &Trial, is_current: bool, size: [f64; 2]) -> Panel {
     pareto::panel("run time against error", [&error, &time], note, &places, area)
 }
 
-/// The method that a tag stands for.
+/// The method of a tag.
 pub fn point(trial: &Trial, tag: Tag) -> Option<&Point> {
     trial.points.get((tag.0 as usize).checked_sub(1)?)
 }
@@ -50,7 +50,7 @@ fn marker(family: Family) -> Marker {
     }
 }
 
-/// Not the cameras' inks: what is gray here is no camera.
+/// Not the cameras' inks: gray marks here are not cameras.
 fn role(family: Family) -> InkRole {
     match family {
         Family::Sum => InkRole::Weak,

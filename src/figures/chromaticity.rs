@@ -1,7 +1,12 @@
 //! The diagram: loci with temperature ticks, patches with tails to the reference's points, and what surrounds them.
 
 mod drawing;
+mod edges;
+mod fit;
+mod frame;
+mod ghost;
 mod ground;
+mod labels;
 mod loci;
 mod pixel;
 mod points;
@@ -12,7 +17,8 @@ use std::collections::BTreeSet;
 use chromascope_core::colorimetry::{UvPrime, Xy, Xyz};
 use chromascope_core::light::Cct;
 use chromascope_figure::{
-    Axis, Cell, Figure, InkRole, LegendEntry, LegendPlace, Mark, Panel, Rect, Shape, Stroke, Table, Ticks,
+    Axis, Cell, Figure, InkRole, LegendEntry, LegendPlace, Mark, Panel, Projection, Rect, Shape, Stroke, Table, Ticks,
+    auto_ticks,
 };
 
 use chromascope_core::spectral::sensor::TAIL_BELOW_K;
@@ -21,27 +27,29 @@ use crate::document::{Diagram, TransformChoice};
 use crate::plot_item::PickIndex;
 use crate::render_service::RenderedFrame;
 use crate::scene::{ComparedSensor, Scene};
+use crate::view::diagram::Ranges;
 use crate::view::{DiagramFit, View};
 use drawing::Drawing;
 pub(crate) use drawing::id;
+use frame::Frame;
 
-pub use points::{blackbody_distance, describe, distance_symbol, patch_xy};
+pub use fit::{fit_key, fitted};
+pub use points::{blackbody_distance, brief, describe, distance_symbol};
 
-/// The diagram with what its marks stand for.
+/// The diagram with the items of its marks.
 #[derive(Clone, Debug)]
 pub struct Built {
     /// The panel.
     pub panel: Panel,
-    /// What its marks stand for.
+    /// Items of the marks.
     pub things: PickIndex,
     /// Sensors that could not be drawn, with why.
     pub refused: Vec<String>,
     /// Places among the marks of the lines of Planckian loci: their points are the locus's points, in its order.
     pub loci: BTreeSet<usize>,
+    /// The data enlarged, in the free half beside the whole diagram.
+    pub lens: Option<Box<Built>>,
 }
-
-/// Coordinates that the data's fit takes in; real colors lie between 0 and 0.85.
-const NEAR: std::ops::RangeInclusive<f64> = -0.25..=1.1;
 
 /// The names of the coordinates.
 pub const fn coordinates(diagram: Diagram) -> [&'static str; 2] {
@@ -51,84 +59,112 @@ pub const fn coordinates(diagram: Diagram) -> [&'static str; 2] {
     }
 }
 
-/// Builds the diagram for an area of the given size, with the pinned pixel of these pictures.
+/// Builds the diagram for an area of the given size, with the pinned pixel of these pictures. Shows what the view holds, else a fit.
 pub fn build(scene: &Scene<'_>, view: &View, pictures: Option<&RenderedFrame>, size: [f64; 2]) -> Built {
-    let diagram = scene.document.diagram;
-    let mut drawing = Drawing {
-        scene,
-        view,
-        diagram,
-        marks: Vec::new(),
-        things: PickIndex::default(),
-        refused: Vec::new(),
-        loci: BTreeSet::new(),
-        data: Vec::new(),
-    };
+    let fit = view.saved.diagram_fit;
+    let held = view.diagram.fit().unwrap_or_else(|| fit::fitted(scene, &fit::fit_key(scene, fit)));
+    let area = Rect::from_min_size([0.0, 0.0], size);
+    let frame = Frame::around(held.shown, size);
+    let has_lens = fit == DiagramFit::Whole && view.diagram.zoomed.is_none();
+    let place = lens_area(scene.document.diagram, &frame, held.data).filter(|_| has_lens);
+    let drawn = view.diagram.zoomed.map_or(frame, |ranges| Frame { ranges, ..frame });
+    let mut drawing = draw(scene, view, pictures, drawn, place.is_some());
+    if view.diagram.zoomed.is_none() {
+        edges::add(&mut drawing);
+    }
+    let lens = place.map(|area| {
+        let frame = Frame::around(held.data, [area.width(), area.height()]);
+        let [x, y] = frame.ranges;
+        let part = Shape::Rect { min: [x[0], y[0]], max: [x[1], y[1]] };
+        drawing.marks.push(Mark::new(PickIndex::NONE, "part in the lens", part).with_stroke(InkRole::Weak, 1.0));
+        Box::new(finish(draw(scene, view, pictures, frame, false), "Data, enlarged", area, frame))
+    });
+    let mut built = Built { lens, ..finish(drawing, "Chromaticity", area, frame) };
+    if let Some(lens) = &built.lens {
+        clear_for_lens(&mut built.panel, lens.panel.area, &frame);
+    }
+    built
+}
+
+fn draw<'a>(
+    scene: &'a Scene<'a>,
+    view: &'a View,
+    pictures: Option<&RenderedFrame>,
+    frame: Frame,
+    sketch: bool,
+) -> Drawing<'a> {
+    let mut drawing = Drawing::new(scene, view, frame, sketch);
     ground::add(&mut drawing);
-    whites::add(&mut drawing);
+    if !sketch {
+        whites::add(&mut drawing);
+    }
     let sources: Vec<ComparedSensor> = scene.sources().into_iter().filter(|source| source.visible).collect();
     if scene.document.overlays.camera_spectral_loci {
         loci::add_monochromatic(&mut drawing, &sources);
     }
     if scene.document.overlays.loci {
         loci::add(&mut drawing, &sources);
+        ghost::add(&mut drawing);
     }
     if scene.document.overlays.patches {
         points::add(&mut drawing, &sources);
     }
-    if let Some(pictures) = pictures {
+    if let Some(pictures) = pictures.filter(|_| !sketch) {
         pixel::add(&mut drawing, pictures, &sources);
     }
-    let [x_range, y_range] = ranges(&drawing, view.saved.diagram_fit);
-    let [x, y] = coordinates(diagram).map(|name| Axis::new(name, [0.0, 1.0]).with_ticks(Ticks::Auto).with_grid(true));
-    let mut panel = Panel::new("Chromaticity", Rect::from_min_size([0.0, 0.0], size), x, y);
-    panel.x.range = x_range;
-    panel.y.range = y_range;
+    drawing
+}
+
+fn finish(drawing: Drawing<'_>, name: &str, area: Rect, frame: Frame) -> Built {
+    let Drawing { diagram, frame: drawn, mut marks, points, small, labels, things, refused, loci, .. } = drawing;
+    let texts = labels::placed(labels, &[&marks, &points, &small], &drawn);
+    marks.extend(points.into_iter().chain(small).chain(texts));
+    let [x_range, y_range] = frame.ranges;
+    let [x, y] = coordinates(diagram);
+    let mut panel = Panel::new(name, area, Axis::new(x, x_range), Axis::new(y, y_range));
     panel.equal_aspect = true;
-    panel.marks = drawing.marks;
-    Built { panel, things: drawing.things, refused: drawing.refused, loci: drawing.loci }
+    panel.marks = marks;
+    Built { panel, things, refused, loci, lens: None }
 }
 
-/// What the diagram shows: the data, or all of the spectral locus.
-fn ranges(drawing: &Drawing<'_>, fit: DiagramFit) -> [[f64; 2]; 2] {
-    let whole = match drawing.diagram {
-        Diagram::Xy => [[-0.03, 0.78], [-0.03, 0.87]],
-        Diagram::UvPrime => [[-0.02, 0.65], [-0.02, 0.62]],
-    };
-    // A matrix fitted under an extreme light can throw a camera's points far out; they do not shrink all others to a dot.
-    let near: Vec<[f64; 2]> = drawing.data.iter().copied().filter(|p| p.iter().all(|v| NEAR.contains(v))).collect();
-    if fit == DiagramFit::Whole || near.is_empty() {
-        return whole;
-    }
-    [0, 1].map(|axis| {
-        let values = near.iter().map(|point| point[axis]);
-        let low = values.clone().fold(f64::INFINITY, f64::min);
-        let high = values.fold(f64::NEG_INFINITY, f64::max);
-        let pad = 0.08 * (high - low).max(0.05);
-        [low - pad, high + pad]
-    })
+/// Area of the lens in the panel: free space right of the whole diagram, as high as the data need, if it is large enough.
+fn lens_area(diagram: Diagram, frame: &Frame, [x, y]: Ranges) -> Option<Rect> {
+    const LEAST: [f64; 2] = [200.0, 170.0];
+    const GAP: f64 = 8.0;
+    // Room for a wavelength.
+    const BESIDE: f64 = 32.0;
+    // Room for the label of the axis.
+    const BELOW: f64 = 22.0;
+    let [end, _] = frame.at(fit::whole(diagram));
+    let min = [Projection::LEFT + end + BESIDE, GAP];
+    let width = Projection::LEFT + frame.size[0] - GAP - min[0];
+    let needed = (width - Projection::LEFT) * (y[1] - y[0]) / (x[1] - x[0]) + Projection::BOTTOM;
+    let height = needed.max(LEAST[1]).min(frame.size[1] - GAP - BELOW);
+    (width >= LEAST[0] && height >= LEAST[1]).then(|| Rect::from_min_size(min, [width, height]))
 }
 
-/// The whole diagram in small, with what is shown of it: `[x, y]` ranges.
+/// Clears the ground of the lens and ends the horizontal axis with the diagram.
+fn clear_for_lens(panel: &mut Panel, area: Rect, frame: &Frame) {
+    let corner = |at: [f64; 2]| frame.value([at[0] - Projection::LEFT, at[1]]);
+    let ground = Shape::Rect { min: corner([area.min[0], area.max[1]]), max: corner([area.max[0], area.min[1]]) };
+    panel.marks.push(Mark::new(PickIndex::NONE, "ground of the lens", ground).with_fill(InkRole::Plot));
+    let ticks = auto_ticks(panel.x.range, frame.size[0]).into_iter();
+    let ticks = ticks.filter(|tick| tick.value < corner(area.min)[0]).map(|tick| (tick.value, tick.label));
+    panel.x.ticks = Ticks::At(ticks.collect());
+}
+
+/// Overview of the whole diagram with the visible range: `[x, y]` ranges.
 pub fn overview(scene: &Scene<'_>, shown: [[f64; 2]; 2], size: [f64; 2]) -> Panel {
     let diagram = scene.document.diagram;
     let view = View::default();
-    let mut drawing = Drawing {
-        scene,
-        view: &view,
-        diagram,
-        marks: Vec::new(),
-        things: PickIndex::default(),
-        refused: Vec::new(),
-        loci: BTreeSet::new(),
-        data: Vec::new(),
-    };
-    ground::add_area(&mut drawing, 1.0);
+    let ranges = fit::whole(diagram).map(|end| [0.0, end]);
+    let mut drawing = Drawing::new(scene, &view, Frame { ranges, size }, true);
+    ground::add_area(&mut drawing);
     let [x, y] = shown;
     let frame = Shape::Rect { min: [x[0], y[0]], max: [x[1], y[1]] };
-    drawing.marks.push(Mark::new(PickIndex::NONE, "shown", frame).with_stroke(InkRole::Text, 1.5));
-    let [x, y] = ranges(&drawing, DiagramFit::Whole);
-    let mut panel = Panel::new("Overview", Rect::from_min_size([0.0, 0.0], size), Axis::hidden(x), Axis::hidden(y));
+    drawing.marks.push(Mark::new(PickIndex::NONE, "shown", frame).with_stroke(InkRole::Weak, 1.0));
+    let [x, y] = ranges.map(Axis::hidden);
+    let mut panel = Panel::new("Overview", Rect::from_min_size([0.0, 0.0], size), x, y);
     panel.equal_aspect = true;
     panel.marks = drawing.marks;
     panel
@@ -136,17 +172,24 @@ pub fn overview(scene: &Scene<'_>, shown: [[f64; 2]; 2], size: [f64; 2]) -> Pane
 
 /// The size of a saved figure in points, with the strip below the diagram.
 const SIZE: [f64; 2] = [640.0, 480.0];
-const STRIP: f64 = 120.0;
+/// Height in points of the strip below it.
+pub const STRIP: f64 = 136.0;
 
 /// The figure as it is saved: diagram, strip, legend, caption, and the numbers of all points.
 pub fn figure(scene: &Scene<'_>, view: &View) -> Figure {
-    // What the pointer is on has no place on paper.
+    figure_sized(scene, view, SIZE)
+}
+
+/// The figure with a diagram of a size in points.
+pub fn figure_sized(scene: &Scene<'_>, view: &View, size: [f64; 2]) -> Figure {
+    // Hovering is not shown on paper.
     let paper = View { saved: view.saved.clone(), ..View::default() };
-    let built = build(scene, &paper, None, SIZE);
-    let mut figure = Figure::new("Chromaticity", SIZE);
+    let built = build(scene, &paper, None, size);
+    let mut figure = Figure::new("Chromaticity", size);
     figure.panels.push(built.panel);
-    if let Some(mut strip) = super::strip::build(scene, [SIZE[0], STRIP]) {
-        strip.panel.area = Rect::from_min_size([0.0, SIZE[1]], [SIZE[0], STRIP]);
+    figure.panels.extend(built.lens.map(|lens| lens.panel));
+    if let Some(mut strip) = super::strip::build(scene, [size[0], STRIP]) {
+        strip.panel.area = Rect::from_min_size([0.0, size[1]], [size[0], STRIP]);
         figure.size[1] += STRIP;
         figure.panels.push(strip.panel);
     }

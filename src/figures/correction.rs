@@ -21,7 +21,7 @@ const CURVES: [Curve; 4] = [
     ("mixed as DNG readers do", |point| point.mixed, InkRole::Text, Dash::Solid),
 ];
 
-/// The figure of what the Correction pane shows; none without two lights.
+/// The figure of the Correction pane; `None` without two lights.
 pub fn figure(view: &View) -> Option<Figure> {
     let file = view.correction.shown.as_ref()?;
     let mut figure = Figure::new(title(file), SIZE);
@@ -56,8 +56,8 @@ pub fn panel(file: &CorrectionFile, size: [f64; 2]) -> Option<Panel> {
     let mired = |point: &TwoLightPoint| point.temperature.mired();
     let cold_to_hot = [mired(first).max(mired(last)), mired(first).min(mired(last))];
     let ticks = (0..5).filter_map(|i| points.get(i * (points.len() - 1) / 4));
-    let ticks = ticks.map(|point| (mired(point), format!("{:.0} K", point.temperature.get()))).collect();
-    let x = Axis::new("", cold_to_hot).with_ticks(Ticks::At(ticks)).with_grid(true);
+    let ticks = ticks.map(|point| (mired(point), format!("{:.0}", point.temperature.get()))).collect();
+    let x = Axis::new("color temperature (K)", cold_to_hot).with_ticks(Ticks::At(ticks)).with_grid(true);
     let y = Axis::new("mean ΔE*00", [0.0, (top * 1.1).max(1e-6)]).with_grid(true);
     let mut panel = Panel::new(title(file), Rect::from_min_size([0.0, 0.0], size), x, y);
     panel.marks = CURVES

@@ -1,4 +1,4 @@
-//! The curves that a file gives, as the file is understood.
+//! Curves of a file, as interpreted.
 
 mod drawn;
 mod kept;
@@ -6,8 +6,8 @@ mod on_show;
 
 use chromascope_core::spectral::grid::{FIRST_NM, LAST_NM};
 use chromascope_figure::{
-    Anchor, Axis, Cell, Figure, Ink, InkRole, LegendEntry, LegendPlace, Mark, Panel, Rect, Shape, Stroke, Table, Tag,
-    TextSize, finite_runs,
+    Anchor, Axis, Cell, Figure, Ink, InkRole, LegendEntry, LegendPlace, Mark, Panel, Projection, Rect, Shape, Stroke,
+    Table, Tag, TextSize, finite_runs,
 };
 
 pub use drawn::{Curve, Curves, DRAWN};
@@ -20,25 +20,25 @@ use crate::plot_item::PickIndex;
 
 /// The size of a saved figure in points.
 const SIZE: [f64; 2] = [640.0, 360.0];
-/// The height of a line of small text with its margins, and of the labels below a plot.
+/// The height of a line of small text with its margins, and of what is below a plot.
 const TEXT: f64 = 18.0;
-const TICKS: f64 = 24.0;
-/// Up to so many curves have a legend of their own.
+const BELOW: f64 = Projection::BOTTOM + Projection::TITLE;
+/// Maximum number of curves with legend entries of their own.
 const NAMED: usize = 12;
 
-/// The panel for an area of the given size. `hovered` is the place in the file of a curve that stands out.
+/// The panel for an area of the given size. `hovered` is the index in the file of the hovered curve.
 pub fn panel(curves: &Curves, size: [f64; 2], hovered: Option<usize>) -> Panel {
-    let x = Axis::new("", curves.range_nm());
+    let x = Axis::new("wavelength (nm)", curves.range_nm());
     let [low, high] = curves.span();
     let low = low.min(0.0);
     let clipped = curves.beyond().is_some();
-    // Above the curves there is room for what is written there, below none: near zero there are curves everywhere.
+    // Margin above the curves for labels, none below: near zero there are curves everywhere.
     let lines = if clipped { 2.0 } else { 1.0 };
-    let share = (lines * TEXT / (size[1] - TICKS).max(1.0)).clamp(0.05, 0.4);
+    let share = (lines * TEXT / (size[1] - BELOW).max(1.0)).clamp(0.05, 0.4);
     let room = ((high - low) * share / (1.0 - share)).max(1e-12);
     let below = if low < 0.0 { 0.05 * (high - low) } else { 0.0 };
     let range = [low - below, (high + room).max(round_above(high).filter(|nice| *nice < 1.4 * high).unwrap_or(high))];
-    let y = Axis::new(format!("{} over wavelength (nm)", curves.quantity), range);
+    let y = Axis::new(curves.quantity.clone(), range);
     let mut panel = Panel::new("curves of the file", Rect::from_min_size([0.0, 0.0], size), x, y);
     panel.note = curves.beyond().map_or_else(|| curves.note.clone(), |beyond| format!("{}; {beyond}", curves.note));
     panel.marks.push(visible(range));
@@ -48,7 +48,7 @@ pub fn panel(curves: &Curves, size: [f64; 2], hovered: Option<usize>) -> Panel {
         let on = Some(curve.place) == hovered;
         let mut points = curve.points.clone();
         if clipped {
-            // What swings far beyond the plot would fill it from top to bottom; that it does is said in words.
+            // Parts of curves far beyond the plot are not drawn; a note says so.
             points.iter_mut().filter(|[_, y]| *y < low || *y > high).for_each(|point| point[1] = f64::NAN);
         }
         panel.marks.extend(marks(curve, points, on, curves.drawn.len()));
@@ -62,7 +62,7 @@ fn round_above(value: f64) -> Option<f64> {
     [1.0, 2.0, 5.0, 10.0].into_iter().map(|factor| factor * power).find(|nice| nice.is_finite() && *nice >= value)
 }
 
-/// Tag of a curve in a panel. The first tag stands for nothing.
+/// Tag of a curve in a panel. The first tag has no item.
 fn tag(place: usize) -> Tag {
     Tag(u32::try_from(place).unwrap_or(u32::MAX - 1) + 1)
 }
@@ -172,7 +172,7 @@ pub fn numbers(curves: &Curves) -> Table {
     for nm in all {
         let cells = curves.drawn.iter().zip(&mut next).map(|(curve, next)| {
             let mut value = None;
-            // A gap stands between two samples, at a wavelength that may be another's.
+            // A gap lies between two samples, at a wavelength that may be another's.
             while let Some([at, v]) = curve.points.get(*next).filter(|point| point[0] <= nm) {
                 if *at == nm && v.is_finite() {
                     value = Some(*v);

@@ -28,8 +28,10 @@ pub fn bars(rendition: &Rendition, area: Rect) -> Option<Panel> {
     let low = values.iter().map(|(_, value)| *value).fold(0.0, f64::min);
     let floor = if low < 0.0 { (low / 50.0).floor() * 50.0 } else { 0.0 };
     let names = values.iter().enumerate().map(|(index, (name, _))| (index as f64 + 0.5, name.clone())).collect();
-    let x = Axis::new("", [0.0, values.len() as f64]).with_ticks(Ticks::At(names)).with_grid(false);
-    let y = Axis::new("", [floor, 125.0]).with_ticks(Ticks::Auto).with_grid(true);
+    let x = Axis::new("test color (Ra: mean of R1 to R8)", [0.0, values.len() as f64])
+        .with_ticks(Ticks::At(names))
+        .with_grid(false);
+    let y = Axis::new("color rendering index", [floor, 140.0]).with_ticks(Ticks::Auto).with_grid(true);
     let mut panel = Panel::new("rendering indices", area, x, y);
     for (index, (name, value)) in values.iter().enumerate() {
         let middle = index as f64 + 0.5;
@@ -95,7 +97,8 @@ fn ends(fidelity: &ColorFidelity) -> Vec<[[f64; 2]; 2]> {
     fidelity.bins.iter().enumerate().map(end).collect()
 }
 
-/// Color that stands for a hue bin: L* 60, C*ab 45 under D65. For orientation only: hues of CAM02-UCS differ a little.
+/// Representative color of a hue bin: L* 60, C*ab 45 under D65. For orientation only: hues of CAM02-UCS differ a
+/// little.
 fn hue(bin: usize) -> [u8; 3] {
     let (sin, cos) = (TAU * (bin as f64 + 0.5) / 16.0).sin_cos();
     let middle = 76.0 / 116.0;

@@ -11,7 +11,7 @@ use crate::ranking::{Ranked, ranked};
 use crate::scene::Scene;
 use crate::view::table::Sorting;
 
-/// Id of the table of cameras in what is kept between runs.
+/// Id of the table of cameras in what is saved between runs.
 pub const TABLE: &str = "Metrics";
 /// Metric that cameras are sorted by at first.
 pub const FIRST: &str = "delta-e2000-mean";
@@ -77,9 +77,9 @@ pub fn numbers(ranked: &Ranked) -> Table {
     table
 }
 
-/// Two cameras head to head: each metric with both values, the difference, and which is better by more than the uncertainty.
+/// Two cameras head to head: each metric with the difference, the camera better by more than the uncertainty, and both values.
 pub fn head_to_head(ranked: &Ranked, [a, b]: [usize; 2]) -> Table {
-    let mut table = Table::new(["metric", "A", "B", "A − B", "better"]);
+    let mut table = Table::new(["metric", "A − B", "better", "A", "B"]);
     for metric in CameraMetric::ALL {
         let values = [a, b].map(|camera| value(ranked, camera, *metric));
         let [x, y] = values.map(|value| value.and_then(|value| value.value.ok()));
@@ -96,10 +96,10 @@ pub fn head_to_head(ranked: &Ranked, [a, b]: [usize; 2]) -> Table {
         let difference = x.zip(y).map(|(x, y)| x - y);
         table.push([
             Cell::from(format!("{} {}", metric.symbol, unit(metric)).trim_end()),
-            Cell::from(x),
-            Cell::from(y),
             Cell::from(difference),
             Cell::from(words),
+            Cell::from(x),
+            Cell::from(y),
         ]);
     }
     table
@@ -120,7 +120,7 @@ const NAMES: f64 = 220.0;
 /// Height of a row.
 const ROW: f64 = 16.0;
 
-/// Cameras in order of the metric that the table is sorted by, with uncertainties; all numbers beside it.
+/// Cameras in order of the metric by which the table is sorted, with uncertainties, and the table of all numbers.
 pub fn figure(input: &FigureInput<'_>) -> Option<Figure> {
     let (scene, view) = (input.scene, input.view);
     let ranked = ranked(scene, view.saved.metrics.cameras);

@@ -7,7 +7,6 @@ use chromascope_figure::{
 };
 
 use crate::format::fixed;
-use crate::scene::Scene;
 use crate::scene::recorded::{CHANNELS, RankedCamera};
 use crate::view::View;
 
@@ -17,11 +16,6 @@ const MARKS: [(Marker, [u8; 3]); 3] =
 /// Size of a saved figure in points.
 const SIZE: [f64; 2] = [720.0, 320.0];
 
-/// The cameras ranked by the patches on show; none before there are any.
-pub fn ranked(scene: &Scene<'_>, view: &View) -> Option<Vec<RankedCamera>> {
-    scene.ranked_cameras(view.recorded.set.as_ref()?, view.recorded.freedom, &[]).ok()
-}
-
 /// The camera whose residuals are shown: the one chosen, or the best.
 pub fn chosen<'a>(ranked: &'a [RankedCamera], view: &View) -> Option<(&'a str, &'a RecordedFit)> {
     let named = |camera: &&RankedCamera| view.recorded.camera.as_ref().is_none_or(|name| *name == camera.name);
@@ -29,11 +23,11 @@ pub fn chosen<'a>(ranked: &'a [RankedCamera], view: &View) -> Option<(&'a str, &
     Some((&camera.name, camera.fit.as_ref().ok()?))
 }
 
-/// Residual per patch and channel of the camera on show, with the numbers.
-pub fn figure(scene: &Scene<'_>, view: &View) -> Option<Figure> {
-    let ranked = ranked(scene, view)?;
-    let (name, fit) = chosen(&ranked, view)?;
-    let names: Vec<String> = view.recorded.set.as_ref()?.iter().map(|patch| patch.name.clone()).collect();
+/// Residual per patch and channel of the selected camera, with the numbers.
+pub fn figure(view: &View) -> Option<Figure> {
+    let (set, ranked) = view.recorded.ranked.as_ref()?;
+    let (name, fit) = chosen(ranked, view)?;
+    let names: Vec<String> = set.iter().map(|patch| patch.name.clone()).collect();
     let mut figure = Figure::new(format!("Residuals of {name}"), SIZE);
     figure.panels.push(panel(fit, &names, SIZE));
     figure.legend = legend();
@@ -68,7 +62,7 @@ pub fn panel(fit: &RecordedFit, names: &[String], size: [f64; 2]) -> Panel {
     let ticks = (0..names.len()).map(|i| (i as f64, (i + 1).to_string())).collect();
     let x = Axis::new("patch", [-0.6, count - 0.4]).with_ticks(Ticks::At(ticks));
     // Room above for the names of the worst patches.
-    let y = Axis::new("recorded / modeled (%)", [-reach, 1.35 * reach]);
+    let y = Axis::new("ln(recorded / modeled) (%)", [-reach, 1.35 * reach]);
     let mut panel = Panel::new("residuals", Rect::from_min_size([0.0, 0.0], size), x, y);
     let zero = Shape::Segments { segments: vec![[[-0.6, 0.0], [count - 0.4, 0.0]]] };
     panel.marks.push(Mark::new(Tag::default(), "no residual", zero).with_stroke(InkRole::Line, 1.0));

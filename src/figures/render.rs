@@ -3,8 +3,10 @@
 pub mod difference;
 pub mod headline;
 pub mod returned;
+pub mod spectrum;
 
 use chromascope_figure::{Anchor, Cell, Figure, Image, Ink, Mark, Panel, Rect, Shape, Table, TextSize};
+use spectral_image::ImageQuantity;
 
 use self::headline::{Detail, Measure};
 use super::FigureInput;
@@ -12,8 +14,10 @@ use crate::document::render::RoughnessChoice;
 use crate::format::fixed;
 use crate::plot_item::{PickIndex, SensorId};
 use crate::render_service::RenderedFrame;
+use crate::render_service::made::MadePictures;
 use crate::render_service::pixel::{self, LitPixel, PixelReading, PixelShows};
 use crate::scene::Scene;
+use crate::scene::spectral_image::ImagePictures;
 use crate::view::render::{PixelPlace, RenderMode};
 
 /// The width of a saved picture in points, in a grid of two columns.
@@ -21,25 +25,27 @@ const WIDTH: f64 = 340.0;
 /// The height of the line above a picture.
 const CAPTION: f64 = 20.0;
 const GAP: f64 = 8.0;
+/// A pixel of an image with a sample that is no number.
+pub const NO_VALUE: &str = "no value in some band";
 
 /// A sensor's index among the pictures.
 pub fn index_of(shot: &RenderedFrame, id: &SensorId) -> Option<usize> {
     shot.sources.iter().position(|source| source.kind == id.kind && source.name == id.name)
 }
 
-/// The pictures on show, with captions and numbers; none before there are any.
+/// The current pictures, with captions and numbers; `None` before there are any.
 pub fn figure(input: &FigureInput<'_>) -> Option<Figure> {
     let (scene, view, shot) = (input.scene, input.view, input.pictures?);
     let made = shot.made()?;
-    let measure = Measure::of(&shot.query);
+    let measure = Measure::of_frame(shot);
     let mode = view.saved.render.mode;
     let maps = (mode == RenderMode::Difference).then(|| difference::Scale::of(shot));
     let only_sources = matches!(mode, RenderMode::One | RenderMode::Difference);
     let first = usize::from(only_sources && shot.sources.len() > 1);
     let shown: Vec<usize> = (first..shot.sources.len()).collect();
     let columns = ((shown.len() as f64).sqrt().ceil() as usize).max(1);
-    let size = shot.query.shading.geometry.visibility.size;
-    let height = WIDTH * f64::from(size.height) / f64::from(size.width.max(1));
+    let shape = made.pictures.iter().flatten().next().map_or([1, 1], |picture| [picture.width, picture.height]);
+    let height = WIDTH * shape[1] as f64 / shape[0].max(1) as f64;
     let rows = shown.len().div_ceil(columns);
     let scale = if maps.is_some() { difference::SCALE_HEIGHT } else { 0.0 };
     let all = [columns as f64 * (WIDTH + GAP) + GAP, rows as f64 * (height + CAPTION + GAP) + GAP + scale];
@@ -84,11 +90,16 @@ pub fn figure(input: &FigureInput<'_>) -> Option<Figure> {
     }
     figure.panels.push(panel);
     figure.caption = match maps {
-        Some(_) => format!("Maps of {} from the reference; black: no light. {}", measure.name(), caption(scene)),
-        None => caption(scene),
+        Some(_) if made.image().is_some() => {
+            format!("Maps of {} from the reference. {}", measure.name(), caption(scene, shot))
+        }
+        Some(_) => {
+            format!("Maps of {} from the reference; hatched: no light. {}", measure.name(), caption(scene, shot))
+        }
+        None => caption(scene, shot),
     };
     if shown.len() > 1 || !shot.sources.iter().all(|source| source.is_reference) {
-        figure.caption = format!("{} {}", figure.caption, headline::MEANING);
+        figure.caption = format!("{} {}", figure.caption, measure.meaning());
     }
     figure.table = table(shot, measure.name());
     Some(figure)
@@ -100,9 +111,17 @@ fn text(words: &str, at: [f64; 2], anchor: Anchor, ink: Ink) -> Mark {
 }
 
 /// The conditions in sentences.
-fn caption(scene: &Scene<'_>) -> String {
+fn caption(scene: &Scene<'_>, shot: &RenderedFrame) -> String {
     let settings = &scene.document.render;
     let mesh = settings.mesh.name();
+    if let Some(image) = shot.made().and_then(MadePictures::image) {
+        let quantity = match image.image.quantity {
+            ImageQuantity::Reflectance => "reflectances under the scene's light".to_owned(),
+            ImageQuantity::Radiance => format!("radiances, white at Y = {:.3e}", image.white),
+        };
+        let size = image_words(shot, image);
+        return format!("Spectral image: {mesh}, {size}, {quantity}. {}", viewing_conditions(scene));
+    }
     let roughness = match settings.roughness {
         RoughnessChoice::Surface => format!("σ = {} µm, τ = {} µm", settings.sigma_um, settings.tau_um),
         RoughnessChoice::Mesh => "σ and τ from the mesh".to_owned(),
@@ -122,9 +141,27 @@ fn caption(scene: &Scene<'_>) -> String {
     )
 }
 
+/// Size, decimation and bands of an image.
+pub fn image_words(shot: &RenderedFrame, image: &ImagePictures) -> String {
+    let info = &image.image.info;
+    let step = shot.query.image().map_or(1, |query| query.signals.step);
+    let decimation = match step {
+        1 => String::new(),
+        2 => ", every second pixel across and down".to_owned(),
+        3 => ", every 3rd pixel across and down".to_owned(),
+        _ => format!(", every {step}th pixel across and down"),
+    };
+    format!("{} × {} pixels{decimation}, {} bands", info.width, info.height, info.wavelengths_nm.len())
+}
+
 fn table(shot: &RenderedFrame, measure: &str) -> Table {
-    let columns = "sensor mean_of_lit max_of_lit clipped_samples pixels_across pixels_down time_ms measure facing_light \
-                   median_above_l20 p95_above_l20 samples_above_l20";
+    let columns = if shot.query.image().is_some() {
+        "sensor mean max clipped_pixels pixels_across pixels_down time_ms measure facing_light median p95 \
+         pixels_with_value"
+    } else {
+        "sensor mean_of_lit max_of_lit clipped_samples pixels_across pixels_down time_ms measure facing_light \
+         median_above_l20 p95_above_l20 samples_above_l20"
+    };
     let mut table = Table::new(columns.split(' '));
     let Some(made) = shot.made() else { return table };
     for (at, source) in shot.sources.iter().enumerate() {
@@ -164,8 +201,9 @@ pub fn pixel_line(scene: &Scene<'_>, shot: &RenderedFrame, place: &PixelPlace) -
             let hint = "Drag to orbit; scroll to move nearer.";
             return Some(format!("{label}, pixel {x}, {y}: beside the mesh. {hint}"));
         }
+        PixelShows::NoValue => NO_VALUE.to_owned(),
         PixelShows::Unlit => "no light reaches it".to_owned(),
-        PixelShows::Lit(lit) => facts(lit, Measure::of(&shot.query))
+        PixelShows::Lit(lit) => facts(lit, Measure::of_frame(shot))
             .into_iter()
             .map(|(name, value)| format!("{name} {value}"))
             .collect::<Vec<_>>()

@@ -6,7 +6,8 @@ use chromascope_core::query::{Ask, CameraMetric, CameraMetrics};
 use chromascope_core::spectral::SpectralDistribution;
 use chromascope_core::spectral::grid::{FIRST_NM, LAST_NM};
 use chromascope_figure::{
-    Anchor, Axis, Cell, Figure, Ink, InkRole, Mark, Panel, Rect, Shape, Table, Tag, TextSize, Ticks,
+    Anchor, Axis, Cell, Figure, Ink, InkRole, Mark, Panel, Projection, Rect, Shape, Table, Tag, TextSize, Ticks,
+    text_width,
 };
 
 use super::FigureInput;
@@ -21,14 +22,21 @@ use crate::view::View;
 
 /// Width of the saved page in points.
 const WIDTH: f64 = 560.0;
-/// Below this width all stands in one column.
+/// Below this width, all is in one column.
 const TWO_COLUMNS: f64 = 480.0;
+/// From this width on the bars stand beside the plots, so that the page is low.
+const ONE_ROW: f64 = 840.0;
+/// Width of a column of figures of merit where there are more than two.
+const LIST_COLUMN: f64 = 216.0;
 /// Heights of title, plots and bars.
 const TITLE: f64 = 44.0;
 const PLOTS: f64 = 190.0;
 const BARS: f64 = 200.0;
 /// Height of a line of the list.
 const LINE: f64 = 15.0;
+/// Height of a name over a bar, and the air beside it.
+const NAME_LINE: f64 = 14.0;
+const NAME_GAP: f64 = 3.0;
 
 /// The camera of the card: the chosen one, else the selected one, else the first that is compared.
 pub fn camera(scene: &Scene<'_>, view: &View) -> Option<SensorId> {
@@ -43,37 +51,42 @@ pub fn camera(scene: &Scene<'_>, view: &View) -> Option<SensorId> {
 
 /// The page of the camera of the card as it is saved; none without a camera that can be shown.
 pub fn figure(input: &FigureInput<'_>) -> Option<Figure> {
-    page(input.scene, input.view, WIDTH)
+    let id = camera(input.scene, input.view)?;
+    let query = input.scene.camera_metrics_query(id.kind, &id.name).ok()?;
+    Some(page(input.scene, &id, &input.scene.results.ask(&query), WIDTH))
 }
 
-/// The page in a width; a narrow one has one column.
-pub fn page(scene: &Scene<'_>, view: &View, width: f64) -> Option<Figure> {
-    let id = camera(scene, view)?;
-    let query = scene.camera_metrics_query(id.kind, &id.name).ok()?;
-    let metrics = scene.results.ask(&query);
-    let columns = if width < TWO_COLUMNS { 1 } else { 2 };
-    let rows = (CameraMetric::ALL.len() + MetricGroup::ALL.len()).div_ceil(columns);
+/// The page of a camera with its figures of merit in a width; a narrow one has one column.
+pub fn page(scene: &Scene<'_>, id: &SensorId, metrics: &CameraMetrics, width: f64) -> Figure {
     let mut top = 0.0;
     let mut place = |height: f64| {
         top += height;
         Rect::from_min_size([0.0, top - height], [width, height])
     };
-    let mut panels = vec![title(scene, &id, place(TITLE))];
-    let plots = if columns == 1 {
-        [place(PLOTS), place(PLOTS)]
-    } else {
-        let row = place(PLOTS);
-        [0.0, 0.5].map(|x| Rect::from_min_size([x * width, row.min[1]], [0.5 * width, PLOTS]))
+    let mut panels = vec![title(scene, id, place(TITLE))];
+    let beside = |row: Rect, [from, to]: [f64; 2]| {
+        Rect::from_min_size([from * width, row.min[1]], [(to - from) * width, row.height()])
     };
-    panels.push(sensitivities(scene, &id, plots[0]));
-    panels.push(locus(scene, &id, plots[1]));
-    panels.push(patches(scene, &metrics, place(BARS)));
-    panels.push(values(&metrics, place(LINE * (rows as f64 + 1.0)), columns));
+    let areas = if width < TWO_COLUMNS {
+        [place(PLOTS), place(PLOTS), place(BARS)]
+    } else if width < ONE_ROW {
+        let row = place(PLOTS);
+        [beside(row, [0.0, 0.5]), beside(row, [0.5, 1.0]), place(BARS)]
+    } else {
+        let row = place(BARS);
+        [[0.0, 0.28], [0.28, 0.5], [0.5, 1.0]].map(|part| beside(row, part))
+    };
+    panels.push(sensitivities(scene, id, areas[0]));
+    panels.push(locus(scene, id, areas[1]));
+    panels.push(patches(scene, metrics, areas[2]));
+    let columns = list(if width < TWO_COLUMNS { 1 } else { ((width / LIST_COLUMN) as usize).max(2) });
+    let rows = columns.iter().map(Vec::len).max().unwrap_or(0);
+    panels.push(values(metrics, place(LINE * (rows as f64 + 1.0)), &columns));
     let mut figure = Figure::new(format!("Report card: {}", id.name), [width, top]);
     figure.panels = panels;
     figure.caption = format!("± one standard uncertainty of the sensitivities. {}", conditions(scene));
-    figure.table = numbers(&id, &metrics);
-    Some(figure)
+    figure.table = numbers(id, metrics);
+    figure
 }
 
 fn text(words: &str, at: [f64; 2], anchor: Anchor, size: TextSize, role: InkRole) -> Mark {
@@ -100,7 +113,7 @@ fn title(scene: &Scene<'_>, id: &SensorId, area: Rect) -> Panel {
 
 /// Sensitivities over the wavelength, scaled to the largest.
 fn sensitivities(scene: &Scene<'_>, id: &SensorId, area: Rect) -> Panel {
-    let x = Axis::new("nm", [FIRST_NM, LAST_NM]);
+    let x = Axis::new("wavelength (nm)", [FIRST_NM, LAST_NM]);
     let note = "sensitivities, largest = 1".to_owned();
     let mut panel = Panel { note, ..Panel::new("sensitivities", area, x, Axis::new("", [0.0, 1.1])) };
     let Ok(sensor) = scene.sensor(id.kind, &id.name) else { return panel };
@@ -118,8 +131,8 @@ fn sensitivities(scene: &Scene<'_>, id: &SensorId, area: Rect) -> Panel {
 fn locus(scene: &Scene<'_>, id: &SensorId, area: Rect) -> Panel {
     let diagram = scene.document.diagram;
     let [cold, hot] = LOCUS_RANGE_K.map(|kelvin| 1e6 / kelvin);
-    let ticks = [1000.0, 1500.0, 2500.0, 6500.0].map(|kelvin| (1e6 / kelvin, format!("{kelvin:.0} K")));
-    let x = Axis::new("", [cold, hot]).with_ticks(Ticks::At(ticks.into()));
+    let ticks = [1000.0, 1500.0, 2500.0, 6500.0].map(|kelvin| (1e6 / kelvin, format!("{kelvin:.0}")));
+    let x = Axis::new("blackbody temperature (K)", [cold, hot]).with_ticks(Ticks::At(ticks.into()));
     let pair = scene
         .locus(id.kind, &id.name)
         .and_then(|own| Ok((own, scene.locus(SetKind::Observer, &scene.document.reference)?)));
@@ -159,17 +172,29 @@ fn patches(scene: &Scene<'_>, metrics: &CameraMetrics, area: Rect) -> Panel {
         panel.marks.push(Mark::new(Tag::default(), name(patch), shape).with_fill(ink).with_stroke(InkRole::Weak, 0.5));
     }
     let worst = metrics.worst.get(at).map_or(&[][..], Vec::as_slice);
+    let points = [(area.width() - Projection::LEFT) / count, area.height() / (1.3 * top)];
+    let mut taken: Vec<Rect> = Vec::new();
     for (rank, &patch) in worst.iter().enumerate() {
         let Some(value) = values.get(patch).copied().flatten() else { continue };
         let words = format!("{}  {}", rank + 1, name(patch));
-        // Names stand at the left of bars in the right half, so that none is cut.
+        // Names are to the left of bars in the right half, so that none is cut.
         let (anchor, shift) =
             if patch as f64 > count / 2.0 { (Anchor::RIGHT_BOTTOM, 4.0) } else { (Anchor::LEFT_BOTTOM, -4.0) };
+        let width = text_width(&words, TextSize::Small);
+        let left = patch as f64 * points[0] + shift - if anchor == Anchor::LEFT_BOTTOM { 0.0 } else { width };
+        let mut lift = 2.0;
+        let label = |lift: f64| {
+            Rect::from_min_size([left - NAME_GAP, -value * points[1] - lift], [width + 2.0 * NAME_GAP, NAME_LINE])
+        };
+        while taken.iter().any(|other| overlap(other, &label(lift))) {
+            lift += 1.0;
+        }
+        taken.push(label(lift));
         let shape = Shape::Text {
             at: [patch as f64, value],
             text: words.clone(),
             anchor,
-            offset: [shift, -2.0],
+            offset: [shift, -lift],
             size: TextSize::Small,
             ink: Ink::new(InkRole::Text),
         };
@@ -178,34 +203,59 @@ fn patches(scene: &Scene<'_>, metrics: &CameraMetrics, area: Rect) -> Panel {
     panel
 }
 
+/// True if two rectangles have points in common.
+fn overlap(a: &Rect, b: &Rect) -> bool {
+    (0..2).all(|axis| a.min[axis] < b.max[axis] && b.min[axis] < a.max[axis])
+}
+
+/// A line of the list.
+#[derive(Clone, Copy)]
+enum Line {
+    Group(MetricGroup),
+    Metric(usize),
+}
+
+/// Lines of the figures of merit in columns of about one height; no heading stands at the foot of one.
+fn list(columns: usize) -> Vec<Vec<Line>> {
+    let lines = MetricGroup::ALL.iter().flat_map(|group| {
+        let of_group = (0..CameraMetric::ALL.len()).filter(|&at| CameraMetric::ALL[at].group == *group);
+        std::iter::once(Line::Group(*group)).chain(of_group.map(Line::Metric))
+    });
+    let rows = (CameraMetric::ALL.len() + MetricGroup::ALL.len() + columns - 1).div_ceil(columns);
+    let mut made = vec![Vec::new()];
+    for line in lines {
+        let room = if matches!(line, Line::Group(_)) { rows - 1 } else { rows };
+        match made.last_mut() {
+            Some(column) if column.len() < room => column.push(line),
+            _ => made.push(vec![line]),
+        }
+    }
+    made
+}
+
 /// All figures of merit in columns, by group.
-fn values(metrics: &CameraMetrics, area: Rect, columns: usize) -> Panel {
+fn values(metrics: &CameraMetrics, area: Rect, columns: &[Vec<Line>]) -> Panel {
     let mut panel = Panel::board("figures of merit", area, Ink::new(InkRole::Plot));
-    let lines: Vec<Option<usize>> = MetricGroup::ALL
-        .iter()
-        .flat_map(|group| {
-            let of_group = (0..CameraMetric::ALL.len()).filter(|&at| CameraMetric::ALL[at].group == *group);
-            std::iter::once(None).chain(of_group.map(Some)).collect::<Vec<_>>()
-        })
-        .collect();
-    let rows = lines.len().div_ceil(columns);
-    let mut groups = MetricGroup::ALL.iter();
-    for (index, entry) in lines.into_iter().enumerate() {
-        let left = 8.0 + (index / rows) as f64 * area.width() / columns as f64;
-        let y = LINE * ((index % rows) as f64 + 0.7);
-        let Some(at) = entry else {
-            let name = groups.next().map_or("", |group| group.label());
-            panel.marks.push(text(name, [left, y], Anchor::LEFT, TextSize::Small, InkRole::Weak));
-            continue;
+    let places = columns.iter().enumerate().flat_map(|(column, lines)| {
+        let left = 8.0 + column as f64 * area.width() / columns.len() as f64;
+        lines.iter().enumerate().map(move |(row, line)| (left, LINE * (row as f64 + 0.7), *line))
+    });
+    for (left, y, line) in places {
+        let at = match line {
+            Line::Group(group) => {
+                panel.marks.push(text(group.label(), [left, y], Anchor::LEFT, TextSize::Small, InkRole::Weak));
+                continue;
+            }
+            Line::Metric(at) => at,
         };
         let (metric, value) = (&CameraMetric::ALL[at], metrics.values[at]);
         panel.marks.push(text(metric.symbol, [left + 8.0, y], Anchor::LEFT, TextSize::Small, InkRole::Text));
         let number = value.value.map_or_else(|_| "–".to_owned(), |value| fixed(value, metric.decimals));
         let number = format!("{number} {}", unit(metric));
-        panel.marks.push(text(number.trim_end(), [left + 180.0, y], Anchor::RIGHT, TextSize::Small, InkRole::Text));
+        panel.marks.push(text(number.trim_end(), [left + 150.0, y], Anchor::RIGHT, TextSize::Small, InkRole::Text));
         if let Some(by) = value.uncertainty.filter(|_| value.value.is_ok()) {
             let by = format!("± {}", fixed(by, metric.decimals));
-            panel.marks.push(text(&by, [left + 188.0, y], Anchor::LEFT, TextSize::Small, InkRole::Weak));
+            panel.marks.push(text(&by, [left + 158.0, y], Anchor::LEFT, TextSize::Small, InkRole::Weak));
         }
     }
     panel

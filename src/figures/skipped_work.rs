@@ -7,7 +7,7 @@ use crate::format::capitalized;
 use crate::profiler::{LOCI, Measured, PATCHES, SkippedWork};
 use crate::results::Count;
 
-/// The width of a saved figure, and the height of a row and of what is around them, in points.
+/// The width of a saved figure, and the heights of a row and of the margins, in points.
 const WIDTH: f64 = 640.0;
 const ROW: f64 = 24.0;
 const AROUND: f64 = 60.0;
@@ -28,7 +28,7 @@ pub struct Section {
     pub rows: Vec<SkippedWork>,
 }
 
-/// Sections: work skipped in the last run, and work saved by caching since the start. Sections without rows are left out.
+/// Sections: work skipped in the last run, and work saved by caching since the start. Sections without rows are omitted.
 pub fn sections(measured: &Measured) -> Vec<Section> {
     let at_the_run = if measured.is_current { "measured by Run" } else { "measured by Run for an earlier scene" };
     let run = measured.run.as_ref().map_or_else(Vec::new, |run| run.skipped_work.clone());
@@ -87,15 +87,16 @@ fn time(row: &SkippedWork) -> String {
 
 /// As numbers.
 pub fn table(sections: &[Section]) -> Table {
-    let mut table = Table::new(["skipped", "count", "of", "time saved (ms)", "measured by", "when"]);
+    let mut table = Table::new(["skipped", "time saved (ms)", "measured by", "count", "of", "share (%)", "when"]);
     for section in sections {
         for row in &section.rows {
             table.push([
                 row.what.as_ref().into(),
-                Cell::Number(row.count as f64),
-                row.of.map(|of| of as f64).into(),
                 (row.saved > 0.0).then_some(row.saved * 1e3).into(),
                 row.how.as_str().into(),
+                Cell::Number(row.count as f64),
+                row.of.map(|of| of as f64).into(),
+                row.of.filter(|of| *of > 0).map(|of| 100.0 * row.count as f64 / of as f64).into(),
                 section.when.into(),
             ]);
         }
@@ -103,7 +104,7 @@ pub fn table(sections: &[Section]) -> Table {
     table
 }
 
-/// Work saved by caching since the start, by kind of question. Times are those that `run` measured without a cache.
+/// Work saved by caching since the start, by kind of query. Times are those that `run` measured without a cache.
 pub fn remembered(counts: &[(&'static str, Count)], run: &[SkippedWork]) -> Vec<SkippedWork> {
     let reused = |&(name, count): &(&'static str, Count)| {
         let what = STAGES.iter().find(|(stage, _)| *stage == name)?.1;

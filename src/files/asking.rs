@@ -1,4 +1,4 @@
-//! Asking for paths: in the system's dialog, and in the window where there is none.
+//! Path requests: in the system's dialog, or in the window where there is none.
 
 use std::path::Path;
 
@@ -10,31 +10,31 @@ use super::prompt::{self, PathPrompt};
 use super::save::{FileForm, SaveRequest};
 use crate::format::io_reason;
 
-/// A dialog that was asked for and has not answered.
+/// A dialog that is open.
 pub(super) struct Waiting {
     ticket: u64,
     request: Option<SaveRequest>,
 }
 
 impl Files {
-    /// Asks for files to open.
+    /// Shows the dialog for files to open.
     pub fn ask_to_open(&mut self) {
         self.in_dialog(Question::Files, None);
     }
 
-    /// Asks for a folder whose files are to be opened.
+    /// Shows the dialog for a folder of files to open.
     pub fn ask_for_folder(&mut self) {
         self.in_dialog(Question::Folder, None);
     }
 
-    /// Makes something to save beside the window, then asks where to; the error is a sentence.
+    /// Prepares data to save in the background, then asks where to; the error is a message.
     pub fn make_to_save(&mut self, make: impl FnOnce() -> Result<SaveRequest, String> + Send + 'static) {
         self.making = true;
         self.in_background(move || [make().map_or_else(Note::NotMade, Note::ToSave)]);
     }
 
-    /// Asks where to save. A question that is open already is about this from now on; a path that was typed stays, with the
-    /// ending of what is saved now where it had one of what was to be saved before.
+    /// Asks where to save. Replaces the subject of an open prompt; a typed path stays, with the extension of the new
+    /// subject if it had one of the earlier subject.
     pub fn ask_to_save(&mut self, request: SaveRequest) {
         if let Some(prompt) = &mut self.prompt
             && let Some(before) = &prompt.save
@@ -81,11 +81,11 @@ impl Files {
         }
     }
 
-    /// Takes in what came of a dialog.
+    /// Handles the result of a dialog.
     pub(super) fn answered(&mut self, ticket: u64, answer: Answer, request: Option<SaveRequest>) {
         let waited = self.waiting.take_if(|waiting| waiting.ticket == ticket).is_some();
         match (answer, request) {
-            // Who stopped waiting has the path box since.
+            // If the wait was stopped, the path prompt is already open.
             (Answer::Missing, request) if waited => self.ask_for_path(request, ticket),
             (Answer::Missing | Answer::Cancelled, _) => {}
             (Answer::Chosen(paths), request) => {
@@ -94,7 +94,7 @@ impl Files {
                     (None, _) => self.note(Note::Event(FileEvent::Open(paths))),
                     (Some(request), [path, ..]) => {
                         let text = path.display().to_string();
-                        // The dialog asked whether to replace what is there.
+                        // The dialog has confirmed replacing an existing file.
                         let replaces = Some(path.clone());
                         let prompt = PathPrompt::new(Some(request), ticket);
                         self.save_to(path, PathPrompt { text, replaces, no_dialog: false, ..prompt });
@@ -105,7 +105,7 @@ impl Files {
         }
     }
 
-    /// True while a path is asked for, or will be at once: keys are meant for that.
+    /// True while a path is requested, or will be immediately: keys are meant for that.
     pub fn is_asking(&self) -> bool {
         self.is_waiting() || self.prompt.is_some()
     }
@@ -115,17 +115,17 @@ impl Files {
         self.waiting.is_some() || self.making || self.prompt.as_ref().is_some_and(|prompt| prompt.focus)
     }
 
-    /// Stops waiting for a dialog: the path is asked for in the window. Returns whether one was waited for.
+    /// Stops waiting for a dialog: the path is requested in the window. Returns whether one was waited for.
     pub fn stop_waiting(&mut self) -> bool {
         let made = std::mem::take(&mut self.making);
-        // What is being made cannot be stopped; it is dropped when it arrives.
+        // Running preparations cannot be stopped; their result is dropped.
         self.unwanted += usize::from(made);
         let Some(Waiting { ticket, request }) = self.waiting.take() else { return made };
         self.ask_for_path(request, ticket);
         true
     }
 
-    /// The path that is being asked for in the window, where there is no dialog.
+    /// The path that is being requested in the window, where there is no dialog.
     pub fn prompt_mut(&mut self) -> &mut Option<PathPrompt> {
         &mut self.prompt
     }
@@ -148,7 +148,7 @@ impl Files {
         }
     }
 
-    /// Saves to a path, or asks for another one.
+    /// Saves to a path, or requests another one.
     fn save_to(&mut self, path: &Path, prompt: PathPrompt) {
         let Some(request) = prompt.save.clone() else { return };
         if path.is_dir() {
@@ -173,7 +173,7 @@ impl Files {
         });
     }
 
-    /// Asks for another path, unless something else is asked for meanwhile: that goes first.
+    /// Asks for another path, unless another prompt is open: then the failure is only reported.
     fn ask_again(&mut self, prompt: PathPrompt) {
         if self.prompt.is_none() {
             self.prompt = Some(prompt);
@@ -190,14 +190,14 @@ impl Files {
     }
 
     pub(super) fn completed(&mut self, done: prompt::Completed) {
-        // What was typed meanwhile is not about this.
+        // The completion applies only if the text is unchanged.
         if let Some(prompt) = self.prompt.as_mut().filter(|prompt| prompt.text == done.of) {
             prompt.typed();
             (prompt.text, prompt.candidates, prompt.to_end) = (done.text, done.candidates, true);
         }
     }
 
-    /// Asks for a path in the window. What is typed into a question that is open is not lost.
+    /// Asks for a path in the window. Text typed into an open prompt is preserved.
     fn ask_for_path(&mut self, save: Option<SaveRequest>, ticket: u64) {
         match (&mut self.prompt, save) {
             (Some(PathPrompt { save: Some(_), .. }), Some(request)) => self.ask_to_save(request),
@@ -207,7 +207,7 @@ impl Files {
     }
 }
 
-/// Writes a form to a path and reports what came of it.
+/// Writes a format to a path and reports the result.
 fn write(path: &Path, form: &FileForm, SaveRequest { what, note, .. }: &SaveRequest) -> FileEvent {
     let bytes = match (form.make)() {
         Ok(bytes) => bytes,

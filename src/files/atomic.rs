@@ -10,18 +10,18 @@ use tempfile::NamedTempFile;
 
 /// The beginning of names of files that are being written.
 pub(super) const TEMPORARY: &str = ".chromascope-";
-/// So many letters and digits follow it.
+/// Number of random letters and digits that follow it.
 const RANDOM: usize = 6;
 
-/// Writes a file whole or not at all: beside it first, then moved into its place. It is flushed to the disk before it takes its
-/// name, and its folder after it.
+/// Writes a file atomically: to a temporary file in the same folder, which is then renamed. The file is flushed to disk before
+/// the renaming, and its folder after it.
 pub fn write_atomically(path: &Path, bytes: &[u8]) -> io::Result<()> {
     write_atomically_with(path, |file| file.write_all(bytes))
 }
 
 /// Writes a file whole or not at all, as its contents are made.
 pub fn write_atomically_with(path: &Path, write: impl FnOnce(&mut dyn io::Write) -> io::Result<()>) -> io::Result<()> {
-    // What a link leads to is written, and the link stays.
+    // The target of a link is written, and the link stays.
     let target = match fs::canonicalize(path) {
         Ok(target) => target,
         Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(error),
@@ -47,7 +47,7 @@ pub fn write_atomically_with(path: &Path, write: impl FnOnce(&mut dyn io::Write)
 fn temporary(folder: &Path) -> io::Result<NamedTempFile> {
     let mut builder = tempfile::Builder::new();
     builder.prefix(TEMPORARY).rand_bytes(RANDOM);
-    // A temporary file is private else; what is saved is as readable as any new file, so the system's mask applies.
+    // A temporary file is private by default; a saved one is as readable as any new file, so that the umask applies.
     #[cfg(unix)]
     let builder = {
         use std::os::unix::fs::PermissionsExt as _;
@@ -69,7 +69,7 @@ fn finish(file: &NamedTempFile, target: &Path) -> io::Result<()> {
     file.as_file().sync_all()
 }
 
-/// Writes a file once more whose name another program removed before it was in its place.
+/// Writes a file again whose name another program removed before it was in its place.
 fn again(error: tempfile::PersistError, folder: &Path, target: &Path) -> io::Result<()> {
     if error.error.kind() != io::ErrorKind::NotFound {
         return Err(error.error);
@@ -82,13 +82,12 @@ fn again(error: tempfile::PersistError, folder: &Path, target: &Path) -> io::Res
     file.persist(target).map(drop).map_err(|error| error.error)
 }
 
-/// Removes what a process that was killed was writing in a folder of the program's. What is being written is locked, or about
-/// to be.
+/// Removes temporary files of killed processes from a folder of the program. Files being written are locked, or about to be.
 pub(super) fn sweep(folder: &Path) {
     let entries = fs::read_dir(folder).into_iter().flatten().flatten();
     for entry in entries.filter(|entry| is_temporary(&entry.file_name())) {
         let path = entry.path();
-        // Network folders lock only what is open for writing.
+        // Network folders lock only files opened for writing.
         let is_free = || {
             let file = fs::OpenOptions::new().read(true).write(true).open(&path);
             file.is_ok_and(|file| file.try_lock().is_ok())
@@ -100,7 +99,7 @@ pub(super) fn sweep(folder: &Path) {
     }
 }
 
-/// True if a file was written last more than so long ago.
+/// True if a file was last written longer ago than this.
 pub(super) fn is_older(path: &Path, age: Duration, now: SystemTime) -> bool {
     let modified = fs::symlink_metadata(path).and_then(|facts| facts.modified()).ok();
     modified.and_then(|modified| now.duration_since(modified).ok()).is_some_and(|past| past > age)

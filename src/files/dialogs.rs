@@ -6,15 +6,16 @@ use std::time::{Duration, Instant};
 
 use crate::catalog::meshes::ENDINGS as MESH_ENDINGS;
 use crate::catalog::recorded_store::PICTURES;
+use crate::catalog::spectral_images::ENDINGS as IMAGE_ENDINGS;
 
-/// A dialog that closes within this time without an answer was never seen by a person.
+/// A dialog that closes within this time without an answer was never seen by the user.
 const NO_DIALOG: Duration = Duration::from_millis(300);
 const ENDINGS: [&str; 30] = [
     "csv", "txt", "tsv", "dat", "asc", "prn", "trm", "ssm", "abs", "irr", "spectrum", "ttt", "trt", "tat", "jaz",
     "dta", "dpt", "sp", "cmf", "ccss", "ti3", "cgats", "jdx", "dx", "jcm", "spdx", "cxf", "xml", "json", "xls",
 ];
 
-/// A question to the user, answered with paths.
+/// A request for paths.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Question {
     /// Files to open.
@@ -43,9 +44,9 @@ pub enum Answer {
     Missing,
 }
 
-/// File dialogs. They are asked on a thread of their own and may take as long as they like.
+/// File dialogs. They run on their own thread and may take any time.
 pub trait Dialogs: Send + Sync {
-    /// Asks and waits for the answer.
+    /// Shows the dialog and waits for the answer.
     fn ask(&self, question: &Question) -> Answer;
 }
 
@@ -58,10 +59,11 @@ impl Dialogs for System {
         FAILED.set(false);
         let chosen = match question {
             Question::Files => rfd::FileDialog::new()
-                .set_title("Open spectra, camera sensitivities or a mesh")
-                .add_filter("Spectra and meshes", &[&ENDINGS[..], &MESH_ENDINGS].concat())
+                .set_title("Open spectra, camera sensitivities, a mesh or a spectral image")
+                .add_filter("Spectra, meshes and images", &[&ENDINGS[..], &MESH_ENDINGS, &IMAGE_ENDINGS].concat())
                 .add_filter("Text and CSV", &ENDINGS)
                 .add_filter("Meshes", &MESH_ENDINGS)
+                .add_filter("Spectral images", &IMAGE_ENDINGS)
                 .add_filter("Pictures of charts", &PICTURES)
                 .add_filter("All files", &["*"])
                 .pick_files(),

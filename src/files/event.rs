@@ -16,9 +16,9 @@ pub enum FileEvent {
     Changed(Vec<PathBuf>),
     /// Something to know.
     Said(String),
-    /// A file was written: a sentence, and the description of what is in it.
+    /// A file was written: a message, and the description of its contents.
     Saved(String, String),
-    /// A document was read, and the one before it kept.
+    /// A document was read, and the one before it saved.
     Document(Box<OpenedDocument>),
     /// Something failed; nothing was changed.
     Failed(String),
@@ -42,6 +42,6 @@ pub struct OpenedDocument {
     pub document: Document,
     /// Sets of it that could not be read, in words; may be empty.
     pub lost: Vec<String>,
-    /// The document that it takes the place of, which is kept in a file of its own if it was changed.
+    /// The document being replaced, which is saved in a file of its own if it was changed.
     pub before: Document,
 }

@@ -22,7 +22,7 @@ pub(super) struct Keeper {
 pub(super) struct Loaded {
     /// The document, or the first screen.
     pub(super) document: Document,
-    /// A sentence where there was one that could not be read as it is, and the file that holds it now.
+    /// A message if the document could not be read, and the file that now holds it.
     pub(super) complaint: Option<(String, PathBuf)>,
 }
 
@@ -52,7 +52,7 @@ impl Keeper {
         self.moved().as_deref() == Some(path) || self.profile.is_in_use(path)
     }
 
-    /// Documents that other windows kept and have no more.
+    /// Documents saved by other windows that are closed.
     pub(super) fn copies(&self) -> Vec<Copy> {
         self.profile.copies(self.moved().as_deref())
     }
@@ -62,7 +62,7 @@ impl Keeper {
         self.profile.first.as_ref().is_some_and(|file| std::fs::symlink_metadata(file).is_err())
     }
 
-    /// The document kept, or the first screen.
+    /// The saved document, or the default one.
     pub(super) fn load(&mut self) -> Loaded {
         let Some(first) = self.profile.first.clone() else {
             return Loaded { document: Document::default(), complaint: None };
@@ -85,7 +85,7 @@ impl Keeper {
                 Loaded { document: kept.document, complaint }
             }
             Err(Unread::Missing) => Loaded { document: Document::default(), complaint: None },
-            // What is another window's is left to it.
+            // Files of other windows are left to them.
             Err(Unread::Because(why)) if is_others => {
                 let words =
                     format!("The other window's document could not be read ({why}); starting with a new document.");
@@ -96,9 +96,9 @@ impl Keeper {
                 Loaded { document: Document::default(), complaint: Some(complaint) }
             }
         };
-        // Before there is anything to write that may name what is removed.
+        // Before anything is written that may refer to the removed files.
         self.profile.tidy(SystemTime::now());
-        // What is opened before the first frame is a change already.
+        // The document opened before the first frame counts as a change.
         let document = Arc::new(loaded.document.clone());
         let mut state = self.shared.lock();
         state.newest = Some(Arc::clone(&document));
@@ -107,8 +107,8 @@ impl Keeper {
         loaded
     }
 
-    /// A kept document that cannot be read as it is is not overwritten: it is moved or copied aside, and if neither can be, this
-    /// window keeps its document in another file.
+    /// Handles a saved document that cannot be read: it is not overwritten, but moved or copied aside; if that fails, this
+    /// window saves its document in another file.
     fn set_aside(&mut self, file: &Path, what: &str, why: &str, copy: bool) -> (String, PathBuf) {
         let aside = profile::free_aside(file.parent().unwrap_or(Path::new(".")));
         let result = if copy {
@@ -133,7 +133,7 @@ impl Keeper {
         }
     }
 
-    /// Takes in the document as it is, and has it written beside the window.
+    /// Records the current document and has it written in the background.
     pub(super) fn watch(&mut self, document: &Document, ctx: &egui::Context) {
         if !self.shared.keeps {
             return;
@@ -192,7 +192,7 @@ impl Keeper {
         self.shared.lock().is_clean()
     }
 
-    /// The file that the document is kept in because another program wrote to the one before.
+    /// The file in which the document is saved because another program wrote to the one before.
     pub(super) fn moved(&self) -> Option<PathBuf> {
         self.shared.lock().moved.clone()
     }
@@ -201,17 +201,17 @@ impl Keeper {
         self.profile.first.as_ref()?.parent()
     }
 
-    /// Keeps documents that others take the place of, from any thread.
+    /// Saves replaced documents, from any thread.
     pub(super) fn aside(&self) -> Aside {
         Aside(self.folder().map(Path::to_owned))
     }
 }
 
-/// Keeps documents that others take the place of.
+/// Saves replaced documents.
 pub(super) struct Aside(Option<PathBuf>);
 
 impl Aside {
-    /// Writes a document to a file of its own.
+    /// Writes a document to a new file.
     pub(super) fn put_aside(&self, document: &Document) -> Result<(), String> {
         let Some(folder) = &self.0 else { return Ok(()) };
         Store::new(profile::free_copy(folder)).write(document).and_then(|written| match written.skipped_work {

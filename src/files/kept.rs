@@ -1,4 +1,4 @@
-//! The document and the layout between runs, and documents that other windows kept.
+//! Document and layout saved between runs, and documents saved by other windows.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -16,7 +16,7 @@ use crate::format::{file_name, io_failure};
 const LAYOUT: &str = "app.ron";
 
 impl Files {
-    /// The document as it was kept, else the first screen.
+    /// The saved document, else the default one.
     pub fn kept_document(&mut self) -> Document {
         if self.keeper.is_first_run() {
             let words =
@@ -25,7 +25,7 @@ impl Files {
         }
         let loaded = self.keeper.load();
         self.standing.complaint = loaded.complaint;
-        // Those of a second window's are its own doing.
+        // Only the first window lists the copies.
         self.standing.copies = if self.keeper.other().is_none() { self.keeper.copies().len() } else { 0 };
         loaded.document
     }
@@ -40,7 +40,7 @@ impl Files {
         Some((words, file.to_owned()))
     }
 
-    /// Documents that other windows kept, and how long ago.
+    /// Documents that other windows saved, with their ages.
     pub fn kept_documents(&self) -> Vec<(PathBuf, String)> {
         let now = SystemTime::now();
         let age = |modified: Option<SystemTime>| now.duration_since(modified?).ok().map(|age| age.as_secs() / 60);
@@ -54,7 +54,7 @@ impl Files {
         self.keeper.copies().into_iter().map(|copy| (copy.path, words(copy.modified))).collect()
     }
 
-    /// Reads a document that is to take the place of this one, which is kept before.
+    /// Reads a document to replace this one, which is saved first.
     pub fn open_document(&self, path: &Path, before: Document) {
         let (path, keeper) = (path.to_owned(), self.keeper.aside());
         self.in_background(move || {
@@ -82,7 +82,7 @@ impl Files {
         });
     }
 
-    /// Removes a document that another window kept.
+    /// Removes a document that another window saved.
     pub fn remove_document(&self, path: &Path) {
         let event = if self.keeper.is_in_use(path) {
             FileEvent::Failed(format!("{} is open in another window and was not deleted.", path.display()))
@@ -95,12 +95,12 @@ impl Files {
         self.note(Note::Event(event));
     }
 
-    /// Keeps a changed document, beside the window and at once.
+    /// Saves a changed document immediately, in the background.
     pub fn autosave(&mut self, document: &Document, ctx: &egui::Context) {
         self.keeper.watch(document, ctx);
     }
 
-    /// Keeps the document now. The error says why not all of it is saved.
+    /// Saves the document now. The error says why not all of it is saved.
     pub fn save_document(&mut self, document: &Document) -> Result<(), String> {
         self.keeper.save(document)
     }
@@ -110,14 +110,15 @@ impl Files {
         self.keeper.is_saved()
     }
 
-    /// Keeps the window's place and layout, if they changed; `now` waits until it is done. They are the first window's.
+    /// Saves the window's position and layout if they changed; `now` waits until it is done. They belong to the first
+    /// window.
     pub fn save_layout(&mut self, layout: &BTreeMap<String, String>, now: bool) {
         let Some(folder) = self.keeper.folder().filter(|_| self.keeper.other().is_none()) else { return };
         let text = match ron::ser::to_string_pretty(layout, ron::ser::PrettyConfig::default()) {
             Ok(text) => text,
             Err(error) => return log::warn!("the layout could not be saved: {error}"),
         };
-        // What is being written beside the window may not be done before the program is.
+        // What is being written in the background may not be done before the program is.
         if self.layout.as_ref() == Some(&text) && !now {
             return;
         }

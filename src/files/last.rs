@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 
 use super::shared_state::SharedState;
 
-/// A program that ends waits so long for a disk.
+/// Maximum time to wait for a disk at exit.
 const WAIT: Duration = Duration::from_secs(3);
 
 /// The window's document.
@@ -57,7 +57,7 @@ pub fn save_on_exit() {
     struct Last;
     impl Drop for Last {
         fn drop(&mut self) {
-            // On a thread of its own: those values of this one that are gone cannot be used any more.
+            // On a separate thread: its thread-local values may already be destroyed on this one.
             let saving = thread::Builder::new().name("last".to_owned()).spawn(save_last);
             let _ended = saving.map(thread::JoinHandle::join);
         }

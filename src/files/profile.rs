@@ -1,5 +1,5 @@
-//! The profile folder belongs to one window at a time: the first one holds a lock, another one keeps a copy under a lock of its
-//! own. The system releases the locks of a process that ended, however it ended.
+//! Ownership of the profile folder: the first window holds a lock, another one saves a copy under a lock of its own. The system
+//! releases the locks of a process when it ends.
 
 use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io::{self, Write as _};
@@ -9,11 +9,11 @@ use std::time::{Duration, SystemTime};
 use super::atomic::{TEMPORARY, is_older, sweep};
 use crate::format::io_failure;
 
-/// The file that the first window's document is kept in.
+/// The file in which the first window's document is saved.
 const DOCUMENT: &str = "document.json";
 /// The file that the first window holds locked, with the number of its process.
 const LOCK: &str = "window.lock";
-/// A file of curves that no document names is kept for so long, for a document that was taken out of the folder.
+/// Time for which a curve file that no document names is retained, in case a document was moved out of the folder.
 const UNNAMED: Duration = Duration::from_hours(30 * 24);
 /// The folder of the curves of imported sets, which all documents of the profile share.
 pub(super) const CURVES: &str = "curves";
@@ -21,7 +21,7 @@ pub(super) const CURVES: &str = "curves";
 /// A window's part of the profile folder.
 #[derive(Debug, Default)]
 pub(super) struct Profile {
-    /// The file that this window's document is kept in.
+    /// The file in which this window's document is saved.
     pub(super) file: Option<PathBuf>,
     /// The file of the first window's document; for the first window, its own.
     pub(super) first: Option<PathBuf>,
@@ -59,7 +59,7 @@ pub struct Copy {
 }
 
 impl Profile {
-    /// Takes the profile, or finds out who has it.
+    /// Locks the profile, or determines its owner.
     pub(super) fn claim(folder: Option<PathBuf>) -> Self {
         let Some(folder) = folder else { return Self::default() };
         let first = Some(folder.join(DOCUMENT));
@@ -85,7 +85,7 @@ impl Profile {
         }
     }
 
-    /// Keeps the document in a file that no window has, nor had.
+    /// Saves the document in a file that no window uses or used.
     fn with_copy(mut self, folder: &Path) -> Self {
         let file = free_copy(folder);
         self.lock = Some(Lock::of_copy(&file));
@@ -93,15 +93,14 @@ impl Profile {
         self
     }
 
-    /// Keeps this window's document in a copy from now on, because the first window's file is not to be touched.
+    /// Saves this window's document in a copy from now on, because the first window's file must not be changed.
     pub(super) fn leave_document(&mut self) {
         if let Some(folder) = self.first.as_ref().and_then(|first| first.parent()).map(Path::to_owned) {
             self.file = Some(free_copy(&folder));
         }
     }
 
-    /// Documents that other windows kept and have no more, the newest first.
-    /// Nor are they in the file that this one moved to.
+    /// Documents saved by other windows that are closed, the newest first, except the one that this window uses.
     pub(super) fn copies(&self, moved: Option<&Path>) -> Vec<Copy> {
         let Some(folder) = self.first.as_ref().and_then(|first| first.parent()) else { return Vec::new() };
         let is_free = |path: &PathBuf| is_copy(path) && moved != Some(path) && !self.is_in_use(path);
@@ -142,7 +141,7 @@ impl Profile {
         for path in entries(folder).filter(|path| path.extension().is_some_and(|ending| ending == "json")) {
             match fs::read(&path) {
                 Ok(bytes) => texts.push(String::from_utf8_lossy(&bytes).into_owned()),
-                // What it names is not known.
+                // Its references are unknown.
                 Err(_) => return,
             }
         }
@@ -156,7 +155,7 @@ impl Profile {
 }
 
 impl Lock {
-    /// Locks a copy for as long as its window is open. Where there are no locks, its file alone tells that it is.
+    /// Locks a copy for as long as its window is open. Without locks, the file's existence marks it.
     pub(super) fn of_copy(copy: &Path) -> Self {
         let own = copy.with_extension("lock");
         let file = lock(&own).inspect_err(|error| log::warn!("{} cannot be locked: {error}", own.display())).ok();
@@ -212,7 +211,7 @@ fn lock(path: &Path) -> Result<File, TryLockError> {
 
 /// True if a window holds the lock of a copy.
 fn is_held(copy: &Path) -> bool {
-    // Network folders lock only what is open for writing.
+    // Network folders lock only files opened for writing.
     match OpenOptions::new().read(true).write(true).open(copy.with_extension("lock")) {
         Ok(file) => file.try_lock().is_err(),
         Err(error) => error.kind() != io::ErrorKind::NotFound,
@@ -240,7 +239,7 @@ mod tests {
     fn the_lock_of_a_window_that_ended_is_taken_over() {
         let folder = tempfile::tempdir().expect("a folder");
         let claim = || Profile::claim(Some(folder.path().to_owned()));
-        // What a process left that was killed: a file, but no lock.
+        // Remains of a killed process: a file without a lock.
         fs::write(folder.path().join(LOCK), "4711").expect("written");
         let first = claim();
         assert_eq!(first.other, None);

@@ -8,14 +8,14 @@ use crate::format::io_failure;
 
 const MOST: usize = 200;
 
-/// A path to be typed, where there is no dialog or what was chosen there cannot be.
+/// A path prompt, used where there is no dialog or its result failed.
 #[derive(Clone, Debug, Default)]
 pub struct PathPrompt {
     /// The text typed.
     pub text: String,
-    /// The thing to be saved there; none for opening.
+    /// The data to save; `None` for opening.
     pub save: Option<SaveRequest>,
-    /// A file that is there already, which a person was told of.
+    /// An existing file, which the user was warned about.
     pub replaces: Option<PathBuf>,
     /// The reason why the path typed was not taken.
     pub failure: Option<String>,
@@ -27,7 +27,7 @@ pub struct PathPrompt {
     pub to_end: bool,
     /// True if it replaces a dialog that is not available.
     pub no_dialog: bool,
-    /// The dialog it stands in for.
+    /// The dialog it replaces.
     pub(super) ticket: u64,
 }
 
@@ -78,11 +78,11 @@ pub(super) fn cannot_open(path: &Path) -> Option<String> {
 
 #[derive(Debug, PartialEq, Eq)]
 pub(super) struct Completed {
-    /// The text it was asked for.
+    /// The typed text that was completed.
     pub(super) of: String,
-    /// As far as all names agree.
+    /// Text completed as far as all names agree.
     pub(super) text: String,
-    /// The names it could go on with, where there are several.
+    /// Candidates, where there are several.
     pub(super) candidates: Vec<String>,
 }
 
@@ -108,7 +108,7 @@ pub(super) fn complete(typed: &str, home: Option<&Path>) -> Completed {
         [] => as_it_is(Vec::new()),
         [one] => Completed { text: format!("{folder}{one}"), ..as_it_is(Vec::new()) },
         [first, .., last] => {
-            // In order, what the first and the last share all share.
+            // In sorted order, a prefix common to the first and the last is common to all.
             let shared: String = first.chars().zip(last.chars()).take_while(|(a, b)| a == b).map(|(a, _)| a).collect();
             let text = format!("{folder}{shared}");
             names.truncate(MOST);

@@ -1,4 +1,4 @@
-//! Saving: the forms something can be written in, and which of them a path asks for by its ending.
+//! Saving: the forms something can be written in, and which of them a path requests by its ending.
 
 use std::ffi::OsStr;
 use std::fmt;
@@ -14,7 +14,7 @@ pub struct FileForm {
 }
 
 impl FileForm {
-    /// A form whose bytes are made on demand, beside the window; the error is a sentence.
+    /// A format whose bytes are computed on demand, in the background; the error is a message.
     pub fn new(extension: &'static str, make: impl Fn() -> Result<Vec<u8>, String> + Send + Sync + 'static) -> Self {
         Self { extension, make: Arc::new(make) }
     }
@@ -34,18 +34,18 @@ impl fmt::Debug for FileForm {
 /// Something to save where the user says.
 #[derive(Clone, Debug)]
 pub struct SaveRequest {
-    /// Its description, for the question where to: `Nikon D70 as CSV, as measured`.
+    /// Its description, for the save prompt: `Nikon D70 as CSV, as measured`.
     pub what: String,
     /// The name offered.
     pub name: String,
     /// The forms it can be written in, the offered one first. The ending of the path decides.
     pub forms: Vec<FileForm>,
-    /// Remark once it is saved: how the contents differ from what is in the program. May be empty.
+    /// Remark after saving: how the contents differ from the program's. May be empty.
     pub note: String,
 }
 
 impl SaveRequest {
-    /// The path to write to and the form that its ending asks for; without an ending, the offered form's is added. The error
+    /// The path to write to and the form that its ending requests; without an ending, the offered form's is added. The error
     /// is a sentence.
     pub(super) fn target(&self, path: &Path) -> Result<(PathBuf, FileForm), String> {
         let offered = self.forms.first().ok_or_else(|| "There is nothing to save.".to_owned())?;
@@ -62,7 +62,7 @@ impl SaveRequest {
         }
     }
 
-    /// The endings it can be saved with, in words.
+    /// The supported extensions, in words.
     pub fn endings(&self) -> String {
         let endings: Vec<String> = self.forms.iter().map(|form| format!(".{}", form.extension)).collect();
         match endings.split_last() {

@@ -9,9 +9,9 @@ use super::store::{Store, Written};
 use crate::document::Document;
 use crate::jobs::Clock;
 
-/// A change is written at once, those that follow no sooner than so long after it.
+/// Minimum interval between writes; the first change is written immediately.
 const PAUSE: Duration = Duration::from_millis(150);
-/// A document that could not be written is tried again after so long.
+/// Interval after which a failed write is retried.
 pub(super) const RETRY: Duration = Duration::from_secs(2);
 
 /// State shared by the window and the thread that writes.
@@ -19,7 +19,7 @@ pub(super) struct SharedState {
     pub(super) state: Mutex<State>,
     /// Held while something is written.
     pub(super) store: Mutex<Store>,
-    /// Told when there is nothing to wait for any more.
+    /// Notified when nothing is pending any more.
     pub(super) closing: Condvar,
     pub(super) clock: Clock,
     pub(super) is_driven: bool,
@@ -70,11 +70,11 @@ impl State {
         if self.failure.is_some() { RETRY } else { PAUSE }
     }
 
-    /// Takes in what came of writing a document.
+    /// Handles the result of writing a document.
     fn written(&mut self, document: Arc<Document>, result: Result<Written, String>, store: &Store, now: Duration) {
         self.ended = Some(now);
         let before = self.failure.take();
-        // What is in a file that is left is saved no more.
+        // After a move to another file, nothing counts as saved there yet.
         if self.moved.as_ref() != store.moved() {
             self.saved = None;
             self.moved = store.moved().cloned();
@@ -98,7 +98,7 @@ impl State {
 }
 
 impl SharedState {
-    /// A panic elsewhere leaves nothing half done here: what is locked is only looked up and put in place.
+    /// A panic elsewhere leaves no partial state: it is only read and replaced under the lock.
     pub(super) fn lock(&self) -> MutexGuard<'_, State> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -107,7 +107,7 @@ impl SharedState {
         self.store.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Writes what is newest, and what comes after, until there is nothing new for a while.
+    /// Writes the newest state, and later ones, until there is nothing new for a while.
     pub(super) fn work(&self) {
         let _told = Breakdown(self);
         loop {
@@ -144,8 +144,8 @@ impl SharedState {
         }
     }
 
-    /// Writes what is newest as the program ends. Never waits for long: the thread that holds a lock may be the one that broke.
-    /// Returns the file, if all is in it.
+    /// Writes the newest state at exit. Never waits for long: the thread that holds a lock may be the one that panicked.
+    /// Returns the file, if everything is in it.
     pub(super) fn save_last(&self) -> Option<PathBuf> {
         if !self.keeps {
             return None;
@@ -165,7 +165,7 @@ impl SharedState {
     }
 }
 
-/// Tells that the thread that writes broke off, where it did, so that another one is started.
+/// Reports a writer thread that ended by a panic, so that another one is started.
 pub(super) struct Breakdown<'a>(pub(super) &'a SharedState);
 
 impl Drop for Breakdown<'_> {

@@ -1,22 +1,22 @@
-//! Sentences that stay below the conditions for as long as they are true, or until a person dismisses them.
+//! Persistent messages, shown below the conditions while they hold or until the user dismisses them.
 
 use std::collections::HashSet;
 use std::path::PathBuf;
 
 use super::Files;
 
-/// A sentence that stays.
+/// A persistent message.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Standing {
     /// Its subject.
     pub kind: StandingKind,
-    /// The sentence.
+    /// The message.
     pub words: String,
     /// The file it is about.
     pub file: Option<PathBuf>,
 }
 
-/// The subject of a sentence that stays.
+/// The subject of a persistent message.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum StandingKind {
     /// Another window has the profile.
@@ -27,7 +27,7 @@ pub enum StandingKind {
     SetAside,
     /// Another program wrote to the document's file.
     Moved,
-    /// Other windows kept documents.
+    /// Other windows saved documents.
     Copies,
 }
 
@@ -38,10 +38,10 @@ impl StandingKind {
     }
 }
 
-/// Facts that the sentences are made of.
+/// Facts that the messages are made from.
 #[derive(Debug, Default)]
 pub(super) struct Notices {
-    /// A document that could not be read: a sentence, and its file.
+    /// A document that could not be read: a message, and its file.
     pub(super) complaint: Option<(String, PathBuf)>,
     /// Number of documents that other windows had saved at the start.
     pub(super) copies: usize,
@@ -49,7 +49,7 @@ pub(super) struct Notices {
 }
 
 impl Files {
-    /// The sentences that stay, the gravest first.
+    /// The persistent messages, the most severe first.
     pub fn standing(&self) -> Vec<Standing> {
         let Notices { complaint, copies, dismissed } = &self.standing;
         let failure = self.keeper.failure().map(|why| {
@@ -79,7 +79,7 @@ impl Files {
         all.filter(|standing| !dismissed.contains(&standing.kind)).collect()
     }
 
-    /// Takes a sentence away.
+    /// Removes a message.
     pub fn dismiss(&mut self, kind: StandingKind) {
         self.standing.dismissed.insert(kind);
     }

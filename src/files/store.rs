@@ -1,9 +1,7 @@
-//! The files of a kept document: a small one, written anew with every change, and the curves of imported sets beside it, each
-//! written once.
-//!
-//! So a change costs a few kilobytes, however large the sets are, and no more is needed for it to be safe than that one small
-//! file takes the place of another: there is no journal to replay, and no torn record. A file is flushed to the disk before it
-//! takes its name, and the folder after it, so that neither a kill nor a power failure leaves half of one.
+//! Files of a saved document: a small one, rewritten with every change, and the curves of imported sets in files of their own,
+//! each written once. So a change costs a few kilobytes, however large the sets are, and is made safe by replacing one small
+//! file: there is no journal to replay, and no torn record. A file is flushed to the disk before it is renamed, and the folder
+//! after it, so that neither a kill nor a power failure leaves half of one.
 
 use std::collections::{HashMap, HashSet};
 use std::fs;
@@ -24,7 +22,7 @@ use crate::format::{io_failure, io_reason};
 /// Result of writing a document.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct Written {
-    /// Sets that were left out, in one sentence; may be empty.
+    /// Omitted sets, in one sentence; may be empty.
     pub(super) skipped_work: String,
 }
 
@@ -51,16 +49,16 @@ pub(super) struct Store {
     written: HashMap<u128, Place>,
     /// True if the file on disk holds curves itself, which are lost with it.
     by_value: bool,
-    /// True if the file on disk is known to be in the present form, or saved beside it.
+    /// True if the file on disk is known to be in the present format, or backed up.
     is_present: bool,
-    /// The file that the document is kept in because another program wrote to the one before.
+    /// The file in which the document is saved because another program wrote to the one before.
     moved: Option<PathBuf>,
     /// The lock of that file, or of another one that this window went on in.
     lock: Option<Lock>,
 }
 
 impl Store {
-    /// Keeps a document in a file.
+    /// Saves a document in a file.
     pub(super) fn new(file: PathBuf) -> Self {
         Self { file, ..Self::default() }
     }
@@ -69,13 +67,13 @@ impl Store {
         &self.file
     }
 
-    /// Goes on in another file, which is this window's.
+    /// Continues in another file, which is this window's.
     pub(super) fn move_to(&mut self, file: PathBuf) {
         self.lock = Some(Lock::of_copy(&file));
         (self.file, self.seen, self.tried) = (file, None, None);
     }
 
-    /// The file that the document is kept in because another program wrote to the one before.
+    /// The file in which the document is saved because another program wrote to the one before.
     pub(super) fn moved(&self) -> Option<&PathBuf> {
         self.moved.as_ref()
     }
@@ -114,7 +112,7 @@ impl Store {
         if let Some(why) = unwritten.as_ref().filter(|_| self.by_value) {
             return Err(why.clone());
         }
-        // In place of a set that cannot be written, what was written of it before.
+        // A set that cannot be written is replaced by its earlier version on disk.
         let place = |set: &Shared<OwnSet>| {
             let before = || self.known.values().find(|(before, _)| before.name == set.name && before.role == set.role);
             self.known.get(&address(set)).or_else(before)
@@ -139,8 +137,8 @@ impl Store {
         Ok(Written { skipped_work })
     }
 
-    /// True if the file holds what this window neither read nor wrote. An earlier form that it read is saved beside it before
-    /// that is written over.
+    /// True if the file holds data that this window neither read nor wrote. A file of an earlier format that it read is
+    /// backed up before it is overwritten.
     fn is_foreign(&mut self) -> Result<bool, String> {
         let bytes = match fs::read(&self.file) {
             Ok(bytes) => bytes,
@@ -210,7 +208,7 @@ impl Store {
     }
 }
 
-/// Keeps a document of an earlier form once, for the version of the program that wrote it.
+/// Backs up a document of an earlier format once, for the version of the program that wrote it.
 fn keep_earlier(file: &Path, bytes: &[u8]) -> Result<(), String> {
     #[derive(serde::Deserialize)]
     struct Form {
@@ -247,7 +245,7 @@ pub(super) fn read(file: &Path) -> Result<(Kept, Fingerprint), Unread> {
 }
 
 fn read_curves(folder: &Path, name: &str) -> Result<Vec<Vec<OwnCurve>>, String> {
-    // A name leads nowhere else.
+    // A plain file name leads into no other folder.
     if Path::new(name).file_name().is_none_or(|own| own != name) {
         return Err(format!("{name} is not a file name"));
     }
@@ -256,7 +254,7 @@ fn read_curves(folder: &Path, name: &str) -> Result<Vec<Vec<OwnCurve>>, String> 
     serde_json::from_slice(&bytes).map_err(|error| format!("{}: {error}", path.display()))
 }
 
-/// The address of a set's contents, which is its own for as long as the set is held.
+/// The address of a set's contents, unique for as long as the set is held.
 fn address(set: &Shared<OwnSet>) -> usize {
     from_ref::<OwnSet>(set).addr()
 }

@@ -10,9 +10,9 @@ use notify::{Event, EventKind, RecommendedWatcher, RecursiveMode, Watcher as _};
 
 use crate::jobs::Clock;
 
-/// A file has come to rest when nothing was written for so long.
+/// Time without writes after which a file is stable.
 const REST: Duration = Duration::from_millis(300);
-/// A file that never rests is read all the same, after so long.
+/// Time after which a file is read even if it is still being written.
 const RESTLESS: Duration = Duration::from_secs(1);
 /// Time between two readings of a file.
 const APART: Duration = Duration::from_millis(500);
@@ -50,7 +50,7 @@ struct Change {
 }
 
 impl Heard {
-    /// Takes in that a file was written. Returns whether that is news: of what is written again and again is asked in time.
+    /// Records that a file was written. Returns whether that is new: a file that is written repeatedly is polled.
     fn written(&mut self, path: PathBuf, now: Duration) -> bool {
         if !self.files.contains(&path) {
             return false;
@@ -60,12 +60,12 @@ impl Heard {
         is_news
     }
 
-    /// Takes in that a folder is gone. Returns whether that is news.
+    /// Records that a folder was removed. Returns whether that is new.
     fn gone(&mut self, path: PathBuf) -> bool {
         self.folders.contains(&path) && self.gone.insert(path)
     }
 
-    /// The files that are to be read now, and after how long to ask again for others.
+    /// The files to read now, and the time after which to poll for others.
     fn due(&mut self, now: Duration) -> (Vec<PathBuf>, Option<Duration>) {
         let due = |path: &PathBuf, change: &Change| {
             let apart = self.told.get(path).map_or(Duration::ZERO, |told| *told + APART);
@@ -137,7 +137,8 @@ impl Watch {
         self.files = files;
     }
 
-    /// The files that changed and have come to rest, or never rest; and when to ask again, if others changed or a folder is gone.
+    /// The files that changed and are stable or never become so; and the time to poll again, if others changed or a folder is
+    /// missing.
     pub(super) fn poll(&mut self) -> (Vec<PathBuf>, Option<Duration>) {
         let now = self.clock.now();
         let gone = std::mem::take(&mut lock(&self.heard).gone);
@@ -149,7 +150,7 @@ impl Watch {
         (files, again.or((!self.lost.is_empty()).then_some(LOOK)))
     }
 
-    /// A folder of this name may be there again at once, but it is another one.
+    /// A folder of this name may soon exist again, but it is another one.
     fn lose(&mut self, folder: PathBuf) {
         if self.folders.remove(&folder) {
             if let Some(watcher) = &mut self.watcher {
@@ -168,7 +169,7 @@ impl Watch {
         let Some(watcher) = &mut self.watcher else { return };
         let found = self.lost.iter().filter(|folder| watcher.watch(folder, RecursiveMode::NonRecursive).is_ok());
         for folder in found.cloned().collect::<Vec<_>>() {
-            // What was put there before it was watched counts as written just now.
+            // Files that existed before the watch began count as just written.
             let mut heard = lock(&self.heard);
             for file in self.files.iter().filter(|file| file.parent() == Some(&folder) && file.is_file()) {
                 heard.written(file.clone(), now);
@@ -179,12 +180,12 @@ impl Watch {
     }
 }
 
-/// A panic elsewhere leaves nothing half done here: what is locked is only looked up and put in place.
+/// A panic elsewhere leaves no partial state: it is only read and replaced under the lock.
 fn lock(heard: &Mutex<Heard>) -> MutexGuard<'_, Heard> {
     heard.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Takes in what was written or put in place, and what is gone. Returns whether any of it is news.
+/// Records files that were written, created or removed. Returns whether any of it is new.
 fn hear(event: notify::Result<Event>, heard: &mut Heard, now: Duration) -> bool {
     let Ok(event) = event else { return false };
     let is_removal = match event.kind {
@@ -194,7 +195,7 @@ fn hear(event: notify::Result<Event>, heard: &mut Heard, now: Duration) -> bool 
     };
     let mut is_news = false;
     for path in event.paths {
-        // Where a folder was moved away, its name is all that tells.
+        // Where a folder was moved away, only its name identifies it.
         let is_moved = matches!(event.kind, EventKind::Modify(ModifyKind::Name(_))) && !path.exists();
         is_news |= if is_removal || is_moved { heard.gone(path) } else { heard.written(path, now) };
     }
@@ -206,7 +207,7 @@ mod tests {
     use super::*;
     use crate::jobs::Executor;
 
-    /// Writes a file every so often for ten seconds, to a window that is drawn when there is news and when it asked to be.
+    /// Writes a file periodically for ten seconds, to a window that is drawn on events and when it requested a repaint.
     /// Returns how often the file was to be read, and how often the window was drawn.
     fn readings(every: Duration) -> (usize, usize) {
         let executor = Executor::driven();
@@ -245,7 +246,7 @@ mod tests {
         assert_eq!(heard.due(at), (Vec::new(), Some(REST)));
         assert_eq!(heard.due(at + REST), (vec![path.clone()], None));
         assert_eq!(heard.due(at + RESTLESS), (Vec::new(), None), "it is read once");
-        // Written at once again: twice a second at most.
+        // Written again immediately: at most two reads per second.
         let at = at + REST;
         assert!(heard.written(path.clone(), at));
         assert_eq!(heard.due(at + REST), (Vec::new(), Some(APART.saturating_sub(REST))));

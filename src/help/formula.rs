@@ -35,7 +35,7 @@ pub enum Node {
     Fraction(Box<Node>, Box<Node>),
     /// Square root.
     Root(Box<Node>),
-    /// Base with sub- and superscript, which stand below and above a large operator.
+    /// Base with sub- and superscript, placed below and above a large operator.
     Scripts {
         /// The base.
         base: Box<Node>,
@@ -88,10 +88,10 @@ pub enum FormulaError {
 }
 
 impl Formula {
-    /// Parses TeX. `display` is a formula on a line of its own.
+    /// Parses TeX. `display` selects display style.
     ///
     /// # Errors
-    /// [`FormulaError`] for what is outside the subset.
+    /// [`FormulaError`] for TeX outside the subset.
     pub fn parse(tex: &str, display: bool) -> Result<Self, FormulaError> {
         let mut parser = Reader { tokens: tokens(tex).into_iter().peekable() };
         let root = parser.row(&[])?;
@@ -110,7 +110,7 @@ impl Formula {
         &self.words
     }
 
-    /// True if it stands on a line of its own.
+    /// True for display style, on a separate line.
     pub const fn is_display(&self) -> bool {
         self.display
     }
@@ -168,7 +168,7 @@ impl Node {
     }
 }
 
-/// Says a part in parentheses unless it is one symbol.
+/// Text of a part, in parentheses unless it is one symbol.
 fn say_grouped(node: &Node, out: &mut String) {
     let mut words = String::new();
     node.say(&mut words);

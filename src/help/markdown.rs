@@ -28,7 +28,7 @@ pub enum Block {
     Table(Vec<Vec<Vec<Inline>>>),
     /// Lines as they are.
     Code(String),
-    /// A formula on a line of its own.
+    /// A display formula.
     Formula(Formula),
 }
 
@@ -247,7 +247,7 @@ impl Content {
         Ok(())
     }
 
-    /// Adds words to the last part where style and link are its own.
+    /// Appends text to the last part if it has the same style and link.
     fn push(&mut self, words: String, style: Style) {
         if let Some(Inline::Text { text, style: last, link }) = self.parts.last_mut()
             && (*last, &*link) == (style, &self.link)

@@ -1,10 +1,11 @@
-//! What lies between the window and the threads beside it.
+//! State shared by the window and background threads.
 
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 
 use super::{Clock, Executor};
 
-/// State that the window and threads beside it change in turn, with news for those who wait and a wake for the window.
+/// State shared by the window and background threads, with a condition variable for waiting threads and a wake callback
+/// for the window.
 pub struct Desk<S> {
     state: Mutex<S>,
     news: Condvar,
@@ -13,12 +14,12 @@ pub struct Desk<S> {
 }
 
 impl<S> Desk<S> {
-    /// State as it is at first, by an executor's clock. `wake` is called from the thread that has something to tell.
+    /// Creates the initial state with an executor's clock. `wake` is called from the thread that changed the state.
     pub fn new(executor: &Executor, state: S, wake: impl Fn() + Send + Sync + 'static) -> Self {
         Self { state: Mutex::new(state), news: Condvar::new(), wake: Box::new(wake), clock: executor.clock() }
     }
 
-    /// The state. A panic elsewhere leaves nothing half done in it: what is locked is only looked up and put in place.
+    /// The state. A panic elsewhere leaves no partial state: it is only read and replaced under the lock.
     pub fn lock(&self) -> MutexGuard<'_, S> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -28,24 +29,24 @@ impl<S> Desk<S> {
         &self.clock
     }
 
-    /// Tells threads that wait that the state has changed.
+    /// Notifies waiting threads of a change.
     pub fn notify(&self) {
         self.news.notify_all();
     }
 
-    /// Tells them and the window.
+    /// Notifies waiting threads and the window.
     pub fn tell(&self) {
         self.notify();
         (self.wake)();
     }
 
-    /// Waits until the state is as wanted, and then reads it.
+    /// Waits until the state satisfies a condition, and then reads it.
     pub fn wait_for<R>(&self, is_wanted: impl Fn(&S) -> bool, read: impl FnOnce(&S) -> R) -> R {
         let state = self.news.wait_while(self.lock(), |state| !is_wanted(state));
         read(&state.unwrap_or_else(PoisonError::into_inner))
     }
 
-    /// Waits until the state is as wanted: where an executor is driven, by running what it has queued. For tests.
+    /// Waits until the state satisfies a condition: on a driven executor, by running its queued work. For tests.
     pub fn settle(&self, executor: &Executor, is_wanted: impl Fn(&S) -> bool) {
         if executor.is_driven() {
             while !is_wanted(&self.lock()) && executor.run_next() {}

@@ -1,4 +1,4 @@
-//! Threads for work beside the window, the answers they share and the clock that times it; for tests, a queue and a clock that
+//! Threads for background work, the answers they share and the clock that times it; for tests, a queue and a clock that
 //! they drive.
 
 use std::cell::RefCell;
@@ -12,8 +12,8 @@ use std::time::{Duration, Instant};
 
 use crate::results::Results;
 
-/// Runs work beside the window: on a thread for each piece, or, where it is [driven](Self::driven), only when told to. Clones
-/// share their answers.
+/// Runs background work: on a thread for each piece or, if [driven](Self::driven), only on request. Clones share their
+/// answers.
 #[derive(Clone, Default)]
 pub struct Executor {
     driven: Option<Rc<Driven>>,
@@ -27,17 +27,17 @@ struct Driven {
     clock: Arc<AtomicU64>,
 }
 
-/// A piece of work, which returns whether it is to be run once more.
+/// A piece of work, which returns whether it is to be run again.
 type Task = Box<dyn FnMut() -> bool>;
 
 impl Executor {
-    /// An executor that runs queued work only when told to, on the caller's thread, and whose clock stands still between calls
-    /// of [`advance`](Self::advance). Its clones share queue and clock.
+    /// An executor that runs queued work only on request, on the caller's thread, and whose clock advances only by
+    /// [`advance`](Self::advance). Its clones share queue and clock.
     pub fn driven() -> Self {
         Self { driven: Some(Rc::default()), results: Results::default() }
     }
 
-    /// True if work waits until it is told to run.
+    /// True if queued work runs only on request.
     pub fn is_driven(&self) -> bool {
         self.driven.is_some()
     }
@@ -65,7 +65,7 @@ impl Executor {
         Ok(())
     }
 
-    /// Queues work that is run again, behind what was queued meanwhile, for as long as it returns true. Threads run no such work.
+    /// Queues work that is repeated, behind the work queued meanwhile, for as long as it returns true. Threads run no such work.
     pub(super) fn queue(&self, name: &str, work: impl FnMut() -> bool + 'static) {
         if let Some(driven) = &self.driven {
             driven.queue.borrow_mut().push_back((name.to_owned(), Box::new(work)));

@@ -18,7 +18,7 @@ pub(super) fn panel(
     let inside = painter.with_clip_rect(view.rect.intersect(painter.clip_rect()));
     inside.rect_filled(view.rect, 0.0, theme.ink(panel.background));
     let x_ticks = panel.x.ticks_over(view.x, f64::from(view.rect.width()));
-    let y_ticks = panel.y.ticks_over(view.y, f64::from(view.rect.height()));
+    let y_ticks = panel.y.vertical_ticks_over(view.y, f64::from(view.rect.height()));
     let thin = Stroke::new(crate::theme::LINE_GRID as f32, theme.grid);
     if panel.x.grid {
         for tick in &x_ticks {
@@ -54,7 +54,7 @@ pub(super) fn panel(
 
 fn tick_labels(painter: &Painter, view: &View, rect: Rect, theme: &Theme, x_ticks: &[Tick], y_ticks: &[Tick]) {
     let style =
-        |anchor: Anchor| marks::TextStyle { anchor, size: TextSize::Body, ink: Ink::new(InkRole::Text), halo: None };
+        |anchor: Anchor| marks::TextStyle { anchor, size: TextSize::Body, ink: Ink::new(InkRole::Weak), halo: None };
     for tick in x_ticks.iter().filter(|tick| !tick.label.is_empty()) {
         let at = Pos2::new(view.at([tick.value, view.y[0]]).x, view.rect.bottom() + 4.0);
         marks::text_inside(painter, at, &tick.label, style(Anchor::TOP), theme, rect);

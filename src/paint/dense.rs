@@ -1,7 +1,7 @@
-//! Lines of more points than the screen has columns: what is drawn is what can be seen.
+//! Lines with more points than the screen has columns, reduced to the points that can be seen.
 //!
-//! Drawn as it is, a line of noise covers each pixel many times, and many such lines keep a window black for a minute. The
-//! figure keeps all its points; only their way to the screen is shortened.
+//! Drawn in full, a line of noise covers each pixel many times, and many such lines block the window for a minute. The
+//! figure retains all its points; only the drawing is reduced.
 
 use egui::{Color32, Mesh, Pos2, Rect, epaint::Vertex};
 

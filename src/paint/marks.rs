@@ -9,6 +9,9 @@ use egui::{Color32, Painter, Pos2, Rect, Shape, Stroke, StrokeKind, Vec2, epaint
 use super::{Emphasis, View, dense, texture, triangles};
 use crate::theme::{self, Theme};
 
+/// Distance of the ring around a chosen point from its marker.
+const RING: f32 = 5.0;
+
 /// Context in which a mark is drawn.
 struct Brush<'a> {
     painter: &'a Painter,
@@ -30,7 +33,8 @@ pub(super) fn mark(painter: &Painter, mark: &Mark, view: &View, theme: &Theme, e
         Form::Text { at, text: words, anchor, offset, size, ink } => {
             if at.iter().all(|v| v.is_finite()) {
                 let at = view.at(*at) + Vec2::new(offset[0] as f32, offset[1] as f32);
-                let style = TextStyle { anchor: *anchor, size: *size, ink: *ink, halo: mark.halo };
+                let (ink, halo) = (brush.faded(*ink), mark.halo.filter(|_| emphasis != Emphasis::Faded));
+                let style = TextStyle { anchor: *anchor, size: *size, ink, halo };
                 text(painter, at, words, style, theme);
             }
         }
@@ -52,26 +56,35 @@ pub(super) fn mark(painter: &Painter, mark: &Mark, view: &View, theme: &Theme, e
 }
 
 impl Brush<'_> {
+    fn faded(&self, ink: Ink) -> Ink {
+        if self.emphasis == Emphasis::Faded { ink.faded(theme::FADED) } else { ink }
+    }
+
     fn color(&self, ink: Ink) -> Color32 {
-        let fade = if self.emphasis == Emphasis::Faded { theme::FADED } else { 1.0 };
-        self.theme.ink(ink.faded(fade))
+        self.theme.ink(self.faded(ink))
     }
 
     fn box_of(&self, a: [f64; 2], b: [f64; 2]) -> Rect {
         Rect::from_two_pos(self.view.at(a), self.view.at(b))
     }
 
-    /// The lines to draw over each other: casing, halo, line.
-    fn pens(&self, mark: &Mark) -> Vec<Pen> {
-        let wider = if self.emphasis == Emphasis::Hovered { 1.0 } else { 0.0 };
-        let line = mark.stroke.map(|pen| Pen { width: pen.width + wider, ..pen });
-        let width = line.map_or(0.0, |pen| pen.width);
-        let casing = (self.emphasis == Emphasis::Selected).then(|| Pen::solid(InkRole::Text, width + 4.0 * Mark::HALO));
-        let cased = casing.map(|_| InkRole::Plot.into());
+    /// A line's pen, wider for what is pointed at or chosen.
+    fn pen(&self, mark: &Mark) -> Option<Pen> {
+        let wider = match self.emphasis {
+            Emphasis::Hovered => 1.0,
+            Emphasis::Selected | Emphasis::Related => 1.5,
+            Emphasis::Normal | Emphasis::Faded => 0.0,
+        };
+        mark.stroke.map(|pen| Pen { width: pen.width + wider, ..pen })
+    }
+
+    /// The lines to draw over each other: halo, line.
+    fn pens(&self, mark: &Mark) -> impl Iterator<Item = Pen> {
+        let line = self.pen(mark);
         // A halo would cut holes into others while its own line is hardly seen.
-        let halo = mark.halo.filter(|_| self.emphasis != Emphasis::Faded).or(cased);
-        let halo = halo.map(|ink| Pen::solid(ink, width + 2.0 * Mark::HALO));
-        [casing, halo, line].into_iter().flatten().collect()
+        let halo = mark.halo.filter(|_| self.emphasis != Emphasis::Faded);
+        let width = line.map_or(0.0, |pen| pen.width) + 2.0 * Mark::HALO;
+        halo.map(|ink| Pen::solid(ink, width)).into_iter().chain(line)
     }
 
     fn line(&self, mark: &Mark, points: &[[f64; 2]], closed: bool) {
@@ -108,7 +121,7 @@ impl Brush<'_> {
         }
     }
 
-    /// Only what is near the plot is dashed: a line zoomed into may be miles long.
+    /// Only the part near the plot is dashed: a magnified line may be very long.
     fn dashes(&self, path: &[Pos2], stroke: Stroke, [dash, gap]: [f32; 2]) {
         let near = self.view.rect.expand(20.0);
         for run in
@@ -140,8 +153,7 @@ impl Brush<'_> {
     }
 
     fn point(&self, mark: &Mark, at: Pos2, marker: Marker, radius: f32) {
-        let wider = if self.emphasis == Emphasis::Hovered { 1.0 } else { 0.0 };
-        let rim = mark.stroke.map(|pen| Pen { width: pen.width + wider, ..pen });
+        let rim = if self.emphasis == Emphasis::Related { mark.stroke } else { self.pen(mark) };
         let fill = mark.fill.map_or(Color32::TRANSPARENT, |ink| self.color(ink));
         let rim_stroke = rim.map_or(Stroke::NONE, |pen| Stroke::new(pen.width as f32, self.color(pen.ink)));
         if let Some(halo) = mark.halo.filter(|_| self.emphasis != Emphasis::Faded) {
@@ -150,14 +162,17 @@ impl Brush<'_> {
             outline(self.painter, at, marker, radius, color, Stroke::new(width, color));
         }
         outline(self.painter, at, marker, radius, fill, rim_stroke);
-        let ring = match self.emphasis {
-            Emphasis::Hovered => Some(Stroke::new(1.0, self.theme.text)),
-            Emphasis::Selected => Some(Stroke::new(2.0, self.theme.text)),
-            Emphasis::Normal | Emphasis::Faded => None,
+        let width = match self.emphasis {
+            Emphasis::Hovered => 1.0,
+            Emphasis::Selected => 2.0,
+            Emphasis::Normal | Emphasis::Related | Emphasis::Faded => return,
         };
-        if let Some(stroke) = ring {
-            self.painter.circle_stroke(at, 2.0 * radius, stroke);
+        let ink = mark.stroke.map(|pen| pen.ink).or(mark.fill).unwrap_or(InkRole::Text.into());
+        let ring = |width, ink| self.painter.circle_stroke(at, radius + RING, Stroke::new(width, self.theme.ink(ink)));
+        if let Some(halo) = mark.halo {
+            ring(width + 2.0, halo);
         }
+        ring(width, ink);
     }
 
     /// Rectangles are swatches: they never fade, and are framed in black and white when chosen.
@@ -170,7 +185,7 @@ impl Brush<'_> {
         let stroke = mark.stroke.map_or(Stroke::NONE, |pen| Stroke::new(pen.width as f32, self.theme.ink(pen.ink)));
         self.painter.rect(rect, 0.0, fill, stroke, StrokeKind::Middle);
         match self.emphasis {
-            Emphasis::Selected => {
+            Emphasis::Selected | Emphasis::Related => {
                 let frame = |by: f32, color| {
                     let stroke = Stroke::new(1.5, color);
                     self.painter.rect_stroke(rect.shrink(by), 0.0, stroke, StrokeKind::Inside);

@@ -5,7 +5,7 @@ use std::fmt;
 
 use egui::{Color32, ColorImage, Painter, Rect, TextureHandle, TextureOptions};
 
-/// Frames after which an unused texture is let go.
+/// Frames after which an unused texture is freed.
 const KEPT: u64 = 240;
 
 /// Textures by name, each with the version of the picture that it holds.

@@ -5,7 +5,7 @@ use std::{collections::HashMap, sync::Arc};
 use chromascope_figure::Image;
 use egui::{Color32, ColorImage, Context, Id, Painter, Pos2, Rect, TextureHandle, TextureOptions};
 
-/// Frames after which an unused texture is let go.
+/// Frames after which an unused texture is freed.
 const KEPT: u64 = 120;
 
 /// Textures by the address of their pixels. The pixels are held, so an address is not given to others meanwhile.

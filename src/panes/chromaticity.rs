@@ -3,7 +3,8 @@
 use chromascope_core::colorimetry::{UvPrime, Xy};
 use chromascope_core::light::{CctError, RadiationConstants};
 use chromascope_core::query::NearestBlackBodyQuery;
-use egui::{Align2, Id, Pos2, Rect, Ui, Vec2};
+use chromascope_figure::{Shape, TextSize, text_width};
+use egui::{Align2, Id, Pos2, Rect, RectAlign, Tooltip, Ui, Vec2};
 
 use super::context::{Pane, PaneContext};
 use crate::action::{Action, SceneAction};
@@ -17,12 +18,12 @@ use crate::theme::UNIT;
 use crate::view::DiagramFit;
 use crate::workspaces::PaneKind;
 
-/// How near the pointer must be, in points.
+/// Pick radius, in points.
 const REACH: f32 = 10.0;
 /// The strip's height in points.
-const STRIP: f32 = 100.0;
+const STRIP: f32 = 124.0;
 /// Below this height of the diagram there is no strip.
-const WITH_STRIP: f32 = 330.0;
+const WITH_STRIP: f32 = 350.0;
 /// The overview's size in points.
 const OVERVIEW: Vec2 = Vec2::new(96.0, 104.0);
 
@@ -79,17 +80,7 @@ fn switches(ui: &mut Ui, context: &mut PaneContext<'_>) {
 fn overlays(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let before = context.scene.document.overlays;
     let mut overlays = before;
-    for (on, words) in [
-        (&mut overlays.loci, "Planckian loci"),
-        (&mut overlays.patches, "Patches"),
-        (&mut overlays.camera_spectral_loci, "Cameras' spectral loci: errors that no 3×3 matrix can correct"),
-        (&mut overlays.daylight, "Daylight locus"),
-        (&mut overlays.whites, "Standard whites and the light"),
-        (&mut overlays.isotherms, "Isotherms: lines of equal CCT, to Duv ±0.03"),
-        (&mut overlays.srgb, "sRGB"),
-        (&mut overlays.dci_p3, "DCI-P3"),
-        (&mut overlays.rec2020, "Rec. 2020"),
-    ] {
+    for (on, words) in overlays.labeled() {
         ui.checkbox(on, words);
     }
     if overlays != before {
@@ -99,17 +90,20 @@ fn overlays(ui: &mut Ui, context: &mut PaneContext<'_>) {
 
 fn diagram(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let size = [f64::from(rect.width()), f64::from(rect.height())];
+    hold_fit(ui, context);
     let built = chromaticity::build(&context.scene, context.view, context.studio.frame().map(AsRef::as_ref), size);
-    let reference = context.scene.document.reference.clone();
-    let shown = {
-        let view = &*context.view;
-        let emphasis = |tag| view.emphasis_of(&built.things, tag, &reference);
-        let options = PlotOptions { reset: view.reset_plots, emphasis: &emphasis, ..PlotOptions::default() };
-        let id = Id::unique(("chromaticity", context.scene.document.diagram));
-        paint::plot(ui, id, &built.panel, &context.theme, rect, options)
-    };
+    let id = Id::unique(("chromaticity", context.scene.document.diagram));
+    let shown = plot(ui, id, &built, rect, true, context);
+    note_zoom(ui, &built, &shown, context);
     point_at(&built, &shown, context);
-    if context.view.saved.diagram_fit == DiagramFit::Data && rect.width() > 420.0 && rect.height() > 240.0 {
+    if let Some(lens) = &built.lens {
+        let area =
+            [lens.panel.area.min, lens.panel.area.max].map(|at| rect.min + Vec2::new(at[0] as f32, at[1] as f32));
+        let shown = plot(ui, id.with("lens"), lens, Rect::from_min_max(area[0], area[1]), false, context);
+        point_at(lens, &shown, context);
+    }
+    widgets::walk::along(ui, PaneKind::CHROMATICITY, context, widgets::walk::patches_by_sensor);
+    if context.view.diagram.zoomed.is_some() && rect.width() > 420.0 && rect.height() > 240.0 {
         let place = Rect::from_min_size(shown.view.rect.right_top() + Vec2::new(-OVERVIEW.x - 6.0, 6.0), OVERVIEW);
         let size = [f64::from(OVERVIEW.x), f64::from(OVERVIEW.y)];
         let panel = chromaticity::overview(&context.scene, [shown.view.x, shown.view.y], size);
@@ -118,7 +112,46 @@ fn diagram(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     say_refusals(ui, shown.view.rect, &built, context);
 }
 
-/// What is under the pointer is read, and marked everywhere; a click keeps it.
+/// Keeps the shown part of the diagram until a new fit is due.
+fn hold_fit(ui: &Ui, context: &mut PaneContext<'_>) {
+    let key = chromaticity::fit_key(&context.scene, context.view.saved.diagram_fit);
+    let (scene, refit) = (context.scene, context.view.reset_plots);
+    let seconds = ui.input(|input| input.time);
+    if context.view.diagram.hold(key, refit, seconds, |key| chromaticity::fitted(&scene, key)) {
+        ui.ctx().request_repaint();
+    }
+}
+
+fn plot(
+    ui: &mut Ui,
+    id: Id,
+    built: &Built,
+    rect: Rect,
+    zoomable: bool,
+    context: &mut PaneContext<'_>,
+) -> paint::PlotOutput {
+    let view = &*context.view;
+    let reference = &context.scene.document.reference;
+    let emphasis = |tag| view.emphasis_of(&built.things, tag, reference);
+    let options = PlotOptions { reset: view.reset_plots, zoomable, emphasis: &emphasis, ..PlotOptions::default() };
+    paint::plot(ui, id, &built.panel, &context.theme, rect, options)
+}
+
+/// Records the ranges that the user zoomed or panned to: labels, arrows, lens and overview follow in the next frame.
+fn note_zoom(ui: &Ui, built: &Built, shown: &paint::PlotOutput, context: &mut PaneContext<'_>) {
+    let pairs = [(shown.view.x, built.panel.x.range), (shown.view.y, built.panel.y.range)];
+    let near = |(a, b): &([f64; 2], [f64; 2])| {
+        let slack = 1e-3 * (b[1] - b[0]);
+        (a[0] - b[0]).abs() < slack && (a[1] - b[1]).abs() < slack
+    };
+    let zoomed = (!pairs.iter().all(near)).then_some([shown.view.x, shown.view.y]);
+    if zoomed != context.view.diagram.zoomed {
+        context.view.diagram.zoomed = zoomed;
+        ui.ctx().request_repaint();
+    }
+}
+
+/// Hovers the item nearest to the pointer; a click selects it.
 fn point_at(built: &Built, shown: &paint::PlotOutput, context: &mut PaneContext<'_>) {
     let pointer = shown.response.hover_pos().filter(|at| shown.view.rect.contains(*at));
     let hit = pointer.and_then(|at| paint::nearest(&built.panel, &shown.view, at, REACH));
@@ -127,13 +160,11 @@ fn point_at(built: &Built, shown: &paint::PlotOutput, context: &mut PaneContext<
     if shown.response.clicked() {
         context.view.click(thing.as_ref());
     }
-    if let Some(thing) = thing {
-        let mut lines = chromaticity::describe(&context.scene, &thing);
-        if let PlotItem::Patch { source: Some(source), patch } = &thing {
-            let xy = chromaticity::patch_xy(&context.scene, source, patch);
-            lines.extend(xy.and_then(Xy::uv_prime).and_then(|uv| nearest_black_body(uv, context)));
+    if let Some((thing, at)) = thing.zip(pointer) {
+        let is_held = shown.response.ctx.input(|input| input.pointer.any_down());
+        if !is_held {
+            tooltip(built, shown, at, &chromaticity::brief(&context.scene, &thing));
         }
-        widgets::read_at_pointer(&shown.response, &lines);
     } else if let (Some([a, b]), Some(_)) = (shown.hovered, pointer) {
         let diagram = context.scene.document.diagram;
         let [x, y] = chromaticity::coordinates(diagram);
@@ -147,8 +178,45 @@ fn point_at(built: &Built, shown: &paint::PlotOutput, context: &mut PaneContext<
     }
 }
 
-/// The correlated color temperature of a color and how far it is from that black body, for the observer of the diagram; none while
-/// that is being found out, and for colors that are like no black body.
+/// Shows lines of text beside the pointer, in the quarter that covers the fewest points and lines.
+fn tooltip(built: &Built, shown: &paint::PlotOutput, pointer: Pos2, lines: &[String]) {
+    const GAP: f32 = 14.0;
+    let widest = lines.iter().map(|line| text_width(line, TextSize::Body)).fold(0.0, f64::max);
+    let size = Vec2::new(widest as f32 + 5.0 * UNIT, lines.len() as f32 * 18.0 + 4.0 * UNIT);
+    let points =
+        built.panel.marks.iter().filter(|mark| mark.tag != PickIndex::NONE).flat_map(|mark| match &mark.shape {
+            Shape::Points { points, .. } | Shape::Line { points, .. } => points.as_slice(),
+            _ => &[],
+        });
+    let points: Vec<Pos2> = points.filter(|at| at[0].is_finite()).map(|at| shown.view.at(*at)).collect();
+    let screen = shown.response.ctx.content_rect();
+    let quarters = [
+        (RectAlign::BOTTOM_START, Vec2::new(GAP, GAP), Vec2::ZERO),
+        (RectAlign::TOP_START, Vec2::new(GAP, -GAP), Vec2::new(0.0, 1.0)),
+        (RectAlign::BOTTOM_END, Vec2::new(-GAP, GAP), Vec2::new(1.0, 0.0)),
+        (RectAlign::TOP_END, Vec2::new(-GAP, -GAP), Vec2::splat(1.0)),
+    ];
+    let cost = |(_, gap, share): &(RectAlign, Vec2, Vec2)| {
+        let covered = Rect::from_min_size(pointer + *gap - size * *share, size);
+        let outside = if screen.contains_rect(covered) { 0 } else { points.len() + 1 };
+        outside + points.iter().filter(|at| covered.contains(**at)).count()
+    };
+    let Some((align, gap, _)) = quarters.into_iter().min_by_key(cost) else { return };
+    let mut tooltip = Tooltip::for_enabled(&shown.response).gap(0.0);
+    tooltip.popup = tooltip.popup.at_position(pointer + gap).align(align).align_alternatives(&[]);
+    tooltip.show(|ui| {
+        for (index, line) in lines.iter().enumerate() {
+            if index == 0 {
+                ui.strong(line);
+            } else {
+                ui.label(line);
+            }
+        }
+    });
+}
+
+/// The correlated color temperature of a color and its distance from that blackbody, for the observer of the diagram; `None`
+/// while it is being computed, and for colors without one.
 fn nearest_black_body(color: UvPrime, context: &PaneContext<'_>) -> Option<String> {
     let observer = context.scene.sensor(SetKind::Observer, FIT_TARGET).ok()?;
     context.radiators.ask(vec![NearestBlackBodyQuery { observer, constants: RadiationConstants::Paper }]);
@@ -165,7 +233,7 @@ fn nearest_black_body(color: UvPrime, context: &PaneContext<'_>) -> Option<Strin
     })
 }
 
-/// A line's thing becomes the black body nearest to the pointer.
+/// Replaces a locus line's item with the blackbody nearest to the pointer.
 fn thing_at(context: &PaneContext<'_>, built: &Built, hit: &paint::Hit) -> Option<PlotItem> {
     let thing = built.things.get(hit.tag)?.clone();
     let PlotItem::Sensor(source) = &thing else { return Some(thing) };
@@ -243,7 +311,9 @@ fn show_strip(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
         let balance = context.scene.locus_balance();
         lines.push(format!("Signals normalized to {balance}: the minima (rings) follow it."));
         lines.push("Drag to set the temperature.".to_owned());
-        widgets::read_at_pointer(&response, &lines);
+        if !response.is_pointer_button_down_on() {
+            widgets::read_at_pointer(&response, &lines);
+        }
     }
 }
 

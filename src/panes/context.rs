@@ -2,7 +2,7 @@
 
 use chromascope_core::accuracy::RelTolerance;
 use chromascope_core::query::NearestBlackBodyQuery;
-use chromascope_core::query::correction::CorrectionSheetQuery;
+use chromascope_core::query::render::picture::PicturesQuery;
 use chromascope_core::render::{Quality, Shadows};
 use chromascope_figure::Figure;
 use egui::{Rect, Ui};
@@ -10,6 +10,7 @@ use egui::{Rect, Ui};
 use crate::catalog::meshes::MeshStore;
 use crate::catalog::opened::Opened;
 use crate::catalog::recorded_store::RecordedStore;
+use crate::catalog::spectral_images::ImageStore;
 use crate::command::Command;
 use crate::figures::FigureInput;
 use crate::figures::curves::CurveCache;
@@ -55,14 +56,16 @@ pub struct PaneContext<'a> {
     pub view: &'a mut View,
     /// The user's mesh files.
     pub meshes: &'a MeshStore,
+    /// The user's spectral images.
+    pub images: &'a ImageStore,
     /// The spectral files that were opened.
     pub opened: &'a Opened,
     /// The file of recorded raw values.
     pub recorded: &'a RecordedStore,
-    /// Tells the nearest black body of a color, once it is asked.
+    /// Finds the nearest blackbody of a color, on demand.
     pub radiators: &'a Background<NearestBlackBodyQuery>,
-    /// Color corrections with their errors, once they are made.
-    pub corrections: &'a Background<CorrectionSheetQuery>,
+    /// Picture of the window about the program.
+    pub portrait: &'a Background<PicturesQuery>,
     /// Renderer of the pictures.
     pub studio: &'a mut RenderService,
     /// Profiler of the scene.
@@ -86,7 +89,7 @@ impl PaneContext<'_> {
         self.pane(kind).map_or("", |pane| pane.title)
     }
 
-    /// What a figure is made of.
+    /// Input for a figure.
     pub fn figure_input(&self) -> FigureInput<'_> {
         FigureInput::of((&self.scene, self.view), self.studio, self.laboratory, self.opened)
     }
@@ -96,7 +99,7 @@ impl PaneContext<'_> {
         self.commands.push(command.into());
     }
 
-    /// Takes in what was measured since the last frame.
+    /// Applies the measurements finished since the last frame.
     pub fn refresh_run(&mut self) {
         let own = self.meshes.chosen(&self.scene.document.render.mesh);
         let scene = SceneRunJob::of(&self.scene, own.as_ref(), self.view.saved.render.orbit);
@@ -112,12 +115,13 @@ impl PaneContext<'_> {
         let pictures = quality.and_then(|quality| SceneRunJob::pictures_of(&self.scene, own.as_ref(), orbit, quality));
         let mut pictures = pictures.ok_or(NothingRendered)?;
         let geometry = &mut pictures.shading.geometry;
-        let on_show = self.studio.frame().map(|frame| &frame.query.shading.geometry).filter(|on_show| {
+        let frame = self.studio.frame();
+        let on_show = frame.and_then(|frame| Some(&frame.query.mesh()?.shading.geometry)).filter(|on_show| {
             on_show.visibility.mesh == geometry.visibility.mesh
                 && on_show.lighting == geometry.lighting
                 && (on_show.shadows == Shadows::Off) == (geometry.shadows == Shadows::Off)
         });
-        // Of the pictures on show all angles are known; of those to come they soon will be.
+        // All angles of the current pictures are cached; those of the next pictures soon will be.
         let soon = self.studio.is_looked_at() && self.studio.failure().is_none() && !self.view.render.cancelled;
         if let Some(on_show) = on_show {
             geometry.clone_from(on_show);
@@ -128,7 +132,7 @@ impl PaneContext<'_> {
         Ok(self.laboratory.plans(&pictures))
     }
 
-    /// Hits, misses and times of each kind of question, the window's and the pictures'.
+    /// Hits, misses and times of each kind of query, the window's and the pictures'.
     pub fn counts(&self) -> Vec<(&'static str, Count)> {
         self.scene.results.counts().into_iter().collect()
     }

@@ -1,28 +1,25 @@
-//! Color correction: how it is fitted, what it is, what it does, and the files that take it along.
+//! Color correction: method, matrix, errors, and export.
 
 mod controls;
 
 use std::sync::Arc;
 
-use chromascope_core::correction::aces::IdtExposure;
-use chromascope_core::query::correction::{CorrectionSheet, CorrectionUnder};
+use chromascope_core::query::correction::CorrectionUnder;
 use egui::{Id, Label, Rect, RichText, ScrollArea, Sense, Ui, UiBuilder, Vec2};
 
 use super::context::{Pane, PaneContext};
 use crate::command::Command;
-use crate::document::SetKind;
 use crate::export::profile::{CorrectionFile, aligned, check_lines, idt_note};
 use crate::figures::correction as figure;
 use crate::paint::{self, PlotOptions};
 use crate::panes::widgets;
-use crate::scene::SceneError;
 use crate::theme::UNIT;
 use crate::view::correction::CorrectionForm;
 use crate::workspaces::PaneKind;
 
 /// The pane.
 pub const PANE: Pane = Pane {
-    kind: PaneKind::new("Correction"),
+    kind: PaneKind::CORRECTION,
     title: "Correction",
     show,
     figure: Some(|input| figure::figure(input.view)),
@@ -46,7 +43,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
         controls::training(ui, context);
         match refreshed(&camera, context) {
             Err(error) => {
-                ui.add(Label::new(RichText::new(error.to_string()).color(context.theme.error)).wrap());
+                ui.add(Label::new(RichText::new(error).color(context.theme.error)).wrap());
             }
             Ok(None) => {
                 ui.label(RichText::new("computing…").color(context.theme.weak));
@@ -56,31 +53,18 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     });
 }
 
-/// The correction of a camera, asked for beside the window; the last one while it is made.
-fn refreshed(camera: &str, context: &mut PaneContext<'_>) -> Result<Option<Arc<CorrectionFile>>, SceneError> {
-    if context.scene.document.transform.is_eq_13() {
-        context.view.correction.shown = None;
-        let name = camera.to_owned();
-        return Err(SceneError::Rendering { name, error: chromascope_core::camera::RenderingError::NotFitted });
-    }
-    let query = context.scene.correction_sheet(SetKind::Camera, camera)?;
-    context.corrections.ask(vec![query]);
-    let Some(shown) = context.corrections.shown() else { return Ok(None) };
-    let answer = (*shown.answer).as_ref();
-    let sheet = answer.map_err(|&error| SceneError::Rendering { name: camera.to_owned(), error });
+/// The correction of a camera, requested in the background; the last one while it is made.
+fn refreshed(camera: &str, context: &mut PaneContext<'_>) -> Result<Option<Arc<CorrectionFile>>, String> {
+    let made = context.ranking.correction(&context.scene, camera);
     let view = &mut context.view.correction;
-    if !shown.current {
-        return Ok(view.shown.clone());
-    }
-    let sheet: &CorrectionSheet = match sheet {
-        Ok(sheet) => sheet,
+    match made {
+        Ok(Some(file)) => view.shown = Some(file),
+        Ok(None) => {}
         Err(error) => {
             view.shown = None;
             return Err(error);
         }
-    };
-    let file = CorrectionFile::new(&context.scene, camera, None, sheet.clone())?;
-    view.shown = Some(Arc::new(file));
+    }
     Ok(view.shown.clone())
 }
 
@@ -176,14 +160,13 @@ fn between(ui: &mut Ui, file: &CorrectionFile, context: &mut PaneContext<'_>) {
 
 /// The ACES input transform.
 fn aces(ui: &mut Ui, file: &CorrectionFile, context: &PaneContext<'_>) {
-    let idt = context.scene.input_device_transform(SetKind::Camera, &file.camera, IdtExposure::Rawtoaces);
-    match idt {
+    match &file.idt {
         Ok(idt) => {
             let matrix = aligned(idt.matrix);
             section(ui, "ACES IDT (rawtoaces)", Some(&matrix), "Copy the IDT matrix");
             let [r, g, b] = idt.balance;
             mono(ui, &format!("balance {r:.7} {g:.7} {b:.7}\n{matrix}"));
-            if let Some(note) = idt_note(&idt) {
+            if let Some(note) = idt_note(idt) {
                 ui.add(Label::new(RichText::new(note).small().color(context.theme.warning)).wrap());
             }
         }

@@ -37,7 +37,11 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let kept = CurveCache::of(&shown, context.curves.take());
     match kept.all() {
         Err(words) => {
+            let saved = &context.view.saved;
+            let is_told = shown.error().is_some() && saved.layout.shows(saved.workspace, PaneKind::IMPORT);
             let color = if shown.error().is_some() { context.theme.error } else { context.theme.weak };
+            // The list of files and the marked text say why.
+            let (words, color) = if is_told { ("No curves.", context.theme.weak) } else { (words, color) };
             sentence(ui, body, words, color);
         }
         Ok(curves) if context.view.saved.tables.contains(&PaneKind::CURVES) => {
@@ -78,7 +82,7 @@ fn hover(ui: &Ui, inside: bool, place: Option<usize>, context: &mut PaneContext<
     }
 }
 
-/// A sentence in the middle, wrapped.
+/// A wrapped message in the center.
 fn sentence(ui: &Ui, body: Rect, words: &str, color: egui::Color32) {
     let font = egui::FontId::proportional(crate::theme::TEXT);
     let width = (body.width() - 8.0 * UNIT).max(40.0);

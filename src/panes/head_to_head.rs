@@ -14,11 +14,11 @@ use crate::theme::UNIT;
 use crate::view::metrics::RankedCameras;
 use crate::workspaces::PaneKind;
 
-/// Columns of both values, their difference, and the better camera.
-const FIRST: usize = 1;
-const SECOND: usize = 2;
-const DIFFERENCE: usize = 3;
-const BETTER: usize = 4;
+/// Columns of the difference, the better camera, and both values.
+const DIFFERENCE: usize = 1;
+const BETTER: usize = 2;
+const FIRST: usize = 3;
+const SECOND: usize = 4;
 
 /// The pane.
 pub const PANE: Pane = Pane {
@@ -58,7 +58,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let top = child.min_rect().bottom() + UNIT;
     let table = metrics::head_to_head(&ranked, [a, b]);
     let note = |row: usize, column: usize| note(&ranked, [a, b], row, column);
-    let columns = ["metric", "A", "B", "A − B", "better"].map(|name| Column {
+    let columns = ["metric", "A − B", "better", "A", "B"].map(|name| Column {
         name: name.to_owned(),
         decimals: Some(4),
         hint: if name == "better" { BETTER_HINT.to_owned() } else { String::new() },
@@ -73,7 +73,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
 const BETTER_HINT: &str =
     "The better camera where the difference exceeds its standard uncertainty; neither where it does not.";
 
-/// The two cameras: chosen, else the selected one beside the first compared one, as places in the ranking.
+/// The two cameras, as indices in the ranking: chosen, else the selected one and the first compared one.
 fn pair(ranked: &Ranked, context: &PaneContext<'_>) -> [Option<usize>; 2] {
     let place = |id: &SensorId| ranked.cameras.iter().position(|camera| camera.id == *id);
     let [a, b] = context.view.saved.metrics.pair.each_ref().map(|id| id.as_ref().and_then(place));

@@ -1,8 +1,10 @@
-//! The help window: list of pages, search and the page; and the palette.
+//! The help window: list of pages, search and the page; the palette; the tour; the window about the program.
 
+mod about;
 mod blocks;
 mod palette;
 mod text;
+pub mod tour;
 mod typeset;
 
 use egui::{Align2, Event, Key, Modifiers, Rect, RichText, ScrollArea, TextEdit, Ui, UiBuilder, Vec2, Window};
@@ -21,7 +23,7 @@ const LIST: f32 = 224.0;
 const TEXT_WIDTH: f32 = 720.0;
 const MOST_HITS: usize = 100;
 
-/// Shows the help window and the palette while they are open.
+/// Shows the help window, the palette and the window about the program while they are open.
 pub fn show(ui: &mut Ui, history: &History, context: &mut PaneContext<'_>) {
     if let Some(page) = context.view.help.page.and_then(find) {
         window(ui, page, context);
@@ -29,6 +31,7 @@ pub fn show(ui: &mut Ui, history: &History, context: &mut PaneContext<'_>) {
     if context.view.palette.is_some() {
         palette::show(ui, history, context);
     }
+    about::show(ui, context);
 }
 
 fn window(ui: &Ui, page: &'static Page, context: &mut PaneContext<'_>) {
@@ -131,7 +134,7 @@ fn results(ui: &mut Ui, hits: &[Hit], help: &mut HelpView) {
     }
 }
 
-/// The page with its own buttons.
+/// The page with its buttons.
 fn content(ui: &mut Ui, page: &'static Page, context: &mut PaneContext<'_>) {
     ui.horizontal(|ui| {
         let before = context.view.help.visited.last().and_then(|name| find(name));

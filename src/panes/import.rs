@@ -1,4 +1,4 @@
-//! The user's files, and the text of one with what was understood of it.
+//! The user's files, and the text of one with its interpretation.
 
 mod entries;
 mod files;
@@ -30,6 +30,11 @@ const PATIENCE: Duration = Duration::from_millis(100);
 pub const PANE: Pane =
     Pane { kind: PaneKind::IMPORT, title: "Import", show, figure: None, under_conditions: false, table: true };
 
+/// True if files are listed one below the other in a pane of this rectangle.
+pub fn lists_files(pane: Rect) -> bool {
+    pane.width() - 4.0 * UNIT >= NARROW
+}
+
 /// Shows the pane in its rectangle.
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let body = widgets::pane(ui, &PANE, rect, context, switches);
@@ -44,8 +49,9 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
         return;
     }
     keep_selected(ui, &entries, context);
-    let below = if body.width() < NARROW { files::drop_down(ui, body, &entries, context) } else { body };
-    let text = if body.width() < NARROW {
+    let is_narrow = !lists_files(rect);
+    let below = if is_narrow { files::drop_down(ui, body, &entries, context) } else { body };
+    let text = if is_narrow {
         below
     } else {
         let cut = body.left() + FILES;
@@ -58,12 +64,12 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
             let text = question::show(ui, text, &shown, context);
             text::show(ui, text, &shown, context);
         }
-        // What was selected is gone since the list was made; the next frame shows another.
+        // The selected item is gone since the list was made; the next frame shows another.
         None => ui.ctx().request_repaint(),
     }
 }
 
-/// Something is always on show: the first file, until a person chooses another.
+/// Some file is always selected: the first until the user chooses another.
 fn keep_selected(ui: &Ui, entries: &[Entry], context: &mut PaneContext<'_>) {
     let selected = context.view.import.selected.as_ref();
     if selected.is_none_or(|item| !entries.iter().any(|entry| entry.item == *item))
@@ -74,7 +80,7 @@ fn keep_selected(ui: &Ui, entries: &[Entry], context: &mut PaneContext<'_>) {
     }
 }
 
-/// While something is read: what, how far, and a way to stop it.
+/// Progress of the current reading, with a button to stop it.
 fn switches(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let Some(progress) = context.opened.progress() else { return };
     // A worker says only when it is done.

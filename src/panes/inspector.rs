@@ -1,10 +1,12 @@
-//! The key for newcomers, or the thing that is selected or under the pointer.
+//! Introduction for newcomers, or the selected or hovered item.
 
 mod numbers;
 mod patch;
 mod pinned;
 mod pixel;
+mod points;
 mod radiator;
+mod set;
 mod source;
 mod welcome;
 
@@ -34,8 +36,10 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let inner = body.shrink2(Vec2::new(2.0 * UNIT, 0.0));
     let mut child = ui.new_child(UiBuilder::new().id_salt("inspector").max_rect(inner));
     child.set_clip_rect(body.intersect(ui.clip_rect()));
+    // The handle is seen at rest too, so that a page that goes on below says so.
+    child.spacing_mut().scroll.dormant_handle_opacity = 0.5;
     ScrollArea::vertical().id_salt("inspector").auto_shrink(false).show(&mut child, |ui| {
-        ui.set_max_width(inner.width());
+        ui.set_max_width(inner.width() - UNIT);
         ui.spacing_mut().item_spacing.y = 0.5 * UNIT;
         content(ui, context);
         ui.add_space(2.0 * UNIT);
@@ -44,13 +48,14 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
 
 fn content(ui: &mut Ui, context: &mut PaneContext<'_>) {
     match context.view.selected.clone().or_else(|| context.view.hovered.clone()) {
-        None if pixel::kept(context).is_some() => {}
+        None if pixel::kept(context).is_some() || !context.view.pinned.is_empty() => {}
         None => welcome::show(ui, context),
         Some(PlotItem::Patch { source: Some(id), patch }) => patch::one(ui, &id, &patch, context),
         Some(PlotItem::Patch { source: None, patch }) => patch::across(ui, &patch, context),
         Some(PlotItem::Radiator { source, kelvin }) => radiator::show(ui, &source, kelvin, context),
         Some(PlotItem::Sensor(id)) => source::show(ui, &id, context),
         Some(PlotItem::Light) => source::light(ui, context),
+        Some(PlotItem::DataSet { kind, name }) => set::show(ui, kind, &name, context),
     }
     pixel::show(ui, context);
     pinned::show(ui, context);
@@ -98,12 +103,12 @@ fn difference_words(metric: Metric, value: f64) -> String {
     fixed(value, metric.decimals)
 }
 
-/// Reason that there is no difference, as a sentence.
+/// Reason that there is no difference, as a message.
 fn no_difference(reason: DifferenceError) -> String {
     format!("No difference: {reason}.")
 }
 
-/// The buttons under a selected thing. Returns whether its numbers are to be copied.
+/// Buttons of a selected item. Returns whether its numbers are to be copied.
 fn buttons(ui: &mut Ui, context: &mut PaneContext<'_>) -> bool {
     let Some(selected) = context.view.selected.clone() else { return false };
     let mut copy = false;
@@ -180,7 +185,7 @@ fn assumptions(scene: &Scene<'_>, id: &SensorId, label: &str) -> Vec<String> {
     words
 }
 
-/// Writes down what was assumed.
+/// Lists the assumptions.
 fn show_assumptions(ui: &mut Ui, theme: &Theme, words: Vec<String>) {
     if words.is_empty() {
         return;

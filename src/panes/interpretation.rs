@@ -96,14 +96,19 @@ fn wish(shown: &ImportSelection, wishes: ImportOverrides, context: &mut PaneCont
     context.push(Command::Wish(shown.item.clone(), Box::new(wishes)));
 }
 
-/// Reason that the file cannot be read as wished, with a way back.
+/// Reason that the file cannot be read with the settings, with a way to reset them.
 fn trouble(ui: &mut Ui, words: &str, line: Option<usize>, shown: &ImportSelection, context: &mut PaneContext<'_>) {
     let color = context.theme.error;
-    ui.horizontal_wrapped(|ui| {
-        let (rect, _) = ui.allocate_exact_size(Vec2::new(16.0, 16.0), egui::Sense::hover());
-        widgets::lines::warning_mark(ui.painter(), rect.center(), color);
-        ui.label(RichText::new(sentence(words)).color(color));
-    });
+    let saved = &context.view.saved;
+    // The list of files and the marked text say why, where they are in sight.
+    let is_told = !shown.pending && saved.layout.shows(saved.workspace, PaneKind::IMPORT);
+    if !is_told {
+        ui.horizontal_wrapped(|ui| {
+            let (rect, _) = ui.allocate_exact_size(Vec2::new(16.0, 16.0), egui::Sense::hover());
+            widgets::lines::warning_mark(ui.painter(), rect.center(), color);
+            ui.label(RichText::new(sentence(words)).color(color));
+        });
+    }
     ui.horizontal_wrapped(|ui| {
         if shown.pending && ui.button("Back").on_hover_text("Discard the attempted settings").clicked() {
             context.push(Command::TakeWishBack);

@@ -27,7 +27,7 @@ pub const PANE: Pane = Pane {
     table: true,
 };
 
-/// From this width on, bars and vectors stand side by side.
+/// Minimum width for bars and vectors side by side.
 const WIDE: f32 = 520.0;
 /// Heights of the bars and of the vectors below them.
 const BARS: f32 = 150.0;
@@ -107,7 +107,7 @@ fn summary(ui: &mut Ui, scene: &Scene<'_>, rendition: &Rendition, context: &Pane
     }
 }
 
-/// Bars and vectors, beside or below each other.
+/// Bars and vectors, side by side or stacked.
 fn pictures(ui: &mut Ui, rendition: &Rendition, context: &PaneContext<'_>) {
     let width = ui.available_width();
     let wide = width >= WIDE;

@@ -1,14 +1,18 @@
-//! Menus, tabs of the workspaces, undo and redo, the way to find anything.
+//! Menus, tabs of the workspaces, undo and redo, the command palette.
 
-use egui::{Align, Button, Layout, Rect, Ui, UiBuilder, Vec2};
+use egui::{Align, Atom, Button, Layout, Rect, RichText, Ui, UiBuilder, Vec2};
 
-use super::context::PaneContext;
+use super::context::{Pane, PaneContext};
 use crate::action::history::History;
 use crate::action::{Action, SceneAction};
-use crate::command::{Command, Format, shortcut_of};
+use crate::command::{Command, Format, THEMES, TourMove, shortcut_of};
 use crate::document::start::Start;
-use crate::theme::{ROW, Surround, UNIT};
-use crate::workspaces::{PaneKind, Workspace};
+use crate::panes::widgets::{Icon, icon_button, pick_list};
+use crate::theme::{Surround, UNIT};
+use crate::workspaces::{Layout as PaneLayout, PaneKind, Workspace};
+
+/// Room for a tick before a line of a menu.
+const GUTTER: Vec2 = Vec2::new(14.0, 12.0);
 
 /// Shows the bar in its rectangle.
 pub fn show(ui: &mut Ui, rect: Rect, history: &History, context: &mut PaneContext<'_>) {
@@ -53,7 +57,7 @@ fn tabs(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     }
 }
 
-/// A dot on the tab while files wait to be looked at.
+/// A dot on the tab while files wait for review.
 fn unseen_dot(ui: &Ui, tab: &egui::Response, context: &PaneContext<'_>) {
     let count = context.view.import.unseen.len();
     if count == 0 {
@@ -66,14 +70,13 @@ fn unseen_dot(ui: &Ui, tab: &egui::Response, context: &PaneContext<'_>) {
     tab.clone().on_hover_text(words);
 }
 
-/// An arrow back or forward, named after its step.
+/// A curved arrow back or forward, named after its step.
 fn step_button(ui: &mut Ui, forward: bool, step: Option<&str>, context: &mut PaneContext<'_>) {
-    let (arrow, word, command) = if forward { ("→", "Redo", Command::Redo) } else { ("←", "Undo", Command::Undo) };
-    let button = Button::new(arrow).frame(false).min_size(Vec2::splat(ROW));
-    let response = ui.add_enabled(step.is_some(), button);
+    let (icon, word, command) =
+        if forward { (Icon::Redo, "Redo", Command::Redo) } else { (Icon::Undo, "Undo", Command::Undo) };
     let name = step.map_or_else(|| format!("Nothing to {}", word.to_lowercase()), |step| format!("{word}: {step}"));
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, step.is_some(), &name));
-    if response.on_hover_text(&name).on_disabled_hover_text(&name).clicked() {
+    let response = ui.add_enabled_ui(step.is_some(), |ui| icon_button(ui, icon, &name)).inner;
+    if response.on_disabled_hover_text(&name).clicked() {
         context.push(command);
     }
 }
@@ -98,7 +101,7 @@ fn focused(context: &PaneContext<'_>) -> PaneKind {
     context.view.focused.unwrap_or(PaneKind::CHROMATICITY)
 }
 
-/// Pane whose figure is meant: the focused one if it has figures, else the first in sight that has.
+/// The pane whose figure is meant: the focused one if it has figures, else the first visible one that has.
 fn pictured(context: &PaneContext<'_>) -> PaneKind {
     let saved = &context.view.saved;
     let places = saved.layout.places(saved.workspace).iter().flatten().copied();
@@ -167,68 +170,124 @@ fn edit(ui: &mut Ui, history: &History, context: &mut PaneContext<'_>) {
         ui.close();
     }
     item(ui, &format!("Copy picture of {}", context.title(pane)), Command::CopyPicture(pane), context);
+    item(ui, &format!("Copy {} as card", context.title(pane)), Command::CopyCard(pane), context);
     ui.separator();
     item(ui, "Pin the selection", Command::Pin, context);
     item(ui, "Find anything…", Command::FindAnything, context);
+    ui.separator();
     for start in Start::ALL {
         item(ui, &format!("Start: {}", start.name()), Command::Do(Action::Start(start)), context);
     }
     item(ui, "Reset to the first screen", Command::Do(Action::Reset), context);
 }
 
-fn view(ui: &mut Ui, context: &mut PaneContext<'_>) {
-    let workspace = context.view.saved.workspace;
-    for pane in context.panes {
-        let shown = context.view.saved.layout.shows(workspace, pane.kind);
-        let words = format!("{} {}", if shown { "✓" } else { " " }, pane.title);
-        item(ui, &words, Command::TogglePane(pane.kind), context);
+/// Gutter before a line of a menu, with a tick where it is on.
+fn gutter(on: bool) -> Atom<'static> {
+    Atom::paint(GUTTER, move |ui, place| {
+        if on {
+            pick_list::tick(ui.painter(), place.rect.center(), place.fallback_text_color);
+        }
+    })
+}
+
+/// A line behind a gutter.
+fn ticked(ui: &mut Ui, on: bool, words: &str, hint: &str, command: impl Into<Command>, context: &mut PaneContext<'_>) {
+    let command = command.into();
+    let mut button = Button::new((gutter(on), words));
+    if let Some(shortcut) = shortcut_of(&command, focused(context)) {
+        button = button.shortcut_text(ui.ctx().format_shortcut(&shortcut));
     }
-    ui.separator();
-    let pane = focused(context);
-    item(ui, &format!("Maximize {}", context.title(pane)), Command::Maximize(pane), context);
-    item(ui, "Reset view", Command::ResetView, context);
-    item(ui, "Reset layout", Command::ResetLayout, context);
-    ui.separator();
-    ui.menu_button("Difference", |ui| {
-        let now = context.scene.document.difference;
-        let transform = &context.scene.document.transform;
-        for metric in transform.metrics() {
-            let name = metric.name(transform.is_eq_13());
-            if ui.radio(now == metric, name).on_hover_text(metric.label).clicked() {
-                context.push(Action::Scene(SceneAction::SetDifference(metric)));
-                ui.close();
-            }
-        }
-        ui.separator();
-        item(ui, "Bars under swatches", Command::ToggleDifference, context);
+    let mut response = ui.add(button);
+    response.widget_info(|| egui::WidgetInfo::selected(egui::Role::Button, true, on, words));
+    if !hint.is_empty() {
+        response = response.on_hover_text(hint);
+    }
+    if response.clicked() {
+        context.push(command);
+        ui.close();
+    }
+}
+
+/// A small heading of a group, behind the gutter.
+fn heading(ui: &mut Ui, words: &str, context: &PaneContext<'_>) {
+    ui.horizontal(|ui| {
+        ui.add_space(GUTTER.x + 2.0 * UNIT);
+        ui.label(RichText::new(words).small().color(context.theme.weak));
     });
-    ui.menu_button("Theme", |ui| {
-        let now = ui.ctx().options(|options| options.theme_preference);
-        for (preference, words) in [
-            (egui::ThemePreference::System, "System"),
-            (egui::ThemePreference::Dark, "Dark"),
-            (egui::ThemePreference::Light, "Light"),
-        ] {
-            if ui.radio(now == preference, words).clicked() {
-                context.push(Command::SetTheme(preference));
-                ui.close();
+}
+
+/// Panes of this workspace with their ticks; the others by the workspace they start in.
+fn panes(ui: &mut Ui, context: &mut PaneContext<'_>) {
+    let workspace = context.view.saved.workspace;
+    let line = |ui: &mut Ui, pane: &Pane, context: &mut PaneContext<'_>| {
+        let shown = context.view.saved.layout.shows(workspace, pane.kind);
+        ticked(ui, shown, pane.title, "", Command::TogglePane(pane.kind), context);
+    };
+    let is_here = |pane: &Pane, context: &PaneContext<'_>| {
+        pane.kind == PaneKind::LIBRARY
+            || PaneLayout::default().shows(workspace, pane.kind)
+            || context.view.saved.layout.shows(workspace, pane.kind)
+    };
+    heading(ui, &format!("Panes of {}", workspace.title()), context);
+    for pane in context.panes.iter().filter(|pane| is_here(pane, context)).collect::<Vec<_>>() {
+        line(ui, pane, context);
+    }
+    ui.menu_button((gutter(false), "Other panes"), |ui| {
+        for group in Workspace::ALL {
+            let others = context.panes.iter().filter(|pane| pane.kind.group() == group && !is_here(pane, context));
+            let others: Vec<_> = others.collect();
+            if !others.is_empty() {
+                heading(ui, group.title(), context);
             }
-        }
-    });
-    ui.menu_button("Surround of swatches", |ui| {
-        for (surround, words) in
-            [(Surround::Middle, "Middle gray, L* 50"), (Surround::Dark, "Dark gray"), (Surround::Light, "Light gray")]
-        {
-            if ui.radio(context.view.saved.surround == surround, words).clicked() {
-                context.push(Command::SetSurround(surround));
-                ui.close();
+            for pane in others {
+                line(ui, pane, context);
             }
         }
     });
 }
 
+fn view(ui: &mut Ui, context: &mut PaneContext<'_>) {
+    panes(ui, context);
+    ui.separator();
+    let pane = focused(context);
+    let maximized = context.view.maximized == Some(pane);
+    ticked(ui, maximized, &format!("Maximize {}", context.title(pane)), "", Command::Maximize(pane), context);
+    ticked(ui, false, "Reset view", "", Command::ResetView, context);
+    ticked(ui, false, "Reset layout", "", Command::ResetLayout, context);
+    ui.separator();
+    ui.menu_button((gutter(false), "Difference"), |ui| {
+        let now = context.scene.document.difference;
+        let transform = &context.scene.document.transform;
+        for metric in transform.metrics() {
+            let name = metric.name(transform.is_eq_13());
+            let action = Action::Scene(SceneAction::SetDifference(metric));
+            ticked(ui, now == metric, name, metric.label, action, context);
+        }
+        ui.separator();
+        let bars = context.view.saved.difference_bars;
+        ticked(ui, bars, "Bars under swatches", "", Command::ToggleDifference, context);
+    });
+    ui.menu_button((gutter(false), "Theme"), |ui| {
+        let now = ui.ctx().options(|options| options.theme_preference);
+        for (preference, words) in THEMES {
+            ticked(ui, now == preference, words, "", Command::SetTheme(preference), context);
+        }
+    });
+    ui.checkbox(&mut context.view.saved.reduced_motion, "Reduce motion");
+    ui.menu_button((gutter(false), "Surround of swatches"), |ui| {
+        for surround in Surround::ALL {
+            let on = context.view.saved.surround == surround;
+            ticked(ui, on, surround.name(), "", Command::SetSurround(surround), context);
+        }
+    });
+}
+
 fn help(ui: &mut Ui, context: &mut PaneContext<'_>) {
+    item(ui, "Tour: the paper in five steps", Command::Tour(TourMove::Begin), context);
+    ui.separator();
     for page in crate::help::pages() {
-        item(ui, &page.title, Command::Help(page.name), context);
+        item(ui, &page.title, Command::Help(page.name, 0), context);
     }
+    ui.separator();
+    item(ui, "About Chromascope", Command::ToggleAbout, context);
 }

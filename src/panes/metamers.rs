@@ -11,7 +11,7 @@ use crate::figures::report_card;
 use crate::panes::widgets;
 use crate::panes::widgets::table::{CellNote, Column, DataTable};
 use crate::plot_item::{PlotItem, SensorId};
-use crate::ranking::{FoundMetamers, MetamerRow};
+use crate::scene::metrics::{FoundMetamers, MetamerRow};
 use crate::theme::UNIT;
 use crate::view::metrics::Confuses;
 use crate::workspaces::PaneKind;
@@ -48,10 +48,14 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
         child.label(RichText::new("Searching…").color(context.theme.weak));
         return;
     };
-    let words = match found.metamers.as_ref() {
-        Ok(metamers) => format!("{}: {} of {} reflectances", camera.name, count(found.rows.len()), metamers.searched),
-        Err(why) => format!("{}: {why}.", camera.name),
+    let found = match found.as_ref() {
+        Ok(found) => found,
+        Err(why) => {
+            child.label(RichText::new(format!("{}: {why}.", camera.name)).color(context.theme.weak));
+            return;
+        }
     };
+    let words = format!("{}: {} of {} reflectances", camera.name, count(found.rows.len()), found.searched);
     child.label(RichText::new(words).small().color(context.theme.weak));
     let chosen = context.view.metamers.filter(|row| *row < found.rows.len());
     if let Some(row) = chosen {
@@ -59,7 +63,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     }
     let top = child.min_rect().bottom() + UNIT;
     let place = Rect::from_min_max(egui::pos2(body.left(), top.min(body.bottom())), body.max);
-    pairs(ui, place, &camera, &found, context);
+    pairs(ui, place, &camera, found, context);
 }
 
 fn count(pairs: usize) -> String {
@@ -81,25 +85,18 @@ fn switches(ui: &mut Ui, context: &mut PaneContext<'_>) {
 
 /// The table of pairs; a click marks both of a pair in all panes.
 fn pairs(ui: &mut Ui, place: Rect, camera: &SensorId, found: &FoundMetamers, context: &mut PaneContext<'_>) {
-    let mut table = Table::new(["reflectance", "and", "ΔE*00", "camera", "set", "set of the other"]);
+    let mut table = Table::new(["reflectance", "its metamer", "ΔE*00 reference", "ΔL* camera"]);
     for row in &found.rows {
-        let [a, b] = &row.names;
-        table.push([
-            Cell::from(a[1].as_str()),
-            Cell::from(b[1].as_str()),
-            Cell::from(row.pair.observer_difference),
-            Cell::from(row.pair.camera_difference),
-            Cell::from(a[0].as_str()),
-            Cell::from(b[0].as_str()),
-        ]);
+        let [a, b] =
+            row.names.each_ref().map(|[set, name]| if set == name { name.clone() } else { format!("{name} ({set})") });
+        let [reference, camera] = [row.pair.observer_difference, row.pair.camera_difference];
+        table.push([Cell::from(a), Cell::from(b), Cell::from(reference), Cell::from(camera)]);
     }
     let hints = [
         "",
         "",
         "Difference to the reference observer.",
-        "Largest difference of a balanced channel, each through the CIE lightness function (0 to 100).",
-        "",
-        "",
+        "Largest difference of a balanced camera channel, each through the CIE lightness function (0 to 100).",
     ];
     let columns = table.columns.iter().zip(hints).map(|(name, hint)| Column {
         name: name.clone(),
@@ -121,7 +118,7 @@ fn pairs(ui: &mut Ui, place: Rect, camera: &SensorId, found: &FoundMetamers, con
     }
 }
 
-/// What is done with the chosen pair.
+/// Buttons that act on the selected pair.
 fn buttons(ui: &mut Ui, row: &MetamerRow, context: &mut PaneContext<'_>) {
     ui.horizontal_wrapped(|ui| {
         for ([set, patch], kind) in row.names.iter().zip(row.kinds) {

@@ -1,4 +1,4 @@
-//! Run time against error: of the scene on show, or of the program on workloads of its own.
+//! Run time against error: of the visible scene, or of the program on benchmark workloads.
 
 use std::time::Duration;
 
@@ -53,7 +53,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     }
 }
 
-/// The methods of the scene on show.
+/// The methods of the visible scene.
 fn scene(ui: &mut Ui, body: Rect, subject: Subject, context: &mut PaneContext<'_>) {
     let Some(run) = context.laboratory.measured.run.clone() else {
         nothing(ui, body, "Nothing measured yet.", context);
@@ -101,7 +101,7 @@ fn benchmark(ui: &mut Ui, body: Rect, workload: Workload, context: &mut PaneCont
             return;
         }
         None => {
-            nothing(ui, body, "Nothing measured yet. A quick run takes a few seconds.", context);
+            nothing(ui, body, "Nothing measured yet.", context);
             return;
         }
         Some(Err(why)) => {
@@ -203,7 +203,7 @@ fn switches(ui: &mut Ui, context: &mut PaneContext<'_>) {
     }
 }
 
-/// A way to measure what is on show, or to stop that.
+/// A button that measures the visible scene, or stops the measurement.
 fn run(ui: &mut Ui, now: Shows, context: &mut PaneContext<'_>) {
     if let Some(busy) = context.laboratory.busy() {
         if ui.button("Stop").on_hover_text("Stop measuring (Esc). Earlier results are unchanged.").clicked() {
@@ -221,8 +221,7 @@ fn run(ui: &mut Ui, now: Shows, context: &mut PaneContext<'_>) {
         Shows::Scene(_) => context.laboratory.measured.run.is_some(),
         Shows::Bench(workload) => context.laboratory.measured.reports.contains_key(&workload),
     };
-    let hint = "Measures the methods and the work saved on this scene. Takes a few seconds. Results are lost when \
-                the program ends; export them to save them.";
+    let hint = "Measures the methods and the work saved on this scene. Takes a few seconds.";
     if ui.button(if again { "Run again" } else { "Run" }).on_hover_text(hint).clicked() {
         context.push(measure(now));
     }
@@ -235,22 +234,16 @@ fn measure(shows: Shows) -> Command {
     }
 }
 
-/// A sentence, and the way to have something in its place.
-fn nothing(ui: &mut Ui, body: Rect, words: &str, context: &mut PaneContext<'_>) {
-    let place = Rect::from_center_size(body.center(), Vec2::new(body.width().min(420.0), 96.0)).intersect(body);
+/// A sentence in place of a picture.
+fn nothing(ui: &mut Ui, body: Rect, words: &str, context: &PaneContext<'_>) {
+    let place = Rect::from_center_size(body.center(), Vec2::new(body.width().min(420.0), 48.0)).intersect(body);
     let layout = egui::Layout::top_down(egui::Align::Center);
     let mut child = ui.new_child(UiBuilder::new().id_salt("nothing measured").max_rect(place).layout(layout));
     child.label(words);
-    child.label(RichText::new(super::NOT_KEPT).small().color(context.theme.weak));
-    child.add_space(UNIT);
-    if context.laboratory.busy().is_some() {
-        child.label("Measuring…");
-    } else if child.button("Run").clicked() {
-        context.push(measure(context.view.accuracy.shows));
-    }
+    child.label(if context.laboratory.busy().is_some() { "Measuring…" } else { "Run, above, takes a few seconds." });
 }
 
-/// The way to a build that has the benchmark.
+/// Instructions for a build that includes the benchmark.
 fn without_bench(ui: &mut Ui, body: Rect) {
     let place = Rect::from_center_size(body.center(), Vec2::new(body.width().min(420.0), 96.0)).intersect(body);
     let layout = egui::Layout::top_down(egui::Align::Center);

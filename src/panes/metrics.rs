@@ -25,7 +25,7 @@ use crate::workspaces::PaneKind;
 const BEFORE: usize = 3;
 /// Columns of differences that the table starts with; all other groups are shown whole.
 const SHOWN: [&str; 5] = ["delta-e2000-mean", "delta-e2000-p95", "delta-e2000-max", "uv-prime-mean", "xy-mean"];
-/// Who waits so long is told how far it is.
+/// Delay before progress is shown.
 const PATIENCE: Duration = Duration::from_millis(100);
 
 /// The pane.
@@ -74,7 +74,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     }
 }
 
-/// Cameras of the table, progress, and what is done with the selected one.
+/// Cameras of the table, progress, and actions on the selected one.
 fn switches(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let choices = [
         (RankedCameras::Library, "Library", "All cameras of the library and yours"),
@@ -131,7 +131,7 @@ fn nothing(ui: &mut Ui, body: Rect, which: RankedCameras, context: &PaneContext<
     ui.painter().text(body.center(), Align2::CENTER_CENTER, words, font, context.theme.weak);
 }
 
-/// What the columns say.
+/// Columns of the table, with their descriptions.
 fn columns() -> Vec<Column> {
     let before = [
         ("camera", ""),
@@ -164,7 +164,7 @@ fn columns() -> Vec<Column> {
     before.into_iter().chain(metrics).collect()
 }
 
-/// The rows of the table with what is said of their cells.
+/// The rows of the table with the notes of their cells.
 struct Rows<'a> {
     ranked: &'a Ranked,
     ranks: Vec<Option<[usize; 2]>>,

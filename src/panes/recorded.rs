@@ -1,7 +1,9 @@
 //! Raw values of a real camera: residuals of one table of sensitivities, and all cameras ranked.
 
-use chromascope_core::camera::recorded::RecordedFit;
-use chromascope_core::query::Shared;
+use std::sync::Arc;
+
+use chromascope_core::camera::recorded::{RecordedFit, RecordedPatch};
+use chromascope_core::query::{RecordedSet, Shared};
 use chromascope_figure::{Axis, Cell, Image, InkRole, Mark, Marker, Panel, Shape, Table, Tag};
 use egui::{DragValue, Id, Label, Rect, RichText, Sense, Ui, UiBuilder, Vec2};
 
@@ -16,8 +18,10 @@ use crate::paint::{self, PlotOptions};
 use crate::panes::widgets;
 use crate::panes::widgets::table::{CellNote, Column, DataTable};
 use crate::plot_item::{PlotItem, SensorId};
+use crate::scene::Scene;
 use crate::scene::recorded::{RankedCamera, cause_in_words};
 use crate::theme::{ROW, UNIT};
+use crate::view::recorded::RecordedInputs;
 use crate::workspaces::PaneKind;
 
 /// Reach of the pointer, in points.
@@ -35,7 +39,7 @@ pub const PANE: Pane = Pane {
     kind: PaneKind::RECORDED,
     title: "Recorded",
     show,
-    figure: Some(|input| recorded::figure(input.scene, input.view)),
+    figure: Some(|input| recorded::figure(input.view)),
     under_conditions: true,
     table: true,
 };
@@ -53,43 +57,64 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     if let RecordedContent::Picture(picture, shown) = &file.content
         && context.view.recorded.corners.len() < CORNERS.len()
     {
-        context.view.recorded.set = None;
+        (context.view.recorded.set, context.view.recorded.ranked) = (None, None);
         return corners(ui, body, picture.size(), shown, context);
     }
     if let Err(why) = refresh(&file, context) {
-        context.view.recorded.set = None;
+        (context.view.recorded.set, context.view.recorded.ranked) = (None, None);
         return sentence(ui, body, &format!("{}: {why}.", file.name), true, context);
     }
-    let Some(ranked) = recorded::ranked(&context.scene, context.view) else { return };
+    let Some((set, ranked)) = context.view.recorded.ranked.clone() else {
+        return sentence(ui, body, "Fitting the cameras…", false, context);
+    };
     if let Some((name, fit)) = recorded::chosen(&ranked, context.view) {
-        return ranking_and_residuals(ui, body, &file, &ranked, (name, fit), context);
+        return ranking_and_residuals(ui, body, &file, (&set, &ranked), (name, fit), context);
     }
     let why = ranked.first().and_then(|camera| camera.fit.as_ref().err());
     let why = why.map_or_else(|| "there are no cameras".to_owned(), ToString::to_string);
     sentence(ui, body, &format!("{}: {why}.", file.name), true, context);
 }
 
-/// Brings the patches on show up to date with the file, chart and light.
-fn refresh(file: &RecordedFile, context: &mut PaneContext<'_>) -> Result<(), String> {
-    let light = context.scene.light().map_err(|error| error.to_string())?;
-    let chart = if file.needs_chart() {
-        context.scene.patch_radiances().map_err(|error| error.to_string())?
-    } else {
-        Vec::new()
-    };
+/// Updates the current patches after changes of file, chart and light, and takes in their ranking.
+fn refresh(file: &Arc<RecordedFile>, context: &mut PaneContext<'_>) -> Result<(), String> {
+    let scene = context.scene;
     let view = &mut context.view.recorded;
-    let corners = <[[f64; 2]; 4]>::try_from(view.corners.as_slice()).unwrap_or_default();
-    let clip = if view.clip > 0.0 { view.clip } else { f64::INFINITY };
-    let patches = file.patches(&chart, &light.grid, corners, Levels { black: 0.0, clip })?;
-    let patches = Shared::new(patches);
-    // The old value keeps comparisons of questions to one pointer.
-    if view.set.as_ref() != Some(&patches) {
-        view.set = Some(patches);
+    let chart = file.needs_chart().then(|| scene.patches()).transpose().map_err(|error| error.to_string())?;
+    let inputs = RecordedInputs {
+        file: Arc::clone(file),
+        chart,
+        light: scene.light().map_err(|error| error.to_string())?.grid,
+        corners: view.corners.clone(),
+        // The level is that of a table's numbers; a picture's pixels are clipped at full scale.
+        clip: if matches!(file.content, RecordedContent::Picture(..)) { 0.0 } else { view.clip },
+    };
+    let now = view.set.as_ref().filter(|(of, _)| *of == inputs);
+    let set = match now {
+        Some((_, set)) => set.clone(),
+        None => Shared::new(patches(&scene, &inputs)?),
+    };
+    if view.set.as_ref().is_none_or(|(of, _)| !Arc::ptr_eq(&of.file, file)) {
+        view.ranked = None;
+    }
+    view.set = Some((inputs, set.clone()));
+    let query = scene.recorded_ranking(&set, view.freedom, &[]).map_err(|error| error.to_string())?;
+    if let Some(made) = context.ranking.recorded(query)?.filter(|made| made.current) {
+        let ranked = made.answer.as_ref().as_ref().map_err(ToString::to_string)?;
+        view.ranked = Some((set, Arc::clone(ranked)));
     }
     Ok(())
 }
 
-/// Opening a file, and what is fitted.
+/// Patches with spectra and raw values.
+fn patches(scene: &Scene<'_>, inputs: &RecordedInputs) -> Result<Vec<RecordedPatch>, String> {
+    let chart =
+        if inputs.chart.is_some() { scene.patch_radiances().map_err(|error| error.to_string())? } else { Vec::new() };
+    let corners = <[[f64; 2]; 4]>::try_from(inputs.corners.as_slice()).unwrap_or_default();
+    let clip = if inputs.clip > 0.0 { inputs.clip } else { f64::INFINITY };
+    inputs.file.patches(&chart, &inputs.light, corners, Levels { black: 0.0, clip })
+}
+
+/// Buttons to open a file, and the fit's settings.
 fn switches(ui: &mut Ui, context: &mut PaneContext<'_>) {
     if ui.button("Open…").on_hover_text("Open raw values: a table, or a linear 16-bit picture of a chart").clicked() {
         context.push(Command::OpenRecorded);
@@ -110,7 +135,7 @@ fn switches(ui: &mut Ui, context: &mut PaneContext<'_>) {
     ui.add(clip).on_hover_text("Raw value from which on a channel is clipped and excluded; 0 for none");
 }
 
-/// Words in the pane's middle, and the way to a file.
+/// A message in the pane's center, with a button to open a file.
 fn sentence(ui: &mut Ui, body: Rect, words: &str, open: bool, context: &mut PaneContext<'_>) {
     let place = Rect::from_center_size(body.center(), Vec2::new(body.width().min(460.0), 140.0)).intersect(body);
     let layout = egui::Layout::top_down(egui::Align::Center);
@@ -158,17 +183,16 @@ fn ranking_and_residuals(
     ui: &mut Ui,
     body: Rect,
     file: &RecordedFile,
-    ranked: &[RankedCamera],
+    (set, ranked): (&RecordedSet, &[RankedCamera]),
     (name, fit): (&str, &RecordedFit),
     context: &mut PaneContext<'_>,
 ) {
-    let names: Vec<String> =
-        context.view.recorded.set.iter().flat_map(|set| set.iter()).map(|p| p.name.clone()).collect();
+    let names: Vec<String> = set.iter().map(|patch| patch.name.clone()).collect();
     let top = words(ui, body, file, name, fit, &names, context);
     let body = Rect::from_min_max(egui::pos2(body.left(), top), body.max);
     let (plot, list) = body.split_top_bottom_at_fraction(0.55);
     if context.view.saved.tables.contains(&PaneKind::RECORDED) {
-        if let Some(figure) = recorded::figure(&context.scene, context.view) {
+        if let Some(figure) = recorded::figure(context.view) {
             widgets::table::show_numbers(ui, plot, PaneKind::RECORDED, &figure.table, context);
         }
     } else {

@@ -51,8 +51,10 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let id = ui.scope_id().with("render orbit");
     let response = ui.interact(body, id, Sense::click_and_drag());
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Canvas, true, "Rendered pictures"));
-    orbit::by_pointer(ui, &response, context);
-    orbit::by_keys(ui, &response, context);
+    if !context.scene.document.render.mesh.is_image() {
+        orbit::by_pointer(ui, &response, context);
+        orbit::by_keys(ui, &response, context);
+    }
     if let Err(words) = asked {
         context.studio.hide();
         say(&painter, body, &words, context);
@@ -69,7 +71,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     }
 }
 
-/// What stands in place of pictures.
+/// Draws a message in place of pictures.
 fn say(painter: &egui::Painter, body: Rect, words: &str, context: &PaneContext<'_>) {
     let galley = painter.layout(
         words.to_owned(),
@@ -81,7 +83,7 @@ fn say(painter: &egui::Painter, body: Rect, words: &str, context: &PaneContext<'
     painter.galley(at, galley, context.theme.surround.label());
 }
 
-/// The pixel under the pointer is read; a click keeps it, a double click shows its source alone or all again.
+/// Shows values of the pixel under the pointer; a click pins it, a double click shows its sensor alone or all again.
 fn point_at(ui: &Ui, response: &egui::Response, stand: &PictureLayout, context: &mut PaneContext<'_>) {
     let Some(pointer) = response.hover_pos() else { return };
     let Some((cell, at)) = stand.place_at(pointer) else { return };

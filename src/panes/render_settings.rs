@@ -1,9 +1,9 @@
 //! Settings of the render: mesh, material, surface, light, view; and the pixel that is read.
 
+mod image;
 mod material;
 mod pixel;
 mod scene;
-mod statistics;
 mod surface;
 mod view;
 
@@ -46,7 +46,9 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let body = widgets::pane(ui, &PANE, rect, context, |_, _| {});
     let sources = context.scene.rendered_sources().len();
     let kept = context.view.render.pinned.is_some();
-    let foot = if kept { PIXEL + PIXEL_LINE * sources.min(PIXEL_LINES) as f32 } else { NO_PIXEL };
+    let spectrum =
+        if context.scene.document.render.mesh.is_image() { widgets::pixel_spectrum::HEIGHT + UNIT } else { 0.0 };
+    let foot = if kept { PIXEL + PIXEL_LINE * sources.min(PIXEL_LINES) as f32 + spectrum } else { NO_PIXEL };
     let below = if body.height() > WITH_PIXEL { foot } else { 0.0 };
     let groups = Rect::from_min_max(body.min, egui::pos2(body.right(), body.bottom() - below));
     let inner = groups.shrink2(Vec2::new(2.0 * UNIT, 0.0));
@@ -56,12 +58,12 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
         ui.set_max_width(inner.width() - 2.0 * UNIT);
         ui.spacing_mut().item_spacing.y = 0.5 * UNIT;
         group(ui, "Mesh and light", true, context, scene::show);
-        group(ui, "Surface", true, context, surface::show);
+        let no_surface = "A spectral image has no surface.";
+        group(ui, "Surface", true, context, |ui, context| unless_image(ui, no_surface, context, surface::show));
         group(ui, "View", true, context, view::show);
         if below == 0.0 {
             group(ui, "Pixel", true, context, pixel::show);
         }
-        group(ui, "Statistics", false, context, statistics::show);
         ui.add_space(2.0 * UNIT);
     });
     if below > 0.0 {
@@ -83,6 +85,20 @@ fn group(
     content: impl FnOnce(&mut Ui, &mut PaneContext<'_>),
 ) {
     CollapsingHeader::new(words).id_salt(words).default_open(open).show(ui, |ui| content(ui, context));
+}
+
+/// Controls that do nothing for a spectral image: dim then, below the reason.
+fn unless_image(
+    ui: &mut Ui,
+    reason: &str,
+    context: &mut PaneContext<'_>,
+    content: impl FnOnce(&mut Ui, &mut PaneContext<'_>),
+) {
+    let is_image = context.scene.document.render.mesh.is_image();
+    if is_image {
+        caption(ui, reason, context);
+    }
+    ui.add_enabled_ui(!is_image, |ui| content(ui, context));
 }
 
 /// Changes the settings; changes of the same name during one drag are one step.
@@ -147,6 +163,7 @@ impl Dial<'_> {
             slider = slider.logarithmic(true).smallest_positive(least);
         }
         let response = ui.put(rect, slider).on_hover_text(self.hint);
+        widgets::take_sought(&response, self.name);
         response.widget_info(|| egui::WidgetInfo::slider(true, *value, self.name));
         response.changed()
     }
@@ -189,7 +206,7 @@ fn short(value: f64) -> String {
     crate::format::number(short_value(value))
 }
 
-/// Three digits: what a drag can mean, and what can be read.
+/// Three digits: the precision of a drag and of reading.
 fn short_value(value: f64) -> f64 {
     if value == 0.0 || !value.is_finite() {
         return 0.0;

@@ -5,6 +5,7 @@ use egui::{Align2, ComboBox, FontId, Id, Rect, ScrollArea, Ui, UiBuilder, Vec2};
 use super::context::{Pane, PaneContext};
 use crate::document::SetKind;
 use crate::figures::report_card;
+use crate::format::sentence;
 use crate::paint::{self, PlotOptions};
 use crate::panes::widgets;
 use crate::plot_item::SensorId;
@@ -29,11 +30,21 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let body = widgets::pane(ui, &PANE, rect, context, choose);
     let body = Rect::from_min_max(body.min + Vec2::new(2.0 * UNIT, 0.0), body.max - Vec2::new(2.0 * UNIT, UNIT));
     let width = f64::from(body.width().max(NARROWEST));
-    let Some(page) = report_card::page(&context.scene, context.view, width) else {
+    let say = |words: &str, ink| {
         let font = FontId::proportional(crate::theme::TEXT);
-        let words = "Tick a camera in the Library.";
-        ui.painter().text(body.center(), Align2::CENTER_CENTER, words, font, context.theme.weak);
+        ui.painter().text(body.center(), Align2::CENTER_CENTER, words, font, ink);
+    };
+    let Some(camera) = report_card::camera(&context.scene, context.view) else {
+        say("Tick a camera in the Library.", context.theme.weak);
         return;
+    };
+    let page = match context.ranking.card(&context.scene, &camera) {
+        Ok(Some(metrics)) => report_card::page(&context.scene, &camera, &metrics, width),
+        Ok(None) => return,
+        Err(why) => {
+            say(&sentence(&why), context.theme.error);
+            return;
+        }
     };
     if context.view.saved.tables.contains(&PaneKind::REPORT_CARD) {
         widgets::table::show_numbers(ui, body, PaneKind::REPORT_CARD, &page.table, context);

@@ -1,7 +1,8 @@
 //! All conditions in one bar: reference, light, temperature, patches, white balance, color transform, difference.
 
+use chromascope_core::colorimetry::Metric;
 use chromascope_core::correction::CorrectionMethod;
-use egui::{Align, ComboBox, Layout, Rect, RichText, Sense, Slider, Ui, UiBuilder, Vec2};
+use egui::{Align, Layout, Rect, RichText, Sense, Slider, Ui, UiBuilder, Vec2};
 
 use super::context::PaneContext;
 use crate::action::{Action, CompareAction, SceneAction};
@@ -9,10 +10,15 @@ use crate::document::correction::CorrectionChoice;
 use crate::document::{Light, SetKind, Subset, TransformChoice, WhiteBalanceChoice};
 use crate::format::signed;
 use crate::panes::widgets::number_field::NumberField;
+use crate::panes::widgets::pick_list::{self, Line};
 use crate::theme::{ROW, UNIT};
+use crate::view::View;
+use crate::workspaces::PaneKind;
 
 /// Temperatures of the slider, in mired from hot to cold; the slider runs like the strip, cold at the left.
 const MIRED: [f64; 2] = [50.0, 1000.0];
+/// Opacity of a control that does nothing in the workspace.
+const DIM: f32 = 0.45;
 /// Below this width the difference is chosen in the View menu.
 const WITH_DIFFERENCE: f32 = 1100.0;
 
@@ -26,71 +32,135 @@ pub fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     bar.set_clip_rect(rect.intersect(ui.clip_rect()));
     bar.spacing_mut().item_spacing.x = 3.0 * UNIT;
     let compact = if wide { 1.0 } else { 0.78 };
-    field(&mut bar, "Reference", 200.0 * compact, context, reference);
+    field(&mut bar, (Condition::Reference, "Reference"), 200.0 * compact, context, reference);
     let caption = light_caption(context);
-    captioned(&mut bar, ("Light", &caption), 148.0 * compact, context, light);
-    field(&mut bar, temperature_caption(context, wide), slider + 74.0, context, |ui, context| {
+    field(&mut bar, (Condition::Light, &caption), 148.0 * compact, context, light);
+    let caption = temperature_caption(context, wide);
+    field(&mut bar, (Condition::Temperature, caption), slider + 74.0, context, |ui, context| {
         temperature(ui, slider, context);
     });
-    field(&mut bar, "Patches", 196.0 * compact, context, patches);
-    field(&mut bar, "White balance", 108.0 * compact, context, white);
-    field(&mut bar, "Color transform", 146.0 * compact, context, transform);
+    field(&mut bar, (Condition::Patches, "Patches"), 196.0 * compact, context, patches);
+    field(&mut bar, (Condition::White, "White balance"), 108.0 * compact, context, white);
+    field(&mut bar, (Condition::Transform, "Color transform"), 146.0 * compact, context, transform);
     if wide {
-        field(&mut bar, "Difference", 90.0, context, difference);
+        field(&mut bar, (Condition::Difference, "Difference"), 90.0, context, difference);
     }
 }
 
-/// A caption above a control of a fixed width, so that nothing moves when a value changes.
-fn field(
-    ui: &mut Ui,
-    caption: &str,
-    width: f32,
-    context: &mut PaneContext<'_>,
-    control: impl FnOnce(&mut Ui, &mut PaneContext<'_>),
-) {
-    captioned(ui, (caption, caption), width, context, control);
+/// A condition of the scene.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+enum Condition {
+    Reference,
+    Light,
+    Temperature,
+    Patches,
+    White,
+    Transform,
+    Difference,
 }
 
-/// The same with a caption that changes, under an id that does not.
-fn captioned(
+impl Condition {
+    /// True if a pane shows something that depends on it.
+    fn matters_to(self, pane: PaneKind, view: &View, light: &Light) -> bool {
+        // A light of its own has its own temperature: what is set marks the loci alone.
+        let is_of_light = self != Self::Temperature || !matches!(light, Light::Set(_));
+        match pane {
+            PaneKind::LIBRARY | PaneKind::IMPORT | PaneKind::CURVES | PaneKind::INTERPRETATION => false,
+            PaneKind::INSPECTOR => view.selected.is_some() || !view.pinned.is_empty(),
+            PaneKind::SPECTRA => {
+                is_of_light && matches!(self, Self::Reference | Self::Light | Self::Temperature | Self::Patches)
+            }
+            PaneKind::RENDER | PaneKind::RENDER_SETTINGS | PaneKind::TOLERANCE | PaneKind::STATISTICS => {
+                is_of_light && self != Self::Patches
+            }
+            PaneKind::METHODS | PaneKind::WORK_SAVED => is_of_light && self != Self::Difference,
+            _ => true,
+        }
+    }
+
+    /// True if a pane of the workspace shows something that depends on it.
+    fn matters(self, context: &PaneContext<'_>) -> bool {
+        let (view, light) = (&*context.view, &context.scene.document.light);
+        let places = view.saved.layout.places(view.saved.workspace).iter().flatten();
+        places.copied().any(|pane| self.matters_to(pane, view, light))
+    }
+}
+
+/// A caption above a control of a fixed width, so that nothing moves when a value changes; dim where the control does nothing in
+/// the workspace.
+fn field(
     ui: &mut Ui,
-    (id, caption): (&str, &str),
+    (condition, caption): (Condition, &str),
     width: f32,
     context: &mut PaneContext<'_>,
     control: impl FnOnce(&mut Ui, &mut PaneContext<'_>),
 ) {
+    let id = format!("{condition:?}");
+    let matters = condition.matters(context);
     let (rect, _) = ui.allocate_exact_size(Vec2::new(width, ui.available_height()), Sense::hover());
     let top = Rect::from_min_size(rect.min + Vec2::new(0.0, 2.0), Vec2::new(width + 2.0 * UNIT, 14.0));
-    let mut head = ui.new_child(UiBuilder::new().id_salt((id, "head")).max_rect(top));
+    let mut head = ui.new_child(UiBuilder::new().id_salt((&id, "head")).max_rect(top));
+    if !matters {
+        head.set_opacity(DIM);
+    }
     head.label(RichText::new(caption).small().color(context.theme.weak));
     let below = Rect::from_min_size(rect.min + Vec2::new(0.0, 18.0), Vec2::new(width, ROW));
     let layout = Layout::left_to_right(Align::Center);
-    let mut body = ui.new_child(UiBuilder::new().id_salt(id).max_rect(below).layout(layout));
+    let mut body = ui.new_child(UiBuilder::new().id_salt(&id).max_rect(below).layout(layout));
     body.spacing_mut().item_spacing.x = UNIT;
+    if !matters {
+        body.set_opacity(DIM);
+        let name = context.view.saved.workspace.title();
+        let place = ui.interact(rect, ui.scope_id().with((&id, "dim")), Sense::hover());
+        place.on_hover_text(format!("{caption}: no effect on the panes of {name}"));
+    }
     control(&mut body, context);
 }
 
-/// A list to choose from, as wide as its field, with a name for those who cannot see the caption.
-fn choice(ui: &mut Ui, name: &str, hint: &str, shown: &str, list: impl FnOnce(&mut Ui)) {
+/// A list to choose from, as wide as its field. Returns the line that was chosen.
+fn choice(
+    ui: &mut Ui,
+    name: &str,
+    hint: &str,
+    shown: &str,
+    context: &PaneContext<'_>,
+    lines: impl FnOnce() -> Vec<Line>,
+) -> Option<usize> {
     let width = ui.available_width();
-    let combo = ComboBox::from_id_salt(name).width(width).truncate().selected_text(shown);
-    let response = combo.show_ui(ui, list).response;
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::ComboBox, true, format!("{name}: {shown}")));
-    response.on_hover_text(format!("{hint}\nNow: {shown}"));
+    pick_list::drop_down(ui, (name, hint), shown, width, &context.theme, lines)
+}
+
+/// A list of what can be set, each with its action. Pushes the one that was chosen.
+fn actions(
+    ui: &mut Ui,
+    (name, hint): (&str, &str),
+    shown: &str,
+    context: &mut PaneContext<'_>,
+    all: impl FnOnce(&PaneContext<'_>) -> Vec<(Line, Option<Action>)>,
+) {
+    let mut made = Vec::new();
+    let chosen = choice(ui, name, hint, shown, context, || {
+        let (lines, actions): (Vec<_>, Vec<_>) = all(context).into_iter().unzip();
+        made = actions;
+        lines
+    });
+    if let Some(action) = chosen.and_then(|index| made.swap_remove(index)) {
+        context.push(action);
+    }
 }
 
 fn reference(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let now = context.scene.document.reference.clone();
-    // A name that is cut tells two observers apart less well than a short one.
+    // A truncated name distinguishes two observers less well than a short one.
     let entry = context.scene.entry(SetKind::Observer, &now).ok().filter(|_| ui.available_width() < 180.0);
     let shown = entry.map_or_else(|| now.clone(), |entry| entry.short);
-    choice(ui, "Reference", "The observer that cameras are compared with.", &shown, |ui| {
-        for entry in context.scene.entries(SetKind::Observer) {
-            if ui.selectable_label(entry.name == now, &entry.name).clicked() {
-                let counts_in_xyz = entry.counts_in_xyz();
-                context.push(Action::Compare(CompareAction::SetReference { name: entry.name, counts_in_xyz }));
-            }
-        }
+    actions(ui, ("Reference", "The observer that cameras are compared with."), &shown, context, |context| {
+        let observers = context.scene.entries(SetKind::Observer).map(|entry| {
+            let counts_in_xyz = entry.counts_in_xyz();
+            let line = Line { also: entry.also.unwrap_or_default(), ..Line::new(&entry.name, entry.name == now) };
+            (line, Some(Action::Compare(CompareAction::SetReference { name: entry.name, counts_in_xyz })))
+        });
+        observers.collect()
     });
 }
 
@@ -121,28 +191,27 @@ fn light(ui: &mut Ui, context: &mut PaneContext<'_>) {
     if let Ok(Ok(cct)) = context.scene.light_temperature() {
         hint.extend(["\nDuv ", &signed(cct.duv)]);
     }
-    let filtered = !filters.is_empty();
-    choice(ui, "Light", &hint, &shown, |ui| {
-        if filtered && ui.button("Remove filters").clicked() {
-            context.push(Action::Scene(SceneAction::ClearFilters));
-        }
-        let mut offer = |ui: &mut Ui, light: Light, words: &str| {
-            if ui.selectable_label(now == light, words).clicked() {
-                context.commands.push(Action::Scene(SceneAction::SetLight(light)).into());
-            }
+    actions(ui, ("Light", &hint), &shown, context, |context| {
+        let offer = |light: Light, words: String| {
+            (Line::new(words, now == light), Some(Action::Scene(SceneAction::SetLight(light))))
         };
-        offer(ui, Light::BlackBody, "Blackbody at the temperature");
-        offer(ui, Light::Daylight, "Daylight at the temperature, 4000–20000 K");
-        ui.separator();
-        for entry in context.scene.entries(SetKind::Illuminant) {
+        let mut all = Vec::new();
+        if !context.scene.document.filters.is_empty() {
+            all.push((Line::new("Remove filters", false), Some(Action::Scene(SceneAction::ClearFilters))));
+        }
+        all.push((Line::heading("At the temperature"), None));
+        all.push(offer(Light::BlackBody, "Blackbody at the temperature".to_owned()));
+        all.push(offer(Light::Daylight, "Daylight at the temperature, 4000–20000 K".to_owned()));
+        all.push((Line::heading("Illuminants"), None));
+        all.extend(context.scene.entries(SetKind::Illuminant).map(|entry| {
             let words =
                 entry.also.as_ref().map_or_else(|| entry.name.clone(), |also| format!("{}, {also}", entry.name));
-            offer(ui, Light::Set(entry.name), &words);
-        }
+            offer(Light::Set(entry.name), words)
+        }));
+        all
     });
 }
 
-/// What the temperature is of.
 fn temperature_caption(context: &PaneContext<'_>, wide: bool) -> &'static str {
     match context.scene.document.light {
         Light::Set(_) if !wide => "Temperature",
@@ -163,7 +232,7 @@ fn temperature(ui: &mut Ui, slider_width: f32, context: &mut PaneContext<'_>) {
     slider.widget_info(|| egui::WidgetInfo::slider(true, now, "Temperature, evenly in mired"));
     if slider.changed() {
         let kelvin = 1e6 / mired;
-        // To ten kelvins: what a drag can mean, and what can be read.
+        // To ten kelvins: the precision of a drag and of reading.
         set = Some((kelvin / 10.0).round() * 10.0);
     }
     slider.on_hover_text("Drag: evenly in mired (10⁶/T), as in the strip below the diagram");
@@ -192,22 +261,22 @@ fn patches(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let five = document.subset == Subset::Five && context.scene.has_five();
     let short = context.scene.chart_entry(&now).map_or_else(|_| now.clone(), |entry| entry.short);
     let shown = if five { format!("Five of {short}") } else { short };
-    choice(ui, "Patches", "The reflectances shown: charts, skin, leaves, yours.", &shown, |ui| {
-        for kind in [SetKind::Chart, SetKind::Material] {
-            for entry in context.scene.entries(kind) {
-                if ui.selectable_label(entry.name == now, &entry.name).clicked() {
-                    context.push(Action::Scene(SceneAction::SetChart(entry.name)));
-                }
-            }
-            ui.separator();
-        }
+    let hint = "The reflectances shown: charts, skin, leaves, yours.";
+    actions(ui, ("Patches", hint), &shown, context, |context| {
+        let set = |action: SceneAction| Some(Action::Scene(action));
+        let mut all = Vec::new();
         if context.scene.has_five() {
-            let mut on = five;
-            if ui.checkbox(&mut on, "Only the paper's five").changed() {
-                let subset = if on { Subset::Five } else { Subset::All };
-                context.push(Action::Scene(SceneAction::SetSubset(subset)));
-            }
+            all.push((Line::new("The paper's five", five), set(SceneAction::SetSubset(Subset::Five))));
+            all.push((Line::new("All of the chart", !five), set(SceneAction::SetSubset(Subset::All))));
         }
+        for (kind, words) in [(SetKind::Chart, "Charts"), (SetKind::Material, "Single reflectances")] {
+            all.push((Line::heading(words), None));
+            all.extend(context.scene.entries(kind).map(|entry| {
+                let line = Line { also: entry.also.unwrap_or_default(), ..Line::new(&entry.name, entry.name == now) };
+                (line, set(SceneAction::SetChart(entry.name)))
+            }));
+        }
+        all
     });
 }
 
@@ -221,20 +290,21 @@ fn white(ui: &mut Ui, context: &mut PaneContext<'_>) {
     };
     let hint = "White-balance target: the RGB that a perfect diffuser under the light is mapped to (Eq 11). With a \
                 fitted color transform it changes camera RGB only; the matrix compensates for it.";
-    choice(ui, "White balance", hint, &shown, |ui| {
-        let mut offer = |ui: &mut Ui, white: WhiteBalanceChoice, words: &str| {
-            if ui.selectable_label(now == white, words).clicked() {
-                context.commands.push(Action::Scene(SceneAction::SetWhite(white)).into());
-            }
+    actions(ui, ("White balance", hint), &shown, context, |context| {
+        let offer = |white: WhiteBalanceChoice, words: String| {
+            (Line::new(words, now == white), Some(Action::Scene(SceneAction::SetWhite(white))))
         };
         let kelvin = context.scene.document.temperature_k;
-        offer(ui, WhiteBalanceChoice::Unity, "Unity, 1 : 1 : 1 (the paper's experiments 1 and 2)");
-        offer(ui, WhiteBalanceChoice::Daylight(kelvin.max(4000.0)), &format!("Daylight {:.0} K", kelvin.max(4000.0)));
-        offer(ui, WhiteBalanceChoice::BlackBody(kelvin), &format!("Blackbody {kelvin:.0} K"));
-        ui.separator();
-        for entry in context.scene.entries(SetKind::Illuminant) {
-            offer(ui, WhiteBalanceChoice::Light(entry.name.clone()), &entry.name);
-        }
+        let daylight = kelvin.max(4000.0);
+        let mut all = vec![
+            offer(WhiteBalanceChoice::Unity, "Unity, 1 : 1 : 1 (the paper's experiments 1 and 2)".to_owned()),
+            offer(WhiteBalanceChoice::Daylight(daylight), format!("Daylight {daylight:.0} K")),
+            offer(WhiteBalanceChoice::BlackBody(kelvin), format!("Blackbody {kelvin:.0} K")),
+            (Line::heading("Illuminants"), None),
+        ];
+        let lights = context.scene.entries(SetKind::Illuminant);
+        all.extend(lights.map(|entry| offer(WhiteBalanceChoice::Light(entry.name.clone()), entry.name)));
+        all
     });
 }
 
@@ -251,25 +321,23 @@ fn transform(ui: &mut Ui, context: &mut PaneContext<'_>) {
                 matrix of Eq 13, CIE observers directly. Fitted: a 3×3 matrix for each sensor, fitted to a CIE \
                 observer over 190 training reflectances under the light, or another correction; training \
                 reflectances and weights are chosen in the pane Correction.";
-    choice(ui, "Color transform", hint, &shown, |ui| {
-        if ui.selectable_label(now == TransformChoice::Paper, "Paper matrix (Eq 13)").clicked() {
-            context.push(Action::Scene(SceneAction::SetWay(TransformChoice::Paper)));
-        }
-        ui.separator();
+    actions(ui, ("Color transform", hint), &shown, context, |context| {
+        let set = |action: SceneAction| Some(Action::Scene(action));
+        let paper = Line::new("Paper matrix (Eq 13)", now == TransformChoice::Paper);
+        let mut all = vec![(paper, set(SceneAction::SetWay(TransformChoice::Paper)))];
+        all.push((Line::heading("Fitted to an observer"), None));
         for entry in context.scene.entries(SetKind::Observer).filter(crate::catalog::Entry::counts_in_xyz) {
             let transform = TransformChoice::Observer(entry.name.clone());
-            if ui.selectable_label(now == transform, format!("Fitted to {}", entry.name)).clicked() {
-                context.push(Action::Scene(SceneAction::SetWay(transform)));
-            }
+            let line = Line::new(format!("Fitted to {}", entry.name), now == transform);
+            all.push((line, set(SceneAction::SetWay(transform))));
         }
-        ui.separator();
+        all.push((Line::heading("Method of the fit"), None));
         for method in CorrectionMethod::ALL {
             let chosen = !now.is_eq_13() && correction.method == method;
-            if ui.selectable_label(chosen, method.label()).clicked() {
-                let correction = CorrectionChoice { method, ..correction.clone() };
-                context.push(Action::Scene(SceneAction::SetCorrection(correction)));
-            }
+            let correction = CorrectionChoice { method, ..correction.clone() };
+            all.push((Line::new(method.label(), chosen), set(SceneAction::SetCorrection(correction))));
         }
+        all
     });
 }
 
@@ -283,12 +351,11 @@ fn difference(ui: &mut Ui, context: &mut PaneContext<'_>) {
         }
         TransformChoice::Observer(_) => "Metric of the difference from the reference.",
     };
-    choice(ui, "Difference", hint, now.name(transform.is_eq_13()), |ui| {
-        for metric in transform.metrics() {
-            let name = metric.name(transform.is_eq_13());
-            if ui.selectable_label(now == metric, name).on_hover_text(metric.label).clicked() {
-                context.push(Action::Scene(SceneAction::SetDifference(metric)));
-            }
-        }
+    actions(ui, ("Difference", hint), now.name(transform.is_eq_13()), context, |_| {
+        let offer = |metric: Metric| {
+            let line = Line::new(metric.name(transform.is_eq_13()), now == metric);
+            (Line { note: metric.label.to_owned(), ..line }, Some(Action::Scene(SceneAction::SetDifference(metric))))
+        };
+        transform.metrics().into_iter().map(offer).collect()
     });
 }

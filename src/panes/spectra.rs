@@ -65,6 +65,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
 fn panels_in(ui: &mut Ui, area: Rect, context: &mut PaneContext<'_>) {
     let size = [f64::from(area.width()), f64::from(area.height())];
     let built = spectra::build(&context.scene, context.view, size);
+    widgets::walk::along(ui, PaneKind::SPECTRA, context, widgets::walk::curves);
     let mut cursor = None;
     let mut plots = Vec::new();
     for panel in &built.panels {

@@ -1,4 +1,5 @@
-//! The foot of the window: the last message or what the pointer is on; at the right, how the numbers came about.
+//! The foot of the window: at the left the reading under the pointer; at the right the last message, else how the numbers came
+//! about.
 
 use std::time::Duration;
 
@@ -9,21 +10,31 @@ use super::context::PaneContext;
 use crate::catalog::opened::Progress;
 use crate::command::Command;
 use crate::document::SetKind;
+use crate::figures::render::image_words;
 use crate::format::fixed;
 use crate::panes::widgets::lines;
 use crate::plot_item::{PlotItem, SensorId};
+use crate::render_service::made::MadePictures;
 use crate::theme::UNIT;
-use crate::view::Weight;
+use crate::view::{Status, Weight};
 use crate::workspaces::{Arrangement, PaneKind};
 
 /// Text of the bar when there is nothing else.
 const READY: &str = "Ready. Drop a spectrum or camera file anywhere.";
-/// Pictures that take longer are told of.
+/// Rendering time above which progress is shown.
 const LONG: Duration = Duration::from_millis(500);
-/// Files that take longer are told of.
+/// Reading time above which progress is shown.
 const PATIENCE: Duration = Duration::from_millis(100);
 /// The width of the button after a message.
 const CHANGE: f32 = 76.0;
+/// Share of the bar that readings have; messages and facts have the rest, so that neither moves the other.
+const READINGS: f32 = 0.5;
+/// Seconds that a message is shown; warnings and errors stay until Esc or the next message.
+const MESSAGE: f64 = 6.0;
+/// Seconds of those in which it fades.
+const FADE: f64 = 0.5;
+/// Time between frames while it fades.
+const FRAME: Duration = Duration::from_millis(16);
 /// Tooltip of the facts at the right.
 const FACTS: &str = "Computation time of the last change; largest error of the visible loci, relative to the largest \
                      signal and checked against sums at 1 nm; number of cameras computed. What is not visible is not \
@@ -35,10 +46,32 @@ const RENDER_FACTS: &str = "Time of the last rendering stage; error of integrals
 /// Shows the bar in its rectangle.
 pub fn show(ui: &mut Ui, rect: Rect, arrangement: &Arrangement, context: &mut PaneContext<'_>) {
     let inner = rect.shrink2(Vec2::new(2.0 * UNIT, 0.0));
+    let cut = (inner.left() + READINGS * inner.width()).round();
+    reading(ui, inner.with_max_x(cut - 2.0 * UNIT), context);
+    let right = inner.with_min_x(cut + 2.0 * UNIT);
+    if !message(ui, right, context) {
+        show_facts(ui, right, arrangement, context);
+    }
+}
+
+/// Value or name of what is under the pointer, else an invitation.
+fn reading(ui: &mut Ui, rect: Rect, context: &PaneContext<'_>) {
+    let view = &*context.view;
+    let hovered = || view.hovered.as_ref().map(|thing| describe(thing, context));
+    let words = view.point.clone().or_else(hovered).unwrap_or_else(|| READY.to_owned());
+    let cut = lines::elided(ui, rect, &words, TextStyle::Body, context.theme.text);
+    let response = ui.interact(rect, ui.scope_id().with("reading"), egui::Sense::hover());
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, &words));
+    if cut {
+        response.on_hover_text(words);
+    }
+}
+
+fn show_facts(ui: &mut Ui, rect: Rect, arrangement: &Arrangement, context: &PaneContext<'_>) {
     let words = facts(arrangement, context).join("   ");
-    let width = lines::right_aligned(ui, inner, &words, TextStyle::Small, context.theme.weak);
-    let right = Rect::from_min_max(egui::pos2(inner.right() - width, inner.top()), inner.max);
-    let response = ui.interact(right, ui.scope_id().with("facts"), egui::Sense::hover());
+    let width = lines::right_aligned(ui, rect, &words, TextStyle::Small, context.theme.weak);
+    let response =
+        ui.interact(rect.with_min_x(rect.right() - width), ui.scope_id().with("facts"), egui::Sense::hover());
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, &words));
     response.on_hover_text(
         if context.studio.frame().is_some() && arrangement.panes.iter().any(|(pane, _)| *pane == PaneKind::RENDER) {
@@ -47,41 +80,33 @@ pub fn show(ui: &mut Ui, rect: Rect, arrangement: &Arrangement, context: &mut Pa
             FACTS
         },
     );
-    let left = Rect::from_min_max(inner.min, egui::pos2(right.left() - 4.0 * UNIT, inner.bottom()));
-    message(ui, left, context);
 }
 
-/// The left side: the message, else the thing under the pointer, else an invitation.
-fn message(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
+/// The files being read, else the last message while it lasts. Returns whether there is one.
+fn message(ui: &mut Ui, mut rect: Rect, context: &mut PaneContext<'_>) -> bool {
     let theme = context.theme;
-    let status = context.view.status.clone();
     if let Some(progress) = context.opened.progress() {
         if progress.time >= PATIENCE {
-            reading(ui, rect, &progress, context);
-            return;
+            file_progress(ui, rect, &progress, context);
+            return true;
         }
         ui.ctx().request_repaint_after(PATIENCE);
     }
-    let mut rest = rect;
-    let (words, color) = if !status.text.is_empty() {
-        let color = match status.weight {
-            Weight::Note => theme.text,
-            Weight::Warning => theme.warning,
-            Weight::Error => theme.error,
-        };
-        if status.weight != Weight::Note {
-            lines::warning_mark(ui.painter(), egui::pos2(rest.left() + 7.0, rest.center().y), color);
-            rest.min.x += 5.0 * UNIT;
-        }
-        (status.text.clone(), color)
-    } else if let Some(point) = context.view.point.clone() {
-        (point, theme.text)
-    } else if let Some(thing) = context.view.hovered.clone() {
-        (describe(&thing, context), theme.text)
-    } else {
-        (READY.to_owned(), theme.text)
+    let opacity = remaining(ui, rect, context);
+    let status = context.view.status.clone();
+    if status.text.is_empty() {
+        return false;
+    }
+    let color = match status.weight {
+        Weight::Note => theme.text.gamma_multiply(opacity),
+        Weight::Warning => theme.warning,
+        Weight::Error => theme.error,
     };
-    let button = status.change.filter(|_| !status.text.is_empty()).map(|(item, line)| {
+    if status.weight != Weight::Note {
+        lines::warning_mark(ui.painter(), egui::pos2(rect.left() + 7.0, rect.center().y), color);
+        rect.min.x += 5.0 * UNIT;
+    }
+    let button = status.change.map(|(item, line)| {
         let (title, hint) = if status.weight == Weight::Error {
             ("Show line", "Show the text where reading failed")
         } else {
@@ -89,7 +114,31 @@ fn message(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
         };
         (title, hint, Command::ShowImport(item, line))
     });
-    line(ui, rest, &words, color, button, context);
+    line(ui, rect, &status.text, color, button, context);
+    true
+}
+
+/// Opacity of the message by egui's time; one whose time is over is cleared. Under the pointer it stays.
+fn remaining(ui: &Ui, rect: Rect, context: &mut PaneContext<'_>) -> f32 {
+    let status = &mut context.view.status;
+    if status.text.is_empty() || status.weight != Weight::Note {
+        return 1.0;
+    }
+    let now = ui.input(|input| input.time);
+    if ui.rect_contains_pointer(rect) {
+        status.since = Some(now);
+    }
+    let left = MESSAGE - (now - *status.since.get_or_insert(now));
+    if left <= 0.0 {
+        *status = Status::default();
+        return 0.0;
+    }
+    if left > FADE {
+        ui.ctx().request_repaint_after(Duration::from_secs_f64(left - FADE));
+        return 1.0;
+    }
+    ui.ctx().request_repaint_after(FRAME);
+    (left / FADE) as f32
 }
 
 /// One line, with a button behind it where something can be done about it.
@@ -124,23 +173,23 @@ fn line(
     }
 }
 
-/// The left side while files are read.
-fn reading(ui: &mut Ui, rect: Rect, progress: &Progress, context: &mut PaneContext<'_>) {
+/// The message while files are read.
+fn file_progress(ui: &mut Ui, rect: Rect, progress: &Progress, context: &mut PaneContext<'_>) {
     ui.ctx().request_repaint_after(Duration::from_millis(50));
-    let words = reading_words(progress);
+    let words = progress_words(progress);
     let button = ("Stop", "Stop reading; nothing is changed (Esc)", Command::StopReading);
     line(ui, rect, &words, context.theme.text, Some(button), context);
 }
 
 /// File being read, and its progress.
-fn reading_words(progress: &Progress) -> String {
+fn progress_words(progress: &Progress) -> String {
     let [file, count] = progress.file;
     let of = if count > 1 { format!(", {file} of {count}") } else { String::new() };
     let name = if progress.name.is_empty() { "files" } else { &progress.name };
     format!("Reading {name}{of}, {:.0} %", 100.0 * progress.share.clamp(0.0, 1.0))
 }
 
-/// A thing in one line.
+/// An item in one line.
 fn describe(thing: &PlotItem, context: &PaneContext<'_>) -> String {
     let scene = &context.scene;
     let label = |id: &SensorId| {
@@ -156,6 +205,7 @@ fn describe(thing: &PlotItem, context: &PaneContext<'_>) -> String {
     };
     match thing {
         PlotItem::Light => format!("The light: {}", scene.light_name()),
+        PlotItem::DataSet { kind, name } => format!("{} {name}", kind.singular()),
         PlotItem::Sensor(id) => {
             let also = scene.entry(id.kind, &id.name).ok().and_then(|entry| entry.also);
             let also = also.map_or_else(String::new, |also| format!(", {also}"));
@@ -218,13 +268,17 @@ fn render_facts(context: &PaneContext<'_>) -> Vec<String> {
     let mut facts = Vec::new();
     let long = context.view.render.busy.filter(|busy| *busy >= LONG);
     if let Some(busy) = long {
-        facts.push(format!("{}: {:.0} s, Esc stops", context.view.render.making, busy.as_secs_f64()));
+        let rows = context.view.render.rows_read.map_or_else(String::new, |share| format!(" {:.0} %", 100.0 * share));
+        facts.push(format!("{}{rows}: {:.0} s, Esc stops", context.view.render.making, busy.as_secs_f64()));
     } else if !context.view.fixed_clock {
         let milliseconds = shot.time.as_secs_f64() * 1e3;
         facts.push(format!("updated in {} ms", fixed(milliseconds, usize::from(milliseconds < 100.0))));
     }
-    let error = shot.query.shading.quality.summary().replace('-', "−");
-    facts.push(error);
+    if let Some(image) = shot.made().and_then(MadePictures::image) {
+        facts.push(image_words(shot, image));
+    } else if let Some(query) = shot.query.mesh() {
+        facts.push(query.shading.quality.summary().replace('-', "−"));
+    }
     let cameras = shot.sources.iter().filter(|source| source.kind == SetKind::Camera).count();
     facts.push(format!("{cameras} {}", if cameras == 1 { "camera" } else { "cameras" }));
     facts

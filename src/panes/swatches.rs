@@ -1,5 +1,6 @@
 //! Patches as colors.
 
+use chromascope_figure::Shape;
 use egui::{Id, Rect, ScrollArea, Ui, UiBuilder, Vec2};
 
 use super::context::{Pane, PaneContext};
@@ -11,6 +12,9 @@ use crate::panes::widgets;
 use crate::theme::UNIT;
 use crate::view::{SwatchLayout, SwatchStyle};
 use crate::workspaces::PaneKind;
+
+/// Height of the line below the swatches.
+const FOOTER: f32 = 24.0;
 
 /// The pane.
 pub const PANE: Pane = Pane {
@@ -32,16 +36,62 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
         return;
     }
     let body = widgets::caution::show(ui, body, context);
+    ui.painter().rect_filled(body, 0.0, context.theme.surround.color());
+    let body = footer(ui, body, context);
     let size = [f64::from(body.width()), f64::from(body.height())];
     let built = swatches::build(&context.scene, context.view, size);
     let mut child = ui.new_child(UiBuilder::new().id_salt("swatches").max_rect(body));
     child.set_clip_rect(body.intersect(ui.clip_rect()));
-    child.painter().rect_filled(body, 0.0, context.theme.surround.color());
-    ScrollArea::vertical().id_salt("swatches scroll").auto_shrink(false).show(&mut child, |ui| {
-        let height = (built.height as f32).max(body.height());
+    let height = (built.height as f32).max(body.height());
+    let shown = ScrollArea::vertical().id_salt("swatches scroll").auto_shrink(false).show(&mut child, |ui| {
         let (area, _) = ui.allocate_exact_size(Vec2::new(body.width(), height), egui::Sense::hover());
         board(ui, area, &built, context);
     });
+    if height - shown.state.clamped_offset().y > body.height() + 1.0 {
+        more_below(&child, body, context);
+    }
+}
+
+/// The line below the swatches: a button that selects the worst patch, and the scale of the bars. Returns what is left.
+fn footer(ui: &mut Ui, body: Rect, context: &mut PaneContext<'_>) -> Rect {
+    let Some((words, thing)) = swatches::worst(&context.scene) else { return body };
+    let color = context.theme.surround.label();
+    let font = egui::FontId::proportional(crate::theme::SMALL);
+    let scale = context.view.saved.difference_bars.then(|| swatches::bar_scale(&context.scene));
+    let scale = scale.map(|words| ui.painter().layout_no_wrap(words, font.clone(), color));
+    let inner = body.width() - 4.0 * UNIT;
+    let padding = ui.spacing().button_padding;
+    let text = ui.painter().layout(words.clone(), font, color, inner - 2.0 * padding.x);
+    let size = (text.size() + 2.0 * padding + Vec2::splat(1.0)).max(Vec2::new(0.0, FOOTER - 6.0));
+    let beside = scale.as_ref().is_none_or(|scale| size.x + 4.0 * UNIT + scale.size().x <= inner);
+    let height = size.y + 6.0 + if beside { 0.0 } else { 16.0 };
+    let top = body.bottom() - height;
+    let place = Rect::from_min_size(body.left_bottom() + Vec2::new(2.0 * UNIT, 2.0 - height), size);
+    let response = ui.put(place, egui::Button::new(egui::RichText::new(words).small()).wrap());
+    if response.on_hover_text("Largest difference: click to select it").clicked() {
+        context.view.selected = Some(thing);
+    }
+    if let Some(scale) = scale {
+        let middle = if beside { place.center().y } else { body.bottom() - 9.0 };
+        let at = egui::Pos2::new(body.right() - 2.0 * UNIT - scale.size().x, middle - 0.5 * scale.size().y);
+        ui.painter().galley(at, scale, color);
+    }
+    Rect::from_min_max(body.min, egui::Pos2::new(body.right(), top))
+}
+
+/// A hint over the lower edge that there is more to scroll to.
+fn more_below(ui: &Ui, body: Rect, context: &PaneContext<'_>) {
+    let color = context.theme.surround.label();
+    let font = egui::FontId::proportional(crate::theme::SMALL);
+    let words = ui.painter().layout_no_wrap("more below".to_owned(), font, color);
+    let size = words.size() + Vec2::new(28.0, 4.0);
+    let pill = Rect::from_center_size(body.center_bottom() - Vec2::new(0.0, 0.5 * size.y + 2.0), size);
+    let ground = context.theme.surround.color();
+    ui.painter().rect(pill, 0.5 * size.y, ground, egui::Stroke::new(1.0, color), egui::StrokeKind::Inside);
+    ui.painter().galley(pill.min + Vec2::new(20.0, 2.0), words, color);
+    let tip = pill.left_center() + Vec2::new(12.0, 3.0);
+    let corners = vec![tip, tip + Vec2::new(-4.0, -5.0), tip + Vec2::new(4.0, -5.0)];
+    ui.painter().add(egui::Shape::convex_polygon(corners, color, egui::Stroke::NONE));
 }
 
 fn board(ui: &mut Ui, area: Rect, built: &swatches::Built, context: &mut PaneContext<'_>) {
@@ -60,6 +110,13 @@ fn board(ui: &mut Ui, area: Rect, built: &swatches::Built, context: &mut PaneCon
     context.view.hover(thing.as_ref());
     if shown.response.clicked() {
         context.view.click(thing.as_ref());
+    }
+    if widgets::walk::along(ui, PaneKind::SWATCHES, context, widgets::walk::patches_by_sensor) {
+        let cursor = context.view.cursor.as_ref();
+        let mark = built.panel.marks.iter().find(|mark| cursor.is_some() && built.things.get(mark.tag) == cursor);
+        if let Some(Shape::Rect { min, max }) = mark.map(|mark| &mark.shape) {
+            ui.scroll_to_rect(Rect::from_two_pos(shown.view.at(*min), shown.view.at(*max)), None);
+        }
     }
     if let Some(thing) = thing {
         let lines = chromaticity::describe(&context.scene, &thing);
@@ -94,13 +151,5 @@ fn switches(ui: &mut Ui, context: &mut PaneContext<'_>) {
     if let Some(style) = widgets::segmented(ui, &choices, context.view.saved.swatch_style) {
         context.view.saved.swatch_style = style;
         ui.ctx().request_repaint();
-    }
-    ui.add_space(UNIT);
-    let built = swatches::build(&context.scene, context.view, [400.0, 200.0]);
-    if let Some((words, thing)) = built.worst {
-        let label = egui::Button::new(egui::RichText::new(words).color(context.theme.weak)).frame(false).truncate();
-        if ui.add(label).on_hover_text("Largest difference: click to select it").clicked() {
-            context.view.selected = Some(thing);
-        }
     }
 }

@@ -1,4 +1,4 @@
-//! Allowed error, and the method that keeps it for each camera.
+//! Tolerance, and the method that satisfies it for each camera.
 
 use chromascope_core::render::plan::{Candidate, Verdict};
 use chromascope_measure::pareto::duration;
@@ -100,7 +100,7 @@ fn sources(ui: &mut Ui, context: &mut PaneContext<'_>) {
     not_rendered(ui, context);
 }
 
-/// Sensors that are on show but have no picture beside this truth, and why.
+/// Visible sensors without a picture comparable to this reference, and the reasons.
 fn not_rendered(ui: &mut Ui, context: &PaneContext<'_>) {
     let rendered = context.scene.rendered_sources();
     let is_rendered =

@@ -4,13 +4,18 @@ pub mod caution;
 pub mod facts;
 pub mod lines;
 pub mod number_field;
+pub mod pick_list;
+pub mod pixel_spectrum;
 pub mod table;
 pub mod tolerance;
+pub mod walk;
+
+pub use lines::focus_rim;
 
 use std::time::Duration;
 
 use chromascope_figure::{Ink, LegendEntry, Stroke};
-use egui::{Align, Button, Layout, Rect, Response, RichText, Sense, Ui, UiBuilder, Vec2};
+use egui::{Align, Button, Layout, Rect, Response, Sense, Ui, UiBuilder, Vec2};
 
 use crate::command::{Command, Format};
 use crate::paint;
@@ -19,11 +24,15 @@ use crate::plot_item::SensorId;
 use crate::scene::ComparedSensor;
 use crate::theme::{ROW, Theme, UNIT};
 use crate::view::render::RenderView;
-use crate::workspaces::PaneKind;
+use crate::workspaces::{PaneKind, Workspace};
+use pick_list::Line;
 
-/// The sentence that says what the window is about.
+/// The sentence that summarizes the window's contents.
 pub const WHAT_YOU_SEE: &str = "A camera's spectral sensitivities differ from the eye's, so it records other colors \
                                 than a person sees. Chromascope shows how far off each camera is.";
+
+/// Passes after which a control that is not drawn is no longer sought.
+const SOUGHT: u64 = 4;
 
 /// The height of a pane's header.
 pub const HEADER: f32 = 32.0;
@@ -59,20 +68,50 @@ pub fn pane(
     Rect::from_min_max(egui::pos2(rect.left(), rect.top() + HEADER), rect.max)
 }
 
-/// The title, which opens a menu of what may stand here instead.
+/// Has the control of a name take the keyboard as soon as it is drawn.
+pub fn seek(ctx: &egui::Context, name: &'static str) {
+    let until = ctx.cumulative_pass_nr() + SOUGHT;
+    ctx.data_mut(|data| data.insert_temp(egui::Id::unique("sought control"), (name, until)));
+    ctx.request_repaint();
+}
+
+/// Gives a control the keyboard and brings it into sight, if it is the one that is sought.
+pub fn take_sought(response: &Response, name: &str) {
+    let (id, pass) = (egui::Id::unique("sought control"), response.ctx.cumulative_pass_nr());
+    let sought: Option<(&'static str, u64)> = response.ctx.data(|data| data.get_temp(id));
+    if sought.is_some_and(|(sought, until)| sought == name && pass <= until) {
+        response.ctx.data_mut(|data| data.remove::<(&'static str, u64)>(id));
+        response.request_focus();
+        response.scroll_to_me(Some(Align::Center));
+    }
+}
+
+/// The title, which opens a menu of panes for this place.
 fn title_menu(ui: &mut Ui, pane: &Pane, context: &mut PaneContext<'_>) {
     let workspace = context.view.saved.workspace;
-    ui.menu_button(pane.title, |ui| {
-        ui.label(RichText::new("Show here").small().color(context.theme.weak));
-        for other in context.panes.iter().filter(|other| other.kind != PaneKind::LIBRARY) {
-            if ui.selectable_label(other.kind == pane.kind, other.title).clicked() {
-                context.view.saved.layout.replace(workspace, pane.kind, other.kind);
-                ui.close();
+    let (panes, theme) = (context.panes, context.theme);
+    let mut kinds = Vec::new();
+    let words = (pane.title, "panes", "Show another pane here");
+    let (title, chosen) = pick_list::menu(ui, words, &theme, || {
+        let mut lines = Vec::new();
+        for group in Workspace::ALL {
+            let others = panes.iter().filter(|other| other.kind != PaneKind::LIBRARY && other.kind.group() == group);
+            lines.push(Line::heading(group.title()));
+            kinds.push(None);
+            for other in others {
+                lines.push(Line::new(other.title, other.kind == pane.kind));
+                kinds.push(Some(other.kind));
             }
         }
-    })
-    .response
-    .on_hover_text("Show another pane here");
+        lines
+    });
+    if let Some(other) = chosen.and_then(|index| kinds.swap_remove(index)) {
+        context.view.saved.layout.replace(workspace, pane.kind, other);
+        ui.ctx().request_repaint();
+    }
+    if context.view.focused == Some(pane.kind) && std::mem::take(&mut context.view.tab_enters) {
+        title.request_focus();
+    }
 }
 
 /// Table, export, maximize, close.
@@ -107,7 +146,9 @@ fn export_menu(ui: &mut Ui, &Pane { kind, title, .. }: &Pane, context: &mut Pane
             ("Figure as PNG…", Command::Export(kind, Format::Png)),
             ("Numbers as CSV…", Command::Export(kind, Format::Csv)),
             ("Numbers as JSON…", Command::Export(kind, Format::Json)),
+            ("Card as PNG…", Command::SaveCard(kind)),
             ("Copy picture", Command::CopyPicture(kind)),
+            ("Copy as card", Command::CopyCard(kind)),
             ("Copy numbers", Command::CopyNumbers(kind)),
         ] {
             if ui.button(words).clicked() {
@@ -128,7 +169,7 @@ fn export_menu(ui: &mut Ui, &Pane { kind, title, .. }: &Pane, context: &mut Pane
     });
 }
 
-/// A thin line along the top while something has been in the making for long enough to be told of; words stand in the status bar.
+/// A thin progress line along the top while a computation lasts long; its description is in the status bar.
 pub fn busy_line(ui: &Ui, body: Rect, busy: Option<Duration>, color: egui::Color32) {
     let Some(busy) = busy else { return };
     if let Some(wait) = RenderView::PATIENCE.checked_sub(busy) {
@@ -155,19 +196,24 @@ pub enum Icon {
     Maximize,
     /// A cross.
     Close,
+    /// An arrow that bends back to the left.
+    Undo,
+    /// An arrow that bends back to the right.
+    Redo,
 }
 
-/// A button with a small picture and a name for those who cannot see it.
+/// An icon button with an accessible name.
 pub fn icon_button(ui: &mut Ui, icon: Icon, name: &str) -> Response {
     let (rect, response) = ui.allocate_exact_size(Vec2::splat(ROW), Sense::click());
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, name));
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, ui.is_enabled(), name));
     let theme = Theme::of(ui.visuals());
     let on = icon == (Icon::Table { on: true });
     if response.hovered() || response.has_focus() || on {
         let fill = if response.hovered() { theme.hover } else { theme.control };
         ui.painter().rect(rect, 3.0, fill, focus_rim(&response, &theme), egui::StrokeKind::Inside);
     }
-    let color = if response.hovered() || on { theme.text } else { theme.weak };
+    let is_bright = response.hovered() || on || (matches!(icon, Icon::Undo | Icon::Redo) && ui.is_enabled());
+    let color = if is_bright { theme.text } else { theme.weak };
     let stroke = egui::Stroke::new(1.2, color);
     let at = |x: f32, y: f32| rect.center() + Vec2::new(x, y);
     let line = |a: egui::Pos2, b: egui::Pos2| {
@@ -200,13 +246,22 @@ pub fn icon_button(ui: &mut Ui, icon: Icon, name: &str) -> Response {
             line(at(-4.0, -4.0), at(4.0, 4.0));
             line(at(-4.0, 4.0), at(4.0, -4.0));
         }
+        Icon::Undo | Icon::Redo => {
+            let side = if icon == Icon::Undo { 1.0 } else { -1.0 };
+            // From the shaft at the top round to the foot.
+            let arc = (0..=12).map(|step| {
+                let angle = std::f32::consts::PI * (step as f32 / 12.0 - 0.5);
+                at(side * (1.5 + 4.0 * angle.cos()), 1.0 + 4.0 * angle.sin())
+            });
+            ui.painter().line(
+                std::iter::once(at(-5.0 * side, -3.0)).chain(arc).chain([at(-2.0 * side, 5.0)]).collect(),
+                stroke,
+            );
+            line(at(-5.0 * side, -3.0), at(-1.5 * side, -6.0));
+            line(at(-5.0 * side, -3.0), at(-1.5 * side, 0.0));
+        }
     }
     response.on_hover_text(name)
-}
-
-/// The rim of what the keyboard is on.
-pub fn focus_rim(response: &Response, theme: &Theme) -> egui::Stroke {
-    if response.has_focus() { egui::Stroke::new(1.5, theme.text) } else { egui::Stroke::NONE }
 }
 
 /// A switch of a few words of which one is on. Returns the one clicked.

@@ -1,4 +1,4 @@
-//! The scene on show as a question of what it costs.
+//! The visible scene as a measurement job.
 
 use chromascope_core::light::RadiationConstants;
 use chromascope_core::query::render::picture::{PicturesQuery, SourceOf};
@@ -16,7 +16,7 @@ const WIDTH: u32 = 480;
 const HEIGHT: u32 = 360;
 
 impl SceneRunJob {
-    /// Asks what a scene costs; a file's mesh is `own`, once it was read.
+    /// The measurement job of a scene; `own` is a file's mesh, once it was read.
     pub fn of(scene: &Scene<'_>, own: Option<&Shared<Mesh>>, orbit: Option<Orbit>) -> Self {
         let sources = scene.sources();
         let (shown, hidden): (Vec<&ComparedSensor>, Vec<&ComparedSensor>) =

@@ -1,4 +1,4 @@
-//! What a run was of, and on what: times without that say little.
+//! Conditions of a run, without which its times say little.
 
 use chromascope_core::query::render::Roughness;
 use chromascope_measure::Machine;
@@ -9,11 +9,11 @@ use super::{SceneRunJob, Subject, Trial};
 use crate::format::number;
 use crate::scene::Scene;
 
-/// What a run was of, and on what.
+/// Conditions of a run: scene, machine, program and time.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Conditions {
-    /// Mesh, material, surface and light in words, and through how many sources; empty where nothing was rendered.
+    /// Mesh, material, surface, light and number of sensors, in words; empty where nothing was rendered.
     pub scene: String,
     /// Number of visible sensors.
     pub sensors: usize,
@@ -21,7 +21,7 @@ pub struct Conditions {
     pub machine: String,
     /// The program and its version.
     pub program: String,
-    /// When it began, in UTC, as `2026-11-21T18:05:11Z`.
+    /// Start time in UTC, as `2026-11-21T18:05:11Z`.
     pub began: String,
 }
 
@@ -37,7 +37,7 @@ impl Conditions {
         }
     }
 
-    /// What a trial was of, in words.
+    /// Scene or stimuli of a trial, in words.
     pub fn of(&self, trial: &Trial) -> String {
         match trial.subject {
             Subject::Integral => self.scene.clone(),
@@ -48,7 +48,7 @@ impl Conditions {
         }
     }
 
-    /// On what and when it was measured, a sentence.
+    /// Machine and time of the measurement, a sentence.
     pub fn on(&self) -> String {
         let known = [&self.machine, &self.program, &self.began].into_iter().filter(|words| !words.is_empty());
         let known = known.map(String::as_str).collect::<Vec<_>>().join(", ");
@@ -61,7 +61,7 @@ impl Conditions {
 }
 
 impl Trial {
-    /// What it was measured on, in words.
+    /// Number and kind of inputs, in words.
     pub fn inputs_in_words(&self) -> String {
         let what = match self.subject {
             Subject::Integral => "lit samples",
@@ -70,7 +70,7 @@ impl Trial {
         format!("{} {what}", self.inputs)
     }
 
-    /// A method's name with what it is: the reference, or what is set.
+    /// A method's name, marked as the reference or the selected one.
     pub fn name(&self, index: usize) -> String {
         let name = self.points.get(index).map_or("", |point| &point.name);
         match (index == 0, self.set == Some(index)) {
@@ -83,7 +83,7 @@ impl Trial {
 }
 
 impl Subject {
-    /// What is computed, in a few words.
+    /// Name of the computation, in a few words.
     pub const fn what(self) -> &'static str {
         match self {
             Self::Integral => "the diffuse spectral integral of rendered samples",
@@ -91,7 +91,7 @@ impl Subject {
         }
     }
 
-    /// What is measured, in sentences for somebody who asks.
+    /// Explanation of the measurement, in full sentences.
     pub const fn explained(self) -> &'static str {
         match self {
             Self::Integral => {
@@ -114,7 +114,7 @@ impl Subject {
     }
 }
 
-/// What a scene renders, in words.
+/// Description of the rendered scene.
 pub(super) fn words(scene: &Scene<'_>, sources: usize) -> String {
     let settings = &scene.document.render;
     let sigma = match settings.roughness.roughness() {

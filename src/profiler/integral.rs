@@ -12,14 +12,14 @@ use chromascope_measure::method::{Family, Method, Point, compare, largest, toget
 
 use super::{SceneRunJob, Subject, Trial};
 
-/// At most so many samples are measured on.
+/// Maximum number of samples measured.
 const SAMPLES: usize = 300;
 /// The tolerances that are tried, as powers of ten.
 const TOLERANCES: [i32; 6] = [-3, -5, -7, -9, -11, -13];
 const EXACT: &str = "401 wavelengths, S to 1e-13";
 const REGIMES: &str = "401 wavelengths, the paper's cases";
 
-/// A tolerance relative to the peak, and what it is called.
+/// A tolerance relative to the peak, and its name.
 type Tolerance = (RelTolerance, String);
 
 /// Measures; none where nothing is rendered, where no sample takes an integral, and if stopped.
@@ -64,7 +64,7 @@ fn range(places: &[[f64; 2]]) -> [f64; 2] {
     places.iter().fold([f64::INFINITY, 0.0], |[low, high], [kappa, _]| [low.min(*kappa), high.max(*kappa)])
 }
 
-/// At most how many samples a picture has whose integral is made.
+/// Maximum number of samples of a picture that are integrated.
 fn samples(pictures: &PicturesQuery) -> u64 {
     let size = pictures.shading.geometry.visibility.size;
     (size.columns() * size.rows()) as u64

@@ -10,7 +10,7 @@ use chromascope_measure::method::{Method, Point, compare, largest, together};
 
 use super::{SceneRunJob, Subject, Trial};
 
-/// Number of temperatures, evenly in 1/T over the range on show.
+/// Number of temperatures, evenly spaced in 1/T over the visible range.
 const TEMPERATURES: usize = 200;
 const FROM_K: f64 = 1000.0;
 const TO_K: f64 = 20_000.0;

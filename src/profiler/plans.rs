@@ -1,4 +1,4 @@
-//! How each source's integrals are made within a tolerance, and what was rejected.
+//! Integration plan of each sensor for a tolerance, with the rejected methods.
 
 use chromascope_core::accuracy::RelTolerance;
 use chromascope_core::camera::RenderingError;
@@ -8,16 +8,16 @@ use chromascope_core::query::{Ask, Query};
 use chromascope_core::render::Against;
 use chromascope_core::render::plan::Explanation;
 
-/// What is the plan of each source of these pictures? None inside if stopped.
+/// Integration plan of each sensor of a set of pictures; `None` if stopped.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct PlansQuery(pub PicturesQuery);
 
-/// A source's plan; none where no tolerance was asked for, and if stopped.
+/// A source's plan; none where no tolerance was requested, and if stopped.
 pub type PlanAnswer = Result<Option<Planned>, RenderingError>;
 
 impl PlansQuery {
-    /// What was answered as far as it is of other pictures' sources, in their order: a plan is its camera's under a light with
-    /// a material. None if one is missing.
+    /// Plans for other pictures' sources, in their order, as far as they are among `plans`; `None` if one is missing. A plan
+    /// holds for its camera under a light with a material.
     pub(super) fn plans_for(&self, pictures: &PicturesQuery, plans: &[PlanAnswer]) -> Option<Vec<PlanAnswer>> {
         let known: Vec<_> = self.0.sources.iter().map(|source| self.0.image(&source.rendering).measure).collect();
         let plan = |source: &SourceOf| {
@@ -38,7 +38,7 @@ impl Query for PlansQuery {
     }
 }
 
-/// How a source's samples are made within a tolerance.
+/// Integration plan of a sensor for a tolerance.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Planned {
     /// The plan of the diffuse integral; none where no sample takes one.
@@ -52,18 +52,18 @@ pub struct Planned {
 pub struct ErrorBounds {
     /// Of the diffuse integral, relative to its peak J(κ, 0) at the sample's κ: the largest seen in the check, times a margin.
     pub diffuse: Option<f64>,
-    /// Of the mirror lobes, relative to the brightest sample of the picture.
+    /// Bound of the specular lobes, relative to the brightest sample of the picture.
     pub mirror: Option<f64>,
 }
 
-/// What keeping a signal as a single-precision number changes at most, relative to the signal itself: `2^-24`.
+/// Largest relative rounding error of a signal stored in single precision: `2^-24`.
 pub const SINGLE_PRECISION: f64 = 6e-8;
 
 impl ErrorBounds {
-    /// Where other errors are below this, that of single precision is worth saying.
+    /// Largest error beside which that of single precision is worth mentioning.
     const WORTH_SAYING: f64 = 1e-7;
 
-    /// Bounds with this plan, so many specular lobes, and this tolerance.
+    /// Bounds with this plan, this number of specular lobes, and this tolerance.
     pub fn of(explanation: Option<&Explanation>, mirrors: u64, tolerance: RelTolerance) -> Self {
         let mirror = (mirrors > 0).then_some(tolerance.max_relative_error());
         Self { diffuse: explanation.map(Explanation::error_bound), mirror }
@@ -75,7 +75,7 @@ impl ErrorBounds {
             && self.mirror.is_none_or(|error| error < Self::WORTH_SAYING)
     }
 
-    /// In words, without a capital or a full stop: each error with what it is relative to.
+    /// Description without a capital or a full stop: each error with its scale.
     pub fn words(self) -> String {
         let diffuse = self.diffuse.map_or_else(
             || "no sample takes a spectral integral".to_owned(),
@@ -88,7 +88,7 @@ impl ErrorBounds {
     }
 }
 
-/// The plan of one source; none where no tolerance was asked for, and if stopped.
+/// The plan of one source; none where no tolerance was requested, and if stopped.
 pub fn planned(pictures: &PicturesQuery, source: &SourceOf, ask: &impl Ask) -> PlanAnswer {
     let shading = ask.ask(&pictures.shading);
     let Some(shading) = (*shading).as_ref() else { return Ok(None) };

@@ -1,4 +1,4 @@
-//! What a scene did not compute, and the time that this saved: measured by computing it.
+//! Skipped work of a scene and the time saved, measured by doing that work.
 
 mod mirrors;
 mod panes;
@@ -21,27 +21,27 @@ use super::SceneRunJob;
 pub use panes::{LOCI, PATCHES};
 use ways::Ways;
 
-/// At most so many samples are computed to say what all would have cost.
+/// Maximum number of samples computed to extrapolate the cost of all.
 const SAMPLES: usize = 1000;
-/// The same for sums over all wavelengths.
+/// Maximum number of samples summed over all wavelengths.
 const SUMS: usize = 200;
 
 /// Something that was not computed.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SkippedWork {
-    /// What it is.
+    /// Name of the work.
     pub what: Cow<'static, str>,
-    /// How many of these were left out.
+    /// Number of units that were skipped.
     pub count: u64,
-    /// Of how many; none where that says nothing.
+    /// Total number of units; `None` where it is meaningless.
     pub of: Option<u64>,
     /// The seconds saved; 0 where that was not measured.
     pub saved: f64,
-    /// How that was measured, or why it was not.
+    /// Method of the measurement, or the reason that there is none.
     pub how: String,
 }
 
-/// All rows. What is stopped on the way is left out.
+/// All rows. Rows interrupted by a stop are omitted.
 pub(super) fn rows(run: &SceneRunJob, ask: &impl Ask) -> Vec<SkippedWork> {
     let mut rows = Vec::new();
     if let Some(pictures) = &run.pictures {
@@ -57,7 +57,7 @@ pub(super) fn rows(run: &SceneRunJob, ask: &impl Ask) -> Vec<SkippedWork> {
     rows
 }
 
-/// What is measured on.
+/// Pictures and samples to measure on.
 struct Sources<'a> {
     pictures: &'a PicturesQuery,
     shading: &'a ShadingImage,
@@ -75,23 +75,21 @@ impl Sources<'_> {
         shades.filter(|shade| shade.kind == DiffuseKind::Spectral).collect()
     }
 
-    /// What shades are of.
     fn place(&self) -> &'static str {
         if self.shading.vertices().is_some() { "vertex" } else { "sample" }
     }
 
-    /// The same, several.
     fn places(&self) -> &'static str {
         if self.shading.vertices().is_some() { "vertices" } else { "samples" }
     }
 }
 
-/// At most so many of a list, evenly spread.
+/// At most `most` elements of a list, evenly spread.
 fn some_of<T: Clone>(all: &[T], most: usize) -> Vec<T> {
     all.iter().step_by(all.len().div_ceil(most).max(1)).cloned().collect()
 }
 
-/// On how many it was measured.
+/// Number of samples measured, in words.
 fn measured_on(taken: usize, all: usize, places: &str) -> String {
     if taken < all { format!("extrapolated from {taken} {places}") } else { format!("all {taken} {places}") }
 }
@@ -135,10 +133,10 @@ fn unlit(sources: &Sources<'_>) -> Vec<SkippedWork> {
     ]
 }
 
-/// What a lit sample costs.
+/// Cost of a lit sample.
 struct SampleCost {
     seconds: f64,
-    /// On how many it was measured.
+    /// Number of samples measured.
     samples: usize,
 }
 

@@ -4,7 +4,7 @@ use chromascope_core::colorimetry::{Lab, Stimulus, Xy};
 use chromascope_core::query::Ask as _;
 use chromascope_core::query::render::Roughness;
 use chromascope_core::reflectance::{Normalization, Regime, beta, kappa};
-use chromascope_core::render::{CameraImage, ColorimetricScale, Development};
+use chromascope_core::render::{ColorimetricScale, Development, LitSamples};
 
 use super::RenderedFrame;
 use crate::results::Results;
@@ -14,15 +14,17 @@ use crate::results::Results;
 pub struct PixelReading {
     /// Right and down, in pixels.
     pub at: [usize; 2],
-    /// What it shows.
+    /// Contents of the pixel.
     pub shows: PixelShows,
 }
 
-/// What a pixel shows.
+/// Contents of a pixel.
 #[derive(Clone, Debug, PartialEq)]
 pub enum PixelShows {
-    /// What is beside the mesh.
+    /// Background, outside the mesh.
     Nothing,
+    /// A pixel of an image without a value in every band.
+    NoValue,
     /// The mesh where no light reaches it.
     Unlit,
     /// The mesh, lit.
@@ -44,7 +46,7 @@ pub struct LitPixel {
     pub roughness: Option<(f64, String)>,
 }
 
-/// The lit signals of a pixel, and how many of its samples see the mesh.
+/// The lit signals of a pixel, and the number of its samples on the mesh.
 struct Samples {
     signal: [f32; 3],
     seen: usize,
@@ -54,17 +56,20 @@ struct Samples {
 /// Reads the pixel at a place (right and down, from 0 to 1) of one of the pictures.
 pub fn read(shot: &RenderedFrame, results: &Results, index: usize, place: [f64; 2]) -> Option<PixelReading> {
     let pictures = shot.made()?;
-    let image = pictures.images.get(index)?.as_ref()?;
-    let size = image.placed().size();
+    let (placed, signals) = pictures.signals(index)?;
+    let size = placed.size();
     let within = |place: f64, count: u32| ((place * f64::from(count)) as usize).min(count.saturating_sub(1) as usize);
     let at = [within(place[0], size.width), within(place[1], size.height)];
-    let samples = samples(image, at);
+    let samples = samples((placed, signals), at);
     let shows = match samples.middle {
+        None if pictures.image().is_some() => PixelShows::NoValue,
         None if samples.seen == 0 => PixelShows::Nothing,
         None => PixelShows::Unlit,
         Some(middle) => PixelShows::Lit(lit(shot, results, index, at, &samples, middle)?),
     };
-    Some(PixelReading { at, shows })
+    // An image's pixels are counted as in the file.
+    let step = shot.query.image().map_or(1, |image| image.signals.step);
+    Some(PixelReading { at: at.map(|at| at * step), shows })
 }
 
 fn lit(
@@ -76,37 +81,36 @@ fn lit(
     middle: usize,
 ) -> Option<LitPixel> {
     let pictures = shot.made()?;
-    let of = &shot.query.sources.get(index)?.rendering;
+    let of = shot.query.rendering(index)?;
     let rendering = results.ask(of);
     let rendering = (*rendering).as_ref().ok()?;
-    let measurement = ColorimetricScale::new(rendering, pictures.facing.white);
-    let factor = pictures.facing.factor(f64::from_bits(shot.query.ev));
+    let measurement = ColorimetricScale::new(rendering, pictures.white());
+    let factor = pictures.factor(shot.query.ev());
     let development = Development::new(rendering, factor, None);
     let signal = glam::DVec3::from(samples.signal.map(f64::from));
+    let signal = development.root_polynomial.as_ref().map_or(signal, |polynomial| polynomial.xyz(signal));
     let color = measurement.color(samples.signal);
-    let reference = (*of != shot.query.reference).then(|| reference_color(shot, results, at)).flatten();
+    let reference = (of != shot.query.reference()).then(|| reference_color(shot, results, at)).flatten();
     Some(LitPixel {
         linear: (development.linear_from_signals * signal).to_array(),
         xy: color.xyz.chromaticity(),
         lab: color.lab,
-        difference: reference.and_then(|reference| shot.query.metric.between(&reference, &color)),
-        roughness: roughness(shot, pictures.images.get(index)?.as_ref()?, middle),
+        difference: reference.and_then(|reference| shot.query.metric().between(&reference, &color)),
+        roughness: roughness(shot, index, middle),
     })
 }
 
 /// Color of the same pixel through the reference, if that is among the pictures.
 fn reference_color(shot: &RenderedFrame, results: &Results, at: [usize; 2]) -> Option<Stimulus> {
-    let index = shot.query.sources.iter().position(|source| source.rendering == shot.query.reference)?;
+    let index = shot.query.reference_index()?;
     let pictures = shot.made()?;
-    let image = pictures.images.get(index)?.as_ref()?;
-    let rendering = results.ask(&shot.query.reference);
+    let rendering = results.ask(shot.query.reference());
     let rendering = (*rendering).as_ref().ok()?;
-    Some(ColorimetricScale::new(rendering, pictures.facing.white).color(samples(image, at).signal))
+    Some(ColorimetricScale::new(rendering, pictures.white()).color(samples(pictures.signals(index)?, at).signal))
 }
 
 /// The mean over those samples of a pixel that see the mesh.
-fn samples(image: &CameraImage, [x, y]: [usize; 2]) -> Samples {
-    let geometry = image.placed();
+fn samples((geometry, signals): (&LitSamples, &[[f32; 3]]), [x, y]: [usize; 2]) -> Samples {
     let (columns, each) = (geometry.size().columns(), geometry.size().samples as usize);
     let mut found = Samples { signal: [0.0; 3], seen: 0, middle: None };
     for row in y * each..(y + 1) * each {
@@ -120,7 +124,7 @@ fn samples(image: &CameraImage, [x, y]: [usize; 2]) -> Samples {
         if found.middle.is_none() || row <= y * each + each / 2 {
             found.middle = lit.clone().nth(lit.len() / 2).or(found.middle);
         }
-        for signal in &image.signals()[lit] {
+        for signal in &signals[lit] {
             for (sum, part) in found.signal.iter_mut().zip(signal) {
                 *sum += part;
             }
@@ -132,19 +136,20 @@ fn samples(image: &CameraImage, [x, y]: [usize; 2]) -> Samples {
 }
 
 /// g at 550 nm with its regime and the method of its spectral integral.
-fn roughness(shot: &RenderedFrame, image: &CameraImage, middle: usize) -> Option<(f64, String)> {
-    let shading = &shot.query.shading;
+fn roughness(shot: &RenderedFrame, index: usize, middle: usize) -> Option<(f64, String)> {
+    let shading = &shot.query.mesh()?.shading;
     // Between vertices of different roughness there is no one g.
     if shading.reading == Normalization::Lambertian || shading.roughness == Roughness::Mesh {
         return None;
     }
-    let geometry = shot.made()?.angles.angles().get(middle)?.geometry();
+    let pictures = shot.made()?.mesh()?;
+    let geometry = pictures.angles.angles().get(middle)?.geometry();
     let (kappa, beta) = (kappa(&shading.surface, &geometry), beta(&shading.surface, &geometry));
     let regime = match Regime::of(kappa) {
         Regime::Slight => "slight",
         Regime::Moderate => "moderate",
         Regime::Rough => "rough",
     };
-    let method = image.plan().method(kappa, beta);
+    let method = pictures.images.get(index)?.as_ref()?.plan().method(kappa, beta);
     Some((kappa, format!("{regime}, {}", method.name())))
 }

@@ -1,4 +1,4 @@
-//! The answers of one kind of question, bounded in number and memory.
+//! The answers of one kind of query, bounded in number and memory.
 
 use std::any::Any;
 use std::collections::HashMap;
@@ -12,19 +12,19 @@ use super::Count;
 
 /// The most memory that the answers of one kind take; the last one stays, however large.
 const BYTES: usize = 256 << 20;
-/// Who waits for an answer looks this often at whether it is still wanted.
+/// Interval at which a waiting thread checks whether its answer is still needed.
 const GLANCE: Duration = Duration::from_millis(5);
 
-/// Answers, whatever their type.
+/// Type-erased answers of one kind of query.
 pub(super) trait Kind: Any + Send + Sync {
     /// The kind's name and counters.
     fn count(&self) -> (&'static str, Count);
 }
 
-/// Answers of one kind.
+/// Cached answers of one kind of query.
 pub(super) struct Answers<Q: Query> {
     table: Mutex<Table<Q>>,
-    /// Told when a computation has ended.
+    /// Notified when a computation has ended.
     ended: Condvar,
 }
 
@@ -45,7 +45,7 @@ struct Made<A> {
     bytes: usize,
 }
 
-/// What came of asking.
+/// Result of a cache lookup.
 pub(super) enum Asked<'a, Q: Query> {
     /// The answer.
     Known(Arc<Q::Answer>),
@@ -80,7 +80,6 @@ impl<Q: Query> Answers<Q> {
         self.table.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// The answer, if it is known.
     pub(super) fn known(&self, query: &Q, now: u64) -> Option<Arc<Q::Answer>> {
         self.lock().known(query, now)
     }
@@ -117,7 +116,7 @@ impl<Q: Query> Table<Q> {
         Some(Arc::clone(&made.answer))
     }
 
-    /// Takes out what was asked for least recently, until no more is left than is worth keeping.
+    /// Evicts the least recently requested answers, until the rest is within the limits.
     fn excess(&mut self) -> Vec<Arc<Q::Answer>> {
         let made = |slot: &Slot<Q::Answer>| match slot {
             Slot::Made(made) => Some((made.asked, made.bytes)),
@@ -151,7 +150,7 @@ impl<Q: Query> Claim<'_, Q> {
         let before = kept.and_then(|kept| table.slots.insert(self.query.clone(), kept));
         let excess = table.excess();
         drop(table);
-        // Large answers are let go of while nothing is locked.
+        // Large answers are dropped while no lock is held.
         drop((before, excess));
     }
 }

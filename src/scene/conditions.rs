@@ -1,9 +1,9 @@
-//! The conditions that numbers were made under, in words, for tables and pictures.
+//! Conditions of numbers, in words, for tables and pictures.
 
 use super::Scene;
 use crate::document::{TransformChoice, WhiteBalanceChoice};
 
-/// Heads of the columns in which a table says under what it was made.
+/// Heads of the columns with a table's conditions.
 pub const CONDITIONS: [&str; 5] = ["reference", "illuminant", "white_balance", "transform", "preset"];
 
 impl WhiteBalanceChoice {

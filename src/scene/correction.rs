@@ -1,11 +1,9 @@
-//! Color corrections as questions: of which sensor, under which one or two lights.
-
-use std::sync::Arc;
+//! Color corrections as queries: of which sensor, under which one or two lights.
 
 use chromascope_core::colorimetry::Metric;
-use chromascope_core::correction::aces::{Idt, IdtExposure};
+use chromascope_core::correction::aces::IdtExposure;
 use chromascope_core::query::correction::{CorrectionSheetQuery, IdtQuery};
-use chromascope_core::query::{Ask as _, CorrectionReportQuery, RenderingQuery};
+use chromascope_core::query::{CorrectionReportQuery, RenderingQuery};
 
 use super::{Scene, SceneError};
 use crate::document::{CIE_1931, FIT_TARGET, SetKind, TRAINING, TransformChoice};
@@ -28,7 +26,7 @@ pub fn exif_light(name: &str) -> Option<u16> {
 }
 
 impl Scene<'_> {
-    /// The question for a sensor's color correction with all errors, under the light on the scene and the second of the document.
+    /// Query for a sensor's color correction with all errors, under the light on the scene and the second of the document.
     pub fn correction_sheet(&self, kind: SetKind, name: &str) -> Result<CorrectionSheetQuery, SceneError> {
         let first = self.rendering_of(kind, name)?;
         let metric = self.correction_metric();
@@ -46,23 +44,20 @@ impl Scene<'_> {
         Some(self.document.difference).filter(|metric| metric.needs_adopted_white()).unwrap_or(Metric::DELTA_E_2000)
     }
 
-    /// A camera's ACES input transform under the light on the scene.
+    /// Query for a camera's ACES input transform under the light on the scene.
     pub fn input_device_transform(
         &self,
         kind: SetKind,
         name: &str,
         exposure: IdtExposure,
-    ) -> Result<Arc<Idt>, SceneError> {
-        let query = IdtQuery {
+    ) -> Result<IdtQuery, SceneError> {
+        Ok(IdtQuery {
             camera: self.sensor(kind, name)?,
             light: self.light()?.grid,
             observer: self.sensor(SetKind::Observer, CIE_1931)?,
             training: self.patch_set(TRAINING, None)?,
             exposure,
-        };
-        let answer = self.results.ask(&query);
-        let idt = (*answer).clone().map_err(|error| SceneError::Idt { name: name.to_owned(), error })?;
-        Ok(Arc::new(idt))
+        })
     }
 
     /// The observer that fitted color transforms are fitted to.

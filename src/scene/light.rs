@@ -1,4 +1,4 @@
-//! The light on its own: its temperature, its rendition indices, and cameras under it and under its reference.
+//! Analysis of the light: temperature, rendition indices, and cameras under it and under its reference illuminant.
 
 use std::sync::Arc;
 
@@ -12,7 +12,7 @@ use chromascope_core::rendition::{RenditionError, Standards};
 
 use super::{Scene, SceneError};
 use crate::catalog::load::StandardsQuery;
-use crate::document::{FIT_TARGET, SetKind, TRAINING, TransformChoice};
+use crate::document::{FIT_TARGET, SetKind, TRAINING};
 
 /// Reason that a camera has no consistency under the light.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -48,13 +48,13 @@ impl Scene<'_> {
         Ok(Xyz { x, y, z })
     }
 
-    /// The question of the nearest blackbody for the CIE 1931 observer.
+    /// Query of the nearest blackbody for the CIE 1931 observer.
     pub fn nearest_blackbody_query(&self) -> Result<NearestBlackBodyQuery, SceneError> {
         let observer = self.sensor(SetKind::Observer, FIT_TARGET)?;
         Ok(NearestBlackBodyQuery { observer, constants: RadiationConstants::Paper })
     }
 
-    /// Correlated color temperatures and Duv of many colors for the CIE 1931 observer. The locus is tabulated when first asked for.
+    /// Correlated color temperatures and Duv of many colors for the CIE 1931 observer. The locus is tabulated when first requested.
     pub fn temperatures_of(&self, colors: &[Option<Xyz>]) -> Result<Vec<Result<Cct, CctError>>, SceneError> {
         let locus = self.results.ask(&self.nearest_blackbody_query()?);
         let cct = |locus: &PlanckianLocus, color: &Option<Xyz>| {
@@ -78,20 +78,16 @@ impl Scene<'_> {
         self.temperature_of(Some(self.light_color()?))
     }
 
-    /// How far the patches through a camera are from those under the light's reference illuminant, the correction fitted under the
-    /// latter to the observer that the document fits to, or to CIE 1931.
+    /// Color consistency of a camera: differences of the patches from those under the light's reference illuminant. The correction
+    /// is fitted under the latter to the observer that the document fits to, or to CIE 1931.
     pub fn consistency(&self, camera: &str) -> Result<Consistency, NoConsistency> {
         let rendition = self.rendition()?;
         let (reference, _) = rendition.reference.as_ref().map_err(|&error| error)?;
-        let target = match &self.document.transform {
-            TransformChoice::Observer(name) => name.as_str(),
-            TransformChoice::Paper => FIT_TARGET,
-        };
         let query = ConsistencyQuery {
             sensor: self.sensor(SetKind::Camera, camera)?,
             light: self.light()?.grid,
             reference: reference.clone(),
-            observer: self.sensor(SetKind::Observer, target)?,
+            observer: self.sensor(SetKind::Observer, self.fit_target())?,
             training: self.patch_set(TRAINING, None)?,
             patches: self.patches()?,
         };

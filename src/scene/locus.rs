@@ -1,4 +1,4 @@
-//! Questions about loci beside the reference's: where they are nearest, what they are balanced to, where they are extrapolated.
+//! Queries on loci relative to the reference's: nearest points, white balance, extrapolation.
 
 use chromascope_core::query::{LocusPoint, Temperatures};
 use chromascope_core::units::Kelvin;

@@ -1,67 +1,248 @@
 //! Figures of merit of cameras under the document's conditions.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
-use chromascope_core::metamers::{Confusion, MetamerLimits};
-use chromascope_core::patch_set::COLOR_CHECKER_CHROMATIC;
-use chromascope_core::query::{Ask as _, CameraMetricsQuery, IndexConditions, MetamersQuery, Replicates, Shared};
+use chromascope_core::metamers::{Confusion, MetamerLimits, MetamerPair};
+use chromascope_core::patch_set::{COLOR_CHECKER_CHROMATIC, PatchSet};
+use chromascope_core::query::{
+    Ask, CameraMetrics, CameraMetricsQuery, IndexConditions, MetamersQuery, Query, RenderingQuery, Shared,
+};
+use chromascope_core::spectral::Sensor;
 use chromascope_core::units::Kelvin;
 
 use super::{Scene, SceneError};
-use crate::catalog::load::{LightQuery, ReplicatesQuery};
+use crate::catalog::load::{LightQuery, LoadError, PatchesQuery, ReplicatesQuery, SensorQuery};
 use crate::catalog::{Entry, Place};
 use crate::document::{CHART, CIE_1931, SetKind};
 
 /// The light of the sensitivity metamerism index (ISO 17321-1).
 const INDEX_LIGHT: &str = "D55";
-/// The most pairs of metamers that are told.
+/// Maximum number of metameric pairs listed.
 const MOST_METAMERS: usize = 100;
 
+/// Conditions of figures of merit, the same for all sensors.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct MetricsConditions {
+    reference: RenderingQuery,
+    patches: Shared<PatchSet>,
+    temperature: Kelvin,
+    index: IndexConditions,
+    /// Camera models with more than one built-in table.
+    models: Vec<String>,
+    /// Those tables.
+    tables: ReplicatesQuery,
+}
+
+impl MetricsConditions {
+    /// The question for all figures of merit of a sensor. Loads the tables of the models that have several.
+    ///
+    /// # Errors
+    ///
+    /// [`LoadError`] for a damaged table.
+    pub fn query(
+        &self,
+        sensor: Shared<Sensor>,
+        model: Option<usize>,
+        ask: &impl Ask,
+    ) -> Result<CameraMetricsQuery, LoadError> {
+        Ok(CameraMetricsQuery {
+            rendering: RenderingQuery { sensor, ..self.reference.clone() },
+            reference: self.reference.clone(),
+            patches: self.patches.clone(),
+            temperature: self.temperature,
+            index: self.index.clone(),
+            electrons: None,
+            replicates: (*ask.ask(&self.tables)).clone()?,
+            model,
+        })
+    }
+
+    /// Place of a camera's model among those with several tables.
+    fn model(&self, name: &str) -> Option<usize> {
+        let model = model_of(name);
+        self.models.iter().position(|known| known == model)
+    }
+}
+
+/// Figures of merit of a camera of the catalog, which is loaded where the question is answered.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct CatalogMetricsQuery {
+    place: Place,
+    model: Option<usize>,
+    conditions: Shared<MetricsConditions>,
+}
+
+impl CatalogMetricsQuery {
+    /// The question for a camera under conditions.
+    pub fn new(camera: &Entry, conditions: Shared<MetricsConditions>) -> Self {
+        Self { place: camera.place.clone(), model: conditions.model(&camera.name), conditions }
+    }
+
+    /// True if both are of the same camera, whatever the conditions.
+    pub fn is_of_same_camera(&self, other: &Self) -> bool {
+        self.place == other.place
+    }
+}
+
+impl Query for CatalogMetricsQuery {
+    type Answer = Result<Arc<CameraMetrics>, LoadError>;
+    const NAME: &'static str = "camera of the ranking";
+
+    fn answer(&self, ask: &impl Ask) -> Self::Answer {
+        let sensor = (*ask.ask(&SensorQuery(self.place.clone()))).clone()?;
+        Ok(ask.ask(&self.conditions.query(sensor, self.model, ask)?))
+    }
+}
+
+/// A set of the catalog or the user's, without its header.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct SetPlace {
+    /// Kind.
+    pub kind: SetKind,
+    /// Name.
+    pub name: String,
+    /// Location of its figures.
+    pub place: Place,
+}
+
+/// Question for metamers among sets of the catalog, which are loaded where it is answered.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct CatalogMetamersQuery {
+    /// The camera.
+    pub rendering: RenderingQuery,
+    /// The reference observer.
+    pub reference: RenderingQuery,
+    /// The sets that are searched.
+    pub sets: Vec<SetPlace>,
+    /// The one that confuses.
+    pub confusion: Confusion,
+}
+
+/// Two reflectances that are confused: set and name of each, and the kind of each set.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MetamerRow {
+    /// The pair.
+    pub pair: MetamerPair,
+    /// Name of its set, and of each in it.
+    pub names: [[String; 2]; 2],
+    /// Kind of each set.
+    pub kinds: [SetKind; 2],
+}
+
+/// Metamers by name.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FoundMetamers {
+    /// The pairs, worst first.
+    pub rows: Vec<MetamerRow>,
+    /// Number of reflectances that were searched.
+    pub searched: usize,
+}
+
+impl CatalogMetamersQuery {
+    /// The question with all sets loaded.
+    ///
+    /// # Errors
+    ///
+    /// [`SceneError::Load`] for a damaged set.
+    pub fn loaded(&self, ask: &impl Ask) -> Result<MetamersQuery, SceneError> {
+        let load = |set: &SetPlace| {
+            let patches = ask.ask(&PatchesQuery { place: set.place.clone(), names: None });
+            (*patches).clone().map_err(|error| SceneError::Load { name: set.name.clone(), error })
+        };
+        Ok(MetamersQuery {
+            rendering: self.rendering.clone(),
+            reference: self.reference.clone(),
+            sets: self.sets.iter().map(load).collect::<Result<_, _>>()?,
+            confusion: self.confusion,
+            limits: MetamerLimits::USUAL,
+            most: MOST_METAMERS,
+        })
+    }
+}
+
+impl Query for CatalogMetamersQuery {
+    type Answer = Result<FoundMetamers, String>;
+    const NAME: &'static str = "metamers by name";
+    const KEPT: usize = 4;
+
+    fn answer(&self, ask: &impl Ask) -> Self::Answer {
+        let query = self.loaded(ask).map_err(|error| error.to_string())?;
+        let found = ask.ask(&query);
+        let found = (*found).as_ref().map_err(ToString::to_string)?;
+        let named = |place: usize| {
+            let [set, patch] = query.at(place)?;
+            let (patch, set) = (query.sets[set].patches().get(patch)?.name.clone(), self.sets.get(set)?);
+            Some(([set.name.clone(), patch], set.kind))
+        };
+        let row = |pair: &MetamerPair| {
+            let [a, b] = pair.places.map(named);
+            let ((first, a), (second, b)) = a.zip(b)?;
+            Some(MetamerRow { pair: *pair, names: [first, second], kinds: [a, b] })
+        };
+        Ok(FoundMetamers { rows: found.pairs.iter().filter_map(row).collect(), searched: found.searched })
+    }
+}
+
 impl Scene<'_> {
-    /// The question for all figures of merit of a sensor under the document's conditions, the locus at the marked temperature.
+    /// Query for all figures of merit of a sensor under the document's conditions, the locus at the marked temperature.
     pub fn camera_metrics_query(&self, kind: SetKind, name: &str) -> Result<CameraMetricsQuery, SceneError> {
         self.camera_metrics_query_at(kind, name, self.document.temperature_k)
     }
 
-    /// The same question with the locus at a temperature in kelvins.
+    /// Query for all figures of merit of a sensor, with the locus at a temperature in kelvins.
     pub fn camera_metrics_query_at(
         &self,
         kind: SetKind,
         name: &str,
         temperature_k: f64,
     ) -> Result<CameraMetricsQuery, SceneError> {
-        let (models, replicates) = self.replicates()?;
-        Ok(CameraMetricsQuery {
-            rendering: self.rendering_of(kind, name)?,
+        let conditions = self.metrics_conditions(temperature_k)?;
+        let model = conditions.model(name).filter(|_| kind == SetKind::Camera);
+        let failed = |error| SceneError::Load { name: "cameras with several tables".to_owned(), error };
+        conditions.query(self.sensor(kind, name)?, model, self.results).map_err(failed)
+    }
+
+    /// Conditions of figures of merit, the locus at a temperature in kelvins. Loads no camera.
+    pub fn metrics_conditions(&self, temperature_k: f64) -> Result<MetricsConditions, SceneError> {
+        let mut tables: BTreeMap<&str, Vec<Place>> = BTreeMap::new();
+        for entry in self.catalog.of_kind(SetKind::Camera) {
+            tables.entry(model_of(&entry.name)).or_default().push(entry.place.clone());
+        }
+        tables.retain(|_, places| places.len() > 1);
+        let (models, places) = tables.into_iter().map(|(model, places)| (model.to_owned(), places)).unzip();
+        Ok(MetricsConditions {
             reference: self.rendering_of(SetKind::Observer, &self.document.reference)?,
             patches: self.patches()?,
             temperature: Kelvin::new(temperature_k)?,
             index: self.index_conditions()?,
-            electrons: None,
-            replicates,
-            model: models.iter().position(|model| kind == SetKind::Camera && *model == model_of(name)),
+            models,
+            tables: ReplicatesQuery(places),
         })
     }
 
-    /// The question for metamers of a camera and the reference among all sets of reflectances, with the names of the sets.
+    /// Query for metamers of a camera and the reference among all sets of reflectances. Loads none of them.
     pub fn metamers_query(
         &self,
         kind: SetKind,
         name: &str,
         confusion: Confusion,
-    ) -> Result<(MetamersQuery, Vec<String>), SceneError> {
-        let entries: Vec<_> =
-            [SetKind::Chart, SetKind::Material].into_iter().flat_map(|kind| self.entries(kind)).collect();
-        let load = |entry: &Entry| self.loaded_patches(entry.place.clone(), &entry.name, None);
-        let query = MetamersQuery {
+    ) -> Result<CatalogMetamersQuery, SceneError> {
+        let kinds = [SetKind::Chart, SetKind::Material].into_iter();
+        Ok(CatalogMetamersQuery {
             rendering: self.rendering_of(kind, name)?,
             reference: self.rendering_of(SetKind::Observer, &self.document.reference)?,
-            sets: entries.iter().map(load).collect::<Result<_, _>>()?,
+            sets: kinds.flat_map(|kind| self.places(kind)).collect(),
             confusion,
-            limits: MetamerLimits::USUAL,
-            most: MOST_METAMERS,
-        };
-        Ok((query, entries.into_iter().map(|entry| entry.name).collect()))
+        })
+    }
+
+    /// The sets of a kind, the user's own first.
+    pub(super) fn places(&self, kind: SetKind) -> impl Iterator<Item = SetPlace> {
+        let own = self.document.own.iter().filter(move |set| SetKind::of_own(set) == kind);
+        let own = own.map(|set| (set.name.clone(), Place::Own(set.clone())));
+        let built_in = self.catalog.of_kind(kind).map(|entry| (entry.name.clone(), entry.place.clone()));
+        own.chain(built_in).map(move |(name, place)| SetPlace { kind, name, place })
     }
 
     /// Observer, light and patches of the sensitivity metamerism index.
@@ -73,22 +254,9 @@ impl Scene<'_> {
             patches: self.patch_set(CHART, Some(&COLOR_CHECKER_CHROMATIC))?,
         })
     }
-
-    /// The camera models with more than one built-in table, and those tables.
-    fn replicates(&self) -> Result<(Vec<&str>, Shared<Replicates>), SceneError> {
-        let mut tables: BTreeMap<&str, Vec<Place>> = BTreeMap::new();
-        for entry in self.catalog.of_kind(SetKind::Camera) {
-            tables.entry(model_of(&entry.name)).or_default().push(entry.place.clone());
-        }
-        tables.retain(|_, places| places.len() > 1);
-        let (models, places): (Vec<_>, Vec<_>) = tables.into_iter().unzip();
-        let answer = self.results.ask(&ReplicatesQuery(places));
-        let failed = |error| SceneError::Load { name: "cameras with several tables".to_owned(), error };
-        Ok((models, (*answer).clone().map_err(failed)?))
-    }
 }
 
-/// Name of a camera's model: its set's name without the parenthesis that tells tables of one model apart.
+/// Camera model of a set: its name without the parenthesis that distinguishes tables of one model.
 pub fn model_of(name: &str) -> &str {
     name.split_once(" (").map_or(name, |(model, _)| model)
 }

@@ -1,4 +1,4 @@
-//! The viewpoint of a rendered mesh, as a person turns it.
+//! The viewpoint of a rendered mesh, as the user turns it.
 
 use chromascope_core::scene::Viewpoint;
 use serde::{Deserialize, Serialize};

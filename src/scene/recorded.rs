@@ -1,10 +1,14 @@
 //! Recorded raw RGB against the library: which table is this camera?
 
+use std::sync::Arc;
+
 use chromascope_core::camera::recorded::{Freedom, LinkKind, RecordedError, RecordedFit};
-use chromascope_core::query::{Ask as _, RecordedFitQuery, RecordedSet};
+use chromascope_core::query::{Ask, Query, RecordedFitQuery, RecordedSet};
 use chromascope_core::spectral::{GridSpectrum, Primaries};
 
+use super::metrics::SetPlace;
 use super::{Scene, SceneError};
+use crate::catalog::load::SensorQuery;
 use crate::catalog::recorded::lit;
 use crate::document::SetKind;
 use crate::format::fixed;
@@ -25,27 +29,53 @@ impl RankedCamera {
     }
 }
 
-impl Scene<'_> {
-    /// Cameras by the RMS of their log error, smallest first: those named, or all of the library and the user's.
-    pub fn ranked_cameras(
-        &self,
-        recorded: &RecordedSet,
-        freedom: Freedom,
-        names: &[String],
-    ) -> Result<Vec<RankedCamera>, SceneError> {
-        let all = || self.entries(SetKind::Camera).map(|entry| entry.name).collect();
-        let names: Vec<String> = if names.is_empty() { all() } else { names.to_vec() };
-        let mut ranked = Vec::with_capacity(names.len());
-        for name in names {
-            let sensor = self.sensor(SetKind::Camera, &name)?;
+/// Question for cameras ranked by their fit to recorded values. They are loaded where it is answered.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct RecordedRankingQuery {
+    /// The recorded values.
+    pub recorded: RecordedSet,
+    freedom: Freedom,
+    cameras: Vec<SetPlace>,
+}
+
+impl Query for RecordedRankingQuery {
+    type Answer = Result<Arc<Vec<RankedCamera>>, SceneError>;
+    const NAME: &'static str = "recorded ranking";
+    const KEPT: usize = 4;
+
+    fn answer(&self, ask: &impl Ask) -> Self::Answer {
+        let mut ranked = Vec::with_capacity(self.cameras.len());
+        for SetPlace { name, place, .. } in &self.cameras {
+            let sensor = (*ask.ask(&SensorQuery(place.clone()))).clone();
+            let sensor = sensor.map_err(|error| SceneError::Load { name: name.clone(), error })?;
             if sensor.primaries() == Primaries::Camera {
-                let query = RecordedFitQuery { recorded: recorded.clone(), sensor, freedom };
-                ranked.push(RankedCamera { name, fit: (*self.results.ask(&query)).clone() });
+                let query = RecordedFitQuery { recorded: self.recorded.clone(), sensor, freedom: self.freedom };
+                ranked.push(RankedCamera { name: name.clone(), fit: (*ask.ask(&query)).clone() });
             }
         }
         let rms = |camera: &RankedCamera| camera.fit.as_ref().map_or(f64::INFINITY, RecordedFit::rms);
         ranked.sort_by(|a, b| rms(a).total_cmp(&rms(b)));
-        Ok(ranked)
+        Ok(Arc::new(ranked))
+    }
+}
+
+impl Scene<'_> {
+    /// The question for cameras by the RMS of their log error, smallest first: those named, or all of the library and the user's.
+    pub fn recorded_ranking(
+        &self,
+        recorded: &RecordedSet,
+        freedom: Freedom,
+        names: &[String],
+    ) -> Result<RecordedRankingQuery, SceneError> {
+        let kind = SetKind::Camera;
+        let named =
+            |name: &String| Ok(SetPlace { kind, name: name.clone(), place: self.find(kind, name)?.place.clone() });
+        let cameras = if names.is_empty() {
+            self.places(kind).collect()
+        } else {
+            names.iter().map(named).collect::<Result<_, SceneError>>()?
+        };
+        Ok(RecordedRankingQuery { recorded: recorded.clone(), freedom, cameras })
     }
 
     /// Radiances `S_p L` of the chart's patches under the light, by name.

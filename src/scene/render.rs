@@ -1,4 +1,4 @@
-//! The rendered scene as a question.
+//! The rendered scene as a query.
 
 use chromascope_core::query::render::picture::{PicturesQuery, SourceOf};
 use chromascope_core::query::render::{GeometryQuery, MeshQuery, ShadingQuery, VisibilityQuery};
@@ -12,16 +12,16 @@ use super::{ComparedSensor, Scene, SceneError};
 use crate::document::render::{BALANCE, MeshChoice, SUN};
 use crate::document::{SetKind, WhiteBalanceChoice};
 
-/// How finely a picture is made.
+/// Quality settings of a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Finish {
     /// Pixels and samples.
     pub size: RasterSize,
-    /// How exactly integrals are made.
+    /// Quality of the spectral integration.
     pub quality: Quality,
-    /// How finely shadows are traced, where there are any.
+    /// Sampling of shadows, where there are any.
     pub shadows: Shadows,
-    /// About how many samples are compared with the reference.
+    /// Approximate number of samples compared with the reference.
     pub compared_samples: Option<usize>,
     /// True if the mesh hides no part of the sky: a first picture, before it is known which.
     pub open_sky: bool,
@@ -37,7 +37,7 @@ impl Scene<'_> {
         Ok(Shared::new(patch.grid.clone()))
     }
 
-    /// The sensors that are rendered: those on show, the reference first, without those that Eq 13 says nothing about beside it.
+    /// The rendered sensors: those compared, the reference first, without those for which Eq 13 is undefined.
     pub fn rendered_sources(&self) -> Vec<ComparedSensor> {
         let mut sources = self.sources();
         sources.retain(|source| {
@@ -46,7 +46,7 @@ impl Scene<'_> {
         sources
     }
 
-    /// The mesh in question; a file's mesh is `own`, once it was read.
+    /// The selected mesh; a file's mesh is `own`, once it was read.
     pub fn mesh_of(&self, own: Option<&Shared<Mesh>>) -> Option<MeshQuery> {
         let settings = &self.document.render;
         match &settings.mesh {
@@ -55,6 +55,7 @@ impl Scene<'_> {
             MeshChoice::Sphere => Some(MeshQuery::Sphere(settings.triangles)),
             MeshChoice::Plane => Some(MeshQuery::Plane),
             MeshChoice::File(_) => own.cloned().map(MeshQuery::Own),
+            MeshChoice::Image(_) => None,
         }
     }
 
@@ -80,7 +81,7 @@ impl Scene<'_> {
         [self.light_name(), self.document.white.name()]
     }
 
-    /// The pictures of these sensors. `background` is in linear sRGB; without one, what is beside the mesh is transparent.
+    /// The pictures of these sensors. `background` is in linear sRGB; without one, pixels outside the mesh are transparent.
     pub fn pictures_of(
         &self,
         sources: &[ComparedSensor],

@@ -1,17 +1,17 @@
-//! What is looked at in Accuracy.
+//! View state of the Numerics workspace.
 
 use chromascope_measure::Workload;
 
 use crate::profiler::Subject;
 
-/// What is looked at in Accuracy.
+/// View state of the Numerics workspace.
 #[derive(Clone, Debug, Default)]
 pub struct AccuracyView {
-    /// Whose methods are on show.
+    /// Selected measurement.
     pub shows: Shows,
 }
 
-/// Whose methods are on show.
+/// Measurement whose methods are shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Shows {
     /// Those of the scene.

@@ -1,4 +1,4 @@
-//! What is looked at in Correction.
+//! View state of the Correction pane.
 
 use std::sync::Arc;
 
@@ -9,7 +9,7 @@ use crate::export::profile::CorrectionFile;
 pub struct CorrectionView {
     /// The camera chosen there; the first that is compared otherwise.
     pub camera: Option<String>,
-    /// The correction on show.
+    /// The current correction.
     pub shown: Option<Arc<CorrectionFile>>,
 }
 
@@ -40,7 +40,7 @@ impl CorrectionForm {
         }
     }
 
-    /// Label of the button, and what it saves.
+    /// Label of the button, and the object it saves.
     pub const fn words(self) -> (&'static str, &'static str) {
         match self {
             Self::Dcp => ("DCP…", "Save a DNG camera profile for raw developers: matrices of one light or two"),

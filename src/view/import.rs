@@ -1,4 +1,4 @@
-//! What is looked at in Import.
+//! View state of the Import pane.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -9,7 +9,7 @@ use crate::catalog::likeness::Likeness;
 use crate::catalog::opened::Failing;
 use crate::document::own::{Fingerprint, ImportOverrides, OwnSet};
 
-/// So many kinds of files are remembered.
+/// Maximum number of remembered kinds of files.
 const REMEMBERED: usize = 100;
 
 /// Something in the list of files.
@@ -21,30 +21,30 @@ pub enum ImportItem {
     File(Fingerprint),
 }
 
-/// What is looked at in Import.
+/// View state of the Import pane.
 #[derive(Debug, Default)]
 pub struct ImportView {
-    /// The file on show.
+    /// The selected item.
     pub selected: Option<ImportItem>,
-    /// How files are to be read, while that is not yet so in the document: what was tried on each is kept.
+    /// Import settings tried for each item but not yet applied to the document.
     pub tried: BTreeMap<ImportItem, ImportOverrides>,
-    /// Files with something guessed or broken that nobody has looked at.
+    /// Files with a guess or an error that the user has not reviewed.
     pub unseen: BTreeSet<ImportItem>,
-    /// The parts of the file on show that are to be taken, each as a set of its own; from 1.
+    /// The parts of the selected file to import, each as a set of its own; from 1.
     pub parts: BTreeSet<usize>,
-    /// Where the keyboard stopped on its way from pane to pane.
+    /// Control at which the keyboard focus stopped between panes.
     pub stop: Option<Stop>,
-    /// What takes the keyboard in this frame.
+    /// Control that takes the keyboard focus in this frame.
     pub focus: Option<Stop>,
-    /// The line of the text to bring into sight in this frame.
+    /// The line of the text to bring into view in this frame.
     pub line: Option<usize>,
-    /// What is typed into the search of curves.
+    /// Search text of the curve list.
     pub search: String,
     /// Curves under the pointer, by place in the file.
     pub hovered_curve: Option<usize>,
 }
 
-/// A place in Import where the keyboard stops on its way from pane to pane.
+/// Control of Import that takes the keyboard focus between panes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stop {
     /// The list of files.
@@ -56,7 +56,7 @@ pub enum Stop {
 }
 
 impl ImportView {
-    /// Shows an item. What was tried on another stays with that.
+    /// Shows an item. Settings tried on another stay with that.
     pub fn select(&mut self, item: ImportItem) {
         if self.selected.as_ref() != Some(&item) {
             self.line = None;
@@ -66,7 +66,7 @@ impl ImportView {
         }
     }
 
-    /// True if the keyboard goes to a place in this frame; asked by that place, once.
+    /// True if the keyboard focus goes to a place in this frame; called by that place, once.
     pub fn takes_keyboard(&mut self, stop: Stop) -> bool {
         let takes = self.focus == Some(stop);
         if takes {
@@ -75,7 +75,7 @@ impl ImportView {
         takes
     }
 
-    /// What is tried on an item.
+    /// Settings tried for an item.
     pub fn pending(&self, item: &ImportItem) -> Option<&ImportOverrides> {
         self.tried.get(item)
     }
@@ -103,7 +103,7 @@ impl ImportView {
         }
         let known = |sets: &[Shared<OwnSet>], name: &str| sets.iter().any(|set| set.name == name);
         for (old, new) in before.iter().zip(after) {
-            // A set that changes keeps its place; where both names go on there is nothing to follow.
+            // A set that changes keeps its index; where both names persist, there is nothing to follow.
             if old.name != new.name && !known(after, &old.name) && !known(before, &new.name) {
                 self.follow(&ImportItem::Set(old.name.clone()), &ImportItem::Set(new.name.clone()));
             }
@@ -111,26 +111,26 @@ impl ImportView {
     }
 }
 
-/// What a person wished for a kind of file.
+/// Import settings that the user chose for a kind of file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Remembered {
     /// The kind.
     pub likeness: Likeness,
-    /// The wishes.
+    /// The settings.
     pub wishes: ImportOverrides,
 }
 
-/// What is kept of Import between runs.
+/// Import settings saved between runs.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct ImportMemory {
-    /// What was wished for which kinds of files, the latest last.
+    /// Settings by kind of file, the latest last.
     pub remembered: Vec<Remembered>,
     /// True if files are read again when they change on disk.
     pub watch: bool,
     /// Files on disk that could not be read.
     pub failing: Vec<Failing>,
-    /// Files with something guessed or broken that nobody has looked at.
+    /// Files with a guess or an error that the user has not reviewed.
     pub unseen: BTreeSet<ImportItem>,
 }
 
@@ -141,7 +141,7 @@ impl Default for ImportMemory {
 }
 
 impl ImportMemory {
-    /// Remembers what was wished for a file, for others like it; no wishes forget.
+    /// Remembers the settings for a file, to be applied to others like it; default settings remove the entry.
     pub fn remember(&mut self, likeness: Likeness, wishes: &ImportOverrides) {
         if !likeness.is_telling() {
             return;
@@ -155,19 +155,19 @@ impl ImportMemory {
         self.remembered.drain(..spare);
     }
 
-    /// Forgets what was wished for files like one.
+    /// Forgets the settings for files like one.
     pub fn forget(&mut self, likeness: &Likeness) {
         self.remembered.retain(|known| !known.likeness.is_like(likeness));
     }
 
-    /// What is wished for a file.
+    /// Returns the remembered settings for a file.
     pub fn wishes(&self, likeness: &Likeness) -> ImportOverrides {
         let known = self.remembered.iter().rev().find(|known| known.likeness.is_like(likeness));
         known.map(|known| known.wishes.clone()).unwrap_or_default()
     }
 }
 
-/// The wishes that hold for other files of a kind too: which curves are taken, and which part and column, do not.
+/// The settings that apply to other files of a kind, too: not the choice of curves, part and column.
 pub fn of_a_kind(wishes: &ImportOverrides) -> ImportOverrides {
     let mut kind = ImportOverrides { taken: None, ..wishes.clone() };
     (kind.options.part, kind.options.wavelength_column) = (None, None);

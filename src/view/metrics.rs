@@ -1,11 +1,11 @@
-//! What is looked at in Metrics.
+//! View state of the Metrics pane.
 
 use chromascope_core::metamers::Confusion;
 use serde::{Deserialize, Serialize};
 
 use crate::plot_item::SensorId;
 
-/// What is looked at in Metrics.
+/// View settings of the Metrics pane.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct MetricsLook {
@@ -13,7 +13,7 @@ pub struct MetricsLook {
     pub cameras: RankedCameras,
     /// Metamers that are searched for.
     pub confusion: Confuses,
-    /// The two that stand head to head; none for the selected one and the first compared one beside it.
+    /// The two cameras of Head to head; `None` for the selected one and the first compared one.
     #[serde(skip)]
     pub pair: [Option<SensorId>; 2],
     /// The camera of the report card; none for the selected one.
@@ -44,7 +44,7 @@ pub enum Confuses {
 }
 
 impl Confuses {
-    /// The same as the search calls it.
+    /// Converts to the metamer search's type.
     pub const fn confusion(self) -> Confusion {
         match self {
             Self::Camera => Confusion::Camera,

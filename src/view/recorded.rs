@@ -1,12 +1,19 @@
-//! What is looked at in Recorded.
+//! View state of the Recorded pane.
+
+use std::sync::Arc;
 
 use chromascope_core::camera::recorded::Freedom;
-use chromascope_core::query::RecordedSet;
+use chromascope_core::patch_set::PatchSet;
+use chromascope_core::query::{RecordedSet, Shared};
+use chromascope_core::spectral::GridSpectrum;
 
-/// What is looked at in Recorded.
+use crate::catalog::recorded_store::RecordedFile;
+use crate::scene::recorded::RankedCamera;
+
+/// View state of the Recorded pane.
 #[derive(Clone, Debug, Default)]
 pub struct RecordedView {
-    /// True while a file that is asked for is one of recorded values.
+    /// True while the open file dialog is for recorded values.
     pub opening: bool,
     /// Parameters that are fitted.
     pub freedom: Freedom,
@@ -16,6 +23,31 @@ pub struct RecordedView {
     pub clip: f64,
     /// Camera whose residuals are shown; the best without one.
     pub camera: Option<String>,
-    /// The patches on show.
-    pub set: Option<RecordedSet>,
+    /// The current patches, and what they were made of.
+    pub set: Option<(RecordedInputs, RecordedSet)>,
+    /// The last ranking by values of the same file, and those values.
+    pub ranked: Option<(RecordedSet, Arc<Vec<RankedCamera>>)>,
+}
+
+/// What patches with recorded values are made of.
+#[derive(Clone, Debug)]
+pub struct RecordedInputs {
+    /// The file.
+    pub file: Arc<RecordedFile>,
+    /// Its chart, if the file has no spectra of its own.
+    pub chart: Option<Shared<PatchSet>>,
+    /// The light.
+    pub light: Shared<GridSpectrum>,
+    /// Corners of the chart in the picture.
+    pub corners: Vec<[f64; 2]>,
+    /// Raw value from which on a channel is clipped.
+    pub clip: f64,
+}
+
+impl PartialEq for RecordedInputs {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.file, &other.file)
+            && (&self.chart, &self.light) == (&other.chart, &other.light)
+            && (&self.corners, self.clip) == (&other.corners, other.clip)
+    }
 }

@@ -1,4 +1,4 @@
-//! How the rendered mesh is looked at: the orbit, how pictures stand, the pixel that is read.
+//! View state of the Render pane: orbit, arrangement of pictures and pinned pixel.
 
 use std::time::Duration;
 
@@ -8,15 +8,15 @@ use crate::paint::PictureTextures;
 use crate::plot_item::SensorId;
 pub use crate::scene::orbit::Orbit;
 
-/// The part that is kept between runs.
+/// The part that is saved between runs.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct RenderLook {
-    /// How pictures stand.
+    /// Arrangement of pictures.
     pub mode: RenderMode,
-    /// Where the mesh is seen from; none for the mesh's own view.
+    /// Viewpoint; `None` for the mesh's own.
     pub orbit: Option<Orbit>,
-    /// Where the divider of the split picture stands, from 0 at the left to 1.
+    /// Position of the divider of the split picture, from 0 (left) to 1.
     pub split: f32,
 }
 
@@ -30,7 +30,7 @@ impl Default for RenderLook {
 }
 
 impl RenderLook {
-    /// Brings what a spoiled file says within its range.
+    /// Corrects values of a damaged file that are out of range.
     pub fn mend(&mut self) {
         if !(0.0..=1.0).contains(&self.split) {
             self.split = Self::default().split;
@@ -39,7 +39,7 @@ impl RenderLook {
     }
 }
 
-/// How pictures stand.
+/// Arrangement of pictures.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum RenderMode {
     /// One for each sensor.
@@ -49,7 +49,7 @@ pub enum RenderMode {
     Split,
     /// One sensor, large.
     One,
-    /// How far each sensor is from the reference.
+    /// Difference of each sensor from the reference.
     Difference,
 }
 
@@ -62,32 +62,32 @@ pub struct PixelPlace {
     pub source: SensorId,
 }
 
-/// What the pane shows now.
+/// View state of the Render pane.
 #[derive(Debug, Default)]
 pub struct RenderView {
-    /// The pixel that is kept.
+    /// The pinned pixel.
     pub pinned: Option<PixelPlace>,
     /// The pixel under the pointer.
     pub hovered: Option<PixelPlace>,
-    /// The sensor that stands alone or beside the reference; none for the first camera.
+    /// The sensor shown alone or with the reference; `None` for the first camera.
     pub chosen: Option<SensorId>,
-    /// For how long pictures have been in the making.
+    /// Running time of the rendering.
     pub busy: Option<Duration>,
-    /// What is being made, in a word.
+    /// Name of the computation in progress.
     pub making: &'static str,
-    /// True if finer pictures than those on show are not wanted.
+    /// Share of the rows of a spectral image that were read; none for a mesh.
+    pub rows_read: Option<f32>,
+    /// True if finer pictures than the current ones are not wanted.
     pub cancelled: bool,
     /// The pictures as textures.
     pub textures: PictureTextures,
-    /// What is typed to find a material.
-    pub material_search: String,
 }
 
 impl RenderView {
     /// After this long a computation is shown to be going on, and Esc ends it.
     pub const PATIENCE: Duration = Duration::from_millis(100);
 
-    /// True if a computation has been going on for long enough to be told of.
+    /// True if a computation has lasted long enough for progress to be shown.
     pub fn is_waiting(&self) -> bool {
         self.busy.is_some_and(|busy| busy >= Self::PATIENCE)
     }

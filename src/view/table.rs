@@ -1,4 +1,4 @@
-//! How tables are looked at: order, columns, filter.
+//! View settings of tables: order, columns, filter.
 
 use std::collections::BTreeMap;
 
@@ -6,18 +6,18 @@ use serde::{Deserialize, Serialize};
 
 use crate::plot_item::PlotItem;
 
-/// How one table is looked at.
+/// View settings of one table.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct TableLook {
     /// Column that rows are sorted by; none for the order as given.
     pub sorting: Option<Sorting>,
-    /// Columns that the user shows or hides, by name; others stand as the table starts.
+    /// Columns that the user shows or hides, by name; others keep the table's default.
     pub columns: BTreeMap<String, bool>,
-    /// Words that a row must contain. Not kept between runs.
+    /// Words that a row must contain. Not saved between runs.
     #[serde(skip)]
     pub filter: String,
-    /// Row under the keyboard where rows stand for nothing else, counted as given.
+    /// Row with the keyboard cursor where rows have no items, in the given order.
     #[serde(skip)]
     pub cursor: Option<usize>,
     /// Selection that the table was scrolled to.

@@ -1,4 +1,4 @@
-//! The Accuracy workspace: measured on the scene on show, by a person's wish alone.
+//! Tests of the Numerics workspace: the visible scene is measured, and only on request.
 
 use std::sync::Arc;
 
@@ -24,10 +24,10 @@ use crate::screenshots::{accuracy, driven, open};
 
 type Window = Harness<'static, chromascope::app::ChromascopeApp>;
 
-/// The window in Accuracy, with the scene as it starts measured.
+/// The window in Numerics, with the scene as it starts measured.
 fn measured() -> Window {
     let mut window = open([1280.0, 800.0], egui::Theme::Dark);
-    window.state_mut().push(Command::Show(Workspace::Accuracy));
+    window.state_mut().push(Command::Show(Workspace::Numerics));
     window.run_steps(2);
     window.get_all_by_label("Run").last().expect("there is a way to measure").click();
     window.run_steps(2);
@@ -47,7 +47,7 @@ fn run(window: &Window) -> std::sync::Arc<SceneRun> {
 #[test]
 fn nothing_is_measured_unasked() {
     let mut window = open([1280.0, 800.0], egui::Theme::Light);
-    window.state_mut().push(Command::Show(Workspace::Accuracy));
+    window.state_mut().push(Command::Show(Workspace::Numerics));
     window.run_steps(3);
     assert!(window.state().laboratory().busy().is_none());
     assert!(window.state().laboratory().measured.run.is_none());
@@ -156,7 +156,7 @@ fn a_hidden_camera_is_told_of() {
     window.run_steps(2);
     window.state_mut().push(Command::SpectralWeights);
     window.run_steps(2);
-    assert_eq!(window.state().view().saved.workspace, Workspace::Accuracy, "what is measured is shown");
+    assert_eq!(window.state().view().saved.workspace, Workspace::Numerics, "what is measured is shown");
     take_in(&mut window);
     let run = run(&window);
     let row = run.skipped_work.iter().find(|row| row.what == "sensors that are not visible").expect("one is hidden");
@@ -169,7 +169,7 @@ fn a_hidden_camera_is_told_of() {
 #[test]
 fn a_tolerance_is_kept_by_pictures_and_each_source_says_how() {
     let mut window = open([1280.0, 800.0], egui::Theme::Light);
-    window.state_mut().push(Command::Show(Workspace::Accuracy));
+    window.state_mut().push(Command::Show(Workspace::Numerics));
     window.run_steps(2);
     let render = |window: &Window| window.state().history().document().render.clone();
     assert_eq!(render(&window).quality, QualityLevel::Full);
@@ -187,8 +187,11 @@ fn a_tolerance_is_kept_by_pictures_and_each_source_says_how() {
     window.state().studio().wait();
     window.run_steps(3);
     let shot = window.state().studio().frame().cloned().expect("pictures");
-    assert_eq!(shot.query.shading.quality.given_tolerance().map(RelTolerance::max_relative_error), Some(1e-6));
-    assert!(shot.made().is_some_and(|made| made.shading.spectral > 1000));
+    assert_eq!(
+        shot.query.mesh().unwrap().shading.quality.given_tolerance().map(RelTolerance::max_relative_error),
+        Some(1e-6)
+    );
+    assert!(shot.made().is_some_and(|made| made.mesh().unwrap().shading.spectral > 1000));
     window.state_mut().push(Command::Undo);
     window.run_steps(2);
     assert_eq!(render(&window).quality, QualityLevel::Full);
@@ -198,7 +201,7 @@ fn a_tolerance_is_kept_by_pictures_and_each_source_says_how() {
 #[test]
 fn a_source_without_a_plan_says_why() {
     let mut window = open([1280.0, 1000.0], egui::Theme::Light);
-    window.state_mut().push(Command::Show(Workspace::Accuracy));
+    window.state_mut().push(Command::Show(Workspace::Numerics));
     let flat =
         RenderSettings { reading: ReadingChoice::Lambertian, ..window.state().history().document().render.clone() };
     window.state_mut().push(Action::Render(RenderAction::Set { what: "Normalization", to: Box::new(flat) }));
@@ -216,7 +219,7 @@ fn a_source_without_a_plan_says_why() {
 #[test]
 fn a_typed_tolerance_is_taken_as_it_is_and_ticks_nothing() {
     let mut window = open([1280.0, 1000.0], egui::Theme::Light);
-    window.state_mut().push(Command::Show(Workspace::Accuracy));
+    window.state_mut().push(Command::Show(Workspace::Numerics));
     window.run_steps(3);
     let render = |window: &Window| window.state().history().document().render.clone();
     for (typed, taken, shown) in [("5e-10", 5e-10, "5e−10"), ("2.5e−4", 2.5e-4, "2.5e−4"), ("1e−6", 1e-6, "1e−6")]
@@ -243,7 +246,7 @@ fn type_tolerance(window: &mut Window, text: &str, key: egui::Key) {
 
 #[test]
 fn a_tolerance_that_cannot_be_is_refused_beside_its_field() {
-    for workspace in [Workspace::Accuracy, Workspace::Render] {
+    for workspace in [Workspace::Numerics, Workspace::Render] {
         let mut window = open([1280.0, 1000.0], egui::Theme::Light);
         let mut settings = window.state().history().document().render.clone();
         settings.quality = QualityLevel::Tolerance;
@@ -289,7 +292,7 @@ fn a_report_of_the_bench_is_shown_and_exported() {
     let report = crate::bench::report();
     let mut window = open([1280.0, 800.0], egui::Theme::Light);
     let view = window.state_mut().view_mut();
-    view.saved.workspace = Workspace::Accuracy;
+    view.saved.workspace = Workspace::Numerics;
     view.accuracy.shows = Shows::Bench(Workload::Difference);
     let measured = &mut window.state_mut().laboratory_mut().measured;
     measured.reports.insert(Workload::Difference, Arc::new(Ok(report.clone())));
@@ -312,7 +315,7 @@ fn a_report_of_the_bench_is_shown_and_exported() {
 #[test]
 fn without_the_benchmark_its_place_says_how_to_get_it() {
     let mut window = open([900.0, 600.0], egui::Theme::Light);
-    window.state_mut().push(Command::Show(Workspace::Accuracy));
+    window.state_mut().push(Command::Show(Workspace::Numerics));
     window.state_mut().view_mut().accuracy.shows = Shows::Bench(Workload::Difference);
     window.run_steps(3);
     let offered = window.query_by_label("Nothing measured yet. A quick run takes some seconds.").is_some();

@@ -69,7 +69,7 @@ const AGAINST_ORDER: &[(&str, &str)] = &[];
 /// Other crates under the names that `chromascope-core` gives them.
 const REEXPORTED: &[&str] = &["math", "mesh"];
 
-/// What the core never names: the same input is to give the same output.
+/// Names that the core never uses, as equal input must give equal output.
 const NOT_IN_THE_CORE: &[&str] =
     &["egui", "eframe", "std::env", "std::fs", "std::net", "std::process", "std::thread", "std::time"];
 

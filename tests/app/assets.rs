@@ -13,7 +13,7 @@ const ROOT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/assets");
 const FOLDERS: [&str; 7] = ["observers", "cameras", "charts", "illuminants", "materials", "filters", "test-samples"];
 const RESPONSES: [&str; 5] =
     ["per energy (stated)", "per energy (inferred)", "per photon (stated)", "per photon (inferred)", "unknown"];
-/// Header keys in the order they must have; the flag says whether the key may be left out.
+/// Header keys in the required order; the flag marks optional keys.
 const KEYS: [(&str, bool); 10] = [
     ("title", false),
     ("also", true),

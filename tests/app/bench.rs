@@ -6,7 +6,7 @@ use std::process::{Command, Output};
 
 use chromascope_measure::{Effort, ErrorOf, ErrorScale, Machine, Measurement, Report, Workload};
 
-/// A report with two measurements that nobody made.
+/// A report with two invented measurements.
 pub(crate) fn report() -> Report {
     let measurement = |method: &str, seconds: f64, error: f64| Measurement {
         workload: Workload::Difference,

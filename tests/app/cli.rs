@@ -1,4 +1,4 @@
-//! The command line, run as a person runs it, without a display.
+//! The command line, run as the user runs it, without a display.
 
 mod compare;
 mod files;
@@ -183,7 +183,7 @@ fn decimal_commas_and_percent_are_read() {
         table(&[&chart[..], &["--camera", "Nikon D70 (2007 figure)"]].concat())[1][2..].to_vec()
     };
     assert_eq!(of(&points, "percent"), of(&fractions, "plain"));
-    // Nothing is divided by 100 until somebody says so.
+    // Nothing is divided by 100 unless requested.
     refused(&["patches", "--chart", points.to_str().unwrap()], &["leaf.csv", "--values percent"]);
 }
 

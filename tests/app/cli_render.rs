@@ -22,7 +22,7 @@ const SMALL: [&str; 8] = ["--preset", "paper", "--mesh", "sphere", "--triangles"
 const D70: [&str; 2] = ["--camera", "Nikon D70 (2007 figure)"];
 
 /// A folder of one test's own, empty.
-fn folder(name: &str) -> PathBuf {
+pub(crate) fn folder(name: &str) -> PathBuf {
     let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join("cli_render").join(name);
     if path.exists() {
         std::fs::remove_dir_all(&path).unwrap();
@@ -37,7 +37,7 @@ fn run(folder: &Path, arguments: &[&str]) -> Output {
     command.env_remove("DISPLAY").env_remove("WAYLAND_DISPLAY").output().unwrap()
 }
 
-/// What it says on standard output. Pictures of earlier calls in the same folder are replaced.
+/// Standard output of a run. Pictures of earlier calls in the same folder are replaced.
 fn rendered(folder: &Path, arguments: &[&str]) -> String {
     let output = run(folder, &[arguments, &["--force"]].concat());
     assert!(output.status.success(), "{arguments:?}: {}", String::from_utf8_lossy(&output.stderr));
@@ -64,7 +64,7 @@ fn pictures_in(folder: &Path) -> Vec<String> {
     names
 }
 
-/// The same as the small pictures, asked for as the window asks.
+/// The small pictures, requested as the window does.
 fn as_in_the_window(samples: u32, quality: Quality) -> (Pictures, [f64; 3]) {
     let compared = |name: &str, kind| Compared { name: name.to_owned(), kind, slot: 0, visible: true, label: None };
     let document = Document {
@@ -137,7 +137,7 @@ fn nothing_that_exists_is_replaced_unless_told_to() {
     std::fs::write(folder.join(&picture), "mine").unwrap();
     let output = run(&folder, &arguments);
     assert_eq!((output.status.code(), stats.exists()), (Some(1), false));
-    // What is read is not written over, even if told to.
+    // A file that is read is not overwritten, even with `--force`.
     std::fs::write(folder.join("gray.csv"), "wavelength_nm,gray\n380,0.2\n780,0.2\n").unwrap();
     let arguments = [&SMALL[..], &D70, &["--material", "gray.csv", "--stats", "./gray.csv", "--force"]].concat();
     let output = run(&folder, &arguments);

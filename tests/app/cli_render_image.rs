@@ -1,18 +1,11 @@
 //! `chromascope render --image`: spectral images through cameras.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::{Command, Output};
 
 use chromascope_core::spectral::Dataset;
 
-fn folder(name: &str) -> PathBuf {
-    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join("cli_render_image").join(name);
-    if path.exists() {
-        std::fs::remove_dir_all(&path).unwrap();
-    }
-    std::fs::create_dir_all(&path).unwrap();
-    path
-}
+use crate::cli_render::folder;
 
 fn run(folder: &Path, arguments: &[&str]) -> Output {
     let mut command = Command::new(env!("CARGO_BIN_EXE_chromascope"));
@@ -36,7 +29,7 @@ fn refused(folder: &Path, arguments: &[&str], words: &[&str]) {
 }
 
 /// An ENVI image of 24 × 2 pixels: the chart's patches side by side.
-fn chart_image(folder: &Path, interleave: &str, fields: &str) {
+pub(crate) fn chart_image(folder: &Path, interleave: &str, fields: &str) {
     let chart = Dataset::read(chromascope_data::text("charts/colorchecker_24_ohta_1997.csv").unwrap()).unwrap();
     let nm = chart.curves[0].wavelengths_nm();
     let (width, height, bands) = (chart.curves.len(), 2, nm.len());
@@ -63,7 +56,7 @@ const D70: [&str; 6] = ["--camera", "Nikon D70 (A.M.P.A.S.)", "--illuminant", "D
 
 #[test]
 fn an_image_of_the_chart_equals_patches_in_every_order() {
-    let folder = folder("orders");
+    let folder = folder("image_orders");
     let patches = said(&folder, &[&["patches", "--chart", "ColorChecker 24 (Ohta 1997)"], &D70[..]].concat());
     let heads: Vec<&str> = patches.lines().next().unwrap().split(',').collect();
     let at = heads.iter().position(|head| *head == "delta_e_2000").unwrap();
@@ -89,7 +82,7 @@ fn an_image_of_the_chart_equals_patches_in_every_order() {
 
 #[test]
 fn images_that_say_too_little_are_refused_with_a_remedy() {
-    let folder = folder("refused");
+    let folder = folder("image_refused");
     chart_image(&folder, "bil", "");
     let image = ["render", "--image", "chart.hdr"];
     refused(&folder, &[&image[..], &D70].concat(), &["chart.hdr", "--image-quantity"]);
@@ -105,7 +98,7 @@ fn images_that_say_too_little_are_refused_with_a_remedy() {
 
 #[test]
 fn openexr_with_spectral_channels_is_an_image() {
-    let folder = folder("openexr");
+    let folder = folder("image_openexr");
     let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/spectral-image/data/openexr_reflectance.exr");
     std::fs::copy(source, folder.join("four.exr")).unwrap();
     let text = said(&folder, &[&["render", "--image", "four.exr"], &D70[..]].concat());

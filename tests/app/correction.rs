@@ -1,17 +1,27 @@
 //! The Correction pane and the document's correction.
 
+use std::path::PathBuf;
+use std::sync::{Arc, Mutex};
+
+use chromascope::action::history::History;
 use chromascope::action::{Action, SceneAction};
+use chromascope::app::ChromascopeApp;
 use chromascope::command::Command;
 use chromascope::document::correction::CorrectionChoice;
 use chromascope::document::{Document, FIT_TARGET, TRAINING, TransformChoice};
+use chromascope::files::{Answer, Dialogs, Files, Question};
+use chromascope::jobs::Executor;
+use chromascope::view::SavedView;
 use chromascope::workspaces::PaneKind;
 use chromascope_core::correction::CorrectionMethod;
+use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
 
+use crate::cpu_renderer::Cpu;
 use crate::screenshots::open_with;
 use crate::waiting::until;
 
-const PANE: PaneKind = PaneKind::new("Correction");
+const PANE: PaneKind = PaneKind::CORRECTION;
 
 #[test]
 fn old_documents_open_with_the_former_fit_and_new_ones_come_back() {
@@ -56,4 +66,51 @@ fn the_pane_shows_matrix_errors_and_checks() {
     for words in ["leave-one-out", "ColorMatrix1", "ForwardMatrix2", "450 nm", "ACES IDT", "DCP…"] {
         assert!(harness.query_all_by_label_contains(words).next().is_some(), "{words}");
     }
+}
+
+/// Saves to a folder under the name that is offered.
+struct Saves(PathBuf, Mutex<Vec<PathBuf>>);
+
+impl Dialogs for Saves {
+    fn ask(&self, question: &Question) -> Answer {
+        let Question::Save { name, .. } = question else { return Answer::Cancelled };
+        let path = self.0.join(name);
+        self.1.lock().unwrap().push(path.clone());
+        Answer::Chosen(vec![path])
+    }
+}
+
+#[test]
+fn each_kind_of_file_is_saved_from_the_pane() {
+    let folder = tempfile::tempdir().unwrap();
+    let dialogs = Arc::new(Saves(folder.path().to_owned(), Mutex::default()));
+    let files = Files::new(None).with_dialogs(dialogs.clone());
+    let mut harness = Harness::builder().with_size([900.0, 1600.0]).renderer(Cpu::default()).build_eframe(move |cc| {
+        let history = History::new(Document::colorimetry());
+        ChromascopeApp::on(&Executor::default(), &cc.egui_ctx, history, SavedView::default(), files)
+    });
+    harness.state_mut().push(Command::Maximize(PANE));
+    until("the correction", || {
+        harness.step();
+        harness.query_by_label("DCP…").map(|_| ()).ok_or_else(|| "no buttons".to_owned())
+    });
+    let begins: [(&str, usize, &[u8]); 4] = [
+        ("DCP…", 0, b"IIRC"),
+        ("ICC…", 36, b"acsp"),
+        ("ACES CLF…", 0, b"<?xml"),
+        ("Text…", 0, b"Canon EOS 5D Mark II"),
+    ];
+    for (count, (button, at, expected)) in begins.into_iter().enumerate() {
+        harness.get_by_label(button).click();
+        until(button, || {
+            harness.step();
+            let saved = dialogs.1.lock().unwrap().get(count).cloned();
+            let bytes = saved.and_then(|path| std::fs::read(path).ok()).filter(|bytes| bytes.len() > 100);
+            let bytes = bytes.ok_or_else(|| "nothing is written".to_owned())?;
+            assert_eq!(&bytes[at..at + expected.len()], expected, "{button}");
+            Ok(())
+        });
+    }
+    let endings: Vec<_> = dialogs.1.lock().unwrap().iter().map(|path| path.extension().unwrap().to_owned()).collect();
+    assert_eq!(endings, ["dcp", "icc", "clf", "txt"]);
 }

@@ -31,11 +31,11 @@ const SUBPIXEL: f32 = 256.0;
 /// Fractional bits of what is interpolated over a triangle.
 const ONE: f64 = 65_536.0;
 
-/// A [`egui_kittest::TestRenderer`] that needs nothing but a CPU. Paint callbacks are left out.
+/// A [`egui_kittest::TestRenderer`] that needs nothing but a CPU. Paint callbacks are omitted.
 #[derive(Default)]
 pub(crate) struct Cpu {
     textures: HashMap<TextureId, (ColorImage, TextureOptions)>,
-    /// Freed by the last frame, whose picture may still be asked for.
+    /// Freed by the last frame, whose picture may still be requested.
     freed: Vec<TextureId>,
 }
 
@@ -84,7 +84,7 @@ impl egui_kittest::TestRenderer for Cpu {
 struct Canvas {
     image: ColorImage,
     scale: f32,
-    /// What may be painted, in pixels: columns and rows, each from and up to.
+    /// Clip rectangle in pixels: columns and rows, each from and up to.
     clip: [[i64; 2]; 2],
     /// A line of one color, to copy runs of it from.
     ink: (Color32, Vec<Color32>),
@@ -211,7 +211,7 @@ impl Edge {
     }
 }
 
-/// What a triangle is filled with: six quantities (r, g, b, a, texel column, texel row) that are linear in the place.
+/// Fill of a triangle: six quantities (r, g, b, a, texel column, texel row) that are linear in the position.
 struct Paint<'a> {
     /// The one color, if it has only one.
     flat: Option<Color32>,

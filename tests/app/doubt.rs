@@ -107,7 +107,7 @@ fn minima(document: &Document) -> (String, Vec<f64>) {
 #[test]
 fn the_strip_marks_minima_and_says_what_they_follow() {
     let (note, rings) = minima(&Document::paper());
-    assert_eq!(note, "distance to reference (Δxy), normalized to equal energy (ring: minimum)");
+    assert_eq!(note, "distance to reference (Δxy, square-root scale), normalized to equal energy (ring: minimum)");
     // By half kelvins on the command line.
     let expected = [6033.5, 5948.0, 5772.5];
     assert_eq!(rings.len(), expected.len());
@@ -116,7 +116,7 @@ fn the_strip_marks_minima_and_says_what_they_follow() {
     }
     let mut document = Document { light: Light::Set("A".to_owned()), ..Document::default() };
     let (note, rings) = minima(&document);
-    assert_eq!(note, "distance to reference (Δxy), normalized to A (ring: minimum)");
+    assert_eq!(note, "distance to reference (Δxy, square-root scale), normalized to A (ring: minimum)");
     assert!(rings.len() == 3 && rings.iter().all(|ring| (ring - 2856.0).abs() < 1.0), "{rings:?}");
     document.diagram = Diagram::UvPrime;
     assert!(minima(&document).1.iter().all(|ring| (ring - 2856.0).abs() < 1.0));

@@ -1,4 +1,4 @@
-//! What leaves the program: each pane's figure as SVG and PNG, and its numbers.
+//! Tests of exports: each pane's figure as SVG and PNG, and its numbers.
 
 use chromascope::catalog::Catalog;
 use chromascope::document::{Document, Subset, TransformChoice};

@@ -59,7 +59,7 @@ fn chromaticity(area: Rect) -> Panel {
         let tail = Shape::Segments { segments: vec![[at, camera]] };
         marks
             .push(Mark::new(Tag(1), name, tail).with_stroke(Ink::new(InkRole::Sensor(0)).faded(0.7), theme::LINE_TAIL));
-        let point = |at, marker| Shape::Points { points: vec![at], marker, radius: theme::MARKER };
+        let point = |at, marker| Shape::Points { points: vec![at], marker, radius: 6.0 };
         let camera = Mark::new(Tag(10), name, point(camera, Marker::Circle));
         marks.push(camera.with_stroke(InkRole::Sensor(0), 2.0).with_fill(Ink::rgb(rgb)).with_halo(InkRole::Plot));
         let reference = Mark::new(Tag(11), name, point(at, Marker::Plus));
@@ -340,7 +340,7 @@ fn the_pointer_finds_points_before_lines() {
 
 #[test]
 fn everything_is_drawn_with_any_emphasis() {
-    for emphasis in [Emphasis::Normal, Emphasis::Hovered, Emphasis::Selected, Emphasis::Faded] {
+    for emphasis in [Emphasis::Normal, Emphasis::Hovered, Emphasis::Selected, Emphasis::Related, Emphasis::Faded] {
         let area = box_at(0.0, 0.0, 600.0, 120.0);
         let panels = [chromaticity(area), spectra(area)];
         let board = swatches(area);
@@ -386,7 +386,7 @@ fn the_pointer_reads_the_nearest_black_body() {
         if read.contains("Duv +0.00") || read.contains("Duv −0.00") {
             break read;
         }
-        // Not every place is near a black body, and some are on a thing.
+        // Not every place is near a blackbody, and some are on a thing.
         at.x += 5.0;
         if at.x > 640.0 {
             at = egui::pos2(400.0, at.y - 9.0);

@@ -47,7 +47,7 @@ fn changed_along(rect: egui::Rect, a: &RgbaImage, b: &RgbaImage) -> f64 {
     changed as f64 / f64::from(all)
 }
 
-/// Goes through the window with Tab, and compares each control with and without the focus.
+/// Traverses the window with Tab, and compares each control with and without the focus.
 fn tab_through(workspace: Workspace, theme: egui::Theme, size: [f32; 2], least: usize) {
     let mut window = open(size, theme);
     window.state_mut().view_mut().saved.workspace = workspace;

@@ -1,4 +1,5 @@
-//! The list of files in Import: names, several at once, files that fail and are mended, what is tried and kept.
+//! Tests of Import's list of files: names, several files together, files that fail and are corrected, settings tried
+//! and applied.
 
 use std::fs;
 use std::path::Path;
@@ -36,7 +37,13 @@ fn open_path(window: &mut Window, path: &Path) {
     window.state_mut().view_mut().status = chromascope::view::Status::default();
     window.state_mut().push(Command::OpenPath(path.to_owned()));
     window.run_steps(2);
-    until(window, "a file", |app| !app.view().status.text.is_empty() && app.opened().progress().is_none());
+    // In Import the list says what failed, elsewhere the status line.
+    let failed = |app: &ChromascopeApp| {
+        app.opened().files().iter().any(|file| file.failure.is_some() && file.origin.path.as_deref() == Some(path))
+    };
+    until(window, "a file", |app| {
+        (!app.view().status.text.is_empty() || failed(app)) && app.opened().progress().is_none()
+    });
     settle(window);
 }
 
@@ -229,7 +236,7 @@ fn a_failing_file_is_one_entry_and_is_read_once_it_is_mended() {
     until(&mut window, "the file mended", |app| !app.history().document().own.is_empty());
     settle(&mut window);
     assert_eq!((window.state().opened().files().len(), selected(&window)), (1, Some(set("leaf"))));
-    // A set whose file breaks and is mended has one entry after all.
+    // A set whose file fails and is then corrected has one entry.
     fs::write(&path, BROKEN).unwrap();
     until(&mut window, "a failure", |app| app.view().status.weight == Weight::Error);
     fs::write(&path, LEAF.replace("5,0", "6,0")).unwrap();

@@ -30,7 +30,7 @@ fn go_to(window: &mut Window, stop: Stop) {
     panic!("F6 does not lead to {stop:?}");
 }
 
-/// What has the keyboard, in words.
+/// Description of the focused control.
 fn focus(window: &Window) -> String {
     let found = window.query_all_by(|node| node.is_focused() && node.label().is_some()).last();
     found.and_then(|node| node.accesskit_node().label()).unwrap_or_default()

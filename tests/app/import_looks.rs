@@ -1,4 +1,4 @@
-//! What Import and the plots beside it look like: nothing is written over curves or over other words.
+//! Appearance of Import and its plots: no text overlaps curves or other text.
 
 use chromascope::catalog::import::import;
 use chromascope::document::{Document, SetKind};
@@ -105,9 +105,9 @@ fn names_above_swatches_keep_to_their_columns() {
         let panel = swatches::build(&scene, &view, [700.0, 200.0]).panel;
         let mut words: Vec<[f64; 3]> = Vec::new();
         for mark in &panel.marks {
-            if let Shape::Text { at, text, anchor, .. } = &mark.shape {
-                let width = text_width(text, TextSize::Body);
-                let left = if *anchor == chromascope_figure::Anchor::CENTER { at[0] - width / 2.0 } else { at[0] };
+            if let Shape::Text { at, text, anchor, size, .. } = &mark.shape {
+                let width = text_width(text, *size);
+                let left = at[0] - anchor.0 * width;
                 words.push([left, left + width, at[1]]);
             }
         }
@@ -135,7 +135,7 @@ fn notes_are_led_to_where_they_are_out_of_sight() {
             || node.label().is_some_and(|l| l.contains("counted once"))
     });
     assert!(note.into_iter().any(inside), "the note is in sight");
-    assert!(says(&window, "Decisions"));
+    assert!(says(&window, "decisions"));
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! The pane Import: the files, and the text of the one on show.
+//! Tests of the Import pane: the files, and the text of the selected one.
 
 use std::sync::Arc;
 
@@ -42,13 +42,13 @@ fn settle(window: &mut Window) {
     window.run_steps(2);
 }
 
-/// How often each kind of question about the files was computed.
+/// Number of computations of each kind of query on the files.
 fn computed(window: &Window) -> Vec<(&'static str, u64)> {
     let counts = window.state().results().counts().into_iter().filter(|(name, _)| name.ends_with(" a file"));
     counts.map(|(name, count)| (name, count.misses)).collect()
 }
 
-/// Whether something on screen says this.
+/// True if a control on screen contains these words.
 fn says(window: &Window, words: &str) -> bool {
     let said = |text: Option<String>| text.is_some_and(|text| text.contains(words));
     window.query_all_by(|node| said(node.label()) || said(node.value())).next().is_some()

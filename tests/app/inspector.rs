@@ -36,7 +36,7 @@ fn press(window: &mut Window, role: Role, label: &str) {
     window.run();
 }
 
-/// Whether something on screen says this.
+/// True if a control on screen contains these words.
 fn says(window: &Window, words: &str) -> bool {
     let said = |text: Option<String>| text.is_some_and(|text| text.contains(words));
     let mut found = window.query_all_by(|node| said(node.label()) || said(node.value())).peekable();

@@ -377,7 +377,7 @@ fn a_folder_that_cannot_be_written_is_told_at_the_start() {
     assert!(!close(&mut window), "nothing was changed, so nothing is lost");
 }
 
-/// Asks the window to close. Returns whether it held on.
+/// Requests the window to close. Returns whether it stayed open.
 fn close(window: &mut Window) -> bool {
     let root = window.input_mut().viewports.entry(egui::ViewportId::ROOT).or_default();
     root.events.push(egui::ViewportEvent::Close);

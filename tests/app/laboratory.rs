@@ -1,4 +1,4 @@
-//! What runs measure, of which scene, and what is said of that.
+//! Tests of measurements: their scene, their results and their descriptions.
 
 use chromascope::action::{Action, RenderAction, SceneAction};
 use chromascope::catalog::Catalog;
@@ -20,7 +20,7 @@ use crate::screenshots::{accuracy, driven, open};
 
 const KEPT: &str = "Measured results are lost when the program ends; export them to save them.";
 
-/// What the default cameras cost on a small picture of a sphere.
+/// Measurement job of the default cameras on a small picture of a sphere.
 fn small(change: impl FnOnce(&mut Document)) -> SceneRunJob {
     let mut document = Document::paper();
     (document.render.mesh, document.render.triangles) = (MeshChoice::Sphere, 2000);
@@ -85,8 +85,8 @@ fn what_is_measured_is_of_the_scene_that_it_was_measured_on() {
         assert!(window.state().laboratory().measured.run.is_some());
         window.state().laboratory().measured.is_current
     };
-    let (now, then) = ("Measured by Run", "Measured by Run for an earlier scene");
-    assert!(is_current(&window) && window.query_by_label(now).is_some());
+    let warning = "Measured for an earlier scene: run again.";
+    assert!(is_current(&window) && window.query_by_label_contains(warning).is_none());
     window.state_mut().push(Action::Scene(SceneAction::SetLight(Light::BlackBody)));
     window.run_steps(2);
     window.state_mut().push(Command::SpectralWeights);
@@ -97,7 +97,7 @@ fn what_is_measured_is_of_the_scene_that_it_was_measured_on() {
     executor.run_all();
     window.run_steps(2);
     assert!(!is_current(&window), "of another light than the one on show, though that was asked for");
-    assert!(window.query_by_label(then).is_some() && window.query_by_label(now).is_none());
+    assert!(window.query_by_label_contains(warning).is_some());
     let (catalog, results) = (Catalog::built_in(), Results::default());
     let scene = Scene { document: window.state().history().document(), catalog: &catalog, results: &results };
     let figure = panes::figure(PaneKind::WORK_SAVED, &window.state().figure_input(&scene)).expect("measured");
@@ -113,13 +113,17 @@ fn what_is_measured_is_of_the_scene_that_it_was_measured_on() {
 #[test]
 fn what_is_remembered_stands_apart_and_what_is_not_kept_is_said() {
     let window = accuracy([1280.0, 800.0], egui::Theme::Light);
-    let heads = ["Measured by Run", "Counted since the start"];
-    let [run, start] = heads.map(|head| window.get_by_label(head).rect().top());
+    let (catalog, results) = (Catalog::built_in(), Results::default());
+    let scene = Scene { document: window.state().history().document(), catalog: &catalog, results: &results };
+    let figure = panes::figure(PaneKind::WORK_SAVED, &window.state().figure_input(&scene)).expect("measured");
+    let csv = figure.table.to_csv();
+    let [run, start] = ["measured by Run", "counted since the start"].map(|when| csv.find(when).expect("both"));
     assert!(run < start);
-    assert!(window.query_by_label("Rows overlap: their times do not add up.").is_some());
-    assert!(window.query_by_label(KEPT).is_some());
+    assert!(window.query_by_label_contains("Rows overlap: their times do not add up.").is_some());
+    assert_eq!(window.query_all_by_label_contains(KEPT).count(), 1, "one footnote");
+    assert_eq!(window.query_all_by_label("Run again").count(), 1, "one Run");
     let mut window = open([1280.0, 800.0], egui::Theme::Light);
-    window.state_mut().push(Command::Show(Workspace::Accuracy));
+    window.state_mut().push(Command::Show(Workspace::Numerics));
     window.run_steps(3);
-    assert!(window.query_all_by_label(KEPT).count() > 0, "before anything is measured");
+    assert_eq!(window.query_all_by_label("Run").count(), 1, "one Run before anything is measured");
 }

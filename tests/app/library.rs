@@ -26,7 +26,8 @@ fn search(window: &mut Window, words: &str) {
     window.state_mut().push(Command::FocusSearch);
     window.run();
     window.get_by_role_and_label(Role::TextInput, "Search the library").type_text(words);
-    window.run();
+    // The set that comes under the pointer is previewed, which takes frames of its own.
+    window.run_steps(8);
 }
 
 #[test]

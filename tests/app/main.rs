@@ -12,9 +12,11 @@ mod cli_render;
 mod cli_render_image;
 mod correction;
 mod cpu_renderer;
+mod diagram;
 mod doubt;
 mod exports;
 mod figure;
+mod finding;
 mod focus;
 mod help;
 mod import;
@@ -35,6 +37,7 @@ mod opened;
 mod own_data;
 mod panes;
 mod path_box;
+mod plots;
 mod recompute;
 mod recorded;
 mod reducer;
@@ -44,6 +47,8 @@ mod same_file;
 mod save_prompt;
 mod save_set;
 mod screenshots;
+mod shell;
+mod spectral_images;
 mod starts;
 mod table;
 mod temperature;
@@ -56,7 +61,6 @@ fn built_in_names() -> chromascope::document::names::BuiltInNames {
     chromascope::catalog::Catalog::built_in().names().clone()
 }
 
-/// The action that imports sets.
 fn import_sets(sets: Vec<chromascope::document::own::OwnSet>) -> chromascope::action::Action {
     chromascope::action::Action::Own(chromascope::action::OwnAction::Import { sets, built_in: built_in_names() })
 }

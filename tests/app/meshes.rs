@@ -1,4 +1,4 @@
-//! The user's meshes: recognized, read beside the window, opened in one step, refused with a sentence.
+//! The user's meshes: recognized, read in the background, opened in one step, refused with a sentence.
 
 use std::cell::Cell;
 use std::fs;
@@ -34,7 +34,7 @@ fn folder_with(name: &str, text: &str) -> (TempDir, PathBuf) {
     (folder, path)
 }
 
-/// A wavy sheet of so many squares on a side, as text.
+/// A wavy sheet with the given number of squares on a side, as text.
 fn sheet(side: usize) -> String {
     use std::fmt::Write as _;
     let mut text = String::new();
@@ -52,7 +52,7 @@ fn store() -> MeshStore {
     MeshStore::new(|| {})
 }
 
-/// A store that reads when its executor is told to.
+/// A store that reads when its driven executor runs.
 fn driven_store() -> (Executor, MeshStore) {
     let executor = Executor::driven();
     let store = MeshStore::on(&executor, || {});

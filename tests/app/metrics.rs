@@ -1,4 +1,4 @@
-//! Workspace Metrics: ranking beside the window, links, head to head, report card, exports.
+//! Workspace Metrics: ranking in the background, links, side by side, report card, exports.
 
 use chromascope::action::{Action, CompareAction, SceneAction};
 use chromascope::app::ChromascopeApp;
@@ -6,7 +6,7 @@ use chromascope::catalog::Catalog;
 use chromascope::command::Command;
 use chromascope::document::{Document, Light, SetKind};
 use chromascope::export;
-use chromascope::figures::FigureInput;
+use chromascope::figures::{FigureInput, report_card};
 use chromascope::jobs::Executor;
 use chromascope::panes;
 use chromascope::plot_item::{PlotItem, SensorId};
@@ -17,6 +17,7 @@ use chromascope::view::View;
 use chromascope::view::metrics::RankedCameras;
 use chromascope::workspaces::{Layout, PaneKind, Workspace};
 use chromascope_core::query::{Ask, CameraMetric};
+use chromascope_figure::{Figure, Projection, Rect, Shape, text_width};
 use egui::accesskit::Role;
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT as _, Queryable};
@@ -25,7 +26,7 @@ use crate::screenshots::driven_with;
 
 type Window = Harness<'static, ChromascopeApp>;
 
-/// The window with the workspace on show, nothing ranked yet.
+/// The window with the Metrics workspace, nothing ranked yet.
 fn open() -> (Executor, Window) {
     let (executor, mut window) = driven_with(Document::colorimetry(), [1600.0, 1400.0], egui::Theme::Dark);
     window.state_mut().push(Command::Show(Workspace::Metrics));
@@ -33,7 +34,7 @@ fn open() -> (Executor, Window) {
     (executor, window)
 }
 
-/// The same, all cameras ranked.
+/// The window with the Metrics workspace, all cameras ranked.
 fn ranked() -> (Executor, Window) {
     let (executor, mut window) = open();
     window.state().ranking().wait();
@@ -81,6 +82,29 @@ fn the_library_is_ranked_beside_the_window_with_progress() {
     assert_eq!(window.state().ranking().progress(), None);
     let values: Vec<f64> = rows(&window).iter().filter_map(|(row, _)| number(row, "ΔE*00 mean")).collect();
     assert!(values.len() > 30 && values.is_sorted(), "sorted by the first metric: {values:?}");
+}
+
+/// Data files that were parsed so far.
+fn parsed(executor: &Executor) -> u64 {
+    executor.results().counts().get("data file").map_or(0, |count| count.misses)
+}
+
+#[test]
+fn the_library_is_parsed_beside_the_window() {
+    let (executor, mut window) = driven_with(Document::colorimetry(), [1600.0, 1400.0], egui::Theme::Dark);
+    let before = parsed(&executor);
+    window.state_mut().push(Command::Show(Workspace::Metrics));
+    window.run_steps(3);
+    let (shown, all) = (parsed(&executor), Catalog::built_in().of_kind(SetKind::Camera).count() as u64);
+    assert!(shown - before < 8, "the window parsed {} files before it drew", shown - before);
+    window.state().ranking().wait();
+    let ranked = parsed(&executor);
+    assert!(ranked - shown >= all - 8, "the worker parsed {} of {all} cameras", ranked - shown);
+    window.state_mut().push(Command::Maximize(PaneKind::new("Metamers")));
+    window.run_steps(3);
+    assert_eq!(parsed(&executor), ranked, "no reflectances yet");
+    window.state().ranking().wait();
+    assert!(parsed(&executor) > ranked);
 }
 
 #[test]
@@ -212,7 +236,9 @@ fn two_cameras_stand_head_to_head() {
     });
     assert!(a < b, "{a} {b}");
     assert!(row.contains(&format!("A {a:.2}")) && row.contains(&format!("B {b:.2}")), "{row}");
-    assert!(row.contains(&format!("A − B −{:.2}", b - a)) && row.ends_with("better A"), "{row}");
+    assert!(row.contains(&format!("A − B −{:.2} ± 0.", b - a)) && row.contains("better A,"), "{row}");
+    let uncertainty = row.split("± ").nth(1).and_then(|rest| rest.split(',').next()).expect("an uncertainty");
+    assert_eq!(uncertainty.len(), "0.12".len(), "as many decimals as the metric: {row}");
 }
 
 #[test]
@@ -233,11 +259,70 @@ fn a_report_card_is_a_figure_like_others() {
         let words = format!("{}  {}", rank + 1, patches.patches()[worst].name);
         assert!(svg.contains(&words), "{words}");
     }
+    assert!(svg.contains("wavelength (nm)"), "the axis is named");
     assert!(svg.contains("ΔE*00 mean") && export::png(&svg, 1.0).is_ok());
     view.selected = Some(PlotItem::Sensor(camera("Canon EOS 5D")));
     view.saved.metrics.card = None;
     let figure = panes::figure(PaneKind::REPORT_CARD, &FigureInput::new(&scene, &view)).expect("a page");
     assert_eq!(figure.title, "Report card: Canon EOS 5D", "follows the selection");
+}
+
+/// Rectangles of the names over the bars in points, as they are drawn.
+fn bar_names(page: &Figure) -> Vec<Rect> {
+    let panel = page.panels.iter().find(|panel| panel.name == "patches").expect("bars");
+    let scale = [0, 1].map(|axis| {
+        let range = [panel.x.range, panel.y.range][axis];
+        let room = if axis == 0 { panel.area.width() - Projection::LEFT } else { panel.area.height() };
+        room / (range[1] - range[0])
+    });
+    let names = panel.marks.iter().filter_map(|mark| {
+        let Shape::Text { at, text, anchor, offset, size, .. } = &mark.shape else { return None };
+        let [width, height] = [text_width(text, *size), f64::from(size.points())];
+        let x = at[0] * scale[0] + offset[0] - anchor.0 * width;
+        let y = -at[1] * scale[1] + offset[1] - anchor.1 * height;
+        Some(Rect::from_min_size([x, y], [width, height]))
+    });
+    names.collect()
+}
+
+#[test]
+fn names_of_the_worst_patches_stand_apart_at_any_width() {
+    let (catalog, results, document) = (Catalog::built_in(), Results::default(), Document::colorimetry());
+    let scene = Scene { document: &document, catalog: &catalog, results: &results };
+    for name in ["Canon EOS 5D Mark II", "Nikon D70 (A.M.P.A.S.)", "Kodak DCS200"] {
+        let id = camera(name);
+        let query = scene.camera_metrics_query(id.kind, &id.name).expect("a query");
+        let metrics = results.ask(&query);
+        for width in [300.0, 560.0, 884.0, 1264.0] {
+            let page = report_card::page(&scene, &id, &metrics, width);
+            let names = bar_names(&page);
+            assert_eq!(names.len(), 5);
+            for (index, a) in names.iter().enumerate() {
+                for b in &names[..index] {
+                    let apart = (0..2).any(|axis| a.max[axis] <= b.min[axis] || b.max[axis] <= a.min[axis]);
+                    assert!(apart, "{name}, {width}: {a:?} {b:?}");
+                }
+            }
+            assert!(width < 884.0 || page.size[1] < 460.0, "a maximized card fits a window of 600 points");
+        }
+    }
+}
+
+#[test]
+fn a_report_card_is_made_beside_the_window() {
+    let (executor, mut window) = driven_with(Document::colorimetry(), [1280.0, 800.0], egui::Theme::Dark);
+    let made = || executor.results().counts().get("camera metrics").map_or(0, |count| count.misses);
+    window.state_mut().view_mut().saved.metrics.card = Some(camera("Kodak DCS200"));
+    window.state_mut().push(Command::Maximize(PaneKind::REPORT_CARD));
+    window.run_steps(3);
+    let page = "Report card: Kodak DCS200: patches";
+    assert_eq!((made(), window.query_by_label(page).is_some()), (0, false));
+    assert!(executor.run_one("report card"));
+    window.run_steps(3);
+    assert_eq!((made(), window.query_by_label(page).is_some()), (1, true));
+    window.state_mut().push(Action::Scene(SceneAction::SetLight(Light::Set("A".to_owned()))));
+    window.run_steps(3);
+    assert_eq!((made(), window.query_by_label(page).is_some()), (1, true), "the last page stays meanwhile");
 }
 
 #[test]
@@ -278,7 +363,9 @@ fn metamers_are_found_marked_and_put_on_the_mesh() {
     let document = window.state().history().document().clone();
     let scene = Scene { document: &document, catalog: &catalog, results: &results };
     let confusion = chromascope_core::metamers::Confusion::Camera;
-    let (query, sets) = scene.metamers_query(SetKind::Camera, "Kodak DCS200", confusion).unwrap();
+    let query = scene.metamers_query(SetKind::Camera, "Kodak DCS200", confusion).unwrap();
+    let sets: Vec<String> = query.sets.iter().map(|set| set.name.clone()).collect();
+    let query = query.loaded(&results).unwrap();
     let found = (*results.ask(&query)).clone().expect("searched");
     let [set, patch] = query.at(found.pairs[0].places[0]).unwrap();
     let first = query.sets[set].patches()[patch].name.clone();

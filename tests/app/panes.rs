@@ -40,7 +40,7 @@ fn layouts_of_earlier_versions_open() {
         [Some(PaneKind::CHROMATICITY), Some(PaneKind::INTERPRETATION), None, Some(PaneKind::SPECTRA)]
     );
     let accuracy = [PaneKind::METHODS, PaneKind::WORK_SAVED, PaneKind::TOLERANCE, PaneKind::RENDER_SETTINGS];
-    assert_eq!(layout.accuracy, accuracy.map(Some));
+    assert_eq!(layout.numerics, accuracy.map(Some));
     let again = ron::to_string(&layout).unwrap();
     assert!(again.contains("Some(Understood)"), "{again}");
     assert_eq!(ron::from_str::<Layout>(&again).unwrap(), layout);

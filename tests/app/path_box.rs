@@ -1,5 +1,5 @@
-//! The path box and the dialogs it stands in for: it comes whenever there is no dialog, keys go nowhere else, paths are
-//! completed, and what cannot be taken stays to be mended.
+//! Tests of the path prompt and of the dialogs it replaces: it opens whenever there is no dialog, it takes all keys,
+//! paths are completed, and a rejected path stays to be corrected.
 
 use std::fs;
 use std::sync::mpsc::{Receiver, Sender, channel};
@@ -125,7 +125,7 @@ fn the_ending_that_is_typed_decides_the_form() {
         assert_eq!(form_of(&path), form, "{name}");
         assert!(!has_box(&window));
     }
-    // Without an ending that of the form asked for; what is there under the whole name is asked about.
+    // Without an extension, the requested format's is added; an existing file of the whole name must be confirmed.
     fs::write(folder.path().join("f.csv"), "mine").unwrap();
     export(&mut window, Format::Csv);
     until_box(&mut window);
@@ -177,7 +177,7 @@ fn the_systems_dialog_follows_the_ending_too() {
     until_box(&mut window);
     assert!(says(&window, "Cannot write .pdf files here") && !says(&window, "No file dialog here"));
     assert_eq!(text(&window), folder.path().join("d.pdf").to_str().unwrap());
-    // What the dialog could not ask about, because it did not know the ending, is asked about.
+    // The dialog did not know the extension and could not ask about the existing file, so that the prompt does.
     fs::write(folder.path().join("e.svg"), "mine").unwrap();
     window.key_press(egui::Key::Escape);
     window.run_steps(2);

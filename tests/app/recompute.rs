@@ -1,4 +1,4 @@
-//! Only what changed is computed: runs counted per question, for what a user does.
+//! Only what changed is computed: runs counted per query, for what a user does.
 
 use std::collections::BTreeMap;
 
@@ -14,7 +14,7 @@ use chromascope_core::colorimetry::Metric;
 use chromascope_core::query::Ask;
 use chromascope_core::render::{RasterSize, Shadows};
 
-/// A document with its answers, asked for as the window does.
+/// A document with its answers, requested as the window does.
 struct Desk {
     document: Document,
     catalog: Catalog,
@@ -28,7 +28,7 @@ impl Desk {
         desk
     }
 
-    /// Asks for all that the first screen shows.
+    /// Requests everything that the first screen shows.
     fn look(&self) {
         let scene = Scene { document: &self.document, catalog: &self.catalog, results: &self.results };
         for source in scene.sources().iter().filter(|source| source.visible) {
@@ -39,7 +39,7 @@ impl Desk {
         self.results.end_frame();
     }
 
-    /// What is computed when this is done, by kind of question; what is not computed is not named.
+    /// Counts of the queries that the action computes, by kind; kinds without computations are omitted.
     fn computed(&mut self, action: &Action) -> BTreeMap<&'static str, u64> {
         let before = self.results.counts();
         action.apply(&mut self.document);
@@ -125,7 +125,7 @@ fn the_first_screen_reads_only_what_it_shows() {
     assert_eq!(counts["data file"].misses, 7, "{counts:?}");
 }
 
-/// The pictures of the Render pane on a desk, asked for as its worker does.
+/// The pictures of the Render pane, requested as its worker does.
 struct Pictures {
     desk: Desk,
     worker: Results,
@@ -161,7 +161,7 @@ impl Pictures {
         assert!(matches!(&*self.worker.ask(&pictures), Ok(Some(_))));
     }
 
-    /// What is computed after a change, in alphabetical order, with how often.
+    /// Counts of the queries computed after a change, in alphabetical order.
     fn computed(&mut self, change: impl FnOnce(&mut Self)) -> Vec<(&'static str, u64)> {
         let before = self.worker.counts();
         change(self);
@@ -178,7 +178,7 @@ impl Pictures {
     }
 }
 
-/// What it is, what a person does, what it computes.
+/// Name, user action, and the queries it computes.
 type Case = (&'static str, Action, &'static [(&'static str, u64)]);
 
 #[test]
@@ -188,7 +188,7 @@ fn a_picture_computes_only_what_an_action_changes() {
         (
             "a name",
             compare(CompareAction::Rename(SetKind::Camera, "Nikon D70 (2007 figure)".to_owned(), "mine".to_owned())),
-            // Nothing: the question is the same.
+            // Nothing: the query is the same.
             &[],
         ),
         ("a measure of difference", Action::Scene(SceneAction::SetDifference(Metric::XY)), &[]),
@@ -243,7 +243,7 @@ fn a_surface_a_light_and_a_view_compute_only_what_follows_them() {
     };
     assert_eq!(set(|p| p.desk.document.render.sigma_um = 0.2), with(&[("shading", 1)]), "roughness: no plan anew");
     let material = set(|p| p.desk.document.render.material = "Fern-like bush leaf 024 (Vrhel)".to_owned());
-    // Exposure weighs wavelengths once more for the material, and for a white.
+    // Exposure weighs wavelengths again for the material, and for a white.
     assert_eq!(material, with(&[("measure", 5)]), "a material: no angles");
     let light = set(|p| p.desk.document.light = Light::Set("A".to_owned()));
     assert_eq!(light, with(&[("measure", 6), ("rendering", 4)]), "a spectrum: no angles");

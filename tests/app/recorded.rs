@@ -33,6 +33,10 @@ impl Dialogs for Chooses {
 type Window = Harness<'static, ChromascopeApp>;
 
 fn window(path: &Path, size: [f32; 2], theme: egui::Theme) -> Window {
+    window_on(&Executor::default(), path, size, theme)
+}
+
+fn window_on(executor: &Executor, path: &Path, size: [f32; 2], theme: egui::Theme) -> Window {
     let files = Files::new(None).with_dialogs(Arc::new(Chooses(path.to_owned())));
     let mut window = Harness::builder()
         .with_size(size)
@@ -41,7 +45,7 @@ fn window(path: &Path, size: [f32; 2], theme: egui::Theme) -> Window {
         .renderer(Cpu::default())
         .build_eframe(|cc| {
             let history = History::new(Document::colorimetry());
-            ChromascopeApp::on(&Executor::default(), &cc.egui_ctx, history, SavedView::default(), files)
+            ChromascopeApp::on(executor, &cc.egui_ctx, history, SavedView::default(), files)
         });
     window.run();
     window.state_mut().push(Command::Maximize(PaneKind::RECORDED));
@@ -58,6 +62,13 @@ fn open(window: &mut Window) {
             window.query_by_label_contains("Reading").is_none() && window.query_by_label("Open raw values…").is_none();
         done.then_some(()).ok_or_else(|| "not yet".to_owned())
     });
+    fitted(window);
+}
+
+/// Waits until the cameras are fitted, if there is something to fit.
+fn fitted(window: &mut Window) {
+    window.run_steps(2);
+    window.state().ranking().wait();
     window.run_steps(2);
 }
 
@@ -119,6 +130,30 @@ fn a_table_is_opened_ranked_and_drawn() {
     window.get_by_label("Channel gains").click();
     window.run_steps(3);
     assert!(!window.state().view().recorded.freedom.gains);
+    fitted(&mut window);
+    assert!(window.query_by_label_contains("recorded.csv: Nikon D70 (A.M.P.A.S.), RMS 0.").is_none());
+}
+
+#[test]
+fn cameras_are_parsed_and_fitted_beside_the_window() {
+    let executor = Executor::driven();
+    let mut window = window_on(&executor, &table(), [1280.0, 800.0], egui::Theme::Dark);
+    let made = |name: &str| executor.results().counts().get(name).map_or(0, |count| count.misses);
+    let before = made("sensor");
+    window.get_by_label("Open raw values…").click();
+    waiting::until("reading", || {
+        window.run_steps(2);
+        while ["recorded", "dialogs"].iter().any(|name| executor.run_one(name)) {}
+        window.query_by_label("Fitting the cameras…").map(|_| ()).ok_or_else(|| format!("{:?}", executor.queued()))
+    });
+    window.run_steps(3);
+    assert_eq!((made("sensor"), made("recorded fit")), (before, 0), "the window waits for the worker");
+    fitted(&mut window);
+    let fits = made("recorded fit");
+    assert!(fits > 50 && made("sensor") - before > 40, "{fits}");
+    assert!(window.query_by_label_contains("recorded.csv: Nikon D70 (A.M.P.A.S.), RMS 0.").is_some());
+    window.run_steps(3);
+    assert_eq!(made("recorded fit"), fits);
 }
 
 #[test]
@@ -146,6 +181,8 @@ fn corners_of_a_picture_are_clicked() {
     };
     image::ImageBuffer::<image::Rgb<u16>, Vec<u16>>::from_fn(600, 400, pixel).save(&path).unwrap();
     let mut window = window(&path, [1280.0, 800.0], egui::Theme::Light);
+    // As chosen for a table before: no level of pixels.
+    window.state_mut().view_mut().recorded.clip = 100.0;
     open(&mut window);
     assert!(window.query_by_label_contains("top left").is_some());
     let plot = window.get_by_label("Picture of the chart").rect();
@@ -165,6 +202,7 @@ fn corners_of_a_picture_are_clicked() {
     for (corner, wanted) in corners.iter().zip([[60.0, 40.0], [540.0, 40.0], [540.0, 360.0], [60.0, 360.0]]) {
         assert!((corner[0] - wanted[0]).hypot(corner[1] - wanted[1]) < 6.0, "{corners:?}");
     }
+    fitted(&mut window);
     assert!(window.query_by_label_contains("recorded.png: Nikon D70 (A.M.P.A.S.)").is_some());
 }
 

@@ -1,4 +1,4 @@
-//! What actions do to the document, and what undo takes back.
+//! Tests of the effect of actions on the document, and of undo.
 
 use chromascope::action::history::History;
 use chromascope::action::{Action, CompareAction, OwnAction, SceneAction};

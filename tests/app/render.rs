@@ -1,4 +1,4 @@
-//! The Render workspace: what it shows, what it asks for, and what it does not.
+//! The Render workspace: what it shows, what it requests, and what it does not.
 
 use std::path::Path;
 use std::time::Duration;
@@ -41,7 +41,7 @@ fn render(window: &mut Window, change: impl FnOnce(&mut RenderSettings)) {
     window.run_steps(1);
 }
 
-/// The workspace with a coarse head, so that nobody waits.
+/// The workspace with a coarse head, for speed.
 fn window(size: [f32; 2], theme: egui::Theme) -> Window {
     in_render(open(size, theme))
 }
@@ -57,17 +57,17 @@ fn small() -> Window {
     window([900.0, 600.0], egui::Theme::Dark)
 }
 
-/// How often a kind of question was computed.
+/// Number of computations of a kind of query.
 fn made(window: &Window, name: &str) -> u64 {
     window.state().results().counts().get(name).map_or(0, |count| count.misses)
 }
 
-/// How often each kind of question was computed.
+/// Number of computations of each kind of query.
 fn computed(window: &Window) -> Vec<(&'static str, u64)> {
     window.state().results().counts().into_iter().map(|(name, count)| (name, count.misses)).collect()
 }
 
-/// The captions of the pictures on show.
+/// The captions of the visible pictures.
 fn captions(window: &Window) -> Vec<String> {
     let labels = window.query_all_by(|node| node.value().is_some_and(|label| label.starts_with("Picture: ")));
     labels.filter_map(|node| node.accesskit_node().value()).collect()
@@ -88,7 +88,7 @@ fn the_truth_and_three_cameras_stand_side_by_side() {
         "{captions:?}"
     );
     let shot = window.state().studio().frame().cloned().unwrap();
-    assert!(shot.is_last && shot.query.shading.geometry.visibility.size.samples == 3);
+    assert!(shot.is_last && shot.query.mesh().unwrap().shading.geometry.visibility.size.samples == 3);
     let pixels = &shot.made().unwrap().pictures[0].as_ref().unwrap().rgba;
     assert!(pixels.chunks_exact(4).any(|pixel| pixel[0] > 200), "it is lit");
 }
@@ -239,14 +239,14 @@ fn a_hidden_camera_is_not_computed() {
     window.state_mut().push(Action::Compare(hide));
     settle(&mut window);
     assert_eq!(captions(&window).len(), 3);
-    // A change that asks for the finest pictures alone, so that none is begun and given up on the way.
+    // A change that requests the finest pictures alone, so that none is begun and given up on the way.
     let pictures = made(&window, "picture");
     render(&mut window, |settings| settings.exposure_ev = 0.5);
     settle(&mut window);
     assert_eq!(made(&window, "picture"), pictures + 3);
     let shot = window.state().studio().frame().cloned().unwrap();
     assert!(shot.sources.iter().all(|source| source.name != "Nikon D70 (2007 figure)"));
-    assert_eq!(shot.query.sources.len(), 3);
+    assert_eq!(shot.sources.len(), 3);
 }
 
 #[test]
@@ -342,14 +342,14 @@ fn a_material_is_found_by_typing() {
     let mut window = small();
     window.get_by_label_contains("Material: ").click();
     window.run_steps(2);
-    window.get_by_role_and_label(Role::TextInput, "Search materials").focus();
+    window.get_by_role_and_label(Role::TextInput, "Filter Material").focus();
     window.run_steps(2);
-    window.get_by_role_and_label(Role::TextInput, "Search materials").type_text("grass");
+    window.get_by_role_and_label(Role::TextInput, "Filter Material").type_text("grass");
     window.run_steps(2);
     window.get_by_label("Grass 025 (Vrhel)").click();
     window.run_steps(3);
     assert_eq!(document(&window).render.material, "Grass 025 (Vrhel)");
-    assert!(window.query_by_label("Search materials").is_none(), "the list is closed");
+    assert!(window.query_by_label("Filter Material").is_none(), "the list is closed");
 }
 
 #[test]
@@ -446,7 +446,7 @@ fn escape_stops_what_takes_long_and_keeps_what_was_made() {
     assert_eq!(window.state().history().undo_name(), Some("Test"), "the choice stays");
 }
 
-/// How often the stages of a mesh were computed when the mesh has changed, with a pane beside the pictures.
+/// Number of computations of the stages of a mesh after a change of the mesh, with another pane next to the pictures.
 fn made_for_a_mesh(beside: PaneKind) -> [u64; 4] {
     const STAGES: [&str; 4] = ["mesh", "shadow tree", "visibility", "geometry"];
     let mut window = open([1280.0, 800.0], egui::Theme::Dark);

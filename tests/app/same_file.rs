@@ -34,7 +34,7 @@ fn names(document: &Document) -> Vec<&str> {
 fn the_same_file_is_the_same_set() {
     let mut document = Document::paper();
     open(&mut document, &[set("leaf.csv", Some("/a/leaf.csv"), LEAF)]);
-    // A person made something of it.
+    // The user made something of it.
     let with = OwnSet { name: "my leaf".to_owned(), role: Role::Illuminant, ..(*document.own[0]).clone() };
     Action::Own(OwnAction::Replace {
         name: "leaf".to_owned(),

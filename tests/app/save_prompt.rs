@@ -1,4 +1,5 @@
-//! The path that is typed where the system has no file dialog: Enter saves, what exists is asked about, nothing typed is lost.
+//! Tests of the path prompt where the system has no file dialog: Enter saves, existing files must be confirmed, typed text is
+//! never lost.
 
 use std::fs;
 
@@ -40,7 +41,7 @@ fn save_as(window: &mut Window, name: &str, form: Form) {
     until_asked(window, &format!("Save {name} as {}", form.name()));
 }
 
-/// Draws frames until the question says what is saved.
+/// Draws frames until the prompt says what is saved.
 fn until_asked(window: &mut Window, question: &str) {
     waiting::until(question, || {
         window.run_steps(1);

@@ -226,7 +226,7 @@ fn import() {
     check(harness, "import.png");
 }
 
-/// What was measured on the first screen's scene, once: times are never the same twice.
+/// Recorded measurements of the first screen's scene, as times are never repeatable.
 #[derive(Clone, serde::Serialize, serde::Deserialize)]
 pub(crate) struct Measured {
     pub(crate) run: SceneRun,
@@ -234,7 +234,7 @@ pub(crate) struct Measured {
 }
 
 impl Measured {
-    /// As kept in a file; with `RECORD_MEASUREMENTS=1` measured anew (meant for an optimized build) and kept.
+    /// As saved in a file; with `RECORD_MEASUREMENTS=1` measured again (meant for an optimized build) and saved.
     pub(crate) fn kept() -> Self {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/app/measured.json");
         if std::env::var_os("RECORD_MEASUREMENTS").is_some() {
@@ -252,12 +252,12 @@ impl Measured {
     }
 }
 
-/// The Accuracy workspace with what was measured once.
+/// The Numerics workspace with what was measured once.
 pub(crate) fn accuracy(size: [f32; 2], theme: egui::Theme) -> Harness<'static, ChromascopeApp> {
     let mut harness = open(size, theme);
     let Measured { run, remembered } = Measured::kept();
     let view = harness.state_mut().view_mut();
-    view.saved.workspace = Workspace::Accuracy;
+    view.saved.workspace = Workspace::Numerics;
     view.fixed_clock = true;
     let measured = &mut harness.state_mut().laboratory_mut().measured;
     (measured.run, measured.remembered) = (Some(std::sync::Arc::new(run)), remembered);

@@ -153,7 +153,7 @@ fn figure_8_is_the_same_after_the_papers_own() {
     assert_eq!(document.render, first.render);
 }
 
-/// Whether anything in the window says these words.
+/// True if a control in the window contains these words.
 fn says(window: &Harness<'static, ChromascopeApp>, words: &str) -> bool {
     window.query_all_by_label_contains(words).next().is_some()
 }

@@ -80,7 +80,7 @@ fn what_is_no_temperature_is_refused_and_stays() {
         assert!(!says(&window, "1000 to 20000 K"));
         assert_eq!(*window.state().history().document(), before);
     }
-    // Mended, it is taken.
+    // The corrected text is accepted.
     type_temperature(&mut window, "320");
     press(&mut window, egui::Key::Enter);
     type_on(&mut window, "0");

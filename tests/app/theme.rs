@@ -1,4 +1,4 @@
-//! The palette: seen against its ground, and told apart, by people with any kind of color vision.
+//! Tests of the palette: visible against its background, and distinguishable, in any kind of color vision.
 
 use chromascope::theme::{self, Surround, Theme};
 use chromascope_core::colorimetry::{

@@ -8,8 +8,7 @@ use std::time::{Duration, Instant};
 /// Far longer than anything takes on the slowest machine: only a test that fails waits for so long.
 const LIMIT: Duration = Duration::from_mins(1);
 
-/// Asks again and again until something has come, with a short pause between. Where it has not, the answer says what is there
-/// in its place.
+/// Polls until a result is available, with a short pause between. On failure, the message describes the last state.
 #[track_caller]
 pub(crate) fn until<T>(what: &str, mut found: impl FnMut() -> Result<T, String>) -> T {
     let start = Instant::now();

@@ -4,7 +4,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// What not to say, and what to say instead.
+/// Banned words with their replacements.
 const BANNED: &[(&str, &str)] = &[
     ("truth", "reference"),
     ("on show", "visible"),
@@ -69,7 +69,7 @@ fn files(folder: &Path, ending: &str, found: &mut Vec<PathBuf>) {
     }
 }
 
-/// String literals of a Rust source, continued lines joined, and its doc comments if asked for.
+/// String literals of a Rust source, continued lines joined, and its doc comments if requested.
 fn sentences(file: &Path, source: &str, docs: bool) -> Vec<Sentence> {
     let mut found = Vec::new();
     let mut letters = source.char_indices().peekable();

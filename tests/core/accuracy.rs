@@ -1,4 +1,5 @@
-//! What is promised at a chosen accuracy: random cameras, lights, reflectances, surfaces and tolerances beside the exact sum.
+//! Tests of error bounds at a chosen tolerance: random cameras, lights, reflectances, surfaces and tolerances against the
+//! exact sum.
 
 use chromascope_core::accuracy::{NotATolerance, RelTolerance};
 use chromascope_core::camera::rendering::white_divisors;
@@ -70,7 +71,7 @@ fn largest(sums: [f64; 3]) -> f64 {
     sums.into_iter().map(f64::abs).fold(0.0, f64::max)
 }
 
-/// The error of a plan at a place, by the definition of [`Against`]; none where nothing is promised.
+/// The error of a plan at a point, by the definition of [`Against`]; `None` where no bound applies.
 fn error(plan: &Plan, measure: &SpectralWeights, against: Against, kappa: f64, beta: f64) -> Option<f64> {
     let exact = by_nodes(measure.dense(), kappa, beta, Precision::Full);
     let peak = largest(by_nodes(measure.dense(), kappa, 0.0, Precision::Full));

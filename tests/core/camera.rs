@@ -39,7 +39,7 @@ fn between_checks() -> impl Iterator<Item = f64> {
     (1..=300).map(|i| 1000.0 * 1000.0_f64.powf((f64::from(i) * 0.618_033_988_749_894_9).fract()))
 }
 
-/// What the documentation of `LocusEvaluator` promises, for every sensor of the library on both ways.
+/// Documented error bound of `LocusEvaluator`, for every sensor of the library by both methods.
 #[test]
 fn nodes_miss_the_sum_by_less_than_1e_12_in_xy() {
     let (equal_energy, reference, training) = (GridSpectrum::constant(1.0), sensor(CIE_1931), training());

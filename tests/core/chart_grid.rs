@@ -33,9 +33,6 @@ fn patches_in_perspective_are_averaged_exactly() {
         assert_eq!(patch.mean, [value, 2.0 * value, 3.0 * value], "patch {index}");
         assert_eq!(patch.clipped, [value, 2.0 * value, 3.0 * value].map(|v| v >= 60.0));
         assert!(patch.pixels > 20, "{}", patch.pixels);
-        for [x, y] in grid.central_part(index) {
-            assert_eq!(picture(x as usize, y as usize)[0], value, "corner of {index}");
-        }
     }
     // The chart upside down: corners named from its first patch on.
     let [a, b, c, d] = corners();

@@ -166,14 +166,26 @@ fn leave_one_out_equals_refitting() {
     for method in methods {
         for keeps_white in [true, false] {
             let correction = correction(method, keeps_white);
-            let short = set.training().leave_one_out(&correction, white()).unwrap();
-            let long = set.training().refitted(&correction, white());
+            let fitted = set.training().fit(&correction, white()).unwrap();
+            let short = set.training().leave_one_out(&correction, white(), &fitted, || false).unwrap();
+            let long = set.training().refitted(&correction, white(), &fitted, || false);
             for (short, long) in short.iter().zip(&long) {
                 let (short, long) = (short.unwrap(), long.unwrap());
                 assert!((short - long).abs().max_element() < 1e-8, "{method:?} {keeps_white}: {short} {long}");
             }
         }
     }
+}
+
+#[test]
+fn refitting_ends_when_it_is_told_to() {
+    let set = set();
+    let correction = correction(CorrectionMethod::Minimize(Objective::LabSquares), true);
+    let fitted = set.training().fit(&correction, white()).unwrap();
+    let asked = std::sync::atomic::AtomicUsize::new(0);
+    let stop = || asked.fetch_add(1, std::sync::atomic::Ordering::Relaxed) >= 5;
+    let left_out = set.training().leave_one_out(&correction, white(), &fitted, stop).unwrap();
+    assert_eq!(left_out.iter().flatten().count(), 5);
 }
 
 const DEGREES: [Degree; 3] = [Degree::Two, Degree::Three, Degree::Four];
@@ -183,9 +195,10 @@ fn errors_left_out_exceed_those_of_training() {
     let set = set();
     for method in CorrectionMethod::ALL.into_iter().filter(|method| *method != CorrectionMethod::None) {
         let correction = correction(method, true);
-        let trained = through(&set, &set.training().fit(&correction, white()).unwrap());
+        let fitted = set.training().fit(&correction, white()).unwrap();
+        let trained = through(&set, &fitted);
         let left_out: Option<Vec<DVec3>> =
-            set.training().leave_one_out(&correction, white()).unwrap().into_iter().collect();
+            set.training().leave_one_out(&correction, white(), &fitted, || false).unwrap().into_iter().collect();
         let [trained, left_out] =
             [trained, left_out.unwrap()].map(|colors| mean(&differences(&set, &colors, Metric::DELTA_E_2000)));
         assert!(left_out > trained, "{method:?}: {left_out} {trained}");

@@ -42,7 +42,7 @@ fn a_mired_shift_moves_a_blackbody() {
     let (from, to) = (body(312.5), body(312.5 - 131.0));
     let seen = from.times(&shift);
     let ratio = |i: usize| seen.values()[i] / to.values()[i];
-    // Wien leaves out 1 − exp(−x), x = c₂/(λT): it differs by 3.4 % at 780 nm between the two temperatures.
+    // Wien omits 1 − exp(−x), x = c₂/(λT): it differs by 3.4 % at 780 nm between the two temperatures.
     let (blue, red) = (ratio(0), ratio(400));
     let bend = |mired: f64| 1.0 - (-1.4388e1 / 780.0 * mired).exp();
     assert_near("ratio", red / blue, bend(181.5) / bend(312.5), 1e-3);

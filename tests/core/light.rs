@@ -1,4 +1,4 @@
-//! Black bodies against 50 digits, daylight against the CIE's tables.
+//! Blackbodies against 50 digits, daylight against the CIE's tables.
 
 use chromascope_core::colorimetry::Xyz;
 use chromascope_core::light::daylight::chromaticity;

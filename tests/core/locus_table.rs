@@ -1,4 +1,4 @@
-//! Tables of black bodies' chromaticities against the 1 nm sum, 50 digits, and curves that no table can hold.
+//! Tables of blackbodies' chromaticities against the 1 nm sum, 50 digits, and curves that no table can hold.
 
 use chromascope_core::accuracy::RelTolerance;
 use chromascope_core::camera::locus_table::{COLDEST_K, HOTTEST_K};

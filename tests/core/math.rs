@@ -1,4 +1,5 @@
-//! Numerical tools: against the standard library, published nodes, 50-digit solutions, and what they promise to be exact for.
+//! Tests of the numerical tools: against the standard library, published nodes, 50-digit solutions, and the cases documented
+//! as exact.
 
 use chromascope_math::dot::{dot, dot_each};
 use chromascope_math::exp::exp;
@@ -30,7 +31,7 @@ fn exp_agrees_with_the_standard_library() {
     assert_eq!(exp(f64::NEG_INFINITY), exp(-700.0));
 }
 
-/// How many units in the last place lie between a number and what it should be.
+/// Distance between a number and the expected one, in units in the last place.
 fn units_apart(found: f64, right: f64) -> u64 {
     found.to_bits().abs_diff(right.to_bits())
 }

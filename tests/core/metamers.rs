@@ -76,6 +76,17 @@ fn what_is_no_color_makes_no_pair() {
 }
 
 #[test]
+fn pairs_brighter_than_white_are_found() {
+    let seen = |l: f64, red: f64| Seen { rgb: [red, 1.0, 1.0], lab: Lab { l, a: 0.0, b: 0.0 } };
+    // S_L is 2.94 at L* 180: ΔE*00 of 2.9 / 2.94 is confused, though ΔL* exceeds 1.75.
+    let colors = [seen(178.55, 1.0), seen(181.45, 2.0)];
+    let limits = MetamerLimits::new(1.0, 2.0).unwrap();
+    let pairs = search(&colors, Confusion::Observer, limits, 10);
+    assert_eq!(pairs.len(), 1);
+    assert_near("ΔE*00", pairs[0].observer_difference, 2.9 / (1.0 + 0.015 * 16_900.0 / 16_920_f64.sqrt()), 1e-12);
+}
+
+#[test]
 fn a_metameric_black_is_invisible_to_rounding() {
     for (path, lamp) in [(CANON_10D, "illuminants/a.csv"), (DCS200, "illuminants/d65.csv")] {
         let (camera, light) = (sensor(path), light(lamp));

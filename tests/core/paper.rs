@@ -39,7 +39,7 @@ fn locus(sensor: Sensor, temperatures: &[f64]) -> Vec<Xy> {
     locus_at(sensor, Temperatures::List(temperatures.iter().map(|&t| kelvin(t)).collect()))
 }
 
-/// A camera's distance to the truth over temperature.
+/// A camera's distance to the reference over temperature.
 struct Distances {
     t: Vec<f64>,
     d: Vec<f64>,
@@ -236,7 +236,7 @@ fn white_of_d55_has_the_papers_twelve_digits() {
     assert_eq!(round(WhiteBalanceTarget::from_xyz(five_nm_white()).0), [1.1040, 0.9870, 0.8233]);
     let own = WhiteBalanceTarget::from_light(&dataset("illuminants/d55.csv").curves[0], &sensor(CIE_1931)).unwrap();
     assert_eq!(round(own.0), [1.1040, 0.9870, 0.8233]);
-    // A black body of 5500 K is no D55.
+    // A blackbody of 5500 K is no D55.
     let radiator = chromascope_core::light::planckian::black_body(kelvin(5500.0), RadiationConstants::Paper);
     let glow = WhiteBalanceTarget::from_light(&measured(&radiator), &sensor(CIE_1931)).unwrap();
     assert!((DVec3::from_array(glow.0) - DVec3::from_array(own.0)).abs().max_element() > 0.03);

@@ -1,4 +1,4 @@
-//! Questions: what makes them equal, and that their answers are the compositions they say they are.
+//! Tests of queries: their equality, and that their answers equal the direct computations.
 
 use std::hash::{DefaultHasher, Hash, Hasher};
 
@@ -42,7 +42,7 @@ fn shared_values_are_equal_when_their_contents_are() {
     assert_eq!(first.integrals(), anew.integrals());
 }
 
-/// Every value hashes alike, so that only the contents can tell them apart.
+/// Value with a constant hash, so that only the contents distinguish two of them.
 #[derive(PartialEq, Eq)]
 struct Colliding(u8);
 

@@ -59,7 +59,7 @@ fn the_camera_that_recorded_comes_first_without_residual() {
     ranked.sort_by(|a, b| a.0.total_cmp(&b.0));
     assert_eq!(ranked[0].1, NIKON_D70);
     assert!(ranked[0].0 < 1e-13, "{}", ranked[0].0);
-    // The next camera is told apart by far more than rounding.
+    // The next camera differs by far more than rounding.
     assert!(ranked[1].0 > 1e-3, "{ranked:?}");
 }
 
@@ -120,6 +120,8 @@ fn clipped_zero_and_missing_values_are_left_out_with_their_reason() {
     patches[18].rgb = [4095.0; 3].map(|value| Signal::new(value, 4095.0));
     patches[3].rgb[2] = Signal::new(0.0, 4095.0);
     patches[5].rgb[0] = Signal::new(f64::NAN, 4095.0);
+    assert_eq!(Signal::new(f64::NEG_INFINITY, 4095.0).value(), Err(Exclusion::NotPositive));
+    assert_eq!(Signal::new(f64::INFINITY, f64::INFINITY).value(), Err(Exclusion::Clipped));
     let found = fit(&patches, &camera);
     assert_eq!(found.values, 67);
     assert_eq!(found.parameters, 25);

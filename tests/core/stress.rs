@@ -1,12 +1,13 @@
-//! Every numeric function of the core far past the physical range: finite or a typed refusal, monotone and symmetric where it
-//! should be, and within its promise where a second method gives the truth.
+//! Stress tests of every numeric function of the core far beyond the physical range: finite or a typed error, monotone and
+//! symmetric where it should be, and within its error bound where there is a second method.
 //!
 //! A million cases in the test command, drawn log-uniformly from a fixed seed. More on demand, with a table of what was found:
 //!
 //! ```text
 //! CHROMASCOPE_STRESS=1e9 CHROMASCOPE_SEED=7 cargo test --release -p chromascope-core --test core stress:: -- --nocapture
 //! ```
-//! What fails is made as plain as it can be and printed with its seed; `CHROMASCOPE_WALK=name` walks one function alone.
+//! A failing case is simplified as far as possible and printed with its seed; `CHROMASCOPE_WALK=name` tests one function
+//! alone.
 
 #![allow(clippy::disallowed_types, reason = "a run on demand says how long a case takes")]
 

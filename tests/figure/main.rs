@@ -60,9 +60,9 @@ fn assert_balanced(svg: &str) {
 
 #[test]
 fn ticks_are_round_and_have_the_decimals_they_need() {
-    assert_eq!(labels([0.0, 0.8], 640.0), ["0", "0.1", "0.2", "0.3", "0.4", "0.5", "0.6", "0.7", "0.8"]);
+    assert_eq!(labels([0.0, 0.8], 640.0), ["0.0", "0.1", "0.2", "0.3", "0.4", "0.5", "0.6", "0.7", "0.8"]);
     assert_eq!(labels([380.0, 780.0], 400.0), ["400", "500", "600", "700"]);
-    assert_eq!(labels([0.1, 0.0], 75.0), ["0", "0.1"]);
+    assert_eq!(labels([0.1, 0.0], 75.0), ["0.0", "0.1"]);
     assert_eq!(labels([-1.0, 1.0], 120.0), ["−1", "0", "1"]);
     assert_eq!(labels([0.0, 4e-7], 130.0), ["0", "2e-7", "4e-7"]);
     assert_eq!(labels([0.0, 3e9], 190.0), ["0", "1e9", "2e9", "3e9"]);
@@ -82,6 +82,22 @@ fn crowded_given_ticks_lose_labels_between_the_ends_first() {
     let ticks = axis.ticks_over(axis.range, 600.0);
     let read: Vec<(f64, &str)> = ticks.iter().map(|t| (t.value, t.label.as_str())).collect();
     assert_eq!(read, [(50.0, "20000 K"), (60.0, ""), (200.0, "5000 K"), (1000.0, "1000 K")]);
+}
+
+#[test]
+fn ticks_of_an_axis_have_the_same_decimals() {
+    assert_eq!(
+        labels([-0.25, 0.3], 700.0),
+        ["−0.25", "−0.20", "−0.15", "−0.10", "−0.05", "0.00", "0.05", "0.10", "0.15", "0.20", "0.25", "0.30"]
+    );
+}
+
+#[test]
+fn zero_is_labeled_before_its_neighbors() {
+    let at = [-0.4, 0.0, 1.0].map(|value| (value, format!("{value:.1}")));
+    let axis = Axis::new("", [-0.4, 1.0]).with_ticks(Ticks::At(at.to_vec()));
+    let read: Vec<String> = axis.ticks_over(axis.range, 140.0).into_iter().map(|tick| tick.label).collect();
+    assert_eq!(read, ["", "0.0", "1.0"]);
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-/// Says when its first frame was complete.
+/// Reports when its first frame was complete.
 struct Empty {
     start: Option<Instant>,
 }

@@ -12,7 +12,6 @@ fn key(p: Vec3) -> [u32; 3] {
     (p + 0.0).to_array().map(f32::to_bits)
 }
 
-/// The corners of a triangle.
 fn corners(mesh: &Mesh, triangle: [u32; 3]) -> [Vec3; 3] {
     triangle.map(|i| mesh.positions()[i as usize])
 }

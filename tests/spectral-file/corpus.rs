@@ -1,7 +1,7 @@
 //! Miniature files, each with the truth beside it: no file may be misread without a word.
 //!
 //! `corpus/<case>.<ending>` is a file as a program or an instrument writes it, with made-up numbers; `corpus/<case>.truth` says
-//! what a person who knows the program reads in it. A truth is lines of `key: value`; `#` begins a comment:
+//! the values that an expert on that program reads in it. A truth is lines of `key: value`; `#` begins a comment:
 //!
 //! - `role`, `quantity`, `unit` (of the first curve): as displayed; `unit: -` for none.
 //! - `sure: Role` and `guess: Role`: whether a decision, by the name it is listed under, follows from the file or is a guess.
@@ -18,7 +18,7 @@ use std::path::{Path, PathBuf};
 
 use spectral_file::{Certainty, Dropped, Preview, ReadOptions, SpectralFile, Watch, What, read, read_marked};
 
-/// Relative distance between a value and its truth: the truth is written in decimals.
+/// Relative distance between a value and its truth, which is written in decimals.
 const CLOSE: f64 = 1e-12;
 
 fn folder() -> PathBuf {

@@ -1,4 +1,4 @@
-//! Curves written in every format, read back, and held against what the other programs' readers ask for.
+//! Tests of curves written in every format, read back, and checked against the requirements of other programs' readers.
 
 mod averages;
 mod layouts;

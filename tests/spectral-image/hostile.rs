@@ -10,7 +10,7 @@ use std::io::Cursor;
 fn go_through(bytes: &[u8]) {
     let Ok(mut image) = ExrImage::new(Cursor::new(bytes), None) else { return };
     let (mut samples, height) = (Vec::new(), image.info().height);
-    // A broken size may be large; a few rows tell as much as all.
+    // A broken size may be large; a few rows are as informative as all.
     for rows in [0..1, height / 2..height / 2 + 1, height - 1..height] {
         if image.info().row_samples() < 1 << 22 {
             let _broken = image.read_rows(rows, &mut samples);

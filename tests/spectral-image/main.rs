@@ -158,6 +158,7 @@ fn bad_bands_units_order_offsets_and_ignored_values() {
         Some(ImageQuantity::Radiance)
     );
     assert_eq!(read(&[], &[0; 6]).unwrap().0.info.quantity, None);
+    assert_eq!(read(&[("data ignore value", "nan")], &[0; 6]).unwrap().0.ignore, None);
 }
 
 #[test]
@@ -178,6 +179,10 @@ fn errors_name_line_field_and_remedy() {
     assert!(
         complaint(&[("wavelength units", "Wavenumber")]).ends_with("expected Nanometers, Micrometers or Angstroms")
     );
+    assert!(complaint(&[("data ignore value", "none")]).ends_with("expected a number"));
+    for scale in ["nan", "inf", "0", "-1"] {
+        assert!(complaint(&[("reflectance scale factor", scale)]).ends_with("for a reflectance of 1"), "{scale}");
+    }
     assert_eq!(complaint(&[("bbl", "{0, 0, 0}")]), "`bbl` marks every band as bad");
     assert!(complaint(&[("file compression", "1")]).ends_with("save the image without compression"));
     assert_eq!(

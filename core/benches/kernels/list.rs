@@ -32,7 +32,7 @@ use crate::library::{CHART, CONSTANTS, equal_energy, patches, sensor, text};
 /// One kernel by its name.
 pub(crate) struct Kernel {
     pub(crate) name: &'static str,
-    /// How often it runs where it is timed or counted.
+    /// Number of runs per timing or count.
     pub(crate) count: u64,
     /// Makes what it needs.
     pub(crate) ready: fn() -> Work,
@@ -138,7 +138,7 @@ fn rules() -> Work {
     Box::new(move || LocusEvaluator::new(Arc::clone(&camera), CONSTANTS).raw(t)[1])
 }
 
-/// Black bodies of 1000 K to 20 000 K in no order.
+/// Blackbodies of 1000 K to 20 000 K in no order.
 fn tabulated() -> Work {
     let table = LocusTable::new(&camera(), &measure().0, CONSTANTS);
     let kelvin = |i: u32| Kelvin::new(1e6 / (50.0 + 0.95 * f64::from(i * 389 % 1000))).unwrap();

@@ -1,11 +1,12 @@
-//! Small texts in a plot's corners.
+//! Small texts in a plot's corners and below it.
 
 use super::mark::{Anchor, TextSize};
 use super::panel::Panel;
+use super::projection::Projection;
 use super::rect::Rect;
 use super::text::text_width;
 
-/// A small text inside a plot's corner: an axis' label, a panel's note.
+/// A small text of a plot: an axis' label, a panel's note.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Annotation {
     /// Its place in points.
@@ -16,8 +17,8 @@ pub struct Annotation {
     pub anchor: Anchor,
 }
 
-/// Labels of the axes (y upper left, x lower right) and the note (upper right) of a panel whose plot covers the given
-/// rectangle, for [`TextSize::Small`] drawn `text_scale` times as large as on screen. None covers another.
+/// Labels of the axes (y upper left; x below the tick labels, symbols lower right) and the note (upper right) of a panel
+/// whose plot covers the given rectangle, for [`TextSize::Small`] drawn `text_scale` times as large as on screen. None covers another.
 pub fn annotations(panel: &Panel, plot: Rect, text_scale: f64) -> Vec<Annotation> {
     let pad = 5.0 * text_scale;
     let width = |text: &str| text_scale * text_width(text, TextSize::Small);
@@ -26,13 +27,15 @@ pub fn annotations(panel: &Panel, plot: Rect, text_scale: f64) -> Vec<Annotation
     let left = plot.min[0] + pad;
     let right = plot.max[0] - pad;
     let top = plot.min[1] + pad;
-    [
-        ([left, top], &panel.y.label, Anchor::LEFT_TOP),
-        ([right, top + below], &panel.note, Anchor::RIGHT_TOP),
-        ([right, plot.max[1] - pad], &panel.x.label, Anchor::RIGHT_BOTTOM),
-    ]
-    .into_iter()
-    .filter(|(_, text, _)| !text.is_empty())
-    .map(|(at, text, anchor)| Annotation { at, text: text.clone(), anchor })
-    .collect()
+    let x = if panel.x.has_title_line() {
+        let bottom = plot.max[1] + (Projection::BOTTOM - 2.0) * text_scale;
+        ([0.5 * (plot.min[0] + plot.max[0]), bottom], &panel.x.label, Anchor::TOP)
+    } else {
+        ([right, plot.max[1] - pad], &panel.x.label, Anchor::RIGHT_BOTTOM)
+    };
+    [([left, top], &panel.y.label, Anchor::LEFT_TOP), ([right, top + below], &panel.note, Anchor::RIGHT_TOP), x]
+        .into_iter()
+        .filter(|(_, text, _)| !text.is_empty())
+        .map(|(at, text, anchor)| Annotation { at, text: text.clone(), anchor })
+        .collect()
 }

@@ -9,7 +9,8 @@ pub const MIN_LABEL_SPACING: f64 = 60.0;
 /// A linear axis.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Axis {
-    /// Quantity and unit.
+    /// Quantity and unit, or a symbol of at most two characters. Symbols of x stand in the plot's corner, all else below
+    /// its tick labels.
     pub label: String,
     /// Value at the left or bottom end, value at the right or top end. The first may be the larger one.
     pub range: [f64; 2],
@@ -27,7 +28,7 @@ pub enum Ticks {
     /// Round numbers, as many as there is room for.
     #[default]
     Auto,
-    /// At the given values with the given labels. Labels too close to others are left out, their grid lines stay.
+    /// At the given values with the given labels. Labels too close to others are omitted, their grid lines stay.
     At(Vec<(f64, String)>),
 }
 
@@ -46,7 +47,7 @@ impl Axis {
         Self { label: label.into(), range, ticks: Ticks::Auto, grid: true }
     }
 
-    /// An axis nobody sees.
+    /// An invisible axis.
     pub fn hidden(range: [f64; 2]) -> Self {
         Self { label: String::new(), range, ticks: Ticks::None, grid: false }
     }
@@ -61,6 +62,11 @@ impl Axis {
     #[must_use]
     pub fn with_grid(self, grid: bool) -> Self {
         Self { grid, ..self }
+    }
+
+    /// True if the label of a horizontal axis is a line of its own below the tick labels.
+    pub fn has_title_line(&self) -> bool {
+        self.ticks != Ticks::None && self.label.chars().count() > 2
     }
 
     /// The range, or one of length 1 around its value (around 0.5 if it has none) where it has no length.
@@ -79,6 +85,12 @@ impl Axis {
         };
         thin_out(&mut ticks, range, length);
         ticks
+    }
+
+    /// Ticks of a vertical axis drawn `length` points long. Labels given for it may stand closer: lines of text are low.
+    pub fn vertical_ticks_over(&self, range: [f64; 2], length: f64) -> Vec<Tick> {
+        let closer = if matches!(self.ticks, Ticks::At(_)) { 3.5 } else { 1.0 };
+        self.ticks_over(range, closer * length)
     }
 }
 
@@ -140,16 +152,17 @@ impl Step {
         values
     }
 
+    /// Value with the decimals of the step, the same for every multiple of it, 0 too.
     fn label(self, value: f64) -> String {
         let magnitude = if value == 0.0 { self.exponent } else { value.abs().log10().floor() as i32 };
-        let text = if value == 0.0 {
-            "0".to_owned()
-        } else if self.exponent < -5 || magnitude > 6 {
-            let digits = (magnitude - self.exponent).clamp(0, 15) as usize;
-            format!("{:.digits$e}", value.abs())
-        } else {
+        let text = if self.exponent >= -5 && magnitude <= 6 {
             let decimals = usize::try_from(-self.exponent).unwrap_or(0);
             format!("{:.decimals$}", value.abs())
+        } else if value == 0.0 {
+            "0".to_owned()
+        } else {
+            let digits = (magnitude - self.exponent).clamp(0, 15) as usize;
+            format!("{:.digits$e}", value.abs())
         };
         if value < 0.0 { format!("−{text}") } else { text }
     }
@@ -188,21 +201,21 @@ fn inside(at: &[(f64, String)], range: [f64; 2]) -> Vec<Tick> {
     ticks
 }
 
-/// Takes away labels that are too close: the first and the last stay if they can, those between where there is room.
+/// Takes away labels that are too close: that of 0 and those at the ends stay if they can, the others where there is room.
 fn thin_out(ticks: &mut [Tick], range: [f64; 2], length: f64) {
     let spans: Vec<Option<Span>> = ticks.iter().map(|tick| Span::of(tick, range, length)).collect();
-    let last = spans.iter().flatten().last().copied();
-    let mut previous: Option<Span> = None;
+    let first = spans.iter().position(Option::is_some);
+    let last = spans.iter().rposition(Option::is_some);
+    let zero = ticks.iter().position(|tick| tick.value == 0.0);
+    let mut kept: Vec<Span> = Vec::new();
+    for index in zero.into_iter().chain(first).chain(last).chain(0..ticks.len()) {
+        let Some(span) = spans[index].filter(|span| !kept.contains(span)) else { continue };
+        if kept.iter().all(|other| span.is_clear_of(*other)) {
+            kept.push(span);
+        }
+    }
     for (tick, span) in ticks.iter_mut().zip(spans) {
-        let Some(span) = span else { continue };
-        let Some(before) = previous else {
-            previous = Some(span);
-            continue;
-        };
-        let room_after = last.is_some_and(|last| span == last || span.is_clear_of(last));
-        if room_after && span.is_clear_of(before) {
-            previous = Some(span);
-        } else {
+        if span.is_some_and(|span| !kept.contains(&span)) {
             tick.label.clear();
         }
     }

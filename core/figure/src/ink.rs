@@ -5,7 +5,7 @@
 pub enum InkRole {
     /// The source the others are compared to.
     Reference,
-    /// An observer beside the truth.
+    /// An observer other than the reference.
     Observer,
     /// A compared source by its slot, 0 to 7 (taken modulo 8).
     Sensor(u8),

@@ -1,11 +1,11 @@
 //! A plot as data: panels with axes, marks, a legend, and the table beside it.
 //!
-//! A [`Figure`] says *what* is drawn and in which role, never in which color: the [`Palette`] of whoever draws it
-//! turns an [`InkRole`] into sRGB. The window draws panels with egui, [`svg::write`] writes the whole figure as SVG,
-//! PNG and PDF are made from that SVG, and [`Table::to_csv`] holds the same numbers. Lengths are points (1/72 inch
-//! on paper, logical pixels on screen), y downward outside panels and as the axis says inside.
+//! A [`Figure`] specifies *what* is drawn and in which role, never in which color: the renderer's [`Palette`] maps an
+//! [`InkRole`] to sRGB. The window draws panels with egui, [`svg::write`] writes the whole figure as SVG, PNG and PDF
+//! are made from that SVG, and [`Table::to_csv`] writes the same numbers. Lengths are points (1/72 inch on paper,
+//! logical pixels on screen), y downward outside panels and by the axis inside.
 //!
-//! Points that are not finite are never drawn: they break a line in two and are left out of everything else.
+//! Points that are not finite are never drawn: they break a line in two and are omitted from everything else.
 
 mod annotation;
 mod axis;

@@ -163,7 +163,7 @@ pub enum Shape {
         /// The picture, its first row at the top.
         image: Image,
     },
-    /// Independent straight lines, such as the tails from points to the truth.
+    /// Independent straight lines, such as the tails from points to the reference.
     Segments {
         /// Start and end of each.
         segments: Vec<[[f64; 2]; 2]>,
@@ -242,7 +242,7 @@ impl TextSize {
 /// The shape of a marker: the second sign, beside color, by which a source is known.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Marker {
-    /// Upright cross: the truth.
+    /// Upright cross: the reference.
     Plus,
     /// Circle.
     Circle,
@@ -260,7 +260,7 @@ pub enum Marker {
     TriangleRight,
     /// Triangle pointing left.
     TriangleLeft,
-    /// Diagonal cross: the first observer beside the truth.
+    /// Diagonal cross: the first observer other than the reference.
     Cross,
     /// Asterisk: the second observer.
     Asterisk,
@@ -297,7 +297,7 @@ impl Marker {
         Self::SOURCES[(slot % 8 + 4 * (slot / 8 % 2)) % 8]
     }
 
-    /// The marker of an observer beside the truth: diagonal cross and asterisk in turn.
+    /// The marker of an observer other than the reference: diagonal cross and asterisk in turn.
     pub fn observer(slot: usize) -> Self {
         if slot.is_multiple_of(2) { Self::Cross } else { Self::Asterisk }
     }

@@ -1,7 +1,6 @@
 //! From data units to points.
 
-use super::axis::proper;
-use super::axis::{Tick, Ticks};
+use super::axis::{Axis, Tick, Ticks, proper};
 use super::mark::TextSize;
 use super::panel::Panel;
 use super::rect::Rect;
@@ -41,16 +40,27 @@ impl Projection {
     pub const LEFT: f64 = 44.0;
     /// Room for the tick labels of x, in points.
     pub const BOTTOM: f64 = 24.0;
+    /// Room for the title of x below them, in points.
+    pub const TITLE: f64 = 16.0;
+
+    /// Room for the tick labels and the title of a horizontal axis, in points.
+    pub fn bottom(x: &Axis) -> f64 {
+        match x.ticks {
+            Ticks::None => 0.0,
+            _ if x.has_title_line() => Self::BOTTOM + Self::TITLE,
+            _ => Self::BOTTOM,
+        }
+    }
 
     /// Lays a panel out for text drawn `text_scale` times as large as on screen.
     pub fn new(panel: &Panel, text_scale: f64) -> Self {
         let area = panel.area;
-        let bottom = if panel.x.ticks == Ticks::None { 0.0 } else { Self::BOTTOM * text_scale };
+        let bottom = Self::bottom(&panel.x) * text_scale;
         let height = (area.height() - bottom).max(1.0);
         let (mut x, mut y) = (panel.x.proper_range(), panel.y.proper_range());
         let mut left = Self::left(panel, y, height, text_scale);
         if panel.equal_aspect {
-            // The ticks' room depends on the range, which depends on the room: once more is enough for a label's width.
+            // The ticks' room depends on the range, which depends on the room: one repetition is enough for a label's width.
             for _ in 0..2 {
                 let size = [(area.width() - left).max(1.0), height];
                 (x, y) = fit_equal(panel.x.range, panel.y.range, size);
@@ -60,7 +70,7 @@ impl Projection {
         let width = (area.width() - left).max(1.0);
         let plot = Rect::from_min_size([area.min[0] + left, area.min[1]], [width, height]);
         let x_ticks = panel.x.ticks_over(x, width / text_scale);
-        let y_ticks = panel.y.ticks_over(y, height / text_scale);
+        let y_ticks = panel.y.vertical_ticks_over(y, height / text_scale);
         Self { plot, x, y, x_ticks, y_ticks }
     }
 
@@ -68,7 +78,7 @@ impl Projection {
         if panel.y.ticks == Ticks::None {
             return 0.0;
         }
-        let ticks = panel.y.ticks_over(y, height / text_scale);
+        let ticks = panel.y.vertical_ticks_over(y, height / text_scale);
         let widest = ticks.iter().map(|tick| text_width(&tick.label, TextSize::Body)).fold(0.0, f64::max);
         text_scale * Self::LEFT.max(widest + 12.0)
     }

@@ -28,7 +28,7 @@ pub struct SvgStyle<'a> {
     pub line_scale: f64,
     /// Width on paper in millimeters; `None` takes the figure's points.
     pub width_mm: Option<f64>,
-    /// Encodes a picture as a data URI (`data:image/png;base64,…`). Pictures it cannot encode are left out.
+    /// Encodes a picture as a data URI (`data:image/png;base64,…`). Pictures it cannot encode are omitted.
     pub encode: &'a dyn Fn(&Image) -> Option<String>,
 }
 
@@ -126,7 +126,7 @@ fn write_grid(canvas: &mut Canvas<'_>, panel: &Panel, projection: &Projection) {
 
 fn write_tick_labels(canvas: &mut Canvas<'_>, panel: &Panel, projection: &Projection) {
     let (plot, scale) = (projection.plot, canvas.style.text_scale);
-    let ink = Ink::new(InkRole::Text);
+    let ink = Ink::new(InkRole::Weak);
     for tick in &projection.x_ticks {
         let half = 0.5 * scale * text_width(&tick.label, TextSize::Body);
         let x = projection.at([tick.value, projection.y[0]])[0];
@@ -201,7 +201,7 @@ fn write_key(canvas: &mut Canvas<'_>, entry: &LegendEntry, left: [f64; 2], width
     }
 }
 
-/// The text with everything XML gives a meaning replaced, and characters XML forbids left out.
+/// The text with XML's special characters escaped, and characters that XML forbids removed.
 pub fn escape(text: &str) -> String {
     escaped(text)
 }

@@ -1,4 +1,4 @@
-//! What the preview marks in any bytes under any choices: parts of lines, in order, that it can name.
+//! Preview marks of any bytes under any choices: parts of lines, in order, with names.
 #![no_main]
 
 use chromascope_core_fuzz::options;

@@ -1,4 +1,4 @@
-//! What is read is written in each format and read again: no panic, and a CSV gives back every sample to the last bit.
+//! Round trip through each write format: no panic, and a CSV returns every sample to the last bit.
 #![no_main]
 
 use spectral_file::write::{Content, Format, Grid, Sheet, Trace, write};
@@ -62,7 +62,7 @@ fn same(table: &SpectralFile, again: &Result<SpectralFile, ReadError>, text: &st
     };
     assert_eq!(again.curves.len(), table.curves.len(), "{text}");
     for (a, b) in table.curves.iter().zip(&again.curves) {
-        // What means "not measured" is left out when it is read.
+        // What means "not measured" is omitted when it is read.
         if !a.values.contains(&-9999.0) {
             assert_eq!((&a.wavelengths_nm, &a.values), (&b.wavelengths_nm, &b.values), "{text}");
         }

@@ -1,11 +1,11 @@
-//! What the targets share: what must hold of every table, choices made of bytes, sound files to begin with.
+//! Code shared by the fuzz targets: invariants of every table, choices made from bytes, valid seed files.
 
 pub mod files;
 pub mod options;
 
 use spectral_file::SpectralFile;
 
-/// What must hold of whatever is read.
+/// Checks the invariants of every table that was read.
 pub fn check(table: &SpectralFile) {
     assert!(!table.curves.is_empty());
     for curve in &table.curves {

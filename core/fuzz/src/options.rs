@@ -2,7 +2,7 @@
 
 use spectral_file::{DecimalMark, Delimiter, Orientation, ReadOptions, Reader, Role, Values, WavelengthUnit};
 
-/// How many bytes make the choices.
+/// Number of bytes that determine the choices.
 pub const LENGTH: usize = 6;
 
 const READERS: [Reader; 11] = [
@@ -67,7 +67,7 @@ pub fn only_reader(reader: u8) -> [u8; LENGTH] {
     [reader, 0, 0, 0, 0, 0]
 }
 
-/// How many readers can be chosen.
+/// Number of readers to choose from.
 pub const fn readers() -> u8 {
     READERS.len() as u8
 }

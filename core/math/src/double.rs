@@ -5,10 +5,10 @@
 //! logarithms or sums: what those are judged by may not share their mistakes. Some fifty times slower than doubles, and so
 //! not for pictures.
 //!
-//! Relative errors stay below 1e-29 where the number, its parts and what is computed on the way lie between 1e-280 and 1e280
-//! (each function says more), held by tests against 40 digits computed elsewhere. **Beyond that the operators do as
-//! doubles do**: digits are lost, 1/0 is infinite or no number, and infinities spread as no number. It is the one place in
-//! this crate where that is so: a reference that hid having left its range would be none.
+//! Relative errors stay below 1e-29 if the arguments, their parts and all intermediate values lie between 1e-280 and 1e280
+//! (details at each function), tested against 40 digits computed elsewhere. **Outside this range the operators behave as
+//! those of doubles**: digits are lost, 1/0 is infinite or NaN, and infinities propagate as NaN. Only here in this crate: a
+//! reference must not hide that it has left its range.
 //!
 //! ```
 //! use chromascope_math::double::Double;
@@ -162,7 +162,8 @@ impl Double {
         sum
     }
 
-    /// The natural logarithm of a positive number, also near 1: one step of Newton's from the double's. Of others no number.
+    /// The natural logarithm of a positive number, also near 1: one step of Newton's method from the double's. NaN for
+    /// others.
     ///
     /// ```text
     /// x = 2^k m,  √½ ≤ m ≤ √2;   y₀ ≈ ln m;   ln x = k ln 2 + y₀ + (m e^-y₀ - 1)

@@ -43,7 +43,7 @@ pub fn exp(x: f64) -> f64 {
     (1.0 + exp_m1_near(r)) * f64::from_bits(exponent)
 }
 
-/// eˣ − 1 for |x| ≤ ln 2 / 2, the same way; relative error below 4e-16, also next to 0.
+/// eˣ − 1 for |x| ≤ ln 2 / 2, by the same method; relative error below 4e-16, also near 0.
 #[inline(always)]
 pub fn exp_m1_near(x: f64) -> f64 {
     // In pairs of pairs, so that operations wait less for each other (Estrin 1960).

@@ -19,7 +19,7 @@ pub struct Rule {
 ///
 /// Lanczos tridiagonalization with full reorthogonalization (Golub and Welsch 1969; Gragg and Harrod 1984), then the
 /// eigenvalues of the Jacobi matrix. A measure with fewer than `count` points of mass is returned as it is, which is exact.
-/// Negative or zero masses are left out. Weights are positive, nodes lie inside the support.
+/// Negative or zero masses are omitted. Weights are positive, nodes lie inside the support.
 pub fn gauss_rule(points: &[f64], masses: &[f64], count: usize) -> Rule {
     let support: Vec<(f64, f64)> =
         points.iter().copied().zip(masses.iter().copied()).filter(|&(_, m)| m > 0.0).collect();

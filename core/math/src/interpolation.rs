@@ -41,8 +41,8 @@ const QUINTIC: [[f64; 6]; 5] = [
 /// ```text
 /// y(t) = y_i + a1 t + a2 t² + a3 t³ + a4 t⁴ + a5 t⁵,   t = (x - x_i) / step
 /// ```
-/// Where all six neighbors are samples it reproduces polynomials of degree four exactly; in the two cells at each end, which
-/// lean on the published extension, straight lines only. On smooth spectra given at 5 nm the error of an integral is below 5e-7.
+/// Reproduces polynomials of degree four exactly if all six neighbors are samples; in the two cells at each end, which use the
+/// published extension, straight lines only. On smooth spectra given at 5 nm the error of an integral is below 5e-7.
 #[derive(Clone, Debug)]
 pub struct Sprague {
     start: f64,

@@ -18,7 +18,7 @@ pub enum FitError {
         /// Number of free coefficients.
         needed: usize,
     },
-    /// The vector that is to be kept is zero.
+    /// The vector to be preserved is zero.
     #[error("the white has no signal")]
     NoWhite,
 }
@@ -70,11 +70,11 @@ pub fn matrix_keeping(samples: &[DVec3], targets: &[DVec3], white: DVec3, image:
 pub struct LinearFit {
     /// One coefficient of each response for each term.
     pub coefficients: Vec<DVec3>,
-    /// Diagonal of the hat matrix, 0 to 1: the error at a sample that the fit leaves out is its residual over one minus this.
+    /// Diagonal of the hat matrix, 0 to 1: the error at a sample that the fit omits is its residual over one minus this.
     pub leverages: Vec<f64>,
 }
 
-/// The coefficients c that minimize `Σᵢ |Σⱼ rᵢⱼ cⱼ − bᵢ|²`, if asked among all with `Σⱼ cⱼ = keep`.
+/// The coefficients c that minimize `Σᵢ |Σⱼ rᵢⱼ cⱼ − bᵢ|²`, optionally subject to `Σⱼ cⱼ = keep`.
 ///
 /// The side condition is taken out by a Householder reflection that turns (1, …, 1) to the first axis. Modified Gram–Schmidt on
 /// the remaining columns and the targets together, which is backward stable (Björck 1967).

@@ -10,3 +10,4 @@ pub mod gauss;
 pub mod interpolation;
 pub mod least_squares;
 pub mod ln;
+pub mod minimum;

@@ -15,7 +15,7 @@ pub struct Budget {
 }
 
 impl Budget {
-    /// Budget of a comparison that somebody waits for.
+    /// Budget of an interactive comparison.
     pub const INTERACTIVE: Self = Self { rounds: [3, 5], seconds: [0.1, 1.0] };
 
     fn is_spent(self, rounds: usize, seconds: f64) -> bool {
@@ -71,7 +71,7 @@ pub fn take_turns(
             if stop.is_set() {
                 return None;
             }
-            // Nobody always comes after the same one, which may leave caches cold or the clock low.
+            // The order varies, as a fixed predecessor could leave caches cold or the clock rate low.
             let which = (turn + round * 7) % count;
             times[which].0.push(seconds(which));
         }

@@ -89,7 +89,7 @@ pub fn locus_methods(sensor: &Sensor, constants: RadiationConstants) -> Vec<Locu
     methods
 }
 
-/// The Gauss rule of so many nodes for each channel's own weights.
+/// The Gauss rule of the given size for each channel's own weights.
 pub fn gauss_rule(sensor: &Sensor, constants: RadiationConstants, count: usize) -> LocusMethod<'_> {
     let make = move || {
         let points: Vec<f64> = (0..COUNT).map(wavelength_nm).collect();

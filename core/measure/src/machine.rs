@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 /// The machine a bench ran on, with the limits found in the same run.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Machine {
-    /// The processor's name, where the system says it.
+    /// The processor's name, if the system reports it.
     pub processor: String,
     /// Number of threads it runs at a time.
     pub cores: usize,

@@ -50,7 +50,7 @@ pub struct ErrorOf {
     pub max_abs: f64,
     /// The root of the mean square of the differences.
     pub rms_abs: f64,
-    /// The largest difference relative to the reference, or to its scale where `what` says so.
+    /// The largest difference relative to the reference, or to its scale if `what` says so.
     pub max_rel: f64,
     /// The root of the mean square of the relative differences.
     pub rms_rel: f64,

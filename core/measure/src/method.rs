@@ -56,7 +56,7 @@ pub struct Point {
     pub max: f64,
     /// The root of the errors' mean square.
     pub rms: f64,
-    /// Estimated error bound, where a tolerance was asked for.
+    /// Estimated error bound, where a tolerance was requested.
     #[serde(alias = "certified")]
     pub error_bound: Option<f64>,
 }

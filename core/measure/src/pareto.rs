@@ -4,7 +4,7 @@ mod names;
 
 use chromascope_figure::{Axis, Dash, InkRole, Mark, Marker, Panel, Rect, Shape, Tag, Ticks};
 
-/// Errors below this are drawn there: a double tells them from nothing only by chance.
+/// Errors below this are drawn at it: in doubles they are not distinguishable from zero.
 pub const LEAST_ERROR: f64 = 1e-18;
 
 /// A method's place.

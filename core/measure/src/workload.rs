@@ -9,7 +9,7 @@ use crate::{Machine, Measurement};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Workload {
-    /// Chromaticities of black bodies, 1000 to 20 000 K.
+    /// Chromaticities of blackbodies, 1000 to 20 000 K.
     Locus,
     /// Responses of reflectances through sensitivities.
     Responses,
@@ -28,7 +28,7 @@ pub enum Workload {
 }
 
 impl Workload {
-    /// All, in the order of the pipeline's questions.
+    /// All, in the order of the pipeline's queries.
     pub const ALL: [Self; 8] = [
         Self::Locus,
         Self::Responses,
@@ -40,7 +40,7 @@ impl Workload {
         Self::Difference,
     ];
 
-    /// The name to ask for it by, also that of its files.
+    /// The name to request it by, also that of its files.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Locus => "locus",

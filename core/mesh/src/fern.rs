@@ -45,7 +45,7 @@ pub fn fern(triangles: usize) -> Mesh {
 }
 
 impl Fern {
-    /// The fern as closed parts with about `triangles` triangles (2 000 ..= 2 000 000, kept within a quarter).
+    /// The fern as closed parts with about `triangles` triangles (2 000 ..= 2 000 000, within a quarter).
     pub fn mesh(&self, triangles: usize) -> Mesh {
         let this = Self { fronds: self.fronds.clamp(1, 24), fiddleheads: self.fiddleheads.min(6), ..*self };
         let this = Self { frond_mm: this.frond_mm.clamp(10, 5000), ..this };

@@ -1,5 +1,4 @@
-//! Triangle meshes with a normal at each vertex: a head and a fern, meshes from OBJ, PLY and STL files, and a tree that says
-//! which points a light does not reach.
+//! Triangle meshes with vertex normals: a head and a fern, meshes from OBJ, PLY and STL files, and a tree for shadow rays.
 //!
 //! Lengths in meters. A mesh names no spectrum, roughness or camera.
 

@@ -1,12 +1,12 @@
 //! Meshes from files: bytes in, a mesh out, with its groups and a report of what was found and tolerated.
 //!
 //! [`read_mesh`] takes the bytes of a Wavefront OBJ, Stanford PLY or STL file, the latter two as text or binary.
-//! Coordinates are kept as they are: neither a unit nor which way is up is guessed.
+//! Coordinates are not converted: neither the unit nor the up axis is guessed.
 //!
-//! The way of a file: `sniff` (which format), `obj`, `ply` or `stl` (to vertices, normals and polygons, the shared `soup`;
-//! STL's corners are welded where they are equal), `triangulate` (polygons of any shape to triangles), `edges` (what is
-//! open, doubled or flipped, and which corners share a normal), `build` (vertices split where normals differ, missing
-//! normals computed).
+//! Pipeline of a file: `sniff` (detects the format), `obj`, `ply` or `stl` (to vertices, normals and polygons, the shared
+//! `soup`; STL's corners are welded where they are equal), `triangulate` (polygons of any shape to triangles), `edges`
+//! (open, doubled or flipped edges, and corners that share a normal), `build` (vertices split where normals differ,
+//! missing normals computed).
 //!
 //! Normals: those of the file where it has them. Missing ones are the mean of the faces around a vertex, by angle, going
 //! over an edge only where both faces are of one smoothing group (`s 1`), or where the file names no smoothing at
@@ -90,12 +90,12 @@ pub struct ReadMesh {
 
 /// Reads the bytes of a file as a mesh.
 ///
-/// The format is recognized by the content; the file name's extension (without the dot, in any case) decides only where the
-/// content leaves it open. `stop` is asked every few thousand lines, and ends the reading with
-/// [`MeshReadError::Stopped`]. The same bytes always give the same mesh.
+/// The format is recognized by the content; the file name's extension (without the dot, in any case) decides only if the
+/// content is ambiguous. `stop` is polled every few thousand lines, and ends the reading with [`MeshReadError::Stopped`].
+/// Deterministic: equal bytes give equal meshes.
 ///
 /// # Errors
-/// [`MeshReadError`] names the line or byte of what cannot be read, or says that `stop` ended the reading.
+/// [`MeshReadError`] names the line or byte that cannot be read, or reports that `stop` ended the reading.
 ///
 /// ```
 /// use chromascope_mesh::reading::read_mesh;

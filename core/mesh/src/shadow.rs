@@ -11,7 +11,7 @@ use rayon::slice::ParallelSliceMut as _;
 /// The most triangles in a leaf.
 const LEAF: u32 = 3;
 
-/// A tree over a mesh's triangles that says whether something stands in a ray's way.
+/// Acceleration tree over a mesh's triangles for occlusion tests.
 ///
 /// Single precision, with the mesh brought to a radius of one around the origin, so that it works alike at any scale and place.
 pub struct ShadowTree {
@@ -37,7 +37,7 @@ impl ShadowTree {
         let triangles =
             mesh.triangles().iter().map(|&[a, b, c]| Triangle { v0: corner(a), v1: corner(b), v2: corner(c) });
         let triangles = distinct(triangles.collect());
-        // Children in any order: whatever is in the way first ends a ray.
+        // Children in any order: the first occluder ends a ray.
         let tree = bvh2_to_cwbvh(&split::tree(&triangles), LEAF, false, false);
         // In the tree's order a leaf's triangles lie side by side.
         let triangles = tree.primitive_indices.iter().map(|&id| triangles[id as usize]).collect();
@@ -46,13 +46,12 @@ impl ShadowTree {
 
     /// True if something stands between a point and what lies `distance` away in a direction of unit length.
     ///
-    /// What lies nearer than 2e-6 radii is not in the way: it is the surface itself. Nothing is in the way of what is no
-    /// direction.
+    /// Surfaces nearer than 2e-6 radii are ignored: they are the origin's own. Invalid directions are never blocked.
     pub fn is_blocked(&self, point: DVec3, direction: DVec3, distance: f64) -> bool {
         const NEAREST: f32 = 2e-6;
         let origin = ((point - self.center) * self.scale).as_vec3a();
         let farthest = (distance * self.scale) as f32;
-        // Written so that a distance that is no number falls out too.
+        // Written so that a NaN distance is rejected too.
         if !(origin.is_finite() && direction.is_finite() && farthest > NEAREST) {
             return false;
         }

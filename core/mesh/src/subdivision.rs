@@ -1,7 +1,7 @@
 //! Catmull–Clark subdivision (1978) of closed surfaces of quadrilaterals, as triangles on the limit surface.
 //!
 //! Every vertex is on the limit surface and has its normal, by the masks of Halstead, Kass and `DeRose` (1993). The number of
-//! triangles is free: all edges are halved equally often, then the longest once more, each together with all that lie
+//! triangles is free: all edges are halved equally often, then the longest again, each together with all that lie
 //! opposite to it across quadrilaterals, so that neighbors share all their vertices.
 
 use crate::{Mesh, MeshError};
@@ -96,7 +96,7 @@ impl Surface {
         Self { positions, origin, twin, edge, strip }
     }
 
-    /// Triangles on the limit surface, about as many as asked for: at least two for each quadrilateral.
+    /// Triangles on the limit surface, about as many as requested: at least two for each quadrilateral.
     pub(crate) fn limit(self, triangles: usize) -> Result<Mesh, MeshError> {
         let mut surface = self;
         while 8 * surface.faces() <= triangles {
@@ -132,7 +132,8 @@ impl Surface {
         Mesh::new(positions, normals, triangles)
     }
 
-    /// True if each strip is halved once more: the longest edges first, until about so many triangles are reached.
+    /// Marks the strips to be halved again: the longest edges first, until about the requested number of triangles is
+    /// reached.
     fn longest_strips(&self, triangles: usize) -> Vec<bool> {
         let count = self.strip.iter().max().map_or(0, |&last| last as usize + 1);
         let mut lengths = vec![(0.0_f32, 0.0_f32); count];
@@ -210,7 +211,7 @@ impl Surface {
     }
 }
 
-/// The weights of each neighbor and each face's far corner in both tangents, around a vertex with so many edges.
+/// The weights of each neighbor and each face's far corner in both tangents, around a vertex of the given valence.
 fn mask(valence: usize) -> Vec<[f32; 4]> {
     let step = TAU / valence.max(1) as f32;
     let edge = 1.0 + step.cos() + (step / 2.0).cos() * (2.0 * (9.0 + step.cos())).sqrt();

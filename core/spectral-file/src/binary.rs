@@ -191,7 +191,7 @@ fn is_grams(bytes: &[u8]) -> bool {
         }
 }
 
-/// Returns whether one byte in ten of the beginning is a control character that text has no use for. NUL is left out of it:
+/// Returns whether one byte in ten of the beginning is a control character that text has no use for. NUL is not counted:
 /// instruments pad with it, and half of UTF-16 is made of it.
 fn looks_binary(bytes: &[u8]) -> bool {
     const LOOK: usize = 4096;

@@ -1,4 +1,4 @@
-//! Settings of instruments above the numbers that tell what was measured, and in which scale it is written.
+//! Instrument settings above the numbers that indicate the measured quantity and its scale.
 
 use crate::header_terms;
 use crate::role::{Role, Values};
@@ -63,7 +63,7 @@ impl Clues {
         self.absorbance = self.absorbance.or_else(|| header_terms::mentions_absorbance(&spaced).then_some(line));
     }
 
-    /// Takes what a line above the numbers says.
+    /// Takes a setting from a line above the numbers.
     pub(super) fn take(&mut self, line: usize, text: &str) {
         if text.len() > LONGEST && !text.starts_with("Date,Mode,") {
             return;

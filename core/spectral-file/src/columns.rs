@@ -179,7 +179,7 @@ impl Columns {
         });
     }
 
-    /// Returns whether a comment is a row that somebody took out, or one that begins with `#` for another reason.
+    /// Returns whether a comment is a row that was commented out, or one that begins with `#` for another reason.
     fn is_marked_row(&self, line: &str) -> bool {
         let cells = self.dialect.cells(line.trim_start().trim_start_matches('#')).take(MAX_CURVES + 2);
         let (mut count, mut numbers) = (0, 0);
@@ -337,7 +337,7 @@ impl Columns {
     }
 }
 
-/// A column as a curve, with what the header says of it.
+/// A column as a curve, with its header's information.
 fn raw_curve(header: &Header, column: usize, only: bool, values: Vec<f64>) -> RawCurve {
     let title = header.comment("title").filter(|_| only);
     // What is measured names no sample, where there is only one.
@@ -357,7 +357,7 @@ fn warn_of_texts(header: &Header, texts: &[usize], log: &mut Log<'_>) {
     }
 }
 
-/// A named column that is empty in every row is no column of the rows, but somebody expects it.
+/// A named column that is empty in every row is no column of the rows, but its absence is reported.
 fn warn_of_names_without_columns(header: &Header, width: usize, log: &mut Log<'_>) {
     let mut names = header.names.iter().enumerate().skip(width).filter(|(_, name)| !name.is_empty());
     if let Some((column, first)) = names.next() {

@@ -47,7 +47,7 @@ pub(super) fn divided(value: f64, divisor: f64) -> f64 {
     power_of_ten(divisor).map_or(value / divisor, |power| shifted(value, -power))
 }
 
-/// A number with at most so many significant digits, for people.
+/// A number with at most the given number of significant digits, for display.
 pub(super) fn short(value: f64, digits: i32) -> String {
     const LONGEST: i32 = 12;
     if value == 0.0 || !value.is_finite() {

@@ -5,18 +5,18 @@ use std::fmt;
 /// Certainty of a decision.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Certainty {
-    /// The file says so, or leaves no other way to read it.
+    /// Stated in the file, or the only possible interpretation.
     Certain,
-    /// The content suggests it; a person should look.
+    /// Suggested by the content; the user should check it.
     Guess,
-    /// Neither the file nor its numbers decide: the numbers stay as written until somebody chooses.
+    /// Decided by neither the file nor its numbers: the numbers stay as written until the user chooses.
     Open,
-    /// The caller asked for it.
+    /// Requested by the caller.
     Chosen,
 }
 
 impl Certainty {
-    /// Returns whether a person should look: a guess, or something that is not decided.
+    /// Returns whether the user should check it: a guess, or an open decision.
     pub fn is_doubtful(self) -> bool {
         matches!(self, Self::Guess | Self::Open)
     }

@@ -7,7 +7,7 @@ use crate::limits::MAX_CURVES;
 use crate::report::Orientation;
 use crate::wavelength_unit::plausible;
 
-/// Lines that may not fit below such a header before it is taken for none: the reader then tells what is wrong with them.
+/// Lines that may not fit below such a header before it is rejected: the reader then reports their errors.
 const MISSES: usize = 3;
 
 /// Shape of a line, split in one way.
@@ -103,7 +103,7 @@ pub(super) struct Run {
     pub(super) texts: u128,
     gaps: u128,
     united: u128,
-    /// Rows that begin anew with the first wavelength.
+    /// Rows that start again with the first wavelength.
     restarts: usize,
     /// The first numbers of the first and the last row.
     pub(super) first: f64,
@@ -249,7 +249,7 @@ impl Trial {
         }
     }
 
-    /// Takes in one line that is neither blank nor a comment.
+    /// Processes one line that is neither blank nor a comment.
     pub(super) fn take(&mut self, number: usize, line: &str) {
         let shape = Shape::of(self.dialect, line);
         self.take_across(number, &shape, line);
@@ -277,7 +277,7 @@ impl Trial {
         }
     }
 
-    /// Takes in a line that begins with `#`: below a header of wavelengths that can be the name of a sample.
+    /// Processes a line that begins with `#`: below a header of wavelengths that can be the name of a sample.
     pub(super) fn take_marked(&mut self, number: usize, line: &str) {
         let Some(across) = self.across.as_mut().filter(|across| across.misses <= MISSES) else { return };
         let shape = Shape::of(self.dialect, line);

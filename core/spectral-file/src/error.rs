@@ -83,7 +83,7 @@ pub enum ReadError {
         /// The abscissa, in the unit of the file.
         at: f64,
     },
-    /// DELTAX is another step than FIRSTX, LASTX and NPOINTS give, and the lines do not tell which is right.
+    /// DELTAX is another step than FIRSTX, LASTX and NPOINTS give, and the lines do not decide which is right.
     #[error("line {line}: DELTAX is {announced}, but FIRSTX, LASTX and NPOINTS give {found}: correct the wrong one")]
     StepContradicts {
         /// The line of DELTAX.

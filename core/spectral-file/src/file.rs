@@ -15,7 +15,7 @@ pub struct Curve {
     pub wavelengths_nm: Vec<f64>,
     /// Values, one for each wavelength: finite; percent are already divided by 100.
     pub values: Vec<f64>,
-    /// Number of wavelengths of the table without a value in this curve. They are left out, not filled.
+    /// Number of wavelengths of the table without a value in this curve. They are omitted, not filled.
     pub missing: usize,
     /// The unit of the values as the file names it, such as `W/m²/nm` or `counts`.
     pub unit: Option<String>,
@@ -35,7 +35,7 @@ pub struct SpectralFile {
 }
 
 impl SpectralFile {
-    /// Every decision made on reading, the role first, ready to be listed for a person.
+    /// Every decision made on reading, the role first, ready to be listed for the user.
     pub fn decisions(&self) -> Vec<Decision> {
         let mut all = vec![Decision::new("Role", &self.role)];
         all.extend(self.reading.decisions());

@@ -30,7 +30,7 @@ use crate::warning::Warning;
 use crate::watch::Log;
 use crate::{columns, instrument, markup, raw, sniff, wide};
 
-/// Reads a text with the reader that was chosen, or with the one its content asks for.
+/// Reads a text with the reader that was chosen, or with the one its content indicates.
 pub(super) fn read(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Result<Found, ReadError> {
     let reader = match options.reader {
         Some(reader) if fits(reader, text) => reader,
@@ -82,7 +82,7 @@ fn fits(reader: Reader, text: &str) -> bool {
     }
 }
 
-/// The reader that the content asks for.
+/// The reader that the content indicates.
 fn recognize(text: &str) -> Result<Reader, ReadError> {
     match markup::recognize(text) {
         Some(Family::Cgats) => Ok(Reader::Cgats),
@@ -104,7 +104,7 @@ fn xml_reader(text: &str) -> Option<Reader> {
     return Some(Reader::Tm27).filter(|_| !text.is_empty());
 }
 
-/// Bytes that are read to list tables below the one that is taken. Where wavelengths just begin anew, only reading on shows
+/// Bytes that are read to list tables below the one that is taken. Where wavelengths just start again, only reading on shows
 /// where, so that each table is read with all that follow.
 const MOST_WORK: usize = 64 << 20;
 

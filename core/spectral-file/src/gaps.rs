@@ -102,7 +102,7 @@ pub(super) fn take(grid: &mut Grid, log: &mut Log<'_>) {
     }
     if let Some(sentinel) = first {
         if own_lines {
-            // Told with the other gaps of the rows.
+            // Reported with the other gaps of the rows.
             grid.sentinel = Some(sentinel);
         } else {
             log.push(Warning::Gaps { cells, lines: LineList::default(), sentinel: Some(sentinel) });

@@ -39,13 +39,13 @@ pub(super) struct Grid {
     pub(super) wavelength_column: Option<usize>,
     /// True if each curve has wavelengths of its own, so that one it lacks is no gap.
     pub(super) own_wavelengths: bool,
-    /// A number that stands for missing values, to be told with the gaps.
+    /// A number that represents missing values, to be reported with the gaps.
     pub(super) sentinel: Option<Sentinel>,
     /// More columns of wavelengths, from 0, with units of their own.
     pub(super) axes: Vec<(usize, Option<WavelengthUnit>)>,
     /// The lines of a table whose curves have wavelengths of their own.
     pub(super) row_lines: Vec<usize>,
-    /// Rows left out.
+    /// Omitted rows.
     pub(super) dropped: Vec<DroppedRow>,
 }
 
@@ -59,7 +59,7 @@ pub(super) struct RawCurve {
     pub(super) column: Option<usize>,
     /// Its column from 0, its line, or its number among the curves of the file: the name of its places.
     pub(super) origin: usize,
-    /// All that the header says about this curve: its name and its unit.
+    /// The header's information about this curve: its name and its unit.
     pub(super) label: String,
     /// The unit of the values as the file names it.
     pub(super) unit: Option<String>,
@@ -138,7 +138,7 @@ impl Grid {
         }
     }
 
-    /// Notes a row as left out.
+    /// Records a row as omitted.
     pub(super) fn drop_row(&mut self, line: usize, why: Dropped) {
         self.dropped.push(DroppedRow { line, why });
     }
@@ -207,7 +207,7 @@ fn warn_gaps(gaps: &[u32], lines: &[usize], sentinel: Option<Sentinel>, log: &mu
     if cells == 0 {
         return;
     }
-    // Curves in rows: their reader alone knows the lines of the gaps, and has told them.
+    // Curves in rows: their reader alone knows the lines of the gaps, and has reported them.
     if lines.len() != gaps.len() {
         return;
     }

@@ -14,7 +14,7 @@ use crate::text::{Lines, Section, comment};
 use crate::wavelength_unit::WavelengthUnit;
 use crate::{header_terms, unit_text};
 
-/// Most comments that are kept; more is not a header.
+/// Maximum number of stored comments; more are not a header.
 const MAX_COMMENTS: usize = 1000;
 
 /// Most lines with text between the names or units and the numbers.
@@ -33,21 +33,21 @@ pub(super) struct Header {
     /// The cells of a line of units below the names.
     pub(super) units: Vec<String>,
     pub(super) units_line: Option<usize>,
-    /// True if the line of names leaves out that of the wavelengths.
+    /// True if the line of names omits that of the wavelengths.
     pub(super) shifted: bool,
     /// The unit of the wavelengths and the line that gives it.
     pub(super) x_unit: Option<(usize, XUnit)>,
     /// Scale of all values, and the line that gives it.
     pub(super) values: Option<(usize, Values)>,
-    /// The physical quantity of all values, as a line says, and that line.
+    /// The physical quantity of all values with the line that states it.
     pub(super) quantity: Option<(usize, Quantity)>,
     /// The unit of all values.
     pub(super) unit: Option<String>,
-    /// The line that says that all values are photons.
+    /// The line which states that all values are photons.
     pub(super) photons: Option<usize>,
-    /// The line that says that sensitivities are responses per photon.
+    /// The line which states that sensitivities are responses per photon.
     pub(super) per_photon: Option<usize>,
-    /// In what the wavelengths are measured, and the line that says so.
+    /// Unit of the wavelengths, and the line that states it.
     pub(super) medium: Option<(usize, Medium)>,
     /// Role that a comment or a unit line gives, and that line.
     pub(super) role: Option<(usize, Role)>,
@@ -66,7 +66,7 @@ impl Header {
         name.map(String::as_str).filter(|name| !name.is_empty())
     }
 
-    /// All that the header says about a column.
+    /// The header's information about a column.
     pub(super) fn label(&self, column: usize) -> String {
         let unit = self.units.get(column).map_or("", String::as_str);
         format!("{} {unit}", self.name(column).unwrap_or_default()).trim().to_owned()
@@ -82,7 +82,7 @@ impl Header {
         cell.or_else(|| self.name(column).and_then(unit_text::unit)).or_else(|| self.unit.clone())
     }
 
-    /// Keeps a comment; line 0 stands for none.
+    /// Stores a comment; line 0 means none.
     pub(super) fn note(&mut self, line: usize, key: &str, value: &str) {
         if self.comments.len() < MAX_COMMENTS && !value.is_empty() {
             self.comments.push((key.to_owned(), value.to_owned()));
@@ -122,7 +122,7 @@ pub(super) fn read(section: Section<'_>, layout: &Layout) -> Header {
 }
 
 impl Header {
-    /// Takes what a comment `# key: value` says.
+    /// Takes the information of a comment `# key: value`.
     pub(super) fn take_comment(&mut self, line: usize, key: &str, value: &str) {
         let lower = key.to_ascii_lowercase();
         if matches!(lower.as_str(), "unit" | "units" | "quantity" | "y unit" | "y units" | "yunit" | "yunits") {
@@ -147,7 +147,7 @@ impl Header {
         }
     }
 
-    /// Takes what a title or free text says of responses per photon.
+    /// Takes the information of a title or free text on responses per photon.
     fn take_photons(&mut self, line: usize, text: &str) {
         self.per_photon = self.per_photon.or_else(|| unit_text::says_per_photon(text).then_some(line));
         self.photons = self.photons.or_else(|| unit_text::said_in_prose(text).then_some(line));

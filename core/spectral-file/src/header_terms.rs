@@ -5,17 +5,14 @@ mod axis;
 pub(super) use axis::*;
 
 use crate::role::{Quantity, Role, Values};
+use crate::text::{lower, words};
 
-/// Longer header lines are prose, or hostile.
-const LONGEST: usize = 2000;
-
-/// Lower case, without what no header needs; empty if the text is too long to be a header.
-fn lower(text: &str) -> String {
-    if text.len() > LONGEST { String::new() } else { text.to_lowercase() }
-}
-
-fn words(lower: &str) -> impl Iterator<Item = &str> {
-    lower.split(|c: char| !c.is_alphanumeric() && c != '-' && c != '^' && c != '/').filter(|word| !word.is_empty())
+/// Returns whether a column's header names a scale of the spectrum, which is no curve: wavelengths, wave numbers, energies of photons.
+pub(super) fn names_axis(text: &str) -> bool {
+    let energies = x_unit(text) == Some(XUnit::Other);
+    // A unit of values may hold one of wavelengths, such as `W/(cm-1)`.
+    let of_values = quantity(text).is_some() || role(text).is_some() || crate::unit_text::unit(text).is_some();
+    (names_wavelengths(text) || energies) && !of_values
 }
 
 /// Returns whether a header says percent.

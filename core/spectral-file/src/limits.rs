@@ -9,7 +9,7 @@ pub const MAX_BYTES: usize = 64 << 20;
 /// The most curves one table may hold.
 pub const MAX_CURVES: usize = 100_000;
 
-/// Dropped rows that are listed; nobody reads more.
+/// Maximum number of dropped rows that are listed.
 pub(super) const MAX_DROPPED: usize = 1000;
 
 /// The most samples (curves times wavelengths) one table may hold.

@@ -54,7 +54,7 @@ const UNITS: [&str; 17] = [
     "% rh", "rh",
 ];
 
-/// Leaves out curves that are no spectra, unless nothing else is there.
+/// Removes curves that are no spectra, unless there are no others.
 pub(super) fn leave_out(grid: &mut Grid, log: &mut Log<'_>) {
     let marks: Vec<bool> = grid.curves.iter().map(is_companion).collect();
     let count = marks.iter().filter(|mark| **mark).count();
@@ -97,7 +97,7 @@ pub(super) fn counts(column: &[f64]) -> bool {
         && column.windows(2).all(|pair| (pair[1] - pair[0]).abs() == 1.0 && pair[1] - pair[0] == column[1] - column[0])
 }
 
-/// True for numbers that can tell rows apart or mark them: all equal, or flags, or a count of the rows.
+/// True for numbers that may identify or mark rows: all equal, or flags, or a count of the rows.
 pub(super) fn tells_rows_apart(column: &[f64]) -> bool {
     let whole = column.iter().all(|value| value.fract() == 0.0);
     let flags = || column.iter().all(|value| matches!(value, 0.0 | 1.0));

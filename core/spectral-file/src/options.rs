@@ -32,7 +32,7 @@ pub struct ReadOptions {
     pub role: Option<Role>,
     /// Reader for the file; [`Reader::Table`] reads numbers in columns whatever stands around them.
     pub reader: Option<Reader>,
-    /// True if raw curves (dark, reference and sample counts) and what is recorded beside spectra (temperatures, times) are
-    /// kept; together with a chosen wavelength column, every other column.
+    /// True if raw curves (dark, reference and sample counts) and other records (temperatures, times) are included;
+    /// together with a chosen wavelength column, every other column.
     pub raw: Option<bool>,
 }

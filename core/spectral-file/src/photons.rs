@@ -169,7 +169,7 @@ fn of_curve(grid: &Grid, curve: &RawCurve) -> Option<Conversion> {
     Some(Conversion::relative(format!("Line {line} says photons")))
 }
 
-/// Takes curves of photons for lights, where nothing else says what they are.
+/// Converts curves of photons as lights, if no other role is known.
 pub(super) fn suggest_role(grid: &mut Grid) {
     if grid.role.is_some() || grid.header.role.is_some() {
         return;
@@ -185,7 +185,7 @@ pub(super) fn suggest_role(grid: &mut Grid) {
     }
 }
 
-/// Makes energies per nanometer of lights, and says so. Values that a person chose to be plain are left as they are.
+/// Converts lights to energies per nanometer, and reports it. Values that the user declared plain are left as they are.
 pub(super) fn to_energy(
     grid: &mut Grid,
     role: Role,
@@ -218,7 +218,7 @@ pub(super) fn to_energy(
 /// Name of the decision on the unit of lights.
 pub(super) const DECISION: &str = "Spectral unit";
 
-/// The guess that lights over frequencies or wave numbers are per nanometer, where no unit says otherwise.
+/// The guess that lights over frequencies or wave numbers are per nanometer, if no unit states otherwise.
 fn unsaid(grid: &Grid, axis: &Decided<WavelengthUnit>) -> Option<Decision> {
     let other = matches!(axis.value, WavelengthUnit::Terahertz | WavelengthUnit::Wavenumber);
     let per_nm = |curve: &RawCurve| {

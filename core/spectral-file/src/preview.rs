@@ -1,9 +1,9 @@
-//! The text of a file as a person reads it, line by line, with the meaning of its parts.
+//! Text of a file line by line, with the meaning of its parts.
 //!
-//! [`Preview`] holds the decoded text and where its lines begin, for files up to the limit of the readers. Lines are numbered as
-//! in every message of the readers. A [`Marker`] holds what [`read_marked`](crate::read_marked) recorded while it read: with it,
-//! [`Preview::marks`] tells for a single line which wavelength, value, name or gap stands where. A number that no curve has, such
-//! as a date or an integration time, is not marked.
+//! [`Preview`] holds the decoded text and the starts of its lines, for files up to the limit of the readers. Lines are numbered
+//! as in every message of the readers. A [`Marker`] holds what [`read_marked`](crate::read_marked) recorded while it read: with
+//! it, [`Preview::marks`] returns the positions of wavelengths, values, names and gaps in a single line. A number that no curve
+//! has, such as a date or an integration time, is not marked.
 //!
 //! ```
 //! use spectral_file::{Preview, ReadOptions, Watch, What, read_marked};

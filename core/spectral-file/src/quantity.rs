@@ -8,7 +8,7 @@ use crate::warning::Warning;
 use crate::watch::Log;
 use crate::{header_terms, photons};
 
-/// The quantity of a grid whose role is decided. A role that was chosen has its own, whatever the file says.
+/// The quantity of a grid whose role is decided. A chosen role determines it, whatever the file states.
 pub(super) fn decide(grid: &Grid, role: &Decided<Role>, log: &mut Log<'_>) -> Decided<Quantity> {
     let said = said(grid, role);
     let other = |quantity: Quantity| quantity.role().is_some_and(|other| other != role.value);

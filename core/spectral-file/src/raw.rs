@@ -5,7 +5,7 @@ use crate::header_terms;
 use crate::options::ReadOptions;
 use crate::report::{Decided, Decision};
 
-/// Leaves out raw columns where a processed one stands beside them, unless they are asked for.
+/// Removes raw columns if a processed one exists, unless they are requested.
 pub(super) fn leave_out(grid: &mut Grid, options: &ReadOptions) -> Option<Decision> {
     if options.raw == Some(true) {
         return None;
@@ -38,7 +38,7 @@ fn mark(curves: &[RawCurve]) -> Option<Vec<bool>> {
     (marks.contains(&true) && marks.contains(&false)).then_some(marks)
 }
 
-/// Returns whether a header says that a column was made of others.
+/// Returns whether a header describes a column computed from others.
 fn is_processed(curve: &RawCurve) -> bool {
     let counts = curve.label.to_lowercase().contains("count");
     let said = header_terms::role(&curve.label).is_some() || header_terms::says_percent(&curve.label);

@@ -75,7 +75,7 @@ pub fn read(bytes: &[u8], options: &ReadOptions) -> Result<SpectralFile, ReadErr
     read_watched(bytes, options, Watch::none())
 }
 
-/// [`read`], with somebody who sees how far it is and can stop it.
+/// [`read`] with progress reports, which can stop it.
 ///
 /// A reading that was stopped ends in [`ReadError::Stopped`], within some milliseconds.
 ///

@@ -213,7 +213,7 @@ pub struct ReadReport {
     pub parts: Vec<Part>,
     /// Number of the part that was read, from 1; 0 if all were, side by side.
     pub part: Decided<usize>,
-    /// Decisions that only some families of files ask for, such as which block was taken.
+    /// Decisions that only some families of files need, such as which block was taken.
     pub notes: Vec<Decision>,
     /// The comments above the table, `# key: value`, in order; the first thousand.
     pub header: Vec<(String, String)>,

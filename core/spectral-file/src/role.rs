@@ -32,7 +32,7 @@ pub enum Quantity {
     Counts,
     /// A relative scale, without a word on what is compared.
     Relative,
-    /// Nothing says what it is.
+    /// Not stated.
     Unknown,
 }
 
@@ -85,7 +85,7 @@ pub enum Role {
     Transmittance,
     /// Spectral power of lights, in any unit.
     Illuminant,
-    /// Nothing says what they are, and their values suggest nothing.
+    /// Neither stated nor suggested by their values.
     Unknown,
 }
 

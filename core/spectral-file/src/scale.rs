@@ -1,9 +1,9 @@
 //! Role of the curves and scale of their values.
 //!
-//! `role` decides what the curves are: what the file says, else what its settings suggest, else what the numbers look like.
-//! `values` decides for each curve what its numbers stand for, by the header, else by `evidence` of its own. `convert` makes plain
-//! numbers of what is written, and `check` warns of what cannot be. Where nothing decides between scales that differ by a factor,
-//! the decision is [`Certainty::Open`] and the numbers stay as written.
+//! `role` decides the role of the curves: as stated in the file, else as suggested by its settings, else by the numbers. `values`
+//! decides for each curve the meaning of its numbers, by the header, else by its own `evidence`. `convert` converts them to plain
+//! numbers, and `check` warns of invalid ones. If nothing decides between scales that differ by a factor, the decision is
+//! [`Certainty::Open`] and the numbers stay as written.
 
 mod camera;
 mod check;

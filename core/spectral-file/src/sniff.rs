@@ -23,7 +23,7 @@ const SAMPLE_ROWS_LONG: usize = 3;
 /// Fewer rows of numbers alone are what is left of a table with texts in it, if one is there.
 const FEW_ROWS: usize = SAMPLE_ROWS;
 
-/// Most bytes above the first numbers, so that hostile text is given up soon.
+/// Maximum number of bytes above the first numbers, so that hostile text is rejected soon.
 const LONGEST_HEADER: usize = 4 << 20;
 
 /// Most bytes between one table and the next, of which there may be a thousand.
@@ -60,7 +60,7 @@ pub(super) fn sniff(
     let rows = best.map_or(0, |best| best.rows(options.orientation));
     let few = if section.line > 1 { 1 } else { FEW_ROWS };
     if rows < few && options.orientation != Some(Orientation::Across) {
-        // Names, dates or remarks in rows: only what looks like wavelengths tells such a table from prose.
+        // Names, dates or remarks in rows: only apparent wavelengths distinguish such a table from prose.
         let mixed = try_all(section, options, true, budget, log)?;
         let mixed: Vec<Trial> = mixed.into_iter().filter(|trial| trial.best.looks_like_passes()).collect();
         if let Some(best) = choose(&mixed, options).filter(|best| best.best.rows > 2 * rows) {
@@ -98,7 +98,7 @@ fn try_all(
             && options.decimal_mark.is_none_or(|chosen| chosen == *mark)
     };
     let dialects = CANDIDATES.iter().filter(|candidate| wanted(candidate));
-    // Who chose points has said what commas within numbers are; else only quotes keep them from separating.
+    // If the decimal point was chosen, commas within numbers are known; else only quotes prevent them from separating.
     let chosen = options.decimal_mark == Some(DecimalMark::Point);
     let quoted = options.decimal_mark.is_none()
         && options.delimiter.is_none_or(|chosen| chosen == Delimiter::Comma)
@@ -127,7 +127,7 @@ fn try_all(
         }
         lines += 1;
         bytes += line.len() + 1;
-        // Each trial splits it anew.
+        // Each trial splits it again.
         log.work(trials.len() * (line.len() + 1), section.byte + bytes)?;
         let rows = trials.iter().map(|trial| trial.rows(options.orientation)).max().unwrap_or(0);
         let enough = match rows {
@@ -322,7 +322,7 @@ fn decimal_mark(section: Section<'_>, options: &ReadOptions, trial: &Trial, from
 }
 
 /// The first line of the table: where the rows of numbers begin, even if a broken row soon interrupts them, so that
-/// the reader sees the broken row. Lone numbers further up that do not continue the table are left out.
+/// the reader sees the broken row. Lone numbers further up that do not continue the table are omitted.
 fn first_line(section: Section<'_>, trial: &Trial, warnings: &mut Vec<Warning>) -> usize {
     let run = &trial.best;
     let step = (run.last - run.first) / run.rows.max(2).saturating_sub(1) as f64;

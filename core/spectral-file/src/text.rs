@@ -172,6 +172,18 @@ pub(super) fn comment(line: &str) -> Option<&str> {
     (!error_cell).then(|| rest.trim())
 }
 
+/// Longer header lines are prose, or hostile.
+const LONGEST: usize = 2000;
+
+/// Lower case, without what no header needs; empty if the text is too long to be a header.
+pub(super) fn lower(text: &str) -> String {
+    if text.len() > LONGEST { String::new() } else { text.to_lowercase() }
+}
+
+pub(super) fn words(lower: &str) -> impl Iterator<Item = &str> {
+    lower.split(|c: char| !c.is_alphanumeric() && c != '-' && c != '^' && c != '/').filter(|word| !word.is_empty())
+}
+
 /// At most the first 40 characters of a piece of text, for messages.
 pub(super) fn excerpt(text: &str) -> String {
     const LIMIT: usize = 40;

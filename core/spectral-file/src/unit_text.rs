@@ -140,7 +140,7 @@ pub(super) fn is_per_photon(unit: &str) -> bool {
     ["/photon", "/photons", "/quantum", "photon-1", "photon^-1", "photon⁻¹"].iter().any(|end| lower.ends_with(end))
 }
 
-/// Returns whether a text names a quantity of photons, and not just somebody's lamp.
+/// Returns whether a text names a quantity of photons, and not only a lamp.
 pub(super) fn names_photons(text: &str) -> bool {
     const LONGEST: usize = 400;
     const PHRASES: [&str; 10] = [
@@ -164,7 +164,8 @@ pub(super) fn names_photons(text: &str) -> bool {
         || lower.split(|c: char| !c.is_alphanumeric()).any(word) && !lower.contains("/photon")
 }
 
-/// Returns whether a line of free text says that all values are photons: LI-COR's `(QNTM)`, or a sentence on all values.
+/// Returns whether a line of free text states that all values are photons: LI-COR's `(QNTM)`, or a sentence on all
+/// values.
 pub(super) fn said_in_prose(line: &str) -> bool {
     const LONGEST: usize = 400;
     if line.len() > LONGEST {
@@ -176,7 +177,8 @@ pub(super) fn said_in_prose(line: &str) -> bool {
     line.contains("(QNTM)") || values && photons && !header_terms::says_counts(&lower)
 }
 
-/// Returns whether a title or a line of free text says that sensitivities are quantum efficiencies or responses per photon.
+/// Returns whether a title or a line of free text states that sensitivities are quantum efficiencies or responses per
+/// photon.
 pub(super) fn says_per_photon(text: &str) -> bool {
     const LONGEST: usize = 400;
     if text.len() > LONGEST {

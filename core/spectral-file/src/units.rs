@@ -30,7 +30,7 @@ pub(super) struct Unit {
 pub(super) enum Amount {
     /// Energy or power, as its symbol.
     Energy(&'static str),
-    /// So many photons.
+    /// Number of photons.
     Photons(f64),
 }
 
@@ -198,7 +198,7 @@ fn plain_amount(word: &str) -> Option<Amount> {
 }
 
 impl Unit {
-    /// Takes in a denominator; whether it is one.
+    /// Parses a denominator; returns whether it is one.
     fn take(&mut self, word: &str, exponent: u32) -> bool {
         let bare = word.trim_end_matches("meters").trim_end_matches("metres");
         let (symbol, length_nm, areas) = match word {

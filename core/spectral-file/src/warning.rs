@@ -8,7 +8,7 @@ use crate::error::ReadError;
 use crate::role::{Quantity, Role};
 use crate::separators::DecimalMark;
 
-/// Line numbers, of which the first few are kept.
+/// Line numbers, of which the first few are stored.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct LineList {
     first: Vec<usize>,
@@ -16,7 +16,7 @@ pub struct LineList {
 }
 
 impl LineList {
-    /// Most line numbers that are kept; nobody reads more.
+    /// Maximum number of stored line numbers.
     const KEPT: usize = 6;
 
     /// Adds a line; a line added twice in a row counts once.
@@ -68,11 +68,11 @@ pub struct Sentinel {
     pub curve: String,
 }
 
-/// Something a person should know about a file that was read all the same. Numbers alone are lines, unless noted.
+/// Warning about a file that was read. Plain numbers are lines, unless noted.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum Warning {
-    /// Cells without a value: left out of their curves.
+    /// Cells without a value: omitted from their curves.
     Gaps {
         /// Number of cells.
         cells: usize,
@@ -81,16 +81,16 @@ pub enum Warning {
         /// A number that was taken for a missing value.
         sentinel: Option<Sentinel>,
     },
-    /// Curves with fewer than two values: left out.
+    /// Curves with fewer than two values: omitted.
     EmptyCurves {
         /// Number.
         count: usize,
         /// The first: its name in quotes, and its column if it has one.
         first: String,
     },
-    /// Columns before the wavelengths, such as a pixel number: left out. Holds the column of the wavelengths, from 1.
+    /// Columns before the wavelengths, such as a pixel number: omitted. Holds the column of the wavelengths, from 1.
     SkippedColumns(usize),
-    /// Columns that hold text: left out.
+    /// Columns that hold text: omitted.
     TextColumns {
         /// Number.
         count: usize,
@@ -105,9 +105,9 @@ pub enum Warning {
     RepeatedRows(LineList),
     /// Rows with different values at one wavelength: their mean was taken.
     AveragedRows(LineList),
-    /// Comments inside the table that look like rows: left out.
+    /// Comments inside the table that look like rows: omitted.
     CommentedRows(LineList),
-    /// The line of names again, inside the table: left out.
+    /// The line of names again, inside the table: omitted.
     RepeatedHeader(LineList),
     /// All fractions have three digits, so that their marks may group thousands.
     MaybeThousands,
@@ -125,11 +125,11 @@ pub enum Warning {
         /// The lines of both, where each wavelength has its own.
         lines: Option<[usize; 2]>,
     },
-    /// Rows without a wavelength: left out.
+    /// Rows without a wavelength: omitted.
     NoWavelength(LineList),
     /// Numbers above the table that belong to no row.
     NumbersAbove(usize),
-    /// Text after the table: left out. Holds its first line.
+    /// Text after the table: omitted. Holds its first line.
     TextBelow(usize),
     /// No number has a decimal point, so the separating commas might be decimal marks.
     CommasOnly,
@@ -162,7 +162,7 @@ pub enum Warning {
         /// The line of that value, where each has its own.
         line: Option<usize>,
     },
-    /// The curves were chosen to be something that the file says they are not.
+    /// The curves were declared to have another role than the file states.
     OtherQuantity {
         /// Quantity that the file gives.
         quantity: Quantity,
@@ -178,7 +178,7 @@ pub enum Warning {
     },
     /// Lines out of place: their values are at the abscissas at their heads.
     PlacedByAbscissa(LineList),
-    /// Lines with fewer values than there are places before the next line: left out.
+    /// Lines with fewer values than there are places before the next line: omitted.
     ShortLines(LineList),
     /// A header announces another value than the data hold.
     HeaderDiffers {
@@ -191,7 +191,7 @@ pub enum Warning {
         /// As found.
         found: f64,
     },
-    /// Columns or rows that hold wavelengths again, another scale of them, or only count or time the others: left out.
+    /// Columns or rows that hold wavelengths again, another scale of them, or only count or time the others: omitted.
     OtherAxes {
         /// Their names in quotes and their columns or lines, the first few.
         named: String,
@@ -205,7 +205,7 @@ pub enum Warning {
         /// The others, the first few.
         others: String,
     },
-    /// Columns with values whose names should be wavelengths and are none: left out.
+    /// Columns with values whose names should be wavelengths and are none: omitted.
     BadWavelengths {
         /// The line of the wavelengths.
         line: usize,
@@ -230,7 +230,7 @@ pub enum Warning {
         /// Its largest value.
         max: f64,
     },
-    /// Columns of something else than spectra, such as temperatures: left out.
+    /// Columns of quantities other than spectra, such as temperatures: omitted.
     NotSpectra {
         /// Number.
         count: usize,
@@ -246,7 +246,7 @@ pub enum Warning {
         /// The first of the others.
         other: String,
     },
-    /// The file says percent, but its values would be fractions. Holds the largest value as written, in words.
+    /// The file states percent, but its values would be fractions. Holds the largest value as written, in words.
     SmallPercent(String),
     /// Warnings of kinds that are listed often enough: only counted. Stands last.
     More(usize),

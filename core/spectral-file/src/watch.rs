@@ -9,8 +9,8 @@ use crate::warning::Warning;
 
 /// Progress of a reading, and a way to stop it.
 ///
-/// The function is told how far the reading is, as a fraction of one, some hundred times a second, always on the thread that
-/// reads; it returns whether to go on.
+/// The function receives the progress of the reading, as a fraction of one, some hundred times a second, always on the
+/// thread that reads; it returns whether to continue.
 #[derive(Clone, Copy)]
 pub struct Watch<'a>(&'a dyn Fn(f32) -> bool);
 
@@ -41,7 +41,7 @@ pub(super) struct Log<'a> {
 }
 
 impl<'a> Log<'a> {
-    /// Warnings of one kind that are listed; nobody reads more.
+    /// Maximum number of listed warnings of one kind.
     const MOST_ALIKE: usize = 20;
 
     /// Bytes between two looks at the watch: some milliseconds of reading.
@@ -69,7 +69,7 @@ impl<'a> Log<'a> {
         warnings.into_iter().for_each(|warning| self.push(warning));
     }
 
-    /// Says that the reader is at a byte of the text; an error where the caller wants no more.
+    /// Reports that the reader is at a byte of the text; an error if the caller stops it.
     #[inline]
     pub(super) fn at(&mut self, byte: usize) -> Result<(), ReadError> {
         if byte < self.next {
@@ -79,8 +79,8 @@ impl<'a> Log<'a> {
         self.look(byte)
     }
 
-    /// Says that so many bytes were looked at, for the first time or again, and that the reader is at a byte of the text; an error
-    /// where the caller wants no more.
+    /// Reports that a number of bytes was examined, for the first time or again, and that the reader is at a byte of the text; an
+    /// error if the caller stops it.
     #[inline]
     pub(super) fn work(&self, bytes: usize, at: usize) -> Result<(), ReadError> {
         let worked = self.worked.get() + bytes;
@@ -92,7 +92,7 @@ impl<'a> Log<'a> {
         self.look(at)
     }
 
-    /// Looks at the watch at once: before and after long steps.
+    /// Polls the watch immediately: before and after long steps.
     pub(super) fn look(&self, byte: usize) -> Result<(), ReadError> {
         let share = byte.min(self.whole) as f32 / self.whole.max(1) as f32;
         if (self.watch.0)(share) { Ok(()) } else { Err(ReadError::Stopped) }

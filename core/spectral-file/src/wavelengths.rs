@@ -27,7 +27,7 @@ pub(super) fn unit(grid: &Grid, options: &ReadOptions) -> Result<Decided<Wavelen
     }
 }
 
-/// The unit that a range suggests. Where it fits ångströms and wave numbers, only a person knows.
+/// The unit that a range suggests. If both ångströms and wave numbers fit, only the user knows.
 fn unit_from_range(grid: &Grid) -> Result<Decided<WavelengthUnit>, ReadError> {
     let wavelengths = &grid.wavelengths;
     let min = wavelengths.iter().copied().fold(f64::INFINITY, f64::min);
@@ -47,7 +47,7 @@ fn unit_from_range(grid: &Grid) -> Result<Decided<WavelengthUnit>, ReadError> {
     Ok(Decided::guess(unit, format!("Wavelengths run from {min} to {max}")))
 }
 
-/// Returns whether a table is a single curve about which nothing is said.
+/// Returns whether a table is a single curve without any information.
 fn is_bare(grid: &Grid) -> bool {
     let named = !grid.header.names.is_empty() || !grid.header.comments.is_empty() || grid.header.mentioned.is_some();
     grid.curves.len() == 1 && !named
@@ -85,7 +85,7 @@ pub(super) fn sort(grid: &mut Grid, log: &mut Log<'_>) -> bool {
     descending
 }
 
-/// Warns of wavelengths that nobody sees, and of holes among them.
+/// Warns of invisible wavelengths, and of gaps among them.
 pub(super) fn warn(grid: &Grid, step: Steps, log: &mut Log<'_>) {
     const VISIBLE_NM: std::ops::RangeInclusive<f64> = 380.0..=780.0;
     const LEAST_NM: f64 = 20.0;

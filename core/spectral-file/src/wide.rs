@@ -179,7 +179,7 @@ impl<'a> Rows<'a> {
         }
     }
 
-    /// Says what was left out; a line among the rows that is none is an error.
+    /// Reports omitted lines; a line among the rows that is none is an error.
     fn warn(&mut self, heads: &[&str], log: &mut Log<'_>) -> Result<(), ReadError> {
         if let Some((line, error, is_row)) = self.broken.take() {
             if is_row {

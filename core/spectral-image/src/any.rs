@@ -10,6 +10,10 @@ use crate::image::ImageInfo;
 
 /// An image of any of the formats.
 #[derive(Debug)]
+#[allow(
+    clippy::large_enum_variant,
+    reason = "one image is open at a time; the sizes depend on features of other crates"
+)]
 pub enum SpectralImage<R> {
     /// ENVI.
     Envi(EnviImage<R>),

@@ -7,10 +7,10 @@ use crate::error::ImageError;
 use crate::header::{DataType, EnviHeader, Interleave};
 use crate::image::ImageInfo;
 
-/// Bytes of the file that are held at once, if a row is not larger.
+/// Bytes of the file in memory, if a row is not larger.
 const BUFFER: usize = 1 << 20;
 
-/// ENVI image whose rows are read when asked for.
+/// ENVI image whose rows are read when requested.
 #[derive(Debug)]
 pub struct EnviImage<R> {
     header: EnviHeader,

@@ -6,7 +6,7 @@ pub enum ImageError {
     /// The header is not ENVI's.
     #[error("line 1: the first line of an ENVI header is ENVI; name the .hdr file")]
     NotEnvi,
-    /// A line of a header that says nothing.
+    /// A meaningless line of a header.
     #[error("line {line}: expected `field = value`")]
     Line {
         /// The line, from 1.
@@ -37,7 +37,7 @@ pub enum ImageError {
         field: &'static str,
         /// The value, shortened.
         value: String,
-        /// What would do.
+        /// Description of valid values.
         remedy: &'static str,
     },
     /// A list with another length than there are bands.

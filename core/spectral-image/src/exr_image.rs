@@ -15,7 +15,7 @@ use crate::error::ImageError;
 use crate::image::{ImageInfo, ImageQuantity, MAX_ROW_BYTES, Note, ascending};
 use crate::names::SpectralChannel;
 
-/// `OpenEXR` image whose rows are read when asked for.
+/// `OpenEXR` image whose rows are read when requested.
 #[derive(Debug)]
 pub struct ExrImage<R> {
     info: ImageInfo,

@@ -149,8 +149,7 @@ impl<'a> Fields<'a> {
 
     fn number(&self, name: &'static str) -> Result<Option<f64>, ImageError> {
         let Some(field) = self.get(name) else { return Ok(None) };
-        let number = field.value.parse::<f64>().ok().filter(|value| value.is_finite());
-        number.map(Some).ok_or_else(|| field.refuse(name, "expected a number"))
+        field.value.parse().map(Some).map_err(|_| field.refuse(name, "expected a number"))
     }
 
     /// Numbers of a list, one for each band.
@@ -193,7 +192,7 @@ impl EnviHeader {
         let bands: Vec<usize> = order.iter().map(|&at| good[at]).collect();
         let scale = fields.number("reflectance scale factor")?;
         if let (Some(value), Some(field)) = (scale, fields.get("reflectance scale factor"))
-            && (value <= 0.0 || !value.recip().is_finite())
+            && !(value > 0.0 && value.is_finite() && value.recip().is_finite())
         {
             return Err(
                 field.refuse("reflectance scale factor", "expected the number that stands for a reflectance of 1")
@@ -218,7 +217,8 @@ impl EnviHeader {
             bands,
             gains,
             offsets,
-            ignore: fields.number("data ignore value")?,
+            // A sample of NaN is none anyway.
+            ignore: fields.number("data ignore value")?.filter(|value| value.is_finite()),
         })
     }
 

@@ -20,7 +20,7 @@ pub enum ImageQuantity {
     Radiance,
 }
 
-/// Decision made on reading that a person should know of.
+/// Decision made on reading that the user should know of.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Note {
     /// The header names no unit of wavelength.
@@ -87,7 +87,6 @@ impl ImageInfo {
         Ok(())
     }
 
-    /// Checks a range of rows.
     pub(crate) fn check_rows(&self, rows: &Range<usize>) -> Result<(), ImageError> {
         if rows.start <= rows.end && rows.end <= self.height {
             Ok(())

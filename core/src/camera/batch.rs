@@ -8,11 +8,11 @@ pub use kernel::Sample;
 
 /// Pieces of work, if there are spectra enough: more than threads, so that none waits long for the last.
 const PIECES: usize = 32;
-/// The most samples of a piece: the first spectra of each, which nothing could ask for ahead, are below a hundredth of it.
+/// The most samples of a piece: the first spectra of each, which nothing could request ahead, are below a hundredth of it.
 const LONGEST: usize = 1 << 18;
-/// Bytes that a cache may still hold when they are asked for again.
+/// Bytes that a cache may still hold when they are requested again.
 const NEAR: usize = 1 << 20;
-/// Below this many products the work is done where it is asked for: waking other threads takes longer.
+/// Below this many products the work is done where it is requested: waking other threads takes longer.
 const ALONE: usize = 1 << 20;
 
 /// Reason that numbers make no batch.
@@ -44,8 +44,8 @@ pub enum BatchError {
 /// ```text
 /// I_nc = Σ_i S_ni C_ci,   n = spectra, c = channels, i = samples
 /// ```
-/// What stands in the curves is up to the caller: for `∫ C S L dλ` the products of [`under_light`], which have the weights of
-/// the quadrature in them. Numbers are `f64` or `f32`; products are summed in the same type.
+/// The caller defines the curves: for `∫ C S L dλ` the products of [`under_light`], which include the quadrature weights.
+/// Numbers are `f64` or `f32`; products are summed in the same type.
 ///
 /// Each response is the sum of 4 partial sums (8 in `f32`), each of at most ⌈L/4⌉ (⌈L/8⌉) products of the L samples; its
 /// error is within [`Self::max_error`]. Products and sums are rounded once together, by the processor or, where it cannot

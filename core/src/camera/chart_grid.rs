@@ -57,7 +57,6 @@ pub struct ChartGrid {
     columns: usize,
     rows: usize,
     square_from_picture: DMat3,
-    picture_from_square: DMat3,
 }
 
 /// Mean of one patch.
@@ -92,25 +91,12 @@ impl ChartGrid {
         if !convex || turns.iter().any(|t| !t.is_finite()) {
             return Err(ChartGridError::NotConvex);
         }
-        let picture_from_square = homography(corners);
-        let square_from_picture = picture_from_square.inverse();
-        Ok(Self { corners, columns, rows, square_from_picture, picture_from_square })
+        Ok(Self { corners, columns, rows, square_from_picture: homography(corners).inverse() })
     }
 
     /// Number of patches.
     pub fn patches(&self) -> usize {
         self.columns * self.rows
-    }
-
-    /// Corners of the part of a patch that is averaged, in pixels, around it.
-    pub fn central_part(&self, patch: usize) -> [[f64; 2]; 4] {
-        let cell = DVec2::new((patch % self.columns) as f64, (patch / self.columns) as f64);
-        let size = DVec2::new(self.columns as f64, self.rows as f64);
-        [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]].map(|side| {
-            let at = (cell + 0.5 + DVec2::from_array(side) * (CENTRAL / 2.0)) / size;
-            let picture = self.picture_from_square * at.extend(1.0);
-            (picture.truncate() / picture.z).to_array()
-        })
     }
 
     /// Means of all patches, row by row from the first corner. `pixel(x, y)` is the linear RGB of a pixel.

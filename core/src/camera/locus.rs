@@ -1,4 +1,4 @@
-//! Black bodies through a sensor (Eq 15), by a few nodes instead of 401 samples, with the error that was checked.
+//! Blackbodies through a sensor (Eq 15), by a few nodes instead of 401 samples, with the error that was checked.
 
 mod terms;
 
@@ -23,7 +23,7 @@ const CHECKS_K: [f64; 9] = [1000.0, 1100.0, 1300.0, 1700.0, 2500.0, 4000.0, 8000
 
 /// Number of temperatures a rule is checked at for a given tolerance, evenly in 1/T over the range of nodes.
 const DENSE_CHECKS: usize = 48;
-/// The node counts that can be asked for.
+/// Available node counts.
 const FEWEST: usize = 2;
 const MOST: usize = 28;
 /// An error seen at those temperatures is taken to be at most this much larger between them.
@@ -95,11 +95,11 @@ impl<S: Deref<Target = Sensor>> LocusEvaluator<S> {
         evaluator
     }
 
-    /// The fewest nodes, from two up, that keep the three signals within an accuracy, relative to the largest of the three;
-    /// the 1 nm sum where no number of nodes does.
+    /// The fewest nodes, from two up, that keep the three signals within a tolerance, relative to the largest of the three;
+    /// the 1 nm sum if no number of nodes does.
     ///
     /// Checked at 48 temperatures from 1000 K to 10⁶ K, evenly in 1/T, against the 1 nm sum, with a margin of two; outside that
-    /// range the sum itself is taken. [`Self::method`] tells the error seen. Costs as much as a hundred sums or so.
+    /// range the sum itself is used. [`Self::method`] returns the error found. Costs about as much as a hundred sums.
     ///
     /// # Errors
     /// Below 1e-14 even the sum is rounded more.

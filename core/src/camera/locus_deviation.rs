@@ -3,6 +3,7 @@
 use super::locus::LocusEvaluator;
 use super::rendering::Rendering;
 use crate::colorimetry::UvPrime;
+use crate::math::minimum::minimum;
 use crate::spectral::Sensor;
 use crate::units::Kelvin;
 use std::ops::Deref;
@@ -11,12 +12,12 @@ use std::ops::Deref;
 const RANGE_MIRED: [f64; 2] = [10.0, 2000.0];
 /// Points that are looked at first, evenly in reciprocal temperature.
 const POINTS: usize = 400;
-/// Farther from the locus, in the CIE 1960 diagram, a correlated color temperature says nothing (CIE 15).
+/// Distance from the locus in the CIE 1960 diagram beyond which a correlated color temperature is meaningless (CIE 15).
 const FARTHEST_UV: f64 = 0.05;
 /// Share of a reciprocal temperature over which the locus's direction is taken.
 const STEP: f64 = 1e-4;
-/// Steps of the search for the nearest point, each by the golden ratio: below a billionth of the interval.
-const SEARCH: usize = 44;
+/// Interval in mired that the nearest point is searched down to.
+const SEARCH: f64 = 1e-8;
 
 /// Deviation of a blackbody's color through a sensor from the reference's.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -75,16 +76,12 @@ impl<S: Deref<Target = Sensor>> ReferenceLocus<S> {
         let distance = |place: &(f64, UvPrime)| place.1.distance(color);
         let nearest =
             (0..self.points.len()).min_by(|&a, &b| distance(&self.points[a]).total_cmp(&distance(&self.points[b])))?;
-        let inside = nearest > 0 && nearest + 1 < self.points.len();
-        let (mut low, mut high) =
-            if inside { (self.points[nearest - 1].0, self.points[nearest + 1].0) } else { return None };
-        let away = |mired: f64| self.at(mired).map_or(f64::INFINITY, |place| place.distance(color));
-        let golden = (5.0_f64.sqrt() - 1.0) / 2.0;
-        for _ in 0..SEARCH {
-            let [a, b] = [high - golden * (high - low), low + golden * (high - low)];
-            if away(a) < away(b) { high = b } else { low = a }
+        if nearest == 0 || nearest + 1 == self.points.len() {
+            return None;
         }
-        let mired = f64::midpoint(low, high);
+        let (low, high) = (self.points[nearest - 1].0, self.points[nearest + 1].0);
+        let away = |mired: f64| self.at(mired).map_or(f64::INFINITY, |place| place.distance(color));
+        let mired = minimum(low, high, SEARCH, away);
         let (foot, color) = (self.at(mired)?.uv60(), color.uv60());
         ((foot.u - color.u).hypot(foot.v - color.v) <= FARTHEST_UV).then(|| 1e6 / mired)
     }

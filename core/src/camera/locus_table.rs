@@ -1,7 +1,7 @@
-//! The chromaticities of black bodies at very many temperatures: polynomials in the reciprocal temperature.
+//! The chromaticities of blackbodies at very many temperatures: polynomials in the reciprocal temperature.
 //!
-//! A table costs some thousand sums over the spectrum and then replaces each further one by sixteen coefficients. It is made
-//! for a sensor with its way to the diagram, so that a camera costs no more than an observer.
+//! A table costs about a thousand sums over the spectrum and then replaces each further one by sixteen coefficients. It is
+//! made for a sensor with its color transform, so that a camera costs no more than an observer.
 
 mod pieces;
 
@@ -17,9 +17,9 @@ use crate::spectral::Sensor;
 use crate::units::Kelvin;
 use glam::DVec3;
 
-/// The coldest black body of a table, in kelvins.
+/// The coldest blackbody of a table, in kelvins.
 pub const COLDEST_K: f64 = 1.0;
-/// The hottest black body of a table, in kelvins. The locus hardly moves any more: from 10⁹ K on by less than 1e-6 in xy.
+/// The hottest blackbody of a table, in kelvins. The locus hardly moves any more: from 10⁹ K on by less than 1e-6 in xy.
 pub const HOTTEST_K: f64 = 1e15;
 
 /// Temperatures per piece of work: enough to outweigh handing it over.
@@ -31,12 +31,12 @@ pub enum LocusTableError {
     /// Colder than [`COLDEST_K`] or hotter than [`HOTTEST_K`].
     #[error("the temperature is outside the table")]
     Outside,
-    /// The signals sum to nearly nothing there, or the curve is too crooked for the promised error.
+    /// The sum of the signals is nearly zero there, or the curvature too large for the error bound.
     #[error("the locus has no smooth chromaticity near this temperature")]
     Rough,
 }
 
-/// x and y of black bodies as a sensor sees them, ready for any number of temperatures.
+/// x and y of blackbodies as a sensor sees them, ready for any number of temperatures.
 ///
 /// ```text
 /// x(T) ≈ Σ a_k tᵏ,   y(T) ≈ Σ b_k tᵏ,   k = 0…7,   m = 10⁶/T
@@ -47,7 +47,7 @@ pub enum LocusTableError {
 ///
 /// The error is absolute, in x and y, against the 1 nm sum ([`LocusEvaluator::by_sum`]): where Chebyshev's error is largest,
 /// between all nodes and at both ends, it was looked up for every piece when the table was made. Pieces are halved until
-/// that stays below [`Self::TARGET`]; those that still miss [`Self::LIMIT`] are left out, and their temperatures refused as
+/// that stays below [`Self::TARGET`]; those that still miss [`Self::LIMIT`] are omitted, and their temperatures refused as
 /// [`LocusTableError::Rough`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct LocusTable {
@@ -58,16 +58,16 @@ pub struct LocusTable {
 impl LocusTable {
     /// The error at which pieces are narrow enough.
     pub const TARGET: f64 = 1e-13;
-    /// The error beyond which a piece is left out.
+    /// The error beyond which a piece is omitted.
     pub const LIMIT: f64 = 1e-12;
 
-    /// Tabulates the locus of a sensor and its way to the diagram (Eq 15). Some thousand sums, on all cores.
+    /// Tabulates the locus of a sensor with its color transform (Eq 15). About a thousand sums, on all cores.
     pub fn new(sensor: &Sensor, rendering: &Rendering, constants: RadiationConstants) -> Self {
         Self::summed(sensor, rendering, constants, Self::TARGET)
     }
 
     /// Table with another error of its pieces than [`Self::TARGET`], absolute in x and y; smaller ones count as that target. A
-    /// piece is left out beyond ten times its error. Larger errors take fewer sums.
+    /// piece is omitted beyond ten times its error. Larger errors take fewer sums.
     pub fn within(
         sensor: &Sensor,
         rendering: &Rendering,
@@ -105,11 +105,11 @@ impl LocusTable {
         [self.pieces.len(), 2 * TERMS]
     }
 
-    /// The chromaticity of one black body.
+    /// The chromaticity of one blackbody.
     ///
     /// # Errors
     ///
-    /// [`LocusTableError`] where the temperature is outside the table, or in a piece that is left out.
+    /// [`LocusTableError`] where the temperature is outside the table, or in a piece that is omitted.
     #[inline]
     pub fn xy(&self, temperature: Kelvin) -> Result<Xy, LocusTableError> {
         self.pieces.xy(temperature)

@@ -5,7 +5,7 @@
 //! ```
 //! p = patch, c = channel, g = gain of a channel (relative scale of the table, white balance, exposure), b = brightness of a patch
 //! (uneven illumination, shading, angle), r = residual. With the logarithm the model is linear: two-way and additive, so least squares
-//! have a closed form in one 3×3 system, whatever values are left out.
+//! have a closed form in one 3×3 system, whatever values are omitted.
 
 mod links;
 mod two_way;
@@ -41,13 +41,13 @@ impl Signal {
     pub fn new(value: f64, clip: f64) -> Self {
         Self(match value {
             v if v.is_nan() => Err(Exclusion::Missing),
-            v if v >= clip || v.is_infinite() => Err(Exclusion::Clipped),
+            v if v >= clip => Err(Exclusion::Clipped),
             v if v < f64::MIN_POSITIVE => Err(Exclusion::NotPositive),
             v => Ok(v.to_bits()),
         })
     }
 
-    /// Signal that is left out for a reason.
+    /// Signal that is omitted for a reason.
     pub fn excluded(why: Exclusion) -> Self {
         Self(Err(why))
     }
@@ -153,7 +153,7 @@ impl RecordedFit {
         rms(self.residuals.get(patch)?)
     }
 
-    /// Patches by the root mean square of their residuals, largest first; those without a usable value are left out.
+    /// Patches by the root mean square of their residuals, largest first; those without a usable value are omitted.
     pub fn worst_patches(&self) -> Vec<(usize, f64)> {
         let mut patches: Vec<_> =
             (0..self.residuals.len()).filter_map(|patch| Some((patch, self.patch_rms(patch)?))).collect();

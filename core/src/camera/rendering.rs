@@ -15,7 +15,7 @@ use crate::spectral::{GridSpectrum, Primaries, Sensor};
 use glam::{DMat3, DVec3};
 use std::sync::Arc;
 
-/// The way from signals to the diagram.
+/// Color transform from sensor signals to XYZ.
 #[derive(Clone, Copy, Debug)]
 pub enum ColorTransform<'a> {
     /// Eq 13 for cameras and RGB observers alike; CIE observers directly.
@@ -47,7 +47,7 @@ pub enum RenderingError {
         /// The channel, 0 to 2.
         channel: usize,
     },
-    /// Cone fundamentals are no RGB, so Eq 13 says nothing about them.
+    /// Cone fundamentals are not RGB, so that Eq 13 is undefined for them.
     #[error("Eq 13 takes RGB, not cone signals; choose a fitted color transform")]
     ConesNeedObserver,
     /// The reference of a fit must count in XYZ.
@@ -74,7 +74,7 @@ pub enum RenderingError {
     /// The fit to the reference observer has no answer.
     #[error(transparent)]
     Fit(#[from] FitError),
-    /// The integrals cannot be made as exactly as was asked for.
+    /// The integrals cannot be computed within the requested tolerance.
     #[error(transparent)]
     Accuracy(#[from] Unmet),
 }
@@ -82,7 +82,7 @@ pub enum RenderingError {
 /// Below this share of the unsigned integral a balance is refused: it would be made of cancellation.
 const BLIND: f64 = 1e-6;
 
-/// Everything between a sensor's raw integrals and its places on the diagram, fixed for one light, white and way.
+/// Conversion from a sensor's raw integrals to chromaticities, for a fixed light, white balance and color transform.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rendering {
     /// Signals of a perfect diffuser: Eq 11's s.
@@ -107,7 +107,7 @@ pub struct Rendering {
 }
 
 impl Rendering {
-    /// Prepares a sensor for a light, a white and a way to the diagram.
+    /// Prepares a sensor for a light, a white balance and a color transform.
     ///
     /// # Errors
     ///
@@ -123,9 +123,8 @@ impl Rendering {
             (ColorTransform::Paper, Primaries::Cones) => Err(RenderingError::ConesNeedObserver),
             (ColorTransform::Paper, Primaries::Camera | Primaries::Rgb) => paper(sensor, light, white),
             (ColorTransform::Observer { reference, training }, _) => {
-                let targets = FitTargets::new(reference, light, training);
-                let targets = targets.as_ref().map_err(|&e| e);
-                fitted(sensor, light, white, training, targets, &Correction::default())
+                let correction = Correction::default();
+                Self::new(sensor, light, white, ColorTransform::Corrected { reference, training, correction })
             }
             (ColorTransform::Corrected { reference, training, correction }, _) => {
                 let targets = FitTargets::new(reference, light, training);

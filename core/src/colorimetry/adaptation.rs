@@ -11,7 +11,7 @@ const BRADFORD: DMat3 = DMat3::from_cols(
 );
 
 /// Sharpened cone responses of CIECAM02 (CIE 159:2004), rows L, M, S.
-const CAT02: DMat3 = DMat3::from_cols(
+pub(super) const CAT02: DMat3 = DMat3::from_cols(
     DVec3::new(0.7328, -0.7036, 0.0030),
     DVec3::new(0.4296, 1.6975, 0.0136),
     DVec3::new(-0.1624, 0.0061, 0.9834),

@@ -1,14 +1,8 @@
 //! CIECAM02 with complete adaptation, and its uniform color space.
 
+use super::adaptation::CAT02;
 use super::tristimulus::Xyz;
 use glam::{DMat3, DVec3};
-
-/// Sharpened responses from tristimulus values (CIE 159:2004, CAT02).
-const CAT02: DMat3 = DMat3::from_cols(
-    DVec3::new(0.7328, -0.7036, 0.0030),
-    DVec3::new(0.4296, 1.6975, 0.0136),
-    DVec3::new(-0.1624, 0.0061, 0.9834),
-);
 
 /// Cone responses from tristimulus values (Hunt, Pointer and Estévez).
 const CONES: DMat3 = DMat3::from_cols(

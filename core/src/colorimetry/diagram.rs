@@ -14,7 +14,7 @@ pub struct SpectralPoint {
     pub xy: Xy,
 }
 
-/// The chromaticities of monochromatic light for an observer that counts in XYZ; wavelengths without response are left out.
+/// The chromaticities of monochromatic light for an observer that counts in XYZ; wavelengths without response are omitted.
 pub fn spectral_locus(observer: &Sensor) -> Vec<SpectralPoint> {
     (0..COUNT)
         .filter_map(|index| {
@@ -25,14 +25,24 @@ pub fn spectral_locus(observer: &Sensor) -> Vec<SpectralPoint> {
         .collect()
 }
 
-/// The screen color that stands for a chromaticity: as bright as the screen can show it, colors beyond its range moved in.
+/// The screen color that stands for a chromaticity: smooth over the plane, bright, colors beyond the screen's range moved in.
 ///
-/// For orientation only: no screen shows most of the diagram. Channels below zero are raised by adding white just enough.
+/// For orientation only: no screen shows most of the diagram. Channels are linear sRGB divided by their root sum of squares, softened
+/// toward positive values, and divided by their 6-norm, so that no edge of the screen's range is seen.
 pub fn area_color(xy: Xy) -> [u8; 3] {
+    const SOFTNESS: f64 = 0.3;
+    const NORM: i32 = 6;
     let Some(xyz) = xy.with_unit_luminance() else {
         return [0; 3];
     };
-    bright_color(xyz)
+    let rgb = srgb_from_xyz() * xyz.to_vector();
+    let length = rgb.length();
+    if length == 0.0 || !length.is_finite() {
+        return [0; 3];
+    }
+    let soft = (rgb / length).to_array().map(|v| 0.5 * (v + v.hypot(SOFTNESS)));
+    let norm = soft.iter().map(|v| v.powi(NORM)).sum::<f64>().powf(1.0 / f64::from(NORM));
+    soft.map(|v| (255.0 * srgb_transfer(v / norm)).round() as u8)
 }
 
 /// The screen color of a wavelength, fading towards the ends of the visible range.

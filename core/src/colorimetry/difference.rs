@@ -34,7 +34,7 @@ pub struct Metric {
     pub symbol: &'static str,
     /// Meaningful decimals of a single difference.
     pub decimals: usize,
-    /// Difference that fills a bar: one that nobody overlooks.
+    /// Difference that fills a bar: clearly visible.
     pub full_scale: f64,
     formula: Formula,
 }

@@ -29,6 +29,11 @@ pub fn lab_from_xyz(color: Xyz, white: Xyz) -> Option<Lab> {
     (positive && lab.l.is_finite() && lab.a.is_finite() && lab.b.is_finite()).then_some(lab)
 }
 
+/// L* of a ratio Y/Yₙ.
+pub(crate) fn lightness(ratio: f64) -> f64 {
+    116.0 * f(ratio) - 16.0
+}
+
 /// The compressed ratio of the formula above.
 fn f(t: f64) -> f64 {
     const EDGE: f64 = 6.0 / 29.0;

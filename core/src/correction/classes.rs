@@ -110,7 +110,7 @@ impl ClassWeights {
         self.0[class as usize]
     }
 
-    /// The same weights with one changed.
+    /// Weights with that of one class replaced.
     #[must_use]
     pub fn with(self, class: ColorClass, weight: f64) -> Self {
         let mut weights = self.0;

@@ -79,7 +79,8 @@ pub fn minimize(
     minimize_near(training, white, keeps_white, objective, None)
 }
 
-/// [`minimize`] from a matrix that is near, where that is better than the least-squares matrix. It must keep white if that is asked.
+/// [`minimize`] from a matrix that is near, where that is better than the least-squares matrix. It must preserve white if that is
+/// required.
 ///
 /// # Errors
 ///

@@ -41,7 +41,7 @@ const LIGHT_SPEED: f64 = 299_792_458.0;
 /// k in J/K, exact (SI 2019).
 const BOLTZMANN: f64 = 1.380_649e-23;
 
-/// The spectral exitance of a black body, in W m⁻³ (Eq 14).
+/// The spectral exitance of a blackbody, in W m⁻³ (Eq 14).
 ///
 /// ```text
 /// E(λ, T) = c₁ / (λ⁵ (exp(c₂ / (λ T)) − 1))
@@ -87,7 +87,7 @@ pub fn relative_exitance(
     if value < f64::MIN_POSITIVE { 0.0 } else { value }
 }
 
-/// A black body as a light on the grid, relative to its power at 780 nm below 3715 K and at its peak above that.
+/// A blackbody as a light on the grid, relative to its power at 780 nm below 3715 K and at its peak above that.
 pub fn black_body(temperature: Kelvin, constants: RadiationConstants) -> GridSpectrum {
     // Wien: the peak is at c₂ / (4.965114 T); anchored there, nothing overflows.
     let peak_nm = constants.second() * 1e9 / 4.965_114_231_744_276 / temperature.get();

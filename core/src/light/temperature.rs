@@ -1,10 +1,10 @@
-//! Correlated color temperature and Duv: which black body a color is nearest to, and how far it is off.
+//! Correlated color temperature and Duv: which blackbody a color is nearest to, and how far it is off.
 //!
 //! The nearest point is sought in the CIE 1960 diagram (u = u′, v = 2v′/3 of 1976), as CIE 15:2004 has it; Duv is the
 //! distance, positive above the locus (greener). CIE 15 wants no color temperature where it exceeds 0.05. The definition is
 //! for the CIE 1931 2° observer; [`PlanckianLocus`] takes any observer that counts in XYZ.
 //!
-//! This lies with the black bodies and not with the chromaticities, because it needs Planck's law; and it needs the observer's
+//! This lies with the blackbodies and not with the chromaticities, because it needs Planck's law; and it needs the observer's
 //! curves, for the locus is the sum over them at 1 nm, not a published fit.
 
 mod exact;
@@ -34,9 +34,9 @@ use crate::units::Kelvin;
 /// Colors per piece of work: enough to outweigh handing it over.
 const CHUNK: usize = 4096;
 
-/// The Planckian locus of an observer, ready to tell the nearest black body of any color.
+/// The Planckian locus of an observer, prepared to find the nearest blackbody of any color.
 ///
-/// The nearest point is where the tangent is square to the way to the color:
+/// The nearest point is where the tangent is perpendicular to the line to the color:
 ///
 /// ```text
 /// (u(m) − u) u′(m) + (v(m) − v) v′(m) = 0,   m = 10⁶/T
@@ -86,7 +86,7 @@ impl PlanckianLocus {
 
     /// The correlated color temperature and Duv of a chromaticity.
     ///
-    /// Nothing is clamped: what lies outside is refused, with the reason. A color further than [`MAX_DUV`] from black bodies of
+    /// Nothing is clamped: what lies outside is refused, with the reason. A color further than [`MAX_DUV`] from blackbodies of
     /// all temperatures is [`CctError::TooFar`]; one that is not, but whose nearest is outside [`COLDEST_K`]–[`HOTTEST_K`], is too
     /// hot or too cold.
     ///
@@ -131,7 +131,8 @@ impl PlanckianLocus {
             for (answers, colors) in answers.chunks_mut(LANES).zip(colors.chunks(LANES)) {
                 lanes.solve(&self.start, &self.pieces, colors);
                 for (lane, (answer, &color)) in answers.iter_mut().zip(colors).enumerate() {
-                    // Stored on each way of its own: gathered first, an answer would pass through memory, misaligned.
+                    // Stored separately in each branch: gathered first, an answer would pass through memory,
+                    // misaligned.
                     match lanes.found(lane).and_then(|found| found.cct()) {
                         Some(cct) => *answer = Ok(cct),
                         None => *answer = self.careful(color),
@@ -141,7 +142,7 @@ impl PlanckianLocus {
         });
     }
 
-    /// The chromaticity of a black body, or none outside [`COLDEST_K`]–[`HOTTEST_K`]. Within 2e-15 of the 1 nm sum.
+    /// The chromaticity of a blackbody, or none outside [`COLDEST_K`]–[`HOTTEST_K`]. Within 2e-15 of the 1 nm sum.
     pub fn at(&self, temperature: Kelvin) -> Option<Uv60> {
         self.off(Cct { temperature, duv: 0.0 })
     }

@@ -1,5 +1,6 @@
 //! Search for metamers among measured reflectances.
 
+use crate::colorimetry::lab::lightness;
 use crate::colorimetry::{Lab, delta_e_2000};
 use std::hash::{Hash, Hasher};
 
@@ -24,11 +25,7 @@ pub struct Seen {
 impl Seen {
     /// Balanced channels through the CIE lightness function, so that a difference means as much in the dark as in the light.
     fn levels(&self) -> [f64; 3] {
-        // L* of an achromatic color of this value; the other two coordinates are not of interest.
-        self.rgb.map(|value| {
-            const EDGE: f64 = 216.0 / 24_389.0;
-            if value > EDGE { 116.0 * value.cbrt() - 16.0 } else { value * 24_389.0 / 27.0 }
-        })
+        self.rgb.map(lightness)
     }
 }
 
@@ -78,8 +75,11 @@ pub struct MetamerPair {
     pub observer_difference: f64,
 }
 
-/// `S_L` of CIEDE2000 is below this, so that `|ΔL*| ≤ 1.75 ΔE*00`: 1 + 0.015·50²/√(20 + 50²).
-const LARGEST_S_L: f64 = 1.75;
+/// Bound of `S_L` of CIEDE2000 among colors, with which `|ΔL*| ≤ S_L ΔE*00`: `1 + 0.015 |L* − 50|`, 1.75 from black to white.
+fn largest_s_l(colors: &[Seen]) -> f64 {
+    let off = colors.iter().map(|color| (color.lab.l - 50.0).abs()).filter(|off| off.is_finite()).fold(0.0, f64::max);
+    1.0 + 0.015 * off
+}
 
 /// Pairs that one confuses and the other separates, worst first, at most `most`.
 ///
@@ -88,13 +88,15 @@ const LARGEST_S_L: f64 = 1.75;
 /// Observer:  ΔE*00 ≤ confused   and   max_c |L*(I_c) − L*(I'_c)| ≥ separated,   largest of that first
 /// ```
 /// `L*(I)` is the CIE lightness of a balanced channel. The list is sorted by one coordinate in which confused colors are near (green, or
-/// L* by `|ΔL*| ≤ 1.75 ΔE*00`), so that only neighbors are compared: about `n² w` pairs for windows of a share w of the range, and ΔE*00 of
-/// those alone whose channels decide nothing. Every pair within the limits is found. Colors that are not finite are left out.
+/// L* by `|ΔL*| ≤ S_L ΔE*00`), so that only neighbors are compared: about `n² w` pairs for windows of a share w of the range, and ΔE*00 of
+/// those alone whose channels decide nothing. Every pair within the limits is found. Colors that are not finite are omitted.
 pub fn search(colors: &[Seen], confusion: Confusion, limits: MetamerLimits, most: usize) -> Vec<MetamerPair> {
     let levels: Vec<[f64; 3]> = colors.iter().map(Seen::levels).collect();
     let (key, window): (Vec<f64>, f64) = match confusion {
         Confusion::Camera => (levels.iter().map(|level| level[1]).collect(), limits.confused),
-        Confusion::Observer => (colors.iter().map(|color| color.lab.l).collect(), LARGEST_S_L * limits.confused),
+        Confusion::Observer => {
+            (colors.iter().map(|color| color.lab.l).collect(), largest_s_l(colors) * limits.confused)
+        }
     };
     let finite = |at: &usize| {
         let Lab { l, a, b } = colors[*at].lab;

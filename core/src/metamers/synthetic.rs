@@ -18,7 +18,7 @@ pub fn metameric_black(sensor: &Sensor, light: &GridSpectrum, difference: &[f64;
     Some(remove(&remove(difference, &seen), &seen))
 }
 
-/// Reflectance that a sensor cannot tell from another one under a light, while an observer sees a large difference; within 0 to 1.
+/// Metamer of a reflectance for a sensor under a light, with a large difference for an observer; within 0 to 1.
 ///
 /// To the reflectance is added the metameric black of the observer's own curves under the light, each of the three in turn, as far up or
 /// down as 0 and 1 allow; the one of the six is returned for which the observer's signals differ most, in parts of its signals of a

@@ -1,17 +1,17 @@
-//! Queries and those who answer them.
+//! Queries and their evaluators.
 
 use crate::render::Stop;
 use std::hash::Hash;
 use std::sync::Arc;
 
-/// A question: a value with everything its answer depends on. Threads may share it and its answer.
+/// Query: a value that contains everything its answer depends on. Threads may share it and its answer.
 pub trait Query: Clone + Eq + Hash + Send + Sync + 'static {
     /// Answer.
     type Answer: Send + Sync + 'static;
 
     /// A name for counters.
     const NAME: &'static str;
-    /// True if an answer is whole even if [`Ask::stop`] was set while it was made: it, and all it asks, do not look at that.
+    /// True if an answer is complete even if [`Ask::stop`] was set meanwhile: neither it nor its nested queries check that.
     const WHOLE: bool = false;
 
     /// Number of answers cached where memory limits; the least recently used go first.
@@ -22,22 +22,22 @@ pub trait Query: Clone + Eq + Hash + Send + Sync + 'static {
         0
     }
 
-    /// Computes the answer, asking others on the way.
+    /// Computes the answer, evaluating other queries as needed.
     fn answer(&self, ask: &impl Ask) -> Self::Answer;
 }
 
-/// Somebody who answers questions.
+/// Evaluator of queries.
 pub trait Ask {
-    /// The answer to a question, computed or remembered.
+    /// Returns the answer to a query, computed or cached.
     fn ask<Q: Query>(&self, query: &Q) -> Arc<Q::Answer>;
 
-    /// Says when answers are no longer wanted. What is then returned may be incomplete and is not to be kept.
+    /// Stop flag of the evaluation. An answer computed after it was set may be incomplete and must not be cached.
     fn stop(&self) -> Stop {
         Stop::NEVER
     }
 }
 
-/// Answers every question by computing it.
+/// Evaluator without a cache.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Direct;
 

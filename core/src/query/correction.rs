@@ -1,17 +1,16 @@
-//! Questions about color corrections: their errors, what they do to white and to narrow blue lights, and their DNG matrices.
+//! Queries about color corrections: their errors, what they do to white and to narrow blue lights, and their DNG matrices.
 
 use super::ask::{Ask, Query};
-use super::loci::NearestBlackBodyQuery;
 use super::patches::{FitTargetsQuery, RenderingQuery};
 use crate::camera::rendering::check_lobes;
 use crate::camera::{FitSamples, Rendering, RenderingError};
 use crate::colorimetry::adaptation::bradford;
-use crate::colorimetry::{Metric, Stimulus, Xy, Xyz};
+use crate::colorimetry::{Metric, Stimulus, UvPrime, Xy, Xyz};
 use crate::correction::aces::{Idt, IdtError, IdtExposure, input_device_transform};
 use crate::correction::classes::ColorClass;
 use crate::correction::dng::{D50, DngMatrices, first_weight, mixed};
 use crate::correction::{Correction, CorrectionMethod, RgbTransform, Training};
-use crate::light::{RadiationConstants, planckian::black_body};
+use crate::light::{RadiationConstants, planckian::black_body, temperature::single::nearest_blackbody};
 use crate::patch_set::PatchSet;
 use crate::spectral::{GridSpectrum, Sensor};
 use crate::units::Kelvin;
@@ -120,14 +119,14 @@ impl Query for CorrectionReportQuery {
         check_lobes(&self.rendering.sensor, correction.method)?;
         let weights = correction.weights.for_targets(&set.targets, set.white);
         let training = Training { samples: &set.samples, targets: &set.targets, weights: &weights };
-        let transform = training.fit(&correction, set.white)?;
+        let (transform, stop) = (training.fit(&correction, set.white)?, ask.stop());
         let uncorrected = Correction { method: CorrectionMethod::None, ..correction };
         let before = training.fit(&uncorrected, set.white).ok();
         let through = |transform: &RgbTransform| -> Vec<Option<DVec3>> {
             set.samples.iter().map(|rgb| Some(transform.xyz(*rgb))).collect()
         };
         let summary = |colors: &[Option<DVec3>]| ErrorSummary::new(&differences(&set, colors, self.metric));
-        let left_out = training.leave_one_out(&correction, set.white)?;
+        let left_out = training.leave_one_out(&correction, set.white, &transform, || stop.is_set())?;
         let classes = ColorClass::of_targets(&set.targets, set.white);
         let count = |class: ColorClass| classes.iter().filter(|found| **found == Some(class)).count();
         let dng = match &transform {
@@ -245,7 +244,7 @@ impl Query for TwoLightQuery {
         let (first, second) = (forward(&self.first)?, forward(&self.second)?);
         let [from, to] = self.temperatures.map(Kelvin::mired);
         let steps = (0..self.count).map(|i| from + (to - from) * i as f64 / (self.count.max(2) - 1) as f64);
-        let temperatures = steps.filter_map(|mired| Kelvin::from_mired(mired).ok());
+        let temperatures = steps.map_while(|mired| Kelvin::from_mired(mired).ok().filter(|_| !ask.stop().is_set()));
         let point = |temperature: Kelvin| {
             let light = Shared::new(black_body(temperature, RadiationConstants::Si2019));
             let rendering = RenderingQuery { light, ..self.first.clone() };
@@ -329,9 +328,9 @@ impl CorrectionSheetQuery {
         let report = (*report).clone()?;
         let light = DVec3::from_array(self.observer.integrate(query.rendering.light.values()));
         let xy = Xyz::from_vector(light).chromaticity();
-        let constants = RadiationConstants::Si2019;
-        let locus = ask.ask(&NearestBlackBodyQuery { observer: self.observer.clone(), constants });
-        let cct = xy.and_then(|xy| (*locus).as_ref().ok()?.cct_of_xy(xy).ok());
+        // A whole locus is not made for one color.
+        let nearest = |uv: UvPrime| nearest_blackbody(&self.observer, RadiationConstants::Si2019, uv.uv60()).ok();
+        let cct = xy.and_then(Xy::uv_prime).and_then(nearest);
         Ok(CorrectionUnder { report, xy, temperature: cct.map(|cct| cct.temperature) })
     }
 }

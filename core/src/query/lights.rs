@@ -1,6 +1,7 @@
-//! Questions about a light alone, and about cameras under it and under its reference illuminant.
+//! Queries about a light alone, and about cameras under it and under its reference illuminant.
 
 use super::ask::{Ask, Query};
+use super::correction::ErrorSummary;
 use super::patches::{ColorTransformSpec, RenderingQuery};
 use super::shared::Shared;
 use crate::camera::rendering::{raw, under_light, white_divisors};
@@ -20,7 +21,7 @@ use crate::spectral::{GridSpectrum, Sensor, SpectralDistribution};
 pub struct RenditionQuery {
     /// The light as measured.
     pub light: Shared<SpectralDistribution>,
-    /// What the indices are defined with.
+    /// Standard data from which the indices are computed.
     pub standards: Shared<Standards>,
 }
 
@@ -55,7 +56,8 @@ impl Query for RenditionQuery {
     }
 }
 
-/// How far the colors of a camera under a light are from its colors under the reference illuminant: the idea of EBU's television
+/// Color consistency of a camera: differences of its colors under a light from those under the reference illuminant. The idea of
+/// EBU's television lighting consistency index, for any camera.
 /// lighting consistency index, for any camera.
 ///
 /// ```text
@@ -68,7 +70,7 @@ impl Query for RenditionQuery {
 pub struct ConsistencyQuery {
     /// The camera.
     pub sensor: Shared<Sensor>,
-    /// The light in question.
+    /// The test light.
     pub light: Shared<GridSpectrum>,
     /// Its reference illuminant.
     pub reference: Shared<GridSpectrum>,
@@ -128,18 +130,11 @@ impl Query for ConsistencyQuery {
             Ok(self.patches.patches().iter().map(|patch| lab(patch.grid.values())).collect())
         };
         let (tests, references) = (labs(&self.light)?, labs(&self.reference)?);
-        let pairs = tests.into_iter().zip(references).enumerate();
-        let differences: Vec<(usize, f64)> =
-            pairs.filter_map(|(index, (a, b))| Some((index, delta_e_2000(b?, a?)))).collect();
-        statistics(differences).ok_or(ConsistencyError::NoPatch)
+        let pairs = tests.into_iter().zip(references);
+        let all: Vec<Option<f64>> = pairs.map(|(a, b)| Some(delta_e_2000(b?, a?))).collect();
+        let ErrorSummary { mean, p95, max, worst } = ErrorSummary::new(&all).ok_or(ConsistencyError::NoPatch)?;
+        let known = all.iter().enumerate();
+        let differences = known.filter_map(|(index, difference)| Some((index, (*difference)?))).collect();
+        Ok(Consistency { differences, mean, percentile_95: p95, max, worst })
     }
-}
-
-fn statistics(differences: Vec<(usize, f64)>) -> Option<Consistency> {
-    let mut sorted: Vec<f64> = differences.iter().map(|&(_, difference)| difference).collect();
-    sorted.sort_by(f64::total_cmp);
-    let (worst, max) = *differences.iter().max_by(|a, b| a.1.total_cmp(&b.1))?;
-    let rank = (0.95 * sorted.len() as f64).ceil() as usize;
-    let mean = sorted.iter().sum::<f64>() / sorted.len() as f64;
-    Some(Consistency { mean, percentile_95: sorted[rank.saturating_sub(1)], max, worst, differences })
 }

@@ -1,4 +1,4 @@
-//! Questions about black bodies and monochromatic light through a sensor.
+//! Queries on blackbodies and monochromatic light through a sensor.
 
 use super::ask::{Ask, Query};
 use super::patches::RenderingQuery;
@@ -42,7 +42,7 @@ impl Temperatures {
         }
     }
 
-    /// The temperatures of these places, so that a long locus can be asked for a part at a time.
+    /// The temperatures of these indices, so that a long locus can be evaluated in parts.
     pub fn part(&self, places: std::ops::Range<usize>) -> Vec<Kelvin> {
         match self {
             Self::List(list) => list.get(places).unwrap_or_default().to_vec(),
@@ -112,7 +112,7 @@ impl Query for RadiatorSignalsQuery {
     }
 }
 
-/// One black body on a locus.
+/// One blackbody on a locus.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LocusPoint {
     /// Its temperature.
@@ -128,7 +128,7 @@ pub struct LocusPoint {
 /// A Planckian locus through a sensor.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Locus {
-    /// Its points, in the order asked for.
+    /// Its points, in the requested order.
     pub points: Vec<LocusPoint>,
     /// Method of computation, with the error found.
     pub method: LocusMethod,
@@ -145,7 +145,7 @@ impl Locus {
 /// Planckian locus through a sensor (Eq 15).
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct LocusQuery {
-    /// The sensor and its way to the diagram.
+    /// The sensor and its color transform.
     pub rendering: RenderingQuery,
     /// The temperatures.
     pub temperatures: Temperatures,
@@ -176,7 +176,7 @@ impl Query for LocusQuery {
 /// Spectral locus through a sensor: shows errors that no 3×3 matrix can correct.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct MonochromaticQuery {
-    /// The sensor and its way to the diagram.
+    /// The sensor and its color transform.
     pub rendering: RenderingQuery,
 }
 
@@ -235,7 +235,7 @@ pub struct CctQuery {
 }
 
 impl CctQuery {
-    /// The question for a color.
+    /// Query for a color.
     pub fn new(observer: Shared<Sensor>, color: Uv60) -> Self {
         Self { observer, color: [color.u, color.v].map(f64::to_bits) }
     }

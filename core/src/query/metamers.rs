@@ -1,4 +1,4 @@
-//! Question for metamers among sets of reflectances.
+//! Query for metamers among sets of reflectances.
 
 use super::ask::{Ask, Query};
 use super::compare::DifferenceError;
@@ -23,7 +23,7 @@ pub struct MetamersQuery {
     pub confusion: Confusion,
     /// Differences that count.
     pub limits: MetamerLimits,
-    /// The most pairs that are told.
+    /// Maximum number of pairs in the result.
     pub most: usize,
 }
 

@@ -1,4 +1,4 @@
-//! Questions about reflectances under a light, through a sensor.
+//! Queries about reflectances under a light, through a sensor.
 
 use super::ask::{Ask, Query};
 use super::shared::Shared;
@@ -11,7 +11,7 @@ use crate::patch_set::PatchSet;
 use crate::spectral::{GridSpectrum, Sensor};
 use glam::DVec3;
 
-/// The way to the diagram, holding what it needs.
+/// The color transform, with its data.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub enum ColorTransformSpec {
     /// Eq 13.
@@ -35,7 +35,7 @@ pub enum ColorTransformSpec {
 }
 
 impl ColorTransformSpec {
-    /// A correction fitted to an observer; the default one is [`Self::Observer`], so that equal questions are equal.
+    /// A correction fitted to an observer; the default one is [`Self::Observer`], so that equal queries are equal.
     pub fn corrected(reference: Shared<Sensor>, training: Shared<PatchSet>, correction: Correction) -> Self {
         if correction == Correction::default() {
             Self::Observer { reference, training }
@@ -63,7 +63,7 @@ pub struct RenderingQuery {
     pub light: Shared<GridSpectrum>,
     /// The color a perfect white is to take.
     pub white: WhiteBalanceTarget,
-    /// The way to the diagram.
+    /// The color transform.
     pub transform: ColorTransformSpec,
 }
 
@@ -124,7 +124,7 @@ pub struct PatchColor {
 /// Colors of patches through a sensor (Eq 16).
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct PatchColorsQuery {
-    /// The sensor and its way to the diagram.
+    /// The sensor and its color transform.
     pub rendering: RenderingQuery,
     /// The patches.
     pub patches: Shared<PatchSet>,

@@ -1,4 +1,4 @@
-//! Questions about measured spectra of radiance, through a sensor.
+//! Queries about measured spectra of radiance, through a sensor.
 
 use super::ask::{Ask, Query};
 use super::patches;

@@ -1,4 +1,4 @@
-//! Questions about raw RGB that a real camera recorded.
+//! Queries about raw RGB that a real camera recorded.
 
 use super::ask::{Ask, Query};
 use super::shared::Shared;

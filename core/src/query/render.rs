@@ -1,7 +1,7 @@
-//! Questions about pictures of meshes, split where the inputs split.
+//! Queries about pictures of meshes, split where the inputs split.
 //!
-//! A viewpoint knows no light, a light's place no spectrum, a surface no camera, a camera's signals no white balance: so moving
-//! a slider asks again only what depends on it.
+//! A viewpoint depends on no light, a light's position on no spectrum, a surface on no camera, a camera's signals on no white
+//! balance: moving a slider recomputes only what depends on it.
 
 pub mod difference;
 pub mod picture;

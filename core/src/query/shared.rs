@@ -1,4 +1,4 @@
-//! Immutable values shared between questions.
+//! Immutable values shared between queries.
 
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::ops::Deref;
@@ -6,8 +6,8 @@ use std::sync::Arc;
 
 /// An immutable value with its content hash taken once.
 ///
-/// Equal means the same allocation, or the same hash *and* the same contents: hashes alone are never trusted. A value made
-/// anew with the same contents equals the old one, so that nothing that depends on it is computed again.
+/// Values are equal if they share an allocation, or if hash *and* contents are equal: hashes alone are never trusted. A
+/// recomputed value with the same contents equals the old one, so that nothing that depends on it is recomputed.
 #[derive(Debug)]
 pub struct Shared<T> {
     value: Arc<T>,

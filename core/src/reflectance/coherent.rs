@@ -1,4 +1,4 @@
-//! The mirror term's pattern: diffraction at the patch, averaged over the disk of the light.
+//! The coherent component's pattern: diffraction at the patch, averaged over the disk of the light.
 //!
 //! ```text
 //! ρ0 = sinc(v_x X) sinc(v_y Y)
@@ -12,7 +12,7 @@ use super::power::{LAMBDA_0_NM, beta, coherent_prefactor, diffuse_prefactor, kap
 use super::surface::Surface;
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-/// sin x / x, 1 at 0. An infinite x gives 0, and so does what is no number.
+/// sin x / x, 1 at 0. Infinite x and NaN give 0.
 pub fn sinc(x: f64) -> f64 {
     if x == 0.0 {
         1.0
@@ -32,7 +32,7 @@ const FAR: f64 = 1e150;
 /// (H(u0 + w) − H(u0 − w)) / 2w,  H(u) = Si(2u) − sin² u / u
 /// ```
 /// For w ≤ 1/2 an eight-point Gauss rule, for u0 − w > 100 the expansion for large arguments: absolute error below 1e-14,
-/// relative below 1e-9 where u0 is large. A half width of 0 (or below) gives sinc² itself; what is no number gives 0.
+/// relative below 1e-9 where u0 is large. A half-width of 0 (or below) gives sinc² itself; NaN gives 0.
 pub fn mean_sinc_squared(u0: f64, half_width: f64) -> f64 {
     let (u0, w) = (u0.abs(), half_width.max(0.0));
     // Written so that NaN falls out too.
@@ -86,7 +86,7 @@ fn antiderivative(u: f64) -> f64 {
 /// `Si(x) = ∫ sin t / t dt` from 0 to x, within 1e-15 (2e-15 for large x).
 ///
 /// The power series up to 4, beyond it π/2 + Im E₁(ix) by the continued fraction of the exponential integral. An infinite x
-/// gives ±π/2, what is no number 0.
+/// gives ±π/2, NaN 0.
 pub fn sine_integral(x: f64) -> f64 {
     if x.is_nan() {
         return 0.0;
@@ -126,7 +126,7 @@ fn by_continued_fraction(x: f64) -> f64 {
     FRAC_PI_2 - (im * cos + re * sin) / size
 }
 
-/// Phase and half width along one axis: half side times v, half side times the light's spread of v.
+/// Center and half-width of the phase along one axis: the area's half-width times v, and times the light's spread of v.
 fn axes(geometry: &Geometry, surface: &Surface, wave_number: f64, angular_radius: f64) -> [[f64; 2]; 2] {
     [(surface.half_x_m(), geometry.vx_by_k), (surface.half_y_m(), geometry.vy_by_k)].map(|(half_side, v_by_k)| {
         let reach = wave_number * half_side;

@@ -48,7 +48,7 @@ fn sin2(c: f64) -> f64 {
 /// F = (r_s² + r_p²)/2,  r_s = (n² − 1)/(c + q)²,  r_p = (n² − 1)(n² c² − sin² θ)/(n² c + q)²
 /// ```
 /// Relative error below 1e-13, also for n near 1 (where F is near 0). 1 at and beyond grazing, where an index below 1
-/// reflects totally, and for indices that are no number or beyond 1e30.
+/// reflects totally, and for indices that are NaN or beyond 1e30.
 ///
 /// ```
 /// use chromascope_core::reflectance::fresnel::reflectance;

@@ -7,7 +7,7 @@ use glam::DVec3;
 /// ```text
 /// v_x/k = sin θi − sin θs cos φs      along the plane of incidence
 /// v_y/k = −sin θs sin φs              across it
-/// v_z/k = −(cos θi + cos θs)          the sign is left out here
+/// v_z/k = −(cos θi + cos θs)          the sign is omitted here
 /// ```
 /// In vectors, with l to the light, v to the viewer, n the normal and h = l + v: `|v_xy|/k = |h × n|`, `|v_z|/k = h·n`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,9 +33,9 @@ impl Geometry {
     pub const DARK: Self =
         Self { cos_i: 0.0, cos_s: 0.0, vx_by_k: 0.0, vy_by_k: 0.0, vxy2_by_k2: 0.0, vz_by_k: 0.0, cos_half2: 0.0 };
 
-    /// From zenith angles and azimuth in radians, with φi = π: the mirror direction is θs = θi, φs = 0.
+    /// From zenith angles and azimuth in radians, with φi = π: the specular direction is θs = θi, φs = 0.
     ///
-    /// Differences of sines are written as products, so that all digits survive next to the mirror direction:
+    /// Differences of sines are written as products, so that all digits survive next to the specular direction:
     /// ```text
     /// a = sin θi − sin θs = (cos θi + cos θs) tan((θi − θs)/2)
     /// v_x/k = a + 2 sin θs sin²(φs/2)
@@ -57,7 +57,7 @@ impl Geometry {
 
     /// From unit vectors: to the light, to the viewer, and the normal.
     ///
-    /// No angle is computed, and near the mirror direction `h × n` loses no more than the vectors' own rounding. At normal
+    /// No angle is computed, and near the specular direction `h × n` loses no more than the vectors' own rounding. At normal
     /// incidence the plane of incidence is any.
     pub fn from_directions(to_light: DVec3, to_viewer: DVec3, normal: DVec3) -> Self {
         if !(to_light.is_finite() && to_viewer.is_finite() && normal.is_finite()) {

@@ -19,7 +19,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 /// 2π/λ0, in 1/m.
 const WAVE_NUMBER: f64 = TAU / (LAMBDA_0_NM * 1e-9);
-/// Panels of half a turn around the mirror direction.
+/// Panels of half a turn around the specular direction.
 const AZIMUTHS: u32 = 4;
 /// Panels along a radius at most: correlation lengths up to 1 m.
 const RADII: u32 = 32;
@@ -131,7 +131,7 @@ impl View<'_> {
         2.0 * panels.sum::<f64>() / PI
     }
 
-    /// `∫ π f r dr` from the mirror direction to the horizon, in the direction of one azimuth's cosine.
+    /// `∫ π f r dr` from the specular direction to the horizon, in the direction of one azimuth's cosine.
     fn along(&self, cos_psi: f64) -> f64 {
         let towards = self.sin_i * cos_psi;
         let root = self.cos_i.hypot(towards);
@@ -161,7 +161,7 @@ impl View<'_> {
         sum
     }
 
-    /// π f at a distance from the mirror direction, of which `end` is on the horizon.
+    /// π f at a distance from the specular direction, of which `end` is on the horizon.
     fn integrand(&self, r: f64, end: f64, towards: f64) -> f64 {
         // cos² θs = (end − r)(r − other end), the ends' sum being 2 `towards`.
         let cos_s = ((end - r) * (r + end - 2.0 * towards)).max(0.0).sqrt();

@@ -58,7 +58,7 @@ pub fn factor_by(
 /// D = (π τ²/A) G² S(g, b),  G² = T(θi) T(θs) cos θi,  A = 4XY
 /// ```
 /// For [`Normalization::Microfacet`] the cos θi within G² is `4 (l·ĥ)⁴/(cos θi (cos θi + cos θs)²)`, and `cos θi/cos θs` before ρ0² is 1,
-/// which it is in the mirror direction. Under [`Specular::Fresnel`] ρ0² is multiplied by F(l·ĥ); in the paper it carries no
+/// which it is in the specular direction. Under [`Specular::Fresnel`] ρ0² is multiplied by F(l·ĥ); in the paper it carries no
 /// Fresnel factor. ρ0² is its mean over the light's disk. 0 unless both light and viewer are before the surface; always finite.
 pub fn factors_by(
     surface: &Surface,
@@ -191,7 +191,7 @@ pub fn beta(surface: &Surface, geometry: &Geometry) -> f64 {
     bounded(ratio * ratio * geometry.vxy2_by_k2)
 }
 
-/// The value, cut at [`LARGEST`]; 0 for what is no number.
+/// The value, cut at [`LARGEST`]; 0 for NaN.
 #[inline]
 fn bounded(value: f64) -> f64 {
     // `min` would take the bound in place of NaN.

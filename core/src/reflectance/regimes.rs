@@ -1,4 +1,4 @@
-//! The paper's three cases of the diffuse sum: kept to show their error.
+//! The paper's three cases of the diffuse sum, retained to show their error.
 
 /// The paper's case of roughness that a value of g belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -17,7 +17,7 @@ const TERMS: u32 = 10;
 impl Regime {
     /// The case of `g = σ² v_z²`.
     ///
-    /// The paper says g ≪ 1, g ≈ 1 and g ≫ 1; the limits 0.1 and 10 are this program's.
+    /// The paper's conditions are g ≪ 1, g ≈ 1 and g ≫ 1; the limits 0.1 and 10 are this program's.
     pub fn of(g: f64) -> Self {
         if g > 10.0 {
             Self::Rough

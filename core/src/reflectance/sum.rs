@@ -7,9 +7,9 @@
 //! ```text
 //! m = g e^δ,  δ e^(2δ) = b/g²
 //! ```
-//! Where m is large, the sum is an expansion about that maximum in powers of 1/m, uniformly in b (`saddle`); where it is
-//! small, the terms that weigh are added (`direct`). What decides is m, not g: with b ≫ g² a sum of many terms belongs to a
-//! small g. With b ≫ g² the terms can also fall off within one step of n, at any m (`narrow`).
+//! For large m the sum is an expansion about that maximum in powers of 1/m, uniformly in b (`saddle`); for small m the
+//! significant terms are added (`direct`). The criterion is m, not g: with b ≫ g² a sum of many terms belongs to a small g.
+//! With b ≫ g² the terms can also fall off within one step of n, at any m (`narrow`).
 //!
 //! For nearly all arguments that occur, ln S is read from polynomials fitted to the same sums at first use (`pieces`).
 
@@ -94,7 +94,7 @@ impl Precision {
         }
     }
 
-    /// Terms below e^−this of the largest are left out.
+    /// Terms below e^−this of the largest are omitted.
     const fn depth(self) -> f64 {
         match self {
             Self::Coarse => 16.0,
@@ -110,7 +110,7 @@ pub(super) const SMALLEST: f64 = 1e-300;
 /// S(g, b), the diffuse sum of Eq 2, for `g = σ² v_z²` and `b = τ² v_xy²/4`.
 ///
 /// Below 1e-300 it is 0. Relative error within `precision`, beside |ln S| ε, which is what rounding b costs.
-/// S(0, b) = 0. A negative or non-finite g counts as 0, a negative b as 0; a b that is no number as infinite.
+/// S(0, b) = 0. A negative or non-finite g counts as 0, a negative b as 0; a b that is NaN as infinite.
 ///
 /// ```
 /// use chromascope_core::reflectance::{Precision, diffuse_sum};
@@ -149,7 +149,7 @@ fn raised(ln_scale: f64, rest: f64) -> f64 {
 /// ln S(g, b), also where S is far below the smallest number; −∞ where S is 0 (g = 0).
 ///
 /// The error of S relative to itself is the absolute error here, below the larger of `precision` and a few |ln S| ε.
-/// Arguments are understood as by [`diffuse_sum`].
+/// Arguments outside the domain are treated as by [`diffuse_sum`].
 pub fn ln_diffuse_sum(g: f64, b: f64, precision: Precision) -> f64 {
     logarithm(g, b, precision)
 }
@@ -209,7 +209,7 @@ fn in_runs(
 fn values(g: &[f64; RUN], b: &[f64; RUN], precision: Precision) -> [f64; RUN] {
     let mut values = pieces::ln_run(g, b, precision);
     for value in &mut values {
-        // What is no number stays none.
+        // NaN stays NaN.
         *value = if value.is_nan() { f64::NAN } else { raised(*value, 1.0) };
     }
     values
@@ -221,7 +221,7 @@ fn logarithms(g: &[f64; RUN], b: &[f64; RUN], precision: Precision) -> [f64; RUN
     pieces::ln_run(g, b, precision)
 }
 
-/// S as e to the first times the second, the second positive; none where S is 0 or m δ beyond what is asked for.
+/// S as e to the first times the second, the second positive; none where S is 0 or m δ beyond what is requested.
 #[expect(clippy::inline_always, reason = "every instruction set needs a copy of its own")]
 #[inline(always)]
 fn parts(g: f64, b: f64, precision: Precision, nothing: f64) -> Option<(f64, f64)> {

@@ -6,7 +6,7 @@ use std::ops::RangeInclusive;
 
 /// The largest height deviation, in meters.
 const SIGMA_M: RangeInclusive<f64> = 0.0..=1.0;
-/// Correlation lengths and half sides, in meters.
+/// Correlation lengths and half-widths, in meters.
 const LENGTH_M: RangeInclusive<f64> = 1e-9..=1.0;
 /// The largest refractive index.
 const LARGEST_INDEX: f64 = 1000.0;
@@ -20,7 +20,7 @@ pub enum SurfaceError {
     /// The correlation length.
     #[error("the correlation length must lie between 1 nm and 1 m")]
     Tau,
-    /// A half side of the patch.
+    /// A half-width of the patch.
     #[error("the patch's half sides must lie between 1 nm and 1 m")]
     Patch,
     /// The refractive index.
@@ -99,7 +99,7 @@ impl Surface {
         Self { specular, ..self }
     }
 
-    /// A = 4XY and the paper's coherent component; takes σ from 0 to 1 m, τ and the half sides X and Y from 1 nm to 1 m, and an index above 0 and up to 1000.
+    /// A = 4XY and the paper's coherent component; takes σ from 0 to 1 m, τ and the half-widths X and Y from 1 nm to 1 m, and an index above 0 and up to 1000.
     ///
     /// # Errors
     ///

@@ -26,7 +26,8 @@ pub struct Development {
 }
 
 impl Development {
-    /// Balances by the rendering's white, takes its way to XYZ, and multiplies by one factor that all cameras share.
+    /// Balances by the rendering's white, applies its color transform to XYZ, and multiplies by one factor that all cameras
+    /// share.
     pub fn new(rendering: &Rendering, exposure: f64, background: Option<[f32; 3]>) -> Self {
         let (linear, root_polynomial) = linear_part(rendering, exposure);
         Self { linear_from_signals: rendering.srgb_from_xyz * linear, root_polynomial, background }
@@ -83,7 +84,7 @@ const RUN: usize = 64;
 /// A color may lie this far beyond what the screen shows before that can be seen.
 const SLACK: f32 = 2e-3;
 
-/// The encoding's step of a linear value, in a way that vectorizes; what is not a number is black.
+/// The encoding's step of a linear value, in a vectorizable form; NaN is black.
 #[inline]
 #[allow(clippy::manual_clamp, reason = "clamp keeps what is not a number")]
 fn step(linear: f32) -> u32 {

@@ -23,7 +23,7 @@ pub const FEW_MOMENTS: usize = 4;
 /// A sample is dark where J is below e^-30 of its peak.
 pub const DARK: f64 = 30.0;
 
-/// Sums that are asked for together.
+/// Number of sums evaluated together.
 const TOGETHER: usize = 64;
 
 /// J by a sum over wavelengths.
@@ -151,7 +151,7 @@ pub fn rough_basis(kappa: f64, beta: f64) -> [f64; MOMENTS] {
     rough_basis_of(kappa, beta.min(700.0))
 }
 
-/// The first so many factors, for β up to 700; without branches or calls, so that a loop over it vectorizes.
+/// The first N factors, for β up to 700; without branches or calls, so that a loop over it vectorizes.
 #[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
 #[inline(always)]
 pub(super) fn rough_basis_of<const N: usize>(kappa: f64, beta: f64) -> [f64; N] {

@@ -144,7 +144,7 @@ impl SpectralWeights {
         self.totals
     }
 
-    /// Quadrature rules of these weights for the coherent component, made when first asked for.
+    /// Quadrature rules of these weights for the coherent component, computed at first use.
     pub(crate) fn coherent_rules(&self) -> &CoherentRules {
         self.coherent_rules.get_or_init(|| CoherentRules::new(&self.dense))
     }

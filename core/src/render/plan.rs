@@ -52,8 +52,8 @@ pub enum Against {
     /// The largest channel of J(κ, 0): the brightest that a surface of this roughness gets.
     #[default]
     Peak,
-    /// The largest channel of J(κ, β) itself, as long as that is above e^-30 of the peak; darker, e^-30 of the peak is what is
-    /// promised.
+    /// The largest channel of J(κ, β) itself, as long as that is above e^-30 of the peak; darker, the bound refers to e^-30 of
+    /// the peak.
     Value,
 }
 
@@ -63,9 +63,9 @@ pub struct Plan {
     demand: Demand,
     /// Range of κ that is served.
     held: [f64; 2],
-    /// True if places below e^-30 of the peak are left out.
+    /// True if places below e^-30 of the peak are omitted.
     leaves_dark: bool,
-    /// κ from which on the first so many moments serve; infinite where none are good enough.
+    /// κ from which on the first moments suffice, and their number; infinite if none are accurate enough.
     rough: (f64, usize),
     /// κ from which on [`FEW_MOMENTS`](super::diffuse::FEW_MOMENTS) of these serve.
     few: f64,
@@ -151,7 +151,7 @@ impl Plan {
         }
     }
 
-    /// The plan of a shaded picture for a camera: searched where [`ShadingImage::plan_request`] says so.
+    /// The plan of a shaded picture for a camera: found by search if [`ShadingImage::plan_request`] requires it.
     ///
     /// # Errors
     /// See [`Plan::new`].
@@ -162,8 +162,8 @@ impl Plan {
         }
     }
 
-    /// True if a search pays for a picture of a quality with so many samples below [`NEARLY_ROUGH`] and [`ROUGH`], if the diffuse
-    /// component has to keep this tolerance. A tolerance in numbers is always searched for: its error is checked.
+    /// True if a search pays for a picture of a quality with these numbers of samples below [`NEARLY_ROUGH`] and [`ROUGH`], if
+    /// the diffuse component has to meet this tolerance. A numeric tolerance always requires a search: its error is checked.
     pub(in crate::render) fn is_searched(quality: Quality, tolerance: RelTolerance, below: [u64; 2]) -> bool {
         let (nodes, precision, samples) = match quality {
             Quality::Within(_) => return true,

@@ -3,10 +3,10 @@
 use crate::accuracy::RelTolerance;
 use crate::spectral::grid::COUNT;
 
-/// Share of an error that coherent terms left out may take, and that the others may.
+/// Share of the error for omitted coherent terms, and for the others.
 const SKIPPED_OF_ERROR: f64 = 0.1;
 const COHERENT_OF_ERROR: f64 = 0.4;
-/// Share of the brightest sample below which coherent terms are left out of the sums over the grid.
+/// Share of the brightest sample below which coherent terms are omitted from the sums over the grid.
 const REFERENCE_MIRROR_SHARE: f64 = 1e-14;
 
 /// Exactness of the mean over the lobe.
@@ -69,12 +69,12 @@ impl Quality {
         }
     }
 
-    /// Share of the brightest sample below which coherent terms are left out.
+    /// Share of the brightest sample below which coherent terms are omitted.
     pub fn mirror_share(self) -> f64 {
         (SKIPPED_OF_ERROR * self.error()).max(REFERENCE_MIRROR_SHARE)
     }
 
-    /// Error of the coherent terms that are kept, relative to the picture's brightest sample; 0 for the sums over the grid.
+    /// Error of the included coherent terms, relative to the picture's brightest sample; 0 for the sums over the grid.
     pub(crate) fn coherent_tolerance(self) -> f64 {
         COHERENT_OF_ERROR * self.error()
     }

@@ -27,7 +27,7 @@ use lobes::{Lobe, Lobes};
 /// Reflectance of the darkest material that untinted lobes are weighed against: which one it is a surface does not know.
 const DARKEST: f64 = 1.0 / 64.0;
 
-/// κ beyond which there is no mirror term, as for most surfaces: at the reddest light e^-100 of it is left.
+/// κ beyond which there is no coherent component, as for most surfaces: at the reddest light e^-100 of it is left.
 const LAST_KAPPA: f64 = 100.0 * (LAST_NM / LAMBDA_0_NM) * (LAST_NM / LAMBDA_0_NM);
 
 /// Spectral dependence of a sample's diffuse component.
@@ -58,7 +58,7 @@ impl Shade {
     const DARK: Self = Self { front: 0.0, kappa: 0.0, beta: 0.0, kind: DiffuseKind::Dark };
 }
 
-/// A sample with a mirror term worth having.
+/// A sample with a coherent component worth having.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mirror {
     /// The sample's place among the lit ones.
@@ -80,9 +80,9 @@ pub struct ShadingCounts {
     pub flat: u64,
     /// Samples with a spectral integral.
     pub spectral: u64,
-    /// Samples with a mirror term.
+    /// Samples with a coherent component.
     pub mirrors: u64,
-    /// Samples whose mirror term was left out.
+    /// Samples whose specular component was omitted.
     pub mirrors_skipped: u64,
 }
 
@@ -228,7 +228,7 @@ impl ShadingImage {
         &self.shades
     }
 
-    /// The samples or vertices with a mirror term, ascending.
+    /// The samples or vertices with a coherent component, ascending.
     pub fn mirrors(&self) -> &[Mirror] {
         &self.mirrors
     }
@@ -239,7 +239,7 @@ impl ShadingImage {
     }
 
     /// Tolerance of the diffuse component's integral, relative to its peak, that keeps the picture's: smaller where no sample is
-    /// seen from near the mirror's direction, by a power of 16, but not below the error of S.
+    /// seen from near the specular direction, by a power of 16, but not below the error of S.
     pub fn plan_tolerance(&self) -> Option<RelTolerance> {
         let tolerance = self.quality.tolerance()?;
         let best = Precision::Full.max_relative_error();
@@ -317,13 +317,13 @@ struct Material {
 }
 
 impl Material {
-    /// The shades of a list of places, and their mirror terms; none if stopped.
+    /// The shades of a list of places, and their coherent components; none if stopped.
     fn shaded(&self, count: usize, place: impl Fn(usize) -> Place + Sync, stop: &Stop) -> Option<(Vec<Shade>, Lobes)> {
         let chunk = GeometryImage::chunk();
         let shade = |index| if stop.is_set() { Shade::DARK } else { self.shade(&place(index)) };
         let shades: Vec<Shade> = (0..count).into_par_iter().with_min_len(chunk).map(shade).collect();
         let (diffuse, share) = (Brightness::of(&shades), self.quality.mirror_share());
-        // What the lobes add to the picture's brightness leaves out more, never less.
+        // The lobes' own contribution to the brightness would raise this limit, never lower it.
         let least = share * diffuse.brightest * self.darkest;
         let lobes = |run: usize| {
             let all = (run * chunk..count.min((run + 1) * chunk)).take_while(|_| !stop.is_set());
@@ -354,7 +354,7 @@ impl Material {
         Shade { front, kappa, beta, kind: if is_dark { DiffuseKind::Dark } else { DiffuseKind::Spectral } }
     }
 
-    /// The mirror term of a sample, if it may be above the least that counts.
+    /// The coherent component of a sample, if it may be above the least that counts.
     fn lobe(&self, place: &Place, index: usize, least: f64) -> Option<Lobe> {
         let Place { geometry, light, surface } = place;
         if self.reading == Normalization::Lambertian {

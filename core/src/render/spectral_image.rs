@@ -167,7 +167,7 @@ impl SpectralImageSignals {
         Ok(Self { size, weights, next: 0, samples: Vec::new(), signals, responses: Vec::new() })
     }
 
-    /// Takes the next rows' samples, pixel by pixel. A pixel with a sample that is not finite is left out; samples beyond the last row
+    /// Takes the next rows' samples, pixel by pixel. A pixel with a sample that is not finite is omitted; samples beyond the last row
     /// are ignored.
     pub fn push(&mut self, samples: &[f32]) {
         let bands = self.weights.bands;

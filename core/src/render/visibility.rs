@@ -547,8 +547,8 @@ fn lanes(all: &[f64], start: usize) -> [f64; LANES] {
     lanes
 }
 
-/// Which of two neighbors has the samples exactly on their common edge: the one into which the edge's normal points to
-/// positive x, else y, else z; the other's normal is the opposite.
+/// True if the common edge belongs to this one of two neighbors, for samples exactly on it: the one into which the
+/// edge's normal points to positive x, else y, else z; the other's normal is the opposite.
 fn owns_its_border(edge: DVec3) -> bool {
     let first = [edge.x, edge.y, edge.z].into_iter().find(|v| *v != 0.0);
     first.is_some_and(|v| v > 0.0)

@@ -1,4 +1,4 @@
-//! Reference illuminants: blackbodies and daylight at the temperature of the light in question.
+//! Reference illuminants: blackbodies and daylight at the temperature of the test light.
 
 use super::standards::{RenditionError, Standards};
 use super::sums;
@@ -7,6 +7,7 @@ use crate::colorimetry::{Uv60, Xyz};
 use crate::light::planckian::{RadiationConstants, relative_exitance};
 use crate::light::temperature::MAX_DUV;
 use crate::light::{Cct, CctError, DaylightBasis};
+use crate::math::minimum::minimum;
 use crate::spectral::{GridSpectrum, Quantity, SpectralDistribution};
 use crate::units::Kelvin;
 
@@ -47,7 +48,7 @@ pub(super) fn nearest(standards: &Standards, color: Xyz) -> Result<Cct, Renditio
             best = (mired, distance);
         }
     }
-    let mired = golden(best.0, &distance)?;
+    let mired = minimum(best.0 - STEP, best.0 + STEP, 1e-7, |mired| distance(mired).unwrap_or(f64::INFINITY));
     if !(MIRED[0]..=MIRED[1]).contains(&mired) {
         let colder = mired > MIRED[1];
         return Err(if colder { CctError::TooCold } else { CctError::TooHot }.into());
@@ -59,26 +60,6 @@ pub(super) fn nearest(standards: &Standards, color: Xyz) -> Result<Cct, Renditio
         return Err(CctError::TooFar.into());
     }
     Ok(Cct { temperature: Kelvin::from_mired(mired).map_err(|_| CctError::TooHot)?, duv })
-}
-
-/// Minimum of a distance within [`STEP`] of a start, by golden sections.
-fn golden(middle: f64, distance: &impl Fn(f64) -> Result<f64, RenditionError>) -> Result<f64, RenditionError> {
-    const RATIO: f64 = 0.618_033_988_749_894_9;
-    let (mut low, mut high) = (middle - STEP, middle + STEP);
-    let (mut left, mut right) = (high - RATIO * (high - low), low + RATIO * (high - low));
-    let (mut of_left, mut of_right) = (distance(left)?, distance(right)?);
-    while high - low > 1e-7 {
-        if of_left < of_right {
-            (high, right, of_right) = (right, left, of_left);
-            left = high - RATIO * (high - low);
-            of_left = distance(left)?;
-        } else {
-            (low, left, of_left) = (left, right, of_right);
-            right = low + RATIO * (high - low);
-            of_right = distance(right)?;
-        }
-    }
-    Ok(f64::midpoint(low, high))
 }
 
 /// Reference illuminant of TM-30 and CIE 224, with Y = 1 for the CIE 1931 observer: a blackbody up to 4000 K, daylight from 5000 K,

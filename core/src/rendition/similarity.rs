@@ -57,7 +57,6 @@ pub fn similarity_reference(
 
 const NO_POWER: RenditionError = RenditionError::NoPower { first_nm: 375, last_nm: 675 };
 
-/// Weight of a band.
 fn weight(band: usize) -> f64 {
     const FIRST: [f64; 5] = [12.0, 22.0, 32.0, 40.0, 44.0];
     match band {

@@ -1,4 +1,4 @@
-//! What the indices are defined with, and why a light has none.
+//! Standard data of the indices, and the reasons that a light has none.
 
 use crate::light::{CctError, DaylightBasis, DaylightError, LocusError};
 use crate::patch_set::PatchSet;

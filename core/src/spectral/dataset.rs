@@ -1,4 +1,4 @@
-//! The project's own data files: a header that says what the figures are and where they are from, then columns.
+//! The project's own data files: a header with the meaning and source of the values, then columns.
 //!
 //! ```text
 //! # title: Canon EOS 10D
@@ -46,7 +46,7 @@ pub struct Header {
 }
 
 impl Header {
-    /// Response that the sensitivities are given for; unknown unless the header says it.
+    /// Response basis of the sensitivities; unknown unless given in the header.
     pub fn response(&self) -> Response {
         match self.said_of_response().0 {
             "per energy" => Response::PerEnergy,
@@ -55,7 +55,7 @@ impl Header {
         }
     }
 
-    /// Evidence for [`Header::response`]: stated unless the header says that it is inferred.
+    /// Evidence for [`Header::response`]: stated unless the header declares it inferred.
     pub fn response_evidence(&self) -> Evidence {
         match (self.response(), self.said_of_response().1) {
             (Response::Unknown, _) => Evidence::Unknown,
@@ -103,10 +103,10 @@ pub enum DatasetError {
     Fields {
         /// The line.
         line: usize,
-        /// Number of fields that the heads promise.
+        /// Number of fields given by the column heads.
         expected: usize,
     },
-    /// A field that is no number.
+    /// A field that is not a number.
     #[error("line {line}: no number in column {column}")]
     Number {
         /// The line.
@@ -142,7 +142,7 @@ impl Dataset {
     ///
     /// # Errors
     ///
-    /// [`DatasetError`] with the line, and the column where a field is no number.
+    /// [`DatasetError`] with the line, and the column if a field is not a number.
     pub fn read(text: &str) -> Result<Self, DatasetError> {
         let (header, first) = read_header(text)?;
         let width = header.columns.len() + 1;

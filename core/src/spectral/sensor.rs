@@ -63,7 +63,7 @@ pub enum Response {
 /// Evidence for what a table's sensitivities are a response to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Evidence {
-    /// The source says it, or it follows from the quantity's definition.
+    /// Stated by the source, or implied by the quantity's definition.
     Stated,
     /// Concluded from how the source or its programs use the table.
     Inferred,

@@ -26,7 +26,7 @@ pub(super) fn opened_again(again: &[(&OwnSet, &Shared<OwnSet>)], count: usize) -
     }
 }
 
-/// Roles given to several sets that were opened at once. A single set is used in its own role.
+/// Roles of several sets opened together. A single set is used in its own role.
 pub(super) fn put_to_use(before: &Document, after: &Document, brought: &[Shared<OwnSet>]) -> String {
     if brought.len() < 2 {
         return String::new();

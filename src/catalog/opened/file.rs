@@ -11,6 +11,6 @@ pub struct OpenFile {
     pub origin: Origin,
     /// The bytes.
     pub bytes: Arc<[u8]>,
-    /// Reason that it could not be read when it was opened, as a sentence with its name.
+    /// Reason that it could not be read, as a message with its name.
     pub failure: Option<String>,
 }

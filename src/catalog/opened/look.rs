@@ -1,4 +1,4 @@
-//! Curves and text of a file, with marks, for a person who looks at it.
+//! Preview of a file: curves and annotated text.
 
 use std::hash::{Hash, Hasher};
 use std::sync::Arc;
@@ -10,7 +10,7 @@ use super::file::OpenFile;
 use crate::catalog::import::Origin;
 use crate::document::own::Fingerprint;
 
-/// A file's contents as part of a question.
+/// A file's contents as part of a query.
 #[derive(Clone, Debug)]
 struct Contents {
     origin: Origin,

@@ -1,4 +1,4 @@
-//! Reading files from the disk, folders among them, each as a person wished for its kind.
+//! Reading of files and folders from disk, each with the user's settings for its kind.
 
 use std::fs;
 use std::io::{self, Read as _};
@@ -11,6 +11,7 @@ use spectral_file::{MAX_BYTES, ReadError, Watch};
 use super::{Desk, Failing, Job, OpenFile, OpenedEvent, Why};
 use crate::catalog::import::{Imported, Origin, import_as};
 use crate::catalog::meshes::is_mesh;
+use crate::catalog::spectral_images::{is_same_image, is_spectral_image};
 use crate::document::own::{Fingerprint, ImportOverrides, OwnSet};
 use crate::document::session::is_session;
 use crate::format::{file_name, io_failure, io_reason};
@@ -32,7 +33,7 @@ pub enum Request {
         /// The bytes.
         bytes: Arc<[u8]>,
     },
-    /// A file whose contents are known, with what a person wishes.
+    /// A file whose contents are known, with the user's settings.
     Known(Fingerprint, Box<ImportOverrides>),
 }
 
@@ -44,6 +45,7 @@ struct Harvest {
     failed: Vec<Fingerprint>,
     paths: Vec<PathBuf>,
     meshes: Vec<PathBuf>,
+    images: Vec<PathBuf>,
     documents: Vec<PathBuf>,
     notes: Vec<String>,
     /// Number of files to be read.
@@ -74,6 +76,13 @@ pub(super) fn open(
                 harvest.meshes.push(path);
                 continue;
             }
+            Err(Unread::Image(path)) => {
+                // Header and data are one image.
+                if !harvest.images.iter().any(|known| is_same_image(known, &path)) {
+                    harvest.images.push(path);
+                }
+                continue;
+            }
             Err(Unread::Document(path)) => {
                 harvest.documents.push(path);
                 continue;
@@ -88,11 +97,11 @@ pub(super) fn open(
         let wishes = wishes.unwrap_or_else(|| remembered(&bytes));
         take(origin, bytes, (&wishes, from_memory), desk, job, &mut harvest);
     }
-    // Who stopped it wants none of it.
+    // The canceled request needs no result.
     if job.go_on(0.0) { harvest.into_events() } else { Vec::new() }
 }
 
-/// Folders become their files, in order of name; hidden ones and folders within are left out.
+/// Folders become their files, in order of name; hidden ones and folders within are omitted.
 fn expand(requests: Vec<Request>, harvest: &mut Harvest) -> Vec<Request> {
     let mut all = Vec::new();
     for request in requests {
@@ -138,6 +147,8 @@ pub fn files_of(folder: &Path) -> io::Result<Vec<PathBuf>> {
 enum Unread {
     /// It is a mesh.
     Mesh(PathBuf),
+    /// It is a spectral image.
+    Image(PathBuf),
     /// It is a document of this program.
     Document(PathBuf),
     /// A sentence.
@@ -177,13 +188,16 @@ fn contents(
             if is_mesh(&path, &beginning) {
                 return Err(Unread::Mesh(path));
             }
+            if is_spectral_image(&path) {
+                return Err(Unread::Image(path));
+            }
             let bytes = read_bytes(&path).map_err(Unread::Because)?;
             Ok(Some((origin(&path, &bytes), bytes, None)))
         }
     }
 }
 
-/// The path that a file is known by already, where this one leads to it by links or detours.
+/// The path under which a file is already known, if this one leads to it through links.
 fn known_path(path: PathBuf, desk: &Desk) -> PathBuf {
     let Ok(whole) = fs::canonicalize(&path) else { return path };
     let state = desk.lock();
@@ -249,8 +263,9 @@ impl Harvest {
     fn into_events(self) -> Vec<OpenedEvent> {
         let failure = self.failure();
         let meshes = self.meshes.into_iter().map(OpenedEvent::Mesh);
+        let images = self.images.into_iter().map(OpenedEvent::Image);
         let mut events: Vec<OpenedEvent> =
-            meshes.chain(self.documents.into_iter().map(OpenedEvent::Document)).collect();
+            meshes.chain(images).chain(self.documents.into_iter().map(OpenedEvent::Document)).collect();
         if self.sets.is_empty() {
             let failed = failure.map(|told| OpenedEvent::Failed(format!("{told}. Nothing was changed."), self.failed));
             events.extend(failed);
@@ -272,7 +287,7 @@ impl Harvest {
     /// Number of files that could not be read, and the reason for the first.
     fn failure(&self) -> Option<String> {
         let first = self.failures.first()?;
-        // A folder without files is one of those asked for.
+        // A folder without files is one of those requested.
         let count = self.count.max(self.failures.len() + self.sets.len());
         if count == 1 {
             return Some(first.clone());
@@ -281,7 +296,7 @@ impl Harvest {
     }
 }
 
-/// Takes files in that could not be read in an earlier run. One that changed since is not used before a person says so.
+/// Adds files that could not be read in an earlier run. One that has changed is not used until the user confirms it.
 pub(super) fn recall(failing: Vec<Failing>, desk: &Desk, job: &Job) {
     let count = failing.len();
     for (index, Failing { path, fingerprint, why }) in failing.into_iter().enumerate() {
@@ -329,7 +344,7 @@ pub(super) fn reread(set: &OwnSet, why: Why, desk: &Desk, job: &Job) -> Option<(
     Some((name, result))
 }
 
-/// Takes a file in again, if its contents are what they were.
+/// Reloads a file, if its contents are unchanged.
 pub(super) fn fetch(path: &Path, fingerprint: Fingerprint, desk: &Desk, job: &Job) {
     job.at(path, 1, 1);
     if let Ok(bytes) = read_bytes(path)
@@ -340,7 +355,7 @@ pub(super) fn fetch(path: &Path, fingerprint: Fingerprint, desk: &Desk, job: &Jo
     }
 }
 
-/// A file's bytes; the error is a sentence with its name.
+/// A file's bytes; the error is a message with its name.
 fn read_bytes(path: &Path) -> Result<Arc<[u8]>, String> {
     let name = file_name(path);
     let failed = |error: io::Error| format!("{name}: {}", io_reason(&error));
@@ -356,10 +371,10 @@ fn read_bytes(path: &Path) -> Result<Arc<[u8]>, String> {
     Ok(fs::read(path).map_err(failed)?.into())
 }
 
-/// The first bytes of a file; none where it cannot be read, which reading it will tell.
+/// The first bytes of a file; `None` if it cannot be read, which the reader reports.
 fn beginning(path: &Path) -> Vec<u8> {
     let mut bytes = Vec::new();
-    // Opening a pipe would wait for somebody to write into it.
+    // Opening a pipe would block until another process writes into it.
     if path.is_file()
         && let Ok(file) = fs::File::open(path)
         && file.take(LOOK as u64).read_to_end(&mut bytes).is_err()

@@ -32,7 +32,7 @@ pub(super) fn table(comparison: &Comparison) -> String {
         let mut line = String::new();
         for (column, (cell, width)) in row.iter().zip(&widths).enumerate() {
             let pad = " ".repeat(width - length(cell));
-            // Names begin on the left, all else ends on the right, so that digits stand below digits.
+            // Names are left-aligned and all else right-aligned, so that digits line up.
             let (first, second) = if column == 1 { (cell, &pad) } else { (&pad, cell) };
             line.extend([first.as_str(), second.as_str()]);
             line += "  ";
@@ -53,7 +53,7 @@ fn length(text: &str) -> usize {
     text.chars().count()
 }
 
-/// A rank as `3`, or as `1–3` where values cannot be told apart.
+/// A rank as `3`, or as `1–3` where values cannot be distinguished.
 fn rank(rank: Option<[usize; 2]>) -> String {
     match rank {
         Some([first, last]) if first == last => first.to_string(),

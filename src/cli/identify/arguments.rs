@@ -1,4 +1,4 @@
-//! What `identify` takes.
+//! Arguments of `identify`.
 
 use std::ffi::OsString;
 use std::path::PathBuf;
@@ -23,7 +23,7 @@ Columns of --format csv: rank, camera, rms_percent, deviation_percent (RMS over 
 rms_b_percent, gain_r, gain_g, gain_b, values, parameters, worst_patch, worst_patch_percent, cause, cause_share (of the squares, to
 first order). Columns of --residuals: camera, patch, channel, residual_percent (100 ln recorded / modeled), excluded.";
 
-/// What `identify` takes.
+/// Arguments of `identify`.
 #[derive(Debug, Args)]
 pub(in crate::cli) struct IdentifyArguments {
     /// Spectra with raw RGB, spectra alone (with --raw or --image), or raw RGB alone (with --chart)

@@ -91,7 +91,6 @@ fn number(value: Option<f64>) -> String {
     value.map_or_else(String::new, significant)
 }
 
-/// The ranking as CSV.
 pub(super) fn csv(patches: &[RecordedPatch], ranked: &[RankedCamera]) -> String {
     let names = names(patches);
     let mut text = "rank,camera,rms_percent,deviation_percent,rms_r_percent,rms_g_percent,rms_b_percent,\

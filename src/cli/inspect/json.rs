@@ -13,7 +13,8 @@ pub(super) fn failure(name: &str, failure: &Failure) -> Value {
     json!({ "file": name, "error": error(failure) })
 }
 
-/// Writes one object: a file with its curves, as read or, where another step is asked for, as they are written; a curve at a time.
+/// Writes one object: a file with its curves, as read or, if another step is requested, resampled; one curve at a
+/// time.
 pub(super) fn write(
     out: &mut dyn Write,
     name: &str,

@@ -19,7 +19,8 @@ pub(super) enum Out {
 }
 
 impl Out {
-    /// As asked for; a folder is made if there is none. Nothing is made or written if one of the tables may not be.
+    /// Writes the tables as requested; a missing folder is created. Nothing is created or written if one of the tables
+    /// may not be.
     pub(super) fn new(arguments: &InspectArguments, files: &[PathBuf], several: bool) -> Result<Self, CliError> {
         let wrong = |reason: &str| Err(CliError::Argument { argument: "--csv", reason: reason.to_owned() });
         let Some(path) = arguments.csv.as_deref() else { return Ok(Self::Nowhere) };
@@ -74,7 +75,7 @@ fn free_name(source: &Path, taken: &mut HashSet<String>) -> String {
     let stem = if stem.is_empty() || stem == "-" { "table".to_owned() } else { stem };
     let mut name = fitting(&stem, ".csv");
     let mut number = 2;
-    // Some systems do not tell `A.csv` from `a.csv`.
+    // Some file systems do not distinguish `A.csv` from `a.csv`.
     while !taken.insert(name.to_lowercase()) {
         name = fitting(&stem, &format!("-{number}.csv"));
         number += 1;

@@ -1,4 +1,4 @@
-//! Import report in lines for a person.
+//! Import report in lines for the user.
 
 use std::fmt::{Display, Write as _};
 

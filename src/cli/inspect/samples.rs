@@ -1,4 +1,4 @@
-//! The curves of a table on the way out.
+//! Conversion of a table's curves for output.
 
 use std::io::Write;
 

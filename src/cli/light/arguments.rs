@@ -1,4 +1,4 @@
-//! What `light` takes.
+//! Arguments of `light`.
 
 use std::ffi::OsString;
 use std::path::PathBuf;
@@ -18,7 +18,7 @@ consistency_mean, consistency_p95, consistency_max, the \u{394}E*00 of the patch
 through the camera, balanced to each and corrected by the matrix of the reference; worst_patch. Undefined values are empty; the
 reason is reported on standard error.";
 
-/// What `light` takes.
+/// Arguments of `light`.
 #[derive(Debug, Args)]
 pub(in crate::cli) struct LightArguments {
     /// Illuminants: names, files with one curve, `daylight:K` or `blackbody:K`

@@ -21,7 +21,7 @@ ForwardMatrix as lines. dcp: DNG camera profile for raw developers, of one light
 balanced for the light. clf: the ACES input transform that rawtoaces defines (its own fit: least squares in L*a*b*, six
 parameters, 190 training reflectances), for RGB balanced by the multipliers in its description.";
 
-/// What `matrix` takes.
+/// Arguments of `matrix`.
 #[derive(Debug, Args)]
 pub(in crate::cli) struct MatrixArguments {
     /// The camera: a name, or a file with three sensitivities
@@ -50,7 +50,7 @@ pub(in crate::cli) struct MatrixArguments {
     /// For clf: fit with white at 1 where rawtoaces' scaling puts it elsewhere
     #[arg(long)]
     pub(super) white_at_one: bool,
-    /// What is written
+    /// Output format
     #[arg(long, value_enum, default_value_t = Format::Text)]
     pub(super) format: Format,
     /// Output file [default: standard output, also `-`]

@@ -1,4 +1,4 @@
-//! How exact the chosen quality is and what it costs, beside the sum over all wavelengths, on the samples of this very picture.
+//! Error and cost of the chosen quality, compared with the sum over all wavelengths, on the samples of this picture.
 
 use std::sync::Arc;
 
@@ -18,11 +18,11 @@ const SAMPLES: usize = 2000;
 /// Short work is repeated for 20 ms, and the shortest time taken.
 const BUDGET: Budget = Budget { rounds: [0, 0], seconds: [0.02, 0.02] };
 
-/// What was measured.
+/// Measured cost and error of each method.
 pub(super) struct Measured {
-    /// Each how many of the lit samples were taken.
+    /// Every `stride`th lit sample was measured.
     pub(super) stride: usize,
-    /// Number.
+    /// Number of samples measured.
     pub(super) samples: usize,
     /// The chosen quality.
     pub(super) chosen: Cost,
@@ -32,7 +32,7 @@ pub(super) struct Measured {
     pub(super) regimes: Cost,
 }
 
-/// What a way of integrating costs.
+/// Cost of an integration method.
 pub(super) struct Cost {
     /// Nanoseconds a sample and sensor, on one thread.
     pub(super) ns: f64,

@@ -1,4 +1,4 @@
-//! What `render` takes, and how its numbers are read.
+//! Arguments of `render` and their parsers.
 
 use std::ffi::OsString;
 use std::path::PathBuf;
@@ -29,7 +29,7 @@ OpenEXR holds Eq 12 before exposure, with \u{3c0}f in place of P for the radiome
 balance, X Y Z, and the coverage A. Without any sensor: the preset's reference and cameras. A spectral image is read a few rows at a
 time. Of reflectances, 1 is white at 0 EV; of radiances, the 99.5 % quantile of the reference's luminance is.";
 
-/// What `render` takes.
+/// Arguments of `render`.
 #[derive(Debug, Args)]
 pub(in crate::cli) struct RenderArguments {
     #[command(flatten)]

@@ -10,10 +10,11 @@ use std::time::{Duration, Instant};
 use super::arguments::RenderArguments;
 use crate::cli::error::CliError;
 use crate::files::fitting;
+use crate::format::slug;
 use crate::scene::ComparedSensor;
 use crate::terminal::say;
 
-/// Works, and says now and then to a person who waits that it still does.
+/// Runs work, with a message on a terminal every 3 s that it still runs.
 pub(super) fn patiently<T>(what: &'static str, work: impl FnOnce() -> T) -> T {
     const EVERY: Duration = Duration::from_secs(3);
     let (done, end) = channel::<()>();
@@ -24,7 +25,7 @@ pub(super) fn patiently<T>(what: &'static str, work: impl FnOnce() -> T) -> T {
                 say(&format!("chromascope: still {what} after {} s\n", start.elapsed().as_secs()));
             }
         };
-        // Without a thread it is silent, no more.
+        // Without a thread there are no messages.
         let _silent = thread::Builder::new().name("patience".to_owned()).spawn(wait);
     }
     let result = work();
@@ -55,11 +56,4 @@ pub(super) fn file_names(arguments: &RenderArguments, mesh: &str, sources: &[Com
         taken.extend(numbers.map(|number| numbered(&number)).find(|name| !taken.contains(name)));
     }
     taken.into_iter().map(|name| if here { PathBuf::from(name) } else { arguments.out.join(name) }).collect()
-}
-
-/// A name that any file system takes: letters and digits, small, other signs as single hyphens.
-fn slug(name: &str) -> String {
-    let words = name.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty());
-    let slug = words.map(str::to_lowercase).collect::<Vec<_>>().join("-");
-    if slug.is_empty() { "unnamed".to_owned() } else { slug }
 }

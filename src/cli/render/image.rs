@@ -6,14 +6,14 @@ use std::time::Instant;
 
 use chromascope_core::camera::RenderingError;
 use chromascope_core::colorimetry::Metric;
-use chromascope_core::query::DifferenceError;
-use chromascope_core::render::Stop;
+use chromascope_core::query::render::difference::Difference;
+use chromascope_core::query::{Ask as _, DifferenceError, RenderingQuery};
 use clap::ArgMatches;
 
 use super::arguments::{Format, ImageQuantityName, RenderArguments};
 use super::files::{file_names, make_folder, patiently};
 use super::setup::compared_request;
-use crate::catalog::spectral_images;
+use crate::catalog::spectral_images::{self, OpenImageError, ReadSignalsError};
 use crate::cli::error::CliError;
 use crate::cli::outputs::{self, show, write_to};
 use crate::cli::request::told;
@@ -21,16 +21,16 @@ use crate::document::TransformChoice;
 use crate::export::render::{ImageProvenance, image_exr_bytes, png_bytes};
 use crate::format::fixed;
 use crate::results::Results;
-use crate::scene::spectral_image::{ImageDifference, ImagePictures, ImagePicturesError, ImageUse};
+use crate::scene::spectral_image::{ImagePictures, ImagePicturesError, ImageUse};
 use crate::scene::{ComparedSensor, Scene, SceneError};
 use crate::terminal::say;
 
-/// Makes the pictures of an image, writes them, and says what came of it.
+/// Computes the pictures of an image, writes them and reports the result.
 pub(super) fn run(arguments: &RenderArguments, path: &Path, matches: &ArgMatches) -> Result<(), CliError> {
     let start = Instant::now();
     let wanted = arguments.image_quantity.map(ImageQuantityName::quantity);
-    let mut image = spectral_images::open(path, wanted).map_err(|error| CliError::File(error.to_string()))?;
-    let info = image.info().clone();
+    let opened = |error: OpenImageError| CliError::File(error.to_string());
+    let info = spectral_images::open(path, wanted).map_err(opened)?.info().clone();
     for note in &info.notes {
         say(&format!("chromascope: {}: {note}\n", told(path)));
     }
@@ -49,17 +49,20 @@ pub(super) fn run(arguments: &RenderArguments, path: &Path, matches: &ArgMatches
     let inputs: Vec<PathBuf> = request.inputs().into_iter().chain([path.to_owned()]).collect();
     outputs::check(files.iter().map(PathBuf::as_path), &inputs, arguments.force)?;
     make_folder(&arguments.out)?;
-    let wanted = ImageUse { quantity: wanted, scale: arguments.image_scale, exposure_ev: arguments.exposure };
-    let made = patiently("rendering", || scene.image_pictures(&mut image, &sources, wanted, &Stop::NEVER));
-    let made = made.map_err(|error| failure(path, error))?;
+    let (scale, exposure_ev) = (arguments.image_scale, arguments.exposure);
+    let wanted = ImageUse { quantity: wanted, scale, exposure_ev, step: 1 };
+    let source = spectral_images::load(path).map_err(opened)?.source;
+    let query = scene.image_pictures(&source, &sources, wanted)?;
+    let made = patiently("rendering", || results.ask(&query));
+    let made = (*made).as_ref().map_err(|error| failure(path, error))?;
     let mut lines = String::new();
     for (index, file) in files.iter().enumerate() {
-        let bytes = bytes(&scene, &sources[index], &made, index, arguments, &name)?;
+        let bytes = bytes(&scene, (&sources[index], &query.sources[index].0), made, index, arguments, &name)?;
         write_to(file, &bytes).map_err(|error| CliError::Output { path: file.clone(), error })?;
-        let words = difference(&scene, &sources[index], made.differences[index].as_ref());
+        let words = difference(&scene, &sources[index], made.differences[index].as_deref());
         let _ = writeln!(lines, "{}: {words}", file.display());
     }
-    let (count, pixels) = (files.len(), made.placed.samples().len());
+    let (count, pixels) = (files.len(), made.placed().samples().len());
     let plural = if count == 1 { "" } else { "s" };
     let time = start.elapsed().as_secs_f64() * 1e3;
     let white =
@@ -71,14 +74,14 @@ pub(super) fn run(arguments: &RenderArguments, path: &Path, matches: &ArgMatches
         info.height,
         info.wavelengths_nm.len(),
         info.width * info.height,
-        made.tile_bytes as f64 / 1e6,
+        made.image.read.tile_bytes as f64 / 1e6,
     );
     show(&lines)
 }
 
-fn failure(path: &Path, error: ImagePicturesError) -> CliError {
+fn failure(path: &Path, error: &ImagePicturesError) -> CliError {
     match error {
-        ImagePicturesError::Scene(error) => error.into(),
+        ImagePicturesError::Read(ReadSignalsError::Open(error)) => CliError::File(error.to_string()),
         ImagePicturesError::Quantity => {
             CliError::File(format!("{}: {error}; add --image-quantity reflectance or radiance", told(path)))
         }
@@ -89,7 +92,7 @@ fn failure(path: &Path, error: ImagePicturesError) -> CliError {
 /// Bytes of one picture's file.
 fn bytes(
     scene: &Scene<'_>,
-    source: &ComparedSensor,
+    (source, rendering): (&ComparedSensor, &RenderingQuery),
     made: &ImagePictures,
     index: usize,
     arguments: &RenderArguments,
@@ -97,32 +100,34 @@ fn bytes(
 ) -> Result<Vec<u8>, CliError> {
     let refused = |error: &RenderingError| SceneError::Rendering { name: source.name.clone(), error: *error };
     let picture = made.pictures[index].as_ref().map_err(refused)?;
-    let rendering = made.renderings[index].as_ref().map_err(refused)?;
+    let rendering = scene.results.ask(rendering);
+    let rendering = (*rendering).as_ref().map_err(refused)?;
     let written = if arguments.format == Format::Png {
         png_bytes(picture)
     } else {
         let (illuminant, white) = (scene.light_name(), scene.document.white.name());
         let balance = if rendering.is_rgb { white.as_str() } else { "none" };
         let provenance = ImageProvenance { source: &source.name, balance, illuminant: &illuminant, image };
-        image_exr_bytes(&made.placed, &made.signals[index], rendering, &provenance)
+        image_exr_bytes(made.placed(), made.signals(index).unwrap_or_default(), rendering, &provenance)
     };
     written.map_err(|error| CliError::Picture { path: PathBuf::from(image), error })
 }
 
 /// Difference of a picture from the reference in words.
-fn difference(scene: &Scene<'_>, source: &ComparedSensor, difference: Option<&ImageDifference>) -> String {
+fn difference(scene: &Scene<'_>, source: &ComparedSensor, difference: Option<&Difference>) -> String {
     let by_eq_13 = scene.document.transform == TransformChoice::Paper;
     let metric: Metric = scene.document.difference;
     match difference {
         _ if source.is_reference => "the reference".to_owned(),
         Some(difference) => {
             let number = |value: f64| fixed(value, metric.decimals);
+            let [median, p95] = difference.bright.map_or([f64::NAN; 2], |all| [all.median, all.p95]);
             format!(
                 "{} mean {}, median {}, 95 % {}, max {}",
                 metric.name(by_eq_13),
                 number(difference.mean),
-                number(difference.median),
-                number(difference.p95),
+                number(median),
+                number(p95),
                 number(difference.max)
             )
         }

@@ -25,16 +25,16 @@ use crate::scene::render::Finish;
 use crate::terminal::say;
 use chromascope_core::render::QualityLevel;
 
-/// All that pictures are made of.
+/// Inputs of the pictures.
 pub(super) struct Setup {
     pub(super) request: Request,
     pub(super) viewpoint: Viewpoint,
     pub(super) finish: Finish,
     /// The user's mesh, if it is one.
     pub(super) own_mesh: Option<Shared<Mesh>>,
-    /// What the mesh is called in names of files.
+    /// Name of the mesh in file names.
     pub(super) mesh_name: String,
-    /// How long reading the mesh took.
+    /// Time taken to read the mesh.
     pub(super) reading: Duration,
 }
 
@@ -144,7 +144,7 @@ fn read_mesh(path: &PathBuf) -> Result<Shared<Mesh>, CliError> {
     Ok(read.mesh)
 }
 
-/// What differs from the settings of the paper's head or fern.
+/// Render settings: those of the paper's head or fern with the arguments applied.
 fn settings(
     arguments: &RenderArguments,
     mesh: MeshChoice,

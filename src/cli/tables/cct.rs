@@ -6,11 +6,11 @@ use chromascope_core::units::Kelvin;
 use crate::document::SetKind;
 use crate::scene::{Scene, SceneError};
 
-/// Temperatures of the reference's locus, in kelvins: well beyond those that a table asks for.
+/// Temperatures of the reference's locus, in kelvins: well beyond the range of tables.
 const RANGE_K: [f64; 2] = [500.0, 100_000.0];
 /// Points of the reference's locus, evenly in 1/T: 0.12 mired apart, so that a foot on a chord is within 0.02 K up to 20000 K.
 const POINTS: usize = 16_384;
-/// Every 64th point is looked at first, then all around the nearest of them.
+/// Every 64th point is tested first, then all around the nearest of them.
 const STRIDE: usize = 64;
 /// Farther from the locus, in the CIE 1960 diagram, a correlated color temperature says nothing (CIE 15).
 const FARTHEST: f64 = 0.05;

@@ -5,6 +5,8 @@ use std::collections::BTreeSet;
 use chromascope_core::colorimetry::{UvPrime, Xy};
 use chromascope_figure::Mark;
 
+use super::frame::{self, Frame};
+use super::labels::Label;
 use crate::document::Diagram;
 use crate::plot_item::{PickIndex, SensorId};
 use crate::scene::{ComparedSensor, Scene};
@@ -15,30 +17,53 @@ pub(super) struct Drawing<'a> {
     pub(super) scene: &'a Scene<'a>,
     pub(super) view: &'a View,
     pub(super) diagram: Diagram,
+    /// Position of the marks in the plot.
+    pub(super) frame: Frame,
+    /// True if a lens shows the data: they are only hinted at here.
+    pub(super) sketch: bool,
+    /// Areas and lines, drawn first.
     pub(super) marks: Vec<Mark>,
+    /// Patches, over the lines.
+    pub(super) points: Vec<Mark>,
+    /// Small marks, over the patches.
+    pub(super) small: Vec<Mark>,
+    /// Texts, over all.
+    pub(super) labels: Vec<Label>,
     pub(super) things: PickIndex,
+    /// Positions of the markers halfway along the lines.
+    pub(super) halfway: Vec<[f64; 2]>,
     pub(super) refused: Vec<String>,
     /// Places among the marks of the lines of Planckian loci.
     pub(super) loci: BTreeSet<usize>,
-    /// All that the ranges have to hold.
-    pub(super) data: Vec<[f64; 2]>,
 }
 
-impl Drawing<'_> {
+impl<'a> Drawing<'a> {
+    pub(super) fn new(scene: &'a Scene<'a>, view: &'a View, frame: Frame, sketch: bool) -> Self {
+        Self {
+            scene,
+            view,
+            diagram: scene.document.diagram,
+            frame,
+            sketch,
+            marks: Vec::new(),
+            points: Vec::new(),
+            small: Vec::new(),
+            labels: Vec::new(),
+            things: PickIndex::default(),
+            halfway: Vec::new(),
+            refused: Vec::new(),
+            loci: BTreeSet::new(),
+        }
+    }
+
     /// Coordinates of a chromaticity in the chosen diagram.
     pub(super) fn place(&self, xy: Xy) -> Option<[f64; 2]> {
-        match self.diagram {
-            Diagram::Xy => Some([xy.x, xy.y]),
-            Diagram::UvPrime => xy.uv_prime().map(|uv| [uv.u, uv.v]),
-        }
+        frame::place(self.diagram, Some(xy), xy.uv_prime())
     }
 
     /// Coordinates of a color that is known in both diagrams.
     pub(super) fn place_of(&self, xy: Option<Xy>, uv: Option<UvPrime>) -> Option<[f64; 2]> {
-        match self.diagram {
-            Diagram::Xy => xy.map(|xy| [xy.x, xy.y]),
-            Diagram::UvPrime => uv.map(|uv| [uv.u, uv.v]),
-        }
+        frame::place(self.diagram, xy, uv)
     }
 }
 

@@ -1,4 +1,4 @@
-//! What lies under the data: the area's colors, the spectral locus, gamuts, daylight.
+//! Background of the diagram: colored area, spectral locus, gamuts and daylight locus.
 
 use std::sync::{Arc, OnceLock};
 
@@ -7,9 +7,10 @@ use chromascope_core::colorimetry::rgb::GAMUTS;
 use chromascope_core::colorimetry::{UvPrime, Xy};
 use chromascope_core::light::daylight;
 use chromascope_core::units::Kelvin;
-use chromascope_figure::{Anchor, Dash, Image, Ink, InkRole, Mark, Shape, TextSize};
+use chromascope_figure::{Dash, Image, InkRole, Mark, Shape};
 
 use super::drawing::Drawing;
+use super::labels::{Label, Place};
 use crate::document::{Diagram, FIT_TARGET, SetKind};
 use crate::plot_item::PickIndex;
 
@@ -18,9 +19,9 @@ const PIXELS: usize = 192;
 /// The corner of the picture opposite to the origin, in both diagrams.
 const EXTENT: [[f64; 2]; 2] = [[0.75, 0.85], [0.65, 0.60]];
 
-/// Adds all of it, as the document wants it.
+/// Adds the background by the document's settings.
 pub(super) fn add(drawing: &mut Drawing<'_>) {
-    add_area(drawing, f64::from(crate::theme::DIAGRAM_FILL));
+    add_area(drawing);
     add_labels(drawing);
     let overlays = drawing.scene.document.overlays;
     for (gamut, on) in GAMUTS.iter().zip([overlays.srgb, overlays.dci_p3, overlays.rec2020]) {
@@ -30,7 +31,8 @@ pub(super) fn add(drawing: &mut Drawing<'_>) {
             let line = Shape::Line { points, closed: true };
             drawing.marks.push(Mark::new(PickIndex::NONE, gamut.name, line).with_stroke(InkRole::Weak, 1.2));
             if let Some(at) = label {
-                drawing.marks.push(text(gamut.name, at, Anchor::LEFT_BOTTOM, [4.0, -2.0], InkRole::Weak));
+                let places = Place::around(at, [1.0, -1.0], 4.0);
+                drawing.labels.push(Label::ground(gamut.name, places));
             }
         }
     }
@@ -40,10 +42,9 @@ pub(super) fn add(drawing: &mut Drawing<'_>) {
 }
 
 /// The colors of the area and its outline.
-pub(super) fn add_area(drawing: &mut Drawing<'_>, opacity: f64) {
+pub(super) fn add_area(drawing: &mut Drawing<'_>) {
     let Ok(outline) = drawing.scene.outline() else { return };
-    let faint = opacity < 1.0;
-    let image = picture(drawing.diagram, faint, &outline);
+    let image = picture(drawing.diagram, &outline);
     let max = EXTENT[usize::from(drawing.diagram == Diagram::UvPrime)];
     let area = Shape::Image { min: [0.0, 0.0], max, image };
     drawing.marks.push(Mark::new(PickIndex::NONE, "colors of the diagram", area));
@@ -53,11 +54,8 @@ pub(super) fn add_area(drawing: &mut Drawing<'_>, opacity: f64) {
         .filter_map(|p| Some((drawing.place(p.xy)?, wavelength_color(&observer, p.wavelength_nm))))
         .collect();
     let ends = points.first().zip(points.last()).map(|(a, b)| vec![a.0, b.0]);
-    let width = if faint { 2.0 } else { 1.0 };
-    if faint {
-        let locus = Mark::new(PickIndex::NONE, "spectral locus", Shape::Gradient { points });
-        drawing.marks.push(locus.with_stroke(InkRole::Weak, width));
-    }
+    let locus = Mark::new(PickIndex::NONE, "spectral locus", Shape::Gradient { points });
+    drawing.marks.push(locus.with_stroke(InkRole::Weak, 2.0));
     if let Some(points) = ends {
         let line = Shape::Line { points, closed: false };
         drawing.marks.push(Mark::new(PickIndex::NONE, "purple line", line).with_stroke(InkRole::Weak, 1.0));
@@ -74,9 +72,10 @@ fn add_labels(drawing: &mut Drawing<'_>) {
         };
         let away = [at[0] - center[0], at[1] - center[1]];
         let length = away[0].hypot(away[1]).max(1e-9);
-        let offset = [14.0 * away[0] / length, -12.0 * away[1] / length];
-        let anchor = Anchor(if away[0] < 0.0 { 1.0 } else { 0.0 }, 0.5);
-        drawing.marks.push(text(&format!("{nm:.0}"), at, anchor, [offset[0] * 0.6, offset[1]], InkRole::Weak));
+        // Outside, or inside where the plot ends.
+        let out = [away[0] / length, -away[1] / length];
+        let places = vec![Place::beside(at, out, 6.0), Place::beside(at, out.map(|v| -v), 6.0)];
+        drawing.labels.push(Label::ground(&format!("{nm:.0}"), places));
         let dot = Shape::Points { points: vec![at], marker: chromascope_figure::Marker::Circle, radius: 1.8 };
         drawing.marks.push(Mark::new(PickIndex::NONE, "wavelength", dot).with_fill(InkRole::Weak));
     }
@@ -92,25 +91,17 @@ fn add_daylight(drawing: &mut Drawing<'_>) {
     let line = Mark::new(PickIndex::NONE, "daylight locus", Shape::Line { points, closed: false });
     drawing.marks.push(line.with_stroke(InkRole::Weak, 1.5).with_dash(Dash::Dashed));
     if let Some(at) = end {
-        drawing.marks.push(text("daylight", at, Anchor::RIGHT, [-6.0, 0.0], InkRole::Weak));
+        drawing.labels.push(Label::ground("daylight", Place::around(at, [-1.0, 0.0], 6.0)));
     }
 }
 
-/// A small piece of text.
-pub(super) fn text(text: &str, at: [f64; 2], anchor: Anchor, offset: [f64; 2], role: InkRole) -> Mark {
-    let ink = Ink::new(role);
-    let shape = Shape::Text { at, text: text.to_owned(), anchor, offset, size: TextSize::Small, ink };
-    Mark::new(PickIndex::NONE, text, shape).with_halo(InkRole::Plot)
+/// The colors within the spectral locus, made once for each diagram.
+fn picture(diagram: Diagram, outline: &[SpectralPoint]) -> Image {
+    static MADE: [OnceLock<Image>; 2] = [const { OnceLock::new() }; 2];
+    MADE[usize::from(diagram == Diagram::UvPrime)].get_or_init(|| paint(diagram, outline)).clone()
 }
 
-/// The colors within the spectral locus, made once for each diagram and strength.
-fn picture(diagram: Diagram, faint: bool, outline: &[SpectralPoint]) -> Image {
-    static MADE: [OnceLock<Image>; 4] = [const { OnceLock::new() }; 4];
-    let index = usize::from(diagram == Diagram::UvPrime) * 2 + usize::from(faint);
-    MADE[index].get_or_init(|| paint(diagram, faint, outline)).clone()
-}
-
-fn paint(diagram: Diagram, faint: bool, outline: &[SpectralPoint]) -> Image {
+fn paint(diagram: Diagram, outline: &[SpectralPoint]) -> Image {
     let corners: Vec<[f64; 2]> = outline
         .iter()
         .filter_map(|p| match diagram {
@@ -119,7 +110,6 @@ fn paint(diagram: Diagram, faint: bool, outline: &[SpectralPoint]) -> Image {
         })
         .collect();
     let [width, height] = EXTENT[usize::from(diagram == Diagram::UvPrime)];
-    let opacity = if faint { crate::theme::DIAGRAM_FILL } else { 1.0 };
     let cell = width / PIXELS as f64;
     let mut rgba = Vec::with_capacity(4 * PIXELS * PIXELS);
     for row in 0..PIXELS {
@@ -132,13 +122,13 @@ fn paint(diagram: Diagram, faint: bool, outline: &[SpectralPoint]) -> Image {
                 Diagram::UvPrime => UvPrime { u, v }.xy(),
             };
             let [r, g, b] = xy.filter(|_| covered > 0.0).map_or([0; 3], area_color);
-            rgba.extend([r, g, b, (255.0 * opacity * covered).round() as u8]);
+            rgba.extend([r, g, b, (255.0 * crate::theme::DIAGRAM_FILL * covered).round() as u8]);
         }
     }
     Image { width: PIXELS, height: PIXELS, rgba: Arc::from(rgba) }
 }
 
-/// How much of each pixel of a row lies within an outline, by four lines through the row.
+/// Share of each pixel of a row that lies within an outline, from four scan lines.
 fn coverage(corners: &[[f64; 2]], row: usize, height: f64, cell: f64) -> Vec<f32> {
     const LINES: usize = 4;
     let mut covered = vec![0.0_f32; PIXELS];

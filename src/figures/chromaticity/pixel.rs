@@ -1,4 +1,4 @@
-//! The pixel that is kept of the rendered pictures, through each sensor.
+//! Pinned pixel of the rendered pictures, through each sensor.
 
 use chromascope_figure::{InkRole, Mark, Marker, Shape};
 
@@ -22,10 +22,9 @@ pub(super) fn add(drawing: &mut Drawing<'_>, pictures: &RenderedFrame, sources: 
             continue;
         };
         let Some(at) = lit.xy.and_then(|xy| drawing.place(xy)) else { continue };
-        drawing.data.push(at);
         let tag = drawing.things.tag(PlotItem::Sensor(id(source)));
         let shape = Shape::Points { points: vec![at], marker: Marker::Diamond, radius: RADIUS };
         let mark = Mark::new(tag, format!("{}, pixel", source.label), shape).with_stroke(source.role, 1.5);
-        drawing.marks.push(mark.with_fill(source.role).with_halo(InkRole::Plot));
+        drawing.small.push(mark.with_fill(source.role).with_halo(InkRole::Plot));
     }
 }

@@ -1,21 +1,35 @@
-//! Patches as points, with tails from each camera's to the reference's; and what the pointer reads.
+//! Patches as points, with tails from each camera's to the reference's, and the text under the pointer.
 
 use chromascope_core::colorimetry::{Metric, UvPrime, Xy};
 use chromascope_core::query::{LocusPoint, PatchColor, Temperatures, compare};
 use chromascope_core::units::Kelvin;
-use chromascope_figure::{Anchor, Ink, InkRole, Mark, Shape, TextSize};
+use chromascope_figure::{Ink, InkRole, Mark, Shape};
 
 use super::drawing::{Drawing, id};
+use super::edges;
+use super::labels::{Label, Place, Rank};
 use crate::document::{Diagram, SetKind};
 use crate::format::number;
-use crate::plot_item::{PickIndex, PlotItem, SensorId};
+use crate::plot_item::{PlotItem, SensorId};
 use crate::scene::{ComparedSensor, Scene};
-use crate::theme::{LINE_TAIL, MARKER, MARKER_SMALL};
+use crate::theme::LINE_TAIL;
 
-/// Up to this many patches markers are large and all patches named.
-const FEW: usize = 8;
+/// Up to this many patches points are markers with names, of more they are dots.
+const FEW: usize = 12;
+/// Number of points up to which markers are largest, and from which they are smallest: 5 patches through 5 sensors, 24 through 8.
+const COUNTS: [f64; 2] = [25.0, 192.0];
+/// Their diameters in points there, rim included.
+const DIAMETERS: [f64; 2] = [15.0, 6.0];
+/// Share by which the first camera's markers are smaller than the last one's below them.
+const STEPPED: f64 = 0.25;
 
-/// Adds the patches of all sensors, the reference's on top.
+/// Diameter of markers, rim included: smaller the more there are.
+fn diameter(count: usize) -> f64 {
+    let share = (count.max(1) as f64 / COUNTS[0]).ln() / (COUNTS[1] / COUNTS[0]).ln();
+    DIAMETERS[0] + (DIAMETERS[1] - DIAMETERS[0]) * share.clamp(0.0, 1.0)
+}
+
+/// Adds the patches of all sensors, smaller markers over larger ones, the reference's on top.
 pub(super) fn add(drawing: &mut Drawing<'_>, sources: &[ComparedSensor]) {
     let patches = match drawing.scene.patches() {
         Ok(patches) => patches,
@@ -25,17 +39,25 @@ pub(super) fn add(drawing: &mut Drawing<'_>, sources: &[ComparedSensor]) {
     let reference =
         drawing.scene.patch_colors(SetKind::Observer, &drawing.scene.document.reference).unwrap_or_default();
     let few = names.len() <= FEW;
+    let diameter = if drawing.sketch { DIAMETERS[1] } else { diameter(names.len() * sources.len()) };
+    let cameras = sources.iter().filter(|source| !source.is_reference).count();
+    let mut below = 0.0;
     for source in sources.iter().rev() {
+        let step = if source.is_reference { 0.0 } else { below / cameras.saturating_sub(1).max(1) as f64 };
+        below += 1.0;
         if drawing.view.blink && !source.is_reference {
             continue;
         }
         let Ok(colors) = drawing.scene.patch_colors(source.kind, &source.name) else { continue };
         let comparable = matches!(drawing.scene.comparable(source.kind, &source.name), Ok(Ok(())));
-        let tails = if source.is_reference || !comparable { &[] } else { reference.as_slice() };
-        add_tails(drawing, source, &names, &colors, tails);
-        add_points(drawing, source, &names, &colors, if few { MARKER } else { MARKER_SMALL });
+        if !drawing.sketch && !source.is_reference && comparable {
+            add_tails(drawing, source, &names, &colors, &reference);
+        }
+        add_points(drawing, source, &names, &colors, diameter * (1.0 - STEPPED * step), few && !drawing.sketch);
     }
-    add_names(drawing, &names, &reference, few);
+    if !drawing.sketch {
+        add_names(drawing, &names, &reference, few, 0.5 * diameter);
+    }
 }
 
 fn add_tails(
@@ -54,20 +76,34 @@ fn add_tails(
     }
 }
 
-fn add_points(drawing: &mut Drawing<'_>, source: &ComparedSensor, names: &[&str], colors: &[PatchColor], radius: f64) {
+fn add_points(
+    drawing: &mut Drawing<'_>,
+    source: &ComparedSensor,
+    names: &[&str],
+    colors: &[PatchColor],
+    diameter: f64,
+    filled: bool,
+) {
     for (name, color) in names.iter().zip(colors) {
         let Some(at) = drawing.place_of(color.xy, color.uv) else { continue };
-        drawing.data.push(at);
         let tag = drawing.things.tag(PlotItem::Patch { source: Some(id(source)), patch: (*name).to_owned() });
-        let shape = Shape::Points { points: vec![at], marker: source.marker, radius };
-        let mark = Mark::new(tag, format!("{} {name}", source.label), shape).with_stroke(source.role, 2.0);
-        let mark = if source.marker.has_inside() { mark.with_fill(Ink::rgb(color.srgb.bytes)) } else { mark };
-        drawing.marks.push(mark.with_halo(InkRole::Plot));
+        let rim = if !source.marker.has_inside() || filled { (diameter / 6.0).clamp(1.2, 2.0) } else { 0.0 };
+        let shape = Shape::Points { points: vec![at], marker: source.marker, radius: 0.5 * (diameter - rim) };
+        let mark = Mark::new(tag, format!("{} {name}", source.label), shape);
+        drawing.points.push(match (source.marker.has_inside(), filled) {
+            (false, true) => mark.with_stroke(source.role, rim).with_halo(InkRole::Plot),
+            (false, false) => mark.with_stroke(source.role, rim),
+            (true, true) => {
+                let mark = mark.with_stroke(source.role, rim).with_fill(Ink::rgb(color.srgb.bytes));
+                mark.with_halo(InkRole::Plot)
+            }
+            (true, false) => mark.with_fill(source.role),
+        });
     }
 }
 
-/// Names beside the reference's points: all if there are few, else those pointed at or chosen.
-fn add_names(drawing: &mut Drawing<'_>, names: &[&str], reference: &[PatchColor], few: bool) {
+/// Names of the reference's points: all if there are few, else the hovered or selected ones.
+fn add_names(drawing: &mut Drawing<'_>, names: &[&str], reference: &[PatchColor], few: bool, radius: f64) {
     let places: Vec<Option<[f64; 2]>> = reference.iter().map(|color| drawing.place_of(color.xy, color.uv)).collect();
     let known: Vec<[f64; 2]> = places.iter().flatten().copied().collect();
     let count = known.len().max(1) as f64;
@@ -77,20 +113,41 @@ fn add_names(drawing: &mut Drawing<'_>, names: &[&str], reference: &[PatchColor]
     };
     let mut labels = Vec::new();
     for (name, at) in names.iter().zip(places) {
-        let Some(at) = at.filter(|_| few || pointed(name)) else { continue };
+        let rank = if pointed(name) { Rank::Pointed } else { Rank::Patch };
+        let Some(at) = at.filter(|_| few || rank == Rank::Pointed) else { continue };
+        let is_fitted = drawing.view.diagram.zoomed.is_none();
+        let at = if is_fitted { edges::held_inside(at, &drawing.frame) } else { at };
         // Away from the middle, where the others are.
-        let up = at[1] >= center[1];
-        let right = at[0] >= center[0] - 0.02;
-        let anchor = Anchor(if right { 0.0 } else { 1.0 }, if up { 1.0 } else { 0.0 });
-        let offset = [if right { 8.0 } else { -8.0 }, if up { -6.0 } else { 6.0 }];
-        let ink = Ink::new(InkRole::Text);
-        let shape = Shape::Text { at, text: (*name).to_owned(), anchor, offset, size: TextSize::Body, ink };
-        labels.push(Mark::new(PickIndex::NONE, *name, shape).with_halo(InkRole::Plot));
+        let up = if at[1] >= center[1] { -1.0 } else { 1.0 };
+        let right = if at[0] >= center[0] - 0.02 { 1.0 } else { -1.0 };
+        let places = Place::around(at, [right, up], radius + 3.0);
+        labels.push(Label::new(*name, rank, InkRole::Text, places));
     }
-    drawing.marks.extend(labels);
+    drawing.labels.extend(labels);
 }
 
-/// What the pointer reads on a thing: lines of text.
+/// Name of an item and its difference from the reference, in one or two lines.
+pub fn brief(scene: &Scene<'_>, thing: &PlotItem) -> Vec<String> {
+    match thing {
+        PlotItem::Sensor(source) => vec![label(scene, source)],
+        PlotItem::Radiator { source, kelvin } => {
+            let name = format!("{}, blackbody {kelvin:.0} K", label(scene, source));
+            [name].into_iter().chain(blackbody_distance(scene, source, *kelvin)).collect()
+        }
+        PlotItem::Patch { source: Some(source), patch } => {
+            let name = format!("{}, {patch}", label(scene, source));
+            let index = scene.patches().ok().and_then(|set| set.patches().iter().position(|p| p.name == *patch));
+            let difference =
+                index.and_then(|i| scene.differences(source.kind, &source.name).ok()?.get(i).copied()?.ok());
+            let is_reference = source.kind == SetKind::Observer && source.name == scene.document.reference;
+            let words = difference.map(|difference| format!("{} {difference:.2}", scene.difference_name()));
+            [name].into_iter().chain(words.filter(|_| !is_reference)).collect()
+        }
+        _ => describe(scene, thing),
+    }
+}
+
+/// Lines of text that describe an item under the pointer.
 pub fn describe(scene: &Scene<'_>, thing: &PlotItem) -> Vec<String> {
     match thing {
         PlotItem::Sensor(source) => describe_source(scene, source),
@@ -98,13 +155,8 @@ pub fn describe(scene: &Scene<'_>, thing: &PlotItem) -> Vec<String> {
         PlotItem::Patch { source: Some(source), patch } => describe_patch(scene, source, patch),
         PlotItem::Patch { source: None, patch } => vec![patch.clone()],
         PlotItem::Light => vec![format!("light {}", scene.light_name())],
+        PlotItem::DataSet { name, .. } => vec![name.clone()],
     }
-}
-
-/// Where a sensor sees a patch.
-pub fn patch_xy(scene: &Scene<'_>, source: &SensorId, patch: &str) -> Option<Xy> {
-    let index = scene.patches().ok()?.patches().iter().position(|p| p.name == patch)?;
-    scene.patch_colors(source.kind, &source.name).ok()?.get(index)?.xy
 }
 
 fn label(scene: &Scene<'_>, id: &SensorId) -> String {
@@ -197,7 +249,7 @@ fn coordinates(xy: Option<Xy>, uv: Option<UvPrime>) -> Vec<String> {
     vec![format!("x {:.4}  y {:.4}   u′ {:.4}  v′ {:.4}", xy.x, xy.y, uv.u, uv.v).replace('-', "−")]
 }
 
-/// Four decimals: what a reader can use.
+/// Four decimals: the useful precision.
 fn round4(value: f64) -> f64 {
     (value * 1e4).round() / 1e4
 }

@@ -1,4 +1,4 @@
-//! From what was read to the lines that are drawn.
+//! Conversion of read curves to drawn lines.
 
 use spectral_file::{Quantity, Role, SpectralFile};
 
@@ -23,7 +23,7 @@ pub struct Curve {
     pub name: String,
     /// Of a camera: 0 for red, 1 for green, 2 for blue.
     pub channel: Option<usize>,
-    /// Wavelengths in nanometers and values; one that is not finite stands for a gap.
+    /// Wavelengths in nanometers and values; a value that is not finite marks a gap.
     pub points: Vec<[f64; 2]>,
 }
 
@@ -44,12 +44,13 @@ pub struct Curves {
 }
 
 impl Curves {
-    /// The first curves of what is on show: of the file while something is tried on it, else of the set. Or why there are none.
+    /// The first curves of the selected item: of the file while settings are tried on it, else of the set. Or the reason that
+    /// there are none.
     pub fn of(shown: &ImportSelection, most: usize) -> Result<Self, String> {
         if let Some(error) = shown.error().filter(|_| shown.pending || shown.set.is_none()) {
             return Err(sentence(&error.to_string()));
         }
-        // What the file says of the set as it is now.
+        // Quantity of the set as the file is interpreted now.
         let known =
             shown.table().filter(|_| !shown.pending && shown.is_fresh()).map(|table| table.reading.quantity.value);
         match (&shown.set, shown.table()) {
@@ -129,7 +130,7 @@ impl Curves {
         curves
     }
 
-    /// Draws no more than so many.
+    /// Limits the number of drawn curves.
     pub fn cut(&mut self, most: usize) {
         self.drawn.truncate(most);
         self.note = self.noted();
@@ -241,7 +242,7 @@ fn points(wavelengths_nm: &[f64], values: &[f64], grid: Option<&Grid>) -> Vec<[f
     points
 }
 
-/// The step of wavelengths that nearly all stand equally far apart.
+/// The wavelength step between nearly all samples.
 fn even_step(wavelengths_nm: &[f64]) -> Option<f64> {
     let mut steps: Vec<f64> = wavelengths_nm.windows(2).map(|pair| pair[1] - pair[0]).collect();
     if steps.len() < 8 {
@@ -253,7 +254,7 @@ fn even_step(wavelengths_nm: &[f64]) -> Option<f64> {
     (10 * even >= 8 * steps.len()).then_some(median)
 }
 
-/// No more points than asked for, with the least and the largest of each stretch among them, and the gaps.
+/// At most the requested number of points, including the minimum and maximum of each stretch, and the gaps.
 pub(super) fn thinned(points: &[[f64; 2]], most: usize) -> Vec<[f64; 2]> {
     if points.len() <= most {
         return points.to_vec();

@@ -1,14 +1,14 @@
-//! The curves on show, made once for all frames in which nothing of them changes.
+//! Cache of the selected item's curves, valid for all frames in which they do not change.
 
 use std::sync::Arc;
 
 use super::drawn::{self, Curves, DRAWN};
 use super::on_show::ImportSelection;
 
-/// At most so many points are drawn on screen in all.
+/// Maximum total number of points drawn on screen.
 const POINTS: usize = 80_000;
 
-/// The curves of what was on show last.
+/// The curves of the last selected item.
 #[derive(Clone, Debug)]
 pub struct CurveCache {
     of: ImportSelection,
@@ -23,7 +23,7 @@ struct Pair {
 }
 
 impl CurveCache {
-    /// The curves of what is on show: those kept, if they are of the same.
+    /// The curves of the selected item: the cached ones, if still valid.
     pub fn of(shown: &ImportSelection, before: Option<Self>) -> Self {
         if let Some(before) = before.filter(|before| before.of.is_same(shown)) {
             return before;

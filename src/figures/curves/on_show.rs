@@ -21,16 +21,16 @@ pub struct ImportSelection {
     pub set: Option<Shared<OwnSet>>,
     /// Overrides with which it is, or is to be, read.
     pub wishes: ImportOverrides,
-    /// True if that is not yet so in the document.
+    /// True if the document does not contain this yet.
     pub pending: bool,
-    /// The file's contents, if they are at hand.
+    /// The file's contents, if they are available.
     pub file: Option<OpenFile>,
     /// Preview of the contents, present or last.
     pub look: Option<Arc<FilePreview>>,
 }
 
 impl ImportSelection {
-    /// The selected item; asks for what is not known yet.
+    /// The selected item; requests its preview if that is not available yet.
     pub fn refresh(scene: &Scene<'_>, view: &View, opened: &Opened) -> Option<Self> {
         let mut shown = Self::of(scene, view, opened.preview())?;
         let fingerprint = match &shown.item {
@@ -83,7 +83,7 @@ impl ImportSelection {
             && self.set == other.set
     }
 
-    /// True if what is known is of the wishes, not of those before.
+    /// True if the preview is of the current settings, not of earlier ones.
     pub fn is_fresh(&self) -> bool {
         self.look.as_ref().is_some_and(|look| look.options == self.wishes.options)
     }
@@ -93,7 +93,7 @@ impl ImportSelection {
         self.look.as_ref()?.table.as_deref().ok()
     }
 
-    /// Reason that the contents cannot be read as wished.
+    /// Reason that the contents cannot be read with the settings.
     pub fn error(&self) -> Option<&ReadError> {
         self.look.as_ref().filter(|_| self.is_fresh())?.table.as_ref().err()
     }

@@ -1,4 +1,4 @@
-//! The share of light that the chosen surface returns, in words: where the reflectance model says its limits.
+//! Share of light that the chosen surface returns, in words: an indication of the reflectance model's limits.
 
 use chromascope_core::query::Ask as _;
 use chromascope_core::query::render::returned::{ReturnedLight, ReturnedLightQuery};
@@ -17,7 +17,7 @@ pub struct Words {
     pub is_warning: bool,
 }
 
-/// The share for the surface that is chosen; none where each vertex has a roughness of its own, and where there is no model.
+/// The share for the selected surface; `None` where each vertex has a roughness of its own, or without a model.
 pub fn of(scene: &Scene<'_>) -> Option<ReturnedLight> {
     let settings = &scene.document.render;
     if settings.roughness == RoughnessChoice::Mesh || settings.reading == ReadingChoice::Lambertian {

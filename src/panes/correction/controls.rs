@@ -8,6 +8,7 @@ use crate::action::{Action, SceneAction};
 use crate::document::SetKind;
 use crate::document::correction::CorrectionChoice;
 use crate::panes::context::PaneContext;
+use crate::panes::widgets::pick_list::{self, Line};
 
 /// The camera that is corrected; none where none is compared.
 pub(super) fn camera(ui: &mut Ui, context: &mut PaneContext<'_>) -> Option<String> {
@@ -85,13 +86,17 @@ pub(super) fn second_light(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let choice = context.scene.document.correction.clone();
     let now = choice.second_light.clone();
     let hint = "A second calibration light for DNG matrices and DCP files. The first is the light on the scene";
-    list(ui, "Second light", hint, now.as_deref().unwrap_or("None"), |ui| {
-        let names = context.scene.entries(SetKind::Illuminant).map(|entry| Some(entry.name));
-        for light in std::iter::once(None).chain(names) {
-            let label = light.as_deref().unwrap_or("None");
-            if ui.selectable_label(light == now, label).clicked() {
-                set(context, CorrectionChoice { second_light: light, ..choice.clone() });
-            }
+    let shown = now.as_deref().unwrap_or("None");
+    let mut lights = vec![None];
+    ui.horizontal(|ui| {
+        ui.label("Second light");
+        let width = (ui.available_width() - 8.0).clamp(80.0, 300.0);
+        let chosen = pick_list::drop_down(ui, ("Second light", hint), shown, width, &context.theme, || {
+            lights.extend(context.scene.entries(SetKind::Illuminant).map(|entry| Some(entry.name)));
+            lights.iter().map(|light| Line::new(light.as_deref().unwrap_or("None"), *light == now)).collect()
+        });
+        if let Some(light) = chosen.map(|index| lights.swap_remove(index)) {
+            set(context, CorrectionChoice { second_light: light, ..choice.clone() });
         }
     });
 }

@@ -8,7 +8,7 @@ use crate::help::formula::Formula;
 use crate::help::markdown::{Block, Inline};
 use crate::theme::{HEADING, MONO, TEXT, UNIT};
 
-/// Font size of a formula on a line of its own.
+/// Font size of a display formula.
 const FORMULA: f32 = 16.0;
 const INDENT: f32 = 5.0 * UNIT;
 /// Space between columns of a table.

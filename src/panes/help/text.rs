@@ -176,7 +176,6 @@ impl Flow {
         clicked
     }
 
-    /// The words of a link.
     fn link_words(&self, link: &str) -> String {
         let words = self.pieces.iter().filter(|piece| piece.link.as_deref() == Some(link));
         let words = words.filter_map(|piece| match &piece.what {

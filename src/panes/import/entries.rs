@@ -14,11 +14,11 @@ use crate::view::import::ImportItem;
 pub(super) enum State {
     /// Read without a doubt.
     Certain,
-    /// Read with a guess that a person has seen.
+    /// Read with a guess that the user has seen.
     Seen,
-    /// Read with a guess that nobody has looked at.
+    /// Read with a guess that the user has not reviewed.
     Unseen,
-    /// Read as written: what it is has to be chosen.
+    /// Read as written: the role has to be chosen.
     Open,
     /// Not used, though it could be read.
     Unused,
@@ -30,7 +30,7 @@ impl State {
     /// All of them, in the order of a legend.
     pub(super) const ALL: [Self; 6] = [Self::Certain, Self::Seen, Self::Unseen, Self::Open, Self::Unused, Self::Failed];
 
-    /// In words, for the pointer and for screen readers.
+    /// Description for tooltips and screen readers.
     pub(super) const fn words(self) -> &'static str {
         match self {
             Self::Certain => "read",
@@ -52,7 +52,7 @@ pub(super) struct Entry {
     pub(super) note: String,
     /// Path on disk, if there is one.
     pub(super) path: Option<PathBuf>,
-    /// True if its contents are at hand.
+    /// True if its contents are available.
     pub(super) at_hand: bool,
 }
 
@@ -61,7 +61,7 @@ pub(super) fn all(context: &PaneContext<'_>) -> Vec<Entry> {
     let files = context.opened.files();
     let own = &context.scene.document.own;
     let sets = own.iter().map(|set| of_set(set, &files, context));
-    // What a file on disk held before it changed is kept for undo; in the list it is the same file.
+    // The contents that a file had before a change are retained for undo; in the list it is the same file.
     let is_of = |set: &OwnSet, file: &OpenFile| {
         set.fingerprint == Some(file.origin.fingerprint)
             || (file.failure.is_none() && set.path.is_some() && set.path == file.origin.path)
@@ -72,7 +72,7 @@ pub(super) fn all(context: &PaneContext<'_>) -> Vec<Entry> {
 
 fn of_set(set: &OwnSet, files: &[OpenFile], context: &PaneContext<'_>) -> Entry {
     let item = ImportItem::Set(set.name.clone());
-    // A decision is kept as a sentence that ends with how sure it is; the role's comes first.
+    // A decision is a sentence that ends with its confidence; the role's comes first.
     let open = |decision: &String| decision.ends_with("(open)");
     let guessed = |decision: &String| decision.ends_with("(a guess)") || open(decision);
     let state = match (set.decisions.iter().any(guessed), context.view.import.unseen.contains(&item)) {

@@ -1,4 +1,4 @@
-//! The column of files, and the list that stands for it where there is little room.
+//! Column of files, and the drop-down list that replaces it in narrow windows.
 
 use egui::{Color32, ComboBox, Event, Id, Key, Painter, Pos2, Rect, Response, ScrollArea, Sense, Shape, Stroke};
 use egui::{TextStyle, Ui, UiBuilder, Vec2};
@@ -17,7 +17,7 @@ use crate::workspaces::PaneKind;
 const HEIGHT: f32 = 38.0;
 /// Width of the mark before a name.
 const MARK: f32 = 16.0;
-/// Width that a scroll bar lies over.
+/// Width that a scroll bar overlaps.
 const SCROLL_BAR: f32 = 8.0;
 
 /// Shows the files one below the other.
@@ -42,7 +42,7 @@ pub(super) fn column(ui: &mut Ui, rect: Rect, entries: &[Entry], context: &mut P
     child.spacing_mut().item_spacing.y = 0.0;
     let mut area = ScrollArea::vertical().id_salt("files scroll").auto_shrink(false);
     if let Some(index) = moved {
-        // The one before and the one after stay in sight too.
+        // The previous and the next one stay visible, too.
         area = area.vertical_scroll_offset((index as f32 * HEIGHT - (list.height() - HEIGHT) / 2.0).max(0.0));
     }
     area.show_rows(&mut child, HEIGHT, entries.len(), |ui, range| {
@@ -63,7 +63,7 @@ fn legend(ui: &mut Ui, theme: &Theme) {
     }
 }
 
-/// The file on show, if something other than a row led to it since the last frame and the list may not show it.
+/// The selected file, if it was selected since the last frame other than by its row, so that the list may not show it.
 fn led_to(ui: &Ui, list: Rect, entries: &[Entry], context: &PaneContext<'_>) -> Option<usize> {
     let key = Id::unique("file in sight");
     let selected = context.view.import.selected.clone();
@@ -74,7 +74,7 @@ fn led_to(ui: &Ui, list: Rect, entries: &[Entry], context: &PaneContext<'_>) -> 
     (before != selected && !inside).then_some(index)
 }
 
-/// Shows the file on show; the others drop down. Returns what is left below.
+/// Shows the selected file; the others drop down. Returns the remaining area below.
 pub(super) fn drop_down(ui: &mut Ui, rect: Rect, entries: &[Entry], context: &mut PaneContext<'_>) -> Rect {
     keys(ui, entries, context);
     let head = Rect::from_min_size(rect.min, Vec2::new(rect.width(), ROW));
@@ -123,7 +123,7 @@ fn select(ui: &Ui, entries: &[Entry], index: usize, context: &mut PaneContext<'_
     }
 }
 
-/// Makes a set of the file on show, if it is none and can be read as it is wished.
+/// Makes a set of the selected file, if it is none and can be read with the settings.
 fn take(context: &mut PaneContext<'_>) {
     let Some(shown) = ImportSelection::of(&context.scene, context.view, context.opened.preview()) else { return };
     match shown.item {
@@ -196,7 +196,7 @@ fn row(ui: &mut Ui, index: usize, entries: &[Entry], context: &mut PaneContext<'
     let lower = Rect::from_min_max(egui::pos2(left, middle), egui::pos2(rect.right() - UNIT, rect.bottom() - 2.0));
     lines::elided(ui, upper, &entry.name, TextStyle::Body, theme.text);
     let color = match (on, entry.state) {
-        // Neither gray nor red could be read on the ground of what is chosen.
+        // Neither gray nor red would be readable on the selection background.
         (true, _) => theme.text,
         (false, State::Failed) => theme.error,
         (false, _) => theme.weak,
@@ -230,7 +230,7 @@ fn ground(ui: &Ui, rect: Rect, response: &Response, on: bool, theme: &Theme) {
     }
 }
 
-/// Each state has a form of its own: a dot, a ring, a diamond, an open diamond, a dash, a triangle.
+/// Each state has a shape of its own: a dot, a ring, a diamond, an open diamond, a dash, a triangle.
 fn draw_mark(painter: &Painter, at: Pos2, state: State, on: bool, theme: &Theme) {
     let line = |color: Color32| Stroke::new(1.3, color);
     let gray = if on { theme.text } else { theme.weak };

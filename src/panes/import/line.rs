@@ -1,4 +1,4 @@
-//! One line of a file as it is drawn: what was understood is marked by form, not by color.
+//! One line of a file as drawn: its interpretation is marked by shape, not by color.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -13,7 +13,7 @@ use crate::theme::{MONO, Theme};
 pub(super) struct Line {
     /// Text as displayed.
     shown: Shown,
-    /// Marks: the parts that were understood.
+    /// Marks of the interpreted parts.
     marks: Vec<Mark>,
     galley: Arc<Galley>,
 }
@@ -21,7 +21,7 @@ pub(super) struct Line {
 /// Style for drawing a line.
 pub(super) struct Pen<'a> {
     pub(super) theme: &'a Theme,
-    /// True if it is known what was understood, so that the rest was not.
+    /// True if the interpretation is known, so that unmarked parts were not used.
     pub(super) understood: bool,
     pub(super) hovered: Option<usize>,
     /// Flags for the imported curves, by index in the file.
@@ -57,7 +57,6 @@ impl Line {
         painter.galley(at, Arc::clone(&self.galley), theme.text);
     }
 
-    /// Its height.
     pub(super) fn height(&self) -> f32 {
         self.galley.size().y
     }
@@ -67,7 +66,7 @@ impl Line {
         let mut found = None;
         for mark in &self.marks {
             if let Some(place) = self.place(at, &mark.range).filter(|place| place.x_range().contains(pointer.x)) {
-                // A gap is narrow and lies over what stands beside it.
+                // A gap is narrow and overlaps its neighbors.
                 found = Some((mark, place));
             }
         }
@@ -129,7 +128,7 @@ fn form(what: Option<What>, pen: &Pen<'_>) -> TextFormat {
     let line = |color| Stroke::new(1.0, color);
     let weak = TextFormat { font_id: FontId::monospace(MONO), color: theme.weak, ..TextFormat::default() };
     let bright = TextFormat { color: theme.text, ..weak.clone() };
-    // Values and names of what is left out by hand are as pale as what is not used.
+    // Values and names excluded by the user are as pale as unused ones.
     let out = |curve: usize| pen.taken.get(curve) == Some(&false);
     match what {
         None if pen.understood => weak,
@@ -148,7 +147,7 @@ fn form(what: Option<What>, pen: &Pen<'_>) -> TextFormat {
     }
 }
 
-/// Legend of the styles, each word in its own, separated by `gap`.
+/// Legend of the styles, each word in its own style, separated by `gap`.
 pub(super) fn legend(theme: &Theme, gap: f32) -> LayoutJob {
     let pen = Pen { theme, understood: true, hovered: None, taken: &[] };
     let mut job = LayoutJob::default();

@@ -1,4 +1,4 @@
-//! The question that a file leaves open, with its answers: nothing is scaled before one is chosen.
+//! Question about an open decision of a file: values are not scaled before an answer is chosen.
 
 use egui::{Rect, RichText, Sense, Ui, UiBuilder, Vec2};
 use spectral_file::{Certainty, Role, SpectralFile, Values};
@@ -10,10 +10,10 @@ use crate::panes::context::PaneContext;
 use crate::panes::widgets::lines;
 use crate::theme::UNIT;
 
-/// An answer: its words, a hint, and what it chooses.
+/// An answer: its text, a hint, and its effect.
 type Answer = (&'static str, &'static str, Option<Role>, Values);
 
-/// Answers where nothing says what the numbers are.
+/// Answers where nothing indicates the quantity.
 const KINDS: [Answer; 3] = [
     (
         "Reflectances in percent",

@@ -1,4 +1,4 @@
-//! The text of a file, of which only the lines in sight are laid out.
+//! Text of a file, of which only the visible lines are laid out.
 
 use std::ops::Range;
 
@@ -18,13 +18,13 @@ use crate::theme::{MONO, ROW, UNIT};
 const LINE: f32 = 18.0;
 /// Height of the legend.
 const LEGEND: f32 = 20.0;
-/// So far a long line can be scrolled: what is beyond has to be skipped letter by letter.
+/// Length up to which a long line can be scrolled: later parts have to be skipped letter by letter.
 const WIDEST: usize = 50_000;
 const _: () = assert!(WIDEST < LONGEST_LINE, "a line is counted so far");
-/// So many letters of a line are read out.
+/// Number of letters of a line exposed to screen readers.
 const SAID: usize = 200;
 
-/// Shows what is known of the file on show.
+/// Shows the text and interpretation of the selected file.
 pub(super) fn show(ui: &mut Ui, rect: Rect, shown: &ImportSelection, context: &mut PaneContext<'_>) {
     let Some(file) = &shown.file else {
         if let Some(set) = &shown.set {
@@ -45,11 +45,34 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, shown: &ImportSelection, context: &m
     match (&shown.look, preview) {
         (Some(look), Some(Ok(preview))) => {
             forms(ui, foot, context);
+            let body = wrong(ui, body, shown, context);
             lines_of(ui, body, shown, look, preview, context);
         }
         (_, Some(Err(error))) => message(ui, body, &sentence(&error.to_string()), context.theme.error),
         _ => message(ui, body, "Reading…", context.theme.weak),
     }
+}
+
+/// Below the text, the reason that it could not be read; a click shows the line. Returns the rectangle above.
+fn wrong(ui: &Ui, body: Rect, shown: &ImportSelection, context: &mut PaneContext<'_>) -> Rect {
+    let Some(error) = shown.error() else { return body };
+    let theme = context.theme;
+    let words = sentence(&error.to_string());
+    let place = Rect::from_min_max(egui::pos2(body.left(), body.bottom() - ROW), body.max);
+    ui.painter().rect_filled(place, 0.0, theme.panel);
+    lines::warning_mark(ui.painter(), place.left_center() + Vec2::new(2.0 * UNIT, 0.0), theme.error);
+    let text = place.with_min_x(place.left() + 5.0 * UNIT);
+    let cut = lines::elided(ui, text, &words, TextStyle::Body, theme.error);
+    let response = ui.interact(place, Id::unique("reason below the text"), Sense::click());
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &words));
+    if let Some(line) = error.line().filter(|_| response.clicked()) {
+        context.view.import.line = Some(line);
+        ui.ctx().request_repaint();
+    }
+    if cut {
+        response.on_hover_text(words);
+    }
+    body.with_max_y(place.top())
 }
 
 /// Legend of the marks' styles.
@@ -63,7 +86,7 @@ fn forms(ui: &Ui, rect: Rect, context: &PaneContext<'_>) {
     painter.galley(at, std::sync::Arc::clone(galley), context.theme.text);
 }
 
-/// A number of bytes for people.
+/// A number of bytes for display.
 fn size(bytes: usize) -> String {
     match bytes {
         0..1000 => format!("{bytes} bytes"),
@@ -96,9 +119,9 @@ fn away(ui: &mut Ui, rect: Rect, set: &OwnSet, context: &mut PaneContext<'_>) {
 /// State of the text view between frames.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Kept {
-    /// The error that was brought into sight last, by its line.
+    /// The error that was brought into view last, by its line.
     error: Option<(Fingerprint, usize)>,
-    /// The line that was asked for last.
+    /// The line that was requested last.
     line: Option<(Fingerprint, usize)>,
 }
 
@@ -119,7 +142,7 @@ fn lines_of(
     preview: &Preview,
     context: &mut PaneContext<'_>,
 ) {
-    // All letters of the font have one width; many together tell it more exactly.
+    // All letters of the font have one width, measured more exactly on many together.
     const SAMPLE: &str = "0000000000000000";
     let sample = ui.painter().layout_no_wrap(SAMPLE.to_owned(), FontId::monospace(MONO), context.theme.text);
     let letter = sample.size().x / SAMPLE.len() as f32;
@@ -152,7 +175,7 @@ fn lines_of(
     });
 }
 
-/// The line, and the letter in it, to bring into sight in this frame.
+/// The line, and the letter in it, to bring into view in this frame.
 fn target(
     ui: &Ui,
     shown: &ImportSelection,
@@ -192,12 +215,12 @@ struct View<'a> {
     /// Flags for the imported curves, by index in the file.
     taken: Vec<bool>,
     error: Option<&'a (usize, Range<usize>)>,
-    /// The part in sight.
+    /// The visible part.
     viewport: Rect,
 }
 
 impl View<'_> {
-    /// Draws the lines in sight.
+    /// Draws the visible lines.
     fn lines(&self, ui: &mut Ui, place: &Place, context: &mut PaneContext<'_>) {
         let theme = context.theme;
         let first = (self.viewport.top() / LINE).floor().max(0.0) as usize;
@@ -255,7 +278,7 @@ impl View<'_> {
             _ => Vec::new(),
         };
         let understood = self.look.marker.is_some();
-        // Where all values are of one curve, none stands out.
+        // If all values belong to one curve, none is highlighted.
         let several = table.is_some_and(|table| table.curves.len() > 1);
         let hovered = context.view.import.hovered_curve.filter(|_| several);
         let pen = Pen { theme: &context.theme, understood, hovered, taken: &self.taken };

@@ -1,17 +1,17 @@
 //! Numbers in aligned columns.
 
-use chromascope_core::colorimetry::Xyz;
+use chromascope_core::colorimetry::{Lab, UvPrime, Xy, Xyz};
 use chromascope_core::light::Cct;
-use chromascope_core::query::PatchColor;
+use chromascope_core::query::{LocusPoint, PatchColor};
 use chromascope_figure::{Cell, Table};
-use egui::Ui;
+use egui::{ScrollArea, Ui};
 
 use crate::panes::context::PaneContext;
 use crate::panes::widgets::table::{CellNote, Column, DataTable};
 use crate::scene::Scene;
 use crate::workspaces::PaneKind;
 
-/// A row: its name, how many decimals, and a number for each column.
+/// A row: its name, its decimals, and a number for each column.
 pub(super) struct Row {
     /// Name of the quantity.
     pub(super) name: &'static str,
@@ -21,31 +21,76 @@ pub(super) struct Row {
     pub(super) cells: Vec<Option<f64>>,
 }
 
-/// The rows that patches have: RGB, both diagrams, L*a*b*.
-pub(super) fn of_patches(scene: &Scene<'_>, colors: &[Option<PatchColor>]) -> Vec<Row> {
-    let row = |name, decimals, take: &dyn Fn(&PatchColor) -> Option<f64>| Row {
+/// Color of a patch or a blackbody through one sensor, under its head.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Point {
+    head: String,
+    rgb: Option<[f64; 3]>,
+    lab: Option<Lab>,
+    xyz: Option<Xyz>,
+    xy: Option<Xy>,
+    uv: Option<UvPrime>,
+    /// Difference from the reference by the document's metric.
+    difference: Option<f64>,
+}
+
+impl Point {
+    /// A patch.
+    pub(super) fn of_patch(head: impl Into<String>, color: Option<PatchColor>) -> Self {
+        let point =
+            color.map(|c| Self { rgb: c.rgb, lab: c.lab, xyz: Some(c.xyz), xy: c.xy, uv: c.uv, ..Self::default() });
+        Self { head: head.into(), ..point.unwrap_or_default() }
+    }
+
+    /// A blackbody.
+    pub(super) fn of_blackbody(head: impl Into<String>, point: Option<LocusPoint>) -> Self {
+        let point = point.map(|p| Self { xyz: Some(p.xyz), xy: p.xy, uv: p.uv, ..Self::default() });
+        Self { head: head.into(), ..point.unwrap_or_default() }
+    }
+
+    /// Point under another head.
+    pub(super) fn with_head(self, head: impl Into<String>) -> Self {
+        Self { head: head.into(), ..self }
+    }
+
+    /// Point with its difference from the reference.
+    pub(super) fn with_difference(self, difference: Option<f64>) -> Self {
+        Self { difference, ..self }
+    }
+}
+
+/// The columns' heads.
+pub(super) fn heads(points: &[Point]) -> Vec<String> {
+    points.iter().map(|point| point.head.clone()).collect()
+}
+
+/// The rows that points have: difference, RGB, both diagrams, L*a*b*, CCT and Duv; rows that no point has are omitted.
+pub(super) fn rows_of(scene: &Scene<'_>, points: &[Point]) -> Vec<Row> {
+    let row = |name, decimals, take: &dyn Fn(&Point) -> Option<f64>| Row {
         name,
         decimals,
-        cells: colors.iter().map(|color| color.as_ref().and_then(take)).collect(),
+        cells: points.iter().map(take).collect(),
     };
     let mut rows = vec![
-        row("R", 4, &|c| c.rgb.map(|rgb| rgb[0])),
-        row("G", 4, &|c| c.rgb.map(|rgb| rgb[1])),
-        row("B", 4, &|c| c.rgb.map(|rgb| rgb[2])),
-        row("x", 4, &|c| c.xy.map(|xy| xy.x)),
-        row("y", 4, &|c| c.xy.map(|xy| xy.y)),
-        row("u′", 4, &|c| c.uv.map(|uv| uv.u)),
-        row("v′", 4, &|c| c.uv.map(|uv| uv.v)),
-        row("L*", 2, &|c| c.lab.map(|lab| lab.l)),
-        row("a*", 2, &|c| c.lab.map(|lab| lab.a)),
-        row("b*", 2, &|c| c.lab.map(|lab| lab.b)),
+        row(scene.difference_name(), scene.document.difference.decimals, &|p| p.difference),
+        row("R", 4, &|p| p.rgb.map(|rgb| rgb[0])),
+        row("G", 4, &|p| p.rgb.map(|rgb| rgb[1])),
+        row("B", 4, &|p| p.rgb.map(|rgb| rgb[2])),
+        row("x", 4, &|p| p.xy.map(|xy| xy.x)),
+        row("y", 4, &|p| p.xy.map(|xy| xy.y)),
+        row("u′", 4, &|p| p.uv.map(|uv| uv.u)),
+        row("v′", 4, &|p| p.uv.map(|uv| uv.v)),
+        row("L*", 2, &|p| p.lab.map(|lab| lab.l)),
+        row("a*", 2, &|p| p.lab.map(|lab| lab.a)),
+        row("b*", 2, &|p| p.lab.map(|lab| lab.b)),
     ];
-    rows.extend(temperatures(scene, colors.iter().map(|color| color.map(|color| color.xyz))));
+    rows.retain(|row| row.cells.iter().any(Option::is_some));
+    rows.extend(temperatures(scene, points.iter().map(|point| point.xyz)));
     rows
 }
 
 /// Correlated color temperature in kelvins and Duv, for the CIE 1931 observer; none where it is undefined.
-pub(super) fn temperatures(scene: &Scene<'_>, colors: impl Iterator<Item = Option<Xyz>>) -> [Row; 2] {
+fn temperatures(scene: &Scene<'_>, colors: impl Iterator<Item = Option<Xyz>>) -> [Row; 2] {
     let found: Vec<Option<Cct>> = colors.map(|color| scene.temperature_of(color).ok()?.ok()).collect();
     let row = |name, decimals, take: fn(Cct) -> f64| Row {
         name,
@@ -55,14 +100,16 @@ pub(super) fn temperatures(scene: &Scene<'_>, colors: impl Iterator<Item = Optio
     [row("CCT", 0, |cct| cct.temperature.get()), row("Duv", 4, |cct| cct.duv)]
 }
 
-/// Writes rows below the columns' heads; `id` tells tables of one pane apart.
+/// Writes rows below the columns' headers; `id` distinguishes tables of one pane.
 pub(super) fn show(ui: &mut Ui, id: &str, heads: &[String], rows: &[Row], context: &PaneContext<'_>) {
     let table = table(heads, rows);
     let names = std::iter::once(Column::default());
     let columns = names.chain(heads.iter().map(|head| Column { name: head.clone(), ..Column::default() }));
     let note = |row: usize, _| CellNote { decimals: Some(rows[row].decimals), ..CellNote::default() };
     let shown = DataTable::new(PaneKind::INSPECTOR, id, &table).with_columns(columns.collect()).with_notes(&note);
-    shown.show_compact(ui, context);
+    ScrollArea::horizontal().id_salt(id).auto_shrink([false, true]).show(ui, |ui| {
+        shown.with_scrolling().show_compact(ui, context);
+    });
 }
 
 /// Rows for a spreadsheet, in full precision.

@@ -1,10 +1,12 @@
-//! A patch through one sensor beside the reference, or through all.
+//! Patch through one sensor compared with the reference, or through all.
 
 use chromascope_core::query::{DifferenceError, PatchColor};
 use chromascope_figure::InkRole;
 use egui::text::LayoutJob;
 use egui::{FontId, Rect, Sense, TextFormat, TextStyle, Ui, Vec2};
 
+use super::numbers::Point;
+use super::points::{color_of, difference_of, index_of, points_table};
 use super::{
     assumptions, buttons, copy_text, difference_words, failure, head, held_words, label_of, no_difference, note,
     numbers, reference_id, show_assumptions,
@@ -12,22 +14,11 @@ use super::{
 use crate::panes::context::PaneContext;
 use crate::panes::widgets::{focus_rim, lines};
 use crate::plot_item::{PlotItem, SensorId};
-use crate::scene::{ComparedSensor, Scene, SceneError};
+use crate::scene::{ComparedSensor, Scene};
 use crate::theme::{HEADING, ROW, TEXT, Theme, UNIT};
 
 /// Height of the pair of swatches with its surround.
 const PAIR: f32 = 40.0;
-
-/// Index of a patch among the visible ones.
-pub(super) fn index_of(scene: &Scene<'_>, patch: &str) -> Option<usize> {
-    scene.patches().ok()?.patches().iter().position(|p| p.name == patch)
-}
-
-/// A patch through a sensor.
-pub(super) fn color_of(scene: &Scene<'_>, id: &SensorId, patch: &str) -> Result<Option<PatchColor>, SceneError> {
-    let colors = scene.patch_colors(id.kind, &id.name)?;
-    Ok(index_of(scene, patch).and_then(|index| colors.get(index).copied()))
-}
 
 /// Assumption about a patch beyond its samples.
 fn held_of(scene: &Scene<'_>, patch: &str) -> Option<String> {
@@ -42,13 +33,13 @@ fn title(scene: &Scene<'_>, patch: &str) -> String {
     let number = header.and_then(|header| header.columns.iter().position(|column| column == patch));
     let number = number.or_else(|| index_of(scene, patch));
     match number {
-        // Charts without names of their own are numbered already.
+        // Charts without patch names are numbered already.
         Some(index) if patch.parse::<u32>().is_err() => format!("Patch {} {patch}", index + 1),
         _ => format!("Patch {patch}"),
     }
 }
 
-/// Swatches on the surround: left the reference, right the sensor; one if there is no reference beside it.
+/// Swatches on the surround: left the reference, right the sensor; only one without a reference.
 fn pair(ui: &mut Ui, theme: &Theme, left: &PatchColor, right: Option<&PatchColor>, height: f32, width: f32) {
     let (rect, response) = ui.allocate_exact_size(Vec2::new(width, height), Sense::hover());
     response.widget_info(|| {
@@ -93,16 +84,13 @@ pub(super) fn one(ui: &mut Ui, id: &SensorId, patch: &str, context: &mut PaneCon
     if !is_reference {
         difference(ui, id, patch, context);
     }
-    let (heads, colors) = if is_reference {
-        (vec!["reference".to_owned()], vec![Some(own)])
-    } else {
-        (vec!["reference".to_owned(), id.kind.singular().to_owned()], vec![Some(seen), Some(own)])
-    };
-    let rows = numbers::of_patches(&scene, &colors);
-    numbers::show(ui, "patch", &heads, &rows, context);
-    if buttons(ui, context) {
-        copy_text(ui, numbers::to_tsv(&heads, &rows), context);
+    let mut points = vec![Point::of_patch("reference", Some(seen))];
+    if !is_reference {
+        let value = difference_of(&scene, id, patch).and_then(Result::ok);
+        points.push(Point::of_patch(id.kind.singular(), Some(own)).with_difference(value));
     }
+    let item = PlotItem::Patch { source: Some(id.clone()), patch: patch.to_owned() };
+    points_table(ui, points, &item, context);
     let label = label_of(&scene, id);
     let mut words = assumptions(&scene, id, &label);
     words.extend(held_of(&scene, patch));
@@ -182,12 +170,13 @@ fn buttons_without_copy(ui: &mut Ui, context: &mut PaneContext<'_>) {
         && let Some(PlotItem::Patch { patch, .. }) = selected
     {
         let shown: Vec<ComparedSensor> = scene.sources().into_iter().filter(|source| source.visible).collect();
-        let heads: Vec<String> = shown.iter().map(|source| source.label.clone()).collect();
-        let color = |s: &ComparedSensor| {
-            color_of(&scene, &SensorId { kind: s.kind, name: s.name.clone() }, &patch).ok().flatten()
+        let point = |s: &ComparedSensor| {
+            let id = SensorId { kind: s.kind, name: s.name.clone() };
+            let difference = difference_of(&scene, &id, &patch).and_then(Result::ok).filter(|_| !s.is_reference);
+            Point::of_patch(&s.label, color_of(&scene, &id, &patch).ok().flatten()).with_difference(difference)
         };
-        let colors: Vec<_> = shown.iter().map(color).collect();
-        copy_text(ui, numbers::to_tsv(&heads, &numbers::of_patches(&scene, &colors)), context);
+        let points: Vec<Point> = shown.iter().map(point).collect();
+        copy_text(ui, numbers::to_tsv(&numbers::heads(&points), &numbers::rows_of(&scene, &points)), context);
     }
 }
 
@@ -197,10 +186,7 @@ fn source_row(ui: &mut Ui, source: &ComparedSensor, patch: &str, seen: &PatchCol
     let id = SensorId { kind: source.kind, name: source.name.clone() };
     let (rect, response) = ui.allocate_exact_size(Vec2::new(ui.available_width(), ROW + UNIT), Sense::click());
     let own = color_of(&scene, &id, patch);
-    let difference = scene.differences(id.kind, &id.name).ok().and_then(|all| {
-        let index = index_of(&scene, patch)?;
-        all.get(index).copied()
-    });
+    let difference = difference_of(&scene, &id, patch);
     let (words, hint) = match (&own, difference) {
         (Err(error), _) => ("–".to_owned(), Some(error.to_string())),
         _ if source.is_reference => (String::new(), None),

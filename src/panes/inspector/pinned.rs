@@ -1,20 +1,15 @@
-//! Pinned items, side by side.
+//! Pinned items, as columns of one table.
 
-use chromascope_core::query::PatchColor;
-use egui::{RichText, ScrollArea, Ui};
+use egui::{RichText, Ui};
 
-use super::{difference_words, label_of, note, numbers, patch, radiator, reference_id};
+use super::numbers::Point;
+use super::points::{letter, point_of, points_of};
+use super::{label_of, note, numbers, reference_id};
 use crate::format::fixed;
 use crate::panes::context::PaneContext;
 use crate::panes::widgets::{Icon, icon_button};
 use crate::plot_item::PlotItem;
 use crate::scene::Scene;
-
-/// The letter of a pinned thing.
-fn letter(index: usize) -> String {
-    let letters = 'A'..='Z';
-    letters.clone().nth(index).map_or_else(|| (index + 1).to_string(), String::from)
-}
 
 /// Shows the pinned items and their numbers.
 pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
@@ -37,78 +32,48 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
     if let Some(index) = unpin {
         context.view.pinned.remove(index);
     }
-    let scene = context.scene;
-    let things = context.view.pinned.clone();
-    ScrollArea::horizontal().id_salt("pinned").auto_shrink([false, true]).show(ui, |ui| {
-        patches(ui, &scene, &things, context);
-        radiators(ui, &scene, &things, context);
-    });
-    if things
-        .iter()
-        .any(|thing| matches!(thing, PlotItem::Sensor(_) | PlotItem::Light | PlotItem::Patch { source: None, .. }))
-    {
+    let pinned = context.view.pinned.clone();
+    if !has_table(context) {
+        let scene = context.scene;
+        let mut points: Vec<Point> = reference_of(&scene, &pinned).into_iter().collect();
+        points.extend(points_of(&scene, &pinned, None));
+        if !points.is_empty() {
+            numbers::show(ui, "pinned", &numbers::heads(&points), &numbers::rows_of(&scene, &points), context);
+        }
+    }
+    if pinned.iter().any(|thing| point_of(&context.scene, thing).is_none()) {
         note(ui, &theme, "Only points and swatches have values to compare.");
     }
+}
+
+/// True if the page above has a table, of which the pinned items are columns.
+fn has_table(context: &PaneContext<'_>) -> bool {
+    let shown = context.view.selected.as_ref().or(context.view.hovered.as_ref());
+    matches!(shown, Some(PlotItem::Patch { source: Some(_), .. } | PlotItem::Radiator { .. }))
+}
+
+/// The reference's column, where all items are of one patch, or of one temperature.
+fn reference_of(scene: &Scene<'_>, pinned: &[PlotItem]) -> Option<Point> {
+    let reference = reference_id(scene);
+    let seen = |item: &PlotItem| match item {
+        PlotItem::Patch { source: Some(_), patch } => {
+            Some(PlotItem::Patch { source: Some(reference.clone()), patch: patch.clone() })
+        }
+        PlotItem::Radiator { kelvin, .. } => Some(PlotItem::Radiator { source: reference.clone(), kelvin: *kelvin }),
+        _ => None,
+    };
+    let mut all = pinned.iter().filter_map(seen);
+    let first = all.next()?;
+    if all.all(|other| other == first) { Some(point_of(scene, &first)?.with_head("reference")) } else { None }
 }
 
 fn name(scene: &Scene<'_>, thing: &PlotItem) -> String {
     match thing {
         PlotItem::Light => format!("light {}", scene.light_name()),
+        PlotItem::DataSet { name, .. } => name.clone(),
         PlotItem::Sensor(id) => label_of(scene, id),
         PlotItem::Patch { source: None, patch } => format!("patch {patch}"),
         PlotItem::Patch { source: Some(id), patch } => format!("{}, {patch}", label_of(scene, id)),
         PlotItem::Radiator { source, kelvin } => format!("{}, {} K", label_of(scene, source), fixed(*kelvin, 0)),
     }
-}
-
-/// Pinned patches; the reference stands first where all are the same patch.
-fn patches(ui: &mut Ui, scene: &Scene<'_>, things: &[PlotItem], context: &PaneContext<'_>) {
-    let mut heads: Vec<String> = Vec::new();
-    let mut colors: Vec<Option<PatchColor>> = Vec::new();
-    let mut differences: Vec<String> = Vec::new();
-    let mut names: Vec<&str> = Vec::new();
-    let measure = scene.document.difference;
-    for (index, thing) in things.iter().enumerate() {
-        let PlotItem::Patch { source: Some(id), patch } = thing else { continue };
-        heads.push(letter(index));
-        colors.push(patch::color_of(scene, id, patch).ok().flatten());
-        names.push(patch);
-        let difference = patch::index_of(scene, patch)
-            .and_then(|place| scene.differences(id.kind, &id.name).ok()?.get(place).copied())
-            .and_then(Result::ok);
-        differences.push(match difference {
-            Some(value) => format!("{} {}", letter(index), difference_words(measure, value)),
-            None => format!("{} –", letter(index)),
-        });
-    }
-    let Some(first) = names.first() else { return };
-    if names.iter().all(|name| name == first) {
-        heads.insert(0, "reference".to_owned());
-        colors.insert(0, patch::color_of(scene, &reference_id(scene), first).ok().flatten());
-    }
-    note(
-        ui,
-        &context.theme,
-        format!("{} from the reference: {}", context.scene.difference_name(), differences.join(", ")),
-    );
-    numbers::show(ui, "pinned patches", &heads, &numbers::of_patches(scene, &colors), context);
-}
-
-/// Pinned black bodies; the reference stands first where all have the same temperature.
-fn radiators(ui: &mut Ui, scene: &Scene<'_>, things: &[PlotItem], context: &PaneContext<'_>) {
-    let mut heads = Vec::new();
-    let mut points = Vec::new();
-    let mut temperatures = Vec::new();
-    for (index, thing) in things.iter().enumerate() {
-        let PlotItem::Radiator { source, kelvin } = thing else { continue };
-        heads.push(letter(index));
-        points.push(radiator::point_of(scene, source, *kelvin).ok().flatten());
-        temperatures.push(*kelvin);
-    }
-    let Some(&first) = temperatures.first() else { return };
-    if temperatures.iter().all(|kelvin| *kelvin == first) {
-        heads.insert(0, "reference".to_owned());
-        points.insert(0, radiator::point_of(scene, &reference_id(scene), first).ok().flatten());
-    }
-    numbers::show(ui, "pinned blackbodies", &heads, &radiator::rows_of(scene, &points), context);
 }

@@ -5,27 +5,31 @@ use egui::{RichText, Ui};
 use super::note;
 use crate::figures::chromaticity::id;
 use crate::figures::render::headline::{Detail, Measure};
-use crate::figures::render::{facts, index_of, pixel_of};
+use crate::figures::render::{NO_VALUE, facts, index_of, pixel_of};
 use crate::panes::context::PaneContext;
 use crate::panes::widgets::lines::key_and_label;
+use crate::panes::widgets::pixel_spectrum;
 use crate::panes::widgets::table::show_pairs;
 use crate::render_service::pixel::PixelShows;
 use crate::theme::UNIT;
 use crate::view::render::PixelPlace;
 use crate::workspaces::PaneKind;
 
-/// Pinned pixel, if pictures are on show.
+/// Pinned pixel, if pictures are visible.
 pub(super) fn kept<'a>(context: &'a PaneContext<'_>) -> Option<&'a PixelPlace> {
     let (saved, render) = (&context.view.saved, &context.view.render);
     render.pinned.as_ref().filter(|_| saved.layout.shows(saved.workspace, PaneKind::RENDER))
 }
 
-/// Shows it, if pictures are on show.
+/// Shows the pinned pixel, if pictures are visible.
 pub(super) fn show(ui: &mut Ui, context: &PaneContext<'_>) {
     let Some((pinned, shot)) = kept(context).zip(context.studio.frame()) else { return };
     ui.add_space(UNIT);
     ui.label(RichText::new("Pinned pixel").strong());
-    let measure = Measure::of(&shot.query);
+    let measure = Measure::of_frame(shot);
+    if let Some(reading) = pixel_of(&context.scene, shot, pinned) {
+        pixel_spectrum::show(ui, "spectrum in inspector", shot, reading.at, context);
+    }
     for source in shot.sources.iter() {
         let place = PixelPlace { source: id(source), ..pinned.clone() };
         let Some(reading) = pixel_of(&context.scene, shot, &place) else { continue };
@@ -36,6 +40,7 @@ pub(super) fn show(ui: &mut Ui, context: &PaneContext<'_>) {
         }
         match reading.shows {
             PixelShows::Nothing => note(ui, &context.theme, "Beside the mesh."),
+            PixelShows::NoValue => note(ui, &context.theme, NO_VALUE),
             PixelShows::Unlit => note(ui, &context.theme, "No light reaches it."),
             PixelShows::Lit(lit) => {
                 let id = format!("pinned pixel {}", source.name);

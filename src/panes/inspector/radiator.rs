@@ -1,52 +1,24 @@
-//! A black body through a sensor.
+//! A blackbody through a sensor.
 
 use chromascope_core::colorimetry::Metric;
-use chromascope_core::query::{LocusPoint, Temperatures, compare};
-use chromascope_core::units::Kelvin;
+use chromascope_core::query::{LocusPoint, compare};
 use egui::Ui;
 
-use super::numbers::Row;
-use super::{
-    assumptions, buttons, copy_text, failure, head, label_of, no_difference, note, numbers, reference_id,
-    show_assumptions,
-};
+use super::numbers::Point;
+use super::points::{blackbody_of, points_table};
+use super::{assumptions, failure, head, label_of, no_difference, note, reference_id, show_assumptions};
 use crate::document::Light;
 use crate::format::fixed;
 use crate::panes::context::PaneContext;
-use crate::plot_item::SensorId;
-use crate::scene::{Scene, SceneError};
+use crate::plot_item::{PlotItem, SensorId};
 
-/// One point of a sensor's locus.
-pub(super) fn point_of(scene: &Scene<'_>, id: &SensorId, kelvin: f64) -> Result<Option<LocusPoint>, SceneError> {
-    let temperatures = Temperatures::List(vec![Kelvin::new(kelvin)?]);
-    Ok(scene.locus_at(id.kind, &id.name, temperatures)?.points.first().copied())
-}
-
-/// The rows that points of loci have.
-pub(super) fn rows_of(scene: &Scene<'_>, points: &[Option<LocusPoint>]) -> Vec<Row> {
-    let row = |name, take: &dyn Fn(&LocusPoint) -> Option<f64>| Row {
-        name,
-        decimals: 4,
-        cells: points.iter().map(|point| point.as_ref().and_then(take)).collect(),
-    };
-    let mut rows = vec![
-        row("x", &|p| p.xy.map(|xy| xy.x)),
-        row("y", &|p| p.xy.map(|xy| xy.y)),
-        row("u′", &|p| p.uv.map(|uv| uv.u)),
-        row("v′", &|p| p.uv.map(|uv| uv.v)),
-    ];
-    rows.extend(numbers::temperatures(scene, points.iter().map(|point| point.map(|point| point.xyz))));
-    rows
-}
-
-/// Shows it.
 pub(super) fn show(ui: &mut Ui, id: &SensorId, kelvin: f64, context: &mut PaneContext<'_>) {
     let (scene, theme) = (context.scene, context.theme);
     head(ui, id, context);
     note(ui, &theme, format!("blackbody, {} K = {} mired", fixed(kelvin, 0), fixed(1e6 / kelvin, 1)));
     let reference = reference_id(&scene);
     let is_reference = reference == *id;
-    let points = point_of(&scene, id, kelvin).and_then(|own| Ok((own, point_of(&scene, &reference, kelvin)?)));
+    let points = blackbody_of(&scene, id, kelvin).and_then(|own| Ok((own, blackbody_of(&scene, &reference, kelvin)?)));
     let (own, seen) = match points {
         Ok((Some(own), Some(seen))) => (own, seen),
         Ok(_) => return,
@@ -55,16 +27,11 @@ pub(super) fn show(ui: &mut Ui, id: &SensorId, kelvin: f64, context: &mut PaneCo
     if own.xy.is_none() {
         note(ui, &theme, "Chromaticity undefined (X + Y + Z = 0).");
     }
-    let (heads, points) = if is_reference {
-        (vec!["reference".to_owned()], vec![Some(own)])
-    } else {
-        (vec!["reference".to_owned(), id.kind.singular().to_owned()], vec![Some(seen), Some(own)])
-    };
+    let mut points = vec![Point::of_blackbody("reference", Some(seen))];
     if !is_reference {
         distance(ui, id, &own, &seen, context);
+        points.push(Point::of_blackbody(id.kind.singular(), Some(own)));
     }
-    let rows = rows_of(&scene, &points);
-    numbers::show(ui, "blackbody", &heads, &rows, context);
     match scene.document.light {
         Light::BlackBody => note(ui, &theme, "The light on the scene is a blackbody of the marked temperature."),
         Light::Daylight => {
@@ -76,9 +43,7 @@ pub(super) fn show(ui: &mut Ui, id: &SensorId, kelvin: f64, context: &mut PaneCo
         }
         Light::Set(_) => {}
     }
-    if buttons(ui, context) {
-        copy_text(ui, numbers::to_tsv(&heads, &rows), context);
-    }
+    points_table(ui, points, &PlotItem::Radiator { source: id.clone(), kelvin }, context);
     let label = label_of(&scene, id);
     show_assumptions(ui, &theme, assumptions(&scene, id, &label));
 }

@@ -1,11 +1,12 @@
 //! All about a camera or an observer, and about the light.
 
 use chromascope_core::spectral::{Primaries, Quantity};
+use chromascope_figure::InkRole;
 use egui::{RichText, Ui};
 
 use super::{
     assumptions, buttons, copy_text, difference_words, failure, head, held_words, label_of, measured_words,
-    no_difference, note, reference_id, show_assumptions,
+    no_difference, note, reference_id, set, show_assumptions, source_of,
 };
 use crate::catalog::Place;
 use crate::command::Command;
@@ -28,6 +29,8 @@ pub(super) fn show(ui: &mut Ui, id: &SensorId, context: &mut PaneContext<'_>) {
     };
     let also = entry.also.as_ref().map_or_else(String::new, |also| format!(", {also}"));
     note(ui, &theme, format!("{}: {}{also}", id.kind.singular(), entry.name));
+    let role = source_of(&scene, id).map_or(InkRole::Observer, |source| source.role);
+    set::curves(ui, &entry, role, context);
     let mut measured = measures(&scene, id);
     match scene.sensor(id.kind, &id.name) {
         Ok(sensor) => {

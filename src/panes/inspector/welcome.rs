@@ -1,21 +1,27 @@
 //! Introduction for a newcomer: the window's purpose, and the key.
 
+use std::sync::Arc;
+
 use chromascope_core::spectral::Primaries;
-use chromascope_figure::{InkRole, LegendEntry, Marker, Stroke};
+use chromascope_figure::{InkRole, LegendEntry, Marker, Panel, Stroke};
 use egui::{Rect, RichText, Ui, Vec2};
 
 use crate::action::Action;
+use crate::command::{Command, TourMove};
 use crate::document::start::Start;
 use crate::document::{TransformChoice, WhiteBalanceChoice};
+use crate::figures::thumbnail;
 use crate::paint;
 use crate::panes::context::PaneContext;
-use crate::panes::widgets::{self, WHAT_YOU_SEE};
-use crate::theme::{Theme, UNIT};
+use crate::panes::widgets::{WHAT_YOU_SEE, focus_rim, lines};
+use crate::scene::Scene;
+use crate::theme::{ROW, Theme, UNIT};
 
+/// Size of a start's card.
+const CARD: Vec2 = Vec2::new(200.0, 92.0);
 /// Width of the drawn keys.
 const KEY: f32 = 26.0;
 
-/// Shows it.
 pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let theme = context.theme;
     starts(ui, context);
@@ -53,21 +59,56 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
     ui.label(RichText::new("Hover to read, click to select, Esc to deselect.").color(theme.weak));
 }
 
-/// The two starts, one click apart, with what the chosen one sets up.
+/// The two starts as cards with their pictures, one click apart.
 fn starts(ui: &mut Ui, context: &mut PaneContext<'_>) {
-    let now = context.scene.document.start;
-    ui.label(RichText::new("Start").small().color(context.theme.weak));
-    let choices = Start::ALL.map(|start| (start, start.name(), start.summary()));
+    let width = ((ui.available_width() - 2.0 * UNIT) / 2.0).min(CARD.x);
     ui.horizontal(|ui| {
-        if let Some(start) = widgets::segmented(ui, &choices, now) {
-            context.push(Action::Start(start));
+        ui.spacing_mut().item_spacing.x = 2.0 * UNIT;
+        for start in Start::ALL {
+            card(ui, start, Vec2::new(width, CARD.y), context);
         }
     });
-    ui.label(RichText::new(now.summary()).small().color(context.theme.weak));
+    ui.horizontal(|ui| {
+        if ui.link("Tour: the paper in five steps").clicked() {
+            context.push(Command::Tour(TourMove::Begin));
+        }
+    });
     ui.separator();
 }
 
-/// A drawn key and what it stands for; the words wrap beside it.
+fn card(ui: &mut Ui, start: Start, size: Vec2, context: &mut PaneContext<'_>) {
+    let theme = context.theme;
+    let on = context.scene.document.start == start;
+    let (rect, response) = ui.allocate_exact_size(size, egui::Sense::click());
+    response.widget_info(|| egui::WidgetInfo::selected(egui::Role::Button, true, on, start.name()));
+    let fill = if response.hovered() { theme.hover } else { theme.control };
+    ui.painter().rect_filled(rect, 3.0, fill);
+    let picture = Rect::from_min_max(rect.min + Vec2::splat(2.0), egui::pos2(rect.right() - 2.0, rect.bottom() - ROW));
+    paint::still(ui.painter(), &picture_of(ui, start, picture.size(), context), &theme, picture);
+    let words = Rect::from_min_max(egui::pos2(rect.left() + 1.5 * UNIT, picture.bottom()), rect.max);
+    lines::elided(ui, words, start.name(), egui::TextStyle::Body, theme.text);
+    let rim = if on { egui::Stroke::new(1.5, theme.text) } else { focus_rim(&response, &theme) };
+    ui.painter().rect_stroke(rect, 3.0, rim, egui::StrokeKind::Inside);
+    if response.on_hover_text(start.summary()).clicked() {
+        context.push(Action::Start(start));
+    }
+}
+
+/// Picture of a start: its loci and patches without words. Made once for a size.
+fn picture_of(ui: &Ui, start: Start, size: Vec2, context: &PaneContext<'_>) -> Arc<Panel> {
+    let id = egui::Id::unique(("picture of a start", start.key(), size.x as u32, size.y as u32));
+    if let Some(known) = ui.data(|data| data.get_temp::<Arc<Panel>>(id)) {
+        return known;
+    }
+    let made = Arc::new(thumbnail::diagram(
+        &Scene { document: &start.document(), ..context.scene },
+        [f64::from(size.x), f64::from(size.y)],
+    ));
+    ui.data_mut(|data| data.insert_temp(id, Arc::clone(&made)));
+    made
+}
+
+/// A drawn key and its action; the words wrap beside it.
 fn entry(ui: &mut Ui, words: &str, draw: impl FnOnce(&Ui, Rect)) {
     ui.horizontal_top(|ui| {
         let (rect, _) = ui.allocate_exact_size(Vec2::new(KEY, 17.0), egui::Sense::hover());

@@ -1,4 +1,4 @@
-//! For a camera: which curves are red, green and blue, and what they count.
+//! Camera settings: the red, green and blue curves, and their response basis.
 
 use egui::Ui;
 use spectral_file::{Certainty, Role};
@@ -9,7 +9,7 @@ use crate::figures::curves::ImportSelection;
 use crate::panes::widgets::segmented;
 use crate::theme::{Theme, UNIT};
 
-/// So many curves can be chosen from.
+/// Maximum number of curves to choose from.
 const LISTED: usize = 500;
 
 /// Responses per energy and per photon.

@@ -11,9 +11,9 @@ use crate::view::import::Stop;
 
 use super::keys;
 
-/// So many rows are seen at once.
+/// Number of visible rows.
 const ROWS: usize = 6;
-/// From so many curves on there is a search.
+/// Number of curves above which there is a search.
 const SEARCHED: usize = 8;
 
 /// Shows the list, if there is more than one curve.

@@ -1,4 +1,4 @@
-//! A set whose file is not at hand: what can be changed by its values alone.
+//! A set whose file is not available: what can be changed by its values alone.
 
 use egui::{RichText, Ui};
 use spectral_file::Values;
@@ -88,7 +88,7 @@ fn choices(ui: &mut Ui, set: &mut OwnSet, theme: &Theme) {
     ui.checkbox(&mut set.percent, "Values are percent");
 }
 
-/// Channels, and what they count.
+/// Channels, and their response basis.
 fn camera(ui: &mut Ui, set: &mut OwnSet, theme: &Theme) {
     let width = ui.available_width() - 2.0;
     for (channel, color) in ["Red", "Green", "Blue"].into_iter().enumerate() {

@@ -16,7 +16,7 @@ pub(super) fn first(ui: &Ui) -> bool {
     ui.data_mut(|data| data.remove_temp::<bool>(first_switch())).unwrap_or(false)
 }
 
-/// True if a list closed since the last frame without a click, which would have been meant for what was clicked.
+/// True if a list closed since the last frame by a click on another control.
 pub(super) fn closed(ui: &Ui, list: Id, open: bool) -> bool {
     let key = list.with("was open");
     let was: bool = ui.data(|data| data.get_temp(key)).unwrap_or(false);
@@ -31,7 +31,7 @@ pub(super) fn step(ui: &Ui) -> isize {
     ui.input(|input| isize::from(input.key_pressed(Key::ArrowDown)) - isize::from(input.key_pressed(Key::ArrowUp)))
 }
 
-/// Keeps arrows from leaving an entry for whatever lies that way.
+/// Prevents arrow keys from moving the focus to a neighboring control.
 pub(super) fn hold(ui: &Ui, entry: &Response) {
     let filter = EventFilter { vertical_arrows: true, ..EventFilter::default() };
     ui.memory_mut(|memory| memory.set_focus_lock_filter(entry.id, filter));
@@ -45,7 +45,7 @@ pub(super) fn within(ui: &Ui, entries: &[Response], on: usize) {
         ui.data_mut(|data| data.insert_temp(left, pass));
     }
     let Some(now) = entries.iter().position(Response::has_focus) else {
-        // A list in which something was chosen is drawn once more before it closes.
+        // A list in which something was chosen is drawn again before it closes.
         let closes = ui.data(|data| data.get_temp::<u64>(left)).is_some_and(|left| pass <= left + 2);
         if let Some(entry) = entries.get(on).filter(|_| !closes) {
             entry.request_focus();

@@ -49,7 +49,7 @@ pub(super) fn show(ui: &mut Ui, set: &OwnSet, context: &mut PaneContext<'_>) {
     }
 }
 
-/// Keeps the selection on a set whose name changes.
+/// Keeps a set selected when its name changes.
 fn follow(old: &str, new: &str, context: &mut PaneContext<'_>) {
     if let Some(PlotItem::Sensor(id)) = &mut context.view.selected
         && id.kind == SetKind::Camera

@@ -1,7 +1,7 @@
 //! Warnings, decisions, and the origin of the numbers.
 
-use egui::{Align, Id, RichText, Ui};
-use spectral_file::SpectralFile;
+use egui::{Align, CollapsingHeader, Id, RichText, Ui};
+use spectral_file::{Decision, SpectralFile};
 
 use super::note;
 use crate::figures::curves::ImportSelection;
@@ -9,16 +9,16 @@ use crate::format;
 use crate::format::{number, sentence};
 use crate::panes::context::PaneContext;
 use crate::panes::widgets::facts::range_words;
-use crate::theme::UNIT;
+use crate::theme::{Theme, UNIT};
 
-/// So many dropped rows are told one by one.
+/// Maximum number of dropped rows listed individually.
 const TOLD: usize = 5;
 
 fn led_to() -> Id {
     Id::unique("notes are led to")
 }
 
-/// In the head of the pane, where nothing has to be scrolled: how many notes there are, and the way to them.
+/// Number of notes with a link to them, in the pane's header, which does not scroll.
 pub(super) fn button(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let Some(shown) = ImportSelection::of(&context.scene, context.view, context.opened.preview()) else { return };
     let Some(count) = shown.table().map(|table| table.warnings.len()).filter(|count| *count > 0) else { return };
@@ -69,18 +69,36 @@ pub(super) fn show(ui: &mut Ui, shown: &ImportSelection, context: &mut PaneConte
         }
     }
     ui.add_space(UNIT);
-    ui.label("Decisions");
-    for decision in table.decisions() {
-        let color = if decision.certainty.is_doubtful() { theme.warning } else { theme.text };
-        let words = format!("{}: {} ({}).", decision.what, decision.value, decision.certainty);
-        ui.label(RichText::new(words).small().color(color)).on_hover_text(format!("{}.", decision.why));
-        note(ui, &theme, format!("{}.", decision.why));
+    let (guesses, rest): (Vec<_>, Vec<_>) =
+        table.decisions().into_iter().partition(|decision| decision.certainty.is_doubtful());
+    if !guesses.is_empty() {
+        ui.label("Guesses");
     }
-    ui.add_space(UNIT);
-    ui.label("Origin");
-    for fact in facts(shown, table) {
-        note(ui, &theme, fact);
+    for guess in &guesses {
+        decision(ui, guess, &theme);
     }
+    folded(ui, &format!("{} other decisions", rest.len()), |ui| {
+        for certain in &rest {
+            decision(ui, certain, &theme);
+        }
+    });
+    folded(ui, "Origin", |ui| {
+        for fact in facts(shown, table) {
+            note(ui, &theme, fact);
+        }
+    });
+}
+
+/// A decision in a line, a guess marked; the reason under the pointer.
+fn decision(ui: &mut Ui, decision: &Decision, theme: &Theme) {
+    let color = if decision.certainty.is_doubtful() { theme.warning } else { theme.text };
+    let mark = if decision.certainty.is_doubtful() { "● " } else { "" };
+    let words = format!("{mark}{}: {} ({}).", decision.what, decision.value, decision.certainty);
+    ui.label(RichText::new(words).small().color(color)).on_hover_text(format!("{}.", decision.why));
+}
+
+fn folded(ui: &mut Ui, words: &str, content: impl FnOnce(&mut Ui)) {
+    CollapsingHeader::new(RichText::new(words).small()).id_salt(words).show(ui, content);
 }
 
 /// Origin of the numbers, a line each.
@@ -103,7 +121,6 @@ fn facts(shown: &ImportSelection, table: &SpectralFile) -> Vec<String> {
     facts
 }
 
-/// All of it as text.
 fn text(shown: &ImportSelection, table: &SpectralFile) -> String {
     let mut lines: Vec<String> = table.warnings.iter().map(ToString::to_string).collect();
     let decisions = table.decisions();

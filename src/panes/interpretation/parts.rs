@@ -1,4 +1,4 @@
-//! The tables of a file that holds several: those ticked are taken side by side, each as a set of its own.
+//! Tables of a file that contains several: each ticked one is imported as a set of its own.
 
 use std::collections::BTreeSet;
 
@@ -11,7 +11,7 @@ use crate::figures::curves::ImportSelection;
 use crate::panes::context::PaneContext;
 use crate::theme::{ROW, UNIT};
 
-/// So many rows are seen at once.
+/// Number of visible rows.
 const ROWS: usize = 5;
 
 /// Name of a part; parts count from 1.

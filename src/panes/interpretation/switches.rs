@@ -1,8 +1,9 @@
-//! The switches of the reader: each says what was decided and how sure that is, and takes another choice.
+//! Settings of the reader: each shows the decision with its confidence, and accepts another choice.
 
-use egui::Ui;
+use egui::{CollapsingHeader, RichText, Ui};
 use spectral_file::{
-    Certainty, Decided, DecimalMark, Delimiter, Orientation, Reader, Role, SpectralFile, Values, WavelengthUnit,
+    Certainty, Decided, DecimalMark, Delimiter, Orientation, ReadOptions, ReadReport, Reader, Role, SpectralFile,
+    Values, WavelengthUnit,
 };
 
 use super::{CONTENT, CONTENT_SHORT, Closed, list, parts};
@@ -10,7 +11,7 @@ use crate::document::own::ImportOverrides;
 use crate::figures::curves::ImportSelection;
 use crate::theme::{Theme, UNIT};
 
-/// The kinds, as a person calls them.
+/// The kinds, as the user calls them.
 pub(super) const ROLES: [(Role, &str); 5] = [
     (Role::Camera, "Camera sensitivities"),
     (Role::Reflectance, "Reflectance"),
@@ -19,7 +20,6 @@ pub(super) const ROLES: [(Role, &str); 5] = [
     (Role::Unknown, "Unknown"),
 ];
 
-/// The units of wavelengths.
 pub(super) const UNITS: [(WavelengthUnit, &str); 5] = [
     (WavelengthUnit::Nanometer, "nm"),
     (WavelengthUnit::Micrometer, "µm"),
@@ -62,12 +62,15 @@ const READERS: [(Reader, &str); 11] = [
     (Reader::Camspec, "Camera database"),
 ];
 
-/// So many columns can be chosen from.
+/// Head of the switches of a file's format where none of them is in doubt.
+const SETTLED: &str = "File format: all certain";
+
+/// Maximum number of columns to choose from.
 const COLUMNS: usize = 60;
-/// So many parts can be chosen from.
+/// Maximum number of parts to choose from.
 const PARTS: usize = 1000;
 
-/// A switch: what is wished, what was decided, what there is to choose from.
+/// A setting: the user's choice, the automatic decision, and the options.
 struct Switch<'a, T> {
     words: &'a str,
     wish: &'a mut Option<T>,
@@ -81,7 +84,7 @@ impl<T: Copy + PartialEq> Switch<'_, T> {
             let known = self.choices.iter().find(|(choice, _)| *choice == value);
             known.map_or_else(|| "Other".to_owned(), |(_, words)| (*words).to_owned())
         };
-        // Where there is little room, the first word or two tell the choices apart.
+        // In a narrow pane, the first word or two distinguish the choices.
         let name = |value: T| if wordy { name(value) } else { short(&name(value)).to_owned() };
         let closed = closed(self.wish.map(name), self.decided, name, wordy);
         let mut entries = vec![(CONTENT.to_owned(), self.wish.is_none())];
@@ -92,7 +95,7 @@ impl<T: Copy + PartialEq> Switch<'_, T> {
     }
 }
 
-/// The closed list: what was chosen, else what the content says, if that is known.
+/// The closed list: the choice, else the automatic decision, if known.
 fn closed<T: Copy>(
     wish: Option<String>,
     decided: Option<&Decided<T>>,
@@ -112,8 +115,7 @@ fn closed<T: Copy>(
         Certainty::Open => "open",
         Certainty::Certain | Certainty::Chosen => "certain",
     };
-    let how = if guess && wordy { format!("{sure}: {}", lower(&decided.why)) } else { sure.to_owned() };
-    Closed { value: name(decided.value), how, guess, why: decided.why.clone() }
+    Closed { value: name(decided.value), how: sure.to_owned(), guess, why: decided.why.clone() }
 }
 
 /// A choice without what its caption says anyway.
@@ -121,25 +123,47 @@ fn short(words: &str) -> &str {
     ["Down", "Across", "Table"].into_iter().find(|short| words.starts_with(short)).unwrap_or(words)
 }
 
-/// Words as they read within a sentence.
-fn lower(words: &str) -> String {
-    let mut letters = words.chars();
-    letters.next().map_or_else(String::new, |first| first.to_lowercase().chain(letters).collect())
-}
-
 /// The switches that matter for the file.
 pub(super) fn show(ui: &mut Ui, shown: &ImportSelection, wishes: &mut ImportOverrides, theme: &Theme) {
-    // What the last look says is told as long as nothing newer is known.
+    // The result of the last preview is shown as long as no newer one is available.
     let table = shown.table();
     let reading = table.map(|table| &table.reading);
     let options = &mut wishes.options;
-    let gap = 2.0 * UNIT;
     let whole = ui.available_width() - 2.0;
-    let half = ((whole - gap) / 2.0).floor();
     Switch { words: "This is a", wish: &mut options.role, decided: table.map(|table| &table.role), choices: &ROLES }
         .show(ui, theme, whole, true);
     let decided = reading.map(|reading| &reading.values);
     Switch { words: "Values are", wish: &mut options.values, decided, choices: &VALUES }.show(ui, theme, whole, true);
+    let is_settled = shown.error().is_none() && reading.is_some_and(|reading| is_certain(reading, options));
+    if is_settled {
+        let head = RichText::new(SETTLED).small();
+        let whole = whole - ui.spacing().indent;
+        CollapsingHeader::new(head).id_salt(SETTLED).show(ui, |ui| format(ui, shown, options, theme, whole));
+    } else {
+        format(ui, shown, options, theme, whole);
+    }
+}
+
+/// True if nothing of the file's format is a guess or a person's choice.
+fn is_certain(reading: &ReadReport, options: &ReadOptions) -> bool {
+    let certainties = [
+        reading.wavelength_unit.certainty,
+        reading.reader.certainty,
+        reading.decimal_mark.certainty,
+        reading.delimiter.certainty,
+        reading.orientation.certainty,
+    ];
+    let asked = ReadOptions { role: options.role, values: options.values, ..ReadOptions::default() };
+    // Which of several tables is read is a choice that stays in sight.
+    certainties.iter().all(|certainty| *certainty == Certainty::Certain) && *options == asked && reading.parts.len() < 2
+}
+
+/// The switches of the file's format.
+fn format(ui: &mut Ui, shown: &ImportSelection, options: &mut ReadOptions, theme: &Theme, whole: f32) {
+    let gap = 2.0 * UNIT;
+    let half = ((whole - gap) / 2.0).floor();
+    let table = shown.table();
+    let reading = table.map(|table| &table.reading);
     let unit = reading.map(|reading| &reading.wavelength_unit);
     let columns = columns(table, options.reader);
     pair(ui, gap, |ui| {

@@ -1,17 +1,16 @@
 //! The compared sensors: the only legend.
 
-use egui::{Id, Key, Rect, Response, Sense, TextEdit, TextStyle, Ui, Vec2};
+use egui::{Id, Key, Rect, Sense, TextEdit, TextStyle, Ui, Vec2};
 
 use crate::action::{Action, CompareAction};
 use crate::command::Command;
 use crate::document::SetKind;
 use crate::panes::context::PaneContext;
 use crate::panes::widgets::{focus_rim, lines};
-use crate::plot_item::{PlotItem, SensorId};
+use crate::plot_item::PlotItem;
 use crate::scene::ComparedSensor;
 use crate::theme::{FADED, ROW, UNIT};
 use crate::view::import::ImportItem;
-use crate::workspaces::PaneKind;
 
 /// A label that is being written.
 #[derive(Clone, Default)]
@@ -25,10 +24,19 @@ fn renaming_id() -> Id {
     Id::unique("renamed sensor")
 }
 
+fn id(source: &ComparedSensor) -> Id {
+    Id::unique(("compared", source.kind, &source.name))
+}
+
+/// Gives the name of a sensor the keyboard.
+pub(super) fn focus(ui: &Ui, source: &ComparedSensor) {
+    ui.memory_mut(|memory| memory.request_focus(id(source).with("label")));
+}
+
 /// One sensor: key, label, tag, menu.
 pub(super) fn row(ui: &mut Ui, source: &ComparedSensor, context: &mut PaneContext<'_>) {
     let (rect, _) = ui.allocate_exact_size(Vec2::new(ui.available_width(), ROW), Sense::hover());
-    let id = ui.scope_id().with(("compared", source.kind, &source.name));
+    let id = id(source);
     key(ui, Rect::from_min_size(rect.min, Vec2::new(lines::KEY + UNIT, ROW)), id, source, context);
     let dots = Rect::from_min_max(egui::pos2(rect.right() - lines::DOTS, rect.top()), rect.max);
     let mut words = Rect::from_min_max(
@@ -79,7 +87,7 @@ fn toggle(source: &ComparedSensor, context: &mut PaneContext<'_>) {
 }
 
 fn thing(source: &ComparedSensor) -> PlotItem {
-    PlotItem::Sensor(SensorId { kind: source.kind, name: source.name.clone() })
+    PlotItem::of_set(source.kind, &source.name)
 }
 
 /// Draws the sensor's further roles; returns the width used.
@@ -125,27 +133,20 @@ fn label(ui: &Ui, rect: Rect, row: Rect, id: Id, source: &ComparedSensor, contex
         ui.painter().rect_stroke(row, 3.0, stroke, egui::StrokeKind::Inside);
     }
     let color = context.theme.text.gamma_multiply(if source.visible { 1.0 } else { FADED + 0.25 });
-    lines::elided(ui, rect, &source.label, TextStyle::Body, color);
+    let cut = lines::elided(ui, rect, &source.label, TextStyle::Body, color);
     if response.clicked() {
         context.view.click(Some(&thing));
     }
     response.context_menu(|ui| menu(ui, source, context));
-    hint(response, source, context);
+    // All else stands in the inspector, where it covers nothing.
+    if cut || source.label != source.name {
+        response.on_hover_ui(|ui| {
+            ui.set_max_width(row.width());
+            ui.strong(&source.name);
+        });
+    }
 }
 
-/// The whole name; all else stands in the inspector after a click, where it covers nothing.
-fn hint(response: Response, source: &ComparedSensor, context: &PaneContext<'_>) {
-    let also = context.scene.entry(source.kind, &source.name).ok().and_then(|entry| entry.also);
-    response.on_hover_ui(|ui| {
-        ui.strong(&source.name);
-        if let Some(also) = also {
-            ui.label(also);
-        }
-        ui.small("Click for source, range and terms.");
-    });
-}
-
-/// Context menu of a sensor.
 fn menu(ui: &mut Ui, source: &ComparedSensor, context: &mut PaneContext<'_>) {
     ui.set_min_width(150.0);
     let name = source.name.clone();
@@ -165,7 +166,7 @@ fn menu(ui: &mut Ui, source: &ComparedSensor, context: &mut PaneContext<'_>) {
     }
     if offer(ui, "Source", true) {
         context.view.selected = Some(thing(source));
-        show_inspector(context);
+        super::save::show_inspector(context);
     }
     super::save::save_as(ui, source.kind, &source.name, context);
     if source.is_own && offer(ui, "Reading…", true) {
@@ -180,16 +181,6 @@ fn offer(ui: &mut Ui, words: &str, enabled: bool) -> bool {
         ui.close();
     }
     clicked
-}
-
-/// Brings the inspector on, if the workspace does not show it.
-pub(super) fn show_inspector(context: &mut PaneContext<'_>) {
-    let saved = &context.view.saved;
-    if !saved.layout.shows(saved.workspace, PaneKind::INSPECTOR) {
-        context.view.saved.layout.toggle(context.view.saved.workspace, PaneKind::INSPECTOR);
-    }
-    // Only a narrow window looks at this.
-    context.view.inspector_over = true;
 }
 
 /// The label as a field. Enter and a click elsewhere keep it, Esc does not.

@@ -1,4 +1,4 @@
-//! The menu of a set: its reading, its removal, and the forms in which it can be saved.
+//! The menu of a set: its source, its reading, its removal, and the forms in which it can be saved.
 
 use egui::{Key, Modifiers, Popup, Rect, Response, Sense, Ui};
 
@@ -10,10 +10,12 @@ use crate::export::spectra::{Form, fits};
 use crate::format::sentence;
 use crate::panes::context::PaneContext;
 use crate::panes::widgets::lines;
+use crate::plot_item::PlotItem;
 use crate::view::import::ImportItem;
+use crate::workspaces::PaneKind;
 
-/// The dots at the end of a row and what they open; so do a right click on the row and the menu key. A row of the program's
-/// shows its dots while it is pointed at or has the focus. Returns whether they are on show.
+/// The dots at the end of a row and their menu, which a right click on the row and the menu key open, too. The row of a
+/// built-in set shows its dots while it is hovered or focused. Returns whether they are visible.
 pub(super) fn menu_of(ui: &Ui, rect: Rect, row: &Response, entry: &Entry, context: &mut PaneContext<'_>) -> bool {
     let id = row.id.with("dots");
     let whose = if entry.is_own() { "Menu of your" } else { "Menu in the library of" };
@@ -28,7 +30,7 @@ pub(super) fn menu_of(ui: &Ui, rect: Rect, row: &Response, entry: &Entry, contex
     let button = if shown {
         lines::dots(ui, rect, id, &name)
     } else {
-        // Not seen, but there for those who do not point.
+        // Invisible, but accessible to keyboards and screen readers.
         let button = ui.interact(rect, id, Sense::click());
         button.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &name));
         button
@@ -47,6 +49,11 @@ pub(super) fn menu_of(ui: &Ui, rect: Rect, row: &Response, entry: &Entry, contex
 
 /// Context menu of a set.
 fn menu(ui: &mut Ui, entry: &Entry, context: &mut PaneContext<'_>) {
+    if ui.button("Source").on_hover_text("Source, terms and curve in the Inspector").clicked() {
+        context.view.selected = Some(PlotItem::of_set(entry.kind, &entry.name));
+        show_inspector(context);
+        ui.close();
+    }
     if entry.is_own() && ui.button("Reading…").clicked() {
         context.push(Command::ShowImport(ImportItem::Set(entry.name.clone()), None));
         ui.close();
@@ -56,6 +63,16 @@ fn menu(ui: &mut Ui, entry: &Entry, context: &mut PaneContext<'_>) {
         context.push(Action::Own(OwnAction::Remove(entry.name.clone())));
         ui.close();
     }
+}
+
+/// Brings the inspector on, if the workspace does not show it.
+pub(super) fn show_inspector(context: &mut PaneContext<'_>) {
+    let saved = &context.view.saved;
+    if !saved.layout.shows(saved.workspace, PaneKind::INSPECTOR) {
+        context.view.saved.layout.toggle(context.view.saved.workspace, PaneKind::INSPECTOR);
+    }
+    // Only a narrow window looks at this.
+    context.view.inspector_over = true;
 }
 
 /// The forms a set can be saved in; those that are not for such a set say why.

@@ -12,11 +12,12 @@ use crate::command::Command;
 use crate::document::own::OwnSet;
 use crate::document::{Light, SetKind};
 use crate::panes::context::PaneContext;
-use crate::panes::widgets::{facts, focus_rim, lines};
+use crate::panes::widgets::{focus_rim, lines};
+use crate::plot_item::PlotItem;
 use crate::theme::{ROW, UNIT};
 use crate::view::import::ImportItem;
 
-/// Width that a scroll bar lies over.
+/// Width that a scroll bar overlaps.
 pub(super) const SCROLL_BAR: f32 = 10.0;
 
 /// Width that the tag of a digitized table takes.
@@ -40,7 +41,7 @@ pub(super) enum Row<'a> {
 }
 
 impl<'a> Row<'a> {
-    /// The entry of a set, made for rows in sight only.
+    /// The entry of a set, made for visible rows only.
     fn entry(&self) -> Option<Cow<'a, Entry>> {
         match self {
             Self::Group { .. } => None,
@@ -79,7 +80,7 @@ pub(super) fn first_match<'a>(rows: &[Row<'a>]) -> Option<Cow<'a, Entry>> {
     rows.iter().find_map(Row::entry)
 }
 
-/// The list; only rows in sight are laid out.
+/// The list; only visible rows are laid out.
 pub(super) fn list(ui: &mut Ui, rows: &[Row<'_>], context: &mut PaneContext<'_>) {
     if rows.is_empty() {
         ui.horizontal(|ui| {
@@ -143,7 +144,7 @@ fn rim(ui: &Ui, rect: Rect, response: &Response, context: &PaneContext<'_>) {
     }
 }
 
-/// True if a set is on show, and whether that can be changed here.
+/// True if a set is in use, and whether that can be changed here.
 fn state(entry: &Entry, context: &PaneContext<'_>) -> (bool, bool) {
     let document = context.scene.document;
     match entry.kind {
@@ -158,11 +159,11 @@ fn state(entry: &Entry, context: &PaneContext<'_>) -> (bool, bool) {
     }
 }
 
-/// Puts a set to use, or a compared one off.
+/// Puts a set to use, or removes it from the comparison.
 pub(super) fn choose(entry: &Entry, on: bool, context: &mut PaneContext<'_>) {
     let name = entry.name.clone();
     if entry.kind == SetKind::Unsorted {
-        // What it is has to be said first.
+        // Its kind must be chosen first, in Import.
         context.push(Command::ShowImport(ImportItem::Set(name), None));
         return;
     }
@@ -175,7 +176,6 @@ pub(super) fn choose(entry: &Entry, on: bool, context: &mut PaneContext<'_>) {
     });
 }
 
-/// One set.
 fn set(ui: &mut Ui, entry: &Entry, context: &mut PaneContext<'_>) {
     let (on, enabled) = state(entry, context);
     let ticks = matches!(entry.kind, SetKind::Camera | SetKind::Observer | SetKind::Filter);
@@ -205,17 +205,25 @@ fn set(ui: &mut Ui, entry: &Entry, context: &mut PaneContext<'_>) {
     }
     let color = if enabled { context.theme.text } else { context.theme.weak };
     let shown = if entry.kind == SetKind::Illuminant && entry.name == "E" { "E, equal energy" } else { &entry.name };
-    lines::elided(ui, words, shown, TextStyle::Body, color);
+    let cut = lines::elided(ui, words, shown, TextStyle::Body, color);
     if enabled && response.clicked() && (ticks || !on) {
         choose(entry, !on, context);
     }
-    let (scene, theme) = (context.scene, context.theme);
-    response.on_hover_ui(|ui| {
-        if !enabled {
-            ui.label("The reference cannot be removed; choose another reference first.");
-        }
-        facts::tooltip(ui, &scene, &theme, entry);
-    });
+    // Source, terms and curve stand in the inspector, a sensor's locus in the diagram, where they cover nothing.
+    if response.hovered() || response.has_focus() {
+        context.view.hover(Some(&PlotItem::of_set(entry.kind, &entry.name)));
+    }
+    let also = entry.also.clone().filter(|also| *also != entry.name);
+    if !enabled || cut || also.is_some() {
+        response.on_hover_ui(|ui| {
+            ui.set_max_width(row.width());
+            ui.strong(&entry.name);
+            also.map(|also| ui.label(also));
+            if !enabled {
+                ui.small("The reference cannot be removed; choose another reference first.");
+            }
+        });
+    }
 }
 
 /// A box with a tick, or a ring with a point.

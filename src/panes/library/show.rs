@@ -7,7 +7,7 @@ use egui::{Id, Key, Rect, ScrollArea, TextEdit, Ui, UiBuilder, Vec2};
 use super::{compared, sets};
 use crate::document::SetKind;
 use crate::panes::context::{Pane, PaneContext};
-use crate::panes::widgets::mark_all;
+use crate::panes::widgets::{self, mark_all};
 use crate::theme::{ROW, UNIT};
 use crate::workspaces::PaneKind;
 
@@ -31,6 +31,12 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     column.set_clip_rect(rect.intersect(ui.clip_rect()));
     column.spacing_mut().item_spacing.y = UNIT;
     heading(&mut column, "Compared", context);
+    let enters = widgets::walk::has_keys(&column, PaneKind::LIBRARY, context)
+        && column.input_mut(|input| input.consume_key(egui::Modifiers::NONE, Key::ArrowDown))
+        || context.view.focused == Some(PaneKind::LIBRARY) && std::mem::take(&mut context.view.tab_enters);
+    if let Some(first) = context.scene.sources().first().filter(|_| enters) {
+        compared::focus(&column, first);
+    }
     compared(&mut column, inner.height(), context);
     column.separator();
     heading(&mut column, "Library", context);
@@ -42,7 +48,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     sets::list(&mut column, &rows, context);
 }
 
-/// The compared sensors. Their list is as high whatever their number is: the library below stands still while sensors are ticked.
+/// The compared sensors. The height of their list is constant, so that the library below does not move while sensors are ticked.
 fn compared(ui: &mut Ui, height: f32, context: &mut PaneContext<'_>) {
     let sources = context.scene.sources();
     let pitch = ROW + UNIT;
@@ -52,7 +58,7 @@ fn compared(ui: &mut Ui, height: f32, context: &mut PaneContext<'_>) {
     let now: Vec<(SetKind, String)> = sources.iter().map(|source| (source.kind, source.name.clone())).collect();
     let before: Option<Vec<(SetKind, String)>> = ui.data(|data| data.get_temp(seen));
     let area = ScrollArea::vertical().id_salt("compared").max_height(rows * pitch).auto_shrink(false);
-    // One that was just added is brought into sight.
+    // One that was just added is brought into view.
     let added = before.as_ref().filter(|before| before.len() < now.len()).and_then(|before| {
         let before: HashSet<&(SetKind, String)> = before.iter().collect();
         now.iter().rposition(|key| !before.contains(key))
@@ -77,7 +83,7 @@ fn compared(ui: &mut Ui, height: f32, context: &mut PaneContext<'_>) {
 fn heading(ui: &mut Ui, words: &str, context: &PaneContext<'_>) {
     let (rect, response) = ui.allocate_exact_size(Vec2::new(ui.available_width(), ROW - UNIT), egui::Sense::hover());
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, words));
-    crate::panes::widgets::lines::elided(ui, rect, words, egui::TextStyle::Body, context.theme.text);
+    widgets::lines::elided(ui, rect, words, egui::TextStyle::Body, context.theme.text);
 }
 
 /// The field that the list is searched with. Returns whether the first match was chosen with Enter.

@@ -1,4 +1,4 @@
-//! Where pictures stand in the pane.
+//! Layout of pictures in the pane.
 
 use egui::{Pos2, Rect, Vec2};
 
@@ -17,7 +17,7 @@ const SCALE: f32 = 40.0;
 /// A picture's place.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct PictureSlot {
-    /// Its sensor's index among those asked for.
+    /// Its sensor's index among those requested.
     pub(super) source: usize,
     /// The line above it.
     pub(super) caption: Rect,
@@ -25,17 +25,17 @@ pub(super) struct PictureSlot {
     pub(super) picture: Rect,
 }
 
-/// What stands where.
+/// Layout of pictures, divider and color scale.
 pub(super) struct PictureLayout {
-    /// How pictures stand.
+    /// Arrangement of pictures.
     pub(super) mode: RenderMode,
-    /// The sensors that are asked for, the reference first.
+    /// The sensors that are requested, the reference first.
     pub(super) sources: Vec<ComparedSensor>,
     /// The pictures; the two halves of a split one share their place.
     pub(super) cells: Vec<PictureSlot>,
-    /// Where the divider of a split picture is.
+    /// Position of the divider of a split picture.
     pub(super) divider: Option<f32>,
-    /// Where the scale of differences is.
+    /// Rectangle of the color scale of differences.
     pub(super) scale: Option<Rect>,
     /// The size of each picture in pixels of the screen.
     pub(super) pixels: [u32; 2],
@@ -61,6 +61,8 @@ impl PictureLayout {
             .then(|| Rect::from_min_max(Pos2::new(body.left(), body.bottom() - SCALE), body.max));
         let area = Rect::from_min_max(body.min, body.max - Vec2::new(0.0, scale.map_or(0.0, |s| s.height())));
         let overlaid = mode == RenderMode::Split;
+        let image = context.images.chosen(&context.scene.document.render.mesh);
+        let aspect = image.map(|image| image.info.width as f32 / image.info.height as f32);
         let (columns, size) = grid(area.size(), if overlaid { 1 } else { shown.len() });
         let pixels = [size.x, size.y].map(|side| (side * pixels_per_point).floor().max(1.0));
         let whole = Vec2::new(pixels[0], pixels[1]) / pixels_per_point;
@@ -72,7 +74,8 @@ impl PictureLayout {
             let step = Vec2::new(size.x + GAP, size.y + CAPTION);
             let offset = Vec2::new((index % columns) as f32 * step.x, (index / columns) as f32 * step.y);
             let caption = Rect::from_min_size(area.min + offset, Vec2::new(size.x, CAPTION));
-            PictureSlot { source, caption, picture: Rect::from_min_size(snapped(caption.left_bottom()), whole) }
+            let picture = Rect::from_min_size(snapped(caption.left_bottom()), whole);
+            PictureSlot { source, caption, picture: fitted(picture, aspect) }
         };
         let cells: Vec<PictureSlot> = shown.iter().enumerate().map(cell).collect();
         let share = context.view.saved.render.split.clamp(0.0, 1.0);
@@ -83,7 +86,7 @@ impl PictureLayout {
         Self { mode, sources, cells, divider, scale, pixels: pixels.map(|side| side as u32) }
     }
 
-    /// What part of a cell's picture is on show.
+    /// Visible part of a cell's picture.
     pub(super) fn visible(&self, cell: usize) -> Rect {
         let mut visible = self.cells[cell].picture;
         if let Some(x) = self.divider {
@@ -105,11 +108,19 @@ impl PictureLayout {
     }
 }
 
-/// The sensor that stands alone or beside the reference: the chosen one, else the first camera, else the reference.
+/// The sensor shown alone or with the reference: the chosen one, else the first camera, else the reference.
 pub(super) fn chosen<'a>(all: &'a [ComparedSensor], chosen: Option<&SensorId>) -> Option<&'a ComparedSensor> {
     let is_chosen =
         |source: &&ComparedSensor| chosen.is_some_and(|id| source.kind == id.kind && source.name == id.name);
     all.iter().find(is_chosen).or_else(|| all.iter().find(|source| !source.is_reference)).or_else(|| all.first())
+}
+
+/// The largest rectangle of an aspect at the top of another; the other without an aspect.
+fn fitted(place: Rect, aspect: Option<f32>) -> Rect {
+    let Some(aspect) = aspect else { return place };
+    let width = place.width().min(place.height() * aspect);
+    let left = place.center().x - 0.5 * width;
+    Rect::from_min_size(Pos2::new(left.round(), place.top()), Vec2::new(width, width / aspect))
 }
 
 /// Number of pictures side by side, and their size: such that the smaller side is as large as it can be.

@@ -6,7 +6,7 @@ use crate::figures::render::difference::Scale;
 use crate::panes::context::PaneContext;
 use crate::theme::{SMALL, difference_ramp};
 
-/// The scale: what the ramp's colors stand for.
+/// The color scale of differences.
 pub(super) fn scale(ui: &mut Ui, painter: &Painter, rect: Rect, scale: Scale, name: &str, context: &PaneContext<'_>) {
     let color = context.theme.surround.label();
     let font = FontId::proportional(SMALL);
@@ -23,9 +23,15 @@ pub(super) fn scale(ui: &mut Ui, painter: &Painter, rect: Rect, scale: Scale, na
         painter.text(at, Align2::CENTER_TOP, value, font.clone(), color);
     }
     let dark = Pos2::new(rect.right() - 8.0, bar.center().y);
-    painter.text(dark, Align2::RIGHT_CENTER, "black: no light", font, color);
+    let is_image = context.scene.document.render.mesh.is_image();
+    let words = if is_image { "dark: no value" } else { "hatched: no light" };
+    painter.text(dark, Align2::RIGHT_CENTER, words, font, color);
     let response = ui.interact(rect, ui.scope_id().with("difference scale"), Sense::hover());
     let said = format!("Scale of {name} from the reference, from 0 to {}", scale.end);
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, &said));
-    response.on_hover_text("Of each lit sample; a white of the same roughness that faces the light has Y = 1.");
+    response.on_hover_text(if is_image {
+        "Of each pixel; a reflectance of 1, or the white of radiances, has Y = 1."
+    } else {
+        "Of each lit sample; a white of the same roughness that faces the light has Y = 1."
+    });
 }

@@ -1,4 +1,4 @@
-//! Pictures with their captions, the pixel that is kept, the divider.
+//! Drawing of pictures with captions, pinned pixel and divider.
 
 use chromascope_figure::{Ink, InkRole, Mark, Panel, Rect as Area, Shape};
 use egui::{
@@ -8,7 +8,7 @@ use egui::{
 use super::cells::{CAPTION, PictureLayout, PictureSlot, chosen};
 use super::difference;
 use crate::figures::chromaticity::id;
-use crate::figures::render::headline::{self, Detail, Measure};
+use crate::figures::render::headline::{Detail, Measure};
 use crate::figures::render::{difference as maps, index_of};
 use crate::paint::{self, PictureQuery};
 use crate::panes::context::PaneContext;
@@ -29,7 +29,7 @@ const HANDLE: f32 = 8.0;
 /// The radius of the ring around the pixel that is kept.
 const RING: f32 = 7.0;
 
-/// Draws what stands in the pane, as far as it was made.
+/// Draws the pictures of the pane, as far as they are available.
 pub(super) fn pictures(ui: &mut Ui, painter: &Painter, stand: &PictureLayout, context: &mut PaneContext<'_>) {
     let shot = context.studio.frame().cloned();
     let scale = shot.as_deref().filter(|_| stand.scale.is_some()).map(maps::Scale::of);
@@ -38,7 +38,7 @@ pub(super) fn pictures(ui: &mut Ui, painter: &Painter, stand: &PictureLayout, co
         let index_in =
             |source: &ComparedSensor| shot.as_deref().and_then(|shot| Some((shot, index_of(shot, &id(source))?)));
         let found = index_in(source);
-        // While B is held the reference stands in for every camera; a map of differences has none.
+        // While B is held, the reference replaces every camera; a map of differences has none.
         let blinking = context.view.blink && scale.is_none();
         let drawn = if blinking { stand.sources.first().and_then(index_in) } else { found };
         if let Some((shot, at)) = drawn {
@@ -51,7 +51,7 @@ pub(super) fn pictures(ui: &mut Ui, painter: &Painter, stand: &PictureLayout, co
         ring(painter, stand, index, context);
     }
     if let (Some(rect), Some(scale), Some(shot)) = (stand.scale, scale, shot.as_deref()) {
-        difference::scale(ui, painter, rect, scale, Measure::of(&shot.query).name(), context);
+        difference::scale(ui, painter, rect, scale, Measure::of_frame(shot).name(), context);
     }
 }
 
@@ -73,7 +73,9 @@ fn picture(
         Ok(None) => return,
         Ok(Some(Ok(made))) => {
             let source = &shot.sources[at];
-            let sharp = [made.width, made.height] == stand.pixels.map(|side| side as usize);
+            // Pixels of a small image stay squares.
+            let sharp = [made.width, made.height] == stand.pixels.map(|side| side as usize)
+                || (shot.query.image().is_some() && made.width < stand.pixels[0] as usize / 2);
             let name = format!("{} {}", source.kind.singular(), source.name);
             let textures = &mut context.view.render.textures;
             match scale {
@@ -101,12 +103,14 @@ fn picture(
 struct Note {
     short: Option<String>,
     full: String,
+    meaning: &'static str,
 }
 
 /// The note of a picture's caption.
 fn note(shot: &RenderedFrame, at: usize, width: f32) -> Option<Note> {
     let difference = shot.made()?.differences.get(at)?.as_ref()?;
-    let words = |detail| Measure::of(&shot.query).words(difference, detail);
+    let measure = Measure::of_frame(shot);
+    let words = |detail| measure.words(difference, detail);
     let steps = [
         (WITH_LARGEST, Detail::Largest),
         (WITH_QUANTILES, Detail::Quantiles),
@@ -114,10 +118,10 @@ fn note(shot: &RenderedFrame, at: usize, width: f32) -> Option<Note> {
         (WITH_NOTE, Detail::Number),
     ];
     let short = steps.into_iter().find(|(least, _)| width >= *least).map(|(_, detail)| words(detail));
-    Some(Note { short, full: words(Detail::Largest) })
+    Some(Note { short, full: words(Detail::Largest), meaning: measure.meaning() })
 }
 
-/// What a sensor is called above its picture.
+/// Title above a sensor's picture.
 fn title(source: &ComparedSensor) -> String {
     if source.is_reference { format!("Reference, {}", source.label) } else { source.label.clone() }
 }
@@ -143,8 +147,8 @@ fn caption(
     let said = note.map_or_else(|| words.clone(), |note| format!("{words}, {}", note.full));
     let response = ui.interact(cell.caption, ui.scope_id().with(("caption", &words)), Sense::hover());
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, format!("Picture: {said}")));
-    if note.is_some() {
-        response.on_hover_text(format!("{said}. {}", headline::MEANING));
+    if let Some(note) = note {
+        response.on_hover_text(format!("{said}. {}", note.meaning));
     } else if cut {
         response.on_hover_text(said);
     }
@@ -160,7 +164,7 @@ fn marker(painter: &Painter, rect: Rect, source: &ComparedSensor, context: &Pane
     paint::still(painter, &panel, &context.theme, rect);
 }
 
-/// The ring around the pixel that is kept, in every picture.
+/// The ring around the pinned pixel, in every picture.
 fn ring(painter: &Painter, stand: &PictureLayout, cell: usize, context: &PaneContext<'_>) {
     let Some(pinned) = &context.view.render.pinned else { return };
     let picture = stand.cells[cell].picture;

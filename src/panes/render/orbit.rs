@@ -16,7 +16,7 @@ const NEARER: f64 = 0.9;
 /// Drag turns, wheel and pinch approach.
 pub(super) fn by_pointer(ui: &Ui, response: &Response, context: &mut PaneContext<'_>) {
     if response.clicked() || response.drag_started() {
-        // Keys mean this pane now, not what was typed into before; letters rest only while something has the keyboard.
+        // Keys act on this pane now, not on an earlier text field; letters are free unless a control has the focus.
         ui.memory_mut(|memory| {
             if let Some(other) = memory.focused() {
                 memory.surrender_focus(other);

@@ -1,4 +1,7 @@
-//! What the pane asks for: coarse pictures while something moves, then fine ones.
+//! Picture requests: coarse while something moves, then fine.
+
+use std::path::Path;
+use std::sync::Arc;
 
 use chromascope_core::colorimetry::rgb::srgb_inverse_transfer;
 use chromascope_core::query::Shared;
@@ -10,16 +13,19 @@ use egui::Ui;
 
 use super::cells::PictureLayout;
 use crate::catalog::meshes::MeshState;
+use crate::catalog::spectral_images::{ImageState, LoadedImage};
 use crate::document::render::{MeshChoice, RenderSettings};
 use crate::panes::context::PaneContext;
+use crate::render_service::made::{NoPictures, PicturesOf};
 use crate::scene::orbit::Orbit;
 use crate::scene::render::Finish;
+use crate::scene::spectral_image::{ImagePicturesError, screen_steps};
 use crate::view::render::RenderMode;
 use chromascope_core::render::QualityLevel;
 
-/// Above so many pixels in all, pictures of something that moves have half the resolution.
+/// Total number of pixels above which pictures of a moving scene have half the resolution.
 const MANY_PIXELS: u64 = 1_500_000;
-/// So many samples are compared with the reference while something moves, and at rest.
+/// Maximum number of samples compared with the reference, while something moves and at rest.
 const COMPARED: [usize; 2] = [2048, 16384];
 /// Samples along the side of a pixel in the finest pictures, and the most in all: beyond, there are fewer to a pixel.
 const SAMPLES: u32 = 3;
@@ -27,17 +33,31 @@ const MOST_SAMPLES: u64 = 6_000_000;
 /// Below this tolerance a sample takes sums over wavelengths.
 const TABLES_REACH: f64 = 1e-9;
 
-/// Asks for the pictures that stand here. Says why there are none.
+/// Requests the visible pictures. Returns the reason if there are none.
 pub(super) fn ask(ui: &Ui, stand: &PictureLayout, context: &mut PaneContext<'_>) -> Result<(), String> {
-    let mesh = mesh(context)?;
-    if stand.cells.is_empty() {
-        return Err("Tick a camera in the Library.".to_owned());
-    }
-    let wish = Wish { stand, mesh, context };
-    let last = wish.query(wish.last())?;
-    let stages = [wish.first(), wish.middle(), wish.last()];
-    let [first, middle] = [0, 1].map(|stage: usize| wish.query(stages[stage]));
-    let (first, middle) = (first?, middle?);
+    let none = || "Tick a camera in the Library.".to_owned();
+    let stages = if let MeshChoice::Image(path) = &context.scene.document.render.mesh {
+        let image = image(path, context)?;
+        context.view.render.rows_read = Some(image.source.rows.share());
+        if stand.cells.is_empty() {
+            return Err(none());
+        }
+        let query = |step| {
+            let pictures = context.scene.image_pictures(&image.source, &stand.sources, context.scene.image_use(step));
+            pictures.map(PicturesOf::Image).map_err(|error| error.to_string())
+        };
+        screen_steps(&image.info).into_iter().map(query).collect::<Result<Vec<_>, _>>()?
+    } else {
+        context.view.render.rows_read = None;
+        let mesh = mesh(context)?;
+        if stand.cells.is_empty() {
+            return Err(none());
+        }
+        let wish = Wish { stand, mesh, context };
+        let stages = [wish.first(), wish.middle(), wish.last()];
+        stages.into_iter().map(|finish| wish.query(finish).map(PicturesOf::Mesh)).collect::<Result<Vec<_>, _>>()?
+    };
+    let (Some(first), Some(last)) = (stages.first().cloned(), stages.last().cloned()) else { return Err(none()) };
     let making = context.scene.document.render.quality.label();
     let settled = context.scene.document.render.quality != QualityLevel::Full;
     context.view.render.making = if settled { making } else { "Rendering" };
@@ -56,16 +76,33 @@ pub(super) fn ask(ui: &Ui, stand: &PictureLayout, context: &mut PaneContext<'_>)
     } else if moving {
         studio.ask(vec![first], &stand.sources, true);
     } else {
-        let mut stages = vec![first, middle, last];
         // In some qualities the last two are the same.
+        let mut stages = stages;
         stages.dedup();
         studio.ask(stages, &stand.sources, false);
     }
     studio.refresh();
+    if let Some(Err(NoPictures::Image(why))) = studio.frame().map(|frame| frame.pictures()) {
+        let name = context.scene.document.render.mesh.name();
+        let remedy = match &*why {
+            ImagePicturesError::Quantity => "; choose Reflectance or Radiance in Render settings",
+            _ => "",
+        };
+        return Err(format!("{name}: {why}{remedy}."));
+    }
     studio.failure().map_or(Ok(()), |why| Err(format!("No picture: {why}.")))
 }
 
-/// The mesh, or what is to be said while there is none.
+/// The image, or the message shown while there is none.
+fn image(path: &Path, context: &PaneContext<'_>) -> Result<Arc<LoadedImage>, String> {
+    match context.images.get(path) {
+        ImageState::Ready(image) => Ok(image),
+        ImageState::Loading => Err(format!("Reading {}…", crate::format::file_name(path))),
+        ImageState::Failed(why) => Err(why),
+    }
+}
+
+/// The mesh, or the message shown while there is none.
 fn mesh(context: &PaneContext<'_>) -> Result<MeshQuery, String> {
     let own: Option<Shared<Mesh>> = match &context.scene.document.render.mesh {
         MeshChoice::File(path) => match context.meshes.get(path) {
@@ -78,7 +115,7 @@ fn mesh(context: &PaneContext<'_>) -> Result<MeshQuery, String> {
         },
         _ => None,
     };
-    context.scene.mesh_of(own.as_ref()).ok_or_else(|| "Pick Head or Fern, or open an OBJ.".to_owned())
+    context.scene.mesh_of(own.as_ref()).ok_or_else(|| "Choose a mesh, or open one.".to_owned())
 }
 
 /// The pictures as they are to be in the end, with the stages before.

@@ -8,7 +8,7 @@ use crate::panes::widgets;
 use crate::theme::UNIT;
 use crate::view::render::RenderMode;
 
-/// How pictures stand, and the paper's figures.
+/// Shows the arrangement of pictures and the presets of the paper's figures.
 pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let modes = [
         (RenderMode::Grid, "Grid", "All sensors side by side"),

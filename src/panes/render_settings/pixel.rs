@@ -1,11 +1,12 @@
-//! The pixel that is kept, in numbers.
+//! Values of the pinned pixel.
 
 use chromascope_figure::{Cell, Table};
 use egui::{RichText, Ui};
 
 use crate::figures::render::headline::Measure;
-use crate::figures::render::{facts, index_of, pixel_of};
+use crate::figures::render::{NO_VALUE, facts, index_of, pixel_of};
 use crate::panes::context::PaneContext;
+use crate::panes::widgets::pixel_spectrum;
 use crate::panes::widgets::table::{Column, DataTable, show_pairs};
 use crate::plot_item::SensorId;
 use crate::render_service::RenderedFrame;
@@ -36,12 +37,15 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
         return;
     };
     let label = index_of(shot, &place.source).map_or(&place.source.name, |index| &shot.sources[index].label);
-    let measure = Measure::of(&shot.query);
+    let measure = Measure::of_frame(shot);
     let [x, y] = reading.at;
     ui.label(format!("Pixel {x}, {y}   {label}"));
     match reading.shows {
         PixelShows::Nothing => {
             ui.label("Beside the mesh.");
+        }
+        PixelShows::NoValue => {
+            ui.label(NO_VALUE);
         }
         PixelShows::Unlit => {
             ui.label("No light reaches it: facing away, or in shadow.");
@@ -49,11 +53,15 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
         PixelShows::Lit(lit) => {
             let numbers =
                 ui.scope(|ui| show_pairs(ui, PaneKind::RENDER_SETTINGS, "pixel", &facts(&lit, measure), context));
-            numbers.response.on_hover_text(
+            numbers.response.on_hover_text(if shot.query.image().is_some() {
                 "RGB: linear sRGB at this exposure, before clipping. xy, Lab and the difference from the reference: a \
-                 white of the same roughness that faces the light has Y = 1. g: at 550 nm.",
-            );
+                 reflectance of 1, or the white of radiances, has Y = 1."
+            } else {
+                "RGB: linear sRGB at this exposure, before clipping. xy, Lab and the difference from the reference: a \
+                 white of the same roughness that faces the light has Y = 1. g: at 550 nm."
+            });
             others(ui, &place, shot, context);
+            pixel_spectrum::show(ui, "spectrum in settings", shot, reading.at, context);
             if let Some((_, transform)) = lit.roughness {
                 ui.label(RichText::new(format!("g at 550 nm, {transform}")).small().color(weak));
             }
@@ -61,7 +69,7 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
     }
 }
 
-/// The place in the picture it was kept in or, where that sensor has none now, in the last one that has.
+/// The location in the picture it was pinned in or, if that sensor has none now, in the last one that has.
 fn shown(place: PixelPlace, shot: &RenderedFrame) -> PixelPlace {
     match shot.sources.last() {
         Some(last) if index_of(shot, &place.source).is_none() => {
@@ -73,7 +81,7 @@ fn shown(place: PixelPlace, shot: &RenderedFrame) -> PixelPlace {
 
 /// The pixel through each sensor, one line each.
 fn others(ui: &mut Ui, place: &PixelPlace, shot: &RenderedFrame, context: &PaneContext<'_>) {
-    let measure = Measure::of(&shot.query);
+    let measure = Measure::of_frame(shot);
     let mut table = Table::new(["", "x", "y", ""]);
     for source in shot.sources.iter() {
         let place = PixelPlace { at: place.at, source: SensorId { kind: source.kind, name: source.name.clone() } };

@@ -4,8 +4,9 @@ use chromascope_core::scene::lighting::SUN_RADIUS;
 use chromascope_mesh::head::FEWEST;
 use egui::Ui;
 
-use super::{Dial, caption, line, list, material, set};
-use crate::catalog::meshes::MeshState;
+use super::{Dial, caption, line, list, material, set, unless_image};
+use crate::catalog::meshes::{MeshState, is_mesh};
+use crate::catalog::spectral_images::has_image_ending;
 use crate::command::Command;
 use crate::document::render::{MeshChoice, NEAR, RenderSettings};
 use crate::panes::context::PaneContext;
@@ -19,6 +20,13 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let settings = context.scene.document.render.clone();
     mesh(ui, &settings, context);
     summary(ui, &settings, context);
+    super::image::show(ui, context);
+    let reason = "Triangles, material and light direction do nothing to a spectral image.";
+    unless_image(ui, reason, context, |ui, context| of_mesh(ui, &settings, context));
+}
+
+/// Controls of a mesh: its triangles, material and light.
+fn of_mesh(ui: &mut Ui, settings: &RenderSettings, context: &mut PaneContext<'_>) {
     // The head's cage has so many that a smaller number would change nothing.
     let least = if settings.mesh == MeshChoice::Head { FEWEST as f64 } else { *TRIANGLES.start() };
     let dial = Dial {
@@ -35,8 +43,8 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
     }
     caption(ui, "Material", context);
     material::choice(ui, &settings.material, context);
-    conditions(ui, &settings, context);
-    light(ui, &settings, context);
+    conditions(ui, settings, context);
+    light(ui, settings, context);
 }
 
 /// The rendered scene's light and white: the sun, or those of the scene bar.
@@ -59,7 +67,9 @@ fn mesh(ui: &mut Ui, settings: &RenderSettings, context: &mut PaneContext<'_>) {
         MeshChoice::Fern => "Fern".to_owned(),
         MeshChoice::Sphere => "Sphere".to_owned(),
         MeshChoice::Plane => "Plane".to_owned(),
-        MeshChoice::File(path) => path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned(),
+        MeshChoice::File(path) | MeshChoice::Image(path) => {
+            path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
+        }
     };
     list(ui, "Mesh", [&shown, ""], context, |ui, context| {
         for (choice, words) in [
@@ -74,15 +84,15 @@ fn mesh(ui: &mut Ui, settings: &RenderSettings, context: &mut PaneContext<'_>) {
         }
         ui.separator();
         let recent = context.view.saved.recent.clone();
-        for path in recent.into_iter().filter(|path| crate::catalog::meshes::is_mesh(path, &[])) {
+        for path in recent.into_iter().filter(|path| is_mesh(path, &[]) || has_image_ending(path)) {
             let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
-            let here = settings.mesh == MeshChoice::File(path.clone());
+            let here = [MeshChoice::File(path.clone()), MeshChoice::Image(path.clone())].contains(&settings.mesh);
             if ui.selectable_label(here, name).on_hover_text(path.display().to_string()).clicked() {
                 context.push(Command::OpenPath(path));
             }
         }
-        if ui.selectable_label(false, "Open OBJ…").on_hover_text("OBJ, PLY or STL; or drop it on the window").clicked()
-        {
+        let hint = "OBJ, PLY or STL, or a spectral image (ENVI, OpenEXR); or drop it on the window";
+        if ui.selectable_label(false, "Open mesh or image…").on_hover_text(hint).clicked() {
             context.push(Command::Open);
         }
     });

@@ -29,7 +29,7 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
     cautions(ui, &settings, context);
 }
 
-/// The area A that the half-widths stand for.
+/// The area A given by the half-widths.
 fn area(ui: &mut Ui, settings: &RenderSettings, context: &mut PaneContext<'_>) {
     ui.horizontal(|ui| {
         for choice in AreaChoice::ALL {
@@ -208,7 +208,7 @@ fn is_nearly_a_mirror(settings: &RenderSettings) -> bool {
     settings.roughness == RoughnessChoice::Surface && (-phase * phase).exp() > 0.01
 }
 
-/// A sentence to go on with.
+/// The text with its first letter in lower case.
 fn lowered(words: &str) -> String {
     let mut letters = words.chars();
     letters.next().map_or_else(String::new, |first| first.to_lowercase().chain(letters).collect())

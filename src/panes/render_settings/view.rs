@@ -2,9 +2,9 @@
 
 use egui::Ui;
 
-use super::{Dial, caption, line, list, set};
-use crate::document::render::RenderSettings;
+use super::{Dial, caption, line, list, set, unless_image};
 
+use crate::document::render::RenderSettings;
 use crate::panes::context::PaneContext;
 use crate::panes::widgets;
 use crate::scene::orbit::Orbit;
@@ -13,7 +13,12 @@ use chromascope_core::render::QualityLevel;
 /// Shows the group.
 pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let settings = context.scene.document.render.clone();
-    let hint = "The same for all cameras. At 0 EV the material facing the light has 40 % of the screen's white.";
+    let hint = if settings.mesh.is_image() {
+        "The same for all cameras. At 0 EV a reflectance of 1 is the screen's white; of radiances, the luminance that \
+         99.5 % of the pixels stay below."
+    } else {
+        "The same for all cameras. At 0 EV the material facing the light has 40 % of the screen's white."
+    };
     let dial = Dial {
         name: "Exposure",
         range: -6.0..=6.0,
@@ -26,6 +31,13 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
     if let Some(to) = dial.show(ui, settings.exposure_ev, context) {
         set(context, "Exposure", |settings| settings.exposure_ev = (to * 10.0).round() / 10.0);
     }
+    let reason = "Field of view and quality do nothing to a spectral image.";
+    unless_image(ui, reason, context, |ui, context| lens_and_quality(ui, &settings, context));
+    without_picture(ui, context);
+}
+
+/// Lens, accuracy of the integrals, and the initial view.
+fn lens_and_quality(ui: &mut Ui, settings: &RenderSettings, context: &mut PaneContext<'_>) {
     let orbit = context.view.saved.render.orbit.unwrap_or_else(|| Orbit::of(&settings.mesh));
     let hint = "Of the lens; the viewpoint moves so that the mesh keeps its size. Wide lenses fall off with cos⁴ (Eq \
                 12).";
@@ -57,19 +69,18 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
         context.view.saved.render.orbit = None;
         ui.ctx().request_repaint();
     }
-    without_picture(ui, context);
 }
 
 fn tolerance(ui: &mut Ui, settings: &RenderSettings, context: &mut PaneContext<'_>) {
     let hint = "Largest error of a picture, relative to its brightest sample, with the quality Within a tolerance. The \
-                Accuracy workspace shows the method for each camera.";
+                Numerics workspace shows the method for each camera.";
     let id = ui.make_persistent_id("tolerance field");
     if let Some(to) = widgets::tolerance::field(ui, id, settings.tolerance, "", hint, context) {
         set(context, "Tolerance", |settings| settings.tolerance = to);
     }
 }
 
-/// Names the sensors that are on show elsewhere but have no picture.
+/// Lists the compared sensors that have no picture.
 fn without_picture(ui: &mut Ui, context: &PaneContext<'_>) {
     let rendered = context.scene.rendered_sources();
     let skipped_work = context.scene.sources().into_iter().filter(|source| source.visible);

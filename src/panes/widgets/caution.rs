@@ -1,4 +1,4 @@
-//! A line of warning at the head of a pane: a condition under which the numbers do not mean what a reader expects.
+//! Warning at the head of a pane: a condition under which the numbers have an unusual meaning.
 
 use egui::{Align, Layout, Rect, TextStyle, Ui, UiBuilder, Vec2};
 

@@ -1,4 +1,4 @@
-//! What is known about a data set: for tooltips and for the inspector.
+//! Facts about a data set, for tooltips and the inspector.
 
 use chromascope_core::query::Ask;
 use chromascope_core::spectral::grid::{FIRST_NM, LAST_NM};
@@ -12,12 +12,12 @@ use crate::document::SetKind;
 use crate::document::own::Role;
 use crate::format::number;
 use crate::scene::Scene;
-use crate::theme::{SMALL, Theme, UNIT};
+use crate::theme::{SMALL, Theme};
 
 /// A fact with its caption.
 pub type Fact = (&'static str, String);
 
-/// What a built-in table's sensitivities are a response to, with the evidence and its grounds.
+/// Response basis of a built-in table's sensitivities, with the evidence and its grounds.
 pub fn response_of(header: &Header) -> String {
     let words = match (header.response(), header.response_evidence()) {
         (Response::Unknown, _) | (_, Evidence::Unknown) => "unknown, assumed per energy".to_owned(),
@@ -30,7 +30,7 @@ pub fn response_of(header: &Header) -> String {
     }
 }
 
-/// How a table is brought to the 1 nm grid, and what holds beyond its ends.
+/// Resampling of a table to the 1 nm grid, and its values beyond its ends.
 pub fn resampling_words(curve: &SpectralDistribution, quantity: Quantity) -> String {
     let steps = match Interpolation::of(curve, quantity) {
         Interpolation::None => "none needed, 1 nm as measured",
@@ -48,7 +48,7 @@ pub fn resampling_words(curve: &SpectralDistribution, quantity: Quantity) -> Str
     format!("{steps}; {beyond} outside {}", range_words(range))
 }
 
-/// What a response is to, with what is assumed where nobody says.
+/// Words for a response basis, with the assumption made if it is not stated.
 pub const fn response_words(response: Response) -> &'static str {
     match response {
         Response::PerEnergy => "per energy",
@@ -81,7 +81,7 @@ fn range(scene: &Scene<'_>, entry: &Entry) -> Option<([f64; 2], SpectralDistribu
     }
 }
 
-/// What a kind's tables hold, where that is known.
+/// Quantity of a kind's tables, where known.
 const fn quantity(kind: SetKind) -> Option<Quantity> {
     match kind {
         SetKind::Camera => Some(Quantity::CameraSensitivity),
@@ -113,7 +113,7 @@ pub fn of(scene: &Scene<'_>, entry: &Entry, with_range: bool) -> Vec<Fact> {
         }
         facts.push(("Source", header.source.clone()));
         facts.push(("Terms", header.license.clone()));
-        // The grounds of the response stand beside it.
+        // The grounds of the response are listed with it.
         let told = header.response_note().filter(|_| is_sensor);
         let notes = header.notes.iter().filter(|note| Some(note.as_str()) != told);
         facts.extend(notes.map(|note| ("Note", note.clone())));
@@ -134,7 +134,7 @@ pub fn show(ui: &mut Ui, theme: &Theme, facts: &[Fact]) {
     for (caption, words) in facts {
         let mut job = LayoutJob::default();
         let format = |color| TextFormat { font_id: egui::FontId::proportional(SMALL), color, ..TextFormat::default() };
-        // A caption is said once for several notes.
+        // Several notes share one caption.
         if *caption == last {
             job.append("· ", 0.0, format(theme.weak));
         } else {
@@ -147,13 +147,13 @@ pub fn show(ui: &mut Ui, theme: &Theme, facts: &[Fact]) {
     }
 }
 
-/// What a data set is, for the pointer on its name.
+/// A data set in short, for the pointer on its name: name, further names, range, terms.
 pub fn tooltip(ui: &mut Ui, scene: &Scene<'_>, theme: &Theme, entry: &Entry) {
-    ui.set_max_width(360.0);
+    ui.set_max_width(280.0);
     ui.strong(&entry.name);
     if let Some(also) = &entry.also {
         ui.label(also);
     }
-    ui.add_space(UNIT);
-    show(ui, theme, &of(scene, entry, true));
+    let short = of(scene, entry, true).into_iter().filter(|(caption, _)| ["Range", "Terms"].contains(caption));
+    show(ui, theme, &short.collect::<Vec<_>>());
 }

@@ -3,7 +3,6 @@
 use chromascope_figure::{Ink, LegendEntry, Stroke};
 use egui::{Color32, Painter, Pos2, Rect, Response, Sense, Shape, TextStyle, TextWrapMode, Ui, Vec2, WidgetText};
 
-use super::focus_rim;
 use crate::paint;
 use crate::scene::ComparedSensor;
 use crate::theme::{FADED, ROW, Theme};
@@ -60,6 +59,11 @@ pub fn key_and_label(ui: &mut Ui, source: &ComparedSensor, theme: &Theme) -> Res
     if cut { response.on_hover_text(&source.label) } else { response }
 }
 
+/// The rim of what the keyboard is on.
+pub fn focus_rim(response: &Response, theme: &Theme) -> egui::Stroke {
+    if response.has_focus() { egui::Stroke::new(1.5, theme.text) } else { egui::Stroke::NONE }
+}
+
 /// A small button of three dots that opens a row's menu.
 pub fn dots(ui: &Ui, rect: Rect, id: egui::Id, name: &str) -> Response {
     let theme = Theme::of(ui.visuals());
@@ -75,7 +79,7 @@ pub fn dots(ui: &Ui, rect: Rect, id: egui::Id, name: &str) -> Response {
     response.on_hover_text(name)
 }
 
-/// A triangle with an exclamation mark: a form beside the color.
+/// A triangle with an exclamation mark: a shape in addition to the color.
 pub fn warning_mark(painter: &Painter, center: Pos2, color: Color32) {
     let at = |x: f32, y: f32| center + Vec2::new(x, y);
     let stroke = egui::Stroke::new(1.3, color);

@@ -18,13 +18,13 @@ pub struct NumberField<'a> {
     pub speed: f64,
     /// The unit behind the number.
     pub unit: &'a str,
-    /// The name for those who cannot see the caption.
+    /// The accessible name.
     pub name: &'a str,
     /// Explanation under the pointer.
     pub hint: &'a str,
 }
 
-/// The text being typed. One that was refused stays until it is mended, given up, or the number is another.
+/// The text being typed. Rejected text stays until it is corrected or discarded, or the number changes.
 #[derive(Clone)]
 struct Typed {
     /// The number that it is to replace.
@@ -83,7 +83,7 @@ impl NumberField<'_> {
         if response.changed() {
             typed.wrong = None;
         }
-        // Escape gives up what is typed, and nothing else.
+        // Escape discards the typed text, and nothing else.
         context.view.keeps_escape |= response.has_focus();
         let arrows =
             ui.input(|input| input.num_presses(Key::ArrowUp) as f64 - input.num_presses(Key::ArrowDown) as f64);
@@ -108,7 +108,7 @@ impl NumberField<'_> {
                 chosen.filter(|chosen| *chosen != self.now)
             }
             Err(wrong) => {
-                // Who pressed Enter is still at it.
+                // Enter keeps the focus on a field whose text was rejected.
                 if ui.input(|input| input.key_pressed(Key::Enter)) {
                     response.request_focus();
                 }
@@ -120,7 +120,7 @@ impl NumberField<'_> {
         }
     }
 
-    /// The reason below the field why what is typed was not taken.
+    /// The reason below the field for rejecting the typed text.
     fn explain(&self, ui: &Ui, response: &Response, typed: &Typed, context: &PaneContext<'_>) {
         let Some(wrong) = &typed.wrong else { return };
         let at = response.rect.left_bottom() + egui::vec2(0.0, UNIT);

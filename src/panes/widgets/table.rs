@@ -1,6 +1,6 @@
-//! The table of every pane: aligned numbers with units in the head, sorted, filtered, linked with all panes.
+//! Table of every pane: aligned numbers with units in the header, sorted, filtered, linked with all panes.
 //!
-//! Rows and columns in sight are laid out by `egui_table`, which keeps the head and the first column in place.
+//! Visible rows and columns are laid out by `egui_table`, which keeps the header and the first column in place.
 
 mod bar;
 mod body;
@@ -29,7 +29,7 @@ const COMPACT_LINE: f32 = 15.0;
 /// Height of a line of a head.
 const HEAD_LINE: f32 = 15.0;
 
-/// What is shown of a cell besides its value.
+/// Appearance and tooltip of a cell.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct CellNote {
     /// One standard deviation, in the value's unit.
@@ -40,7 +40,7 @@ pub struct CellNote {
     pub decimals: Option<usize>,
     /// Words in place of the number, such as a range of ranks.
     pub words: Option<String>,
-    /// Explanation under the pointer, such as why there is no number.
+    /// Tooltip, such as the reason for a missing value.
     pub hint: String,
 }
 
@@ -54,9 +54,10 @@ pub struct DataTable<'a> {
     item: Option<&'a dyn Fn(usize) -> Option<PlotItem>>,
     first: Option<Sorting>,
     compact: bool,
+    scrolls: bool,
 }
 
-/// What was done with a table in a frame; rows are counted as given.
+/// User actions on a table in a frame; rows are counted in the given order.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct TableOutput {
     /// Row that was clicked.
@@ -66,13 +67,19 @@ pub struct TableOutput {
 }
 
 impl<'a> DataTable<'a> {
-    /// A table of a pane, with columns named by its heads. `id` names its order and columns in what is kept between runs.
+    /// A table of a pane, with columns named by its heads. `id` names its order and columns in what is saved between runs.
     pub fn new(pane: PaneKind, id: &'a str, table: &'a Table) -> Self {
         let columns = table.columns.iter().map(|head| Column::from_head(head)).collect();
-        Self { pane, id, table, columns, note: None, item: None, first: None, compact: false }
+        Self { pane, id, table, columns, note: None, item: None, first: None, compact: false, scrolls: false }
     }
 
-    /// Table with what is said of each column.
+    /// Compact table that is as wide as its columns need, for a place that scrolls.
+    #[must_use]
+    pub fn with_scrolling(self) -> Self {
+        Self { scrolls: true, ..self }
+    }
+
+    /// Table with descriptions of its columns.
     #[must_use]
     pub fn with_columns(self, columns: Vec<Column>) -> Self {
         Self { columns, ..self }
@@ -84,7 +91,7 @@ impl<'a> DataTable<'a> {
         Self { note: Some(note), ..self }
     }
 
-    /// Table with what its rows stand for.
+    /// Table with the items of its rows.
     #[must_use]
     pub fn with_items(self, item: &'a dyn Fn(usize) -> Option<PlotItem>) -> Self {
         Self { item: Some(item), ..self }
@@ -131,7 +138,8 @@ impl<'a> DataTable<'a> {
         let order: Vec<usize> = (0..table.table.rows.len()).collect();
         let mut body = table.body(shown, order, &TableLook::default(), context);
         let height = body.head_height() + COMPACT_LINE * table.table.rows.len() as f32;
-        let (rect, _) = ui.allocate_exact_size(Vec2::new(ui.available_width(), height), egui::Sense::hover());
+        let width = ui.available_width().max(if table.scrolls { body.least_width() } else { 0.0 });
+        let (rect, _) = ui.allocate_exact_size(Vec2::new(width, height), egui::Sense::hover());
         body.show(ui, rect, None);
         body.output
     }
@@ -145,9 +153,14 @@ impl<'a> DataTable<'a> {
     ) -> Body<'t> {
         let layouts = self.columns.iter().enumerate().map(|(index, column)| {
             let rows = 0..self.table.rows.len();
-            let uncertainties = self.note.map(|note| rows.filter_map(move |row| note(row, index).uncertainty));
-            let uncertainty = uncertainties.and_then(|all| all.reduce(f64::max));
-            Layout::of(column, self.table, index, uncertainty, self.compact)
+            let uncertainties = self.note.into_iter().flat_map(|note| {
+                rows.clone().filter_map(move |row| {
+                    let note = note(row, index);
+                    note.uncertainty.map(|by| (by, note.decimals))
+                })
+            });
+            let decimals = |row: usize| self.note.and_then(|note| note(row, index).decimals);
+            Layout::of(column, self.table, index, uncertainties, self.compact.then_some(&decimals))
         });
         Body::new(self, layouts.collect(), shown, order, look, context)
     }
@@ -198,7 +211,7 @@ impl<'a> DataTable<'a> {
         ui.input(|input| input.events.contains(&Event::Copy))
     }
 
-    /// Rows and columns as shown, in full precision, uncertainties in columns of their own, with the conditions where numbers
+    /// Rows and columns as shown, in full precision, uncertainties in separate columns, with the conditions where numbers
     /// depend on them.
     fn copied(&self, shown: &[usize], order: &[usize], context: &PaneContext<'_>) -> Table {
         let uncertain = |column: usize| {
@@ -225,7 +238,7 @@ impl<'a> DataTable<'a> {
         table
     }
 
-    /// What was clicked and pointed at goes to the view.
+    /// Applies clicks and hovering to the view.
     fn take_in(&self, body: &Body<'_>, look: &mut TableLook, context: &mut PaneContext<'_>) -> TableOutput {
         if let Some(column) = body.clicked_head {
             look.sort_by(&self.columns[column].name, self.columns[column].largest_first);
@@ -235,7 +248,7 @@ impl<'a> DataTable<'a> {
         if let Some(row) = body.output.clicked {
             look.cursor = Some(row);
             if let Some(item) = item(Some(row)) {
-                // A second click at once is a double click, not a change of mind.
+                // A second click shortly after is a double click, not a change of mind.
                 if body.output.activated.is_some() {
                     context.view.selected = Some(item);
                 } else {
@@ -262,7 +275,7 @@ pub fn show_numbers(ui: &mut Ui, rect: Rect, pane: PaneKind, table: &Table, cont
     };
 }
 
-/// Shows names with what they are, a line each, between other lines of text.
+/// Shows names with their descriptions, a line each, within other text.
 pub fn show_pairs<N: AsRef<str>>(
     ui: &mut Ui,
     pane: PaneKind,

@@ -1,16 +1,16 @@
-//! The field of a tolerance: a slider over powers of ten, and a text that says what is wrong with it.
+//! Tolerance field: a slider over powers of ten, and a text field that explains errors.
 
 use egui::{Id, Key, RichText, Role, Slider, TextEdit, Ui, WidgetInfo};
 
 use crate::document::render::{TOLERANCES, decade};
 use crate::panes::context::PaneContext;
 
-/// What can be typed.
+/// Description of valid input.
 const TAKES: &str = "From 1e−13 to 0.1, such as 5e-10; the slider moves in powers of ten";
 /// Width of the text.
 const TEXT: f32 = 72.0;
 
-/// What was typed and not taken: it stays in the field until the tolerance is another or other text is typed.
+/// Typed text that was rejected: it stays in the field until the tolerance changes or other text is typed.
 #[derive(Clone)]
 struct Typed {
     /// The tolerance that it did not replace.
@@ -19,7 +19,7 @@ struct Typed {
     wrong: Option<String>,
 }
 
-/// Shows slider, text and `words` beside them, and what is wrong below. Returns the tolerance that was chosen.
+/// Shows the slider, the text field with `words`, and an error below. Returns the chosen tolerance.
 pub fn field(ui: &mut Ui, id: Id, now: f64, words: &str, hint: &str, context: &mut PaneContext<'_>) -> Option<f64> {
     let theme = context.theme;
     let kept = ui.data(|data| data.get_temp::<Typed>(id)).filter(|typed| typed.of == now);
@@ -42,7 +42,7 @@ pub fn field(ui: &mut Ui, id: Id, now: f64, words: &str, hint: &str, context: &m
         if text.changed() {
             typed.wrong = None;
         }
-        // Escape gives up what is typed, and nothing else.
+        // Escape discards the typed text, and nothing else.
         context.view.keeps_escape = text.has_focus() || context.view.keeps_escape && !text.lost_focus();
         if text.lost_focus() && ui.input(|input| input.key_down(Key::Escape)) {
             typed = Typed { of: now, text: shown(now), wrong: None };
@@ -59,7 +59,7 @@ pub fn field(ui: &mut Ui, id: Id, now: f64, words: &str, hint: &str, context: &m
     if let Some(wrong) = &typed.wrong {
         ui.label(RichText::new(wrong).small().color(theme.error));
     }
-    // What was chosen shows as it is written here, also where it is what it was.
+    // A chosen value is shown in canonical form, even if it is unchanged.
     if chosen.is_some() {
         typed = Typed { of: now, text: shown(now), wrong: None };
     }
@@ -71,7 +71,7 @@ fn shown(tolerance: f64) -> String {
     format!("{tolerance:e}").replace('-', "−")
 }
 
-/// The tolerance that a text asks for, or what is wrong with it.
+/// The tolerance of a text, or the error in it.
 fn tolerance(text: &str) -> Result<f64, String> {
     let text = text.trim();
     let (least, largest) = (shown(*TOLERANCES.start()), TOLERANCES.end());

@@ -1,4 +1,4 @@
-//! Mirror terms too small to be seen.
+//! Specular terms skipped because they are too small.
 
 use std::collections::BTreeSet;
 
@@ -11,7 +11,7 @@ use chromascope_measure::harness::shortest;
 
 use super::{SUMS, SkippedWork, Sources, measured_on, some_of};
 
-/// They are made here, as the quality in use makes those that it has. None where the reading has no mirror.
+/// They are computed here, with the quality in use. `None` for a normalization without a specular component.
 pub(super) fn mirrors(sources: &Sources<'_>, ask: &impl Ask) -> Option<SkippedWork> {
     let shading = sources.shading;
     let quality = shading.quality();

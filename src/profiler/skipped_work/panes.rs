@@ -1,4 +1,4 @@
-//! What nobody looks at: each is computed here from nothing, so that its time is that of the first time.
+//! Work of panes that are not visible, each measured with an empty cache.
 
 use chromascope_core::query::Ask;
 use chromascope_core::query::render::picture::PicturesQuery;
@@ -12,7 +12,7 @@ pub const LOCI: &str = "loci, while Chromaticity is not visible";
 /// The row of the patches.
 pub const PATCHES: &str = "patches of a sensor, while nothing shows them";
 
-/// On how many threads questions are answered here.
+/// Number of threads that evaluate queries here, in words.
 fn threads() -> String {
     match rayon::current_num_threads() {
         1 => "one thread".to_owned(),
@@ -20,7 +20,7 @@ fn threads() -> String {
     }
 }
 
-/// Cameras that are not on show: their signals are made here.
+/// Work skipped for cameras that are not visible: their signals are computed here.
 pub(super) fn cameras(run: &SceneRunJob, pictures: &PicturesQuery, ask: &impl Ask) -> Option<SkippedWork> {
     let ((), seconds) =
         timed(|| run.hidden.iter().for_each(|hidden| drop(ask.ask(&pictures.image(&hidden.rendering)))));
@@ -33,7 +33,7 @@ pub(super) fn cameras(run: &SceneRunJob, pictures: &PicturesQuery, ask: &impl As
     })
 }
 
-/// The pictures of a workspace that is not on show.
+/// The pictures of a workspace that is not visible.
 pub(super) fn pictures(pictures: &PicturesQuery, ask: &impl Ask) -> Option<SkippedWork> {
     let fresh = fresh(ask);
     let (answer, seconds) = timed(|| fresh.ask(pictures));
@@ -46,7 +46,7 @@ pub(super) fn pictures(pictures: &PicturesQuery, ask: &impl Ask) -> Option<Skipp
     })
 }
 
-/// What other panes would ask for.
+/// Queries of the other panes.
 pub(super) fn others(run: &SceneRunJob, ask: &impl Ask) -> Vec<SkippedWork> {
     let row = |what: &'static str, count: usize, work: &dyn Fn()| {
         let ((), saved) = timed(work);

@@ -8,7 +8,7 @@ use chromascope_measure::harness::shortest;
 
 use super::{SAMPLES, SUMS, SkippedWork, Sources, measured_on, some_of};
 
-/// What is dark: its sums are made here.
+/// Work skipped for dark samples; their sums are computed here.
 pub(super) fn dark(sources: &Sources<'_>) -> Option<SkippedWork> {
     let shades = sources.shading.shades();
     let dark: Vec<&Shade> = shades.iter().filter(|shade| shade.kind == DiffuseKind::Dark).collect();
@@ -39,7 +39,7 @@ pub(super) fn dark(sources: &Sources<'_>) -> Option<SkippedWork> {
     })
 }
 
-/// Wavelengths of the grid that were not looked at: the sums over all are made here.
+/// Skipped wavelengths of the grid: the sums over all are computed here.
 pub(super) fn wavelengths(sources: &Sources<'_>) -> Option<SkippedWork> {
     let lit = sources.lit();
     let (mut looked_at, mut all) = (0, 0);

@@ -9,11 +9,11 @@ use chromascope_measure::pareto::duration;
 
 use super::{SUMS, SkippedWork, Sources, measured_on, some_of};
 
-/// At most so many terms of all sums together are added: the time of a term is known by then.
+/// Maximum total number of terms added: the time of a term is known by then.
 const AT_MOST: f64 = 5e6;
 
-/// The terms of plain sums at the wavelengths that a lit sample's integral rests on. None where the paper's cases are asked
-/// for, which add ten at most whatever matters.
+/// The terms of plain sums at the wavelengths that a lit sample's integral uses. `None` for the paper's cases, which add at
+/// most ten.
 pub(super) fn terms(sources: &Sources<'_>) -> Option<SkippedWork> {
     let quality = sources.pictures.shading.quality;
     let lit = sources.lit();
@@ -60,7 +60,7 @@ pub(super) fn terms(sources: &Sources<'_>) -> Option<SkippedWork> {
 
 /// `e^-g Σ gⁿ/(n! n) e^(-b/n)` from the first term to the last, each weight from the one before.
 fn plain_sum(g: f64, b: f64, last: u64) -> f64 {
-    // The exponential is taken in parts, or large g would begin with 0.
+    // The exponential is evaluated in parts; otherwise large g would underflow to 0.
     const PART: f64 = 200.0;
     let (mut weight, mut rest, mut sum) = (1.0, g, 0.0);
     for n in (1..=last).map(|n| n as f64) {

@@ -1,4 +1,4 @@
-//! What the rows of scenes of several kinds count and say.
+//! Tests of the counts and texts of skipped work, for scenes of several kinds.
 
 use chromascope_core::query::render::MeshQuery;
 use chromascope_core::render::RasterSize;
@@ -36,7 +36,7 @@ fn pictures_that_are_not_on_show_are_made_from_nothing() {
     let mut pictures = SceneRunJob::of(&scene, None, None).pictures.expect("there is a mesh");
     pictures.shading.geometry.visibility.mesh = MeshQuery::Sphere(2000);
     pictures.shading.geometry.visibility.size = RasterSize { width: 16, height: 12, samples: 1 };
-    // Whoever asks has all of it at hand.
+    // The rows are computed from cached inputs.
     let asking = Results::default();
     asking.ask(&pictures);
     let asked =

@@ -32,12 +32,10 @@ impl Ways {
         Some(Self { measure, plan })
     }
 
-    /// Its weights.
     pub(super) fn measure(&self) -> &SpectralWeights {
         (*self.measure).as_ref().expect("made of nothing else")
     }
 
-    /// Its plan.
     pub(super) fn plan(&self) -> &Arc<Plan> {
         &self.plan
     }
@@ -54,7 +52,7 @@ impl Ways {
         self.looked_at(shade) > 0
     }
 
-    /// The wavelengths that integrals rest on, in the sample or in what was made beforehand.
+    /// The wavelengths used by integrals, in the sample or in its precomputed tables.
     pub(super) fn nodes(&self) -> Vec<Node> {
         self.plan.nodes(self.measure())
     }

@@ -150,7 +150,7 @@ fn tokens(text: &str) -> Vec<(String, usize)> {
     tokens
 }
 
-/// Where the bracket at `open` is closed.
+/// Index of the bracket that closes the one at `open`.
 fn closing(tokens: &[(String, usize)], open: usize) -> usize {
     let mut depth = 0;
     for (at, (token, _)) in tokens.iter().enumerate().skip(open) {
@@ -170,7 +170,7 @@ fn closing(tokens: &[(String, usize)], open: usize) -> usize {
 pub(super) struct UsedPath {
     pub(super) names: Vec<String>,
     pub(super) line: usize,
-    /// Whether it stands in a `use`.
+    /// True within a `use`.
     pub(super) import: bool,
 }
 

@@ -1,4 +1,4 @@
-//! Rankings of cameras, as a person asks for them.
+//! Rankings of cameras, as the user requests them.
 
 use chromascope::catalog::Catalog;
 use chromascope::document::{Document, SetKind, TRAINING};
@@ -91,7 +91,7 @@ fn the_library_shares_what_does_not_depend_on_the_camera() {
         ("patch colors", 59),
     ];
     for (name, misses) in expected {
-        // Two tables of one measurement that differ in rounding are two questions.
+        // Two tables of one measurement that differ in rounding are two queries.
         assert_eq!(counts[name].misses, misses, "{name}");
     }
 }

@@ -67,7 +67,8 @@ fn a_light_and_a_chart_from_files_are_as_built_in() {
     assert_eq!(numbers(&from_file), numbers(&built_in));
     assert_eq!(super::column(&from_file, "illuminant")[0], "lamp");
     assert_eq!(of(&["--illuminant", "D65", "--chart", text(&chart)]), built_in);
-    // Its own title is taken by the built-in set, so its path tells the two apart; twice the same file is one source.
+    // Its own title is that of the built-in set, so that its path distinguishes the two; the same file twice is one
+    // sensor.
     let path = asset("cameras/nikon_d70_2007_figure.csv");
     let rows =
         table(&["locus", "--camera", &path, "--camera", "Nikon D70 (2007 figure)", "--camera", &path, "--count", "1"]);

@@ -64,6 +64,16 @@ fn the_camera_is_found_from_a_table_in_any_order() {
 }
 
 #[test]
+fn a_unit_of_sensitivities_needs_a_file_of_them() {
+    let path = file("identify_per.csv", &csv(&recording()));
+    let options = ["--camera", "Nikon D70 (A.M.P.A.S.)", "--per", "photon"];
+    refused(
+        &[&["identify", path.to_str().unwrap()], &CHART[..], &options].concat(),
+        &["--per", "give --camera a file"],
+    );
+}
+
+#[test]
 fn spectra_beside_the_raw_values_and_radiances_give_the_same() {
     let asset = Dataset::read(chromascope_data::text("charts/colorchecker_24_ohta_1997.csv").unwrap()).unwrap();
     let nm = asset.curves[0].wavelengths_nm();

@@ -1,4 +1,4 @@
-//! What the command line does with names that are no plain text, files that are none, and outputs without an end.
+//! Tests of the command line with names that are not plain text, files that are none, and endless output.
 
 use std::io::Read as _;
 use std::path::Path;

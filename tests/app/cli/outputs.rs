@@ -1,4 +1,4 @@
-//! What is never written over.
+//! Tests of files that are never overwritten.
 
 use super::files::folder;
 use super::{refused, run};

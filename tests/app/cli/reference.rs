@@ -4,7 +4,7 @@
 
 use super::{PAPER, file, number, table};
 
-/// Agreement asked for; both sums have 400 terms in double precision.
+/// Required agreement; both sums have 400 terms in double precision.
 const TOLERANCE: f64 = 1e-11;
 
 fn assert_close(row: &[String], expected: &[f64]) {

@@ -15,7 +15,7 @@ const TOLERANCE: u8 = 2;
 ///
 /// # Errors
 ///
-/// What is different, and where both pictures are.
+/// The difference, with the paths of both pictures.
 pub(crate) fn compare(actual: &RgbaImage, path: &Path) -> Result<(), String> {
     let update = env::var_os("UPDATE_SCREENSHOTS").is_some_and(|value| value == "1");
     if update { write_png(actual, path) } else { hold(actual, path) }
@@ -39,7 +39,7 @@ fn hold(actual: &RgbaImage, path: &Path) -> Result<(), String> {
     ))
 }
 
-/// What keeps two pictures from being equal within [`TOLERANCE`].
+/// Difference of two pictures beyond [`TOLERANCE`], in words; `None` if they are equal within it.
 fn difference(actual: &RgbaImage, expected: &RgbaImage) -> Option<String> {
     if actual.dimensions() != expected.dimensions() {
         let [now, kept] = [actual, expected].map(|image| format!("{} × {}", image.width(), image.height()));

@@ -1,4 +1,4 @@
-//! The mirror term's pattern: its mean over the light, its bound, and when it may be left out.
+//! Tests of the coherent component's pattern: its mean over the light source, its bound, and when it may be skipped.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 

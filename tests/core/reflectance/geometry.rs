@@ -14,7 +14,7 @@ fn digits_survive_next_to_the_mirror_direction() {
         let what = format!("{theta_i} {theta_s} {phi_s}");
         assert_near(&format!("v_y at {what}"), geometry.vy_by_k, vy, 1e-15 * vy.abs());
         assert_near(&format!("v_xy² at {what}"), geometry.vxy2_by_k2, vxy2, 2e-14 * vxy2);
-        // v_x has a zero of its own away from the mirror direction; against the whole of v_xy it keeps its digits.
+        // v_x has a zero of its own away from the specular direction; against the whole of v_xy it keeps its digits.
         assert_near(&format!("v_x at {what}"), geometry.vx_by_k, vx, 1e-15 * vx.abs() + 2e-15 * vxy2.sqrt());
         assert_near(&format!("v_z at {what}"), geometry.vz_by_k, vz, 4e-16);
     }
@@ -35,7 +35,7 @@ fn the_mirror_direction_has_no_tangential_part() {
 fn vectors_keep_their_digits_next_to_the_mirror_direction() {
     for tilt in [1e-3, 1e-6, 1e-9, 1e-12] {
         let light = DVec3::new(0.6, 0.0, 0.8);
-        // A viewer turned out of the mirror direction, in the plane and across it by as much.
+        // A viewer turned out of the specular direction, in the plane and across it by as much.
         let viewer = DVec3::new(-0.6 + 0.8 * tilt, 0.6 * tilt, 0.8 + 0.6 * tilt);
         let geometry = Geometry::from_directions(light, viewer, DVec3::Z);
         assert_near("v_x", geometry.vx_by_k / tilt, 0.8, 1e-15 / tilt);

@@ -18,7 +18,7 @@ fn roughness_has_three_cases() {
 
 #[test]
 fn one_term_misses_what_inclination_brings_out() {
-    // The first term left out is (g/4) e^(b/2) of the one taken.
+    // The first omitted term is (g/4) e^(b/2) of the included one.
     for b in [0.0_f64, 1.0, 4.0] {
         let g = 1e-5;
         assert_near(&format!("b {b}"), error(g, b), -g / 4.0 * (b / 2.0).exp(), 2e-8);

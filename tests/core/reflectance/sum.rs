@@ -8,10 +8,10 @@ use proptest::prelude::*;
 
 use crate::support::{assert_near, cases, reference_numbers};
 
-/// Each precision with the relative error that it promises.
+/// Each precision with its bound of the relative error.
 const PROMISES: [(Precision, f64); 3] = [(Precision::Coarse, 1e-6), (Precision::Fine, 1e-10), (Precision::Full, 1e-13)];
 
-/// What rounding b alone costs, twice over.
+/// Twice the error from rounding b alone.
 fn conditioning(ln_s: f64) -> f64 {
     2.0 * f64::EPSILON * ln_s.abs()
 }
@@ -200,7 +200,7 @@ fn the_logarithm_of_a_subnormal_roughness_is_a_number() {
     }
 }
 
-/// The same by looking at every term, in two doubles.
+/// Counts by evaluating every term, in double-double arithmetic.
 fn counted(g: f64, b: f64) -> SeriesTerms {
     let d = Double::new;
     let mut ln_terms = Vec::new();

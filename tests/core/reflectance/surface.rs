@@ -1,4 +1,4 @@
-//! Which numbers are a surface, and what is said of those at the model's edge.
+//! Tests of valid surface parameters, and of the notes at the limits of the model.
 
 use std::hash::{DefaultHasher, Hash, Hasher};
 

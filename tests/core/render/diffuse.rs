@@ -65,7 +65,7 @@ fn within(low: f64, high: f64, t: f64) -> f64 {
 
 #[test]
 fn plans_of_pictures_keep_their_tolerance() {
-    // Every range of κ that pictures ask for, few samples and many, and the κ beyond its ends.
+    // Every range of κ that pictures request, few samples and many, and the κ beyond its ends.
     for (power, tolerance) in [(0, 1e-5), (2, 1e-5), (2, 1e-9)] {
         for (i, measure) in measures(power).iter().enumerate() {
             let kappa = [[0.3, 90.0], [1e-6, 1e5], [200.0, 1e6]][i % 3];

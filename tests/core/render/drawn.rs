@@ -17,14 +17,14 @@ use proptest::test_runner::{RngAlgorithm, TestRng, TestRunner};
 
 use crate::support;
 
-/// Below this all is black by any measure; there, light beyond e^-30 of the peak is left out.
+/// Below this all is black by any measure; there, light beyond e^-30 of the peak is omitted.
 const BLACK: f64 = 1e-12;
 
 #[derive(Clone, Debug)]
 struct Drawn {
     camera: usize,
     reading: usize,
-    /// Powers of ten: σ, τ and the patch's half side in meters, the tolerance.
+    /// Powers of ten: σ, τ and the patch's half-width in meters, the tolerance.
     powers: [f64; 4],
     index: f64,
     is_plane: bool,
@@ -59,7 +59,7 @@ impl Drawn {
         RelTolerance::new(10_f64.powf(self.powers[3])).unwrap()
     }
 
-    /// What is lit of it; none where nothing is.
+    /// The lit part of the scene; `None` if nothing is lit.
     fn geometry(&self) -> Option<GeometryImage> {
         let [yaw, pitch, up, right] = self.angles;
         let eye = if self.is_plane { [yaw, pitch] } else { [0.0; 2] };

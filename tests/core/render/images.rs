@@ -37,7 +37,7 @@ pub(super) fn apart(a: &Pictures, b: &Pictures) -> f64 {
     worst
 }
 
-/// Whether `CHROMASCOPE_THOROUGH` asks for more cases than a usual run takes.
+/// True if `CHROMASCOPE_THOROUGH` requests more cases than in a usual run.
 fn thorough() -> bool {
     std::env::var_os("CHROMASCOPE_THOROUGH").is_some()
 }
@@ -63,7 +63,7 @@ fn every_quality_keeps_its_error_against_401_wavelengths() {
 #[test]
 fn a_picture_keeps_the_error_that_was_asked_for() {
     let tolerances: &[f64] = if thorough() { &[1e-3, 1e-5, 1e-7, 1e-11] } else { &[1e-3, 1e-7] };
-    // At 0.05 µm very many mirror terms are next to nothing.
+    // At 0.05 µm very many coherent components are next to nothing.
     for (reading, sigmas_m) in [
         (Normalization::Radiometric, [5e-6, 0.4e-6]),
         (Normalization::Radiometric, [0.1e-6, 0.05e-6]),

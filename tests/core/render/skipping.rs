@@ -1,4 +1,4 @@
-//! What a change asks for anew, and what it does not.
+//! Tests of the queries that a change recomputes or reuses.
 
 use chromascope_core::accuracy::RelTolerance;
 use chromascope_core::camera::WhiteBalanceTarget;
@@ -10,7 +10,7 @@ use chromascope_core::spectral::GridSpectrum;
 
 use super::studio::{Counting, RenderService};
 
-/// What is made after a change to a picture that is known.
+/// Queries computed after a change to a cached picture, with counts.
 fn after(start: &RenderService, change: impl FnOnce(&mut RenderService)) -> Vec<(&'static str, usize)> {
     let ask = Counting::default();
     let mut studio = start.clone();
@@ -106,7 +106,7 @@ fn another_reflectance_keeps_the_shading() {
 fn a_hidden_camera_costs_nothing() {
     let made = after(&RenderService::new(), |studio| drop(studio.sources.pop()));
     assert_eq!(made, [("pictures", 1)]);
-    // And one that was never shown is never asked for.
+    // And one that was never shown is never requested.
     let ask = Counting::default();
     let mut studio = RenderService::new();
     studio.sources.truncate(2);

@@ -1,4 +1,4 @@
-//! A small scene for the tests of pictures, and somebody who remembers answers and counts what had to be made.
+//! Small scene for the tests of pictures, and an evaluator that caches answers and counts computations.
 
 use std::any::Any;
 use std::cell::RefCell;
@@ -18,7 +18,7 @@ use chromascope_core::spectral::GridSpectrum;
 
 use crate::support;
 
-/// What a picture is made of; each test changes what it is about.
+/// Scene and settings of a picture; each test changes what it is about.
 #[derive(Clone)]
 pub(super) struct RenderService {
     pub sources: Vec<RenderingQuery>,
@@ -130,7 +130,7 @@ pub(super) struct Counting {
 type Known = (Box<dyn Any>, Box<dyn Any>);
 
 impl Counting {
-    /// What had to be made since the last time.
+    /// Computations since the last call.
     pub(super) fn made(&self) -> BTreeMap<&'static str, usize> {
         self.made.take()
     }

@@ -1,4 +1,4 @@
-//! What is seen: the rasterizer beside a plain ray caster.
+//! Tests of visibility: the rasterizer against a plain ray caster.
 
 use chromascope_core::render::{RasterSize, Stop, Visibility};
 use chromascope_core::scene::Viewpoint;

@@ -130,8 +130,8 @@ fn pair(case: &Case) -> [Lab; 2] {
     [Lab { l: case[0], a: case[1], b: case[2] }, Lab { l: case[3], a: case[4], b: case[5] }]
 }
 
-/// The same by vectors: the hue difference from the two colors' products, the mean hue from their bisector. With it the
-/// bisector's length, 0 for opposite hues: the mean hue is as uncertain as it is short.
+/// Hues of [`Lab`] pairs by vectors: the hue difference from the two colors' products, the mean hue from their
+/// bisector. Also the bisector's length, 0 for opposite hues: the shorter it is, the less certain the mean hue.
 fn by_vectors([one, two]: [Lab; 2]) -> Option<[f64; 2]> {
     let share = |c: f64| (c.powi(7) / (c.powi(7) + 25.0_f64.powi(7))).sqrt();
     let chroma = f64::midpoint(one.a.hypot(one.b), two.a.hypot(two.b));

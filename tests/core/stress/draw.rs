@@ -53,7 +53,7 @@ impl Draw {
         if self.bits() & 1 == 0 { size } else { -size }
     }
 
-    /// Anything a caller may come with but what is no number: zeros, ends, integers, huge, tiny, subnormal, infinite.
+    /// Any number except NaN: zeros, limits, integers, huge, tiny, subnormal, infinite.
     pub(super) fn number(&mut self) -> f64 {
         let (sign, kind) = (if self.bits() & 1 == 0 { 1.0 } else { -1.0 }, self.pick(16) as u32);
         sign * match kind {
@@ -70,7 +70,7 @@ impl Draw {
         }
     }
 
-    /// The same, or what is no number.
+    /// Any number including NaN.
     pub(super) fn anything(&mut self) -> f64 {
         if self.pick(16) == 0.0 { f64::NAN } else { self.number() }
     }

@@ -1,4 +1,4 @@
-//! Black bodies, daylight, color temperatures, loci.
+//! Blackbodies, daylight, color temperatures, loci.
 
 use std::sync::LazyLock;
 

@@ -123,7 +123,7 @@ fn response<T: Sample + Into<f64>>(curve: &[T], spectrum: &[T], answer: f64, max
         return v.holds("not 0 though a sample is no number", answer == 0.0 || products().all(|(_, b)| b.is_finite()));
     }
     let unsigned: f64 = products().map(|(a, b)| (a * b).abs()).sum();
-    // Where sums may overflow, and where products are subnormal, nothing is promised but a finite number.
+    // Where sums may overflow, and where products are subnormal, only a finite result is required.
     let [least, most] = if size_of::<T>() == 4 { [1e-37, 1e38] } else { [1e-290, 1e300] };
     if unsigned > most || products().any(|(a, b)| a != 0.0 && b != 0.0 && (a * b).abs() < least) {
         return;
@@ -160,7 +160,7 @@ fn pairs(&[key, first, second, room, offset, ..]: &Case, v: &mut Verdict) {
     let seconds: Vec<Lab> = (0..count(second)).map(|_| color()).collect();
     let offset = count(offset).min(firsts.len());
     if let Some(color) = firsts.get_mut(offset) {
-        // One that is no number must not reach the others.
+        // One that is NaN must not reach the others.
         color.a = if kinds { f64::NAN } else { color.a };
     }
     let firsts = &firsts[offset..];
@@ -177,7 +177,7 @@ fn pairs(&[key, first, second, room, offset, ..]: &Case, v: &mut Verdict) {
     }
 }
 
-/// A sensor with its way to the diagram, its table and its sum.
+/// A sensor with its color transform, its table and its sum.
 struct Seen {
     rendering: Rendering,
     table: LocusTable,
@@ -224,7 +224,7 @@ fn is_outside(t: Kelvin) -> bool {
     !(1.0..=1e15).contains(&t.get())
 }
 
-/// What a table says against the sum; refused exactly outside it.
+/// Checks a table against the sum; errors are returned exactly outside the table.
 fn against(
     answer: Result<Xy, LocusTableError>,
     t: Kelvin,
@@ -274,7 +274,7 @@ fn draw_table(d: &mut Draw) -> Case {
     case([d.key(), d.pick(4), d.log(1e-100, 1e99), d.pick(6), target, d.key()])
 }
 
-/// What was promised: ten times the target, which is not below [`LocusTable::TARGET`].
+/// Error bound of a table: ten times the target, which is not below [`LocusTable::TARGET`].
 fn promised(table: &LocusTable, target: f64, v: &mut Verdict) -> f64 {
     let limit = 10.0 * target.max(LocusTable::TARGET);
     v.holds("an error beyond the limit", table.max_error() <= limit * (1.0 + 1e-12));

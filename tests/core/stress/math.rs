@@ -57,7 +57,7 @@ fn draw_double(d: &mut Draw) -> Case {
     case([d.signed(1e-90, 1e90), d.signed(1e-90, 1e90), d.signed(1e-12, 600.0), d.signed(1e-12, 100.0)])
 }
 
-/// What two doubles compute, by what undoes it: relative, or absolute below `at_least`.
+/// Checks double-double functions by their inverses: relative, or absolute below `at_least`.
 fn double(&[x, y, power, angle, ..]: &Case, v: &mut Verdict) {
     let one = Double::ONE;
     let (third, half) = (Double::new(x) / Double::new(3.0), Double::new(0.5));
@@ -85,7 +85,7 @@ fn double(&[x, y, power, angle, ..]: &Case, v: &mut Verdict) {
     v.holds("the sign of an error", third.error_of(near) > 0.0 && third.error_of(third.value().next_down()) < 0.0);
 }
 
-/// No promise but that all of it ends, without a panic.
+/// Requires only that all functions return, and that magnitudes and even powers are not negative.
 fn ends(&[x, y, ..]: &Case, v: &mut Verdict) {
     let (x, y) = (Double::new(x), Double::new(y));
     let all = [x + y, x - y, x * y, x / y, x.atan2(y), x.sqrt(), x.cbrt(), x.exp(), x.exp_m1(), x.ln(), x.sin_cos().0];

@@ -1,4 +1,5 @@
-//! What keeps a chosen error: accuracies, precisions of S, loci, the mirror's reach, plans of the spectral integral.
+//! Stress tests of error bounds: tolerances, precisions of S, loci, the extent of the specular lobe, plans of the
+//! spectral integral.
 
 use std::sync::{Arc, LazyLock};
 
@@ -45,7 +46,7 @@ pub(super) const WALKS: &[Walk] = &[
     Walk { name: "a picture by plan", promise: 0.0, share: 0.05, draw: draw_picture, check: picture },
 ];
 
-/// An accuracy that may be asked for: as coarse as there is, and far finer than can be had.
+/// An accuracy that may be requested: as coarse as there is, and far finer than can be had.
 fn draw_accuracy(d: &mut Draw) -> f64 {
     match d.pick(8) as u32 {
         0 => d.log(1e-320, 1e-14),
@@ -99,7 +100,7 @@ fn draw_locus(d: &mut Draw) -> Case {
     case([d.key(), d.pick(4), d.log(1e-100, 1e100), d.log(1e-3, 1e18), draw_accuracy(d)])
 }
 
-/// Nodes against the sum, in parts of what was asked for.
+/// Nodes against the sum, in parts of what was requested.
 fn locus(&[key, kind, size, kelvins, error, ..]: &Case, v: &mut Verdict) {
     const C: RadiationConstants = RadiationConstants::Si2019;
     let primaries = [Primaries::Camera, Primaries::Rgb, Primaries::Xyz, Primaries::Cones][kind as usize % 4];
@@ -242,7 +243,7 @@ pub(super) fn ready() {
     LazyLock::force(&PLANS);
 }
 
-/// Where the surface is a mirror, rough and beyond, and how far beside the peak.
+/// Draws κ of smooth, rough and rougher surfaces, and the distance from the peak.
 fn draw_near(d: &mut Draw) -> [f64; 2] {
     let kappa = if d.pick(4) == 0.0 { d.log(1e-300, 1e300) } else { d.log(1e-4, 1e7) };
     let last = 30.0 * (1.0 + 6.0 / kappa.sqrt() + 3.5 / kappa);
@@ -386,7 +387,7 @@ fn picture(&[which, sigma, tau, half, index, key, reading, ..]: &Case, v: &mut V
     }
 }
 
-/// The mirror terms of a whole picture, relative to its brightest sample, beside those that leave nothing out.
+/// The coherent components of a whole picture, relative to its brightest sample, compared with those without omissions.
 fn against_all(shading: &ShadingImage, reading: Normalization, measure: &SpectralWeights, v: &mut Verdict) {
     let asked = shading.quality().given_tolerance().expect("an accuracy is asked for");
     v.holds("no brightness", shading.brightness() >= 0.0 && shading.brightness().is_finite());

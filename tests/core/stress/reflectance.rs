@@ -1,4 +1,4 @@
-//! Fresnel's formulas, the mirror lobe, angles, and the scattered power.
+//! Fresnel's formulas, the specular lobe, angles, and the scattered power.
 
 use chromascope_core::reflectance::coherent::{
     is_negligible, mean_sinc_squared, rho0_squared, rho0_squared_bound, sinc, sine_integral,

@@ -69,7 +69,7 @@ fn exact(scene: &Scene, kappa: f64, beta: f64) -> [f64; 3] {
     by_nodes(scene.measure.dense(), kappa, beta, Precision::Full)
 }
 
-/// Relative to J(κ, 0), the largest there is; with the sign of each channel's weights left out.
+/// Relative to J(κ, 0), the peak; without the signs of the channels' weights.
 fn compare(scene: &Scene, kappa: f64, value: [f64; 3], exact_value: [f64; 3], v: &mut Verdict) {
     v.all_finite(value);
     let peak = exact(scene, kappa, 0.0).iter().fold(0.0_f64, |m, x| m.max(x.abs()));

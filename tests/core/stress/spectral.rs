@@ -1,4 +1,4 @@
-//! Spectra, the grid, sensors, renderings: wavelengths in any order, spikes, zeros, light that nobody sees.
+//! Stress tests of spectra, grid, sensors and renderings: wavelengths in any order, spikes, zeros, invisible light.
 
 use std::sync::LazyLock;
 

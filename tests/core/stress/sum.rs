@@ -180,7 +180,7 @@ fn order(&[g, b, ..]: &Case, v: &mut Verdict) {
     v.error((far - near) - 8.0 * f64::EPSILON * near.abs());
 }
 
-/// What the terms beyond the last are together, in parts of the sum.
+/// Checks the terms beyond the last, relative to the sum.
 fn beyond(&[g, b, ..]: &Case, v: &mut Verdict) {
     let terms = series_terms(g, b);
     v.all_finite([terms.last, terms.weighing]);

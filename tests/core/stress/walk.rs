@@ -6,7 +6,7 @@ use rayon::prelude::*;
 
 use super::draw::{Case, Draw};
 
-/// What is said of one case.
+/// Result of one case.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Verdict {
     error: f64,
@@ -21,7 +21,7 @@ impl Verdict {
         self.refused = true;
     }
 
-    /// What must be true of every answer.
+    /// Requires a condition of every answer.
     pub(super) fn holds(&mut self, what: &'static str, is_so: bool) {
         if !is_so && self.wrong.is_none() {
             self.wrong = Some(what);
@@ -43,7 +43,7 @@ impl Verdict {
         self.holds("subnormal", !value.is_subnormal());
     }
 
-    /// An error in the measure that the promise is given in.
+    /// An error in the measure of the bound.
     pub(super) fn error(&mut self, error: f64) {
         self.holds("the error is no number", !error.is_nan());
         self.error = self.error.max(error);
@@ -60,15 +60,15 @@ impl Verdict {
 #[derive(Clone, Copy)]
 pub(super) struct Walk {
     pub(super) name: &'static str,
-    /// What the error must stay below; 0 where no second method tells.
+    /// Error bound; 0 if there is no second method.
     pub(super) promise: f64,
-    /// How many of the cases it gets, against the others.
+    /// Relative share of the cases.
     pub(super) share: f64,
     pub(super) draw: fn(&mut Draw) -> Case,
     pub(super) check: fn(&Case, &mut Verdict),
 }
 
-/// What many cases came to.
+/// Summary of many cases.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Tally {
     pub(super) cases: u64,
@@ -138,12 +138,12 @@ impl Walk {
         if let Some(wrong) = verdict.wrong {
             return Some(wrong.to_owned());
         }
-        // Written so that an error that is no number is too large.
+        // Written so that an error that is NaN is too large.
         let kept = verdict.error <= self.promise;
         (!kept).then(|| format!("error {:.2e}, promised {:.1e}", verdict.error, self.promise))
     }
 
-    /// What to say of a failure: seed, function, and the plainest case that fails.
+    /// Failure message: seed, function, and the simplest case that fails.
     pub(super) fn failure(&self, tally: &Tally, seed: u64) -> Option<String> {
         let (index, first) = tally.failed?;
         let fails = |case: &Case| self.complaint(&self.verdict(case)).is_some();

@@ -1,4 +1,4 @@
-//! What is refused: on which line, with what remedy.
+//! Tests of rejected mesh files: the line and the remedy of each error.
 
 use super::error;
 use chromascope_mesh::reading::{Alien, MeshReadError, Place, Quantity, read_mesh};

@@ -26,7 +26,7 @@ fn thousands_of_short_tables_are_read_in_proportion() {
     // Reading to the end from each table would look at 120 MB, which are 480 looks.
     let short = looks(&"nm,A\n400,1\n410,2\n420,3\n\n".repeat(COUNT), 3);
     assert!(short <= COUNT + 40, "{short} looks");
-    // Where wavelengths just begin anew, only reading on shows where: up to 64 MB, which are 256 looks.
+    // Where wavelengths just start again, only reading on shows where: up to 64 MB, which are 256 looks.
     let whole = looks(&"400;1\n410;2\n420;3\n430;4\n440;5\n".repeat(COUNT), 5);
     assert!(whole <= COUNT + 300, "{whole} looks");
 }

@@ -1,6 +1,6 @@
 //! Every cut, every flipped bit and random splices of a small file of every layout, under every reader and every switch:
 //! nothing panics, and what is read is sound. Files of families with a grammar of their own are cut and flipped with the
-//! readers that the content asks for beside the tests of those families.
+//! readers that the content requests beside the tests of those families.
 
 use proptest::prelude::*;
 use spectral_file::Reader;

@@ -1,4 +1,4 @@
-//! Damaged files of every layout: no panic, no number that is none, the same answer twice.
+//! Tests of damaged files of every layout: no panic, no value that is not a number, the same answer twice.
 
 use proptest::prelude::*;
 use spectral_file::{MAX_BYTES, ReadError, ReadOptions, Reader, read};

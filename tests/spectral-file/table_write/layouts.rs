@@ -1,4 +1,4 @@
-//! The texts themselves, and what the programs they are for ask of them.
+//! Tests of the written texts against the requirements of the target programs.
 
 use super::{CAMERA, Curves, has, sheet, written};
 use chromascope_core::spectral::{Dataset, Response};

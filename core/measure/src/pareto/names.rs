@@ -20,7 +20,7 @@ const CROSSING: f64 = 40.0;
 /// The height of a line of the list, and how far apart places are where it is tried.
 const LINE: f64 = 13.0;
 const STEP: f64 = 4.0;
-/// At most so many columns.
+/// Maximum number of columns.
 const COLUMNS: usize = 3;
 
 /// Left, top, right, bottom in points.
@@ -44,8 +44,8 @@ struct Taken {
     plot: Area,
 }
 
-/// Names of places, in this order; what has no room at all is left out, and read under the pointer. A name is written once.
-/// `front` is the line.
+/// Labels of points, in this order; one without room is omitted, and shown under the pointer. Each name is written once.
+/// `front` is the Pareto line.
 pub(super) fn names(panel: &Panel, places: &[&Place], front: &[[f64; 2]]) -> Vec<Mark> {
     let projection = Projection::new(panel, 1.0);
     let line: Vec<[f64; 2]> = front.iter().map(|point| projection.at(*point)).collect();

@@ -15,7 +15,7 @@ pub(super) fn run(bench: &mut Bench<'_>) {
         ("g from 0.001 to 1", 1e-3, 1.0),
         ("g from 1 to 60", 1.0, 60.0),
         ("g from 60 to 600", 60.0, 600.0),
-        // What a scene of all roughnesses asks for, one decade as often as another.
+        // Log-uniform arguments, as in a scene of all roughnesses.
         ("g from 0.001 to 600", 1e-3, 600.0),
     ];
     for (name, low, high) in cases {

@@ -8,7 +8,7 @@ use chromascope_core::spectral::grid::{COUNT, wavelength_nm};
 use chromascope_core::spectral::{Primaries, Sensor};
 use chromascope_math::double::Double;
 
-/// The three integrals of a black body through a sensor (Eq 14, 15), up to a common factor.
+/// The three integrals of a blackbody through a sensor (Eq 14, 15), up to a common factor.
 ///
 /// ```text
 /// Σ C(λ) (λ₀/λ)⁵ / (exp(c₂/λT) − 1),   λ₀ = 550 nm
@@ -37,7 +37,7 @@ fn planck(sensor: &Sensor, constants: RadiationConstants, kelvins: Double) -> [[
     sums
 }
 
-/// The chromaticity of a black body: an observer's own, or a camera's by Eq 13.
+/// The chromaticity of a blackbody: an observer's own, or a camera's by Eq 13.
 pub fn black_body_xy(sensor: &Sensor, constants: RadiationConstants, kelvins: f64) -> [Double; 2] {
     let raw = black_body(sensor, constants, Double::new(kelvins));
     let xyz = if sensor.primaries() == Primaries::Xyz { raw } else { xyz_of_signals(sensor, raw) };
@@ -74,8 +74,8 @@ pub fn off_locus(observer: &Sensor, constants: RadiationConstants, kelvins: f64,
     [(u - duv * dv / length).value(), (v + duv * du / length).value()]
 }
 
-/// Temperature in kelvins and Duv of a color near which they are known to lie: secants on the condition that the way to the
-/// nearest point is square to the locus.
+/// Temperature in kelvins and Duv of a color from a nearby start: secants on the condition that the line to the nearest
+/// point is perpendicular to the locus.
 pub fn cct(observer: &Sensor, constants: RadiationConstants, color: [f64; 2], near_kelvins: f64) -> [Double; 2] {
     let [pu, pv] = color.map(Double::new);
     let condition = |m: Double| {

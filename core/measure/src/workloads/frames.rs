@@ -42,7 +42,7 @@ const ROUGHNESSES: [(&str, f64); 4] = [
     ("full, \u{3c3} 0.05 µm", 0.05e-6),
 ];
 
-/// Parts that no frame makes anew.
+/// Parts that are not recomputed per frame.
 #[derive(Clone)]
 struct RenderService {
     mesh: Arc<Mesh>,
@@ -72,13 +72,31 @@ impl RenderService {
         Ok(Some(Self { mesh, tree, eye, lighting, surface, sources: Arc::new(sources) }))
     }
 
+    fn visibility(&self, side: u32, stop: &Stop) -> Option<Visibility> {
+        let eye = self.eye.eye(self.mesh.bounds());
+        Visibility::new(&self.mesh, eye, RasterSize::new(side, side), stop)
+    }
+
+    fn geometry(&self, visibility: &Visibility, shadows: Shadows, stop: &Stop) -> Option<Arc<GeometryImage>> {
+        let shadows = Some((&*self.tree, shadows));
+        GeometryImage::new(&self.mesh, visibility, &self.lighting, shadows, stop).map(Arc::new)
+    }
+
     /// Shading of the visible surface: everything in it that depends on the surface's material.
     fn shading(&self, side: u32, quality: Quality, stop: &Stop) -> Option<ShadingImage> {
-        let eye = self.eye.eye(self.mesh.bounds());
-        let visibility = Visibility::new(&self.mesh, eye, RasterSize::new(side, side), stop)?;
-        let shadows = Some((&*self.tree, Shadows::Coarse));
-        let geometry = GeometryImage::new(&self.mesh, &visibility, &self.lighting, shadows, stop)?;
-        ShadingImage::new(Arc::new(geometry), self.surface, Normalization::Radiometric, quality, stop)
+        let visibility = self.visibility(side, stop)?;
+        let geometry = self.geometry(&visibility, Shadows::Coarse, stop)?;
+        ShadingImage::new(geometry, self.surface, Normalization::Radiometric, quality, stop)
+    }
+
+    /// A frame of a visible surface through all sources by plans of its own.
+    fn planned(&self, geometry: Arc<GeometryImage>, quality: Quality, stop: &Stop) -> Option<Vec<CameraImage>> {
+        let shading = ShadingImage::new(geometry, self.surface, Normalization::Radiometric, quality, stop)?;
+        let image = |measure: &SpectralWeights| {
+            let plan = Plan::for_picture(&shading, measure).ok()?;
+            CameraImage::new(&shading, measure, Arc::new(plan), stop)
+        };
+        self.sources.iter().map(image).collect()
     }
 
     /// A frame through all sources by plans of this quality; none only if it was stopped.
@@ -88,7 +106,7 @@ impl RenderService {
         images.map(|(measure, plan)| CameraImage::new(&shading, measure, plan.clone(), stop)).collect()
     }
 
-    /// The plans of a frame of this size, one for each source; none where the tolerance cannot be kept, or if stopped.
+    /// The plans of a frame of this size, one for each sensor; `None` if the tolerance cannot be met, or if stopped.
     fn plans(&self, side: u32, quality: Quality, stop: &Stop) -> Option<Vec<Arc<Plan>>> {
         let shading = self.shading(side, quality, stop)?;
         let plans = self.sources.iter().map(|measure| Plan::for_picture(&shading, measure).ok().map(Arc::new));
@@ -116,6 +134,57 @@ impl RenderService {
 /// The surface of all frames, at a roughness.
 fn surface(sigma_m: f64) -> Option<Surface> {
     Surface::new(sigma_m, 10e-6, 50e-6, 50e-6, 1.4).ok()
+}
+
+/// A change, after which a frame is made from the first stage that depends on it.
+#[derive(Clone, Copy)]
+enum Change {
+    /// The view: everything but the mesh and the shadow tree.
+    View(Shadows),
+    /// The position of the light: the visible surface is reused.
+    Light,
+    /// The roughness: the light on the visible surface is reused too.
+    Roughness,
+}
+
+const CHANGES: [(&str, Change); 4] = [
+    ("view, coarse shadows", Change::View(Shadows::Coarse)),
+    ("view, a shadow ray per sample", Change::View(Shadows::Full)),
+    ("light, a shadow ray per sample", Change::Light),
+    ("roughness", Change::Roughness),
+];
+
+/// Frames after a change, with the plans that the window makes anew for it, as a multiple of a changed view's time.
+fn changes(bench: &mut Bench<'_>, studio: &RenderService, side: u32) {
+    let (quality, stop) = (Quality::Full, bench.stop);
+    let counts = bench.pools.counts();
+    let most = bench.pools.most();
+    let Some(plans) = bench.pools.on(most, || studio.plans(side, quality, stop)) else { return };
+    let error = bench.pools.on(most, || studio.error(quality, &plans, stop));
+    let made = bench.pools.on(most, || {
+        let visibility = studio.visibility(side, stop)?;
+        let geometry = studio.geometry(&visibility, Shadows::Full, stop)?;
+        Some((visibility, geometry))
+    });
+    let Some((visibility, geometry)) = &made else { return };
+    let mut candidates = Vec::new();
+    for (name, change) in CHANGES {
+        for &threads in &counts {
+            let work = move |_: usize| {
+                let geometry = match change {
+                    Change::View(shadows) => {
+                        studio.visibility(side, stop).and_then(|visibility| studio.geometry(&visibility, shadows, stop))
+                    }
+                    Change::Light => studio.geometry(visibility, Shadows::Full, stop),
+                    Change::Roughness => Some(Arc::clone(geometry)),
+                };
+                black_box(geometry.and_then(|geometry| studio.planned(geometry, quality, stop)));
+            };
+            candidates.push(Candidate::new(name, 1, error.clone(), work).undivided().on(threads));
+        }
+    }
+    let case = format!("{side} × {side}, what changes");
+    bench.compare(Case { workload: Workload::Frames, name: &case, item: "frame" }, candidates);
 }
 
 /// Frames of smooth surfaces as a multiple of a rough one's time.
@@ -152,6 +221,8 @@ pub(super) fn run(bench: &mut Bench<'_>) -> Result<(), BenchError> {
         let studio = &studio;
         if sigma_m > 1e-6 {
             smooth_surfaces(bench, studio, bench.pick(32, 512, 512));
+        } else {
+            changes(bench, studio, bench.pick(32, 512, 512));
         }
         for &side in sides {
             let mut qualities = vec![("full", Quality::Full), ("preview", Quality::Preview)];

@@ -92,7 +92,7 @@ fn one(bench: &mut Bench<'_>, name: &str, [low, high]: [f64; 2], measure: &Spect
     let pixels: Vec<Pixel> = (0..items).map(|_| (numbers.log_between(low, high), numbers.between(0.0, 20.0))).collect();
     let points: Vec<[f64; 2]> = pixels.iter().map(|&(kappa, beta)| [kappa, beta]).collect();
     let some: Vec<Pixel> = spaced(items, checked).map(|index| pixels[index]).collect();
-    // What an error is relative to: the integral of a pixel that sees the mirror direction.
+    // Scale of relative errors: the integral of a pixel that sees the specular direction.
     let exact: Vec<([Double; 3], Signals)> = bench.pools.on(bench.pools.most(), || {
         let scale = |&(kappa, _): &Pixel| by_nodes(measure.dense(), kappa, 0.0, Precision::Full);
         some.par_iter().map(|pixel| (exactly(measure.dense(), *pixel), scale(pixel))).collect()
@@ -153,7 +153,7 @@ fn plans<'a>(
     bench.pools.counts().into_iter().filter_map(on).collect()
 }
 
-/// All pixels as a plan says, in pieces that several threads can share.
+/// Evaluates all pixels by a plan, in pieces for several threads.
 fn planned<'a>(plan: Plan, points: &'a [[f64; 2]], room: &'a Room<Signals>, error: ErrorOf) -> Candidate<'a> {
     let explanation = plan.explanation();
     let name = format!("plan for {}: {}", explanation.asked, explanation.chosen.method.name());

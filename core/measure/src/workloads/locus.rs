@@ -1,4 +1,4 @@
-//! Chromaticities of black bodies: sums of several steps, Gauss rules of several sizes, what the program takes.
+//! Chromaticities of blackbodies: sums of several steps, Gauss rules of several sizes, what the program takes.
 
 use std::hint::black_box;
 

@@ -18,9 +18,9 @@ use crate::harness::timed;
 use crate::measurement::Errors;
 use crate::{BenchError, ErrorOf, ErrorScale, Workload};
 
-/// So many samples of reflectances differ; more are these again. They are far beyond any cache.
+/// Number of distinct reflectances, far larger than any cache; further ones repeat them.
 const DIFFERENT: usize = 16_000_000;
-/// Up to so many channels memory is what limits, so that a round takes all that is different.
+/// Number of channels up to which memory is the limit, so that a round takes all distinct samples.
 const FEW: usize = 12;
 
 pub(super) fn run(bench: &mut Bench<'_>) -> Result<(), BenchError> {
@@ -41,7 +41,7 @@ pub(super) fn run(bench: &mut Bench<'_>) -> Result<(), BenchError> {
     Ok(())
 }
 
-/// The weighted curves of a sensor, every so many nanometers.
+/// The weighted curves of a sensor at the given wavelength step.
 fn curves(sensor: &Sensor, step: usize) -> [Vec<f64>; 3] {
     [0, 1, 2].map(|c: usize| sensor.weighted(c).iter().step_by(step).map(|w| w * step as f64).collect())
 }

@@ -1,4 +1,4 @@
-//! Correlated color temperature and Duv: published approximations, and the nearest black body itself.
+//! Correlated color temperature and Duv: published approximations, and the nearest blackbody itself.
 
 use chromascope_core::colorimetry::{Uv60, UvPrime, Xy};
 use chromascope_core::light::PlanckianLocus;

@@ -1,4 +1,4 @@
-//! Candidates take turns; a median says how long each takes.
+//! Timing of alternating candidates by their median.
 
 use std::hint::black_box;
 use std::iter::successors;
@@ -34,7 +34,7 @@ impl Pools {
         self.0.last().map_or(1, |(threads, _)| *threads)
     }
 
-    /// Runs work where its parallel parts have so many threads.
+    /// Runs work in a thread pool of the given size.
     pub(crate) fn on<T: Send>(&self, threads: usize, work: impl FnOnce() -> T + Send) -> T {
         match self.0.iter().find(|(count, _)| *count == threads) {
             Some((_, pool)) => pool.install(work),
@@ -50,7 +50,7 @@ pub(super) struct Cost {
     pub(super) flops: f64,
 }
 
-/// One way of doing a case's work.
+/// One method of a case.
 pub(super) struct Candidate<'a> {
     method: String,
     threads: usize,
@@ -63,7 +63,7 @@ pub(super) struct Candidate<'a> {
 }
 
 impl<'a> Candidate<'a> {
-    /// A method on one thread. `work` does the first so many of up to `items`.
+    /// A method on one thread. `work` does the first n of up to `items`.
     pub(super) fn new(
         method: impl Into<String>,
         items: usize,
@@ -128,7 +128,7 @@ impl<'a> Candidate<'a> {
     }
 }
 
-/// Work timed at once.
+/// Number of items timed together.
 #[derive(Clone, Copy)]
 struct Batch {
     items: usize,

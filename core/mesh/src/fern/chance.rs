@@ -27,7 +27,7 @@ impl Chance {
     }
 }
 
-/// Every bit of the answer depends on every bit of the question: three rounds of shift and odd product.
+/// Every bit of the result depends on every bit of the input: three rounds of shift and odd product.
 fn stir(mut bits: u32) -> u32 {
     for odd in [0x85a3_08d3, 0x1319_8a2f, 0x0370_7345] {
         bits = (bits ^ (bits >> 15)).wrapping_mul(odd);

@@ -1,4 +1,4 @@
-//! From what a file says to a mesh: vertices split where normals differ, missing normals computed.
+//! Conversion of a file's contents to a mesh: vertices split where normals differ, missing normals computed.
 
 use super::edges::{Edges, survey};
 use super::error::MeshReadError;
@@ -105,7 +105,7 @@ pub(super) fn usable(soup: &Soup, normal: u32) -> u32 {
     if normal == NONE || soup.normals[normal as usize] == Vec3::ZERO { NONE } else { normal }
 }
 
-/// The counts, except what only the finished mesh tells.
+/// The counts, except those known only for the finished mesh.
 fn report(soup: &Soup, kind: Kind, cut: &Cut, edges: &Edges, computed: usize) -> Report {
     let normals = match computed {
         0 => Normals::Read,

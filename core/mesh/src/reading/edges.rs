@@ -21,7 +21,7 @@ pub(super) struct Edges {
     pub(super) duplicates: Tally,
     /// Edges of one triangle.
     pub(super) boundary: usize,
-    /// Edges whose two triangles run along them the same way.
+    /// Edges whose two triangles run along them in the same direction.
     pub(super) flipped: Tally,
     pub(super) unused: usize,
     /// For each corner of each triangle the parent in its fan's tree, in the end the root; empty where the file has all
@@ -76,7 +76,7 @@ pub(super) fn survey(soup: &Soup, cut: &Cut, stop: &dyn Fn() -> bool) -> Result<
 }
 
 impl Edges {
-    /// Looks at the sides of one edge.
+    /// Examines the sides of one edge.
     fn look(&mut self, soup: &Soup, cut: &Cut, normals: &[Vec3], edge: &[Side], suspects: &mut Vec<u32>) {
         let place = |side: &Side| soup.place(cut.faces[side.1 as usize / 3] as usize);
         let agree = |a: &Side, b: &Side| position(soup, cut, a.1) != position(soup, cut, b.1);
@@ -204,7 +204,7 @@ fn root(parents: &[u32], mut corner: u32) -> u32 {
     corner
 }
 
-/// Joins two corners' trees under the lower root, and shortens the way there.
+/// Joins two corners' trees under the lower root, with path compression.
 fn join(parents: &mut [u32], a: u32, b: u32) {
     let low = root(parents, a).min(root(parents, b));
     for mut corner in [a, b] {

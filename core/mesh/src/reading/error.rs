@@ -1,6 +1,6 @@
 //! Reason that a file gives no mesh: where, and what to do about it.
 
-/// A kind of file that holds something else, or a mesh in a way that is not read.
+/// Unsupported contents of a file: another kind of file, or an unsupported kind of mesh.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Alien {
     /// glTF, as text or binary.
@@ -75,7 +75,7 @@ impl std::fmt::Display for Place {
     }
 }
 
-/// Reason that bytes give no mesh. Each message says where it is and how to mend it.
+/// Reason that bytes give no mesh. Each message says where the error is and how to correct it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, thiserror::Error)]
 pub enum MeshReadError {
     /// There are no bytes, or nothing but blanks.
@@ -188,10 +188,10 @@ pub enum MeshReadError {
     /// A text ends within a face.
     #[error("the file ends within the face that begins on line {0}; it was not copied whole, get it again")]
     Unfinished(usize),
-    /// A line of a header, or a record, is not what the format asks for there.
+    /// A line of a header, or a record, is not what the format requires there.
     #[error("{0}: not what the format has here; the file is damaged or of a rare variant, export it as OBJ")]
     Syntax(Place),
-    /// The caller asked to stop.
+    /// The caller stopped the reading.
     #[error("stopped before the mesh was read")]
     Stopped,
 }

@@ -71,7 +71,7 @@ impl<'a> Cursor<'a> {
         rest[..length].trim_ascii()
     }
 
-    /// Goes to the beginning of the next statement.
+    /// Advances to the beginning of the next statement.
     #[inline]
     pub(super) fn next_line(&mut self) {
         self.skip_blanks();
@@ -111,7 +111,7 @@ impl<'a> Cursor<'a> {
         &self.bytes[self.at..]
     }
 
-    /// Goes to the first statement of what follows that is not empty.
+    /// Advances to the next statement that is not empty.
     pub(super) fn skip_empty_lines(&mut self) {
         self.skip_blanks();
         while matches!(self.bytes.get(self.at), Some(b'\n' | b'\r' | b'#')) {
@@ -120,7 +120,7 @@ impl<'a> Cursor<'a> {
         }
     }
 
-    /// Goes over blanks and continued lines.
+    /// Skips blanks and line continuations.
     #[inline]
     fn skip_blanks(&mut self) {
         while let Some(&byte) = self.bytes.get(self.at) {
@@ -135,7 +135,7 @@ impl<'a> Cursor<'a> {
         }
     }
 
-    /// Goes over a line's end.
+    /// Skips a line's end.
     fn end_line(&mut self) {
         self.at += line_end(&self.bytes[self.at..]);
         self.line += 1;
@@ -162,8 +162,8 @@ pub(super) fn parse_number(word: &Word<'_>) -> Result<f64, MeshReadError> {
 
 /// A number of at most 18 digits with a small exponent, to the nearest double; none for all else.
 ///
-/// A whole number below 2^53 and a power of ten up to 22 are exact doubles, so one division or multiplication rounds once
-/// (Clinger 1990). Nearly all coordinates are of this kind, at a fifth of the time of the general way.
+/// A whole number below 2^53 and a power of ten up to 22 are exact doubles, so that one division or multiplication rounds
+/// once (Clinger 1990). Nearly all coordinates are of this kind, at a fifth of the time of the general method.
 #[inline]
 fn short_number(text: &[u8]) -> Option<f64> {
     const TENS: [f64; 23] = [

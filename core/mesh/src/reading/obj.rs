@@ -1,8 +1,8 @@
 //! Wavefront OBJ, line by line.
 //!
-//! By its own hand, since the crates do not reach what is asked: tobj 4 cuts polygons into fans, stops at the first word
-//! it cannot read without saying where, and hashes vertices by their indices; obj 0.10 copies each line and takes no
-//! continued ones; `wavefront_obj` 11 refuses statements it does not know. None can be told to stop.
+//! Own implementation, as the available crates lack required features: tobj 4 cuts polygons into fans, stops at the
+//! first word it cannot read without reporting its position, and hashes vertices by their indices; obj 0.10 copies each
+//! line and does not support continued ones; `wavefront_obj` 11 rejects unknown statements. None can be stopped.
 
 use super::STOP_EVERY;
 use super::error::{MeshReadError, Place};
@@ -10,7 +10,7 @@ use super::lines::{Cursor, Word};
 use super::report::Skipped;
 use super::soup::{Corner, NONE, Names, Smoothing, Soup};
 
-/// The most changes of name that are kept.
+/// Maximum number of name changes that are stored.
 const MAX_GROUPS: usize = 65_536;
 
 /// The present object, group and material.

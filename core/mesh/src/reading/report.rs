@@ -27,7 +27,7 @@ impl Tally {
 /// Statements that are read over, since nothing in a mesh answers to them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Skipped {
-    /// Materials: their names are kept with the groups, what they look like is not.
+    /// Materials: their names are stored with the groups, their properties are ignored.
     Materials,
     /// Texture coordinates and maps.
     Textures,
@@ -63,7 +63,7 @@ impl Skipped {
         Self::Unknown,
     ];
 
-    /// Skipped content, as a person calls it.
+    /// User-facing name of skipped content.
     fn name(self) -> &'static str {
         match self {
             Self::Materials => "material statements",
@@ -106,13 +106,13 @@ pub struct Report {
     pub triangles: usize,
     /// Origin of the normals.
     pub normals: Normals,
-    /// Triangles left out because they have no area within single precision's resolution of their coordinates.
+    /// Triangles omitted because they have no area within single precision's resolution of their coordinates.
     pub degenerate: Tally,
-    /// Polygons that cross themselves, so that no way of cutting them is right; they were cut somehow.
+    /// Self-intersecting polygons, which have no valid triangulation; they were triangulated arbitrarily.
     pub crossing: Tally,
-    /// Edges where more than two triangles meet; kept. `first` is the first face at such an edge.
+    /// Edges where more than two triangles meet; not changed. `first` is the first face at such an edge.
     pub non_manifold_edges: Tally,
-    /// Triangles on three vertices that an earlier one has; kept.
+    /// Triangles with the same three vertices as an earlier one; not removed.
     pub duplicates: Tally,
     /// Edges of one triangle only: none where the mesh is closed.
     pub boundary_edges: usize,
@@ -120,7 +120,7 @@ pub struct Report {
     pub flipped: Tally,
     /// True if a closed mesh encloses a negative volume: its triangles face inwards.
     pub inside_out: bool,
-    /// Triangles whose normals from the file point to the other side than their corners' order says.
+    /// Triangles whose normals in the file point to the opposite side of their winding order.
     pub against_winding: usize,
     /// Vertices in the file that no triangle uses.
     pub unused_vertices: usize,
@@ -128,7 +128,7 @@ pub struct Report {
     pub far_from_origin: bool,
     /// Statements read over, by kind.
     pub skipped: Vec<(Skipped, Tally)>,
-    /// Names of groups past the limit, which were not kept.
+    /// Names of groups beyond the limit, which were discarded.
     pub unnamed_groups: usize,
 }
 
@@ -138,7 +138,7 @@ impl Report {
         Skipped::ALL.into_iter().zip(*tallies).filter(|(_, tally)| tally.count > 0).collect()
     }
 
-    /// Notes for a person, a line each, the gravest first; empty where all is in order.
+    /// Notes for the user, a line each, the most severe first; empty if there are none.
     pub fn notes(&self) -> Vec<Note> {
         let tally = |tally: Tally, note: fn(usize, Place) -> Note| tally.first.map(|first| note(tally.count, first));
         let some = |count: usize, note: Note| (count > 0).then_some(note);
@@ -178,7 +178,7 @@ impl Display for Report {
     }
 }
 
-/// One thing that a person should know about a mesh that was read.
+/// A note for the user about a mesh that was read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[expect(missing_docs, reason = "the fields count what the variant names, or give the first place")]
 pub enum Note {
@@ -188,11 +188,11 @@ pub enum Note {
     InsideOut,
     /// Edges whose triangles disagree on which side is outside.
     Flipped { edges: usize, first: Place },
-    /// Normals that point to the other side than the corners' order says.
+    /// Normals that point to the opposite side of the winding order.
     AgainstWinding { triangles: usize, of: usize },
     /// Single precision shows.
     FarFromOrigin,
-    /// Triangles without area were left out.
+    /// Triangles without area were omitted.
     Degenerate { count: usize, first: Place },
     /// Edges of more than two triangles.
     NonManifold { edges: usize, first: Place },

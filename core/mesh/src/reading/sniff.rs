@@ -25,7 +25,7 @@ pub(super) fn kind(bytes: &[u8], extension_hint: Option<&str>) -> Result<Kind, M
         return Ok(Kind::Stl);
     }
     if let Some(looks_like) = alien(bytes, text) {
-        // A truncated binary STL is told from other binary data by its name only.
+        // Only its name distinguishes a truncated binary STL from other binary data.
         return if looks_like == Alien::Binary && hint("stl") {
             Ok(Kind::Stl)
         } else {

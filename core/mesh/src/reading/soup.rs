@@ -22,7 +22,7 @@ pub(super) struct Corner {
 /// Method for missing normals.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Smoothing {
-    /// The file says nothing: smooth where faces meet at less than the crease angle.
+    /// Not specified in the file: smooth where faces meet at less than the crease angle.
     Auto,
     /// Each face by itself.
     Flat,
@@ -38,7 +38,7 @@ pub(super) struct Names {
 }
 
 impl Names {
-    /// The longest name that is kept, in characters.
+    /// Maximum length of a stored name, in characters.
     pub(super) const LONGEST: usize = 200;
 }
 
@@ -96,7 +96,7 @@ impl Soup {
         start as usize..self.ends[face] as usize
     }
 
-    /// The end of those faces from one on that have together about so many corners; at least one face.
+    /// The end of a range of faces with about the given number of corners in total; at least one face.
     pub(super) fn faces_within(&self, from: usize, corners: usize) -> usize {
         let reach = self.face(from).start + corners;
         self.ends.partition_point(|&end| end as usize <= reach).max(from + 1)

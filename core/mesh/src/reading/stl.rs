@@ -1,7 +1,7 @@
 //! STL, as text or binary: triangles with their corners' coordinates, which are welded where they are equal.
 //!
-//! By its own hand, on the words and the soup that OBJ has anyway: `stl_io` 0.11 names no lines. The facets' normals are
-//! read over, since the order of the corners says the same, and so are the two bytes after each facet of a binary file.
+//! Own implementation, on the tokenizer and soup of the OBJ reader: `stl_io` 0.11 reports no lines. The facets' normals
+//! are ignored, as the order of the corners gives the same, and so are the two bytes after each facet of a binary file.
 
 use super::error::{MeshReadError, Place, Quantity};
 use super::lines::Cursor;

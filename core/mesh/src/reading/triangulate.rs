@@ -27,13 +27,13 @@ pub(super) struct Cut {
     pub(super) triangles: Vec<[u32; 3]>,
     /// The face of each triangle, ascending.
     pub(super) faces: Vec<u32>,
-    /// Triangles without area, left out.
+    /// Omitted triangles, without area.
     pub(super) degenerate: Tally,
     /// Polygons that cross themselves.
     pub(super) crossing: Tally,
 }
 
-/// Cuts all faces; triangles without area are left out.
+/// Cuts all faces; triangles without area are omitted.
 pub(super) fn cut(soup: &Soup, stop: &dyn Fn() -> bool) -> Result<Cut, MeshReadError> {
     let mut cut = Cut::default();
     let mut from = 0;
@@ -199,7 +199,7 @@ impl Polygon {
         let first = inside([0, 1, 2], [0, 2, 3]);
         let second = inside([1, 2, 3], [1, 3, 0]);
         let [p, q] = [[0, 2], [1, 3]].map(|[a, b]: [usize; 2]| self.space[a].distance_squared(self.space[b]));
-        // Where both are as good, all quads of a grid are cut the same way.
+        // If both diagonals are equally good, all quads of a grid are cut alike.
         match (first, second) {
             (false, false) => return false,
             (true, false) => self.triangles.extend([[0, 1, 2], [0, 2, 3]]),
@@ -309,7 +309,7 @@ impl Polygon {
         }
     }
 
-    /// True if a triangle's corners are in line, as far as coordinates of single precision tell.
+    /// True if a triangle's corners are collinear in single-precision coordinates.
     fn is_flat(&self, triangle: [usize; 3]) -> bool {
         let [a, b, c] = triangle.map(|i| self.points[i]);
         self.area(triangle).abs() <= self.grain * longest(a, b, c).sqrt()

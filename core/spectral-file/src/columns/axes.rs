@@ -11,7 +11,7 @@ use crate::text::listed;
 pub(super) struct Axes {
     /// Columns, counted from the one right of the wavelengths, that hold the wavelengths of those behind them.
     pub(super) more: Vec<usize>,
-    /// Columns of the table that are left out.
+    /// Omitted columns of the table.
     pub(super) left: Vec<usize>,
     /// True if only the numbers suggest that there are several columns of wavelengths.
     pub(super) guessed: bool,
@@ -132,7 +132,7 @@ fn runs_like_axis(header: &Header, [first, column]: [usize; 2], wavelengths: &[f
     plausible && (name.is_some_and(header_terms::begins_with_wavelengths) || overlaps())
 }
 
-/// Returns whether nothing names a column, or its name is that of the first wavelengths, or only says x.
+/// Returns whether a column is unnamed, or its name is that of the first wavelengths, or only x.
 fn is_open(header: &Header, at: usize, column: usize) -> bool {
     let unit = |column: usize| header.units.get(column).map(String::as_str).filter(|unit| !unit.is_empty());
     let name = header.name(column);

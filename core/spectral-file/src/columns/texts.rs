@@ -1,4 +1,4 @@
-//! Columns of text in a table: left out, unless each cell is a number with the same unit.
+//! Columns of text in a table: omitted, unless each cell is a number with the same unit.
 
 use crate::dialect::{Cell, Dialect};
 use crate::grid::RawCurve;
@@ -15,7 +15,7 @@ struct Text {
     column: usize,
     /// The unit of all cells until now.
     unit: Option<String>,
-    /// True if a cell was no number with that unit.
+    /// True if a cell was not a number with that unit.
     other: bool,
 }
 
@@ -32,7 +32,7 @@ impl Texts {
         column < 128 && self.mask >> column & 1 == 1
     }
 
-    /// Takes in a cell of such a column: its number, or NaN.
+    /// Processes a cell of such a column: its number, or NaN.
     pub(super) fn take(&mut self, column: usize, dialect: Dialect, cell: &str) -> f64 {
         let Some(text) = self.columns.iter_mut().find(|text| text.column == column) else { return f64::NAN };
         if dialect.parse(cell) == Cell::Gap {
@@ -62,7 +62,7 @@ impl Texts {
         curve
     }
 
-    /// The columns that are left out.
+    /// The omitted columns.
     pub(super) fn left_out(&self) -> impl Iterator<Item = usize> {
         self.columns.iter().filter(|text| text.other || text.unit.is_none()).map(|text| text.column)
     }

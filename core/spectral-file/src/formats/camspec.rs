@@ -1,5 +1,5 @@
 //! A database of cameras: a line with the name of each, then a line of 33 values for red, green and blue, without wavelengths
-//! (J. Jiang et al. 2013: 400 to 720 nm by 10). Read as its users describe it; no real file was at hand.
+//! (J. Jiang et al. 2013: 400 to 720 nm by 10). Read as its users describe it; no real file was available.
 
 use crate::dialect::{Cell, Dialect};
 use crate::error::ReadError;

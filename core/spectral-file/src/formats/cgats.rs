@@ -97,18 +97,18 @@ struct File {
     row_name: String,
     row_wavelengths: Vec<f64>,
     last_line: usize,
-    /// Fields in a set of the table that is kept.
+    /// Fields in a set of the selected table.
     width: usize,
     /// Number of the table with spectral fields that is read, from 1.
     wanted: usize,
-    /// True if the table that is kept has begun, and whether it is the one being read.
+    /// True if the selected table has begun, and whether it is the one being read.
     done: bool,
     open: bool,
     /// All tables with spectral fields.
     parts: Vec<Part>,
     /// Title that keywords give the next table.
     title: String,
-    /// The values of one that is not kept, which are only counted.
+    /// The values of a table that is not selected, which are only counted.
     counted: Option<usize>,
 }
 
@@ -189,12 +189,12 @@ impl File {
         self.name_fields = ["SAMPLE_NAME", "SAMPLE_LOC", "SAMPLE_ID", "SampleID"].iter().filter_map(named).collect();
     }
 
-    /// Ends a table, whether or not the file says so.
+    /// Ends a table, whether or not the file marks its end.
     fn end_data(&mut self) {
         self.open = false;
         if let (Some(values), Some(part)) = (self.counted.take(), self.parts.last_mut()) {
             part.curves = values / self.fields.len().max(1);
-            // What the keywords say of one table is not said of the next.
+            // The keywords of one table do not apply to the next.
             if !self.done {
                 (self.declared, self.scale, self.header) = Default::default();
                 self.announced.clear();
@@ -300,7 +300,7 @@ impl File {
 }
 
 impl File {
-    /// The list of tables, with a word on those that are left out.
+    /// The list of tables, with a note on the omitted ones.
     fn settle_parts(&mut self, options: &ReadOptions, log: &mut Log<'_>) -> Result<Vec<Part>, ReadError> {
         let mut parts = std::mem::take(&mut self.parts);
         if let Some(part) = options.part.filter(|part| !parts.is_empty() && !(1..=parts.len()).contains(part)) {

@@ -60,7 +60,7 @@ impl Range {
 struct List {
     spectrum: usize,
     range: Range,
-    /// The specification that says what `range` does not.
+    /// The specification with the information that `range` lacks.
     specification: Option<String>,
     line: usize,
 }

@@ -9,6 +9,6 @@ pub(crate) struct Found {
     pub(crate) grid: Grid,
     pub(crate) layout: Layout,
     pub(crate) reader: Decided<Reader>,
-    /// Decisions that only this family asks for.
+    /// Decisions that only this family needs.
     pub(crate) notes: Vec<Decision>,
 }

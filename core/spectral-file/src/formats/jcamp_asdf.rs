@@ -22,10 +22,10 @@ enum Kind {
     Repeat,
 }
 
-/// The most values of a line, far above any line of a sound file: a few letters can ask for billions.
+/// The most values of a line, far above any line of a sound file: a few letters can request billions.
 const MOST_VALUES: usize = 100_000;
 
-/// Decodes a line; `None` for a blank one. The error is the text that is no number.
+/// Decodes a line; `None` for a blank one. The error is the text that is not a number.
 pub(super) fn decode(line: &str) -> Result<Option<Ordinates>, &str> {
     let mut entries = entries(line)?.into_iter();
     let abscissa = match entries.next() {

@@ -177,7 +177,7 @@ fn title(text: &str, header: &mut Header, notes: &mut Vec<Decision>) {
     header.note(0, "title", &title);
 }
 
-/// Rows as the grid they are; wavelengths at which no curve has a value are left out.
+/// Rows as their grid; wavelengths at which no curve has a value are omitted.
 fn on_one_grid(rows: Rows, names: &[String], header: Header, log: &Log<'_>) -> Result<Grid, ReadError> {
     let Rows { wavelengths, values, width, fault } = rows;
     match fault {
@@ -200,7 +200,7 @@ fn on_one_grid(rows: Rows, names: &[String], header: Header, log: &Log<'_>) -> R
             Some(values) if !single => values.iter().skip(column).step_by(width).copied().collect(),
             _ => all.take().unwrap_or_default(),
         };
-        // A single curve goes by the title, which says more than "power".
+        // A single curve is named by the title, which is more specific than "power".
         let given = names.get(column).filter(|_| !single).cloned().or_else(|| title.clone());
         let name = given.clone().unwrap_or_else(|| format!("Spectrum {}", column + 1));
         let label = names.get(column).cloned().unwrap_or_default();

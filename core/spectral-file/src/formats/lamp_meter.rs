@@ -77,7 +77,7 @@ fn part(block: &[Sample]) -> Part {
 
 type Blocks = (Vec<Vec<Sample>>, Delimiter, DecimalMark);
 
-/// Blocks of samples of one label and rising wavelengths; other lines are kept as comments.
+/// Blocks of samples of one label and rising wavelengths; other lines are stored as comments.
 fn blocks(text: &str, header: &mut Header, log: &mut Log<'_>) -> Result<Blocks, ReadError> {
     let mut all: Vec<Vec<Sample>> = vec![Vec::new()];
     let mut label = None;

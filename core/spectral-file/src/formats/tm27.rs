@@ -66,7 +66,7 @@ impl Content {
             self.header.note(element.line, element.name(), element.content());
         }
         match element.name() {
-            // The description is the title, whatever else the header says.
+            // The description is the title, whatever the rest of the header.
             "Header" => {
                 if let Some(description) = self.header.comment("Description").map(str::to_owned) {
                     self.header.note(0, "title", &description);

@@ -29,7 +29,7 @@ pub(super) fn recognize(text: &str) -> Option<Reader> {
         let from = parser.buffer_position() as usize;
         match parser.read_event() {
             Ok(Event::Start(_) | Event::Empty(_)) => break &text[from..],
-            // A tag that is cut short still says what the file was meant to be.
+            // A truncated tag still shows the intended format.
             Err(_) => break text.get(parser.error_position() as usize..)?,
             Ok(Event::Eof) => return None,
             Ok(_) => {}
@@ -180,7 +180,7 @@ impl<'a> Walk<'a> {
         self.open.last()
     }
 
-    /// Goes on to the next beginning or end of an element; `None` at the end of a sound text.
+    /// Advances to the next beginning or end of an element; `None` at the end of a valid text.
     pub(super) fn next(&mut self, log: &mut Log<'_>) -> Result<Option<Step<'a>>, ReadError> {
         loop {
             let from = self.parser.buffer_position() as usize;
@@ -247,7 +247,7 @@ impl<'a> Walk<'a> {
         Ok(())
     }
 
-    /// The line of a byte that is not before any asked for until now.
+    /// The line of a byte that is not before any requested until now.
     fn line(&mut self, byte: usize) -> usize {
         let (from, line) = self.place;
         self.place = (byte, line + line_ends(&self.text[from..byte]));

@@ -1,7 +1,7 @@
 //! Names and units of wavelengths in the words of a header.
 
-use super::{lower, quantity, role, words};
 use crate::report::Medium;
+use crate::text::{lower, words};
 use crate::wavelength_unit::WavelengthUnit;
 
 /// Quantity on the x axis, as a header may name it.
@@ -114,14 +114,6 @@ pub(crate) fn names_wavelengths(text: &str) -> bool {
         || words(&text)
             .next()
             .is_some_and(|word| matches!(word, "wave" | "wl" | "nm" | "um" | "µm" | "μm" | "cm-1" | "1/cm" | "thz"))
-}
-
-/// Returns whether a column's header names a scale of the spectrum, which is no curve: wavelengths, wave numbers, energies of photons.
-pub(crate) fn names_axis(text: &str) -> bool {
-    let energies = x_unit(text) == Some(XUnit::Other);
-    // A unit of values may hold one of wavelengths, such as `W/(cm-1)`.
-    let of_values = quantity(text).is_some() || role(text).is_some() || crate::unit_text::unit(text).is_some();
-    (names_wavelengths(text) || energies) && !of_values
 }
 
 /// Returns whether a column's header names times and nothing else, such as `Time (s)` or `Integration time [ms]`.

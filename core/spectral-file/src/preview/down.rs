@@ -19,7 +19,7 @@ pub(super) struct Down {
     /// The columns of wavelengths, from 0, and their units.
     axes: Vec<(usize, WavelengthUnit)>,
     pub(super) curves: Vec<Option<usize>>,
-    /// The line of names, and how many columns it leaves out at its beginning.
+    /// The line of names, and how many columns it omits at its beginning.
     names: Option<usize>,
     shift: usize,
     /// The line of units.

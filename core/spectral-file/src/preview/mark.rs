@@ -7,7 +7,7 @@ use crate::decimal::short;
 use crate::file::{Curve, SpectralFile};
 use crate::role::Values;
 
-/// A piece of a line that was understood.
+/// A part of a line with its meaning.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Mark {
     /// Its bytes in the line, on the borders of characters. Empty where an empty cell stands for a gap.
@@ -43,7 +43,7 @@ pub enum What {
     Name(usize),
     /// A unit, of a curve or of the wavelengths. `None` for the wavelengths.
     Unit(Option<usize>),
-    /// A setting or a remark that was kept with the reading.
+    /// A setting or a remark that was stored with the reading.
     Setting,
     /// A place where a curve has no value.
     Gap(usize),

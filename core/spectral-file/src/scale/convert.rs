@@ -22,7 +22,7 @@ pub(crate) fn convert(grid: &mut Grid, scale: &Scale) {
             Values::Absorbance => 10_f64.powf(-value),
             Values::Decibels => 10_f64.powf(value / 10.0),
         };
-        // What no number can hold is a gap.
+        // A value outside the range of doubles is a gap.
         let finite = |value: f64| if value.is_finite() { value } else { f64::NAN };
         curve.values.iter_mut().for_each(|value| *value = finite(plain(*value)));
     }
@@ -32,7 +32,7 @@ pub(crate) fn convert(grid: &mut Grid, scale: &Scale) {
 fn relabel(curve: &mut RawCurve, values: Values, role: Role) {
     let fraction = if role == Role::Reflectance { "Reflectance" } else { "Transmittance" };
     let renamed = match values {
-        // Percent are so common that what is written to files leaves them out, not what a person sees.
+        // Percent are so common that written files omit the conversion, but the user sees it.
         Values::Plain | Values::Percent => return,
         Values::Absorbance => {
             curve.unit = Some("1".to_owned());

@@ -1,4 +1,4 @@
-//! Role of the curves: what the file says, what its settings suggest, what its numbers look like.
+//! Role of the curves: as stated in the file, as suggested by its settings, or by its numbers.
 
 use crate::grid::{Grid, RawCurve};
 use crate::options::ReadOptions;
@@ -138,7 +138,7 @@ fn hinted(grid: &Grid, options: &ReadOptions) -> Option<Decided<Role>> {
             (headed.filter(|values| *values != Values::Plain), "The header says what the values stand for".to_owned())
         }
     };
-    // What else a file says of its content says more than its scale.
+    // Other information on the content outweighs its scale.
     if let Some((line, role)) = grid.header.mentioned.filter(|(_, role)| suits(*role, values)) {
         return Some(Decided::guess(role, format!("Line {line} mentions it")));
     }
@@ -167,7 +167,8 @@ fn hinted(grid: &Grid, options: &ReadOptions) -> Option<Decided<Role>> {
     }
 }
 
-/// Returns whether curves of a role may be written so. Lights in percent are not told from reflectances by a mere mention.
+/// Returns whether curves of a role may be written so. A mere mention of percent does not distinguish lights from
+/// reflectances.
 fn suits(role: Role, values: Option<Values>) -> bool {
     match values {
         Some(Values::Percent | Values::Absorbance) => role.is_fraction(),

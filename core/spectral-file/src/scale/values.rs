@@ -61,7 +61,7 @@ pub(super) fn decide(
     by_numbers(grid, from_file || role.certainty != Certainty::Chosen, evidence, log)
 }
 
-/// Each curve by its own header, where any header says something.
+/// Each curve by its own header, if any header has information.
 fn by_headers(grid: &Grid, role: Role) -> Option<(Decided<Values>, Vec<Values>)> {
     let columns: Vec<Option<Values>> = grid.curves.iter().map(|curve| headed(curve, role)).collect();
     let first = columns.iter().flatten().next().copied()?;
@@ -136,7 +136,7 @@ fn warn_of_others(grid: &Grid, columns: &[Values], log: &mut Log<'_>) {
     }
 }
 
-/// Warns of values that the file says are percent, and that look like fractions.
+/// Warns of values that are percent by the file, and look like fractions.
 fn doubt_percent(values: Values, evidence: &Evidence, log: &mut Log<'_>) {
     const LARGEST_FRACTION: f64 = 1.2;
     let (_, max) = evidence.range();

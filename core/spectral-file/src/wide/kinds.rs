@@ -1,4 +1,4 @@
-//! Rows of several quantities in one table: each row is what its own label says.
+//! Rows of several quantities in one table, each determined by the row's label.
 
 use crate::grid::RawCurve;
 use crate::header::Header;
@@ -32,7 +32,7 @@ impl Label {
         (self.quantity, self.absorbance) == (other.quantity, other.absorbance)
     }
 
-    /// Takes over what the label says of all rows that are left.
+    /// Applies the label's information to all remaining rows.
     fn tell(&self, header: &mut Header) {
         header.mentioned = None;
         header.role = self.quantity.and_then(Quantity::role).map(|role| (self.line, role)).or(header.role);
@@ -41,14 +41,14 @@ impl Label {
     }
 }
 
-/// The column before the values that says what each row is, if its head says so.
+/// The column before the values with the kind of each row, if its header says so.
 pub(super) fn column(leading: &[&str]) -> Option<usize> {
     const HEADS: [&str; 8] =
         ["mode", "technique", "quantity", "measurement", "measurement type", "measurement mode", "data type", "type"];
     leading.iter().position(|head| HEADS.iter().any(|wanted| head.trim().eq_ignore_ascii_case(wanted)))
 }
 
-/// Leaves the rows of one quantity where there are several: the first, or the one that was asked for. Returns all as parts.
+/// Selects the rows of one quantity if there are several: the first, or the requested one. Returns all as parts.
 pub(super) fn settle(
     curves: &mut Vec<RawCurve>,
     labels: &[Option<Label>],

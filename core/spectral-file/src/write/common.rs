@@ -68,7 +68,7 @@ impl Limits {
     }
 }
 
-/// The multiples of the step that was asked for.
+/// The multiples of the requested step.
 fn asked(step: f64, range: [f64; 2], limits: &Limits) -> Result<Vec<f64>, WriteError> {
     let wavelengths = multiples(step, range)?;
     let (format, found, most) = (limits.format, wavelengths.len(), limits.bands);

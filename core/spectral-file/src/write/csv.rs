@@ -12,9 +12,9 @@ use crate::write::resample::{Changes, SAME_NM, Sampling, multiples};
 use crate::write::sheet::{Content, Piece, Sheet};
 use crate::write::text::{push_number, push_quoted};
 
-/// Bytes of text that are passed on at once; a longer row is passed on alone.
+/// Block size of text; a longer row is written alone.
 const CHUNK: usize = 1 << 16;
-/// Cells that are resampled at once.
+/// Number of cells resampled together.
 const CELLS: usize = 1 << 20;
 
 /// Curves on their way out, at their own wavelengths or at multiples of a step. What can be refused was refused.
@@ -56,7 +56,7 @@ impl<'a> Prepared<'a> {
         Ok(Self { sheet: *sheet, pieces, step, sampling, rows, changes, renamed, blank })
     }
 
-    /// Passes on wavelengths and values of one curve after the other, as long as `put` says to go on.
+    /// Writes wavelengths and values of one curve after the other, as long as `put` continues.
     pub fn each(&mut self, mut put: impl FnMut(&[f64], &[f64]) -> bool) {
         for piece in &self.pieces {
             let piece =
@@ -67,7 +67,7 @@ impl<'a> Prepared<'a> {
         }
     }
 
-    /// Passes on the table with its head, some lines at a time, as long as `put` says to go on.
+    /// Writes the table with its header, some lines at a time, as long as `put` continues.
     pub fn table(&mut self, put: &mut dyn FnMut(&str) -> bool) {
         self.write(String::new(), put);
     }
@@ -76,7 +76,7 @@ impl<'a> Prepared<'a> {
     pub(super) fn with_comments(&mut self, put: &mut dyn FnMut(&str) -> bool) {
         let mut out = String::new();
         if self.step.is_some() {
-            // The head says how values were found, which is known of all curves once they were.
+            // The header describes how values were obtained, which is known only once all curves were.
             self.each(|_, _| true);
         }
         push_comments(&mut out, &self.sheet, self.changes.told(self.step).as_deref());
@@ -212,7 +212,7 @@ fn push_name(out: &mut String, name: &str) {
     }
 }
 
-/// Appends rows and passes on what has become long; says whether to go on.
+/// Appends rows and writes full blocks; returns whether to continue.
 fn push_rows(out: &mut String, rows: &[f64], parts: &[Piece<'_>], put: &mut dyn FnMut(&str) -> bool) -> bool {
     let mut next = vec![0_usize; parts.len()];
     for &wavelength in rows {

@@ -16,7 +16,7 @@ pub enum Grid {
 }
 
 impl Grid {
-    /// The step in nanometers, if one was asked for.
+    /// The requested step in nanometers, if any.
     pub fn step_nm(self) -> Option<f64> {
         match self {
             Self::Native => None,

@@ -79,7 +79,7 @@ fn push_header(out: &mut String, sheet: &Sheet<'_>, common: &Common, notes: &mut
     push_last(out, 8, "license", &quoted(&sheet.license()));
 }
 
-/// The names by which rawtoaces asks for curves.
+/// Names of the curves that rawtoaces expects.
 fn push_index(out: &mut String, content: Content<'_>, pieces: &[Piece<'_>], notes: &mut Vec<Note>) {
     let fixed: &[&str] = match content {
         Content::Camera { .. } => &["R", "G", "B"],

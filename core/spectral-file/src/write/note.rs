@@ -98,10 +98,10 @@ pub enum WriteError {
     /// Red, green and blue are not three of the curves.
     #[error("red, green and blue are not three of the curves")]
     Channels,
-    /// The step of the grid is no number, or below 0.001 nm.
+    /// The step of the grid is NaN, or below 0.001 nm.
     #[error("the step must be a number of at least 0.001 nm")]
     Step,
-    /// A format does not take so many curves, or so few.
+    /// A format does not support this number of curves.
     #[error("{} takes {wanted} of such curves at once, not {found}", format.name())]
     Count {
         /// The format.
@@ -122,7 +122,7 @@ pub enum WriteError {
         /// The step in nanometers.
         step_nm: f64,
     },
-    /// The program that the format is for would not read so many bands.
+    /// The program that the format is for would not read this number of bands.
     #[error("{} has at most {most} bands, and these would be {found}", format.name())]
     Bands {
         /// The format.

@@ -13,7 +13,7 @@ pub(super) const SAME_NM: f64 = 1e-6;
 
 const SMALLEST_STEP_NM: f64 = 1e-3;
 
-/// Returns whether a grid can be asked for.
+/// Returns whether a grid is valid.
 pub(super) fn check(grid: Grid) -> Result<(), WriteError> {
     match grid {
         Grid::Step(step) | Grid::Average(step) if !(step.is_finite() && step >= SMALLEST_STEP_NM) => {
@@ -28,7 +28,7 @@ pub(super) fn check(grid: Grid) -> Result<(), WriteError> {
 pub(super) enum Sampling {
     /// The value there.
     Points,
-    /// The mean over a band of so many nanometers around it.
+    /// The mean over a band of the given width in nanometers around it.
     Bands(f64),
 }
 

@@ -32,7 +32,7 @@ pub enum Content<'a> {
     Camera {
         /// Red, green and blue curves; there may be others, which only CSV, `.sp` and CGATS can hold.
         channels: [usize; 3],
-        /// True if they are a response to equal numbers of photons (else to equal power); `None` if nobody knows.
+        /// True if they are a response to equal numbers of photons (else to equal power); `None` if unknown.
         per_photon: Option<bool>,
         /// Manufacturer of the camera, by which rawtoaces finds it.
         manufacturer: Option<&'a str>,
@@ -53,12 +53,12 @@ pub enum Content<'a> {
 }
 
 impl Content<'_> {
-    /// The unit of the values where nothing else is said.
+    /// The default unit of the values.
     pub(super) fn unit(self) -> Option<&'static str> {
         (!matches!(self, Self::Illuminant | Self::Other)).then_some("1")
     }
 
-    /// Returns whether values are fractions of one, whatever else is said.
+    /// Returns whether values are fractions of one, regardless of other settings.
     pub(super) fn is_fraction(self) -> bool {
         matches!(self, Self::Reflectance | Self::Transmittance)
     }
@@ -77,8 +77,8 @@ pub struct Sheet<'a> {
     pub unit: Option<&'a str>,
     /// Creation time of the file, as in RFC 3339, for the formats that have a field for it.
     pub created: Option<&'a str>,
-    /// More to say, such as `("source", …)`, `("license", …)` and `("note", …)`. What is said elsewhere here (title,
-    /// quantity, unit, response) is not taken from it.
+    /// Further information, such as `("source", …)`, `("license", …)` and `("note", …)`. Information in other fields
+    /// here (title, quantity, unit, response) is not taken from it.
     pub comments: &'a [(String, String)],
 }
 
@@ -104,7 +104,7 @@ impl<'a> Sheet<'a> {
         }
     }
 
-    /// The comments on one line each, without those that the rest of the sheet says.
+    /// The comments on one line each, without those that repeat the rest of the sheet.
     pub(super) fn comments(&self) -> impl Iterator<Item = (Cow<'a, str>, Cow<'a, str>)> + use<'a> {
         const SAID: [&str; 4] = ["title", "quantity", "unit", "response"];
         let lines = self.comments.iter().map(|(key, value)| (text::one_line(key), text::one_line(value)));

@@ -9,7 +9,7 @@ pub trait Sample: Copy + Send + Sync + PartialEq + sealed::Kernel {}
 impl Sample for f64 {}
 impl Sample for f32 {}
 
-/// Numbers that a register takes from memory at once, where that is quickest: not across two lines of the cache.
+/// Number of values that a register loads fastest: not across two cache lines.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(align(32))]
 pub struct Register<T>(T);
@@ -50,7 +50,7 @@ pub(super) mod sealed {
 pub(super) const ROWS: usize = 3;
 const COLUMNS: usize = 4;
 
-/// Bytes that come from memory at once.
+/// Bytes loaded together.
 const LINE: usize = 64;
 
 /// One register of each curve of a block. Written out: a loop over the spectra or channels would be turned into one over
@@ -82,7 +82,7 @@ macro_rules! kernel {
             /// Contents of a register.
             type Lanes = Register<[$type; $lanes]>;
 
-            /// Spectra that are multiplied at once.
+            /// Number of spectra multiplied together.
             struct Block<'a> {
                 /// Their whole registers.
                 rows: [&'a [[$type; $lanes]]; ROWS],
@@ -189,7 +189,7 @@ macro_rules! kernel {
                         let count = (channels - done).min(COLUMNS);
                         let curves = &curves[done * registers..][..count * registers];
                         let places = &mut answers[done..];
-                        // Each block of channels asks for one of the spectra.
+                        // Each block of channels requests one of the spectra.
                         let ahead = if block < ROWS { self.ahead(block) } else { &[] };
                         match count {
                             1 => self.some::<1>(curves, places, channels, ahead),
@@ -217,7 +217,7 @@ macro_rules! kernel {
                     let [a, b, c] = self.rows;
                     let curves = curves.as_chunks::<N>().0;
                     let rows = a.iter().zip(b).zip(c);
-                    // With a pointer of its own: as a fourth of the zipped it would be found anew in each step.
+                    // With a separate pointer: as a fourth of the zipped it would be recomputed in each step.
                     let mut rest = curves.iter();
                     if ahead.is_empty() {
                         for ((a, b), c) in rows {

@@ -13,7 +13,7 @@ const MOST: usize = COUNT.next_multiple_of(LANES);
 /// The longest wavelength λ₀ has the smallest exponent x₀ = c₂/(λ₀T). From here on 1 − e^−x loses nothing by cancellation;
 /// below, which is above 56 000 K, all x − x₀ are within what the exponential near 0 is made for.
 const PLAIN_FROM: f64 = 0.325;
-/// Terms below e^−this of a channel's last one are left out: all of them together are below its rounding.
+/// Terms below e^−this of a channel's last one are omitted: all of them together are below its rounding.
 const DEPTH: f64 = 52.0;
 
 /// One channel's weights in a list of wavelengths.
@@ -25,7 +25,7 @@ struct Channel {
     weights: Vec<f64>,
     /// The gap of the last wavelength that weighs.
     last_gap: f64,
-    /// Logarithm of the ratio of exponentials, last term's to a term's, beyond which the term is left out.
+    /// Logarithm of the ratio of exponentials, last term's to a term's, beyond which the term is omitted.
     depth: f64,
 }
 

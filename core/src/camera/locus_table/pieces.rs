@@ -24,7 +24,7 @@ const MOST_BITS: u32 = 7;
 const MANTISSA: u32 = 52;
 const ONE: u64 = 1023 << MANTISSA;
 
-/// Stands for an infinite temperature where pieces are made: their end at 0 mired. It is as far from it as doubles tell.
+/// Represents an infinite temperature at the end of the pieces, 0 mired: as far from it as doubles resolve.
 const ENDLESS_K: f64 = 1e21;
 
 /// Temperatures that are worked on side by side.
@@ -34,13 +34,13 @@ const LANES: usize = 64;
 /// together is multiplied together.
 type Piece = [[f64; 4]; TERMS / 2];
 
-/// Index of the coefficients of the pieces that are left out.
+/// Index of the coefficients of the omitted pieces.
 const NOTHING: Piece = [[f64::NAN; 4]; TERMS / 2];
 
 /// All pieces, from the hottest to the coldest.
 #[derive(Clone, Debug)]
 pub(super) struct Pieces {
-    /// Number of low bits of m + [`SHIFT`] that tell the place within a piece.
+    /// Number of low bits of m + [`SHIFT`] that give the place within a piece.
     within_bits: u32,
     pieces: Vec<Piece>,
 }
@@ -54,7 +54,7 @@ impl PartialEq for Pieces {
 }
 
 impl Pieces {
-    /// As few as meet the target, with the largest error of those that are kept.
+    /// As few pieces as meet the target, with the largest error of those not omitted.
     pub(super) fn new(exact: &(impl Fn(Kelvin) -> Option<Xy> + Sync), target: f64) -> (Self, f64) {
         let limit = target * (LocusTable::LIMIT / LocusTable::TARGET);
         let mut bits = fewest_bits(target);
@@ -79,7 +79,7 @@ impl Pieces {
         self.pieces.len()
     }
 
-    /// The chromaticity of one black body.
+    /// The chromaticity of one blackbody.
     #[inline]
     pub(super) fn xy(&self, temperature: Kelvin) -> Result<Xy, LocusTableError> {
         let (index, t) = place(temperature, self.within_bits);

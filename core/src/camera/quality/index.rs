@@ -25,7 +25,7 @@ pub struct MetamerismIndex {
     pub min_delta_e: f64,
 }
 
-/// What the observer sees of the patches: the part of an index that all sensors share.
+/// Observer's colors of the patches: the part of an index that all sensors share.
 #[derive(Clone, Debug, PartialEq)]
 pub struct IndexSamples {
     white: Xyz,

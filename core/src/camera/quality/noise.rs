@@ -3,7 +3,7 @@
 use crate::camera::rendering::Rendering;
 use glam::{DMat3, DVec3};
 
-/// Reflectance of the gray whose noise is told.
+/// Reflectance of the gray whose noise is reported.
 const GRAY: f64 = 0.18;
 
 /// Noise gains from raw RGB to linear sRGB.
@@ -16,7 +16,7 @@ pub struct NoiseAmplification {
     /// Noise of linear red, green and blue for unit independent noise of the raw channels: the lengths of the rows of N.
     pub rows: [f64; 3],
     /// Noise-gain factor Ψ of US patent 5609978 (1997): sum of the lengths of the rows of M, the matrix from balanced exposures to those
-    /// of the primaries of BT.709. 3 for a camera that needs no matrix; the patent asks for 6.5 at most.
+    /// of the primaries of BT.709. 3 for a camera that needs no matrix; the patent requires at most 6.5.
     pub psi: f64,
     /// Condition number of N: ratio of its largest to its smallest singular value.
     pub condition: f64,
@@ -28,11 +28,11 @@ impl NoiseAmplification {
         let matrix = srgb_from_balanced(rendering);
         let gains = rendering.white / rendering.white_integrals;
         let all = matrix * DMat3::from_diagonal(gains / gains.y);
-        let (rows, psi) = (row_lengths(all), row_lengths(matrix).iter().sum());
-        let condition = condition(all);
-        let found = Self { rows, psi, condition };
-        let positive = gains.abs().min_element() > 0.0 && all.is_finite() && condition.is_finite();
-        positive.then_some(found)
+        if gains.abs().min_element() == 0.0 || !all.is_finite() {
+            return None;
+        }
+        let found = Self { rows: row_lengths(all), psi: row_lengths(matrix).iter().sum(), condition: condition(all) };
+        found.condition.is_finite().then_some(found)
     }
 }
 
@@ -45,25 +45,10 @@ fn row_lengths(matrix: DMat3) -> [f64; 3] {
     [0, 1, 2].map(|row| matrix.row(row).length())
 }
 
-/// Ratio of the largest to the smallest singular value: `‖A‖₂ ‖A⁻¹‖₂`; infinite for a singular matrix.
+/// Ratio of the largest to the smallest singular value of a finite matrix; not finite for a singular one.
 fn condition(matrix: DMat3) -> f64 {
-    spectral_norm(matrix) * spectral_norm(matrix.inverse())
-}
-
-/// Largest singular value, from the largest eigenvalue of `AᵀA` in closed form (Smith 1961, Commun. ACM 4, 168).
-fn spectral_norm(matrix: DMat3) -> f64 {
-    let scale = matrix.to_cols_array().iter().fold(0.0_f64, |m, v| m.max(v.abs()));
-    if scale.is_nan() || scale == 0.0 || scale.is_infinite() {
-        return f64::INFINITY;
-    }
-    let a = matrix * (1.0 / scale);
-    let s = a.transpose() * a;
-    let mean = (s.x_axis.x + s.y_axis.y + s.z_axis.z) / 3.0;
-    let off = s - DMat3::from_diagonal(DVec3::splat(mean));
-    let spread = (off.x_axis.length_squared() + off.y_axis.length_squared() + off.z_axis.length_squared()) / 6.0;
-    let p = spread.sqrt();
-    let angle = if p > 0.0 { ((off * (1.0 / p)).determinant() / 2.0).clamp(-1.0, 1.0).acos() / 3.0 } else { 0.0 };
-    scale * (mean + 2.0 * p * angle.cos()).max(0.0).sqrt()
+    let values = nalgebra::Matrix3::from_column_slice(&matrix.to_cols_array()).singular_values();
+    values.max() / values.min()
 }
 
 /// Electrons that a pixel holds, and its read noise.

@@ -1,7 +1,7 @@
 //! CIEDE2000 without branches, so that several pairs go side by side.
 //!
-//! Hues are kept as directions, not as angles: the mean hue halves the angle between two of them, and the cosines of its
-//! multiples are polynomials. Differences are formed before anything is squared, so small ones keep their digits.
+//! Hues are represented as directions, not as angles: the mean hue bisects two of them, and the cosines of its multiples
+//! are polynomials. Differences are formed before anything is squared, so that small ones keep their digits.
 
 use multiversion::multiversion;
 

@@ -4,7 +4,7 @@ use super::exact::ExactLocus;
 use super::pieces::{FIRST_MIRED, LAST_MIRED, Pieces, UNIT};
 use crate::colorimetry::Uv60;
 
-/// Reciprocal temperatures hotter and colder than the pieces at which the locus is kept, in mired.
+/// Reciprocal temperatures beyond the pieces, at which the locus is stored, on the hot and the cold side, in mired.
 const HOTTER: [f64; 5] = [0.0, 5.0, 10.0, 15.0, 20.0];
 const COLDER: [f64; 18] = [
     1044.0, 1080.0, 1150.0, 1250.0, 1400.0, 1600.0, 1800.0, 2000.0, 2300.0, 2700.0, 3200.0, 4000.0, 5000.0, 7000.0,
@@ -16,7 +16,7 @@ const STEPS: usize = 60;
 /// The point of the locus that is nearest to a color.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Nearest {
-    /// Its reciprocal temperature in mired; to no more than tell on which side it lies beyond the pieces.
+    /// Its reciprocal temperature in mired; beyond the pieces only the side is determined.
     pub(super) mired: f64,
     /// Distance from the color.
     pub(super) distance: f64,

@@ -125,8 +125,8 @@ impl Seen {
 
     /// The distance from the tangent at t, positive above the locus.
     ///
-    /// Where t is the root this is the whole distance, and the tangent's direction counts to second order only: four terms of
-    /// it are plenty.
+    /// At the root t this is the full distance, and the tangent's direction has a second-order effect only, so that four
+    /// terms of it suffice.
     #[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
     #[inline(always)]
     pub(super) fn above(&self, t: f64) -> f64 {

@@ -42,10 +42,10 @@ pub fn hernandez_andres_1999(color: Xy) -> Result<Kelvin, CctError> {
     within(kelvins, 50_000.0, 800_000.0)
 }
 
-/// Kang, Moon, Hong, Lee, Cho and Kim 2002: the chromaticity of a black body, for 1667–25 000 K; none outside.
+/// Kang, Moon, Hong, Lee, Cho and Kim 2002: the chromaticity of a blackbody, for 1667–25 000 K; none outside.
 ///
-/// Cubics in 1/T for x, two of them, and in x for y, three. Only in this direction: the way back was not published as a
-/// formula, and as a search for the nearest point it would be as much work as the real locus. Measured: within 6e-4 in xy.
+/// Cubics in 1/T for x, two of them, and in x for y, three. Only in this direction: the inverse was not published as a
+/// formula, and as a search for the nearest point it would cost as much as the exact locus. Measured: within 6e-4 in xy.
 pub fn kang_2002(temperature: Kelvin) -> Option<Xy> {
     let kelvins = temperature.get();
     if !(1667.0..=25_000.0).contains(&kelvins) {
@@ -68,7 +68,7 @@ pub fn kang_2002(temperature: Kelvin) -> Option<Xy> {
     Some(Xy { x, y: cubic(y, x) })
 }
 
-/// The inverse slope of the line from a point where isotherms roughly meet. Below that point there is no temperature to tell.
+/// The inverse slope of the line from a point where isotherms roughly meet. Below that point no temperature is defined.
 fn slope(color: Xy, x: f64, y: f64) -> Result<f64, CctError> {
     if !(color.x.is_finite() && color.y.is_finite()) {
         return Err(CctError::NoChromaticity);

@@ -2,19 +2,19 @@
 
 use crate::units::Kelvin;
 
-/// The coldest black body that is looked for, in kelvins.
+/// The coldest blackbody that is looked for, in kelvins.
 pub const COLDEST_K: f64 = 1000.0;
-/// The hottest black body that is looked for, in kelvins.
+/// The hottest blackbody that is looked for, in kelvins.
 pub const HOTTEST_K: f64 = 20_000.0;
 /// The largest distance from the locus at which a color temperature means something (CIE 15:2004).
 pub const MAX_DUV: f64 = 0.05;
 
 pub(super) const HOTTEST_MIRED: f64 = 1e6 / HOTTEST_K;
 pub(super) const COLDEST_MIRED: f64 = 1e6 / COLDEST_K;
-/// Rounding must not refuse what was made from a limit itself: so much beyond, relative to it, is let through, unclamped.
+/// Relative tolerance of the limits, so that rounding does not reject a value made from a limit itself; not clamped.
 pub(super) const SLACK: f64 = 1e-11;
 
-/// A color as the nearest black body and the distance from it.
+/// A color as the nearest blackbody and the distance from it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cct {
     /// The correlated color temperature.
@@ -29,13 +29,13 @@ pub enum CctError {
     /// Black, or numbers that are no chromaticity.
     #[error("the color has no chromaticity")]
     NoChromaticity,
-    /// Further than 0.05 from every black body, of whatever temperature.
+    /// Further than 0.05 from every blackbody, of whatever temperature.
     #[error("the color is further than 0.05 from the Planckian locus")]
     TooFar,
-    /// The nearest black body is hotter than the method goes.
+    /// The nearest blackbody is hotter than the method goes.
     #[error("the nearest black body is too hot")]
     TooHot,
-    /// The nearest black body is colder than the method goes.
+    /// The nearest blackbody is colder than the method goes.
     #[error("the nearest black body is too cold")]
     TooCold,
 }
@@ -46,7 +46,7 @@ pub enum LocusError {
     /// The observer's channels are not X, Y and Z, so that its signals have no place in the 1960 diagram.
     #[error("the observer does not count in XYZ")]
     NotXyz,
-    /// Some black body has no chromaticity for this observer.
+    /// Some blackbody has no chromaticity for this observer.
     #[error("black bodies have no chromaticity for this observer")]
     NoChromaticity,
     /// The locus stands still or bends so sharply that colors within 0.05 of it could have two nearest points.

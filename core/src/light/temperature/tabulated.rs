@@ -129,19 +129,21 @@ impl Robertson {
 /// Chromaticity of a blackbody over the whole table of the CIE at 1 nm; below 0 mired the law of Rayleigh and Jeans goes on.
 fn whole_table(observer: &Sensor, mired: f64) -> Option<Uv60> {
     let second = RadiationConstants::Paper.second() * 1e3;
+    let law = |nm: f64| {
+        let exponent = second * mired / nm;
+        // x / (exp(x) − 1), which is 1 at 0: the factor λ/x is common to all temperatures' chromaticities but for λ.
+        let bend = if exponent == 0.0 { 1.0 } else { exponent / exponent.exp_m1() };
+        (nm, bend * (560.0 / nm).powi(4))
+    };
+    let laws: Vec<(f64, f64)> = (360..=830).map(f64::from).map(law).collect();
     let [x, y, z] = observer.curves().each_ref().map(|curve| {
-        let law = |nm: f64| {
-            let exponent = second * mired / nm;
-            // x / (exp(x) − 1), which is 1 at 0: the factor λ/x is common to all temperatures' chromaticities but for λ.
-            let bend = if exponent == 0.0 { 1.0 } else { exponent / exponent.exp_m1() };
-            bend * (560.0 / nm).powi(4)
-        };
-        (360..=830).map(f64::from).map(|nm| linear(curve.wavelengths_nm(), curve.values(), nm) * law(nm)).sum::<f64>()
+        let at = |nm| linear(curve.wavelengths_nm(), curve.values(), nm);
+        laws.iter().map(|&(nm, law)| at(nm) * law).sum::<f64>()
     });
     Some(Xyz { x, y, z }.uv_prime()?.uv60())
 }
 
-/// Ohno 2013: the nearest of 305 black bodies, a hundredth apart, and its two neighbors; from 1000 to 20 000 K.
+/// Ohno 2013: the nearest of 305 blackbodies, a hundredth apart, and its two neighbors; from 1000 to 20 000 K.
 ///
 /// Close to the locus (|Duv| < 0.002) the foot of a triangle over the two neighbors, further off the lowest point of a parabola
 /// through the three distances; both times his factor for a table in steps of 1 %. Measured within 4e-4 of the temperature, worst

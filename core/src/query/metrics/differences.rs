@@ -1,9 +1,8 @@
 //! Differences of patches from the reference, with their statistics.
 
-use super::WhyNot;
-use super::evidence::Evidence;
+use super::value::WhyNot;
 use crate::colorimetry::{Lab, Metric};
-use crate::query::compare::{DifferenceError, comparable_by_paper, difference};
+use crate::query::compare::{comparable_by_paper, difference};
 use crate::query::patches::{ColorTransformSpec, PatchColor, RenderingQuery};
 use crate::spectral::Primaries;
 use glam::DVec3;
@@ -89,38 +88,6 @@ fn angle_deg(a: [f64; 3], b: [f64; 3]) -> Option<f64> {
     let (a, b) = (a?, b?);
     // Kahan's form: the arc cosine loses half the digits of a small angle.
     Some(2.0 * (a - b).length().atan2((a + b).length()).to_degrees())
-}
-
-/// Statistic of the differences by the metric at this place of `Metric::ALL`.
-pub(super) fn statistic(evidence: &Evidence, metric: usize, of: Statistic) -> Result<f64, WhyNot> {
-    let patches = evidence.patches.as_ref().map_err(|&e| e)?;
-    let values = patches.iter().map(|patch| patch.by_metric.get(metric).copied().unwrap_or(Err(WhyNot::NoPatches)));
-    of.over(values.collect::<Result<_, _>>()?).ok_or(WhyNot::NoPatches)
-}
-
-impl Evidence {
-    /// Root mean square of a component of all patches' differences.
-    pub(super) fn rms(&self, of: impl Fn(&PatchDifferences) -> Option<f64>) -> Result<f64, WhyNot> {
-        self.mean(|patch| of(patch).map(|value| value * value)).map(f64::sqrt)
-    }
-
-    /// Mean of a component of all patches' differences.
-    pub(super) fn mean(&self, of: impl Fn(&PatchDifferences) -> Option<f64>) -> Result<f64, WhyNot> {
-        let patches = self.patches.as_ref().map_err(|&e| e)?;
-        let value = |patch: &PatchDifferences| {
-            // A component is missing for the reason that differences are.
-            let reason = patch.by_metric.iter().find_map(|value| value.err());
-            of(patch).ok_or(reason.unwrap_or(WhyNot::Difference(DifferenceError::NoChromaticity)))
-        };
-        let values = patches.iter().map(value).collect::<Result<Vec<f64>, _>>()?;
-        Statistic::Mean.over(values).ok_or(WhyNot::NoPatches)
-    }
-
-    /// Noise gain of one row of matrix ∘ balance.
-    pub(super) fn noise_row(&self, row: usize) -> Result<f64, WhyNot> {
-        self.scale?;
-        Ok(self.noise?.rows[row])
-    }
 }
 
 impl Statistic {

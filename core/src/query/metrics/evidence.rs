@@ -1,31 +1,20 @@
-//! All that metrics are computed from: questions of their own, so that each is answered once whatever else changes.
+//! Inputs of the metrics, as separate queries, so that each is computed once whatever else changes.
 
-use super::differences::{PatchDifferences, Way};
-use super::{CameraMetricsQuery, WhyNot};
+use super::conditions::{CameraMetricsQuery, IndexConditions};
+use super::differences::{PatchDifferences, Statistic, Way};
+use super::value::WhyNot;
 use crate::camera::quality::{IndexSamples, MetamerismIndex, NoiseAmplification, SpaceQuality, gray_snr_db};
 use crate::camera::{LocusDeviation, ReferenceLocus, RenderingError};
 use crate::light::RadiationConstants;
-use crate::patch_set::PatchSet;
 use crate::query::ask::{Ask, Query};
+use crate::query::compare::DifferenceError;
 use crate::query::loci::LocusRulesQuery;
 use crate::query::patches::{PatchColorsQuery, RenderingQuery};
 use crate::query::shared::Shared;
-use crate::spectral::{GridSpectrum, Primaries, Sensor};
+use crate::spectral::{Primaries, Sensor};
 use crate::units::Kelvin;
 
-/// Conditions of the sensitivity metamerism index: by ISO 17321-1 the CIE 1931 observer, D55 and the 18 chromatic patches of the
-/// `ColorChecker`.
-#[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub struct IndexConditions {
-    /// The observer; counts in XYZ.
-    pub observer: Shared<Sensor>,
-    /// The light.
-    pub light: Shared<GridSpectrum>,
-    /// The patches.
-    pub patches: Shared<PatchSet>,
-}
-
-/// What the index's observer sees of its patches.
+/// Colors of the patches for the observer of the index.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 struct IndexSamplesQuery(IndexConditions);
 
@@ -130,13 +119,11 @@ fn locus_signals(sensor: &Sensor, temperature: Kelvin) -> [f64; 3] {
 
 /// All that metrics of one sensor are computed from.
 pub(super) struct Evidence {
-    /// Differences of each patch.
     pub(super) patches: Result<Vec<PatchDifferences>, WhyNot>,
     /// Error of the locus.
     pub(super) locus: Result<LocusDeviation, WhyNot>,
     /// Agreement with the reference's space.
     pub(super) space: Result<SpaceQuality, WhyNot>,
-    /// Metamerism index.
     pub(super) index: Result<MetamerismIndex, WhyNot>,
     /// Noise gains.
     pub(super) noise: Result<NoiseAmplification, WhyNot>,
@@ -164,6 +151,36 @@ impl Evidence {
             scale,
             snr_db,
         }
+    }
+
+    /// Statistic of the differences by the metric at this place of `Metric::ALL`.
+    pub(super) fn statistic(&self, metric: usize, of: Statistic) -> Result<f64, WhyNot> {
+        let patches = self.patches.as_ref().map_err(|&e| e)?;
+        let values = patches.iter().map(|patch| patch.by_metric.get(metric).copied().unwrap_or(Err(WhyNot::NoPatches)));
+        of.over(values.collect::<Result<_, _>>()?).ok_or(WhyNot::NoPatches)
+    }
+
+    /// Root mean square of a component of all patches' differences.
+    pub(super) fn rms(&self, of: impl Fn(&PatchDifferences) -> Option<f64>) -> Result<f64, WhyNot> {
+        self.mean(|patch| of(patch).map(|value| value * value)).map(f64::sqrt)
+    }
+
+    /// Mean of a component of all patches' differences.
+    pub(super) fn mean(&self, of: impl Fn(&PatchDifferences) -> Option<f64>) -> Result<f64, WhyNot> {
+        let patches = self.patches.as_ref().map_err(|&e| e)?;
+        let value = |patch: &PatchDifferences| {
+            // A component is missing for the reason that differences are.
+            let reason = patch.by_metric.iter().find_map(|value| value.err());
+            of(patch).ok_or(reason.unwrap_or(WhyNot::Difference(DifferenceError::NoChromaticity)))
+        };
+        let values = patches.iter().map(value).collect::<Result<Vec<f64>, _>>()?;
+        Statistic::Mean.over(values).ok_or(WhyNot::NoPatches)
+    }
+
+    /// Noise gain of one row of matrix ∘ balance.
+    pub(super) fn noise_row(&self, row: usize) -> Result<f64, WhyNot> {
+        self.scale?;
+        Ok(self.noise?.rows[row])
     }
 }
 

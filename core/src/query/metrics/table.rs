@@ -1,8 +1,8 @@
 //! The table of metrics.
 
-use super::WhyNot;
-use super::differences::{Statistic, statistic};
+use super::differences::Statistic;
 use super::evidence::Evidence;
+use super::value::WhyNot;
 use crate::colorimetry::Metric;
 use std::hash::{Hash, Hasher};
 
@@ -112,7 +112,7 @@ macro_rules! statistics {
             group: MetricGroup::Differences,
             decimals: $decimals,
             better: Better::Lower,
-            evaluate: |evidence| statistic(evidence, $at, $of),
+            evaluate: |evidence| evidence.statistic($at, $of),
         }
     };
 }
@@ -273,7 +273,7 @@ const SNR: CameraMetric = CameraMetric {
     ..NOISE
 };
 
-/// What metrics of a group have in common.
+/// Common values of the metrics of a group.
 const DIFFERENCE: CameraMetric = CameraMetric {
     id: "",
     column: "",

@@ -1,60 +1,15 @@
 //! Uncertainty of metrics from the spread of independent tables of one camera model, and ranks that respect it.
 
+use super::conditions::{CameraMetricsQuery, Replicates};
 use super::evidence::Evidence;
 use super::table::{Better, CameraMetric};
-use super::{CameraMetricsQuery, MetricValue, WhyNot};
+use super::value::{MetricValue, WhyNot};
 use crate::query::ask::{Ask, Query};
 use crate::query::patches::RenderingQuery;
 use crate::query::shared::Shared;
-use crate::spectral::grid::COUNT;
 use crate::spectral::{Primaries, Sensor};
 
-/// Relative RMS difference below which two tables are one measurement published twice.
-const SAME: f64 = 1e-5;
-
-/// Independent tables of the same camera models.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Hash)]
-pub struct Replicates {
-    models: Vec<Vec<Shared<Sensor>>>,
-}
-
-impl Replicates {
-    /// Takes the tables of each model; one that equals another of the same model within a factor for each channel and 1e-5 of its RMS is
-    /// the same measurement and counts once.
-    ///
-    /// Models keep their places, also those with fewer than two independent tables, which tell nothing.
-    pub fn new(models: impl IntoIterator<Item = Vec<Shared<Sensor>>>) -> Self {
-        let independent = |tables: Vec<Shared<Sensor>>| {
-            let mut kept: Vec<Shared<Sensor>> = Vec::new();
-            for table in tables {
-                if !kept.iter().any(|other| same_measurement(other, &table)) {
-                    kept.push(table);
-                }
-            }
-            kept
-        };
-        Self { models: models.into_iter().map(independent).collect() }
-    }
-
-    /// The independent tables of each model.
-    pub fn models(&self) -> &[Vec<Shared<Sensor>>] {
-        &self.models
-    }
-}
-
-/// True if two tables differ by rounding and a factor for each channel alone.
-fn same_measurement(a: &Sensor, b: &Sensor) -> bool {
-    (0..3).all(|channel| {
-        let pairs = || (0..COUNT).map(|i| (a.at_index(i)[channel], b.at_index(i)[channel]));
-        let sum = |f: fn((f64, f64)) -> f64| pairs().map(f).sum::<f64>();
-        let (aa, bb, ab) = (sum(|(x, _)| x * x), sum(|(_, y)| y * y), sum(|(x, y)| x * y));
-        // 1 − cos² is the squared relative residual of the best factor.
-        let factor = ab / bb;
-        pairs().map(|(x, y)| (x - factor * y).powi(2)).sum::<f64>() <= SAME * SAME * aa
-    })
-}
-
-/// Values of all metrics of one table, without uncertainties: asked for by every camera that takes its uncertainty from it.
+/// Values of all metrics of one table, without uncertainties: shared by all cameras whose uncertainty depends on it.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 struct TableMetricsQuery(CameraMetricsQuery);
 
@@ -74,7 +29,7 @@ impl Query for TableMetricsQuery {
 /// u² = Σ_k (m_k − m̄)² / (n − 1)                    for a model with n ≥ 2 independent tables
 /// u² = Σ_j Σ_k (m_jk − m̄_j)² / Σ_j (n_j − 1)       for all others: pooled over those models, a prior
 /// ```
-/// m are the metric's values of the tables under the conditions of the question.
+/// m are the metric's values of the tables under the conditions of the query.
 pub(super) fn standard_uncertainties(of: &CameraMetricsQuery, ask: &impl Ask) -> Vec<Option<f64>> {
     let nothing = || vec![None; CameraMetric::ALL.len()];
     if of.rendering.sensor.primaries() != Primaries::Camera {
@@ -83,15 +38,15 @@ pub(super) fn standard_uncertainties(of: &CameraMetricsQuery, ask: &impl Ask) ->
     let values = |tables: &Vec<Shared<Sensor>>| -> Vec<Vec<Result<f64, WhyNot>>> {
         tables.iter().map(|sensor| (*ask.ask(&table_query(of, sensor))).clone()).collect()
     };
-    let own = of.model.and_then(|model| of.replicates.models.get(model)).filter(|tables| tables.len() > 1);
+    let own = of.model.and_then(|model| of.replicates.models().get(model)).filter(|tables| tables.len() > 1);
     let models: Vec<_> = match own {
         Some(tables) => vec![values(tables)],
-        None => of.replicates.models.iter().filter(|tables| tables.len() > 1).map(values).collect(),
+        None => of.replicates.models().iter().filter(|tables| tables.len() > 1).map(values).collect(),
     };
     (0..CameraMetric::ALL.len()).map(|metric| pooled(&models, metric)).collect()
 }
 
-/// The same question of another table; what does not matter to it is left out, so that equal questions are equal.
+/// Query for another table of the model; irrelevant fields are reset, so that equal queries compare equal.
 fn table_query(of: &CameraMetricsQuery, sensor: &Shared<Sensor>) -> TableMetricsQuery {
     let rendering = RenderingQuery { sensor: sensor.clone(), ..of.rendering.clone() };
     let replicates = Shared::new(Replicates::default());

@@ -86,7 +86,7 @@ impl ExposureQuery {
 /// A camera or observer to take a picture with.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct SourceOf {
-    /// The sensor, its light, white and way to the diagram.
+    /// The sensor, its light, white and color transform.
     pub rendering: RenderingQuery,
 }
 

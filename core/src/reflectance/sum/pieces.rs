@@ -9,7 +9,7 @@
 //! ```
 //! from −1 to 1, with g1 and t1 in the geometric middle: a logarithm to third order, which holds the logarithms' singularities
 //! far off. Of the square of coefficients those that weigh are a staircase, of which lower precisions read less. A piece is made
-//! when it is first asked for, by what is slow and exact (`fit`): once, in 20 to 120 µs.
+//! when it is first requested, by what is slow and exact (`fit`): once, in 20 to 120 µs.
 
 #![expect(clippy::inline_always, reason = "every instruction set needs a copy of its own")]
 
@@ -96,7 +96,7 @@ struct Place {
     y: f64,
 }
 
-/// The piece of a place where there is none: little or no g, no b, or so large a b that other ways are as good.
+/// The piece of an argument outside the pieces: little or no g, no b, or so large a b that other methods are as good.
 const NOWHERE: usize = ROWS * COLUMNS;
 
 impl Place {
@@ -105,7 +105,7 @@ impl Place {
     fn of(g: f64, b: f64) -> Self {
         let row = (g.to_bits() >> 52).wrapping_sub(BIAS.wrapping_add_signed(FIRST)) as usize;
         let Row { scale, columns } = GRID[if row < ROWS { row } else { 0 }];
-        // What is no number stays none, and has a column beyond all.
+        // NaN stays NaN, and has a column beyond all.
         let t = 1.0 + if b < 0.0 { 0.0 } else { b } * scale;
         let column = column(t);
         let piece = if row < ROWS && column < columns { row * COLUMNS + column } else { NOWHERE };
@@ -147,7 +147,7 @@ fn y(t: f64) -> f64 {
     (t - middle) / (t + middle) * TO_Y
 }
 
-/// ln S, as exactly as is asked for, where there is a piece.
+/// ln S, as exactly as requested, where there is a piece.
 #[inline(always)]
 pub(super) fn ln(g: f64, b: f64, precision: Precision) -> Option<f64> {
     let place = Place::of(g, b);
@@ -219,7 +219,7 @@ fn made(index: usize) -> &'static Piece {
 }
 
 impl Piece {
-    /// By the last so many tiles.
+    /// Evaluates the polynomial from its last `TILES` tiles of coefficients.
     #[inline(always)]
     fn at<const TILES: usize>(&self, x: f64, y: f64) -> f64 {
         let ((t, p), (v, q)) = (polynomials(x), polynomials(y));

@@ -1,4 +1,4 @@
-//! Number of terms of S(g, b), to tell what closed forms and tables save.
+//! Number of terms of S(g, b), to determine the savings of closed forms and tables.
 
 use std::f64::consts::LN_2;
 
@@ -13,7 +13,7 @@ const FEW: f64 = 64.0;
 /// Whole numbers, as doubles since they can be larger than any integer type holds. Above 64 they are near by: within 1 %.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SeriesTerms {
-    /// The last that matters: so many does a plain sum add that begins with the first.
+    /// The last relevant term: the number of terms of a plain sum that begins with the first.
     pub last: f64,
     /// Number of terms that matter.
     pub weighing: f64,
@@ -90,7 +90,7 @@ fn by_bell(m: f64, delta: f64) -> SeriesTerms {
         }
         inner
     };
-    // Four times the half width that a bell of this variance has: beyond its own skewness, from m = 64 on.
+    // Four times the half-width that a bell of this variance has: beyond its own skewness, from m = 64 on.
     let beyond = 4.0 * (2.0 * depth / m / (1.0 + 2.0 * delta)).sqrt();
     let (above, below) = (edge(beyond), edge(-beyond.min(1.0 - 1.0 / m)));
     SeriesTerms { last: (m * (1.0 + above)).floor(), weighing: (m * (above - below)).ceil().max(1.0) }

@@ -10,7 +10,7 @@ use crate::spectral::grid::{FIRST_NM, LAST_NM};
 use std::f64::consts::{LN_2, PI, TAU};
 use std::sync::{LazyLock, OnceLock};
 
-/// Nodes are worked on so many at a time.
+/// Number of nodes processed together.
 pub(super) const LANES: usize = 8;
 /// Node counts of the rules; beyond the last all wavelengths of the grid are taken.
 const COUNTS: [usize; 12] = [8, 16, 24, 32, 40, 48, 64, 80, 96, 128, 160, 208];
@@ -90,7 +90,7 @@ impl Band {
     }
 }
 
-/// Rules of one camera, each made when it is first asked for.
+/// Rules of one camera, each computed at first use.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CoherentRules {
     rules: [OnceLock<Rule>; COUNTS.len()],

@@ -156,7 +156,7 @@ impl Candidate {
         Self { seen: Some(seen), error_bound: Some(error_bound), ..self }
     }
 
-    /// Nanoseconds for so many samples.
+    /// Nanoseconds for the given number of samples.
     pub fn total_ns(&self, samples: f64) -> f64 {
         self.making_ns + samples * self.sample_ns
     }
@@ -169,7 +169,7 @@ impl Candidate {
 /// Methods of a plan, and the reasons for them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Explanation {
-    /// Tolerance that was asked for.
+    /// Requested tolerance.
     pub asked: RelTolerance,
     /// Scale of errors.
     pub against: Against,

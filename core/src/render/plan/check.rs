@@ -1,4 +1,4 @@
-//! A fixed set of (κ, β) with the integral there: what every way is compared with.
+//! Fixed set of (κ, β) with reference values of the integral, against which every method is checked.
 
 use super::domain::{Demand, beta_at};
 use super::nodes::many_by_nodes;
@@ -19,8 +19,8 @@ pub(super) const REFERENCE: f64 = 1e-13;
 /// Numbers of κ, and of β at each.
 const KAPPAS: usize = 96;
 const BETAS: usize = 16;
-/// Ways whose error is smooth in κ and β, as that of sums over a few wavelengths, are compared at each third point. Strides have
-/// no divisor in common with the number of β, so that none is left out.
+/// Methods whose error is smooth in κ and β, as that of sums over a few wavelengths, are checked at every third point. Strides
+/// have no divisor in common with the number of β, so that every β is checked.
 const SMOOTH_STRIDE: usize = 3;
 
 /// Number of β at the least and the largest κ, and where moments begin: errors are largest in the corners.
@@ -32,7 +32,8 @@ const COMPARED_STRIDE: usize = 101;
 /// Share of the tolerance that a stand-in may be off by.
 const STAND_IN_SHARE: f64 = 1e-4;
 
-/// Towards β = 0, where a table's error is largest, it is compared at so many κ and at these shares of its first interval.
+/// Towards β = 0, where a table's error is largest, it is checked at this number of κ and at these shares of its first
+/// interval.
 const FIRST_KAPPAS: usize = 384;
 const FIRST_SHARES: [f64; 2] = [0.02, 0.5];
 
@@ -81,7 +82,8 @@ impl Check {
         Self { grid, edges, nodes, against, reference }
     }
 
-    /// The largest error of a way that is smooth in κ and β, over the points for which `asked` holds, without margin.
+    /// The largest error of a method that is smooth in κ and β, over the points for which `asked` holds, without
+    /// margin.
     pub(super) fn error(&self, asked: impl Fn(f64) -> bool + Sync, way: impl Fn(f64, f64) -> [f64; 3] + Sync) -> f64 {
         let points = self.grid.par_iter().step_by(SMOOTH_STRIDE).chain(&self.edges);
         points
@@ -103,7 +105,7 @@ impl Check {
         few.par_iter().map(|point| off(point, way(point.kappa, point.beta))).reduce(|| 0.0, f64::max)
     }
 
-    /// The largest error of a way that is smooth in κ and β; where a few points tell that it is too large, at those.
+    /// The largest error of a method that is smooth in κ and β; if a few points show that it is too large, at those.
     pub(super) fn error_within(&self, tolerance: RelTolerance, way: impl Fn(f64, f64) -> [f64; 3] + Sync) -> f64 {
         let few = self.error_of_few(&way);
         if tolerance.allows(self.error_bound(few)) { few.max(self.error(|_| true, way)) } else { few }
@@ -114,7 +116,8 @@ impl Check {
         error_of_plan(&self.grid, plan).max(error_of_plan(&self.edges, plan))
     }
 
-    /// The largest error of a plan by a table of so many intervals along v in the first of them, without margin.
+    /// The largest error of a plan by a table of the given number of intervals along v in the first of them, without
+    /// margin.
     pub(super) fn error_of_first(&self, [from, to]: [f64; 2], intervals: usize, plan: &Plan) -> f64 {
         let of_row = |i: usize| {
             let kappa = from * (to / from).powf((i as f64 + 0.5) / FIRST_KAPPAS as f64);
@@ -151,7 +154,7 @@ fn error_of_plan(points: &[Point], plan: &Plan) -> f64 {
     points.par_chunks(RUN).map(of_run).reduce(|| 0.0, f64::max)
 }
 
-/// Every `stride`th point of the grid, by a sum over these wavelengths; only where something is promised.
+/// Every `stride`th point of the grid, by a sum over these wavelengths; only where a bound applies.
 fn points(nodes: &[Node], against: Against, demand: Demand, stride: usize) -> Vec<Point> {
     let [from, to] = demand.kappa();
     let rows: Vec<Vec<Point>> = (0..KAPPAS)

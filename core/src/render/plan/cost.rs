@@ -23,7 +23,8 @@ const REGIMES_NS: f64 = 30.0;
 /// A place of a table from another.
 pub(super) const PLACE_NS: f64 = 100.0;
 
-/// Up to so many cells, half a megabyte, a table is read from near caches, and each doubling beyond costs so much.
+/// Number of cells, half a megabyte, up to which a table is read from near caches, and the cost of each doubling
+/// beyond.
 const NEAR_CELLS: f64 = 16_384.0;
 const FAR_NS: f64 = 4.0;
 

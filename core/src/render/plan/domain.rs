@@ -13,7 +13,7 @@ pub struct Demand {
     open: bool,
 }
 
-/// The powers of two that κ may lie between: beyond, a surface is a mirror or beyond geometrical optics by any measure.
+/// Powers of two that bound κ: beyond them, a surface is a mirror or follows geometrical optics in every respect.
 const POWERS: (f64, f64) = (-60.0, 60.0);
 /// Number of powers of two a demand spans at most; the smoothest beyond that are left to the sum over all wavelengths.
 const SPAN: i16 = 40;
@@ -21,7 +21,7 @@ const SPAN: i16 = 40;
 const ROUGH_POWER: i16 = 7;
 const TABLE_POWERS: (i16, i16) = (-12, 12);
 const FAR_POWERS: (i16, i16) = (-28, 28);
-/// Numbers of samples of pictures are rounded up to a multiple of so many powers of two.
+/// Numbers of samples are rounded up to powers of two whose exponent is a multiple of this.
 const SAMPLE_POWERS: u16 = 6;
 
 impl Demand {

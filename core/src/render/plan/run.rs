@@ -1,4 +1,5 @@
-//! Many samples at once: what takes no sum over wavelengths is done together, so that it vectorizes.
+//! Batch evaluation of samples: those without a sum over wavelengths are evaluated together, so that the loop
+//! vectorizes.
 
 use super::Plan;
 use super::table::{Around, Table};
@@ -148,8 +149,8 @@ impl Plan {
     }
 }
 
-/// Moments of so many blocks, with the κ from which on few of them serve. Compiled for several instruction sets, the best chosen at
-/// run time; no operation is fused, so all of them give the same bits.
+/// Moments in blocks, with the κ from which on few of them suffice. Compiled for several instruction sets, the best chosen at run
+/// time; no operation is fused, so that all of them give the same bits.
 #[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl+avx512bw+avx512cd", "x86_64+avx2", "aarch64+neon"))]
 fn by_moments(
     moments: (&[[f64; MOMENTS]; 3], f64),

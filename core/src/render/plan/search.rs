@@ -1,8 +1,8 @@
 //! Search for the fastest method within a tolerance.
 //!
-//! What a way costs and is off by does not depend on the tolerance; what is passed over is dearer than one that meets it, or
-//! surely does not meet it: then the cheapest that meets a smaller error never has a larger one than the cheapest that meets a
-//! larger.
+//! Cost and error of a method do not depend on the tolerance. A method is skipped only if it costs more than one that meets
+//! the tolerance, or certainly does not meet it. So the fastest method for a smaller tolerance never has a larger error than
+//! the fastest for a larger one.
 
 use super::candidate::{Candidate, Explanation, IntegrationMethod, Verdict};
 pub(super) use super::check::REFERENCE;
@@ -117,7 +117,7 @@ impl Search<'_> {
         self.best.as_ref().is_none_or(|(best, _)| candidate.total_ns(samples) < best.total_ns(samples))
     }
 
-    /// True if there are so many samples that a table is likely to pay.
+    /// True if there are enough samples that a table is likely to pay.
     fn many(&self, rough: f64) -> bool {
         let fewest = Candidate::unseen(IntegrationMethod::Shared { nodes: 2, precision: Precision::Coarse });
         self.tabulated(rough).is_some() && fewest.total_ns(self.demand.samples()) > PAYS_NS
@@ -316,7 +316,7 @@ impl Search<'_> {
         }
     }
 
-    /// A plan of one way alone.
+    /// A plan with a single method.
     fn with(&self, below: Below) -> Plan {
         let chosen = Candidate::unseen(IntegrationMethod::Nothing);
         let (asked, demand) = (self.tolerance, self.demand);

@@ -48,7 +48,7 @@ impl<const N: usize> Basis<N> {
     const CURVES: [[f64; N]; N] = curves::<N>();
 }
 
-/// The weights of N coefficients at s = 2t − 1, for many at once.
+/// The weights of N coefficients at s = 2t − 1, for many together.
 #[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
 #[inline(always)]
 pub(super) fn weights<const N: usize>(s: &[f64; BLOCK], weights: &mut [[f64; BLOCK]; N]) {
@@ -72,7 +72,8 @@ pub(super) fn weights<const N: usize>(s: &[f64; BLOCK], weights: &mut [[f64; BLO
 /// The most coefficients that are read along an axis.
 pub(super) const MOST: usize = 10;
 
-/// The spline of a degree through as many places as it has coefficients, on an axis from 0 to 1 of so many intervals.
+/// The spline of a degree through as many points as it has coefficients, on an axis from 0 to 1 with the given number
+/// of intervals.
 pub(super) struct Axis {
     degree: usize,
     intervals: usize,
@@ -118,7 +119,7 @@ impl Axis {
         }
     }
 
-    /// From the values at the sites to the coefficients. Each site has so many numbers side by side.
+    /// Converts the values at the sites to coefficients. Each site has several numbers side by side.
     pub(super) fn solve(&self, values: &mut [f64], side_by_side: usize) {
         let mut rows: Vec<&mut [f64]> = values.chunks_mut(side_by_side).collect();
         for (i, (from, row)) in self.band.iter().enumerate() {

@@ -51,7 +51,7 @@ impl Size {
         self.places().into_iter().product()
     }
 
-    /// A table of this size as a way.
+    /// A table of this size as a method.
     pub(super) fn method(&self, nodes: usize) -> IntegrationMethod {
         let [kappas, betas] = self.places();
         IntegrationMethod::Table { degree: self.degree, kappas, betas, nodes }

@@ -17,20 +17,19 @@ const LAST_STEP: u32 = 36;
 const MOST_CELLS: usize = 1 << 20;
 /// The most wavelengths.
 const MOST_NODES: usize = 24;
-/// By at least so many digits what a table is made of is more exact than the table.
+/// Minimum number of digits by which a table's data are more accurate than the table.
 const SPARE: f64 = 0.6;
 /// To how many digits that is; not to any, so that tables share it.
 const LEVELS: [f64; 8] = [4.0, 5.5, 7.0, 8.5, 10.0, 11.0, 12.0, 13.0];
-/// From so many digits on S is made in full.
+/// Number of digits from which on S is computed in full precision.
 const FULL: f64 = 9.0;
 
-/// All splines of a measure that tables are made of, each made when it is asked for. What a table is made of does not depend on
-/// what else was looked at.
+/// All splines of a measure for tables, each computed at first use. A table's contents do not depend on the order of use.
 pub(super) struct Makings<'a> {
     measure: &'a SpectralWeights,
     check: &'a Check,
     extent: Extent,
-    /// Errors of sums over so many wavelengths, from none on.
+    /// Errors of sums over N wavelengths, from N = 0 on.
     node_errors: Vec<f64>,
     made: Vec<Made>,
 }
@@ -54,7 +53,6 @@ impl<'a> Makings<'a> {
         (from..=LAST_STEP).map(size).take_while(|size| size.count() <= MOST_CELLS)
     }
 
-    /// A table.
     pub(super) fn table(&mut self, size: &Size) -> Table {
         let (level, source) = (level(size), self.source(size));
         let found = self.made.iter().position(|made| (made.level, made.step) == (level, source.step));

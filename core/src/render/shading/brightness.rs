@@ -4,7 +4,7 @@ use super::{DiffuseKind, Shade};
 use crate::reflectance::{Precision, diffuse_sum};
 use rayon::prelude::*;
 
-/// About so many samples are looked at.
+/// Approximate number of samples examined.
 const LOOKED_AT: usize = 1024;
 /// No picture is darker, as a power of two, next to what it might be.
 const LEAST_SCALE: f64 = -100.0;

@@ -14,7 +14,7 @@ const FIRST_NM: f64 = 463.0;
 const STEP_NM: f64 = 11.3;
 const WAVELENGTHS: u32 = 16;
 
-/// A sample's mirror term, with what it does not exceed.
+/// A sample's coherent component, with an upper bound.
 #[derive(Clone, Debug)]
 pub(super) struct Lobe {
     pub(super) mirror: Mirror,
@@ -22,7 +22,7 @@ pub(super) struct Lobe {
     pub(super) most: f64,
 }
 
-/// The mirror terms of a picture.
+/// The coherent components of a picture.
 pub(super) struct Lobes {
     /// Ascending.
     pub(super) mirrors: Vec<Mirror>,

@@ -6,7 +6,7 @@ use super::{Column, DataTable, TableLook, cut};
 use crate::panes::context::PaneContext;
 use crate::theme::UNIT;
 
-/// Width of the filter, at most and at least, and of what stands beside it.
+/// Maximum and minimum width of the filter, and the width of the controls beside it.
 const FILTER: [f32; 2] = [132.0, 48.0];
 const BESIDE: f32 = 192.0;
 /// Height of the menu of columns before it scrolls.

@@ -1,4 +1,4 @@
-//! Head and rows of a table; only those in sight are laid out.
+//! Header and rows of a table; only visible ones are laid out.
 
 use chromascope_figure::Cell;
 use egui::{Id, Rect, Response, Role, Sense, Stroke, StrokeKind, TextStyle, Ui, UiBuilder, Vec2, WidgetInfo};
@@ -38,7 +38,7 @@ pub(super) struct Body<'a> {
     pub(super) hovered: Option<usize>,
     /// Column whose head was clicked.
     pub(super) clicked_head: Option<usize>,
-    /// What was done with rows.
+    /// User actions on rows.
     pub(super) output: TableOutput,
 }
 
@@ -71,7 +71,7 @@ impl<'a> Body<'a> {
         }
     }
 
-    /// Takes in a selection that the keyboard made.
+    /// Applies a selection made by keyboard.
     pub(super) fn follow(&mut self, look: &TableLook, context: &PaneContext<'_>) {
         self.cursor = look.cursor;
         self.selected.clone_from(&context.view.selected);
@@ -132,7 +132,13 @@ impl<'a> Body<'a> {
         table.show(&mut child, self);
     }
 
-    /// Lays out all rows, in sight or not: a few between other lines of text.
+    /// Width that the columns of a compact table need.
+    pub(super) fn least_width(&self) -> f32 {
+        let widths = self.shown.iter().map(|&column| self.layouts[column].width);
+        widths.sum::<f32>() - SPARE * self.shown.len().saturating_sub(1) as f32
+    }
+
+    /// Lays out all rows, visible or not: a few within other text.
     fn lay_out(&mut self, ui: &mut Ui, rect: Rect, widths: &[f32]) {
         let edges: Vec<f32> = std::iter::once(rect.left())
             .chain(widths.iter().scan(rect.left(), |x, width| {
@@ -197,7 +203,8 @@ impl<'a> Body<'a> {
             Cell::Number(value) => {
                 let number =
                     note.words.clone().unwrap_or_else(|| words(*value, form, note.decimals).trim_end().to_owned());
-                note.uncertainty.map_or(number.clone(), |by| format!("{number} {}", uncertainty_words(by, form)))
+                note.uncertainty
+                    .map_or(number.clone(), |by| format!("{number} {}", uncertainty_words(by, form, note.decimals)))
             }
         }
     }
@@ -221,26 +228,35 @@ impl<'a> Body<'a> {
             ui.painter().rect_filled(ground, 2.0, self.theme.shade(share));
         }
         let written = note.words.clone().unwrap_or_else(|| words(value, layout.form, note.decimals));
+        // Rows of a compact table are quantities of their own: their points stand apart anyway.
+        let written = if self.of.compact { written.trim_end() } else { &written };
         let mut place = rect;
         place.max.x -= layout.uncertainty;
         if layout.form == Form::Text {
-            lines::elided(ui, place, &written, TextStyle::Monospace, ink);
+            lines::elided(ui, place, written, TextStyle::Monospace, ink);
         } else {
-            lines::right_aligned(ui, place, &written, TextStyle::Monospace, ink);
+            lines::right_aligned(ui, place, written, TextStyle::Monospace, ink);
         }
         let Some(uncertainty) = note.uncertainty else { return };
-        let behind = uncertainty_words(uncertainty, layout.form);
-        lines::right_aligned(ui, rect, &behind, TextStyle::Small, self.theme.weak);
+        let behind = uncertainty_words(uncertainty, layout.form, note.decimals);
+        place = Rect::from_min_max(egui::pos2(place.max.x + UNIT, rect.top()), rect.max);
+        lines::elided(ui, place, &behind, TextStyle::Small, self.theme.weak);
     }
 }
 
-/// Spreads columns over a width, or narrows the first, which holds names.
+/// Spreads columns over a width; or takes the spare air of all but the first, and then narrows the first, which holds names.
 fn fit(widths: &mut [f32], width: f32) {
+    let others = widths.len().saturating_sub(1).max(1) as f32;
+    let spare = ((widths.iter().sum::<f32>() - width) / others).clamp(0.0, SPARE);
+    widths.iter_mut().skip(1).for_each(|other| *other -= spare);
     let all: f32 = widths.iter().sum();
     if let Some(first) = widths.first_mut() {
         *first = (*first + width - all).clamp(first.min(24.0), *first);
     }
 }
+
+/// Air of a compact table's column that it can do without.
+const SPARE: f32 = 2.0 * UNIT;
 
 impl TableDelegate for Body<'_> {
     fn prepare(&mut self, _: &PrefetchInfo) {

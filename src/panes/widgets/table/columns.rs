@@ -5,20 +5,20 @@ use chromascope_figure::{Cell, Table, TextSize, text_width};
 use crate::format::{fixed, number};
 use crate::theme::UNIT;
 
-/// Widest column of text, in points; what is longer is cut and read under the pointer.
+/// Maximum width of a text column, in points; longer text is cut and shown under the pointer.
 const WIDEST_TEXT: f64 = 260.0;
-/// Widest head beside shorter cells.
+/// Maximum width of a header above shorter cells.
 const WIDEST_HEAD: f64 = 150.0;
 /// Narrowest column.
 const NARROWEST: f64 = 40.0;
 /// Rows that the width of a column of text is taken from.
 const MEASURED_ROWS: usize = 2000;
-/// Significant digits of numbers without decimals of their own.
+/// Significant digits of numbers without a fixed number of decimals.
 const DIGITS: i32 = 6;
 /// Units that names of columns in files end in.
 const SUFFIXES: [(&str, &str); 4] = [("_nm", "nm"), ("_k", "K"), ("_ms", "ms"), ("_px", "px")];
 
-/// What a table says of one of its columns.
+/// Description and format of a table column.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Column {
     /// Name, without unit.
@@ -35,7 +35,7 @@ pub struct Column {
     pub largest_first: bool,
     /// Gray behind its numbers, darker for worse ones.
     pub shaded: bool,
-    /// Not shown unless the user wants it.
+    /// Hidden by default.
     pub starts_hidden: bool,
 }
 
@@ -60,13 +60,13 @@ impl Column {
 pub(super) enum Form {
     /// Text, flush left.
     Text,
-    /// Numbers with this many decimals, flush right, so that decimal points stand below each other.
+    /// Numbers with this many decimals, right-aligned, so that decimal points line up.
     Fixed(usize),
     /// Numbers over many powers of ten.
     Scientific,
 }
 
-/// Air beside a cell's content, left and right, in points.
+/// Padding left and right of a cell's content, in points.
 pub(super) fn air(compact: bool) -> [f32; 2] {
     if compact { [0.0, 3.0 * UNIT] } else { [2.0 * UNIT; 2] }
 }
@@ -74,7 +74,6 @@ pub(super) fn air(compact: bool) -> [f32; 2] {
 /// Form and range of a column.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Layout {
-    /// Form.
     pub(super) form: Form,
     /// Width in points.
     pub(super) width: f32,
@@ -84,9 +83,21 @@ pub(super) struct Layout {
     pub(super) shades: Option<[f64; 2]>,
 }
 
+/// Decimals of each row, where it has fewer than its column.
+pub(super) type RowDecimals<'a> = &'a dyn Fn(usize) -> Option<usize>;
+
 impl Layout {
-    /// Layout of a column. `uncertainty` is the largest of its cells', if any has one.
-    pub(super) fn of(column: &Column, table: &Table, index: usize, uncertainty: Option<f64>, compact: bool) -> Self {
+    /// Layout of a column. `uncertainties` are its cells', with decimals of their own; `compact` has the decimals of a compact
+    /// table's rows, which hold quantities of their own.
+    pub(super) fn of(
+        column: &Column,
+        table: &Table,
+        index: usize,
+        uncertainties: impl Iterator<Item = (f64, Option<usize>)>,
+        compact: Option<RowDecimals<'_>>,
+    ) -> Self {
+        let row_decimals = compact;
+        let compact = compact.is_some();
         let size = if compact { TextSize::Small } else { TextSize::Body };
         let cells = || table.rows.iter().filter_map(|row| row.get(index));
         let numbers = || cells().filter_map(|cell| if let Cell::Number(value) = cell { Some(*value) } else { None });
@@ -99,10 +110,20 @@ impl Layout {
         let extremes = numbers().fold([0.0_f64; 2], |[low, high], value| [low.min(value), high.max(value)]);
         let written = |value: f64| text_width(&words(value, form, None), TextSize::Mono);
         let number = if form == Form::Text { numbers().map(written).fold(0.0, f64::max) } else { 0.0 };
-        let number = extremes.into_iter().map(written).fold(number, f64::max);
+        let number = match row_decimals {
+            Some(decimals) => {
+                let rows = table.rows.iter().enumerate().filter_map(|(row, cells)| match cells.get(index) {
+                    Some(Cell::Number(value)) => Some(words(*value, form, decimals(row))),
+                    _ => None,
+                });
+                rows.map(|words| text_width(words.trim_end(), TextSize::Mono)).fold(number, f64::max)
+            }
+            None => extremes.into_iter().map(written).fold(number, f64::max),
+        };
         let number = if numbers().next().is_some() { number } else { 0.0 };
-        let behind = uncertainty
-            .map_or(0.0, |value| text_width(&uncertainty_words(value, form), TextSize::Small) + f64::from(UNIT));
+        let behind = uncertainties
+            .map(|(by, own)| text_width(&uncertainty_words(by, form, own), TextSize::Small) + f64::from(UNIT))
+            .fold(0.0, f64::max);
         let (arrow, least) = if compact { (0.0, 0.0) } else { (12.0, NARROWEST) };
         let head = text_width(&column.name, TextSize::Small).max(text_width(&column.unit, TextSize::Small)) + arrow;
         let content = text.max(number) + behind;
@@ -147,7 +168,7 @@ fn form(column: &Column, numbers: impl Iterator<Item = f64> + Clone, has_text: b
     }
 }
 
-/// A number in its column's form, or with decimals of its own: then padded, so that points stay below each other.
+/// A number in its column's format, or with its own decimals: then padded, so that decimal points line up.
 pub(super) fn words(value: f64, form: Form, decimals: Option<usize>) -> String {
     match (form, decimals) {
         (Form::Fixed(column), Some(own)) if own < column => {
@@ -161,9 +182,9 @@ pub(super) fn words(value: f64, form: Form, decimals: Option<usize>) -> String {
     }
 }
 
-/// An uncertainty in its column's form.
-pub(super) fn uncertainty_words(value: f64, form: Form) -> String {
-    format!("± {}", words(value, form, None))
+/// An uncertainty in its column's form, or with decimals of its own.
+pub(super) fn uncertainty_words(value: f64, form: Form, decimals: Option<usize>) -> String {
+    format!("± {}", words(value, form, decimals).trim_end())
 }
 
 #[cfg(test)]
@@ -193,7 +214,9 @@ mod tests {
         assert_eq!(words(-0.3, Form::Fixed(2), None), "−0.30");
         assert_eq!(words(41.5, Form::Fixed(4), Some(2)), "41.50  ");
         assert_eq!(words(41.5, Form::Fixed(4), Some(0)), "42     ");
-        assert_eq!(uncertainty_words(0.366, Form::Fixed(2)), "± 0.37");
+        assert_eq!(uncertainty_words(0.366, Form::Fixed(2), None), "± 0.37");
+        assert_eq!(uncertainty_words(0.1222, Form::Fixed(4), Some(2)), "± 0.12");
+        assert_eq!(uncertainty_words(5.4952, Form::Fixed(4), Some(0)), "± 5");
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! What the rows of a figure's numbers stand for.
+//! Items of the rows of a figure's numbers.
 
 use std::collections::HashMap;
 
@@ -7,7 +7,7 @@ use chromascope_figure::{Cell, Table};
 use crate::plot_item::{PlotItem, SensorId};
 use crate::scene::Scene;
 
-/// Columns that say what a row stands for.
+/// Columns that identify the item of a row.
 pub(super) struct RowItems {
     sensor: Option<usize>,
     patch: Option<usize>,
@@ -28,12 +28,11 @@ impl RowItems {
         Self { sensor: column("sensor"), patch: column("patch"), temperature: column("temperature_k"), sensors }
     }
 
-    /// True if no row stands for anything.
+    /// True if no row has an item.
     pub(super) fn is_empty(&self) -> bool {
         self.sensor.is_none()
     }
 
-    /// What a row stands for.
     pub(super) fn of_row(&self, row: &[Cell]) -> Option<PlotItem> {
         let text = |column: Option<usize>| match row.get(column?) {
             Some(Cell::Text(text)) => Some(text.as_str()),

@@ -1,4 +1,4 @@
-//! Which rows and columns are shown, and in which order.
+//! Visible rows and columns, and their order.
 
 use std::cmp::Ordering;
 

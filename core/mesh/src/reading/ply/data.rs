@@ -87,7 +87,7 @@ impl<'a> Data<'a> {
         Ok(())
     }
 
-    /// Goes to the next record.
+    /// Advances to the next record.
     pub(super) fn next(&mut self) {
         if self.encoding == Encoding::Text {
             self.cursor.next_line();

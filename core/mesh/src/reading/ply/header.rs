@@ -105,7 +105,7 @@ impl Element {
     }
 }
 
-/// All that the header says.
+/// Contents of the header.
 pub(super) struct Header {
     pub(super) encoding: Encoding,
     pub(super) elements: Vec<Element>,

@@ -15,7 +15,7 @@ pub(super) struct Declared {
 #[derive(Debug)]
 pub(super) struct Bands {
     pub(super) wavelengths: Vec<f64>,
-    /// True if the name of the fields says percent.
+    /// True if the name of the fields states percent.
     pub(super) percent: bool,
     /// Content of each field.
     kinds: Vec<Kind>,
@@ -79,7 +79,7 @@ impl Bands {
         self.kinds.get(field) == Some(&Kind::Wavelength)
     }
 
-    /// Takes in the wavelengths that stand in a row; all rows must have the same.
+    /// Processes the wavelengths in a row; all rows must have the same.
     pub(super) fn agrees(&mut self, row: Vec<f64>) -> bool {
         if !self.in_rows {
             return true;

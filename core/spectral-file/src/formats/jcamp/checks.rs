@@ -14,7 +14,7 @@ impl Block {
         let values = || self.samples.iter().map(|sample| sample.value);
         let (min, max) = (values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max));
         let mut differing = Vec::new();
-        // Lines that are missing at an end are told by the number of values.
+        // Missing lines at an end are detected by the number of values.
         let ends = [("FIRSTX", first_x), ("LASTX", last_x)];
         let reversed = self.written == Form::Pairs && self.is_near("FIRSTX", last_x) && self.is_near("LASTX", first_x);
         for (label, found) in ends.into_iter().filter(|_| whole && !reversed) {

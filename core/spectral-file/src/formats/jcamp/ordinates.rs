@@ -46,7 +46,7 @@ impl Row {
     }
 }
 
-/// Records a line of ordinates, and tells whether they are compressed, so that only the line has a place.
+/// Records a line of ordinates, and returns whether they are compressed, so that only the line has a place.
 pub(super) fn record(line: &str, values: usize, repeats: bool, places: &mut Places<'_>) -> (PlaceId, bool) {
     let mut entries = line.split(|c: char| c.is_whitespace() || c == ',').filter(|entry| !entry.is_empty());
     let is_plain = |entry: &str| entry == "?" || entry.parse::<f64>().is_ok();
@@ -88,13 +88,13 @@ pub(super) struct Data<'a> {
     pub(super) ordinates: &'a [f64],
 }
 
-/// The samples of a block, without factor, and what is to be said of them.
+/// The samples of a block, without factor, and the warnings about them.
 #[derive(Debug, Default)]
 pub(super) struct Placed {
     pub(super) samples: Vec<Sample>,
     pub(super) warnings: Vec<Warning>,
     moved: LineList,
-    /// Lines that lack a value somewhere: left out.
+    /// Lines that lack a value somewhere: omitted.
     short: LineList,
 }
 
@@ -262,7 +262,7 @@ impl Grid<'_> {
         }
     }
 
-    /// The index that the head of a line names, where its digits tell it from the next.
+    /// The index that the head of a line names, if its digits distinguish it from the next.
     fn index(&self, head: Written) -> Option<usize> {
         let resolved = self.digits != Digits::Loose && head.digit * self.axis.factor.abs() <= self.step.abs() * 1.000_1;
         let index = ((head.value * self.axis.factor - self.axis.first.value) / self.step).round();
@@ -304,7 +304,7 @@ impl Grid<'_> {
                 let named = self.index(row.head).ok_or_else(|| self.misplaced(data, at, next))?;
                 first_moved = first_moved.or(Some((at, next)));
                 if at > 0 && data.is_short(at - 1, named.saturating_sub(next), longest) {
-                    // Nothing says where in the line before a value is missing.
+                    // The position of the missing value in the line before is unknown.
                     let before = data.rows[at - 1].line;
                     short.add(before);
                     while all.pop_if(|(_, sample)| sample.line == before).is_some() {}

@@ -1,4 +1,4 @@
-//! JSON with comments made plain JSON, every place kept.
+//! Removal of comments from JSON, preserving all positions.
 
 use std::borrow::Cow;
 

@@ -40,7 +40,7 @@ pub(super) struct Content {
     pub(super) part: Option<Decided<usize>>,
 }
 
-/// Keeps what remarks say of the values, in the words of this program's own files.
+/// Stores the remarks on the values, in the words of this program's own files.
 pub(super) fn note_remarks<'a>(text: &str, header: &mut Header, remarks: impl Iterator<Item = &'a str>) {
     for (key, value) in remarks.filter_map(|remark| remark.split_once(": ")) {
         if matches!(key, "quantity" | "unit" | "response") {

@@ -1,4 +1,4 @@
-//! The members that the layouts have; all others are passed over without being kept.
+//! Members used by the layouts; all others are skipped without being stored.
 
 use serde::Deserialize;
 use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
@@ -8,7 +8,7 @@ use std::marker::PhantomData;
 
 use crate::formats::json::rows::Rows;
 
-/// Most entries of a header that are kept.
+/// Maximum number of stored header entries.
 const MAX_ENTRIES: usize = 1000;
 
 #[derive(Deserialize)]
@@ -73,7 +73,7 @@ pub(super) struct Aces {
     pub(super) data: InOrder<Rows>,
 }
 
-/// An object whose members are kept in the order of the file.
+/// An object whose members are stored in the order of the file.
 pub(super) struct InOrder<T>(pub(super) Vec<(String, T)>);
 
 impl<T> Default for InOrder<T> {
@@ -102,7 +102,7 @@ impl<'de, T: Deserialize<'de>> Deserialize<'de> for InOrder<T> {
     }
 }
 
-/// An object of texts; what is no text is left out.
+/// An object of texts; other values are omitted.
 #[derive(Default)]
 pub(super) struct Texts(pub(super) Vec<(String, String)>);
 

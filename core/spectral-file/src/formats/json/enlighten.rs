@@ -11,7 +11,7 @@ use crate::places::PlaceId;
 use crate::report::{Decided, Decision, Reader};
 use crate::role::{Role, Values};
 
-/// Reads the processed curve, or all of them where raw ones are asked for.
+/// Reads the processed curve, or all of them where raw ones are requested.
 pub(super) fn read(
     text: &str,
     curves: InOrder<Option<Vec<Option<f64>>>>,

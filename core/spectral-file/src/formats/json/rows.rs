@@ -1,4 +1,5 @@
-//! Wavelengths as keys, each with a list of values: kept as plain numbers, not as the texts and lists they are written as.
+//! Wavelengths as keys, each with a list of values: stored as plain numbers, not as the texts and lists they are written
+//! as.
 
 use serde::Deserialize;
 use serde::de::{DeserializeSeed, Deserializer, Error, MapAccess, SeqAccess, Visitor};
@@ -21,7 +22,7 @@ pub(super) struct Rows {
 /// Reason that a row is none.
 #[derive(Debug)]
 pub(super) enum Fault {
-    /// Its key is no number.
+    /// Its key is not a number.
     Key(String),
     /// It has another number of values than the first.
     Count { key: String, found: usize },
@@ -62,7 +63,7 @@ impl Rows {
             }
             Key::Other(text) => Some(Fault::Key(text)),
         };
-        // A row that goes with no other is not kept, so that all have the same width.
+        // A row that matches no other is discarded, so that all have the same width.
         if fault.is_some() {
             self.values.truncate(before);
             self.wavelengths.truncate(before / self.width.max(1));

@@ -1,4 +1,4 @@
-//! Places of the numbers of a document: what was read is read again for them, by the same parser, if a preview asks.
+//! Positions of the numbers of a document, parsed again by the same parser if a preview needs them.
 
 use serde::Deserialize;
 use serde_json::value::RawValue;
@@ -57,7 +57,7 @@ pub(super) fn record(text: &str, group: usize, places: &mut Places<'_>) {
     }
 }
 
-/// The wavelengths that a list gives, or a range for so many values.
+/// The wavelengths of a list, or a range for the given number of values.
 fn wavelengths(bands: &[&RawValue], values: usize) -> Vec<f64> {
     let bands: Vec<f64> = bands.iter().filter_map(|band| band.get().parse().ok()).collect();
     if bands.len() == values { bands } else { crate::formats::json::content::range(&bands).unwrap_or_default() }

@@ -91,7 +91,7 @@ fn coefficients(g: [f64; POINTS], b: [f64; POINTS]) -> Square {
     c
 }
 
-/// `Σ_i T_k(x_i) v_i` for each k, of several v at once.
+/// `Σ_i T_k(x_i) v_i` for each k, of several v together.
 #[inline(always)]
 fn weighted<const N: usize>(values: &[[f64; N]; POINTS], chebyshev: &Square) -> [[f64; N]; POINTS] {
     let mut sums = [[0.0; N]; POINTS];

@@ -1,0 +1,235 @@
+//! Texts of the diagram: each where there is room, none over another.
+
+use chromascope_figure::{Anchor, Ink, InkRole, Mark, Shape, Tag, TextSize, text_width};
+
+use super::frame::Frame;
+use crate::plot_item::PickIndex;
+
+/// Space around a text in points.
+const ROOM: f64 = 2.0;
+/// Side of the corners that hold the names of the axes, in points.
+const CORNER: f64 = 22.0;
+/// Distance of the points that stand for a line, in points.
+const STEP: f64 = 5.0;
+
+/// Rank of a label: the lower one is placed first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Rank {
+    /// A patch that is pointed at or chosen: never left out.
+    Pointed,
+    Patch,
+    Light,
+    White,
+    Temperature,
+    Sensor,
+    Ground,
+}
+
+/// A text with the positions it may take, the best one first.
+pub(super) struct Label {
+    /// Its sensor, with which it fades.
+    pub(super) tag: Tag,
+    pub(super) text: String,
+    pub(super) rank: Rank,
+    pub(super) ink: InkRole,
+    pub(super) places: Vec<Place>,
+}
+
+impl Label {
+    /// Small text of the diagram's ground.
+    pub(super) fn ground(text: &str, places: Vec<Place>) -> Self {
+        Self::new(text, Rank::Ground, InkRole::Weak, places)
+    }
+
+    pub(super) fn new(text: impl Into<String>, rank: Rank, ink: InkRole, places: Vec<Place>) -> Self {
+        Self { tag: PickIndex::NONE, text: text.into(), rank, ink, places }
+    }
+}
+
+/// A position of a text: the point it belongs to, the side of the text there, and a shift in points.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Place {
+    pub(super) at: [f64; 2],
+    pub(super) anchor: Anchor,
+    pub(super) offset: [f64; 2],
+}
+
+impl Place {
+    /// Position beside a point, `distance` points away in a direction (y downward).
+    pub(super) fn beside(at: [f64; 2], [x, y]: [f64; 2], distance: f64) -> Self {
+        Self { at, anchor: Anchor(0.5 - 0.5 * x, 0.5 - 0.5 * y), offset: [distance * x, distance * y] }
+    }
+
+    /// Positions all around a point, that in the direction of `first` first.
+    pub(super) fn around(at: [f64; 2], first: [f64; 2], distance: f64) -> Vec<Self> {
+        const D: f64 = std::f64::consts::FRAC_1_SQRT_2;
+        let mut directions = [[D, -D], [-D, -D], [D, D], [-D, D], [1.0, 0.0], [-1.0, 0.0], [0.0, -1.0], [0.0, 1.0]];
+        let along = |d: &[f64; 2]| d[0] * first[0] + d[1] * first[1];
+        directions.sort_by(|a, b| along(b).total_cmp(&along(a)));
+        directions
+            .map(|[x, y]| {
+                // A diagonal's text begins at the corner nearest to the point.
+                let anchor = Anchor(0.5 - 0.5 * near_sign(x), 0.5 - 0.5 * near_sign(y));
+                Self { at, anchor, offset: [distance * x, distance * y] }
+            })
+            .to_vec()
+    }
+}
+
+fn near_sign(value: f64) -> f64 {
+    if value.abs() < 0.1 { 0.0 } else { value.signum() }
+}
+
+/// A disk that no text may cover.
+#[derive(Clone, Copy)]
+struct Disk {
+    center: [f64; 2],
+    radius: f64,
+    is_line: bool,
+}
+
+/// A rectangle in points of the plot.
+#[derive(Clone, Copy)]
+struct Bounds {
+    min: [f64; 2],
+    max: [f64; 2],
+}
+
+impl Bounds {
+    fn overlaps(&self, other: &Self) -> bool {
+        [0, 1].iter().all(|&axis| self.min[axis] < other.max[axis] && other.min[axis] < self.max[axis])
+    }
+
+    fn covers(&self, disk: &Disk) -> bool {
+        let beyond = [0, 1].map(|axis| {
+            let center = disk.center[axis];
+            (self.min[axis] - center).max(center - self.max[axis]).max(0.0)
+        });
+        beyond[0].hypot(beyond[1]) < disk.radius
+    }
+}
+
+/// Disks by the squares of the plot that they touch.
+struct Disks {
+    columns: usize,
+    squares: Vec<Vec<Disk>>,
+}
+
+impl Disks {
+    /// Side of a square in points.
+    const SIDE: f64 = 24.0;
+
+    fn new(size: [f64; 2]) -> Self {
+        let [columns, rows] = size.map(|side| (side / Self::SIDE) as usize + 1);
+        Self { columns, squares: vec![Vec::new(); columns * rows] }
+    }
+
+    fn add(&mut self, disk: Disk) {
+        let [min, max] = [-1.0, 1.0].map(|side| disk.center.map(|v| v + side * disk.radius));
+        for square in self.touched(&Bounds { min, max }) {
+            self.squares[square].push(disk);
+        }
+    }
+
+    fn near(&self, bounds: &Bounds) -> impl Iterator<Item = &Disk> {
+        self.touched(bounds).flat_map(|square| &self.squares[square])
+    }
+
+    /// Indices of the squares that a rectangle touches.
+    fn touched(&self, bounds: &Bounds) -> impl Iterator<Item = usize> + use<> {
+        let (columns, rows) = (self.columns, self.squares.len() / self.columns);
+        let span = |axis: usize, count: usize| {
+            let index = |v: f64| (v / Self::SIDE).clamp(0.0, (count - 1) as f64) as usize;
+            index(bounds.min[axis])..=index(bounds.max[axis])
+        };
+        let across = span(0, columns);
+        span(1, rows).flat_map(move |row| across.clone().map(move |column| row * columns + column))
+    }
+}
+
+/// Places labels among marks: in order of rank, each at its first position that is free, else not at all. Names of patches and lights
+/// may cross lines; those of patches pointed at may cross anything.
+pub(super) fn placed(mut labels: Vec<Label>, marks: &[&[Mark]], frame: &Frame) -> Vec<Mark> {
+    let mut disks = Disks::new(frame.size);
+    for disk in marks.iter().copied().flatten().flat_map(|mark| disks_of(mark, frame)) {
+        disks.add(disk);
+    }
+    labels.sort_by_key(|label| label.rank);
+    // The names of the axes.
+    let [width, height] = frame.size;
+    let mut taken = vec![
+        Bounds { min: [0.0; 2], max: [CORNER; 2] },
+        Bounds { min: [width - CORNER, height - CORNER], max: frame.size },
+    ];
+    let mut texts = Vec::new();
+    for label in labels {
+        let size = size(label.rank);
+        let boxes: Vec<(Place, Bounds)> =
+            label.places.iter().map(|place| (*place, extent(&label, place, frame))).collect();
+        let inside = |bounds: &Bounds| frame.contains(bounds.min, 0.0) && frame.contains(bounds.max, 0.0);
+        let is_apart = |bounds: &Bounds| !taken.iter().any(|other| bounds.overlaps(other));
+        let is_free = |bounds: &Bounds, lines: bool| {
+            inside(bounds) && is_apart(bounds) && !disks.near(bounds).any(|d| (lines || !d.is_line) && bounds.covers(d))
+        };
+        let first = |lines| boxes.iter().find(|(_, bounds)| is_free(bounds, lines));
+        let may_cross = label.rank <= Rank::White;
+        let found = first(true).or_else(|| first(false).filter(|_| may_cross));
+        let kept = || boxes.first().filter(|_| label.rank == Rank::Pointed);
+        let Some((Place { at, anchor, offset }, bounds)) = found.or_else(kept).copied() else { continue };
+        taken.push(bounds);
+        let ink = Ink::new(label.ink);
+        let shape = Shape::Text { at, text: label.text.clone(), anchor, offset, size, ink };
+        texts.push(Mark::new(label.tag, label.text, shape).with_halo(InkRole::Plot));
+    }
+    texts
+}
+
+fn size(rank: Rank) -> TextSize {
+    if rank <= Rank::Patch { TextSize::Body } else { TextSize::Small }
+}
+
+/// The rectangle of a label, with room around it.
+fn extent(label: &Label, place: &Place, frame: &Frame) -> Bounds {
+    let size = size(label.rank);
+    let [width, height] = [text_width(&label.text, size), 1.2 * f64::from(size.points())];
+    let [x, y] = frame.at(place.at);
+    let left = x + place.offset[0] - place.anchor.0 * width;
+    let top = y + place.offset[1] - place.anchor.1 * height;
+    Bounds { min: [left - ROOM, top - ROOM + 1.0], max: [left + width + ROOM, top + height + ROOM - 1.0] }
+}
+
+/// Disks along what a mark draws of the data; lines that stand for nothing are ground.
+fn disks_of(mark: &Mark, frame: &Frame) -> Vec<Disk> {
+    if mark.tag == PickIndex::NONE && !matches!(mark.shape, Shape::Points { .. }) {
+        return Vec::new();
+    }
+    let width = mark.stroke.map_or(0.0, |stroke| stroke.width);
+    let line = |center| Disk { center, radius: 0.5 * width + 1.0, is_line: true };
+    let disks: Vec<Disk> = match &mark.shape {
+        Shape::Points { points, radius, .. } => points
+            .iter()
+            .map(|point| Disk { center: frame.at(*point), radius: radius + 0.5 * width, is_line: false })
+            .collect(),
+        Shape::Line { points, .. } => {
+            let placed: Vec<[f64; 2]> = points.iter().map(|point| frame.at(*point)).collect();
+            placed.windows(2).flat_map(|ends| along([ends[0], ends[1]], frame)).map(line).collect()
+        }
+        Shape::Segments { segments } => {
+            segments.iter().flat_map(|ends| along(ends.map(|p| frame.at(p)), frame)).map(line).collect()
+        }
+        _ => Vec::new(),
+    };
+    disks.into_iter().filter(|disk| frame.contains(disk.center, -20.0)).collect()
+}
+
+/// Points along a straight line, none where all of it lies to one side of the plot.
+fn along([a, b]: [[f64; 2]; 2], frame: &Frame) -> Vec<[f64; 2]> {
+    let is_beside = |axis: usize| a[axis].max(b[axis]) < 0.0 || a[axis].min(b[axis]) > frame.size[axis];
+    if is_beside(0) || is_beside(1) {
+        return Vec::new();
+    }
+    let length = (b[0] - a[0]).hypot(b[1] - a[1]);
+    let count = if length.is_finite() { (length / STEP).ceil().min(400.0) } else { 0.0 };
+    let at = |i: usize| [0, 1].map(|axis| a[axis] + (b[axis] - a[axis]) * i as f64 / count);
+    (0..count as usize).map(at).collect()
+}

@@ -1,0 +1,72 @@
+//! The curves of one set of the library in a small panel.
+
+use chromascope_core::query::Ask;
+use chromascope_core::spectral::SpectralDistribution;
+use chromascope_core::spectral::grid::{FIRST_NM, LAST_NM};
+use chromascope_figure::{Anchor, Axis, InkRole, Mark, Panel, Rect, Shape, TextSize, Ticks};
+
+use crate::catalog::load::{LoadError, curves};
+use crate::catalog::{Entry, Place};
+use crate::document::SetKind;
+use crate::plot_item::PickIndex;
+
+/// Largest number of curves drawn of a set; of more, evenly chosen ones.
+const MOST: usize = 48;
+
+/// The curves of a set: sensitivities and lights to their largest value, reflectances and transmittances as they are. None where
+/// nothing is known about what they are.
+pub fn panel(ask: &impl Ask, entry: &Entry, role: InkRole, size: [f64; 2]) -> Result<Option<Panel>, LoadError> {
+    let all = curves(&entry.place, ask)?;
+    let drawn = drawn(entry, &all);
+    if drawn.is_empty() {
+        return Ok(None);
+    }
+    let values = || drawn.iter().flat_map(|(_, points)| points.iter().map(|point| point[1]));
+    let (low, high) = (values().fold(0.0, f64::min), values().fold(f64::MIN_POSITIVE, f64::max));
+    let few = drawn.len() <= 4;
+    let x = Axis::new("wavelength (nm)", [FIRST_NM, LAST_NM]).with_ticks(Ticks::Auto).with_grid(true);
+    // Room for the axis title below the curves.
+    let y = Axis::hidden([low - 0.2 * high, high * if few && drawn.len() > 1 { 1.3 } else { 1.12 }]);
+    let mut panel = Panel::new(format!("Curves of {}", entry.name), Rect::from_min_size([0.0, 0.0], size), x, y);
+    for (name, points) in &drawn {
+        let line = Shape::Line { points: points.clone(), closed: false };
+        let width = if few { 1.5 } else { 1.0 };
+        panel.marks.push(Mark::new(PickIndex::NONE, name.as_str(), line).with_stroke(role, width));
+    }
+    if few && drawn.len() > 1 {
+        panel.marks.extend(drawn.iter().filter_map(|(name, points)| at_peak(name, points)));
+    }
+    if all.len() > drawn.len() {
+        panel.note = format!("{} of {} curves", drawn.len(), all.len());
+    }
+    Ok(Some(panel))
+}
+
+/// Names and points of the curves that are drawn.
+fn drawn(entry: &Entry, all: &[(String, SpectralDistribution)]) -> Vec<(String, Vec<[f64; 2]>)> {
+    let relative = matches!(entry.kind, SetKind::Camera | SetKind::Observer | SetKind::Illuminant | SetKind::Unsorted);
+    let channels = if let Place::Own(set) = &entry.place { set.channels } else { [0, 1, 2] };
+    let chosen: Vec<&(String, SpectralDistribution)> = if entry.kind == SetKind::Camera && all.len() > 3 {
+        channels.iter().filter_map(|&channel| all.get(channel)).collect()
+    } else {
+        let count = all.len().min(MOST);
+        (0..count).filter_map(|index| all.get(index * all.len() / count)).collect()
+    };
+    let curve = |(name, curve): &(String, SpectralDistribution)| {
+        let within = |nm: f64| (FIRST_NM..=LAST_NM).contains(&nm);
+        let samples = curve.wavelengths_nm().iter().copied().zip(curve.values().iter().copied());
+        let points: Vec<[f64; 2]> = samples.filter(|(nm, _)| within(*nm)).map(|(nm, value)| [nm, value]).collect();
+        let peak = points.iter().map(|point| point[1]).fold(0.0, f64::max);
+        let scale = if relative && peak > 0.0 { peak } else { 1.0 };
+        (name.clone(), points.into_iter().map(|[nm, value]| [nm, value / scale]).collect())
+    };
+    chosen.into_iter().map(curve).collect()
+}
+
+/// The name of a curve above its peak.
+fn at_peak(name: &str, points: &[[f64; 2]]) -> Option<Mark> {
+    let at = points.iter().copied().max_by(|a, b| a[1].total_cmp(&b[1]))?;
+    let (size, ink) = (TextSize::Small, InkRole::Text.into());
+    let shape = Shape::Text { at, text: name.to_owned(), anchor: Anchor(0.5, 1.0), offset: [0.0, -1.0], size, ink };
+    Some(Mark::new(PickIndex::NONE, name, shape).with_halo(InkRole::Plot))
+}

@@ -1,0 +1,103 @@
+//! Statistics of the visible pictures: samples, integration methods, computed and reused stages.
+
+use chromascope_figure::{Cell, Table};
+use egui::{Rect, RichText, ScrollArea, Ui, UiBuilder, Vec2};
+
+use super::context::{Pane, PaneContext};
+use crate::command::Command;
+use crate::panes::widgets;
+use crate::panes::widgets::table::{Column, DataTable, show_pairs};
+use crate::render_service::made::MadePictures;
+use crate::theme::UNIT;
+use crate::workspaces::{PaneKind, Workspace};
+
+/// Stages in the order they follow each other, as counted and as shown.
+const STAGES: [(&str, &str); 11] = [
+    ("mesh", "mesh"),
+    ("shadow tree", "shadow tree"),
+    ("visibility", "visibility"),
+    ("geometry", "angles, shadows"),
+    ("sky visibility", "sky from vertices"),
+    ("sky", "sky from samples"),
+    ("sky reflectance", "reflectance of sky"),
+    ("shading", "surface"),
+    ("plan", "integration methods"),
+    ("camera image", "signals"),
+    ("picture", "pixels"),
+];
+
+/// The pane.
+pub const PANE: Pane =
+    Pane { kind: PaneKind::STATISTICS, title: "Statistics", show, figure: None, under_conditions: false, table: false };
+
+/// Shows the pane in its rectangle.
+fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
+    let body = widgets::pane(ui, &PANE, rect, context, |_, _| {});
+    let inner = body.shrink2(Vec2::new(2.0 * UNIT, 0.0));
+    let mut child = ui.new_child(UiBuilder::new().id_salt("statistics").max_rect(inner));
+    child.set_clip_rect(body.intersect(ui.clip_rect()));
+    ScrollArea::vertical().id_salt("statistics").auto_shrink(false).show(&mut child, |ui| {
+        ui.set_max_width(inner.width() - 2.0 * UNIT);
+        ui.spacing_mut().item_spacing.y = 0.5 * UNIT;
+        pictures(ui, context);
+        stages(ui, context);
+    });
+}
+
+/// Samples and methods of the pictures on show.
+fn pictures(ui: &mut Ui, context: &mut PaneContext<'_>) {
+    let Some(shot) = context.studio.frame().cloned() else {
+        ui.label("No picture was rendered yet.");
+        if ui.button("Show Render").clicked() {
+            context.push(Command::Show(Workspace::Render));
+        }
+        return;
+    };
+    if let Some(image) = shot.made().and_then(MadePictures::image) {
+        ui.label(RichText::new(crate::figures::render::image_words(&shot, image)).small());
+        return;
+    }
+    let Some(made) = shot.made().and_then(MadePictures::mesh) else { return };
+    let (geometry, shading) = (made.geometry, made.shading);
+    let samples = [
+        ("Lit", geometry.lit.to_string()),
+        ("Lit from behind", geometry.through.to_string()),
+        ("Facing away", geometry.facing_away.to_string()),
+        ("In shadow", format!("{}, {} rays", geometry.shadowed, geometry.rays)),
+        ("Below threshold", shading.dark.to_string()),
+        ("Spectral integrals", shading.spectral.to_string()),
+        ("Specular terms", format!("{}, {} skipped", shading.mirrors, shading.mirrors_skipped)),
+    ];
+    caption(ui, "Samples", context);
+    show_pairs(ui, PANE.kind, "samples", &samples, context);
+    caption(ui, "Integration methods", context);
+    for (source, image) in shot.sources.iter().zip(&made.images) {
+        if let Some(image) = image {
+            ui.label(RichText::new(format!("{}: {}", source.label, image.plan().explanation())).small());
+        }
+    }
+}
+
+/// Stages as counted since the start, with the time of each computation.
+fn stages(ui: &mut Ui, context: &mut PaneContext<'_>) {
+    let counts = context.counts();
+    let mut table = Table::new(["since the start", "computed", "reused", "each (ms)"]);
+    for (name, words) in STAGES {
+        if let Some((_, count)) = counts.iter().find(|(counted, _)| *counted == name) {
+            let each = count.own_time.as_secs_f64() * 1e3 / count.misses.max(1) as f64;
+            let each = if context.view.fixed_clock { Cell::Empty } else { each.into() };
+            table.push([words.into(), Cell::Number(count.misses as f64), Cell::Number(count.hits as f64), each]);
+        }
+    }
+    if table.rows.is_empty() {
+        return;
+    }
+    ui.add_space(UNIT);
+    let mut columns: Vec<Column> = table.columns.iter().map(|head| Column::from_head(head)).collect();
+    columns[3].decimals = Some(1);
+    DataTable::new(PANE.kind, "stages", &table).with_columns(columns).show_compact(ui, context);
+}
+
+fn caption(ui: &mut Ui, words: &str, context: &PaneContext<'_>) {
+    ui.label(RichText::new(words).small().color(context.theme.weak));
+}

@@ -1,0 +1,282 @@
+//! A list that is filtered as one types: search field, groups, one highlighted line, arrow keys, Enter.
+
+use egui::containers::menu::{MenuButton, MenuConfig};
+use egui::{
+    ComboBox, Id, Key, Modifiers, PopupCloseBehavior, Rect, Response, Role, ScrollArea, Sense, Stroke, TextEdit,
+    TextStyle, Ui, Vec2, WidgetInfo,
+};
+
+use super::lines;
+use crate::catalog::names::folded;
+use crate::theme::{ROW, Theme, UNIT};
+use crate::view::pick::PickState;
+
+/// Width of the gutter that holds the tick before a line.
+const GUTTER: f32 = 18.0;
+/// Largest share of a line that its note takes.
+const NOTE: f32 = 0.45;
+/// Lines that Page Up and Page Down move by.
+const PAGE: usize = 10;
+/// Height of the list below a control before it scrolls.
+const DROPPED: f32 = 14.0 * ROW;
+/// Least width of the list below a control.
+const LEAST: f32 = 280.0;
+
+/// A line of a list.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Line {
+    /// Its words.
+    pub words: String,
+    /// What stands at the right: what choosing it does, or its key.
+    pub note: String,
+    /// Further words that find it.
+    pub also: String,
+    /// True if it is what is set now.
+    pub on: bool,
+    /// True for the head of a group, which cannot be chosen.
+    pub is_heading: bool,
+}
+
+impl Line {
+    /// A line that can be chosen.
+    pub fn new(words: impl Into<String>, on: bool) -> Self {
+        Self { words: words.into(), on, ..Self::default() }
+    }
+
+    /// Head of a group.
+    pub fn heading(words: impl Into<String>) -> Self {
+        Self { words: words.into(), is_heading: true, ..Self::default() }
+    }
+
+    /// True if it contains every word that was typed; case and punctuation are ignored.
+    pub fn matches(&self, typed: &[String]) -> bool {
+        let words = folded(&format!("{} {}", self.words, self.also));
+        typed.iter().all(|word| words.contains(word))
+    }
+}
+
+/// The words of a text as they are compared.
+pub fn typed_words(text: &str) -> Vec<String> {
+    text.split_whitespace().map(folded).filter(|word| !word.is_empty()).collect()
+}
+
+/// A search field above the lines that match.
+pub struct PickList<'a> {
+    /// Identity of the search field.
+    pub id: Id,
+    /// Name of the search field.
+    pub name: &'a str,
+    /// Hint in the empty search field.
+    pub hint: &'a str,
+    /// Height of the lines before they scroll.
+    pub height: f32,
+    /// The line that is set is highlighted first, not the uppermost.
+    pub from_set: bool,
+}
+
+impl PickList<'_> {
+    /// Shows field and lines. `lines` are those that match the text. Returns the line that was chosen, as an index.
+    pub fn show(
+        &self,
+        ui: &mut Ui,
+        state: &mut PickState,
+        lines: impl FnOnce(&str) -> Vec<Line>,
+        theme: &Theme,
+    ) -> Option<usize> {
+        let moved = self.moved(ui);
+        let field = TextEdit::singleline(&mut state.text).id(self.id).hint_text(self.hint).desired_width(f32::INFINITY);
+        let field = ui.add(field);
+        field.widget_info(|| WidgetInfo::labeled(Role::TextInput, true, self.name));
+        if !field.has_focus() && !field.lost_focus() {
+            field.request_focus();
+        }
+        if field.changed() {
+            state.picked = None;
+        }
+        let lines = lines(&state.text);
+        let choices: Vec<usize> = (0..lines.len()).filter(|&index| !lines[index].is_heading).collect();
+        let is_blank = state.text.trim().is_empty();
+        let set = choices.iter().position(|&index| lines[index].on).filter(|_| is_blank && self.from_set);
+        let first = state.picked.is_none();
+        let last = choices.len().saturating_sub(1);
+        let now = state.picked.or(set).unwrap_or(0).min(last);
+        let picked = now.saturating_add_signed(moved).min(last);
+        state.picked = Some(picked);
+        if choices.is_empty() {
+            ui.label("No match.");
+            return None;
+        }
+        let entered = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
+        let clicked = self.lines(ui, &lines, choices[picked], (moved != 0 || first).then_some(picked), theme);
+        clicked.or(entered.then(|| choices[picked]))
+    }
+
+    /// Lines that the keys move the highlight by while the field has the keyboard.
+    fn moved(&self, ui: &Ui) -> isize {
+        if !ui.memory(|memory| memory.has_focus(self.id)) {
+            return 0;
+        }
+        let pressed = |key| ui.input_mut(|input| input.count_and_consume_key(Modifiers::NONE, key)).cast_signed();
+        let page = PAGE.cast_signed();
+        pressed(Key::ArrowDown) - pressed(Key::ArrowUp) + page * (pressed(Key::PageDown) - pressed(Key::PageUp))
+    }
+
+    /// The lines. `follow` is the choice to bring into sight.
+    fn lines(&self, ui: &mut Ui, all: &[Line], picked: usize, follow: Option<usize>, theme: &Theme) -> Option<usize> {
+        let mut clicked = None;
+        ui.spacing_mut().item_spacing.y = 0.0;
+        let mut area = ScrollArea::vertical().id_salt(self.id).max_height(self.height).auto_shrink([false, true]);
+        let key = self.id.with("offset");
+        let [offset, height] = ui.data(|data| data.get_temp::<[f32; 2]>(key)).unwrap_or([0.0, self.height]);
+        if follow.is_some() {
+            let top = ROW * picked as f32;
+            // The heading above a group's first line stays in sight.
+            let above = if picked > 0 && all[picked - 1].is_heading { top - ROW } else { top };
+            area = area.vertical_scroll_offset(offset.min(above).max(top + ROW - height));
+        }
+        let shown = area.show_rows(ui, ROW, all.len(), |ui, rows| {
+            for index in rows {
+                if row(ui, &all[index], index == picked, theme) {
+                    clicked = Some(index);
+                }
+            }
+        });
+        ui.data_mut(|data| data.insert_temp(key, [shown.state.clamped_offset().y, shown.inner_rect.height()]));
+        clicked
+    }
+}
+
+/// One line. Returns whether it was clicked.
+fn row(ui: &mut Ui, line: &Line, picked: bool, theme: &Theme) -> bool {
+    let size = Vec2::new(ui.available_width(), ROW);
+    if line.is_heading {
+        let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
+        let place = rect.shrink2(Vec2::new(UNIT, 0.0));
+        lines::elided(ui, place, &line.words, TextStyle::Small, theme.weak);
+        response.widget_info(|| WidgetInfo::labeled(Role::Label, true, &line.words));
+        return false;
+    }
+    let (rect, response) = ui.allocate_exact_size(size, Sense::click() - Sense::FOCUSABLE);
+    response.widget_info(|| WidgetInfo::selected(Role::Button, true, picked, &line.words));
+    if picked || response.hovered() {
+        let fill = if picked { theme.chosen } else { theme.control };
+        ui.painter().rect_filled(rect, 3.0, fill);
+    }
+    if line.on {
+        tick(ui.painter(), rect.left_center() + Vec2::new(0.5 * GUTTER, 0.0), theme.text);
+    }
+    let words = Rect::from_min_max(rect.min + Vec2::new(GUTTER, 0.0), rect.max - Vec2::new(2.0 * UNIT, 0.0));
+    let color = if picked { theme.text } else { theme.weak };
+    let room = words.with_min_x(words.right() - NOTE * words.width());
+    let note =
+        if line.note.is_empty() { 0.0 } else { lines::right_aligned(ui, room, &line.note, TextStyle::Small, color) };
+    let place = words.with_max_x(words.right() - note - 2.0 * UNIT);
+    if lines::elided(ui, place, &line.words, TextStyle::Body, theme.text) {
+        response.clone().on_hover_text(&line.words);
+    }
+    response.clicked()
+}
+
+/// A tick about a point.
+pub fn tick(painter: &egui::Painter, at: egui::Pos2, color: egui::Color32) {
+    let points = [Vec2::new(-4.0, 0.5), Vec2::new(-1.0, 3.5), Vec2::new(4.5, -3.5)].map(|step| at + step);
+    painter.line(points.to_vec(), Stroke::new(1.5, color));
+}
+
+/// A control that drops down a list filtered as one types. `lines` are all lines. Returns the line that was chosen.
+pub fn drop_down(
+    ui: &mut Ui,
+    (name, hint): (&str, &str),
+    shown: &str,
+    width: f32,
+    theme: &Theme,
+    lines: impl FnOnce() -> Vec<Line>,
+) -> Option<usize> {
+    let key = ui.make_persistent_id((name, "filter"));
+    let combo = ComboBox::from_id_salt(name)
+        .width(width)
+        .height(DROPPED + 2.0 * ROW)
+        .truncate()
+        .close_behavior(PopupCloseBehavior::CloseOnClickOutside)
+        .selected_text(shown);
+    let opened = combo.show_ui(ui, |ui| within(ui, key, name, theme, &lines()));
+    if opened.inner.is_none() {
+        ui.data_mut(|data| data.remove::<PickState>(key));
+    }
+    let response = opened.response;
+    response.widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, format!("{name}: {shown}")));
+    response.on_hover_text(format!("{hint}\nNow: {shown}"));
+    opened.inner.flatten()
+}
+
+/// A button that opens a list filtered as one types, with a heading of what it chooses. Returns the line that was chosen.
+pub fn menu(
+    ui: &mut Ui,
+    (words, name, hint): (&str, &str, &str),
+    theme: &Theme,
+    lines: impl FnOnce() -> Vec<Line>,
+) -> (Response, Option<usize>) {
+    let key = ui.make_persistent_id((name, words));
+    let config = MenuConfig::new().close_behavior(PopupCloseBehavior::CloseOnClickOutside);
+    let (response, opened) = MenuButton::new(words).config(config).ui(ui, |ui| within(ui, key, name, theme, &lines()));
+    if opened.is_none() {
+        ui.data_mut(|data| data.remove::<PickState>(key));
+    }
+    (response.on_hover_text(hint), opened.and_then(|opened| opened.inner))
+}
+
+/// Field and lines within a popup, which closes when a line is chosen.
+fn within(ui: &mut Ui, key: Id, name: &str, theme: &Theme, all: &[Line]) -> Option<usize> {
+    ui.set_min_width(LEAST);
+    let mut state: PickState = ui.data(|data| data.get_temp(key)).unwrap_or_default();
+    let mut places = Vec::new();
+    let field = format!("Filter {name}");
+    let list = PickList { id: key, name: &field, hint: "Type to filter", height: DROPPED, from_set: true };
+    let chosen = list.show(ui, &mut state, |text| filtered(all, text, &mut places), theme);
+    ui.data_mut(|data| data.insert_temp(key, state));
+    if chosen.is_some() {
+        ui.close();
+    }
+    chosen.and_then(|index| places.get(index).copied())
+}
+
+/// The lines that match a text, below those headings that have any; `places` are their indices.
+fn filtered(all: &[Line], text: &str, places: &mut Vec<usize>) -> Vec<Line> {
+    let typed = typed_words(text);
+    let mut heading = None;
+    let mut found = Vec::new();
+    for (index, line) in all.iter().enumerate() {
+        if line.is_heading {
+            heading = Some(index);
+        } else if line.matches(&typed) {
+            for index in heading.take().into_iter().chain([index]) {
+                places.push(index);
+                found.push(all[index].clone());
+            }
+        }
+    }
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn groups_without_a_match_are_left_out() {
+        let all = [
+            Line::heading("Blackbodies"),
+            Line::new("A", true),
+            Line::heading("Daylight"),
+            Line::new("D50", false),
+            Line { also: "noon daylight".to_owned(), ..Line::new("D65", false) },
+        ];
+        let mut places = Vec::new();
+        let found = filtered(&all, "noon d6", &mut places);
+        assert_eq!(places, [2, 4]);
+        assert_eq!(found.iter().map(|line| line.words.as_str()).collect::<Vec<_>>(), ["Daylight", "D65"]);
+        places.clear();
+        assert_eq!(filtered(&all, " ", &mut places), all);
+        assert!(filtered(&all, "zeiss", &mut Vec::new()).is_empty());
+    }
+}

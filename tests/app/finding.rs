@@ -1,0 +1,250 @@
+//! Finding and steering: the palette, lists that filter, the way from pane to pane by keyboard.
+
+use chromascope::app::ChromascopeApp;
+use chromascope::command::Command;
+use chromascope::document::{Diagram, Document, Light, Overlays, SetKind};
+use chromascope::plot_item::{PlotItem, SensorId};
+use chromascope::view::DiagramFit;
+use chromascope::view::import::ImportItem;
+use chromascope::workspaces::{PaneKind, Workspace};
+use egui::Key;
+use egui::accesskit::{Role, Toggled};
+use egui_kittest::Harness;
+use egui_kittest::kittest::{NodeT, Queryable};
+
+use crate::screenshots::open_with;
+
+type Window = Harness<'static, ChromascopeApp>;
+
+fn window() -> Window {
+    open_with(Document::colorimetry(), [1280.0, 800.0], egui::Theme::Dark)
+}
+
+/// Types into the palette, presses a key some times, then Enter.
+fn find(window: &mut Window, text: &str, down: usize) {
+    window.state_mut().push(Command::FindAnything);
+    window.run_steps(3);
+    window.get_by_role_and_label(Role::TextInput, "Find anything").type_text(text);
+    window.run_steps(2);
+    for _ in 0..down {
+        window.key_press(Key::ArrowDown);
+        window.run_steps(1);
+    }
+    window.key_press(Key::Enter);
+    window.run_steps(3);
+    assert!(window.state().view().palette.is_none(), "{text}: closed");
+}
+
+/// Words of the highlighted line.
+fn picked(window: &Window) -> String {
+    let on = window.query_all_by(|node| node.role() == Role::Button && node.toggled() == Some(Toggled::True));
+    let on = on.filter(|node| node.rect().width() > 480.0);
+    let words: Vec<String> = on.filter_map(|node| node.accesskit_node().label()).collect();
+    assert_eq!(words.len(), 1, "one line is highlighted: {words:?}");
+    words[0].clone()
+}
+
+#[test]
+fn settings_and_numbers_are_found() {
+    let mut window = window();
+    find(&mut window, "uv", 0);
+    assert_eq!(window.state().history().document().diagram, Diagram::UvPrime);
+    find(&mut window, "full diagram", 0);
+    assert_eq!(window.state().view().saved.diagram_fit, DiagramFit::Whole);
+    find(&mut window, "fit to data", 0);
+    assert_eq!(window.state().view().saved.diagram_fit, DiagramFit::Data);
+    find(&mut window, "theme light", 0);
+    assert_eq!(window.ctx.options(|options| options.theme_preference), egui::ThemePreference::Light);
+    find(&mut window, "daylight locus", 0);
+    assert_eq!(window.state().history().document().overlays, Overlays { daylight: true, ..Overlays::default() });
+    for text in ["3200", "3300 K", "3400k"] {
+        find(&mut window, text, 0);
+        let kelvin: String = text.chars().filter(char::is_ascii_digit).collect();
+        assert_eq!(window.state().history().document().temperature_k.to_string(), kelvin);
+    }
+    find(&mut window, "planckian locus red", 0);
+    assert!(window.state().view().help.page.is_some(), "what only the help says opens there");
+}
+
+#[test]
+fn each_slider_that_is_found_takes_the_keyboard() {
+    for name in [
+        "Roughness σ",
+        "Correlation τ",
+        "Index n",
+        "Light elevation",
+        "Light azimuth",
+        "Exposure",
+        "Field of view",
+        "Triangles",
+    ] {
+        let mut window = window();
+        find(&mut window, name, 0);
+        assert_eq!(window.state().view().saved.workspace, Workspace::Render, "{name}");
+        window.run_steps(2);
+        let focused = window.get_by(|node| node.is_focused() && !node.is_hidden());
+        assert_eq!(focused.accesskit_node().role(), Role::Slider, "{name}");
+    }
+}
+
+#[test]
+fn arrows_move_the_highlight_and_compared_cameras_are_ticked() {
+    let mut window = window();
+    window.state_mut().push(Command::FindAnything);
+    window.run_steps(3);
+    window.get_by_role_and_label(Role::TextInput, "Find anything").type_text("nikon d7");
+    window.run_steps(2);
+    let first = picked(&window);
+    window.key_press(Key::ArrowDown);
+    window.run_steps(1);
+    assert_ne!(picked(&window), first);
+    window.key_press(Key::ArrowUp);
+    window.key_press(Key::ArrowUp);
+    window.run_steps(1);
+    assert_eq!(picked(&window), first);
+    assert!(window.query_by_label("Cameras").is_some(), "a heading");
+    window.key_press(Key::Escape);
+    window.run_steps(2);
+    let compared = window.state().history().document().compared.clone();
+    let camera = compared.iter().find(|sensor| sensor.kind == SetKind::Camera).expect("one is compared");
+    find(&mut window, &camera.name, 0);
+    let id = SensorId { kind: SetKind::Camera, name: camera.name.clone() };
+    assert_eq!(window.state().view().selected, Some(PlotItem::Sensor(id)), "a compared camera is selected");
+    assert_eq!(window.state().history().document().compared, compared, "and stays");
+}
+
+#[test]
+fn a_long_list_filters_as_one_types() {
+    let mut window = window();
+    window.get_by_label_contains("Light: ").click();
+    window.run_steps(3);
+    let field = window.get_by_role_and_label(Role::TextInput, "Filter Light");
+    field.type_text("d55");
+    window.run_steps(2);
+    assert!(window.query_by_label_contains("D50").is_none(), "filtered");
+    window.key_press(Key::Enter);
+    window.run_steps(3);
+    assert_eq!(window.state().history().document().light, Light::Set("D55".to_owned()));
+    assert!(window.query_by_label("Filter Light").is_none(), "closed");
+    window.get_by_label_contains("Patches: ").click();
+    window.run_steps(3);
+    window.get_by_role_and_label(Role::TextInput, "Filter Patches").type_text("maple leaf");
+    window.run_steps(2);
+    window.key_press(Key::ArrowDown);
+    window.key_press(Key::Enter);
+    window.run_steps(3);
+    assert!(
+        window.state().history().document().chart.contains("leaf"),
+        "{}",
+        window.state().history().document().chart
+    );
+}
+
+#[test]
+fn f6_frames_a_pane_and_arrows_walk_its_items() {
+    let mut window = window();
+    window.state_mut().view_mut().focused = Some(PaneKind::LIBRARY);
+    window.state_mut().view_mut().fixed_clock = true;
+    window.run_steps(2);
+    let before = window.render().expect("drawn");
+    window.key_press(Key::F6);
+    window.run_steps(3);
+    assert_eq!(window.state().view().focused, Some(PaneKind::CHROMATICITY));
+    let after = window.render().expect("drawn");
+    // The left edge of the pane, far from its header.
+    let white = egui::Color32::WHITE.to_array();
+    let framed = |image: &image::RgbaImage| (200..300).filter(|x| image.get_pixel(*x, 400).0 == white).count();
+    assert!(framed(&after) >= framed(&before) + 2, "{} {}", framed(&before), framed(&after));
+    window.key_press(Key::ArrowRight);
+    window.run_steps(2);
+    let first = window.state().view().cursor.clone().expect("the first point");
+    window.key_press(Key::ArrowRight);
+    window.run_steps(2);
+    let second = window.state().view().cursor.clone().expect("the next point");
+    assert_ne!(first, second);
+    assert_eq!(window.state().view().hovered, Some(second.clone()), "marked and read as under the pointer");
+    assert_eq!(first.source(), second.source());
+    window.key_press(Key::ArrowDown);
+    window.run_steps(2);
+    let below = window.state().view().cursor.clone().expect("the same patch of the next sensor");
+    assert_eq!(below.patch(), second.patch());
+    assert_ne!(below.source(), second.source());
+    window.key_press(Key::Enter);
+    window.run_steps(2);
+    assert_eq!(window.state().view().selected, Some(below));
+    window.key_press(Key::Tab);
+    window.run_steps(3);
+    let focused = window.get_by(|node| node.is_focused() && !node.is_hidden());
+    assert_eq!(focused.accesskit_node().label().as_deref(), Some("Chromaticity"), "Tab enters the pane");
+}
+
+#[test]
+fn the_library_is_walked_by_arrows() {
+    let mut window = window();
+    window.state_mut().push(Command::GoTo(PaneKind::LIBRARY));
+    window.run_steps(3);
+    window.key_press(Key::ArrowDown);
+    window.run_steps(3);
+    let label = |window: &Window| {
+        window.get_by(|node| node.is_focused() && !node.is_hidden()).accesskit_node().label().expect("named")
+    };
+    let first = label(&window);
+    window.key_press(Key::ArrowDown);
+    window.run_steps(3);
+    assert_ne!(label(&window), first);
+    window.key_press(Key::Enter);
+    window.run_steps(3);
+    assert!(window.state().view().selected.is_some());
+}
+
+#[test]
+fn a_file_that_fails_is_told_of_in_the_list_and_at_the_text() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("notes.txt");
+    std::fs::write(&path, "hello world\nthis is not a spectrum\n1 2 3\n").unwrap();
+    let mut window = window();
+    window.state_mut().push(Command::OpenPath(path));
+    for _ in 0..3 {
+        window.run_steps(3);
+        window.state().opened().wait();
+    }
+    assert!(window.state().view().status.text.contains("line 3"), "elsewhere the status line says it");
+    let (item, line) = window.state().view().status.change.clone().expect("a way there");
+    assert!(matches!(item, ImportItem::File(_)));
+    window.state_mut().push(Command::ShowImport(item, line));
+    for _ in 0..3 {
+        window.run_steps(3);
+        window.state().opened().wait();
+    }
+    assert!(window.state().view().status.text.is_empty(), "{}", window.state().view().status.text);
+    let told = window.query_all_by(|node| {
+        let label = node.label().unwrap_or_default();
+        label.contains("a curve needs values") && !node.is_hidden()
+    });
+    let told: Vec<String> = told.filter_map(|node| node.accesskit_node().label()).collect();
+    assert_eq!(told.len(), 2, "the list and the text: {told:?}");
+}
+
+#[test]
+fn controls_that_do_nothing_in_a_workspace_are_dim() {
+    let brightest = |window: &mut Window, left: u32| {
+        let image = window.render().expect("drawn");
+        let pixels = (left..left + 90).flat_map(|x| (34..44).map(move |y| (x, y)));
+        pixels.map(|(x, y)| image.get_pixel(x, y).0[0]).max().expect("pixels")
+    };
+    let mut window = window();
+    window.run_steps(3);
+    let lit = brightest(&mut window, 8);
+    window.state_mut().push(Command::Show(Workspace::Import));
+    window.run_steps(3);
+    assert!(brightest(&mut window, 8) < lit, "Reference does nothing in Import");
+    window.state_mut().push(Command::Show(Workspace::Compare));
+    window.run_steps(3);
+    assert_eq!(brightest(&mut window, 8), lit);
+}
+
+#[test]
+fn layouts_of_the_workspace_once_named_accuracy_open() {
+    let old = "\"Accuracy\"";
+    assert_eq!(serde_json::from_str::<Workspace>(old).unwrap(), Workspace::Numerics);
+}
