@@ -235,7 +235,7 @@ pub fn conditions(scene: &Scene<'_>) -> String {
 }
 
 /// The conditions that have nothing to do with patches and diagram, in sentences.
-fn viewing_conditions(scene: &Scene<'_>) -> String {
+pub fn viewing_conditions(scene: &Scene<'_>) -> String {
     let white = scene.document.white.name();
     format!("Reference: {}. Light: {}. White balance: {white}.", scene.document.reference, scene.light_name())
 }

@@ -10,6 +10,7 @@ use spectral_image::ImageQuantity;
 
 use self::headline::{Detail, Measure};
 use super::FigureInput;
+use super::chromaticity::viewing_conditions;
 use crate::document::render::RoughnessChoice;
 use crate::format::fixed;
 use crate::plot_item::{PickIndex, SensorId};

@@ -62,11 +62,16 @@ impl Scene<'_> {
     /// A sensor under the rendered scene's light, balanced to its white.
     fn rendered_through(&self, kind: SetKind, name: &str) -> Result<RenderingQuery, SceneError> {
         let chosen = self.rendering_of(kind, name)?;
-        if !self.document.render.sunlight {
+        if !self.is_sunlit() {
             return Ok(chosen);
         }
         let (light, white) = (self.built_in_light(SUN)?.grid, self.white_target(&Self::balance())?);
         Ok(RenderingQuery { light, white, ..chosen })
+    }
+
+    /// True if the rendered mesh is under the sun, whatever the light of the other panes.
+    pub fn is_sunlit(&self) -> bool {
+        self.document.render.sunlight && !self.document.render.mesh.is_image()
     }
 
     fn balance() -> WhiteBalanceChoice {
@@ -75,7 +80,7 @@ impl Scene<'_> {
 
     /// The names of the rendered scene's light and white.
     pub fn rendered_conditions(&self) -> [String; 2] {
-        if self.document.render.sunlight {
+        if self.is_sunlit() {
             return [SUN.to_owned(), Self::balance().name()];
         }
         [self.light_name(), self.document.white.name()]

@@ -4,12 +4,12 @@
 //! I_c = s cos⁴α / π  ∫_sky V(ω) cos θ [∫ C_c (πf)(ω → v; λ) S L dλ / ∫ C_c L dλ] dω
 //!     = s cos⁴α [ W_d ∫ C_c ρ_d(θs; λ) S L dλ + W_m ∫ C_c ρ_m(θs; λ) S L dλ ] / ∫ C_c L dλ
 //! ```
-//! s = irradiance of a level surface by the whole sky over that of a surface that faces the light; V = visibility; ρ_d, ρ_m =
+//! s = irradiance of a level surface by the whole sky over that of a surface that faces the light; V = visibility; `ρ_d`, `ρ_m` =
 //! hemispherical-directional reflectance of a white by the diffuse and the coherent component
-//! ([`hemispherical_directional`]); W_d = mean of V over the diffuse lobe at 550 nm, the directions below the horizon counted as
-//! dark; W_m = V in the mirror direction. The sky has the spectrum of the light.
+//! ([`hemispherical_directional`]); `W_d` = mean of V over the diffuse lobe at 550 nm, the directions below the horizon counted as
+//! dark; `W_m` = V in the mirror direction. The sky has the spectrum of the light.
 //!
-//! W_d is a ratio of two sums over directions that are distributed as the lobe's slopes are. The only approximation is that it is
+//! `W_d` is a ratio of two sums over directions that are distributed as the lobe's slopes are. The only approximation is that it is
 //! the same at all wavelengths: exact where the sky is seen whole, for Lambertian and for rough surfaces.
 
 mod lobe;
@@ -41,9 +41,9 @@ const CHUNK: usize = 1024;
 /// Visible shares of the sky at one sample.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SkySample {
-    /// W_d, times cos⁴α.
+    /// `W_d`, times cos⁴α.
     pub diffuse: f32,
-    /// W_m, times cos⁴α.
+    /// `W_m`, times cos⁴α.
     pub mirror: f32,
     /// Irradiance of the other side over that of a level surface under the whole sky, times cos⁴α; 0 where nothing shines through.
     pub behind: f32,

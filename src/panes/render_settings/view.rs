@@ -64,7 +64,7 @@ fn lens_and_quality(ui: &mut Ui, settings: &RenderSettings, context: &mut PaneCo
         }
     });
     caption(ui, "Tolerance", context);
-    ui.add_enabled_ui(now == QualityLevel::Tolerance, |ui| tolerance(ui, &settings, context));
+    ui.add_enabled_ui(now == QualityLevel::Tolerance, |ui| tolerance(ui, settings, context));
     if ui.button("Reset view").on_hover_text("Initial view of the mesh (Home)").clicked() {
         context.view.saved.render.orbit = None;
         ui.ctx().request_repaint();

@@ -9,7 +9,7 @@ use crate::render::stop::Stop;
 use chromascope_mesh::{Mesh, ShadowTree};
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 
 /// Cells along a side of the square.
 const SIDE: usize = 8;
@@ -91,16 +91,17 @@ fn neighborhoods(mesh: &Mesh, both_sides: bool) -> (Vec<Member>, Vec<Member>) {
     let bounds = mesh.bounds();
     let (side, fineness) = if both_sides { COARSE } else { FINE };
     let scale = 1.0 / (side * bounds.radius).max(f32::MIN_POSITIVE);
-    let mut known = HashMap::new();
+    let mut known = BTreeMap::new();
     let mut first = Vec::new();
     let of = |(vertex, (point, normal)): (usize, (&Vec3, &Vec3))| {
         let cube = ((*point - bounds.min) * scale).as_ivec3();
         let towards = (*normal * fineness).round().as_ivec3();
         let flipped = both_sides && towards.to_array().into_iter().find(|&v| v != 0).is_some_and(|v| v < 0);
-        let index = *known.entry((cube, if flipped { -towards } else { towards })).or_insert_with(|| {
-            first.push(Member { index: vertex as u32, flipped });
-            first.len() as u32 - 1
-        });
+        let index =
+            *known.entry((cube.to_array(), if flipped { -towards } else { towards }.to_array())).or_insert_with(|| {
+                first.push(Member { index: vertex as u32, flipped });
+                first.len() as u32 - 1
+            });
         Member { index, flipped }
     };
     let members = mesh.positions().iter().zip(mesh.normals()).enumerate().map(of).collect();
