@@ -116,7 +116,7 @@ fn nothing_in_the_settings_jumps_when_values_change() {
     window.state_mut().push(Command::Show(Workspace::Render));
     render(&mut window, |settings| settings.mesh = MeshChoice::Sphere);
     render(&mut window, |settings| settings.triangles = 2000);
-    window.state().studio().wait();
+    window.state().render_service().wait();
     window.run_steps(2);
     let before = places(&window);
     assert_eq!(before.len(), 15, "{before:?}");
@@ -138,9 +138,9 @@ fn nothing_in_the_settings_jumps_when_values_change() {
         render(&mut window, change);
         assert_eq!(places(&window), before, "change {index}");
     }
-    window.state().studio().wait();
+    window.state().render_service().wait();
     window.run_steps(2);
-    let source = window.state().studio().frame().map(|frame| frame.sources[0].clone()).unwrap();
+    let source = window.state().render_service().frame().map(|frame| frame.sources[0].clone()).unwrap();
     let source = chromascope::plot_item::SensorId { kind: source.kind, name: source.name };
     window.state_mut().view_mut().render.pinned = Some(PixelPlace { at: [0.5, 0.5], source });
     window.run_steps(2);

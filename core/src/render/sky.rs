@@ -44,7 +44,7 @@ pub struct SkySample {
     /// `W_d`, times cos⁴α.
     pub diffuse: f32,
     /// `W_m`, times cos⁴α.
-    pub mirror: f32,
+    pub coherent: f32,
     /// Irradiance of the other side over that of a level surface under the whole sky, times cos⁴α; 0 where nothing shines through.
     pub behind: f32,
     /// cos θs.
@@ -143,7 +143,7 @@ impl Sampling<'_> {
         });
         SkySample {
             diffuse: falloff * self.lobe.visible_mean(normal, to_viewer, visible),
-            mirror: own * falloff * lobe::above(mirrored.y) * visible(mirrored),
+            coherent: own * falloff * lobe::above(mirrored.y) * visible(mirrored),
             behind: falloff * through,
             cos_s,
         }
@@ -201,8 +201,8 @@ impl SkyReflectance {
             let shares = interpolated::<ANGLES>(0.0, 1.0, step(index));
             std::array::from_fn(|c| shares.iter().zip(&at_angle).map(|(share, row)| share * row[c]).sum::<f64>() as f32)
         });
-        let mirror = (0..=STEPS).map(|index| self.coherent(measure, step(index)));
-        SkySignals { diffuse: diffuse.collect(), mirror: mirror.collect() }
+        let coherent = (0..=STEPS).map(|index| self.coherent(measure, step(index)));
+        SkySignals { diffuse: diffuse.collect(), coherent: coherent.collect() }
     }
 
     /// A camera's signals of the coherent component.
@@ -230,7 +230,7 @@ impl SkyReflectance {
 /// One camera's signals under the whole sky, in equal steps of cos θs.
 struct SkySignals {
     diffuse: Vec<[f32; 3]>,
-    mirror: Vec<[f32; 3]>,
+    coherent: Vec<[f32; 3]>,
 }
 
 /// A uniform sky over a shaded mesh.
@@ -256,7 +256,7 @@ impl Sky {
             let t = at - low as f32;
             let mix = |table: &[[f32; 3]], c: usize| table[low][c] * (1.0 - t) + table[low + 1][c] * t;
             for (c, signal) in signal.iter_mut().enumerate() {
-                let own = sample.diffuse * mix(&table.diffuse, c) + sample.mirror * mix(&table.mirror, c);
+                let own = sample.diffuse * mix(&table.diffuse, c) + sample.coherent * mix(&table.coherent, c);
                 *signal += share * (own + sample.behind * through[c]);
             }
         };
