@@ -121,7 +121,7 @@ pub(super) fn recorded_table(request: &mut Request, path: &Path) -> Result<Recor
         None => chart_spectra(request)?,
     };
     let joined = recorded::join(&spectra, &rows, Levels { black: 0.0, clip: f64::INFINITY });
-    joined.map(Shared::new).map_err(|error| CliError::File(format!("{}: {error}", told(path))))
+    joined.map(Shared::new).map_err(|error| CliError::File(format!("{}: {error}", display_path(path))))
 }
 
 fn raw_table(request: &mut Request, path: &Path) -> Result<RawTable, CliError> {
