@@ -99,7 +99,11 @@ pub(super) fn run(arguments: &FigureArguments, matches: &ArgMatches) -> Result<(
     let made = made::Made::new(arguments.kind, &scene, &mut view, (&paper, recorded))?;
     let figure = paper.laid_out(|room| {
         view.room = room;
-        let input = FigureInput { pictures: made.pictures.as_ref(), measured: &made.measured, ..FigureInput::new(&scene, &view) };
+        let input = FigureInput {
+            pictures: made.pictures.as_ref(),
+            measured: &made.measured,
+            ..FigureInput::new(&scene, &view)
+        };
         match arguments.kind.pane() {
             Some(pane) => panes::figure(pane, &input),
             None => strip::figure(&scene, &view),
@@ -126,7 +130,7 @@ fn check_height(figure: &Figure, paper: &Paper, form: Form) -> Result<(), CliErr
 }
 
 fn opened(request: &mut Request, path: &Path) -> Result<Document, CliError> {
-    let failed = |reason: String| CliError::File(format!("{}: {reason}", super::request::told(path)));
+    let failed = |reason: String| CliError::File(format!("{}: {reason}", super::request::display_path(path)));
     let text = String::from_utf8(request.bytes(path)?).map_err(|_| failed("it is not text".to_owned()))?;
     session::from_json(&text).map_err(|error| failed(error.to_string()))
 }

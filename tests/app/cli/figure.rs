@@ -11,9 +11,13 @@ fn a_figure_takes_the_form_of_its_file_and_the_session_it_is_given() {
     let folder = tempfile::tempdir().expect("a folder");
     let at = |name: &str| folder.path().join(name).to_string_lossy().into_owned();
     fs::write(at("work.json"), "{\"format\":\"chromascope\",\"version\":1,\"diagram\":\"uv-prime\"}").expect("written");
-    for (name, beginning) in
-        [("a.pdf", &b"%PDF-"[..]), ("a.svg", b"<svg"), ("a.png", b"\x89PNG"), ("a.tif", b"II*\0"), ("a.csv", b"sensor,")]
-    {
+    for (name, beginning) in [
+        ("a.pdf", &b"%PDF-"[..]),
+        ("a.svg", b"<svg"),
+        ("a.png", b"\x89PNG"),
+        ("a.tif", b"II*\0"),
+        ("a.csv", b"sensor,"),
+    ] {
         let out = at(name);
         let done = run(&["figure", "chromaticity", "--session", &at("work.json"), "--width", "3in", "--out", &out]);
         assert!(done.status.success(), "{name}: {}", String::from_utf8_lossy(&done.stderr));
