@@ -1,4 +1,4 @@
-//! Figures for paper as PDF, SVG, PNG, or the numbers behind them.
+//! Figures for paper as PDF, SVG, PNG, TIFF, or the numbers behind them.
 
 pub(super) mod arguments;
 mod made;
@@ -28,6 +28,7 @@ enum Form {
     Pdf,
     Svg,
     Png,
+    Tiff,
     Csv,
 }
 
@@ -37,6 +38,7 @@ impl Form {
             "pdf" => Some(Self::Pdf),
             "svg" => Some(Self::Svg),
             "png" => Some(Self::Png),
+            "tif" | "tiff" => Some(Self::Tiff),
             "csv" => Some(Self::Csv),
             _ => None,
         }
@@ -47,11 +49,14 @@ impl Form {
 pub(super) fn run(arguments: &FigureArguments, matches: &ArgMatches) -> Result<(), CliError> {
     let out = arguments.common.out.as_deref();
     let form = out.and_then(Form::of).ok_or_else(|| {
-        let reason = "a file that ends in .pdf, .svg, .png or .csv is needed".to_owned();
+        let reason = "a file that ends in .pdf, .svg, .png, .tif or .csv is needed".to_owned();
         CliError::Argument { argument: "--out", reason }
     })?;
     let mut request = Request::new(&arguments.common, matches)?;
     request.set_chart(arguments.chart.as_deref())?;
+    if let Some(light) = &arguments.second_light {
+        request.set_second_light(light)?;
+    }
     let mut inputs = request.inputs();
     let document = match &arguments.session {
         None => {
@@ -135,9 +140,10 @@ fn bytes(scene: &Scene<'_>, figure: &Figure, paper: &Paper, form: Form) -> Resul
     match form {
         Form::Pdf => Ok(export::pdf(figure, &theme, *paper)?),
         Form::Svg => Ok(export::svg(figure, &theme, *paper).into_bytes()),
-        Form::Png => {
+        Form::Png | Form::Tiff => {
             let picture = export::png(&export::svg(figure, &theme, *paper), (paper.dpi / 72.0) as f32)?;
-            Ok(export::png_file_at(&picture, paper.dpi)?)
+            let file = if form == Form::Png { export::png_file_at } else { export::tiff_file_at };
+            Ok(file(&picture, paper.dpi)?)
         }
         Form::Csv => {
             let cells: Vec<_> = CONDITIONS.into_iter().zip(scene.conditions()).collect();

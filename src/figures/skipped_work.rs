@@ -62,7 +62,7 @@ pub fn figure(input: &FigureInput<'_>) -> Option<Figure> {
     let mut panel = Panel::new("skipped", Rect::from_min_size([0.0, 0.0], figure.size), x, y);
     let text = |name: &str, at: [f64; 2], text: String| {
         let (anchor, offset, size, ink) = (Anchor::LEFT, [6.0, 0.0], TextSize::Small, InkRole::Text.into());
-        Mark::new(Tag::default(), name, Shape::Text { at, text, anchor, offset, size, ink })
+        Mark::new(Tag::default(), name, Shape::Text { at, text, anchor, offset, size, ink }).with_halo(InkRole::Plot)
     };
     let mut middle = 0.5;
     for section in &sections {
