@@ -41,6 +41,7 @@ pub mod plot_item;
 pub mod profiler;
 pub mod ranking;
 pub mod render_service;
+pub mod report;
 pub mod results;
 pub mod scene;
 pub mod terminal;

@@ -12,38 +12,17 @@ use super::error::CliError;
 use super::outputs::{self, Stop};
 use super::request::Request;
 use crate::document::{Document, session};
-use crate::export::{self, paper::Paper};
+use crate::export::FigureForm;
 use crate::figures::{FigureInput, chromaticity, light, metrics, report_card, spectra, swatches};
 use crate::results::Results;
 use crate::scene::Scene;
 use crate::scene::conditions::CONDITIONS;
 use crate::view::{DiagramFit, View};
 
-/// Form of a figure's file.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Form {
-    Pdf,
-    Svg,
-    Png,
-    Csv,
-}
-
-impl Form {
-    fn of(path: &Path) -> Option<Self> {
-        match path.extension()?.to_str()?.to_ascii_lowercase().as_str() {
-            "pdf" => Some(Self::Pdf),
-            "svg" => Some(Self::Svg),
-            "png" => Some(Self::Png),
-            "csv" => Some(Self::Csv),
-            _ => None,
-        }
-    }
-}
-
 /// Draws a figure and writes it.
 pub(super) fn run(arguments: &FigureArguments, matches: &ArgMatches) -> Result<(), CliError> {
     let out = arguments.common.out.as_deref();
-    let form = out.and_then(Form::of).ok_or_else(|| {
+    let form = out.and_then(FigureForm::of).ok_or_else(|| {
         let reason = "a file that ends in .pdf, .svg, .png or .csv is needed".to_owned();
         CliError::Argument { argument: "--out", reason }
     })?;
@@ -73,7 +52,8 @@ pub(super) fn run(arguments: &FigureArguments, matches: &ArgMatches) -> Result<(
         let reason = "there is nothing to draw: no camera is compared, or it cannot be computed".to_owned();
         CliError::Argument { argument: "KIND", reason }
     })?;
-    let bytes = bytes(&scene, &figure, &paper, form)?;
+    let cells: Vec<_> = CONDITIONS.into_iter().zip(scene.conditions()).collect();
+    let bytes = form.bytes(&figure, &figure.table.clone().with_constants(&cells), &paper)?;
     outputs::stream(out, |out| out.write_all(&bytes).map_err(Stop::Output))
 }
 
@@ -96,21 +76,5 @@ fn figure(kind: FigureKind, scene: &Scene<'_>, room: FigureRoom, full: bool) -> 
         FigureKind::Light => light::figure(scene, &view),
         FigureKind::Metrics => metrics::figure(&input),
         FigureKind::ReportCard => report_card::figure(&input),
-    }
-}
-
-fn bytes(scene: &Scene<'_>, figure: &Figure, paper: &Paper, form: Form) -> Result<Vec<u8>, CliError> {
-    let theme = paper.theme();
-    match form {
-        Form::Pdf => Ok(export::pdf(figure, &theme, *paper)?),
-        Form::Svg => Ok(export::svg(figure, &theme, *paper).into_bytes()),
-        Form::Png => {
-            let picture = export::png(&export::svg(figure, &theme, *paper), (paper.dpi / 72.0) as f32)?;
-            Ok(export::png_file_at(&picture, paper.dpi)?)
-        }
-        Form::Csv => {
-            let cells: Vec<_> = CONDITIONS.into_iter().zip(scene.conditions()).collect();
-            Ok(figure.table.clone().with_constants(&cells).to_csv().into_bytes())
-        }
     }
 }
