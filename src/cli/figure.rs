@@ -73,7 +73,11 @@ pub(super) fn run(arguments: &FigureArguments, matches: &ArgMatches) -> Result<(
     let made = made::Made::new(arguments.kind, &scene, &mut view, (&paper, recorded))?;
     let figure = paper.laid_out(|room| {
         view.room = room;
-        let input = FigureInput { pictures: made.pictures.as_ref(), measured: &made.measured, ..FigureInput::new(&scene, &view) };
+        let input = FigureInput {
+            pictures: made.pictures.as_ref(),
+            measured: &made.measured,
+            ..FigureInput::new(&scene, &view)
+        };
         match arguments.kind.pane() {
             Some(pane) => panes::figure(pane, &input),
             None => strip::figure(&scene, &view),

@@ -1,8 +1,6 @@
 //! Figures laid out for paper: size, text, lines, inks, legend.
 
-use chromascope_figure::{
-    AxisRanges, AxisTitles, Figure, FigureRoom, LegendPlace, Numbers, Page, PageStyle, TextSize,
-};
+use chromascope_figure::{AxisRanges, AxisTitles, Figure, FigureRoom, LegendPlace, Numbers, Page, PageStyle, TextSize};
 
 use crate::theme::{SourceInks, Theme};
 
@@ -102,12 +100,8 @@ impl Paper {
         // Text is laid out in its size on screen, and the page scaled.
         let points = |mm: f64| mm / 25.4 * 72.0 / self.scale();
         let mut make = |room| make(room).map(|figure| self.dressed(figure));
-        let mut room = FigureRoom {
-            strip: self.strip,
-            ranges: self.ranges,
-            numbers: self.numbers,
-            ..FigureRoom::default()
-        };
+        let mut room =
+            FigureRoom { strip: self.strip, ranges: self.ranges, numbers: self.numbers, ..FigureRoom::default() };
         let Some(width) = self.width_mm.map(points) else { return make(room) };
         room.width = Some(width);
         let mut figure = make(room)?;

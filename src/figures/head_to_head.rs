@@ -44,8 +44,7 @@ pub fn figure(input: &FigureInput<'_>) -> Option<Figure> {
     let width = view.room.width.unwrap_or(WIDTH).max(360.0);
     let [name_a, name_b] = [a, b].map(|camera| ranked.cameras[camera].id.name.as_str());
     let mut figure = Figure::new(format!("{name_a} and {name_b}"), [width, ROW * (rows.len() as f64 + 3.0)]);
-    let mut panel =
-        Panel::board("Head to head", Rect::from_min_size([0.0, 0.0], figure.size), Ink::new(InkRole::Plot));
+    let mut panel = Panel::board("Head to head", Rect::from_min_size([0.0, 0.0], figure.size), Ink::new(InkRole::Plot));
     // Right ends of the columns of numbers.
     let ends = [0.46, 0.65, 0.84, 1.0].map(|share| share * width - 6.0);
     let mut line = 0.5;

@@ -7,8 +7,7 @@ use chromascope_core::colorimetry::rgb::{encode_srgb, srgb_from_xyz, srgb_white}
 use chromascope_core::query::{Consistency, Rendition};
 use chromascope_core::rendition::{ColorFidelity, HueBin};
 use chromascope_figure::{
-    Anchor, Axis, Cell, Dash, Figure, Ink, InkRole, Mark, Panel, Rect, Shape, Table, Tag, TextSize, Ticks,
-    text_width,
+    Anchor, Axis, Cell, Dash, Figure, Ink, InkRole, Mark, Panel, Rect, Shape, Table, Tag, TextSize, Ticks, text_width,
 };
 
 use crate::document::SetKind;

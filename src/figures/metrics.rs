@@ -2,7 +2,9 @@
 
 use chromascope_core::query::metrics::{Better, distinguishable, rank_ranges};
 use chromascope_core::query::{CameraMetric, MetricValue, WhyNot};
-use chromascope_figure::{Anchor, Cell, Figure, Ink, InkRole, Mark, Panel, Rect, Shape, Table, Tag, TextSize, text_width};
+use chromascope_figure::{
+    Anchor, Cell, Figure, Ink, InkRole, Mark, Panel, Rect, Shape, Table, Tag, TextSize, text_width,
+};
 
 use super::FigureInput;
 use super::chromaticity::conditions;

@@ -48,7 +48,10 @@ pub fn figure(input: &FigureInput<'_>) -> Option<Figure> {
     if sections.is_empty() {
         return None;
     }
-    let mut figure = Figure::new("Time saved by skipped work", [input.view.room.width.unwrap_or(WIDTH), AROUND + ROW * lines as f64]);
+    let mut figure = Figure::new(
+        "Time saved by skipped work",
+        [input.view.room.width.unwrap_or(WIDTH), AROUND + ROW * lines as f64],
+    );
     let saved = |row: &SkippedWork| row.saved.max(1e-9).log10();
     let timed = rows().filter(|row| row.saved > 0.0).map(saved);
     let (low, high) = timed.fold((-6.0_f64, -3.0_f64), |(low, high), s| (low.min(s), high.max(s)));

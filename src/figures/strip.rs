@@ -3,8 +3,8 @@
 use chromascope_core::colorimetry::Xy;
 use chromascope_core::query::Locus;
 use chromascope_figure::{
-    Anchor, Axis, Cell, Dash, Figure, Ink, InkRole, Mark, Marker, Panel, Projection, Rect, Shape, Table, TextSize, Ticks,
-    wrapped,
+    Anchor, Axis, Cell, Dash, Figure, Ink, InkRole, Mark, Marker, Panel, Projection, Rect, Shape, Table, TextSize,
+    Ticks, wrapped,
 };
 
 use super::chromaticity::{self, distance_symbol, id};

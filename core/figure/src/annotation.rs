@@ -41,7 +41,8 @@ pub fn annotations(panel: &Panel, plot: Rect, text_scale: f64) -> Vec<Annotation
         .flat_map(|([x, y], text, anchor)| {
             let lines = wrapped(text, TextSize::Small, (plot.width() - 2.0 * pad) / text_scale);
             let first = if anchor.1 < 0.5 { 0.0 } else { 1.0 - lines.len() as f64 };
-            let line = move |(i, text)| Annotation { at: [x, y + LINE * text_scale * (first + i as f64)], text, anchor };
+            let line =
+                move |(i, text)| Annotation { at: [x, y + LINE * text_scale * (first + i as f64)], text, anchor };
             lines.into_iter().enumerate().map(line)
         })
         .collect()

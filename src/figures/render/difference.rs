@@ -93,7 +93,12 @@ pub(super) fn scale(scale: Scale, name: &str, [x, y]: [f64; 2], width: f64, ink:
     let mut marks = vec![Mark::new(PickIndex::NONE, "scale", shape)];
     for (share, value) in scale.ticks() {
         let words = if share < 1.0 { value } else { format!("{name} {value}") };
-        marks.push(text(&words, [left + f64::from(share) * (right - left), y + 26.0], Anchor::CENTER, (TextSize::Body, ink)));
+        marks.push(text(
+            &words,
+            [left + f64::from(share) * (right - left), y + 26.0],
+            Anchor::CENTER,
+            (TextSize::Body, ink),
+        ));
     }
     marks
 }
