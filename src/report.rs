@@ -34,7 +34,7 @@ pub const PAGE: &str = "report.html";
 /// Name of the table of claims.
 pub const NUMBERS: &str = "claims.csv";
 /// Side of a rendered picture in pixels unless the user says otherwise.
-pub const PIXELS: u32 = 400;
+pub const PIXELS: u32 = 480;
 
 /// All claims, in the paper's order.
 pub fn claims() -> impl Iterator<Item = &'static Claim> {
@@ -129,7 +129,9 @@ impl Report {
     /// The claims with what is found.
     pub fn judged(&self, results: &Results) -> Vec<Judged> {
         let subject = self.subject(results);
-        claims().map(|claim| Judged { claim, finding: (claim.find)(&subject).map_err(|error| error.to_string()) }).collect()
+        claims()
+            .map(|claim| Judged { claim, finding: (claim.find)(&subject).map_err(|error| error.to_string()) })
+            .collect()
     }
 
     fn claims_and_page(&self, subject: &Subject<'_>) -> Result<Vec<ReportFile>, String> {
@@ -149,7 +151,8 @@ fn file_name(figure: &PaperFigure, form: FigureForm) -> String {
 
 /// What is found as a table: a row for each number, rounded to the decimals that are stated.
 pub fn numbers(judged: &[Judged]) -> Table {
-    let mut table = Table::new(["claim", "part", "paper", "verdict", "quantity", "sensor", "value", "unit", "accuracy"]);
+    let mut table =
+        Table::new(["claim", "part", "paper", "verdict", "quantity", "sensor", "value", "unit", "accuracy"]);
     for Judged { claim, finding } in judged {
         let Ok(finding) = finding else { continue };
         for value in &finding.values {
@@ -194,12 +197,13 @@ impl Job for ReportJob {
     fn run(&self, results: &Results) -> Arc<Self::Answer> {
         let written = self.report.make(self.step, results).and_then(|files| {
             let files = files.into_iter().take_while(|_| !results.stop().is_set());
-            files.map(|file| {
-                let path = self.folder.join(&file.name);
-                write_atomically(&path, &file.bytes)
-                    .map_err(|error| format!("Cannot write {}: {}.", path.display(), io_reason(&error)))
-            })
-            .collect()
+            files
+                .map(|file| {
+                    let path = self.folder.join(&file.name);
+                    write_atomically(&path, &file.bytes)
+                        .map_err(|error| format!("Cannot write {}: {}.", path.display(), io_reason(&error)))
+                })
+                .collect()
         });
         Arc::new(written)
     }

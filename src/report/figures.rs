@@ -1,24 +1,18 @@
 //! The paper's figures, made with the report's cameras, patches and light.
 
-use std::sync::Arc;
-use std::time::Duration;
-
 use chromascope_core::query::Ask as _;
-use chromascope_core::render::{RasterSize, Shadows};
 use chromascope_figure::{Cell, Figure, FigureRoom, LegendPlace, Panel, Table};
 
 use super::claim::Subject;
 use super::geometry;
 use crate::action::{Action, RenderAction};
 use crate::document::render::{LEAF, MeshChoice, ReadingChoice, SKIN};
-use crate::document::{Document, Overlays};
+use crate::document::{Document, Overlays, SetKind};
 use crate::export::Paper;
 use crate::figures::{FigureInput, chromaticity, render, spectra, swatches};
 use crate::render_service::RenderedFrame;
-use crate::render_service::made::{PicturesAnswer, PicturesOf};
 use crate::scene::Scene;
 use crate::scene::orbit::Orbit;
-use crate::scene::render::Finish;
 use crate::view::{SpectraLayout, View};
 
 /// A figure of the paper.
@@ -35,15 +29,27 @@ pub(super) type Pixels = u32;
 
 /// The figures in their order.
 pub const FIGURES: [PaperFigure; 9] = [
-    PaperFigure { number: 1, title: "Geometry of the reflectance model", make: |_, room, _| Some(geometry::figure(room)) },
+    PaperFigure {
+        number: 1,
+        title: "Geometry of the reflectance model",
+        make: |_, room, _| Some(geometry::figure(room)),
+    },
     PaperFigure { number: 2, title: "Sensitivities of the cameras and the reference", make: sensitivities },
     PaperFigure { number: 3, title: "Planckian loci", make: loci },
     PaperFigure { number: 4, title: "Chromaticities of the patches", make: points },
     PaperFigure { number: 5, title: "Colors of the patches", make: patches },
     PaperFigure { number: 6, title: "Light and reflectances of the rendered scenes", make: materials },
     PaperFigure { number: 7, title: "Meshes of head and fern", make: meshes },
-    PaperFigure { number: 8, title: "Head in sunlight", make: |subject, room, pixels| scene(subject, &RenderAction::Figure8, room, pixels) },
-    PaperFigure { number: 9, title: "Fern in sunlight", make: |subject, room, pixels| scene(subject, &RenderAction::Figure9, room, pixels) },
+    PaperFigure {
+        number: 8,
+        title: "Head in sunlight",
+        make: |subject, room, pixels| scene(subject, &RenderAction::Figure8, room, pixels),
+    },
+    PaperFigure {
+        number: 9,
+        title: "Fern in sunlight",
+        make: |subject, room, pixels| scene(subject, &RenderAction::Figure9, room, pixels),
+    },
 ];
 
 impl PaperFigure {
@@ -99,9 +105,8 @@ fn stacked(figure: Figure, panels: Vec<Panel>) -> Figure {
     Figure { size: [figure.size[0], top - 4.0], panels, ..figure }
 }
 
-fn diagram(subject: &Subject<'_>, room: FigureRoom, overlays: Overlays) -> Figure {
-    let document = Document { overlays, ..subject.document.clone() };
-    chromaticity::figure(&subject.scene(&document), &view(room))
+fn diagram(subject: &Subject<'_>, room: FigureRoom, document: &Document) -> Figure {
+    chromaticity::figure(&subject.scene(document), &view(room))
 }
 
 /// A table's rows of a kind.
@@ -113,13 +118,16 @@ fn of_kind(mut table: Table, kind: &str) -> Table {
 
 fn loci(subject: &Subject<'_>, room: FigureRoom, _: Pixels) -> Option<Figure> {
     let overlays = Overlays { patches: false, ..subject.document.overlays };
-    let figure = diagram(subject, room, overlays);
+    let figure = diagram(subject, room, &Document { overlays, ..subject.document.clone() });
     Some(Figure { table: of_kind(figure.table.clone(), "locus"), ..figure })
 }
 
 fn points(subject: &Subject<'_>, room: FigureRoom, _: Pixels) -> Option<Figure> {
     let overlays = Overlays { loci: false, ..subject.document.overlays };
-    let figure = diagram(subject, FigureRoom { strip: false, ..room }, overlays);
+    let mut document = Document { overlays, ..subject.document.clone() };
+    // By Eq 13 no CIE observer can be compared.
+    document.compared.retain(|compared| compared.kind == SetKind::Camera || compared.name == document.reference);
+    let figure = diagram(subject, FigureRoom { strip: false, ..room }, &document);
     let caption = chromaticity::conditions(&subject.scene(subject.document));
     Some(Figure { table: of_kind(figure.table.clone(), "patch"), caption, ..figure })
 }
@@ -129,6 +137,9 @@ fn patches(subject: &Subject<'_>, room: FigureRoom, _: Pixels) -> Option<Figure>
 }
 
 fn materials(subject: &Subject<'_>, room: FigureRoom, _: Pixels) -> Option<Figure> {
+    /// Height of light and one material over the width.
+    const SHAPE: f64 = 0.5;
+    let room = FigureRoom { height: room.width.map(|width| SHAPE * width), ..room };
     let [skin, leaf] = [SKIN, LEAF].map(|material| {
         let document = Document { compared: Vec::new(), ..subject.in_sun(material) };
         spectra::figure(&subject.scene(&document), &view(room))
@@ -145,24 +156,12 @@ fn materials(subject: &Subject<'_>, room: FigureRoom, _: Pixels) -> Option<Figur
     Some(Figure { table, caption, legend: Vec::new(), ..stacked(skin, panels) })
 }
 
-/// Pictures of a document's scene through its sensors.
-fn frame(scene: &Scene<'_>, pixels: Pixels) -> Option<RenderedFrame> {
-    let sources = scene.rendered_sources();
-    let settings = &scene.document.render;
-    let size = RasterSize { width: pixels, height: pixels, samples: 2 }.clamped();
-    let viewpoint = Orbit::of(&settings.mesh).viewpoint(1.0)?;
-    let finish =
-        Finish { size, quality: settings.quality(), shadows: Shadows::Full, compared_samples: Some(usize::MAX) };
-    let query = scene.pictures_of(&sources, scene.mesh_of(None)?, viewpoint, finish, None).ok()?;
-    let answer = Arc::new(PicturesAnswer::Mesh(scene.results.ask(&query)));
-    let query = PicturesOf::Mesh(query);
-    // Times of this run are no part of a figure.
-    Some(RenderedFrame { query, sources: sources.into(), answer, time: Duration::ZERO, is_last: true, serial: 0 })
-}
-
 /// Figure of a document's pictures.
 fn pictures(scene: &Scene<'_>, room: FigureRoom, pixels: Pixels) -> Option<Figure> {
-    let (frame, view) = (frame(scene, pixels)?, view(room));
+    let orbit = Orbit::of(&scene.document.render.mesh);
+    // Times of this run, which it has none of, are no part of a figure.
+    let frame = RenderedFrame::of_mesh(scene, scene.mesh_of(None)?, orbit, pixels).ok()??;
+    let view = view(room);
     let figure = render::figure(&FigureInput { pictures: Some(&frame), ..FigureInput::new(scene, &view) })?;
     let time = figure.table.columns.iter().position(|column| column == "time_ms")?;
     Some(Figure { table: without(&figure.table, &(time..time + 1)), ..figure })

@@ -1,6 +1,8 @@
 //! Figure 1: the angles of light, surface and camera.
 
-use chromascope_figure::{Anchor, Cell, Dash, Figure, FigureRoom, Ink, InkRole, Mark, Panel, Rect, Shape, Table, TextSize};
+use chromascope_figure::{
+    Anchor, Cell, Dash, Figure, FigureRoom, Ink, InkRole, Mark, Panel, Rect, Shape, Table, TextSize,
+};
 
 use crate::plot_item::PickIndex;
 

@@ -81,8 +81,7 @@ fn minima_under_a(subject: &Subject<'_>) -> Result<Finding, SceneError> {
     let mut values = minima.values("nearest at, fitted under A", "K", 0);
     let scene = subject.scene(subject.document);
     let library = subject.catalog.of_kind(SetKind::Camera).map(|camera| minimum(&scene, &camera.name));
-    let [least, most] =
-        library.fold([f64::INFINITY, 0.0], |[least, most]: [f64; 2], at| [least.min(at), most.max(at)]);
+    let [least, most] = library.fold([f64::INFINITY, 0.0], |[least, most]: [f64; 2], at| [least.min(at), most.max(at)]);
     for (quantity, number) in [("least of the library, by Eq 15", least), ("most of the library, by Eq 15", most)] {
         values.extend(Series(vec![(String::new(), number)]).values(quantity, "K", 0));
     }
@@ -128,7 +127,8 @@ fn means(subject: &Subject<'_>) -> Result<Finding, SceneError> {
     };
     let crossings = (0..COUNT - 1).filter(|&index| (lead[index] > 0.0) != (lead[index + 1] > 0.0));
     let nearer: Vec<f64> = crossings.map(at).collect();
-    for (quantity, kelvin) in [("nearer than the Canon from", nearer.first()), ("nearer than the Canon to", nearer.last())]
+    for (quantity, kelvin) in
+        [("nearer than the Canon from", nearer.first()), ("nearer than the Canon to", nearer.last())]
     {
         values.extend(kelvin.map(|kelvin| Value {
             quantity: quantity.to_owned(),

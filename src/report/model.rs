@@ -4,7 +4,7 @@ use chromascope_core::patch_set::PatchSet;
 use chromascope_core::query::Ask as _;
 use chromascope_core::query::render::{GeometryQuery, MeshQuery, VisibilityQuery};
 use chromascope_core::reflectance::{Geometry, Normalization, factor};
-use chromascope_core::render::{RasterSize, Shadows};
+use chromascope_core::render::{RasterSize, Reach, Shadows};
 use chromascope_core::scene::Viewpoint;
 use chromascope_core::scene::lighting::Lighting;
 use chromascope_core::spectral::SpectralDistribution;
@@ -67,7 +67,7 @@ fn falloff(subject: &Subject<'_>) -> Result<Finding, SceneError> {
     let size = RasterSize { width: SIDE, height: SIDE, samples: 1 };
     let visibility = VisibilityQuery { mesh: MeshQuery::Plane, viewpoint, size };
     let lighting = Lighting::from_angles(0.0, 0.0, 0.0)?;
-    let image = subject.results.ask(&GeometryQuery { visibility, lighting, shadows: Shadows::Off });
+    let image = subject.results.ask(&GeometryQuery { visibility, lighting, shadows: Shadows::Off, reach: Reach::default() });
     let falloffs = (*image).iter().flat_map(|image| image.angles()).map(|angles| f64::from(angles.falloff));
     let corner = falloffs.reduce(f64::min).unwrap_or(f64::NAN);
     // The middle of the corner's pixel.

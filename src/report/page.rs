@@ -19,8 +19,9 @@ table { border-collapse: collapse; width: 100%; }
 th, td { text-align: left; vertical-align: top; padding: 0.45em 0.7em; border-bottom: 1px solid #d4d4d4; }
 th { border-bottom: 2px solid #555; } td table { width: auto; }
 td td, td th { padding: 0 0.8em 0 0; border: 0; font-size: 0.86em; font-weight: normal; }
-td td + td { text-align: right; font-variant-numeric: tabular-nums; white-space: nowrap; }
+td td:first-child { min-width: 9em; } td td + td { text-align: right; font-variant-numeric: tabular-nums; white-space: nowrap; }
 tr.part th { background: #f0f0f0; border-bottom: 1px solid #d4d4d4; }
+table.claims > tbody > tr > td:first-child, table.claims > tbody > tr > td:last-child { width: 22%; }
 .verdict { font-weight: bold; white-space: nowrap; } .quantity { color: #555; padding-top: 0.35em; }
 figure { margin: 2em 0; } figure svg { max-width: 100%; height: auto; border: 1px solid #e0e0e0; }
 figcaption, .note { color: #555; font-size: 0.9em; } a { color: #1c1c1c; }
@@ -79,9 +80,9 @@ fn summary(judged: &[Judged]) -> String {
     let count = |verdict: Verdict| {
         judged.iter().filter(|judged| judged.finding.as_ref().is_ok_and(|found| found.verdict == verdict)).count()
     };
-    let [holds, partly, fails, open] =
-        [Verdict::Holds, Verdict::Partly, Verdict::Fails, Verdict::Open].map(count);
-    let open = if open == 0 { String::new() } else { format!(" {open} are about cameras or patches that are not here.") };
+    let [holds, partly, fails, open] = [Verdict::Holds, Verdict::Partly, Verdict::Fails, Verdict::Open].map(count);
+    let open =
+        if open == 0 { String::new() } else { format!(" {open} are about cameras or patches that are not here.") };
     format!("Of {} claims, {holds} hold, {partly} hold in part, {fails} do not.{open}", judged.len())
 }
 
@@ -102,7 +103,8 @@ fn conditions(out: &mut String, subject: &Subject<'_>) {
 
 fn claims(out: &mut String, subject: &Subject<'_>, judged: &[Judged]) {
     out.push_str(
-        "<h2>Claims</h2>\n<table>\n<thead><tr><th>The paper</th><th>Found</th><th></th><th>Why</th></tr></thead>\n<tbody>\n",
+        "<h2>Claims</h2>\n<p class=\"note\">The paper's claims are paraphrased. Numbers are rounded; claims.csv has their accuracy.</p>\n\
+         <table class=\"claims\">\n<thead><tr><th>The paper</th><th>Found</th><th></th><th>Why</th></tr></thead>\n<tbody>\n",
     );
     let mut part = "";
     for Judged { claim, finding } in judged {
@@ -144,7 +146,8 @@ fn found(subject: &Subject<'_>, finding: &Finding) -> String {
         let _ = write!(out, "<tr><td></td>{}</tr>", heads.concat());
         for quantity in quantities {
             let of = |sensor: &&str| values.iter().find(|value| value.quantity == quantity && value.sensor == *sensor);
-            let cells = sensors.iter().map(|sensor| format!("<td>{}</td>", of(sensor).map_or_else(String::new, number)));
+            let cells =
+                sensors.iter().map(|sensor| format!("<td>{}</td>", of(sensor).map_or_else(String::new, number)));
             let _ = write!(out, "<tr><td>{}</td>{}</tr>", escaped(quantity), cells.collect::<String>());
         }
         return out + "</table>";

@@ -137,7 +137,10 @@ fn farthest(subject: &Subject<'_>) -> Result<Finding, SceneError> {
         Some(of(KODAK)? > of(CANON)?.max(of(NIKON)?))
     };
     let holds = COLORED.iter().map(|patch| each(patch)).collect::<Option<Vec<bool>>>().map(|all| !all.contains(&false));
-    let extremes = [("least Δxy of the colored patches", f64::min as fn(f64, f64) -> f64), ("largest Δxy of the colored patches", f64::max)];
+    let extremes = [
+        ("least Δxy of the colored patches", f64::min as fn(f64, f64) -> f64),
+        ("largest Δxy of the colored patches", f64::max),
+    ];
     let values = extremes.into_iter().flat_map(|(quantity, fold)| {
         let cameras = all.iter().filter_map(|(name, _)| Some((name.clone(), least(name, fold)?)));
         Series(cameras.collect()).values(quantity, "", 3)

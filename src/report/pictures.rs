@@ -16,8 +16,8 @@ pub(super) const CLAIMS: [Claim; 6] = [
         key: "kodak-head-brighter",
         part: PART,
         paper: "The head is brighter through the Kodak.",
-        why: "Y of the skin by Eq 13, relative to the reference. The Kodak's broad channels record more of the long \
-              wavelengths that skin reflects.",
+        why: "Y of the skin by Eq 13, relative to the reference. The Kodak's green channel reaches into the red, which \
+              skin reflects most.",
         find: brighter,
     },
     Claim {
@@ -65,11 +65,7 @@ fn color(scene: &Scene<'_>, kind: SetKind, name: &str) -> Result<PatchColor, Sce
 }
 
 /// A number of the color of a material in sunlight, for all sensors.
-fn numbers(
-    subject: &Subject<'_>,
-    material: &str,
-    number: impl Fn(&PatchColor) -> f64,
-) -> Result<Series, SceneError> {
+fn numbers(subject: &Subject<'_>, material: &str, number: impl Fn(&PatchColor) -> f64) -> Result<Series, SceneError> {
     let document = subject.in_sun(material);
     let scene = subject.scene(&document);
     subject.all(&document, |kind, name| Ok(number(&color(&scene, kind, name)?)))
@@ -85,7 +81,10 @@ fn brighter(subject: &Subject<'_>) -> Result<Finding, SceneError> {
     let ratios = subject.cameras().into_iter().filter_map(|name| Some((name.clone(), relative(&luminances, &name)?)));
     let ratios = Series(ratios.collect());
     let holds = ratios.get(KODAK).map(|ratio| ratio > 1.0);
-    Ok(Finding { values: ratios.values("Y of the skin, relative to the reference", "", 2), verdict: Verdict::of(holds) })
+    Ok(Finding {
+        values: ratios.values("Y of the skin, relative to the reference", "", 2),
+        verdict: Verdict::of(holds),
+    })
 }
 
 /// Saturation of HSV in linear RGB.
@@ -139,9 +138,11 @@ fn at_lightness_50(scene: &Scene<'_>) -> Result<PatchSet, SceneError> {
     let now = color(scene, SetKind::Observer, &scene.document.reference)?.lab.map_or(50.0, |lab| lab.l);
     let factor = luminance(50.0) / luminance(now);
     let patches = scene.patches()?;
-    let scaled = patches.patches().iter().take(1).filter_map(|patch| {
-        Some((patch.name.clone(), patch.measured.map(|_, value| value * factor).ok()?))
-    });
+    let scaled = patches
+        .patches()
+        .iter()
+        .take(1)
+        .filter_map(|patch| Some((patch.name.clone(), patch.measured.map(|_, value| value * factor).ok()?)));
     Ok(PatchSet::new(scaled))
 }
 
@@ -162,11 +163,7 @@ fn differences(subject: &Subject<'_>, document: &Document) -> Result<[Series; 2]
 }
 
 /// Differences of skin and leaf under conditions, and what they say of Canon and Nikon at equal lightness.
-fn compared(
-    subject: &Subject<'_>,
-    name: &str,
-    conditions: impl Fn(&str) -> Document,
-) -> Result<Finding, SceneError> {
+fn compared(subject: &Subject<'_>, name: &str, conditions: impl Fn(&str) -> Document) -> Result<Finding, SceneError> {
     let [skin, leaf] = [SKIN, LEAF].map(|material| differences(subject, &conditions(material)));
     let ([skin, skin_50], [leaf, leaf_50]) = (skin?, leaf?);
     let rows = [("skin", &skin), ("leaf", &leaf), ("skin at L* 50", &skin_50), ("leaf at L* 50", &leaf_50)];
