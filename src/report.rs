@@ -41,11 +41,11 @@ pub fn claims() -> impl Iterator<Item = &'static Claim> {
     loci::CLAIMS.iter().chain(&patches::CLAIMS).chain(&pictures::CLAIMS).chain(&model::CLAIMS)
 }
 
-/// A claim with what is found.
+/// A claim with its finding.
 pub struct Judged {
     /// The claim.
     pub claim: &'static Claim,
-    /// What is found, or why nothing is.
+    /// Finding, or the reason that there is none.
     pub finding: Result<Finding, String>,
 }
 
@@ -94,7 +94,7 @@ impl Report {
         Subject { document, has_own_light: *has_own_light, catalog, results }
     }
 
-    /// What a step makes.
+    /// Name of a step, for progress.
     pub fn name(step: usize) -> String {
         FIGURES.get(step).map_or_else(|| "claims".to_owned(), |figure| format!("Figure {}", figure.number))
     }
@@ -126,7 +126,7 @@ impl Report {
         FigureForm::ALL.into_iter().map(file).collect()
     }
 
-    /// The claims with what is found.
+    /// The claims with their findings.
     pub fn judged(&self, results: &Results) -> Vec<Judged> {
         let subject = self.subject(results);
         claims()
@@ -149,7 +149,7 @@ fn file_name(figure: &PaperFigure, form: FigureForm) -> String {
     format!("figure{}.{}", figure.number, form.ending())
 }
 
-/// What is found as a table: a row for each number, rounded to the decimals that are stated.
+/// Findings as a table: a row for each number, rounded to the decimals that are stated.
 pub fn numbers(judged: &[Judged]) -> Table {
     let mut table =
         Table::new(["claim", "part", "paper", "verdict", "quantity", "sensor", "value", "unit", "accuracy"]);

@@ -68,12 +68,12 @@ pub struct Value {
     pub unit: &'static str,
 }
 
-/// Numbers that were found for a claim, and what they say of it.
+/// Numbers found for a claim, with the verdict.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Finding {
     /// The numbers.
     pub values: Vec<Value>,
-    /// What they say.
+    /// Verdict on the claim.
     pub verdict: Verdict,
 }
 
