@@ -10,6 +10,7 @@ mod meshes;
 mod notice;
 mod path_prompt;
 mod pictures;
+mod report;
 mod saving;
 mod startup;
 mod tour;
@@ -33,6 +34,7 @@ use crate::plot_item::PlotItem;
 use crate::profiler::Profiler;
 use crate::ranking::Ranking;
 use crate::render_service::RenderService;
+use crate::report::ReportJob;
 use crate::results::Results;
 use crate::theme;
 use crate::view::import::{ImportItem, ImportView};
@@ -70,6 +72,8 @@ pub struct ChromascopeApp {
     closing: closing::Closing,
     /// What the user had before the tour.
     interrupted: Option<tour::Interrupted>,
+    /// The report that is being made.
+    report: Background<ReportJob>,
     /// Picture of the window about the program.
     portrait: Background<PicturesQuery>,
     place: layout::WindowPlace,
@@ -123,6 +127,7 @@ impl ChromascopeApp {
             focus: None,
             closing: closing::Closing::default(),
             interrupted: None,
+            report: Background::on(executor, "report", repaint()),
             portrait: Background::on(executor, "portrait", repaint()),
             place: layout::WindowPlace::default(),
             ctx: ctx.clone(),
@@ -294,6 +299,7 @@ impl eframe::App for ChromascopeApp {
         self.take_opened();
         self.take_meshes();
         self.take_images();
+        self.take_report();
         self.take_input(ctx);
         focus::into_sight(ctx, &mut self.focus);
         self.carry_out(ctx);

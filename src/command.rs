@@ -9,9 +9,9 @@ use crate::document::imported::{Fingerprint, ImportOverrides};
 use crate::export::spectra::Form;
 use crate::plot_item::{PlotItem, SensorId};
 use crate::theme::Surround;
-use crate::view::ViewChoice;
 use crate::view::correction::CorrectionForm;
 use crate::view::import::ImportItem;
+use crate::view::{ReportOn, ViewChoice};
 use crate::workspaces::{PaneKind, Workspace};
 
 /// Something to do at the start of the next frame.
@@ -29,6 +29,10 @@ pub enum Command {
     OpenRecorded,
     /// Show the dialog for a folder of files to open.
     OpenFolder,
+    /// Show the dialog for the folder of a report.
+    Report(ReportOn),
+    /// Stop the report that is being made.
+    StopReport,
     /// Open a document in place of this one, which is saved first.
     OpenDocument(std::path::PathBuf),
     /// Delete a document that another window saved.
@@ -258,6 +262,12 @@ pub const THEMES: [(egui::ThemePreference, &str); 3] = [
     (egui::ThemePreference::System, "System"),
     (egui::ThemePreference::Dark, "Dark"),
     (egui::ThemePreference::Light, "Light"),
+];
+
+/// Subjects of reports as menus name them.
+pub const REPORTS: [(ReportOn, &str); 2] = [
+    (ReportOn::Paper, "With the paper's cameras and patches…"),
+    (ReportOn::Document, "With these cameras and patches…"),
 ];
 
 /// A key as it is written here.

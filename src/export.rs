@@ -1,6 +1,7 @@
 //! Figures out of the program: SVG and PDF from the figure, PNG from that SVG, all in the bundled fonts.
 
 pub mod card;
+pub mod form;
 pub mod paper;
 pub mod profile;
 pub mod render;
@@ -20,6 +21,7 @@ use tiff::encoder::{Compression, DeflateLevel, Rational, TiffEncoder, colortype:
 use tiff::tags::ResolutionUnit;
 
 use crate::theme::{self, Theme};
+pub use form::FigureForm;
 pub use paper::Paper;
 
 /// The longest side of a picture in pixels.

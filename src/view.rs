@@ -75,6 +75,8 @@ pub struct View {
     pub correction: CorrectionView,
     /// State of the Numerics workspace.
     pub accuracy: AccuracyView,
+    /// Subject of the report whose folder is asked for.
+    pub report_on: Option<ReportOn>,
     /// State of the Recorded pane.
     pub recorded: RecordedView,
     /// Plots show their own ranges again in this frame.
@@ -113,6 +115,15 @@ pub struct View {
     pub other_documents: Vec<(PathBuf, String)>,
     /// The last message.
     pub status: Status,
+}
+
+/// Subject of a report.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ReportOn {
+    /// The paper's cameras and patches.
+    Paper,
+    /// Cameras and patches of this document.
+    Document,
 }
 
 /// The part of the view that is saved between runs.

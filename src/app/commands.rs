@@ -39,6 +39,7 @@ impl ChromascopeApp {
                     self.view.recorded.corners.clear();
                     paths.first().into_iter().for_each(|path| self.recorded.open(path));
                 }
+                FileEvent::Open(paths) if self.view.report_on.is_some() => self.begin_report(&paths),
                 FileEvent::Open(paths) => self.open(paths.into_iter().map(Request::Path).collect()),
                 FileEvent::Changed(paths) => self.read_changed(&paths),
                 FileEvent::Said(message) => self.view.say(message),
@@ -73,11 +74,20 @@ impl ChromascopeApp {
             }
             Command::Open | Command::OpenRecorded => {
                 self.view.recorded.opening = command == Command::OpenRecorded;
+                self.view.report_on = None;
                 self.files.ask_to_open();
             }
             Command::OpenFolder => {
                 self.view.recorded.opening = false;
-                self.files.ask_for_folder();
+                self.view.report_on = None;
+                self.files.ask_for_folder("Open all spectra of a folder");
+            }
+            Command::Report(on) => {
+                self.view.report_on = Some(on);
+                self.files.ask_for_folder("Folder in which the report's own folder is made");
+            }
+            Command::StopReport => {
+                self.stop_report();
             }
             Command::OpenDocument(path) => self.files.open_document(&path, self.history.document().clone()),
             Command::RemoveDocument(path) => {
@@ -232,7 +242,11 @@ impl ChromascopeApp {
         if self.files.prompt_mut().take().is_some() {
             return;
         }
-        if std::mem::take(&mut self.view.keeps_escape) || self.stop_opening() || self.stop_reading() {
+        if std::mem::take(&mut self.view.keeps_escape)
+            || self.stop_opening()
+            || self.stop_reading()
+            || self.stop_report()
+        {
             return;
         }
         if self.profiler.busy().is_some() {

@@ -25,6 +25,7 @@ impl ChromascopeApp {
             recorded: &self.recorded,
             radiators: &self.radiators,
             portrait: &self.portrait,
+            report: &self.report,
             render_service: &mut self.render_service,
             profiler: &mut self.profiler,
             ranking: &mut self.ranking,

@@ -14,7 +14,7 @@ use super::identify::recorded_table;
 use super::outputs::{self, Stop};
 use super::request::Request;
 use crate::document::{Document, session};
-use crate::export::{self, paper::Paper};
+use crate::export::{FigureForm, Paper};
 use crate::figures::{FigureInput, strip};
 use crate::panes;
 use crate::results::Results;
@@ -22,33 +22,10 @@ use crate::scene::Scene;
 use crate::scene::conditions::CONDITIONS;
 use crate::view::View;
 
-/// Form of a figure's file.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Form {
-    Pdf,
-    Svg,
-    Png,
-    Tiff,
-    Csv,
-}
-
-impl Form {
-    fn of(path: &Path) -> Option<Self> {
-        match path.extension()?.to_str()?.to_ascii_lowercase().as_str() {
-            "pdf" => Some(Self::Pdf),
-            "svg" => Some(Self::Svg),
-            "png" => Some(Self::Png),
-            "tif" | "tiff" => Some(Self::Tiff),
-            "csv" => Some(Self::Csv),
-            _ => None,
-        }
-    }
-}
-
 /// Draws a figure and writes it.
 pub(super) fn run(arguments: &FigureArguments, matches: &ArgMatches) -> Result<(), CliError> {
     let out = arguments.common.out.as_deref();
-    let form = out.and_then(Form::of).ok_or_else(|| {
+    let form = out.and_then(FigureForm::of).ok_or_else(|| {
         let reason = "a file that ends in .pdf, .svg, .png, .tif or .csv is needed".to_owned();
         CliError::Argument { argument: "--out", reason }
     })?;
@@ -114,13 +91,14 @@ pub(super) fn run(arguments: &FigureArguments, matches: &ArgMatches) -> Result<(
         CliError::Argument { argument: "KIND", reason }
     })?;
     check_height(&figure, &paper, form)?;
-    let bytes = bytes(&scene, &figure, &paper, form)?;
+    let cells: Vec<_> = CONDITIONS.into_iter().zip(scene.conditions()).collect();
+    let bytes = form.bytes(&figure, &figure.table.clone().with_constants(&cells), &paper)?;
     outputs::stream(out, |out| out.write_all(&bytes).map_err(Stop::Output))
 }
 
 /// Refuses a height that a figure cannot take, because its rows or pictures have theirs.
-fn check_height(figure: &Figure, paper: &Paper, form: Form) -> Result<(), CliError> {
-    let Some(wanted) = paper.height_mm.filter(|_| form != Form::Csv) else { return Ok(()) };
+fn check_height(figure: &Figure, paper: &Paper, form: FigureForm) -> Result<(), CliError> {
+    let Some(wanted) = paper.height_mm.filter(|_| form != FigureForm::Csv) else { return Ok(()) };
     let height = Page::new(figure, &paper.page_style()).area.height() * paper.scale() / 72.0 * 25.4;
     if (height - wanted).abs() < 1.0 {
         return Ok(());
@@ -133,21 +111,4 @@ fn opened(request: &mut Request, path: &Path) -> Result<Document, CliError> {
     let failed = |reason: String| CliError::File(format!("{}: {reason}", super::request::display_path(path)));
     let text = String::from_utf8(request.bytes(path)?).map_err(|_| failed("it is not text".to_owned()))?;
     session::from_json(&text).map_err(|error| failed(error.to_string()))
-}
-
-fn bytes(scene: &Scene<'_>, figure: &Figure, paper: &Paper, form: Form) -> Result<Vec<u8>, CliError> {
-    let theme = paper.theme();
-    match form {
-        Form::Pdf => Ok(export::pdf(figure, &theme, *paper)?),
-        Form::Svg => Ok(export::svg(figure, &theme, *paper).into_bytes()),
-        Form::Png | Form::Tiff => {
-            let picture = export::png(&export::svg(figure, &theme, *paper), (paper.dpi / 72.0) as f32)?;
-            let file = if form == Form::Png { export::png_file_at } else { export::tiff_file_at };
-            Ok(file(&picture, paper.dpi)?)
-        }
-        Form::Csv => {
-            let cells: Vec<_> = CONDITIONS.into_iter().zip(scene.conditions()).collect();
-            Ok(figure.table.clone().with_constants(&cells).to_csv().into_bytes())
-        }
-    }
 }

@@ -19,6 +19,7 @@ use crate::profiler::plans::PlanAnswer;
 use crate::profiler::{Profiler, SceneRunJob};
 use crate::ranking::Ranking;
 use crate::render_service::RenderService;
+use crate::report::ReportJob;
 use crate::results::Count;
 use crate::scene::Scene;
 use crate::theme::Theme;
@@ -60,6 +61,8 @@ pub struct PaneContext<'a> {
     pub images: &'a ImageStore,
     /// The spectral files that were opened.
     pub opened: &'a Opened,
+    /// The report that is being made.
+    pub report: &'a Background<ReportJob>,
     /// The file of recorded raw values.
     pub recorded: &'a RecordedStore,
     /// Finds the nearest blackbody of a color, on demand.

@@ -5,7 +5,7 @@ use egui::{Align, Atom, Button, Layout, Rect, RichText, Ui, UiBuilder, Vec2};
 use super::context::{Pane, PaneContext};
 use crate::action::history::History;
 use crate::action::{Action, SceneAction};
-use crate::command::{Command, Format, THEMES, TourMove, shortcut_of};
+use crate::command::{Command, Format, REPORTS, THEMES, TourMove, shortcut_of};
 use crate::document::start::Start;
 use crate::panes::widgets::{Icon, icon_button, pick_list};
 use crate::theme::{Surround, UNIT};
@@ -152,6 +152,11 @@ fn file(ui: &mut Ui, context: &mut PaneContext<'_>) {
     item(ui, &format!("Export {} as SVG…", context.title(pane)), Command::Export(pane, Format::Svg), context);
     item(ui, &format!("Export {} as PNG…", context.title(pane)), Command::Export(pane, Format::Png), context);
     item(ui, &format!("Export numbers of {}…", context.title(pane)), Command::Export(pane, Format::Csv), context);
+    ui.menu_button("Report on the paper", |ui| {
+        for (on, words) in REPORTS {
+            item(ui, words, Command::Report(on), context);
+        }
+    });
     ui.separator();
     if ui.add(Button::new("Quit").shortcut_text("Ctrl+Q")).clicked() {
         context.push(Command::Quit);

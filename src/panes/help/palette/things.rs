@@ -4,7 +4,7 @@ use super::{Found, IN_HELP};
 use crate::action::history::History;
 use crate::action::{Action, CompareAction, RenderAction, SceneAction};
 use crate::catalog::Entry;
-use crate::command::{Command, Format, TourMove, key_bindings, key_name};
+use crate::command::{Command, Format, REPORTS, TourMove, key_bindings, key_name};
 use crate::document::start::Start;
 use crate::document::{LOCUS_RANGE_K, Light, SetKind, WhiteBalanceChoice};
 use crate::help;
@@ -114,6 +114,10 @@ pub(super) fn saves(context: &PaneContext<'_>) -> Vec<Found> {
             found
                 .push(Found::new("Save", words, Command::Export(pane.kind, format)).also("export figure picture file"));
         }
+    }
+    for (on, words) in REPORTS {
+        let words = format!("Report on the paper: {}", words.to_lowercase());
+        found.push(Found::new("Save", words, Command::Report(on)).also("figures claims export pdf html"));
     }
     for form in CorrectionForm::ALL.into_iter().filter(|_| context.view.correction.shown.is_some()) {
         let (words, hint) = form.words();
