@@ -9,9 +9,9 @@ use crate::document::imported::{Fingerprint, ImportOverrides};
 use crate::export::spectra::Form;
 use crate::plot_item::{PlotItem, SensorId};
 use crate::theme::Surround;
-use crate::view::{ReportOn, ViewChoice};
 use crate::view::correction::CorrectionForm;
 use crate::view::import::ImportItem;
+use crate::view::{ReportOn, ViewChoice};
 use crate::workspaces::{PaneKind, Workspace};
 
 /// Something to do at the start of the next frame.

@@ -67,7 +67,8 @@ fn falloff(subject: &Subject<'_>) -> Result<Finding, SceneError> {
     let size = RasterSize { width: SIDE, height: SIDE, samples: 1 };
     let visibility = VisibilityQuery { mesh: MeshQuery::Plane, viewpoint, size };
     let lighting = Lighting::from_angles(0.0, 0.0, 0.0)?;
-    let image = subject.results.ask(&GeometryQuery { visibility, lighting, shadows: Shadows::Off, reach: Reach::default() });
+    let image =
+        subject.results.ask(&GeometryQuery { visibility, lighting, shadows: Shadows::Off, reach: Reach::default() });
     let falloffs = (*image).iter().flat_map(|image| image.angles()).map(|angles| f64::from(angles.falloff));
     let corner = falloffs.reduce(f64::min).unwrap_or(f64::NAN);
     // The middle of the corner's pixel.
