@@ -190,7 +190,7 @@ fn begin(executor: &Executor, window: &mut Window) {
     window.state_mut().push(Command::Report(ReportOn::Paper));
     until("the first figure", || {
         window.step();
-        if executor.run_one("report") { Ok(()) } else { Err("no report is made") }
+        if executor.run_one("report") { Ok(()) } else { Err("no report is made".to_owned()) }
     });
 }
 
