@@ -5,6 +5,7 @@ mod made;
 
 use std::path::Path;
 
+use chromascope_core::query::RecordedSet;
 use chromascope_figure::{Figure, Page};
 use clap::ArgMatches;
 
@@ -30,42 +31,8 @@ pub(super) fn run(arguments: &FigureArguments, matches: &ArgMatches) -> Result<(
         CliError::Argument { argument: "--out", reason }
     })?;
     let mut request = Request::new(&arguments.common, matches)?;
-    request.set_chart(arguments.chart.as_deref())?;
-    if let Some(light) = &arguments.second_light {
-        request.set_second_light(light)?;
-    }
-    let mut inputs = request.inputs();
-    let document = match &arguments.session {
-        None => {
-            let Request { document, sources, .. } = &mut request;
-            for (kind, name) in sources.iter() {
-                document.compare(name, *kind);
-            }
-            document.clone()
-        }
-        Some(path) => {
-            inputs.push(path.clone());
-            opened(&mut request, path)?
-        }
-    };
-    request.document = document;
-    let recorded = match (&arguments.file, arguments.kind) {
-        (Some(path), FigureKind::Recorded) => Some(recorded_table(&mut request, path)?),
-        (Some(path), FigureKind::Curves) => {
-            made::open_curves(&mut request, path)?;
-            None
-        }
-        (Some(_), _) => {
-            let reason = "only `curves` and `recorded` are of a file".to_owned();
-            return Err(CliError::Argument { argument: "FILE", reason });
-        }
-        (None, _) => None,
-    };
-    if let Some(mesh) = &arguments.mesh {
-        made::set_mesh(&mut request.document, mesh)?;
-    }
-    inputs.extend(request.inputs());
-    outputs::check(out, &inputs, arguments.common.force)?;
+    let recorded = prepare(&mut request, arguments)?;
+    outputs::check(out, &request.inputs(), arguments.common.force)?;
     let results = Results::default();
     let scene = Scene { document: &request.document, catalog: &request.catalog, results: &results };
     let paper = arguments.paper.paper();
@@ -94,6 +61,34 @@ pub(super) fn run(arguments: &FigureArguments, matches: &ArgMatches) -> Result<(
     let cells: Vec<_> = CONDITIONS.into_iter().zip(scene.conditions()).collect();
     let bytes = form.bytes(&figure, &figure.table.clone().with_constants(&cells), &paper)?;
     outputs::stream(out, |out| out.write_all(&bytes).map_err(Stop::Output))
+}
+
+/// Completes the document: the session or the sensors compared, a file's content, the mesh. Returns recorded raw values.
+fn prepare(request: &mut Request, arguments: &FigureArguments) -> Result<Option<RecordedSet>, CliError> {
+    request.set_chart(arguments.chart.as_deref())?;
+    if let Some(light) = &arguments.second_light {
+        request.set_second_light(light)?;
+    }
+    if let Some(path) = &arguments.session {
+        request.document = opened(request, path)?;
+    } else {
+        let Request { document, sources, .. } = request;
+        for (kind, name) in sources.iter() {
+            document.compare(name, *kind);
+        }
+    }
+    if let Some(mesh) = &arguments.mesh {
+        made::set_mesh(&mut request.document, mesh)?;
+    }
+    match (&arguments.file, arguments.kind) {
+        (None, _) => Ok(None),
+        (Some(path), FigureKind::Recorded) => recorded_table(request, path).map(Some),
+        (Some(path), FigureKind::Curves) => made::open_curves(request, path).map(|()| None),
+        (Some(_), _) => {
+            let reason = "only `curves` and `recorded` are of a file".to_owned();
+            Err(CliError::Argument { argument: "FILE", reason })
+        }
+    }
 }
 
 /// Refuses a height that a figure cannot take, because its rows or pictures have theirs.
