@@ -1,23 +1,26 @@
 //! Figures for paper as PDF, SVG, PNG, or the numbers behind them.
 
 pub(super) mod arguments;
+mod made;
 
 use std::path::Path;
 
-use chromascope_figure::{Figure, FigureRoom};
+use chromascope_figure::{Figure, Page};
 use clap::ArgMatches;
 
-use self::arguments::{FigureArguments, FigureKind, RangeName};
+use self::arguments::{FigureArguments, FigureKind, Range};
 use super::error::CliError;
+use super::identify::recorded_table;
 use super::outputs::{self, Stop};
 use super::request::Request;
 use crate::document::{Document, session};
 use crate::export::{self, paper::Paper};
-use crate::figures::{FigureInput, chromaticity, light, metrics, report_card, spectra, swatches};
+use crate::figures::{FigureInput, strip};
+use crate::panes;
 use crate::results::Results;
 use crate::scene::Scene;
 use crate::scene::conditions::CONDITIONS;
-use crate::view::{DiagramFit, View};
+use crate::view::View;
 
 /// Form of a figure's file.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -63,40 +66,68 @@ pub(super) fn run(arguments: &FigureArguments, matches: &ArgMatches) -> Result<(
             opened(&mut request, path)?
         }
     };
+    request.document = document;
+    let recorded = match (&arguments.file, arguments.kind) {
+        (Some(path), FigureKind::Recorded) => Some(recorded_table(&mut request, path)?),
+        (Some(path), FigureKind::Curves) => {
+            made::open_curves(&mut request, path)?;
+            None
+        }
+        (Some(_), _) => {
+            let reason = "only `curves` and `recorded` are of a file".to_owned();
+            return Err(CliError::Argument { argument: "FILE", reason });
+        }
+        (None, _) => None,
+    };
+    if let Some(mesh) = &arguments.mesh {
+        made::set_mesh(&mut request.document, mesh)?;
+    }
+    inputs.extend(request.inputs());
     outputs::check(out, &inputs, arguments.common.force)?;
     let results = Results::default();
-    let scene = Scene { document: &document, catalog: &request.catalog, results: &results };
+    let scene = Scene { document: &request.document, catalog: &request.catalog, results: &results };
     let paper = arguments.paper.paper();
-    let full = arguments.paper.range == RangeName::Full;
-    let make = |room| figure(arguments.kind, &scene, room, full);
-    let figure = paper.laid_out(make).ok_or_else(|| {
+    let mut view = View::default();
+    if let Range::Of(ranges) = arguments.paper.range {
+        view.diagram.zoomed = Some(ranges);
+    }
+    let made = made::Made::new(arguments.kind, &scene, &mut view, (&paper, recorded))?;
+    let figure = paper.laid_out(|room| {
+        view.room = room;
+        let input = FigureInput {
+            pictures: made.pictures.as_ref(),
+            measured: &made.measured,
+            ..FigureInput::new(&scene, &view)
+        };
+        match arguments.kind.pane() {
+            Some(pane) => panes::figure(pane, &input),
+            None => strip::figure(&scene, &view),
+        }
+    });
+    let figure = figure.ok_or_else(|| {
         let reason = "there is nothing to draw: no camera is compared, or it cannot be computed".to_owned();
         CliError::Argument { argument: "KIND", reason }
     })?;
+    check_height(&figure, &paper, form)?;
     let bytes = bytes(&scene, &figure, &paper, form)?;
     outputs::stream(out, |out| out.write_all(&bytes).map_err(Stop::Output))
+}
+
+/// Refuses a height that a figure cannot take, because its rows or pictures have theirs.
+fn check_height(figure: &Figure, paper: &Paper, form: Form) -> Result<(), CliError> {
+    let Some(wanted) = paper.height_mm.filter(|_| form != Form::Csv) else { return Ok(()) };
+    let height = Page::new(figure, &paper.page_style()).area.height() * paper.scale() / 72.0 * 25.4;
+    if (height - wanted).abs() < 1.0 {
+        return Ok(());
+    }
+    let reason = format!("at this width and size of text the figure is {height:.0} mm high; leave --height out");
+    Err(CliError::Argument { argument: "--height", reason })
 }
 
 fn opened(request: &mut Request, path: &Path) -> Result<Document, CliError> {
     let failed = |reason: String| CliError::File(format!("{}: {reason}", super::request::told(path)));
     let text = String::from_utf8(request.bytes(path)?).map_err(|_| failed("it is not text".to_owned()))?;
     session::from_json(&text).map_err(|error| failed(error.to_string()))
-}
-
-fn figure(kind: FigureKind, scene: &Scene<'_>, room: FigureRoom, full: bool) -> Option<Figure> {
-    let mut view = View { room, ..View::default() };
-    if full {
-        view.saved.diagram_fit = DiagramFit::Whole;
-    }
-    let input = FigureInput::new(scene, &view);
-    match kind {
-        FigureKind::Chromaticity => Some(chromaticity::figure(scene, &view)),
-        FigureKind::Spectra => Some(spectra::figure(scene, &view)),
-        FigureKind::Swatches => Some(swatches::figure(scene, &view)),
-        FigureKind::Light => light::figure(scene, &view),
-        FigureKind::Metrics => metrics::figure(&input),
-        FigureKind::ReportCard => report_card::figure(&input),
-    }
 }
 
 fn bytes(scene: &Scene<'_>, figure: &Figure, paper: &Paper, form: Form) -> Result<Vec<u8>, CliError> {

@@ -1,7 +1,6 @@
 //! Figures laid out for paper: size, text, lines, inks, legend.
 
-use chromascope_figure::{AxisTitles, Figure, FigureRoom, LegendPlace, Page, PageStyle, TextSize};
-
+use chromascope_figure::{AxisRanges, AxisTitles, Figure, FigureRoom, LegendPlace, Numbers, Page, PageStyle, TextSize};
 use serde::{Deserialize, Serialize};
 
 use crate::theme::{SourceInks, Theme};
@@ -42,6 +41,10 @@ pub struct Paper {
     pub caption: bool,
     /// True if the chromaticity diagram has its strip below.
     pub strip: bool,
+    /// Ranges of the axes of the chromaticity diagram.
+    pub ranges: AxisRanges,
+    /// Extent of the numbers written as CSV.
+    pub numbers: Numbers,
     /// Resolution of pixels.
     pub dpi: f64,
 }
@@ -59,6 +62,8 @@ impl Default for Paper {
             axis_titles: AxisTitles::default(),
             caption: true,
             strip: true,
+            ranges: AxisRanges::default(),
+            numbers: Numbers::default(),
             dpi: 300.0,
         }
     }
@@ -100,12 +105,18 @@ impl Paper {
         theme.with_inks(self.inks)
     }
 
+    /// Points on paper for each point of a figure laid out.
+    pub fn scale(&self) -> f64 {
+        self.font_pt.max(0.1) / f64::from(TextSize::Body.points())
+    }
+
     /// A figure laid out for this paper, so that its text has the size wanted there. `make` makes it for a room.
     pub fn laid_out(&self, mut make: impl FnMut(FigureRoom) -> Option<Figure>) -> Option<Figure> {
         // Text is laid out in its size on screen, and the page scaled.
-        let points = |mm: f64| mm / 25.4 * 72.0 * f64::from(TextSize::Body.points()) / self.font_pt.max(0.1);
+        let points = |mm: f64| mm / 25.4 * 72.0 / self.scale();
         let mut make = |room| make(room).map(|figure| self.dressed(figure));
-        let mut room = FigureRoom { strip: self.strip, ..FigureRoom::default() };
+        let mut room =
+            FigureRoom { strip: self.strip, ranges: self.ranges, numbers: self.numbers, ..FigureRoom::default() };
         let Some(width) = self.width_mm.map(points) else { return make(room) };
         room.width = Some(width);
         let mut figure = make(room)?;

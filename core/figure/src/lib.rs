@@ -31,6 +31,6 @@ pub use page::{AxisTitles, Page, PageStyle};
 pub use panel::{LegendEntry, LegendPlace, Panel};
 pub use projection::{Projection, fit_equal};
 pub use rect::Rect;
-pub use room::FigureRoom;
+pub use room::{AxisRanges, FigureRoom, Numbers};
 pub use table::{Cell, Table};
 pub use text::{text_width, wrapped};

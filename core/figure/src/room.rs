@@ -1,5 +1,27 @@
 //! Room for a figure on paper.
 
+/// Ranges of the axes of a saved figure.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub enum AxisRanges {
+    /// Those on screen, zoomed or not.
+    #[default]
+    Screen,
+    /// The whole diagram.
+    Full,
+}
+
+/// Extent of the numbers written with a figure.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub enum Numbers {
+    /// Everything that the figure is made from.
+    #[default]
+    All,
+    /// Only what its axes and panels show.
+    Visible,
+}
+
 /// Size that a saved figure is laid out for, in points, and what it leaves out.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FigureRoom {
@@ -9,11 +31,15 @@ pub struct FigureRoom {
     pub height: Option<f64>,
     /// True if the chromaticity diagram has its strip below.
     pub strip: bool,
+    /// Ranges of the axes.
+    pub ranges: AxisRanges,
+    /// Extent of the numbers.
+    pub numbers: Numbers,
 }
 
 impl Default for FigureRoom {
     fn default() -> Self {
-        Self { width: None, height: None, strip: true }
+        Self { width: None, height: None, strip: true, ranges: AxisRanges::Screen, numbers: Numbers::All }
     }
 }
 

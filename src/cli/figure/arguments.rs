@@ -3,18 +3,21 @@
 use std::ffi::OsString;
 use std::path::PathBuf;
 
-use chromascope_figure::{AxisTitles, LegendPlace};
+use chromascope_figure::{AxisRanges, AxisTitles, LegendPlace, Numbers};
 use clap::{Args, ValueEnum};
 
 use crate::cli::sources::CommonArguments;
 use crate::export::paper::{Paper, PaperStyle};
 use crate::theme::SourceInks;
+use crate::view::diagram::Ranges;
+use crate::workspaces::PaneKind;
 
 pub(in crate::cli) const EXAMPLES: &str = "Examples:
   chromascope figure chromaticity --preset paper --width 85mm --font-size 8 --out figure3.pdf
   chromascope figure spectra --camera \"Nikon D70\" --width 174mm --style print --out spectra.svg
   chromascope figure swatches --session work.json --width 3.35in --dpi 600 --out swatches.png
-  chromascope figure chromaticity --out points.csv
+  chromascope figure render --mesh fern --width 174mm --out figure8.pdf
+  chromascope figure chromaticity --range 0.3,0.5,0.3,0.42 --numbers visible --out points.csv
 
 The ending of the file decides its form: .pdf, .svg, .png or .csv, the numbers behind the figure. Text keeps its size
 whatever the width: the figure is laid out for it. In a PDF text can be searched, and its fonts are embedded.";
@@ -25,6 +28,8 @@ pub(in crate::cli) struct FigureArguments {
     /// The figure
     #[arg(value_enum)]
     pub(super) kind: FigureKind,
+    /// A file with curves for `curves`, or with raw values of patches for `recorded`
+    pub(super) file: Option<PathBuf>,
     #[command(flatten)]
     pub(super) common: CommonArguments,
     /// A saved document, in place of sensors, reference, illuminant and patches
@@ -34,25 +39,68 @@ pub(in crate::cli) struct FigureArguments {
     /// A chart, a material, or a file with reflectances [default: the preset's]
     #[arg(long, value_name = "NAME|FILE")]
     pub(super) chart: Option<OsString>,
+    /// What is rendered: head, fern, sphere, plane, or an OBJ, PLY or STL file [default: the head, or the session's]
+    #[arg(long, value_name = "MESH")]
+    pub(super) mesh: Option<OsString>,
     #[command(flatten)]
     pub(super) paper: PaperArguments,
 }
 
-/// Figures without a window.
+/// Figures: those of the window's panes, and parts of them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(super) enum FigureKind {
     /// The chromaticity diagram with loci and patches
     Chromaticity,
+    /// Distance of each locus to the reference's over temperature
+    Strip,
     /// Light, patches and sensitivities over wavelength
     Spectra,
     /// Patches as each sensor renders them
     Swatches,
     /// Color rendering of the light
     Light,
+    /// Pictures of a mesh or spectral image through each sensor
+    Render,
+    /// Maps of the pictures' differences from the reference
+    Difference,
     /// Cameras ranked by their first figure of merit
     Metrics,
+    /// All figures of merit of two cameras
+    HeadToHead,
     /// All figures of merit of one camera
     ReportCard,
+    /// Error of a correction between its two lights; needs a session with a second light
+    Correction,
+    /// Curves of a file
+    Curves,
+    /// Residuals of the camera nearest to recorded raw values
+    Recorded,
+    /// Run time of each method against its error, measured now
+    Methods,
+    /// Time saved by skipped work, measured now
+    WorkSaved,
+}
+
+impl FigureKind {
+    /// The pane whose figure it is; none for a part of one.
+    pub(super) const fn pane(self) -> Option<PaneKind> {
+        Some(match self {
+            Self::Chromaticity => PaneKind::CHROMATICITY,
+            Self::Strip => return None,
+            Self::Spectra => PaneKind::SPECTRA,
+            Self::Swatches => PaneKind::SWATCHES,
+            Self::Light => PaneKind::LIGHT,
+            Self::Render | Self::Difference => PaneKind::RENDER,
+            Self::Metrics => PaneKind::METRICS,
+            Self::HeadToHead => PaneKind::HEAD_TO_HEAD,
+            Self::ReportCard => PaneKind::REPORT_CARD,
+            Self::Correction => PaneKind::CORRECTION,
+            Self::Curves => PaneKind::CURVES,
+            Self::Recorded => PaneKind::RECORDED,
+            Self::Methods => PaneKind::METHODS,
+            Self::WorkSaved => PaneKind::WORK_SAVED,
+        })
+    }
 }
 
 const PAPER: &str = "Paper";
@@ -87,9 +135,12 @@ pub(super) struct PaperArguments {
     /// Place of the titles of the axes
     #[arg(long, value_enum, default_value_t = TitlesName::Inside, help_heading = PAPER)]
     axis_titles: TitlesName,
-    /// Ranges of the chromaticity diagram
-    #[arg(long, value_enum, default_value_t = RangeName::Data, help_heading = PAPER)]
-    pub(super) range: RangeName,
+    /// Ranges of the chromaticity diagram: `data`, `full`, or X0,X1,Y0,Y1
+    #[arg(long, value_name = "RANGE", default_value = "data", value_parser = range, help_heading = PAPER)]
+    pub(super) range: Range,
+    /// Numbers of a CSV: all, or those of what the figure shows
+    #[arg(long, value_enum, default_value_t = NumbersName::All, help_heading = PAPER)]
+    numbers: NumbersName,
     /// Leaves the caption with the conditions out
     #[arg(long, help_heading = PAPER)]
     no_caption: bool,
@@ -123,6 +174,11 @@ impl PaperArguments {
             },
             caption: !self.no_caption,
             strip: !self.no_strip,
+            ranges: if self.range == Range::Full { AxisRanges::Full } else { AxisRanges::Screen },
+            numbers: match self.numbers {
+                NumbersName::All => Numbers::All,
+                NumbersName::Visible => Numbers::Visible,
+            },
             dpi: self.dpi,
         }
     }
@@ -188,13 +244,38 @@ enum TitlesName {
     None,
 }
 
-/// Ranges of the chromaticity diagram.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(super) enum RangeName {
-    /// Those of the data
+enum NumbersName {
+    /// Everything that the figure is made from
+    All,
+    /// Only points within the axes, and curves that are drawn
+    Visible,
+}
+
+/// Ranges of the chromaticity diagram.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Range {
+    /// Those of the data.
     Data,
-    /// The whole diagram
+    /// The whole diagram.
     Full,
+    /// These.
+    Of(Ranges),
+}
+
+fn range(text: &str) -> Result<Range, String> {
+    match text.trim() {
+        "data" => return Ok(Range::Data),
+        "full" => return Ok(Range::Full),
+        _ => {}
+    }
+    let numbers: Result<Vec<f64>, _> = text.split(',').map(|number| number.trim().parse::<f64>()).collect();
+    match numbers.as_deref() {
+        Ok(&[x0, x1, y0, y1]) if x1 - x0 > 1e-6 && y1 - y0 > 1e-6 && x1 - x0 < 10.0 && y1 - y0 < 10.0 => {
+            Ok(Range::Of([[x0, x1], [y0, y1]]))
+        }
+        _ => Err("expected data, full, or the ends of x and y in ascending order, such as 0.3,0.5,0.3,0.4".to_owned()),
+    }
 }
 
 /// A length in millimeters; the unit is required.

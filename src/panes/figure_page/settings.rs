@@ -1,6 +1,6 @@
 //! Settings of the paper, and what to do with the page.
 
-use chromascope_figure::{AxisTitles, LegendPlace};
+use chromascope_figure::{AxisRanges, AxisTitles, LegendPlace, Numbers};
 use egui::{ComboBox, DragValue, Rect, Response, ScrollArea, Ui, WidgetInfo};
 
 use super::{inside, small};
@@ -10,7 +10,7 @@ use crate::export::page::PageFacts;
 use crate::export::paper::PaperStyle;
 use crate::panes::context::PaneContext;
 use crate::panes::widgets;
-use crate::theme::{SourceInks, UNIT};
+use crate::theme::{ROW, SourceInks, UNIT};
 use crate::view::page::{LengthUnit, PageLook};
 use crate::workspaces::PaneKind;
 
@@ -28,6 +28,14 @@ const TITLES: [(AxisTitles, &str, &str); 3] = [
     (AxisTitles::Outside, "Outside", "Along the axes"),
     (AxisTitles::None, "None", "No titles"),
 ];
+const RANGES: [(AxisRanges, &str, &str); 2] = [
+    (AxisRanges::Screen, "As on screen", "Zoomed or not"),
+    (AxisRanges::Full, "Full", "The whole diagram, the data enlarged where there is room"),
+];
+const NUMBERS: [(Numbers, &str, &str); 2] = [
+    (Numbers::All, "All", "All numbers that the figure is made from"),
+    (Numbers::Visible, "Visible", "Only those of points inside the axes"),
+];
 const LEGENDS: [(Option<LegendPlace>, &str); 8] = [
     (None, "Automatic"),
     (Some(LegendPlace::Outside), "Beside"),
@@ -38,6 +46,8 @@ const LEGENDS: [(Option<LegendPlace>, &str); 8] = [
     (Some(LegendPlace::LowerLeft), "Lower left"),
     (Some(LegendPlace::None), "None"),
 ];
+/// Width of names before controls.
+const NAMES: f32 = 72.0;
 /// Widths of a journal's columns.
 const WIDTHS: [(f64, &str); 2] =
     [(Paper::ONE_COLUMN_MM, "One column, 85 mm"), (Paper::TWO_COLUMNS_MM, "Two columns, 174 mm")];
@@ -75,21 +85,18 @@ pub(super) fn show(
 
 /// Size of page, text and lines, and the resolution of pixels.
 fn size(ui: &mut Ui, look: &mut PageLook, facts: Option<PageFacts>, context: &mut PaneContext<'_>) {
-    ui.label(small("Size", context));
     let paper = &mut look.paper;
     let preset = WIDTHS.iter().find(|(mm, _)| paper.width_mm == Some(*mm) && paper.height_mm.is_none());
     let shown = preset.map_or("Own size", |(_, words)| words);
-    let combo = ComboBox::from_id_salt("page size").width(180.0).selected_text(shown).show_ui(ui, |ui| {
+    let combo = drop_down(ui, "Size", shown, context, |ui| {
         for (mm, words) in WIDTHS {
             if ui.selectable_label(shown == words, words).clicked() {
                 (paper.width_mm, paper.height_mm) = (Some(mm), None);
             }
         }
     });
-    named(&combo.response, "Size", shown);
-    if context.view.tab_enters {
-        context.view.tab_enters = false;
-        combo.response.request_focus();
+    if std::mem::take(&mut context.view.tab_enters) {
+        combo.request_focus();
     }
     let size = facts.map_or([Paper::ONE_COLUMN_MM; 2], |facts| facts.size_mm());
     ui.horizontal(|ui| {
@@ -120,13 +127,13 @@ fn size(ui: &mut Ui, look: &mut PageLook, facts: Option<PageFacts>, context: &mu
     });
 }
 
-/// Style, legend, titles and what is left out.
+/// Style, legend, axes and what is left out.
 fn dress(ui: &mut Ui, paper: &mut Paper, kind: PaneKind, context: &PaneContext<'_>) {
+    let is_diagram = kind == PaneKind::CHROMATICITY;
     choice(ui, "Style", &STYLES, &mut paper.style, context);
-    choice(ui, "Colors of sensors", &INKS, &mut paper.inks, context);
-    ui.label(small("Legend", context));
+    choice(ui, "Colors", &INKS, &mut paper.inks, context);
     let shown = LEGENDS.iter().find(|(place, _)| *place == paper.legend).map_or("", |(_, words)| words);
-    let combo = ComboBox::from_id_salt("page legend").width(180.0).selected_text(shown).show_ui(ui, |ui| {
+    drop_down(ui, "Legend", shown, context, |ui| {
         for (place, words) in LEGENDS {
             let line = ui.selectable_value(&mut paper.legend, place, words);
             if place.is_none() {
@@ -134,10 +141,10 @@ fn dress(ui: &mut Ui, paper: &mut Paper, kind: PaneKind, context: &PaneContext<'
             }
         }
     });
-    named(&combo.response, "Legend", shown);
     choice(ui, "Axis titles", &TITLES, &mut paper.axis_titles, context);
-    ui.add_space(UNIT);
-    if kind == PaneKind::CHROMATICITY {
+    if is_diagram {
+        choice(ui, "Axis ranges", &RANGES, &mut paper.ranges, context);
+        choice(ui, "Numbers", &NUMBERS, &mut paper.numbers, context);
         ui.checkbox(&mut paper.strip, "Strip of distances below the diagram");
     }
     ui.checkbox(&mut paper.caption, "Caption with the conditions");
@@ -182,7 +189,17 @@ fn in_words(facts: &PageFacts) -> String {
     words
 }
 
-/// A switch below its name.
+/// A control behind its name.
+fn row<R>(ui: &mut Ui, name: &str, context: &PaneContext<'_>, control: impl FnOnce(&mut Ui) -> R) -> R {
+    ui.horizontal(|ui| {
+        let (place, _) = ui.allocate_exact_size(egui::vec2(NAMES, ROW), egui::Sense::hover());
+        widgets::lines::elided(ui, place, name, egui::TextStyle::Small, context.theme.weak);
+        control(ui)
+    })
+    .inner
+}
+
+/// A switch behind its name.
 fn choice<T: Copy + PartialEq>(
     ui: &mut Ui,
     name: &str,
@@ -190,12 +207,19 @@ fn choice<T: Copy + PartialEq>(
     now: &mut T,
     context: &PaneContext<'_>,
 ) {
-    ui.label(small(name, context));
-    ui.horizontal(|ui| {
-        if let Some(to) = widgets::segmented(ui, choices, *now) {
-            *now = to;
-        }
-    });
+    if let Some(to) = row(ui, name, context, |ui| widgets::segmented(ui, choices, *now)) {
+        *now = to;
+    }
+}
+
+/// A list that drops down, behind its name.
+fn drop_down(ui: &mut Ui, name: &str, shown: &str, context: &PaneContext<'_>, lines: impl FnOnce(&mut Ui)) -> Response {
+    row(ui, name, context, |ui| {
+        let combo = ComboBox::from_id_salt(name).width(168.0).selected_text(shown).show_ui(ui, lines);
+        let said = format!("{name}: {shown}");
+        combo.response.widget_info(|| WidgetInfo::labeled(egui::Role::ComboBox, true, &said));
+        combo.response
+    })
 }
 
 /// The field of a length, behind its name. Returns true if it was changed.
@@ -233,8 +257,4 @@ fn number(ui: &mut Ui, name: &str, value: &mut f64, ([low, high], speed, suffix)
 /// A number with two decimals at most.
 fn short(value: f64) -> String {
     format!("{}", (100.0 * value).round() / 100.0)
-}
-
-fn named(combo: &Response, name: &str, shown: &str) {
-    combo.widget_info(|| WidgetInfo::labeled(egui::Role::ComboBox, true, format!("{name}: {shown}")));
 }

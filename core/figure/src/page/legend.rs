@@ -12,35 +12,68 @@ use crate::text::text_width;
 const ROW: f64 = 20.0;
 const KEY: f64 = 28.0;
 const PAD: f64 = 8.0;
+/// Most columns below a figure.
+const MOST_COLUMNS: usize = 6;
 /// Distance from the figure.
 const GAP: f64 = 12.0;
 
-/// Width of the widest entry.
-fn widest(entries: &[LegendEntry]) -> f64 {
-    let widest = entries.iter().map(|entry| text_width(&entry.name, TextSize::Body)).fold(0.0, f64::max);
-    3.0 * PAD + KEY + widest
+/// Columns of a legend with the size of its text.
+#[derive(Clone, PartialEq, Debug)]
+struct Columns {
+    widths: Vec<f64>,
+    size: TextSize,
 }
 
-/// Size of a legend in a number of columns.
-fn size(entries: &[LegendEntry], columns: usize) -> [f64; 2] {
-    let rows = entries.len().div_ceil(columns);
-    [widest(entries) * columns as f64, ROW * rows as f64 + PAD]
-}
+impl Columns {
+    /// So many columns, filled row by row.
+    fn new(entries: &[LegendEntry], count: usize, size: TextSize) -> Self {
+        let mut widths = vec![0.0_f64; count.max(1)];
+        for (i, entry) in entries.iter().enumerate() {
+            let width = &mut widths[i % count.max(1)];
+            *width = width.max(2.0 * PAD + KEY + text_width(&entry.name, size));
+        }
+        Self { widths, size }
+    }
 
-/// Columns of a legend below a figure: as many as fit, in rows as full as possible.
-fn columns_below(figure: &Figure, width: f64) -> usize {
-    let most = ((width / widest(&figure.legend)).floor() as usize).clamp(1, figure.legend.len().max(1));
-    let rows = figure.legend.len().div_ceil(most).max(1);
-    figure.legend.len().div_ceil(rows).max(1)
+    /// The fewest rows that fit below a figure; text that stands in fewer rows if it is small is small.
+    fn below(entries: &[LegendEntry], width: f64) -> Self {
+        let fit = |size| {
+            let most = entries.len().clamp(1, MOST_COLUMNS);
+            let fitting = (1..=most).rev().map(|count| Self::new(entries, count, size));
+            let fewest = fitting.into_iter().find(|columns| columns.width() <= width + PAD + 0.5);
+            let rows = fewest.map_or(entries.len(), |columns| columns.rows(entries)).max(1);
+            // In rows as full as possible.
+            Self::new(entries, entries.len().div_ceil(rows), size)
+        };
+        let [body, small] = [TextSize::Body, TextSize::Small].map(fit);
+        if body.widths.len() == 1 && small.widths.len() > 1 { small } else { body }
+    }
+
+    fn rows(&self, entries: &[LegendEntry]) -> usize {
+        entries.len().div_ceil(self.widths.len())
+    }
+
+    fn width(&self) -> f64 {
+        self.widths.iter().sum()
+    }
+
+    fn size(&self, entries: &[LegendEntry]) -> [f64; 2] {
+        [self.width() + PAD, ROW * self.rows(entries) as f64 + PAD]
+    }
 }
 
 /// The rectangle of a legend that stands outside of a figure of the given size.
 pub(super) fn outside(figure: &Figure, [width, height]: [f64; 2]) -> Option<Rect> {
     match figure.legend_place {
         _ if figure.legend.is_empty() => None,
-        LegendPlace::Outside => Some(Rect::from_min_size([width + GAP, 0.0], size(&figure.legend, 1))),
+        LegendPlace::Outside => {
+            let size = Columns::new(&figure.legend, 1, TextSize::Body).size(&figure.legend);
+            Some(Rect::from_min_size([width + GAP, 0.0], size))
+        }
         LegendPlace::Below => {
-            let size = size(&figure.legend, columns_below(figure, width));
+            let columns = Columns::below(&figure.legend, width);
+            // Keys begin where the figure does, and the last column needs no room after it.
+            let size = [(columns.width() - PAD).min(width.max(columns.widths[0])), columns.size(&figure.legend)[1]];
             Some(Rect::from_min_size([0.0, height + 0.5 * GAP], size))
         }
         _ => None,
@@ -59,19 +92,22 @@ pub(super) fn draw(
         let ground = Ink { role: InkRole::Plot, alpha: 0.9 };
         brush.rect(area, Some(Stroke::solid(InkRole::Line, 1.0)), Some(ground));
     }
-    let pitch = widest(&figure.legend);
-    let columns = ((area.width() / pitch).round() as usize).max(1);
+    let (columns, inset) = match figure.legend_place {
+        LegendPlace::Below => (Columns::below(&figure.legend, area.width()), 0.0),
+        _ => (Columns::new(&figure.legend, 1, TextSize::Body), PAD),
+    };
     for (i, entry) in figure.legend.iter().enumerate() {
-        let x = area.min[0] + (i % columns) as f64 * pitch + PAD;
-        let y = area.min[1] + 0.5 * PAD + ROW * ((i / columns) as f64 + 0.5);
+        let column = i % columns.widths.len();
+        let x = area.min[0] + inset + columns.widths[..column].iter().sum::<f64>();
+        let y = area.min[1] + 0.5 * PAD + ROW * ((i / columns.widths.len()) as f64 + 0.5);
         key(brush, entry, [x, y]);
         let at = [x + KEY + PAD, y];
-        brush.text(&Label::new(at, &entry.name, Anchor::LEFT, TextSize::Body, InkRole::Text.into()));
+        brush.text(&Label::new(at, &entry.name, Anchor::LEFT, columns.size, InkRole::Text.into()));
     }
 }
 
 fn inside(figure: &Figure, first: Option<(&Panel, &Projection)>) -> Rect {
-    let size = size(&figure.legend, 1);
+    let size = Columns::new(&figure.legend, 1, TextSize::Body).size(&figure.legend);
     let whole = Rect::from_min_size([0.0, 0.0], figure.size);
     let plot = first.map_or(whole, |(_, projection)| projection.plot);
     let note = if first.is_some_and(|(panel, _)| !panel.note.is_empty()) { 18.0 } else { 0.0 };

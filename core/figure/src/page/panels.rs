@@ -7,12 +7,10 @@ use crate::mark::{Anchor, Mark, Shape, Stroke, TextSize};
 use crate::panel::Panel;
 use crate::projection::Projection;
 use crate::rect::Rect;
-use crate::text::{text_width, wrapped};
+use crate::text::text_width;
 
 /// Room for the title of an axis.
 const TITLE: f64 = 18.0;
-/// Height of a line of a note.
-const LINE: f64 = 15.0;
 
 /// A panel at its place on the page, with the titles that stand outside of it.
 pub(super) struct Titled {
@@ -82,14 +80,8 @@ pub(super) fn draw(brush: &mut Brush<'_>, titled: &Titled, projection: &Projecti
     draw_tick_labels(brush, panel, projection);
     draw_titles(brush, titled, projection);
     for note in annotations(panel, plot, 1.0) {
-        // A long note takes several lines.
-        let lines = wrapped(&note.text, TextSize::Small, plot.width() - 10.0);
-        for (i, line) in lines.iter().enumerate() {
-            let from_place = if note.anchor.1 < 0.5 { i as f64 } else { i as f64 + 1.0 - lines.len() as f64 };
-            let at = [note.at[0], note.at[1] + LINE * from_place];
-            let label = Label::new(at, line, note.anchor, TextSize::Small, InkRole::Weak.into());
-            brush.text(&Label { halo: Some(panel.background), ..label });
-        }
+        let label = Label::new(note.at, &note.text, note.anchor, TextSize::Small, InkRole::Weak.into());
+        brush.text(&Label { halo: Some(panel.background), ..label });
     }
 }
 
