@@ -57,7 +57,8 @@ impl ChromascopeApp {
     }
 
     fn carry_out_one(&mut self, ctx: &egui::Context, command: Command) {
-        if command.shows_panes() {
+        let is_library = matches!(command, Command::FocusSearch | Command::TogglePane(PaneKind::LIBRARY));
+        if command.shows_panes() || (is_library && self.arrangement.narrow) {
             self.view.page.open = None;
         }
         match command {

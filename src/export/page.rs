@@ -1,5 +1,6 @@
 //! A figure's page as pixels, made in the background as its PNG is.
 
+use std::collections::HashSet;
 use std::sync::Arc;
 
 use chromascope_core::colorimetry::Xyz;
@@ -52,8 +53,12 @@ pub struct PageFacts {
     pub smallest_text_pt: Option<f64>,
     /// Thinnest line of a mark in points; `None` without lines.
     pub thinnest_line_pt: Option<f64>,
-    /// Least difference in lightness L* of two sources of the legend; `None` for fewer than two.
+    /// Least difference in lightness L* of two cameras of the legend; `None` for fewer than two.
     pub lightness_apart: Option<f64>,
+    /// True if there is a legend to be placed.
+    pub has_legend: bool,
+    /// True if an axis has a title.
+    pub has_titles: bool,
 }
 
 impl PageFacts {
@@ -84,6 +89,8 @@ impl PageFacts {
             smallest_text_pt: texts.reduce(f64::min).map(|points| points * scale),
             thinnest_line_pt: lines.reduce(f64::min).map(|points| points * scale * paper.line_scale),
             lightness_apart: lightness_apart(figure, &paper.theme()),
+            has_legend: !figure.legend.is_empty(),
+            has_titles: figure.panels.iter().any(|panel| !panel.x.label.is_empty() || !panel.y.label.is_empty()),
         }
     }
 
@@ -93,15 +100,10 @@ impl PageFacts {
     }
 }
 
-/// Least difference in L* between the inks of a legend.
+/// Least difference in L* between the inks of a legend's cameras.
 fn lightness_apart(figure: &Figure, theme: &Theme) -> Option<f64> {
     let inks = figure.legend.iter().filter_map(|entry| Some(entry.stroke.map(|line| line.ink).or(entry.fill)?.role));
-    let mut roles: Vec<InkRole> = Vec::new();
-    for role in inks {
-        if !roles.contains(&role) {
-            roles.push(role);
-        }
-    }
+    let roles: HashSet<InkRole> = inks.filter(|role| matches!(role, InkRole::Sensor(_))).collect();
     let mut lightness: Vec<f64> = roles.iter().map(|role| lightness_of(theme.rgb(*role))).collect();
     lightness.sort_by(f64::total_cmp);
     lightness.windows(2).map(|pair| pair[1] - pair[0]).reduce(f64::min)

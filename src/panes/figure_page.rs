@@ -46,9 +46,12 @@ fn keep_working(ui: &mut Ui, rect: Rect, kind: PaneKind, context: &mut PaneConte
     if OF_DOCUMENT.contains(&kind) {
         return;
     }
+    // No key is meant for it.
+    let (focused, enters) = (context.view.focused.take(), std::mem::take(&mut context.view.tab_enters));
     let mut unseen = ui.new_child(UiBuilder::new().id_salt("unseen pane").max_rect(rect).invisible());
     unseen.set_clip_rect(Rect::NOTHING);
     show_pane(&mut unseen, kind, rect, context);
+    (context.view.focused, context.view.tab_enters) = (focused, enters);
 }
 
 /// The figure, made anew ten times a second at most while neither pane nor paper change.

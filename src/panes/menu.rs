@@ -98,7 +98,7 @@ fn enabled_item(ui: &mut Ui, enabled: bool, words: &str, command: Command, conte
 }
 
 fn focused(context: &PaneContext<'_>) -> PaneKind {
-    context.view.focused.unwrap_or(PaneKind::CHROMATICITY)
+    context.view.page.open.or(context.view.focused).unwrap_or(PaneKind::CHROMATICITY)
 }
 
 /// The pane whose figure is meant: the focused one if it has figures, else the first visible one that has.

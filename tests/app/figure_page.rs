@@ -118,3 +118,32 @@ fn an_idle_page_draws_nothing_and_the_document_changes_it() {
     settle(&executor, &mut window);
     assert_eq!(serial(&window), before + 1);
 }
+
+#[test]
+fn the_keyboard_reaches_the_settings_and_escape_leaves_a_field_first() {
+    let (executor, mut window) = page_of(PaneKind::CHROMATICITY);
+    window.state_mut().push(Command::NextPane);
+    settle(&executor, &mut window);
+    while window.state().view().focused != Some(PaneKind::CHROMATICITY) {
+        window.key_press(Key::F6);
+        settle(&executor, &mut window);
+    }
+    assert_eq!(open(&window), Some(PaneKind::CHROMATICITY), "the page is one of the panes to go to");
+    window.key_press(Key::Tab);
+    settle(&executor, &mut window);
+    assert!(window.get_by_label("Size: One column, 85 mm").is_focused());
+    window.key_press(Key::Tab);
+    settle(&executor, &mut window);
+    window.event(egui::Event::Text("120".to_owned()));
+    window.key_press(Key::Enter);
+    settle(&executor, &mut window);
+    let paper = window.state().view().saved.page.paper;
+    assert_eq!(paper.width_mm, Some(120.0));
+    window.get_by_label("Width").focus();
+    settle(&executor, &mut window);
+    for expected in [Some(PaneKind::CHROMATICITY), None] {
+        window.key_press(Key::Escape);
+        settle(&executor, &mut window);
+        assert_eq!(open(&window), expected);
+    }
+}

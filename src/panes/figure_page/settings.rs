@@ -68,7 +68,7 @@ pub(super) fn show(
         let mut look = before;
         size(ui, &mut look, facts, context);
         ui.add_space(UNIT);
-        dress(ui, &mut look.paper, kind, context);
+        dress(ui, &mut look.paper, (kind, facts), context);
         if look != before {
             context.view.saved.page = look;
             ui.ctx().request_repaint();
@@ -77,7 +77,7 @@ pub(super) fn show(
         buttons(ui, kind, context);
         ui.add_space(UNIT);
         if let Some(facts) = facts {
-            ui.label(small(in_words(&facts), context));
+            ui.label(small(in_words(&facts, &look.paper), context));
         }
         ui.add_space(2.0 * UNIT);
     });
@@ -128,10 +128,29 @@ fn size(ui: &mut Ui, look: &mut PageLook, facts: Option<PageFacts>, context: &mu
 }
 
 /// Style, legend, axes and what is left out.
-fn dress(ui: &mut Ui, paper: &mut Paper, kind: PaneKind, context: &PaneContext<'_>) {
-    let is_diagram = kind == PaneKind::CHROMATICITY;
+fn dress(
+    ui: &mut Ui,
+    paper: &mut Paper,
+    (kind, facts): (PaneKind, Option<PageFacts>),
+    context: &PaneContext<'_>,
+) {
     choice(ui, "Style", &STYLES, &mut paper.style, context);
     choice(ui, "Colors", &INKS, &mut paper.inks, context);
+    if facts.is_some_and(|facts| facts.has_legend) {
+        legend(ui, paper, context);
+    }
+    if facts.is_some_and(|facts| facts.has_titles) {
+        choice(ui, "Axis titles", &TITLES, &mut paper.axis_titles, context);
+    }
+    if kind == PaneKind::CHROMATICITY {
+        choice(ui, "Axis ranges", &RANGES, &mut paper.ranges, context);
+        choice(ui, "Numbers", &NUMBERS, &mut paper.numbers, context);
+        ui.checkbox(&mut paper.strip, "Strip of distances below the diagram");
+    }
+    ui.checkbox(&mut paper.caption, "Caption with the conditions");
+}
+
+fn legend(ui: &mut Ui, paper: &mut Paper, context: &PaneContext<'_>) {
     let shown = LEGENDS.iter().find(|(place, _)| *place == paper.legend).map_or("", |(_, words)| words);
     drop_down(ui, "Legend", shown, context, |ui| {
         for (place, words) in LEGENDS {
@@ -141,13 +160,6 @@ fn dress(ui: &mut Ui, paper: &mut Paper, kind: PaneKind, context: &PaneContext<'
             }
         }
     });
-    choice(ui, "Axis titles", &TITLES, &mut paper.axis_titles, context);
-    if is_diagram {
-        choice(ui, "Axis ranges", &RANGES, &mut paper.ranges, context);
-        choice(ui, "Numbers", &NUMBERS, &mut paper.numbers, context);
-        ui.checkbox(&mut paper.strip, "Strip of distances below the diagram");
-    }
-    ui.checkbox(&mut paper.caption, "Caption with the conditions");
 }
 
 fn buttons(ui: &mut Ui, kind: PaneKind, context: &mut PaneContext<'_>) {
@@ -172,7 +184,7 @@ fn buttons(ui: &mut Ui, kind: PaneKind, context: &mut PaneContext<'_>) {
 }
 
 /// Measures of the page in a sentence or two.
-fn in_words(facts: &PageFacts) -> String {
+fn in_words(facts: &PageFacts, paper: &Paper) -> String {
     let [width, height] = facts.size_mm();
     let mut words = format!("{width:.0} × {height:.0} mm");
     if let Some(points) = facts.smallest_text_pt {
@@ -182,9 +194,12 @@ fn in_words(facts: &PageFacts) -> String {
         words += &format!(", thinnest line {points:.2} pt");
     }
     words.push('.');
+    if paper.height_mm.is_some_and(|wanted| (height - wanted).abs() > 1.0) {
+        words += " Its rows or pictures have their own height.";
+    }
     if let Some(apart) = facts.lightness_apart {
         let told = if apart < PageFacts::TOLD_APART { "not told apart" } else { "told apart" };
-        words += &format!(" Without color, sensors are {told}: lightness differs by ΔL* {apart:.0} or more.");
+        words += &format!(" Without color, cameras are {told}: lightness differs by ΔL* {apart:.0} or more.");
     }
     words
 }
