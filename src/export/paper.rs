@@ -33,7 +33,8 @@ pub struct Paper {
     pub style: PaperStyle,
     /// Colors of sources.
     pub inks: SourceInks,
-    /// Position of the legend; `None` places it beside a wide figure and below a narrow one.
+    /// Position of the legend; `None` places it beside a wide figure and below a narrow one. Beside, it stands below
+    /// where it would take half of the width.
     pub legend: Option<LegendPlace>,
     /// Titles of the axes.
     pub axis_titles: AxisTitles,
@@ -120,6 +121,17 @@ impl Paper {
         let Some(width) = self.width_mm.map(points) else { return make(room) };
         room.width = Some(width);
         let mut figure = make(room)?;
+        let beside = figure.legend_place == LegendPlace::Outside;
+        let is_cramped = beside && Page::new(&figure, &self.page_style()).surplus(&figure)[0] > 0.5 * width;
+        let mut make = |room| {
+            make(room).map(|figure| match figure.legend_place {
+                LegendPlace::Outside if is_cramped => Figure { legend_place: LegendPlace::Below, ..figure },
+                _ => figure,
+            })
+        };
+        if is_cramped {
+            figure = make(room)?;
+        }
         // What stands around the panels depends on their width, and that on it.
         for _ in 0..2 {
             let surplus = Page::new(&figure, &self.page_style()).surplus(&figure);

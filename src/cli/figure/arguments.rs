@@ -204,6 +204,8 @@ enum InksName {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum LegendName {
+    /// Inside, in a corner where it covers no point; below where there is none
+    Inside,
     /// Inside, at the upper right
     UpperRight,
     /// Inside, at the upper left
@@ -212,7 +214,7 @@ enum LegendName {
     LowerRight,
     /// Inside, at the lower left
     LowerLeft,
-    /// Right of the figure
+    /// Right of the figure; below where that would take half of the width
     Beside,
     /// Below the figure
     Below,
@@ -223,6 +225,7 @@ enum LegendName {
 impl LegendName {
     fn place(self) -> LegendPlace {
         match self {
+            Self::Inside => LegendPlace::Inside,
             Self::UpperRight => LegendPlace::UpperRight,
             Self::UpperLeft => LegendPlace::UpperLeft,
             Self::LowerRight => LegendPlace::LowerRight,
