@@ -129,15 +129,15 @@ pub fn figure(kind: PaneKind, input: &FigureInput<'_>) -> Option<Figure> {
 pub fn figure_on_paper(
     kind: PaneKind,
     (scene, view): (&Scene<'_>, &mut View),
-    studio: &RenderService,
-    laboratory: &Profiler,
+    render_service: &RenderService,
+    profiler: &Profiler,
     opened: &Opened,
 ) -> Option<Figure> {
     let room = view.room;
     let paper = view.saved.page.paper;
     let figure = paper.laid_out(|room| {
         view.room = room;
-        figure(kind, &FigureInput::of((scene, view), studio, laboratory, opened))
+        figure(kind, &FigureInput::of((scene, view), render_service, profiler, opened))
     });
     view.room = room;
     figure

@@ -82,7 +82,7 @@ impl ChromascopeApp {
             Command::OpenDocument(path) => self.files.open_document(&path, self.history.document().clone()),
             Command::RemoveDocument(path) => {
                 self.files.remove_document(&path);
-                self.view.kept = self.files.kept_documents();
+                self.view.other_documents = self.files.other_documents();
             }
             Command::OpenPath(path) => self.open(vec![Request::Path(path)]),
             Command::Paste(text) => {
@@ -107,8 +107,8 @@ impl ChromascopeApp {
                 self.stop_reading();
             }
             Command::SpectralWeights => self.measure(),
-            Command::MeasureWorkload(workload) => self.laboratory.run_bench(workload),
-            Command::StopMeasuring => self.laboratory.stop(),
+            Command::MeasureWorkload(workload) => self.profiler.run_bench(workload),
+            Command::StopMeasuring => self.profiler.stop(),
             Command::FigurePage(pane) => self.figure_page(ctx, pane),
             Command::Export(pane, format) => self.export(pane, format),
             Command::ExportExr(source) => self.export_exr(&source),
@@ -236,8 +236,8 @@ impl ChromascopeApp {
         if std::mem::take(&mut self.view.keeps_escape) || self.stop_opening() || self.stop_reading() {
             return;
         }
-        if self.laboratory.busy().is_some() {
-            self.laboratory.stop();
+        if self.profiler.busy().is_some() {
+            self.profiler.stop();
             self.view.say("Measuring stopped. Earlier results are unchanged.");
             return;
         }
@@ -281,7 +281,7 @@ impl ChromascopeApp {
         let document = self.history.document();
         let scene = Scene { document, catalog: &self.catalog, results: &self.results };
         let own = self.meshes.chosen(&document.render.mesh);
-        self.laboratory.run(SceneRunJob::of(&scene, own.as_ref(), self.view.saved.render.orbit));
+        self.profiler.run(SceneRunJob::of(&scene, own.as_ref(), self.view.saved.render.orbit));
         self.view.saved.workspace = Workspace::Numerics;
         if matches!(self.view.accuracy.shows, Shows::Bench(_)) {
             self.view.accuracy.shows = Shows::default();
@@ -351,7 +351,7 @@ impl ChromascopeApp {
 
     /// Input for a pane's figure of a scene.
     pub fn figure_input<'a>(&'a self, scene: &'a Scene<'a>) -> FigureInput<'a> {
-        FigureInput::of((scene, &self.view), &self.studio, &self.laboratory, &self.opened)
+        FigureInput::of((scene, &self.view), &self.render_service, &self.profiler, &self.opened)
     }
 
     /// Shows a pane as the printed page, or goes back to where the page was opened.
@@ -374,7 +374,7 @@ impl ChromascopeApp {
     fn printed(&mut self, pane: PaneKind) -> Option<Figure> {
         let scene = Scene { document: self.history.document(), catalog: &self.catalog, results: &self.results };
         let view = &mut self.view;
-        let figure = panes::figure_on_paper(pane, (&scene, view), &self.studio, &self.laboratory, &self.opened);
+        let figure = panes::figure_on_paper(pane, (&scene, view), &self.render_service, &self.profiler, &self.opened);
         self.checked(pane, figure)
     }
 
@@ -459,7 +459,7 @@ impl ChromascopeApp {
             None => self.view.say(words),
             Some(first) => self.view.fail(format!("{words} Parts that could not be read are missing: {first}.")),
         }
-        self.view.kept = self.files.kept_documents();
+        self.view.other_documents = self.files.other_documents();
     }
 
     /// Saves the document as soon as it changes.

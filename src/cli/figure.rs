@@ -125,7 +125,7 @@ fn check_height(figure: &Figure, paper: &Paper, form: Form) -> Result<(), CliErr
 }
 
 fn opened(request: &mut Request, path: &Path) -> Result<Document, CliError> {
-    let failed = |reason: String| CliError::File(format!("{}: {reason}", super::request::told(path)));
+    let failed = |reason: String| CliError::File(format!("{}: {reason}", super::request::display_path(path)));
     let text = String::from_utf8(request.bytes(path)?).map_err(|_| failed("it is not text".to_owned()))?;
     session::from_json(&text).map_err(|error| failed(error.to_string()))
 }

@@ -62,7 +62,8 @@ fn made(ui: &Ui, kind: PaneKind, context: &mut PaneContext<'_>) -> Option<Arc<Fi
         return figure;
     }
     let scene = context.scene;
-    let figure = figure_on_paper(kind, (&scene, context.view), context.studio, context.laboratory, context.opened);
+    let figure =
+        figure_on_paper(kind, (&scene, context.view), context.render_service, context.profiler, context.opened);
     context.view.page.keep(of, now, figure)
 }
 

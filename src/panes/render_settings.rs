@@ -38,7 +38,7 @@ pub const PANE: Pane = Pane {
 /// Shows the pane in its rectangle.
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let body = widgets::pane(ui, &PANE, rect, context, |_, _| {});
-    let sources = context.studio.frame().map_or(0, |shot| shot.sources.len());
+    let sources = context.render_service.frame().map_or(0, |shot| shot.sources.len());
     let kept = context.view.render.pinned.is_some();
     let spectrum =
         if context.scene.document.render.mesh.is_image() { widgets::pixel_spectrum::HEIGHT + UNIT } else { 0.0 };

@@ -2,9 +2,9 @@
 
 mod diffuse;
 mod drawn;
+mod fixture;
 mod images;
 mod shadow;
 mod skipping;
 mod smooth;
-mod studio;
 mod visibility;

@@ -42,8 +42,8 @@ pub enum MeshQuery {
 impl Query for MeshQuery {
     type Answer = Shared<Mesh>;
     const NAME: &'static str = "mesh";
-    const WHOLE: bool = true;
-    const KEPT: usize = 3;
+    const ALWAYS_COMPLETE: bool = true;
+    const CAPACITY: usize = 3;
 
     fn bytes(mesh: &Self::Answer) -> usize {
         size_of_val(mesh.positions()) + size_of_val(mesh.normals()) + size_of_val(mesh.triangles())
@@ -67,8 +67,8 @@ pub struct ShadowTreeQuery(pub MeshQuery);
 impl Query for ShadowTreeQuery {
     type Answer = ShadowTree;
     const NAME: &'static str = "shadow tree";
-    const WHOLE: bool = true;
-    const KEPT: usize = 3;
+    const ALWAYS_COMPLETE: bool = true;
+    const CAPACITY: usize = 3;
 
     fn answer(&self, ask: &impl Ask) -> Self::Answer {
         ShadowTree::new(&ask.ask(&self.0))
@@ -89,7 +89,7 @@ pub struct VisibilityQuery {
 impl Query for VisibilityQuery {
     type Answer = Option<Visibility>;
     const NAME: &'static str = "visibility";
-    const KEPT: usize = 6;
+    const CAPACITY: usize = 6;
 
     fn bytes(visibility: &Self::Answer) -> usize {
         visibility.as_ref().map_or(0, |visibility| size_of_val(visibility.hits()))
@@ -115,7 +115,7 @@ pub struct GeometryQuery {
 impl Query for GeometryQuery {
     type Answer = Option<Arc<GeometryImage>>;
     const NAME: &'static str = "geometry";
-    const KEPT: usize = 6;
+    const CAPACITY: usize = 6;
 
     fn bytes(geometry: &Self::Answer) -> usize {
         let of = |geometry: &Arc<GeometryImage>| {
@@ -141,8 +141,8 @@ pub struct MeshRoughnessQuery(pub MeshQuery);
 impl Query for MeshRoughnessQuery {
     type Answer = Vec<VertexRoughness>;
     const NAME: &'static str = "mesh roughness";
-    const WHOLE: bool = true;
-    const KEPT: usize = 3;
+    const ALWAYS_COMPLETE: bool = true;
+    const CAPACITY: usize = 3;
 
     fn answer(&self, ask: &impl Ask) -> Self::Answer {
         vertex_roughness(&ask.ask(&self.0))
@@ -177,10 +177,10 @@ pub struct ShadingQuery {
 impl Query for ShadingQuery {
     type Answer = Option<ShadingImage>;
     const NAME: &'static str = "shading";
-    const KEPT: usize = 6;
+    const CAPACITY: usize = 6;
 
     fn bytes(shading: &Self::Answer) -> usize {
-        shading.as_ref().map_or(0, |shading| size_of_val(shading.shades()) + size_of_val(shading.mirrors()))
+        shading.as_ref().map_or(0, |shading| size_of_val(shading.shades()) + size_of_val(shading.coherent_samples()))
     }
 
     fn answer(&self, ask: &impl Ask) -> Self::Answer {
@@ -215,7 +215,7 @@ pub struct SpectralWeightsQuery {
 impl Query for SpectralWeightsQuery {
     type Answer = Result<SpectralWeights, RenderingError>;
     const NAME: &'static str = "measure";
-    const WHOLE: bool = true;
+    const ALWAYS_COMPLETE: bool = true;
 
     fn answer(&self, _: &impl Ask) -> Self::Answer {
         let divisors = white_divisors(&self.sensor, &self.light)?;
@@ -236,7 +236,7 @@ impl SpectralWeightsQuery {
 
     /// That of a white, where a shaded mesh has lobes that do not take the material's color.
     fn untinted(&self, shading: &ShadingImage) -> Option<Self> {
-        let any = shading.surface().specular() == Specular::Fresnel && !shading.mirrors().is_empty();
+        let any = shading.surface().specular() == Specular::Fresnel && !shading.coherent_samples().is_empty();
         any.then(|| Self { reflectance: Shared::new(GridSpectrum::constant(1.0)), ..self.clone() })
     }
 }
@@ -253,7 +253,7 @@ pub struct CameraImageQuery {
 impl Query for CameraImageQuery {
     type Answer = Result<Option<CameraImage>, RenderingError>;
     const NAME: &'static str = "camera image";
-    const KEPT: usize = 64;
+    const CAPACITY: usize = 64;
 
     fn bytes(image: &Self::Answer) -> usize {
         let of = |image: &CameraImage| size_of_val(image.signals()) + size_of_val(image.placed().samples());

@@ -312,7 +312,7 @@ impl Scene<'_> {
                 (place, found.angles(lane))
             })
         } else {
-            self.carefully(sample as usize, hit)
+            self.checked_angles(sample as usize, hit)
         };
         let Some((place, angles)) = lit else {
             part.counts.facing_away += 1;
@@ -329,7 +329,7 @@ impl Scene<'_> {
     }
 
     /// The angles at a sample of any kind, unless its surface is turned away from the light.
-    fn carefully(&self, sample: usize, hit: Hit) -> Option<(Place, Angles)> {
+    fn checked_angles(&self, sample: usize, hit: Hit) -> Option<(Place, Angles)> {
         let ahead = self.rays.at(sample).normalize();
         let to_viewer = -(self.visibility.eye().world_from_view * DVec3::new(ahead.x, ahead.y, -ahead.z));
         let place = self.place(hit, to_viewer);

@@ -16,8 +16,8 @@ use crate::catalog::spectral_images;
 use crate::cli::error::CliError;
 use crate::cli::render::files::patiently;
 use crate::cli::render::setup::{mesh_choice, read_mesh};
-use crate::cli::request::{Request, told};
-use crate::document::own::ImportOverrides;
+use crate::cli::request::{Request, display_path};
+use crate::document::imported::ImportOverrides;
 use crate::document::render::{MeshChoice, RenderSettings};
 use crate::document::{Document, SetKind};
 use crate::export::Paper;
@@ -157,9 +157,9 @@ pub(super) fn open_curves(request: &mut Request, path: &Path) -> Result<(), CliE
     let bytes = request.bytes(path)?;
     let mut wishes = ImportOverrides::default();
     let table = spectral_file::read(&bytes, &wishes.options);
-    let table = table.map_err(|error| CliError::File(format!("{}: {error}", told(path))))?;
+    let table = table.map_err(|error| CliError::File(format!("{}: {error}", display_path(path))))?;
     wishes.taken = Some((0..table.curves.len()).collect());
-    let origin = Origin { path: Some(path.to_owned()), ..Origin::named(&told(path), &bytes) };
+    let origin = Origin { path: Some(path.to_owned()), ..Origin::named(&display_path(path), &bytes) };
     request.document.own.push(Shared::new(imported(&origin, &table, &wishes).set));
     Ok(())
 }

@@ -128,12 +128,7 @@ fn size(ui: &mut Ui, look: &mut PageLook, facts: Option<PageFacts>, context: &mu
 }
 
 /// Style, legend, axes and what is left out.
-fn dress(
-    ui: &mut Ui,
-    paper: &mut Paper,
-    (kind, facts): (PaneKind, Option<PageFacts>),
-    context: &PaneContext<'_>,
-) {
+fn dress(ui: &mut Ui, paper: &mut Paper, (kind, facts): (PaneKind, Option<PageFacts>), context: &PaneContext<'_>) {
     choice(ui, "Style", &STYLES, &mut paper.style, context);
     choice(ui, "Colors", &INKS, &mut paper.inks, context);
     if facts.is_some_and(|facts| facts.has_legend) {

@@ -21,9 +21,9 @@ pub(super) struct Titled {
 
 /// True if the titles of y may stand along the axes: each is shorter than its plot is high.
 fn titles_fit(panels: &[Panel]) -> bool {
-    panels.iter().all(|panel| {
-        text_width(&panel.y.label, TextSize::Small) <= panel.area.height() - Projection::bottom(&panel.x)
-    })
+    panels
+        .iter()
+        .all(|panel| text_width(&panel.y.label, TextSize::Small) <= panel.area.height() - Projection::bottom(&panel.x))
 }
 
 /// Left sides of panels with a title of y, lower sides of those with one of x, that stand outside in this layout. Titles of x with a
@@ -40,9 +40,7 @@ fn titled_sides(panels: &[Panel], titles: AxisTitles) -> [Vec<f64>; 2] {
     }
     let fit = titles_fit(panels);
     let left = |panel: &Panel| (fit && !panel.y.label.is_empty()).then_some(panel.area.min[0]);
-    let lower = |panel: &Panel| {
-        (!panel.x.label.is_empty() && !panel.x.has_title_line()).then_some(panel.area.max[1])
-    };
+    let lower = |panel: &Panel| (!panel.x.label.is_empty() && !panel.x.has_title_line()).then_some(panel.area.max[1]);
     [sides(&left), sides(&lower)]
 }
 
