@@ -264,6 +264,10 @@ impl SceneAction {
     }
 
     fn apply(&self, document: &mut Document) {
+        if matches!(self, Self::SetLight(_) | Self::SetFilter(..) | Self::ClearFilters | Self::SetWhite(_)) {
+            // What was chosen holds for the rendered scene too.
+            document.render.sunlight = false;
+        }
         match self {
             Self::SetLight(light) => {
                 document.light = light.clone();
@@ -323,12 +327,14 @@ impl RenderAction {
                 document.render.mesh = MeshChoice::Image(path.clone());
                 return;
             }
-            Self::Figure8 => RenderSettings { specular: document.start.specular(), ..RenderSettings::default() },
-            Self::Figure9 => RenderSettings { specular: document.start.specular(), ..RenderSettings::fern() },
+            Self::Figure8 => {
+                RenderSettings { specular: document.start.specular(), sky: 0.0, ..RenderSettings::default() }
+            }
+            Self::Figure9 => RenderSettings { specular: document.start.specular(), sky: 0.0, ..RenderSettings::fern() },
             Self::PaperFigure8 => RenderSettings::default().as_in_the_paper(),
             Self::PaperFigure9 => RenderSettings::fern().as_in_the_paper(),
         };
-        document.render = figure;
+        document.render = RenderSettings { sunlight: false, ..figure };
         document.light = Light::Set(SUN.to_owned());
         document.white = WhiteBalanceChoice::Light(BALANCE.to_owned());
     }

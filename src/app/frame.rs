@@ -85,6 +85,9 @@ impl ChromascopeApp {
                 panes::show(ui, pane, rect, &mut context);
             }
         }
+        if page.is_none() {
+            context.pages.rest();
+        }
         for (splitter, rect) in self.arrangement.splitters.clone() {
             drag_border(ui, splitter, rect, area, &mut context);
         }

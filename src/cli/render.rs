@@ -142,6 +142,8 @@ impl<'a> Made<'a> {
             viewpoint: self.setup.viewpoint,
             surface: shading.surface,
             reading: shading.reading,
+            sky: self.scene.document.render.sky,
+            thin: self.scene.document.render.thin,
         };
         Ok(Content::Exr { image, rendering: Box::new(rendering), provenance: Box::new(provenance) })
     }

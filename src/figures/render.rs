@@ -188,14 +188,18 @@ fn caption(scene: &Scene<'_>, shot: &RenderedFrame) -> String {
         RoughnessChoice::Surface => format!("σ = {} µm, τ = {} µm", settings.sigma_um, settings.tau_um),
         RoughnessChoice::Mesh => "σ and τ from the mesh".to_owned(),
     };
+    let [light, white] = scene.rendered_conditions();
+    let sky = if settings.sky > 0.0 { format!(" and {} % sky", fixed(100.0 * settings.sky, 0)) } else { String::new() };
+    let thin = if settings.thin { ", light passes through as through a leaf" } else { "" };
     format!(
-        "Mesh: {mesh}. Material: {}, {roughness}, n = {}. Normalization of P: {}; coherent component: {}; {}. {}",
+        "Mesh: {mesh}. Material: {}{thin}, {roughness}, n = {}. Normalization of P: {}; coherent component: {}; {}. Reference: {}. \
+         Light: {light}{sky}. White balance: {white}.",
         settings.material,
         settings.index,
         settings.reading.label(),
         settings.specular.label(),
         settings.area.label(),
-        viewing_conditions(scene)
+        scene.document.reference
     )
 }
 

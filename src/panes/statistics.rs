@@ -12,11 +12,14 @@ use crate::theme::UNIT;
 use crate::workspaces::{PaneKind, Workspace};
 
 /// Stages in the order they follow each other, as counted and as shown.
-const STAGES: [(&str, &str); 8] = [
+const STAGES: [(&str, &str); 11] = [
     ("mesh", "mesh"),
     ("shadow tree", "shadow tree"),
     ("visibility", "visibility"),
     ("geometry", "angles, shadows"),
+    ("sky visibility", "sky from vertices"),
+    ("sky", "sky from samples"),
+    ("sky reflectance", "reflectance of sky"),
     ("shading", "surface"),
     ("plan", "integration methods"),
     ("camera image", "signals"),
@@ -58,6 +61,7 @@ fn pictures(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let (geometry, shading) = (made.geometry, made.shading);
     let samples = [
         ("Lit", geometry.lit.to_string()),
+        ("Lit from behind", geometry.through.to_string()),
         ("Facing away", geometry.facing_away.to_string()),
         ("In shadow", format!("{}, {} rays", geometry.shadowed, geometry.rays)),
         ("Below threshold", shading.dark.to_string()),

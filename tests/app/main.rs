@@ -43,6 +43,7 @@ mod recompute;
 mod recorded;
 mod reducer;
 mod render;
+mod render_scene;
 mod same_file;
 mod save_prompt;
 mod save_set;

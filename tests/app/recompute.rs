@@ -138,6 +138,9 @@ impl Pictures {
         pictures.fixture.document.render.triangles = 2000;
         // Smoother than what the closed form holds for, so that tables are needed.
         pictures.fixture.document.render.sigma_um = 0.3;
+        // Under the scene bar's light.
+        pictures.fixture.document.render.sunlight = false;
+        pictures.fixture.document.render.sky = 0.0;
         pictures.look();
         pictures
     }
@@ -150,6 +153,7 @@ impl Pictures {
             quality: fixture.document.render.quality(),
             shadows: Shadows::Full,
             compared_samples: Some(500),
+            open_sky: false,
         };
         let viewpoint = self.orbit.viewpoint(4.0 / 3.0).unwrap();
         let mesh = scene.mesh_of(None).unwrap();

@@ -6,5 +6,6 @@ mod fixture;
 mod images;
 mod shadow;
 mod skipping;
+mod sky;
 mod smooth;
 mod visibility;

@@ -8,6 +8,7 @@ use super::geometry::{Angles, GeometryImage};
 use super::measure::LAMBDA_0_NM;
 use super::plan::{self, Demand, Plan};
 pub use super::quality::Quality;
+use super::sky::Sky;
 use super::stop::Stop;
 use super::vertices::VertexImage;
 use crate::accuracy::RelTolerance;
@@ -99,6 +100,7 @@ pub struct ShadingImage {
     diffuse_scale: f64,
     counts: ShadingCounts,
     range: Option<KappaRange>,
+    sky: Option<Sky>,
 }
 
 /// Smallest and largest κ of the spectral integrals, and how many are below [`NEARLY_ROUGH`] and [`ROUGH`].
@@ -163,9 +165,17 @@ impl ShadingImage {
             }
         };
         let (range, [dark, flat, spectral]) = KappaRange::of(&shades);
-        let coherent_skipped = (shades.len() - coherent_samples.len()) as u64;
-        let counts =
-            ShadingCounts { dark, flat, spectral, coherent_samples: coherent_samples.len() as u64, coherent_skipped };
+
+        // Samples that only the sky lights, or the light from behind, are not below a threshold.
+        let unlit = if vertices.is_some() { 0 } else { shades.len() as u64 - geometry.counts().lit };
+        let coherent_skipped = ((shades.len() - coherent_samples.len()) as u64).saturating_sub(unlit);
+        let counts = ShadingCounts {
+            dark: dark.saturating_sub(unlit),
+            flat,
+            spectral,
+            coherent_samples: coherent_samples.len() as u64,
+            coherent_skipped,
+        };
         let vertices = vertices.map(|(vertices, _)| vertices);
         Some(Self {
             geometry,
@@ -178,7 +188,19 @@ impl ShadingImage {
             diffuse_scale,
             counts,
             range,
+            sky: None,
         })
+    }
+
+    /// This under a sky as well, whose samples are all that see the mesh: those of a geometry that lists them everywhere.
+    #[must_use]
+    pub fn under(self, sky: Sky) -> Self {
+        Self { sky: Some(sky), ..self }
+    }
+
+    /// The sky, if there is one.
+    pub fn sky(&self) -> Option<&Sky> {
+        self.sky.as_ref()
     }
 
     /// The angles it is made of.

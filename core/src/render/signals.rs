@@ -9,7 +9,8 @@ use super::stop::Stop;
 use rayon::prelude::*;
 use std::sync::Arc;
 
-/// One camera's picture: `cos θi cos⁴α ∫C_c P S L dλ / ∫C_c L dλ` at each lit sample (Eq 12 without its s).
+/// One camera's picture: `cos θi cos⁴α ∫C_c P S L dλ / ∫C_c L dλ` at each lit sample (Eq 12 without its s), with the light of a
+/// sky and what shines through a leaf, `|cos θi| cos⁴α ∫C_c T L dλ / ∫C_c L dλ`.
 #[derive(Clone, Debug)]
 pub struct CameraImage {
     placed: Arc<LitSamples>,
@@ -67,10 +68,23 @@ impl Camera<'_> {
                 *signal += sum as f32;
             }
         }
-        let signals = match shading.vertices() {
+        let mut signals = match shading.vertices() {
             Some(vertices) => vertices.mixed(&signals),
             None => signals,
         };
+        let transmitted = self.measure.transmitted();
+        if shading.geometry().reach().through && transmitted != [0.0; 3] {
+            let angles = shading.geometry().angles();
+            signals.par_iter_mut().zip(angles).with_min_len(4096).filter(|(_, angles)| angles.cos_i < 0.0).for_each(
+                |(signal, angles)| {
+                    let through = scaled(transmitted, angles.light_behind());
+                    signal.iter_mut().zip(through).for_each(|(signal, through)| *signal += through);
+                },
+            );
+        }
+        if let Some(sky) = shading.sky() {
+            sky.add(self.measure, &mut signals);
+        }
         (!stop.is_set()).then_some(signals)
     }
 

@@ -128,6 +128,7 @@ fn pictures(scene: &Scene<'_>, view: &View, paper: &Paper) -> Result<RenderedFra
             quality,
             shadows: if quality == Quality::Preview { Shadows::Coarse } else { Shadows::Full },
             compared_samples: Some(usize::MAX),
+            open_sky: false,
         };
         let orbit = view.saved.render.orbit.unwrap_or_else(|| Orbit::of(&settings.mesh));
         let viewpoint = orbit.viewpoint(1.0).ok_or_else(|| CliError::File("no viewpoint".to_owned()))?;

@@ -116,6 +116,7 @@ fn samples(made: &Made<'_>) -> Value {
         "all": size.columns() * size.rows(),
         "seen": geometry.seen,
         "lit": geometry.lit,
+        "lit_from_behind": geometry.through,
         "facing_away": geometry.facing_away,
         "in_shadow": geometry.shadowed,
         "below_threshold": shading.dark,

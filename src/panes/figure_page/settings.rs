@@ -36,10 +36,11 @@ const NUMBERS: [(Numbers, &str, &str); 2] = [
     (Numbers::All, "All", "All numbers that the figure is made from"),
     (Numbers::Visible, "Visible", "Only those of points inside the axes"),
 ];
-const LEGENDS: [(Option<LegendPlace>, &str); 8] = [
+const LEGENDS: [(Option<LegendPlace>, &str); 9] = [
     (None, "Automatic"),
     (Some(LegendPlace::Outside), "Beside"),
     (Some(LegendPlace::Below), "Below"),
+    (Some(LegendPlace::Inside), "Inside, where it covers nothing"),
     (Some(LegendPlace::UpperRight), "Upper right"),
     (Some(LegendPlace::UpperLeft), "Upper left"),
     (Some(LegendPlace::LowerRight), "Lower right"),
@@ -225,7 +226,7 @@ fn choice<T: Copy + PartialEq>(
 /// A list that drops down, behind its name.
 fn drop_down(ui: &mut Ui, name: &str, shown: &str, context: &PaneContext<'_>, lines: impl FnOnce(&mut Ui)) -> Response {
     row(ui, name, context, |ui| {
-        let combo = ComboBox::from_id_salt(name).width(168.0).selected_text(shown).show_ui(ui, lines);
+        let combo = ComboBox::from_id_salt(name).width(190.0).selected_text(shown).show_ui(ui, lines);
         let said = format!("{name}: {shown}");
         combo.response.widget_info(|| WidgetInfo::labeled(egui::Role::ComboBox, true, &said));
         combo.response

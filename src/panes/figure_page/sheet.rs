@@ -45,8 +45,8 @@ pub(super) fn show(
     let size = PageFacts::of(&figure, &paper).size_pt;
     let fine = (scale(size, context) * pixels).min(MOST_PIXELS / size[0].max(size[1]));
     context.pages.ask(vec![PageJob { figure: Arc::clone(&figure), paper, scale: fine as f32 }]);
-    let shown = context.pages.shown();
-    // Until the page is drawn, the last one stays.
+    // Until the page is drawn, the last one of the pane stays.
+    let shown = context.pages.shown().filter(|shown| shown.job.figure.title == figure.title);
     let size = shown.as_ref().map_or(size, |shown| PageFacts::of(&shown.job.figure, &shown.job.paper).size_pt);
     let scale = scale(size, context);
     self::head(ui, head, kind, Some(scale), context);

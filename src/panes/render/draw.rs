@@ -24,7 +24,9 @@ const WITH_NOTE: f32 = 150.0;
 const WITH_MEASURE: f32 = 270.0;
 const WITH_QUANTILES: f32 = 470.0;
 const WITH_LARGEST: f32 = 540.0;
-/// The radius of the ring around the pinned pixel.
+/// The radius of the divider's handle.
+const HANDLE: f32 = 8.0;
+/// The radius of the ring around the pixel that is kept.
 const RING: f32 = 7.0;
 
 /// Draws the pictures of the pane, as far as they are available.
@@ -182,10 +184,18 @@ pub(super) fn divider(ui: &mut Ui, layout: &PictureLayout, context: &mut PaneCon
     let share = f64::from(context.view.saved.render.split);
     response.widget_info(|| egui::WidgetInfo::slider(true, 100.0 * share, "Divider between reference and sensor"));
     let color = context.theme.surround.label();
-    let width = if response.hovered() || response.dragged() || response.has_focus() { 2.0 } else { 1.0 };
-    ui.painter().vline(x, picture.y_range(), Stroke::new(width, color));
-    let handle = Pos2::new(x, picture.center().y);
-    ui.painter().circle(handle, 8.0, context.theme.control, Stroke::new(width, color));
+    let held = response.hovered() || response.dragged() || response.has_focus();
+    let width = if held { 2.0 } else { 1.0 };
+    // No rule at rest across the edge that the eye compares: the seam itself runs through the mesh.
+    let handle = Pos2::new(x, picture.bottom() - 2.0 * HANDLE);
+    if held {
+        ui.painter().vline(x, picture.y_range(), Stroke::new(1.0, color));
+    } else {
+        for end in [picture.top()..=picture.top() + HANDLE, handle.y..=picture.bottom()] {
+            ui.painter().vline(x, end, Stroke::new(1.0, color));
+        }
+    }
+    ui.painter().circle(handle, HANDLE, context.theme.control, Stroke::new(width, color));
     for side in [-1.0, 1.0] {
         let tip = handle + Vec2::new(5.0 * side, 0.0);
         for up in [-3.0, 3.0] {

@@ -147,14 +147,17 @@ impl Wish<'_, '_> {
         } else {
             self.size(1)
         };
-        Finish { size, quality: Quality::Preview, shadows: Shadows::Coarse, compared_samples: Some(self.compared(0)) }
+        let compared_samples = Some(self.compared(0));
+        let open_sky = !self.context.render_service.has_made();
+        Finish { size, quality: Quality::Preview, shadows: Shadows::Coarse, compared_samples, open_sky }
     }
 
     /// At rest, before the slow part.
     fn middle(&self) -> Finish {
         let chosen = &self.context.scene.document.render;
         let quality = if is_slow(chosen) { Quality::Full } else { chosen.quality() };
-        Finish { size: self.size(1), quality, shadows: Shadows::Full, compared_samples: Some(self.compared(1)) }
+        let compared_samples = Some(self.compared(1));
+        Finish { size: self.size(1), quality, shadows: Shadows::Full, compared_samples, open_sky: false }
     }
 
     fn last(&self) -> Finish {

@@ -155,7 +155,7 @@ const CHANGES: [(&str, Change); 4] = [
 ];
 
 /// Frames after a change, with the plans that the window makes anew for it, as a multiple of a changed view's time.
-fn changes(bench: &mut Bench<'_>, service: &RenderService, side: u32) {
+fn changes(bench: &mut Bench<'_>, service: &RenderService, side: u32, roughness: &str) {
     let (quality, stop) = (Quality::Full, bench.stop);
     let counts = bench.pools.counts();
     let most = bench.pools.most();
@@ -183,7 +183,7 @@ fn changes(bench: &mut Bench<'_>, service: &RenderService, side: u32) {
             candidates.push(Candidate::new(name, 1, error.clone(), work).undivided().on(threads));
         }
     }
-    let case = format!("{side} × {side}, what changes");
+    let case = format!("{side} × {side}, what changes, {roughness}");
     bench.compare(Case { workload: Workload::Frames, name: &case, item: "frame" }, candidates);
 }
 
@@ -219,11 +219,11 @@ pub(super) fn run(bench: &mut Bench<'_>) -> Result<(), BenchError> {
         let most = bench.pools.most();
         let Some(service) = bench.pools.on(most, || RenderService::new(triangles, sigma_m))? else { continue };
         let service = &service;
+        let side = bench.pick(32, 512, 512);
         if sigma_m > 1e-6 {
-            smooth_surfaces(bench, service, bench.pick(32, 512, 512));
-        } else {
-            changes(bench, service, bench.pick(32, 512, 512));
+            smooth_surfaces(bench, service, side);
         }
+        changes(bench, service, side, name);
         for &side in sides {
             let mut qualities = vec![("full", Quality::Full), ("preview", Quality::Preview)];
             if side <= SLOW_UP_TO {

@@ -213,9 +213,9 @@ impl PicturesQuery {
         }
     }
 
-    fn compare(&self, ask: &impl Ask, lit: u64) -> Vec<Option<Arc<Difference>>> {
+    fn compare(&self, ask: &impl Ask, lit: usize) -> Vec<Option<Arc<Difference>>> {
         let Some(wanted) = self.compared_samples else { return vec![None; self.sources.len()] };
-        let stride = (lit as usize).div_ceil(wanted.max(1)).max(1);
+        let stride = lit.div_ceil(wanted.max(1)).max(1);
         let of = |source: &SourceOf| {
             if source.rendering == self.reference {
                 return None;
@@ -251,7 +251,7 @@ impl Query for PicturesQuery {
         }
         let angles = Arc::clone(shading.geometry());
         let geometry = angles.counts();
-        let differences = self.compare(ask, geometry.lit);
+        let differences = self.compare(ask, angles.samples().len());
         Ok(Some(Pictures { pictures, images, differences, facing, angles, geometry, shading: shading.counts() }))
     }
 }
