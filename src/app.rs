@@ -26,6 +26,7 @@ use crate::catalog::opened::Opened;
 use crate::catalog::recorded_store::RecordedStore;
 use crate::catalog::spectral_images::ImageStore;
 use crate::command::{Command, key_bindings};
+use crate::export::page::PageJob;
 use crate::figures::curves::CurveCache;
 use crate::files::Files;
 use crate::jobs::{Background, Executor};
@@ -76,6 +77,8 @@ pub struct ChromascopeApp {
     report: Background<ReportJob>,
     /// Picture of the window about the program.
     portrait: Background<PicturesQuery>,
+    /// Pixels of the Figure page.
+    pages: Background<PageJob>,
     place: layout::WindowPlace,
     ctx: egui::Context,
 }
@@ -129,6 +132,7 @@ impl ChromascopeApp {
             interrupted: None,
             report: Background::on(executor, "report", repaint()),
             portrait: Background::on(executor, "portrait", repaint()),
+            pages: Background::on(executor, "page", repaint()),
             place: layout::WindowPlace::default(),
             ctx: ctx.clone(),
         }
@@ -207,6 +211,11 @@ impl ChromascopeApp {
         &self.profiler
     }
 
+    /// Pixels of the Figure page.
+    pub fn pages(&self) -> &Background<PageJob> {
+        &self.pages
+    }
+
     /// Camera ranking service.
     pub fn ranking(&self) -> &Ranking {
         &self.ranking
@@ -237,7 +246,7 @@ impl ChromascopeApp {
         }
         focus::enter_pane(ctx, &mut self.view);
         let typing = ctx.text_edit_focused();
-        let focused = self.view.focused.unwrap_or(PaneKind::CHROMATICITY);
+        let focused = self.view.page.open.or(self.view.focused).unwrap_or(PaneKind::CHROMATICITY);
         for binding in key_bindings(focused) {
             // An open list closes first.
             if binding.command == Command::Escape && egui::Popup::is_any_open(ctx) {

@@ -67,6 +67,8 @@ pub enum Command {
     StopMeasuring,
     /// Read text as if it were a file.
     Paste(String),
+    /// Show a pane as the printed page, or go back.
+    FigurePage(PaneKind),
     /// Save a pane's figure or numbers.
     Export(PaneKind, Format),
     /// Save a source's rendered picture with its numbers.
@@ -163,7 +165,7 @@ pub enum Format {
 
 impl Format {
     /// All forms.
-    pub const ALL: [Self; 5] = [Self::Svg, Self::Pdf, Self::Png, Self::Csv, Self::Json];
+    pub const ALL: [Self; 5] = [Self::Pdf, Self::Svg, Self::Png, Self::Csv, Self::Json];
 
     /// The ending of its files.
     pub const fn extension(self) -> &'static str {
@@ -173,6 +175,25 @@ impl Format {
             Self::Png => "png",
             Self::Csv => "csv",
             Self::Json => "json",
+        }
+    }
+}
+
+impl Command {
+    /// True if it shows other panes, so that the Figure page closes.
+    pub fn shows_panes(&self) -> bool {
+        match self {
+            Self::TogglePane(pane) => *pane != PaneKind::LIBRARY,
+            Self::Show(_)
+            | Self::Maximize(_)
+            | Self::ToggleInspector
+            | Self::ResetLayout
+            | Self::GoTo(_)
+            | Self::Seek(..)
+            | Self::ShowImport(..)
+            | Self::SpectralWeights
+            | Self::Tour(_) => true,
+            _ => false,
         }
     }
 }
@@ -206,11 +227,6 @@ const fn plain(key: Key) -> KeyboardShortcut {
 
 const CTRL_SHIFT: Modifiers = Modifiers { shift: true, ..Modifiers::COMMAND };
 
-/// The form in which a pane's figure is saved first: pictures are made of pixels.
-fn export_format(pane: PaneKind) -> Format {
-    if pane == PaneKind::RENDER { Format::Png } else { Format::Svg }
-}
-
 /// All keys. `focused` is the pane that exports and maximizing mean.
 pub fn key_bindings(focused: PaneKind) -> Vec<KeyBinding> {
     let with_ctrl = |key, command, words| KeyBinding { shortcut: ctrl(key), command, words, rests_while_typing: false };
@@ -226,7 +242,7 @@ pub fn key_bindings(focused: PaneKind) -> Vec<KeyBinding> {
         shifted(Key::Z, Command::Redo, "Redo"),
         shifted(Key::C, Command::CopyPicture(focused), "Copy the pane's picture"),
         with_ctrl(Key::O, Command::Open, "Open files"),
-        with_ctrl(Key::E, Command::Export(focused, export_format(focused)), "Export the pane's figure"),
+        with_ctrl(Key::E, Command::FigurePage(focused), "The pane as the printed page: size, style, PDF"),
         with_ctrl(Key::Z, Command::Undo, "Undo"),
         with_ctrl(Key::Y, Command::Redo, "Redo"),
         with_ctrl(Key::F, Command::FocusSearch, "Search the library"),

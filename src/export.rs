@@ -2,6 +2,7 @@
 
 pub mod card;
 pub mod form;
+pub mod page;
 pub mod paper;
 pub mod profile;
 pub mod render;

@@ -89,7 +89,7 @@ impl Surround {
 }
 
 /// Colors of compared sources in a figure.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
 pub enum SourceInks {
     /// Those on screen, told apart in all kinds of color vision.
     #[default]

@@ -12,6 +12,7 @@ use crate::catalog::opened::Opened;
 use crate::catalog::recorded_store::RecordedStore;
 use crate::catalog::spectral_images::ImageStore;
 use crate::command::Command;
+use crate::export::page::PageJob;
 use crate::figures::FigureInput;
 use crate::figures::curves::CurveCache;
 use crate::jobs::Background;
@@ -69,6 +70,8 @@ pub struct PaneContext<'a> {
     pub radiators: &'a Background<NearestBlackBodyQuery>,
     /// Picture of the window about the program.
     pub portrait: &'a Background<PicturesQuery>,
+    /// Pixels of the Figure page.
+    pub pages: &'a Background<PageJob>,
     /// Renderer of the pictures.
     pub render_service: &'a mut RenderService,
     /// Profiler of the scene.

@@ -98,7 +98,7 @@ fn enabled_item(ui: &mut Ui, enabled: bool, words: &str, command: Command, conte
 }
 
 fn focused(context: &PaneContext<'_>) -> PaneKind {
-    context.view.focused.unwrap_or(PaneKind::CHROMATICITY)
+    context.view.page.open.or(context.view.focused).unwrap_or(PaneKind::CHROMATICITY)
 }
 
 /// The pane whose figure is meant: the focused one if it has figures, else the first visible one that has.
@@ -149,6 +149,9 @@ fn file(ui: &mut Ui, context: &mut PaneContext<'_>) {
     }
     ui.separator();
     let pane = pictured(context);
+    let words = format!("Figure page of {}", context.title(pane));
+    item(ui, &words, Command::FigurePage(pane), context);
+    item(ui, &format!("Export {} as PDF…", context.title(pane)), Command::Export(pane, Format::Pdf), context);
     item(ui, &format!("Export {} as SVG…", context.title(pane)), Command::Export(pane, Format::Svg), context);
     item(ui, &format!("Export {} as PNG…", context.title(pane)), Command::Export(pane, Format::Png), context);
     item(ui, &format!("Export numbers of {}…", context.title(pane)), Command::Export(pane, Format::Csv), context);

@@ -16,6 +16,7 @@ mod diagram;
 mod doubt;
 mod exports;
 mod figure;
+mod figure_page;
 mod finding;
 mod focus;
 mod help;

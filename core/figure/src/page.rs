@@ -18,6 +18,7 @@ pub(super) use canvas::{Canvas, Label};
 
 /// Position of the titles of the axes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum AxisTitles {
     /// In the corners of the plot.
     #[default]
@@ -87,7 +88,7 @@ impl Page {
     }
 
     /// Points on paper for each point of the figure.
-    pub(super) fn scale(&self, style: &PageStyle) -> f64 {
+    pub fn scale(&self, style: &PageStyle) -> f64 {
         style.width_mm.map_or(1.0, |mm| mm / 25.4 * 72.0 / self.area.width().max(1.0))
     }
 }

@@ -67,6 +67,7 @@ pub struct LegendEntry {
 
 /// Position of a legend.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum LegendPlace {
     /// Inside the largest panel, upper right, below the panel's note.
     #[default]

@@ -2,6 +2,7 @@
 
 /// Ranges of the axes of a saved figure.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum AxisRanges {
     /// Those on screen, zoomed or not.
     #[default]
@@ -12,6 +13,7 @@ pub enum AxisRanges {
 
 /// Extent of the numbers written with a figure.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Numbers {
     /// Everything that the figure is made from.
     #[default]

@@ -291,19 +291,19 @@ fn millimeters(text: &str) -> Result<f64, String> {
     let found = units.iter().find_map(|(unit, mm)| Some((text.trim().strip_suffix(unit)?, mm)));
     let (number, mm) = found.ok_or("a length needs a unit, such as 85mm or 3.35in")?;
     let length = number.trim().parse::<f64>().map_err(|error| error.to_string())? * mm;
-    within(length, [20.0, 2000.0], "mm")
+    within(length, Paper::SIDE_MM, "mm")
 }
 
 fn points(text: &str) -> Result<f64, String> {
-    within(text.parse().map_err(|_| "not a number".to_owned())?, [3.0, 48.0], "points")
+    within(text.parse().map_err(|_| "not a number".to_owned())?, Paper::FONT_PT, "points")
 }
 
 fn factor(text: &str) -> Result<f64, String> {
-    within(text.parse().map_err(|_| "not a number".to_owned())?, [0.1, 10.0], "")
+    within(text.parse().map_err(|_| "not a number".to_owned())?, Paper::LINE_SCALE, "")
 }
 
 fn dpi(text: &str) -> Result<f64, String> {
-    within(text.parse().map_err(|_| "not a number".to_owned())?, [36.0, 2400.0], "pixels per inch")
+    within(text.parse().map_err(|_| "not a number".to_owned())?, Paper::DPI, "pixels per inch")
 }
 
 fn within(value: f64, [low, high]: [f64; 2], unit: &str) -> Result<f64, String> {

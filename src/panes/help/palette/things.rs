@@ -104,7 +104,10 @@ pub(super) fn panes(context: &PaneContext<'_>) -> Vec<Found> {
 pub(super) fn saves(context: &PaneContext<'_>) -> Vec<Found> {
     let mut found = Vec::new();
     for pane in context.panes.iter().filter(|pane| pane.figure.is_some()) {
+        let page = Found::new("Save", format!("Figure page of {}", pane.title), Command::FigurePage(pane.kind));
+        found.push(page.also("print paper export PDF journal"));
         for (format, words) in [
+            (Format::Pdf, "as PDF"),
             (Format::Svg, "as SVG"),
             (Format::Png, "as PNG"),
             (Format::Csv, "numbers as CSV"),
