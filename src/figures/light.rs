@@ -35,7 +35,12 @@ pub fn bars(rendition: &Rendition, area: Rect) -> Option<Panel> {
     let x = Axis::new("test color (Ra: mean of R1 to R8)", [0.0, values.len() as f64])
         .with_ticks(Ticks::At(names))
         .with_grid(false);
-    let y = Axis::new("color rendering index", [floor, 140.0]).with_ticks(Ticks::Auto).with_grid(true);
+    // Numbers that are wider than a bar's place stand in two lines in turn.
+    let widest = values.iter().map(|(_, value)| text_width(&fixed(*value, 0), TextSize::Small)).fold(0.0, f64::max);
+    let staggers = widest + NUMBER_GAP > (area.width() - Projection::LEFT) / values.len() as f64;
+    let y = Axis::new("color rendering index", [floor, if staggers { 165.0 } else { 140.0 }])
+        .with_ticks(Ticks::Auto)
+        .with_grid(true);
     let mut panel = Panel::new("rendering indices", area, x, y);
     for (index, (name, value)) in values.iter().enumerate() {
         let middle = index as f64 + 0.5;
@@ -45,11 +50,8 @@ pub fn bars(rendition: &Rendition, area: Rect) -> Option<Panel> {
         let (anchor, ink) = (Anchor(0.5, 1.0), InkRole::Text.into());
         let at = [middle, value.max(0.0)];
         let text = fixed(*value, 0);
-        // A number that is wider than its bar's place would run into the next; the bar itself still says it when pointed at.
-        if text_width(&text, TextSize::Small) + NUMBER_GAP > (area.width() - Projection::LEFT) / values.len() as f64 {
-            continue;
-        }
-        let shape = Shape::Text { at, text, anchor, offset: [0.0, -1.0], size: TextSize::Small, ink };
+        let lift = if staggers && index % 2 == 1 { 12.0 } else { 0.0 };
+        let shape = Shape::Text { at, text, anchor, offset: [0.0, -1.0 - lift], size: TextSize::Small, ink };
         panel.marks.push(Mark::new(Tag::default(), format!("{name} {value:.1}"), shape));
     }
     Some(panel)

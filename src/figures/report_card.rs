@@ -133,7 +133,9 @@ fn locus(scene: &Scene<'_>, id: &SensorId, area: Rect) -> Panel {
     let diagram = scene.document.diagram;
     let [cold, hot] = LOCUS_RANGE_K.map(|kelvin| 1e6 / kelvin);
     let ticks = [1000.0, 1500.0, 2500.0, 6500.0].map(|kelvin| (1e6 / kelvin, format!("{kelvin:.0}")));
-    let x = Axis::new("blackbody temperature (K)", [cold, hot]).with_ticks(Ticks::At(ticks.into()));
+    let words = "blackbody temperature (K)";
+    let fits = text_width(words, TextSize::Small) < area.width() - Projection::LEFT - 8.0;
+    let x = Axis::new(if fits { words } else { "temperature (K)" }, [cold, hot]).with_ticks(Ticks::At(ticks.into()));
     let pair = scene
         .locus(id.kind, &id.name)
         .and_then(|own| Ok((own, scene.locus(SetKind::Observer, &scene.document.reference)?)));
@@ -177,7 +179,8 @@ fn patches(scene: &Scene<'_>, metrics: &CameraMetrics, area: Rect) -> Panel {
     let mut taken: Vec<Rect> = Vec::new();
     for (rank, &patch) in worst.iter().enumerate() {
         let Some(value) = values.get(patch).copied().flatten() else { continue };
-        let words = format!("{}  {}", rank + 1, name(patch));
+        let number = fixed(value, scene.document.difference.decimals);
+        let words = format!("{}  {} {number}", rank + 1, name(patch));
         // Names are to the left of bars in the right half, so that none is cut.
         let (anchor, shift) =
             if patch as f64 > count / 2.0 { (Anchor::RIGHT_BOTTOM, 4.0) } else { (Anchor::LEFT_BOTTOM, -4.0) };

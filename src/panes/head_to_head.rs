@@ -1,11 +1,12 @@
 //! Two cameras side by side: values, differences, and whether these exceed the uncertainty.
 
 use chromascope_core::query::CameraMetric;
-use egui::{ComboBox, Rect, RichText, Ui, Vec2};
+use egui::{Rect, RichText, Ui, Vec2};
 
 use super::context::{Pane, PaneContext};
 use crate::figures::{head_to_head as figure, metrics};
 use crate::panes::widgets;
+use crate::panes::widgets::pick_list::{self, Line};
 use crate::panes::widgets::table::{CellNote, Column, DataTable};
 use crate::plot_item::SensorId;
 use crate::ranking::Ranked;
@@ -85,19 +86,15 @@ fn choose(
     ui.horizontal(|ui| {
         ui.label(RichText::new(letter).strong());
         let words = now.map_or("Choose a camera", |now| ranked.cameras[now].id.name.as_str());
-        let combo = ComboBox::from_id_salt(("head to head", place)).width(ui.available_width()).selected_text(words);
-        let shown = combo.truncate().show_ui(ui, |ui| {
-            for (index, camera) in ranked.cameras.iter().enumerate() {
-                if ui.selectable_label(Some(index) == now, &camera.id.name).clicked() {
-                    chosen = Some(camera.id.clone());
-                }
-            }
+        let name = format!("Camera {letter}");
+        let follows = context.view.saved.metrics.pair[place].is_none();
+        let hint = if follows { "Follows the selection until you choose" } else { "A camera of the comparison" };
+        let width = ui.available_width();
+        let index = pick_list::drop_down(ui, (&name, hint), words, width, &context.theme, || {
+            let cameras = ranked.cameras.iter().enumerate();
+            cameras.map(|(index, camera)| Line::new(&camera.id.name, Some(index) == now)).collect()
         });
-        let said = format!("Camera {letter}: {words}");
-        shown.response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::ComboBox, true, &said));
-        if context.view.saved.metrics.pair[place].is_none() {
-            shown.response.on_hover_text("Follows the selection until you choose");
-        }
+        chosen = index.map(|index| ranked.cameras[index].id.clone());
     });
     chosen
 }

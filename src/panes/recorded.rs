@@ -13,7 +13,7 @@ use crate::catalog::recorded_store::{RecordedContent, RecordedFile, RecordedStat
 use crate::command::Command;
 use crate::document::SetKind;
 use crate::figures::recorded;
-use crate::format::{fixed, number};
+use crate::format::fixed;
 use crate::paint::{self, PlotOptions};
 use crate::panes::widgets;
 use crate::panes::widgets::table::{CellNote, Column, DataTable};
@@ -230,7 +230,9 @@ fn words(
     let percent = |log: f64| fixed(log * 100.0, 2);
     let left = names.len() * 3 - fit.values;
     let left = if left > 0 { format!(", {left} excluded") } else { String::new() };
-    let gains = fit.gains.map(|gain| gain.map_or_else(|| "–".to_owned(), number));
+    let largest = fit.gains.iter().flatten().fold(f64::MIN_POSITIVE, |most: f64, gain| most.max(gain.abs()));
+    let decimals = (3.0 - largest.log10().floor()).clamp(0.0, 12.0) as usize;
+    let gains = fit.gains.map(|gain| gain.map_or_else(|| "–".to_owned(), |gain| fixed(gain, decimals)));
     let line = format!(
         "{}: {name}, RMS {} % ({} % by the degrees of freedom); {} values{left}; gains {}",
         file.name,

@@ -1,6 +1,6 @@
 //! One camera on one page, as it is exported.
 
-use egui::{Align2, ComboBox, FontId, Id, Rect, ScrollArea, Ui, UiBuilder, Vec2};
+use egui::{Align2, FontId, Id, Rect, ScrollArea, Ui, UiBuilder, Vec2};
 
 use super::context::{Pane, PaneContext};
 use crate::document::SetKind;
@@ -8,6 +8,7 @@ use crate::figures::report_card;
 use crate::format::sentence;
 use crate::paint::{self, PlotOptions};
 use crate::panes::widgets;
+use crate::panes::widgets::pick_list::{self, Line};
 use crate::plot_item::SensorId;
 use crate::theme::UNIT;
 use crate::workspaces::PaneKind;
@@ -71,17 +72,16 @@ fn choose(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let now = report_card::camera(&context.scene, context.view);
     let words = now.as_ref().map_or("", |id| id.name.as_str());
     let width = (ui.available_width() - UNIT).max(60.0);
-    let combo = ComboBox::from_id_salt("report card").width(width).truncate().selected_text(words);
-    let mut card = context.view.saved.metrics.card.clone();
-    let shown = combo.show_ui(ui, |ui| {
-        ui.selectable_value(&mut card, None, "The selected camera");
-        for entry in context.scene.entries(SetKind::Camera) {
-            let id = SensorId { kind: SetKind::Camera, name: entry.name };
-            let name = id.name.clone();
-            ui.selectable_value(&mut card, Some(id), name);
-        }
+    let card = context.view.saved.metrics.card.as_ref();
+    let mut names = Vec::new();
+    let hint = "The camera of the page";
+    let chosen = pick_list::drop_down(ui, ("Camera of the card", hint), words, width, &context.theme, || {
+        names.extend(context.scene.entries(SetKind::Camera).map(|entry| entry.name));
+        let cameras = names.iter().map(|name| Line::new(name, card.is_some_and(|card| card.name == *name)));
+        std::iter::once(Line::new("The selected camera", card.is_none())).chain(cameras).collect()
     });
-    let said = format!("Camera of the card: {words}");
-    shown.response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::ComboBox, true, &said));
-    context.view.saved.metrics.card = card;
+    if let Some(index) = chosen {
+        let name = index.checked_sub(1).map(|index| names.swap_remove(index));
+        context.view.saved.metrics.card = name.map(|name| SensorId { kind: SetKind::Camera, name });
+    }
 }

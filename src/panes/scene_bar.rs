@@ -73,14 +73,21 @@ impl Condition {
             PaneKind::RENDER | PaneKind::RENDER_SETTINGS | PaneKind::TOLERANCE | PaneKind::STATISTICS => {
                 is_of_light && self != Self::Patches
             }
+            // Ranks are by every metric.
+            PaneKind::METRICS | PaneKind::HEAD_TO_HEAD => self != Self::Difference,
+            PaneKind::LIGHT => is_of_light && !matches!(self, Self::Reference | Self::White | Self::Difference),
+            PaneKind::RECORDED => is_of_light && matches!(self, Self::Light | Self::Temperature | Self::Patches),
             PaneKind::METHODS | PaneKind::WORK_SAVED => is_of_light && self != Self::Difference,
             _ => true,
         }
     }
 
-    /// True if a pane of the workspace shows something that depends on it.
+    /// True if a visible pane shows something that depends on it.
     fn matters(self, context: &PaneContext<'_>) -> bool {
         let (view, light) = (&*context.view, &context.scene.document.light);
+        if let Some(pane) = view.maximized {
+            return self.matters_to(pane, view, light);
+        }
         let places = view.saved.layout.places(view.saved.workspace).iter().flatten();
         places.copied().any(|pane| self.matters_to(pane, view, light))
     }

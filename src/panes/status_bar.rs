@@ -28,14 +28,15 @@ const LONG: Duration = Duration::from_millis(500);
 const PATIENCE: Duration = Duration::from_millis(100);
 /// The width of the button after a message.
 const CHANGE: f32 = 76.0;
-/// Share of the bar that readings have; messages and facts have the rest, so that neither moves the other.
+/// Share of the bar that readings have; messages and facts have the rest, so that neither moves the other. A longer message takes
+/// the room of readings while there is none.
 const READINGS: f32 = 0.5;
 /// Seconds that a message is shown; warnings and errors stay until Esc or the next message.
 const MESSAGE: f64 = 6.0;
 /// Seconds of those in which it fades.
 const FADE: f64 = 0.5;
 /// Time between frames while it fades.
-const FRAME: Duration = Duration::from_millis(16);
+const FRAME: Duration = Duration::from_millis(100);
 /// Tooltip of the facts at the right.
 const FACTS: &str = "Computation time of the last change; largest error of the visible loci, relative to the largest \
                      signal and checked against sums at 1 nm; number of cameras computed. What is not visible is not \
@@ -47,7 +48,10 @@ const RENDER_FACTS: &str = "Time of the last rendering stage; error of integrals
 /// Shows the bar in its rectangle.
 pub fn show(ui: &mut Ui, rect: Rect, arrangement: &Arrangement, context: &mut PaneContext<'_>) {
     let inner = rect.shrink2(Vec2::new(2.0 * UNIT, 0.0));
-    let cut = (inner.left() + READINGS * inner.width()).round();
+    let half = READINGS * inner.width();
+    let is_idle = context.view.point.is_none() && context.view.hovered.is_none();
+    let lacks = if is_idle { (message_width(ui, context) - (inner.width() - half - 2.0 * UNIT)).max(0.0) } else { 0.0 };
+    let cut = (inner.left() + (half - lacks).max(0.0)).round();
     reading(ui, inner.with_max_x(cut - 2.0 * UNIT), context);
     let right = inner.with_min_x(cut + 2.0 * UNIT);
     if !message(ui, right, context) {
@@ -59,7 +63,9 @@ pub fn show(ui: &mut Ui, rect: Rect, arrangement: &Arrangement, context: &mut Pa
 fn reading(ui: &mut Ui, rect: Rect, context: &PaneContext<'_>) {
     let view = &*context.view;
     let hovered = || view.hovered.as_ref().map(|thing| describe(thing, context));
-    let words = view.point.clone().or_else(hovered).unwrap_or_else(|| READY.to_owned());
+    let fits = rect.width() >= lines::width(ui, READY, TextStyle::Body);
+    let words = view.point.clone().or_else(hovered).or_else(|| fits.then(|| READY.to_owned()));
+    let Some(words) = words else { return };
     let cut = lines::elided(ui, rect, &words, TextStyle::Body, context.theme.text);
     let response = ui.interact(rect, ui.scope_id().with("reading"), egui::Sense::hover());
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, &words));
@@ -123,6 +129,17 @@ fn message(ui: &mut Ui, mut rect: Rect, context: &mut PaneContext<'_>) -> bool {
     });
     line(ui, rect, &status.text, color, button, context);
     true
+}
+
+/// Width that the last message takes in one line, with its mark and its button.
+fn message_width(ui: &Ui, context: &PaneContext<'_>) -> f32 {
+    let status = &context.view.status;
+    if status.text.is_empty() {
+        return 0.0;
+    }
+    let mark = if status.weight == Weight::Note { 0.0 } else { 5.0 * UNIT };
+    let button = if status.change.is_some() { CHANGE + 2.0 * UNIT } else { 0.0 };
+    mark + lines::width(ui, &status.text, TextStyle::Body).ceil() + 1.0 + button
 }
 
 /// Opacity of the message by egui's time; one whose time is over is cleared. Under the pointer it stays.

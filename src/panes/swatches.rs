@@ -37,7 +37,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     }
     let body = widgets::caution::show(ui, body, context);
     ui.painter().rect_filled(body, 0.0, context.theme.surround.color());
-    let body = footer(ui, body, context);
+    let (body, slot) = footer(ui, body, context);
     let size = [f64::from(body.width()), f64::from(body.height())];
     let built = swatches::build(&context.scene, context.view, size);
     let mut child = ui.new_child(UiBuilder::new().id_salt("swatches").max_rect(body));
@@ -48,13 +48,16 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
         board(ui, area, &built, context);
     });
     if height - shown.state.clamped_offset().y > body.height() + 1.0 {
-        more_below(&child, body, context);
+        more_below(ui, slot, context);
     }
 }
 
-/// The line below the swatches: a button that selects the worst patch, and the scale of the bars. Returns what is left.
-fn footer(ui: &mut Ui, body: Rect, context: &mut PaneContext<'_>) -> Rect {
-    let Some((words, thing)) = swatches::worst(&context.scene) else { return body };
+/// The line below the swatches: a button that selects the worst patch, and the scale of the bars. Returns what is left above, and
+/// the place of the hint at more rows.
+fn footer(ui: &mut Ui, body: Rect, context: &mut PaneContext<'_>) -> (Rect, Rect) {
+    let Some((words, thing)) = swatches::worst(&context.scene) else {
+        return (body, body.with_min_y(body.bottom() - FOOTER));
+    };
     let color = context.theme.surround.label();
     let font = egui::FontId::proportional(crate::theme::SMALL);
     let scale = context.view.saved.difference_bars.then(|| swatches::bar_scale(&context.scene));
@@ -76,20 +79,19 @@ fn footer(ui: &mut Ui, body: Rect, context: &mut PaneContext<'_>) -> Rect {
         let at = egui::Pos2::new(body.right() - 2.0 * UNIT - scale.size().x, middle - 0.5 * scale.size().y);
         ui.painter().galley(at, scale, color);
     }
-    Rect::from_min_max(body.min, egui::Pos2::new(body.right(), top))
+    let rest = Rect::from_min_max(body.min, egui::Pos2::new(body.right(), top));
+    let beside_button = egui::Pos2::new(place.right() + 2.0 * UNIT, place.top());
+    (rest, Rect::from_min_size(beside_button, Vec2::new(body.right() - beside_button.x, place.height())))
 }
 
-/// A hint over the lower edge that there is more to scroll to.
-fn more_below(ui: &Ui, body: Rect, context: &PaneContext<'_>) {
+/// A hint at the left of a place, where it fits, that there is more to scroll to.
+fn more_below(ui: &Ui, slot: Rect, context: &PaneContext<'_>) {
     let color = context.theme.surround.label();
     let font = egui::FontId::proportional(crate::theme::SMALL);
     let words = ui.painter().layout_no_wrap("more below".to_owned(), font, color);
-    let size = words.size() + Vec2::new(28.0, 4.0);
-    let pill = Rect::from_center_size(body.center_bottom() - Vec2::new(0.0, 0.5 * size.y + 2.0), size);
-    let ground = context.theme.surround.color();
-    ui.painter().rect(pill, 0.5 * size.y, ground, egui::Stroke::new(1.0, color), egui::StrokeKind::Inside);
-    ui.painter().galley(pill.min + Vec2::new(20.0, 2.0), words, color);
-    let tip = pill.left_center() + Vec2::new(12.0, 3.0);
+    let at = slot.left_center() + Vec2::new(14.0, -0.5 * words.size().y);
+    let tip = slot.left_center() + Vec2::new(6.0, 3.0);
+    ui.painter().galley(at, words, color);
     let corners = vec![tip, tip + Vec2::new(-4.0, -5.0), tip + Vec2::new(4.0, -5.0)];
     ui.painter().add(egui::Shape::convex_polygon(corners, color, egui::Stroke::NONE));
 }

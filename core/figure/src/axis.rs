@@ -87,10 +87,14 @@ impl Axis {
         ticks
     }
 
-    /// Ticks of a vertical axis drawn `length` points long. Labels given for it may stand closer: lines of text are low.
+    /// Ticks of a vertical axis drawn `length` points long. Labels given for it may stand closer, and others where a single one
+    /// would be left: lines of text are low.
     pub fn vertical_ticks_over(&self, range: [f64; 2], length: f64) -> Vec<Tick> {
-        let closer = if matches!(self.ticks, Ticks::At(_)) { 3.5 } else { 1.0 };
-        self.ticks_over(range, closer * length)
+        let ticks = self.ticks_over(range, if matches!(self.ticks, Ticks::At(_)) { 3.5 } else { 1.0 } * length);
+        if self.ticks != Ticks::Auto || ticks.len() > 1 {
+            return ticks;
+        }
+        self.ticks_over(range, 2.0 * length)
     }
 }
 

@@ -12,6 +12,11 @@ const CORNER: f64 = 22.0;
 /// Distance of the points that stand for a line, in points.
 const STEP: f64 = 5.0;
 
+/// Distance that sensors' names keep from markers of patches, in points.
+const CLEARANCE: f64 = 8.0;
+/// Least radius of such a marker in points: dots along lines are smaller.
+const MARKER: f64 = 3.5;
+
 /// Rank of a label: the lower one is placed first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Rank {
@@ -100,6 +105,10 @@ impl Bounds {
         [0, 1].iter().all(|&axis| self.min[axis] < other.max[axis] && other.min[axis] < self.max[axis])
     }
 
+    fn grown(&self, by: f64) -> Self {
+        Self { min: self.min.map(|v| v - by), max: self.max.map(|v| v + by) }
+    }
+
     fn covers(&self, disk: &Disk) -> bool {
         let beyond = [0, 1].map(|axis| {
             let center = disk.center[axis];
@@ -168,8 +177,13 @@ pub(super) fn placed(mut labels: Vec<Label>, marks: &[&[Mark]], frame: &Frame) -
             label.places.iter().map(|place| (*place, extent(&label, place, frame))).collect();
         let inside = |bounds: &Bounds| frame.contains(bounds.min, 0.0) && frame.contains(bounds.max, 0.0);
         let is_apart = |bounds: &Bounds| !taken.iter().any(|other| bounds.overlaps(other));
+        let is_sensor = label.rank == Rank::Sensor;
         let is_free = |bounds: &Bounds, lines: bool| {
-            inside(bounds) && is_apart(bounds) && !disks.near(bounds).any(|d| (lines || !d.is_line) && bounds.covers(d))
+            let hidden = |d: &Disk| (lines || !d.is_line) && bounds.covers(d);
+            // Close to a patch's marker, a sensor's name would seem to be that marker's.
+            let wide = if is_sensor { bounds.grown(CLEARANCE) } else { *bounds };
+            let is_name_of = |d: &Disk| is_sensor && d.radius >= MARKER && !d.is_line && wide.covers(d);
+            inside(bounds) && is_apart(bounds) && !disks.near(&wide).any(|d| hidden(d) || is_name_of(d))
         };
         let first = |lines| boxes.iter().find(|(_, bounds)| is_free(bounds, lines));
         let may_cross = label.rank <= Rank::White;
@@ -198,9 +212,10 @@ fn extent(label: &Label, place: &Place, frame: &Frame) -> Bounds {
     Bounds { min: [left - ROOM, top - ROOM + 1.0], max: [left + width + ROOM, top + height + ROOM - 1.0] }
 }
 
-/// Disks along what a mark draws of the data; lines that stand for nothing are ground.
+/// Disks along what a mark draws of the data; lines that stand for nothing are ground, but for the
+/// spectral locus.
 fn disks_of(mark: &Mark, frame: &Frame) -> Vec<Disk> {
-    if mark.tag == PickIndex::NONE && !matches!(mark.shape, Shape::Points { .. }) {
+    if mark.tag == PickIndex::NONE && !matches!(mark.shape, Shape::Points { .. } | Shape::Gradient { .. }) {
         return Vec::new();
     }
     let width = mark.stroke.map_or(0.0, |stroke| stroke.width);
@@ -212,6 +227,10 @@ fn disks_of(mark: &Mark, frame: &Frame) -> Vec<Disk> {
             .collect(),
         Shape::Line { points, .. } => {
             let placed: Vec<[f64; 2]> = points.iter().map(|point| frame.at(*point)).collect();
+            placed.windows(2).flat_map(|ends| along([ends[0], ends[1]], frame)).map(line).collect()
+        }
+        Shape::Gradient { points } => {
+            let placed: Vec<[f64; 2]> = points.iter().map(|(point, _)| frame.at(*point)).collect();
             placed.windows(2).flat_map(|ends| along([ends[0], ends[1]], frame)).map(line).collect()
         }
         Shape::Segments { segments } => {

@@ -149,10 +149,13 @@ impl<'a> Board<'a> {
             note => note,
         };
         let chart = [columns as f64 * (cell[0] + GAP / 2.0), lines as f64 * (cell[1] + GAP / 2.0) + HEAD];
+        // Names have the width that colors leave, within reason.
+        let closest = chart[0] + 2.0 * MARGIN;
+        let pitch = (size[0] / across as f64).clamp(closest, closest.max(200.0));
         for (index, row) in rows.iter().enumerate() {
-            let x = MARGIN + (index % across) as f64 * (chart[0] + 2.0 * MARGIN);
+            let x = MARGIN + (index % across) as f64 * pitch;
             let y = MARGIN + (index / across) as f64 * (chart[1] + MARGIN);
-            self.row_head(&row.source, [x, y + 8.0], chart[0] + MARGIN);
+            self.row_head(&row.source, [x, y + 8.0], pitch - MARGIN);
             match &row.colors {
                 Err(why) => self.text(PickIndex::NONE, why, [x, y + 32.0], Anchor::LEFT),
                 Ok(colors) => {

@@ -6,6 +6,7 @@ use super::set;
 use crate::catalog::Entry;
 use crate::document::SetKind;
 use crate::panes::context::PaneContext;
+use crate::panes::widgets::facts;
 use crate::panes::widgets::pick_list::{self, Line};
 
 /// A list of all reflectances that is filtered as one types: the user's own, then the built-in ones by file.
@@ -19,13 +20,15 @@ pub(super) fn choice(ui: &mut Ui, now: &str, context: &mut PaneContext<'_>) {
         entries.sort_by_cached_key(|entry| (!entry.is_own(), entry.also.clone()));
         let mut lines: Vec<Line> = Vec::new();
         let mut last = None;
-        for Entry { name, short, also, .. } in entries {
+        for entry in entries {
+            let facts = facts::provenance(&context.scene, &entry);
+            let Entry { name, short, also, .. } = entry;
             let group = also.unwrap_or_else(|| "Others".to_owned());
             if last.as_ref() != Some(&group) {
                 lines.push(Line::heading(&group));
                 names.push(String::new());
             }
-            lines.push(Line { also: format!("{short} {group}"), ..Line::new(&name, name == now) });
+            lines.push(Line { also: format!("{short} {group}"), facts, ..Line::new(&name, name == now) });
             names.push(name);
             last = Some(group);
         }

@@ -82,16 +82,14 @@ fn shown(place: PixelPlace, shot: &RenderedFrame) -> PixelPlace {
 /// The pixel through each sensor, one line each.
 fn others(ui: &mut Ui, place: &PixelPlace, shot: &RenderedFrame, context: &PaneContext<'_>) {
     let measure = Measure::of_frame(shot);
-    let mut table = Table::new(["", "x", "y", ""]);
+    let mut table = Table::new(["", "x", "y", measure.short_name()]);
     for source in shot.sources.iter() {
         let place = PixelPlace { at: place.at, source: SensorId { kind: source.kind, name: source.name.clone() } };
         let Some(PixelShows::Lit(lit)) = pixel_of(&context.scene, shot, &place).map(|reading| reading.shows) else {
             continue;
         };
         let [x, y] = [lit.xy.map(|xy| xy.x), lit.xy.map(|xy| xy.y)].map(Cell::from);
-        let difference = lit
-            .difference
-            .map_or_else(String::new, |difference| format!("{} {}", measure.short_name(), measure.number(difference)));
+        let difference = lit.difference.map_or_else(String::new, |difference| measure.number(difference));
         table.push([Cell::from(source.label.as_str()), x, y, Cell::from(difference)]);
     }
     let columns = table.columns.iter().map(|head| Column { decimals: Some(4), ..Column::from_head(head) }).collect();

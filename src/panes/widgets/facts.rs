@@ -147,13 +147,9 @@ pub fn show(ui: &mut Ui, theme: &Theme, facts: &[Fact]) {
     }
 }
 
-/// A data set in short, for the pointer on its name: name, further names, range, terms.
-pub fn tooltip(ui: &mut Ui, scene: &Scene<'_>, theme: &Theme, entry: &Entry) {
-    ui.set_max_width(280.0);
-    ui.strong(&entry.name);
-    if let Some(also) = &entry.also {
-        ui.label(also);
-    }
-    let short = of(scene, entry, true).into_iter().filter(|(caption, _)| ["Range", "Terms"].contains(caption));
-    show(ui, theme, &short.collect::<Vec<_>>());
+/// Source and terms of a data set, for the pointer on its name. Parses nothing.
+pub fn provenance(scene: &Scene<'_>, entry: &Entry) -> String {
+    let facts =
+        of(scene, entry, false).into_iter().filter(|(caption, _)| ["Source", "Terms", "File"].contains(caption));
+    facts.map(|(caption, words)| format!("{caption}: {words}")).collect::<Vec<_>>().join("\n")
 }

@@ -29,6 +29,8 @@ pub struct Line {
     pub words: String,
     /// What stands at the right: what choosing it does, or its key.
     pub note: String,
+    /// What is known of it, told when it is pointed at.
+    pub facts: String,
     /// Further words that find it.
     pub also: String,
     /// True if it is what is set now.
@@ -171,8 +173,11 @@ fn row(ui: &mut Ui, line: &Line, picked: bool, theme: &Theme) -> bool {
     let note =
         if line.note.is_empty() { 0.0 } else { lines::right_aligned(ui, room, &line.note, TextStyle::Small, color) };
     let place = words.with_max_x(words.right() - note - 2.0 * UNIT);
-    if lines::elided(ui, place, &line.words, TextStyle::Body, theme.text) {
-        response.clone().on_hover_text(&line.words);
+    let cut = lines::elided(ui, place, &line.words, TextStyle::Body, theme.text);
+    let told = [line.words.as_str(), &line.facts];
+    let told = &told[usize::from(!cut)..2 - usize::from(line.facts.is_empty())];
+    if !told.is_empty() {
+        response.clone().on_hover_text(told.join("\n"));
     }
     response.clicked()
 }
