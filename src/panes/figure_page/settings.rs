@@ -182,22 +182,19 @@ fn buttons(ui: &mut Ui, kind: PaneKind, context: &mut PaneContext<'_>) {
 /// Measures of the page in a sentence or two.
 fn in_words(facts: &PageFacts, paper: &Paper) -> String {
     let [width, height] = facts.size_mm();
-    let mut words = format!("{width:.0} × {height:.0} mm");
-    if let Some(points) = facts.smallest_text_pt {
-        words += &format!(", smallest text {points:.1} pt");
-    }
-    if let Some(points) = facts.thinnest_line_pt {
-        words += &format!(", thinnest line {points:.2} pt");
-    }
-    words.push('.');
-    if paper.height_mm.is_some_and(|wanted| (height - wanted).abs() > 1.0) {
-        words += " Its rows or pictures have their own height.";
-    }
-    if let Some(apart) = facts.lightness_apart {
+    let measures = [
+        Some(format!("{width:.0} × {height:.0} mm")),
+        facts.smallest_text_pt.map(|points| format!("smallest text {points:.1} pt")),
+        facts.thinnest_line_pt.map(|points| format!("thinnest line {points:.2} pt")),
+    ];
+    let measures: Vec<String> = measures.into_iter().flatten().collect();
+    let own_height = paper.height_mm.is_some_and(|wanted| (height - wanted).abs() > 1.0);
+    let own_height = if own_height { " Its rows or pictures have their own height." } else { "" };
+    let apart = facts.lightness_apart.map_or_else(String::new, |apart| {
         let told = if apart < PageFacts::TOLD_APART { "not told apart" } else { "told apart" };
-        words += &format!(" Without color, cameras are {told}: lightness differs by ΔL* {apart:.0} or more.");
-    }
-    words
+        format!(" Without color, cameras are {told}: lightness differs by ΔL* {apart:.0} or more.")
+    });
+    format!("{}.{own_height}{apart}", measures.join(", "))
 }
 
 /// A control behind its name.
