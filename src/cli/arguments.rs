@@ -13,7 +13,7 @@ use super::identify::arguments::IdentifyArguments;
 use super::inspect::arguments::InspectArguments;
 use super::matrix::arguments::MatrixArguments;
 use super::render::arguments::RenderArguments;
-use super::report::ReportArguments;
+use super::report::arguments::ReportArguments;
 pub(super) use super::sources::{CommonArguments, SourceArguments, Transform};
 use crate::document::SetKind;
 
@@ -98,7 +98,7 @@ pub(super) enum Subcommand {
     #[command(after_help = super::figure::arguments::EXAMPLES)]
     Figure(Box<FigureArguments>),
     /// Figures and claims of the 2007 paper with public data: PDF, SVG, PNG, CSV and one page
-    #[command(after_help = super::report::EXAMPLES)]
+    #[command(after_help = super::report::arguments::EXAMPLES)]
     Report(Box<ReportArguments>),
     /// Pictures of a mesh under a light, through cameras and observers, as PNG or OpenEXR
     #[command(after_help = super::render::arguments::EXAMPLES)]
