@@ -23,13 +23,25 @@ pub enum Command {
     Undo,
     /// Bring it again.
     Redo,
+    /// Begin a new session, from the template of a name or the default start.
+    New(Option<&'static str>),
+    /// Begin a new session from a template of the user's.
+    NewFrom(std::path::PathBuf),
+    /// Save the session in its file.
+    Save,
+    /// Save the session under a name.
+    SaveAs,
+    /// Save the session as a template.
+    SaveTemplate,
+    /// Delete a template of the user's.
+    RemoveTemplate(std::path::PathBuf),
     /// Show the dialog for files to open.
     Open,
     /// Show the dialog for a file of recorded raw values.
     OpenRecorded,
     /// Show the dialog for a folder of files to open.
     OpenFolder,
-    /// Open a document in place of this one, which is saved first.
+    /// Open a session or document in place of this one, which is saved first.
     OpenDocument(std::path::PathBuf),
     /// Delete a document that another window saved.
     RemoveDocument(std::path::PathBuf),
@@ -218,6 +230,9 @@ pub fn key_bindings(focused: PaneKind) -> Vec<KeyBinding> {
         // The longer combination first: egui's Ctrl+Z would also take Ctrl+Shift+Z.
         shifted(Key::Z, Command::Redo, "Redo"),
         shifted(Key::C, Command::CopyPicture(focused), "Copy the pane's picture"),
+        shifted(Key::S, Command::SaveAs, "Save the session under a name"),
+        with_ctrl(Key::S, Command::Save, "Save the session"),
+        with_ctrl(Key::N, Command::New(None), "New session"),
         with_ctrl(Key::O, Command::Open, "Open files"),
         with_ctrl(Key::E, Command::Export(focused, export_format(focused)), "Export the pane's figure"),
         with_ctrl(Key::Z, Command::Undo, "Undo"),

@@ -13,6 +13,7 @@ mod motion;
 mod profile;
 mod prompt;
 mod save;
+mod sessions;
 mod shared_state;
 mod standing;
 mod store;
@@ -28,12 +29,13 @@ use event::Note;
 
 pub use atomic::{write_atomically, write_atomically_with};
 pub use dialogs::{Answer, DialogLog, Dialogs, Question};
-pub use event::{FileEvent, OpenedDocument};
+pub use event::{DocumentSource, FileEvent, OpenedDocument, SavedFile};
 pub use last::{install_panic_hook, save_last, save_on_exit, save_on_signals};
 pub use motion::reduces_motion;
 pub use profile::Copy;
 pub use prompt::PathPrompt;
 pub use save::{FileForm, SaveRequest};
+pub use sessions::MakeText;
 pub use standing::{Standing, StandingKind};
 
 /// The only part of the window that touches the disk.

@@ -7,6 +7,7 @@ use chromascope_figure::{Figure, Table};
 use egui::ViewportCommand;
 
 use super::ChromascopeApp;
+use super::session::SESSION;
 use crate::action::history::History;
 use crate::action::{Action, CompareAction};
 use crate::catalog::opened::Request;
@@ -14,7 +15,7 @@ use crate::command::{Command, Format};
 use crate::document::SetKind;
 use crate::export;
 use crate::figures::FigureInput;
-use crate::files::{FileEvent, FileForm, SaveRequest};
+use crate::files::{DocumentSource, FileEvent, FileForm, SaveRequest};
 use crate::panes;
 use crate::profiler::SceneRunJob;
 use crate::scene::Scene;
@@ -42,10 +43,17 @@ impl ChromascopeApp {
                 FileEvent::Open(paths) => self.open(paths.into_iter().map(Request::Path).collect()),
                 FileEvent::Changed(paths) => self.read_changed(&paths),
                 FileEvent::Said(message) => self.view.say(message),
-                FileEvent::Saved(message, what) => {
-                    self.view.say(message);
-                    self.saved(ctx, &what);
+                FileEvent::Saved(saved) => {
+                    self.view.say(saved.message.clone());
+                    self.saved(ctx, &saved.what);
+                    if saved.what == SESSION {
+                        self.named(saved);
+                    }
                 }
+                FileEvent::SessionSaved(file, document) => self.wrote_session(file, document),
+                FileEvent::SessionChanged(path) => self.did_not_write_session(Ok(path)),
+                FileEvent::SessionFailed(why) => self.did_not_write_session(Err(why)),
+                FileEvent::SessionKnown(file, document) => self.know_session(file, document),
                 FileEvent::Document(opened) => self.take_document(*opened),
                 FileEvent::Failed(message) => self.view.fail(message),
             }
@@ -79,7 +87,16 @@ impl ChromascopeApp {
                 self.view.recorded.opening = false;
                 self.files.ask_for_folder();
             }
-            Command::OpenDocument(path) => self.files.open_document(&path, self.history.document().clone()),
+            Command::New(template) => self.new_session(template),
+            Command::NewFrom(path) => self.open_document(DocumentSource::Template(path)),
+            Command::Save => self.save_session(false),
+            Command::SaveAs => self.save_session_as(),
+            Command::SaveTemplate => self.name_template(),
+            Command::RemoveTemplate(path) => {
+                self.files.remove_template(&path);
+                self.view.templates = self.files.templates();
+            }
+            Command::OpenDocument(path) => self.open_document(DocumentSource::File(path)),
             Command::RemoveDocument(path) => {
                 self.files.remove_document(&path);
                 self.view.kept = self.files.kept_documents();
@@ -229,7 +246,7 @@ impl ChromascopeApp {
     /// One step back: reading a mesh, palette, help, overlay, finer pictures, selection, pixel, pins, maximized pane, single
     /// picture, message.
     fn escape(&mut self) {
-        if self.files.prompt_mut().take().is_some() {
+        if self.files.prompt_mut().take().is_some() || self.session.escape() {
             return;
         }
         if std::mem::take(&mut self.view.keeps_escape) || self.stop_opening() || self.stop_reading() {
@@ -417,25 +434,6 @@ impl ChromascopeApp {
         let scene = Scene { document: self.history.document(), catalog: &self.catalog, results: &self.results };
         let cells: Vec<_> = CONDITIONS.into_iter().zip(scene.conditions()).collect();
         figure.table.clone().with_constants(&cells)
-    }
-
-    /// Puts a document that was read in the place of this one, as one step.
-    fn take_document(&mut self, mut opened: crate::files::OpenedDocument) {
-        self.end_tour();
-        if opened.before != *self.history.document() {
-            // The document changed meanwhile: its current state is saved.
-            return self.files.open_document(&opened.path, self.history.document().clone());
-        }
-        let name = crate::format::file_name(&opened.path);
-        opened.document.part_names(self.catalog.names());
-        self.step(|history| history.replace(format!("Open {name}"), opened.document));
-        let words =
-            format!("Opened {name}. The previous document was saved: File, Recovered documents. Ctrl+Z undoes this.");
-        match opened.lost.first() {
-            None => self.view.say(words),
-            Some(first) => self.view.fail(format!("{words} Parts that could not be read are missing: {first}.")),
-        }
-        self.view.kept = self.files.kept_documents();
     }
 
     /// Saves the document as soon as it changes.

@@ -98,6 +98,7 @@ impl ChromascopeApp {
         context.studio.end_frame();
         context.ranking.end_frame();
         self.ask_about_closing(ui, &theme);
+        self.ask_about_session(ui, &theme);
         focus::ring(ui.ctx(), &theme);
         drop_veil(ui, theme);
     }

@@ -91,6 +91,11 @@ impl ChromascopeApp {
             Command::Open
                 | Command::OpenRecorded
                 | Command::OpenFolder
+                | Command::New(_)
+                | Command::NewFrom(_)
+                | Command::Save
+                | Command::SaveAs
+                | Command::SaveTemplate
                 | Command::OpenDocument(_)
                 | Command::OpenPath(_)
                 | Command::Paste(_)

@@ -49,7 +49,8 @@ impl SaveRequest {
     /// is a sentence.
     pub(super) fn target(&self, path: &Path) -> Result<(PathBuf, FileForm), String> {
         let offered = self.forms.first().ok_or_else(|| "There is nothing to save.".to_owned())?;
-        let Some(typed) = ending(path) else {
+        let own = |typed: &&str| self.forms.iter().any(|form| form.extension.eq_ignore_ascii_case(typed));
+        let Some(typed) = path.extension().and_then(OsStr::to_str).filter(own).or_else(|| ending(path)) else {
             let mut name = path.file_name().unwrap_or_default().to_owned();
             name.push(".");
             name.push(offered.extension);
