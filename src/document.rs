@@ -21,9 +21,9 @@ use correction::CorrectionChoice;
 pub use correction::TRAINING;
 pub use kind::SetKind;
 use own::OwnSet;
+pub use own::SessionFile;
 use render::RenderSettings;
 use serde::{Deserialize, Serialize};
-pub use session::SessionFile;
 use start::Start;
 
 /// The version of the saved form that this program writes.

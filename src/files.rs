@@ -34,8 +34,7 @@ pub use last::{install_panic_hook, save_last, save_on_exit, save_on_signals};
 pub use motion::reduces_motion;
 pub use profile::Copy;
 pub use prompt::PathPrompt;
-pub use save::{FileForm, SaveRequest};
-pub use sessions::MakeText;
+pub use save::{FileForm, MakeText, SaveRequest};
 pub use standing::{Standing, StandingKind};
 
 /// The only part of the window that touches the disk.

@@ -3,12 +3,12 @@
 use chromascope_core::colorimetry::Metric;
 use chromascope_core::query::Shared;
 use serde::de::DeserializeOwned;
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize as _, Serialize};
 use serde_json::{Map, Value};
 
 use super::kind::SetKind;
 use super::names::BuiltInNames;
-use super::own::{Fingerprint, OwnSet, Role};
+use super::own::{OwnSet, Role};
 use super::start::Start;
 use super::{Document, MOST_COMPARED, VERSION, kept, unknown};
 
@@ -16,16 +16,6 @@ use super::{Document, MOST_COMPARED, VERSION, kept, unknown};
 pub const ENDING: &str = "chromascope";
 /// Key of the view in a session file.
 const VIEW: &str = "view";
-
-/// A session's file as it was last read or written by this window.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct SessionFile {
-    /// Its path.
-    #[serde(with = "super::paths")]
-    pub path: std::path::PathBuf,
-    /// Fingerprint of its contents; other contents were written by another program.
-    pub fingerprint: Fingerprint,
-}
 
 /// Reason that a saved document cannot be opened.
 #[derive(Debug, thiserror::Error)]
@@ -191,7 +181,7 @@ fn sentence_of_newer(version: u64, foreign: &Map<String, Value>, refused: &[Stri
         words += &format!(" Unknown here, and kept: {}.", names.join(", "));
     }
     if !refused.is_empty() {
-        words += &format!(" Not understood here, and left out: {}.", refused.join(", "));
+        words += &format!(" Not understood here, and skipped: {}.", refused.join(", "));
     }
     words
 }

@@ -7,8 +7,7 @@ use super::atomic::write_atomically;
 use super::dialogs::{Answer, Question};
 use super::event::{FileEvent, Note, SavedFile};
 use super::prompt::{self, PathPrompt};
-use super::save::{FileForm, SaveRequest};
-use super::sessions;
+use super::save::{self, FileForm, SaveRequest};
 use crate::format::io_reason;
 
 /// A dialog that is open.
@@ -218,7 +217,7 @@ fn write(path: &Path, form: &FileForm, SaveRequest { what, note, .. }: &SaveRequ
         Ok(()) => {
             let note = if note.is_empty() { String::new() } else { format!(": {note}") };
             let message = format!("Saved {}{note}.", path.display());
-            FileEvent::Saved(SavedFile { message, what: what.clone(), file: sessions::written(path, &bytes) })
+            FileEvent::Saved(SavedFile { message, what: what.clone(), file: save::written(path, &bytes) })
         }
         Err(error) => {
             FileEvent::Failed(format!("Cannot write {}: {}. Your work is safe.", path.display(), io_reason(&error)))

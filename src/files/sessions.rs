@@ -9,6 +9,7 @@ use super::Files;
 use super::atomic::write_atomically;
 use super::event::{DocumentSource, FileEvent, Note, OpenedDocument};
 use super::keep::Aside;
+use super::save::MakeText;
 use super::store::{Unread, read};
 use crate::document::own::Fingerprint;
 use crate::document::{Document, SessionFile, session};
@@ -16,9 +17,6 @@ use crate::format::{io_failure, io_reason};
 
 /// The folder of the user's templates, in that of the program.
 const TEMPLATES: &str = "templates";
-
-/// Makes the text of a session; the error is a message.
-pub type MakeText = Arc<dyn Fn() -> Result<String, String> + Send + Sync>;
 
 impl Files {
     /// Reads a document to replace this one, which is saved in a file of its own before unless it `is_safe`.
@@ -85,12 +83,6 @@ impl Files {
 /// True if a file is a session by its name.
 pub(super) fn is_session_name(path: &Path) -> bool {
     path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case(session::ENDING))
-}
-
-/// A file by its absolute path, as it was just written.
-pub(super) fn written(path: &Path, bytes: &[u8]) -> SessionFile {
-    let path = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
-    SessionFile { path, fingerprint: Fingerprint::of(bytes) }
 }
 
 fn opened(source: DocumentSource, before: Document, is_safe: bool, aside: &Aside, own: Option<&Path>) -> FileEvent {

@@ -1,6 +1,9 @@
 //! Templates: documents to begin a new session with, and what shows them.
 
-use crate::action::{Action, RenderAction, SceneAction};
+use crate::action::{Action, OwnAction, RenderAction, SceneAction};
+use crate::catalog::import::import;
+use crate::document::names::BuiltInNames;
+use crate::document::own::{OwnSet, Role};
 use crate::document::start::Start;
 use crate::document::{Document, Light, Overlays, WhiteBalanceChoice};
 use crate::workspaces::PaneKind;
@@ -66,10 +69,15 @@ pub const TEMPLATES: [Template; 7] = [
     },
     Template {
         name: "Best camera for skin",
-        summary: "All cameras ranked by ΔE*00 over measured skin under D65, each fitted to CIE 1931.",
+        summary: "All cameras ranked by ΔE*00 over the skin of 100 people (NIST) under D65, each fitted to CIE 1931.",
         pane: PaneKind::METRICS,
         start: Start::Colorimetry,
-        actions: |_| vec![Action::Scene(SceneAction::SetChart("Skin (NIST)".to_owned()))],
+        actions: |_| {
+            skin()
+                .map(|set| Action::Own(OwnAction::Import { sets: vec![set], built_in: BuiltInNames::default() }))
+                .into_iter()
+                .collect()
+        },
     },
     Template {
         name: "Will a matrix fix it?",
@@ -82,6 +90,13 @@ pub const TEMPLATES: [Template; 7] = [
 
 fn overlays(overlays: Overlays) -> Action {
     Action::Scene(SceneAction::SetOverlays(overlays))
+}
+
+/// Measured skins, as one set of patches.
+fn skin() -> Option<OwnSet> {
+    let text = chromascope_data::text("materials/skin_nist.csv")?;
+    let set = import("skin_nist.csv", text.as_bytes(), Some(Role::Reflectance)).ok()?.set;
+    Some(OwnSet { name: "Skin of 100 people (NIST)".to_owned(), ..set })
 }
 
 impl Template {

@@ -189,7 +189,7 @@ fn a_session_of_a_newer_version_opens_as_far_as_it_is_understood() {
     let mut window = window(&folder.join("profile"));
     open(&mut window, &path);
     let status = &window.state().view().status;
-    for words in ["newer version", "format 99", "kept: hologram", "left out: compared, light", "workspace"] {
+    for words in ["newer version", "format 99", "kept: hologram", "skipped: compared, light", "workspace"] {
         assert!(status.text.contains(words), "{words}: {}", status.text);
     }
     let document = document(&window);
