@@ -79,6 +79,8 @@ pub enum Command {
     Export(PaneKind, Format),
     /// Save a source's rendered picture with its numbers.
     ExportExr(SensorId),
+    /// Put the curves of a set of the library on the clipboard as text.
+    CopySet(SetKind, String),
     /// Save the curves of a set of the library.
     SaveSet(SetKind, String, Form),
     /// Save the current color correction.

@@ -10,7 +10,7 @@ use super::ChromascopeApp;
 use super::session::SESSION;
 use crate::action::history::History;
 use crate::action::{Action, CompareAction};
-use crate::catalog::opened::Request;
+use crate::catalog::opened::{CLIPBOARD, Request};
 use crate::command::{Command, Format};
 use crate::document::SetKind;
 use crate::export;
@@ -104,7 +104,7 @@ impl ChromascopeApp {
             Command::OpenPath(path) => self.open(vec![Request::Path(path)]),
             Command::Paste(text) => {
                 let bytes = text.into_bytes().into();
-                self.open(vec![Request::Bytes { name: "clipboard".to_owned(), bytes }]);
+                self.open(vec![Request::Bytes { name: CLIPBOARD.to_owned(), bytes }]);
             }
             Command::ShowImport(item, line) => self.show_import(item, line),
             Command::Wish(item, wishes) => {
@@ -128,6 +128,7 @@ impl ChromascopeApp {
             Command::StopMeasuring => self.laboratory.stop(),
             Command::Export(pane, format) => self.export(pane, format),
             Command::ExportExr(source) => self.export_exr(&source),
+            Command::CopySet(kind, name) => self.copy_set(ctx, kind, &name),
             Command::SaveSet(kind, name, form) => self.save_set(kind, &name, form),
             Command::SaveCorrection(form) => self.save_correction(form),
             Command::CopyPicture(pane) => self.copy_picture(ctx, pane),
@@ -174,7 +175,7 @@ impl ChromascopeApp {
         }
     }
 
-    fn show_workspace(&mut self, workspace: Workspace) {
+    pub(super) fn show_workspace(&mut self, workspace: Workspace) {
         self.view.saved.workspace = workspace;
         self.view.maximized = None;
         self.view.inspector_over = false;

@@ -55,8 +55,8 @@ impl ChromascopeApp {
     /// Looks at the file of the session that the program begins with.
     pub(super) fn begin_session(&mut self) {
         self.view.templates = self.files.templates();
-        if let Some(file) = self.own_document().session.clone() {
-            self.files.look_at_session(file);
+        if self.history.document().session.is_some() {
+            self.files.look_at_session(self.history.document().clone());
         }
     }
 

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::Files;
-use super::atomic::write_atomically;
+use super::atomic::{sweep, write_atomically};
 use super::event::{DocumentSource, FileEvent, Note, OpenedDocument};
 use super::keep::Aside;
 use super::save::MakeText;
@@ -26,13 +26,16 @@ impl Files {
     }
 
     /// Reads the file of the session that the program begins with, to know whether it holds the same.
-    pub fn look_at_session(&self, file: SessionFile) {
+    pub fn look_at_session(&self, document: Document) {
         self.in_background(move || {
-            let there = read(&file.path).ok().filter(|(_, fingerprint)| *fingerprint == file.fingerprint);
-            there.map(|(kept, _)| {
-                let document = Document { session: Some(file.clone()), ..kept.document };
-                Note::Event(FileEvent::SessionKnown(file, Arc::new(document)))
-            })
+            let file = document.session.clone()?;
+            file.path.parent().into_iter().for_each(sweep);
+            let (kept, fingerprint) = read(&file.path).ok()?;
+            let there = Document { session: Some(file.clone()), unknown: document.unknown.clone(), ..kept.document };
+            // A program that was killed just after it wrote the file did not note that it had.
+            let is_known = fingerprint == file.fingerprint || there == document;
+            let file = SessionFile { fingerprint, ..file };
+            is_known.then(|| Note::Event(FileEvent::SessionKnown(file, Arc::new(there))))
         });
     }
 
@@ -148,6 +151,7 @@ fn write_unless_changed(file: &SessionFile, bytes: &[u8], replaces: bool) -> io:
         Err(error) if error.kind() == io::ErrorKind::NotFound => None,
         Err(error) => return Err(error),
     };
+    file.path.parent().into_iter().for_each(sweep);
     if let Some(there) = &there {
         // Where there are no locks, the comparison alone must do.
         let _unlocked = there.lock();

@@ -10,10 +10,12 @@ use chromascope::catalog::Catalog;
 use chromascope::catalog::import::import;
 use chromascope::cli;
 use chromascope::command::Command;
-use chromascope::document::{Document, SetKind, session};
+use chromascope::document::own::Fingerprint;
+use chromascope::document::{Document, SessionFile, SetKind, session};
 use chromascope::files::Files;
 use chromascope::results::Results;
 use chromascope::scene::Scene;
+use chromascope::view::import::ImportItem;
 use chromascope::view::template::TEMPLATES;
 use chromascope::view::{SavedView, ViewChoice, Weight};
 use chromascope::workspaces::Workspace;
@@ -403,4 +405,55 @@ fn a_damaged_session_changes_nothing() {
     open(&mut window, &path);
     assert!(window.state().view().status.text.starts_with("half.chromascope could not be opened: EOF"));
     assert_eq!(document(&window), before);
+}
+
+#[test]
+fn a_table_from_a_spreadsheet_opens_in_import_and_curves_are_copied_as_text() {
+    let (_around, folder) = folder();
+    let mut window = window(&folder.join("profile"));
+    push(
+        &mut window,
+        Command::Paste("nm\tleaf\tbark\n400\t0.05\t0.1\n500\t0.1\t\n600\t0.2\t0.3\n700\t0.5\t0.4\n".to_owned()),
+    );
+    until(&mut window, "the set", |app| !app.history().document().own.is_empty());
+    assert_eq!(window.state().view().saved.workspace, Workspace::Import);
+    let set = document(&window).own[0].clone();
+    assert_eq!(window.state().view().import.selected, Some(ImportItem::Set(set.name.clone())));
+    window.state_mut().push(Command::CopySet(SetKind::of_own(&set), set.name.clone()));
+    window.run_steps(1);
+    let commands = &window.output().platform_output.commands;
+    let copied = commands.iter().find_map(|command| match command {
+        egui::OutputCommand::CopyText(text) => Some(text.clone()),
+        _ => None,
+    });
+    let expected = "wavelength_nm\tleaf\tbark\n400\t0.05\t0.1\n500\t0.1\t\n600\t0.2\t0.3\n700\t0.5\t0.4\n";
+    assert_eq!(copied.unwrap().replace("\r\n", "\n"), expected);
+    // One that cannot be read is shown there too.
+    let mut other = self::window(&folder.join("other"));
+    push(&mut other, Command::Paste("no numbers at all".to_owned()));
+    until(&mut other, "the failure", |app| app.view().saved.workspace == Workspace::Import);
+}
+
+#[test]
+fn a_session_saved_at_the_moment_of_a_kill_is_not_asked_about() {
+    let (_around, folder) = folder();
+    let path = folder.join("a.chromascope");
+    // The document notes the file as it was before it was written.
+    let mut document = Document { temperature_k: 3000.0, ..Document::paper() };
+    fs::write(&path, session::to_session(&document, &SavedView::default()).unwrap()).unwrap();
+    document.session = Some(SessionFile { path: path.clone(), fingerprint: Fingerprint::of(b"before") });
+    let profile = folder.join("profile");
+    let mut files = Files::new(Some(profile.clone()));
+    files.kept_document();
+    files.save_document(&document).unwrap();
+    drop(files);
+    let mut window = window(&profile);
+    crate::waiting::until("the name", || {
+        window.run_steps(1);
+        let title = window.state().title();
+        if title == "a – Chromascope" { Ok(()) } else { Err(title.to_owned()) }
+    });
+    push(&mut window, temperature(3100.0));
+    push(&mut window, Command::Save);
+    saved(&mut window);
 }
