@@ -169,7 +169,8 @@ class Worker:
         before = time.monotonic()
         # The first time it is opened, then it is known; it is written anew each time.
         if os.path.exists(self.document) and "session" in self.read():
-            os.remove(self.session)
+            if os.path.exists(self.session):
+                os.remove(self.session)
             self.start()
         else:
             self.start(self.session)

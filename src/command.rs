@@ -5,7 +5,7 @@ use egui::{Key, KeyboardShortcut, Modifiers};
 
 use crate::action::Action;
 use crate::document::SetKind;
-use crate::document::own::{Fingerprint, ImportOverrides};
+use crate::document::imported::{Fingerprint, ImportOverrides};
 use crate::export::spectra::Form;
 use crate::plot_item::{PlotItem, SensorId};
 use crate::theme::Surround;
@@ -23,18 +23,8 @@ pub enum Command {
     Undo,
     /// Bring it again.
     Redo,
-    /// Begin a new session, from the template of a name or the default start.
-    New(Option<&'static str>),
-    /// Begin a new session from a template of the user's.
-    NewFrom(std::path::PathBuf),
-    /// Save the session in its file.
-    Save,
-    /// Save the session under a name.
-    SaveAs,
-    /// Save the session as a template.
-    SaveTemplate,
-    /// Delete a template of the user's.
-    RemoveTemplate(std::path::PathBuf),
+    /// Begin or save a session.
+    Session(SessionCommand),
     /// Show the dialog for files to open.
     Open,
     /// Show the dialog for a file of recorded raw values.
@@ -143,6 +133,29 @@ pub enum Command {
     Quit,
 }
 
+/// What is done with sessions as files.
+#[derive(Clone, Debug, PartialEq)]
+pub enum SessionCommand {
+    /// Begin a new session, from the template of a name or the default start.
+    New(Option<&'static str>),
+    /// Begin a new session from a template of the user's.
+    NewFrom(std::path::PathBuf),
+    /// Save the session in its file.
+    Save,
+    /// Save the session under a name.
+    SaveAs,
+    /// Save the session as a template.
+    SaveTemplate,
+    /// Delete a template of the user's.
+    RemoveTemplate(std::path::PathBuf),
+}
+
+impl From<SessionCommand> for Command {
+    fn from(command: SessionCommand) -> Self {
+        Self::Session(command)
+    }
+}
+
 /// A step through the tour.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TourMove {
@@ -159,6 +172,8 @@ pub enum TourMove {
 /// A form to save in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Format {
+    /// Vector graphics for print, with its fonts.
+    Pdf,
     /// Vector graphics.
     Svg,
     /// Pixels.
@@ -171,11 +186,12 @@ pub enum Format {
 
 impl Format {
     /// All forms.
-    pub const ALL: [Self; 4] = [Self::Svg, Self::Png, Self::Csv, Self::Json];
+    pub const ALL: [Self; 5] = [Self::Svg, Self::Pdf, Self::Png, Self::Csv, Self::Json];
 
     /// The ending of its files.
     pub const fn extension(self) -> &'static str {
         match self {
+            Self::Pdf => "pdf",
             Self::Svg => "svg",
             Self::Png => "png",
             Self::Csv => "csv",
@@ -232,9 +248,9 @@ pub fn key_bindings(focused: PaneKind) -> Vec<KeyBinding> {
         // The longer combination first: egui's Ctrl+Z would also take Ctrl+Shift+Z.
         shifted(Key::Z, Command::Redo, "Redo"),
         shifted(Key::C, Command::CopyPicture(focused), "Copy the pane's picture"),
-        shifted(Key::S, Command::SaveAs, "Save the session under a name"),
-        with_ctrl(Key::S, Command::Save, "Save the session"),
-        with_ctrl(Key::N, Command::New(None), "New session"),
+        shifted(Key::S, Command::Session(SessionCommand::SaveAs), "Save the session under a name"),
+        with_ctrl(Key::S, Command::Session(SessionCommand::Save), "Save the session"),
+        with_ctrl(Key::N, Command::Session(SessionCommand::New(None)), "New session"),
         with_ctrl(Key::O, Command::Open, "Open files"),
         with_ctrl(Key::E, Command::Export(focused, export_format(focused)), "Export the pane's figure"),
         with_ctrl(Key::Z, Command::Undo, "Undo"),

@@ -309,12 +309,18 @@ impl<'a> Scene<'a> {
 
     /// The color that a perfect white is to take.
     pub fn white(&self) -> Result<WhiteBalanceTarget, SceneError> {
-        match &self.document.white {
+        self.white_target(&self.document.white)
+    }
+
+    /// A light of the library.
+    fn built_in_light(&self, name: &str) -> Result<LoadedLight, SceneError> {
+        self.loaded(&LightQuery::Set(self.find(SetKind::Illuminant, name)?.place.clone()), name)
+    }
+
+    fn white_target(&self, choice: &WhiteBalanceChoice) -> Result<WhiteBalanceTarget, SceneError> {
+        match choice {
             WhiteBalanceChoice::Unity => Ok(WhiteBalanceTarget::UNITY),
-            WhiteBalanceChoice::Light(name) => {
-                let light = self.loaded(&LightQuery::Set(self.find(SetKind::Illuminant, name)?.place.clone()), name)?;
-                self.white_of(&light, name)
-            }
+            WhiteBalanceChoice::Light(name) => self.white_of(&self.built_in_light(name)?, name),
             WhiteBalanceChoice::Daylight(kelvin) => {
                 let xy = daylight::chromaticity(Kelvin::new(*kelvin)?)?;
                 WhiteBalanceTarget::from_chromaticity(xy)

@@ -43,6 +43,8 @@ use table::TableLook;
 pub struct View {
     /// State saved between runs.
     pub saved: SavedView,
+    /// Room for figures that are saved.
+    pub room: chromascope_figure::FigureRoom,
     /// Under the pointer now, in any pane.
     pub hovered: Option<PlotItem>,
     /// Under the pointer in the frame that is being made; becomes `hovered` at its end.
@@ -110,7 +112,7 @@ pub struct View {
     /// Times are neither shown nor renewed: for pictures that are compared.
     pub fixed_clock: bool,
     /// Documents that other windows saved, with their ages.
-    pub kept: Vec<(PathBuf, String)>,
+    pub other_documents: Vec<(PathBuf, String)>,
     /// Names and files of the user's templates.
     pub templates: Vec<(String, PathBuf)>,
     /// The last message.

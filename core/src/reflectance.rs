@@ -18,6 +18,7 @@ pub mod coherent;
 pub mod fresnel;
 pub mod geometry;
 pub mod hemispherical;
+pub mod leaf;
 pub mod normalization;
 pub mod power;
 pub mod regimes;
@@ -25,7 +26,7 @@ pub mod sum;
 pub mod surface;
 
 pub use geometry::Geometry;
-pub use hemispherical::{HemisphericalReflectance, directional_hemispherical};
+pub use hemispherical::{HemisphericalReflectance, directional_hemispherical, hemispherical_directional};
 pub use normalization::{Method, Normalization};
 pub use power::{beta, coherent_prefactor, diffuse_prefactor, factor, factor_by, factors_by, kappa, wavelength_power};
 pub use regimes::{Regime, diffuse_sum_by_regimes};

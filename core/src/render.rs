@@ -4,6 +4,7 @@
 //! visibility   mesh × viewpoint              which triangle each sample sees
 //! geometry     visibility × light's place    angles of light and view where it is lit: no spectrum, roughness or camera
 //! shading      geometry × surface            κ, β and factors: the same for every camera
+//! sky          visibility × surface          visible shares of a uniform sky: no light, no camera
 //! signals      shading × camera              three numbers a sample: no mesh
 //! develop      signals × balance, matrix, exposure    pixels
 //! ```
@@ -18,6 +19,7 @@ pub mod plan;
 pub mod quality;
 pub mod shading;
 pub mod signals;
+pub mod sky;
 pub mod spectral_image;
 mod stop;
 pub mod vertices;
@@ -25,12 +27,13 @@ pub mod visibility;
 
 pub use coherent::CoherentIntegral;
 pub use develop::{ColorimetricScale, Development, Picture, develop};
-pub use geometry::{Angles, GeometryCounts, GeometryImage, LitSamples, Shadows};
+pub use geometry::{Angles, GeometryCounts, GeometryImage, LitSamples, Reach, Shadows};
 pub use measure::{LAMBDA_0_NM, SpectralWeights};
 pub use plan::{Against, Demand, IntegrationMethod, Plan};
 pub use quality::{Quality, QualityLevel};
 pub use shading::{ShadingCounts, ShadingImage};
 pub use signals::CameraImage;
+pub use sky::{Sky, SkyImage, SkyReflectance, SkyVisibility};
 pub use spectral_image::{BandWeights, ImageSensor, SampleQuantity, SpectralImageError, SpectralImageSignals};
 pub use stop::Stop;
 pub use vertices::VertexImage;

@@ -87,19 +87,11 @@ impl ChromascopeApp {
                 self.view.recorded.opening = false;
                 self.files.ask_for_folder();
             }
-            Command::New(template) => self.new_session(template),
-            Command::NewFrom(path) => self.open_document(DocumentSource::Template(path)),
-            Command::Save => self.save_session(false),
-            Command::SaveAs => self.save_session_as(),
-            Command::SaveTemplate => self.name_template(),
-            Command::RemoveTemplate(path) => {
-                self.files.remove_template(&path);
-                self.view.templates = self.files.templates();
-            }
+            Command::Session(command) => self.session_command(command),
             Command::OpenDocument(path) => self.open_document(DocumentSource::File(path)),
             Command::RemoveDocument(path) => {
                 self.files.remove_document(&path);
-                self.view.kept = self.files.kept_documents();
+                self.view.other_documents = self.files.other_documents();
             }
             Command::OpenPath(path) => self.open(vec![Request::Path(path)]),
             Command::Paste(text) => {
@@ -124,8 +116,8 @@ impl ChromascopeApp {
                 self.stop_reading();
             }
             Command::SpectralWeights => self.measure(),
-            Command::MeasureWorkload(workload) => self.laboratory.run_bench(workload),
-            Command::StopMeasuring => self.laboratory.stop(),
+            Command::MeasureWorkload(workload) => self.profiler.run_bench(workload),
+            Command::StopMeasuring => self.profiler.stop(),
             Command::Export(pane, format) => self.export(pane, format),
             Command::ExportExr(source) => self.export_exr(&source),
             Command::CopySet(kind, name) => self.copy_set(ctx, kind, &name),
@@ -253,8 +245,8 @@ impl ChromascopeApp {
         if std::mem::take(&mut self.view.keeps_escape) || self.stop_opening() || self.stop_reading() {
             return;
         }
-        if self.laboratory.busy().is_some() {
-            self.laboratory.stop();
+        if self.profiler.busy().is_some() {
+            self.profiler.stop();
             self.view.say("Measuring stopped. Earlier results are unchanged.");
             return;
         }
@@ -298,7 +290,7 @@ impl ChromascopeApp {
         let document = self.history.document();
         let scene = Scene { document, catalog: &self.catalog, results: &self.results };
         let own = self.meshes.chosen(&document.render.mesh);
-        self.laboratory.run(SceneRunJob::of(&scene, own.as_ref(), self.view.saved.render.orbit));
+        self.profiler.run(SceneRunJob::of(&scene, own.as_ref(), self.view.saved.render.orbit));
         self.view.saved.workspace = Workspace::Numerics;
         if matches!(self.view.accuracy.shows, Shows::Bench(_)) {
             self.view.accuracy.shows = Shows::default();
@@ -368,7 +360,7 @@ impl ChromascopeApp {
 
     /// Input for a pane's figure of a scene.
     pub fn figure_input<'a>(&'a self, scene: &'a Scene<'a>) -> FigureInput<'a> {
-        FigureInput::of((scene, &self.view), &self.studio, &self.laboratory, &self.opened)
+        FigureInput::of((scene, &self.view), &self.render_service, &self.profiler, &self.opened)
     }
 
     /// The pane's figure as on screen, or a message that it has none.
@@ -453,11 +445,13 @@ impl ChromascopeApp {
 fn file_of(figure: &Figure, numbers: &Table, format: Format) -> Result<Vec<u8>, String> {
     let svg = || export::svg(figure, &Theme::LIGHT, export::Paper::default());
     match format {
+        Format::Pdf => export::pdf(figure, &Theme::LIGHT, export::Paper::default()).map_err(|error| error.to_string()),
         Format::Svg => Ok(svg().into_bytes()),
         Format::Csv => Ok(numbers.to_csv().into_bytes()),
         Format::Json => Ok(export::json(&figure.title, numbers).into_bytes()),
         Format::Png => {
-            let file = export::png(&svg(), PICTURE_SCALE).and_then(|picture| export::png_file(&picture));
+            let file = export::png(&svg(), PICTURE_SCALE)
+                .and_then(|picture| export::png_file_at(&picture, 72.0 * f64::from(PICTURE_SCALE)));
             file.map_err(|error| error.to_string())
         }
     }

@@ -75,8 +75,8 @@ impl ChromascopeApp {
     }
 
     fn exr(&self, source: &SensorId) -> Option<Result<Vec<u8>, String>> {
-        let shot = self.studio.frame()?;
-        if !self.studio.is_settled() {
+        let shot = self.render_service.frame()?;
+        if !self.render_service.is_settled() {
             return Some(Err("The pictures are not finished yet; save again when rendering is complete.".to_owned()));
         }
         let index = index_of(shot, source)?;
@@ -84,10 +84,10 @@ impl ChromascopeApp {
         let rendering = (*rendering).as_ref().ok()?;
         let document = self.history.document();
         let scene = Scene { document, catalog: &self.catalog, results: &self.results };
-        let white = document.white.name();
+        let [light, white] = scene.rendered_conditions();
         let balance = if rendering.is_rgb { &white } else { "none" };
         if let Some(made) = shot.made()?.image() {
-            let (image, illuminant) = (document.render.mesh.name(), scene.light_name());
+            let (image, illuminant) = (document.render.mesh.name(), light.clone());
             let provenance = ImageProvenance { source: &source.name, balance, illuminant: &illuminant, image: &image };
             let bytes = image_exr_bytes(made.placed(), made.signals(index)?, rendering, &provenance);
             return Some(bytes.map_err(|error| error.to_string()));
@@ -97,7 +97,7 @@ impl ChromascopeApp {
         let provenance = Provenance {
             source: &source.name,
             balance,
-            illuminant: &scene.light_name(),
+            illuminant: &light,
             material: &document.render.material,
             mesh: &document.render.mesh.name(),
             quality: shading.quality,
@@ -105,6 +105,8 @@ impl ChromascopeApp {
             viewpoint: shading.geometry.visibility.viewpoint,
             surface: shading.surface,
             reading: shading.reading,
+            sky: document.render.sky,
+            thin: document.render.thin,
         };
         Some(exr_bytes(image, rendering, &provenance).map_err(|error| error.to_string()))
     }

@@ -7,8 +7,8 @@ use std::sync::Arc;
 use egui::{Align2, Context, Key, RichText, TextEdit, Ui, Vec2, ViewportCommand, Window};
 
 use super::ChromascopeApp;
-use crate::command::Command;
-use crate::document::own::Fingerprint;
+use crate::command::{Command, SessionCommand};
+use crate::document::imported::Fingerprint;
 use crate::document::{Document, SessionFile, session};
 use crate::files::{DocumentSource, FileForm, MakeText, OpenedDocument, SaveRequest, SavedFile};
 use crate::panes;
@@ -109,8 +109,23 @@ impl ChromascopeApp {
         self.files.open_document(source, self.history.document().clone(), is_safe);
     }
 
+    /// Begins or saves a session.
+    pub(super) fn session_command(&mut self, command: SessionCommand) {
+        match command {
+            SessionCommand::New(template) => self.new_session(template),
+            SessionCommand::NewFrom(path) => self.open_document(DocumentSource::Template(path)),
+            SessionCommand::Save => self.save_session(false),
+            SessionCommand::SaveAs => self.save_session_as(),
+            SessionCommand::SaveTemplate => self.session.template = Some(String::new()),
+            SessionCommand::RemoveTemplate(path) => {
+                self.files.remove_template(&path);
+                self.view.templates = self.files.templates();
+            }
+        }
+    }
+
     /// Begins a new session.
-    pub(super) fn new_session(&mut self, template: Option<&'static str>) {
+    fn new_session(&mut self, template: Option<&'static str>) {
         let known = template.and_then(|name| TEMPLATES.iter().find(|template| template.name == name));
         let document = known.map_or_else(Document::default, Template::document);
         self.open_document(DocumentSource::New(known.map_or("New session", |known| known.name), Box::new(document)));
@@ -162,11 +177,11 @@ impl ChromascopeApp {
         {
             self.push(Command::GoTo(template.pane));
         }
-        self.view.kept = self.files.kept_documents();
+        self.view.other_documents = self.files.other_documents();
     }
 
     /// Saves the session in its file, or asks for one.
-    pub(super) fn save_session(&mut self, replaces: bool) {
+    fn save_session(&mut self, replaces: bool) {
         let Some(mut file) = self.history.document().session.clone() else { return self.save_session_as() };
         if self.session.writing[0] {
             self.session.writing[1] = true;
@@ -181,7 +196,7 @@ impl ChromascopeApp {
     }
 
     /// Asks where to save the session.
-    pub(super) fn save_session_as(&mut self) {
+    fn save_session_as(&mut self) {
         let (document, make) = self.text_to_save();
         let name = document.session.as_ref().map(|file| crate::format::file_name(&file.path));
         self.session.named = Some(document);
@@ -227,11 +242,6 @@ impl ChromascopeApp {
             Ok(path) => self.session.changed = Some(path),
             Err(why) => self.view.fail(why),
         }
-    }
-
-    /// Asks for the name of a template.
-    pub(super) fn name_template(&mut self) {
-        self.session.template = Some(String::new());
     }
 
     fn save_template(&mut self, name: &str) {

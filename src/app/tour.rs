@@ -91,15 +91,11 @@ impl ChromascopeApp {
             Command::Open
                 | Command::OpenRecorded
                 | Command::OpenFolder
-                | Command::New(_)
-                | Command::NewFrom(_)
-                | Command::Save
-                | Command::SaveAs
-                | Command::SaveTemplate
+                | Command::Session(_)
                 | Command::OpenDocument(_)
                 | Command::OpenPath(_)
                 | Command::Paste(_)
-                | Command::Do(Action::Own(_) | Action::Start(_) | Action::Reset)
+                | Command::Do(Action::Imported(_) | Action::Start(_) | Action::Reset)
         );
         if is_own {
             self.end_tour();

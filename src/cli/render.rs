@@ -2,9 +2,9 @@
 
 mod accuracy;
 pub(super) mod arguments;
-mod files;
+pub(super) mod files;
 mod image;
-mod setup;
+pub(super) mod setup;
 mod stats;
 
 use std::collections::BTreeMap;
@@ -142,6 +142,8 @@ impl<'a> Made<'a> {
             viewpoint: self.setup.viewpoint,
             surface: shading.surface,
             reading: shading.reading,
+            sky: self.scene.document.render.sky,
+            thin: self.scene.document.render.thin,
         };
         Ok(Content::Exr { image, rendering: Box::new(rendering), provenance: Box::new(provenance) })
     }

@@ -22,6 +22,9 @@ pub const SUN: &str = "Direct sun (ASTM G173)";
 /// The balance of the paper's third experiment.
 pub const BALANCE: &str = "D55";
 
+/// The sky that a scene begins with, over direct sunlight: a clear day's.
+pub const SKY: f64 = 0.15;
+
 /// The distance that a near light begins with, in radii of the mesh.
 pub const NEAR: f64 = 4.0;
 
@@ -81,8 +84,17 @@ pub struct RenderSettings {
     pub light_radius: f64,
     /// True if the light casts shadows.
     pub shadows: bool,
+    /// Irradiance of a level surface by a uniform sky over that of a surface that faces the light; 0 without a sky.
+    #[serde(default)]
+    pub sky: f64,
+    /// True if light passes through as through a leaf.
+    #[serde(default)]
+    pub thin: bool,
     /// Exposure in EV, the same for all cameras.
     pub exposure_ev: f64,
+    /// True if the scene is under [`SUN`] and balanced to [`BALANCE`] until a light or a white is chosen.
+    #[serde(default)]
+    pub sunlight: bool,
     /// Quantity of a spectral image's samples.
     pub image_quantity: QuantityChoice,
     /// Sample of a spectral image that stands for 1, beyond the file's own scale.
@@ -111,7 +123,10 @@ impl Default for RenderSettings {
             light_distance: None,
             light_radius: SUN_RADIUS,
             shadows: true,
+            sky: SKY,
+            thin: false,
             exposure_ev: 0.0,
+            sunlight: true,
             image_quantity: QuantityChoice::File,
             image_scale: 1.0,
         }
@@ -124,6 +139,7 @@ impl RenderSettings {
         let usual = Self::default();
         self.triangles = self.triangles.clamp(*TRIANGLES.start(), *TRIANGLES.end());
         self.exposure_ev = if self.exposure_ev.is_finite() { self.exposure_ev.clamp(-20.0, 20.0) } else { 0.0 };
+        self.sky = if self.sky.is_finite() { self.sky.clamp(0.0, 1.0) } else { 0.0 };
         if !(self.image_scale > 0.0 && self.image_scale.is_finite()) {
             self.image_scale = usual.image_scale;
         }
@@ -142,7 +158,17 @@ impl RenderSettings {
 
     /// The paper's fern under sunlight.
     pub fn fern() -> Self {
-        Self { mesh: MeshChoice::Fern, material: LEAF.to_owned(), index: 1.45, ..Self::default() }
+        Self { mesh: MeshChoice::Fern, material: LEAF.to_owned(), index: 1.45, thin: true, ..Self::default() }
+    }
+
+    /// Takes a mesh, with the material of the paper's where it was that of the other one.
+    pub fn take(&mut self, mesh: MeshChoice) {
+        let of = |mesh: &MeshChoice| if *mesh == MeshChoice::Fern { Self::fern() } else { Self::default() };
+        let (before, after) = (of(&self.mesh), of(&mesh));
+        if self.material == before.material && (self.index, self.thin) == (before.index, before.thin) {
+            (self.material, self.index, self.thin) = (after.material, after.index, after.thin);
+        }
+        self.mesh = mesh;
     }
 
     /// The paper's own setup of the same mesh: a point light, and Eq 1–12 as printed. σ and τ are not given in the paper.
@@ -154,6 +180,8 @@ impl RenderSettings {
             area: AreaChoice::Xy,
             light_distance: Some(NEAR),
             light_radius: 0.0,
+            sky: 0.0,
+            thin: false,
             ..self
         }
     }

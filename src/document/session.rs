@@ -6,11 +6,11 @@ use serde::de::DeserializeOwned;
 use serde::{Deserialize as _, Serialize};
 use serde_json::{Map, Value};
 
+use super::imported::{ImportedSet, Role};
 use super::kind::SetKind;
 use super::names::BuiltInNames;
-use super::own::{OwnSet, Role};
 use super::start::Start;
-use super::{Document, MOST_COMPARED, VERSION, kept, unknown};
+use super::{Document, MOST_COMPARED, VERSION, saved, unknown};
 
 /// Ending of the names of session files.
 pub const ENDING: &str = "chromascope";
@@ -129,8 +129,8 @@ pub fn is_session(beginning: &[u8]) -> bool {
 
 /// A document from JSON. Unknown fields are preserved; missing fields have their defaults.
 pub fn from_json(json: &str) -> Result<Document, SessionError> {
-    let mut elsewhere = |_: &kept::Place| Err("its curves are in another file".to_owned());
-    let read = kept::from_json(json, &mut elsewhere)?;
+    let mut elsewhere = |_: &saved::Place| Err("its curves are in another file".to_owned());
+    let read = saved::from_json(json, &mut elsewhere)?;
     match (read.lost.into_iter().next(), read.newer) {
         (Some(lost), _) => Err(SessionError::Set(lost)),
         (None, Some(newer)) => Err(SessionError::Newer(newer)),
@@ -139,7 +139,7 @@ pub fn from_json(json: &str) -> Result<Document, SessionError> {
 }
 
 /// A document from JSON without its sets, and these; of a newer version, what is understood, with a sentence about the rest.
-pub(super) fn from_value(mut value: Value, own: Vec<OwnSet>) -> Result<(Document, Option<String>), SessionError> {
+pub(super) fn from_value(mut value: Value, own: Vec<ImportedSet>) -> Result<(Document, Option<String>), SessionError> {
     rename_fields(&mut value);
     let version = value.get("version").and_then(Value::as_u64);
     if version == Some(1) {
@@ -172,16 +172,17 @@ pub(super) fn from_value(mut value: Value, own: Vec<OwnSet>) -> Result<(Document
 
 /// Parts of a document of a newer version that are not understood, in a sentence.
 fn sentence_of_newer(version: u64, foreign: &Map<String, Value>, refused: &[String]) -> String {
+    use std::fmt::Write as _;
     let mut words =
         format!("written by a newer version of Chromascope (format {version}; this version reads up to {VERSION}).");
     let known = serde_json::to_value(Document::default()).unwrap_or_default();
     let name = |key: &String| if known.get(key).is_some() { format!("a part of {key}") } else { key.clone() };
     let names: Vec<String> = foreign.keys().filter(|key| *key != VIEW).map(name).collect();
     if !names.is_empty() {
-        words += &format!(" Unknown here, and kept: {}.", names.join(", "));
+        let _ = write!(words, " Unknown here, and kept: {}.", names.join(", "));
     }
     if !refused.is_empty() {
-        words += &format!(" Not understood here, and skipped: {}.", refused.join(", "));
+        let _ = write!(words, " Not understood here, and skipped: {}.", refused.join(", "));
     }
     words
 }
@@ -207,7 +208,7 @@ const RENAMED: [(&str, &str); 2] =
 
 /// Converts a document of version 1 to the present format: cameras by their present names; missing parts are those of the
 /// paper's start, which was the only one.
-fn renew(value: &mut Value, own: &[OwnSet]) -> Result<(), SessionError> {
+fn renew(value: &mut Value, own: &[ImportedSet]) -> Result<(), SessionError> {
     let Some(old) = value.as_object_mut() else { return Ok(()) };
     let is_own = |name: &String| own.iter().any(|set| set.role == Role::Camera && set.name == *name);
     for compared in old.get_mut("compared").and_then(|list| list.as_array_mut()).into_iter().flatten() {

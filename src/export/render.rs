@@ -47,6 +47,10 @@ pub struct Provenance<'a> {
     pub surface: Surface,
     /// Normalization of Eq 1.
     pub reading: Normalization,
+    /// Irradiance of a level surface by the sky over that of a surface that faces the light.
+    pub sky: f64,
+    /// True if light passes through as through a leaf.
+    pub thin: bool,
 }
 
 /// The bytes of a PNG file: eight bits, sRGB, with opacity.
@@ -177,7 +181,9 @@ fn attributes(rendering: &Rendering, provenance: &Provenance<'_>) -> LayerAttrib
         Distance::Far => "lightDirection",
         Distance::Near => "lightPosition",
     };
-    let orbit = [viewpoint.yaw().to_degrees(), viewpoint.pitch().to_degrees(), viewpoint.distance()];
+    // From where the mesh fills the picture, the distance is not in radii.
+    let distance = if viewpoint.zoom().is_some() { 0.0 } else { viewpoint.distance() };
+    let orbit = [viewpoint.yaw().to_degrees(), viewpoint.pitch().to_degrees(), distance];
     let own = [
         ("camera", text(provenance.source)),
         ("balance", text(provenance.balance)),
@@ -188,6 +194,8 @@ fn attributes(rendering: &Rendering, provenance: &Provenance<'_>) -> LayerAttrib
         ("quality", text(provenance.quality.level().key())),
         ("reading", text(reading_name(provenance.reading))),
         (place, three(lighting.place().to_array())),
+        ("sky", AttributeValue::F64(provenance.sky)),
+        ("leaf", text(if provenance.thin { "true" } else { "false" })),
         ("lightAngularRadius", AttributeValue::F64(lighting.angular_radius())),
         ("sigma", AttributeValue::F64(surface.sigma_m())),
         ("tau", AttributeValue::F64(surface.tau_m())),
@@ -199,12 +207,13 @@ fn attributes(rendering: &Rendering, provenance: &Provenance<'_>) -> LayerAttrib
         ("orbit", three(orbit)),
         ("fieldOfView", AttributeValue::F64(viewpoint.field_of_view().to_degrees())),
     ];
+    let zoom = viewpoint.zoom().map(|zoom| ("framedDistance", AttributeValue::F64(zoom)));
     let tolerance = provenance.quality.given_tolerance();
     let tolerance = tolerance.map(|tolerance| ("tolerance", AttributeValue::F64(tolerance.max_relative_error())));
     LayerAttributes {
         software_name: Some(utf8(concat!("chromascope ", env!("CARGO_PKG_VERSION")))),
         comments: Some(utf8(comments(provenance.reading))),
-        other: own.into_iter().chain(tolerance).map(|(name, value)| (utf8(name), value)).collect(),
+        other: own.into_iter().chain(tolerance).chain(zoom).map(|(name, value)| (utf8(name), value)).collect(),
         ..LayerAttributes::default()
     }
 }
@@ -215,12 +224,14 @@ fn comments(reading: Normalization) -> &'static str {
         Normalization::Radiometric | Normalization::Microfacet => {
             "R G B: Eq 12 balanced, before exposure, with pi f in place of P; X Y Z: tristimulus values by the color \
              transform; A: coverage, premultiplied. Lengths in meters, angles in degrees except lightAngularRadius \
-             (radians), the light in view axes, orbit = yaw, pitch, distance in scene radii."
+             (radians), the light in view axes, orbit = yaw, pitch, distance in scene radii (0: framedDistance times the one from which the mesh \
+             fills the picture)."
         }
         Normalization::Paper | Normalization::Lambertian => {
             "R G B: Eq 12 balanced, before exposure; X Y Z: tristimulus values by the color transform; A: coverage, \
              premultiplied. Lengths in meters, angles in degrees except lightAngularRadius (radians), the light in \
-             view axes, orbit = yaw, pitch, distance in scene radii."
+             view axes, orbit = yaw, pitch, distance in scene radii (0: framedDistance times the one from which the mesh \
+             fills the picture)."
         }
     }
 }

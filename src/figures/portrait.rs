@@ -31,7 +31,7 @@ pub fn query(catalog: &Catalog, results: &Results) -> Option<PicturesQuery> {
     let viewpoint = Orbit::of(&document.render.mesh).viewpoint(f64::from(SIZE[0]) / f64::from(SIZE[1]))?;
     let size = RasterSize { width: SIZE[0], height: SIZE[1], samples: 2 }.clamped();
     let (quality, shadows) = (document.render.quality(), Shadows::Full);
-    let finish = Finish { size, quality, shadows, compared_samples: None };
+    let finish = Finish { size, quality, shadows, compared_samples: None, open_sky: false };
     scene.pictures_of(&sources, scene.mesh_of(None)?, viewpoint, finish, None).ok()
 }
 

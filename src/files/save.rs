@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use crate::document::SessionFile;
-use crate::document::own::Fingerprint;
+use crate::document::imported::Fingerprint;
 
 /// Makes the text of a session; the error is a message.
 pub type MakeText = Arc<dyn Fn() -> Result<String, String> + Send + Sync>;

@@ -11,7 +11,7 @@ use super::event::{DocumentSource, FileEvent, Note, OpenedDocument};
 use super::keep::Aside;
 use super::save::MakeText;
 use super::store::{Unread, read};
-use crate::document::own::Fingerprint;
+use crate::document::imported::Fingerprint;
 use crate::document::{Document, SessionFile, session};
 use crate::format::{io_failure, io_reason};
 

@@ -5,7 +5,7 @@ use egui::{Align, Atom, Button, Layout, Rect, RichText, Ui, UiBuilder, Vec2};
 use super::context::{Pane, PaneContext};
 use crate::action::history::History;
 use crate::action::{Action, SceneAction};
-use crate::command::{Command, Format, THEMES, TourMove, shortcut_of};
+use crate::command::{Command, Format, SessionCommand, THEMES, TourMove, shortcut_of};
 use crate::document::start::Start;
 use crate::panes::widgets::{Icon, icon_button, pick_list};
 use crate::theme::{Surround, UNIT};
@@ -111,7 +111,7 @@ fn pictured(context: &PaneContext<'_>) -> PaneKind {
 }
 
 fn file(ui: &mut Ui, context: &mut PaneContext<'_>) {
-    item(ui, "New", Command::New(None), context);
+    item(ui, "New", SessionCommand::New(None).into(), context);
     ui.menu_button("New from template", |ui| templates(ui, context));
     ui.separator();
     item(ui, "Open…", Command::Open, context);
@@ -128,7 +128,7 @@ fn file(ui: &mut Ui, context: &mut PaneContext<'_>) {
             }
         });
     }
-    let kept = context.view.kept.clone();
+    let kept = context.view.other_documents.clone();
     if !kept.is_empty() {
         ui.menu_button("Recovered documents", |ui| {
             for (path, age) in kept {
@@ -148,9 +148,9 @@ fn file(ui: &mut Ui, context: &mut PaneContext<'_>) {
         });
     }
     ui.separator();
-    item(ui, "Save", Command::Save, context);
-    item(ui, "Save as…", Command::SaveAs, context);
-    item(ui, "Save as template…", Command::SaveTemplate, context);
+    item(ui, "Save", SessionCommand::Save.into(), context);
+    item(ui, "Save as…", SessionCommand::SaveAs.into(), context);
+    item(ui, "Save as template…", SessionCommand::SaveTemplate.into(), context);
     ui.separator();
     if ui.add(Button::new("Paste data").shortcut_text("Ctrl+V")).clicked() {
         ui.ctx().send_viewport_cmd(egui::ViewportCommand::RequestPaste);
@@ -171,7 +171,7 @@ fn file(ui: &mut Ui, context: &mut PaneContext<'_>) {
 fn templates(ui: &mut Ui, context: &mut PaneContext<'_>) {
     for template in &TEMPLATES {
         if ui.button(template.name).on_hover_text(template.summary).clicked() {
-            context.push(Command::New(Some(template.name)));
+            context.push(SessionCommand::New(Some(template.name)));
             ui.close();
         }
     }
@@ -181,9 +181,10 @@ fn templates(ui: &mut Ui, context: &mut PaneContext<'_>) {
     }
     for (name, path) in own {
         let menu = ui.menu_button(name, |ui| {
-            for (words, command) in
-                [("New", Command::NewFrom(path.clone())), ("Delete", Command::RemoveTemplate(path.clone()))]
-            {
+            for (words, command) in [
+                ("New", SessionCommand::NewFrom(path.clone())),
+                ("Delete", SessionCommand::RemoveTemplate(path.clone())),
+            ] {
                 if ui.button(words).clicked() {
                     context.push(command);
                     ui.close();

@@ -16,12 +16,18 @@ use crate::panes::widgets;
 use crate::theme::UNIT;
 use crate::workspaces::PaneKind;
 
-/// Height of the pixel's numbers at the foot of the pane, in addition to a line for each of some sensors.
+/// Height of the numbers of a pixel, at the foot of the pane, beside a line for each of some sensors. They lie over the foot of the
+/// groups, which stay where they are.
 const PIXEL: f32 = 128.0;
 const PIXEL_LINE: f32 = 17.0;
 const PIXEL_LINES: usize = 6;
 /// Height while no pixel is pinned: the status bar reads the one under the pointer.
 const NO_PIXEL: f32 = 44.0;
+/// Width of a value beside its slider, and of the gap between.
+const VALUE: f32 = 76.0;
+/// Height of a line of small text, and of a slider.
+const LINE: f32 = 15.0;
+const SLIDER: f32 = 24.0;
 /// In a lower pane they are a group among the others.
 const WITH_PIXEL: f32 = 480.0;
 
@@ -38,7 +44,7 @@ pub const PANE: Pane = Pane {
 /// Shows the pane in its rectangle.
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let body = widgets::pane(ui, &PANE, rect, context, |_, _| {});
-    let sources = context.studio.frame().map_or(0, |shot| shot.sources.len());
+    let sources = context.scene.rendered_sources().len();
     let kept = context.view.render.pinned.is_some();
     let spectrum =
         if context.scene.document.render.mesh.is_image() { widgets::pixel_spectrum::HEIGHT + UNIT } else { 0.0 };
@@ -50,7 +56,6 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     child.set_clip_rect(groups.intersect(ui.clip_rect()));
     ScrollArea::vertical().id_salt("render setup").auto_shrink(false).show(&mut child, |ui| {
         ui.set_max_width(inner.width() - 2.0 * UNIT);
-        ui.spacing_mut().slider_width = 88.0;
         ui.spacing_mut().item_spacing.y = 0.5 * UNIT;
         group(ui, "Mesh and light", true, context, scene::show);
         let no_surface = "A spectral image has no surface.";
@@ -105,10 +110,23 @@ fn set(context: &mut PaneContext<'_>, what: &'static str, change: impl FnOnce(&m
 
 /// A small caption above a control.
 fn caption(ui: &mut Ui, words: &str, context: &PaneContext<'_>) {
-    ui.label(egui::RichText::new(words).small().color(context.theme.weak));
+    line(ui, words, words, context.theme.weak);
 }
 
-/// A slider of the settings: a value with its name. Returns the new value.
+/// One line of small text that keeps its height whatever it says; what is cut, and what it means, is told on hover.
+fn line(ui: &mut Ui, words: &str, meaning: &str, color: egui::Color32) {
+    let (rect, response) = ui.allocate_exact_size(Vec2::new(ui.available_width(), LINE), egui::Sense::hover());
+    if words.is_empty() {
+        return;
+    }
+    let cut = widgets::lines::elided(ui, rect, words, egui::TextStyle::Small, color);
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, words));
+    if cut || meaning != words {
+        response.on_hover_text(meaning);
+    }
+}
+
+/// A slider of the settings: its name above, then the slider over the width of the pane and the value. Says what it was moved to.
 struct Dial<'a> {
     name: &'static str,
     range: std::ops::RangeInclusive<f64>,
@@ -118,27 +136,68 @@ struct Dial<'a> {
     hint: &'a str,
     /// Values beyond the slider may be typed.
     beyond: bool,
+    /// False where it has no effect now; it keeps its place.
+    enabled: bool,
 }
 
 impl Dial<'_> {
-    fn show(&self, ui: &mut Ui, now: f64) -> Option<f64> {
+    fn show(&self, ui: &mut Ui, now: f64, context: &PaneContext<'_>) -> Option<f64> {
         let mut value = now;
-        let unit = self.unit.to_owned();
+        caption(ui, self.name, context);
+        let (rect, _) = ui.allocate_exact_size(Vec2::new(ui.available_width(), SLIDER), egui::Sense::hover());
+        let mut child = ui.new_child(UiBuilder::new().id_salt(self.name).max_rect(rect));
+        if !self.enabled {
+            child.disable();
+        }
+        let (left, right) = rect.split_left_right_at_x(rect.right() - VALUE);
+        let changed = self.slider(&mut child, left.with_max_x(left.right() - 2.0 * UNIT), &mut value)
+            | self.field(&mut child, right, &mut value);
+        (changed && value.is_finite() && value != now).then(|| short_value(value))
+    }
+
+    fn slider(&self, ui: &mut Ui, rect: Rect, value: &mut f64) -> bool {
+        ui.spacing_mut().slider_width = rect.width();
         let clamping = if self.beyond { egui::SliderClamping::Never } else { egui::SliderClamping::Edits };
-        let mut slider = egui::Slider::new(&mut value, self.range.clone())
-            .clamping(clamping)
-            // Typing is one step when it is done, not one for each key.
-            .update_while_editing(false)
-            .text(self.name)
-            .step_by(0.0)
-            .custom_formatter(move |value, _| format!("{}{unit}", short(value)))
-            .custom_parser(parsed);
+        let mut slider = egui::Slider::new(value, self.range.clone()).clamping(clamping).show_value(false).step_by(0.0);
         if let Some(least) = self.logarithmic {
             slider = slider.logarithmic(true).smallest_positive(least);
         }
-        let response = ui.add(slider).on_hover_text(self.hint);
+        let response = ui.put(rect, slider).on_hover_text(self.hint);
         widgets::take_sought(&response, self.name);
-        (response.changed() && value.is_finite() && value != now).then(|| short_value(value))
+        response.widget_info(|| egui::WidgetInfo::slider(true, *value, self.name));
+        response.changed()
+    }
+
+    fn field(&self, ui: &mut Ui, rect: Rect, value: &mut f64) -> bool {
+        let unit = self.unit.to_owned();
+        let mut field = egui::DragValue::new(value)
+            // Typing is one step when it is done, not one for each key.
+            .update_while_editing(false)
+            .speed(0.0)
+            .custom_formatter(move |value, _| format!("{}{unit}", short(value)))
+            .custom_parser(parsed);
+        if !self.beyond {
+            field = field.range(self.range.clone());
+        }
+        let response = ui.put(rect, field).on_hover_text(self.hint);
+        response.changed()
+    }
+}
+
+/// A list of the settings, its name above it, over the width of the pane.
+fn list(
+    ui: &mut Ui,
+    name: &'static str,
+    [shown, hint]: [&str; 2],
+    context: &mut PaneContext<'_>,
+    content: impl FnOnce(&mut Ui, &mut PaneContext<'_>),
+) {
+    caption(ui, name, context);
+    let combo = egui::ComboBox::from_id_salt(name).width(ui.available_width()).truncate();
+    let response = combo.selected_text(shown).show_ui(ui, |ui| content(ui, context)).response;
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::ComboBox, true, format!("{name}: {shown}")));
+    if !hint.is_empty() {
+        response.on_hover_text(hint);
     }
 }
 

@@ -12,11 +12,14 @@ use crate::theme::UNIT;
 use crate::workspaces::{PaneKind, Workspace};
 
 /// Stages in the order they follow each other, as counted and as shown.
-const STAGES: [(&str, &str); 8] = [
+const STAGES: [(&str, &str); 11] = [
     ("mesh", "mesh"),
     ("shadow tree", "shadow tree"),
     ("visibility", "visibility"),
     ("geometry", "angles, shadows"),
+    ("sky visibility", "sky from vertices"),
+    ("sky", "sky from samples"),
+    ("sky reflectance", "reflectance of sky"),
     ("shading", "surface"),
     ("plan", "integration methods"),
     ("camera image", "signals"),
@@ -43,7 +46,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
 
 /// Samples and methods of the pictures on show.
 fn pictures(ui: &mut Ui, context: &mut PaneContext<'_>) {
-    let Some(shot) = context.studio.frame().cloned() else {
+    let Some(shot) = context.render_service.frame().cloned() else {
         ui.label("No picture was rendered yet.");
         if ui.button("Show Render").clicked() {
             context.push(Command::Show(Workspace::Render));
@@ -58,11 +61,12 @@ fn pictures(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let (geometry, shading) = (made.geometry, made.shading);
     let samples = [
         ("Lit", geometry.lit.to_string()),
+        ("Lit from behind", geometry.through.to_string()),
         ("Facing away", geometry.facing_away.to_string()),
         ("In shadow", format!("{}, {} rays", geometry.shadowed, geometry.rays)),
         ("Below threshold", shading.dark.to_string()),
         ("Spectral integrals", shading.spectral.to_string()),
-        ("Specular terms", format!("{}, {} skipped", shading.mirrors, shading.mirrors_skipped)),
+        ("Specular terms", format!("{}, {} skipped", shading.coherent_samples, shading.coherent_skipped)),
     ];
     caption(ui, "Samples", context);
     show_pairs(ui, PANE.kind, "samples", &samples, context);

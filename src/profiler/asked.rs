@@ -57,6 +57,7 @@ impl SceneRunJob {
             quality,
             shadows: Shadows::Full,
             compared_samples: None,
+            open_sky: false,
         };
         if sources.is_empty() {
             return None;

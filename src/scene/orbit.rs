@@ -5,6 +5,12 @@ use serde::{Deserialize, Serialize};
 
 use crate::document::render::MeshChoice;
 
+/// The distance of an orbit from which a mesh fills the picture, at the initial field of view; of a round one, in radii.
+pub const FRAMED: f64 = 3.6;
+
+/// The initial field of view in degrees.
+const FIELD_DEG: f64 = 30.0;
+
 /// A viewpoint on a sphere around the mesh.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
@@ -13,7 +19,7 @@ pub struct Orbit {
     pub yaw_deg: f64,
     /// Above the horizon, in degrees.
     pub pitch_deg: f64,
-    /// From the center, in radii of the scene.
+    /// Over [`FRAMED`], the factor on the distance from which the mesh fills the picture.
     pub distance: f64,
     /// Vertical field of view in degrees; in an upright picture the horizontal one.
     pub field_of_view_deg: f64,
@@ -21,7 +27,7 @@ pub struct Orbit {
 
 impl Default for Orbit {
     fn default() -> Self {
-        Self { yaw_deg: 20.0, pitch_deg: 5.0, distance: 3.6, field_of_view_deg: 30.0 }
+        Self { yaw_deg: -25.0, pitch_deg: 5.0, distance: FRAMED, field_of_view_deg: FIELD_DEG }
     }
 }
 
@@ -55,10 +61,14 @@ impl Orbit {
         Self { field_of_view_deg: degrees, ..moved }
     }
 
-    /// The viewpoint for a picture of the given width over height: what fits into a square is never cut.
+    /// The viewpoint for a picture of the given width over height, which the mesh fills from the initial distance.
     pub fn viewpoint(&self, aspect: f64) -> Option<Viewpoint> {
         let half = (self.field_of_view_deg.to_radians() / 2.0).tan() / aspect.clamp(0.05, 1.0);
         let field = (2.0 * half.atan()).min(150_f64.to_radians());
-        Viewpoint::new(self.yaw_deg.to_radians(), self.pitch_deg.to_radians(), self.distance, field).ok()
+        let sin = |degrees: f64| (degrees.to_radians() / 2.0).sin();
+        // At another field of view the same size is seen from another distance.
+        let framed = FRAMED * sin(FIELD_DEG) / sin(self.field_of_view_deg);
+        let viewpoint = Viewpoint::new(self.yaw_deg.to_radians(), self.pitch_deg.to_radians(), self.distance, field);
+        viewpoint.and_then(|viewpoint| viewpoint.framed(aspect.clamp(0.05, 20.0), self.distance / framed)).ok()
     }
 }

@@ -3,14 +3,14 @@
 use chromascope_core::query::render::picture::{PicturesQuery, SourceOf};
 use chromascope_core::query::render::{GeometryQuery, MeshQuery, ShadingQuery, VisibilityQuery};
 use chromascope_core::query::{RenderingQuery, Shared};
-use chromascope_core::render::{Quality, RasterSize, Shadows};
+use chromascope_core::render::{Quality, RasterSize, Reach, Shadows};
 use chromascope_core::scene::Viewpoint;
 use chromascope_core::spectral::GridSpectrum;
 use chromascope_mesh::Mesh;
 
 use super::{ComparedSensor, Scene, SceneError};
-use crate::document::SetKind;
-use crate::document::render::MeshChoice;
+use crate::document::render::{BALANCE, MeshChoice, SUN};
+use crate::document::{SetKind, WhiteBalanceChoice};
 
 /// Quality settings of a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -23,6 +23,8 @@ pub struct Finish {
     pub shadows: Shadows,
     /// Approximate number of samples compared with the reference.
     pub compared_samples: Option<usize>,
+    /// True if the mesh hides no part of the sky: a first picture, before it is known which.
+    pub open_sky: bool,
 }
 
 impl Scene<'_> {
@@ -57,8 +59,34 @@ impl Scene<'_> {
         }
     }
 
-    /// The pictures of these sensors. `background` is in linear sRGB; without one, pixels outside the mesh are
-    /// transparent.
+    /// A sensor under the rendered scene's light, balanced to its white.
+    fn rendered_through(&self, kind: SetKind, name: &str) -> Result<RenderingQuery, SceneError> {
+        let chosen = self.rendering_of(kind, name)?;
+        if !self.is_sunlit() {
+            return Ok(chosen);
+        }
+        let (light, white) = (self.built_in_light(SUN)?.grid, self.white_target(&Self::balance())?);
+        Ok(RenderingQuery { light, white, ..chosen })
+    }
+
+    /// True if the rendered mesh is under the sun, whatever the light of the other panes.
+    pub fn is_sunlit(&self) -> bool {
+        self.document.render.sunlight && !self.document.render.mesh.is_image()
+    }
+
+    fn balance() -> WhiteBalanceChoice {
+        WhiteBalanceChoice::Light(BALANCE.to_owned())
+    }
+
+    /// The names of the rendered scene's light and white.
+    pub fn rendered_conditions(&self) -> [String; 2] {
+        if self.is_sunlit() {
+            return [SUN.to_owned(), Self::balance().name()];
+        }
+        [self.light_name(), self.document.white.name()]
+    }
+
+    /// The pictures of these sensors. `background` is in linear sRGB; without one, pixels outside the mesh are transparent.
     pub fn pictures_of(
         &self,
         sources: &[ComparedSensor],
@@ -68,22 +96,25 @@ impl Scene<'_> {
         background: Option<[f32; 3]>,
     ) -> Result<PicturesQuery, SceneError> {
         let settings = &self.document.render;
-        let renderings = sources.iter().map(|source| self.rendering_of(source.kind, &source.name));
+        let renderings = sources.iter().map(|source| self.rendered_through(source.kind, &source.name));
         let renderings: Vec<RenderingQuery> = renderings.collect::<Result<_, _>>()?;
         let visibility = VisibilityQuery { mesh, viewpoint, size: finish.size };
         let shadows = if settings.shadows { finish.shadows } else { Shadows::Off };
-        let geometry = GeometryQuery { visibility, lighting: settings.lighting()?, shadows };
+        let reach = Reach { everywhere: settings.sky > 0.0, through: settings.thin };
+        let geometry = GeometryQuery { visibility, lighting: settings.lighting()?, shadows, reach };
         let shading = ShadingQuery {
             geometry,
             surface: settings.surface()?,
             roughness: settings.roughness.roughness(),
             reading: settings.reading.reading(),
             quality: finish.quality,
+            sky: (settings.sky > 0.0).then(|| settings.sky.to_bits()),
+            open_sky: finish.open_sky,
         };
         Ok(PicturesQuery {
             shading,
             reflectance: self.material(&settings.material)?,
-            reference: self.rendering_of(SetKind::Observer, &self.document.reference)?,
+            reference: self.rendered_through(SetKind::Observer, &self.document.reference)?,
             sources: renderings.into_iter().map(|rendering| SourceOf { rendering }).collect(),
             ev: settings.exposure_ev.to_bits(),
             background: background.map(|color| color.map(f32::to_bits)),

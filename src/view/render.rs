@@ -20,9 +20,12 @@ pub struct RenderLook {
     pub split: f32,
 }
 
+/// Where the divider begins: through the face of the head as it is first seen.
+const SPLIT: f32 = 0.62;
+
 impl Default for RenderLook {
     fn default() -> Self {
-        Self { mode: RenderMode::Grid, orbit: None, split: 0.5 }
+        Self { mode: RenderMode::Grid, orbit: None, split: SPLIT }
     }
 }
 

@@ -1,9 +1,9 @@
 //! Templates: documents to begin a new session with, and what shows them.
 
-use crate::action::{Action, OwnAction, RenderAction, SceneAction};
+use crate::action::{Action, ImportedAction, RenderAction, SceneAction};
 use crate::catalog::import::import;
+use crate::document::imported::{ImportedSet, Role};
 use crate::document::names::BuiltInNames;
-use crate::document::own::{OwnSet, Role};
 use crate::document::start::Start;
 use crate::document::{Document, Light, Overlays, WhiteBalanceChoice};
 use crate::workspaces::PaneKind;
@@ -74,7 +74,9 @@ pub const TEMPLATES: [Template; 7] = [
         start: Start::Colorimetry,
         actions: |_| {
             skin()
-                .map(|set| Action::Own(OwnAction::Import { sets: vec![set], built_in: BuiltInNames::default() }))
+                .map(|set| {
+                    Action::Imported(ImportedAction::Import { sets: vec![set], built_in: BuiltInNames::default() })
+                })
                 .into_iter()
                 .collect()
         },
@@ -93,10 +95,10 @@ fn overlays(overlays: Overlays) -> Action {
 }
 
 /// Measured skins, as one set of patches.
-fn skin() -> Option<OwnSet> {
+fn skin() -> Option<ImportedSet> {
     let text = chromascope_data::text("materials/skin_nist.csv")?;
     let set = import("skin_nist.csv", text.as_bytes(), Some(Role::Reflectance)).ok()?.set;
-    Some(OwnSet { name: "Skin of 100 people (NIST)".to_owned(), ..set })
+    Some(ImportedSet { name: "Skin of 100 people (NIST)".to_owned(), ..set })
 }
 
 impl Template {

@@ -78,7 +78,7 @@ fn as_in_the_window(samples: u32, quality: Quality) -> (Pictures, [f64; 3]) {
     let scene = Scene { document: &document, catalog: &catalog, results: &results };
     let viewpoint = Orbit::of(&MeshChoice::Sphere).viewpoint(40.0 / 30.0).unwrap();
     let size = RasterSize { width: 40, height: 30, samples };
-    let finish = Finish { size, quality, shadows: Shadows::Full, compared_samples: Some(usize::MAX) };
+    let finish = Finish { size, quality, shadows: Shadows::Full, compared_samples: Some(usize::MAX), open_sky: false };
     let query = scene.pictures_of(&scene.sources(), scene.mesh_of(None).unwrap(), viewpoint, finish, None).unwrap();
     let rendering = (*results.ask(&query.sources[0].rendering)).clone().unwrap();
     let pictures = (*results.ask(&query)).clone().unwrap().unwrap();
@@ -249,7 +249,7 @@ fn a_cie_observer_has_no_red_green_and_blue() {
 #[test]
 fn statistics_are_json() {
     let folder = folder("stats");
-    let smooth = ["--sigma", "3e-7", "--tau", "3e-6", "--patch", "2e-6,2e-6", "--stats", "-"];
+    let smooth = ["--sigma", "3e-7", "--tau", "3e-6", "--patch", "2e-6,2e-6", "--sky", "0", "--stats", "-"];
     let output = run(&folder, &[&SMALL[..], &D70, &smooth].concat());
     let message = String::from_utf8_lossy(&output.stderr);
     assert!(output.status.success() && message.contains("sphere_nikon-d70-2007.png: Δxy 0.0"), "{message}");
@@ -322,7 +322,8 @@ fn the_coherent_component_and_the_area_can_be_chosen() {
 #[test]
 fn qualities_agree_and_readings_do_not() {
     let folder = folder("qualities");
-    let small = ["--mesh", "sphere", "--triangles", "800", "--size", "16x12", "--format", "exr"];
+    // Qualities are those of integrals over wavelength: the sky's visibility has its own.
+    let small = ["--mesh", "sphere", "--triangles", "800", "--size", "16x12", "--format", "exr", "--sky", "0"];
     let of = |arguments: &[&str]| {
         rendered(&folder, &[&small[..], &D70, arguments].concat());
         read_exr(&folder.join("sphere_nikon-d70-2007.exr")).1["G"].clone()
@@ -385,7 +386,7 @@ fn meshes_and_materials_come_from_files() {
     assert!(output.status.success(), "{message}");
     assert!(message.contains("using the first, dark") && message.contains("My Square.obj: "), "{message}");
     assert_eq!(pictures_in(&folder), ["my-square_nikon-d70-2007.png"]);
-    let behind = rendered(&folder, &[&arguments[..], &D70, &["--light=0,0,-1"]].concat());
+    let behind = rendered(&folder, &[&arguments[..], &D70, &["--light=0,0,-1", "--sky", "0"]].concat());
     assert!(behind.contains(": no light\n"), "{behind}");
 }
 
@@ -447,7 +448,10 @@ fn head_and_fern_look_as_they_did() {
         for reading in ["radiometric", "paper"] {
             let what =
                 ["--preset", "paper", "--mesh", mesh, "--reading", reading, "--triangles", "20000", "--size", "96x96"];
-            rendered(&folder, &[&what[..], &["--samples", "2", "--camera", "Nikon D70 (2007 figure)"]].concat());
+            let orbit = if mesh == "fern" { "20,15,3.6" } else { "20,5,3.6" };
+            let sun = ["--sky", "0", "--leaf", "false", "--orbit", orbit];
+            let camera = ["--samples", "2", "--camera", "Nikon D70 (2007 figure)"];
+            rendered(&folder, &[&what[..], &sun, &camera].concat());
             let picture = pictures_in(&folder).into_iter().find(|name| name.starts_with(mesh)).unwrap();
             let now = image::open(folder.join(&picture)).unwrap().to_rgba8();
             let kept = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/app/pictures");

@@ -74,6 +74,7 @@ fn each_slider_that_is_found_takes_the_keyboard() {
         "Index n",
         "Light elevation",
         "Light azimuth",
+        "Sky",
         "Exposure",
         "Field of view",
         "Triangles",

@@ -9,8 +9,8 @@ use chromascope::app::ChromascopeApp;
 use chromascope::catalog::Catalog;
 use chromascope::catalog::import::import;
 use chromascope::cli;
-use chromascope::command::Command;
-use chromascope::document::own::Fingerprint;
+use chromascope::command::{Command, SessionCommand};
+use chromascope::document::imported::Fingerprint;
 use chromascope::document::{Document, SessionFile, SetKind, session};
 use chromascope::files::Files;
 use chromascope::results::Results;
@@ -30,7 +30,7 @@ use crate::import_switches::{Window, says, until};
 /// A window on a profile of its own, as in a home that the program was never run in.
 fn window(profile: &Path) -> Window {
     let mut files = Files::new(Some(profile.to_owned())).without_dialogs();
-    let document = files.kept_document();
+    let document = files.saved_document();
     let mut window = Harness::builder()
         .with_size([1280.0, 800.0])
         .with_pixels_per_point(1.0)
@@ -58,7 +58,7 @@ fn with_leaf() -> Document {
 
 /// Saves the session of a window under a path, as typed.
 fn save_as(window: &mut Window, path: &Path) {
-    push(window, Command::SaveAs);
+    push(window, SessionCommand::SaveAs);
     until(window, "the prompt", ChromascopeApp::is_asking);
     window.run_steps(2);
     window.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::A);
@@ -160,7 +160,7 @@ fn what_is_unknown_is_kept_through_a_save_wherever_it_stands() {
     let mut window = window(&folder.join("profile"));
     open(&mut window, &path);
     push(&mut window, temperature(4444.0));
-    push(&mut window, Command::Save);
+    push(&mut window, SessionCommand::Save);
     saved(&mut window);
     let now = json_of(&path);
     assert_eq!(now["temperature_k"], json!(4444.0));
@@ -169,10 +169,10 @@ fn what_is_unknown_is_kept_through_a_save_wherever_it_stands() {
     }
     // Also through the document that is saved between runs.
     let mut files = Files::new(Some(folder.join("next")));
-    files.kept_document();
+    files.saved_document();
     files.save_document(&document(&window)).unwrap();
     drop(files);
-    assert_eq!(Files::new(Some(folder.join("next"))).kept_document().unknown, document(&window).unknown);
+    assert_eq!(Files::new(Some(folder.join("next"))).saved_document().unknown, document(&window).unknown);
 }
 
 #[test]
@@ -198,7 +198,7 @@ fn a_session_of_a_newer_version_opens_as_far_as_it_is_understood() {
     assert_eq!((document.temperature_k, document.compared.len(), document.own.len()), (4321.0, 5, 1));
     // It is not written over: saving asks for a name.
     assert_eq!(document.session, None);
-    push(&mut window, Command::Save);
+    push(&mut window, SessionCommand::Save);
     until(&mut window, "the prompt", ChromascopeApp::is_asking);
     assert_eq!(json_of(&path), value);
 }
@@ -213,9 +213,9 @@ fn two_windows_never_overwrite_each_other() {
     open(&mut two, &path);
     push(&mut one, temperature(3000.0));
     push(&mut two, temperature(9000.0));
-    push(&mut one, Command::Save);
+    push(&mut one, SessionCommand::Save);
     saved(&mut one);
-    push(&mut two, Command::Save);
+    push(&mut two, SessionCommand::Save);
     until(&mut two, "the question", |_| true);
     crate::waiting::until("the question", || {
         two.run_steps(1);
@@ -228,7 +228,7 @@ fn two_windows_never_overwrite_each_other() {
     assert_eq!(json_of(&path)["temperature_k"], json!(9000.0));
     // Now the first window is asked, and takes the other's.
     push(&mut one, temperature(3100.0));
-    push(&mut one, Command::Save);
+    push(&mut one, SessionCommand::Save);
     crate::waiting::until("the question", || {
         one.run_steps(1);
         if says(&one, "wrote to") { Ok(()) } else { Err(one.state().view().status.text.clone()) }
@@ -253,7 +253,7 @@ fn where_nothing_can_be_written_that_is_said_and_the_work_stays() {
     push(&mut window, temperature(3100.0));
     // The drive is gone.
     fs::rename(&drive, folder.join("elsewhere")).unwrap();
-    push(&mut window, Command::Save);
+    push(&mut window, SessionCommand::Save);
     until(&mut window, "the failure", |app| app.view().status.weight == Weight::Error);
     let said = window.state().view().status.text.clone();
     assert!(
@@ -263,7 +263,7 @@ fn where_nothing_can_be_written_that_is_said_and_the_work_stays() {
     assert_eq!((document(&window).temperature_k, window.state().title()), (3100.0, "*a – Chromascope"));
     // It is back.
     fs::rename(folder.join("elsewhere"), &drive).unwrap();
-    push(&mut window, Command::Save);
+    push(&mut window, SessionCommand::Save);
     saved(&mut window);
     assert_eq!(json_of(&path)["temperature_k"], json!(3100.0));
 }
@@ -277,9 +277,9 @@ fn undo_goes_back_across_sessions_by_the_names_of_its_steps() {
     push(&mut window, CompareActionOf("Kodak DCS200").remove());
     open(&mut window, &path);
     push(&mut window, temperature(3000.0));
-    push(&mut window, Command::Save);
+    push(&mut window, SessionCommand::Save);
     saved(&mut window);
-    push(&mut window, Command::New(None));
+    push(&mut window, SessionCommand::New(None));
     until(&mut window, "a new session", |app| app.history().document().session.is_none());
     let undo = |window: &mut Window| {
         let name = window.state().history().undo_name().unwrap_or_default().to_owned();
@@ -310,11 +310,11 @@ fn the_file_is_known_after_a_start_and_a_changed_one_is_asked_about() {
     push(&mut first, temperature(3000.0));
     save_as(&mut first, &path);
     saved(&mut first);
-    first.state_mut().push(Command::Save);
+    first.state_mut().push(SessionCommand::Save);
     first.run_steps(2);
     let kept = document(&first);
     let mut files = Files::new(Some(folder.join("second")));
-    files.kept_document();
+    files.saved_document();
     files.save_document(&kept).unwrap();
     drop(files);
     let mut next = window(&folder.join("second"));
@@ -328,7 +328,7 @@ fn the_file_is_known_after_a_start_and_a_changed_one_is_asked_about() {
     fs::write(&path, session::to_session(&Document::paper(), &SavedView::default()).unwrap()).unwrap();
     let mut again = window(&folder.join("second"));
     assert_eq!(again.state().title(), "*a – Chromascope");
-    push(&mut again, Command::Save);
+    push(&mut again, SessionCommand::Save);
     crate::waiting::until("the question", || {
         again.run_steps(1);
         if says(&again, "wrote to") { Ok(()) } else { Err(again.state().view().status.text.clone()) }
@@ -338,7 +338,7 @@ fn the_file_is_known_after_a_start_and_a_changed_one_is_asked_about() {
 #[test]
 fn each_template_is_a_document_of_its_own_that_its_pane_shows() {
     let (catalog, results) = (Catalog::built_in(), Results::default());
-    let documents: Vec<Document> = TEMPLATES.iter().map(|template| template.document()).collect();
+    let documents: Vec<Document> = TEMPLATES.iter().map(chromascope::view::template::Template::document).collect();
     for (index, (template, document)) in TEMPLATES.iter().zip(&documents).enumerate() {
         assert!(!documents[..index].contains(document) || template.name.ends_with('2'), "{}", template.name);
         let scene = Scene { document, catalog: &catalog, results: &results };
@@ -350,7 +350,7 @@ fn each_template_is_a_document_of_its_own_that_its_pane_shows() {
     let (_around, folder) = folder();
     let mut window = window(&folder.join("profile"));
     for template in &TEMPLATES {
-        push(&mut window, Command::New(Some(template.name)));
+        push(&mut window, SessionCommand::New(Some(template.name)));
         let wanted = template.document();
         until(&mut window, template.name, move |app| *app.history().document() == wanted);
         window.run_steps(2);
@@ -366,7 +366,7 @@ fn own_templates_are_kept_by_name_and_stay_as_they_are() {
     let mut one = window(&profile);
     push(&mut one, temperature(3456.0));
     push(&mut one, Command::Show(Workspace::Spectra));
-    push(&mut one, Command::SaveTemplate);
+    push(&mut one, SessionCommand::SaveTemplate);
     one.get_by_role_and_label(Role::TextInput, "Name of the template").type_text("Lamps/LED");
     one.run_steps(2);
     one.key_press(egui::Key::Enter);
@@ -376,12 +376,12 @@ fn own_templates_are_kept_by_name_and_stay_as_they_are() {
     drop(one);
     let mut next = window(&profile);
     let (_, path) = next.state().view().templates[0].clone();
-    push(&mut next, Command::NewFrom(path.clone()));
+    push(&mut next, SessionCommand::NewFrom(path.clone()));
     until(&mut next, "the template", |app| app.history().document().temperature_k == 3456.0);
     next.run_steps(2);
     assert_eq!(next.state().view().saved.workspace, Workspace::Spectra);
     assert_eq!((next.state().title(), document(&next).session), ("*Untitled – Chromascope", None));
-    push(&mut next, Command::RemoveTemplate(path.clone()));
+    push(&mut next, SessionCommand::RemoveTemplate(path.clone()));
     assert!(!path.exists() && next.state().view().templates.is_empty());
 }
 
@@ -444,7 +444,7 @@ fn a_session_saved_at_the_moment_of_a_kill_is_not_asked_about() {
     document.session = Some(SessionFile { path: path.clone(), fingerprint: Fingerprint::of(b"before") });
     let profile = folder.join("profile");
     let mut files = Files::new(Some(profile.clone()));
-    files.kept_document();
+    files.saved_document();
     files.save_document(&document).unwrap();
     drop(files);
     let mut window = window(&profile);
@@ -454,6 +454,6 @@ fn a_session_saved_at_the_moment_of_a_kill_is_not_asked_about() {
         if title == "a – Chromascope" { Ok(()) } else { Err(title.to_owned()) }
     });
     push(&mut window, temperature(3100.0));
-    push(&mut window, Command::Save);
+    push(&mut window, SessionCommand::Save);
     saved(&mut window);
 }

@@ -4,6 +4,7 @@ mod coherent;
 mod fresnel;
 mod geometry;
 mod hemispherical;
+mod leaf;
 mod power;
 mod regimes;
 mod sum;

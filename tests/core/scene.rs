@@ -121,3 +121,35 @@ fn a_direction_of_any_size_has_a_length_of_1() {
     let (transform, distance) = PlacedLight::Point(DVec3::new(0.0, 0.0, 1e-300)).seen_from(DVec3::ZERO).unwrap();
     assert_eq!((transform, distance), (DVec3::Z, 1e-300));
 }
+
+/// A mesh's reach to the left, right, below and above the middle of a picture, in halves of its sides.
+fn reach(mesh: &Mesh, viewpoint: &Viewpoint, aspect: f64) -> [f64; 4] {
+    let eye = viewpoint.eye_before(mesh);
+    mesh.positions().iter().fold([0.0; 4], |[left, right, below, above], p| {
+        let view = eye.view_from_world(p.as_dvec3());
+        let [x, y] = [view.x / aspect, view.y].map(|v| v / view.z / eye.half_height);
+        [left.max(-x), right.max(x), below.max(-y), above.max(y)]
+    })
+}
+
+#[test]
+fn a_mesh_fills_the_picture_from_everywhere() {
+    for mesh in [head::head(10_000), chromascope_mesh::fern::fern(4_000), shapes::plane(2)] {
+        for aspect in [0.6, 1.0, 1.8] {
+            for (yaw, pitch) in [(-0.4_f64, 0.1), (1.6, 0.0), (2.8, -0.7), (0.3, 1.5)] {
+                let viewpoint = Viewpoint::new(yaw, pitch, 1.0, 0.5).unwrap().framed(aspect, 1.0).unwrap();
+                let [left, right, below, above] = reach(&mesh, &viewpoint, aspect);
+                let fullest = left.max(right).max(below).max(above);
+                assert!((fullest - 0.92).abs() < 1e-6, "{yaw} {pitch} {aspect}: {fullest}");
+                // The fuller axis is in the middle, the other nearly.
+                assert!((left - right).abs() < 0.15 && (below - above).abs() < 0.15, "{left} {right} {below} {above}");
+                // From twice as far it is about half as large, and one that is not framed stays where it was put.
+                let far = Viewpoint::new(yaw, pitch, 1.0, 0.5).unwrap().framed(aspect, 2.0).unwrap();
+                let share = reach(&mesh, &far, aspect).into_iter().fold(0.0, f64::max) / fullest;
+                assert!((0.3..0.6).contains(&share), "{share}");
+                let plain = Viewpoint::new(yaw, pitch, 5.0, 0.5).unwrap();
+                assert_eq!(plain.eye_before(&mesh), plain.eye(mesh.bounds()));
+            }
+        }
+    }
+}

@@ -79,4 +79,8 @@ pub enum LegendPlace {
     LowerLeft,
     /// In a column right of the figure, which grows by it.
     Outside,
+    /// In rows below the figure, which grows by them.
+    Below,
+    /// Nowhere.
+    None,
 }

@@ -13,10 +13,13 @@ use plan::PlanQuery;
 use super::ask::{Ask, Query};
 use super::shared::Shared;
 use crate::camera::{RenderingError, rendering::white_divisors};
+use crate::reflectance::leaf::LeafModel;
 use crate::reflectance::{Normalization, Specular, Surface, wavelength_power};
+use crate::render::quality::SkyFineness;
+use crate::render::sky::SkyView;
 use crate::render::{
-    Against, CameraImage, GeometryImage, Plan, Quality, RasterSize, ShadingImage, Shadows, SpectralWeights,
-    VertexImage, Visibility,
+    Against, CameraImage, GeometryImage, Plan, Quality, RasterSize, Reach, ShadingImage, Shadows, Sky, SkyImage,
+    SkyReflectance, SkyVisibility, SpectralWeights, VertexImage, Visibility,
 };
 use crate::scene::roughness::{VertexRoughness, vertex_roughness};
 use crate::scene::{Lighting, Viewpoint};
@@ -42,8 +45,8 @@ pub enum MeshQuery {
 impl Query for MeshQuery {
     type Answer = Shared<Mesh>;
     const NAME: &'static str = "mesh";
-    const WHOLE: bool = true;
-    const KEPT: usize = 3;
+    const ALWAYS_COMPLETE: bool = true;
+    const CAPACITY: usize = 3;
 
     fn bytes(mesh: &Self::Answer) -> usize {
         size_of_val(mesh.positions()) + size_of_val(mesh.normals()) + size_of_val(mesh.triangles())
@@ -67,8 +70,8 @@ pub struct ShadowTreeQuery(pub MeshQuery);
 impl Query for ShadowTreeQuery {
     type Answer = ShadowTree;
     const NAME: &'static str = "shadow tree";
-    const WHOLE: bool = true;
-    const KEPT: usize = 3;
+    const ALWAYS_COMPLETE: bool = true;
+    const CAPACITY: usize = 3;
 
     fn answer(&self, ask: &impl Ask) -> Self::Answer {
         ShadowTree::new(&ask.ask(&self.0))
@@ -89,7 +92,7 @@ pub struct VisibilityQuery {
 impl Query for VisibilityQuery {
     type Answer = Option<Visibility>;
     const NAME: &'static str = "visibility";
-    const KEPT: usize = 6;
+    const CAPACITY: usize = 6;
 
     fn bytes(visibility: &Self::Answer) -> usize {
         visibility.as_ref().map_or(0, |visibility| size_of_val(visibility.hits()))
@@ -97,7 +100,7 @@ impl Query for VisibilityQuery {
 
     fn answer(&self, ask: &impl Ask) -> Self::Answer {
         let mesh = ask.ask(&self.mesh);
-        Visibility::new(&mesh, self.viewpoint.eye(mesh.bounds()), self.size, &ask.stop())
+        Visibility::new(&mesh, self.viewpoint.eye_before(&mesh), self.size, &ask.stop())
     }
 }
 
@@ -110,12 +113,14 @@ pub struct GeometryQuery {
     pub lighting: Lighting,
     /// Fineness of shadows.
     pub shadows: Shadows,
+    /// Samples that are listed beside those that the light reaches from before.
+    pub reach: Reach,
 }
 
 impl Query for GeometryQuery {
     type Answer = Option<Arc<GeometryImage>>;
     const NAME: &'static str = "geometry";
-    const KEPT: usize = 6;
+    const CAPACITY: usize = 6;
 
     fn bytes(geometry: &Self::Answer) -> usize {
         let of = |geometry: &Arc<GeometryImage>| {
@@ -130,7 +135,94 @@ impl Query for GeometryQuery {
         let shadows = tree.as_deref().map(|tree| (tree, self.shadows));
         let visibility = ask.ask(&self.visibility);
         let visibility = (*visibility).as_ref()?;
-        GeometryImage::new(&mesh, visibility, &self.lighting, shadows, &ask.stop()).map(Arc::new)
+        GeometryImage::within(&mesh, visibility, &self.lighting, shadows, self.reach, &ask.stop()).map(Arc::new)
+    }
+}
+
+/// Cells of the sky that each vertex sees. None if stopped.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct SkyVisibilityQuery {
+    /// The mesh.
+    pub mesh: MeshQuery,
+    /// True if the mesh hides the sky from itself.
+    pub shadows: bool,
+    /// True if the other side of its surface matters: light passes through it.
+    pub through: bool,
+}
+
+impl Query for SkyVisibilityQuery {
+    type Answer = Option<SkyVisibility>;
+    const NAME: &'static str = "sky visibility";
+    const CAPACITY: usize = 3;
+
+    fn bytes(sky: &Self::Answer) -> usize {
+        sky.as_ref().map_or(0, |sky| size_of_val(sky.cells()))
+    }
+
+    fn answer(&self, ask: &impl Ask) -> Self::Answer {
+        let mesh = ask.ask(&self.mesh);
+        if !self.shadows {
+            return Some(SkyVisibility::open(&mesh));
+        }
+        let is_closed = matches!(self.mesh, MeshQuery::Head(_) | MeshQuery::Sphere(_));
+        let tree = ask.ask(&ShadowTreeQuery(self.mesh.clone()));
+        SkyVisibility::new(&mesh, &tree, self.through || !is_closed, &ask.stop())
+    }
+}
+
+/// Visible shares of the sky at each sample that sees the mesh. None if stopped.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct SkyImageQuery {
+    /// Visibility.
+    pub visibility: VisibilityQuery,
+    /// The surface.
+    pub surface: Surface,
+    /// Normalization of Eq 1.
+    pub reading: Normalization,
+    /// Exactness.
+    pub fineness: SkyFineness,
+    /// True if light shines through from behind.
+    pub through: bool,
+    /// True if the mesh hides the sky from itself.
+    pub shadows: bool,
+}
+
+impl Query for SkyImageQuery {
+    type Answer = Option<Arc<SkyImage>>;
+    const NAME: &'static str = "sky";
+    const CAPACITY: usize = 6;
+
+    fn bytes(image: &Self::Answer) -> usize {
+        image.as_ref().map_or(0, |image| size_of_val(image.samples()))
+    }
+
+    fn answer(&self, ask: &impl Ask) -> Self::Answer {
+        let Self { surface, reading, fineness, through, shadows, .. } = self;
+        let sky =
+            ask.ask(&SkyVisibilityQuery { mesh: self.visibility.mesh.clone(), shadows: *shadows, through: *through });
+        let (mesh, visibility) = (ask.ask(&self.visibility.mesh), ask.ask(&self.visibility));
+        let view = SkyView { surface, reading: *reading, fineness: *fineness, through: *through };
+        SkyImage::new(&mesh, (*visibility).as_ref()?, (*sky).as_ref()?, view, &ask.stop()).map(Arc::new)
+    }
+}
+
+/// Hemispherical-directional reflectance of a surface over angle and wavelength.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct SkyReflectanceQuery {
+    /// The surface.
+    pub surface: Surface,
+    /// Normalization of Eq 1.
+    pub reading: Normalization,
+}
+
+impl Query for SkyReflectanceQuery {
+    type Answer = SkyReflectance;
+    const NAME: &'static str = "sky reflectance";
+    const ALWAYS_COMPLETE: bool = true;
+    const CAPACITY: usize = 16;
+
+    fn answer(&self, _: &impl Ask) -> Self::Answer {
+        SkyReflectance::new(self.surface, self.reading)
     }
 }
 
@@ -141,8 +233,8 @@ pub struct MeshRoughnessQuery(pub MeshQuery);
 impl Query for MeshRoughnessQuery {
     type Answer = Vec<VertexRoughness>;
     const NAME: &'static str = "mesh roughness";
-    const WHOLE: bool = true;
-    const KEPT: usize = 3;
+    const ALWAYS_COMPLETE: bool = true;
+    const CAPACITY: usize = 3;
 
     fn answer(&self, ask: &impl Ask) -> Self::Answer {
         vertex_roughness(&ask.ask(&self.0))
@@ -172,18 +264,47 @@ pub struct ShadingQuery {
     pub reading: Normalization,
     /// Accuracy of the integrals.
     pub quality: Quality,
+    /// Irradiance of a level surface by a uniform sky over that of a surface that faces the light, as bits; none without a sky. Its
+    /// light needs a geometry that lists all samples ([`Reach::everywhere`]).
+    pub sky: Option<u64>,
+    /// True if the mesh hides no part of the sky: before it is known which.
+    pub open_sky: bool,
 }
 
 impl Query for ShadingQuery {
     type Answer = Option<ShadingImage>;
     const NAME: &'static str = "shading";
-    const KEPT: usize = 6;
+    const CAPACITY: usize = 6;
 
     fn bytes(shading: &Self::Answer) -> usize {
-        shading.as_ref().map_or(0, |shading| size_of_val(shading.shades()) + size_of_val(shading.mirrors()))
+        shading.as_ref().map_or(0, |shading| size_of_val(shading.shades()) + size_of_val(shading.coherent_samples()))
     }
 
     fn answer(&self, ask: &impl Ask) -> Self::Answer {
+        let shading = self.lit(ask)?;
+        let Some(share) = self.sky.filter(|_| self.geometry.reach.everywhere) else { return Some(shading) };
+        let image = ask.ask(&self.sky_image());
+        let image = Arc::clone((*image).as_ref()?);
+        let reflectance = ask.ask(&SkyReflectanceQuery { surface: self.surface, reading: self.reading });
+        Some(shading.under(Sky { image, reflectance, share: f64::from_bits(share) }))
+    }
+}
+
+impl ShadingQuery {
+    /// Visible shares of the sky.
+    fn sky_image(&self) -> SkyImageQuery {
+        SkyImageQuery {
+            visibility: self.geometry.visibility.clone(),
+            surface: self.surface,
+            reading: self.reading,
+            fineness: self.quality.sky_fineness(self.geometry.visibility.size.clamped().samples),
+            through: self.geometry.reach.through,
+            shadows: self.geometry.shadows != Shadows::Off && !self.open_sky,
+        }
+    }
+
+    /// The shading by the light alone.
+    fn lit(&self, ask: &impl Ask) -> Option<ShadingImage> {
         let geometry = ask.ask(&self.geometry);
         let geometry = (*geometry).as_ref()?;
         if self.roughness == Roughness::Mesh {
@@ -215,7 +336,7 @@ pub struct SpectralWeightsQuery {
 impl Query for SpectralWeightsQuery {
     type Answer = Result<SpectralWeights, RenderingError>;
     const NAME: &'static str = "measure";
-    const WHOLE: bool = true;
+    const ALWAYS_COMPLETE: bool = true;
 
     fn answer(&self, _: &impl Ask) -> Self::Answer {
         let divisors = white_divisors(&self.sensor, &self.light)?;
@@ -228,16 +349,45 @@ impl SpectralWeightsQuery {
     pub fn in_picture(&self, shading: &ShadingImage, ask: &impl Ask) -> Arc<<Self as Query>::Answer> {
         let measure = ask.ask(self);
         let white = self.untinted(shading).map(|white| ask.ask(&white));
-        match (&*measure, white.as_deref()) {
-            (Ok(own), Some(Ok(white))) => Arc::new(Ok(own.clone().with_untinted(Arc::new(white.clone())))),
-            _ => measure,
+        let leaf = shading.geometry().reach().through.then(|| {
+            let reflectance = (*ask.ask(&LeafTransmittanceQuery(self.reflectance.clone()))).clone();
+            ask.ask(&Self { reflectance, reading: Normalization::Lambertian, ..self.clone() })
+        });
+        let Ok(own) = &*measure else { return measure };
+        if white.is_none() && leaf.is_none() {
+            return measure;
         }
+        let mut own = own.clone();
+        if let Some(Ok(white)) = white.as_deref() {
+            own = own.with_untinted(Arc::new(white.clone()));
+        }
+        if let Some(Ok(leaf)) = leaf.as_deref() {
+            own = own.with_transmitted(leaf.totals());
+        }
+        Arc::new(Ok(own))
     }
 
     /// That of a white, where a shaded mesh has lobes that do not take the material's color.
     fn untinted(&self, shading: &ShadingImage) -> Option<Self> {
-        let any = shading.surface().specular() == Specular::Fresnel && !shading.mirrors().is_empty();
+        let any = shading.surface().specular() == Specular::Fresnel
+            && (shading.sky().is_some() || !shading.coherent_samples().is_empty());
         any.then(|| Self { reflectance: Shared::new(GridSpectrum::constant(1.0)), ..self.clone() })
+    }
+}
+
+/// Transmittance of a leaf of a reflectance ([`LeafModel`]).
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct LeafTransmittanceQuery(pub Shared<GridSpectrum>);
+
+impl Query for LeafTransmittanceQuery {
+    type Answer = Shared<GridSpectrum>;
+    const NAME: &'static str = "leaf transmittance";
+    const ALWAYS_COMPLETE: bool = true;
+    const CAPACITY: usize = 16;
+
+    fn answer(&self, _: &impl Ask) -> Self::Answer {
+        let (leaf, mut values) = (LeafModel::new(), self.0.values().iter());
+        Shared::new(GridSpectrum::from_fn(|_| values.next().map_or(0.0, |&value| leaf.transmittance(value))))
     }
 }
 
@@ -253,7 +403,7 @@ pub struct CameraImageQuery {
 impl Query for CameraImageQuery {
     type Answer = Result<Option<CameraImage>, RenderingError>;
     const NAME: &'static str = "camera image";
-    const KEPT: usize = 64;
+    const CAPACITY: usize = 64;
 
     fn bytes(image: &Self::Answer) -> usize {
         let of = |image: &CameraImage| size_of_val(image.signals()) + size_of_val(image.placed().samples());

@@ -1,16 +1,18 @@
-//! Directional-hemispherical reflectance of the model: the share of parallel light that a surface returns.
+//! Hemispherical reflectance of the model: the share of parallel light that a surface returns, and what a viewer sees of it
+//! under light from all directions alike.
 //!
 //! ```text
-//! ρ(θi) = ∫ f(θi → ωs) cos θs dωs,  f = P/π or the reading's f,  S(λ) = 1,  λ = 550 nm
+//! directional-hemispherical  ρ(θi) = ∫ f(θi → ωs) cos θs dωs,  f = P/π or the reading's f,  S(λ) = 1,  λ = 550 nm
+//! hemispherical-directional  ρ(θs; λ) = ∫ f(ωi → θs) cos θi dωi
 //! ```
-//! Independent of the material, and at λ0 for all wavelengths where the surface is rough. In the plane of directions projected
-//! onto the surface, `dA = cos θs dωs`, the diffuse lobe is centered at the specular direction: polar coordinates about it, with
-//! panels that halve towards the center, follow lobes of any width.
+//! Independent of the material, and the former at λ0 for all wavelengths where the surface is rough. In the plane of directions
+//! projected onto the surface, `dA = cos θ dω`, the diffuse lobe is centered at the mirror direction: polar coordinates about it,
+//! with panels that halve towards the center, follow lobes of any width. The two differ where the model is not reciprocal.
 
 use super::coherent::GAUSS;
 use super::geometry::Geometry;
 use super::normalization::Normalization;
-use super::power::{LAMBDA_0_NM, coherent_prefactor, diffuse_prefactor, kappa};
+use super::power::{LAMBDA_0_NM, coherent_prefactor, diffuse_prefactor, kappa, wavelength_power};
 use super::sum::{Precision, diffuse_sum};
 use super::surface::Surface;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
@@ -60,16 +62,58 @@ pub fn directional_hemispherical(surface: &Surface, reading: Normalization, thet
     if reading == Normalization::Lambertian {
         return HemisphericalReflectance { diffuse: 1.0, coherent: 0.0 };
     }
-    let view = View { surface, reading, sin_i, cos_i };
+    let view = View { surface, reading, sin_i, cos_i, ratio: 1.0, is_viewer: false };
     HemisphericalReflectance { diffuse: view.diffuse(), coherent: view.coherent() }
 }
 
-/// Light from one direction.
+/// Hemispherical-directional reflectance at a wavelength in nanometers: the radiance that a viewer at the zenith angle `theta_s`, in
+/// radians, sees of a white of this surface under light from all directions alike, over that of a perfect diffuser; 0 at and below
+/// the horizon.
+///
+/// As accurate as [`directional_hemispherical`], the coherent component in the same limit of a narrow lobe.
+pub fn hemispherical_directional(
+    surface: &Surface,
+    reading: Normalization,
+    theta_s: f64,
+    wavelength_nm: f64,
+) -> HemisphericalReflectance {
+    let (sin_i, cos_i) = theta_s.sin_cos();
+    let ratio = LAMBDA_0_NM / wavelength_nm;
+    if !(cos_i > 0.0 && ratio > 0.0 && ratio.is_finite()) {
+        return HemisphericalReflectance::default();
+    }
+    if reading == Normalization::Lambertian {
+        return HemisphericalReflectance { diffuse: 1.0, coherent: 0.0 };
+    }
+    let view = View { surface, reading, sin_i, cos_i, ratio, is_viewer: true };
+    HemisphericalReflectance { diffuse: view.diffuse(), coherent: view.coherent() }
+}
+
+/// The coherent component of [`hemispherical_directional`] alone.
+pub(crate) fn coherent_hemispherical(
+    surface: &Surface,
+    reading: Normalization,
+    theta_s: f64,
+    wavelength_nm: f64,
+) -> f64 {
+    let (sin_i, cos_i) = theta_s.sin_cos();
+    let ratio = LAMBDA_0_NM / wavelength_nm;
+    if !(cos_i > 0.0 && ratio > 0.0 && ratio.is_finite()) || reading == Normalization::Lambertian {
+        return 0.0;
+    }
+    View { surface, reading, sin_i, cos_i, ratio, is_viewer: true }.coherent()
+}
+
+/// One direction, of the light or of the viewer; the others are integrated over.
 struct View<'a> {
     surface: &'a Surface,
     reading: Normalization,
     sin_i: f64,
     cos_i: f64,
+    /// λ0/λ.
+    ratio: f64,
+    /// True if the direction is the viewer's.
+    is_viewer: bool,
 }
 
 impl View<'_> {
@@ -94,7 +138,7 @@ impl View<'_> {
         // |s0 − r u| = 1, in the form that does not cancel.
         let end = if towards >= 0.0 { towards + root } else { self.cos_i * self.cos_i / (root - towards) };
         // The narrowest lobe, e^-b, falls to e^-1/4 here.
-        let narrow = 1.0 / (WAVE_NUMBER * self.surface.tau_m());
+        let narrow = 1.0 / (self.wave_number() * self.surface.tau_m());
         let at = |r: f64| self.integrand(r, end, towards) * r;
         let (mut upper, mut sum) = (end, 0.0);
         for panel in 0..RADII {
@@ -124,19 +168,32 @@ impl View<'_> {
         let vz_by_k = self.cos_i + cos_s;
         let vxy2_by_k2 = r * r;
         let cos_half2 = ((vxy2_by_k2 + vz_by_k * vz_by_k) / 4.0).min(1.0);
-        let (cos_i, vx_by_k, vy_by_k) = (self.cos_i, r, 0.0);
+        let [cos_i, cos_s] = if self.is_viewer { [cos_s, self.cos_i] } else { [self.cos_i, cos_s] };
+        let (vx_by_k, vy_by_k) = (r, 0.0);
         let geometry = Geometry { cos_i, cos_s, vx_by_k, vy_by_k, vxy2_by_k2, vz_by_k, cos_half2 };
-        let reach = WAVE_NUMBER * self.surface.tau_m() * r;
-        let sum = diffuse_sum(kappa(self.surface, &geometry), reach * reach / 4.0, Precision::Coarse);
-        diffuse_prefactor(self.surface, &geometry, self.reading) * sum
+        let reach = self.wave_number() * self.surface.tau_m() * r;
+        let g = kappa(self.surface, &geometry) * self.ratio * self.ratio;
+        let sum = diffuse_sum(g, reach * reach / 4.0, Precision::Coarse);
+        self.power() * diffuse_prefactor(self.surface, &geometry, self.reading) * sum
+    }
+
+    fn wave_number(&self) -> f64 {
+        WAVE_NUMBER * self.ratio
+    }
+
+    /// The power of λ0/λ that the normalization carries.
+    fn power(&self) -> f64 {
+        self.ratio.powi(wavelength_power(self.reading))
     }
 
     fn coherent(&self) -> f64 {
         let theta = self.sin_i.atan2(self.cos_i).clamp(-FRAC_PI_2, FRAC_PI_2);
         let mirrored = Geometry::from_angles(theta, theta, 0.0);
         // ∫ ρ0² dA = λ²/(4XY).
-        let lobe = (LAMBDA_0_NM * 1e-9).powi(2) / (4.0 * self.surface.half_x_m() * self.surface.half_y_m());
-        coherent_prefactor(self.surface, &mirrored, self.reading) * lobe / PI * (-kappa(self.surface, &mirrored)).exp()
+        let wavelength_m = LAMBDA_0_NM * 1e-9 / self.ratio;
+        let lobe = wavelength_m * wavelength_m / (4.0 * self.surface.half_x_m() * self.surface.half_y_m());
+        let g = kappa(self.surface, &mirrored) * self.ratio * self.ratio;
+        self.power() * coherent_prefactor(self.surface, &mirrored, self.reading) * lobe / PI * (-g).exp()
     }
 }
 

@@ -11,6 +11,7 @@ use chromascope_mesh::Mesh;
 use chromascope_mesh::ShadowTree;
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
+use std::f64::consts::TAU;
 use std::sync::Arc;
 
 /// The side of the block of samples that share a coarse shadow ray.
@@ -18,6 +19,15 @@ const BLOCK: usize = 4;
 
 /// Samples that one task works on.
 const CHUNK: usize = 8192;
+
+/// Steps from one point of the light's disk to the next sample's, without a factor in common with any number of samples.
+const DISK_STEP: u32 = 11;
+
+/// Share of a turn from one point of the light's disk to the next.
+const GOLDEN: f64 = 0.618_033_988_749_895;
+
+/// Distance within which a ray that leaves a surface backward does not end, in scene radii: the thickness of a leaf.
+pub const THIN: f64 = 4e-3;
 
 /// Fineness of shadows, if any are traced.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -31,13 +41,24 @@ pub enum Shadows {
     Full,
 }
 
+/// Samples that are listed beside those that the light reaches from before.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct Reach {
+    /// All that see the mesh: a sky lights them.
+    pub everywhere: bool,
+    /// Those that the light reaches from behind, through a leaf.
+    pub through: bool,
+}
+
 /// Reason that samples are dark, and how many.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct GeometryCounts {
     /// Samples that see a triangle.
     pub seen: u64,
-    /// Those that the light reaches.
+    /// Those that the light reaches from before.
     pub lit: u64,
+    /// Those that it reaches from behind.
+    pub through: u64,
     /// Those turned away from the light.
     pub facing_away: u64,
     /// Those in shadow.
@@ -51,6 +72,7 @@ impl GeometryCounts {
         Self {
             seen: self.seen + other.seen,
             lit: self.lit + other.lit,
+            through: self.through + other.through,
             facing_away: self.facing_away + other.facing_away,
             shadowed: self.shadowed + other.shadowed,
             rays: self.rays + other.rays,
@@ -63,7 +85,7 @@ impl GeometryCounts {
 pub struct Angles {
     /// cos⁴ α: the lens's falloff (Eq 12).
     pub falloff: f32,
-    /// cos θi.
+    /// cos θi; 0 where the light does not reach the sample, negative where it does from behind.
     pub cos_i: f32,
     /// cos θs.
     pub cos_s: f32,
@@ -113,13 +135,19 @@ pub struct GeometryImage {
     placed: Arc<LitSamples>,
     angles: Vec<Angles>,
     angular_radius: f64,
+    reach: Reach,
     counts: GeometryCounts,
 }
 
 impl Angles {
-    /// `cos θi cos⁴α`: what Eq 12 has beside the reflectance factor.
+    /// `cos θi cos⁴α`: what Eq 12 has beside the reflectance factor; 0 where no light comes from before.
     pub fn light(&self) -> f64 {
-        f64::from(self.falloff) * f64::from(self.cos_i)
+        f64::from(self.falloff) * f64::from(self.cos_i.max(0.0))
+    }
+
+    /// `|cos θi| cos⁴α` of light from behind.
+    pub fn light_behind(&self) -> f64 {
+        f64::from(self.falloff) * f64::from((-self.cos_i).max(0.0))
     }
 
     /// Angles in the reflectance model's terms.
@@ -151,9 +179,22 @@ impl GeometryImage {
         shadows: Option<(&ShadowTree, Shadows)>,
         stop: &Stop,
     ) -> Option<Self> {
+        Self::within(mesh, visibility, lighting, shadows, Reach::default(), stop)
+    }
+
+    /// [`Self::new`] with further samples listed.
+    pub fn within(
+        mesh: &Mesh,
+        visibility: &Visibility,
+        lighting: &Lighting,
+        shadows: Option<(&ShadowTree, Shadows)>,
+        reach: Reach,
+        stop: &Stop,
+    ) -> Option<Self> {
         let size = visibility.size();
         let light = lighting.before(visibility.eye());
-        let scene = Scene { mesh, visibility, rays: visibility.rays(), light, shadows };
+        let disk = lighting.angular_radius();
+        let scene = Scene { mesh, visibility, rays: visibility.rays(), light, disk, shadows, reach };
         // Rows whose samples share shadow rays together.
         let band = BLOCK * size.columns();
         let bands: Vec<Part> = (0..visibility.hits().len().div_ceil(band))
@@ -175,7 +216,7 @@ impl GeometryImage {
             counts = counts.plus(part.counts);
         }
         let placed = Arc::new(LitSamples { size, samples, seen });
-        Some(Self { placed, angles, angular_radius: lighting.angular_radius(), counts })
+        Some(Self { placed, angles, angular_radius: disk, reach, counts })
     }
 
     /// Positions of the samples.
@@ -191,6 +232,11 @@ impl GeometryImage {
     /// The angles at the lit samples.
     pub fn angles(&self) -> &[Angles] {
         &self.angles
+    }
+
+    /// Samples that are listed beside those that the light reaches from before.
+    pub fn reach(&self) -> Reach {
+        self.reach
     }
 
     /// The light's angular radius in radians.
@@ -234,16 +280,43 @@ struct Scene<'a> {
     visibility: &'a Visibility,
     rays: Rays,
     light: PlacedLight,
+    /// Angular radius of the light in radians.
+    disk: f64,
     shadows: Option<(&'a ShadowTree, Shadows)>,
+    reach: Reach,
 }
 
 /// A place on the mesh with its normal.
-struct Place {
-    point: DVec3,
-    normal: DVec3,
+pub(super) struct SeenPlace {
+    pub(super) point: DVec3,
+    /// Towards the viewer.
+    pub(super) normal: DVec3,
     hit: Hit,
     /// True if the triangle is seen from behind.
-    behind: bool,
+    pub(super) behind: bool,
+}
+
+impl SeenPlace {
+    /// The place where a hit is, its normal bent until edge-on where it points away from the viewer.
+    pub(super) fn new(mesh: &Mesh, hit: Hit, to_viewer: DVec3) -> Self {
+        let weights = hit.barycentric().map(f64::from);
+        let (points, normals) = corners(mesh, hit);
+        let flat = (points[1] - points[0]).cross(points[2] - points[0]);
+        let mixed = mix(normals, weights);
+        // The side that is seen: by the triangle itself, for its corners' normals may lie on either side of the view.
+        let outward = if flat.dot(mixed) < 0.0 { -flat } else { flat };
+        let normal = mixed.try_normalize().or_else(|| outward.try_normalize()).unwrap_or(to_viewer);
+        let behind = outward.dot(to_viewer) < 0.0;
+        let normal = turned_to(if behind { -normal } else { normal }, to_viewer);
+        Self { point: mix(points, weights), normal, hit, behind }
+    }
+}
+
+/// Places and normals of a triangle's corners.
+fn corners(mesh: &Mesh, hit: Hit) -> ([DVec3; 3], [DVec3; 3]) {
+    let corners = mesh.triangles()[hit.triangle as usize];
+    let of = |all: &[Vec3]| corners.map(|i| all[i as usize].as_dvec3());
+    (of(mesh.positions()), of(mesh.normals()))
 }
 
 /// True if each block of a band of rows is in shadow, once known.
@@ -305,62 +378,56 @@ impl Scene<'_> {
     /// Adds a sample to those that the light reaches, or counts why it does not.
     fn take(&self, sample: u32, lane: usize, given: &Given, found: &Found, blocks: &mut Blocks, part: &mut Part) {
         let hit = self.visibility.hits()[sample as usize];
-        let lit = if found.plain[lane] {
-            found.lit[lane].then(|| {
-                let place =
-                    Place { point: given.point(lane), normal: found.normal(lane), hit, behind: found.behind[lane] };
-                (place, found.angles(lane))
-            })
+        let (place, mut angles) = if found.plain[lane] {
+            let (point, normal, behind) = (given.point(lane), found.normal(lane), found.behind[lane]);
+            (SeenPlace { point, normal, hit, behind }, found.angles(lane))
         } else {
-            self.carefully(sample as usize, hit)
+            self.checked_angles(sample as usize, hit)
         };
-        let Some((place, angles)) = lit else {
+        if angles.cos_i > 0.0 && angles.cos_s > 0.0 {
+            let block = &mut blocks[given.columns[lane] as usize / BLOCK];
+            if self.is_shadowed(&place, sample, block, &mut part.counts.rays) {
+                part.counts.shadowed += 1;
+                angles.cos_i = 0.0;
+            } else {
+                part.counts.lit += 1;
+            }
+        } else if self.reach.through && angles.cos_i < 0.0 && self.shines_through(&place, &mut part.counts.rays) {
+            part.counts.through += 1;
+        } else {
             part.counts.facing_away += 1;
-            return;
-        };
-        let block = &mut blocks[given.columns[lane] as usize / BLOCK];
-        if self.is_shadowed(&place, block, &mut part.counts.rays) {
-            part.counts.shadowed += 1;
-            return;
+            angles.cos_i = 0.0;
         }
-        part.counts.lit += 1;
-        part.samples.push(sample);
-        part.angles.push(angles);
+        if angles.cos_i != 0.0 || self.reach.everywhere {
+            part.samples.push(sample);
+            part.angles.push(angles);
+        }
     }
 
-    /// The angles at a sample of any kind, unless its surface is turned away from the light.
-    fn carefully(&self, sample: usize, hit: Hit) -> Option<(Place, Angles)> {
+    /// The angles at a sample of any kind.
+    fn checked_angles(&self, sample: usize, hit: Hit) -> (SeenPlace, Angles) {
         let ahead = self.rays.at(sample).normalize();
         let to_viewer = -(self.visibility.eye().world_from_view * DVec3::new(ahead.x, ahead.y, -ahead.z));
-        let place = self.place(hit, to_viewer);
-        let (to_light, _) = self.light.seen_from(place.point)?;
-        let geometry = Geometry::from_directions(to_light, to_viewer, place.normal);
-        geometry.is_lit().then(|| (place, angles(&geometry, ahead.z)))
+        let place = SeenPlace::new(self.mesh, hit, to_viewer);
+        let towards = self.light.seen_from(place.point);
+        let geometry = towards
+            .map_or(Geometry::DARK, |(to_light, _)| Geometry::from_directions(to_light, to_viewer, place.normal));
+        (place, angles(&geometry, ahead.z))
     }
 
-    fn place(&self, hit: Hit, to_viewer: DVec3) -> Place {
-        let weights = hit.barycentric().map(f64::from);
-        let (points, normals) = self.corners(hit);
-        let flat = (points[1] - points[0]).cross(points[2] - points[0]);
-        let mixed = mix(normals, weights);
-        // The side that is seen: by the triangle itself, for its corners' normals may lie on either side of the view.
-        let outward = if flat.dot(mixed) < 0.0 { -flat } else { flat };
-        let normal = mixed.try_normalize().or_else(|| outward.try_normalize()).unwrap_or(to_viewer);
-        let behind = outward.dot(to_viewer) < 0.0;
-        let normal = turned_to(if behind { -normal } else { normal }, to_viewer);
-        Place { point: mix(points, weights), normal, hit, behind }
-    }
-
-    /// Places and normals of a triangle's corners.
-    fn corners(&self, hit: Hit) -> ([DVec3; 3], [DVec3; 3]) {
-        let corners = self.mesh.triangles()[hit.triangle as usize];
-        let of = |all: &[Vec3]| corners.map(|i| all[i as usize].as_dvec3());
-        (of(self.mesh.positions()), of(self.mesh.normals()))
+    /// True if the light reaches the other side of a leaf.
+    fn shines_through(&self, place: &SeenPlace, rays: &mut u64) -> bool {
+        let Some((tree, _)) = self.shadows else { return true };
+        *rays += 1;
+        let skipped = self.visibility.eye().radius * THIN;
+        self.light.seen_from(place.point).is_some_and(|(to_light, distance)| {
+            !tree.is_blocked(place.point + to_light * skipped, to_light, distance - skipped)
+        })
     }
 
     /// Origin of a shadow ray: on the surface that the corners' normals suggest, a little above it.
-    fn lifted(&self, place: &Place) -> DVec3 {
-        let (points, normals) = self.corners(place.hit);
+    fn lifted(&self, place: &SeenPlace) -> DVec3 {
+        let (points, normals) = corners(self.mesh, place.hit);
         let lifts = [0, 1, 2].map(|k: usize| {
             let normal = if place.behind { -normals[k] } else { normals[k] };
             normal * (points[k] - place.point).dot(normal).max(0.0)
@@ -370,18 +437,40 @@ impl Scene<'_> {
         place.point + mix(lifts, place.hit.barycentric().map(f64::from)) + above
     }
 
-    fn is_shadowed(&self, place: &Place, block: &mut Option<bool>, rays: &mut u64) -> bool {
+    fn is_shadowed(&self, place: &SeenPlace, sample: u32, block: &mut Option<bool>, rays: &mut u64) -> bool {
         let Some((tree, shadows)) = self.shadows else { return false };
         let mut trace = || {
             *rays += 1;
             let way = self.light.seen_from(place.point);
-            way.is_some_and(|(to_light, distance)| tree.is_blocked(self.lifted(place), to_light, distance))
+            way.is_some_and(|(to_light, distance)| {
+                let to_light = self.on_disk(to_light, sample);
+                tree.is_blocked(self.lifted(place), to_light, distance)
+            })
         };
         match shadows {
             Shadows::Off => false,
             Shadows::Full => trace(),
             Shadows::Coarse => *block.get_or_insert_with(trace),
         }
+    }
+
+    /// The direction to a point of the light's disk: each of a pixel's samples has its own, so that their mean is the visible share.
+    fn on_disk(&self, to_light: DVec3, sample: u32) -> DVec3 {
+        let size = self.visibility.size();
+        if size.samples < 2 || self.disk == 0.0 {
+            return to_light;
+        }
+        let (columns, side) = (size.columns() as u32, size.samples);
+        let (row, column) = (sample / columns, sample % columns);
+        // Neighboring samples of a pixel see neighboring points in another order: the disk's place and the pixel's are independent.
+        let index = (row % side * side + column % side) * DISK_STEP % (side * side);
+        let share = (f64::from(index) + 0.5) / f64::from(side * side);
+        // Pixels are turned against each other, so that no pattern repeats.
+        let turn = f64::from((row / side * 5 + column / side * 3) % 8) / 8.0;
+        let (sin, cos) = (TAU * (f64::from(index) * GOLDEN + turn)).sin_cos();
+        let radius = self.disk.tan() * share.sqrt();
+        let (across, along) = to_light.any_orthonormal_pair();
+        (to_light + (across * cos + along * sin) * radius).normalize()
     }
 }
 

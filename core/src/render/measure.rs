@@ -40,6 +40,7 @@ pub struct SpectralWeights {
     totals: [f64; 3],
     coherent_rules: OnceLock<CoherentRules>,
     untinted: Option<Arc<SpectralWeights>>,
+    transmitted: [f64; 3],
 }
 
 /// Wavelengths for a table with errors below 1e-6 of the peak.
@@ -78,7 +79,16 @@ impl SpectralWeights {
         let coarse = nodes(&dense, COARSE_NODES);
         let fine = nodes(&dense, FINE_NODES);
         let totals = [0, 1, 2].map(|c: usize| dense.iter().map(|node| node.weights[c]).sum());
-        Self { dense, coarse, fine, moments, totals, coherent_rules: OnceLock::new(), untinted: None }
+        Self {
+            dense,
+            coarse,
+            fine,
+            moments,
+            totals,
+            coherent_rules: OnceLock::new(),
+            untinted: None,
+            transmitted: [0.0; 3],
+        }
     }
 
     /// This measure with another for the coherent component: that of a white, where a boundary's reflection does not take the
@@ -86,6 +96,17 @@ impl SpectralWeights {
     #[must_use]
     pub fn with_untinted(self, white: Arc<SpectralWeights>) -> Self {
         Self { untinted: Some(white), ..self }
+    }
+
+    /// This measure with the signals of a leaf that lets all light through alike, `∫ C_c T L dλ / ∫ C_c L dλ`.
+    #[must_use]
+    pub fn with_transmitted(self, transmitted: [f64; 3]) -> Self {
+        Self { transmitted, ..self }
+    }
+
+    /// Signals of light that falls straight on the other side of a leaf; 0 where nothing passes.
+    pub fn transmitted(&self) -> [f64; 3] {
+        self.transmitted
     }
 
     /// The weights of the coherent component: those of a white, or its own.

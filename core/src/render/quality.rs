@@ -7,7 +7,16 @@ use crate::spectral::grid::COUNT;
 const SKIPPED_OF_ERROR: f64 = 0.1;
 const COHERENT_OF_ERROR: f64 = 0.4;
 /// Share of the brightest sample below which coherent terms are omitted from the sums over the grid.
-const REFERENCE_MIRROR_SHARE: f64 = 1e-14;
+const REFERENCE_COHERENT_SHARE: f64 = 1e-14;
+
+/// Exactness of the mean over the lobe.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct SkyFineness {
+    /// Number of directions.
+    pub directions: usize,
+    /// Samples in a row that share one mean.
+    pub run: usize,
+}
 
 /// Exactness of the spectral integrals of a picture.
 ///
@@ -61,8 +70,8 @@ impl Quality {
     }
 
     /// Share of the brightest sample below which coherent terms are omitted.
-    pub fn mirror_share(self) -> f64 {
-        (SKIPPED_OF_ERROR * self.error()).max(REFERENCE_MIRROR_SHARE)
+    pub fn coherent_share(self) -> f64 {
+        (SKIPPED_OF_ERROR * self.error()).max(REFERENCE_COHERENT_SHARE)
     }
 
     /// Error of the included coherent terms, relative to the picture's brightest sample; 0 for the sums over the grid.
@@ -70,7 +79,17 @@ impl Quality {
         COHERENT_OF_ERROR * self.error()
     }
 
-    /// Returns true if samples below e^-30 of their peak are omitted.
+    /// Exactness of the mean over the sky, in a picture with so many samples along a pixel's side.
+    pub fn sky_fineness(self, samples: u32) -> SkyFineness {
+        let pixel = samples.max(1) as usize;
+        match self {
+            Self::Preview => SkyFineness { directions: 16, run: 4 * pixel },
+            Self::Full => SkyFineness { directions: 48, run: pixel },
+            Self::Fine | Self::Reference | Self::Regimes | Self::Within(_) => SkyFineness { directions: 256, run: 1 },
+        }
+    }
+
+    /// Returns true if samples below e^-30 of their peak are left out.
     pub const fn leaves_dark(self) -> bool {
         !matches!(self, Self::Reference | Self::Regimes)
     }

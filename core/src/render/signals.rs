@@ -9,7 +9,8 @@ use super::stop::Stop;
 use rayon::prelude::*;
 use std::sync::Arc;
 
-/// One camera's picture: `cos θi cos⁴α ∫C_c P S L dλ / ∫C_c L dλ` at each lit sample (Eq 12 without its s).
+/// One camera's picture: `cos θi cos⁴α ∫C_c P S L dλ / ∫C_c L dλ` at each lit sample (Eq 12 without its s), with the light of a
+/// sky and what shines through a leaf, `|cos θi| cos⁴α ∫C_c T L dλ / ∫C_c L dλ`.
 #[derive(Clone, Debug)]
 pub struct CameraImage {
     placed: Arc<LitSamples>,
@@ -55,22 +56,35 @@ impl Camera<'_> {
             }
         });
         let integral = CoherentIntegral::in_picture(shading, self.measure);
-        let mirrors = shading.mirrors().par_iter().with_min_len(64).map(|mirror| {
+        let coherent_samples = shading.coherent_samples().par_iter().with_min_len(64).map(|coherent| {
             if stop.is_set() {
                 return [0.0; 3];
             }
-            integral.at(mirror)
+            integral.at(coherent)
         });
-        let mirrors: Vec<[f64; 3]> = mirrors.collect();
-        for (mirror, sums) in shading.mirrors().iter().zip(mirrors) {
-            for (signal, sum) in signals[mirror.index as usize].iter_mut().zip(sums) {
+        let coherent_samples: Vec<[f64; 3]> = coherent_samples.collect();
+        for (coherent, sums) in shading.coherent_samples().iter().zip(coherent_samples) {
+            for (signal, sum) in signals[coherent.index as usize].iter_mut().zip(sums) {
                 *signal += sum as f32;
             }
         }
-        let signals = match shading.vertices() {
+        let mut signals = match shading.vertices() {
             Some(vertices) => vertices.mixed(&signals),
             None => signals,
         };
+        let transmitted = self.measure.transmitted();
+        if shading.geometry().reach().through && transmitted != [0.0; 3] {
+            let angles = shading.geometry().angles();
+            signals.par_iter_mut().zip(angles).with_min_len(4096).filter(|(_, angles)| angles.cos_i < 0.0).for_each(
+                |(signal, angles)| {
+                    let through = scaled(transmitted, angles.light_behind());
+                    signal.iter_mut().zip(through).for_each(|(signal, through)| *signal += through);
+                },
+            );
+        }
+        if let Some(sky) = shading.sky() {
+            sky.add(self.measure, &mut signals);
+        }
         (!stop.is_set()).then_some(signals)
     }
 

@@ -1,7 +1,8 @@
 //! Viewpoint of a mesh: an orbit around its center, through a lens.
 
-use chromascope_mesh::Bounds;
-use glam::{DMat3, DVec3};
+use chromascope_mesh::{Bounds, Mesh};
+use glam::{DMat3, DVec3, Vec3};
+use rayon::prelude::*;
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::hash::{Hash, Hasher};
 
@@ -29,13 +30,27 @@ pub struct Viewpoint {
     pitch: f64,
     distance: f64,
     field_of_view: f64,
+    frame: Option<Frame>,
 }
+
+/// A picture that the mesh is to fill.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Frame {
+    /// Width over height.
+    aspect: f64,
+    /// Distance over the one from which the mesh fills the picture.
+    zoom: f64,
+}
+
+/// Share of the picture that the mesh fills.
+const FILLED: f64 = 0.92;
 
 impl Eq for Viewpoint {}
 
 impl Hash for Viewpoint {
     fn hash<H: Hasher>(&self, state: &mut H) {
         [self.yaw, self.pitch, self.distance, self.field_of_view].map(|v| (v + 0.0).to_bits()).hash(state);
+        self.frame.map(|frame| [frame.aspect, frame.zoom].map(f64::to_bits)).hash(state);
     }
 }
 
@@ -58,7 +73,23 @@ impl Viewpoint {
             return Err(ViewpointError::FieldOfView);
         }
         let yaw = (yaw + PI).rem_euclid(2.0 * PI) - PI;
-        Ok(Self { yaw, pitch: pitch.clamp(-FRAC_PI_2, FRAC_PI_2), distance, field_of_view })
+        Ok(Self { yaw, pitch: pitch.clamp(-FRAC_PI_2, FRAC_PI_2), distance, field_of_view, frame: None })
+    }
+
+    /// This view at the distance and in the place where the mesh fills a picture of the given width over height, times a factor on
+    /// the distance; the distance in radii counts no more.
+    ///
+    /// # Errors
+    ///
+    /// [`ViewpointError`] where a number is not finite or out of range.
+    pub fn framed(self, aspect: f64, zoom: f64) -> Result<Self, ViewpointError> {
+        if !(aspect.is_finite() && zoom.is_finite()) {
+            return Err(ViewpointError::NotFinite);
+        }
+        if !(1e-3..=1e3).contains(&zoom) || aspect <= 0.0 {
+            return Err(ViewpointError::Distance);
+        }
+        Ok(Self { frame: Some(Frame { aspect, zoom }), ..self })
     }
 
     /// The angle around the vertical, in radians.
@@ -76,9 +107,44 @@ impl Viewpoint {
         self.distance
     }
 
+    /// The factor on the distance from which the mesh fills the picture, where the distance goes by that.
+    pub fn zoom(&self) -> Option<f64> {
+        self.frame.map(|frame| frame.zoom)
+    }
+
     /// The vertical field of view, in radians.
     pub fn field_of_view(&self) -> f64 {
         self.field_of_view
+    }
+
+    /// The eye before a mesh: [`Self::eye`], moved where the mesh is to fill a picture.
+    ///
+    /// With X, Y, Z the mesh's points in view axes from its center and t = tan of half the angle that it is to fill, it is seen
+    /// whole from the distance `max over both axes of (max(X + tZ) − min(X − tZ))/2t`, the eye at the middle of the two.
+    pub fn eye_before(&self, mesh: &Mesh) -> Eye {
+        let eye = self.eye(mesh.bounds());
+        let Some(frame) = self.frame else { return eye };
+        let t = [frame.aspect, 1.0].map(|across| FILLED * across * eye.half_height);
+        let empty = [[f64::NEG_INFINITY; 2]; 2];
+        let reach = |ends: [[f64; 2]; 2], p: &Vec3| {
+            let view = eye.world_from_view.transpose() * (p.as_dvec3() - eye.center);
+            std::array::from_fn(|axis| {
+                let (at, ahead) = (view[axis], t[axis] * view.z);
+                [ends[axis][0].max(at + ahead), ends[axis][1].max(ahead - at)]
+            })
+        };
+        let wider =
+            |a: [[f64; 2]; 2], b: [[f64; 2]; 2]| std::array::from_fn(|i| std::array::from_fn(|j| a[i][j].max(b[i][j])));
+        let points = mesh.positions().par_iter().with_min_len(4096);
+        let ends: [[f64; 2]; 2] = points.fold(|| empty, reach).reduce(|| empty, wider);
+        let whole = |axis: usize| (ends[axis][0] + ends[axis][1]) / (2.0 * t[axis]);
+        let middle = |axis: usize| (ends[axis][0] - ends[axis][1]) / 2.0;
+        let distance = (frame.zoom * whole(0).max(whole(1))).max(1e-3 * eye.radius);
+        let place = DVec3::new(middle(0), middle(1), distance);
+        if !place.is_finite() {
+            return eye;
+        }
+        Eye { position: eye.center + eye.world_from_view * place, ..eye }
     }
 
     /// The eye and its axes before a mesh with these bounds.

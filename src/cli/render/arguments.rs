@@ -39,7 +39,7 @@ pub(in crate::cli) struct RenderArguments {
     pub(super) mesh: OsString,
     /// A spectral image in place of a mesh: an ENVI header (.hdr) or an OpenEXR file with spectral channels
     #[arg(long, value_name = "FILE", help_heading = SCENE, conflicts_with_all = ["mesh", "triangles", "material", "values", "light",
-          "no_shadows", "orbit", "fov", "sigma", "sigma_from_mesh", "tau", "patch", "ior", "area", "reading", "specular", "quality",
+          "no_shadows", "sky", "leaf", "orbit", "fov", "sigma", "sigma_from_mesh", "tau", "patch", "ior", "area", "reading", "specular", "quality",
           "tolerance", "size", "samples", "stats"])]
     pub(super) image: Option<PathBuf>,
     /// Quantity of the image's samples, overriding the file
@@ -73,14 +73,21 @@ pub(in crate::cli) struct RenderArguments {
     /// Direction to the light in view axes: right, up, toward the viewer [default: 25° up, 25° left]
     #[arg(long, value_name = "x,y,z", value_parser = three, allow_hyphen_values = true, help_heading = SCENE)]
     pub(super) light: Option<[f64; 3]>,
+    /// Uniform sky of the illuminant's spectrum: irradiance of a level surface over that of a surface that faces the light, from 0
+    /// to 1 [default: 0.15]
+    #[arg(long, value_name = "SHARE", value_parser = share, allow_hyphen_values = true, help_heading = SCENE)]
+    pub(super) sky: Option<f64>,
+    /// Lets light through as a leaf of the material's reflectance does [default: for the fern]
+    #[arg(long, value_name = "BOOL", num_args = 0..=1, default_missing_value = "true", help_heading = SCENE)]
+    pub(super) leaf: Option<bool>,
     /// Metric of the differences from the reference [default: delta-e2000, or xy with the paper's matrix]
     #[arg(long, value_name = "METRIC", value_parser = metrics(), help_heading = SCENE)]
     pub(super) difference: Option<String>,
     /// Disables shadows
     #[arg(long, help_heading = SCENE)]
     pub(super) no_shadows: bool,
-    /// Viewpoint: degrees around and above the mesh, and distance in radii of the mesh [default: 20,5,3.6; 20,15,3.6
-    /// for the fern]
+    /// Viewpoint: degrees around and above the mesh, and distance in radii of the mesh [default: -25,5; -25,15 for the
+    /// fern, at the distance from which the mesh fills the picture]
     #[arg(long, value_name = "yaw,pitch,distance", value_parser = three, allow_hyphen_values = true, help_heading = SCENE)]
     pub(super) orbit: Option<[f64; 3]>,
     /// The vertical field of view in degrees [default: 30, or 30 across in an upright picture]
@@ -268,6 +275,11 @@ fn finite(text: &str) -> Result<f64, String> {
 fn positive(text: &str) -> Result<f64, String> {
     let number = finite(text)?;
     (number > 0.0 && number.recip().is_finite()).then_some(number).ok_or_else(|| format!("\"{text}\" is not above 0"))
+}
+
+fn share(text: &str) -> Result<f64, String> {
+    let number = finite(text)?;
+    (0.0..=1.0).contains(&number).then_some(number).ok_or_else(|| format!("sky {text} out of range (0 to 1)"))
 }
 
 fn tolerance(text: &str) -> Result<f64, String> {

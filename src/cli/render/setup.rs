@@ -58,7 +58,7 @@ impl Setup {
         };
         let quality = request.document.render.quality();
         let shadows = if quality == Quality::Preview { Shadows::Coarse } else { Shadows::Full };
-        let finish = Finish { size, quality, shadows, compared_samples: Some(usize::MAX) };
+        let finish = Finish { size, quality, shadows, compared_samples: Some(usize::MAX), open_sky: false };
         let mesh_name = mesh_name(&request.document.render.mesh);
         Ok(Self { request, viewpoint, finish, own_mesh, mesh_name, reading: start.elapsed() })
     }
@@ -106,7 +106,7 @@ const MESHES: [(&str, MeshChoice); 4] = [
     ("plane", MeshChoice::Plane),
 ];
 
-fn mesh_choice(given: &OsStr) -> Result<MeshChoice, CliError> {
+pub(in crate::cli) fn mesh_choice(given: &OsStr) -> Result<MeshChoice, CliError> {
     let typed = &*given.to_string_lossy();
     let known = MESHES.into_iter().find(|(name, _)| typed.trim().eq_ignore_ascii_case(name));
     if let Some((_, choice)) = known {
@@ -134,7 +134,7 @@ fn mesh_name(choice: &MeshChoice) -> String {
     }
 }
 
-fn read_mesh(path: &PathBuf) -> Result<Shared<Mesh>, CliError> {
+pub(in crate::cli) fn read_mesh(path: &PathBuf) -> Result<Shared<Mesh>, CliError> {
     // Whole, so that a complaint can say in which folder the file is not.
     let whole = std::path::absolute(path).unwrap_or_else(|_| path.clone());
     let read = meshes::read(&whole, &|| false).map_err(|failure| CliError::File(failure.to_string()))?;
@@ -166,6 +166,9 @@ fn settings(
         quality: if arguments.tolerance.is_some() { QualityLevel::Tolerance } else { arguments.quality },
         tolerance: arguments.tolerance.unwrap_or(usual.tolerance),
         shadows: !arguments.no_shadows,
+        sky: arguments.sky.unwrap_or(usual.sky),
+        thin: arguments.leaf.unwrap_or(usual.thin),
+        sunlight: false,
         exposure_ev: arguments.exposure,
         ..usual
     };
@@ -197,22 +200,29 @@ fn surface_error(error: SurfaceError) -> CliError {
 
 fn viewpoint(arguments: &RenderArguments, mesh: &MeshChoice) -> Result<Viewpoint, CliError> {
     let usual = Orbit::of(mesh);
-    let [yaw, pitch, distance] = arguments.orbit.unwrap_or([usual.yaw_deg, usual.pitch_deg, usual.distance]);
+    let [width, height] = arguments.size.map(f64::from);
+    let aspect = width / height;
+    let Some([yaw, pitch, distance]) = arguments.orbit else {
+        let field = arguments.fov.unwrap_or(usual.field_of_view_deg);
+        Viewpoint::new(0.0, 0.0, 1.0, field.to_radians()).map_err(viewpoint_error)?;
+        let framed = usual.with_field_of_view(field);
+        return framed.viewpoint(aspect).ok_or_else(|| viewpoint_error(ViewpointError::Distance));
+    };
     if pitch.abs() > 90.0 {
         let reason = format!("{pitch}° is beyond the poles; use a pitch from -90 to 90");
         return Err(CliError::Argument { argument: "--orbit", reason });
     }
-    let [width, height] = arguments.size.map(f64::from);
-    let as_shown =
-        || usual.viewpoint(width / height).map_or(usual.field_of_view_deg.to_radians(), |v| v.field_of_view());
+    let as_shown = || usual.viewpoint(aspect).map_or(usual.field_of_view_deg.to_radians(), |v| v.field_of_view());
     let field = arguments.fov.map_or_else(as_shown, f64::to_radians);
-    Viewpoint::new(yaw.to_radians(), pitch.to_radians(), distance, field).map_err(|error| {
-        let (argument, example) = match error {
-            ViewpointError::FieldOfView => ("--fov", "such as 30"),
-            ViewpointError::Distance | ViewpointError::NotFinite => ("--orbit", "such as 20,5,3.6"),
-        };
-        CliError::Argument { argument, reason: format!("{error}, {example}") }
-    })
+    Viewpoint::new(yaw.to_radians(), pitch.to_radians(), distance, field).map_err(viewpoint_error)
+}
+
+fn viewpoint_error(error: ViewpointError) -> CliError {
+    let (argument, example) = match error {
+        ViewpointError::FieldOfView => ("--fov", "such as 30"),
+        ViewpointError::Distance | ViewpointError::NotFinite => ("--orbit", "such as 20,5,3.6"),
+    };
+    CliError::Argument { argument, reason: format!("{error}, {example}") }
 }
 
 /// Beyond this many samples memory runs out on small machines.

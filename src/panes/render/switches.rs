@@ -30,7 +30,7 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
     ui.spacing_mut().item_spacing.x = 0.75 * UNIT;
     for (action, words, mesh) in figures {
         let hint = format!(
-            "{mesh} in parallel sunlight, balanced to D55, with the reflectance model chosen under Surface \
+            "{mesh} in parallel sunlight without sky, balanced to D55, with the reflectance model chosen under Surface \
              (initially radiometric). Also sets light and white balance; the compared sensors stay."
         );
         if ui.button(words).on_hover_text(hint).clicked() {

@@ -11,7 +11,7 @@ use crate::panes::widgets::pick_list::{self, Line};
 /// A list of all reflectances that is filtered as one types: the user's own, then the built-in ones by file.
 pub(super) fn choice(ui: &mut Ui, now: &str, context: &mut PaneContext<'_>) {
     let mut names = Vec::new();
-    let width = ui.available_width().min(270.0);
+    let width = ui.available_width();
     let hint = "Reflectance of the surface";
     let chosen = pick_list::drop_down(ui, ("Material", hint), now, width, &context.theme, || {
         let own = context.scene.entries(SetKind::Chart).filter(Entry::is_own);

@@ -2,14 +2,15 @@
 
 use chromascope_core::scene::lighting::SUN_RADIUS;
 use chromascope_mesh::head::FEWEST;
-use egui::{ComboBox, Ui};
+use egui::Ui;
 
-use super::{Dial, caption, material, set, unless_image};
+use super::{Dial, caption, line, list, material, set, unless_image};
 use crate::catalog::meshes::{MeshState, is_mesh};
 use crate::catalog::spectral_images::has_image_ending;
 use crate::command::Command;
 use crate::document::render::{MeshChoice, NEAR, RenderSettings};
 use crate::panes::context::PaneContext;
+use crate::panes::widgets;
 
 /// Choices of the number of triangles.
 const TRIANGLES: std::ops::RangeInclusive<f64> = 2e3..=2e6;
@@ -17,10 +18,7 @@ const TRIANGLES: std::ops::RangeInclusive<f64> = 2e3..=2e6;
 /// Shows the group.
 pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let settings = context.scene.document.render.clone();
-    ui.horizontal(|ui| {
-        mesh(ui, &settings, context);
-        ui.label("Mesh");
-    });
+    mesh(ui, &settings, context);
     summary(ui, &settings, context);
     super::image::show(ui, context);
     let reason = "Triangles, material and light direction do nothing to a spectral image.";
@@ -29,24 +27,38 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
 
 /// Controls of a mesh: its triangles, material and light.
 fn of_mesh(ui: &mut Ui, settings: &RenderSettings, context: &mut PaneContext<'_>) {
-    if matches!(settings.mesh, MeshChoice::Head | MeshChoice::Fern | MeshChoice::Sphere) {
-        // The head's mesh has a minimum number of triangles.
-        let least = if settings.mesh == MeshChoice::Head { FEWEST as f64 } else { *TRIANGLES.start() };
-        let dial = Dial {
-            name: "Triangles",
-            range: least..=*TRIANGLES.end(),
-            logarithmic: Some(1.0),
-            unit: "",
-            hint: "Approximate number of triangles. Generating a mesh takes longer than drawing it.",
-            beyond: false,
-        };
-        if let Some(to) = dial.show(ui, (settings.triangles as f64).max(least)) {
-            set(context, "Triangles", |settings| settings.triangles = to as usize);
-        }
+    // The head's cage has so many that a smaller number would change nothing.
+    let least = if settings.mesh == MeshChoice::Head { FEWEST as f64 } else { *TRIANGLES.start() };
+    let dial = Dial {
+        name: "Triangles",
+        range: least..=*TRIANGLES.end(),
+        logarithmic: Some(1.0),
+        unit: "",
+        hint: "Approximate number of triangles of head, fern and sphere. Generating a mesh takes longer than drawing it.",
+        beyond: false,
+        enabled: matches!(settings.mesh, MeshChoice::Head | MeshChoice::Fern | MeshChoice::Sphere),
+    };
+    if let Some(to) = dial.show(ui, (settings.triangles as f64).max(least), context) {
+        set(context, "Triangles", |settings| settings.triangles = to as usize);
     }
     caption(ui, "Material", context);
     material::choice(ui, &settings.material, context);
+    conditions(ui, settings, context);
     light(ui, settings, context);
+}
+
+/// The rendered scene's light and white: the sun, or those of the scene bar.
+fn conditions(ui: &mut Ui, settings: &RenderSettings, context: &mut PaneContext<'_>) {
+    caption(ui, "Light and white balance", context);
+    ui.horizontal(|ui| {
+        let choices = [
+            (true, "Sun, D55", "Direct sun (ASTM G173), balanced to D55, in this workspace alone"),
+            (false, "Scene bar", "Light and white balance as above; choosing one there chooses this too"),
+        ];
+        if let Some(to) = widgets::segmented(ui, &choices, settings.sunlight) {
+            set(context, "Light and white balance", |settings| settings.sunlight = to);
+        }
+    });
 }
 
 fn mesh(ui: &mut Ui, settings: &RenderSettings, context: &mut PaneContext<'_>) {
@@ -59,8 +71,7 @@ fn mesh(ui: &mut Ui, settings: &RenderSettings, context: &mut PaneContext<'_>) {
             path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
         }
     };
-    let combo = ComboBox::from_id_salt("mesh").width(150.0).truncate().selected_text(&shown);
-    let response = combo.show_ui(ui, |ui| {
+    list(ui, "Mesh", [&shown, ""], context, |ui, context| {
         for (choice, words) in [
             (MeshChoice::Head, "Head"),
             (MeshChoice::Fern, "Fern"),
@@ -68,7 +79,7 @@ fn mesh(ui: &mut Ui, settings: &RenderSettings, context: &mut PaneContext<'_>) {
             (MeshChoice::Plane, "Plane"),
         ] {
             if ui.selectable_label(settings.mesh == choice, words).clicked() {
-                set(context, "Mesh", |settings| settings.mesh = choice);
+                set(context, "Mesh", |settings| settings.take(choice));
             }
         }
         ui.separator();
@@ -85,40 +96,58 @@ fn mesh(ui: &mut Ui, settings: &RenderSettings, context: &mut PaneContext<'_>) {
             context.push(Command::Open);
         }
     });
-    response.response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::ComboBox, true, format!("Mesh: {shown}")));
 }
 
-/// Notes on the mesh file that was read.
+/// Notes on the mesh file that was read: one line, empty for the program's own meshes.
 fn summary(ui: &mut Ui, settings: &RenderSettings, context: &PaneContext<'_>) {
-    if let MeshChoice::File(path) = &settings.mesh
-        && let MeshState::Ready(mesh) = context.meshes.get(path)
-    {
-        let words = egui::RichText::new(&mesh.summary).small().color(context.theme.weak);
-        ui.label(words).on_hover_text(mesh.notes.join("\n"));
-    }
+    let ready = match &settings.mesh {
+        MeshChoice::File(path) => match context.meshes.get(path) {
+            MeshState::Ready(mesh) => Some(mesh),
+            MeshState::Loading | MeshState::Failed(_) => None,
+        },
+        _ => None,
+    };
+    let [words, notes] =
+        ready.map_or_else(<[String; 2]>::default, |mesh| [mesh.summary.clone(), mesh.notes.join("\n")]);
+    line(ui, &words, if notes.is_empty() { &words } else { &notes }, context.theme.weak);
 }
 
 fn light(ui: &mut Ui, settings: &RenderSettings, context: &mut PaneContext<'_>) {
-    let angle =
-        |name, to: f64, hint| Dial { name, range: -to..=to, logarithmic: None, unit: "°", hint, beyond: false };
-    let height = angle(
-        "Light elevation",
-        90.0,
-        "Elevation of the light above the view axis; it moves with the \
-                                              viewpoint.",
-    );
-    if let Some(to) = height.show(ui, settings.light_up_deg) {
+    let angle = |name, to: f64, hint| Dial {
+        name,
+        range: -to..=to,
+        logarithmic: None,
+        unit: "°",
+        hint,
+        beyond: false,
+        enabled: true,
+    };
+    let hint = "Elevation of the light above the view axis; it moves with the viewpoint.";
+    if let Some(to) = angle("Light elevation", 90.0, hint).show(ui, settings.light_up_deg, context) {
         set(context, "Light elevation", |settings| settings.light_up_deg = to.round());
     }
-    let side = angle(
-        "Light azimuth",
-        180.0,
-        "Azimuth of the light to the right of the view axis; negative is left, beyond 90° \
-                                    is behind.",
-    );
-    if let Some(to) = side.show(ui, settings.light_right_deg) {
+    let hint = "Azimuth of the light to the right of the view axis; negative is left, beyond 90° is behind.";
+    if let Some(to) = angle("Light azimuth", 180.0, hint).show(ui, settings.light_right_deg, context) {
         set(context, "Light azimuth", |settings| settings.light_right_deg = to.round());
     }
+    let hint = "Uniform sky above the horizon, of the light's spectrum: irradiance of a level surface over that of a \
+                surface that faces the light. About 15 % on a clear day. Figures 8 and 9 have none.";
+    let sky = Dial { range: 0.0..=100.0, unit: " %", ..angle("Sky", 0.0, hint) };
+    if let Some(to) = sky.show(ui, 100.0 * settings.sky, context) {
+        set(context, "Sky", |settings| settings.sky = to.round() / 100.0);
+    }
+    switches(ui, settings, context);
+    let hint = "Of a point light from the center, in radii of the mesh";
+    let enabled = settings.light_distance.is_some();
+    let dial =
+        Dial { range: 1.1..=100.0, logarithmic: Some(1.0), unit: "", enabled, ..angle("Light distance", 0.0, hint) };
+    if let Some(to) = dial.show(ui, settings.light_distance.unwrap_or(NEAR), context).filter(|_| enabled) {
+        set(context, "Light distance", |settings| settings.light_distance = Some(to));
+    }
+}
+
+/// Shadows, the Sun's disk, a point light, and light through leaves.
+fn switches(ui: &mut Ui, settings: &RenderSettings, context: &mut PaneContext<'_>) {
     ui.horizontal(|ui| {
         let mut shadows = settings.shadows;
         if ui.checkbox(&mut shadows, "Shadows").on_hover_text("Self-shadowing of the mesh").changed() {
@@ -126,7 +155,7 @@ fn light(ui: &mut Ui, settings: &RenderSettings, context: &mut PaneContext<'_>) 
         }
         let mut disk = settings.light_radius > 0.0;
         let hint =
-            "A light as wide as the Sun blurs the specular lobe; a point does not. Only smooth surfaces show it.";
+            "A light as wide as the Sun softens the edges of shadows and blurs the specular lobe; a point does not.";
         if ui.checkbox(&mut disk, "Sun's disk").on_hover_text(hint).changed() {
             set(context, "Sun's disk", |settings| settings.light_radius = if disk { SUN_RADIUS } else { 0.0 });
         }
@@ -136,12 +165,10 @@ fn light(ui: &mut Ui, settings: &RenderSettings, context: &mut PaneContext<'_>) 
             set(context, "Point light", |settings| settings.light_distance = near.then_some(NEAR));
         }
     });
-    if let Some(distance) = settings.light_distance {
-        let hint = "From the center, in radii of the mesh";
-        let range = 1.1..=100.0;
-        let dial = Dial { name: "Light distance", range, logarithmic: Some(1.0), unit: "", hint, beyond: false };
-        if let Some(to) = dial.show(ui, distance) {
-            set(context, "Light distance", |settings| settings.light_distance = Some(to));
-        }
+    let mut thin = settings.thin;
+    let hint = "Light also passes through, as through a leaf: its transmittance from the material's reflectance by the \
+                plate model (PROSPECT: 1.5 plates of index 1.45), alike in all directions";
+    if ui.checkbox(&mut thin, "Light through leaves").on_hover_text(hint).changed() {
+        set(context, "Light through leaves", |settings| settings.thin = thin);
     }
 }

@@ -1,13 +1,14 @@
 //! Roughness and refractive index, the choices of the reflectance model, and its limits.
 
 use chromascope_core::reflectance::Caution;
-use egui::{ComboBox, RichText, Ui};
+use egui::Ui;
 
-use super::{Dial, set};
+use super::{Dial, SLIDER, VALUE, caption, line, list, set};
 use crate::document::render::model::{AreaChoice, SpecularChoice};
 use crate::document::render::{LEAF, ReadingChoice, RenderSettings, RoughnessChoice, SKIN};
 use crate::figures::render::returned;
 use crate::panes::context::PaneContext;
+use crate::theme::UNIT;
 
 /// Shows the group.
 pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
@@ -15,18 +16,16 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
     presets(ui, context);
     lengths(ui, &settings, context);
     let hint = "The refractive index, the same at all wavelengths; type up to 1000.";
-    let dial = Dial { name: "Index n", range: 1.0..=3.0, logarithmic: None, unit: "", hint, beyond: true };
-    if let Some(to) = dial.show(ui, settings.index) {
+    let dial =
+        Dial { name: "Index n", range: 1.0..=3.0, logarithmic: None, unit: "", hint, beyond: true, enabled: true };
+    if let Some(to) = dial.show(ui, settings.index, context) {
         set(context, "Refractive index", |settings| settings.index = to.clamp(0.01, 1000.0));
     }
     area(ui, &settings, context);
     reading(ui, settings.reading, context);
-    let consequence = RichText::new(settings.reading.consequence()).small().color(context.theme.weak);
-    ui.label(consequence).on_hover_text(settings.reading.why());
-    if settings.reading != ReadingChoice::Lambertian {
-        specular(ui, settings.specular, context);
-        returned_light(ui, &settings, context);
-    }
+    line(ui, settings.reading.consequence(), settings.reading.why(), context.theme.weak);
+    ui.add_enabled_ui(settings.reading != ReadingChoice::Lambertian, |ui| specular(ui, settings.specular, context));
+    returned_light(ui, &settings, context);
     cautions(ui, &settings, context);
 }
 
@@ -43,28 +42,21 @@ fn area(ui: &mut Ui, settings: &RenderSettings, context: &mut PaneContext<'_>) {
 
 /// The reflectance factor of the coherent component.
 fn specular(ui: &mut Ui, now: SpecularChoice, context: &mut PaneContext<'_>) {
-    ui.horizontal(|ui| {
-        let combo = ComboBox::from_id_salt("specular").width(150.0).selected_text(now.label());
-        let response = combo.show_ui(ui, |ui| {
-            for choice in SpecularChoice::ALL {
-                if ui.selectable_label(now == choice, choice.label()).on_hover_text(choice.why()).clicked() {
-                    set(context, "Coherent component", |settings| settings.specular = choice);
-                }
+    list(ui, "Coherent component", [now.label(), now.why()], context, |ui, context| {
+        for choice in SpecularChoice::ALL {
+            if ui.selectable_label(now == choice, choice.label()).on_hover_text(choice.why()).clicked() {
+                set(context, "Coherent component", |settings| settings.specular = choice);
             }
-        });
-        let said = format!("Coherent component: {}", now.label());
-        response.response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::ComboBox, true, &said));
-        response.response.on_hover_text(now.why());
-        ui.label("Specular").on_hover_text(now.why());
+        }
     });
 }
 
-/// The share of light that the surface returns, with a warning where that is more than came.
+/// The share of light that the surface returns; where that is more than came, in the color of a warning.
 fn returned_light(ui: &mut Ui, settings: &RenderSettings, context: &PaneContext<'_>) {
-    let Some(words) = returned::words(&context.scene) else { return };
-    let color = if words.is_warning { context.theme.warning } else { context.theme.weak };
-    let hint = returned::meaning(settings.reading);
-    ui.label(RichText::new(words.text).small().color(color)).on_hover_text(hint);
+    let words = returned::words(&context.scene);
+    let (text, is_warning) = words.map_or((String::new(), false), |words| (words.text, words.is_warning));
+    let color = if is_warning { context.theme.warning } else { context.theme.weak };
+    line(ui, &text, &format!("{text}. {}", returned::meaning(settings.reading)), color);
 }
 
 /// Surfaces to begin with.
@@ -115,9 +107,10 @@ fn lengths(ui: &mut Ui, settings: &RenderSettings, context: &mut PaneContext<'_>
         unit: " µm",
         hint,
         beyond: true,
+        enabled: true,
     };
     let sigma = length("Roughness σ", 0.0, 0.01, "RMS roughness; type up to 1e6, a meter");
-    if let Some(to) = sigma.show(ui, settings.sigma_um) {
+    if let Some(to) = sigma.show(ui, settings.sigma_um, context) {
         set(context, "Roughness", |settings| settings.sigma_um = to.clamp(0.0, 1e6));
     }
     let from_mesh = settings.roughness == RoughnessChoice::Mesh;
@@ -128,20 +121,16 @@ fn lengths(ui: &mut Ui, settings: &RenderSettings, context: &mut PaneContext<'_>
         let to = if wanted { RoughnessChoice::Mesh } else { RoughnessChoice::Surface };
         set(context, "Roughness from the mesh", |settings| settings.roughness = to);
     }
-    if from_mesh {
-        let words =
-            RichText::new("Lengths of the mesh, not of the material: dark except for a narrow specular lobe").small();
-        ui.label(words.color(context.theme.warning)).on_hover_text(RoughnessChoice::WHY_NOT);
-    }
     let tau = length(
         "Correlation τ",
         0.001,
         0.001,
         "Correlation length: lag at which the height autocorrelation falls to 1/e",
     );
-    if let Some(to) = tau.show(ui, settings.tau_um) {
+    if let Some(to) = tau.show(ui, settings.tau_um, context) {
         set(context, "Correlation length", |settings| settings.tau_um = to.clamp(0.001, 1e6));
     }
+    caption(ui, "Half-widths of the coherently illuminated area", context);
     ui.horizontal(|ui| {
         for (axis, name, hint) in [
             (0, "X", "Half-width of the coherently illuminated area, in the plane of incidence"),
@@ -153,62 +142,64 @@ fn lengths(ui: &mut Ui, settings: &RenderSettings, context: &mut PaneContext<'_>
                 .speed(0.01 * settings.half_sides_um[axis])
                 .max_decimals(3)
                 .suffix(" µm");
-            let response = ui.add(field);
+            let response = ui.add_sized([VALUE + 2.0 * UNIT, SLIDER], field);
             ui.label(name).on_hover_text(hint);
             response.widget_info(|| egui::WidgetInfo::slider(true, value, format!("Half-width {name}")));
             if response.on_hover_text(hint).changed() {
                 set(context, "Half-widths", |settings| settings.half_sides_um[axis] = value);
             }
         }
-        ui.label(RichText::new("half-widths").small().color(context.theme.weak));
     });
 }
 
 fn reading(ui: &mut Ui, now: ReadingChoice, context: &mut PaneContext<'_>) {
-    ui.horizontal(|ui| {
-        let combo = ComboBox::from_id_salt("reading").width(150.0).selected_text(now.label());
-        let response = combo.show_ui(ui, |ui| {
-            for reading in ReadingChoice::ALL {
-                if ui.selectable_label(now == reading, reading.label()).on_hover_text(reading.why()).clicked() {
-                    set(context, "Normalization", |settings| settings.reading = reading);
-                }
+    list(ui, "Normalization", [now.label(), now.why()], context, |ui, context| {
+        for reading in ReadingChoice::ALL {
+            if ui.selectable_label(now == reading, reading.label()).on_hover_text(reading.why()).clicked() {
+                set(context, "Normalization", |settings| settings.reading = reading);
             }
-        });
-        let said = format!("Normalization: {}", now.label());
-        response.response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::ComboBox, true, &said));
-        response.response.on_hover_text(now.why());
-        ui.label("Normalization");
+        }
     });
 }
 
-/// Limits of the model that the surface exceeds.
+/// Limits of the model that the surface exceeds: the first in one line that is always there, all of them on hover.
 fn cautions(ui: &mut Ui, settings: &RenderSettings, context: &PaneContext<'_>) {
-    if settings.reading == ReadingChoice::Lambertian || settings.roughness == RoughnessChoice::Mesh {
-        return;
+    let said = cautions_of(settings);
+    let is_error = settings.surface().is_err();
+    let color = if is_error { context.theme.error } else { context.theme.warning };
+    let more = if said.len() > 1 { format!(" (+{})", said.len() - 1) } else { String::new() };
+    let words = said.first().map_or_else(String::new, |[words, _]| format!("{words}{more}"));
+    let all: Vec<&str> = said.iter().map(|[_, whole]| whole.as_str()).collect();
+    line(ui, &words, &all.join("\n\n"), color);
+}
+
+/// Limits in a few words and in full.
+fn cautions_of(settings: &RenderSettings) -> Vec<[String; 2]> {
+    if settings.reading == ReadingChoice::Lambertian {
+        return Vec::new();
     }
-    match settings.surface() {
-        Err(error) => {
-            ui.label(RichText::new(error.to_string()).small().color(context.theme.error));
-        }
-        Ok(surface) => {
-            if is_nearly_a_mirror(settings) {
-                let whole = "Nearly specular: most light is in the highlight, which determines exposure; everything \
-                             else is dark. A small highlight may fall between pixels.";
-                let words = RichText::new("Nearly specular: dark except for the highlight").small();
-                ui.label(words.color(context.theme.warning)).on_hover_text(whole);
-            }
-            for caution in surface.cautions() {
-                let whole = format!("{caution}.");
-                let said = whole.split([',', ':']).next().unwrap_or(&whole);
-                let words = if caution == Caution::Steep {
-                    format!("Empirical lobe, outside the model's validity: {}", lowered(said))
-                } else {
-                    said.to_owned()
-                };
-                ui.label(RichText::new(words).small().color(context.theme.warning)).on_hover_text(whole);
-            }
-        }
+    if settings.roughness == RoughnessChoice::Mesh {
+        let words = "Lengths of the mesh: dark except for a narrow lobe".to_owned();
+        return vec![[words, RoughnessChoice::WHY_NOT.to_owned()]];
     }
+    let surface = match settings.surface() {
+        Ok(surface) => surface,
+        Err(error) => return vec![[error.to_string(), error.to_string()]],
+    };
+    let mut said = Vec::new();
+    if is_nearly_a_mirror(settings) {
+        let whole = "Nearly specular: most light is in the highlight, which determines exposure; everything else is \
+                     dark. A small highlight may fall between pixels.";
+        said.push(["Nearly specular: dark except for the highlight".to_owned(), whole.to_owned()]);
+    }
+    for caution in surface.cautions() {
+        let whole = format!("{caution}.");
+        let words = whole.split([',', ':']).next().unwrap_or(&whole);
+        let words =
+            if caution == Caution::Steep { format!("Empirical lobe: {}", lowered(words)) } else { words.to_owned() };
+        said.push([words, whole]);
+    }
+    said
 }
 
 /// True if most of the light is reflected specularly at normal incidence, at 550 nm.

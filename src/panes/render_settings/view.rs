@@ -1,8 +1,8 @@
 //! Exposure, lens and quality.
 
-use egui::{ComboBox, RichText, Ui};
+use egui::Ui;
 
-use super::{Dial, set, unless_image};
+use super::{Dial, caption, line, list, set, unless_image};
 
 use crate::document::render::RenderSettings;
 use crate::panes::context::PaneContext;
@@ -19,8 +19,16 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
     } else {
         "The same for all cameras. At 0 EV the material facing the light has 40 % of the screen's white."
     };
-    let dial = Dial { name: "Exposure", range: -6.0..=6.0, logarithmic: None, unit: " EV", hint, beyond: false };
-    if let Some(to) = dial.show(ui, settings.exposure_ev) {
+    let dial = Dial {
+        name: "Exposure",
+        range: -6.0..=6.0,
+        logarithmic: None,
+        unit: " EV",
+        hint,
+        beyond: false,
+        enabled: true,
+    };
+    if let Some(to) = dial.show(ui, settings.exposure_ev, context) {
         set(context, "Exposure", |settings| settings.exposure_ev = (to * 10.0).round() / 10.0);
     }
     let reason = "Field of view and quality do nothing to a spectral image.";
@@ -33,37 +41,42 @@ fn lens_and_quality(ui: &mut Ui, settings: &RenderSettings, context: &mut PaneCo
     let orbit = context.view.saved.render.orbit.unwrap_or_else(|| Orbit::of(&settings.mesh));
     let hint = "Of the lens; the viewpoint moves so that the mesh keeps its size. Wide lenses fall off with cos⁴ (Eq \
                 12).";
-    let dial = Dial { name: "Field of view", range: 2.0..=120.0, logarithmic: None, unit: "°", hint, beyond: false };
-    if let Some(to) = dial.show(ui, orbit.field_of_view_deg) {
+    let dial = Dial {
+        name: "Field of view",
+        range: 2.0..=120.0,
+        logarithmic: None,
+        unit: "°",
+        hint,
+        beyond: false,
+        enabled: true,
+    };
+    if let Some(to) = dial.show(ui, orbit.field_of_view_deg, context) {
         context.view.saved.render.orbit = Some(orbit.with_field_of_view(to));
         ui.ctx().request_repaint();
     }
-    ui.horizontal(|ui| {
-        let now = settings.quality;
-        let combo = ComboBox::from_id_salt("quality").width(150.0).selected_text(now.label());
-        let response = combo.show_ui(ui, |ui| {
-            for quality in QualityLevel::ALL {
-                if ui.selectable_label(now == quality, quality.label()).clicked() {
-                    set(context, "Quality", |settings| settings.quality = quality);
-                }
+    let now = settings.quality;
+    let hint = "Accuracy of integrals over wavelength at rest";
+    list(ui, "Quality", [now.label(), hint], context, |ui, context| {
+        for quality in QualityLevel::ALL {
+            if ui.selectable_label(now == quality, quality.label()).clicked() {
+                set(context, "Quality", |settings| settings.quality = quality);
             }
-        });
-        let said = format!("Quality: {}", now.label());
-        response.response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::ComboBox, true, &said));
-        response.response.on_hover_text("Accuracy of integrals over wavelength at rest");
-        ui.label("Quality");
-        if ui.button("Reset").on_hover_text("Initial view of the mesh (Home)").clicked() {
-            context.view.saved.render.orbit = None;
-            ui.ctx().request_repaint();
         }
     });
-    if settings.quality == QualityLevel::Tolerance {
-        let hint = "Largest error of a picture, relative to its brightest sample. The Numerics workspace shows the method \
-             for each camera.";
-        let id = ui.make_persistent_id("tolerance field");
-        if let Some(to) = widgets::tolerance::field(ui, id, settings.tolerance, "Tolerance", hint, context) {
-            set(context, "Tolerance", |settings| settings.tolerance = to);
-        }
+    caption(ui, "Tolerance", context);
+    ui.add_enabled_ui(now == QualityLevel::Tolerance, |ui| tolerance(ui, settings, context));
+    if ui.button("Reset view").on_hover_text("Initial view of the mesh (Home)").clicked() {
+        context.view.saved.render.orbit = None;
+        ui.ctx().request_repaint();
+    }
+}
+
+fn tolerance(ui: &mut Ui, settings: &RenderSettings, context: &mut PaneContext<'_>) {
+    let hint = "Largest error of a picture, relative to its brightest sample, with the quality Within a tolerance. The \
+                Numerics workspace shows the method for each camera.";
+    let id = ui.make_persistent_id("tolerance field");
+    if let Some(to) = widgets::tolerance::field(ui, id, settings.tolerance, "", hint, context) {
+        set(context, "Tolerance", |settings| settings.tolerance = to);
     }
 }
 
@@ -74,10 +87,8 @@ fn without_picture(ui: &mut Ui, context: &PaneContext<'_>) {
     let skipped_work =
         skipped_work.filter(|source| !rendered.iter().any(|r| (r.kind, &r.name) == (source.kind, &source.name)));
     let names: Vec<String> = skipped_work.map(|source| source.label).collect();
-    if !names.is_empty() {
-        let words = format!("No picture: {}", names.join(", "));
-        ui.label(RichText::new(words).small().color(context.theme.weak)).on_hover_text(
-            "Eq 13 takes the signals of cameras and of Stiles & Burch; with a fitted color transform all have pictures.",
-        );
-    }
+    let words = if names.is_empty() { String::new() } else { format!("No picture: {}", names.join(", ")) };
+    let why =
+        "Eq 13 takes the signals of cameras and of Stiles & Burch; with a fitted color transform all have pictures.";
+    line(ui, &words, &format!("{words}. {why}"), context.theme.weak);
 }

@@ -117,3 +117,33 @@ fn the_tree_finds_what_a_look_at_every_triangle_finds() {
     }
     assert!((200..1800).contains(&blocked), "{blocked} of 2000 rays are blocked");
 }
+
+#[test]
+fn a_light_with_a_disk_has_soft_shadows_where_pixels_have_several_samples() {
+    use chromascope_core::query::render::{MeshQuery, VisibilityQuery};
+    use chromascope_core::query::{Ask as _, Direct};
+    use chromascope_core::render::{GeometryImage, RasterSize, Shadows, Stop};
+    use chromascope_core::scene::{Lighting, Viewpoint};
+    let size = RasterSize { width: 60, height: 60, samples: 3 };
+    let viewpoint = Viewpoint::new(-0.4, 0.1, 3.6, 0.5).unwrap();
+    let visibility = Direct.ask(&VisibilityQuery { mesh: MeshQuery::Head(10_000), viewpoint, size });
+    let visibility = (*visibility).as_ref().unwrap();
+    let mesh = chromascope_mesh::head::head(10_000);
+    let tree = ShadowTree::new(&mesh);
+    // Pixels of which all samples are seen, some in shadow.
+    let edges = |radius: f64, samples: Shadows| {
+        let lighting = Lighting::from_angles(0.5, 0.9, radius).unwrap();
+        let image = GeometryImage::new(&mesh, visibility, &lighting, Some((&tree, samples)), &Stop::NEVER).unwrap();
+        let pixel = |sample: &u32| (sample / 180 / 3) * 60 + sample % 180 / 3;
+        let count = |list: &[u32]| {
+            list.iter().fold(vec![0_u8; 3600], |mut counts, sample| {
+                counts[pixel(sample) as usize] += 1;
+                counts
+            })
+        };
+        let (lit, seen) = (count(image.samples()), count(image.placed().seen()));
+        lit.iter().zip(&seen).filter(|(lit, seen)| **seen == 9 && (1..9).contains(*lit)).count()
+    };
+    let (hard, sun, wide) = (edges(0.0, Shadows::Full), edges(4.65e-3, Shadows::Full), edges(0.15, Shadows::Full));
+    assert!(sun >= hard && wide > hard * 3 / 2, "{hard} {sun} {wide}");
+}

@@ -108,7 +108,7 @@ pub struct PictureQuery {
 impl Query for PictureQuery {
     type Answer = Result<Option<Arc<Picture>>, RenderingError>;
     const NAME: &'static str = "picture";
-    const KEPT: usize = 64;
+    const CAPACITY: usize = 64;
 
     fn bytes(picture: &Self::Answer) -> usize {
         picture.as_ref().ok().and_then(Option::as_ref).map_or(0, |picture| picture.rgba.len())
@@ -213,9 +213,9 @@ impl PicturesQuery {
         }
     }
 
-    fn compare(&self, ask: &impl Ask, lit: u64) -> Vec<Option<Arc<Difference>>> {
+    fn compare(&self, ask: &impl Ask, lit: usize) -> Vec<Option<Arc<Difference>>> {
         let Some(wanted) = self.compared_samples else { return vec![None; self.sources.len()] };
-        let stride = (lit as usize).div_ceil(wanted.max(1)).max(1);
+        let stride = lit.div_ceil(wanted.max(1)).max(1);
         let of = |source: &SourceOf| {
             if source.rendering == self.reference {
                 return None;
@@ -231,7 +231,7 @@ impl Query for PicturesQuery {
     type Answer = Result<Option<Pictures>, RenderingError>;
     const NAME: &'static str = "pictures";
     // Each holds on to all of its parts.
-    const KEPT: usize = 2;
+    const CAPACITY: usize = 2;
 
     fn answer(&self, ask: &impl Ask) -> Self::Answer {
         let facing = *ask.ask(&self.exposure());
@@ -251,7 +251,7 @@ impl Query for PicturesQuery {
         }
         let angles = Arc::clone(shading.geometry());
         let geometry = angles.counts();
-        let differences = self.compare(ask, geometry.lit);
+        let differences = self.compare(ask, angles.samples().len());
         Ok(Some(Pictures { pictures, images, differences, facing, angles, geometry, shading: shading.counts() }))
     }
 }

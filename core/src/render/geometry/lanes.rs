@@ -58,8 +58,6 @@ impl Given {
 pub(super) struct Found {
     /// True if what follows holds; if not, the sample is one of the rare ones that need care.
     pub(super) plain: Row<bool>,
-    /// True if light and viewer are before the surface.
-    pub(super) lit: Row<bool>,
     /// True if the triangle is seen from behind.
     pub(super) behind: Row<bool>,
     normals: Rows<f64>,
@@ -67,13 +65,8 @@ pub(super) struct Found {
 }
 
 impl Found {
-    pub(super) const NOTHING: Self = Self {
-        plain: [false; LANES],
-        lit: [false; LANES],
-        behind: [false; LANES],
-        normals: [[0.0; LANES]; 3],
-        angles: [[0.0; LANES]; 7],
-    };
+    pub(super) const NOTHING: Self =
+        Self { plain: [false; LANES], behind: [false; LANES], normals: [[0.0; LANES]; 3], angles: [[0.0; LANES]; 7] };
 
     pub(super) fn normal(&self, lane: usize) -> DVec3 {
         at(&self.normals, lane)
@@ -110,9 +103,8 @@ fn find_portable(given: &Given, world_from_view: &DMat3, found: &mut Found) {
         let behind = if flat.dot(mixed) < 0.0 { facing > 0.0 } else { facing < 0.0 };
         let upright = mixed * shrink;
         let normal = if behind { -upright } else { upright };
-        let (geometry, plain) = Geometry::quickly_from_directions(to_light, to_viewer, normal);
+        let (geometry, plain) = Geometry::from_directions_branchless(to_light, to_viewer, normal);
         found.plain[lane] = plain && shrink > 0.0 && shrink.is_finite() && geometry.cos_s >= EDGE;
-        found.lit[lane] = geometry.is_lit();
         found.behind[lane] = behind;
         put(&mut found.normals, lane, normal);
         let angles = super::angles(&geometry, ahead.z);
@@ -169,7 +161,7 @@ mod tests {
         let (mut chosen, mut portable) = (Found::NOTHING, Found::NOTHING);
         find(&given, &view, &mut chosen);
         find_portable(&given, &view, &mut portable);
-        assert_eq!((chosen.plain, chosen.lit, chosen.behind), (portable.plain, portable.lit, portable.behind));
+        assert_eq!((chosen.plain, chosen.behind), (portable.plain, portable.behind));
         assert!(!chosen.plain[7] && !chosen.plain[9]);
         let plain: Vec<usize> = (0..LANES).filter(|&lane| chosen.plain[lane]).collect();
         assert!(plain.len() > 10, "{} are plain", plain.len());

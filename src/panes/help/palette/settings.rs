@@ -22,13 +22,14 @@ const SETTINGS: &str = "Settings";
 const RENDER: &str = "Render";
 
 /// Sliders of the render settings by name, with other words for them.
-const SLIDERS: [(&str, &str); 9] = [
+const SLIDERS: [(&str, &str); 10] = [
     ("Roughness σ", "RMS sigma surface"),
     ("Correlation τ", "length tau surface"),
     ("Index n", "refractive Fresnel surface"),
     ("Light elevation", "direction height sun"),
     ("Light azimuth", "direction side sun"),
     ("Light distance", "near point light"),
+    ("Sky", "skylight ambient hemisphere"),
     ("Exposure", "EV brightness"),
     ("Field of view", "lens angle zoom"),
     ("Triangles", "mesh resolution"),

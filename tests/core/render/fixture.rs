@@ -12,7 +12,7 @@ use chromascope_core::query::render::picture::{Pictures, PicturesQuery, SourceOf
 use chromascope_core::query::render::{GeometryQuery, Roughness, ShadingQuery, VisibilityQuery};
 use chromascope_core::query::{Ask, ColorTransformSpec, Query, RenderingQuery, Shared};
 use chromascope_core::reflectance::{Normalization, Specular, Surface};
-use chromascope_core::render::{Quality, RasterSize, Shadows};
+use chromascope_core::render::{Quality, RasterSize, Reach, Shadows};
 use chromascope_core::scene::{Lighting, Viewpoint, lighting::SUN_RADIUS};
 use chromascope_core::spectral::GridSpectrum;
 
@@ -27,6 +27,9 @@ pub(super) struct RenderService {
     pub size: RasterSize,
     pub yaw: f64,
     pub light_up: f64,
+    pub light_right: f64,
+    pub sky: Option<f64>,
+    pub through: bool,
     pub sigma_m: f64,
     pub tau_m: f64,
     pub half_width_m: f64,
@@ -61,6 +64,9 @@ impl RenderService {
             size: RasterSize::new(40, 40),
             yaw: 0.0,
             light_up: 25.0,
+            light_right: -25.0,
+            sky: None,
+            through: false,
             sigma_m: 5e-6,
             tau_m: 10e-6,
             half_width_m: 50e-6,
@@ -83,12 +89,22 @@ impl RenderService {
     pub(super) fn question(&self) -> PicturesQuery {
         let viewpoint = Viewpoint::new(self.yaw, 0.1, 3.6, 30_f64.to_radians()).unwrap();
         let visibility = VisibilityQuery { mesh: self.mesh.clone(), viewpoint, size: self.size };
-        let (up, right) = (self.light_up.to_radians(), (-25_f64).to_radians());
+        let (up, right) = (self.light_up.to_radians(), self.light_right.to_radians());
         let lighting = Lighting::from_angles(up, right, self.angular_radius).unwrap();
-        let geometry = GeometryQuery { visibility, lighting, shadows: self.shadows };
+        let reach = Reach { everywhere: self.sky.is_some(), through: self.through };
+        let geometry = GeometryQuery { visibility, lighting, shadows: self.shadows, reach };
         let (surface, reading, quality) = (self.surface(), self.reading, self.quality);
+        let sky = self.sky.map(f64::to_bits);
         PicturesQuery {
-            shading: ShadingQuery { geometry, surface, roughness: self.roughness, reading, quality },
+            shading: ShadingQuery {
+                geometry,
+                surface,
+                roughness: self.roughness,
+                reading,
+                quality,
+                sky,
+                open_sky: false,
+            },
             reflectance: self.reflectance.clone(),
             reference: self.sources[0].clone(),
             sources: self.sources.iter().map(|rendering| SourceOf { rendering: rendering.clone() }).collect(),

@@ -4,7 +4,7 @@
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use super::own::{OwnCurve, OwnSet};
+use super::imported::{ImportedCurve, ImportedSet};
 use super::session::{SessionError, from_value};
 use super::{Document, unknown};
 
@@ -17,7 +17,7 @@ pub struct Place(pub String, pub usize);
 
 /// A document that was read, with its missing parts.
 #[derive(Debug)]
-pub struct Kept {
+pub struct LoadedDocument {
     /// The document.
     pub document: Document,
     /// Places of the curves of its sets, in their order; none for a set that the document holds itself.
@@ -29,7 +29,7 @@ pub struct Kept {
 }
 
 /// The JSON of a document whose sets have their curves at these places, indented, with a final newline.
-pub fn to_json(document: &Document, places: &[(&OwnSet, &Place)]) -> Result<String, SessionError> {
+pub fn to_json(document: &Document, places: &[(&ImportedSet, &Place)]) -> Result<String, SessionError> {
     let mut rest = document.clone();
     rest.own.clear();
     let mut value = serde_json::to_value(rest)?;
@@ -49,8 +49,8 @@ pub fn to_json(document: &Document, places: &[(&OwnSet, &Place)]) -> Result<Stri
 /// A document from JSON, with curves from their places: `curves` reads a file's list. A set that cannot be read is omitted.
 pub fn from_json(
     json: &str,
-    curves: &mut dyn FnMut(&Place) -> Result<Vec<OwnCurve>, String>,
-) -> Result<Kept, SessionError> {
+    curves: &mut dyn FnMut(&Place) -> Result<Vec<ImportedCurve>, String>,
+) -> Result<LoadedDocument, SessionError> {
     let mut value: Value = serde_json::from_str(json)?;
     let sets = value.get_mut("own").and_then(Value::as_array_mut).map(std::mem::take).unwrap_or_default();
     let (mut own, mut places, mut lost) = (Vec::new(), Vec::new(), Vec::new());
@@ -70,34 +70,34 @@ pub fn from_json(
     if !foreign.is_empty() {
         document.unknown.insert("own".to_owned(), foreign.into());
     }
-    Ok(Kept { document, places, lost, newer })
+    Ok(LoadedDocument { document, places, lost, newer })
 }
 
-type SetParts = (OwnSet, Option<Place>, Option<Value>);
+type SetParts = (ImportedSet, Option<Place>, Option<Value>);
 
 /// A set, the place of its curves, and its unknown fields.
 fn with_curves(
     mut set: Value,
-    curves: &mut dyn FnMut(&Place) -> Result<Vec<OwnCurve>, String>,
+    curves: &mut dyn FnMut(&Place) -> Result<Vec<ImportedCurve>, String>,
 ) -> Result<SetParts, String> {
     let words = |error: serde_json::Error| error.to_string();
     let mut take = |key: &str| set.as_object_mut().and_then(|set| set.remove(key));
     let (place, by_value) = (take(CURVES_IN), take("curves"));
     set["curves"] = Value::Array(Vec::new());
     let place: Option<Place> = place.map(serde_json::from_value).transpose().map_err(words)?;
-    let head = OwnSet::deserialize(&set).map_err(words)?;
+    let head = ImportedSet::deserialize(&set).map_err(words)?;
     let curves = match (&place, by_value) {
         (Some(place), _) => curves(place)?,
         (None, Some(curves)) => serde_json::from_value(curves).map_err(words)?,
         (None, None) => return Err("it has no curves".to_owned()),
     };
     let unknown = unknown::of(&set, &serde_json::to_value(&head).map_err(words)?);
-    Ok((OwnSet { curves, ..head }, place, unknown))
+    Ok((ImportedSet { curves, ..head }, place, unknown))
 }
 
 /// All of a set but its curves, which may be millions of numbers.
-fn without_curves(set: &OwnSet) -> OwnSet {
-    OwnSet {
+fn without_curves(set: &ImportedSet) -> ImportedSet {
+    ImportedSet {
         name: set.name.clone(),
         file: set.file.clone(),
         path: set.path.clone(),

@@ -1,0 +1,137 @@
+//! The legend: inside the first plot, beside the figure, or below it.
+
+use super::{Brush, Label};
+use crate::figure::Figure;
+use crate::ink::{Ink, InkRole};
+use crate::mark::{Anchor, Stroke, TextSize};
+use crate::panel::{LegendEntry, LegendPlace, Panel};
+use crate::projection::Projection;
+use crate::rect::Rect;
+use crate::text::text_width;
+
+const ROW: f64 = 20.0;
+const KEY: f64 = 28.0;
+const PAD: f64 = 8.0;
+/// Most columns below a figure.
+const MOST_COLUMNS: usize = 6;
+/// Distance from the figure.
+const GAP: f64 = 12.0;
+
+/// Columns of a legend with the size of its text.
+#[derive(Clone, PartialEq, Debug)]
+struct Columns {
+    widths: Vec<f64>,
+    size: TextSize,
+}
+
+impl Columns {
+    /// So many columns, filled row by row.
+    fn new(entries: &[LegendEntry], count: usize, size: TextSize) -> Self {
+        let mut widths = vec![0.0_f64; count.max(1)];
+        for (i, entry) in entries.iter().enumerate() {
+            let width = &mut widths[i % count.max(1)];
+            *width = width.max(2.0 * PAD + KEY + text_width(&entry.name, size));
+        }
+        Self { widths, size }
+    }
+
+    /// The fewest rows that fit below a figure; text that stands in fewer rows if it is small is small.
+    fn below(entries: &[LegendEntry], width: f64) -> Self {
+        let fit = |size| {
+            let most = entries.len().clamp(1, MOST_COLUMNS);
+            let fitting = (1..=most).rev().map(|count| Self::new(entries, count, size));
+            let fewest = fitting.into_iter().find(|columns| columns.width() <= width + PAD + 0.5);
+            let rows = fewest.map_or(entries.len(), |columns| columns.rows(entries)).max(1);
+            // In rows as full as possible.
+            Self::new(entries, entries.len().div_ceil(rows), size)
+        };
+        let [body, small] = [TextSize::Body, TextSize::Small].map(fit);
+        if body.widths.len() == 1 && small.widths.len() > 1 { small } else { body }
+    }
+
+    fn rows(&self, entries: &[LegendEntry]) -> usize {
+        entries.len().div_ceil(self.widths.len())
+    }
+
+    fn width(&self) -> f64 {
+        self.widths.iter().sum()
+    }
+
+    fn size(&self, entries: &[LegendEntry]) -> [f64; 2] {
+        [self.width() + PAD, ROW * self.rows(entries) as f64 + PAD]
+    }
+}
+
+/// The rectangle of a legend that stands outside of a figure of the given size.
+pub(super) fn outside(figure: &Figure, [width, height]: [f64; 2]) -> Option<Rect> {
+    match figure.legend_place {
+        _ if figure.legend.is_empty() => None,
+        LegendPlace::Outside => {
+            let size = Columns::new(&figure.legend, 1, TextSize::Body).size(&figure.legend);
+            Some(Rect::from_min_size([width + GAP, 0.0], size))
+        }
+        LegendPlace::Below => {
+            let columns = Columns::below(&figure.legend, width);
+            // Keys begin where the figure does, and the last column needs no room after it.
+            let size = [(columns.width() - PAD).min(width.max(columns.widths[0])), columns.size(&figure.legend)[1]];
+            Some(Rect::from_min_size([0.0, height + 0.5 * GAP], size))
+        }
+        _ => None,
+    }
+}
+
+/// Draws the legend in its rectangle outside, or inside the first panel.
+pub(super) fn draw(
+    brush: &mut Brush<'_>,
+    figure: &Figure,
+    outside: Option<Rect>,
+    first: Option<(&Panel, &Projection)>,
+) {
+    let area = outside.unwrap_or_else(|| inside(figure, first));
+    if outside.is_none() {
+        let ground = Ink { role: InkRole::Plot, alpha: 0.9 };
+        brush.rect(area, Some(Stroke::solid(InkRole::Line, 1.0)), Some(ground));
+    }
+    let (columns, inset) = match figure.legend_place {
+        LegendPlace::Below => (Columns::below(&figure.legend, area.width()), 0.0),
+        _ => (Columns::new(&figure.legend, 1, TextSize::Body), PAD),
+    };
+    for (i, entry) in figure.legend.iter().enumerate() {
+        let column = i % columns.widths.len();
+        let x = area.min[0] + inset + columns.widths[..column].iter().sum::<f64>();
+        let y = area.min[1] + 0.5 * PAD + ROW * ((i / columns.widths.len()) as f64 + 0.5);
+        key(brush, entry, [x, y]);
+        let at = [x + KEY + PAD, y];
+        brush.text(&Label::new(at, &entry.name, Anchor::LEFT, columns.size, InkRole::Text.into()));
+    }
+}
+
+fn inside(figure: &Figure, first: Option<(&Panel, &Projection)>) -> Rect {
+    let size = Columns::new(&figure.legend, 1, TextSize::Body).size(&figure.legend);
+    let whole = Rect::from_min_size([0.0, 0.0], figure.size);
+    let plot = first.map_or(whole, |(_, projection)| projection.plot);
+    let note = if first.is_some_and(|(panel, _)| !panel.note.is_empty()) { 18.0 } else { 0.0 };
+    let (left, right) = (plot.min[0] + PAD, plot.max[0] - PAD - size[0]);
+    let (top, bottom) = (plot.min[1] + PAD, plot.max[1] - PAD - size[1]);
+    // The corners hold the labels of the axes and the note.
+    let min = match figure.legend_place {
+        LegendPlace::UpperLeft => [left, top + 16.0],
+        LegendPlace::LowerRight => [right, bottom - 16.0],
+        LegendPlace::LowerLeft => [left, bottom],
+        _ => [right, top + note],
+    };
+    Rect::from_min_size(min, size)
+}
+
+fn key(brush: &mut Brush<'_>, entry: &LegendEntry, left: [f64; 2]) {
+    if let Some(stroke) = entry.stroke {
+        brush.path(&[left, [left[0] + KEY, left[1]]], false, Some(stroke), None);
+    }
+    if let Some(marker) = entry.marker {
+        let ink = entry.stroke.map(|stroke| stroke.ink).or(entry.fill);
+        let rim = ink.map(|ink| Stroke::solid(ink, 2.0));
+        let inside = if marker.has_inside() { entry.fill.or(Some(InkRole::Plot.into())) } else { None };
+        let ground = Some(Ink::new(InkRole::Plot));
+        brush.marker([left[0] + 0.5 * KEY, left[1]], (marker, 5.0), rim, inside, ground);
+    }
+}

@@ -1,0 +1,148 @@
+//! The rendered scene as it opens, and the pane of its settings, in which nothing jumps.
+
+use std::collections::BTreeMap;
+
+use chromascope::action::{Action, RenderAction, SceneAction};
+use chromascope::app::ChromascopeApp;
+use chromascope::catalog::Catalog;
+use chromascope::command::Command;
+use chromascope::document::render::{BALANCE, LEAF, MeshChoice, ReadingChoice, RenderSettings, SKY, SUN};
+use chromascope::document::{Document, Light, session};
+use chromascope::results::Results;
+use chromascope::scene::Scene;
+use chromascope::view::render::PixelPlace;
+use chromascope::workspaces::Workspace;
+use chromascope_core::render::QualityLevel;
+use egui::accesskit::Role;
+use egui_kittest::Harness;
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
+
+use crate::screenshots::open;
+
+type Window = Harness<'static, ChromascopeApp>;
+
+fn conditions(document: &Document) -> [String; 2] {
+    let (catalog, results) = (Catalog::built_in(), Results::default());
+    Scene { document, catalog: &catalog, results: &results }.rendered_conditions()
+}
+
+#[test]
+fn it_opens_under_sun_and_sky_until_a_light_is_chosen() {
+    for mut document in [Document::colorimetry(), Document::paper()] {
+        assert_eq!(conditions(&document), [SUN, BALANCE]);
+        assert_eq!(document.render.sky, SKY);
+        Action::Scene(SceneAction::SetTemperature(4000.0)).apply(&mut document);
+        assert_eq!(conditions(&document)[0], SUN);
+        Action::Scene(SceneAction::SetLight(Light::Set("A".to_owned()))).apply(&mut document);
+        assert_eq!(conditions(&document), ["A".to_owned(), document.white.name()]);
+    }
+}
+
+#[test]
+fn the_figures_have_no_sky() {
+    for (action, thin) in [
+        (RenderAction::Figure8, false),
+        (RenderAction::Figure9, true),
+        (RenderAction::PaperFigure8, false),
+        (RenderAction::PaperFigure9, false),
+    ] {
+        let mut document = Document::colorimetry();
+        Action::Render(action).apply(&mut document);
+        assert_eq!((document.render.sky, document.render.thin), (0.0, thin));
+        assert_eq!(conditions(&document), [SUN, BALANCE]);
+    }
+}
+
+#[test]
+fn a_session_saved_before_has_neither_sky_nor_light_of_its_own() {
+    let mut saved: serde_json::Value = serde_json::to_value(Document::colorimetry()).unwrap();
+    let settings = saved["render"].as_object_mut().unwrap();
+    for field in ["sky", "thin", "sunlight"] {
+        assert!(settings.remove(field).is_some(), "{field}");
+    }
+    let opened = session::from_json(&saved.to_string()).unwrap();
+    assert_eq!((opened.render.sky, opened.render.thin, opened.render.sunlight), (0.0, false, false));
+}
+
+#[test]
+fn another_mesh_comes_with_its_own_material_unless_one_was_chosen() {
+    let mut settings = RenderSettings::default();
+    settings.take(MeshChoice::Fern);
+    assert_eq!((settings.material.as_str(), settings.index, settings.thin), (LEAF, 1.45, true));
+    settings.take(MeshChoice::Head);
+    assert_eq!(settings, RenderSettings::default());
+    "Grass 025 (Vrhel)".clone_into(&mut settings.material);
+    settings.take(MeshChoice::Fern);
+    assert_eq!(settings.material, "Grass 025 (Vrhel)");
+}
+
+fn render(window: &mut Window, change: impl FnOnce(&mut RenderSettings)) {
+    let mut to = window.state().history().document().render.clone();
+    change(&mut to);
+    window.state_mut().push(Action::Render(RenderAction::Set { what: "Test", to: Box::new(to) }));
+    window.run_steps(2);
+}
+
+/// Where the controls of the settings stand.
+fn places(window: &Window) -> BTreeMap<String, [i32; 4]> {
+    let names = [
+        "Triangles",
+        "Light elevation",
+        "Light azimuth",
+        "Sky",
+        "Light distance",
+        "Roughness σ",
+        "Correlation τ",
+        "Index n",
+        "Exposure",
+        "Field of view",
+    ];
+    let sliders = names.map(|name| (name.to_owned(), window.get_by_role_and_label(Role::Slider, name).rect()));
+    let lists = window.query_all_by_role(Role::ComboBox).filter_map(|node| {
+        let label = node.accesskit_node().label()?;
+        let (name, _) = label.split_once(": ")?;
+        ["Mesh", "Material", "Normalization", "Coherent component", "Quality"]
+            .contains(&name)
+            .then(|| (name.to_owned(), node.rect()))
+    });
+    let whole =
+        |rect: egui::Rect| [rect.left(), rect.top(), rect.right(), rect.bottom()].map(|side| side.round() as i32);
+    sliders.into_iter().chain(lists).map(|(name, rect)| (name, whole(rect))).collect()
+}
+
+#[test]
+fn nothing_in_the_settings_jumps_when_values_change() {
+    let mut window = open([1280.0, 1400.0], egui::Theme::Light);
+    window.state_mut().push(Command::Show(Workspace::Render));
+    render(&mut window, |settings| settings.mesh = MeshChoice::Sphere);
+    render(&mut window, |settings| settings.triangles = 2000);
+    window.state().render_service().wait();
+    window.run_steps(2);
+    let before = places(&window);
+    assert_eq!(before.len(), 15, "{before:?}");
+    let widths: Vec<i32> =
+        before.values().filter(|rect| rect[2] - rect[0] < 150).map(|rect| rect[2] - rect[0]).collect();
+    assert!(widths.is_empty(), "sliders and lists are as wide as the pane: {widths:?}");
+    let changes: [fn(&mut RenderSettings); 9] = [
+        |settings| settings.sigma_um = 0.02,
+        |settings| settings.sigma_um = 123.0,
+        |settings| settings.tau_um = 0.01,
+        |settings| settings.reading = ReadingChoice::Lambertian,
+        |settings| settings.reading = ReadingChoice::Microfacet,
+        |settings| settings.light_distance = Some(2.0),
+        |settings| settings.quality = QualityLevel::Tolerance,
+        |settings| settings.mesh = MeshChoice::Plane,
+        |settings| settings.sky = 0.0,
+    ];
+    for (index, change) in changes.into_iter().enumerate() {
+        render(&mut window, change);
+        assert_eq!(places(&window), before, "change {index}");
+    }
+    window.state().render_service().wait();
+    window.run_steps(2);
+    let source = window.state().render_service().frame().map(|frame| frame.sources[0].clone()).unwrap();
+    let source = chromascope::plot_item::SensorId { kind: source.kind, name: source.name };
+    window.state_mut().view_mut().render.pinned = Some(PixelPlace { at: [0.5, 0.5], source });
+    window.run_steps(2);
+    assert_eq!(places(&window), before, "a pinned pixel");
+}

@@ -1,0 +1,255 @@
+//! Light of a uniform sky, against quadratures that share no code with it, and what it costs where there is none.
+
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+use std::sync::Arc;
+
+use chromascope_core::query::render::MeshQuery;
+use chromascope_core::query::render::picture::Pictures;
+use chromascope_core::query::{Direct, Shared};
+use chromascope_core::reflectance::{
+    Geometry, Method, Normalization, Surface, hemispherical_directional, power::factors_by,
+};
+use chromascope_core::render::sky::{SkyVisibility, visible_share};
+use chromascope_core::render::{Quality, RasterSize, Shadows, Stop};
+use chromascope_mesh::{Mesh, ShadowTree};
+use glam::{DVec3, Vec3};
+
+use super::fixture::{Counting, RenderService};
+
+/// `∫ π f cos θi dωi / π` over the part of the sky that a place with this normal sees, by midpoints in height and azimuth.
+fn by_midpoints(surface: &Surface, reading: Normalization, normal: DVec3, to_viewer: DVec3, nm: f64) -> f64 {
+    const HEIGHTS: u32 = 300;
+    const AZIMUTHS: u32 = 600;
+    let mut sum = 0.0;
+    for i in 0..HEIGHTS {
+        // Equal steps of y are equal solid angles.
+        let y = (f64::from(i) + 0.5) / f64::from(HEIGHTS);
+        let r = (1.0 - y * y).sqrt();
+        for j in 0..AZIMUTHS {
+            let (sin, cos) = (TAU * (f64::from(j) + 0.5) / f64::from(AZIMUTHS)).sin_cos();
+            let to_light = DVec3::new(r * cos, y, r * sin);
+            if to_light.dot(normal) > 0.0 {
+                let geometry = Geometry::from_directions(to_light, to_viewer, normal);
+                let [diffuse, _] = factors_by(surface, &geometry, nm, reading, Method::default(), 0.0);
+                sum += diffuse * to_light.dot(normal);
+            }
+        }
+    }
+    sum * TAU / f64::from(HEIGHTS * AZIMUTHS) / PI
+}
+
+fn surface(sigma_m: f64, tau_m: f64) -> Surface {
+    Surface::new(sigma_m, tau_m, 50e-6, 50e-6, 1.4).unwrap()
+}
+
+#[test]
+fn the_reflectance_under_light_from_everywhere_is_that_of_a_plain_quadrature() {
+    for (sigma, tau) in [(5e-6, 10e-6), (0.3e-6, 2e-6), (0.1e-6, 1e-6)] {
+        for reading in [Normalization::Radiometric, Normalization::Microfacet] {
+            for (degrees, nm) in [(0.0_f64, 550.0), (40.0, 430.0), (70.0, 700.0)] {
+                let theta = degrees.to_radians();
+                let to_viewer = DVec3::new(theta.sin(), theta.cos(), 0.0);
+                let expected = by_midpoints(&surface(sigma, tau), reading, DVec3::Y, to_viewer, nm);
+                let got = hemispherical_directional(&surface(sigma, tau), reading, theta, nm).diffuse;
+                assert!((got / expected - 1.0).abs() < 6e-3, "{sigma} {reading:?} {degrees}: {got} for {expected}");
+            }
+        }
+    }
+}
+
+/// The same scene without sky, and with one.
+fn taken(service: &RenderService, sky: f64) -> [Pictures; 2] {
+    let without = RenderService { sky: None, ..service.clone() };
+    [without.take(&Direct), RenderService { sky: Some(sky), ..without }.take(&Direct)]
+}
+
+/// The sky's part of the first sensor's signals at every sample that sees the mesh, with the sample's place in the picture.
+fn sky_part(service: &RenderService, sky: f64) -> Vec<(u32, [f64; 3])> {
+    let [without, with] = taken(service, sky);
+    let [plain, image] = [&without, &with].map(|pictures| pictures.images[0].clone().unwrap());
+    assert_eq!(image.placed().samples(), image.placed().seen(), "the sky lights whatever is seen");
+    let direct = |sample: u32| {
+        let at = plain.placed().samples().binary_search(&sample).ok();
+        at.map_or([0.0; 3], |at| plain.signals()[at])
+    };
+    let part = |(&sample, signal): (&u32, &[f32; 3])| {
+        let direct = direct(sample);
+        (sample, std::array::from_fn(|c| f64::from(signal[c]) - f64::from(direct[c])))
+    };
+    image.placed().samples().iter().zip(image.signals()).map(part).collect()
+}
+
+/// Normal of a unit sphere, direction to the viewer, and cos⁴α of a sample.
+fn on_sphere(service: &RenderService, sample: u32) -> (DVec3, DVec3, f64) {
+    let question = service.question();
+    let visibility = &question.shading.geometry.visibility;
+    let mesh = chromascope_mesh::shapes::sphere(2_000);
+    let eye = visibility.viewpoint.eye(mesh.bounds());
+    let columns = service.size.columns();
+    let step = 2.0 * eye.half_height / service.size.rows() as f64;
+    let [x, y] = [sample as usize % columns, sample as usize / columns].map(|at| at as f64 + 0.5);
+    let ahead = DVec3::new(step * (x - columns as f64 / 2.0), eye.half_height - step * y, 1.0).normalize();
+    let ray = eye.world_from_view * DVec3::new(ahead.x, ahead.y, -ahead.z);
+    let from = eye.position - eye.center;
+    let (b, c) = (from.dot(ray), from.length_squared() - eye.radius * eye.radius);
+    let t = -b - (b * b - c).max(0.0).sqrt();
+    ((from + ray * t).normalize(), -ray, ahead.z.powi(4))
+}
+
+#[test]
+fn a_sphere_under_the_sky_is_as_a_quadrature_over_all_directions_makes_it() {
+    for (sigma, tau, reading, allowed) in [
+        (5e-6, 10e-6, Normalization::Lambertian, 0.012),
+        (5e-6, 10e-6, Normalization::Radiometric, 0.012),
+        // Returns up to 1.4 of the light at grazing angles.
+        (5e-6, 10e-6, Normalization::Microfacet, 0.025),
+        (1e-6, 10e-6, Normalization::Radiometric, 0.02),
+    ] {
+        let service = RenderService {
+            mesh: MeshQuery::Sphere(20_000),
+            size: RasterSize::new(24, 24),
+            quality: Quality::Fine,
+            reflectance: Shared::new(chromascope_core::spectral::GridSpectrum::constant(1.0)),
+            sigma_m: sigma,
+            tau_m: tau,
+            reading,
+            ..RenderService::new()
+        };
+        let part = sky_part(&service, 0.5);
+        let (mut worst, mut checked) = (0.0_f64, 0);
+        for (sample, signal) in part.into_iter().step_by(7) {
+            let (normal, to_viewer, falloff) = on_sphere(&service, sample);
+            if normal.dot(to_viewer) < 0.15 {
+                continue;
+            }
+            let whole = by_midpoints(&service.surface(), reading, normal, to_viewer, 550.0);
+            // A rough white scatters all wavelengths nearly alike: green stands for them.
+            worst = worst.max((signal[1] / (0.5 * falloff) - whole).abs());
+            checked += 1;
+        }
+        assert!(checked > 20 && worst < allowed, "{sigma} {reading:?}: {worst} of a white at {checked} places");
+    }
+}
+
+/// A floor before a wall that is far longer and higher than it, turned about the vertical.
+fn floor_and_wall(turned: f32) -> Mesh {
+    let turn = glam::Quat::from_rotation_y(turned);
+    let (mut positions, mut normals, mut triangles) = (Vec::new(), Vec::new(), Vec::new());
+    let mut sheet = |origin: Vec3, across: Vec3, along: Vec3, cells: [u32; 2]| {
+        let first = positions.len() as u32;
+        for row in 0..=cells[1] {
+            for column in 0..=cells[0] {
+                let [u, v] = [column as f32 / cells[0] as f32, row as f32 / cells[1] as f32];
+                positions.push(turn * (origin + across * u + along * v));
+                normals.push(turn * across.cross(along).normalize());
+            }
+        }
+        for row in 0..cells[1] {
+            for column in 0..cells[0] {
+                let a = first + row * (cells[0] + 1) + column;
+                let b = a + cells[0] + 1;
+                triangles.extend([[a, a + 1, b + 1], [a, b + 1, b]]);
+            }
+        }
+    };
+    sheet(Vec3::new(-1.0, 0.0, 1.0), Vec3::X * 2.0, Vec3::Z * -2.0, [8, 8]);
+    sheet(Vec3::new(-60.0, 0.0, -1.0), Vec3::X * 120.0, Vec3::Y * 60.0, [2, 2]);
+    Mesh::new(positions, normals, triangles).unwrap()
+}
+
+/// Irradiance of a level place over that under the whole sky.
+fn level_share(cells: u64) -> f64 {
+    let (mut sum, mut all) = (0.0, 0.0);
+    for i in 0..40 {
+        for j in 0..80 {
+            let theta = FRAC_PI_2 * (f64::from(i) + 0.5) / 40.0;
+            let phi = TAU * (f64::from(j) + 0.5) / 80.0;
+            let direction = DVec3::new(theta.sin() * phi.cos(), theta.cos(), theta.sin() * phi.sin());
+            let weight = theta.sin() * theta.cos();
+            sum += weight * f64::from(visible_share([cells; 3], [1.0, 0.0, 0.0], direction.as_vec3()));
+            all += weight;
+        }
+    }
+    sum / all
+}
+
+#[test]
+fn a_wall_hides_half_of_the_sky_from_the_floor_at_its_foot() {
+    // The second row of the floor from the wall sees (1 + sin of the wall's angle off the zenith)/2.
+    let expected = f64::midpoint(1.0, (0.25_f64 / 60.0).atan().sin());
+    let errors: Vec<f64> = (0..12)
+        .map(|k| {
+            let mesh = floor_and_wall(0.131 * k as f32);
+            let sky = SkyVisibility::new(&mesh, &ShadowTree::new(&mesh), true, &Stop::NEVER).unwrap();
+            level_share(sky.cells()[7 * 9 + 4].front) - expected
+        })
+        .collect();
+    let mean = errors.iter().sum::<f64>() / errors.len() as f64;
+    // 64 rays find one edge of the sky to within the width of a cell, and over all directions of the edge without a bias.
+    assert!(mean.abs() < 0.02 && errors.iter().all(|error| error.abs() < 0.06), "{errors:?}");
+}
+
+#[test]
+fn without_a_sky_nothing_of_it_is_computed_and_nothing_else_changes() {
+    let counting = Counting::default();
+    let service = RenderService::new();
+    let plain = service.take(&counting);
+    let made = counting.made();
+    assert!(made.keys().all(|name| !name.contains("sky") && !name.contains("leaf")), "{made:?}");
+    let image = plain.images[0].as_ref().unwrap();
+    assert_eq!(image.placed().samples().len() as u64, plain.geometry.lit, "only what the light reaches is listed");
+    assert!(plain.geometry.rays <= plain.geometry.seen, "one ray a sample at most");
+    // Moving the light asks for no sky anew, and a sky asks for no visibility anew.
+    let sky = RenderService { sky: Some(0.15), ..service.clone() };
+    sky.take(&counting);
+    let made = counting.made();
+    assert_eq!((made.get("sky"), made.get("sky visibility"), made.get("visibility")), (Some(&1), Some(&1), None));
+    RenderService { light_up: 40.0, ..sky.clone() }.take(&counting);
+    let made = counting.made();
+    assert_eq!(
+        (made.get("sky"), made.get("sky visibility"), made.get("sky reflectance")),
+        (None, None, None),
+        "{made:?}"
+    );
+    // Turning the mesh traces no ray to the sky.
+    RenderService { yaw: 0.3, ..sky }.take(&counting);
+    let made = counting.made();
+    assert_eq!((made.get("sky"), made.get("sky visibility"), made.get("sky reflectance")), (Some(&1), None, None));
+}
+
+#[test]
+fn the_sky_adds_in_proportion_to_its_share() {
+    let service = RenderService { quality: Quality::Preview, shadows: Shadows::Off, ..RenderService::new() };
+    let [one, two] = [0.1, 0.2].map(|share| sky_part(&service, share));
+    assert!(!one.is_empty());
+    for ((_, one), (_, two)) in one.iter().zip(&two) {
+        assert!(one.iter().zip(two).all(|(a, b)| *a >= 0.0 && (2.0 * a - b).abs() < 2e-6), "{one:?} {two:?}");
+    }
+}
+
+#[test]
+fn a_leaf_lit_from_behind_shines_in_its_transmittance() {
+    use chromascope_core::reflectance::leaf::LeafModel;
+    use chromascope_core::spectral::GridSpectrum;
+    let gray = 0.12;
+    let service = RenderService {
+        mesh: MeshQuery::Plane,
+        reflectance: Shared::new(GridSpectrum::constant(gray)),
+        // Behind the plane, 30° from its back's normal.
+        light_up: 150.0,
+        light_right: 0.0,
+        through: true,
+        ..RenderService::new()
+    };
+    let made = service.take(&Direct);
+    let image = made.images[0].as_ref().unwrap();
+    assert_eq!((made.geometry.lit, made.geometry.through), (0, made.geometry.seen));
+    let opaque = RenderService { through: false, ..service.clone() }.take(&Direct);
+    assert!(opaque.images[0].as_ref().unwrap().signals().is_empty(), "it is dark without");
+    let transmitted = LeafModel::new().transmittance(gray);
+    let angles: &Arc<_> = &made.angles;
+    for (signal, angles) in image.signals().iter().zip(angles.angles()) {
+        let expected = transmitted * f64::from(-angles.cos_i * angles.falloff);
+        assert!(signal.iter().all(|s| (f64::from(*s) - expected).abs() < 1e-5), "{signal:?} for {expected}");
+    }
+}
