@@ -19,6 +19,7 @@ LIMIT = 1.0 if SIGNAL == "KILL" else 0.1
 PATIENCE = 120  # for a start, in seconds
 STEP = 10  # kelvins per press
 BETWEEN = 0.02  # presses, in seconds
+SAVES = 7  # presses for each Ctrl+S
 WARM = 15000  # kelvins from which the temperature is set back
 
 lock = threading.Lock()
@@ -61,6 +62,12 @@ class Keys:
             self.test.XTestFakeKeyEvent(self.display, code, down, ctypes.c_ulong(0))
         self.x.XSync(self.display, 0)
 
+    def save(self):
+        control, key = self.code("Control_L"), self.code("s")
+        for code, down in ((control, 1), (key, 1), (key, 0), (control, 0)):
+            self.test.XTestFakeKeyEvent(self.display, code, down, ctypes.c_ulong(0))
+        self.x.XSync(self.display, 0)
+
     def close(self):
         self.x.XCloseDisplay(self.display)
 
@@ -73,6 +80,11 @@ class Worker:
         self.document = os.path.join(self.profile, "document.json")
         self.xvfb = None
         self.sets = 0
+        folder = os.path.join(self.work, "session")
+        os.mkdir(folder)
+        self.session = os.path.join(folder, "session.chromascope")
+        with open(self.session, "w", encoding="utf-8") as session:
+            json.dump({"format": "chromascope", "version": 4}, session)
 
     def screen(self):
         name = os.path.join(self.work, "display")
@@ -93,6 +105,14 @@ class Worker:
         until("the first frame", lambda: "first frame" in open(self.log).read() or self.process.poll() is not None)
         if self.process.poll() is not None:
             raise RuntimeError("ended by itself: " + open(self.log).read())
+
+    def of_session(self):
+        """Temperature in the session's file, which is whole at any time."""
+        try:
+            with open(self.session, encoding="utf-8") as session:
+                return json.load(session).get("temperature_k", 0.0)
+        except FileNotFoundError:
+            return 0.0
 
     def read(self):
         with open(self.document, encoding="utf-8") as document:
@@ -147,7 +167,14 @@ class Worker:
                 with open(self.document, "w", encoding="utf-8") as file:
                     json.dump(document, file)
         before = time.monotonic()
-        self.start()
+        # The first time it is opened, then it is known; it is written anew each time.
+        if os.path.exists(self.document) and "session" in self.read():
+            if os.path.exists(self.session):
+                os.remove(self.session)
+            self.start()
+        else:
+            self.start(self.session)
+            until("the session", lambda: os.path.exists(self.document) and "session" in self.read())
         started = time.monotonic() - before
         if self.temporary():
             fault(f"after the start {self.temporary()} is left")
@@ -155,23 +182,28 @@ class Worker:
         if odd or "could not be read" in open(self.log).read():
             fault(f"not read at the start: {odd}")
         self.focus()
+        # Later than what comes from the window's start, which takes the keyboard from the field.
+        time.sleep(2.5)
         keys = Keys(self.display)
         up = keys.code("Up")
         now = lambda: self.read()["temperature_k"] if os.path.exists(self.document) else None
-        first = now()
         keys.press(keys.code("t"))
-        time.sleep(0.5)
-        keys.press(up)
-        until("the first change", lambda: now() not in (None, first))
-        time.sleep(0.5)
-        base, presses = now(), []
+        time.sleep(1.0)
+        base, presses, saved = now(), [], 0.0
         end = time.monotonic() + random.uniform(0.3, 4.0)
         while time.monotonic() < end:
             keys.press(up)
             presses.append(time.time())
+            if len(presses) % SAVES == 0:
+                keys.save()
+            saved = self.of_session()
             time.sleep(BETWEEN)
         ended = self.end(keys)
         document = self.read()
+        if document["session"]["path"] != self.session:
+            fault("the document does not name its session")
+        if self.of_session() < saved:
+            fault(f"the session's file went back from {saved} K to {self.of_session()} K")
         self.check(document)
         kept = document["temperature_k"]
         lost = [made for kelvin, made in self.changes() if kelvin > kept and made < ended]

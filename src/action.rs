@@ -146,7 +146,7 @@ impl Action {
     pub fn name(&self) -> String {
         match self {
             Self::Compare(action) => action.name(),
-            Self::Scene(action) => action.name().to_owned(),
+            Self::Scene(action) => action.name(),
             Self::Render(RenderAction::Open(path) | RenderAction::OpenImage(path)) => {
                 let name = path.file_name().unwrap_or(path.as_os_str());
                 format!("Open {}", name.to_string_lossy())
@@ -195,8 +195,8 @@ impl Action {
 /// Begins again from a named start, with the imported sets available.
 fn begin(document: &mut Document, start: Start) {
     let own = std::mem::take(&mut document.own);
-    let unknown = std::mem::take(&mut document.unknown);
-    *document = Document { own, unknown, ..start.document() };
+    let (session, unknown) = (document.session.take(), std::mem::take(&mut document.unknown));
+    *document = Document { own, session, unknown, ..start.document() };
 }
 
 impl CompareAction {
@@ -246,20 +246,26 @@ impl CompareAction {
 }
 
 impl SceneAction {
-    fn name(&self) -> &'static str {
+    fn name(&self) -> String {
         match self {
-            Self::SetLight(_) => "Light",
-            Self::SetFilter(_, true) => "Add filter",
-            Self::SetFilter(_, false) | Self::ClearFilters => "Remove filter",
-            Self::SetTemperature(_) => "Temperature",
-            Self::SetChart(_) => "Patches",
-            Self::SetSubset(_) => "Number of patches",
-            Self::SetWhite(_) => "White balance",
-            Self::SetWay(_) => "Color transform",
-            Self::SetCorrection(_) => "Color correction",
-            Self::SetDifference(_) => "Difference",
-            Self::SetDiagram(_) => "Diagram",
-            Self::SetOverlays(_) => "Shown on the diagram",
+            Self::SetLight(Light::Set(name)) => format!("Illuminant: {name}"),
+            Self::SetLight(Light::BlackBody) => "Illuminant: blackbody".to_owned(),
+            Self::SetLight(Light::Daylight) => "Illuminant: daylight".to_owned(),
+            Self::SetFilter(name, true) => format!("Add filter {name}"),
+            Self::SetFilter(name, false) => format!("Remove filter {name}"),
+            Self::ClearFilters => "Remove all filters".to_owned(),
+            Self::SetTemperature(kelvin) => format!("Temperature: {kelvin:.0} K"),
+            Self::SetChart(name) => format!("Patches: {name}"),
+            Self::SetSubset(Subset::Five) => "Patches: five".to_owned(),
+            Self::SetSubset(Subset::All) => "Patches: all".to_owned(),
+            Self::SetWhite(white) => format!("White balance: {}", white.name()),
+            Self::SetWay(TransformChoice::Paper) => "Color transform: paper matrix".to_owned(),
+            Self::SetWay(TransformChoice::Observer(name)) => format!("Color transform: fitted to {name}"),
+            Self::SetCorrection(correction) => format!("Color correction: {}", correction.method.label()),
+            Self::SetDifference(metric) => format!("Difference: {}", metric.symbol),
+            Self::SetDiagram(Diagram::Xy) => "Diagram: xy".to_owned(),
+            Self::SetDiagram(Diagram::UvPrime) => "Diagram: u′v′".to_owned(),
+            Self::SetOverlays(_) => "Overlays of the diagram".to_owned(),
         }
     }
 

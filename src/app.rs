@@ -12,6 +12,7 @@ mod path_prompt;
 mod pictures;
 mod report;
 mod saving;
+mod session;
 mod startup;
 mod tour;
 
@@ -71,6 +72,7 @@ pub struct ChromascopeApp {
     /// The control that had the keyboard in the last frame.
     focus: Option<egui::Id>,
     closing: closing::Closing,
+    session: session::SessionState,
     /// What the user had before the tour.
     interrupted: Option<tour::Interrupted>,
     /// The report that is being made.
@@ -108,7 +110,7 @@ impl ChromascopeApp {
         opened.recall(saved.import.failing.clone());
         let import = ImportView { unseen: saved.import.unseen.clone(), ..ImportView::default() };
         let catalog = Catalog::built_in();
-        Self {
+        let mut app = Self {
             history: history.with_names_apart(catalog.names()),
             catalog,
             results: executor.results(),
@@ -129,13 +131,16 @@ impl ChromascopeApp {
             first_frame: None,
             focus: None,
             closing: closing::Closing::default(),
+            session: session::SessionState::default(),
             interrupted: None,
             report: Background::on(executor, "report", repaint()),
             portrait: Background::on(executor, "portrait", repaint()),
             pages: Background::on(executor, "page", repaint()),
             place: layout::WindowPlace::default(),
             ctx: ctx.clone(),
-        }
+        };
+        app.begin_session();
+        app
     }
 
     /// Restores the window's position and size from the last run.
@@ -313,6 +318,7 @@ impl eframe::App for ChromascopeApp {
         focus::into_sight(ctx, &mut self.focus);
         self.carry_out(ctx);
         self.autosave(ctx);
+        self.show_title(ctx);
         self.mind_closing(ctx);
         if ctx.input(|input| input.events.iter().any(|event| matches!(event, Event::WindowFocused(true)))) {
             self.view.other_documents = self.files.other_documents();

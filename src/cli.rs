@@ -58,7 +58,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Outcome {
             say(&format!("chromascope: {}: no such command or file; see chromascope --help\n", word.display()));
             return Outcome::Done(2);
         }
-        return Outcome::Window(parsed.files);
+        return Outcome::Window(parsed.session.into_iter().chain(parsed.files).collect());
     };
     let result = match subcommand {
         Subcommand::Locus(arguments) => tables::locus(&arguments, matches),

@@ -23,6 +23,8 @@ pub enum Command {
     Undo,
     /// Bring it again.
     Redo,
+    /// Begin or save a session.
+    Session(SessionCommand),
     /// Show the dialog for files to open.
     Open,
     /// Show the dialog for a file of recorded raw values.
@@ -33,7 +35,7 @@ pub enum Command {
     Report(ReportOn),
     /// Stop the report that is being made.
     StopReport,
-    /// Open a document in place of this one, which is saved first.
+    /// Open a session or document in place of this one, which is saved first.
     OpenDocument(std::path::PathBuf),
     /// Delete a document that another window saved.
     RemoveDocument(std::path::PathBuf),
@@ -73,6 +75,8 @@ pub enum Command {
     Export(PaneKind, Format),
     /// Save a source's rendered picture with its numbers.
     ExportExr(SensorId),
+    /// Put the curves of a set of the library on the clipboard as text.
+    CopySet(SetKind, String),
     /// Save the curves of a set of the library.
     SaveSet(SetKind, String, Form),
     /// Save the current color correction.
@@ -133,6 +137,29 @@ pub enum Command {
     Seek(PaneKind, &'static str),
     /// End the program.
     Quit,
+}
+
+/// What is done with sessions as files.
+#[derive(Clone, Debug, PartialEq)]
+pub enum SessionCommand {
+    /// Begin a new session, from the template of a name or the default start.
+    New(Option<&'static str>),
+    /// Begin a new session from a template of the user's.
+    NewFrom(std::path::PathBuf),
+    /// Save the session in its file.
+    Save,
+    /// Save the session under a name.
+    SaveAs,
+    /// Save the session as a template.
+    SaveTemplate,
+    /// Delete a template of the user's.
+    RemoveTemplate(std::path::PathBuf),
+}
+
+impl From<SessionCommand> for Command {
+    fn from(command: SessionCommand) -> Self {
+        Self::Session(command)
+    }
 }
 
 /// A step through the tour.
@@ -241,6 +268,9 @@ pub fn key_bindings(focused: PaneKind) -> Vec<KeyBinding> {
         // The longer combination first: egui's Ctrl+Z would also take Ctrl+Shift+Z.
         shifted(Key::Z, Command::Redo, "Redo"),
         shifted(Key::C, Command::CopyPicture(focused), "Copy the pane's picture"),
+        shifted(Key::S, Command::Session(SessionCommand::SaveAs), "Save the session under a name"),
+        with_ctrl(Key::S, Command::Session(SessionCommand::Save), "Save the session"),
+        with_ctrl(Key::N, Command::Session(SessionCommand::New(None)), "New session"),
         with_ctrl(Key::O, Command::Open, "Open files"),
         with_ctrl(Key::E, Command::FigurePage(focused), "The pane as the printed page: size, style, PDF"),
         with_ctrl(Key::Z, Command::Undo, "Undo"),

@@ -12,6 +12,7 @@ pub mod render;
 pub mod saved;
 pub mod session;
 pub mod start;
+pub mod unknown;
 pub mod uses;
 
 use chromascope_core::colorimetry::Metric;
@@ -19,6 +20,7 @@ use chromascope_core::query::Shared;
 use correction::CorrectionChoice;
 pub use correction::TRAINING;
 use imported::ImportedSet;
+pub use imported::SessionFile;
 pub use kind::SetKind;
 use render::RenderSettings;
 use serde::{Deserialize, Serialize};
@@ -71,8 +73,11 @@ pub struct Document {
     /// The user's own sets, by value.
     #[serde(with = "imported::list")]
     pub own: Vec<Shared<ImportedSet>>,
-    /// Fields written by a newer version and preserved unchanged.
-    #[serde(flatten)]
+    /// File that it is saved in as a session, where it is.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub session: Option<SessionFile>,
+    /// Fields of the file that are unknown here, also within known ones; written back unchanged.
+    #[serde(skip)]
     pub unknown: serde_json::Map<String, serde_json::Value>,
 }
 
@@ -303,6 +308,7 @@ impl Document {
             overlays: Overlays::default(),
             render: RenderSettings::default(),
             own: Vec::new(),
+            session: None,
             unknown: serde_json::Map::new(),
         }
     }

@@ -14,6 +14,7 @@ mod profile;
 mod prompt;
 mod save;
 mod saved;
+mod sessions;
 mod shared_state;
 mod store;
 mod watch;
@@ -28,13 +29,13 @@ use event::Note;
 
 pub use atomic::{write_atomically, write_atomically_with};
 pub use dialogs::{Answer, DialogLog, Dialogs, Question};
-pub use event::{FileEvent, OpenedDocument};
+pub use event::{DocumentSource, FileEvent, OpenedDocument, SavedFile};
 pub use last::{install_panic_hook, save_last, save_on_exit, save_on_signals};
 pub use motion::reduces_motion;
 pub use persistent::{PersistentMessage, PersistentMessageKind};
 pub use profile::Copy;
 pub use prompt::PathPrompt;
-pub use save::{FileForm, SaveRequest};
+pub use save::{FileForm, MakeText, SaveRequest};
 
 /// The only part of the window that touches the disk.
 pub struct Files {

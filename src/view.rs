@@ -11,9 +11,11 @@ pub mod pick;
 pub mod recorded;
 pub mod render;
 pub mod table;
+pub mod template;
 pub mod tour;
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::mem::take;
 use std::path::PathBuf;
 
 use serde::{Deserialize, Serialize};
@@ -117,6 +119,8 @@ pub struct View {
     pub fixed_clock: bool,
     /// Documents that other windows saved, with their ages.
     pub other_documents: Vec<(PathBuf, String)>,
+    /// Names and files of the user's templates.
+    pub templates: Vec<(String, PathBuf)>,
     /// The last message.
     pub status: Status,
 }
@@ -213,7 +217,26 @@ pub enum ViewChoice {
     Pictures(RenderMode),
 }
 
+/// Fields that stay with the window when a session is opened or saved.
+const OF_WINDOW: [&str; 5] = ["recent", "import", "reduced_motion", "draws_in", "folded"];
+
 impl SavedView {
+    /// The part that goes into a session's file.
+    pub fn for_session(&self) -> serde_json::Value {
+        let mut value = serde_json::to_value(self).unwrap_or_default();
+        if let Some(fields) = value.as_object_mut() {
+            fields.retain(|key, _| !OF_WINDOW.contains(&key.as_str()));
+        }
+        value
+    }
+
+    /// Takes the part of a session's file.
+    pub fn take_session(&mut self, view: Self) {
+        let (recent, import, folded) = (take(&mut self.recent), take(&mut self.import), take(&mut self.folded));
+        *self = Self { recent, import, folded, draws_in: false, reduced_motion: self.reduced_motion, ..view };
+        self.render.mend();
+    }
+
     /// View of the first start, under the system's wish for motion.
     pub fn first(reduced_motion: bool) -> Self {
         Self { reduced_motion, draws_in: !reduced_motion, ..Self::default() }

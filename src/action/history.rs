@@ -1,26 +1,30 @@
 //! Undo: the previous documents.
 
+use std::collections::VecDeque;
+
 use super::Action;
-use crate::document::Document;
 use crate::document::names::BuiltInNames;
+use crate::document::{Document, SessionFile};
 
 /// Largest number of steps.
-const DEPTH: usize = 200;
+const DEPTH: usize = 10_000;
 
-/// One step: its name, and the document before (undo) or after it (redo).
+/// One step: its name, and the document before (undo) or after it (redo). Documents share their sets.
 #[derive(Clone, Debug)]
 struct Step {
     name: String,
     document: Document,
     /// Action that later changes of the same gesture must extend to be merged into this step; `None` if not a gesture.
     action: Option<Action>,
+    /// True if another session begins with it.
+    begins: bool,
 }
 
 /// The document with its undo history.
 #[derive(Clone, Debug, Default)]
 pub struct History {
     document: Document,
-    undo: Vec<Step>,
+    undo: VecDeque<Step>,
     redo: Vec<Step>,
     /// True if a gesture (a drag) is going on, whose changes are one step.
     gesture: bool,
@@ -55,24 +59,38 @@ impl History {
         let continues = self.gesture
             && self
                 .undo
-                .last()
+                .back()
                 .is_some_and(|step| step.action.as_ref().is_some_and(|before| before.is_same_gesture(action)));
-        if !continues {
+        if continues {
+            // Named by where it ends.
+            if let Some(step) = self.undo.back_mut() {
+                step.name = action.name();
+            }
+        } else {
             let kept = action.is_same_gesture(action).then(|| action.clone());
-            self.undo.push(Step { name: action.name(), document: before, action: kept });
+            self.undo.push_back(Step { name: action.name(), document: before, action: kept, begins: false });
             if self.undo.len() > DEPTH {
-                self.undo.remove(0);
+                self.undo.pop_front();
             }
         }
         self.gesture = true;
     }
 
-    /// Replaces the document, as a step of its own.
+    /// Replaces the document by that of another session, as a step of its own.
     pub fn replace(&mut self, name: String, document: Document) {
         let before = std::mem::replace(&mut self.document, document);
         self.redo.clear();
-        self.undo.push(Step { name, document: before, action: None });
+        self.undo.push_back(Step { name, document: before, action: None, begins: true });
         self.gesture = false;
+    }
+
+    /// Notes the file that the session is saved in, for all of its steps.
+    pub fn set_session(&mut self, file: &SessionFile) {
+        let before = self.undo.iter_mut().rev().take_while(|step| !step.begins);
+        let after = self.redo.iter_mut().rev().take_while(|step| !step.begins);
+        for document in before.chain(after).map(|step| &mut step.document).chain([&mut self.document]) {
+            document.session = Some(file.clone());
+        }
     }
 
     /// Applies an action that continues the last step: one undo reverts all of them.
@@ -92,7 +110,7 @@ impl History {
 
     /// The step that undo would take back.
     pub fn undo_name(&self) -> Option<&str> {
-        self.undo.last().map(|step| step.name.as_str())
+        self.undo.back().map(|step| step.name.as_str())
     }
 
     /// The step that redo would bring back.
@@ -102,9 +120,9 @@ impl History {
 
     /// Takes the last step back.
     pub fn undo(&mut self) {
-        if let Some(step) = self.undo.pop() {
+        if let Some(step) = self.undo.pop_back() {
             let after = std::mem::replace(&mut self.document, step.document);
-            self.redo.push(Step { name: step.name, document: after, action: step.action });
+            self.redo.push(Step { document: after, ..step });
         }
         self.gesture = false;
     }
@@ -113,7 +131,7 @@ impl History {
     pub fn redo(&mut self) {
         if let Some(step) = self.redo.pop() {
             let before = std::mem::replace(&mut self.document, step.document);
-            self.undo.push(Step { name: step.name, document: before, action: step.action });
+            self.undo.push_back(Step { document: before, ..step });
         }
         self.gesture = false;
     }

@@ -101,8 +101,8 @@ impl ChromascopeApp {
         let make = move || session::to_json(&document).map(String::into_bytes).map_err(|error| error.to_string());
         self.files.ask_to_save(SaveRequest {
             what: DOCUMENT.to_owned(),
-            name: "chromascope.json".to_owned(),
-            forms: vec![FileForm::new("json", make)],
+            name: format!("session.{}", session::ENDING),
+            forms: vec![FileForm::new(session::ENDING, make)],
             note: String::new(),
         });
     }

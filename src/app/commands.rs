@@ -7,14 +7,15 @@ use chromascope_figure::{Figure, Table};
 use egui::ViewportCommand;
 
 use super::ChromascopeApp;
+use super::session::SESSION;
 use crate::action::history::History;
 use crate::action::{Action, CompareAction};
-use crate::catalog::opened::Request;
+use crate::catalog::opened::{CLIPBOARD, Request};
 use crate::command::{Command, Format};
 use crate::document::SetKind;
 use crate::export::{self, Paper};
 use crate::figures::FigureInput;
-use crate::files::{FileEvent, FileForm, SaveRequest};
+use crate::files::{DocumentSource, FileEvent, FileForm, SaveRequest};
 use crate::panes;
 use crate::profiler::SceneRunJob;
 use crate::scene::Scene;
@@ -39,10 +40,17 @@ impl ChromascopeApp {
                 FileEvent::Open(paths) => self.open(paths.into_iter().map(Request::Path).collect()),
                 FileEvent::Changed(paths) => self.read_changed(&paths),
                 FileEvent::Said(message) => self.view.say(message),
-                FileEvent::Saved(message, what) => {
-                    self.view.say(message);
-                    self.saved(ctx, &what);
+                FileEvent::Saved(saved) => {
+                    self.view.say(saved.message.clone());
+                    self.saved(ctx, &saved.what);
+                    if saved.what == SESSION {
+                        self.named(saved);
+                    }
                 }
+                FileEvent::SessionSaved(file, document) => self.wrote_session(file, document),
+                FileEvent::SessionChanged(path) => self.did_not_write_session(Ok(path)),
+                FileEvent::SessionFailed(why) => self.did_not_write_session(Err(why)),
+                FileEvent::SessionKnown(file, document) => self.know_session(file, document),
                 FileEvent::Document(opened) => self.take_document(*opened),
                 FileEvent::Failed(message) => self.view.fail(message),
             }
@@ -89,7 +97,8 @@ impl ChromascopeApp {
             Command::StopReport => {
                 self.stop_report();
             }
-            Command::OpenDocument(path) => self.files.open_document(&path, self.history.document().clone()),
+            Command::Session(command) => self.session_command(command),
+            Command::OpenDocument(path) => self.open_document(DocumentSource::File(path)),
             Command::RemoveDocument(path) => {
                 self.files.remove_document(&path);
                 self.view.other_documents = self.files.other_documents();
@@ -97,7 +106,7 @@ impl ChromascopeApp {
             Command::OpenPath(path) => self.open(vec![Request::Path(path)]),
             Command::Paste(text) => {
                 let bytes = text.into_bytes().into();
-                self.open(vec![Request::Bytes { name: "clipboard".to_owned(), bytes }]);
+                self.open(vec![Request::Bytes { name: CLIPBOARD.to_owned(), bytes }]);
             }
             Command::ShowImport(item, line) => self.show_import(item, line),
             Command::Wish(item, wishes) => {
@@ -122,6 +131,7 @@ impl ChromascopeApp {
             Command::FigurePage(pane) => self.figure_page(ctx, pane),
             Command::Export(pane, format) => self.export(pane, format),
             Command::ExportExr(source) => self.export_exr(&source),
+            Command::CopySet(kind, name) => self.copy_set(ctx, kind, &name),
             Command::SaveSet(kind, name, form) => self.save_set(kind, &name, form),
             Command::SaveCorrection(form) => self.save_correction(form),
             Command::CopyPicture(pane) => self.copy_picture(ctx, pane),
@@ -168,7 +178,7 @@ impl ChromascopeApp {
         }
     }
 
-    fn show_workspace(&mut self, workspace: Workspace) {
+    pub(super) fn show_workspace(&mut self, workspace: Workspace) {
         self.view.saved.workspace = workspace;
         self.view.maximized = None;
         self.view.inspector_over = false;
@@ -240,7 +250,7 @@ impl ChromascopeApp {
     /// One step back: reading a mesh, palette, help, overlay, finer pictures, selection, pixel, pins, maximized pane, single
     /// picture, message.
     fn escape(&mut self) {
-        if self.files.prompt_mut().take().is_some() {
+        if self.files.prompt_mut().take().is_some() || self.session.escape() {
             return;
         }
         if std::mem::take(&mut self.view.keeps_escape)
@@ -455,25 +465,6 @@ impl ChromascopeApp {
         let scene = Scene { document: self.history.document(), catalog: &self.catalog, results: &self.results };
         let cells: Vec<_> = CONDITIONS.into_iter().zip(scene.conditions()).collect();
         figure.table.clone().with_constants(&cells)
-    }
-
-    /// Puts a document that was read in the place of this one, as one step.
-    fn take_document(&mut self, mut opened: crate::files::OpenedDocument) {
-        self.end_tour();
-        if opened.before != *self.history.document() {
-            // The document changed meanwhile: its current state is saved.
-            return self.files.open_document(&opened.path, self.history.document().clone());
-        }
-        let name = crate::format::file_name(&opened.path);
-        opened.document.part_names(self.catalog.names());
-        self.step(|history| history.replace(format!("Open {name}"), opened.document));
-        let words =
-            format!("Opened {name}. The previous document was saved: File, Recovered documents. Ctrl+Z undoes this.");
-        match opened.lost.first() {
-            None => self.view.say(words),
-            Some(first) => self.view.fail(format!("{words} Parts that could not be read are missing: {first}.")),
-        }
-        self.view.other_documents = self.files.other_documents();
     }
 
     /// Saves the document as soon as it changes.

@@ -111,6 +111,7 @@ impl ChromascopeApp {
         context.render_service.end_frame();
         context.ranking.end_frame();
         self.ask_about_closing(ui, &theme);
+        self.ask_about_session(ui, &theme);
         focus::ring(ui.ctx(), &theme);
         drop_veil(ui, theme);
     }

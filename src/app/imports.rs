@@ -12,7 +12,7 @@ use crate::action::history::History;
 use crate::action::{Action, ImportedAction};
 use crate::catalog::import::{Imported, imported};
 use crate::catalog::likeness::Likeness;
-use crate::catalog::opened::{OpenFile, OpenedEvent, Request, Why};
+use crate::catalog::opened::{CLIPBOARD, OpenFile, OpenedEvent, Request, Why};
 use crate::command::Command;
 use crate::document::imported::{Fingerprint, ImportOverrides, ImportedSet};
 use crate::panes::import;
@@ -72,6 +72,12 @@ impl ChromascopeApp {
                 OpenedEvent::Document(path) => self.push(Command::OpenDocument(path)),
                 OpenedEvent::Failed(message, files) => {
                     let first = files.first().map(|file| ImportItem::File(*file));
+                    let is_pasted =
+                        |file: &Fingerprint| self.opened.file(*file).is_some_and(|file| file.origin.name == CLIPBOARD);
+                    if let Some(pasted) = files.iter().copied().find(is_pasted) {
+                        self.view.import.select(ImportItem::File(pasted));
+                        self.show_workspace(Workspace::Import);
+                    }
                     self.view.import.unseen.extend(files.iter().copied().map(ImportItem::File));
                     // Where the list of files is in sight, it says which failed and why.
                     let mut panes = self.arrangement.panes.iter();
@@ -135,6 +141,12 @@ impl ChromascopeApp {
         }
         self.view.status.change = doubtful.first().map(|first| (first.clone(), None));
         self.view.import.unseen.extend(doubtful);
+        // What was pasted has no name yet: it is looked at first.
+        let pasted = brought.iter().position(|set| set.file == CLIPBOARD);
+        if let Some(item) = pasted.and_then(|index| items.get(index)) {
+            self.view.import.select(item.clone());
+            self.show_workspace(Workspace::Import);
+        }
     }
 
     /// Puts sets that were read again in their places, as one step.

@@ -31,6 +31,21 @@ impl ChromascopeApp {
         });
     }
 
+    /// Puts the curves of a set on the clipboard as text.
+    pub(super) fn copy_set(&mut self, ctx: &egui::Context, kind: SetKind, name: &str) {
+        let scene = Scene { document: self.history.document(), catalog: &self.catalog, results: &self.results };
+        let table = scene.entry(kind, name).map_err(|error| error.to_string()).and_then(|entry| {
+            spectra::table(&entry, &self.results).map_err(|error| format!("{name} cannot be copied: {error}."))
+        });
+        match table {
+            Ok(table) => {
+                ctx.copy_text(table.to_tsv());
+                self.view.say(format!("{name}: {} wavelengths copied as text.", table.rows.len()));
+            }
+            Err(why) => self.view.fail(why),
+        }
+    }
+
     /// Asks where to save the current color correction.
     pub(super) fn save_correction(&mut self, form: CorrectionForm) {
         let Some(file) = self.view.correction.shown.clone() else { return };

@@ -91,6 +91,7 @@ impl ChromascopeApp {
             Command::Open
                 | Command::OpenRecorded
                 | Command::OpenFolder
+                | Command::Session(_)
                 | Command::OpenDocument(_)
                 | Command::OpenPath(_)
                 | Command::Paste(_)

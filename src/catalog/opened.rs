@@ -27,6 +27,9 @@ use crate::jobs::{self, Background, Executor};
 /// Maximum total bytes of files without a set; beyond it the oldest are dropped.
 const REMEMBERED_BYTES: usize = 256_000_000;
 
+/// Name of what is pasted, in place of a file's.
+pub const CLIPBOARD: &str = "clipboard";
+
 /// A file on disk that could not be read, as it is remembered between runs.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Failing {

@@ -23,9 +23,12 @@ use crate::document::SetKind;
 #[derive(Debug, Parser)]
 #[command(name = "chromascope", version, args_conflicts_with_subcommands = true, after_help = EXAMPLES)]
 pub(super) struct Arguments {
-    /// Spectra or camera sensitivities to open in the window: CSV, TSV or text
+    /// A session (.chromascope), spectra or camera sensitivities to open in the window
     #[arg(value_name = "FILE")]
     pub(super) files: Vec<PathBuf>,
+    /// A session to open in the window
+    #[arg(long, value_name = "FILE")]
+    pub(super) session: Option<PathBuf>,
     /// A computation without a window
     #[command(subcommand)]
     pub(super) subcommand: Option<Subcommand>,

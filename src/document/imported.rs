@@ -115,6 +115,16 @@ impl Fingerprint {
     }
 }
 
+/// A session's file as it was last read or written by this window.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct SessionFile {
+    /// Its path.
+    #[serde(with = "super::paths")]
+    pub path: PathBuf,
+    /// Fingerprint of its contents; other contents were written by another program.
+    pub fingerprint: Fingerprint,
+}
+
 impl Eq for ImportedSet {}
 
 impl Hash for ImportedSet {

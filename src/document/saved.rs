@@ -4,9 +4,9 @@
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use super::Document;
 use super::imported::{ImportedCurve, ImportedSet};
 use super::session::{SessionError, from_value};
+use super::{Document, unknown};
 
 /// Key of a set whose curves are in another file.
 const CURVES_IN: &str = "curves_in";
@@ -24,6 +24,8 @@ pub struct LoadedDocument {
     pub places: Vec<Option<Place>>,
     /// Sets that could not be read: each with the reason.
     pub lost: Vec<String>,
+    /// Parts of a document of a newer version that are not understood here, in a sentence.
+    pub newer: Option<String>,
 }
 
 /// The JSON of a document whose sets have their curves at these places, indented, with a final newline.
@@ -40,6 +42,7 @@ pub fn to_json(document: &Document, places: &[(&ImportedSet, &Place)]) -> Result
         Ok(head)
     });
     value["own"] = sets.collect::<Result<Vec<Value>, serde_json::Error>>()?.into();
+    unknown::put_back(&mut value, &document.unknown);
     Ok(serde_json::to_string_pretty(&value)? + "\n")
 }
 
@@ -51,30 +54,45 @@ pub fn from_json(
     let mut value: Value = serde_json::from_str(json)?;
     let sets = value.get_mut("own").and_then(Value::as_array_mut).map(std::mem::take).unwrap_or_default();
     let (mut own, mut places, mut lost) = (Vec::new(), Vec::new(), Vec::new());
+    let mut foreign = serde_json::Map::new();
     for set in sets {
         let name = set.get("name").and_then(Value::as_str).unwrap_or("a set").to_owned();
         match with_curves(set, curves) {
-            Ok((set, place)) => {
+            Ok((set, place, unknown)) => {
+                foreign.extend(unknown.map(|unknown| (name, unknown)));
                 own.push(set);
                 places.push(place);
             }
             Err(why) => lost.push(format!("{name}: {why}")),
         }
     }
-    Ok(LoadedDocument { document: from_value(value, own)?, places, lost })
+    let (mut document, newer) = from_value(value, own)?;
+    if !foreign.is_empty() {
+        document.unknown.insert("own".to_owned(), foreign.into());
+    }
+    Ok(LoadedDocument { document, places, lost, newer })
 }
 
+type SetParts = (ImportedSet, Option<Place>, Option<Value>);
+
+/// A set, the place of its curves, and its unknown fields.
 fn with_curves(
     mut set: Value,
     curves: &mut dyn FnMut(&Place) -> Result<Vec<ImportedCurve>, String>,
-) -> Result<(ImportedSet, Option<Place>), String> {
-    let Some(place) = set.as_object_mut().and_then(|set| set.remove(CURVES_IN)) else {
-        return serde_json::from_value(set).map(|set| (set, None)).map_err(|error| error.to_string());
-    };
-    let place: Place = serde_json::from_value(place).map_err(|error| error.to_string())?;
+) -> Result<SetParts, String> {
+    let words = |error: serde_json::Error| error.to_string();
+    let mut take = |key: &str| set.as_object_mut().and_then(|set| set.remove(key));
+    let (place, by_value) = (take(CURVES_IN), take("curves"));
     set["curves"] = Value::Array(Vec::new());
-    let head: ImportedSet = serde_json::from_value(set).map_err(|error| error.to_string())?;
-    Ok((ImportedSet { curves: curves(&place)?, ..head }, Some(place)))
+    let place: Option<Place> = place.map(serde_json::from_value).transpose().map_err(words)?;
+    let head = ImportedSet::deserialize(&set).map_err(words)?;
+    let curves = match (&place, by_value) {
+        (Some(place), _) => curves(place)?,
+        (None, Some(curves)) => serde_json::from_value(curves).map_err(words)?,
+        (None, None) => return Err("it has no curves".to_owned()),
+    };
+    let unknown = unknown::of(&set, &serde_json::to_value(&head).map_err(words)?);
+    Ok((ImportedSet { curves, ..head }, place, unknown))
 }
 
 /// All of a set but its curves, which may be millions of numbers.

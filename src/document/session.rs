@@ -2,12 +2,20 @@
 
 use chromascope_core::colorimetry::Metric;
 use chromascope_core::query::Shared;
+use serde::de::DeserializeOwned;
+use serde::{Deserialize as _, Serialize};
+use serde_json::{Map, Value};
 
 use super::imported::{ImportedSet, Role};
 use super::kind::SetKind;
 use super::names::BuiltInNames;
 use super::start::Start;
-use super::{Document, MOST_COMPARED, VERSION, saved};
+use super::{Document, MOST_COMPARED, VERSION, saved, unknown};
+
+/// Ending of the names of session files.
+pub const ENDING: &str = "chromascope";
+/// Key of the view in a session file.
+const VIEW: &str = "view";
 
 /// Reason that a saved document cannot be opened.
 #[derive(Debug, thiserror::Error)]
@@ -22,11 +30,8 @@ pub enum SessionError {
     #[error("{0} sensors are compared, but at most {MOST_COMPARED} can be shown; remove some from \"compared\"")]
     Compared(usize),
     /// A newer program wrote it.
-    #[error(
-        "written by a newer version of Chromascope (format {0}; this version reads up to {VERSION}); update to \
-             open it"
-    )]
-    Newer(u32),
+    #[error("{0} Update to open it")]
+    Newer(String),
     /// One of its imported sets cannot be read.
     #[error("{0}")]
     Set(String),
@@ -34,7 +39,85 @@ pub enum SessionError {
 
 /// The document as JSON, indented, with a final newline.
 pub fn to_json(document: &Document) -> Result<String, SessionError> {
-    Ok(serde_json::to_string_pretty(document)? + "\n")
+    Ok(text(&value_of(document)?))
+}
+
+/// A session as JSON: the document with its curves, and the view.
+pub fn to_session(document: &Document, view: &impl Serialize) -> Result<String, SessionError> {
+    let mut value = value_of(&Document { session: None, ..document.clone() })?;
+    let mut view = serde_json::to_value(view)?;
+    if let Some(Value::Object(rest)) = document.unknown.get(VIEW) {
+        unknown::put_back(&mut view, rest);
+    }
+    value[VIEW] = view;
+    Ok(text(&value))
+}
+
+fn value_of(document: &Document) -> Result<Value, serde_json::Error> {
+    let mut value = serde_json::to_value(document)?;
+    unknown::put_back(&mut value, &document.unknown);
+    Ok(value)
+}
+
+/// JSON with each list of numbers on one line, and a final newline.
+fn text(value: &Value) -> String {
+    let mut text = String::new();
+    write(value, 0, &mut text);
+    text + "\n"
+}
+
+fn write(value: &Value, depth: usize, text: &mut String) {
+    let line = |depth: usize| format!("\n{:1$}", "", 2 * depth);
+    let is_nested = |value: &Value| value.is_array() || value.is_object();
+    match value {
+        Value::Object(fields) if !fields.is_empty() => {
+            for (index, (key, field)) in fields.iter().enumerate() {
+                text.push_str(if index == 0 { "{" } else { "," });
+                text.push_str(&line(depth + 1));
+                text.push_str(&Value::from(key.as_str()).to_string());
+                text.push_str(": ");
+                write(field, depth + 1, text);
+            }
+            text.push_str(&(line(depth) + "}"));
+        }
+        Value::Array(items) if items.iter().any(is_nested) || items.iter().any(Value::is_string) => {
+            for (index, item) in items.iter().enumerate() {
+                text.push_str(if index == 0 { "[" } else { "," });
+                text.push_str(&line(depth + 1));
+                write(item, depth + 1, text);
+            }
+            text.push_str(&(line(depth) + "]"));
+        }
+        _ => text.push_str(&value.to_string()),
+    }
+}
+
+/// Takes the view of a session from a document that was read; its unknown fields stay. Also returns the names of the fields that
+/// could not be read.
+pub fn take_view<V: DeserializeOwned + Serialize>(document: &mut Document) -> Option<(V, Vec<String>)> {
+    let mut value = document.unknown.remove(VIEW)?;
+    let refused = value.as_object_mut().map(take_unreadable::<V>)?;
+    let view: V = serde_json::from_value(value.clone()).ok()?;
+    if let Some(rest) = unknown::of(&value, &serde_json::to_value(&view).ok()?) {
+        document.unknown.insert(VIEW.to_owned(), rest);
+    }
+    Some((view, refused))
+}
+
+/// Removes fields and items of lists that this version does not understand; returns the names of these fields.
+fn take_unreadable<T: DeserializeOwned>(fields: &mut Map<String, Value>) -> Vec<String> {
+    let is_read = |key: &str, field: &Value| {
+        serde_json::from_value::<T>(Value::Object(Map::from_iter([(key.to_owned(), field.clone())]))).is_ok()
+    };
+    let unread: Vec<String> =
+        fields.iter().filter(|(key, field)| !is_read(key, field)).map(|(key, _)| key.clone()).collect();
+    for key in &unread {
+        match fields.get_mut(key) {
+            Some(Value::Array(items)) => items.retain(|item| is_read(key, &Value::Array(vec![item.clone()]))),
+            _ => drop(fields.remove(key)),
+        }
+    }
+    unread
 }
 
 /// True if a file that begins so is a document.
@@ -48,39 +131,67 @@ pub fn is_session(beginning: &[u8]) -> bool {
 pub fn from_json(json: &str) -> Result<Document, SessionError> {
     let mut elsewhere = |_: &saved::Place| Err("its curves are in another file".to_owned());
     let read = saved::from_json(json, &mut elsewhere)?;
-    match read.lost.into_iter().next() {
-        Some(lost) => Err(SessionError::Set(lost)),
-        None => Ok(read.document),
+    match (read.lost.into_iter().next(), read.newer) {
+        (Some(lost), _) => Err(SessionError::Set(lost)),
+        (None, Some(newer)) => Err(SessionError::Newer(newer)),
+        (None, None) => Ok(read.document),
     }
 }
 
-/// A document from JSON without its sets, and these.
-pub(super) fn from_value(mut value: serde_json::Value, own: Vec<ImportedSet>) -> Result<Document, SessionError> {
+/// A document from JSON without its sets, and these; of a newer version, what is understood, with a sentence about the rest.
+pub(super) fn from_value(mut value: Value, own: Vec<ImportedSet>) -> Result<(Document, Option<String>), SessionError> {
     rename_fields(&mut value);
-    if value.get("version").and_then(serde_json::Value::as_u64) == Some(1) {
+    let version = value.get("version").and_then(Value::as_u64);
+    if version == Some(1) {
         renew(&mut value, &own)?;
     }
-    let mut document: Document = serde_json::from_value(value)?;
+    let newer = version.filter(|version| *version > u64::from(VERSION));
+    let refused = match value.as_object_mut().filter(|_| newer.is_some()) {
+        Some(fields) => {
+            fields.insert("version".to_owned(), VERSION.into());
+            take_unreadable::<Document>(fields)
+        }
+        None => Vec::new(),
+    };
+    let mut document = Document::deserialize(&value)?;
     if document.format != "chromascope" {
         return Err(SessionError::Format(document.format));
     }
-    if document.version > VERSION {
-        return Err(SessionError::Newer(document.version));
+    if let Some(Value::Object(rest)) = unknown::of(&value, &serde_json::to_value(&document)?) {
+        document.unknown = rest;
     }
+    let newer = newer.map(|version| sentence_of_newer(version, &document.unknown, &refused));
     document.version = VERSION;
     document.own = own.into_iter().map(Shared::new).collect();
     document.mend();
     if document.compared.len() > MOST_COMPARED {
         return Err(SessionError::Compared(document.compared.len()));
     }
-    Ok(document)
+    Ok((document, newer))
+}
+
+/// Parts of a document of a newer version that are not understood, in a sentence.
+fn sentence_of_newer(version: u64, foreign: &Map<String, Value>, refused: &[String]) -> String {
+    use std::fmt::Write as _;
+    let mut words =
+        format!("written by a newer version of Chromascope (format {version}; this version reads up to {VERSION}).");
+    let known = serde_json::to_value(Document::default()).unwrap_or_default();
+    let name = |key: &String| if known.get(key).is_some() { format!("a part of {key}") } else { key.clone() };
+    let names: Vec<String> = foreign.keys().filter(|key| *key != VIEW).map(name).collect();
+    if !names.is_empty() {
+        let _ = write!(words, " Unknown here, and kept: {}.", names.join(", "));
+    }
+    if !refused.is_empty() {
+        let _ = write!(words, " Not understood here, and skipped: {}.", refused.join(", "));
+    }
+    words
 }
 
 /// Fields of versions 1 to 3, with their present names.
 const RENAMED_FIELDS: [(&str, &str); 2] = [("truth", "reference"), ("way", "transform")];
 
 /// Gives the fields of earlier versions their present names.
-fn rename_fields(value: &mut serde_json::Value) {
+fn rename_fields(value: &mut Value) {
     let Some(fields) = value.as_object_mut() else { return };
     for (before, now) in RENAMED_FIELDS {
         if !fields.contains_key(now)
@@ -97,7 +208,7 @@ const RENAMED: [(&str, &str); 2] =
 
 /// Converts a document of version 1 to the present format: cameras by their present names; missing parts are those of the
 /// paper's start, which was the only one.
-fn renew(value: &mut serde_json::Value, own: &[ImportedSet]) -> Result<(), SessionError> {
+fn renew(value: &mut Value, own: &[ImportedSet]) -> Result<(), SessionError> {
     let Some(old) = value.as_object_mut() else { return Ok(()) };
     let is_own = |name: &String| own.iter().any(|set| set.role == Role::Camera && set.name == *name);
     for compared in old.get_mut("compared").and_then(|list| list.as_array_mut()).into_iter().flatten() {
@@ -118,7 +229,7 @@ fn renew(value: &mut serde_json::Value, own: &[ImportedSet]) -> Result<(), Sessi
         let distance = if diagram == Some("uv-prime") { Metric::UV_PRIME } else { Metric::XY };
         old.insert("difference".to_owned(), distance.id.into());
     }
-    let serde_json::Value::Object(defaults) = serde_json::to_value(Start::Paper.document())? else { return Ok(()) };
+    let Value::Object(defaults) = serde_json::to_value(Start::Paper.document())? else { return Ok(()) };
     for (key, default) in defaults {
         old.entry(key).or_insert(default);
     }
@@ -126,7 +237,7 @@ fn renew(value: &mut serde_json::Value, own: &[ImportedSet]) -> Result<(), Sessi
 }
 
 /// The name that a record has.
-fn name(record: &serde_json::Value) -> Option<String> {
+fn name(record: &Value) -> Option<String> {
     record.get("name")?.as_str().map(str::to_owned)
 }
 

@@ -2,6 +2,7 @@
 
 use chromascope_core::query::Ask;
 use chromascope_core::spectral::{Header, Response, SpectralDistribution};
+use chromascope_figure::{Cell, Table};
 use spectral_file::write::{Content, Format, Grid, Note, Sheet, Trace, WriteError, write};
 
 use crate::catalog::load::{self, LoadError};
@@ -105,6 +106,25 @@ pub fn file(entry: &Entry, form: Form, ask: &impl Ask) -> Result<SpectraFile, Sp
     let written = write(&sheet, form.format, form.grid)?;
     let name = fitting(&file_name(&entry.name), &format!(".{}", form.format.ending()));
     Ok(SpectraFile { name, text: written.text, notes: written.notes })
+}
+
+/// A set's curves as a table over all of their wavelengths, as measured: a cell is empty where a curve has no sample.
+pub fn table(entry: &Entry, ask: &impl Ask) -> Result<Table, LoadError> {
+    let curves = curves(&entry.place, ask)?;
+    let mut wavelengths: Vec<f64> = curves.iter().flat_map(|(_, curve)| curve.wavelengths_nm()).copied().collect();
+    wavelengths.sort_by(f64::total_cmp);
+    wavelengths.dedup();
+    let names = curves.iter().map(|(name, _)| name.as_str());
+    let mut table = Table::new(std::iter::once("wavelength_nm").chain(names));
+    for nm in wavelengths {
+        let at = |curve: &SpectralDistribution| {
+            let index = curve.wavelengths_nm().binary_search_by(|known| known.total_cmp(&nm)).ok()?;
+            curve.values().get(index).copied()
+        };
+        let cells = curves.iter().map(|(_, curve)| at(curve).map_or(Cell::Empty, Cell::Number));
+        table.push(std::iter::once(Cell::Number(nm)).chain(cells));
+    }
+    Ok(table)
 }
 
 /// All curves of a set, in nanometers and fractions, but else as measured.

@@ -5,9 +5,9 @@ use std::path::Path;
 use super::Files;
 use super::atomic::write_atomically;
 use super::dialogs::{Answer, Question};
-use super::event::{FileEvent, Note};
+use super::event::{FileEvent, Note, SavedFile};
 use super::prompt::{self, PathPrompt};
-use super::save::{FileForm, SaveRequest};
+use super::save::{self, FileForm, SaveRequest};
 use crate::format::io_reason;
 
 /// A dialog that is open.
@@ -214,8 +214,11 @@ fn write(path: &Path, form: &FileForm, SaveRequest { what, note, .. }: &SaveRequ
         Err(sentence) => return FileEvent::Failed(sentence),
     };
     match write_atomically(path, &bytes) {
-        Ok(()) if note.is_empty() => FileEvent::Saved(format!("Saved {}.", path.display()), what.clone()),
-        Ok(()) => FileEvent::Saved(format!("Saved {}: {note}.", path.display()), what.clone()),
+        Ok(()) => {
+            let note = if note.is_empty() { String::new() } else { format!(": {note}") };
+            let message = format!("Saved {}{note}.", path.display());
+            FileEvent::Saved(SavedFile { message, what: what.clone(), file: save::written(path, &bytes) })
+        }
         Err(error) => {
             FileEvent::Failed(format!("Cannot write {}: {}. Your work is safe.", path.display(), io_reason(&error)))
         }

@@ -7,6 +7,7 @@ use std::time::{Duration, Instant};
 use crate::catalog::meshes::ENDINGS as MESH_ENDINGS;
 use crate::catalog::recorded_store::PICTURES;
 use crate::catalog::spectral_images::ENDINGS as IMAGE_ENDINGS;
+use crate::document::session;
 
 /// A dialog that closes within this time without an answer was never seen by the user.
 const NO_DIALOG: Duration = Duration::from_millis(300);
@@ -62,8 +63,12 @@ impl Dialogs for System {
         FAILED.set(false);
         let chosen = match question {
             Question::Files => rfd::FileDialog::new()
-                .set_title("Open spectra, camera sensitivities, a mesh or a spectral image")
-                .add_filter("Spectra, meshes and images", &[&ENDINGS[..], &MESH_ENDINGS, &IMAGE_ENDINGS].concat())
+                .set_title("Open a session, spectra, camera sensitivities, a mesh or a spectral image")
+                .add_filter(
+                    "Sessions, spectra, meshes and images",
+                    &[&[session::ENDING][..], &ENDINGS, &MESH_ENDINGS, &IMAGE_ENDINGS].concat(),
+                )
+                .add_filter("Chromascope sessions", &[session::ENDING])
                 .add_filter("Text and CSV", &ENDINGS)
                 .add_filter("Meshes", &MESH_ENDINGS)
                 .add_filter("Spectral images", &IMAGE_ENDINGS)

@@ -1,11 +1,13 @@
 //! Outcomes of dialogs, reads and writes.
 
 use std::path::PathBuf;
+use std::sync::Arc;
 
 use super::dialogs::Answer;
 use super::prompt::{Completed, PathPrompt};
 use super::save::SaveRequest;
-use crate::document::Document;
+use crate::document::{Document, SessionFile};
+use crate::format::file_name;
 
 /// Outcome of a dialog, a read or a write.
 #[derive(Debug)]
@@ -16,8 +18,16 @@ pub enum FileEvent {
     Changed(Vec<PathBuf>),
     /// Something to know.
     Said(String),
-    /// A file was written: a message, and the description of its contents.
-    Saved(String, String),
+    /// A file was written.
+    Saved(SavedFile),
+    /// A session was written to its file, with this document.
+    SessionSaved(SessionFile, Arc<Document>),
+    /// A session was not written to its file, because another program wrote to that.
+    SessionChanged(PathBuf),
+    /// A session was not written, for a reason in words.
+    SessionFailed(String),
+    /// The session that the program began with, as it is in its file.
+    SessionKnown(SessionFile, Arc<Document>),
     /// A document was read, and the one before it saved.
     Document(Box<OpenedDocument>),
     /// Something failed; nothing was changed.
@@ -33,15 +43,52 @@ pub(super) enum Note {
     Completed(Completed),
 }
 
+/// A file that was written.
+#[derive(Debug)]
+pub struct SavedFile {
+    /// A message.
+    pub message: String,
+    /// Description of its contents.
+    pub what: String,
+    /// The file.
+    pub file: SessionFile,
+}
+
+/// Source of a document that takes the place of another one.
+#[derive(Clone, Debug, PartialEq)]
+pub enum DocumentSource {
+    /// A file, which is a session if its name ends so.
+    File(PathBuf),
+    /// A template of the user's: its file stays as it is.
+    Template(PathBuf),
+    /// A document, and its name.
+    New(&'static str, Box<Document>),
+}
+
+impl DocumentSource {
+    /// Its name.
+    pub fn name(&self) -> String {
+        match self {
+            Self::File(path) => file_name(path),
+            Self::Template(path) => path.file_stem().unwrap_or_default().to_string_lossy().into_owned(),
+            Self::New(name, _) => (*name).to_owned(),
+        }
+    }
+}
+
 /// A document that was opened in place of another one.
 #[derive(Debug)]
 pub struct OpenedDocument {
-    /// Its file.
-    pub path: PathBuf,
+    /// Its source.
+    pub source: DocumentSource,
     /// The document.
     pub document: Document,
+    /// Parts of a document of a newer version that are not understood, in a sentence.
+    pub newer: Option<String>,
+    /// True if the document being replaced was saved in a file of its own.
+    pub aside: bool,
     /// Sets of it that could not be read, in words; may be empty.
     pub lost: Vec<String>,
-    /// The document being replaced, which is saved in a file of its own if it was changed.
+    /// The document being replaced.
     pub before: Document,
 }

@@ -68,7 +68,11 @@ impl Keeper {
             return Loaded { document: Document::default(), complaint: None };
         };
         let mut store = self.shared.store();
-        let read = store.read(&first);
+        // An earlier version of the program does not write over it.
+        let read = store.read(&first).and_then(|kept| match kept.newer {
+            Some(why) => Err(Unread::Because(format!("{why} Update to open it"))),
+            None => Ok(kept),
+        });
         let is_by_value = store.is_by_value();
         drop(store);
         let is_others = self.profile.other.is_some();

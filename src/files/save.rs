@@ -5,6 +5,12 @@ use std::fmt;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use crate::document::SessionFile;
+use crate::document::imported::Fingerprint;
+
+/// Makes the text of a session; the error is a message.
+pub type MakeText = Arc<dyn Fn() -> Result<String, String> + Send + Sync>;
+
 /// A form in which something can be written. Its bytes are made only when it is.
 #[derive(Clone)]
 pub struct FileForm {
@@ -49,7 +55,8 @@ impl SaveRequest {
     /// is a sentence.
     pub(super) fn target(&self, path: &Path) -> Result<(PathBuf, FileForm), String> {
         let offered = self.forms.first().ok_or_else(|| "There is nothing to save.".to_owned())?;
-        let Some(typed) = ending(path) else {
+        let own = |typed: &&str| self.forms.iter().any(|form| form.extension.eq_ignore_ascii_case(typed));
+        let Some(typed) = path.extension().and_then(OsStr::to_str).filter(own).or_else(|| ending(path)) else {
             let mut name = path.file_name().unwrap_or_default().to_owned();
             name.push(".");
             name.push(offered.extension);
@@ -82,6 +89,12 @@ impl SaveRequest {
     pub(super) fn extension(&self) -> &'static str {
         self.forms.first().map_or("", |form| form.extension)
     }
+}
+
+/// A file by its absolute path, as it was just written.
+pub(super) fn written(path: &Path, bytes: &[u8]) -> SessionFile {
+    let path = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
+    SessionFile { path, fingerprint: Fingerprint::of(bytes) }
 }
 
 /// The ending that names a kind of file. A number (`figure 2.1`) and words (`Dr. Smith`) are part of the name.

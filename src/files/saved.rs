@@ -6,11 +6,10 @@ use std::time::SystemTime;
 
 use super::Files;
 use super::atomic::write_atomically;
-use super::event::{FileEvent, Note, OpenedDocument};
-use super::store::{Unread, read};
+use super::event::{FileEvent, Note};
 use crate::document::Document;
 use crate::document::start::Start;
-use crate::format::{file_name, io_failure};
+use crate::format::io_failure;
 
 /// The file of the window's place and layout, which eframe reads.
 const LAYOUT: &str = "app.ron";
@@ -52,34 +51,6 @@ impl Files {
             Some(minutes) => format!("{} days ago", minutes / 1440),
         };
         self.keeper.copies().into_iter().map(|copy| (copy.path, words(copy.modified))).collect()
-    }
-
-    /// Reads a document to replace this one, which is saved first.
-    pub fn open_document(&self, path: &Path, before: Document) {
-        let (path, keeper) = (path.to_owned(), self.keeper.aside());
-        self.in_background(move || {
-            let name = file_name(&path);
-            let event = match read(&path) {
-                Ok((kept, _)) if kept.document == before => FileEvent::Said(format!("{name} is the current document.")),
-                Ok((kept, _)) => {
-                    let is_untouched = before == before.start.document();
-                    match if is_untouched { Ok(()) } else { keeper.put_aside(&before) } {
-                        Ok(()) => FileEvent::Document(Box::new(OpenedDocument {
-                            path,
-                            document: kept.document,
-                            lost: kept.lost,
-                            before,
-                        })),
-                        Err(why) => FileEvent::Failed(format!(
-                            "{name} was not opened because the current document could not be saved: {why}."
-                        )),
-                    }
-                }
-                Err(Unread::Missing) => FileEvent::Failed(format!("{} no longer exists.", path.display())),
-                Err(Unread::Because(why)) => FileEvent::Failed(format!("{name} could not be opened: {why}.")),
-            };
-            [Note::Event(event)]
-        });
     }
 
     /// Removes a document that another window saved.

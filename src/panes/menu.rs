@@ -5,10 +5,11 @@ use egui::{Align, Atom, Button, Layout, Rect, RichText, Ui, UiBuilder, Vec2};
 use super::context::{Pane, PaneContext};
 use crate::action::history::History;
 use crate::action::{Action, SceneAction};
-use crate::command::{Command, Format, REPORTS, THEMES, TourMove, shortcut_of};
+use crate::command::{Command, Format, REPORTS, SessionCommand, THEMES, TourMove, shortcut_of};
 use crate::document::start::Start;
 use crate::panes::widgets::{Icon, icon_button, pick_list};
 use crate::theme::{Surround, UNIT};
+use crate::view::template::TEMPLATES;
 use crate::workspaces::{Layout as PaneLayout, PaneKind, Workspace};
 
 /// Room for a tick before a line of a menu.
@@ -110,6 +111,9 @@ fn pictured(context: &PaneContext<'_>) -> PaneKind {
 }
 
 fn file(ui: &mut Ui, context: &mut PaneContext<'_>) {
+    item(ui, "New", SessionCommand::New(None).into(), context);
+    ui.menu_button("New from template", |ui| templates(ui, context));
+    ui.separator();
     item(ui, "Open…", Command::Open, context);
     item(ui, "Open folder…", Command::OpenFolder, context);
     let recent = context.view.saved.recent.clone();
@@ -143,6 +147,11 @@ fn file(ui: &mut Ui, context: &mut PaneContext<'_>) {
             }
         });
     }
+    ui.separator();
+    item(ui, "Save", SessionCommand::Save.into(), context);
+    item(ui, "Save as…", SessionCommand::SaveAs.into(), context);
+    item(ui, "Save as template…", SessionCommand::SaveTemplate.into(), context);
+    ui.separator();
     if ui.add(Button::new("Paste data").shortcut_text("Ctrl+V")).clicked() {
         ui.ctx().send_viewport_cmd(egui::ViewportCommand::RequestPaste);
         ui.close();
@@ -163,6 +172,34 @@ fn file(ui: &mut Ui, context: &mut PaneContext<'_>) {
     ui.separator();
     if ui.add(Button::new("Quit").shortcut_text("Ctrl+Q")).clicked() {
         context.push(Command::Quit);
+    }
+}
+
+/// The templates, and the user's own.
+fn templates(ui: &mut Ui, context: &mut PaneContext<'_>) {
+    for template in &TEMPLATES {
+        if ui.button(template.name).on_hover_text(template.summary).clicked() {
+            context.push(SessionCommand::New(Some(template.name)));
+            ui.close();
+        }
+    }
+    let own = context.view.templates.clone();
+    if !own.is_empty() {
+        ui.separator();
+    }
+    for (name, path) in own {
+        let menu = ui.menu_button(name, |ui| {
+            for (words, command) in [
+                ("New", SessionCommand::NewFrom(path.clone())),
+                ("Delete", SessionCommand::RemoveTemplate(path.clone())),
+            ] {
+                if ui.button(words).clicked() {
+                    context.push(command);
+                    ui.close();
+                }
+            }
+        });
+        menu.response.on_hover_text(path.display().to_string());
     }
 }
 

@@ -72,7 +72,7 @@ fn filters_are_saved_and_undone() {
     assert_eq!(history.document().filters, ["ND 0.6", "ND 0.3"], "once each");
     let json = session::to_json(history.document()).unwrap();
     assert_eq!(session::from_json(&json).unwrap().filters, history.document().filters);
-    assert_eq!(history.undo_name(), Some("Add filter"));
+    assert_eq!(history.undo_name(), Some("Add filter ND 0.3"));
     history.undo();
     assert_eq!(history.document().filters, ["ND 0.3", "ND 0.6"]);
     history.apply(&Action::Scene(SceneAction::ClearFilters));

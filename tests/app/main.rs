@@ -49,6 +49,7 @@ mod same_file;
 mod save_prompt;
 mod save_set;
 mod screenshots;
+mod sessions;
 mod shell;
 mod spectral_images;
 mod starts;

@@ -13,7 +13,7 @@ use crate::catalog::import::{Imported, Origin, import_as};
 use crate::catalog::meshes::is_mesh;
 use crate::catalog::spectral_images::{is_same_image, is_spectral_image};
 use crate::document::imported::{Fingerprint, ImportOverrides, ImportedSet};
-use crate::document::session::is_session;
+use crate::document::session::{self, is_session};
 use crate::format::{file_name, io_failure, io_reason};
 
 /// Number of bytes examined to distinguish a mesh from spectra.
@@ -182,7 +182,8 @@ fn contents(
             let path = known_path(path, monitor);
             job.at(&path, file, count);
             let beginning = beginning(&path);
-            if is_session(&beginning) {
+            let is_named = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case(session::ENDING));
+            if is_named && path.is_file() || is_session(&beginning) {
                 return Err(Unread::Document(path));
             }
             if is_mesh(&path, &beginning) {

@@ -1,0 +1,322 @@
+//! The session as a file: its name and mark in the title, saving, changes by other programs, templates.
+
+use std::collections::HashMap;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use egui::{Align2, Context, Key, RichText, TextEdit, Ui, Vec2, ViewportCommand, Window};
+
+use super::ChromascopeApp;
+use crate::command::{Command, SessionCommand};
+use crate::document::imported::Fingerprint;
+use crate::document::{Document, SessionFile, session};
+use crate::files::{DocumentSource, FileForm, MakeText, OpenedDocument, SaveRequest, SavedFile};
+use crate::panes;
+use crate::theme::Theme;
+use crate::view::template::{TEMPLATES, Template};
+use crate::view::{SavedView, Weight};
+
+/// Description of the session where it is saved under a name.
+pub(super) const SESSION: &str = "the session";
+const WIDTH: f32 = 420.0;
+
+/// State of the session's file.
+#[derive(Default)]
+pub(super) struct SessionState {
+    /// Files as this window last read or wrote them, with their documents.
+    known: HashMap<PathBuf, (Fingerprint, Arc<Document>)>,
+    /// True while the file is written, and true if it is to be written once more after that.
+    writing: [bool; 2],
+    /// The document that is being saved under a name.
+    named: Option<Arc<Document>>,
+    /// A file that another program wrote to, about which the user is asked.
+    changed: Option<PathBuf>,
+    /// Name typed for a template.
+    template: Option<String>,
+    /// The window's title.
+    title: String,
+    /// The document that was compared with its file last, and the result.
+    compared: Option<(Document, bool)>,
+}
+
+impl SessionState {
+    /// Closes an open question; returns whether there was one.
+    pub(super) fn escape(&mut self) -> bool {
+        self.changed.take().is_some() | self.template.take().is_some()
+    }
+}
+
+impl ChromascopeApp {
+    /// The user's own document, also while the tour is played.
+    fn own_document(&self) -> &Document {
+        self.interrupted.as_ref().map_or(&self.history, |own| &own.history).document()
+    }
+
+    /// Looks at the file of the session that the program begins with.
+    pub(super) fn begin_session(&mut self) {
+        self.view.templates = self.files.templates();
+        if self.history.document().session.is_some() {
+            self.files.look_at_session(self.history.document().clone());
+        }
+    }
+
+    /// Notes the contents of a session's file.
+    pub(super) fn know_session(&mut self, file: SessionFile, document: Arc<Document>) {
+        self.session.known.insert(file.path, (file.fingerprint, document));
+        self.session.compared = None;
+    }
+
+    /// True if the document has changes that its file has not, or no file.
+    fn is_unsaved(&mut self) -> bool {
+        let document = self.interrupted.as_ref().map_or(&self.history, |own| &own.history).document();
+        match &self.session.compared {
+            Some((known, unsaved)) if known == document => *unsaved,
+            _ => {
+                let known = document.session.as_ref().and_then(|file| self.session.known.get(&file.path));
+                let unsaved = known.is_none_or(|(_, saved)| !is_same(saved, document));
+                self.session.compared = Some((document.clone(), unsaved));
+                unsaved
+            }
+        }
+    }
+
+    /// Shows the session's name and mark in the title.
+    pub(super) fn show_title(&mut self, ctx: &Context) {
+        let unsaved = self.is_unsaved();
+        let document = self.own_document();
+        let title = match &document.session {
+            Some(file) => {
+                let name = file.path.file_stem().unwrap_or_default().to_string_lossy();
+                format!("{}{name} – Chromascope", if unsaved { "*" } else { "" })
+            }
+            None if *document == document.start.document() => "Chromascope".to_owned(),
+            None => "*Untitled – Chromascope".to_owned(),
+        };
+        if title != self.session.title {
+            ctx.send_viewport_cmd(ViewportCommand::Title(title.clone()));
+            self.session.title = title;
+        }
+    }
+
+    /// The window's title.
+    pub fn title(&self) -> &str {
+        &self.session.title
+    }
+
+    /// Opens a document in place of this one. This one is saved on its own if its file has not all of it.
+    pub(super) fn open_document(&mut self, source: DocumentSource) {
+        let is_safe = !self.is_unsaved();
+        self.files.open_document(source, self.history.document().clone(), is_safe);
+    }
+
+    /// Begins or saves a session.
+    pub(super) fn session_command(&mut self, command: SessionCommand) {
+        match command {
+            SessionCommand::New(template) => self.new_session(template),
+            SessionCommand::NewFrom(path) => self.open_document(DocumentSource::Template(path)),
+            SessionCommand::Save => self.save_session(false),
+            SessionCommand::SaveAs => self.save_session_as(),
+            SessionCommand::SaveTemplate => self.session.template = Some(String::new()),
+            SessionCommand::RemoveTemplate(path) => {
+                self.files.remove_template(&path);
+                self.view.templates = self.files.templates();
+            }
+        }
+    }
+
+    /// Begins a new session.
+    fn new_session(&mut self, template: Option<&'static str>) {
+        let known = template.and_then(|name| TEMPLATES.iter().find(|template| template.name == name));
+        let document = known.map_or_else(Document::default, Template::document);
+        self.open_document(DocumentSource::New(known.map_or("New session", |known| known.name), Box::new(document)));
+    }
+
+    /// Puts a document that was read in the place of this one, as one step.
+    pub(super) fn take_document(&mut self, opened: OpenedDocument) {
+        self.end_tour();
+        let OpenedDocument { source, mut document, newer, aside, lost, before } = opened;
+        if before != *self.history.document() {
+            // The document changed meanwhile: its current state is saved.
+            return self.open_document(source);
+        }
+        let name = source.name();
+        let mut newer: Vec<String> = newer.map(|newer| format!("It was {newer}")).into_iter().collect();
+        if let Some((mut view, refused)) = session::take_view::<SavedView>(&mut document) {
+            view.layout.retain(|pane| panes::by_kind(pane).is_some());
+            self.view.saved.take_session(view);
+            self.view.reset_plots = true;
+            self.view.maximized = None;
+            if !refused.is_empty() {
+                newer.push(format!("Parts of its view are not understood: {}.", refused.join(", ")));
+            }
+        }
+        document.part_names(self.catalog.names());
+        let (step, words) = match &source {
+            DocumentSource::File(path) => {
+                self.view.remember_file(path.clone());
+                (format!("Open {name}"), format!("Opened {name}."))
+            }
+            _ => (format!("New: {name}"), format!("Began {name}.")),
+        };
+        if let Some(file) = document.session.clone() {
+            self.know_session(file, Arc::new(document.clone()));
+        }
+        self.step(|history| history.replace(step, document));
+        let saved = if aside { " The previous document was saved: File, Recovered documents." } else { "" };
+        let words = format!("{words}{saved} Ctrl+Z undoes this.");
+        match lost.first() {
+            None if newer.is_empty() => self.view.say(words),
+            None => {
+                self.view.say(format!("{words} {}", newer.join(" ")));
+                self.view.status.weight = Weight::Warning;
+            }
+            Some(first) => self.view.fail(format!("{words} Parts that could not be read are missing: {first}.")),
+        }
+        if let DocumentSource::New(name, _) = source
+            && let Some(template) = TEMPLATES.iter().find(|template| template.name == name)
+        {
+            self.push(Command::GoTo(template.pane));
+        }
+        self.view.other_documents = self.files.other_documents();
+    }
+
+    /// Saves the session in its file, or asks for one.
+    fn save_session(&mut self, replaces: bool) {
+        let Some(mut file) = self.history.document().session.clone() else { return self.save_session_as() };
+        if self.session.writing[0] {
+            self.session.writing[1] = true;
+            return;
+        }
+        if let Some((fingerprint, _)) = self.session.known.get(&file.path) {
+            file.fingerprint = *fingerprint;
+        }
+        self.session.writing = [true, false];
+        let (document, make) = self.text_to_save();
+        self.files.save_session(file, document, make, replaces);
+    }
+
+    /// Asks where to save the session.
+    fn save_session_as(&mut self) {
+        let (document, make) = self.text_to_save();
+        let name = document.session.as_ref().map(|file| crate::format::file_name(&file.path));
+        self.session.named = Some(document);
+        self.files.ask_to_save(SaveRequest {
+            what: SESSION.to_owned(),
+            name: name.unwrap_or_else(|| format!("session.{}", session::ENDING)),
+            forms: vec![FileForm::new(session::ENDING, move || make().map(String::into_bytes))],
+            note: String::new(),
+        });
+    }
+
+    /// The document with the making of its session's text.
+    fn text_to_save(&self) -> (Arc<Document>, MakeText) {
+        let document = Arc::new(self.history.document().clone());
+        let (written, view) = (Arc::clone(&document), self.view.saved.for_session());
+        (document, Arc::new(move || session::to_session(&written, &view).map_err(|error| error.to_string())))
+    }
+
+    /// Handles a session that was saved under a name.
+    pub(super) fn named(&mut self, saved: SavedFile) {
+        let Some(document) = self.session.named.take() else { return };
+        self.view.remember_file(saved.file.path.clone());
+        self.history.set_session(&saved.file);
+        self.know_session(saved.file, document);
+    }
+
+    /// Handles the end of writing the session's file.
+    pub(super) fn wrote_session(&mut self, file: SessionFile, document: Arc<Document>) {
+        if self.history.document().session.as_ref().is_some_and(|now| now.path == file.path) {
+            self.history.set_session(&file);
+        }
+        self.view.say(format!("Saved {}.", file.path.display()));
+        self.know_session(file, document);
+        if std::mem::take(&mut self.session.writing)[1] {
+            self.save_session(false);
+        }
+    }
+
+    /// Handles a session that was not written: a question, or the reason.
+    pub(super) fn did_not_write_session(&mut self, outcome: Result<PathBuf, String>) {
+        self.session.writing = [false; 2];
+        match outcome {
+            Ok(path) => self.session.changed = Some(path),
+            Err(why) => self.view.fail(why),
+        }
+    }
+
+    fn save_template(&mut self, name: &str) {
+        let (_, make) = self.text_to_save();
+        match make().and_then(|text| self.files.save_template(name, &text)) {
+            Ok(()) => self.view.say(format!("Saved the template {name}: File, New from template.")),
+            Err(why) => self.view.fail(format!("The template is not saved: {why}.")),
+        }
+        self.view.templates = self.files.templates();
+    }
+
+    /// Shows the questions of saving, if one is open.
+    pub(super) fn ask_about_session(&mut self, ui: &Ui, theme: &Theme) {
+        if let Some(path) = self.session.changed.clone() {
+            let words = format!(
+                "Another program, or another window, wrote to {} since it was read or written here.",
+                path.display()
+            );
+            let answer = window(ui, "The file changed on disk", |ui| {
+                ui.label(RichText::new(words).color(theme.warning));
+                ui.horizontal(|ui| {
+                    let choices = ["Save as…", "Open that version", "Replace it", "Cancel"];
+                    choices.into_iter().filter(|words| ui.button(*words).clicked()).last()
+                })
+                .inner
+            });
+            let Some(answer) = answer else { return };
+            self.session.changed = None;
+            match answer {
+                "Save as…" => self.save_session_as(),
+                "Replace it" => self.save_session(true),
+                "Open that version" => self.push(Command::OpenDocument(path)),
+                _ => {}
+            }
+        }
+        let Some(mut name) = self.session.template.take() else { return };
+        let answer = window(ui, "Save as a template", |ui| {
+            let field = ui.add(TextEdit::singleline(&mut name).hint_text("Name").desired_width(WIDTH));
+            field.widget_info(|| egui::WidgetInfo::labeled(egui::Role::TextInput, true, "Name of the template"));
+            let entered = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
+            if !entered && ui.memory(|memory| memory.focused().is_none()) {
+                field.request_focus();
+            }
+            ui.horizontal(|ui| {
+                let is_named = !name.trim().is_empty();
+                let saves = ui.add_enabled(is_named, egui::Button::new("Save")).clicked() || entered && is_named;
+                let cancels = ui.button("Cancel").clicked();
+                saves.then_some(true).or(cancels.then_some(false))
+            })
+            .inner
+        });
+        match answer {
+            Some(true) => self.save_template(name.trim()),
+            Some(false) => {}
+            None => self.session.template = Some(name),
+        }
+    }
+}
+
+/// True if two documents differ at most in where they are saved.
+fn is_same(saved: &Document, document: &Document) -> bool {
+    let (session, unknown) = (saved.session.clone(), saved.unknown.clone());
+    *saved == Document { session, unknown, ..document.clone() }
+}
+
+/// Shows a question; returns the answer.
+fn window<R>(ui: &Ui, title: &str, content: impl FnOnce(&mut Ui) -> Option<R>) -> Option<R> {
+    let window = Window::new(title)
+        .id(egui::Id::unique("session"))
+        .collapsible(false)
+        .resizable(false)
+        .anchor(Align2::CENTER_TOP, Vec2::new(0.0, 96.0));
+    let shown = window.show(ui.ctx(), |ui| {
+        ui.set_max_width(WIDTH);
+        content(ui)
+    });
+    shown.and_then(|shown| shown.inner).flatten()
+}
