@@ -8,8 +8,8 @@ use chromascope_core::colorimetry::Metric;
 use chromascope_core::query::Shared;
 
 use crate::document::correction::CorrectionChoice;
+use crate::document::imported::ImportedSet;
 use crate::document::names::BuiltInNames;
-use crate::document::own::OwnSet;
 use crate::document::render::{BALANCE, MeshChoice, RenderSettings, SUN};
 use crate::document::start::Start;
 use crate::document::{
@@ -26,7 +26,7 @@ pub enum Action {
     /// To the rendered scene.
     Render(RenderAction),
     /// To the user's own sets.
-    Own(OwnAction),
+    Imported(ImportedAction),
     /// Begins again from a named start; imported sets stay.
     Start(Start),
     /// All back to the start that the document was made from; imported sets stay.
@@ -110,12 +110,12 @@ pub enum RenderAction {
 
 /// Changes to the user's own sets.
 #[derive(Clone, Debug, PartialEq)]
-pub enum OwnAction {
+pub enum ImportedAction {
     /// Adds imported sets. A single set is put to use; of several, cameras are added to the comparison while the palette
     /// has room, and light and chart stay. A name in use is replaced by a free one.
     Import {
         /// The sets.
-        sets: Vec<OwnSet>,
+        sets: Vec<ImportedSet>,
         /// Names that they may not have.
         built_in: BuiltInNames,
     },
@@ -124,7 +124,7 @@ pub enum OwnAction {
         /// The name it had.
         name: String,
         /// The set as it is to be.
-        with: Box<OwnSet>,
+        with: Box<ImportedSet>,
         /// Names that it may not have.
         built_in: BuiltInNames,
     },
@@ -133,7 +133,7 @@ pub enum OwnAction {
         /// Name of the undo step.
         what: String,
         /// The names they had, and the sets as they are to be.
-        with: Vec<(String, OwnSet)>,
+        with: Vec<(String, ImportedSet)>,
         /// Names that they may not have.
         built_in: BuiltInNames,
     },
@@ -152,13 +152,13 @@ impl Action {
                 format!("Open {}", name.to_string_lossy())
             }
             Self::Render(action) => action.name().to_owned(),
-            Self::Own(OwnAction::Import { sets, .. }) => match sets.as_slice() {
+            Self::Imported(ImportedAction::Import { sets, .. }) => match sets.as_slice() {
                 [one] => format!("Open {}", one.name),
                 many => format!("Open {} sets", many.len()),
             },
-            Self::Own(OwnAction::Replace { name, .. }) => format!("Change {name}"),
-            Self::Own(OwnAction::ReplaceAll { what, .. }) => what.clone(),
-            Self::Own(OwnAction::Remove(name)) => format!("Remove {name}"),
+            Self::Imported(ImportedAction::Replace { name, .. }) => format!("Change {name}"),
+            Self::Imported(ImportedAction::ReplaceAll { what, .. }) => what.clone(),
+            Self::Imported(ImportedAction::Remove(name)) => format!("Remove {name}"),
             Self::Start(start) => format!("Start: {}", start.name()),
             Self::Reset => "Reset to the first screen".to_owned(),
         }
@@ -185,7 +185,7 @@ impl Action {
             Self::Compare(action) => action.apply(document),
             Self::Scene(action) => action.apply(document),
             Self::Render(action) => action.apply(document),
-            Self::Own(action) => action.apply(document),
+            Self::Imported(action) => action.apply(document),
             Self::Start(start) => begin(document, *start),
             Self::Reset => begin(document, document.start),
         }
@@ -340,7 +340,7 @@ impl RenderAction {
     }
 }
 
-impl OwnAction {
+impl ImportedAction {
     fn apply(&self, document: &mut Document) {
         match self {
             Self::Import { sets, built_in } => {
@@ -352,7 +352,7 @@ impl OwnAction {
                     let mut set = Shared::new(set.clone());
                     let name = document.free_name(SetKind::of_own(&set), &set.name, None, built_in);
                     if name != set.name {
-                        set = Shared::new(OwnSet { name, ..(*set).clone() });
+                        set = Shared::new(ImportedSet { name, ..(*set).clone() });
                     }
                     if sets.len() == 1 {
                         document.put_to_use(&set);
@@ -379,10 +379,10 @@ impl OwnAction {
 
 /// Reopens the file of a set. Unchanged contents leave the set and the user's settings as they are; changed contents replace the
 /// set's under its name.
-fn bring_again(document: &mut Document, index: usize, set: &OwnSet, alone: bool, built_in: &BuiltInNames) {
+fn bring_again(document: &mut Document, index: usize, set: &ImportedSet, alone: bool, built_in: &BuiltInNames) {
     let name = document.own[index].name.clone();
     if set.fingerprint != document.own[index].fingerprint {
-        replace(document, &name, &OwnSet { name: name.clone(), ..set.clone() }, built_in);
+        replace(document, &name, &ImportedSet { name: name.clone(), ..set.clone() }, built_in);
     }
     let known = document.own[index].clone();
     if alone {
@@ -393,14 +393,14 @@ fn bring_again(document: &mut Document, index: usize, set: &OwnSet, alone: bool,
 }
 
 /// Replaces a set by another version. Its uses stay, unless its kind has changed.
-fn replace(document: &mut Document, name: &str, with: &OwnSet, built_in: &BuiltInNames) {
+fn replace(document: &mut Document, name: &str, with: &ImportedSet, built_in: &BuiltInNames) {
     let Some(index) = document.own.iter().position(|set| set.name == name) else { return };
     let before = SetKind::of_own(&document.own[index]);
     let mut set = Shared::new(with.clone());
     let kind = SetKind::of_own(&set);
     let free = document.free_name(kind, &set.name, Some(index), built_in);
     if free != set.name {
-        set = Shared::new(OwnSet { name: free, ..with.clone() });
+        set = Shared::new(ImportedSet { name: free, ..with.clone() });
     }
     document.own[index] = set.clone();
     if kind != before {

@@ -56,8 +56,8 @@ pub struct ChromascopeApp {
     opened: Opened,
     recorded: RecordedStore,
     radiators: Background<NearestBlackBodyQuery>,
-    studio: RenderService,
-    laboratory: Profiler,
+    render_service: RenderService,
+    profiler: Profiler,
     ranking: Ranking,
     curves: Option<CurveCache>,
     commands: Vec<Command>,
@@ -105,15 +105,15 @@ impl ChromascopeApp {
             history: history.with_names_apart(catalog.names()),
             catalog,
             results: executor.results(),
-            view: View { saved, import, kept: files.kept_documents(), ..View::default() },
+            view: View { saved, import, other_documents: files.other_documents(), ..View::default() },
             files,
             meshes: MeshStore::on(executor, repaint()),
             images: ImageStore::on(executor, repaint()),
             opened,
             recorded: RecordedStore::on(executor, repaint()),
             radiators: Background::on(executor, "blackbodies", repaint()),
-            studio: RenderService::on(executor, ctx),
-            laboratory: Profiler::on(executor, repaint()),
+            render_service: RenderService::on(executor, ctx),
+            profiler: Profiler::on(executor, repaint()),
             ranking: Ranking::on(executor, repaint()),
             curves: None,
             commands: Vec::new(),
@@ -193,13 +193,13 @@ impl ChromascopeApp {
     }
 
     /// Service that renders the pictures.
-    pub fn studio(&self) -> &RenderService {
-        &self.studio
+    pub fn render_service(&self) -> &RenderService {
+        &self.render_service
     }
 
     /// Profiler that measures the scene's cost.
-    pub fn laboratory(&self) -> &Profiler {
-        &self.laboratory
+    pub fn profiler(&self) -> &Profiler {
+        &self.profiler
     }
 
     /// Camera ranking service.
@@ -208,8 +208,8 @@ impl ChromascopeApp {
     }
 
     /// Mutable access to the profiler, for tests.
-    pub fn laboratory_mut(&mut self) -> &mut Profiler {
-        &mut self.laboratory
+    pub fn profiler_mut(&mut self) -> &mut Profiler {
+        &mut self.profiler
     }
 
     /// Has something done in the next frame.
@@ -300,7 +300,7 @@ impl eframe::App for ChromascopeApp {
         self.autosave(ctx);
         self.mind_closing(ctx);
         if ctx.input(|input| input.events.iter().any(|event| matches!(event, Event::WindowFocused(true)))) {
-            self.view.kept = self.files.kept_documents();
+            self.view.other_documents = self.files.other_documents();
         }
     }
 

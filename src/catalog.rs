@@ -21,8 +21,8 @@ use chromascope_core::query::Shared;
 use chromascope_core::spectral::{Dataset, Header};
 
 use crate::document::SetKind;
+use crate::document::imported::ImportedSet;
 use crate::document::names::{BuiltInNames, caseless};
-use crate::document::own::OwnSet;
 
 /// Location of a set's figures: a file of the program, or a set of the user's, held by value.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
@@ -35,7 +35,7 @@ pub enum Place {
         column: Option<usize>,
     },
     /// One of the user's sets.
-    Own(Shared<OwnSet>),
+    Own(Shared<ImportedSet>),
 }
 
 /// A data file that is part of the program.
@@ -94,7 +94,7 @@ impl Entry {
     }
 
     /// An entry for one of the user's sets.
-    pub fn from_own(set: &Shared<OwnSet>) -> Self {
+    pub fn from_own(set: &Shared<ImportedSet>) -> Self {
         let name = set.name.clone();
         Self {
             kind: SetKind::of_own(set),

@@ -5,7 +5,7 @@ use egui::{Key, KeyboardShortcut, Modifiers};
 
 use crate::action::Action;
 use crate::document::SetKind;
-use crate::document::own::{Fingerprint, ImportOverrides};
+use crate::document::imported::{Fingerprint, ImportOverrides};
 use crate::export::spectra::Form;
 use crate::plot_item::{PlotItem, SensorId};
 use crate::theme::Surround;

@@ -4,12 +4,12 @@
 //! versioned, unknown fields preserved, the user's own data by value.
 
 pub mod correction;
-pub mod kept;
+pub mod imported;
 pub mod kind;
 pub mod names;
-pub mod own;
 pub mod paths;
 pub mod render;
+pub mod saved;
 pub mod session;
 pub mod start;
 pub mod uses;
@@ -18,8 +18,8 @@ use chromascope_core::colorimetry::Metric;
 use chromascope_core::query::Shared;
 use correction::CorrectionChoice;
 pub use correction::TRAINING;
+use imported::ImportedSet;
 pub use kind::SetKind;
-use own::OwnSet;
 use render::RenderSettings;
 use serde::{Deserialize, Serialize};
 use start::Start;
@@ -69,8 +69,8 @@ pub struct Document {
     /// Mesh, material and view of the Render pane.
     pub render: RenderSettings,
     /// The user's own sets, by value.
-    #[serde(with = "own::list")]
-    pub own: Vec<Shared<OwnSet>>,
+    #[serde(with = "imported::list")]
+    pub own: Vec<Shared<ImportedSet>>,
     /// Fields written by a newer version and preserved unchanged.
     #[serde(flatten)]
     pub unknown: serde_json::Map<String, serde_json::Value>,

@@ -45,12 +45,12 @@ impl<'a> FigureInput<'a> {
     /// Input of a scene with its latest background results.
     pub fn of(
         (scene, view): (&'a Scene<'a>, &'a View),
-        studio: &'a RenderService,
-        laboratory: &'a Profiler,
+        render_service: &'a RenderService,
+        profiler: &'a Profiler,
         opened: &Opened,
     ) -> Self {
-        let pictures = studio.frame().map(AsRef::as_ref);
-        Self { scene, view, pictures, measured: &laboratory.measured, preview: opened.preview() }
+        let pictures = render_service.frame().map(AsRef::as_ref);
+        Self { scene, view, pictures, measured: &profiler.measured, preview: opened.preview() }
     }
 
     /// A scene of which nothing was made in the background.

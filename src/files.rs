@@ -7,14 +7,14 @@ mod atomic;
 mod dialogs;
 mod event;
 mod keep;
-mod kept;
 mod last;
 mod motion;
+mod persistent;
 mod profile;
 mod prompt;
 mod save;
+mod saved;
 mod shared_state;
-mod standing;
 mod store;
 mod watch;
 
@@ -31,10 +31,10 @@ pub use dialogs::{Answer, DialogLog, Dialogs, Question};
 pub use event::{FileEvent, OpenedDocument};
 pub use last::{install_panic_hook, save_last, save_on_exit, save_on_signals};
 pub use motion::reduces_motion;
+pub use persistent::{PersistentMessage, PersistentMessageKind};
 pub use profile::Copy;
 pub use prompt::PathPrompt;
 pub use save::{FileForm, SaveRequest};
-pub use standing::{Standing, StandingKind};
 
 /// The only part of the window that touches the disk.
 pub struct Files {
@@ -53,7 +53,7 @@ pub struct Files {
     home: Option<PathBuf>,
     wake: Option<egui::Context>,
     watch: watch::Watch,
-    standing: standing::Notices,
+    standing: persistent::Notices,
     /// The layout as it was written last.
     layout: Option<String>,
 }
@@ -81,7 +81,7 @@ impl Files {
             home: std::env::home_dir(),
             wake: None,
             watch: watch::Watch::new(None),
-            standing: standing::Notices::default(),
+            standing: persistent::Notices::default(),
             layout: None,
         }
     }

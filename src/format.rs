@@ -59,19 +59,19 @@ pub(crate) fn io_reason(error: &std::io::Error) -> String {
 }
 
 /// Rows of a file that are in no curve: a sentence for the merged and one for the omitted ones, each with the line numbers of at
-/// most `told` rows.
-pub(crate) fn dropped_rows(rows: &[DroppedRow], told: usize) -> Vec<String> {
+/// most `most` rows.
+pub(crate) fn dropped_rows(rows: &[DroppedRow], most: usize) -> Vec<String> {
     let (merged, left): (Vec<&DroppedRow>, Vec<&DroppedRow>) =
         rows.iter().partition(|row| row.why == Dropped::Averaged);
     let mut sentences = Vec::new();
     if !merged.is_empty() {
-        let lines = listed(&merged, told, |row| row.line.to_string());
+        let lines = listed(&merged, most, |row| row.line.to_string());
         let plural = if merged.len() == 1 { "line" } else { "lines" };
         let with = "merged with others of the same wavelength (mean)";
         sentences.push(format!("{} {with}: {plural} {lines}", rows_of(merged.len())));
     }
     if !left.is_empty() {
-        let lines = listed(&left, told, |row| format!("line {} ({})", row.line, row.why));
+        let lines = listed(&left, most, |row| format!("line {} ({})", row.line, row.why));
         sentences.push(format!("{} skipped: {lines}", rows_of(left.len())));
     }
     sentences
@@ -81,9 +81,9 @@ fn rows_of(count: usize) -> String {
     if count == 1 { "1 row".to_owned() } else { format!("{count} rows") }
 }
 
-fn listed(rows: &[&DroppedRow], told: usize, one: impl Fn(&DroppedRow) -> String) -> String {
-    let words: Vec<String> = rows.iter().take(told).map(|row| one(row)).collect();
-    let more = rows.len().saturating_sub(told);
+fn listed(rows: &[&DroppedRow], most: usize, one: impl Fn(&DroppedRow) -> String) -> String {
+    let words: Vec<String> = rows.iter().take(most).map(|row| one(row)).collect();
+    let more = rows.len().saturating_sub(most);
     let rest = if more > 0 { format!(" and {more} more") } else { String::new() };
     words.join(", ") + &rest
 }

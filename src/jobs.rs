@@ -6,11 +6,11 @@
 //! pool, to which none of them belongs: no thread of the pool starts a whole job while it waits for a part of another. Tests run
 //! the same work on a [driven](Executor::driven) executor: on their own thread and clock.
 
-mod desk;
 mod executor;
+mod monitor;
 
-pub use desk::Desk;
 pub use executor::{Clock, Executor};
+pub use monitor::Monitor;
 
 use std::cell::Cell;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -44,7 +44,7 @@ impl<Q: Query> Job for Q {
 
 /// Runs one kind of job on a thread of its own and holds its latest answer.
 pub struct Background<J: Job> {
-    desk: Arc<Desk<State<J>>>,
+    monitor: Arc<Monitor<State<J>>>,
     name: String,
     executor: Executor,
     /// True if a driven executor has the work in its queue.
@@ -103,34 +103,34 @@ impl<J: Job> Background<J> {
             failure: None,
             closed: false,
         };
-        let desk = Arc::new(Desk::new(executor, state, wake));
+        let monitor = Arc::new(Monitor::new(executor, state, wake));
         if !executor.is_driven() {
-            let (theirs, results) = (Arc::clone(&desk), executor.results());
+            let (theirs, results) = (Arc::clone(&monitor), executor.results());
             let work = move || {
                 while theirs.wait_for(|state| state.closed || state.has_work(), |state| !state.closed) {
                     step(&theirs, &results);
                 }
             };
             if let Err(error) = executor.spawn(name, work) {
-                desk.lock().failure = Some(format!("no thread could be started: {error}"));
+                monitor.lock().failure = Some(format!("no thread could be started: {error}"));
             }
         }
-        Self { desk, name: name.to_owned(), executor: executor.clone(), is_queued: Rc::default() }
+        Self { monitor, name: name.to_owned(), executor: executor.clone(), is_queued: Rc::default() }
     }
 
     /// Requests stages from coarse to fine. The same request again changes nothing; another stops the one before it.
     pub fn ask(&self, stages: Vec<J>) {
-        if *self.desk.lock().stages != *stages {
+        if *self.monitor.lock().stages != *stages {
             self.ask_anew(stages);
         }
     }
 
     /// Requests stages even if they are those of the latest request.
     pub fn ask_anew(&self, stages: Vec<J>) {
-        let mut state = self.desk.lock();
+        let mut state = self.monitor.lock();
         state.stop.store(true, Ordering::Relaxed);
         state.stop = Arc::default();
-        state.begun = (!stages.is_empty()).then(|| self.desk.clock().now());
+        state.begun = (!stages.is_empty()).then(|| self.monitor.clock().now());
         state.stages = stages.into();
         state.next = 0;
         state.failure = None;
@@ -138,7 +138,7 @@ impl<J: Job> Background<J> {
             shown.current = false;
         }
         drop(state);
-        self.desk.notify();
+        self.monitor.notify();
         self.queue();
     }
 
@@ -147,11 +147,11 @@ impl<J: Job> Background<J> {
         if !self.executor.is_driven() || self.is_queued.replace(true) {
             return;
         }
-        let (desk, results) = (Arc::clone(&self.desk), self.executor.results());
+        let (monitor, results) = (Arc::clone(&self.monitor), self.executor.results());
         let is_queued = Rc::clone(&self.is_queued);
         self.executor.queue(&self.name, move || {
-            step(&desk, &results);
-            is_queued.set(desk.lock().has_work());
+            step(&monitor, &results);
+            is_queued.set(monitor.lock().has_work());
             is_queued.get()
         });
     }
@@ -163,38 +163,38 @@ impl<J: Job> Background<J> {
 
     /// The last answer with its query, which may not be the latest requested.
     pub fn shown(&self) -> Option<Shown<J>> {
-        self.desk.lock().shown.clone()
+        self.monitor.lock().shown.clone()
     }
 
     /// Running time of the latest request, if it is still running.
     pub fn busy(&self) -> Option<Duration> {
-        self.desk.lock().begun.map(|begun| self.desk.clock().since(begun))
+        self.monitor.lock().begun.map(|begun| self.monitor.clock().since(begun))
     }
 
     /// The stages of the latest request, and the number of finished ones.
     pub fn progress(&self) -> (Arc<[J]>, usize) {
-        let state = self.desk.lock();
+        let state = self.monitor.lock();
         (Arc::clone(&state.stages), state.next)
     }
 
     /// Reason that the latest request has no answer, if it failed.
     pub fn failure(&self) -> Option<String> {
-        self.desk.lock().failure.clone()
+        self.monitor.lock().failure.clone()
     }
 
     /// Waits until the latest request has finished or failed. For tests and programs without a window.
     pub fn wait(&self) {
-        self.desk.settle(&self.executor, |state| state.begun.is_none() || state.failure.is_some());
+        self.monitor.settle(&self.executor, |state| state.begun.is_none() || state.failure.is_some());
     }
 }
 
 impl<J: Job> Drop for Background<J> {
     fn drop(&mut self) {
-        let mut state = self.desk.lock();
+        let mut state = self.monitor.lock();
         state.closed = true;
         state.stop.store(true, Ordering::Relaxed);
         drop(state);
-        self.desk.notify();
+        self.monitor.notify();
     }
 }
 
@@ -205,19 +205,19 @@ impl<J: Job> State<J> {
 }
 
 /// Makes the next stage, if there is one.
-fn step<J: Job>(desk: &Desk<State<J>>, results: &Results) {
+fn step<J: Job>(monitor: &Monitor<State<J>>, results: &Results) {
     let (stages, next, stop) = {
-        let state = desk.lock();
+        let state = monitor.lock();
         if !state.has_work() {
             return;
         }
         (Arc::clone(&state.stages), state.next, Arc::clone(&state.stop))
     };
     let results = results.until(Stop::at(Arc::clone(&stop)));
-    let start = desk.clock().now();
+    let start = monitor.clock().now();
     let answer = catch_unwind(AssertUnwindSafe(|| stages[next].run(&results)));
-    let time = desk.clock().since(start);
-    let mut state = desk.lock();
+    let time = monitor.clock().since(start);
+    let mut state = monitor.lock();
     if stop.load(Ordering::Relaxed) {
         return;
     }
@@ -237,7 +237,7 @@ fn step<J: Job>(desk: &Desk<State<J>>, results: &Results) {
         state.begun = None;
     }
     drop(state);
-    desk.tell();
+    monitor.tell();
 }
 
 /// Message of a panic.

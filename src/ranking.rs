@@ -55,7 +55,7 @@ struct FirstQuery {
 impl Query for FirstQuery {
     type Answer = Vec<Result<Arc<CameraMetrics>, LoadError>>;
     const NAME: &'static str = "ranking";
-    const KEPT: usize = 2;
+    const CAPACITY: usize = 2;
 
     fn answer(&self, ask: &impl Ask) -> Self::Answer {
         self.all.iter().take(self.count).map(|query| (*ask.ask(query)).clone()).collect()
@@ -98,7 +98,7 @@ pub struct Ranking {
     /// Document and choice of cameras of the request.
     of: Option<(Document, RankedCameras)>,
     is_asked: bool,
-    whole: Option<Arc<Ranked>>,
+    complete: Option<Arc<Ranked>>,
     shown: Arc<Ranked>,
     serial: Option<u64>,
     done: usize,
@@ -116,7 +116,7 @@ impl Ranking {
             asked: None,
             of: None,
             is_asked: false,
-            whole: None,
+            complete: None,
             shown: Arc::default(),
             serial: None,
             done: 0,
@@ -206,7 +206,7 @@ impl Ranking {
         (self.serial, self.done) = (None, 0);
         if last == 0 {
             self.take_in(&[]);
-        } else if self.whole.is_none() {
+        } else if self.complete.is_none() {
             self.shown = self.with(&[]);
         }
     }
@@ -216,9 +216,9 @@ impl Ranking {
         self.done = made.len();
         let shown = self.with(made);
         if self.progress().is_none() {
-            self.whole = Some(Arc::clone(&shown));
+            self.complete = Some(Arc::clone(&shown));
             self.shown = shown;
-        } else if self.whole.is_none() {
+        } else if self.complete.is_none() {
             self.shown = shown;
         }
     }

@@ -38,7 +38,7 @@ pub struct Count {
 pub struct Results {
     store: Arc<Store>,
     stop: Stop,
-    asked_on_the_way: Cell<Duration>,
+    nested_time: Cell<Duration>,
     frame_time: Cell<Duration>,
     last_work: Cell<Duration>,
     depth: Cell<u32>,
@@ -111,7 +111,7 @@ impl Ask for Results {
             return answer;
         }
         let start = Instant::now();
-        let before = self.asked_on_the_way.replace(Duration::ZERO);
+        let before = self.nested_time.replace(Duration::ZERO);
         self.depth.set(self.depth.get() + 1);
         // No lock is held here: the computation may evaluate further queries.
         let (answer, claim) = match answers.claim(query, self.now(), &self.stop) {
@@ -120,14 +120,14 @@ impl Ask for Results {
         };
         self.depth.set(self.depth.get() - 1);
         let time = start.elapsed();
-        let on_the_way = self.asked_on_the_way.replace(before + time);
+        let on_the_way = self.nested_time.replace(before + time);
         if self.depth.get() == 0 {
             self.frame_time.set(self.frame_time.get() + time);
         }
         if let Some(claim) = claim {
-            let is_whole = Q::WHOLE || !self.stop.is_set();
+            let is_complete = Q::ALWAYS_COMPLETE || !self.stop.is_set();
             let made = Count { misses: 1, time, own_time: time.saturating_sub(on_the_way), ..Count::default() };
-            claim.end(is_whole.then_some(&answer), self.now(), made);
+            claim.end(is_complete.then_some(&answer), self.now(), made);
         }
         answer
     }
@@ -255,7 +255,7 @@ mod tests {
     impl Query for Large {
         type Answer = u8;
         const NAME: &'static str = "large";
-        const KEPT: usize = 3;
+        const CAPACITY: usize = 3;
 
         fn bytes(answer: &u8) -> usize {
             if *answer < 10 { 1 } else { 128 << 20 }

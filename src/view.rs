@@ -108,7 +108,7 @@ pub struct View {
     /// Times are neither shown nor renewed: for pictures that are compared.
     pub fixed_clock: bool,
     /// Documents that other windows saved, with their ages.
-    pub kept: Vec<(PathBuf, String)>,
+    pub other_documents: Vec<(PathBuf, String)>,
     /// The last message.
     pub status: Status,
 }

@@ -82,7 +82,7 @@ impl ChromascopeApp {
             Command::OpenDocument(path) => self.files.open_document(&path, self.history.document().clone()),
             Command::RemoveDocument(path) => {
                 self.files.remove_document(&path);
-                self.view.kept = self.files.kept_documents();
+                self.view.other_documents = self.files.other_documents();
             }
             Command::OpenPath(path) => self.open(vec![Request::Path(path)]),
             Command::Paste(text) => {
@@ -107,8 +107,8 @@ impl ChromascopeApp {
                 self.stop_reading();
             }
             Command::SpectralWeights => self.measure(),
-            Command::MeasureWorkload(workload) => self.laboratory.run_bench(workload),
-            Command::StopMeasuring => self.laboratory.stop(),
+            Command::MeasureWorkload(workload) => self.profiler.run_bench(workload),
+            Command::StopMeasuring => self.profiler.stop(),
             Command::Export(pane, format) => self.export(pane, format),
             Command::ExportExr(source) => self.export_exr(&source),
             Command::SaveSet(kind, name, form) => self.save_set(kind, &name, form),
@@ -235,8 +235,8 @@ impl ChromascopeApp {
         if std::mem::take(&mut self.view.keeps_escape) || self.stop_opening() || self.stop_reading() {
             return;
         }
-        if self.laboratory.busy().is_some() {
-            self.laboratory.stop();
+        if self.profiler.busy().is_some() {
+            self.profiler.stop();
             self.view.say("Measuring stopped. Earlier results are unchanged.");
             return;
         }
@@ -280,7 +280,7 @@ impl ChromascopeApp {
         let document = self.history.document();
         let scene = Scene { document, catalog: &self.catalog, results: &self.results };
         let own = self.meshes.chosen(&document.render.mesh);
-        self.laboratory.run(SceneRunJob::of(&scene, own.as_ref(), self.view.saved.render.orbit));
+        self.profiler.run(SceneRunJob::of(&scene, own.as_ref(), self.view.saved.render.orbit));
         self.view.saved.workspace = Workspace::Numerics;
         if matches!(self.view.accuracy.shows, Shows::Bench(_)) {
             self.view.accuracy.shows = Shows::default();
@@ -350,7 +350,7 @@ impl ChromascopeApp {
 
     /// Input for a pane's figure of a scene.
     pub fn figure_input<'a>(&'a self, scene: &'a Scene<'a>) -> FigureInput<'a> {
-        FigureInput::of((scene, &self.view), &self.studio, &self.laboratory, &self.opened)
+        FigureInput::of((scene, &self.view), &self.render_service, &self.profiler, &self.opened)
     }
 
     /// The pane's figure as on screen, or a message that it has none.
@@ -435,7 +435,7 @@ impl ChromascopeApp {
             None => self.view.say(words),
             Some(first) => self.view.fail(format!("{words} Parts that could not be read are missing: {first}.")),
         }
-        self.view.kept = self.files.kept_documents();
+        self.view.other_documents = self.files.other_documents();
     }
 
     /// Saves the document as soon as it changes.

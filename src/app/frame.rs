@@ -3,7 +3,7 @@
 use egui::{Align2, CentralPanel, CursorIcon, Frame, Panel, Rect, Sense, Ui};
 
 use super::{ChromascopeApp, focus, notice, path_prompt};
-use crate::files::Standing;
+use crate::files::PersistentMessage;
 use crate::panes;
 use crate::panes::context::PaneContext;
 use crate::scene::Scene;
@@ -25,8 +25,8 @@ impl ChromascopeApp {
             recorded: &self.recorded,
             radiators: &self.radiators,
             portrait: &self.portrait,
-            studio: &mut self.studio,
-            laboratory: &mut self.laboratory,
+            render_service: &mut self.render_service,
+            profiler: &mut self.profiler,
             ranking: &mut self.ranking,
             curves: &mut self.curves,
             commands: &mut self.commands,
@@ -45,7 +45,7 @@ impl ChromascopeApp {
         let menu = bar(ui, "menu", 30.0, true);
         let conditions = bar(ui, "conditions", 48.0, true);
         let tour = context.view.tour.map(|_| bar(ui, "tour", panes::help::tour::HEIGHT, true));
-        let standing: Vec<(Standing, Rect)> = self
+        let standing: Vec<(PersistentMessage, Rect)> = self
             .files
             .standing()
             .into_iter()
@@ -95,7 +95,7 @@ impl ChromascopeApp {
         panes::status_bar::show(ui, status, &self.arrangement, &mut context);
         panes::help::show(ui, &self.history, &mut context);
         path_prompt::show(ui, &theme, &mut self.files);
-        context.studio.end_frame();
+        context.render_service.end_frame();
         context.ranking.end_frame();
         self.ask_about_closing(ui, &theme);
         focus::ring(ui.ctx(), &theme);

@@ -9,12 +9,12 @@ use chromascope_core::query::Shared;
 
 use super::ChromascopeApp;
 use crate::action::history::History;
-use crate::action::{Action, OwnAction};
+use crate::action::{Action, ImportedAction};
 use crate::catalog::import::{Imported, imported};
 use crate::catalog::likeness::Likeness;
 use crate::catalog::opened::{OpenFile, OpenedEvent, Request, Why};
 use crate::command::Command;
-use crate::document::own::{Fingerprint, ImportOverrides, OwnSet};
+use crate::document::imported::{Fingerprint, ImportOverrides, ImportedSet};
 use crate::panes::import;
 use crate::view::import::{ImportItem, of_a_kind};
 use crate::view::{Status, Weight};
@@ -94,12 +94,14 @@ impl ChromascopeApp {
         }
         let before = self.history.document().clone();
         let guessed: Vec<bool> = sets.iter().map(|imported| imported.guessed).collect();
-        let wanted: Vec<OwnSet> = sets.into_iter().map(|imported| imported.set).collect();
-        self.history
-            .apply(&Action::Own(OwnAction::Import { sets: wanted.clone(), built_in: self.catalog.names().clone() }));
+        let wanted: Vec<ImportedSet> = sets.into_iter().map(|imported| imported.set).collect();
+        self.history.apply(&Action::Imported(ImportedAction::Import {
+            sets: wanted.clone(),
+            built_in: self.catalog.names().clone(),
+        }));
         self.history.end_gesture();
         let after = self.history.document();
-        let brought: Vec<Shared<OwnSet>> =
+        let brought: Vec<Shared<ImportedSet>> =
             wanted.iter().filter_map(|set| after.own.get(after.same_set(set)?)).cloned().collect();
         let mut there: BTreeSet<&str> = before.own.iter().map(|set| set.name.as_str()).collect();
         let (new, again): (Vec<_>, Vec<_>) =
@@ -148,7 +150,7 @@ impl ChromascopeApp {
             self.last_read.insert(name.clone(), ticket);
             match result {
                 Ok(imported) if why == Why::Changed && imported.set.wishes != set.wishes => again.push((*set).clone()),
-                Ok(imported) => with.push((name.clone(), OwnSet { name, ..imported.set })),
+                Ok(imported) => with.push((name.clone(), ImportedSet { name, ..imported.set })),
                 Err(sentence) => {
                     self.view.import.unseen.insert(ImportItem::Set(name));
                     failures.push(sentence);
@@ -171,7 +173,9 @@ impl ChromascopeApp {
             };
             log::info!("read again {}", names.join(", "));
             let built_in = self.catalog.names().clone();
-            self.step(|history| history.apply_again(&Action::Own(OwnAction::ReplaceAll { what, with, built_in })));
+            self.step(|history| {
+                history.apply_again(&Action::Imported(ImportedAction::ReplaceAll { what, with, built_in }))
+            });
             self.history.end_gesture();
         }
         let done = match why {
@@ -203,11 +207,11 @@ impl ChromascopeApp {
         if fresh.curves.is_empty() {
             return;
         }
-        let with = OwnSet { name: name.clone(), file: set.file.clone(), path: set.path.clone(), ..fresh };
+        let with = ImportedSet { name: name.clone(), file: set.file.clone(), path: set.path.clone(), ..fresh };
         self.view.import.tried.remove(&item);
         self.view.saved.import.remember(Likeness::of(&file.bytes), &wishes);
         let built_in = self.catalog.names().clone();
-        self.change(&Action::Own(OwnAction::Replace { name, with: Box::new(with), built_in }));
+        self.change(&Action::Imported(ImportedAction::Replace { name, with: Box::new(with), built_in }));
         self.history.end_gesture();
     }
 
@@ -228,7 +232,7 @@ impl ChromascopeApp {
     }
 
     /// Keeps the same contents visible when a step turned the selected file into a set, or removed that set.
-    fn follow_selection(&mut self, before: &[Shared<OwnSet>]) {
+    fn follow_selection(&mut self, before: &[Shared<ImportedSet>]) {
         let own = &self.history.document().own;
         let now = match &self.view.import.selected {
             Some(ImportItem::Set(name)) if !own.iter().any(|set| set.name == *name) => {
@@ -275,7 +279,7 @@ impl ChromascopeApp {
     pub(super) fn read_changed(&mut self, paths: &[PathBuf]) {
         let own = &self.history.document().own;
         let changed = own.iter().filter(|set| set.path.as_ref().is_some_and(|path| paths.contains(path)));
-        let sets: Vec<OwnSet> = changed.map(|set| (**set).clone()).collect();
+        let sets: Vec<ImportedSet> = changed.map(|set| (**set).clone()).collect();
         let is_set = |path: &PathBuf| own.iter().any(|set| set.path.as_ref() == Some(path));
         let failing = self.opened.failing().into_iter().map(|failing| failing.path);
         let failing: Vec<Request> =
@@ -336,7 +340,7 @@ impl ChromascopeApp {
             let is_item = *item == ImportItem::Set(set.name.clone());
             if !is_item && known.is_some_and(|file| alike(&file)) && of_a_kind(&set.wishes) != wishes {
                 let wishes = ImportOverrides { taken: set.wishes.taken.clone(), ..wishes.clone() };
-                sets.push(OwnSet { wishes, ..(**set).clone() });
+                sets.push(ImportedSet { wishes, ..(**set).clone() });
             }
         }
         let unused: Vec<Request> = self

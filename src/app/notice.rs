@@ -2,7 +2,7 @@
 
 use egui::{Button, Rect, Sense, TextStyle, Ui, Vec2};
 
-use crate::files::{Standing, StandingKind};
+use crate::files::{PersistentMessage, PersistentMessageKind};
 use crate::panes::widgets::lines;
 use crate::theme::{Theme, UNIT};
 
@@ -11,15 +11,15 @@ pub(super) const HEIGHT: f32 = 24.0;
 const DISMISS: f32 = 72.0;
 
 /// Shows a line; under the pointer, all of it and the file it is about. Returns whether it was dismissed.
-pub(super) fn show(ui: &mut Ui, rect: Rect, standing: &Standing, theme: &Theme) -> bool {
+pub(super) fn show(ui: &mut Ui, rect: Rect, standing: &PersistentMessage, theme: &Theme) -> bool {
     let inner = rect.shrink2(Vec2::new(2.0 * UNIT, 0.0));
     let color = match standing.kind {
-        StandingKind::NotSaved => theme.error,
-        StandingKind::Copies => theme.text,
+        PersistentMessageKind::NotSaved => theme.error,
+        PersistentMessageKind::Copies => theme.text,
         _ => theme.warning,
     };
     let mut left = inner.left();
-    if standing.kind != StandingKind::Copies {
+    if standing.kind != PersistentMessageKind::Copies {
         lines::warning_mark(ui.painter(), egui::pos2(left + 7.0, inner.center().y), color);
         left += 5.0 * UNIT;
     }

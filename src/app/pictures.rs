@@ -75,8 +75,8 @@ impl ChromascopeApp {
     }
 
     fn exr(&self, source: &SensorId) -> Option<Result<Vec<u8>, String>> {
-        let shot = self.studio.frame()?;
-        if !self.studio.is_settled() {
+        let shot = self.render_service.frame()?;
+        if !self.render_service.is_settled() {
             return Some(Err("The pictures are not finished yet; save again when rendering is complete.".to_owned()));
         }
         let index = index_of(shot, source)?;

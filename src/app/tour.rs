@@ -94,7 +94,7 @@ impl ChromascopeApp {
                 | Command::OpenDocument(_)
                 | Command::OpenPath(_)
                 | Command::Paste(_)
-                | Command::Do(Action::Own(_) | Action::Start(_) | Action::Reset)
+                | Command::Do(Action::Imported(_) | Action::Start(_) | Action::Reset)
         );
         if is_own {
             self.end_tour();

@@ -13,7 +13,7 @@ use std::time::SystemTime;
 use std::{fs, io};
 
 use crate::format::file_name;
-use crate::jobs::{Desk, Executor};
+use crate::jobs::{Executor, Monitor};
 
 /// Maximum bytes of unused files that stay cached, so that undo need not read them again.
 const REMEMBERED_BYTES: usize = 256_000_000;
@@ -75,7 +75,7 @@ pub trait FileFailure: std::fmt::Display + Send {
     /// Message for the user who opened the file.
     fn on_opening(&self) -> String;
     /// Message for a picture that needs the file.
-    fn on_show(&self) -> String;
+    fn picture_message(&self) -> String;
 }
 
 /// State of a file.
@@ -100,7 +100,7 @@ pub struct Opened<T> {
 
 /// The files that were requested.
 pub struct FileStore<T: FromFile> {
-    desk: Arc<Desk<State<T>>>,
+    monitor: Arc<Monitor<State<T>>>,
     executor: Executor,
 }
 
@@ -143,12 +143,12 @@ impl<T: FromFile> FileStore<T> {
     /// Reads files on an executor.
     pub fn on(executor: &Executor, wake: impl Fn() + Send + Sync + 'static) -> Self {
         let state = State { known: HashMap::new(), opening: None, opened: Vec::new(), clock: 0 };
-        Self { desk: Arc::new(Desk::new(executor, state, wake)), executor: executor.clone() }
+        Self { monitor: Arc::new(Monitor::new(executor, state, wake)), executor: executor.clone() }
     }
 
     /// State of a file. The first call starts reading; its content stays visible while it is reloaded.
     pub fn get(&self, path: &Path) -> FileState<T> {
-        let mut state = self.desk.lock();
+        let mut state = self.monitor.lock();
         state.clock += 1;
         let now = state.clock;
         let known = state.known_at(path);
@@ -167,7 +167,7 @@ impl<T: FromFile> FileStore<T> {
 
     /// Opens a file for the user; [`FileStore::poll`] returns the result. Cancels an earlier open request.
     pub fn open(&self, path: &Path) {
-        let mut state = self.desk.lock();
+        let mut state = self.monitor.lock();
         state.give_up_opening();
         state.opening = Some(path.to_owned());
         let known = state.known_at(path);
@@ -179,29 +179,29 @@ impl<T: FromFile> FileStore<T> {
 
     /// Reads a file again, changed or not. Its content stays visible meanwhile, and afterwards if it can no longer be read.
     pub fn reload(&self, path: &Path) {
-        let mut state = self.desk.lock();
+        let mut state = self.monitor.lock();
         state.known_at(path).stop();
         self.begin(&mut state, path, None);
     }
 
     /// Takes the results of finished open requests, one for each file that was not canceled.
     pub fn poll(&self) -> Vec<Opened<T>> {
-        std::mem::take(&mut self.desk.lock().opened)
+        std::mem::take(&mut self.monitor.lock().opened)
     }
 
     /// The file that is being opened.
     pub fn opening(&self) -> Option<PathBuf> {
-        self.desk.lock().opening.clone()
+        self.monitor.lock().opening.clone()
     }
 
     /// Cancels opening. Returns the file that was being opened.
     pub fn cancel(&self) -> Option<PathBuf> {
-        self.desk.lock().give_up_opening()
+        self.monitor.lock().give_up_opening()
     }
 
     /// Stops reads that are no longer needed, and drops unused contents beyond the memory limit.
     pub fn keep(&self, wanted: Option<&Path>) {
-        let mut state = self.desk.lock();
+        let mut state = self.monitor.lock();
         let opening = state.opening.clone();
         let needed = |path: &Path| Some(path) == wanted || Some(path) == opening.as_deref();
         for (path, known) in &mut state.known {
@@ -226,11 +226,11 @@ impl<T: FromFile> FileStore<T> {
     fn begin(&self, state: &mut State<T>, path: &Path, unless: Option<T::Version>) {
         let stop: Arc<AtomicBool> = Arc::default();
         state.known_at(path).reading = Some(Arc::clone(&stop));
-        let (desk, file) = (Arc::clone(&self.desk), path.to_owned());
+        let (monitor, file) = (Arc::clone(&self.monitor), path.to_owned());
         let work = move || {
             let result = read_once::<T>(&file, unless, &|| stop.load(Ordering::Relaxed));
-            desk.lock().take(&file, &stop, result);
-            desk.tell();
+            monitor.lock().take(&file, &stop, result);
+            monitor.tell();
         };
         if let Err(error) = self.executor.spawn(T::THREAD, work) {
             let failure = T::Failure::io(file_name(path), error);
@@ -242,7 +242,7 @@ impl<T: FromFile> FileStore<T> {
 
 impl<T: FromFile> Drop for FileStore<T> {
     fn drop(&mut self) {
-        self.desk.lock().known.values_mut().for_each(Known::stop);
+        self.monitor.lock().known.values_mut().for_each(Known::stop);
     }
 }
 
@@ -268,7 +268,7 @@ impl<T: FromFile> State<T> {
             Ok(None) => {}
             Err(failure) => {
                 log::warn!("{failure}");
-                known.failure = Some(failure.on_show());
+                known.failure = Some(failure.picture_message());
                 sentence = Some(failure.on_opening());
             }
         }
@@ -288,7 +288,7 @@ impl<T: FromFile> State<T> {
         let path = self.opening.take()?;
         let known = self.known_at(&path);
         known.stop();
-        known.failure = Some(T::Failure::stopped(file_name(&path)).on_show());
+        known.failure = Some(T::Failure::stopped(file_name(&path)).picture_message());
         Some(path)
     }
 }

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use spectral_file::{Certainty, Effect, ReadError, Role, SpectralFile, Values, Watch};
 
-use crate::document::own::{Fingerprint, ImportOverrides, OwnCurve, OwnSet, ReadAs};
+use crate::document::imported::{Fingerprint, ImportOverrides, ImportedCurve, ImportedSet, ReadAs};
 
 /// Default maximum number of curves taken from a file.
 pub const TAKEN_AT_FIRST: usize = 200;
@@ -13,7 +13,7 @@ pub const TAKEN_AT_FIRST: usize = 200;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Imported {
     /// The set.
-    pub set: OwnSet,
+    pub set: ImportedSet,
     /// Summary of the import in one sentence, with what the user should know first.
     pub message: String,
     /// True if something that changes numbers was guessed.
@@ -102,7 +102,7 @@ fn summary(table: &SpectralFile) -> String {
     format!("{curves}, {}, {first}–{last} nm.", table.role.value)
 }
 
-fn own_set(origin: &Origin, table: &SpectralFile, wishes: &ImportOverrides, taken: &[usize]) -> OwnSet {
+fn own_set(origin: &Origin, table: &SpectralFile, wishes: &ImportOverrides, taken: &[usize]) -> ImportedSet {
     let title = table.reading.comment("title").map(str::trim).filter(|title| !title.is_empty());
     let stem = || Path::new(&origin.name).file_stem().map_or(origin.name.clone(), |s| s.to_string_lossy().into_owned());
     let mut name = spectral_file::on_one_line(&title.map_or_else(stem, str::to_owned)).into_owned();
@@ -110,7 +110,7 @@ fn own_set(origin: &Origin, table: &SpectralFile, wishes: &ImportOverrides, take
         name = format!("{name}, {part}");
     }
     let alone = table.curves.len() == 1;
-    let curves = taken.iter().filter_map(|&index| table.curves.get(index)).map(|curve| OwnCurve {
+    let curves = taken.iter().filter_map(|&index| table.curves.get(index)).map(|curve| ImportedCurve {
         // The file's name says more about its only curve than "Column 2" does.
         name: if alone && !curve.named { name.clone() } else { curve.name.clone() },
         wavelengths: curve.wavelengths_nm.clone(),
@@ -123,7 +123,7 @@ fn own_set(origin: &Origin, table: &SpectralFile, wishes: &ImportOverrides, take
         table.decisions().iter().map(|decision| format!("{} ({})", decision, decision.certainty)).collect();
     decisions.extend(table.warnings.iter().map(ToString::to_string));
     let per_photon = || table.reading.per_photon.as_ref().is_some_and(|decided| decided.value);
-    OwnSet {
+    ImportedSet {
         curves: curves.collect(),
         name,
         file: origin.name.clone(),

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::document::own::Fingerprint;
+use crate::document::imported::Fingerprint;
 
 /// Layout of a file's beginning without its figures. Equal on every machine, so that it can be saved.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]

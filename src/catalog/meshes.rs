@@ -148,7 +148,7 @@ impl FileFailure for MeshFailure {
         format!("{}. Nothing was changed.", self.beginning())
     }
 
-    fn on_show(&self) -> String {
+    fn picture_message(&self) -> String {
         let remedy = match self {
             Self::Missing { .. } => "; open it from where it is now, or choose Head or Fern.",
             Self::Io { .. } | Self::Stopped(..) => "; open it again, or choose Head or Fern.",

@@ -20,7 +20,7 @@ use std::time::Duration;
 use serde::{Deserialize, Serialize};
 
 use super::import::Imported;
-use crate::document::own::{Fingerprint, ImportOverrides, OwnSet};
+use crate::document::imported::{Fingerprint, ImportOverrides, ImportedSet};
 use crate::format::file_name;
 use crate::jobs::{self, Background, Executor};
 
@@ -107,13 +107,13 @@ pub struct Progress {
 
 /// The files that were opened.
 pub struct Opened {
-    desk: Arc<Desk>,
+    monitor: Arc<Monitor>,
     look: Background<FilePreviewQuery>,
     executor: Executor,
 }
 
 /// State shared by the window and the reading threads.
-type Desk = jobs::Desk<State>;
+type Monitor = jobs::Monitor<State>;
 
 #[derive(Default)]
 struct State {
@@ -146,57 +146,57 @@ impl Opened {
         let wake: Arc<dyn Fn() + Send + Sync> = Arc::new(wake);
         let theirs = Arc::clone(&wake);
         let look = Background::on(executor, "import", move || theirs());
-        let desk = Desk::new(executor, State::default(), move || wake());
-        Self { desk: Arc::new(desk), look, executor: executor.clone() }
+        let monitor = Monitor::new(executor, State::default(), move || wake());
+        Self { monitor: Arc::new(monitor), look, executor: executor.clone() }
     }
 
     /// Reads files, folders or bytes; `remembered` returns the user's settings for files like one with the given text.
     pub fn open(&self, requests: Vec<Request>, remembered: impl Fn(&[u8]) -> ImportOverrides + Send + 'static) {
-        self.begin(move |desk, job| {
-            let events = reading::open(requests, &remembered, desk, job);
-            desk.lock().events.extend(events);
+        self.begin(move |monitor, job| {
+            let events = reading::open(requests, &remembered, monitor, job);
+            monitor.lock().events.extend(events);
         });
     }
 
     /// Reads the files of sets again: those known here from memory if `why` allows, else from disk.
-    pub fn reread(&self, sets: Vec<OwnSet>, why: Why) {
+    pub fn reread(&self, sets: Vec<ImportedSet>, why: Why) {
         let ticket = {
-            let mut state = self.desk.lock();
+            let mut state = self.monitor.lock();
             state.tickets += 1;
             state.tickets
         };
-        self.begin(move |desk, job| {
-            let sets: Vec<_> = sets.iter().filter_map(|set| reading::reread(set, why, desk, job)).collect();
+        self.begin(move |monitor, job| {
+            let sets: Vec<_> = sets.iter().filter_map(|set| reading::reread(set, why, monitor, job)).collect();
             if !sets.is_empty() {
-                desk.lock().events.push(OpenedEvent::Reread { sets, why, ticket });
+                monitor.lock().events.push(OpenedEvent::Reread { sets, why, ticket });
             }
         });
     }
 
     /// Reloads the contents that a set was made of, if its file is unchanged. Requested once.
-    pub fn fetch(&self, set: &OwnSet) {
+    pub fn fetch(&self, set: &ImportedSet) {
         let (Some(path), Some(fingerprint)) = (set.path.clone(), set.fingerprint) else { return };
-        let mut state = self.desk.lock();
+        let mut state = self.monitor.lock();
         if state.lost.contains(&fingerprint) || state.file(fingerprint).is_some() {
             return;
         }
         // The search counts as failed until the file is found, so that it is done once.
         state.lost.push(fingerprint);
         drop(state);
-        self.begin(move |desk, job| reading::fetch(&path, fingerprint, desk, job));
+        self.begin(move |monitor, job| reading::fetch(&path, fingerprint, monitor, job));
     }
 
     /// Reads files that failed in an earlier run, so that their text can be shown again. They are only listed; missing files
     /// are dropped.
     pub fn recall(&self, failing: Vec<Failing>) {
         if !failing.is_empty() {
-            self.begin(move |desk, job| reading::recall(failing, desk, job));
+            self.begin(move |monitor, job| reading::recall(failing, monitor, job));
         }
     }
 
     /// The files on disk that could not be read.
     pub fn failing(&self) -> Vec<Failing> {
-        let state = self.desk.lock();
+        let state = self.monitor.lock();
         let failing = state.files.iter().filter_map(|file| {
             let (path, why) = (file.origin.path.clone()?, file.failure.clone()?);
             Some(Failing { path, fingerprint: file.origin.fingerprint, why })
@@ -206,26 +206,26 @@ impl Opened {
 
     /// Outcomes of reading since the last call.
     pub fn poll(&self) -> Vec<OpenedEvent> {
-        std::mem::take(&mut self.desk.lock().events)
+        std::mem::take(&mut self.monitor.lock().events)
     }
 
     /// The reading that has gone on for longest.
     pub fn progress(&self) -> Option<Progress> {
-        let state = self.desk.lock();
+        let state = self.monitor.lock();
         let job = state.running.first()?;
         let [file, count] = [0, 1].map(|i| job.place[i].load(Ordering::Relaxed) as usize);
         Some(Progress {
             name: job.name.lock().unwrap_or_else(PoisonError::into_inner).clone(),
             share: f32::from_bits(job.share.load(Ordering::Relaxed)),
             file: [file, count],
-            time: self.desk.clock().since(job.begun),
+            time: self.monitor.clock().since(job.begun),
         })
     }
 
     /// Stops whatever is being read. Returns the name of a file that was.
     pub fn stop(&self) -> Option<String> {
         let progress = self.progress()?;
-        for job in &self.desk.lock().running {
+        for job in &self.monitor.lock().running {
             job.stop.store(true, Ordering::Relaxed);
         }
         Some(progress.name)
@@ -233,22 +233,22 @@ impl Opened {
 
     /// The files known, in the order in which they were opened.
     pub fn files(&self) -> Vec<OpenFile> {
-        self.desk.lock().files.clone()
+        self.monitor.lock().files.clone()
     }
 
     /// A file by its contents.
     pub fn file(&self, fingerprint: Fingerprint) -> Option<OpenFile> {
-        self.desk.lock().file(fingerprint).cloned()
+        self.monitor.lock().file(fingerprint).cloned()
     }
 
     /// Forgets a file.
     pub fn forget(&self, fingerprint: Fingerprint) {
-        self.desk.lock().files.retain(|file| file.origin.fingerprint != fingerprint);
+        self.monitor.lock().files.retain(|file| file.origin.fingerprint != fingerprint);
     }
 
     /// Drops the oldest files without a set, beyond the memory limit.
     pub fn keep(&self, wanted: &[Fingerprint]) {
-        let mut state = self.desk.lock();
+        let mut state = self.monitor.lock();
         let size = |state: &State| state.files.iter().map(|file| file.bytes.len()).sum::<usize>();
         while size(&state) > REMEMBERED_BYTES {
             let spare = |file: &OpenFile| !wanted.contains(&file.origin.fingerprint);
@@ -280,22 +280,22 @@ impl Opened {
 
     /// Waits until everything that was requested is read. For tests.
     pub fn wait(&self) {
-        self.desk.settle(&self.executor, |state| state.running.is_empty());
+        self.monitor.settle(&self.executor, |state| state.running.is_empty());
         self.look.wait();
     }
 
-    fn begin(&self, work: impl FnOnce(&Desk, &Job) + Send + 'static) {
-        let job = Arc::new(Job::new(self.desk.clock().now()));
-        self.desk.lock().running.push(Arc::clone(&job));
-        let desk = Arc::clone(&self.desk);
+    fn begin(&self, work: impl FnOnce(&Monitor, &Job) + Send + 'static) {
+        let job = Arc::new(Job::new(self.monitor.clock().now()));
+        self.monitor.lock().running.push(Arc::clone(&job));
+        let monitor = Arc::clone(&self.monitor);
         let theirs = Arc::clone(&job);
         let run = move || {
-            work(&desk, &theirs);
-            desk.lock().running.retain(|running| !Arc::ptr_eq(running, &theirs));
-            desk.tell();
+            work(&monitor, &theirs);
+            monitor.lock().running.retain(|running| !Arc::ptr_eq(running, &theirs));
+            monitor.tell();
         };
         if let Err(error) = self.executor.spawn("files", run) {
-            let mut state = self.desk.lock();
+            let mut state = self.monitor.lock();
             state.running.retain(|running| !Arc::ptr_eq(running, &job));
             state.events.push(OpenedEvent::Failed(format!("no thread for reading: {error}"), Vec::new()));
         }
@@ -304,7 +304,7 @@ impl Opened {
 
 impl Drop for Opened {
     fn drop(&mut self) {
-        self.desk.lock().running.iter().for_each(|job| job.stop.store(true, Ordering::Relaxed));
+        self.monitor.lock().running.iter().for_each(|job| job.stop.store(true, Ordering::Relaxed));
     }
 }
 

@@ -313,7 +313,7 @@ impl FileFailure for ImageFailure {
         format!("{self}. Nothing was changed.")
     }
 
-    fn on_show(&self) -> String {
+    fn picture_message(&self) -> String {
         format!("{self}. Open it from where it is now, or choose a mesh.")
     }
 }

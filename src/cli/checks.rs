@@ -3,7 +3,7 @@
 use spectral_file::{Certainty, ReadOptions, SpectralFile, Warning};
 
 use super::error::CliError;
-use crate::document::own::{OwnSet, Role};
+use crate::document::imported::{ImportedSet, Role};
 use crate::terminal::say;
 
 /// Rejects as reflectances data that the file declares as another quantity, and values of unknown scale.
@@ -61,7 +61,7 @@ pub(super) fn channels(path: &str, role: Role, table: &SpectralFile) -> Result<(
 }
 
 /// True if a file holds as many curves as its use takes.
-pub(super) fn curves(set: &OwnSet) -> Result<(), CliError> {
+pub(super) fn curves(set: &ImportedSet) -> Result<(), CliError> {
     let wanted = match set.role {
         Role::Camera if set.curves.len() < 3 => "expected three for a camera: red, green and blue",
         Role::Transmittance if set.curves.len() > 1 => "expected exactly one curve for a filter",

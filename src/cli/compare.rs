@@ -94,7 +94,7 @@ fn compared(scene: &Scene<'_>, request: &Request, arguments: &CompareArguments) 
         found.push((*kind, name.clone(), scene.results.ask(&query)));
     }
     let mut conditions: Vec<_> = CONDITIONS.into_iter().zip(scene.conditions()).collect();
-    conditions.push(("chart", request.chart_name_on_show()));
+    conditions.push(("chart", request.compared_chart_name()));
     conditions.push(("temperature_k", arguments.temperature.to_string()));
     let patches = scene.patches()?.patches().iter().map(|patch| patch.name.clone()).collect();
     Ok(Comparison { rows: rows(&found, &metrics, sorted_by), metrics, sorted_by, patches, conditions })

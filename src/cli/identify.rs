@@ -13,10 +13,10 @@ use chromascope_core::spectral::{GridSpectrum, Quantity};
 use self::arguments::{Format, Held, IdentifyArguments};
 use super::error::CliError;
 use super::outputs::{self, put};
-use super::request::{Request, told};
+use super::request::{Request, display_path};
 use crate::catalog::chart_picture::ChartPicture;
 use crate::catalog::recorded::{self, Levels, RawRow, RawTable, lit};
-use crate::document::own::Role;
+use crate::document::imported::Role;
 use crate::results::Results;
 use crate::scene::Scene;
 
@@ -56,7 +56,7 @@ pub(super) fn run(arguments: &IdentifyArguments) -> Result<(), CliError> {
 /// File that recorded values came from, for people.
 fn file_of(arguments: &IdentifyArguments) -> String {
     let file = arguments.image.as_ref().or(arguments.raw.as_ref()).or(arguments.file.as_ref());
-    file.map_or_else(String::new, |path| told(path))
+    file.map_or_else(String::new, |path| display_path(path))
 }
 
 fn levels(arguments: &IdentifyArguments) -> Result<Levels, CliError> {
@@ -77,7 +77,8 @@ fn recorded_set(request: &mut Request, arguments: &IdentifyArguments, levels: Le
     let own = arguments.image.is_some() || arguments.raw.is_some();
     let (spectra, rows) = match (&arguments.chart, &arguments.file) {
         (Some(_), Some(file)) if own => {
-            let reason = format!("spectra come from --chart and raw values from elsewhere; leave out {}", told(file));
+            let reason =
+                format!("spectra come from --chart and raw values from elsewhere; leave out {}", display_path(file));
             return Err(CliError::Argument { argument: "FILE", reason });
         }
         (Some(chart), file) => {
@@ -90,7 +91,7 @@ fn recorded_set(request: &mut Request, arguments: &IdentifyArguments, levels: Le
             let table = raw_table(request, file)?;
             let Some(text) = &table.spectra else {
                 let why = "raw values without spectra; add --chart NAME|FILE, or columns headed by wavelengths";
-                return Err(CliError::File(format!("{}: {why}", told(file))));
+                return Err(CliError::File(format!("{}: {why}", display_path(file))));
             };
             (file_spectra(request, file, Some(text), arguments.radiance)?, Some(table.rows))
         }
@@ -114,7 +115,7 @@ fn recorded_set(request: &mut Request, arguments: &IdentifyArguments, levels: Le
 
 fn raw_table(request: &mut Request, path: &Path) -> Result<RawTable, CliError> {
     let bytes = request.bytes(path)?;
-    recorded::read_table(&bytes).map_err(|error| CliError::File(format!("{}: {error}", told(path))))
+    recorded::read_table(&bytes).map_err(|error| CliError::File(format!("{}: {error}", display_path(path))))
 }
 
 /// Raw values of a table that has nothing else.
@@ -124,7 +125,7 @@ fn raw_rows(request: &mut Request, path: &Path) -> Result<Vec<RawRow>, CliError>
         return Ok(table.rows);
     }
     let why = "spectra beside the raw values, but they are taken from elsewhere; leave out --chart or --raw";
-    Err(CliError::File(format!("{}: {why}", told(path))))
+    Err(CliError::File(format!("{}: {why}", display_path(path))))
 }
 
 /// Means of the patches in a picture.
@@ -135,7 +136,7 @@ fn picture_rows(
     levels: Levels,
 ) -> Result<Vec<RawRow>, CliError> {
     let bytes = request.bytes(path)?;
-    let said = |error: &dyn std::fmt::Display| CliError::File(format!("{}: {error}", told(path)));
+    let said = |error: &dyn std::fmt::Display| CliError::File(format!("{}: {error}", display_path(path)));
     let corners = <[[f64; 2]; 4]>::try_from(arguments.corners.as_slice())
         .map_err(|_| CliError::Argument { argument: "--corners", reason: "expected four corners".to_owned() })?;
     let [columns, rows] = arguments.grid;
@@ -158,7 +159,7 @@ fn file_spectra(request: &mut Request, path: &Path, text: Option<&str>, radiance
         Some(text) => request.read_bytes(path, text.as_bytes(), role)?,
         None => request.read(path, role)?,
     };
-    let curves = set.curves_in_nm().map_err(|error| CliError::File(format!("{}: {error}", told(path))))?;
+    let curves = set.curves_in_nm().map_err(|error| CliError::File(format!("{}: {error}", display_path(path))))?;
     if radiance {
         let on_grid = |(name, curve)| (name, GridSpectrum::resample(&curve, Quantity::Light));
         return Ok(curves.into_iter().map(on_grid).collect());

@@ -7,10 +7,10 @@ use chromascope_core::query::{Ask as _, PatchColor, RadianceColorsQuery, Renderi
 use chromascope_core::spectral::{GridSpectrum, Quantity};
 
 use super::error::CliError;
-use super::request::{Request, told};
+use super::request::{Request, display_path};
 use crate::catalog::names::{NameError, folded};
 use crate::document::SetKind;
-use crate::document::own::Role;
+use crate::document::imported::Role;
 use crate::scene::{Scene, SceneError};
 
 /// Radiances with their names, and which of them is that of a perfect diffuser.
@@ -25,7 +25,7 @@ impl Radiances {
     /// Reads a file of radiances.
     pub(super) fn open(request: &mut Request, file: &Path, white: Option<&str>) -> Result<Self, CliError> {
         let set = request.read(file, Role::Illuminant)?;
-        let curves = set.curves_in_nm().map_err(|error| CliError::File(format!("{}: {error}", told(file))))?;
+        let curves = set.curves_in_nm().map_err(|error| CliError::File(format!("{}: {error}", display_path(file))))?;
         let names: Vec<String> = curves.iter().map(|(name, _)| name.clone()).collect();
         let white = white.map(|white| index_of(&names, white)).transpose()?;
         let on_grid = |(_, curve)| Shared::new(GridSpectrum::resample(&curve, Quantity::Light));

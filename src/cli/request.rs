@@ -21,7 +21,7 @@ use crate::catalog::import::{Origin, imported};
 use crate::catalog::names::{Found, find, telling_words};
 use crate::catalog::{Catalog, Entry};
 use crate::document::correction::CorrectionChoice;
-use crate::document::own::{ImportOverrides, OwnSet, Role};
+use crate::document::imported::{ImportOverrides, ImportedSet, Role};
 use crate::document::render::{LEAF, MeshChoice, SKIN};
 use crate::document::start::Start;
 use crate::document::{CHART, CIE_1931, Document, Light, SetKind, Subset, TransformChoice, WhiteBalanceChoice};
@@ -279,7 +279,7 @@ impl Request {
     }
 
     /// The name of the patches that are compared.
-    pub(super) fn chart_name_on_show(&self) -> String {
+    pub(super) fn compared_chart_name(&self) -> String {
         if self.document.subset == Subset::Five && self.document.chart == CHART {
             FIVE.to_owned()
         } else {
@@ -354,7 +354,7 @@ impl Request {
     }
 
     /// Reads a file as a set of the document's own, under a name that no other set has; says what had to be guessed.
-    fn open(&mut self, path: &Path, role: Role) -> Result<Shared<OwnSet>, CliError> {
+    fn open(&mut self, path: &Path, role: Role) -> Result<Shared<ImportedSet>, CliError> {
         let known = self.document.own.iter().find(|own| own.path.as_deref() == Some(path) && own.role == role);
         if let Some(known) = known {
             return Ok(known.clone());
@@ -363,7 +363,7 @@ impl Request {
         checks::curves(&set)?;
         let kind = SetKind::of_own(&set);
         if self.document.holder_of(kind, &set.name, None, self.catalog.names()).is_some() {
-            set.name = format!("{} ({})", set.name, told(path));
+            set.name = format!("{} ({})", set.name, display_path(path));
         }
         let set = Shared::new(set);
         self.document.own.push(set.clone());
@@ -371,7 +371,7 @@ impl Request {
     }
 
     /// Reads a file with all its curves; says what had to be guessed.
-    pub(super) fn read(&mut self, path: &Path, role: Role) -> Result<OwnSet, CliError> {
+    pub(super) fn read(&mut self, path: &Path, role: Role) -> Result<ImportedSet, CliError> {
         let bytes = self.bytes(path)?;
         self.read_bytes(path, &bytes, role)
     }
@@ -379,12 +379,12 @@ impl Request {
     /// The bytes of a file that is then an input.
     pub(super) fn bytes(&mut self, path: &Path) -> Result<Vec<u8>, CliError> {
         self.read.push(path.to_owned());
-        read(path).map_err(|error| CliError::File(format!("{}: {}", told(path), io_reason(&error))))
+        read(path).map_err(|error| CliError::File(format!("{}: {}", display_path(path), io_reason(&error))))
     }
 
     /// Reads bytes of a file with all its curves; says what had to be guessed.
-    pub(super) fn read_bytes(&mut self, path: &Path, bytes: &[u8], role: Role) -> Result<OwnSet, CliError> {
-        let file = told(path);
+    pub(super) fn read_bytes(&mut self, path: &Path, bytes: &[u8], role: Role) -> Result<ImportedSet, CliError> {
+        let file = display_path(path);
         let mut wishes = ImportOverrides::for_role(Some(role));
         wishes.options.values = self.values.filter(|_| role.is_fraction());
         let table =
@@ -413,7 +413,7 @@ impl Request {
 }
 
 /// A path for people, on one line.
-pub(super) fn told(path: &Path) -> String {
+pub(super) fn display_path(path: &Path) -> String {
     spectral_file::on_one_line(&path.to_string_lossy()).into_owned()
 }
 

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::own::{OwnSet, Role};
+use super::imported::{ImportedSet, Role};
 
 /// Kind of a data set.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
@@ -43,7 +43,7 @@ impl SetKind {
     }
 
     /// Kind of one of the user's sets.
-    pub const fn of_own(set: &OwnSet) -> Self {
+    pub const fn of_own(set: &ImportedSet) -> Self {
         match set.role {
             Role::Camera => Self::Camera,
             Role::Reflectance => Self::Chart,

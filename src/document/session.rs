@@ -3,11 +3,11 @@
 use chromascope_core::colorimetry::Metric;
 use chromascope_core::query::Shared;
 
+use super::imported::{ImportedSet, Role};
 use super::kind::SetKind;
 use super::names::BuiltInNames;
-use super::own::{OwnSet, Role};
 use super::start::Start;
-use super::{Document, MOST_COMPARED, VERSION, kept};
+use super::{Document, MOST_COMPARED, VERSION, saved};
 
 /// Reason that a saved document cannot be opened.
 #[derive(Debug, thiserror::Error)]
@@ -46,8 +46,8 @@ pub fn is_session(beginning: &[u8]) -> bool {
 
 /// A document from JSON. Unknown fields are preserved; missing fields have their defaults.
 pub fn from_json(json: &str) -> Result<Document, SessionError> {
-    let mut elsewhere = |_: &kept::Place| Err("its curves are in another file".to_owned());
-    let read = kept::from_json(json, &mut elsewhere)?;
+    let mut elsewhere = |_: &saved::Place| Err("its curves are in another file".to_owned());
+    let read = saved::from_json(json, &mut elsewhere)?;
     match read.lost.into_iter().next() {
         Some(lost) => Err(SessionError::Set(lost)),
         None => Ok(read.document),
@@ -55,7 +55,7 @@ pub fn from_json(json: &str) -> Result<Document, SessionError> {
 }
 
 /// A document from JSON without its sets, and these.
-pub(super) fn from_value(mut value: serde_json::Value, own: Vec<OwnSet>) -> Result<Document, SessionError> {
+pub(super) fn from_value(mut value: serde_json::Value, own: Vec<ImportedSet>) -> Result<Document, SessionError> {
     rename_fields(&mut value);
     if value.get("version").and_then(serde_json::Value::as_u64) == Some(1) {
         renew(&mut value, &own)?;
@@ -97,7 +97,7 @@ const RENAMED: [(&str, &str); 2] =
 
 /// Converts a document of version 1 to the present format: cameras by their present names; missing parts are those of the
 /// paper's start, which was the only one.
-fn renew(value: &mut serde_json::Value, own: &[OwnSet]) -> Result<(), SessionError> {
+fn renew(value: &mut serde_json::Value, own: &[ImportedSet]) -> Result<(), SessionError> {
     let Some(old) = value.as_object_mut() else { return Ok(()) };
     let is_own = |name: &String| own.iter().any(|set| set.role == Role::Camera && set.name == *name);
     for compared in old.get_mut("compared").and_then(|list| list.as_array_mut()).into_iter().flatten() {

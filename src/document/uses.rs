@@ -1,8 +1,8 @@
 //! Names available to the user's own sets, and their uses in a document.
 
+use super::imported::ImportedSet;
 use super::kind::SetKind;
 use super::names::{BuiltInNames, caseless};
-use super::own::OwnSet;
 use super::render::RenderSettings;
 use super::{CHART, Document, LIGHT, Light, Subset, TRAINING, WhiteBalanceChoice};
 use chromascope_core::query::Shared;
@@ -30,7 +30,8 @@ impl Document {
         built_in: &BuiltInNames,
     ) -> Option<Holder> {
         let wanted = caseless(name);
-        let is_taken = |(index, set): (usize, &Shared<OwnSet>)| Some(index) != except && caseless(&set.name) == wanted;
+        let is_taken =
+            |(index, set): (usize, &Shared<ImportedSet>)| Some(index) != except && caseless(&set.name) == wanted;
         let own = self.own.iter().enumerate().any(is_taken);
         match (own, built_in.has(kind, name)) {
             (true, _) => Some(Holder::Own),
@@ -48,7 +49,7 @@ impl Document {
     }
 
     /// Uses a newly opened set: a camera in the comparison, a chart as the patches, a light as the light.
-    pub fn put_to_use(&mut self, set: &Shared<OwnSet>) {
+    pub fn put_to_use(&mut self, set: &Shared<ImportedSet>) {
         match SetKind::of_own(set) {
             SetKind::Camera | SetKind::Observer => self.compare(&set.name, SetKind::Camera),
             SetKind::Chart | SetKind::Material => {
@@ -62,7 +63,7 @@ impl Document {
     }
 
     /// Uses one of several opened sets: a camera, while the palette has room.
-    pub fn put_beside(&mut self, set: &Shared<OwnSet>) {
+    pub fn put_beside(&mut self, set: &Shared<ImportedSet>) {
         let shown = self.compared.iter().filter(|compared| compared.kind == SetKind::Camera).count();
         if SetKind::of_own(set) == SetKind::Camera && shown < PLACES {
             self.compare(&set.name, SetKind::Camera);
@@ -157,14 +158,14 @@ impl Document {
             }
             taken.insert(caseless(&name));
             seen.insert(caseless(&name));
-            self.own[index] = Shared::new(OwnSet { name, ..(*self.own[index]).clone() });
+            self.own[index] = Shared::new(ImportedSet { name, ..(*self.own[index]).clone() });
         }
     }
 
     /// The place of the own set that another reading of a file is of: of the same contents, or of the same file on disk, and of
     /// the same part of it.
-    pub fn same_set(&self, set: &OwnSet) -> Option<usize> {
-        let is_same = |known: &Shared<OwnSet>| {
+    pub fn same_set(&self, set: &ImportedSet) -> Option<usize> {
+        let is_same = |known: &Shared<ImportedSet>| {
             let contents = set.fingerprint.is_some() && set.fingerprint == known.fingerprint;
             let file = set.path.is_some() && set.path == known.path;
             (contents || file) && set.wishes.options.part == known.wishes.options.part

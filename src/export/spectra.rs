@@ -7,7 +7,7 @@ use spectral_file::write::{Content, Format, Grid, Note, Sheet, Trace, WriteError
 use crate::catalog::load::{self, LoadError};
 use crate::catalog::{Entry, Place};
 use crate::document::SetKind;
-use crate::document::own::{OwnSet, Role};
+use crate::document::imported::{ImportedSet, Role};
 use crate::files::fitting;
 
 /// A format, and the wavelengths that curves are brought to.
@@ -112,7 +112,7 @@ fn curves(place: &Place, ask: &impl Ask) -> Result<Vec<(String, SpectralDistribu
     match place {
         // A camera would give its red, green and blue alone.
         Place::Own(set) if set.role == Role::Camera => {
-            Ok(OwnSet { role: Role::Unknown, ..OwnSet::clone(set) }.curves_in_nm()?)
+            Ok(ImportedSet { role: Role::Unknown, ..ImportedSet::clone(set) }.curves_in_nm()?)
         }
         place => load::curves(place, ask),
     }
@@ -171,14 +171,14 @@ fn header_comments(kind: SetKind, header: &Header) -> Vec<(String, String)> {
 }
 
 /// Source of the set, and how its file was read.
-fn own_comments(set: &OwnSet) -> Vec<(String, String)> {
+fn own_comments(set: &ImportedSet) -> Vec<(String, String)> {
     let mut comments = vec![("source".to_owned(), set.file.clone())];
     comments.extend(set.decisions.iter().map(|decision| ("reading".to_owned(), decision.clone())));
     comments
 }
 
 /// The unit that all curves of a set are in.
-fn own_unit(set: &OwnSet) -> Option<String> {
+fn own_unit(set: &ImportedSet) -> Option<String> {
     let unit = set.curves.first()?.unit.as_ref()?;
     set.curves.iter().all(|curve| curve.unit.as_ref() == Some(unit)).then(|| unit.clone())
 }

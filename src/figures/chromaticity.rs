@@ -135,7 +135,7 @@ fn lens_area(diagram: Diagram, frame: &Frame, [x, y]: Ranges) -> Option<Rect> {
     const BESIDE: f64 = 32.0;
     // Room for the label of the axis.
     const BELOW: f64 = 22.0;
-    let [end, _] = frame.at(fit::whole(diagram));
+    let [end, _] = frame.at(fit::full_extent(diagram));
     let min = [Projection::LEFT + end + BESIDE, GAP];
     let width = Projection::LEFT + frame.size[0] - GAP - min[0];
     let needed = (width - Projection::LEFT) * (y[1] - y[0]) / (x[1] - x[0]) + Projection::BOTTOM;
@@ -157,7 +157,7 @@ fn clear_for_lens(panel: &mut Panel, area: Rect, frame: &Frame) {
 pub fn overview(scene: &Scene<'_>, shown: [[f64; 2]; 2], size: [f64; 2]) -> Panel {
     let diagram = scene.document.diagram;
     let view = View::default();
-    let ranges = fit::whole(diagram).map(|end| [0.0, end]);
+    let ranges = fit::full_extent(diagram).map(|end| [0.0, end]);
     let mut drawing = Drawing::new(scene, &view, Frame { ranges, size }, true);
     ground::add_area(&mut drawing);
     let [x, y] = shown;

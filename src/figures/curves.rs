@@ -1,8 +1,8 @@
 //! Curves of a file, as interpreted.
 
+mod cache;
 mod drawn;
-mod kept;
-mod on_show;
+mod import_selection;
 
 use chromascope_core::spectral::grid::{FIRST_NM, LAST_NM};
 use chromascope_figure::{
@@ -10,9 +10,9 @@ use chromascope_figure::{
     Table, Tag, TextSize, finite_runs,
 };
 
+pub use cache::CurveCache;
 pub use drawn::{Curve, Curves, DRAWN};
-pub use kept::CurveCache;
-pub use on_show::{ImportSelection, places};
+pub use import_selection::{ImportSelection, places};
 
 use super::FigureInput;
 use crate::format::number;

@@ -13,8 +13,8 @@ use chromascope_core::query::Shared;
 
 use super::atomic::write_atomically;
 use super::profile::{CURVES, Lock, free_copy};
-use crate::document::kept::{self, Kept, Place};
-use crate::document::own::{Fingerprint, OwnCurve, OwnSet};
+use crate::document::imported::{Fingerprint, ImportedCurve, ImportedSet};
+use crate::document::saved::{self, LoadedDocument, Place};
 use crate::document::session::SessionError;
 use crate::document::{Document, VERSION};
 use crate::format::{io_failure, io_reason};
@@ -44,7 +44,7 @@ pub(super) struct Store {
     /// Contents that this window tried to write, which may be there although that failed.
     tried: Option<Fingerprint>,
     /// Sets of the document as it was written, by address.
-    known: HashMap<usize, (Shared<OwnSet>, Place)>,
+    known: HashMap<usize, (Shared<ImportedSet>, Place)>,
     /// Curves that this window wrote, by their text.
     written: HashMap<u128, Place>,
     /// True if the file on disk holds curves itself, which are lost with it.
@@ -84,18 +84,18 @@ impl Store {
     }
 
     /// Reads a document, this one's or another window's.
-    pub(super) fn read(&mut self, file: &Path) -> Result<Kept, Unread> {
-        let (kept, fingerprint) = read(file)?;
-        for (set, place) in kept.document.own.iter().zip(&kept.places) {
+    pub(super) fn read(&mut self, file: &Path) -> Result<LoadedDocument, Unread> {
+        let (loaded, fingerprint) = read(file)?;
+        for (set, place) in loaded.document.own.iter().zip(&loaded.places) {
             if let Some(place) = place {
                 self.known.insert(address(set), (set.clone(), place.clone()));
             }
         }
         if file == self.file {
             self.seen = Some(fingerprint);
-            self.by_value = kept.places.iter().any(Option::is_none);
+            self.by_value = loaded.places.iter().any(Option::is_none);
         }
-        Ok(kept)
+        Ok(loaded)
     }
 
     /// Writes the document. A set that cannot be written does not stop the rest.
@@ -113,15 +113,15 @@ impl Store {
             return Err(why.clone());
         }
         // A set that cannot be written is replaced by its earlier version on disk.
-        let place = |set: &Shared<OwnSet>| {
+        let place = |set: &Shared<ImportedSet>| {
             let before = || self.known.values().find(|(before, _)| before.name == set.name && before.role == set.role);
             self.known.get(&address(set)).or_else(before)
         };
         let missing = document.own.iter().filter(|set| !self.known.contains_key(&address(set)));
         let missing: Vec<&str> = missing.map(|set| set.name.as_str()).collect();
-        let sets: Vec<(&OwnSet, &Place)> =
+        let sets: Vec<(&ImportedSet, &Place)> =
             document.own.iter().filter_map(place).map(|(set, place)| (&**set, place)).collect();
-        let json = kept::to_json(document, &sets).map_err(|error| error.to_string())?;
+        let json = saved::to_json(document, &sets).map_err(|error| error.to_string())?;
         let skipped_work = match (unwritten, missing.as_slice()) {
             (Some(why), [one]) => format!("{one} could not be saved ({why}); the rest is"),
             (Some(why), many) => format!("{} imported sets could not be saved ({why}); the rest is", many.len()),
@@ -173,7 +173,7 @@ impl Store {
     }
 
     /// Writes the curves that are in no file yet, all into one: a folder of files that is opened costs one flush.
-    fn write_new(&mut self, folder: &Path, sets: &[Shared<OwnSet>]) -> Result<(), String> {
+    fn write_new(&mut self, folder: &Path, sets: &[Shared<ImportedSet>]) -> Result<(), String> {
         let mut fresh = Vec::new();
         for set in sets {
             if self.known.contains_key(&address(set)) {
@@ -223,7 +223,7 @@ fn keep_earlier(file: &Path, bytes: &[u8]) -> Result<(), String> {
 }
 
 /// Reads a document with the curves it names.
-pub(super) fn read(file: &Path) -> Result<(Kept, Fingerprint), Unread> {
+pub(super) fn read(file: &Path) -> Result<(LoadedDocument, Fingerprint), Unread> {
     let because = |words: String| Unread::Because(words);
     let bytes = fs::read(file).map_err(|error| match error.kind() {
         io::ErrorKind::NotFound if fs::symlink_metadata(file).is_ok() => {
@@ -234,17 +234,17 @@ pub(super) fn read(file: &Path) -> Result<(Kept, Fingerprint), Unread> {
     })?;
     let text = std::str::from_utf8(&bytes).map_err(|error| because(format!("not text: {error}")))?;
     let folder = file.parent().map(|folder| folder.join(CURVES)).unwrap_or_default();
-    let mut files: HashMap<String, Result<Vec<Vec<OwnCurve>>, String>> = HashMap::new();
+    let mut files: HashMap<String, Result<Vec<Vec<ImportedCurve>>, String>> = HashMap::new();
     let mut curves = |Place(name, index): &Place| {
         let lists = files.entry(name.clone()).or_insert_with(|| read_curves(&folder, name)).as_ref();
         let list = lists.map_err(Clone::clone)?.get(*index);
         list.cloned().ok_or_else(|| format!("{name} has no list {index}"))
     };
-    let kept = kept::from_json(text, &mut curves).map_err(|error: SessionError| because(error.to_string()))?;
-    Ok((kept, Fingerprint::of(&bytes)))
+    let loaded = saved::from_json(text, &mut curves).map_err(|error: SessionError| because(error.to_string()))?;
+    Ok((loaded, Fingerprint::of(&bytes)))
 }
 
-fn read_curves(folder: &Path, name: &str) -> Result<Vec<Vec<OwnCurve>>, String> {
+fn read_curves(folder: &Path, name: &str) -> Result<Vec<Vec<ImportedCurve>>, String> {
     // A plain file name leads into no other folder.
     if Path::new(name).file_name().is_none_or(|own| own != name) {
         return Err(format!("{name} is not a file name"));
@@ -255,8 +255,8 @@ fn read_curves(folder: &Path, name: &str) -> Result<Vec<Vec<OwnCurve>>, String> 
 }
 
 /// The address of a set's contents, unique for as long as the set is held.
-fn address(set: &Shared<OwnSet>) -> usize {
-    from_ref::<OwnSet>(set).addr()
+fn address(set: &Shared<ImportedSet>) -> usize {
+    from_ref::<ImportedSet>(set).addr()
 }
 
 /// FNV-1a, 128 bits: names contents, of which no two differ within the life of the universe.

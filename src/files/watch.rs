@@ -39,7 +39,7 @@ struct Heard {
     changes: BTreeMap<PathBuf, Change>,
     gone: BTreeSet<PathBuf>,
     /// Time at which changed files were last reported.
-    told: BTreeMap<PathBuf, Duration>,
+    reported: BTreeMap<PathBuf, Duration>,
 }
 
 /// Times of the first and last write of a file that has not been reported since.
@@ -68,7 +68,7 @@ impl Heard {
     /// The files to read now, and the time after which to poll for others.
     fn due(&mut self, now: Duration) -> (Vec<PathBuf>, Option<Duration>) {
         let due = |path: &PathBuf, change: &Change| {
-            let apart = self.told.get(path).map_or(Duration::ZERO, |told| *told + APART);
+            let apart = self.reported.get(path).map_or(Duration::ZERO, |reported| *reported + APART);
             (change.last + REST).min(change.first + RESTLESS).max(apart)
         };
         let when: Vec<(PathBuf, Duration)> =
@@ -77,7 +77,7 @@ impl Heard {
         let files: Vec<PathBuf> = when.into_iter().filter(|(_, due)| *due <= now).map(|(path, _)| path).collect();
         for path in &files {
             self.changes.remove(path);
-            self.told.insert(path.clone(), now);
+            self.reported.insert(path.clone(), now);
         }
         (files, again)
     }
@@ -108,7 +108,7 @@ impl Watch {
         {
             let mut heard = lock(&self.heard);
             heard.changes.retain(|path, _| files.contains(path));
-            heard.told.retain(|path, _| files.contains(path));
+            heard.reported.retain(|path, _| files.contains(path));
             heard.files.clone_from(&files);
             heard.folders.clone_from(&folders);
         }

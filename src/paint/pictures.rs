@@ -6,7 +6,7 @@ use std::fmt;
 use egui::{Color32, ColorImage, Painter, Rect, TextureHandle, TextureOptions};
 
 /// Frames after which an unused texture is freed.
-const KEPT: u64 = 240;
+const IDLE_FRAMES: u64 = 240;
 
 /// Textures by name, each with the version of the picture that it holds.
 #[derive(Default)]
@@ -65,7 +65,7 @@ impl PictureTextures {
                 Color32::WHITE,
             );
         }
-        self.0.retain(|_, entry| entry.used + KEPT >= now);
+        self.0.retain(|_, entry| entry.used + IDLE_FRAMES >= now);
     }
 }
 

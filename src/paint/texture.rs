@@ -6,7 +6,7 @@ use chromascope_figure::Image;
 use egui::{Color32, ColorImage, Context, Id, Painter, Pos2, Rect, TextureHandle, TextureOptions};
 
 /// Frames after which an unused texture is freed.
-const KEPT: u64 = 120;
+const IDLE_FRAMES: u64 = 120;
 
 /// Textures by the address of their pixels. The pixels are held, so an address is not given to others meanwhile.
 #[derive(Clone, Default)]
@@ -41,7 +41,7 @@ fn texture(ctx: &Context, image: &Image) -> TextureHandle {
     });
     entry.used = now;
     let texture = entry.texture.clone();
-    textures.0.retain(|_, entry| entry.used + KEPT >= now);
+    textures.0.retain(|_, entry| entry.used + IDLE_FRAMES >= now);
     ctx.data_mut(|data| data.insert_temp(id, textures));
     texture
 }

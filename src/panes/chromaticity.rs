@@ -91,7 +91,8 @@ fn overlays(ui: &mut Ui, context: &mut PaneContext<'_>) {
 fn diagram(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let size = [f64::from(rect.width()), f64::from(rect.height())];
     hold_fit(ui, context);
-    let built = chromaticity::build(&context.scene, context.view, context.studio.frame().map(AsRef::as_ref), size);
+    let built =
+        chromaticity::build(&context.scene, context.view, context.render_service.frame().map(AsRef::as_ref), size);
     let id = Id::unique(("chromaticity", context.scene.document.diagram));
     let shown = plot(ui, id, &built, rect, true, context);
     note_zoom(ui, &built, &shown, context);

@@ -67,9 +67,9 @@ pub struct PaneContext<'a> {
     /// Picture of the window about the program.
     pub portrait: &'a Background<PicturesQuery>,
     /// Renderer of the pictures.
-    pub studio: &'a mut RenderService,
+    pub render_service: &'a mut RenderService,
     /// Profiler of the scene.
-    pub laboratory: &'a mut Profiler,
+    pub profiler: &'a mut Profiler,
     /// Ranks cameras.
     pub ranking: &'a mut Ranking,
     /// The curves that Import drew last.
@@ -91,7 +91,7 @@ impl PaneContext<'_> {
 
     /// Input for a figure.
     pub fn figure_input(&self) -> FigureInput<'_> {
-        FigureInput::of((&self.scene, self.view), self.studio, self.laboratory, self.opened)
+        FigureInput::of((&self.scene, self.view), self.render_service, self.profiler, self.opened)
     }
 
     /// Has something done when the frame is over.
@@ -103,7 +103,7 @@ impl PaneContext<'_> {
     pub fn refresh_run(&mut self) {
         let own = self.meshes.chosen(&self.scene.document.render.mesh);
         let scene = SceneRunJob::of(&self.scene, own.as_ref(), self.view.saved.render.orbit);
-        self.laboratory.refresh(&scene);
+        self.profiler.refresh(&scene);
     }
 
     /// The plan of each rendered sensor, as pictures within the document's tolerance would take it; `Ok(None)` until one is
@@ -115,21 +115,23 @@ impl PaneContext<'_> {
         let pictures = quality.and_then(|quality| SceneRunJob::pictures_of(&self.scene, own.as_ref(), orbit, quality));
         let mut pictures = pictures.ok_or(NothingRendered)?;
         let geometry = &mut pictures.shading.geometry;
-        let frame = self.studio.frame();
-        let on_show = frame.and_then(|frame| Some(&frame.query.mesh()?.shading.geometry)).filter(|on_show| {
-            on_show.visibility.mesh == geometry.visibility.mesh
-                && on_show.lighting == geometry.lighting
-                && (on_show.shadows == Shadows::Off) == (geometry.shadows == Shadows::Off)
+        let frame = self.render_service.frame();
+        let visible = frame.and_then(|frame| Some(&frame.query.mesh()?.shading.geometry)).filter(|visible| {
+            visible.visibility.mesh == geometry.visibility.mesh
+                && visible.lighting == geometry.lighting
+                && (visible.shadows == Shadows::Off) == (geometry.shadows == Shadows::Off)
         });
         // All angles of the current pictures are cached; those of the next pictures soon will be.
-        let soon = self.studio.is_looked_at() && self.studio.failure().is_none() && !self.view.render.cancelled;
-        if let Some(on_show) = on_show {
-            geometry.clone_from(on_show);
+        let soon = self.render_service.is_looked_at()
+            && self.render_service.failure().is_none()
+            && !self.view.render.cancelled;
+        if let Some(visible) = visible {
+            geometry.clone_from(visible);
         }
-        if on_show.is_some() || !soon {
-            self.laboratory.plan(&pictures);
+        if visible.is_some() || !soon {
+            self.profiler.plan(&pictures);
         }
-        Ok(self.laboratory.plans(&pictures))
+        Ok(self.profiler.plans(&pictures))
     }
 
     /// Hits, misses and times of each kind of query, the window's and the pictures'.

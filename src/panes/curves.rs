@@ -38,10 +38,10 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     match kept.all() {
         Err(words) => {
             let saved = &context.view.saved;
-            let is_told = shown.error().is_some() && saved.layout.shows(saved.workspace, PaneKind::IMPORT);
+            let is_reported = shown.error().is_some() && saved.layout.shows(saved.workspace, PaneKind::IMPORT);
             let color = if shown.error().is_some() { context.theme.error } else { context.theme.weak };
             // The list of files and the marked text say why.
-            let (words, color) = if is_told { ("No curves.", context.theme.weak) } else { (words, color) };
+            let (words, color) = if is_reported { ("No curves.", context.theme.weak) } else { (words, color) };
             sentence(ui, body, words, color);
         }
         Ok(curves) if context.view.saved.tables.contains(&PaneKind::CURVES) => {

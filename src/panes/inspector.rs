@@ -48,7 +48,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
 
 fn content(ui: &mut Ui, context: &mut PaneContext<'_>) {
     match context.view.selected.clone().or_else(|| context.view.hovered.clone()) {
-        None if pixel::kept(context).is_some() || !context.view.pinned.is_empty() => {}
+        None if pixel::pinned_pixel(context).is_some() || !context.view.pinned.is_empty() => {}
         None => welcome::show(ui, context),
         Some(PlotItem::Patch { source: Some(id), patch }) => patch::one(ui, &id, &patch, context),
         Some(PlotItem::Patch { source: None, patch }) => patch::across(ui, &patch, context),

@@ -3,11 +3,11 @@
 mod buttons;
 mod camera;
 mod curves;
-mod kept;
 mod keys;
 mod name;
 mod notes;
 mod parts;
+mod stored;
 mod switches;
 
 use egui::text::LayoutJob;
@@ -15,7 +15,7 @@ use egui::{ComboBox, FontId, Rect, Response, RichText, ScrollArea, TextFormat, U
 
 use super::context::{Pane, PaneContext};
 use crate::command::Command;
-use crate::document::own::ImportOverrides;
+use crate::document::imported::ImportOverrides;
 use crate::figures::curves::ImportSelection;
 use crate::format::sentence;
 use crate::panes::widgets;
@@ -70,7 +70,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
 
 fn content(ui: &mut Ui, shown: &ImportSelection, context: &mut PaneContext<'_>) {
     if let (Some(set), None) = (&shown.set, &shown.file) {
-        kept::show(ui, set, context);
+        stored::show(ui, set, context);
         return;
     }
     if let Some(set) = &shown.set {
@@ -101,8 +101,8 @@ fn trouble(ui: &mut Ui, words: &str, line: Option<usize>, shown: &ImportSelectio
     let color = context.theme.error;
     let saved = &context.view.saved;
     // The list of files and the marked text say why, where they are in sight.
-    let is_told = !shown.pending && saved.layout.shows(saved.workspace, PaneKind::IMPORT);
-    if !is_told {
+    let is_reported = !shown.pending && saved.layout.shows(saved.workspace, PaneKind::IMPORT);
+    if !is_reported {
         ui.horizontal_wrapped(|ui| {
             let (rect, _) = ui.allocate_exact_size(Vec2::new(16.0, 16.0), egui::Sense::hover());
             widgets::lines::warning_mark(ui.painter(), rect.center(), color);

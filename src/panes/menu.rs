@@ -124,7 +124,7 @@ fn file(ui: &mut Ui, context: &mut PaneContext<'_>) {
             }
         });
     }
-    let kept = context.view.kept.clone();
+    let kept = context.view.other_documents.clone();
     if !kept.is_empty() {
         ui.menu_button("Recovered documents", |ui| {
             for (path, age) in kept {

@@ -43,7 +43,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     context.refresh_run();
     let body = widgets::pane(ui, &PANE, rect, context, switches);
     let body = Rect::from_min_max(body.min + Vec2::new(2.0 * UNIT, 0.0), body.max - Vec2::new(2.0 * UNIT, UNIT));
-    if let Some(why) = context.laboratory.failure() {
+    if let Some(why) = context.profiler.failure() {
         failed(ui, body, &why, context);
         return;
     }
@@ -55,7 +55,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
 
 /// The methods of the visible scene.
 fn scene(ui: &mut Ui, body: Rect, subject: Subject, context: &mut PaneContext<'_>) {
-    let Some(run) = context.laboratory.measured.run.clone() else {
+    let Some(run) = context.profiler.measured.run.clone() else {
         nothing(ui, body, "Nothing measured yet.", context);
         return;
     };
@@ -78,7 +78,7 @@ fn scene(ui: &mut Ui, body: Rect, subject: Subject, context: &mut PaneContext<'_
     let about = format!("{} {MARKS} {}", subject.explained(), run.conditions.on());
     let body = above(ui, body, [&words, &about], &accuracy::legend(trial), context);
     let size = [f64::from(body.width()), f64::from(body.height())];
-    let panel = accuracy::panel(trial, context.laboratory.measured.is_current, size);
+    let panel = accuracy::panel(trial, context.profiler.measured.is_current, size);
     let options = PlotOptions { zoomable: true, reset: context.view.reset_plots, ..PlotOptions::default() };
     let id = Id::unique(("run time against error", subject.title()));
     let shown = paint::plot(ui, id, &panel, &context.theme, body, options);
@@ -95,7 +95,7 @@ fn scene(ui: &mut Ui, body: Rect, subject: Subject, context: &mut PaneContext<'_
 
 /// The methods of the program on a workload, a panel for each case.
 fn benchmark(ui: &mut Ui, body: Rect, workload: Workload, context: &mut PaneContext<'_>) {
-    let report = match context.laboratory.measured.reports.get(&workload).map(AsRef::as_ref) {
+    let report = match context.profiler.measured.reports.get(&workload).map(AsRef::as_ref) {
         None if bench().is_none() => {
             without_bench(ui, body);
             return;
@@ -205,7 +205,7 @@ fn switches(ui: &mut Ui, context: &mut PaneContext<'_>) {
 
 /// A button that measures the visible scene, or stops the measurement.
 fn run(ui: &mut Ui, now: Shows, context: &mut PaneContext<'_>) {
-    if let Some(busy) = context.laboratory.busy() {
+    if let Some(busy) = context.profiler.busy() {
         if ui.button("Stop").on_hover_text("Stop measuring (Esc). Earlier results are unchanged.").clicked() {
             context.push(Command::StopMeasuring);
         }
@@ -218,8 +218,8 @@ fn run(ui: &mut Ui, now: Shows, context: &mut PaneContext<'_>) {
         return;
     }
     let again = match now {
-        Shows::Scene(_) => context.laboratory.measured.run.is_some(),
-        Shows::Bench(workload) => context.laboratory.measured.reports.contains_key(&workload),
+        Shows::Scene(_) => context.profiler.measured.run.is_some(),
+        Shows::Bench(workload) => context.profiler.measured.reports.contains_key(&workload),
     };
     let hint = "Measures the methods and the work saved on this scene. Takes a few seconds.";
     if ui.button(if again { "Run again" } else { "Run" }).on_hover_text(hint).clicked() {
@@ -240,7 +240,7 @@ fn nothing(ui: &mut Ui, body: Rect, words: &str, context: &PaneContext<'_>) {
     let layout = egui::Layout::top_down(egui::Align::Center);
     let mut child = ui.new_child(UiBuilder::new().id_salt("nothing measured").max_rect(place).layout(layout));
     child.label(words);
-    child.label(if context.laboratory.busy().is_some() { "Measuring…" } else { "Run, above, takes a few seconds." });
+    child.label(if context.profiler.busy().is_some() { "Measuring…" } else { "Run, above, takes a few seconds." });
 }
 
 /// Instructions for a build that includes the benchmark.

@@ -35,9 +35,9 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
         context.view.saved.render.orbit = None;
     }
     let sources = context.scene.rendered_sources();
-    let stand = PictureLayout::new(&sources, body, ui.ctx().pixels_per_point(), context);
-    let asked = request::ask(ui, &stand, context);
-    let busy = context.studio.busy();
+    let layout = PictureLayout::new(&sources, body, ui.ctx().pixels_per_point(), context);
+    let asked = request::ask(ui, &layout, context);
+    let busy = context.render_service.busy();
     context.view.render.busy = busy;
     if context.view.saved.tables.contains(&PaneKind::RENDER) {
         if let Some(figure) = crate::figures::render::figure(&context.figure_input()) {
@@ -56,13 +56,13 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
         orbit::by_keys(ui, &response, context);
     }
     if let Err(words) = asked {
-        context.studio.hide();
+        context.render_service.hide();
         say(&painter, body, &words, context);
     } else {
-        draw::pictures(ui, &painter, &stand, context);
-        point_at(ui, &response, &stand, context);
-        draw::divider(ui, &stand, context);
-        draw::choosers(ui, &stand, &sources, context);
+        draw::pictures(ui, &painter, &layout, context);
+        point_at(ui, &response, &layout, context);
+        draw::divider(ui, &layout, context);
+        draw::choosers(ui, &layout, &sources, context);
     }
     widgets::busy_line(ui, body, busy, context.theme.surround.label());
     if response.has_focus() {
@@ -84,10 +84,10 @@ fn say(painter: &egui::Painter, body: Rect, words: &str, context: &PaneContext<'
 }
 
 /// Shows values of the pixel under the pointer; a click pins it, a double click shows its sensor alone or all again.
-fn point_at(ui: &Ui, response: &egui::Response, stand: &PictureLayout, context: &mut PaneContext<'_>) {
+fn point_at(ui: &Ui, response: &egui::Response, layout: &PictureLayout, context: &mut PaneContext<'_>) {
     let Some(pointer) = response.hover_pos() else { return };
-    let Some((cell, at)) = stand.place_at(pointer) else { return };
-    let Some(source) = stand.sources.get(cell).map(crate::figures::chromaticity::id) else { return };
+    let Some((cell, at)) = layout.place_at(pointer) else { return };
+    let Some(source) = layout.sources.get(cell).map(crate::figures::chromaticity::id) else { return };
     let place = PixelPlace { at, source: source.clone() };
     if response.double_clicked() {
         let look = &mut context.view.saved.render;
@@ -102,7 +102,7 @@ fn point_at(ui: &Ui, response: &egui::Response, stand: &PictureLayout, context: 
         ui.ctx().request_repaint();
     }
     if !response.dragged() {
-        let pictures = context.studio.frame();
+        let pictures = context.render_service.frame();
         context.view.point = pictures.and_then(|shot| crate::figures::render::pixel_line(&context.scene, shot, &place));
         context.view.hover(Some(&crate::plot_item::PlotItem::Sensor(source)));
         context.view.render.hovered = Some(place);

@@ -46,7 +46,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
 
 /// Samples and methods of the pictures on show.
 fn pictures(ui: &mut Ui, context: &mut PaneContext<'_>) {
-    let Some(shot) = context.studio.frame().cloned() else {
+    let Some(shot) = context.render_service.frame().cloned() else {
         ui.label("No picture was rendered yet.");
         if ui.button("Show Render").clicked() {
             context.push(Command::Show(Workspace::Render));
@@ -66,7 +66,7 @@ fn pictures(ui: &mut Ui, context: &mut PaneContext<'_>) {
         ("In shadow", format!("{}, {} rays", geometry.shadowed, geometry.rays)),
         ("Below threshold", shading.dark.to_string()),
         ("Spectral integrals", shading.spectral.to_string()),
-        ("Specular terms", format!("{}, {} skipped", shading.mirrors, shading.mirrors_skipped)),
+        ("Specular terms", format!("{}, {} skipped", shading.coherent_samples, shading.coherent_skipped)),
     ];
     caption(ui, "Samples", context);
     show_pairs(ui, PANE.kind, "samples", &samples, context);

@@ -74,7 +74,9 @@ fn show_facts(ui: &mut Ui, rect: Rect, arrangement: &Arrangement, context: &Pane
         ui.interact(rect.with_min_x(rect.right() - width), ui.scope_id().with("facts"), egui::Sense::hover());
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, &words));
     response.on_hover_text(
-        if context.studio.frame().is_some() && arrangement.panes.iter().any(|(pane, _)| *pane == PaneKind::RENDER) {
+        if context.render_service.frame().is_some()
+            && arrangement.panes.iter().any(|(pane, _)| *pane == PaneKind::RENDER)
+        {
             RENDER_FACTS
         } else {
             FACTS
@@ -264,7 +266,7 @@ fn facts(arrangement: &Arrangement, context: &PaneContext<'_>) -> Vec<String> {
 
 /// Facts while pictures are rendered.
 fn render_facts(context: &PaneContext<'_>) -> Vec<String> {
-    let Some(shot) = context.studio.frame() else { return Vec::new() };
+    let Some(shot) = context.render_service.frame() else { return Vec::new() };
     let mut facts = Vec::new();
     let long = context.view.render.busy.filter(|busy| *busy >= LONG);
     if let Some(busy) = long {

@@ -156,7 +156,7 @@ fn export_menu(ui: &mut Ui, &Pane { kind, title, .. }: &Pane, context: &mut Pane
                 ui.close();
             }
         }
-        if let Some(shot) = context.studio.frame().cloned().filter(|_| kind == PaneKind::RENDER) {
+        if let Some(shot) = context.render_service.frame().cloned().filter(|_| kind == PaneKind::RENDER) {
             ui.separator();
             for source in shot.sources.iter() {
                 if ui.button(format!("{} as OpenEXR…", source.label)).clicked() {

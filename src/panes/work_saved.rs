@@ -11,7 +11,7 @@ use crate::theme::{ROW, UNIT};
 use crate::workspaces::PaneKind;
 
 /// The footnote of the workspace.
-const NOT_KEPT: &str = "Measured results are lost when the program ends; export them to save them.";
+const NOT_SAVED: &str = "Measured results are lost when the program ends; export them to save them.";
 
 /// The pane.
 pub const PANE: Pane = Pane {
@@ -28,18 +28,18 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     context.refresh_run();
     let body = widgets::pane(ui, &PANE, rect, context, |_, _| {});
     if !context.view.fixed_clock {
-        let run = context.laboratory.measured.run.as_ref().map_or(&[][..], |run| &run.skipped_work);
-        context.laboratory.measured.remembered = skipped_work::remembered(&context.counts(), run);
+        let run = context.profiler.measured.run.as_ref().map_or(&[][..], |run| &run.skipped_work);
+        context.profiler.measured.remembered = skipped_work::remembered(&context.counts(), run);
     }
-    let sections = skipped_work::sections(&context.laboratory.measured);
+    let sections = skipped_work::sections(&context.profiler.measured);
     let inner = body.shrink2(Vec2::new(2.0 * UNIT, 0.0));
     let foot = Rect::from_min_max(egui::pos2(inner.left(), inner.bottom() - ROW), inner.max);
     let is_old = sections.iter().any(|section| section.is_old);
-    let measured = context.laboratory.measured.run.is_some();
+    let measured = context.profiler.measured.run.is_some();
     let words = match (measured, is_old) {
         (false, _) => "Run, in Methods, times the work that was skipped.".to_owned(),
-        (true, false) => format!("{OVERLAP} {NOT_KEPT}"),
-        (true, true) => format!("Measured for an earlier scene: run again. {OVERLAP} {NOT_KEPT}"),
+        (true, false) => format!("{OVERLAP} {NOT_SAVED}"),
+        (true, true) => format!("Measured for an earlier scene: run again. {OVERLAP} {NOT_SAVED}"),
     };
     let color = if is_old { context.theme.warning } else { context.theme.weak };
     let cut = lines::elided(ui, foot, &words, TextStyle::Small, color);

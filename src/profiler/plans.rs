@@ -31,7 +31,7 @@ impl PlansQuery {
 impl Query for PlansQuery {
     type Answer = Vec<PlanAnswer>;
     const NAME: &'static str = "plans";
-    const KEPT: usize = 8;
+    const CAPACITY: usize = 8;
 
     fn answer(&self, ask: &impl Ask) -> Self::Answer {
         self.0.sources.iter().map(|source| planned(&self.0, source, ask)).collect()
@@ -53,7 +53,7 @@ pub struct ErrorBounds {
     /// Of the diffuse integral, relative to its peak J(κ, 0) at the sample's κ: the largest seen in the check, times a margin.
     pub diffuse: Option<f64>,
     /// Bound of the specular lobes, relative to the brightest sample of the picture.
-    pub mirror: Option<f64>,
+    pub coherent: Option<f64>,
 }
 
 /// Largest relative rounding error of a signal stored in single precision: `2^-24`.
@@ -64,15 +64,15 @@ impl ErrorBounds {
     const WORTH_SAYING: f64 = 1e-7;
 
     /// Bounds with this plan, this number of specular lobes, and this tolerance.
-    pub fn of(explanation: Option<&Explanation>, mirrors: u64, tolerance: RelTolerance) -> Self {
-        let mirror = (mirrors > 0).then_some(tolerance.max_relative_error());
-        Self { diffuse: explanation.map(Explanation::error_bound), mirror }
+    pub fn of(explanation: Option<&Explanation>, coherent_samples: u64, tolerance: RelTolerance) -> Self {
+        let coherent = (coherent_samples > 0).then_some(tolerance.max_relative_error());
+        Self { diffuse: explanation.map(Explanation::error_bound), coherent }
     }
 
     /// True if single precision is what limits it.
     pub fn is_limited_by_storage(self) -> bool {
         self.diffuse.is_none_or(|error| error < Self::WORTH_SAYING)
-            && self.mirror.is_none_or(|error| error < Self::WORTH_SAYING)
+            && self.coherent.is_none_or(|error| error < Self::WORTH_SAYING)
     }
 
     /// Description without a capital or a full stop: each error with its scale.
@@ -81,10 +81,10 @@ impl ErrorBounds {
             || "no sample takes a spectral integral".to_owned(),
             |error| format!("diffuse component: estimated error bound {error:.1e} of the peak"),
         );
-        let mirror = self.mirror.map(|error| format!("specular lobes within {error:e} of the brightest sample"));
+        let coherent = self.coherent.map(|error| format!("specular lobes within {error:e} of the brightest sample"));
         let storage = format!("stored in single precision ({SINGLE_PRECISION:e})");
-        let storage = ((self.diffuse.or(self.mirror)).is_some() && self.is_limited_by_storage()).then_some(storage);
-        [Some(diffuse), mirror, storage].into_iter().flatten().collect::<Vec<_>>().join("; ")
+        let storage = ((self.diffuse.or(self.coherent)).is_some() && self.is_limited_by_storage()).then_some(storage);
+        [Some(diffuse), coherent, storage].into_iter().flatten().collect::<Vec<_>>().join("; ")
     }
 }
 
@@ -103,7 +103,7 @@ pub fn planned(pictures: &PicturesQuery, source: &SourceOf, ask: &impl Ask) -> P
             Some((*plan).as_ref().map_err(|&error| error)?.explanation().clone())
         }
     };
-    let bounds = ErrorBounds::of(explanation.as_ref(), shading.counts().mirrors, tolerance);
+    let bounds = ErrorBounds::of(explanation.as_ref(), shading.counts().coherent_samples, tolerance);
     Ok(Some(Planned { explanation, bounds }))
 }
 
@@ -113,7 +113,7 @@ mod tests {
 
     #[test]
     fn each_error_is_said_with_what_it_is_relative_to() {
-        let words = |diffuse, mirror| ErrorBounds { diffuse, mirror }.words();
+        let words = |diffuse, coherent| ErrorBounds { diffuse, coherent }.words();
         assert_eq!(
             words(Some(3.4e-10), Some(1e-9)),
             "diffuse component: estimated error bound 3.4e-10 of the peak; specular lobes within 1e-9 of the brightest sample; \

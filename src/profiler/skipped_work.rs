@@ -1,10 +1,10 @@
 //! Skipped work of a scene and the time saved, measured by doing that work.
 
-mod mirrors;
+mod coherent_samples;
 mod panes;
+mod source_plans;
 mod sums;
 mod terms;
-mod ways;
 
 use std::borrow::Cow;
 use std::sync::Arc;
@@ -19,7 +19,7 @@ use serde::{Deserialize, Serialize};
 
 use super::SceneRunJob;
 pub use panes::{LOCI, PATCHES};
-use ways::Ways;
+use source_plans::SourcePlans;
 
 /// Maximum number of samples computed to extrapolate the cost of all.
 const SAMPLES: usize = 1000;
@@ -61,12 +61,12 @@ pub(super) fn rows(run: &SceneRunJob, ask: &impl Ask) -> Vec<SkippedWork> {
 struct Sources<'a> {
     pictures: &'a PicturesQuery,
     shading: &'a ShadingImage,
-    ways: Vec<Ways>,
+    plans: Vec<SourcePlans>,
 }
 
 impl Sources<'_> {
     fn measures(&self) -> impl Iterator<Item = &SpectralWeights> {
-        self.ways.iter().map(Ways::measure)
+        self.plans.iter().map(SourcePlans::measure)
     }
 
     /// The samples, or vertices in their place, that take a spectral integral.
@@ -97,13 +97,13 @@ fn measured_on(taken: usize, all: usize, places: &str) -> String {
 fn of_pictures(pictures: &PicturesQuery, ask: &impl Ask) -> Option<Vec<SkippedWork>> {
     let shading = ask.ask(&pictures.shading);
     let shading = (*shading).as_ref()?;
-    let ways = pictures.sources.iter().filter_map(|source| Ways::new(pictures, source, shading, ask)).collect();
-    let sources = Sources { pictures, shading, ways };
+    let plans = pictures.sources.iter().filter_map(|source| SourcePlans::new(pictures, source, shading, ask)).collect();
+    let sources = Sources { pictures, shading, plans };
     let mut rows = unlit(&sources);
     rows.extend(sums::dark(&sources));
     rows.extend(sums::wavelengths(&sources));
     rows.extend(terms::terms(&sources));
-    rows.extend(mirrors::mirrors(&sources, ask));
+    rows.extend(coherent_samples::coherent_samples(&sources, ask));
     (!ask.stop().is_set()).then_some(rows)
 }
 
@@ -156,9 +156,9 @@ fn sample_cost(sources: &Sources<'_>) -> Result<SampleCost, &'static str> {
     let of = &sources.pictures.shading;
     let work = || {
         let shading = ShadingImage::new(thinned.clone(), of.surface, of.reading, of.quality, &Stop::NEVER)?;
-        for ways in &sources.ways {
-            let measure = ways.measure();
-            CameraImage::new(&shading, measure, Arc::clone(ways.plan()), &Stop::NEVER)?;
+        for plans in &sources.plans {
+            let measure = plans.measure();
+            CameraImage::new(&shading, measure, Arc::clone(plans.plan()), &Stop::NEVER)?;
         }
         Some(())
     };

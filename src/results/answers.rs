@@ -98,7 +98,7 @@ impl<Q: Query> Answers<Q> {
             if is_first {
                 table.slots.insert(query.clone(), Slot::Making);
             }
-            if is_first || is_in_pool || (!Q::WHOLE && stop.is_set()) {
+            if is_first || is_in_pool || (!Q::ALWAYS_COMPLETE && stop.is_set()) {
                 return Asked::Ours(Claim { answers: self, query, is_first });
             }
             table.count.waits += u64::from(!waits);
@@ -125,7 +125,7 @@ impl<Q: Query> Table<Q> {
         let (mut count, mut bytes) =
             self.slots.values().filter_map(made).fold((0, 0), |(count, all), (_, bytes)| (count + 1, all + bytes));
         let mut taken = Vec::new();
-        while count > 1 && (count > Q::KEPT || bytes > BYTES) {
+        while count > 1 && (count > Q::CAPACITY || bytes > BYTES) {
             let oldest = self.slots.iter().filter_map(|(query, slot)| Some((made(slot)?, query)));
             let Some(((_, size), query)) = oldest.min_by_key(|((asked, _), _)| *asked) else { break };
             let query = query.clone();

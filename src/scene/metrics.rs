@@ -164,7 +164,7 @@ impl CatalogMetamersQuery {
 impl Query for CatalogMetamersQuery {
     type Answer = Result<FoundMetamers, String>;
     const NAME: &'static str = "metamers by name";
-    const KEPT: usize = 4;
+    const CAPACITY: usize = 4;
 
     fn answer(&self, ask: &impl Ask) -> Self::Answer {
         let query = self.loaded(ask).map_err(|error| error.to_string())?;

@@ -41,7 +41,7 @@ pub struct RecordedRankingQuery {
 impl Query for RecordedRankingQuery {
     type Answer = Result<Arc<Vec<RankedCamera>>, SceneError>;
     const NAME: &'static str = "recorded ranking";
-    const KEPT: usize = 4;
+    const CAPACITY: usize = 4;
 
     fn answer(&self, ask: &impl Ask) -> Self::Answer {
         let mut ranked = Vec::with_capacity(self.cameras.len());

@@ -85,7 +85,7 @@ impl Query for ImageSignalsQuery {
     type Answer = Result<Arc<ImageSignals>, Arc<ImagePicturesError>>;
     const NAME: &'static str = "image signals";
     // The coarse and the fine picture's.
-    const KEPT: usize = 2;
+    const CAPACITY: usize = 2;
 
     fn bytes(answer: &Self::Answer) -> usize {
         answer.as_ref().map_or(0, |signals| signals.read.signals.iter().map(|signals| size_of_val(&**signals)).sum())
@@ -169,7 +169,7 @@ impl Query for ImagePicturesQuery {
     type Answer = Result<ImagePictures, Arc<ImagePicturesError>>;
     const NAME: &'static str = "image pictures";
     // Each holds on to all of its parts.
-    const KEPT: usize = 2;
+    const CAPACITY: usize = 2;
 
     fn answer(&self, ask: &impl Ask) -> Self::Answer {
         let stopped = || Arc::new(ImagePicturesError::Read(ReadSignalsError::Stopped));
@@ -309,7 +309,7 @@ pub struct PixelSpectrumQuery {
 impl Query for PixelSpectrumQuery {
     type Answer = Result<Vec<[f64; 2]>, ReadSignalsError>;
     const NAME: &'static str = "spectrum of a pixel";
-    const KEPT: usize = 16;
+    const CAPACITY: usize = 16;
 
     fn answer(&self, _: &impl Ask) -> Self::Answer {
         let mut spectrum = self.source.spectrum(self.wanted, self.at)?;

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::catalog::likeness::Likeness;
 use crate::catalog::opened::Failing;
-use crate::document::own::{Fingerprint, ImportOverrides, OwnSet};
+use crate::document::imported::{Fingerprint, ImportOverrides, ImportedSet};
 
 /// Maximum number of remembered kinds of files.
 const REMEMBERED: usize = 100;
@@ -97,11 +97,11 @@ impl ImportView {
     }
 
     /// Follows sets to the names they have after a step.
-    pub fn follow_names(&mut self, before: &[Shared<OwnSet>], after: &[Shared<OwnSet>]) {
+    pub fn follow_names(&mut self, before: &[Shared<ImportedSet>], after: &[Shared<ImportedSet>]) {
         if before.len() != after.len() {
             return;
         }
-        let known = |sets: &[Shared<OwnSet>], name: &str| sets.iter().any(|set| set.name == name);
+        let known = |sets: &[Shared<ImportedSet>], name: &str| sets.iter().any(|set| set.name == name);
         for (old, new) in before.iter().zip(after) {
             // A set that changes keeps its index; where both names persist, there is nothing to follow.
             if old.name != new.name && !known(after, &old.name) && !known(before, &new.name) {

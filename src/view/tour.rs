@@ -3,7 +3,7 @@
 use chromascope_core::colorimetry::Metric;
 
 use crate::action::{Action, CompareAction, RenderAction, SceneAction};
-use crate::document::own::OwnSet;
+use crate::document::imported::ImportedSet;
 use crate::document::start::Start;
 use crate::document::{CIE_1931, Document, Light, TransformChoice};
 use crate::plot_item::PlotItem;
@@ -104,7 +104,7 @@ pub const STEPS: [TourStep; 5] = [
 
 impl TourStep {
     /// The document of the scene; imported sets stay at hand.
-    pub fn document(&self, own: &[Shared<OwnSet>]) -> Document {
+    pub fn document(&self, own: &[Shared<ImportedSet>]) -> Document {
         let mut document = Document { own: own.to_vec(), ..Start::Paper.document() };
         for action in (self.actions)() {
             action.apply(&mut document);

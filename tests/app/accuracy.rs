@@ -36,12 +36,12 @@ fn measured() -> Window {
 }
 
 fn take_in(window: &mut Window) {
-    window.state().laboratory().wait();
+    window.state().profiler().wait();
     window.run_steps(3);
 }
 
 fn run(window: &Window) -> std::sync::Arc<SceneRun> {
-    window.state().laboratory().measured.run.clone().expect("something was measured")
+    window.state().profiler().measured.run.clone().expect("something was measured")
 }
 
 #[test]
@@ -49,8 +49,8 @@ fn nothing_is_measured_unasked() {
     let mut window = open([1280.0, 800.0], egui::Theme::Light);
     window.state_mut().push(Command::Show(Workspace::Numerics));
     window.run_steps(3);
-    assert!(window.state().laboratory().busy().is_none());
-    assert!(window.state().laboratory().measured.run.is_none());
+    assert!(window.state().profiler().busy().is_none());
+    assert!(window.state().profiler().measured.run.is_none());
     assert!(window.query_by_label("Nothing measured yet.").is_some());
 }
 
@@ -82,10 +82,10 @@ fn a_run_has_times_errors_figures_and_what_was_left_out() {
     assert!(terms.of.is_some_and(|of| terms.count <= of && terms.count / 99 > of / 100), "{terms:?}");
     assert!(measured.skipped_work.iter().all(|row| row.saved.is_finite() && row.saved >= 0.0 && !row.how.is_empty()));
     assert!(window.query_by_label("Run again").is_some());
-    assert!(window.state().laboratory().measured.is_current);
+    assert!(window.state().profiler().measured.is_current);
     let (catalog, results) = (chromascope::catalog::Catalog::built_in(), chromascope::results::Results::default());
     let scene = Scene { document: window.state().history().document(), catalog: &catalog, results: &results };
-    let remembered = window.state().laboratory().measured.remembered.len();
+    let remembered = window.state().profiler().measured.remembered.len();
     let figure = panes::figure(PaneKind::WORK_SAVED, &window.state().figure_input(&scene)).expect("measured");
     assert!(remembered > 0 && figure.table.rows.len() == measured.skipped_work.len() + remembered, "as on screen");
     for pane in [PaneKind::METHODS, PaneKind::WORK_SAVED] {
@@ -105,12 +105,12 @@ fn a_run_has_times_errors_figures_and_what_was_left_out() {
     assert!(csv.contains("largest error (of the peak J(κ, 0))") && csv.contains(" (reference)"), "{csv}");
     window.state_mut().push(Action::Scene(SceneAction::SetLight(Light::BlackBody)));
     window.run_steps(3);
-    assert!(!window.state().laboratory().measured.is_current, "the scene has another light than the run");
+    assert!(!window.state().profiler().measured.is_current, "the scene has another light than the run");
     let scene = Scene { document: window.state().history().document(), catalog: &catalog, results: &results };
     let figure = panes::figure(PaneKind::METHODS, &window.state().figure_input(&scene)).expect("measured");
     assert!(!figure.title.contains("on show") && !figure.caption.contains("on show"), "{}", figure.caption);
     assert!(figure.caption.contains("E, equal energy"), "the light that it was measured under");
-    assert!(window.state().laboratory().measured.run.is_some());
+    assert!(window.state().profiler().measured.run.is_some());
 }
 
 #[test]
@@ -184,9 +184,9 @@ fn a_tolerance_is_kept_by_pictures_and_each_source_says_how() {
     );
     window.state_mut().push(Command::Show(Workspace::Render));
     window.run_steps(2);
-    window.state().studio().wait();
+    window.state().render_service().wait();
     window.run_steps(3);
-    let shot = window.state().studio().frame().cloned().expect("pictures");
+    let shot = window.state().render_service().frame().cloned().expect("pictures");
     assert_eq!(
         shot.query.mesh().unwrap().shading.quality.given_tolerance().map(RelTolerance::max_relative_error),
         Some(1e-6)
@@ -278,13 +278,13 @@ fn escape_stops_measuring() {
     let (executor, mut window) = driven([1280.0, 800.0], egui::Theme::Dark);
     window.state_mut().push(Command::SpectralWeights);
     window.run_steps(1);
-    assert!(window.state().laboratory().busy().is_some());
+    assert!(window.state().profiler().busy().is_some());
     window.key_press(egui::Key::Escape);
     window.run_steps(2);
-    assert!(window.state().laboratory().busy().is_none());
+    assert!(window.state().profiler().busy().is_none());
     executor.run_all();
     window.run_steps(2);
-    assert!(window.state().laboratory().measured.run.is_none());
+    assert!(window.state().profiler().measured.run.is_none());
 }
 
 #[test]
@@ -294,7 +294,7 @@ fn a_report_of_the_bench_is_shown_and_exported() {
     let view = window.state_mut().view_mut();
     view.saved.workspace = Workspace::Numerics;
     view.accuracy.shows = Shows::Bench(Workload::Difference);
-    let measured = &mut window.state_mut().laboratory_mut().measured;
+    let measured = &mut window.state_mut().profiler_mut().measured;
     measured.reports.insert(Workload::Difference, Arc::new(Ok(report.clone())));
     window.run_steps(3);
     assert!(window.query_by_label("Nothing measured yet. A quick run takes a few seconds.").is_none());

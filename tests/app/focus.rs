@@ -57,8 +57,8 @@ fn tab_through(workspace: Workspace, theme: egui::Theme, size: [f32; 2], least: 
     window.state_mut().view_mut().saved.folded = folded.into();
     for _ in 0..4 {
         window.run_steps(2);
-        window.state().studio().wait();
-        window.state().laboratory().wait();
+        window.state().render_service().wait();
+        window.state().profiler().wait();
     }
     let (mut seen, mut hidden) = (BTreeSet::new(), Vec::new());
     loop {

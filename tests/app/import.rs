@@ -1,14 +1,14 @@
 //! From the bytes of a user's file to a set: names, roles, units and percent that can be flipped, channels, decisions.
 
 use chromascope::catalog::import::import;
-use chromascope::document::own::{OwnSet, Role, WavelengthUnit};
+use chromascope::document::imported::{ImportedSet, Role, WavelengthUnit};
 
-fn set(file: &str, text: &str, role: Option<Role>) -> OwnSet {
+fn set(file: &str, text: &str, role: Option<Role>) -> ImportedSet {
     import(file, text.as_bytes(), role).unwrap().set
 }
 
 /// The first curve as it is computed with.
-fn first(set: &OwnSet) -> (Vec<f64>, Vec<f64>) {
+fn first(set: &ImportedSet) -> (Vec<f64>, Vec<f64>) {
     let (_, curve) = set.curves_in_nm().unwrap().remove(0);
     (curve.wavelengths_nm().to_vec(), curve.values().to_vec())
 }
@@ -111,7 +111,7 @@ fn what_cannot_be_read_says_the_line() {
 #[test]
 fn percent_that_was_chosen_holds_for_every_role() {
     use chromascope::catalog::import::{Origin, import_as};
-    use chromascope::document::own::{ImportOverrides, ReadOptions};
+    use chromascope::document::imported::{ImportOverrides, ReadOptions};
     use spectral_file::{Values, Watch};
     let text = b"nm,r,g,b\n400,5,6,7\n500,50,60,70\n600,10,11,12\n";
     for role in [Role::Camera, Role::Illuminant, Role::Unknown, Role::Transmittance] {

@@ -7,7 +7,7 @@ use std::path::Path;
 use chromascope::action::history::History;
 use chromascope::app::ChromascopeApp;
 use chromascope::command::Command;
-use chromascope::document::own::ImportOverrides;
+use chromascope::document::imported::ImportOverrides;
 use chromascope::document::{Document, Light, SetKind};
 use chromascope::files::Files;
 use chromascope::view::import::ImportItem;
@@ -316,7 +316,9 @@ fn none_of_the_curves_means_none() {
     assert_eq!(names, ["red", "blue"]);
     // A file that is no set yet cannot be made one of nothing.
     let file = window.state().opened().files()[0].origin.fingerprint;
-    window.state_mut().push(chromascope::action::Action::Own(chromascope::action::OwnAction::Remove("zoo".to_owned())));
+    window
+        .state_mut()
+        .push(chromascope::action::Action::Imported(chromascope::action::ImportedAction::Remove("zoo".to_owned())));
     window.state_mut().push(Command::ShowImport(ImportItem::File(file), None));
     settle(&mut window);
     let disabled = |window: &Window| window.get_by_role_and_label(Role::Button, "Use").accesskit_node().is_disabled();

@@ -104,7 +104,9 @@ fn files_switches_and_curves_are_reached_and_changed_by_keys_alone() {
 fn enter_takes_a_file_that_is_no_set_yet() {
     let mut window = open([1280.0, 1000.0], egui::Theme::Dark);
     drop_file(&mut window, "a.csv", CAMERA);
-    window.state_mut().push(chromascope::action::Action::Own(chromascope::action::OwnAction::Remove("a".to_owned())));
+    window
+        .state_mut()
+        .push(chromascope::action::Action::Imported(chromascope::action::ImportedAction::Remove("a".to_owned())));
     settle(&mut window);
     go_to(&mut window, Stop::Files);
     press(&mut window, Key::Enter);

@@ -6,7 +6,7 @@ use chromascope::app::ChromascopeApp;
 use chromascope::catalog::import::import;
 use chromascope::command::Command;
 use chromascope::document::SetKind;
-use chromascope::document::own::{OwnSet, WavelengthUnit};
+use chromascope::document::imported::{ImportedSet, WavelengthUnit};
 use chromascope::view::Weight;
 use chromascope::view::import::ImportItem;
 use chromascope::workspaces::{PaneKind, Workspace};
@@ -62,7 +62,7 @@ pub(crate) fn settle(window: &mut Window) {
     window.run_steps(2);
 }
 
-pub(crate) fn own(window: &Window) -> Vec<OwnSet> {
+pub(crate) fn own(window: &Window) -> Vec<ImportedSet> {
     window.state().history().document().own.iter().map(|set| (**set).clone()).collect()
 }
 
@@ -123,7 +123,11 @@ fn every_switch_flips_the_curves_and_undo_flips_them_back() {
     assert!(says(&window, "Columns split by: Semicolon"));
     let one = |window: &Window| (own(window)[0].clone(), numbers(window)[0].clone());
     for (caption, entry, holds) in [
-        ("Values are", "Plain numbers", (|_, curve| curve.1[0] == 5.5) as fn(OwnSet, (Vec<f64>, Vec<f64>)) -> bool),
+        (
+            "Values are",
+            "Plain numbers",
+            (|_, curve| curve.1[0] == 5.5) as fn(ImportedSet, (Vec<f64>, Vec<f64>)) -> bool,
+        ),
         ("Values are", "Absorbance", |_, curve| (curve.1[0] - 10_f64.powf(-5.5)).abs() < 1e-18),
         ("Wavelengths in", "Å", |set, _| set.unit == WavelengthUnit::Angstrom),
         ("This is a", "Illuminant", |set, _| set.role == Kinds::Illuminant),

@@ -7,15 +7,15 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use chromascope::action::history::History;
-use chromascope::action::{Action, OwnAction, SceneAction};
+use chromascope::action::{Action, ImportedAction, SceneAction};
 use chromascope::app::ChromascopeApp;
 use chromascope::catalog::import::import;
 use chromascope::catalog::meshes::{MeshState, MeshStore};
 use chromascope::command::Command;
-use chromascope::document::own::{Fingerprint, OwnSet};
+use chromascope::document::imported::{Fingerprint, ImportedSet};
 use chromascope::document::render::MeshChoice;
 use chromascope::document::{Document, session};
-use chromascope::files::{Files, StandingKind, write_atomically};
+use chromascope::files::{Files, PersistentMessageKind, write_atomically};
 use chromascope::jobs::Executor;
 use chromascope::view::SavedView;
 use egui::ViewportCommand;
@@ -47,24 +47,24 @@ fn of(kelvin: f64) -> Document {
     Document { temperature_k: kelvin, ..Document::paper() }
 }
 
-fn set(name: &str) -> OwnSet {
+fn set(name: &str) -> ImportedSet {
     // From a file of its own, or it would be the same set as another.
     let fingerprint = Some(Fingerprint::of(name.as_bytes()));
-    OwnSet { name: name.to_owned(), fingerprint, ..import("leaf.csv", LEAF.as_bytes(), None).unwrap().set }
+    ImportedSet { name: name.to_owned(), fingerprint, ..import("leaf.csv", LEAF.as_bytes(), None).unwrap().set }
 }
 
-fn with_sets(sets: Vec<OwnSet>) -> Document {
+fn with_sets(sets: Vec<ImportedSet>) -> Document {
     let mut document = Document::paper();
     crate::import_sets(sets).apply(&mut document);
     document
 }
 
 /// The document that a next window begins with.
-fn kept(folder: &Path) -> Document {
-    open(folder).kept_document()
+fn saved_document(folder: &Path) -> Document {
+    open(folder).saved_document()
 }
 
-fn words(files: &Files, kind: StandingKind) -> Option<String> {
+fn words(files: &Files, kind: PersistentMessageKind) -> Option<String> {
     files.standing().into_iter().find(|standing| standing.kind == kind).map(|standing| standing.words)
 }
 
@@ -88,7 +88,7 @@ fn window_with(executor: &Executor, document: Document, files: Files) -> Window 
 fn window(folder: &Path) -> (Executor, Window) {
     let executor = Executor::driven();
     let mut files = Files::on(&executor, Some(folder.to_owned())).without_dialogs();
-    let document = files.kept_document();
+    let document = files.saved_document();
     let window = window_with(&executor, document, files);
     (executor, window)
 }
@@ -108,10 +108,10 @@ fn latin_1() -> OsString {
 fn a_path_that_is_not_utf_8_is_kept_as_it_is() {
     let (_around, folder) = profile();
     let path = Path::new("/measured").join(latin_1());
-    let mut document = with_sets(vec![OwnSet { path: Some(path.clone()), ..set("coffee") }, set("leaf")]);
+    let mut document = with_sets(vec![ImportedSet { path: Some(path.clone()), ..set("coffee") }, set("leaf")]);
     document.render.mesh = MeshChoice::File(path.clone());
     open(&folder).save_document(&document).unwrap();
-    assert_eq!(kept(&folder), document);
+    assert_eq!(saved_document(&folder), document);
     let json = session::to_json(&document).unwrap();
     assert_eq!(session::from_json(&json).unwrap(), document);
     // Other paths stay readable, and documents of before are read.
@@ -145,7 +145,7 @@ fn a_number_that_json_does_not_have_costs_no_document() {
     odd.curves[0].values[2] = f64::INFINITY;
     let document = with_sets(vec![odd, set("leaf")]);
     open(&folder).save_document(&document).unwrap();
-    let again = kept(&folder);
+    let again = saved_document(&folder);
     assert_eq!(again.own.len(), 2);
     assert_eq!(again.own[1], document.own[1]);
     assert!(again.own[0].curves[0].values[1].is_nan());
@@ -163,7 +163,7 @@ fn numbers_are_read_back_to_the_last_bit() {
     assert_eq!(session::from_json(&session::to_json(&document).unwrap()).unwrap(), document);
     let (_around, folder) = profile();
     open(&folder).save_document(&document).unwrap();
-    assert_eq!(kept(&folder), document);
+    assert_eq!(saved_document(&folder), document);
 }
 
 // ---- Sets beside the document ----
@@ -172,7 +172,7 @@ fn numbers_are_read_back_to_the_last_bit() {
 fn curves_are_written_once_and_a_change_costs_little() {
     let (_around, folder) = profile();
     let mut files = open(&folder);
-    files.kept_document();
+    files.saved_document();
     let mut leaf = set("leaf");
     leaf.curves[0].values = (0..100_000).map(|i| f64::from(i).sqrt()).collect();
     leaf.curves[0].wavelengths = (0..100_000).map(|i| 300.0 + f64::from(i) / 100.0).collect();
@@ -185,8 +185,8 @@ fn curves_are_written_once_and_a_change_costs_little() {
     // Another temperature, another name: neither writes the curves again.
     document.temperature_k = 3000.0;
     files.save_document(&document).unwrap();
-    let renamed = OwnSet { name: "branch".to_owned(), ..(*document.own[0]).clone() };
-    Action::Own(OwnAction::Replace {
+    let renamed = ImportedSet { name: "branch".to_owned(), ..(*document.own[0]).clone() };
+    Action::Imported(ImportedAction::Replace {
         name: "leaf".to_owned(),
         with: Box::new(renamed),
         built_in: crate::built_in_names(),
@@ -195,7 +195,7 @@ fn curves_are_written_once_and_a_change_costs_little() {
     files.save_document(&document).unwrap();
     assert_eq!(names(&folder.join("curves")), curves);
     drop(files);
-    assert_eq!(kept(&folder), document);
+    assert_eq!(saved_document(&folder), document);
 }
 
 #[test]
@@ -206,13 +206,13 @@ fn a_document_that_holds_its_curves_is_taken_apart() {
     json["version"] = 2.into();
     fs::write(folder.join("document.json"), json.to_string()).unwrap();
     let mut files = open(&folder);
-    assert_eq!(files.kept_document(), document);
+    assert_eq!(files.saved_document(), document);
     files.save_document(&document).unwrap();
     assert_eq!(names(&folder.join("curves")).len(), 1);
     // The version before opens what it wrote.
     assert_eq!(fs::read_to_string(folder.join("document-version-2.json")).unwrap(), json.to_string());
     drop(files);
-    assert_eq!(kept(&folder), document);
+    assert_eq!(saved_document(&folder), document);
 }
 
 #[test]
@@ -230,9 +230,9 @@ fn a_set_whose_curves_are_gone_costs_only_itself() {
     fs::write(folder.join("curves").join(&first[0]), "[[").unwrap();
     let before = fs::read(folder.join("document.json")).unwrap();
     let mut files = open(&folder);
-    let again = files.kept_document();
+    let again = files.saved_document();
     assert_eq!(again.own.iter().map(|set| set.name.as_str()).collect::<Vec<_>>(), ["twig"]);
-    let said = words(&files, StandingKind::SetAside).unwrap();
+    let said = words(&files, PersistentMessageKind::SetAside).unwrap();
     assert!(said.contains("leaf") && said.contains("document-unreadable-1.json"), "{said}");
     assert_eq!(fs::read(folder.join("document-unreadable-1.json")).unwrap(), before);
 }
@@ -242,7 +242,7 @@ fn a_set_that_cannot_be_written_does_not_stop_the_rest() {
     let (_around, folder) = profile();
     let executor = Executor::driven();
     let mut files = Files::on(&executor, Some(folder.clone()));
-    let document = files.kept_document();
+    let document = files.saved_document();
     // In the place of the folder of curves there is a file.
     fs::write(folder.join("curves"), "").unwrap();
     let mut document = Document { temperature_k: 4321.0, ..document };
@@ -253,15 +253,15 @@ fn a_set_that_cannot_be_written_does_not_stop_the_rest() {
         session::from_json(&fs::read_to_string(folder.join("document.json")).unwrap()).unwrap().temperature_k,
         4321.0
     );
-    assert!(words(&files, StandingKind::NotSaved).is_some_and(|words| words.contains("leaf")));
+    assert!(words(&files, PersistentMessageKind::NotSaved).is_some_and(|words| words.contains("leaf")));
     // It is tried again until it is.
     fs::remove_file(folder.join("curves")).unwrap();
     executor.advance(Duration::from_secs(2));
     files.autosave(&document, &egui::Context::default());
     executor.run_all();
-    assert_eq!(words(&files, StandingKind::NotSaved), None);
+    assert_eq!(words(&files, PersistentMessageKind::NotSaved), None);
     drop(files);
-    assert_eq!(kept(&folder), document);
+    assert_eq!(saved_document(&folder), document);
 }
 
 // ---- Documents that cannot be read ----
@@ -279,15 +279,15 @@ fn each_document_that_cannot_be_read_is_set_aside_under_a_name_of_its_own() {
     {
         fs::write(folder.join("document.json"), &broken).unwrap();
         let mut files = open(&folder);
-        assert_eq!(files.kept_document(), Document::default());
+        assert_eq!(files.saved_document(), Document::default());
         let aside = folder.join(format!("document-unreadable-{}.json", index + 1));
-        let said = words(&files, StandingKind::SetAside).unwrap();
+        let said = words(&files, PersistentMessageKind::SetAside).unwrap();
         assert!(said.contains(why) && said.contains(&aside.display().to_string()), "{said}");
         files.save_document(&of(3000.0)).unwrap();
         assert_eq!(fs::read(&aside).unwrap(), broken);
-        assert!(words(&files, StandingKind::SetAside).is_some(), "it stays");
-        files.dismiss(StandingKind::SetAside);
-        assert_eq!(words(&files, StandingKind::SetAside), None);
+        assert!(words(&files, PersistentMessageKind::SetAside).is_some(), "it stays");
+        files.dismiss(PersistentMessageKind::SetAside);
+        assert_eq!(words(&files, PersistentMessageKind::SetAside), None);
     }
 }
 
@@ -364,8 +364,8 @@ fn a_failed_save_is_said_and_tried_again_until_it_succeeds() {
     window.run_steps(2);
     assert!(!says(&window, "Changes are not saved: "));
     drop(window);
-    assert_eq!(kept(&folder).temperature_k, 3456.0);
-    assert!(open(&folder).kept_documents().is_empty(), "what stood there was this window's own");
+    assert_eq!(saved_document(&folder).temperature_k, 3456.0);
+    assert!(open(&folder).other_documents().is_empty(), "what stood there was this window's own");
 }
 
 #[test]
@@ -473,25 +473,25 @@ fn two_windows_lose_nothing_in_any_order_of_closing() {
     for first_closes_first in [true, false] {
         let (_around, folder) = profile();
         let mut first = open(&folder);
-        first.kept_document();
+        first.saved_document();
         let mut second = open(&folder);
-        second.kept_document();
+        second.saved_document();
         let with_leaf = with_sets(vec![set("leaf")]);
         second.save_document(&with_leaf).unwrap();
         first.save_document(&of(3000.0)).unwrap();
         if first_closes_first {
             drop(first);
             // A third window takes the profile while the second one is open: its curves stay.
-            assert_eq!(kept(&folder), of(3000.0));
-            assert!(open(&folder).kept_documents().is_empty(), "its window is open");
+            assert_eq!(saved_document(&folder), of(3000.0));
+            assert!(open(&folder).other_documents().is_empty(), "its window is open");
             drop(second);
         } else {
             drop(second);
             drop(first);
         }
         let mut next = open(&folder);
-        assert_eq!(next.kept_document(), of(3000.0));
-        let copies = next.kept_documents();
+        assert_eq!(next.saved_document(), of(3000.0));
+        let copies = next.other_documents();
         assert_eq!(copies.len(), 1);
         drop(next);
         let (executor, mut window) = window(&folder);
@@ -499,7 +499,7 @@ fn two_windows_lose_nothing_in_any_order_of_closing() {
         window.state_mut().push(Command::OpenDocument(copies[0].0.clone()));
         opens(&executor, &mut window, &with_leaf);
         // The document before it is kept as well, and undo brings it back.
-        assert_eq!(window.state().view().kept.len(), 2);
+        assert_eq!(window.state().view().other_documents.len(), 2);
         window.state_mut().push(Command::Undo);
         window.run_steps(2);
         assert_eq!(*window.state().history().document(), of(3000.0));
@@ -507,9 +507,9 @@ fn two_windows_lose_nothing_in_any_order_of_closing() {
         window.run_steps(2);
         window.state_mut().push(Command::RemoveDocument(copies[0].0.clone()));
         window.run_steps(2);
-        assert_eq!(window.state().view().kept.len(), 1);
+        assert_eq!(window.state().view().other_documents.len(), 1);
         drop(window);
-        assert_eq!(kept(&folder), with_leaf);
+        assert_eq!(saved_document(&folder), with_leaf);
     }
 }
 
@@ -517,7 +517,7 @@ fn two_windows_lose_nothing_in_any_order_of_closing() {
 fn a_document_that_another_program_writes_is_not_overwritten() {
     let (_around, folder) = profile();
     let mut files = open(&folder);
-    files.kept_document();
+    files.saved_document();
     files.save_document(&of(3000.0)).unwrap();
     // As on a folder without locks, from another machine.
     let theirs = session::to_json(&of(4000.0)).unwrap();
@@ -525,14 +525,14 @@ fn a_document_that_another_program_writes_is_not_overwritten() {
     files.save_document(&of(5000.0)).unwrap();
     files.save_document(&of(6000.0)).unwrap();
     assert_eq!(fs::read_to_string(folder.join("document.json")).unwrap(), theirs);
-    let moved = files.standing().into_iter().find(|standing| standing.kind == StandingKind::Moved).unwrap();
-    assert_eq!(files.kept_documents(), [], "it is this window's own");
+    let moved = files.standing().into_iter().find(|standing| standing.kind == PersistentMessageKind::Moved).unwrap();
+    assert_eq!(files.other_documents(), [], "it is this window's own");
     files.remove_document(&moved.file.clone().unwrap());
     assert!(moved.file.clone().unwrap().exists() && moved.file.unwrap().with_extension("lock").exists());
     drop(files);
     let mut next = open(&folder);
-    assert_eq!(next.kept_document(), of(4000.0));
-    let copies = next.kept_documents();
+    assert_eq!(next.saved_document(), of(4000.0));
+    let copies = next.other_documents();
     assert_eq!(copies.len(), 1);
     // And what it moved to is no copy while it is open.
     next.remove_document(&folder.join("document.json"));

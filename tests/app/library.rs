@@ -132,7 +132,7 @@ fn lights_charts_and_materials_are_chosen() {
 fn own_sets_come_first_and_can_be_removed() {
     let mut window = window();
     let text = "nm,red,green,blue\n400,0,1,5\n500,1,8,4\n600,9,5,1\n700,5,1,0\n";
-    let mut imported = import::import("zoo.csv", text.as_bytes(), Some(chromascope::document::own::Role::Camera))
+    let mut imported = import::import("zoo.csv", text.as_bytes(), Some(chromascope::document::imported::Role::Camera))
         .expect("a table of three curves");
     imported.set.name = "Zoo".to_owned();
     window.state_mut().push(crate::import_sets(vec![imported.set]));

@@ -4,7 +4,7 @@ use chromascope::action::history::History;
 use chromascope::action::{Action, SceneAction};
 use chromascope::catalog::Catalog;
 use chromascope::command::Command;
-use chromascope::document::own::Role;
+use chromascope::document::imported::Role;
 use chromascope::document::{Document, Light, Overlays, SetKind, session};
 use chromascope::figures;
 use chromascope::results::Results;
@@ -94,8 +94,8 @@ fn an_imported_transmittance_is_a_filter() {
         assert!((light.grid.values()[120] / d65.grid.values()[120] - 0.5).abs() < 1e-12);
         assert_eq!(scene.chart_entry(&name).unwrap().kind, SetKind::Filter, "as patches it can still be seen");
     });
-    let remove = chromascope::action::OwnAction::Remove(name);
-    Action::Own(remove).apply(&mut document);
+    let remove = chromascope::action::ImportedAction::Remove(name);
+    Action::Imported(remove).apply(&mut document);
     assert!(document.filters.is_empty() && document.light == Light::Set("D65".to_owned()));
 }
 

@@ -28,7 +28,6 @@ mod import_text;
 mod inspector;
 #[cfg(unix)]
 mod keeping;
-mod laboratory;
 mod library;
 mod lights;
 mod meshes;
@@ -38,6 +37,7 @@ mod own_data;
 mod panes;
 mod path_box;
 mod plots;
+mod profiler;
 mod recompute;
 mod recorded;
 mod reducer;
@@ -61,6 +61,9 @@ fn built_in_names() -> chromascope::document::names::BuiltInNames {
     chromascope::catalog::Catalog::built_in().names().clone()
 }
 
-fn import_sets(sets: Vec<chromascope::document::own::OwnSet>) -> chromascope::action::Action {
-    chromascope::action::Action::Own(chromascope::action::OwnAction::Import { sets, built_in: built_in_names() })
+fn import_sets(sets: Vec<chromascope::document::imported::ImportedSet>) -> chromascope::action::Action {
+    chromascope::action::Action::Imported(chromascope::action::ImportedAction::Import {
+        sets,
+        built_in: built_in_names(),
+    })
 }

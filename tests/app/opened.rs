@@ -9,7 +9,7 @@ use chromascope::catalog::import::{TAKEN_AT_FIRST, import};
 use chromascope::catalog::likeness::Likeness;
 use chromascope::catalog::opened::{Opened, OpenedEvent, Request};
 use chromascope::command::Command;
-use chromascope::document::own::{Fingerprint, ImportOverrides, OwnSet};
+use chromascope::document::imported::{Fingerprint, ImportOverrides, ImportedSet};
 use chromascope::document::{Document, session};
 use chromascope::view::Weight;
 use chromascope::view::import::{ImportItem, ImportMemory};
@@ -40,7 +40,7 @@ fn until(window: &mut Window, what: &str, holds: impl Fn(&ChromascopeApp) -> boo
     window.run_steps(2);
 }
 
-fn own(window: &Window) -> Vec<OwnSet> {
+fn own(window: &Window) -> Vec<ImportedSet> {
     window.state().history().document().own.iter().map(|set| (**set).clone()).collect()
 }
 

@@ -95,9 +95,9 @@ fn the_document_is_kept_between_runs() {
     let folder = tempfile::tempdir().unwrap();
     let document = Document { temperature_k: 3210.0, ..Document::paper() };
     let mut files = Files::new(Some(folder.path().to_owned()));
-    assert_eq!(files.kept_document(), Document::default(), "there is none yet");
+    assert_eq!(files.saved_document(), Document::default(), "there is none yet");
     files.save_document(&document).unwrap();
-    assert_eq!(Files::new(Some(folder.path().to_owned())).kept_document(), document);
+    assert_eq!(Files::new(Some(folder.path().to_owned())).saved_document(), document);
 }
 
 #[test]
@@ -105,7 +105,7 @@ fn what_cannot_be_read_is_set_aside_not_overwritten() {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("document.json"), "{ broken").unwrap();
     let mut files = Files::new(Some(folder.path().to_owned()));
-    assert_eq!(files.kept_document(), Document::default());
+    assert_eq!(files.saved_document(), Document::default());
     files.save_document(&Document { temperature_k: 3000.0, ..Document::paper() }).unwrap();
     assert_eq!(std::fs::read_to_string(folder.path().join("document-unreadable-1.json")).unwrap(), "{ broken");
 }
@@ -126,12 +126,12 @@ fn files_are_written_whole_or_not_at_all() {
 fn what_was_opened_before_the_first_frame_is_kept() {
     let folder = tempfile::tempdir().unwrap();
     let mut files = Files::new(Some(folder.path().to_owned()));
-    let mut document = files.kept_document();
+    let mut document = files.saved_document();
     // As a file named on the command line that is read at once.
     document.temperature_k = 4000.0;
     files.autosave(&document, &egui::Context::default());
     files.save_document(&document).unwrap();
-    assert_eq!(Files::new(Some(folder.path().to_owned())).kept_document(), document);
+    assert_eq!(Files::new(Some(folder.path().to_owned())).saved_document(), document);
 }
 
 /// All files of a folder with their contents, but for locks.
@@ -153,7 +153,7 @@ fn a_second_window_keeps_a_document_of_its_own() {
     let open = || Files::new(Some(folder.path().to_owned()));
     let mut first = open();
     assert!(first.copy().is_none());
-    first.kept_document();
+    first.saved_document();
     first.save_document(&of(3000.0)).unwrap();
     let kept = contents(folder.path());
     let mut second = open();
@@ -164,7 +164,7 @@ fn a_second_window_keeps_a_document_of_its_own() {
          document."
     );
     assert_eq!(words, wanted);
-    assert_eq!(second.kept_document(), of(3000.0), "it begins with what the first one kept");
+    assert_eq!(second.saved_document(), of(3000.0), "it begins with what the first one kept");
     second.save_document(&of(3000.0)).unwrap();
     assert_eq!(contents(folder.path()), kept, "nothing was changed");
     second.save_document(&of(4000.0)).unwrap();
@@ -176,18 +176,18 @@ fn a_second_window_keeps_a_document_of_its_own() {
     // The copy stays where it was said to be; the next window has the first one's document and says that there is a copy.
     let mut next = open();
     assert!(next.copy().is_none());
-    assert_eq!(next.kept_document(), of(5000.0));
+    assert_eq!(next.saved_document(), of(5000.0));
     assert!(copy.exists());
     let said = |files: &Files| files.standing().into_iter().map(|standing| standing.words).collect::<Vec<_>>();
     assert_eq!(said(&next), ["A document of another window was recovered: File, Recovered documents."]);
     assert_eq!(
-        next.kept_documents().into_iter().map(|(path, _)| path).collect::<Vec<_>>(),
+        next.other_documents().into_iter().map(|(path, _)| path).collect::<Vec<_>>(),
         std::slice::from_ref(&copy)
     );
     next.save_document(&of(7000.0)).unwrap();
     drop(next);
     let mut after = open();
-    assert_eq!(after.kept_document(), of(7000.0));
+    assert_eq!(after.saved_document(), of(7000.0));
     assert_eq!(said(&after).len(), 1, "said until the copy is taken away");
     let text = std::fs::read_to_string(&copy).unwrap();
     assert_eq!(chromascope::document::session::from_json(&text).unwrap(), of(6000.0));
@@ -197,10 +197,10 @@ fn a_second_window_keeps_a_document_of_its_own() {
 fn a_second_window_does_not_set_the_first_ones_document_aside() {
     let folder = tempfile::tempdir().unwrap();
     let mut first = Files::new(Some(folder.path().to_owned()));
-    first.kept_document();
+    first.saved_document();
     std::fs::write(folder.path().join("document.json"), "{ broken").unwrap();
     let mut second = Files::new(Some(folder.path().to_owned()));
-    assert_eq!(second.kept_document(), Document::default());
+    assert_eq!(second.saved_document(), Document::default());
     assert_eq!(contents(folder.path()), [("document.json".to_owned(), "{ broken".to_owned())]);
 }
 
@@ -234,7 +234,7 @@ fn the_first_run_names_its_start_and_where_the_other_is() {
     };
     let first = {
         let mut files = Files::new(Some(folder.path().to_owned()));
-        files.kept_document();
+        files.saved_document();
         files.poll()
     };
     assert!(
@@ -243,6 +243,6 @@ fn the_first_run_names_its_start_and_where_the_other_is() {
     );
     assert!(said().is_empty());
     let mut files = Files::new(Some(folder.path().to_owned()));
-    assert_eq!(files.kept_document(), Document::paper(), "the start is kept");
+    assert_eq!(files.saved_document(), Document::paper(), "the start is kept");
     assert!(files.poll().is_empty());
 }

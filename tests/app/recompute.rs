@@ -15,17 +15,17 @@ use chromascope_core::query::Ask;
 use chromascope_core::render::{RasterSize, Shadows};
 
 /// A document with its answers, requested as the window does.
-struct Desk {
+struct Fixture {
     document: Document,
     catalog: Catalog,
     results: Results,
 }
 
-impl Desk {
+impl Fixture {
     fn new() -> Self {
-        let desk = Self { document: Document::paper(), catalog: Catalog::built_in(), results: Results::default() };
-        desk.look();
-        desk
+        let fixture = Self { document: Document::paper(), catalog: Catalog::built_in(), results: Results::default() };
+        fixture.look();
+        fixture
     }
 
     /// Requests everything that the first screen shows.
@@ -56,26 +56,26 @@ fn compare(action: CompareAction) -> Action {
 
 #[test]
 fn a_name_computes_nothing() {
-    let mut desk = Desk::new();
+    let mut fixture = Fixture::new();
     let action = CompareAction::Rename(SetKind::Camera, "Nikon D70 (2007 figure)".to_owned(), "my camera".to_owned());
-    assert!(desk.computed(&compare(action)).is_empty());
+    assert!(fixture.computed(&compare(action)).is_empty());
 }
 
 #[test]
 fn hiding_and_taking_off_compute_nothing() {
-    let mut desk = Desk::new();
+    let mut fixture = Fixture::new();
     let hide = CompareAction::SetVisible(SetKind::Camera, "Nikon D70 (2007 figure)".to_owned(), false);
-    assert!(desk.computed(&compare(hide)).is_empty());
+    assert!(fixture.computed(&compare(hide)).is_empty());
     let show = CompareAction::SetVisible(SetKind::Camera, "Nikon D70 (2007 figure)".to_owned(), true);
-    assert!(desk.computed(&compare(show)).is_empty(), "it was remembered");
+    assert!(fixture.computed(&compare(show)).is_empty(), "it was remembered");
     let remove = CompareAction::Remove(SetKind::Camera, "Kodak DCS200".to_owned());
-    assert!(desk.computed(&compare(remove)).is_empty());
+    assert!(fixture.computed(&compare(remove)).is_empty());
 }
 
 #[test]
 fn a_new_camera_computes_only_itself() {
-    let mut desk = Desk::new();
-    let runs = desk.computed(&compare(CompareAction::Add(SetKind::Camera, "Nikon D850".to_owned())));
+    let mut fixture = Fixture::new();
+    let runs = fixture.computed(&compare(CompareAction::Add(SetKind::Camera, "Nikon D850".to_owned())));
     assert_eq!(runs.get("sensor"), Some(&1));
     assert_eq!(runs.get("data file"), Some(&1));
     assert_eq!(runs.get("patch colors"), Some(&1));
@@ -85,20 +85,20 @@ fn a_new_camera_computes_only_itself() {
 
 #[test]
 fn a_temperature_that_only_marks_computes_only_marks() {
-    let mut desk = Desk::new();
-    let runs = desk.computed(&Action::Scene(SceneAction::SetTemperature(4321.0)));
+    let mut fixture = Fixture::new();
+    let runs = fixture.computed(&Action::Scene(SceneAction::SetTemperature(4321.0)));
     assert_eq!(runs.get("radiator signals"), Some(&5), "a mark on each of five loci");
     assert_eq!(runs.get("locus"), Some(&5));
     assert_eq!(runs.len(), 2, "{runs:?}");
-    let back = desk.computed(&Action::Scene(SceneAction::SetTemperature(5500.0)));
+    let back = fixture.computed(&Action::Scene(SceneAction::SetTemperature(5500.0)));
     assert!(back.is_empty(), "it was remembered");
 }
 
 #[test]
 fn a_temperature_of_the_light_leaves_the_loci_signals_alone() {
-    let mut desk = Desk::new();
-    desk.computed(&Action::Scene(SceneAction::SetLight(Light::BlackBody)));
-    let runs = desk.computed(&Action::Scene(SceneAction::SetTemperature(3200.0)));
+    let mut fixture = Fixture::new();
+    fixture.computed(&Action::Scene(SceneAction::SetLight(Light::BlackBody)));
+    let runs = fixture.computed(&Action::Scene(SceneAction::SetTemperature(3200.0)));
     assert_eq!(runs.get("light"), Some(&1));
     assert_eq!(runs.get("rendering"), Some(&5));
     assert_eq!(runs.get("patch colors"), Some(&5));
@@ -119,38 +119,38 @@ fn nothing_asked_is_nothing_computed_and_nothing_read() {
 
 #[test]
 fn the_first_screen_reads_only_what_it_shows() {
-    let desk = Desk::new();
-    let counts = desk.results.counts();
+    let fixture = Fixture::new();
+    let counts = fixture.results.counts();
     // Five sensors, the chart, the light.
     assert_eq!(counts["data file"].misses, 7, "{counts:?}");
 }
 
 /// The pictures of the Render pane, requested as its worker does.
 struct Pictures {
-    desk: Desk,
+    fixture: Fixture,
     worker: Results,
     orbit: Orbit,
 }
 
 impl Pictures {
     fn new() -> Self {
-        let mut pictures = Self { desk: Desk::new(), worker: Results::default(), orbit: Orbit::default() };
-        pictures.desk.document.render.triangles = 2000;
+        let mut pictures = Self { fixture: Fixture::new(), worker: Results::default(), orbit: Orbit::default() };
+        pictures.fixture.document.render.triangles = 2000;
         // Smoother than what the closed form holds for, so that tables are needed.
-        pictures.desk.document.render.sigma_um = 0.3;
+        pictures.fixture.document.render.sigma_um = 0.3;
         // Under the scene bar's light.
-        pictures.desk.document.render.sunlight = false;
-        pictures.desk.document.render.sky = 0.0;
+        pictures.fixture.document.render.sunlight = false;
+        pictures.fixture.document.render.sky = 0.0;
         pictures.look();
         pictures
     }
 
     fn look(&self) {
-        let desk = &self.desk;
-        let scene = Scene { document: &desk.document, catalog: &desk.catalog, results: &desk.results };
+        let fixture = &self.fixture;
+        let scene = Scene { document: &fixture.document, catalog: &fixture.catalog, results: &fixture.results };
         let finish = Finish {
             size: RasterSize { width: 64, height: 48, samples: 1 },
-            quality: desk.document.render.quality(),
+            quality: fixture.document.render.quality(),
             shadows: Shadows::Full,
             compared_samples: Some(500),
             open_sky: false,
@@ -173,7 +173,7 @@ impl Pictures {
 
     fn done(&mut self, action: &Action) -> Vec<(&'static str, u64)> {
         self.computed(|pictures| {
-            action.apply(&mut pictures.desk.document);
+            action.apply(&mut pictures.fixture.document);
         })
     }
 }
@@ -234,28 +234,28 @@ fn a_surface_a_light_and_a_view_compute_only_what_follows_them() {
     let mut pictures = Pictures::new();
     let mut set = |change: fn(&mut Pictures)| pictures.computed(change);
     let developed = [("picture", 4), ("pictures", 1)];
-    assert_eq!(set(|p| p.desk.document.render.exposure_ev = 1.0), developed, "exposure: the last stage alone");
+    assert_eq!(set(|p| p.fixture.document.render.exposure_ev = 1.0), developed, "exposure: the last stage alone");
     let signals = [("camera image", 4), ("difference", 3), ("exposure", 1), ("picture", 4), ("pictures", 1)];
     let with = |more: &[(&'static str, u64)]| {
         let mut all: Vec<(&str, u64)> = signals.iter().chain(more).copied().collect();
         all.sort_unstable();
         all
     };
-    assert_eq!(set(|p| p.desk.document.render.sigma_um = 0.2), with(&[("shading", 1)]), "roughness: no plan anew");
-    let material = set(|p| p.desk.document.render.material = "Fern-like bush leaf 024 (Vrhel)".to_owned());
+    assert_eq!(set(|p| p.fixture.document.render.sigma_um = 0.2), with(&[("shading", 1)]), "roughness: no plan anew");
+    let material = set(|p| p.fixture.document.render.material = "Fern-like bush leaf 024 (Vrhel)".to_owned());
     // Exposure weighs wavelengths again for the material, and for a white.
     assert_eq!(material, with(&[("measure", 5)]), "a material: no angles");
-    let light = set(|p| p.desk.document.light = Light::Set("A".to_owned()));
+    let light = set(|p| p.fixture.document.light = Light::Set("A".to_owned()));
     assert_eq!(light, with(&[("measure", 6), ("rendering", 4)]), "a spectrum: no angles");
     let without_exposure = |more: &[(&'static str, u64)]| -> Vec<(&str, u64)> {
         with(more).into_iter().filter(|(name, _)| *name != "exposure").collect()
     };
-    let place = set(|p| p.desk.document.render.light_up_deg += 10.0);
+    let place = set(|p| p.fixture.document.render.light_up_deg += 10.0);
     assert_eq!(place, without_exposure(&[("geometry", 1), ("shading", 1)]), "the light's place: nothing seen anew");
     let orbit = set(|p| p.orbit = p.orbit.turned(10.0, 0.0));
     let seen = [("geometry", 1), ("shading", 1), ("visibility", 1)];
     assert_eq!(orbit, without_exposure(&seen), "a view: no mesh, no tree, no plan");
-    let mesh = set(|p| p.desk.document.render.mesh = MeshChoice::Sphere);
+    let mesh = set(|p| p.fixture.document.render.mesh = MeshChoice::Sphere);
     let made = [("geometry", 1), ("mesh", 1), ("shading", 1), ("shadow tree", 1), ("visibility", 1)];
     assert_eq!(mesh, without_exposure(&made), "a mesh: no table");
 }

@@ -1,10 +1,10 @@
 //! Tests of the effect of actions on the document, and of undo.
 
 use chromascope::action::history::History;
-use chromascope::action::{Action, CompareAction, OwnAction, SceneAction};
+use chromascope::action::{Action, CompareAction, ImportedAction, SceneAction};
 use chromascope::catalog::Catalog;
+use chromascope::document::imported::{ImportOverrides, ImportedCurve, ImportedSet, ReadAs, Role, WavelengthUnit};
 use chromascope::document::names::BuiltInNames;
-use chromascope::document::own::{ImportOverrides, OwnCurve, OwnSet, ReadAs, Role, WavelengthUnit};
 use chromascope::document::uses::PLACES;
 use chromascope::document::{CHART, Document, Light, PAPER_REFERENCE, SetKind, Subset, WhiteBalanceChoice, session};
 use chromascope::results::Results;
@@ -19,14 +19,14 @@ fn check(action: &Action, expect: impl Fn(&Document)) {
     expect(&document);
 }
 
-fn own(name: &str, role: Role) -> OwnSet {
-    let curve = |name: &str| OwnCurve {
+fn own(name: &str, role: Role) -> ImportedSet {
+    let curve = |name: &str| ImportedCurve {
         name: name.to_owned(),
         wavelengths: vec![400.0, 550.0, 700.0],
         values: vec![0.2, 0.9, 0.4],
         unit: None,
     };
-    OwnSet {
+    ImportedSet {
         name: name.to_owned(),
         file: "file.csv".to_owned(),
         path: None,
@@ -52,7 +52,7 @@ fn importing_depends_on_the_document_and_the_action_alone() {
     let names_of = |built_in: BuiltInNames| {
         let mut document = Document::paper();
         let sets = vec![own("Kodak DCS200", Role::Camera), own("my camera", Role::Camera)];
-        Action::Own(OwnAction::Import { sets, built_in }).apply(&mut document);
+        Action::Imported(ImportedAction::Import { sets, built_in }).apply(&mut document);
         document.own.iter().map(|set| set.name.clone()).collect::<Vec<_>>()
     };
     assert_eq!(names_of(BuiltInNames::default()), ["Kodak DCS200", "my camera"], "no catalog is asked");
@@ -155,9 +155,13 @@ fn an_own_set_has_a_name_of_its_own_among_all_of_its_kind() {
     assert!(!scene.entry(SetKind::Camera, "Nikon D70 (2007 figure)").unwrap().is_own());
     assert!(scene.entry(SetKind::Camera, "Nikon D70 (2007 figure) (own)").unwrap().is_own());
     // A role that makes a name a double gives it up too.
-    let with = Box::new(OwnSet { role: Role::Camera, ..(*document.own[3]).clone() });
-    Action::Own(OwnAction::Replace { name: "Sony ILCE-7M3".to_owned(), with, built_in: crate::built_in_names() })
-        .apply(&mut document);
+    let with = Box::new(ImportedSet { role: Role::Camera, ..(*document.own[3]).clone() });
+    Action::Imported(ImportedAction::Replace {
+        name: "Sony ILCE-7M3".to_owned(),
+        with,
+        built_in: crate::built_in_names(),
+    })
+    .apply(&mut document);
     assert_eq!(document.own[3].name, "Sony ILCE-7M3 (own)");
     assert!(document.compared(SetKind::Camera, "Sony ILCE-7M3 (own)").is_some());
 }
@@ -167,7 +171,7 @@ fn what_has_one_name_is_used_by_its_kind() {
     let mut document = Document::paper();
     import(&["E"], Role::Camera).apply(&mut document);
     let with = Box::new(own("F", Role::Camera));
-    Action::Own(OwnAction::Replace { name: "E".to_owned(), with, built_in: crate::built_in_names() })
+    Action::Imported(ImportedAction::Replace { name: "E".to_owned(), with, built_in: crate::built_in_names() })
         .apply(&mut document);
     assert_eq!(document.light, Light::Set("E".to_owned()), "the light is another set");
     assert!(document.compared(SetKind::Camera, "F").is_some());
@@ -194,7 +198,7 @@ fn what_is_removed_is_no_longer_used() {
     import(&["lamp"], Role::Illuminant).apply(&mut document);
     document.white = WhiteBalanceChoice::Light("lamp".to_owned());
     for name in ["leaf", "lamp"] {
-        Action::Own(OwnAction::Remove(name.to_owned())).apply(&mut document);
+        Action::Imported(ImportedAction::Remove(name.to_owned())).apply(&mut document);
     }
     assert_eq!(document, Document::paper());
 }
@@ -204,7 +208,7 @@ fn another_role_moves_a_set() {
     let mut document = Document::paper();
     import(&["x"], Role::Reflectance).apply(&mut document);
     let with = Box::new(own("x", Role::Camera));
-    Action::Own(OwnAction::Replace { name: "x".to_owned(), with, built_in: crate::built_in_names() })
+    Action::Imported(ImportedAction::Replace { name: "x".to_owned(), with, built_in: crate::built_in_names() })
         .apply(&mut document);
     assert_eq!(document.chart, CHART);
     assert!(document.compared(SetKind::Camera, "x").is_some());
@@ -283,8 +287,8 @@ fn a_set_that_is_renamed_keeps_its_uses_and_gets_no_others() {
     import(&["bark"], Role::Reflectance).apply(&mut document);
     let rename = |from: &str, to: &str, document: &mut Document| {
         let set = document.own.iter().find(|set| set.name == from).unwrap();
-        let with = Box::new(OwnSet { name: to.to_owned(), ..(**set).clone() });
-        Action::Own(OwnAction::Replace { name: from.to_owned(), with, built_in: crate::built_in_names() })
+        let with = Box::new(ImportedSet { name: to.to_owned(), ..(**set).clone() });
+        Action::Imported(ImportedAction::Replace { name: from.to_owned(), with, built_in: crate::built_in_names() })
             .apply(document);
     };
     rename("leaf", "oak", &mut document);

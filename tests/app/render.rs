@@ -29,7 +29,7 @@ type Window = Harness<'static, ChromascopeApp>;
 fn settle(window: &mut Window) {
     for _ in 0..3 {
         window.run_steps(2);
-        window.state().studio().wait();
+        window.state().render_service().wait();
     }
     window.run_steps(2);
 }
@@ -87,7 +87,7 @@ fn the_truth_and_three_cameras_stand_side_by_side() {
         captions[1..].iter().all(|caption| caption.contains("Δxy 0.0") && caption.contains(" facing light, median ")),
         "{captions:?}"
     );
-    let shot = window.state().studio().frame().cloned().unwrap();
+    let shot = window.state().render_service().frame().cloned().unwrap();
     assert!(shot.is_last && shot.query.mesh().unwrap().shading.geometry.visibility.size.samples == 3);
     let pixels = &shot.made().unwrap().pictures[0].as_ref().unwrap().rgba;
     assert!(pixels.chunks_exact(4).any(|pixel| pixel[0] > 200), "it is lit");
@@ -186,7 +186,7 @@ fn a_mesh_that_is_gone_is_said_in_place_of_pictures() {
     });
     window.run_steps(2);
     assert!(captions(&window).is_empty());
-    assert!(window.state().studio().frame().is_none() && window.state().studio().busy().is_none());
+    assert!(window.state().render_service().frame().is_none() && window.state().render_service().busy().is_none());
 }
 
 #[test]
@@ -244,7 +244,7 @@ fn a_hidden_camera_is_not_computed() {
     render(&mut window, |settings| settings.exposure_ev = 0.5);
     settle(&mut window);
     assert_eq!(made(&window, "picture"), pictures + 3);
-    let shot = window.state().studio().frame().cloned().unwrap();
+    let shot = window.state().render_service().frame().cloned().unwrap();
     assert!(shot.sources.iter().all(|source| source.name != "Nikon D70 (2007 figure)"));
     assert_eq!(shot.sources.len(), 3);
 }
@@ -258,18 +258,18 @@ fn a_hidden_workspace_asks_nothing() {
     render(&mut window, |settings| settings.sigma_um = 3.0);
     settle(&mut window);
     assert_eq!(computed(&window), before);
-    assert!(window.state().studio().busy().is_none());
+    assert!(window.state().render_service().busy().is_none());
 }
 
 #[test]
 fn nothing_moves_when_nothing_changes() {
     let mut window = small();
-    let serial = window.state().studio().frame().unwrap().serial;
+    let serial = window.state().render_service().frame().unwrap().serial;
     let before = computed(&window);
     window.run_steps(4);
     assert!(!window.ctx.has_requested_repaint());
     assert_eq!(computed(&window), before);
-    assert_eq!(window.state().studio().frame().unwrap().serial, serial);
+    assert_eq!(window.state().render_service().frame().unwrap().serial, serial);
 }
 
 #[test]
@@ -392,7 +392,7 @@ fn every_way_to_stand_makes_its_pictures() {
     for (mode, pictures) in [(RenderMode::Split, 2), (RenderMode::One, 2), (RenderMode::Difference, 4)] {
         window.state_mut().view_mut().saved.render.mode = mode;
         settle(&mut window);
-        let shot = window.state().studio().frame().cloned().unwrap();
+        let shot = window.state().render_service().frame().cloned().unwrap();
         assert_eq!(shot.sources.len(), pictures, "{mode:?}");
         let differences = shot.made().unwrap().differences.iter().flatten();
         assert!(mode != RenderMode::Difference || differences.into_iter().all(|difference| difference.stride == 1));
@@ -423,7 +423,7 @@ fn escape_stops_what_takes_long_and_keeps_what_was_made() {
     window.run_steps(2);
     assert!(executor.run_one("pictures"));
     window.run_steps(1);
-    let shot = window.state().studio().frame().cloned().unwrap();
+    let shot = window.state().render_service().frame().cloned().unwrap();
     assert!(!shot.is_last, "the first of several stages");
     assert!(!window.state().view().render.is_waiting(), "nobody has waited yet");
     executor.advance(Duration::from_secs(1));
@@ -432,15 +432,15 @@ fn escape_stops_what_takes_long_and_keeps_what_was_made() {
     window.key_press(egui::Key::Escape);
     // What was made before the key is still taken in with it.
     window.run_steps(2);
-    assert!(window.state().studio().busy().is_none());
-    let before = window.state().studio().frame().cloned().unwrap();
+    assert!(window.state().render_service().busy().is_none());
+    let before = window.state().render_service().frame().cloned().unwrap();
     assert_eq!(before.serial, shot.serial);
     let computed = made(&window, "shading");
     executor.run_all();
     window.run_steps(3);
     assert_eq!(made(&window, "shading"), computed, "nothing more was computed");
-    assert!(window.state().studio().busy().is_none());
-    let after = window.state().studio().frame().cloned().unwrap();
+    assert!(window.state().render_service().busy().is_none());
+    let after = window.state().render_service().frame().cloned().unwrap();
     assert_eq!(after.serial, before.serial);
     assert_eq!(captions(&window).len(), 4);
     assert_eq!(window.state().history().undo_name(), Some("Test"), "the choice stays");
@@ -457,7 +457,7 @@ fn made_for_a_mesh(beside: PaneKind) -> [u64; 4] {
     render(&mut window, |settings| settings.mesh = MeshChoice::Sphere);
     for _ in 0..3 {
         settle(&mut window);
-        window.state().laboratory().wait();
+        window.state().profiler().wait();
     }
     assert_eq!(made(&window, "shading") > shadings + 3, beside == PaneKind::TOLERANCE, "plans are of shaded samples");
     std::array::from_fn(|stage| made(&window, STAGES[stage]) - before[stage])
@@ -480,7 +480,7 @@ fn a_pixel_is_marked_in_the_diagram_beside_the_pictures() {
     let document = document(&window).clone();
     let scene = Scene { document: &document, catalog: &catalog, results: &results };
     let diamonds = |app: &ChromascopeApp| {
-        let pictures = app.studio().frame().map(AsRef::as_ref);
+        let pictures = app.render_service().frame().map(AsRef::as_ref);
         let built = chromascope::figures::chromaticity::build(&scene, app.view(), pictures, [600.0, 400.0]);
         built.panel.marks.iter().filter(|mark| mark.name.ends_with(", pixel")).count()
     };

@@ -116,7 +116,7 @@ fn nothing_in_the_settings_jumps_when_values_change() {
     window.state_mut().push(Command::Show(Workspace::Render));
     render(&mut window, |settings| settings.mesh = MeshChoice::Sphere);
     render(&mut window, |settings| settings.triangles = 2000);
-    window.state().studio().wait();
+    window.state().render_service().wait();
     window.run_steps(2);
     let before = places(&window);
     assert_eq!(before.len(), 15, "{before:?}");
@@ -138,9 +138,9 @@ fn nothing_in_the_settings_jumps_when_values_change() {
         render(&mut window, change);
         assert_eq!(places(&window), before, "change {index}");
     }
-    window.state().studio().wait();
+    window.state().render_service().wait();
     window.run_steps(2);
-    let source = window.state().studio().frame().map(|frame| frame.sources[0].clone()).unwrap();
+    let source = window.state().render_service().frame().map(|frame| frame.sources[0].clone()).unwrap();
     let source = chromascope::plot_item::SensorId { kind: source.kind, name: source.name };
     window.state_mut().view_mut().render.pinned = Some(PixelPlace { at: [0.5, 0.5], source });
     window.run_steps(2);
@@ -158,7 +158,7 @@ fn pictures_of_what_moves_do_not_wait_until_it_is_known_where_the_mesh_hides_the
     // The open sky is one answer, the sky that the mesh hides another.
     assert!(executor.run_one("pictures"));
     window.run_steps(2);
-    assert!(window.state().studio().frame().is_some() && known(&executor) == 1);
+    assert!(window.state().render_service().frame().is_some() && known(&executor) == 1);
     executor.run_all();
     assert_eq!(known(&executor), 2);
     render(&mut window, |settings| settings.triangles = 50_000);

@@ -1,10 +1,10 @@
 //! A file that is opened again is the set that it was, and names that differ by case are one.
 
-use chromascope::action::{Action, OwnAction};
+use chromascope::action::{Action, ImportedAction};
 use chromascope::catalog::Catalog;
 use chromascope::catalog::import::{Origin, imported};
+use chromascope::document::imported::{ImportOverrides, ImportedSet, Role};
 use chromascope::document::names::caseless;
-use chromascope::document::own::{ImportOverrides, OwnSet, Role};
 use chromascope::document::{Compared, Document, Light, MOST_COMPARED, SetKind, session};
 use chromascope::plot_item::{PickIndex, PlotItem, SensorId};
 use chromascope::results::Results;
@@ -16,13 +16,13 @@ use spectral_file::{ReadOptions, read};
 const LEAF: &str = "nm;leaf (%)\n400;5,0\n500;10,0\n600;20,0\n700;50,0\n";
 
 /// A file as it is read, from a place on disk or from nowhere.
-fn set(name: &str, path: Option<&str>, text: &str) -> OwnSet {
+fn set(name: &str, path: Option<&str>, text: &str) -> ImportedSet {
     let table = read(text.as_bytes(), &ReadOptions::default()).unwrap();
     let origin = Origin { path: path.map(Into::into), ..Origin::named(name, text.as_bytes()) };
     imported(&origin, &table, &ImportOverrides::default()).set
 }
 
-fn open(document: &mut Document, sets: &[OwnSet]) {
+fn open(document: &mut Document, sets: &[ImportedSet]) {
     crate::import_sets(sets.to_vec()).apply(document);
 }
 
@@ -35,8 +35,8 @@ fn the_same_file_is_the_same_set() {
     let mut document = Document::paper();
     open(&mut document, &[set("leaf.csv", Some("/a/leaf.csv"), LEAF)]);
     // The user made something of it.
-    let with = OwnSet { name: "my leaf".to_owned(), role: Role::Illuminant, ..(*document.own[0]).clone() };
-    Action::Own(OwnAction::Replace {
+    let with = ImportedSet { name: "my leaf".to_owned(), role: Role::Illuminant, ..(*document.own[0]).clone() };
+    Action::Imported(ImportedAction::Replace {
         name: "leaf".to_owned(),
         with: Box::new(with),
         built_in: crate::built_in_names(),
@@ -80,7 +80,7 @@ fn names_that_differ_by_case_are_one() {
     let mut document = Document::paper();
     let own = |name: &str, k: u64| {
         let text = LEAF.replace("5,0", &format!("5,{k}"));
-        OwnSet { name: name.to_owned(), ..set("x", None, &text) }
+        ImportedSet { name: name.to_owned(), ..set("x", None, &text) }
     };
     open(
         &mut document,
@@ -96,7 +96,7 @@ fn names_that_differ_by_case_are_one() {
 
 #[test]
 fn a_session_of_many_sets_of_one_name_opens() {
-    let one = OwnSet { fingerprint: None, ..set("leaf", None, LEAF) };
+    let one = ImportedSet { fingerprint: None, ..set("leaf", None, LEAF) };
     let mut document = Document::paper();
     // By a look at all others for each, this would take hours.
     document.own = (0..20_000).map(|_| Shared::new(one.clone())).collect();

@@ -133,7 +133,7 @@ fn a_workload_is_offered_by_its_name() {
     let report = crate::bench::report();
     let mut window = window();
     window.state_mut().view_mut().accuracy.shows = Shows::Bench(Workload::Difference);
-    let measured = &mut window.state_mut().laboratory_mut().measured;
+    let measured = &mut window.state_mut().profiler_mut().measured;
     measured.reports.insert(Workload::Difference, std::sync::Arc::new(Ok(report)));
     window.state_mut().push(Command::Export(PaneKind::METHODS, Format::Csv));
     window.run_steps(8);

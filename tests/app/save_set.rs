@@ -3,7 +3,7 @@
 use chromascope::catalog::import::import;
 use chromascope::catalog::{Catalog, Entry};
 use chromascope::document::SetKind;
-use chromascope::document::own::{OwnSet, Role};
+use chromascope::document::imported::{ImportedSet, Role};
 use chromascope::export::spectra::{Form, file, fits, notes_in_words};
 use chromascope::results::Results;
 use chromascope_core::query::Shared;
@@ -17,7 +17,7 @@ fn built_in(kind: SetKind, name: &str) -> Entry {
     Catalog::built_in().get(kind, name).unwrap_or_else(|| panic!("no {name}")).clone()
 }
 
-fn own(file: &str, text: &str, role: Role) -> OwnSet {
+fn own(file: &str, text: &str, role: Role) -> ImportedSet {
     import(file, text.as_bytes(), Some(role)).unwrap().set
 }
 
@@ -26,7 +26,7 @@ fn form(format: Format, step_nm: Option<f64>) -> Form {
 }
 
 /// The values at the wavelengths that both have, which must be some. Not every format has names.
-fn agree(read: &OwnSet, name: &str, index: usize, values: &[(f64, f64)]) {
+fn agree(read: &ImportedSet, name: &str, index: usize, values: &[(f64, f64)]) {
     let curve = read.curves.iter().find(|curve| curve.name == name).unwrap_or(&read.curves[index]);
     let mut shared = 0;
     for (nm, value) in curve.wavelengths.iter().zip(&curve.values) {
@@ -141,7 +141,7 @@ fn what_does_not_fit_says_why() {
 fn every_row_has_a_menu_with_all_forms() {
     let mut window = open([1280.0, 800.0], egui::Theme::Dark);
     let set = own("zoo.csv", "nm,red,green,blue\n400,0,1,5\n500,1,8,4\n600,9,5,1\n700,5,1,0\n", Role::Camera);
-    window.state_mut().push(crate::import_sets(vec![OwnSet { name: "Zoo".to_owned(), ..set }]));
+    window.state_mut().push(crate::import_sets(vec![ImportedSet { name: "Zoo".to_owned(), ..set }]));
     window.run();
     for (menu, own) in [("Menu of your Zoo", true), ("Menu in the library of ARRI D21", false)] {
         window.get_by_role_and_label(accesskit::Role::Button, menu).click();

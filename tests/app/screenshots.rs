@@ -158,7 +158,7 @@ fn render(
     change(harness.state_mut());
     for _ in 0..4 {
         harness.run_steps(2);
-        harness.state().studio().wait();
+        harness.state().render_service().wait();
     }
     harness
 }
@@ -241,9 +241,9 @@ impl Measured {
             let mut harness = open([1280.0, 800.0], egui::Theme::Dark);
             harness.state_mut().push(Command::SpectralWeights);
             harness.run_steps(2);
-            harness.state().laboratory().wait();
+            harness.state().profiler().wait();
             harness.run_steps(3);
-            let measured = &harness.state().laboratory().measured;
+            let measured = &harness.state().profiler().measured;
             let run = SceneRun::clone(measured.run.as_ref().expect("measured"));
             let measured = Self { run, remembered: measured.remembered.clone() };
             std::fs::write(&path, serde_json::to_string_pretty(&measured).unwrap() + "\n").unwrap();
@@ -259,12 +259,12 @@ pub(crate) fn accuracy(size: [f32; 2], theme: egui::Theme) -> Harness<'static, C
     let view = harness.state_mut().view_mut();
     view.saved.workspace = Workspace::Numerics;
     view.fixed_clock = true;
-    let measured = &mut harness.state_mut().laboratory_mut().measured;
+    let measured = &mut harness.state_mut().profiler_mut().measured;
     (measured.run, measured.remembered) = (Some(std::sync::Arc::new(run)), remembered);
     measured.is_current = true;
     for _ in 0..3 {
         harness.run_steps(2);
-        harness.state().laboratory().wait();
+        harness.state().profiler().wait();
     }
     harness
 }

@@ -178,7 +178,7 @@ fn the_tour_plays_five_scenes_on_live_data_and_leaves_the_document_as_it_was() {
             press(&mut window, "Next");
         }
     }
-    window.state().studio().wait();
+    window.state().render_service().wait();
     window.run_steps(2);
     assert!(says(&window, "Facing the light:"));
     press(&mut window, "Back");
@@ -198,7 +198,7 @@ fn during_the_tour_the_users_document_is_the_one_that_is_kept() {
     let document = Document { temperature_k: 3210.0, ..Document::colorimetry() };
     let open = |document| {
         let mut files = Files::new(Some(folder.path().to_owned()));
-        let kept = files.kept_document();
+        let kept = files.saved_document();
         let window = Harness::builder()
             .with_size(SIZE)
             .build_eframe(|cc| ChromascopeApp::new(&cc.egui_ctx, History::new(document), SavedView::default(), files));

@@ -62,9 +62,9 @@ fn mesh(window: &Window) -> MeshChoice {
 fn settle(window: &mut Window) {
     until("pictures", || {
         window.run_steps(2);
-        window.state().studio().wait();
+        window.state().render_service().wait();
         window.run_steps(2);
-        let is_there = window.state().studio().is_settled();
+        let is_there = window.state().render_service().is_settled();
         is_there.then_some(()).ok_or_else(|| "not yet".to_owned())
     });
 }
@@ -100,7 +100,7 @@ fn pixels_of_a_chart_image_equal_its_patches() {
     assert_eq!(window.state().view().saved.workspace, Workspace::Render);
     let (app, catalog) = (window.state(), Catalog::built_in());
     let scene = Scene { document: app.history().document(), catalog: &catalog, results: app.results() };
-    let shot = app.studio().frame().cloned().expect("pictures");
+    let shot = app.render_service().frame().cloned().expect("pictures");
     for source in shot.sources.iter().filter(|source| !source.is_reference) {
         let differences = scene.differences(source.kind, &source.name).unwrap();
         let id = SensorId { kind: source.kind, name: source.name.clone() };
@@ -149,7 +149,7 @@ fn an_image_is_undone_kept_in_a_session_and_missed() {
         }
     });
     window.run_steps(3);
-    assert!(window.state().studio().frame().is_none());
+    assert!(window.state().render_service().frame().is_none());
 }
 
 #[test]
@@ -172,7 +172,7 @@ fn a_large_image_is_decimated_and_says_so() {
     let mut window = opened(Document::colorimetry(), &path, [1280.0, 800.0]);
     // The message about the opened file fades.
     window.run_steps(40);
-    let shot = window.state().studio().frame().cloned().unwrap();
+    let shot = window.state().render_service().frame().cloned().unwrap();
     let made = shot.made().unwrap().image().unwrap();
     assert_eq!((made.placed().size().width, made.placed().size().height), (1050, 500));
     assert!(made.image.read.tile_bytes < 1 << 20, "one row at a time: {}", made.image.read.tile_bytes);
@@ -247,12 +247,12 @@ fn an_unstated_quantity_is_asked_for_and_radiances_take_no_light() {
     window.state_mut().push(Command::Show(Workspace::Render));
     until("the question", || {
         window.run_steps(2);
-        window.state().studio().wait();
-        let frame = window.state().studio().has_made();
+        window.state().render_service().wait();
+        let frame = window.state().render_service().has_made();
         frame.then_some(()).ok_or_else(|| "nothing was asked".to_owned())
     });
     window.run_steps(2);
-    assert!(window.state().studio().frame().is_none(), "no picture without a quantity");
+    assert!(window.state().render_service().frame().is_none(), "no picture without a quantity");
     let xy = |window: &mut Window, quantity: QuantityChoice, light: &str| {
         let mut to = window.state().history().document().render.clone();
         to.image_quantity = quantity;
@@ -263,7 +263,7 @@ fn an_unstated_quantity_is_asked_for_and_radiances_take_no_light() {
         settle(window);
         let (app, catalog) = (window.state(), Catalog::built_in());
         let scene = Scene { document: app.history().document(), catalog: &catalog, results: app.results() };
-        let shot = app.studio().frame().cloned().unwrap();
+        let shot = app.render_service().frame().cloned().unwrap();
         let source = SensorId { kind: SetKind::Observer, name: "CIE 1931 2°".to_owned() };
         let reading = pixel_of(&scene, &shot, &PixelPlace { at: [18.5 / 24.0, 0.5], source }).unwrap();
         let PixelShows::Lit(lit) = reading.shows else { panic!("{:?}", reading.shows) };
@@ -280,7 +280,7 @@ fn pictures_maps_and_spectra_of_an_image_look_right() {
     let folder = folder("looks");
     chart_image(&folder, "bip", "reflectance scale factor = 1\n");
     let mut window = opened(Document::colorimetry(), &folder.join("chart.hdr"), [1280.0, 800.0]);
-    let source = window.state().studio().frame().unwrap().sources[1].clone();
+    let source = window.state().render_service().frame().unwrap().sources[1].clone();
     let source = SensorId { kind: source.kind, name: source.name };
     window.state_mut().view_mut().render.pinned = Some(PixelPlace { at: [14.5 / 24.0, 0.5], source });
     window.state_mut().view_mut().saved.render.mode = RenderMode::Difference;

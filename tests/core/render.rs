@@ -2,10 +2,10 @@
 
 mod diffuse;
 mod drawn;
+mod fixture;
 mod images;
 mod shadow;
 mod skipping;
 mod sky;
 mod smooth;
-mod studio;
 mod visibility;

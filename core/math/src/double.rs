@@ -68,7 +68,7 @@ impl Double {
     }
 
     /// Sum where the first is the larger (Dekker).
-    fn quick_sum(a: f64, b: f64) -> Self {
+    fn fast_two_sum(a: f64, b: f64) -> Self {
         let high = a + b;
         Self { high, low: b - (high - a) }
     }
@@ -238,8 +238,8 @@ impl Add for Double {
     fn add(self, other: Self) -> Self {
         let high = Self::two_sum(self.high, other.high);
         let low = Self::two_sum(self.low, other.low);
-        let sum = Self::quick_sum(high.high, high.low + low.high);
-        Self::quick_sum(sum.high, sum.low + low.low)
+        let sum = Self::fast_two_sum(high.high, high.low + low.high);
+        Self::fast_two_sum(sum.high, sum.low + low.low)
     }
 }
 
@@ -256,7 +256,7 @@ impl Mul for Double {
 
     fn mul(self, other: Self) -> Self {
         let product = Self::two_product(self.high, other.high);
-        Self::quick_sum(product.high, product.low + (self.high * other.low + self.low * other.high))
+        Self::fast_two_sum(product.high, product.low + (self.high * other.low + self.low * other.high))
     }
 }
 
@@ -269,7 +269,7 @@ impl Div for Double {
         let second = rest.high / other.high;
         let rest = rest - other * Self::new(second);
         let third = rest.high / other.high;
-        Self::quick_sum(first, second) + Self::new(third)
+        Self::fast_two_sum(first, second) + Self::new(third)
     }
 }
 

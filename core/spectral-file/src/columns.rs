@@ -305,7 +305,7 @@ impl Columns {
             log.push(Warning::SkippedColumns(at + 1));
         }
         if !axes.left.is_empty() {
-            let named = axes::told(&header, &axes.left);
+            let named = axes::column_list(&header, &axes.left);
             log.push(Warning::OtherAxes { named, wavelength_column: Some(at + 1) });
         }
         warn_of_texts(&header, &texts, log);

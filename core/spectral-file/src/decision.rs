@@ -62,7 +62,7 @@ impl<T> Decided<T> {
     }
 
     /// This decision with its value in words.
-    pub(super) fn told(&self, value: &str) -> Decided<String> {
+    pub(super) fn described(&self, value: &str) -> Decided<String> {
         Decided { value: value.to_owned(), certainty: self.certainty, why: self.why.clone() }
     }
 

@@ -94,7 +94,7 @@ pub(super) fn take(grid: &mut Grid, log: &mut Log<'_>) {
         }
         let others = Others::of(curve);
         let Some(number) = curve.values.iter().copied().find(|value| others.leave_out(*value)) else { continue };
-        first.get_or_insert_with(|| Sentinel { number, curve: curve.told() });
+        first.get_or_insert_with(|| Sentinel { number, curve: curve.description() });
         for value in curve.values.iter_mut().filter(|value| others.leave_out(**value)) {
             *value = f64::NAN;
             cells += 1;

@@ -68,7 +68,7 @@ pub(super) struct RawCurve {
 
 impl RawCurve {
     /// The name between quotes, and the column if the name does not say it.
-    pub(super) fn told(&self) -> String {
+    pub(super) fn description(&self) -> String {
         match self.column.filter(|_| self.named) {
             Some(column) => format!("“{}” (column {column})", self.name),
             None => format!("“{}”", self.name),
@@ -165,7 +165,7 @@ impl Grid {
             if left < 2 {
                 if left > 0 || !raw.label.is_empty() {
                     empty += 1;
-                    first_empty.get_or_insert(raw.told());
+                    first_empty.get_or_insert(raw.description());
                 }
                 continue;
             }

@@ -13,7 +13,7 @@ const LOOK: usize = 1 << 18;
 const LONGEST: usize = 4000;
 
 /// Ways in which a line may split.
-const WAYS: [(Delimiter, DecimalMark); 7] = [
+const SPLITS: [(Delimiter, DecimalMark); 7] = [
     (Delimiter::Semicolon, DecimalMark::Point),
     (Delimiter::Tab, DecimalMark::Point),
     (Delimiter::Semicolon, DecimalMark::Comma),
@@ -47,7 +47,7 @@ const MOST_CELLS: usize = 3;
 
 fn nearly(line: &str, options: &ReadOptions) -> Option<NearMiss> {
     let chosen = options.delimiter.is_some() || options.decimal_mark.is_some();
-    let shapes = WAYS.map(|(delimiter, mark)| {
+    let shapes = SPLITS.map(|(delimiter, mark)| {
         let dialect = Dialect::new(delimiter, mark);
         let cells = dialect.cells(line).filter(|cell| !cell.is_empty());
         let is_number = |cell: &str| matches!(dialect.parse(cell), Cell::Number(_));

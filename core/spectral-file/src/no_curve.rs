@@ -62,7 +62,7 @@ pub(super) fn leave_out(grid: &mut Grid, log: &mut Log<'_>) {
         return;
     }
     let Some(first) = marks.iter().position(|mark| *mark) else { return };
-    log.push(Warning::NotSpectra { count, first: grid.curves[first].told() });
+    log.push(Warning::NotSpectra { count, first: grid.curves[first].description() });
     let mut marks = marks.into_iter();
     grid.curves.retain(|_| !marks.next().unwrap_or(false));
 }

@@ -94,7 +94,7 @@ impl Conversion {
     }
 
     /// The conversion in words, with its factor.
-    fn told(&self) -> String {
+    fn description(&self) -> String {
         let amount = match self.photons {
             Some(count) if !count.is_finite() => Some(("photons on a relative scale", "550 nm/λ".to_owned())),
             Some(count) if count > 1e6 => Some(("moles of photons", "N_A h c/λ".to_owned())),
@@ -201,7 +201,7 @@ pub(super) fn to_energy(
     let some = if count < found.len() { format!(", in {count} of {} curves", found.len()) } else { String::new() };
     // A power of ten in a unit may be meant either way.
     let certainty = if first.ten == 1.0 { Certainty::Certain } else { Certainty::Guess };
-    let decided = Decided { value: format!("{}{some}", first.told()), certainty, why: first.why.clone() };
+    let decided = Decided { value: format!("{}{some}", first.description()), certainty, why: first.why.clone() };
     let decision = Decision::new(DECISION, &decided).affecting(Effect::Data);
     for (curve, conversion) in grid.curves.iter_mut().zip(&found) {
         let Some(conversion) = conversion else { continue };

@@ -255,10 +255,10 @@ impl ReadReport {
         ]);
         if let Some(per_photon) = &self.per_photon {
             let what = if per_photon.value { "responses per photon" } else { "responses per energy" };
-            all.push(Decision::new("Response", &per_photon.told(what)));
+            all.push(Decision::new("Response", &per_photon.described(what)));
         }
         if self.parts.len() > 1 {
-            all.push(Decision::new("Part", &self.part.told(&self.told_part())).affecting(Effect::Data));
+            all.push(Decision::new("Part", &self.part.described(&self.part_description())).affecting(Effect::Data));
         }
         all.extend(self.notes.iter().cloned());
         all
@@ -269,7 +269,7 @@ impl ReadReport {
         self.header.iter().find(|(name, _)| name.eq_ignore_ascii_case(key)).map(|(_, value)| value.as_str())
     }
 
-    fn told_part(&self) -> String {
+    fn part_description(&self) -> String {
         let count = self.parts.len();
         match self.part.value.checked_sub(1).map(|index| (index, self.parts.get(index))) {
             None => format!("curves side by side, not one of the {count} parts alone"),

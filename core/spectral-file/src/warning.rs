@@ -17,7 +17,7 @@ pub struct LineList {
 
 impl LineList {
     /// Maximum number of stored line numbers.
-    const KEPT: usize = 6;
+    const MAX_LISTED: usize = 6;
 
     /// Adds a line; a line added twice in a row counts once.
     pub(super) fn add(&mut self, line: usize) {
@@ -25,7 +25,7 @@ impl LineList {
             return;
         }
         self.count += 1;
-        if self.first.len() < Self::KEPT {
+        if self.first.len() < Self::MAX_LISTED {
             self.first.push(line);
         }
     }

@@ -120,7 +120,7 @@ fn suspects(dialect: Dialect, heads: &[&str], across: &Across) -> Vec<(usize, bo
 }
 
 /// A column and what stands at its head.
-fn told(heads: &[&str], at: usize) -> String {
+fn description(heads: &[&str], at: usize) -> String {
     if heads[at].is_empty() {
         format!("column {} (empty)", at + 1)
     } else {
@@ -195,7 +195,7 @@ impl<'a> Rows<'a> {
             log.push(Warning::OtherAxes { named: listed(&self.scales), wavelength_column: None });
         }
         let filled = self.suspects.iter().filter(|(_, filled)| *filled);
-        let named: Vec<String> = filled.map(|(at, _)| told(heads, *at)).collect();
+        let named: Vec<String> = filled.map(|(at, _)| description(heads, *at)).collect();
         if !named.is_empty() {
             log.push(Warning::BadWavelengths { line: self.across.line, named: listed(&named) });
         }

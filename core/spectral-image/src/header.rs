@@ -142,7 +142,7 @@ impl<'a> Fields<'a> {
         self.0.iter().find(|field| field.name == name)
     }
 
-    fn whole(&self, name: &'static str, example: &'static str) -> Result<usize, ImageError> {
+    fn integer(&self, name: &'static str, example: &'static str) -> Result<usize, ImageError> {
         let field = self.get(name).ok_or(ImageError::Missing { field: name, example })?;
         field.value.parse().map_err(|_| field.refuse(name, "expected a whole number"))
     }
@@ -176,8 +176,8 @@ impl EnviHeader {
     pub fn parse(bytes: &[u8]) -> Result<Self, ImageError> {
         let text = String::from_utf8_lossy(bytes);
         let fields = Fields::read(&text)?;
-        let [width, height] = [fields.whole("samples", "640")?, fields.whole("lines", "480")?];
-        let file_bands = fields.whole("bands", "31")?;
+        let [width, height] = [fields.integer("samples", "640")?, fields.integer("lines", "480")?];
+        let file_bands = fields.integer("bands", "31")?;
         ImageInfo::check_size(width, height, file_bands)?;
         refuse_unread(&fields)?;
         let data_type = data_type(&fields)?;
@@ -212,7 +212,11 @@ impl EnviHeader {
             data_type,
             interleave: interleave(&fields)?,
             big_endian: big_endian(&fields, data_type)?,
-            offset: if fields.get("header offset").is_some() { fields.whole("header offset", "0")? as u64 } else { 0 },
+            offset: if fields.get("header offset").is_some() {
+                fields.integer("header offset", "0")? as u64
+            } else {
+                0
+            },
             file_bands,
             bands,
             gains,

@@ -95,7 +95,7 @@ impl PlanckianLocus {
     /// [`CctError`] where the color is farther than [`MAX_DUV`] from the locus or outside its temperatures.
     #[inline]
     pub fn cct(&self, color: Uv60) -> Result<Cct, CctError> {
-        self.quick(color).map_or_else(|| self.careful(color), Ok)
+        self.cct_by_newton(color).map_or_else(|| self.cct_by_search(color), Ok)
     }
 
     /// Correlated color temperature and Duv of x and y.
@@ -135,7 +135,7 @@ impl PlanckianLocus {
                     // misaligned.
                     match lanes.found(lane).and_then(|found| found.cct()) {
                         Some(cct) => *answer = Ok(cct),
-                        None => *answer = self.careful(color),
+                        None => *answer = self.cct_by_search(color),
                     }
                 }
             }
@@ -161,7 +161,7 @@ impl PlanckianLocus {
     }
 
     /// Newton's method from the table; none if it does not end in the domain.
-    fn quick(&self, color: Uv60) -> Option<Cct> {
+    fn cct_by_newton(&self, color: Uv60) -> Option<Cct> {
         let place = self.start.place(color);
         let start = between(self.start.cell(place.column, place.row), place.right, place.up);
         let piece = self.pieces.at(start);
@@ -171,7 +171,7 @@ impl PlanckianLocus {
 
     /// A search over the whole locus that always ends with an answer or the right refusal.
     #[cold]
-    fn careful(&self, color: Uv60) -> Result<Cct, CctError> {
+    fn cct_by_search(&self, color: Uv60) -> Result<Cct, CctError> {
         if !(color.u.is_finite() && color.v.is_finite()) {
             return Err(CctError::NoChromaticity);
         }

@@ -12,10 +12,10 @@ pub trait Query: Clone + Eq + Hash + Send + Sync + 'static {
     /// A name for counters.
     const NAME: &'static str;
     /// True if an answer is complete even if [`Ask::stop`] was set meanwhile: neither it nor its nested queries check that.
-    const WHOLE: bool = false;
+    const ALWAYS_COMPLETE: bool = false;
 
     /// Number of answers cached where memory limits; the least recently used go first.
-    const KEPT: usize = 256;
+    const CAPACITY: usize = 256;
 
     /// About how much memory an answer takes, in bytes; 0 for what is not worth counting.
     fn bytes(_: &Self::Answer) -> usize {

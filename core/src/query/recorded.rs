@@ -22,7 +22,7 @@ pub struct RecordedFitQuery {
 impl Query for RecordedFitQuery {
     type Answer = Result<RecordedFit, RecordedError>;
     const NAME: &'static str = "recorded fit";
-    const WHOLE: bool = true;
+    const ALWAYS_COMPLETE: bool = true;
 
     fn answer(&self, _: &impl Ask) -> Self::Answer {
         RecordedFit::new(&self.recorded, &self.sensor, self.freedom)

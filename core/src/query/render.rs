@@ -45,8 +45,8 @@ pub enum MeshQuery {
 impl Query for MeshQuery {
     type Answer = Shared<Mesh>;
     const NAME: &'static str = "mesh";
-    const WHOLE: bool = true;
-    const KEPT: usize = 3;
+    const ALWAYS_COMPLETE: bool = true;
+    const CAPACITY: usize = 3;
 
     fn bytes(mesh: &Self::Answer) -> usize {
         size_of_val(mesh.positions()) + size_of_val(mesh.normals()) + size_of_val(mesh.triangles())
@@ -70,8 +70,8 @@ pub struct ShadowTreeQuery(pub MeshQuery);
 impl Query for ShadowTreeQuery {
     type Answer = ShadowTree;
     const NAME: &'static str = "shadow tree";
-    const WHOLE: bool = true;
-    const KEPT: usize = 3;
+    const ALWAYS_COMPLETE: bool = true;
+    const CAPACITY: usize = 3;
 
     fn answer(&self, ask: &impl Ask) -> Self::Answer {
         ShadowTree::new(&ask.ask(&self.0))
@@ -92,7 +92,7 @@ pub struct VisibilityQuery {
 impl Query for VisibilityQuery {
     type Answer = Option<Visibility>;
     const NAME: &'static str = "visibility";
-    const KEPT: usize = 6;
+    const CAPACITY: usize = 6;
 
     fn bytes(visibility: &Self::Answer) -> usize {
         visibility.as_ref().map_or(0, |visibility| size_of_val(visibility.hits()))
@@ -120,7 +120,7 @@ pub struct GeometryQuery {
 impl Query for GeometryQuery {
     type Answer = Option<Arc<GeometryImage>>;
     const NAME: &'static str = "geometry";
-    const KEPT: usize = 6;
+    const CAPACITY: usize = 6;
 
     fn bytes(geometry: &Self::Answer) -> usize {
         let of = |geometry: &Arc<GeometryImage>| {
@@ -153,7 +153,7 @@ pub struct SkyVisibilityQuery {
 impl Query for SkyVisibilityQuery {
     type Answer = Option<SkyVisibility>;
     const NAME: &'static str = "sky visibility";
-    const KEPT: usize = 3;
+    const CAPACITY: usize = 3;
 
     fn bytes(sky: &Self::Answer) -> usize {
         sky.as_ref().map_or(0, |sky| size_of_val(sky.cells()))
@@ -190,7 +190,7 @@ pub struct SkyImageQuery {
 impl Query for SkyImageQuery {
     type Answer = Option<Arc<SkyImage>>;
     const NAME: &'static str = "sky";
-    const KEPT: usize = 6;
+    const CAPACITY: usize = 6;
 
     fn bytes(image: &Self::Answer) -> usize {
         image.as_ref().map_or(0, |image| size_of_val(image.samples()))
@@ -218,8 +218,8 @@ pub struct SkyReflectanceQuery {
 impl Query for SkyReflectanceQuery {
     type Answer = SkyReflectance;
     const NAME: &'static str = "sky reflectance";
-    const WHOLE: bool = true;
-    const KEPT: usize = 16;
+    const ALWAYS_COMPLETE: bool = true;
+    const CAPACITY: usize = 16;
 
     fn bytes(reflectance: &Self::Answer) -> usize {
         reflectance.bytes()
@@ -237,8 +237,8 @@ pub struct MeshRoughnessQuery(pub MeshQuery);
 impl Query for MeshRoughnessQuery {
     type Answer = Vec<VertexRoughness>;
     const NAME: &'static str = "mesh roughness";
-    const WHOLE: bool = true;
-    const KEPT: usize = 3;
+    const ALWAYS_COMPLETE: bool = true;
+    const CAPACITY: usize = 3;
 
     fn answer(&self, ask: &impl Ask) -> Self::Answer {
         vertex_roughness(&ask.ask(&self.0))
@@ -278,10 +278,10 @@ pub struct ShadingQuery {
 impl Query for ShadingQuery {
     type Answer = Option<ShadingImage>;
     const NAME: &'static str = "shading";
-    const KEPT: usize = 6;
+    const CAPACITY: usize = 6;
 
     fn bytes(shading: &Self::Answer) -> usize {
-        shading.as_ref().map_or(0, |shading| size_of_val(shading.shades()) + size_of_val(shading.mirrors()))
+        shading.as_ref().map_or(0, |shading| size_of_val(shading.shades()) + size_of_val(shading.coherent_samples()))
     }
 
     fn answer(&self, ask: &impl Ask) -> Self::Answer {
@@ -339,7 +339,7 @@ pub struct SpectralWeightsQuery {
 impl Query for SpectralWeightsQuery {
     type Answer = Result<SpectralWeights, RenderingError>;
     const NAME: &'static str = "measure";
-    const WHOLE: bool = true;
+    const ALWAYS_COMPLETE: bool = true;
 
     fn answer(&self, _: &impl Ask) -> Self::Answer {
         let divisors = white_divisors(&self.sensor, &self.light)?;
@@ -352,7 +352,7 @@ impl SpectralWeightsQuery {
     pub fn in_picture(&self, shading: &ShadingImage, ask: &impl Ask) -> Arc<<Self as Query>::Answer> {
         let surface = shading.surface();
         let sky = shading.sky().map(|_| *surface);
-        let lobes = sky.is_some() || !shading.mirrors().is_empty();
+        let lobes = sky.is_some() || !shading.coherent_samples().is_empty();
         let untinted = surface.specular() == Specular::Fresnel && lobes;
         let through = shading.geometry().reach().through;
         if !untinted && !through && sky.is_none() {
@@ -377,8 +377,8 @@ struct PictureWeightsQuery {
 impl Query for PictureWeightsQuery {
     type Answer = <SpectralWeightsQuery as Query>::Answer;
     const NAME: &'static str = "measure in a picture";
-    const WHOLE: bool = true;
-    const KEPT: usize = 64;
+    const ALWAYS_COMPLETE: bool = true;
+    const CAPACITY: usize = 64;
 
     fn answer(&self, ask: &impl Ask) -> Self::Answer {
         let of = |query: &SpectralWeightsQuery| (*ask.ask(query)).clone();
@@ -409,8 +409,8 @@ pub struct LeafTransmittanceQuery(pub Shared<GridSpectrum>);
 impl Query for LeafTransmittanceQuery {
     type Answer = Shared<GridSpectrum>;
     const NAME: &'static str = "leaf transmittance";
-    const WHOLE: bool = true;
-    const KEPT: usize = 16;
+    const ALWAYS_COMPLETE: bool = true;
+    const CAPACITY: usize = 16;
 
     fn answer(&self, _: &impl Ask) -> Self::Answer {
         let (leaf, mut values) = (LeafModel::new(), self.0.values().iter());
@@ -430,7 +430,7 @@ pub struct CameraImageQuery {
 impl Query for CameraImageQuery {
     type Answer = Result<Option<CameraImage>, RenderingError>;
     const NAME: &'static str = "camera image";
-    const KEPT: usize = 64;
+    const CAPACITY: usize = 64;
 
     fn bytes(image: &Self::Answer) -> usize {
         let of = |image: &CameraImage| size_of_val(image.signals()) + size_of_val(image.placed().samples());

@@ -75,7 +75,7 @@ impl Geometry {
     /// incidence that the plane of incidence is undefined.
     #[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
     #[inline(always)]
-    pub fn quickly_from_directions(to_light: DVec3, to_viewer: DVec3, normal: DVec3) -> (Self, bool) {
+    pub fn from_directions_branchless(to_light: DVec3, to_viewer: DVec3, normal: DVec3) -> (Self, bool) {
         let turned = normal.cross(to_light + to_viewer);
         let cross = to_light.cross(normal);
         let within = cross - normal * normal.dot(cross);
@@ -128,12 +128,12 @@ mod tests {
         let unit = |i: u32| DVec3::new((1.7 * f64::from(i)).sin(), (2.3 * f64::from(i)).cos(), 0.4).normalize();
         for i in 0..500 {
             let (light, viewer, normal) = (unit(i), unit(3 * i + 1), unit(7 * i + 2));
-            let (quick, holds) = Geometry::quickly_from_directions(light, viewer, normal);
+            let (quick, holds) = Geometry::from_directions_branchless(light, viewer, normal);
             assert!(holds);
             assert_eq!(quick, Geometry::from_directions(light, viewer, normal));
         }
         for (light, normal) in [(DVec3::Z, DVec3::Z), (DVec3::NAN, DVec3::Z), (DVec3::X, DVec3::INFINITY)] {
-            assert!(!Geometry::quickly_from_directions(light, DVec3::Y, normal).1);
+            assert!(!Geometry::from_directions_branchless(light, DVec3::Y, normal).1);
         }
     }
 }

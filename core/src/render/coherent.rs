@@ -17,7 +17,7 @@ mod axis;
 pub(super) mod rules;
 
 use super::measure::SpectralWeights;
-use super::shading::{Mirror, Quality, ShadingImage};
+use super::shading::{CoherentSample, Quality, ShadingImage};
 use crate::math::exp::exp;
 use crate::reflectance::Surface;
 use crate::reflectance::coherent::mean_sinc_squared;
@@ -66,31 +66,31 @@ impl<'a> CoherentIntegral<'a> {
     }
 
     /// The three channels' integrals of a sample.
-    pub fn at(&self, mirror: &Mirror) -> [f64; 3] {
+    pub fn at(&self, coherent: &CoherentSample) -> [f64; 3] {
         if self.tolerance <= 0.0 {
-            return self.over_grid(mirror);
+            return self.over_grid(coherent);
         }
-        match self.method(mirror) {
-            Some(Method { rule, axes }) => axis::sum(rule, &axes, mirror.kappa).map(|sum| mirror.front * sum),
+        match self.method(coherent) {
+            Some(Method { rule, axes }) => axis::sum(rule, &axes, coherent.kappa).map(|sum| coherent.front * sum),
             None => [0.0; 3],
         }
     }
 
     /// Wavelengths that a sample is evaluated at.
-    pub fn evaluations(&self, mirror: &Mirror) -> usize {
+    pub fn evaluations(&self, coherent: &CoherentSample) -> usize {
         if self.tolerance <= 0.0 {
             return self.measure.dense().len();
         }
-        self.method(mirror).map_or(0, |method| method.rule.count)
+        self.method(coherent).map_or(0, |method| method.rule.count)
     }
 
     /// None where the whole component is within the tolerance.
-    fn method(&self, mirror: &Mirror) -> Option<Method<'a>> {
+    fn method(&self, coherent: &CoherentSample) -> Option<Method<'a>> {
         let (dense, band) = (self.measure.dense(), self.rules.wave_numbers());
         // Averaging either axis and the rule have a third each.
-        let share = self.tolerance / (3.0 * mirror.front);
-        let damping = exp(-mirror.kappa * REDDEST);
-        let axes = self.axes(mirror);
+        let share = self.tolerance / (3.0 * coherent.front);
+        let damping = exp(-coherent.kappa * REDDEST);
+        let axes = self.axes(coherent);
         let [x, y] = axes.map(|axis| axis.bounds(band));
         let largest = x.largest * y.largest * damping;
         if largest <= share || !largest.is_finite() {
@@ -103,7 +103,7 @@ impl<'a> CoherentIntegral<'a> {
         let reach = short.path + short.spread;
         let fades = |bound: f64, from: f64, to: f64| {
             bound * damping <= share
-                || (from > 0.0 && bound * self.rules.fade().largest(mirror.kappa, from, to) <= share)
+                || (from > 0.0 && bound * self.rules.fade().largest(coherent.kappa, from, to) <= share)
         };
         let nearest = long.path - long.spread - reach;
         let long_smooth = fades(of_short.largest * of_long.oscillation, nearest, long.path + long.spread + reach);
@@ -111,27 +111,27 @@ impl<'a> CoherentIntegral<'a> {
             long_smooth && fades(of_short.oscillation * of_long.smooth, short.path - short.spread, reach);
         let smooth = if order[0] == 0 { [short_smooth, long_smooth] } else { [long_smooth, short_smooth] };
         let path = |i: usize| if smooth[i] { 0.0 } else { axes[i].path + axes[i].spread };
-        let rule = self.rules.smallest(dense, path(0) + path(1), mirror.kappa, share / largest);
+        let rule = self.rules.smallest(dense, path(0) + path(1), coherent.kappa, share / largest);
         let precise = share < PRECISE * largest;
         let form = |i: usize| if smooth[i] { axes[i].smooth() } else { axes[i].form(band, precise) };
         Some(Method { rule, axes: [(axes[0], form(0)), (axes[1], form(1))] })
     }
 
-    fn axes(&self, mirror: &Mirror) -> [Axis; 2] {
+    fn axes(&self, coherent: &CoherentSample) -> [Axis; 2] {
         let axis = |i: usize| Axis {
-            path: self.half_widths_m[i] * mirror.v[i].abs(),
+            path: self.half_widths_m[i] * coherent.v[i].abs(),
             spread: self.half_widths_m[i] * self.angular_radius,
         };
         [axis(0), axis(1)]
     }
 
     /// The reference.
-    fn over_grid(&self, mirror: &Mirror) -> [f64; 3] {
+    fn over_grid(&self, coherent: &CoherentSample) -> [f64; 3] {
         let mut channels = [0.0; 3];
         for node in self.measure.dense() {
             let wave_number = TAU / (node.wavelength_nm * 1e-9);
-            let [x, y] = self.axes(mirror).map(|a| mean_sinc_squared(wave_number * a.path, wave_number * a.spread));
-            let value = mirror.front * (x * y) * exp(-mirror.kappa * node.scale);
+            let [x, y] = self.axes(coherent).map(|a| mean_sinc_squared(wave_number * a.path, wave_number * a.spread));
+            let value = coherent.front * (x * y) * exp(-coherent.kappa * node.scale);
             for (channel, weight) in channels.iter_mut().zip(node.weights) {
                 *channel += weight * value;
             }

@@ -382,7 +382,7 @@ impl Scene<'_> {
             let (point, normal, behind) = (given.point(lane), found.normal(lane), found.behind[lane]);
             (SeenPlace { point, normal, hit, behind }, found.angles(lane))
         } else {
-            self.carefully(sample as usize, hit)
+            self.checked_angles(sample as usize, hit)
         };
         if angles.cos_i > 0.0 && angles.cos_s > 0.0 {
             let block = &mut blocks[given.columns[lane] as usize / BLOCK];
@@ -405,7 +405,7 @@ impl Scene<'_> {
     }
 
     /// The angles at a sample of any kind.
-    fn carefully(&self, sample: usize, hit: Hit) -> (SeenPlace, Angles) {
+    fn checked_angles(&self, sample: usize, hit: Hit) -> (SeenPlace, Angles) {
         let ahead = self.rays.at(sample).normalize();
         let to_viewer = -(self.visibility.eye().world_from_view * DVec3::new(ahead.x, ahead.y, -ahead.z));
         let place = SeenPlace::new(self.mesh, hit, to_viewer);

@@ -50,7 +50,7 @@ pub struct SkySignals {
     /// Of the diffuse component.
     pub diffuse: Vec<[f32; 3]>,
     /// Of the coherent component.
-    pub mirror: Vec<[f32; 3]>,
+    pub coherent: Vec<[f32; 3]>,
 }
 
 /// Wavelengths for a table with errors below 1e-6 of the peak.

@@ -248,7 +248,7 @@ impl Plan {
     }
 
     /// The integral at a place that neither moments nor table serve.
-    fn slowly(&self, kappa: f64, beta: f64) -> [f64; 3] {
+    fn by_remaining_method(&self, kappa: f64, beta: f64) -> [f64; 3] {
         match &self.below {
             _ if !self.holds(kappa) => by_nodes(&self.every, kappa, beta, Precision::Full),
             Below::Own(rules, precision) => nodes::by_own(rules, kappa, beta, *precision),

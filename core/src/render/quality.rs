@@ -7,7 +7,7 @@ use crate::spectral::grid::COUNT;
 const SKIPPED_OF_ERROR: f64 = 0.1;
 const COHERENT_OF_ERROR: f64 = 0.4;
 /// Share of the brightest sample below which coherent terms are omitted from the sums over the grid.
-const REFERENCE_MIRROR_SHARE: f64 = 1e-14;
+const REFERENCE_COHERENT_SHARE: f64 = 1e-14;
 
 /// Exactness of the mean over the lobe.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -70,8 +70,8 @@ impl Quality {
     }
 
     /// Share of the brightest sample below which coherent terms are omitted.
-    pub fn mirror_share(self) -> f64 {
-        (SKIPPED_OF_ERROR * self.error()).max(REFERENCE_MIRROR_SHARE)
+    pub fn coherent_share(self) -> f64 {
+        (SKIPPED_OF_ERROR * self.error()).max(REFERENCE_COHERENT_SHARE)
     }
 
     /// Error of the included coherent terms, relative to the picture's brightest sample; 0 for the sums over the grid.

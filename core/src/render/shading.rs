@@ -60,7 +60,7 @@ impl Shade {
 
 /// A sample with a coherent component worth having.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Mirror {
+pub struct CoherentSample {
     /// The sample's place among the lit ones.
     pub index: u32,
     /// The factor beside `ρ0² e^-g`.
@@ -81,9 +81,9 @@ pub struct ShadingCounts {
     /// Samples with a spectral integral.
     pub spectral: u64,
     /// Samples with a coherent component.
-    pub mirrors: u64,
+    pub coherent_samples: u64,
     /// Samples whose specular component was omitted.
-    pub mirrors_skipped: u64,
+    pub coherent_skipped: u64,
 }
 
 /// Factors of the reflectance model at each lit sample.
@@ -95,7 +95,7 @@ pub struct ShadingImage {
     surface: Surface,
     quality: Quality,
     shades: Vec<Shade>,
-    mirrors: Vec<Mirror>,
+    coherent_samples: Vec<CoherentSample>,
     brightness: f64,
     diffuse_scale: f64,
     counts: ShadingCounts,
@@ -147,7 +147,7 @@ impl ShadingImage {
         let untinted = surface.specular() == Specular::Fresnel;
         let darkest = if untinted { DARKEST } else { 1.0 };
         let material = Material { reading, quality, angular_radius: geometry.angular_radius(), darkest };
-        let (shades, Lobes { mirrors, brightness, diffuse_scale }) = match &vertices {
+        let (shades, Lobes { coherent_samples, brightness, diffuse_scale }) = match &vertices {
             None => {
                 let place = |index: usize| {
                     let angles: &Angles = &geometry.angles()[index];
@@ -168,13 +168,13 @@ impl ShadingImage {
 
         // Samples that only the sky lights, or the light from behind, are not below a threshold.
         let unlit = if vertices.is_some() { 0 } else { shades.len() as u64 - geometry.counts().lit };
-        let mirrors_skipped = ((shades.len() - mirrors.len()) as u64).saturating_sub(unlit);
+        let coherent_skipped = ((shades.len() - coherent_samples.len()) as u64).saturating_sub(unlit);
         let counts = ShadingCounts {
             dark: dark.saturating_sub(unlit),
             flat,
             spectral,
-            mirrors: mirrors.len() as u64,
-            mirrors_skipped,
+            coherent_samples: coherent_samples.len() as u64,
+            coherent_skipped,
         };
         let vertices = vertices.map(|(vertices, _)| vertices);
         Some(Self {
@@ -183,7 +183,7 @@ impl ShadingImage {
             surface,
             quality,
             shades,
-            mirrors,
+            coherent_samples,
             brightness,
             diffuse_scale,
             counts,
@@ -229,8 +229,8 @@ impl ShadingImage {
     }
 
     /// The samples or vertices with a coherent component, ascending.
-    pub fn mirrors(&self) -> &[Mirror] {
-        &self.mirrors
+    pub fn coherent_samples(&self) -> &[CoherentSample] {
+        &self.coherent_samples
     }
 
     /// Estimate from below of the brightest sample's reflectance factor, to which errors are relative.
@@ -322,7 +322,7 @@ impl Material {
         let chunk = GeometryImage::chunk();
         let shade = |index| if stop.is_set() { Shade::DARK } else { self.shade(&place(index)) };
         let shades: Vec<Shade> = (0..count).into_par_iter().with_min_len(chunk).map(shade).collect();
-        let (diffuse, share) = (Brightness::of(&shades), self.quality.mirror_share());
+        let (diffuse, share) = (Brightness::of(&shades), self.quality.coherent_share());
         // The lobes' own contribution to the brightness would raise this limit, never lower it.
         let least = share * diffuse.brightest * self.darkest;
         let lobes = |run: usize| {
@@ -334,7 +334,7 @@ impl Material {
         if stop.is_set() {
             return None;
         }
-        let height = |lobe: &Lobe| lobe.brightness(&place(lobe.mirror.index as usize), self.angular_radius);
+        let height = |lobe: &Lobe| lobe.brightness(&place(lobe.coherent.index as usize), self.angular_radius);
         let lobes = Lobes::worth_having(&lobes.concat(), diffuse, self.darkest, height, share);
         Some((shades, lobes))
     }
@@ -373,7 +373,7 @@ impl Material {
         }
         let wave_number = std::f64::consts::TAU / (LAST_NM * 1e-9);
         let most = height * rho0_squared_bound(geometry, surface, wave_number, self.angular_radius);
-        let mirror = Mirror { index: index as u32, front, kappa, v: [geometry.vx_by_k, geometry.vy_by_k] };
-        (most > least).then_some(Lobe { mirror, most })
+        let coherent = CoherentSample { index: index as u32, front, kappa, v: [geometry.vx_by_k, geometry.vy_by_k] };
+        (most > least).then_some(Lobe { coherent, most })
     }
 }

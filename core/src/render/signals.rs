@@ -56,15 +56,15 @@ impl Camera<'_> {
             }
         });
         let integral = CoherentIntegral::in_picture(shading, self.measure);
-        let mirrors = shading.mirrors().par_iter().with_min_len(64).map(|mirror| {
+        let coherent_samples = shading.coherent_samples().par_iter().with_min_len(64).map(|coherent| {
             if stop.is_set() {
                 return [0.0; 3];
             }
-            integral.at(mirror)
+            integral.at(coherent)
         });
-        let mirrors: Vec<[f64; 3]> = mirrors.collect();
-        for (mirror, sums) in shading.mirrors().iter().zip(mirrors) {
-            for (signal, sum) in signals[mirror.index as usize].iter_mut().zip(sums) {
+        let coherent_samples: Vec<[f64; 3]> = coherent_samples.collect();
+        for (coherent, sums) in shading.coherent_samples().iter().zip(coherent_samples) {
+            for (signal, sum) in signals[coherent.index as usize].iter_mut().zip(sums) {
                 *signal += sum as f32;
             }
         }

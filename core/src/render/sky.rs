@@ -44,7 +44,7 @@ pub struct SkySample {
     /// `W_d`, times cos⁴α.
     pub diffuse: f32,
     /// `W_m`, times cos⁴α.
-    pub mirror: f32,
+    pub coherent: f32,
     /// Irradiance of the other side over that of a level surface under the whole sky, times cos⁴α; 0 where nothing shines through.
     pub behind: f32,
     /// cos θs.
@@ -143,7 +143,7 @@ impl Sampling<'_> {
         });
         SkySample {
             diffuse: falloff * self.lobe.visible_mean(normal, to_viewer, visible),
-            mirror: own * falloff * lobe::above(mirrored.y) * visible(mirrored),
+            coherent: own * falloff * lobe::above(mirrored.y) * visible(mirrored),
             behind: falloff * through,
             cos_s,
         }
@@ -168,7 +168,7 @@ pub struct SkyReflectance {
     /// At the wavelengths of [`chebyshev`], without the power of the wavelength that a measure has already.
     diffuse: Vec<[f64; WAVELENGTHS]>,
     /// At the wavelengths of the grid, likewise; none where it is dark.
-    mirror: Vec<Option<Box<[f32; COUNT]>>>,
+    coherent: Vec<Option<Box<[f32; COUNT]>>>,
     power: i32,
 }
 
@@ -184,7 +184,7 @@ impl SkyReflectance {
             std::array::from_fn(|w| shares.iter().zip(&at_angles).map(|(share, row)| share * row[w]).sum())
         };
         let power = wavelength_power(reading);
-        let mirror = |step: usize| {
+        let coherent = |step: usize| {
             let theta = (step as f64 / STEPS as f64).acos();
             let g = kappa(&surface, &Geometry::from_angles(theta, theta, 0.0));
             (g * (LAMBDA_0_NM / LAST_NM).powi(2) <= NOTHING).then(|| {
@@ -195,7 +195,7 @@ impl SkyReflectance {
         Self {
             specular: surface.specular(),
             diffuse: (0..=STEPS).map(diffuse).collect(),
-            mirror: (0..STEPS + 1).into_par_iter().map(mirror).collect(),
+            coherent: (0..STEPS + 1).into_par_iter().map(coherent).collect(),
             power,
         }
     }
@@ -221,7 +221,7 @@ impl SkyReflectance {
             let index = (node.wavelength_nm - FIRST_NM).round() as usize;
             spectrum[index.min(COUNT - 1)] = node.weights.map(|weight| weight as f32);
         }
-        let mirror = |row: &Option<Box<[f32; COUNT]>>| {
+        let coherent = |row: &Option<Box<[f32; COUNT]>>| {
             let mut sums = [0.0; 3];
             for (share, weights) in row.iter().flat_map(|row| row.iter()).zip(&spectrum) {
                 sums.iter_mut().zip(weights).for_each(|(sum, weight)| *sum += share * weight);
@@ -230,13 +230,13 @@ impl SkyReflectance {
         };
         SkySignals {
             diffuse: self.diffuse.iter().map(diffuse).collect(),
-            mirror: self.mirror.iter().map(mirror).collect(),
+            coherent: self.coherent.iter().map(coherent).collect(),
         }
     }
 
     /// Memory of the tables in bytes.
     pub fn bytes(&self) -> usize {
-        size_of_val(&*self.diffuse) + self.mirror.iter().flatten().count() * size_of::<[f32; COUNT]>()
+        size_of_val(&*self.diffuse) + self.coherent.iter().flatten().count() * size_of::<[f32; COUNT]>()
     }
 }
 
@@ -261,7 +261,7 @@ impl Sky {
             let t = at - low as f32;
             let mix = |table: &[[f32; 3]], c: usize| table[low][c] * (1.0 - t) + table[low + 1][c] * t;
             for (c, signal) in signal.iter_mut().enumerate() {
-                let own = sample.diffuse * mix(&table.diffuse, c) + sample.mirror * mix(&table.mirror, c);
+                let own = sample.diffuse * mix(&table.diffuse, c) + sample.coherent * mix(&table.coherent, c);
                 *signal += share * (own + sample.behind * through[c]);
             }
         };

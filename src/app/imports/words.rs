@@ -3,10 +3,10 @@
 use chromascope_core::query::Shared;
 
 use crate::document::Document;
-use crate::document::own::{OwnSet, Role};
+use crate::document::imported::{ImportedSet, Role};
 
 /// Names the sets that were renamed because another set already had the name in their files.
-pub(super) fn renamed(new: &[(&OwnSet, &Shared<OwnSet>)]) -> String {
+pub(super) fn renamed(new: &[(&ImportedSet, &Shared<ImportedSet>)]) -> String {
     let mut renamed = new.iter().filter(|(wanted, set)| wanted.name != set.name);
     let Some((first, set)) = renamed.next() else { return String::new() };
     let more = match renamed.count() {
@@ -17,7 +17,7 @@ pub(super) fn renamed(new: &[(&OwnSet, &Shared<OwnSet>)]) -> String {
 }
 
 /// Names the files, of `count`, whose sets were already there.
-pub(super) fn opened_again(again: &[(&OwnSet, &Shared<OwnSet>)], count: usize) -> String {
+pub(super) fn opened_again(again: &[(&ImportedSet, &Shared<ImportedSet>)], count: usize) -> String {
     match again {
         [] => String::new(),
         [(_, set)] if count == 1 => format!("This data set is already open as {}.", set.name),
@@ -27,7 +27,7 @@ pub(super) fn opened_again(again: &[(&OwnSet, &Shared<OwnSet>)], count: usize) -
 }
 
 /// Roles of several sets opened together. A single set is used in its own role.
-pub(super) fn put_to_use(before: &Document, after: &Document, brought: &[Shared<OwnSet>]) -> String {
+pub(super) fn put_to_use(before: &Document, after: &Document, brought: &[Shared<ImportedSet>]) -> String {
     if brought.len() < 2 {
         return String::new();
     }

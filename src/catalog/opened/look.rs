@@ -8,7 +8,7 @@ use spectral_file::{Marker, Preview, ReadError, ReadOptions, SpectralFile, Watch
 
 use super::file::OpenFile;
 use crate::catalog::import::Origin;
-use crate::document::own::Fingerprint;
+use crate::document::imported::Fingerprint;
 
 /// A file's contents as part of a query.
 #[derive(Clone, Debug)]
@@ -64,7 +64,7 @@ pub struct FilePreview {
 impl Query for FilePreviewQuery {
     type Answer = FilePreview;
     const NAME: &'static str = "look at a file";
-    const KEPT: usize = 4;
+    const CAPACITY: usize = 4;
 
     fn answer(&self, ask: &impl Ask) -> FilePreview {
         let Self { contents, options } = self;
@@ -93,7 +93,7 @@ struct PreviewQuery {
 impl Query for PreviewQuery {
     type Answer = Result<Arc<Preview>, ReadError>;
     const NAME: &'static str = "lines of a file";
-    const KEPT: usize = 2;
+    const CAPACITY: usize = 2;
 
     fn answer(&self, _: &impl Ask) -> Self::Answer {
         Preview::new(&self.contents.bytes).map(Arc::new)

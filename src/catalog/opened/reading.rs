@@ -8,11 +8,11 @@ use std::sync::Arc;
 
 use spectral_file::{MAX_BYTES, ReadError, Watch};
 
-use super::{Desk, Failing, Job, OpenFile, OpenedEvent, Why};
+use super::{Failing, Job, Monitor, OpenFile, OpenedEvent, Why};
 use crate::catalog::import::{Imported, Origin, import_as};
 use crate::catalog::meshes::is_mesh;
 use crate::catalog::spectral_images::{is_same_image, is_spectral_image};
-use crate::document::own::{Fingerprint, ImportOverrides, OwnSet};
+use crate::document::imported::{Fingerprint, ImportOverrides, ImportedSet};
 use crate::document::session::is_session;
 use crate::format::{file_name, io_failure, io_reason};
 
@@ -58,7 +58,7 @@ struct Harvest {
 pub(super) fn open(
     requests: Vec<Request>,
     remembered: &dyn Fn(&[u8]) -> ImportOverrides,
-    desk: &Desk,
+    monitor: &Monitor,
     job: &Job,
 ) -> Vec<OpenedEvent> {
     let mut harvest = Harvest::default();
@@ -69,7 +69,7 @@ pub(super) fn open(
         if !job.go_on(0.0) {
             break;
         }
-        let (origin, bytes, wishes) = match contents(request, desk, job, (index + 1, count)) {
+        let (origin, bytes, wishes) = match contents(request, monitor, job, (index + 1, count)) {
             Ok(Some(contents)) => contents,
             Ok(None) => continue,
             Err(Unread::Mesh(path)) => {
@@ -95,7 +95,7 @@ pub(super) fn open(
         harvest.from_memory |= wishes.is_some();
         let from_memory = wishes.is_none();
         let wishes = wishes.unwrap_or_else(|| remembered(&bytes));
-        take(origin, bytes, (&wishes, from_memory), desk, job, &mut harvest);
+        take(origin, bytes, (&wishes, from_memory), monitor, job, &mut harvest);
     }
     // The canceled request needs no result.
     if job.go_on(0.0) { harvest.into_events() } else { Vec::new() }
@@ -159,13 +159,13 @@ type Contents = (Origin, Arc<[u8]>, Option<ImportOverrides>);
 
 fn contents(
     request: Request,
-    desk: &Desk,
+    monitor: &Monitor,
     job: &Job,
     (file, count): (usize, usize),
 ) -> Result<Option<Contents>, Unread> {
     match request {
         Request::Known(fingerprint, wishes) => {
-            let known = desk.lock().file(fingerprint).cloned();
+            let known = monitor.lock().file(fingerprint).cloned();
             Ok(known.map(|file| (file.origin, file.bytes, Some(*wishes))))
         }
         Request::Bytes { name, bytes } => {
@@ -179,7 +179,7 @@ fn contents(
             Ok(Some((origin, bytes, None)))
         }
         Request::Path(path) => {
-            let path = known_path(path, desk);
+            let path = known_path(path, monitor);
             job.at(&path, file, count);
             let beginning = beginning(&path);
             if is_session(&beginning) {
@@ -198,9 +198,9 @@ fn contents(
 }
 
 /// The path under which a file is already known, if this one leads to it through links.
-fn known_path(path: PathBuf, desk: &Desk) -> PathBuf {
+fn known_path(path: PathBuf, monitor: &Monitor) -> PathBuf {
     let Ok(whole) = fs::canonicalize(&path) else { return path };
-    let state = desk.lock();
+    let state = monitor.lock();
     let is_known = state.files.iter().any(|file| file.origin.path.as_ref() == Some(&whole));
     if is_known { whole } else { path }
 }
@@ -213,7 +213,7 @@ fn take(
     origin: Origin,
     bytes: Arc<[u8]>,
     (wishes, from_memory): (&ImportOverrides, bool),
-    desk: &Desk,
+    monitor: &Monitor,
     job: &Job,
     harvest: &mut Harvest,
 ) {
@@ -245,7 +245,7 @@ fn take(
             harvest.failed.push(fingerprint);
         }
     }
-    desk.lock().know(OpenFile { origin, bytes, failure });
+    monitor.lock().know(OpenFile { origin, bytes, failure });
 }
 
 /// Reads; a panic comes out as a failure of this file alone.
@@ -297,7 +297,7 @@ impl Harvest {
 }
 
 /// Adds files that could not be read in an earlier run. One that has changed is not used until the user confirms it.
-pub(super) fn recall(failing: Vec<Failing>, desk: &Desk, job: &Job) {
+pub(super) fn recall(failing: Vec<Failing>, monitor: &Monitor, job: &Job) {
     let count = failing.len();
     for (index, Failing { path, fingerprint, why }) in failing.into_iter().enumerate() {
         job.at(&path, index + 1, count);
@@ -307,19 +307,24 @@ pub(super) fn recall(failing: Vec<Failing>, desk: &Desk, job: &Job) {
         if origin.fingerprint != fingerprint {
             failure = read_once(&origin, &bytes, &ImportOverrides::default(), job).err();
             let new = origin.fingerprint;
-            desk.lock().events.push(OpenedEvent::Replaced { old: fingerprint, new, path });
+            monitor.lock().events.push(OpenedEvent::Replaced { old: fingerprint, new, path });
         }
         if !job.go_on(0.0) {
             return;
         }
-        desk.lock().know(OpenFile { origin, bytes, failure });
+        monitor.lock().know(OpenFile { origin, bytes, failure });
     }
 }
 
 /// Reads a set's file again, from disk if that changed, else from memory.
-pub(super) fn reread(set: &OwnSet, why: Why, desk: &Desk, job: &Job) -> Option<(String, Result<Imported, String>)> {
+pub(super) fn reread(
+    set: &ImportedSet,
+    why: Why,
+    monitor: &Monitor,
+    job: &Job,
+) -> Option<(String, Result<Imported, String>)> {
     let name = set.name.clone();
-    let known = set.fingerprint.and_then(|fingerprint| desk.lock().file(fingerprint).cloned());
+    let known = set.fingerprint.and_then(|fingerprint| monitor.lock().file(fingerprint).cloned());
     let result = match (why, known, &set.path) {
         (Why::Alike, Some(file), _) => read_once(&file.origin, &file.bytes, &set.wishes, job),
         (_, _, Some(path)) => {
@@ -329,12 +334,12 @@ pub(super) fn reread(set: &OwnSet, why: Why, desk: &Desk, job: &Job) -> Option<(
                 .and_then(|bytes| {
                     let origin = origin(path, &bytes);
                     if why == Why::Changed && Some(origin.fingerprint) == set.fingerprint {
-                        desk.lock().know(OpenFile { origin, bytes, failure: None });
+                        monitor.lock().know(OpenFile { origin, bytes, failure: None });
                         return Ok(None);
                     }
                     let read = read_once(&origin, &bytes, &set.wishes, job);
                     let file = OpenFile { origin, bytes, failure: read.as_ref().err().cloned() };
-                    desk.lock().know(file);
+                    monitor.lock().know(file);
                     read.map(Some)
                 })
                 .transpose()?
@@ -345,13 +350,13 @@ pub(super) fn reread(set: &OwnSet, why: Why, desk: &Desk, job: &Job) -> Option<(
 }
 
 /// Reloads a file, if its contents are unchanged.
-pub(super) fn fetch(path: &Path, fingerprint: Fingerprint, desk: &Desk, job: &Job) {
+pub(super) fn fetch(path: &Path, fingerprint: Fingerprint, monitor: &Monitor, job: &Job) {
     job.at(path, 1, 1);
     if let Ok(bytes) = read_bytes(path)
         && Fingerprint::of(&bytes) == fingerprint
     {
         let file = OpenFile { origin: origin(path, &bytes), bytes, failure: None };
-        desk.lock().know(file);
+        monitor.lock().know(file);
     }
 }
 

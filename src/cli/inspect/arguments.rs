@@ -71,7 +71,7 @@ pub(in crate::cli) struct InspectArguments {
     #[arg(long, value_name = "MARK", value_parser = named::<DecimalMark>(&MARKS), help_heading = READING)]
     decimal_mark: Option<DecimalMark>,
     /// Orientation of the wavelengths: down a column or across a row
-    #[arg(long, value_name = "ORIENTATION", value_parser = named::<Orientation>(&WAYS), help_heading = READING)]
+    #[arg(long, value_name = "ORIENTATION", value_parser = named::<Orientation>(&ORIENTATIONS), help_heading = READING)]
     orientation: Option<Orientation>,
     /// Column of the wavelengths, from 1
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..), help_heading = READING)]
@@ -104,7 +104,7 @@ const UNITS: [(&str, &[&str]); 5] = [
 ];
 const DELIMITERS: [&str; 6] = ["comma", "comma-space", "semicolon", "tab", "spaces", "elements"];
 const MARKS: [&str; 2] = ["point", "comma"];
-const WAYS: [&str; 2] = ["down", "across"];
+const ORIENTATIONS: [&str; 2] = ["down", "across"];
 const READERS: [&str; 11] =
     ["table", "cgats", "jcamp", "tm27", "cxf", "rawtoaces", "dcamprof", "enlighten", "labels", "alternate", "camspec"];
 

@@ -10,7 +10,7 @@ use crate::format;
 /// Largest number of curves named.
 const NAMED: usize = 20;
 /// Largest number of dropped rows listed one by one.
-const TOLD: usize = 6;
+const MAX_DROPPED_ROWS: usize = 6;
 
 /// The name of the file, and below it a line for each decision, fact and warning.
 pub(super) fn of(name: &str, table: &SpectralFile, notes: &[Note]) -> String {
@@ -60,7 +60,7 @@ fn facts(text: &mut String, table: &SpectralFile) {
 fn rows(reading: &ReadReport) -> String {
     let first = reading.first_data_line;
     let begin = format!("{}, from line {first}", reading.rows);
-    [vec![begin], format::dropped_rows(&reading.dropped_rows, TOLD)].concat().join("; ")
+    [vec![begin], format::dropped_rows(&reading.dropped_rows, MAX_DROPPED_ROWS)].concat().join("; ")
 }
 
 fn curves(curves: &[Curve]) -> String {

@@ -16,7 +16,7 @@ use super::setup::compared_request;
 use crate::catalog::spectral_images::{self, OpenImageError, ReadSignalsError};
 use crate::cli::error::CliError;
 use crate::cli::outputs::{self, show, write_to};
-use crate::cli::request::told;
+use crate::cli::request::display_path;
 use crate::document::TransformChoice;
 use crate::export::render::{ImageProvenance, image_exr_bytes, png_bytes};
 use crate::format::fixed;
@@ -32,13 +32,13 @@ pub(super) fn run(arguments: &RenderArguments, path: &Path, matches: &ArgMatches
     let opened = |error: OpenImageError| CliError::File(error.to_string());
     let info = spectral_images::open(path, wanted).map_err(opened)?.info().clone();
     for note in &info.notes {
-        say(&format!("chromascope: {}: {note}\n", told(path)));
+        say(&format!("chromascope: {}: {note}\n", display_path(path)));
     }
     if let [Some(first), Some(last)] = [info.wavelengths_nm.first(), info.wavelengths_nm.last()]
         && (*first > 400.0 || *last < 700.0)
     {
         let held = "beyond them the first and last band were held";
-        say(&format!("chromascope: {}: bands from {first} to {last} nm; {held}\n", told(path)));
+        say(&format!("chromascope: {}: bands from {first} to {last} nm; {held}\n", display_path(path)));
     }
     let request = compared_request(arguments, matches)?;
     let results = Results::default();
@@ -83,9 +83,9 @@ fn failure(path: &Path, error: &ImagePicturesError) -> CliError {
     match error {
         ImagePicturesError::Read(ReadSignalsError::Open(error)) => CliError::File(error.to_string()),
         ImagePicturesError::Quantity => {
-            CliError::File(format!("{}: {error}; add --image-quantity reflectance or radiance", told(path)))
+            CliError::File(format!("{}: {error}; add --image-quantity reflectance or radiance", display_path(path)))
         }
-        other => CliError::File(format!("{}: {other}", told(path))),
+        other => CliError::File(format!("{}: {other}", display_path(path))),
     }
 }
 

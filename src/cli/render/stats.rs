@@ -122,8 +122,8 @@ fn samples(made: &Made<'_>) -> Value {
         "below_threshold": shading.dark,
         "lambertian": shading.flat,
         "spectral": shading.spectral,
-        "mirror_terms": shading.mirrors,
-        "mirror_terms_skipped": shading.mirrors_skipped,
+        "mirror_terms": shading.coherent_samples,
+        "mirror_terms_skipped": shading.coherent_skipped,
         "shadow_rays": geometry.rays,
     })
 }
@@ -181,7 +181,7 @@ fn plan(made: &Made<'_>, index: usize) -> Option<Value> {
     Some(json!({
         "certified_error": explanation.error_bound(),
         "estimated_error_bound": explanation.error_bound(),
-        "mirror_error": planned.and_then(|planned| planned.bounds.mirror),
+        "mirror_error": planned.and_then(|planned| planned.bounds.coherent),
         "single_precision": plans::SINGLE_PRECISION,
         "rough": explanation.rough.as_ref().map(candidate),
         "chosen": candidate(&explanation.chosen),

@@ -9,11 +9,11 @@ use crate::view::diagram::{DiagramFit, Fit, FitKey};
 /// Coordinates that the data's fit takes in; real colors lie between 0 and 0.85.
 const NEAR: std::ops::RangeInclusive<f64> = LEAST..=1.1;
 /// Right and upper ends of the whole diagram.
-const WHOLE: [[f64; 2]; 2] = [[0.76, 0.86], [0.65, 0.60]];
+const FULL_EXTENT: [[f64; 2]; 2] = [[0.76, 0.86], [0.65, 0.60]];
 
 /// Right and upper ends of the whole diagram in its coordinates.
-pub(super) fn whole(diagram: Diagram) -> [f64; 2] {
-    WHOLE[usize::from(diagram == Diagram::UvPrime)]
+pub(super) fn full_extent(diagram: Diagram) -> [f64; 2] {
+    FULL_EXTENT[usize::from(diagram == Diagram::UvPrime)]
 }
 
 /// Choices that the fit belongs to: the reference and the sensors that can be compared with it, all if none can.
@@ -29,7 +29,7 @@ pub fn fit_key(scene: &Scene<'_>, fit: DiagramFit) -> FitKey {
 
 /// Ranges that hold the visible loci and patches of the fitted sensors.
 pub fn fitted(scene: &Scene<'_>, key: &FitKey) -> Fit {
-    let whole = whole(key.diagram).map(|end| [0.0, end]);
+    let whole = full_extent(key.diagram).map(|end| [0.0, end]);
     // A matrix fitted under an extreme light can throw a camera's points far out; they do not shrink all others to a dot.
     let near: Vec<[f64; 2]> = points(scene, key).into_iter().filter(|p| p.iter().all(|v| NEAR.contains(v))).collect();
     if near.is_empty() {

@@ -4,9 +4,9 @@ use spectral_file::{Quantity, Role, SpectralFile};
 
 use chromascope_core::spectral::grid::{FIRST_NM, LAST_NM};
 
-use super::on_show::{ImportSelection, places};
+use super::import_selection::{ImportSelection, places};
 use crate::catalog::import::taken;
-use crate::document::own::OwnSet;
+use crate::document::imported::ImportedSet;
 use crate::format::{capitalized, number, sentence};
 
 /// Maximum number of curves drawn.
@@ -78,16 +78,16 @@ impl Curves {
         Self::new(title, drawn.collect(), (role, said), unit, kept.len())
     }
 
-    fn of_set(set: &OwnSet, said: Option<Quantity>, most: usize) -> Result<Self, String> {
+    fn of_set(set: &ImportedSet, said: Option<Quantity>, most: usize) -> Result<Self, String> {
         let places = places(set);
         // The curves of a camera that are no channel are shown too; their values are never percent.
         let role = if set.role == Role::Camera { Role::Unknown } else { set.role };
         let count = set.curves.len().min(most);
-        let head = OwnSet {
+        let head = ImportedSet {
             role,
             curves: set.curves[..count].to_vec(),
             decisions: Vec::new(),
-            wishes: crate::document::own::ImportOverrides::default(),
+            wishes: crate::document::imported::ImportOverrides::default(),
             ..set.clone()
         };
         let curves = head.curves_in_nm().map_err(|error| format!("{}: {error}", set.name))?;

@@ -89,7 +89,7 @@ fn patches_of(scene: &Scene<'_>, camera: &ComparedSensor) -> Option<String> {
 
 /// Differences of the rendered material, once the pictures are there.
 fn rendered(context: &PaneContext<'_>) -> String {
-    let made = context.studio.frame().and_then(|frame| Some((frame, frame.made()?)));
+    let made = context.render_service.frame().and_then(|frame| Some((frame, frame.made()?)));
     let Some((frame, made)) = made else { return "The pictures are being rendered.".to_owned() };
     let measure = Measure::of_frame(frame);
     let pairs = frame.sources.iter().zip(made.differences).filter(|(source, _)| !source.is_reference);

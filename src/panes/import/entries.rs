@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use chromascope_figure::{Cell, Table};
 
 use crate::catalog::opened::OpenFile;
-use crate::document::own::{OwnSet, Role};
+use crate::document::imported::{ImportedSet, Role};
 use crate::panes::context::PaneContext;
 use crate::view::import::ImportItem;
 
@@ -62,7 +62,7 @@ pub(super) fn all(context: &PaneContext<'_>) -> Vec<Entry> {
     let own = &context.scene.document.own;
     let sets = own.iter().map(|set| of_set(set, &files, context));
     // The contents that a file had before a change are retained for undo; in the list it is the same file.
-    let is_of = |set: &OwnSet, file: &OpenFile| {
+    let is_of = |set: &ImportedSet, file: &OpenFile| {
         set.fingerprint == Some(file.origin.fingerprint)
             || (file.failure.is_none() && set.path.is_some() && set.path == file.origin.path)
     };
@@ -70,7 +70,7 @@ pub(super) fn all(context: &PaneContext<'_>) -> Vec<Entry> {
     sets.chain(unused.map(of_file)).collect()
 }
 
-fn of_set(set: &OwnSet, files: &[OpenFile], context: &PaneContext<'_>) -> Entry {
+fn of_set(set: &ImportedSet, files: &[OpenFile], context: &PaneContext<'_>) -> Entry {
     let item = ImportItem::Set(set.name.clone());
     // A decision is a sentence that ends with its confidence; the role's comes first.
     let open = |decision: &String| decision.ends_with("(open)");

@@ -4,7 +4,7 @@ use egui::{Color32, ComboBox, Event, Id, Key, Painter, Pos2, Rect, Response, Scr
 use egui::{TextStyle, Ui, UiBuilder, Vec2};
 
 use super::entries::{Entry, State};
-use crate::action::{Action, OwnAction};
+use crate::action::{Action, ImportedAction};
 use crate::command::Command;
 use crate::figures::curves::ImportSelection;
 use crate::panes::context::PaneContext;
@@ -294,7 +294,7 @@ fn remove(ui: &Ui, index: usize, entries: &[Entry], context: &mut PaneContext<'_
     let was_shown = context.view.import.selected.as_ref() == Some(&entry.item);
     context.view.import.unseen.remove(&entry.item);
     match &entry.item {
-        ImportItem::Set(name) => context.push(Action::Own(OwnAction::Remove(name.clone()))),
+        ImportItem::Set(name) => context.push(Action::Imported(ImportedAction::Remove(name.clone()))),
         ImportItem::File(fingerprint) => context.push(Command::ForgetFile(*fingerprint)),
     }
     if was_shown && entries.len() > 1 {

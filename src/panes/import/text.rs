@@ -8,7 +8,7 @@ use spectral_file::{LONGEST_LINE, Preview};
 use super::line::{Line, Pen, legend};
 use crate::catalog::opened::FilePreview;
 use crate::command::Command;
-use crate::document::own::{Fingerprint, OwnSet};
+use crate::document::imported::{Fingerprint, ImportedSet};
 use crate::figures::curves::ImportSelection;
 use crate::format::sentence;
 use crate::panes::context::PaneContext;
@@ -105,11 +105,11 @@ fn message(ui: &mut Ui, rect: Rect, words: &str, color: egui::Color32) {
 }
 
 /// A set whose file cannot be found as it was.
-fn away(ui: &mut Ui, rect: Rect, set: &OwnSet, context: &mut PaneContext<'_>) {
+fn away(ui: &mut Ui, rect: Rect, set: &ImportedSet, context: &mut PaneContext<'_>) {
     let mut child = ui.new_child(UiBuilder::new().id_salt("away").max_rect(rect.shrink(UNIT)));
     let place = set.path.as_ref().map_or(String::new(), |path| format!(" ({})", path.display()));
-    let kept = if set.curves.len() == 1 { "Its curve is" } else { "Its curves are" };
-    child.label(format!("{} is not available{place}. {kept} stored in the session.", set.file));
+    let text_state = if set.curves.len() == 1 { "Its curve is" } else { "Its curves are" };
+    child.label(format!("{} is not available{place}. {text_state} stored in the session.", set.file));
     child.add_space(UNIT);
     if child.button("Open…").on_hover_text("Locate the file").clicked() {
         context.push(Command::Open);
@@ -118,7 +118,7 @@ fn away(ui: &mut Ui, rect: Rect, set: &OwnSet, context: &mut PaneContext<'_>) {
 
 /// State of the text view between frames.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-struct Kept {
+struct TextState {
     /// The error that was brought into view last, by its line.
     error: Option<(Fingerprint, usize)>,
     /// The line that was requested last.
@@ -184,8 +184,8 @@ fn target(
     context: &mut PaneContext<'_>,
 ) -> Option<(usize, usize)> {
     let id = Id::unique("text of import");
-    let mut kept: Kept = ui.data(|data| data.get_temp(id).unwrap_or_default());
-    let before = kept;
+    let mut text_state: TextState = ui.data(|data| data.get_temp(id).unwrap_or_default());
+    let before = text_state;
     let column = |number: usize, byte: usize| {
         let line = look.preview.as_ref().ok().and_then(|preview| preview.line(number)).unwrap_or("");
         line.char_indices().take(WIDEST).take_while(|(at, _)| *at < byte).count()
@@ -193,16 +193,16 @@ fn target(
     let failed = error.map(|(line, range)| (*line, column(*line, range.start)));
     let mut target = None;
     let new_error = failed.map(|(line, _)| (look.fingerprint, line));
-    if shown.is_fresh() && kept.error != new_error {
-        kept.error = new_error;
+    if shown.is_fresh() && text_state.error != new_error {
+        text_state.error = new_error;
         target = failed;
     }
     if let Some(line) = context.view.import.line.take() {
-        kept.line = Some((look.fingerprint, line));
+        text_state.line = Some((look.fingerprint, line));
         target = failed.filter(|(failed, _)| *failed == line).or(Some((line, 0)));
     }
-    if kept != before {
-        ui.data_mut(|data| data.insert_temp(id, kept));
+    if text_state != before {
+        ui.data_mut(|data| data.insert_temp(id, text_state));
     }
     target
 }
@@ -227,8 +227,8 @@ impl View<'_> {
         let count = (self.viewport.height() / LINE).ceil() as usize + 1;
         let last = (first + count).min(self.preview.line_count());
         let id = Id::unique("text of import");
-        let kept: Kept = ui.data(|data| data.get_temp(id).unwrap_or_default());
-        let asked = kept.line.filter(|(of, _)| *of == self.look.fingerprint).map(|(_, line)| line);
+        let text_state: TextState = ui.data(|data| data.get_temp(id).unwrap_or_default());
+        let asked = text_state.line.filter(|(of, _)| *of == self.look.fingerprint).map(|(_, line)| line);
         let gutter = Rect::from_min_size(place.rect.min, Vec2::new(place.gutter, place.rect.height()));
         let text = Rect::from_min_max(egui::pos2(gutter.right(), place.rect.top()), place.rect.max);
         let clip = ui.clip_rect();

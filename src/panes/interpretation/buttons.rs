@@ -2,9 +2,9 @@
 
 use egui::Ui;
 
-use crate::action::{Action, OwnAction};
+use crate::action::{Action, ImportedAction};
 use crate::command::Command;
-use crate::document::own::ImportOverrides;
+use crate::document::imported::ImportOverrides;
 use crate::figures::curves::ImportSelection;
 use crate::panes::context::PaneContext;
 use crate::theme::{ROW, UNIT};
@@ -65,7 +65,7 @@ pub(super) fn show(ui: &mut Ui, shown: &ImportSelection, context: &mut PaneConte
                 context.push(Command::ReadAgain(name.clone()));
             }
             if ui.button("Remove").on_hover_text("Remove the data set; can be undone").clicked() {
-                context.push(Action::Own(OwnAction::Remove(name.clone())));
+                context.push(Action::Imported(ImportedAction::Remove(name.clone())));
             }
         }
     });

@@ -4,7 +4,7 @@ use egui::Ui;
 use spectral_file::{Certainty, Role};
 
 use super::{Closed, caption, list};
-use crate::document::own::ImportOverrides;
+use crate::document::imported::ImportOverrides;
 use crate::figures::curves::ImportSelection;
 use crate::panes::widgets::segmented;
 use crate::theme::{Theme, UNIT};

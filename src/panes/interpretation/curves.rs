@@ -3,7 +3,7 @@
 use egui::{Id, RichText, ScrollArea, TextEdit, Ui};
 
 use crate::catalog::import::TAKEN_AT_FIRST;
-use crate::document::own::ImportOverrides;
+use crate::document::imported::ImportOverrides;
 use crate::figures::curves::ImportSelection;
 use crate::panes::context::PaneContext;
 use crate::theme::{ROW, UNIT};

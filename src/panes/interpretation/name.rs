@@ -3,15 +3,15 @@
 use egui::{Id, RichText, TextEdit, Ui};
 
 use super::caption;
-use crate::action::{Action, OwnAction};
+use crate::action::{Action, ImportedAction};
 use crate::document::SetKind;
-use crate::document::own::OwnSet;
+use crate::document::imported::ImportedSet;
 use crate::document::uses::Holder;
 use crate::panes::context::PaneContext;
 use crate::plot_item::PlotItem;
 
 /// Shows the field.
-pub(super) fn show(ui: &mut Ui, set: &OwnSet, context: &mut PaneContext<'_>) {
+pub(super) fn show(ui: &mut Ui, set: &ImportedSet, context: &mut PaneContext<'_>) {
     let theme = context.theme;
     let id = Id::unique("name of the set that is read");
     let kept: Option<(String, String)> = ui.data(|data| data.get_temp(id));
@@ -42,9 +42,13 @@ pub(super) fn show(ui: &mut Ui, set: &OwnSet, context: &mut PaneContext<'_>) {
     }
     ui.data_mut(|data| data.insert_temp(id, (set.name.clone(), text)));
     if let Some(name) = accepted.filter(|name| *name != set.name) {
-        let with = OwnSet { name: name.clone(), ..set.clone() };
+        let with = ImportedSet { name: name.clone(), ..set.clone() };
         let built_in = built_in.clone();
-        context.push(Action::Own(OwnAction::Replace { name: set.name.clone(), with: Box::new(with), built_in }));
+        context.push(Action::Imported(ImportedAction::Replace {
+            name: set.name.clone(),
+            with: Box::new(with),
+            built_in,
+        }));
         follow(&set.name, &name, context);
     }
 }

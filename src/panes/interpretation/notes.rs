@@ -12,7 +12,7 @@ use crate::panes::widgets::facts::range_words;
 use crate::theme::{Theme, UNIT};
 
 /// Maximum number of dropped rows listed individually.
-const TOLD: usize = 5;
+const MAX_DROPPED_ROWS: usize = 5;
 
 fn led_to() -> Id {
     Id::unique("notes are led to")
@@ -109,7 +109,7 @@ fn facts(shown: &ImportSelection, table: &SpectralFile) -> Vec<String> {
         format!("Reader: {}; {}", reading.reader.value, reading.encoding),
         format!("{} rows from line {}", reading.rows, reading.first_data_line),
     ];
-    facts.extend(format::dropped_rows(&reading.dropped_rows, TOLD));
+    facts.extend(format::dropped_rows(&reading.dropped_rows, MAX_DROPPED_ROWS));
     let order = if reading.descending { ", written in descending order" } else { "" };
     facts.push(format!("Range {}{order}", range_words(reading.range_nm)));
     let [min, median, max] = [step.min, step.median, step.max].map(number);

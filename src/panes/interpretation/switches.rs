@@ -7,7 +7,7 @@ use spectral_file::{
 };
 
 use super::{CONTENT, CONTENT_SHORT, Closed, list, parts};
-use crate::document::own::ImportOverrides;
+use crate::document::imported::ImportOverrides;
 use crate::figures::curves::ImportSelection;
 use crate::theme::{Theme, UNIT};
 

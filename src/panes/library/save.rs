@@ -2,7 +2,7 @@
 
 use egui::{Key, Modifiers, Popup, Rect, Response, Sense, Ui};
 
-use crate::action::{Action, OwnAction};
+use crate::action::{Action, ImportedAction};
 use crate::catalog::Entry;
 use crate::command::Command;
 use crate::document::SetKind;
@@ -60,7 +60,7 @@ fn menu(ui: &mut Ui, entry: &Entry, context: &mut PaneContext<'_>) {
     }
     save_as(ui, entry.kind, &entry.name, context);
     if entry.is_own() && ui.button("Remove").clicked() {
-        context.push(Action::Own(OwnAction::Remove(entry.name.clone())));
+        context.push(Action::Imported(ImportedAction::Remove(entry.name.clone())));
         ui.close();
     }
 }

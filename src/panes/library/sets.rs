@@ -9,7 +9,7 @@ use super::save;
 use crate::action::{Action, CompareAction, SceneAction};
 use crate::catalog::{Entry, names};
 use crate::command::Command;
-use crate::document::own::OwnSet;
+use crate::document::imported::ImportedSet;
 use crate::document::{Light, SetKind};
 use crate::panes::context::PaneContext;
 use crate::panes::widgets::{focus_rim, lines};
@@ -37,7 +37,7 @@ pub(super) enum Row<'a> {
     /// A set of the program's.
     BuiltIn(&'a Entry),
     /// A set of the user's.
-    Own(&'a Shared<OwnSet>),
+    Own(&'a Shared<ImportedSet>),
 }
 
 impl<'a> Row<'a> {

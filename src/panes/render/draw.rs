@@ -30,27 +30,27 @@ const HANDLE: f32 = 8.0;
 const RING: f32 = 7.0;
 
 /// Draws the pictures of the pane, as far as they are available.
-pub(super) fn pictures(ui: &mut Ui, painter: &Painter, stand: &PictureLayout, context: &mut PaneContext<'_>) {
-    let shot = context.studio.frame().cloned();
-    let scale = shot.as_deref().filter(|_| stand.scale.is_some()).map(maps::Scale::of);
-    for (index, cell) in stand.cells.iter().enumerate() {
-        let Some(source) = stand.sources.get(cell.source) else { continue };
+pub(super) fn pictures(ui: &mut Ui, painter: &Painter, layout: &PictureLayout, context: &mut PaneContext<'_>) {
+    let shot = context.render_service.frame().cloned();
+    let scale = shot.as_deref().filter(|_| layout.scale.is_some()).map(maps::Scale::of);
+    for (index, cell) in layout.cells.iter().enumerate() {
+        let Some(source) = layout.sources.get(cell.source) else { continue };
         let index_in =
             |source: &ComparedSensor| shot.as_deref().and_then(|shot| Some((shot, index_of(shot, &id(source))?)));
         let found = index_in(source);
         // While B is held, the reference replaces every camera; a map of differences has none.
         let blinking = context.view.blink && scale.is_none();
-        let drawn = if blinking { stand.sources.first().and_then(index_in) } else { found };
+        let drawn = if blinking { layout.sources.first().and_then(index_in) } else { found };
         if let Some((shot, at)) = drawn {
-            picture(ui, painter, stand, index, (shot, at), scale, context);
+            picture(ui, painter, layout, index, (shot, at), scale, context);
         }
-        if stand.mode == RenderMode::Grid || stand.mode == RenderMode::Difference {
+        if layout.mode == RenderMode::Grid || layout.mode == RenderMode::Difference {
             let note = found.and_then(|(shot, at)| note(shot, at, cell.caption.width()));
             caption(ui, painter, cell, source, note.as_ref(), context);
         }
-        ring(painter, stand, index, context);
+        ring(painter, layout, index, context);
     }
-    if let (Some(rect), Some(scale), Some(shot)) = (stand.scale, scale, shot.as_deref()) {
+    if let (Some(rect), Some(scale), Some(shot)) = (layout.scale, scale, shot.as_deref()) {
         difference::scale(ui, painter, rect, scale, Measure::of_frame(shot).name(), context);
     }
 }
@@ -59,14 +59,14 @@ pub(super) fn pictures(ui: &mut Ui, painter: &Painter, stand: &PictureLayout, co
 fn picture(
     ui: &Ui,
     painter: &Painter,
-    stand: &PictureLayout,
+    layout: &PictureLayout,
     cell: usize,
     (shot, at): (&RenderedFrame, usize),
     scale: Option<maps::Scale>,
     context: &mut PaneContext<'_>,
 ) {
-    let rect = stand.cells[cell].picture;
-    let clip = stand.visible(cell);
+    let rect = layout.cells[cell].picture;
+    let clip = layout.visible(cell);
     let why = match shot.pictures().map(|pictures| pictures.pictures.get(at)) {
         Err(error) => error.to_string(),
         Ok(Some(Err(error))) => error.to_string(),
@@ -74,8 +74,8 @@ fn picture(
         Ok(Some(Ok(made))) => {
             let source = &shot.sources[at];
             // Pixels of a small image stay squares.
-            let sharp = [made.width, made.height] == stand.pixels.map(|side| side as usize)
-                || (shot.query.image().is_some() && made.width < stand.pixels[0] as usize / 2);
+            let sharp = [made.width, made.height] == layout.pixels.map(|side| side as usize)
+                || (shot.query.image().is_some() && made.width < layout.pixels[0] as usize / 2);
             let name = format!("{} {}", source.kind.singular(), source.name);
             let textures = &mut context.view.render.textures;
             match scale {
@@ -165,19 +165,19 @@ fn marker(painter: &Painter, rect: Rect, source: &ComparedSensor, context: &Pane
 }
 
 /// The ring around the pinned pixel, in every picture.
-fn ring(painter: &Painter, stand: &PictureLayout, cell: usize, context: &PaneContext<'_>) {
+fn ring(painter: &Painter, layout: &PictureLayout, cell: usize, context: &PaneContext<'_>) {
     let Some(pinned) = &context.view.render.pinned else { return };
-    let picture = stand.cells[cell].picture;
+    let picture = layout.cells[cell].picture;
     let at = picture.min + Vec2::new(pinned.at[0] as f32, pinned.at[1] as f32) * picture.size();
-    let painter = painter.with_clip_rect(stand.visible(cell).intersect(painter.clip_rect()));
+    let painter = painter.with_clip_rect(layout.visible(cell).intersect(painter.clip_rect()));
     let [outer, inner] = paint::ring_colors();
     painter.circle_stroke(at, RING, Stroke::new(3.0, outer));
     painter.circle_stroke(at, RING, Stroke::new(1.5, inner));
 }
 
 /// The divider of a split picture: drag it, or move it with arrows.
-pub(super) fn divider(ui: &mut Ui, stand: &PictureLayout, context: &mut PaneContext<'_>) {
-    let (Some(x), Some(cell)) = (stand.divider, stand.cells.first()) else { return };
+pub(super) fn divider(ui: &mut Ui, layout: &PictureLayout, context: &mut PaneContext<'_>) {
+    let (Some(x), Some(cell)) = (layout.divider, layout.cells.first()) else { return };
     let picture = cell.picture;
     let line = Rect::from_min_max(Pos2::new(x - 6.0, picture.top()), Pos2::new(x + 6.0, picture.bottom()));
     let response = ui.interact(line, ui.scope_id().with("divider"), Sense::click_and_drag());
@@ -220,17 +220,17 @@ pub(super) fn divider(ui: &mut Ui, stand: &PictureLayout, context: &mut PaneCont
 }
 
 /// The line above a single or split picture, with a list to choose its source from.
-pub(super) fn choosers(ui: &mut Ui, stand: &PictureLayout, sources: &[ComparedSensor], context: &mut PaneContext<'_>) {
-    let Some(cell) = stand.cells.first() else { return };
-    if !matches!(stand.mode, RenderMode::One | RenderMode::Split) {
+pub(super) fn choosers(ui: &mut Ui, layout: &PictureLayout, sources: &[ComparedSensor], context: &mut PaneContext<'_>) {
+    let Some(cell) = layout.cells.first() else { return };
+    if !matches!(layout.mode, RenderMode::One | RenderMode::Split) {
         return;
     }
-    let shot = context.studio.frame().cloned();
+    let shot = context.render_service.frame().cloned();
     let painter = ui.painter().clone();
     let row = cell.caption.shrink2(Vec2::new(8.0, 0.0));
     let mut left = row.left();
-    if stand.mode == RenderMode::Split {
-        if let Some(reference) = stand.sources.first() {
+    if layout.mode == RenderMode::Split {
+        if let Some(reference) = layout.sources.first() {
             let half = Rect::from_min_max(cell.caption.min, Pos2::new(row.center().x, row.bottom()));
             let reference_cell = PictureSlot { caption: half, ..*cell };
             caption(ui, &painter, &reference_cell, reference, None, context);
@@ -246,7 +246,7 @@ pub(super) fn choosers(ui: &mut Ui, stand: &PictureLayout, sources: &[ComparedSe
     child.spacing_mut().button_padding.y = 1.0;
     let combo = ComboBox::from_id_salt("visible sensor").width(place.width()).truncate().selected_text(title(&now));
     let response = combo.show_ui(&mut child, |ui| {
-        for source in sources.iter().filter(|source| stand.mode == RenderMode::One || !source.is_reference) {
+        for source in sources.iter().filter(|source| layout.mode == RenderMode::One || !source.is_reference) {
             let here = source.kind == now.kind && source.name == now.name;
             if ui.selectable_label(here, title(source)).clicked() {
                 context.view.render.chosen = Some(id(source));

@@ -34,26 +34,26 @@ const MOST_SAMPLES: u64 = 6_000_000;
 const TABLES_REACH: f64 = 1e-9;
 
 /// Requests the visible pictures. Returns the reason if there are none.
-pub(super) fn ask(ui: &Ui, stand: &PictureLayout, context: &mut PaneContext<'_>) -> Result<(), String> {
+pub(super) fn ask(ui: &Ui, layout: &PictureLayout, context: &mut PaneContext<'_>) -> Result<(), String> {
     let none = || "Tick a camera in the Library.".to_owned();
     let stages = if let MeshChoice::Image(path) = &context.scene.document.render.mesh {
         let image = image(path, context)?;
         context.view.render.rows_read = Some(image.source.rows.share());
-        if stand.cells.is_empty() {
+        if layout.cells.is_empty() {
             return Err(none());
         }
         let query = |step| {
-            let pictures = context.scene.image_pictures(&image.source, &stand.sources, context.scene.image_use(step));
+            let pictures = context.scene.image_pictures(&image.source, &layout.sources, context.scene.image_use(step));
             pictures.map(PicturesOf::Image).map_err(|error| error.to_string())
         };
         screen_steps(&image.info).into_iter().map(query).collect::<Result<Vec<_>, _>>()?
     } else {
         context.view.render.rows_read = None;
         let mesh = mesh(context)?;
-        if stand.cells.is_empty() {
+        if layout.cells.is_empty() {
             return Err(none());
         }
-        let wish = Wish { stand, mesh, context };
+        let wish = Wish { layout, mesh, context };
         let stages = [wish.first(), wish.middle(), wish.last()];
         stages.into_iter().map(|finish| wish.query(finish).map(PicturesOf::Mesh)).collect::<Result<Vec<_>, _>>()?
     };
@@ -61,28 +61,28 @@ pub(super) fn ask(ui: &Ui, stand: &PictureLayout, context: &mut PaneContext<'_>)
     let making = context.scene.document.render.quality.label();
     let settled = context.scene.document.render.quality != QualityLevel::Full;
     context.view.render.making = if settled { making } else { "Rendering" };
-    let studio = &mut *context.studio;
-    let known = studio.has_made();
-    let rest = studio.want(&last, ui.input(|input| input.time));
+    let render_service = &mut *context.render_service;
+    let known = render_service.has_made();
+    let rest = render_service.want(&last, ui.input(|input| input.time));
     let moving = rest.is_some() && known;
     if let Some(rest) = rest {
         ui.ctx().request_repaint_after(std::time::Duration::from_secs_f64(rest));
         context.view.render.cancelled = false;
     }
     if context.view.render.cancelled {
-        studio.stay();
-    } else if studio.only_develops(&last) {
-        studio.ask(vec![last], &stand.sources, moving);
+        render_service.stay();
+    } else if render_service.only_develops(&last) {
+        render_service.ask(vec![last], &layout.sources, moving);
     } else if moving {
-        studio.ask(vec![first], &stand.sources, true);
+        render_service.ask(vec![first], &layout.sources, true);
     } else {
         // In some qualities the last two are the same.
         let mut stages = stages;
         stages.dedup();
-        studio.ask(stages, &stand.sources, false);
+        render_service.ask(stages, &layout.sources, false);
     }
-    studio.refresh();
-    if let Some(Err(NoPictures::Image(why))) = studio.frame().map(|frame| frame.pictures()) {
+    render_service.refresh();
+    if let Some(Err(NoPictures::Image(why))) = render_service.frame().map(|frame| frame.pictures()) {
         let name = context.scene.document.render.mesh.name();
         let remedy = match &*why {
             ImagePicturesError::Quantity => "; choose Reflectance or Radiance in Render settings",
@@ -90,7 +90,7 @@ pub(super) fn ask(ui: &Ui, stand: &PictureLayout, context: &mut PaneContext<'_>)
         };
         return Err(format!("{name}: {why}{remedy}."));
     }
-    studio.failure().map_or(Ok(()), |why| Err(format!("No picture: {why}.")))
+    render_service.failure().map_or(Ok(()), |why| Err(format!("No picture: {why}.")))
 }
 
 /// The image, or the message shown while there is none.
@@ -120,19 +120,19 @@ fn mesh(context: &PaneContext<'_>) -> Result<MeshQuery, String> {
 
 /// The pictures as they are to be in the end, with the stages before.
 struct Wish<'a, 'b> {
-    stand: &'a PictureLayout,
+    layout: &'a PictureLayout,
     mesh: MeshQuery,
     context: &'a PaneContext<'b>,
 }
 
 impl Wish<'_, '_> {
     fn size(&self, samples: u32) -> RasterSize {
-        let [width, height] = self.stand.pixels;
+        let [width, height] = self.layout.pixels;
         RasterSize { width, height, samples }.clamped()
     }
 
     fn compared(&self, at_rest: usize) -> usize {
-        match self.stand.mode {
+        match self.layout.mode {
             RenderMode::Difference => usize::MAX,
             _ => COMPARED[at_rest],
         }
@@ -140,8 +140,8 @@ impl Wish<'_, '_> {
 
     /// While something moves.
     fn first(&self) -> Finish {
-        let [width, height] = self.stand.pixels;
-        let all = u64::from(width) * u64::from(height) * self.stand.sources.len() as u64;
+        let [width, height] = self.layout.pixels;
+        let all = u64::from(width) * u64::from(height) * self.layout.sources.len() as u64;
         let size = if all > MANY_PIXELS {
             RasterSize::new(width.div_ceil(2), height.div_ceil(2)).clamped()
         } else {
@@ -170,8 +170,8 @@ impl Wish<'_, '_> {
     fn last(&self) -> Finish {
         let chosen = &self.context.scene.document.render;
         // Maps compare every sample, which costs more than all else: one a pixel is enough for them.
-        let one = is_slow(chosen) || self.stand.mode == RenderMode::Difference;
-        let [width, height] = self.stand.pixels.map(u64::from);
+        let one = is_slow(chosen) || self.layout.mode == RenderMode::Difference;
+        let [width, height] = self.layout.pixels.map(u64::from);
         let fits = |samples: &u32| width * height * u64::from(samples * samples) <= MOST_SAMPLES;
         let samples = if one { 1 } else { (2..=SAMPLES).rev().find(fits).unwrap_or(1) };
         Finish { size: self.size(samples), quality: chosen.quality(), ..self.middle() }
@@ -180,13 +180,13 @@ impl Wish<'_, '_> {
     fn query(&self, finish: Finish) -> Result<PicturesQuery, String> {
         let look = &self.context.view.saved.render;
         let orbit = look.orbit.unwrap_or_else(|| Orbit::of(&self.context.scene.document.render.mesh));
-        let [width, height] = self.stand.pixels;
+        let [width, height] = self.layout.pixels;
         let viewpoint = orbit.viewpoint(f64::from(width) / f64::from(height.max(1))).ok_or("No such view.")?;
         let surround = self.context.theme.surround.color().to_array();
         let linear = |channel: u8| srgb_inverse_transfer(f64::from(channel) / 255.0) as f32;
         let background = Some([surround[0], surround[1], surround[2]].map(linear));
         let scene = &self.context.scene;
-        let pictures = scene.pictures_of(&self.stand.sources, self.mesh.clone(), viewpoint, finish, background);
+        let pictures = scene.pictures_of(&self.layout.sources, self.mesh.clone(), viewpoint, finish, background);
         pictures.map_err(|error| error.to_string())
     }
 }

@@ -28,7 +28,7 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
         );
         return;
     };
-    let found = context.studio.frame().and_then(|shot| {
+    let found = context.render_service.frame().and_then(|shot| {
         let place = shown(pinned, shot);
         Some((shot, pixel_of(&context.scene, shot, &place)?, place))
     });

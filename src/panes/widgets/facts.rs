@@ -9,7 +9,7 @@ use egui::{TextFormat, Ui};
 use crate::catalog::load::FileQuery;
 use crate::catalog::{Entry, Place};
 use crate::document::SetKind;
-use crate::document::own::Role;
+use crate::document::imported::Role;
 use crate::format::number;
 use crate::scene::Scene;
 use crate::theme::{SMALL, Theme};

@@ -18,7 +18,7 @@ pub fn show(ui: &mut Ui, id: &str, shot: &RenderedFrame, at: [usize; 2], context
     let Some((query, image)) = shot.query.image().zip(shot.made().and_then(MadePictures::image)) else { return };
     let signals = &query.signals;
     let of = PixelSpectrumQuery { source: signals.source.clone(), wanted: signals.wanted, scale: signals.scale, at };
-    let points = match context.studio.spectrum(of) {
+    let points = match context.render_service.spectrum(of) {
         Some(Ok(points)) => points,
         Some(Err(why)) => {
             ui.label(RichText::new(why).small().color(context.theme.error));

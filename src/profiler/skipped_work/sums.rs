@@ -43,9 +43,9 @@ pub(super) fn dark(sources: &Sources<'_>) -> Option<SkippedWork> {
 pub(super) fn wavelengths(sources: &Sources<'_>) -> Option<SkippedWork> {
     let lit = sources.lit();
     let (mut looked_at, mut all) = (0, 0);
-    for ways in &sources.ways {
-        looked_at += lit.iter().map(|shade| ways.looked_at(shade) as u64).sum::<u64>();
-        all += (ways.measure().dense().len() * lit.len()) as u64;
+    for plans in &sources.plans {
+        looked_at += lit.iter().map(|shade| plans.looked_at(shade) as u64).sum::<u64>();
+        all += (plans.measure().dense().len() * lit.len()) as u64;
     }
     if looked_at >= all {
         return None;
@@ -56,7 +56,7 @@ pub(super) fn wavelengths(sources: &Sources<'_>) -> Option<SkippedWork> {
         taken.iter().map(sum).collect::<Vec<_>>()
     };
     let by_sum = shortest(|| sources.measures().map(sum).collect::<Vec<_>>());
-    let now: f64 = sources.ways.iter().map(|ways| ways.seconds(&taken)).sum();
+    let now: f64 = sources.plans.iter().map(|plans| plans.seconds(&taken)).sum();
     let places = sources.places();
     Some(SkippedWork {
         what: format!("wavelengths at a lit {}", sources.place()).into(),

@@ -18,15 +18,15 @@ pub(super) fn terms(sources: &Sources<'_>) -> Option<SkippedWork> {
     let quality = sources.pictures.shading.quality;
     let lit = sources.lit();
     let taken = some_of(&lit, SUMS);
-    if taken.is_empty() || sources.ways.is_empty() || quality == Quality::Regimes {
+    if taken.is_empty() || sources.plans.is_empty() || quality == Quality::Regimes {
         return None;
     }
     let (mut all, mut added, mut arguments, mut wavelengths) = (0.0, 0.0, Vec::new(), 0);
-    for ways in &sources.ways {
-        let nodes = ways.nodes();
+    for plans in &sources.plans {
+        let nodes = plans.nodes();
         wavelengths = wavelengths.max(nodes.len());
         for shade in &taken {
-            let sums = ways.sums(shade);
+            let sums = plans.sums(shade);
             for node in &nodes {
                 let [g, b] = [shade.kappa * node.scale, shade.beta * shade.kappa * node.scale];
                 let terms = series_terms(g, b);
@@ -41,7 +41,7 @@ pub(super) fn terms(sources: &Sources<'_>) -> Option<SkippedWork> {
     let seconds = shortest(sum);
     let of_a_term = seconds / arguments.iter().map(|[_, _, last]| last.min(budget).floor()).sum::<f64>().max(1.0);
     let counted = if added > 0.0 { "; where sums are made, those that matter count as added" } else { "" };
-    let now: f64 = sources.ways.iter().map(|ways| ways.seconds(&taken)).sum();
+    let now: f64 = sources.plans.iter().map(|plans| plans.seconds(&taken)).sum();
     let scale = lit.len() as f64 / taken.len() as f64;
     let places = sources.places();
     Some(SkippedWork {

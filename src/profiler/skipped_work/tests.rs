@@ -29,7 +29,7 @@ fn rows_at(size: RasterSize, change: impl FnOnce(&mut RenderSettings)) -> Vec<Sk
 }
 
 #[test]
-fn pictures_that_are_not_on_show_are_made_from_nothing() {
+fn pictures_that_are_not_visible_are_made_from_nothing() {
     let document = Document::paper();
     let (catalog, results) = (Catalog::built_in(), Results::default());
     let scene = Scene { document: &document, catalog: &catalog, results: &results };
@@ -88,12 +88,15 @@ fn what_was_measured_on_a_part_says_so_with_threads_and_threshold() {
     for row in &rows {
         assert!(row.how.contains("one thread"), "{row:?}");
     }
-    let mirrors = row(&rows, "specular terms").expect("left out of a rough surface");
-    assert!(mirrors.count > 200 && mirrors.how.contains("extrapolated from 1"), "{mirrors:?}");
-    assert!(mirrors.how.contains("below 1e-6 of the picture's brightest sample"), "{mirrors:?}");
+    let coherent_samples = row(&rows, "specular terms").expect("left out of a rough surface");
+    assert!(
+        coherent_samples.count > 200 && coherent_samples.how.contains("extrapolated from 1"),
+        "{coherent_samples:?}"
+    );
+    assert!(coherent_samples.how.contains("below 1e-6 of the picture's brightest sample"), "{coherent_samples:?}");
     let rows = rows_of(|settings| tolerance(settings, 1e-6));
-    let mirrors = row(&rows, "specular terms").expect("left out of a rough surface");
-    assert!(mirrors.how.contains("below 1e-7 of"), "a tenth of the tolerance: {mirrors:?}");
+    let coherent_samples = row(&rows, "specular terms").expect("left out of a rough surface");
+    assert!(coherent_samples.how.contains("below 1e-7 of"), "a tenth of the tolerance: {coherent_samples:?}");
 }
 
 #[test]
@@ -101,7 +104,7 @@ fn of_vertices_each_has_a_roughness_of_its_own() {
     let rows = rows_of(|settings| settings.roughness = RoughnessChoice::Mesh);
     let beside = row(&rows, "samples beside the mesh").expect("counted");
     assert!(beside.saved == 0.0 && beside.count > 0 && beside.how.contains("not measured"), "{beside:?}");
-    let mirrors = row(&rows, "specular terms").expect("left out at most vertices");
-    assert!(mirrors.how.contains("vertices"), "{mirrors:?}");
+    let coherent_samples = row(&rows, "specular terms").expect("left out at most vertices");
+    assert!(coherent_samples.how.contains("vertices"), "{coherent_samples:?}");
     assert!(row(&rows, "wavelengths at a lit vertex").is_some_and(|row| row.count > 0 && row.saved >= 0.0), "{rows:?}");
 }

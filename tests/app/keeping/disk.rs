@@ -20,7 +20,7 @@ fn a_document_saved_in_part_is_not_as_the_one_before_it() {
     let (_around, folder) = profile();
     let executor = Executor::driven();
     let mut files = Files::on(&executor, Some(folder.clone()));
-    let before = files.kept_document();
+    let before = files.saved_document();
     files.save_document(&before).unwrap();
     fs::write(folder.join("curves"), "").unwrap();
     let mut document = Document { temperature_k: 4321.0, ..before.clone() };
@@ -31,7 +31,7 @@ fn a_document_saved_in_part_is_not_as_the_one_before_it() {
     assert!(!files.is_saved());
     files.save_document(&before).unwrap();
     drop(files);
-    assert_eq!(kept(&folder), before);
+    assert_eq!(saved_document(&folder), before);
 }
 
 #[test]
@@ -39,13 +39,13 @@ fn curves_that_vanished_are_written_again_from_memory() {
     let (_around, folder) = profile();
     let document = with_sets(vec![set("leaf")]);
     let mut files = open(&folder);
-    files.kept_document();
+    files.saved_document();
     files.save_document(&document).unwrap();
     fs::remove_dir_all(folder.join("curves")).unwrap();
     let changed = Document { temperature_k: 4321.0, ..document };
     files.save_document(&changed).unwrap();
     drop(files);
-    assert_eq!(kept(&folder), changed);
+    assert_eq!(saved_document(&folder), changed);
 }
 
 #[test]
@@ -54,10 +54,10 @@ fn a_copy_whose_lock_cannot_be_opened_is_left_alone() {
     let copy = folder.join("document-99.json");
     fs::write(&copy, session::to_json(&of(3000.0)).unwrap()).unwrap();
     let files = open(&folder);
-    assert_eq!(files.kept_documents().len(), 1);
+    assert_eq!(files.other_documents().len(), 1);
     // A folder cannot be opened for writing.
     fs::create_dir(copy.with_extension("lock")).unwrap();
-    assert_eq!(files.kept_documents(), []);
+    assert_eq!(files.other_documents(), []);
     files.remove_document(&copy);
     assert!(copy.exists());
 }
@@ -70,7 +70,7 @@ fn what_a_link_leads_to_is_written_and_the_link_stays() {
     fs::write(&real, session::to_json(&of(3000.0)).unwrap()).unwrap();
     symlink(&real, &link).unwrap();
     let mut files = open(&folder);
-    assert_eq!(files.kept_document(), of(3000.0));
+    assert_eq!(files.saved_document(), of(3000.0));
     files.save_document(&of(4000.0)).unwrap();
     drop(files);
     assert_eq!(fs::read_link(&link).unwrap(), real);
@@ -78,8 +78,8 @@ fn what_a_link_leads_to_is_written_and_the_link_stays() {
     // Where it leads nowhere, as while a disk is away, that is said and the link is kept.
     fs::remove_file(&real).unwrap();
     let mut files = open(&folder);
-    assert_eq!(files.kept_document(), Document::default());
-    assert!(words(&files, StandingKind::SetAside).is_some());
+    assert_eq!(files.saved_document(), Document::default());
+    assert!(words(&files, PersistentMessageKind::SetAside).is_some());
     assert_eq!(fs::read_link(folder.join("document-unreadable-1.json")).unwrap(), real);
 }
 
@@ -87,7 +87,7 @@ fn what_a_link_leads_to_is_written_and_the_link_stays() {
 fn a_document_that_cannot_be_looked_at_is_not_overwritten() {
     let (_around, folder) = profile();
     let mut files = open(&folder);
-    files.kept_document();
+    files.saved_document();
     // A link to itself is there, but cannot be read.
     symlink("document.json", folder.join("document.json")).unwrap();
     files.save_document(&of(4000.0)).unwrap_err();
@@ -113,7 +113,7 @@ fn a_file_whose_name_is_removed_while_it_is_written_is_written_once_more() {
 fn where_the_document_moved_to_is_told_although_that_failed_at_first() {
     let (_around, folder) = profile();
     let mut files = open(&folder);
-    files.kept_document();
+    files.saved_document();
     let mut document = with_sets(vec![set("leaf")]);
     // A document of an earlier form is not written while its curves cannot be.
     let mut json: serde_json::Value = serde_json::from_str(&session::to_json(&document).unwrap()).unwrap();
@@ -121,13 +121,13 @@ fn where_the_document_moved_to_is_told_although_that_failed_at_first() {
     drop(files);
     fs::write(folder.join("document.json"), json.to_string()).unwrap();
     files = open(&folder);
-    document = Document { temperature_k: 4321.0, ..files.kept_document() };
+    document = Document { temperature_k: 4321.0, ..files.saved_document() };
     fs::write(folder.join("curves"), "").unwrap();
     fs::write(folder.join("document.json"), session::to_json(&of(3000.0)).unwrap()).unwrap();
     files.save_document(&document).unwrap_err();
     fs::remove_file(folder.join("curves")).unwrap();
     files.save_document(&document).unwrap();
-    assert!(words(&files, StandingKind::Moved).is_some());
+    assert!(words(&files, PersistentMessageKind::Moved).is_some());
 }
 
 #[test]
@@ -165,12 +165,12 @@ fn a_document_that_the_system_does_not_give_is_set_aside_too() {
     // As without the permission, reading fails.
     fs::create_dir(folder.join("document.json")).unwrap();
     let mut files = open(&folder);
-    assert_eq!(files.kept_document(), Document::default());
-    assert!(words(&files, StandingKind::SetAside).is_some());
+    assert_eq!(files.saved_document(), Document::default());
+    assert!(words(&files, PersistentMessageKind::SetAside).is_some());
     assert!(folder.join("document-unreadable-1.json").is_dir());
     files.save_document(&of(3000.0)).unwrap();
     drop(files);
-    assert_eq!(kept(&folder), of(3000.0));
+    assert_eq!(saved_document(&folder), of(3000.0));
 }
 
 #[test]
@@ -180,5 +180,5 @@ fn a_window_that_goes_without_closing_saves() {
     change(&mut window, 3456.0);
     assert!(executor.queued().contains(&"keep".to_owned()), "nothing is written yet");
     drop(window);
-    assert_eq!(kept(&folder).temperature_k, 3456.0);
+    assert_eq!(saved_document(&folder).temperature_k, 3456.0);
 }

@@ -113,10 +113,10 @@ proptest! {
             if is_negligible(&surface, &geometry, reading, nm, radius, tolerance) {
                 let g = kappa(&surface, &geometry) * (550.0 / nm).powi(2);
                 let pattern = rho0_squared(&geometry, &surface, TAU / (nm * 1e-9), radius) * (-g).exp();
-                let mirror = coherent_prefactor(&surface, &geometry, reading) * pattern;
+                let coherent = coherent_prefactor(&surface, &geometry, reading) * pattern;
                 let sum = diffuse_sum(g, beta(&surface, &geometry) * g, Precision::Full);
                 let diffuse = diffuse_prefactor(&surface, &geometry, reading) * sum;
-                prop_assert!(mirror <= tolerance * diffuse * (1.0 + 1e-6), "{} {}", mirror, diffuse);
+                prop_assert!(coherent <= tolerance * diffuse * (1.0 + 1e-6), "{} {}", coherent, diffuse);
             }
         }
     }

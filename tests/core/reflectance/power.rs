@@ -290,8 +290,8 @@ proptest! {
         prop_assert_eq!(kappa(&surface, &there), kappa(&surface, &back));
         let (a, b) = (beta(&surface, &there), beta(&surface, &back));
         prop_assert!((a - b).abs() <= 1e-12 * a, "{} {}", a, b);
-        let mirror = [&there, &back].map(|g| coherent_prefactor(&surface, g, Normalization::Microfacet));
-        prop_assert_eq!(mirror[0], mirror[1]);
+        let coherent = [&there, &back].map(|g| coherent_prefactor(&surface, g, Normalization::Microfacet));
+        prop_assert_eq!(coherent[0], coherent[1]);
     }
 
     /// Beckmann's distribution of slopes, no shadowing, two transmittances in place of the facet's reflectance.

@@ -19,7 +19,7 @@ use chromascope_core::spectral::GridSpectrum;
 use chromascope_mesh::{Mesh, shapes};
 use glam::Vec3;
 
-use super::studio::{Counting, RenderService};
+use super::fixture::{Counting, RenderService};
 use crate::support;
 
 /// The largest difference between pictures of one scene, relative to each source's largest signal or, where that is larger,
@@ -81,7 +81,10 @@ fn a_picture_keeps_the_error_that_was_asked_for() {
             for &tolerance in tolerances {
                 let found = with(Quality::Within(RelTolerance::new(tolerance).unwrap())).take(&Direct);
                 assert_eq!(found.shading.spectral == 0, reading == Normalization::Lambertian, "{:?}", found.shading);
-                assert!(found.shading.mirrors <= exact.shading.mirrors, "what it is compared with leaves more out");
+                assert!(
+                    found.shading.coherent_samples <= exact.shading.coherent_samples,
+                    "what it is compared with leaves more out"
+                );
                 let error = apart(&found, &exact);
                 // Signals are kept in single precision.
                 assert!(error <= tolerance + 1.2e-7, "{reading:?}, σ = {sigma_m}, {tolerance:e}: {error:.1e}");
@@ -322,7 +325,7 @@ fn every_sample_is_accounted_for() {
         assert_eq!(counts.seen, counts.lit + counts.facing_away + counts.shadowed);
         let shading = pictures.shading;
         assert_eq!(counts.lit, shading.dark + shading.flat + shading.spectral);
-        assert_eq!(counts.lit, shading.mirrors + shading.mirrors_skipped);
+        assert_eq!(counts.lit, shading.coherent_samples + shading.coherent_skipped);
         assert!(counts.seen > 0 && counts.rays <= counts.lit + counts.shadowed);
     }
 }

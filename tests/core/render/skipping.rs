@@ -8,7 +8,7 @@ use chromascope_core::reflectance::Normalization;
 use chromascope_core::render::{IntegrationMethod, Quality, RasterSize, Shadows};
 use chromascope_core::spectral::GridSpectrum;
 
-use super::studio::{Counting, RenderService};
+use super::fixture::{Counting, RenderService};
 
 /// Queries computed after a change to a cached picture, with counts.
 fn after(start: &RenderService, change: impl FnOnce(&mut RenderService)) -> Vec<(&'static str, usize)> {
@@ -137,6 +137,6 @@ fn rough_surfaces_need_moments_and_no_mirror() {
     let flat = RenderService { reading: Normalization::Lambertian, ..RenderService::new() };
     let ask = Counting::default();
     let shading = flat.take(&ask).shading;
-    assert_eq!((shading.spectral, shading.mirrors), (0, 0));
+    assert_eq!((shading.spectral, shading.coherent_samples), (0, 0));
     assert!(!ask.made().contains_key("plan"));
 }

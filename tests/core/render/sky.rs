@@ -14,7 +14,7 @@ use chromascope_core::render::{Quality, RasterSize, Shadows, Stop};
 use chromascope_mesh::{Mesh, ShadowTree};
 use glam::{DVec3, Vec3};
 
-use super::studio::{Counting, RenderService};
+use super::fixture::{Counting, RenderService};
 
 /// `∫ π f cos θi dωi / π` over the part of the sky that a place with this normal sees, by midpoints in height and azimuth.
 fn by_midpoints(surface: &Surface, reading: Normalization, normal: DVec3, to_viewer: DVec3, nm: f64) -> f64 {

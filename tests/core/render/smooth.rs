@@ -6,8 +6,8 @@ use chromascope_core::query::{Ask, Direct};
 use chromascope_core::render::{CoherentIntegral, Quality, RasterSize};
 use chromascope_core::scene::lighting::SUN_RADIUS;
 
+use super::fixture::{Counting, RenderService};
 use super::images::apart;
-use super::studio::{Counting, RenderService};
 
 const SIGMAS_M: [f64; 5] = [0.3e-6, 0.1e-6, 0.05e-6, 0.01e-6, 0.0];
 const HALF_WIDTHS_M: [f64; 4] = [1e-6, 10e-6, 50e-6, 1e-3];
@@ -55,7 +55,8 @@ fn no_smooth_surface_takes_many_wavelengths() {
         for source in &question.sources {
             let measure = Direct.ask(&question.image(&source.rendering).measure);
             let integral = CoherentIntegral::in_picture(shading, (*measure).as_ref().unwrap());
-            let evaluations: usize = shading.mirrors().iter().map(|mirror| integral.evaluations(mirror)).sum();
+            let evaluations: usize =
+                shading.coherent_samples().iter().map(|coherent| integral.evaluations(coherent)).sum();
             let mean = evaluations as f64 / shading.shades().len() as f64;
             // Nothing averages the fringes of a point light: it takes up to the largest rule's 208 nodes, never the grid's 401.
             let limit = if studio.angular_radius > 0.0 { 60.0 } else { 208.0 };

@@ -9,7 +9,7 @@ use chromascope_core::light::RadiationConstants;
 use chromascope_core::reflectance::{Normalization, Precision, Surface, diffuse_sum};
 use chromascope_core::render::diffuse::by_nodes;
 use chromascope_core::render::plan::position;
-use chromascope_core::render::shading::{DiffuseKind, Mirror, Shade};
+use chromascope_core::render::shading::{CoherentSample, DiffuseKind, Shade};
 use chromascope_core::render::{
     Against, CameraImage, CoherentIntegral, Demand, GeometryImage, Plan, Quality, RasterSize, ShadingImage,
     SpectralWeights, Stop, Visibility,
@@ -178,14 +178,14 @@ fn draw_lobe(d: &mut Draw) -> [f64; 5] {
 /// both.
 fn compare(measure: &SpectralWeights, error: f64, [half, vx, vy, kappa, radius]: [f64; 5], v: &mut Verdict) {
     let Ok(surface) = Surface::new(1e-6, 1e-5, half, half, 1.5) else { return v.refuse() };
-    let mirror = Mirror { index: 0, front: 1.0, kappa, v: [vx, vy] };
+    let coherent = CoherentSample { index: 0, front: 1.0, kappa, v: [vx, vy] };
     let integral = CoherentIntegral::new(measure, &surface, radius, error);
-    let found = integral.at(&mirror);
+    let found = integral.at(&coherent);
     v.all_finite(found);
-    v.holds("more wavelengths than there are", integral.evaluations(&mirror) <= measure.dense().len());
+    v.holds("more wavelengths than there are", integral.evaluations(&coherent) <= measure.dense().len());
     let unsigned = |c: usize| measure.dense().iter().map(|n| n.weights[c].abs()).sum::<f64>();
     let height = unsigned(0).max(unsigned(1)).max(unsigned(2));
-    for (a, b) in found.into_iter().zip(CoherentIntegral::new(measure, &surface, radius, 0.0).at(&mirror)) {
+    for (a, b) in found.into_iter().zip(CoherentIntegral::new(measure, &surface, radius, 0.0).at(&coherent)) {
         v.error(if a == b { 0.0 } else { ((a - b).abs() / height - 1e-14).max(0.0) / error });
     }
 }
@@ -376,7 +376,7 @@ fn picture(&[which, sigma, tau, half, index, key, reading, ..]: &Case, v: &mut V
     };
     let (image, by_sum) = (image(plan), image(&Plan::fixed(&scene.measure, Quality::Reference)));
     against_all(&shading, reading, &scene.measure, v);
-    let mirrored = |i: usize| shading.mirrors().iter().any(|mirror| mirror.index as usize == i);
+    let mirrored = |i: usize| shading.coherent_samples().iter().any(|coherent| coherent.index as usize == i);
     for (i, shade) in shading.shades().iter().enumerate() {
         let signal = image.signals()[i];
         v.all_finite(signal.into_iter().chain(by_sum.signals()[i]).map(f64::from));
@@ -394,12 +394,15 @@ fn against_all(shading: &ShadingImage, reading: Normalization, measure: &Spectra
     v.holds("the diffuse part less exact than the whole", shading.plan_tolerance().is_none_or(|part| part <= asked));
     let (geometry, surface) = (Arc::clone(shading.geometry()), *shading.surface());
     let exact = ShadingImage::new(geometry, surface, reading, Quality::Reference, &Stop::NEVER).expect("never stopped");
-    v.holds("the truth leaves more out", exact.quality().mirror_share() <= shading.quality().mirror_share().max(1e-14));
+    v.holds(
+        "the truth leaves more out",
+        exact.quality().coherent_share() <= shading.quality().coherent_share().max(1e-14),
+    );
     let plan = Arc::new(Plan::fixed(measure, Quality::Reference));
     let exact = CameraImage::new(&exact, measure, plan.clone(), &Stop::NEVER).expect("never stopped");
     let found = CameraImage::new(shading, measure, plan, &Stop::NEVER).expect("never stopped");
     let integral = CoherentIntegral::in_picture(shading, measure);
-    let evaluations = shading.mirrors().iter().map(|mirror| integral.evaluations(mirror));
+    let evaluations = shading.coherent_samples().iter().map(|coherent| integral.evaluations(coherent));
     v.holds("more wavelengths than there are", evaluations.max().unwrap_or(0) <= measure.dense().len());
     let pairs = || found.signals().as_flattened().iter().zip(exact.signals().as_flattened());
     let peak = pairs().fold(0.0_f64, |most, (_, exact)| most.max(exact.abs().into()));

@@ -218,7 +218,7 @@ fn directions(&[i, s, phi, size, odd, place, ..]: &Case, v: &mut Verdict) {
         let normal = DVec3::new(0.6, 0.0, 0.8);
         let careful = Geometry::from_directions(l, w, normal);
         whole(&careful, v);
-        let (quick, sure) = Geometry::quickly_from_directions(l, w, normal);
+        let (quick, sure) = Geometry::from_directions_branchless(l, w, normal);
         v.holds("quick is otherwise", !sure || quick == careful);
         v.holds("lit in the dark", !careful.is_lit() || careful.cos_i > 0.0 && careful.cos_s > 0.0);
     }
@@ -292,9 +292,9 @@ fn power_of(surface: &Surface, [i, s, phi, nm]: [f64; 4], v: &mut Verdict) {
             {
                 let ratio = 550.0 / nm;
                 let smooth = k * ratio * ratio;
-                let mirror = coherent * pattern * (-smooth).exp();
+                let coherent = coherent * pattern * (-smooth).exp();
                 let rest = diffuse * diffuse_sum(smooth, b * smooth, Precision::Full);
-                v.holds("not negligible", mirror <= 1.001e-6 * rest || mirror < 1e-290 || smooth > 680.0);
+                v.holds("not negligible", coherent <= 1.001e-6 * rest || coherent < 1e-290 || smooth > 680.0);
             }
         }
     }

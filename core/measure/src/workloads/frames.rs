@@ -155,15 +155,15 @@ const CHANGES: [(&str, Change); 4] = [
 ];
 
 /// Frames after a change, with the plans that the window makes anew for it, as a multiple of a changed view's time.
-fn changes(bench: &mut Bench<'_>, studio: &RenderService, side: u32, roughness: &str) {
+fn changes(bench: &mut Bench<'_>, service: &RenderService, side: u32, roughness: &str) {
     let (quality, stop) = (Quality::Full, bench.stop);
     let counts = bench.pools.counts();
     let most = bench.pools.most();
-    let Some(plans) = bench.pools.on(most, || studio.plans(side, quality, stop)) else { return };
-    let error = bench.pools.on(most, || studio.error(quality, &plans, stop));
+    let Some(plans) = bench.pools.on(most, || service.plans(side, quality, stop)) else { return };
+    let error = bench.pools.on(most, || service.error(quality, &plans, stop));
     let made = bench.pools.on(most, || {
-        let visibility = studio.visibility(side, stop)?;
-        let geometry = studio.geometry(&visibility, Shadows::Full, stop)?;
+        let visibility = service.visibility(side, stop)?;
+        let geometry = service.geometry(&visibility, Shadows::Full, stop)?;
         Some((visibility, geometry))
     });
     let Some((visibility, geometry)) = &made else { return };
@@ -172,13 +172,13 @@ fn changes(bench: &mut Bench<'_>, studio: &RenderService, side: u32, roughness: 
         for &threads in &counts {
             let work = move |_: usize| {
                 let geometry = match change {
-                    Change::View(shadows) => {
-                        studio.visibility(side, stop).and_then(|visibility| studio.geometry(&visibility, shadows, stop))
-                    }
-                    Change::Light => studio.geometry(visibility, Shadows::Full, stop),
+                    Change::View(shadows) => service
+                        .visibility(side, stop)
+                        .and_then(|visibility| service.geometry(&visibility, shadows, stop)),
+                    Change::Light => service.geometry(visibility, Shadows::Full, stop),
                     Change::Roughness => Some(Arc::clone(geometry)),
                 };
-                black_box(geometry.and_then(|geometry| studio.planned(geometry, quality, stop)));
+                black_box(geometry.and_then(|geometry| service.planned(geometry, quality, stop)));
             };
             candidates.push(Candidate::new(name, 1, error.clone(), work).undivided().on(threads));
         }
@@ -188,19 +188,19 @@ fn changes(bench: &mut Bench<'_>, studio: &RenderService, side: u32, roughness: 
 }
 
 /// Frames of smooth surfaces as a multiple of a rough one's time.
-fn smooth_surfaces(bench: &mut Bench<'_>, studio: &RenderService, side: u32) {
+fn smooth_surfaces(bench: &mut Bench<'_>, service: &RenderService, side: u32) {
     let most = bench.pools.most();
-    let with = |sigma_m| surface(sigma_m).map(|surface| RenderService { surface, ..studio.clone() });
-    let studios = ROUGHNESSES.map(|(name, sigma_m)| (name, with(sigma_m)));
+    let with = |sigma_m| surface(sigma_m).map(|surface| RenderService { surface, ..service.clone() });
+    let services = ROUGHNESSES.map(|(name, sigma_m)| (name, with(sigma_m)));
     let mut candidates = Vec::new();
-    for (name, studio) in studios {
-        let Some(studio) = studio else { continue };
+    for (name, service) in services {
+        let Some(service) = service else { continue };
         let (quality, stop) = (Quality::Full, bench.stop);
-        let (plans, seconds) = timed(|| bench.pools.on(most, || studio.plans(side, quality, stop)));
+        let (plans, seconds) = timed(|| bench.pools.on(most, || service.plans(side, quality, stop)));
         let Some(plans) = plans else { continue };
-        let error = bench.pools.on(most, || studio.error(quality, &plans, stop));
+        let error = bench.pools.on(most, || service.error(quality, &plans, stop));
         let work = move |_: usize| {
-            black_box(studio.frame(side, quality, &plans, stop));
+            black_box(service.frame(side, quality, &plans, stop));
         };
         candidates.push(Candidate::new(name, 1, error, work).undivided().on(most).built_in(seconds));
     }
@@ -217,13 +217,13 @@ pub(super) fn run(bench: &mut Bench<'_>) -> Result<(), BenchError> {
     );
     for ((name, sigma_m), sides) in [("\u{3c3} 5 µm", 5e-6), ("\u{3c3} 0.3 µm", 0.3e-6)].into_iter().zip(sides) {
         let most = bench.pools.most();
-        let Some(studio) = bench.pools.on(most, || RenderService::new(triangles, sigma_m))? else { continue };
-        let studio = &studio;
+        let Some(service) = bench.pools.on(most, || RenderService::new(triangles, sigma_m))? else { continue };
+        let service = &service;
         let side = bench.pick(32, 512, 512);
         if sigma_m > 1e-6 {
-            smooth_surfaces(bench, studio, side);
+            smooth_surfaces(bench, service, side);
         }
-        changes(bench, studio, side, name);
+        changes(bench, service, side, name);
         for &side in sides {
             let mut qualities = vec![("full", Quality::Full), ("preview", Quality::Preview)];
             if side <= SLOW_UP_TO {
@@ -242,14 +242,14 @@ pub(super) fn run(bench: &mut Bench<'_>) -> Result<(), BenchError> {
             let named = qualities.into_iter().map(|(name, quality)| (name.to_owned(), quality));
             let mut candidates = Vec::new();
             for (method, quality) in named.chain(tolerances) {
-                let (plans, seconds) = timed(|| bench.pools.on(most, || studio.plans(side, quality, bench.stop)));
+                let (plans, seconds) = timed(|| bench.pools.on(most, || service.plans(side, quality, bench.stop)));
                 let Some(plans) = plans.map(Arc::new) else { continue };
-                let error = bench.pools.on(most, || studio.error(quality, &plans, bench.stop));
+                let error = bench.pools.on(most, || service.error(quality, &plans, bench.stop));
                 let often = quality == Quality::Full;
                 for threads in if often { bench.pools.counts() } else { vec![most] } {
                     let (stop, plans) = (bench.stop, Arc::clone(&plans));
                     let work = move |_: usize| {
-                        black_box(studio.frame(side, quality, &plans, stop));
+                        black_box(service.frame(side, quality, &plans, stop));
                     };
                     let candidate = Candidate::new(method.as_str(), 1, error.clone(), work);
                     candidates.push(candidate.undivided().on(threads).built_in(seconds));

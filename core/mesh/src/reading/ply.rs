@@ -58,7 +58,7 @@ fn take(
             Content::Faces => {
                 for &index in &record.corners {
                     let wrong = MeshReadError::NoSuchVertex { place, index: index as i64, count: soup.positions.len() };
-                    let position = data::whole(index).ok_or(wrong)?;
+                    let position = data::index_from(index).ok_or(wrong)?;
                     let normal = if has_normals { position } else { NONE };
                     soup.add_corner(Corner { position, normal }, place)?;
                 }

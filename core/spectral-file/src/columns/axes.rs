@@ -58,12 +58,12 @@ pub(super) fn find(header: &Header, at: usize, wavelengths: &[f64], before: &[Ve
 }
 
 /// Columns in words, the first few.
-pub(super) fn told(header: &Header, columns: &[usize]) -> String {
-    let told = |column: &usize| match header.name(*column) {
+pub(super) fn column_list(header: &Header, columns: &[usize]) -> String {
+    let name = |column: &usize| match header.name(*column) {
         Some(name) => format!("column {} (“{name}”)", column + 1),
         None => format!("column {}", column + 1),
     };
-    listed(&columns.iter().map(told).collect::<Vec<_>>())
+    listed(&columns.iter().map(name).collect::<Vec<_>>())
 }
 
 fn kind(header: &Header, at: usize, index: usize, wavelengths: &[f64], column: &[f64]) -> Kind {

@@ -49,7 +49,7 @@ pub(super) fn read(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Resu
     let dialect =
         if comma { (Delimiter::CommaSpace, DecimalMark::Comma) } else { (Delimiter::Comma, DecimalMark::Point) };
     let layout = Layout::fixed(dialect, Orientation::Down, first_line, &form.1);
-    notes.insert(0, Decision::new("Form", &Decided::certain(form.0.told(), form.1)));
+    notes.insert(0, Decision::new("Form", &Decided::certain(form.0.description(), form.1)));
     let reader = Decided::certain(Reader::Jcamp, "The file begins with ## labels");
     Ok(Found { grid, layout, reader, notes })
 }
@@ -79,7 +79,7 @@ fn choose(
     let taken = format!("“{}” alone", blocks[0].title);
     notes.push(Decision::new(
         "Blocks",
-        &Decided::or_chosen(options.raw, || Decided::certain(false, why.clone())).told(&taken),
+        &Decided::or_chosen(options.raw, || Decided::certain(false, why.clone())).described(&taken),
     ));
     Ok(Decided::certain(if count - raw == 1 { first } else { 0 }, why))
 }

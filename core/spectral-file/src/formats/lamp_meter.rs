@@ -59,7 +59,7 @@ pub(super) fn read(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Resu
         let why = format!("{count} blocks of samples, this one with the most");
         let taken = format!("the {} samples from line {first_line} on", samples.len());
         let decided = Decided::or_chosen(options.part, || Decided::certain(part, why));
-        notes.push(Decision::new("Block", &decided.told(&taken)));
+        notes.push(Decision::new("Block", &decided.described(&taken)));
     }
     let mut grid = spectra::grid(vec![Spectrum { samples, ..Spectrum::default() }], header, log)?;
     grid.part = Some(Decided::certain(part, format!("{count} blocks of samples, this one with the most")));

@@ -6,7 +6,7 @@ use std::ops::Range;
 use crate::dialect::{Cell, Dialect};
 use crate::file::SpectralFile;
 use crate::preview::cells;
-use crate::preview::down::{value, whole};
+use crate::preview::down::{line_mark, value};
 use crate::preview::mark::{LeftOut, Mark, What};
 use crate::sniff::Layout;
 use crate::wavelength_unit::WavelengthUnit;
@@ -48,7 +48,7 @@ impl Across {
         }
         match self.rows.binary_search_by_key(&number, |(line, _)| *line) {
             Ok(at) => self.row(line, self.rows[at].1, window, file),
-            Err(_) if number > self.line && cells::is_content(line) => whole(line, window, LeftOut::Line),
+            Err(_) if number > self.line && cells::is_content(line) => line_mark(line, window, LeftOut::Line),
             Err(_) => Vec::new(),
         }
     }

@@ -72,12 +72,12 @@ impl Down {
         }
         let find = |rows: &[(u32, LeftOut)]| rows.binary_search_by_key(&number, |(line, _)| *line as usize).ok();
         if let Some(at) = find(&self.dropped) {
-            return whole(line, window, self.dropped[at].1);
+            return line_mark(line, window, self.dropped[at].1);
         }
         match self.rows.binary_search_by_key(&number, |(line, _)| *line as usize) {
             Ok(at) => self.values(line, self.rows[at].1, window, file),
             Err(_) if self.dialect.cells(line).all(|cell| self.dialect.parse(cell) == Cell::Gap) => Vec::new(),
-            Err(_) => whole(line, window, LeftOut::Line),
+            Err(_) => line_mark(line, window, LeftOut::Line),
         }
     }
 
@@ -150,7 +150,7 @@ impl Down {
 }
 
 /// The mark of a line that is in no curve.
-pub(super) fn whole(line: &str, window: &Range<usize>, why: LeftOut) -> Vec<Mark> {
+pub(super) fn line_mark(line: &str, window: &Range<usize>, why: LeftOut) -> Vec<Mark> {
     let mark = Mark::new(cells::trimmed(line), What::LeftOut(why));
     Some(mark).filter(|mark| cells::touches(&mark.range, window)).into_iter().collect()
 }

@@ -39,10 +39,10 @@ pub(crate) fn warn(scale: &Scale, grid: &Grid, log: &mut Log<'_>) {
         }
     }
     if let Some((curve, max)) = first_bright {
-        log.push(Warning::NotReflectances { count: bright, first: curve.told(), max });
+        log.push(Warning::NotReflectances { count: bright, first: curve.description(), max });
     }
     if let Some((curve, (min, at))) = first_below {
         let line = (grid.lines.len() == grid.wavelengths.len()).then(|| grid.line(at));
-        log.push(Warning::BelowZero { count: below, first: curve.told(), min, line });
+        log.push(Warning::BelowZero { count: below, first: curve.description(), min, line });
     }
 }

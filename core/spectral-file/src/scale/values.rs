@@ -131,7 +131,7 @@ fn by_numbers(grid: &Grid, trusted: bool, evidence: &Evidence, log: &mut Log<'_>
 fn warn_of_others(grid: &Grid, columns: &[Values], log: &mut Log<'_>) {
     let of = |wanted: Values| grid.curves.iter().zip(columns).filter(move |(_, values)| **values == wanted);
     if let (Some((first, _)), Some((other, _))) = (of(Values::Percent).next(), of(Values::Plain).next()) {
-        let (first, other) = (first.told(), other.told());
+        let (first, other) = (first.description(), other.description());
         log.push(Warning::ScalesDiffer { percent: of(Values::Percent).count(), first, other });
     }
 }

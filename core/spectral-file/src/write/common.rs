@@ -59,7 +59,7 @@ pub(super) fn common(
     let mut changes = Changes::new(sampling);
     let values = pieces.iter().map(|piece| changes.take(piece, content, &wavelengths)).collect();
     changes.note(step, [from, to], notes);
-    Ok(Common { wavelengths, values, resampling: changes.told(step) })
+    Ok(Common { wavelengths, values, resampling: changes.description(step) })
 }
 
 impl Limits {

@@ -79,7 +79,7 @@ impl<'a> Prepared<'a> {
             // The header describes how values were obtained, which is known only once all curves were.
             self.each(|_, _| true);
         }
-        push_comments(&mut out, &self.sheet, self.changes.told(self.step).as_deref());
+        push_comments(&mut out, &self.sheet, self.changes.description(self.step).as_deref());
         self.write(out, put);
     }
 

@@ -205,7 +205,7 @@ impl Changes {
     }
 
     /// Description of the method, for the head of a file; none at a curve's own wavelengths.
-    pub(super) fn told(&self, step: Option<f64>) -> Option<String> {
+    pub(super) fn description(&self, step: Option<f64>) -> Option<String> {
         let step = step?;
         Some(match self.sampling {
             Some(Sampling::Bands(width)) => format!(

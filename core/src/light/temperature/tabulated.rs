@@ -75,7 +75,7 @@ impl Robertson {
         }
         let isotherm = |index| {
             let mired = robertson_mired(index);
-            let [at, before, after] = [0.0, -1e-3, 1e-3].map(|step| whole_table(observer, mired + step));
+            let [at, before, after] = [0.0, -1e-3, 1e-3].map(|step| full_table(observer, mired + step));
             let (at, before, after) = at
                 .zip(before)
                 .zip(after)
@@ -127,7 +127,7 @@ impl Robertson {
 }
 
 /// Chromaticity of a blackbody over the whole table of the CIE at 1 nm; below 0 mired the law of Rayleigh and Jeans goes on.
-fn whole_table(observer: &Sensor, mired: f64) -> Option<Uv60> {
+fn full_table(observer: &Sensor, mired: f64) -> Option<Uv60> {
     let second = RadiationConstants::Paper.second() * 1e3;
     let law = |nm: f64| {
         let exponent = second * mired / nm;

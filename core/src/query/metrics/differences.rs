@@ -40,12 +40,12 @@ pub struct PatchDifferences {
 }
 
 /// Conditions under which differences have a meaning.
-pub(super) struct Way {
+pub(super) struct DifferenceConditions {
     pub(super) comparable: Result<(), WhyNot>,
     by_eq_13: bool,
 }
 
-impl Way {
+impl DifferenceConditions {
     pub(super) fn new(sample: &RenderingQuery, reference: &RenderingQuery) -> Self {
         let [of_reference, of_sample] = [reference, sample].map(|rendering| rendering.sensor.primaries());
         let paper = sample.transform == ColorTransformSpec::Paper;

@@ -1,7 +1,7 @@
 //! Inputs of the metrics, as separate queries, so that each is computed once whatever else changes.
 
 use super::conditions::{CameraMetricsQuery, IndexConditions};
-use super::differences::{PatchDifferences, Statistic, Way};
+use super::differences::{DifferenceConditions, PatchDifferences, Statistic};
 use super::value::WhyNot;
 use crate::camera::quality::{IndexSamples, MetamerismIndex, NoiseAmplification, SpaceQuality, gray_snr_db};
 use crate::camera::{LocusDeviation, ReferenceLocus, RenderingError};
@@ -101,7 +101,7 @@ impl Query for LocusDeviationQuery {
     const NAME: &'static str = "locus deviation";
 
     fn answer(&self, ask: &impl Ask) -> Self::Answer {
-        Way::new(&self.rendering, &self.reference).comparable?;
+        DifferenceConditions::new(&self.rendering, &self.reference).comparable?;
         let locus = ask.ask(&ReferenceLocusQuery(self.reference.clone()));
         let locus = (*locus).as_ref().map_err(|&e| e)?;
         let rendering = ask.ask(&self.rendering);
@@ -193,7 +193,7 @@ fn patch_differences(of: &CameraMetricsQuery, ask: &impl Ask) -> Result<Vec<Patc
     let (reference, sample) = (colors(&of.reference), colors(&of.rendering));
     let reference = (*reference).as_ref().map_err(|&e| e)?;
     let sample = (*sample).as_ref().map_err(|&e| e)?;
-    let way = Way::new(&of.rendering, &of.reference);
+    let way = DifferenceConditions::new(&of.rendering, &of.reference);
     Ok(reference.iter().zip(sample).map(|(reference, sample)| way.differences(reference, sample)).collect())
 }
 

@@ -77,7 +77,7 @@ impl BrightSamples {
 impl Query for DifferenceQuery {
     type Answer = Result<Option<Arc<Difference>>, RenderingError>;
     const NAME: &'static str = "difference";
-    const KEPT: usize = 64;
+    const CAPACITY: usize = 64;
 
     fn bytes(difference: &Self::Answer) -> usize {
         difference.as_ref().ok().and_then(Option::as_ref).map_or(0, |difference| size_of_val(&*difference.map))

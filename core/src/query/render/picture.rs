@@ -108,7 +108,7 @@ pub struct PictureQuery {
 impl Query for PictureQuery {
     type Answer = Result<Option<Arc<Picture>>, RenderingError>;
     const NAME: &'static str = "picture";
-    const KEPT: usize = 64;
+    const CAPACITY: usize = 64;
 
     fn bytes(picture: &Self::Answer) -> usize {
         picture.as_ref().ok().and_then(Option::as_ref).map_or(0, |picture| picture.rgba.len())
@@ -231,7 +231,7 @@ impl Query for PicturesQuery {
     type Answer = Result<Option<Pictures>, RenderingError>;
     const NAME: &'static str = "pictures";
     // Each holds on to all of its parts.
-    const KEPT: usize = 2;
+    const CAPACITY: usize = 2;
 
     fn answer(&self, ask: &impl Ask) -> Self::Answer {
         let facing = *ask.ask(&self.exposure());

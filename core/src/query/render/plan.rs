@@ -24,8 +24,8 @@ pub struct PlanQuery {
 impl Query for PlanQuery {
     type Answer = Result<Arc<Plan>, RenderingError>;
     const NAME: &'static str = "plan";
-    const WHOLE: bool = true;
-    const KEPT: usize = 64;
+    const ALWAYS_COMPLETE: bool = true;
+    const CAPACITY: usize = 64;
 
     fn bytes(plan: &Self::Answer) -> usize {
         plan.as_ref().map_or(0, |plan| plan.bytes())

@@ -103,7 +103,7 @@ fn find_portable(given: &Given, world_from_view: &DMat3, found: &mut Found) {
         let behind = if flat.dot(mixed) < 0.0 { facing > 0.0 } else { facing < 0.0 };
         let upright = mixed * shrink;
         let normal = if behind { -upright } else { upright };
-        let (geometry, plain) = Geometry::quickly_from_directions(to_light, to_viewer, normal);
+        let (geometry, plain) = Geometry::from_directions_branchless(to_light, to_viewer, normal);
         found.plain[lane] = plain && shrink > 0.0 && shrink.is_finite() && geometry.cos_s >= EDGE;
         found.behind[lane] = behind;
         put(&mut found.normals, lane, normal);

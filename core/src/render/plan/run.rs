@@ -35,7 +35,7 @@ impl Places {
 
 /// Fast method of a sample.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Quick {
+enum FastMethod {
     Moments,
     Table,
     Dark,
@@ -65,7 +65,7 @@ struct Chosen {
 }
 
 impl Chosen {
-    fn of(ways: &[Quick; RUN], method: Quick, places: &Places) -> Self {
+    fn of(ways: &[FastMethod; RUN], method: FastMethod, places: &Places) -> Self {
         let mut chosen = Self { which: [0; RUN], count: 0, kappa: [1.0; RUN], beta: [0.0; RUN] };
         for (i, &way) in ways.iter().enumerate() {
             // The next one takes the place of one that does not count.
@@ -99,31 +99,31 @@ impl Plan {
             by_moments(moments, orders, (&places.kappa, &places.beta, RUN / BLOCK), sums);
             return;
         }
-        let mut ways = [Quick::Dark; RUN];
+        let mut ways = [FastMethod::Dark; RUN];
         let table = self.table();
         let [first, last] = table.map_or([f64::INFINITY, 0.0], Table::kappa);
         let mut counts = [0_usize; 4];
         for (i, way) in ways.iter_mut().enumerate().take(places.count) {
             let kappa = places.kappa[i];
             let by_table = first <= kappa && kappa <= last;
-            let quick = if by_table { Quick::Table } else { Quick::Neither };
-            let quick = if is_rough(i) { Quick::Moments } else { quick };
-            *way = if places.wanted[i] { quick } else { Quick::Dark };
+            let quick = if by_table { FastMethod::Table } else { FastMethod::Neither };
+            let quick = if is_rough(i) { FastMethod::Moments } else { quick };
+            *way = if places.wanted[i] { quick } else { FastMethod::Dark };
             counts[*way as usize] += 1;
         }
         let mut found = [[0.0; RUN]; 3];
-        if counts[Quick::Moments as usize] > 0 {
-            let chosen = Chosen::of(&ways, Quick::Moments, places);
+        if counts[FastMethod::Moments as usize] > 0 {
+            let chosen = Chosen::of(&ways, FastMethod::Moments, places);
             by_moments(moments, orders, (&chosen.kappa, &chosen.beta, chosen.blocks()), &mut found);
             chosen.put(&found, sums);
         }
-        if let (Some(table), 1..) = (table, counts[Quick::Table as usize]) {
-            let chosen = Chosen::of(&ways, Quick::Table, places);
+        if let (Some(table), 1..) = (table, counts[FastMethod::Table as usize]) {
+            let chosen = Chosen::of(&ways, FastMethod::Table, places);
             by_table(table, &chosen, &mut found);
             chosen.put(&found, sums);
         }
-        if counts[Quick::Neither as usize] > 0 {
-            self.slow(places, &Chosen::of(&ways, Quick::Neither, places), sums);
+        if counts[FastMethod::Neither as usize] > 0 {
+            self.slow(places, &Chosen::of(&ways, FastMethod::Neither, places), sums);
         }
     }
 
@@ -136,7 +136,7 @@ impl Plan {
                 (which[count], kappa[count], beta[count]) = (i, places.kappa[i], places.beta[i]);
                 count += 1;
             } else {
-                let slow = self.slowly(places.kappa[i], places.beta[i]);
+                let slow = self.by_remaining_method(places.kappa[i], places.beta[i]);
                 (sums[0][i], sums[1][i], sums[2][i]) = (slow[0], slow[1], slow[2]);
             }
         }
@@ -288,16 +288,16 @@ mod tests {
             let table = Table::new(&extent, surface, nodes);
             let mut places = Places::EMPTY;
             places.count = RUN;
-            let mut ways = [Quick::Table; RUN];
+            let mut ways = [FastMethod::Table; RUN];
             for (i, way) in ways.iter_mut().enumerate() {
                 places.kappa[i] = 0.01 * 1.14_f64.powf(i as f64);
                 places.beta[i] = 0.3 * ((i * 37) % RUN) as f64;
                 if i % 7 == 6 {
-                    *way = Quick::Moments;
+                    *way = FastMethod::Moments;
                 }
             }
             let (mut chosen, mut portable) = ([[0.0; RUN]; 3], [[0.0; RUN]; 3]);
-            let (rough, tabulated) = ((&places.kappa, &places.beta, 2), Chosen::of(&ways, Quick::Table, &places));
+            let (rough, tabulated) = ((&places.kappa, &places.beta, 2), Chosen::of(&ways, FastMethod::Table, &places));
             by_table(&table, &tabulated, &mut chosen);
             by_table_portable(&table, &tabulated, &mut portable);
             by_moments((&moments, 1.0), MOMENTS, rough, &mut chosen);

@@ -1,7 +1,7 @@
 //! Coherent terms that count next to the brightest sample of the picture.
 
 use super::brightness::{self, Brightness};
-use super::{Mirror, Place};
+use super::{CoherentSample, Place};
 use crate::reflectance::coherent::rho0_squared;
 use crate::reflectance::power::LAMBDA_0_NM;
 use rayon::prelude::*;
@@ -17,7 +17,7 @@ const WAVELENGTHS: u32 = 16;
 /// A sample's coherent component, with an upper bound.
 #[derive(Clone, Debug)]
 pub(super) struct Lobe {
-    pub(super) mirror: Mirror,
+    pub(super) coherent: CoherentSample,
     /// Upper bound of the term.
     pub(super) most: f64,
 }
@@ -25,7 +25,7 @@ pub(super) struct Lobe {
 /// The coherent components of a picture.
 pub(super) struct Lobes {
     /// Ascending.
-    pub(super) mirrors: Vec<Mirror>,
+    pub(super) coherent_samples: Vec<CoherentSample>,
     /// Estimate from below of the brightest sample.
     pub(super) brightness: f64,
     /// The brightest sample as a share of the highest diffuse part, a power of two not above 1.
@@ -38,10 +38,10 @@ impl Lobe {
         let at = |nm: f64| {
             let ratio = LAMBDA_0_NM / nm;
             let pattern = rho0_squared(&place.geometry, &place.surface, TAU / (nm * 1e-9), angular_radius);
-            pattern * (-self.mirror.kappa * ratio * ratio).exp()
+            pattern * (-self.coherent.kappa * ratio * ratio).exp()
         };
         let sum: f64 = (0..WAVELENGTHS).map(|i| at(FIRST_NM + STEP_NM * f64::from(i))).sum();
-        self.mirror.front * sum / f64::from(WAVELENGTHS)
+        self.coherent.front * sum / f64::from(WAVELENGTHS)
     }
 }
 
@@ -57,19 +57,19 @@ impl Lobes {
     ) -> Self {
         // The others make nothing brighter.
         let mut highest: Vec<&Lobe> = lobes.iter().filter(|lobe| lobe.most > darkest * diffuse.brightest).collect();
-        let order = |a: &&Lobe, b: &&Lobe| b.most.total_cmp(&a.most).then(a.mirror.index.cmp(&b.mirror.index));
+        let order = |a: &&Lobe, b: &&Lobe| b.most.total_cmp(&a.most).then(a.coherent.index.cmp(&b.coherent.index));
         if highest.len() > LOOKED_AT {
             highest.select_nth_unstable_by(LOOKED_AT, order);
             highest.truncate(LOOKED_AT);
         }
-        let mirror = highest.par_iter().map(|lobe| brightness(lobe)).reduce(|| 0.0, f64::max);
-        let brightest = (darkest * diffuse.brightest).max(mirror);
+        let coherent = highest.par_iter().map(|lobe| brightness(lobe)).reduce(|| 0.0, f64::max);
+        let brightest = (darkest * diffuse.brightest).max(coherent);
         let threshold = share * brightest;
         Self {
-            mirrors: lobes.iter().filter(|lobe| lobe.most > threshold).map(|lobe| lobe.mirror).collect(),
+            coherent_samples: lobes.iter().filter(|lobe| lobe.most > threshold).map(|lobe| lobe.coherent).collect(),
             brightness: brightest,
             // A darker material makes this larger.
-            diffuse_scale: brightness::scale(diffuse.brightest.max(mirror), diffuse.highest),
+            diffuse_scale: brightness::scale(diffuse.brightest.max(coherent), diffuse.highest),
         }
     }
 }

@@ -42,7 +42,7 @@ pub(crate) fn files() -> [fn(usize) -> File; 15] {
 }
 
 /// A whole number below a million for a place.
-fn whole(curve: usize, sample: usize) -> u32 {
+fn integer(curve: usize, sample: usize) -> u32 {
     let mut x =
         (curve as u64).wrapping_mul(0x9E37_79B9_7F4A_7C15) ^ (sample as u64).wrapping_mul(0xD1B5_4A32_D192_ED03);
     x = (x ^ (x >> 31)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
@@ -51,16 +51,16 @@ fn whole(curve: usize, sample: usize) -> u32 {
 
 /// It as six digits, to stand behind the decimal mark.
 pub(crate) fn digits(curve: usize, sample: usize) -> String {
-    format!("{:06}", whole(curve, sample))
+    format!("{:06}", integer(curve, sample))
 }
 
 fn millionths(curve: usize, sample: usize) -> f64 {
-    f64::from(whole(curve, sample)) / 1e6
+    f64::from(integer(curve, sample)) / 1e6
 }
 
 /// A fraction with all the digits a double has.
 fn fraction(curve: usize, sample: usize) -> f64 {
-    f64::from(whole(curve, sample)) / 1_000_003.0
+    f64::from(integer(curve, sample)) / 1_000_003.0
 }
 
 fn file(name: &'static str, text: String, curves: usize, samples: usize) -> File {
@@ -105,7 +105,7 @@ fn decimal_comma(bytes: usize) -> File {
 /// The values of a curve in a row.
 fn row(text: &mut String, curve: usize, separator: &str) {
     for sample in 0..WAVELENGTHS {
-        write!(text, "{separator}0.{:06}", whole(curve, sample)).expect("a string takes any text");
+        write!(text, "{separator}0.{:06}", integer(curve, sample)).expect("a string takes any text");
     }
     text.push('\n');
 }
@@ -182,14 +182,14 @@ fn jcamp_squeezed(bytes: usize) -> File {
         // Every line but the first repeats the last value of the line before.
         let from = start.saturating_sub(1);
         write!(text, "{}", fine(from)).expect("a string takes any text");
-        text += &squeezed(whole(0, from).into(), *b"@Aa");
+        text += &squeezed(integer(0, from).into(), *b"@Aa");
         for sample in from + 1..(start + IN_LINE).min(samples) {
-            text += &squeezed(i64::from(whole(0, sample)) - i64::from(whole(0, sample - 1)), *b"%Jj");
+            text += &squeezed(i64::from(integer(0, sample)) - i64::from(integer(0, sample - 1)), *b"%Jj");
         }
         text.push('\n');
     }
     File {
-        value: |curve, sample| f64::from(whole(curve, sample)) * 0.000_001,
+        value: |curve, sample| f64::from(integer(curve, sample)) * 0.000_001,
         ..file("JCAMP, squeezed", text + "##END=\n", 1, samples)
     }
 }

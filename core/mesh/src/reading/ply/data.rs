@@ -67,7 +67,7 @@ impl<'a> Data<'a> {
                 None => 1,
                 Some(length) => {
                     let count = value(self.encoding, &mut self.cursor, &mut self.rest, *length)?;
-                    whole(count.ok_or(missing(found))?).ok_or(syntax)?
+                    index_from(count.ok_or(missing(found))?).ok_or(syntax)?
                 }
             };
             if *role == Role::Corners && count as usize > 3 * MAX_TRIANGLES {
@@ -131,6 +131,6 @@ fn take<const N: usize>(rest: &mut &[u8], big: bool) -> Option<[u8; N]> {
 }
 
 /// A value as an index or a length; none where it is no whole number from 0.
-pub(super) fn whole(value: f64) -> Option<u32> {
+pub(super) fn index_from(value: f64) -> Option<u32> {
     (value >= 0.0 && value < f64::from(u32::MAX) && value.fract() == 0.0).then_some(value as u32)
 }

@@ -27,7 +27,7 @@ pub(super) enum Form {
 }
 
 impl Form {
-    pub(super) fn told(self) -> &'static str {
+    pub(super) fn description(self) -> &'static str {
         match self {
             Self::Pairs => "pairs of wavelength and value",
             Self::Ordinates => "a wavelength and the values that follow it in equal steps, in each line",

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::drawn::{self, Curves, DRAWN};
-use super::on_show::ImportSelection;
+use super::import_selection::ImportSelection;
 
 /// Maximum total number of points drawn on screen.
 const POINTS: usize = 80_000;

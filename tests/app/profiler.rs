@@ -18,7 +18,7 @@ use egui_kittest::kittest::Queryable;
 
 use crate::screenshots::{accuracy, driven, open};
 
-const KEPT: &str = "Measured results are lost when the program ends; export them to save them.";
+const CAPACITY: &str = "Measured results are lost when the program ends; export them to save them.";
 
 /// Measurement job of the default cameras on a small picture of a sphere.
 fn small(change: impl FnOnce(&mut Document)) -> SceneRunJob {
@@ -53,20 +53,20 @@ fn plans_are_of_the_sources_that_are_asked_for() {
         pictures
     };
     let (all, fewer, more) = (with(&[0, 1, 2]), with(&[2, 1]), with(&[2, 3]));
-    let laboratory = Profiler::on(&Executor::driven(), || ());
+    let profiler = Profiler::on(&Executor::driven(), || ());
     let planned = |pictures: &PicturesQuery| {
-        laboratory.plan(pictures);
-        laboratory.plans(pictures)
+        profiler.plan(pictures);
+        profiler.plans(pictures)
     };
     assert!(planned(&all).is_none());
-    laboratory.wait();
+    profiler.wait();
     let plans = planned(&all).expect("made");
     assert!(plans.iter().all(|plan| matches!(plan, Ok(Some(_)))), "{plans:?}");
     let two = planned(&fewer).expect("known from before");
     assert_eq!(two, [plans[2].clone(), plans[1].clone()]);
-    laboratory.wait();
+    profiler.wait();
     assert!(planned(&more).is_none_or(|plans| plans.len() == 2), "none under a wrong name");
-    laboratory.wait();
+    profiler.wait();
     assert_eq!(planned(&more).expect("made")[0], plans[2]);
 }
 
@@ -79,11 +79,11 @@ fn what_is_measured_is_of_the_scene_that_it_was_measured_on() {
     window.state_mut().push(Action::Render(RenderAction::Set { what: "Normalization", to }));
     window.state_mut().push(Command::SpectralWeights);
     window.run_steps(2);
-    window.state().laboratory().wait();
+    window.state().profiler().wait();
     window.run_steps(3);
     let is_current = |window: &egui_kittest::Harness<'static, chromascope::app::ChromascopeApp>| {
-        assert!(window.state().laboratory().measured.run.is_some());
-        window.state().laboratory().measured.is_current
+        assert!(window.state().profiler().measured.run.is_some());
+        window.state().profiler().measured.is_current
     };
     let warning = "Measured for an earlier scene: run again.";
     assert!(is_current(&window) && window.query_by_label_contains(warning).is_none());
@@ -91,7 +91,7 @@ fn what_is_measured_is_of_the_scene_that_it_was_measured_on() {
     window.run_steps(2);
     window.state_mut().push(Command::SpectralWeights);
     window.run_steps(1);
-    assert!(window.state().laboratory().busy().is_some());
+    assert!(window.state().profiler().busy().is_some());
     window.state_mut().push(Command::StopMeasuring);
     window.run_steps(1);
     executor.run_all();
@@ -120,7 +120,7 @@ fn what_is_remembered_stands_apart_and_what_is_not_kept_is_said() {
     let [run, start] = ["measured by Run", "counted since the start"].map(|when| csv.find(when).expect("both"));
     assert!(run < start);
     assert!(window.query_by_label_contains("Rows overlap: their times do not add up.").is_some());
-    assert_eq!(window.query_all_by_label_contains(KEPT).count(), 1, "one footnote");
+    assert_eq!(window.query_all_by_label_contains(CAPACITY).count(), 1, "one footnote");
     assert_eq!(window.query_all_by_label("Run again").count(), 1, "one Run");
     let mut window = open([1280.0, 800.0], egui::Theme::Light);
     window.state_mut().push(Command::Show(Workspace::Numerics));

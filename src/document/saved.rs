@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use super::Document;
-use super::own::{OwnCurve, OwnSet};
+use super::imported::{ImportedCurve, ImportedSet};
 use super::session::{SessionError, from_value};
 
 /// Key of a set whose curves are in another file.
@@ -17,7 +17,7 @@ pub struct Place(pub String, pub usize);
 
 /// A document that was read, with its missing parts.
 #[derive(Debug)]
-pub struct Kept {
+pub struct LoadedDocument {
     /// The document.
     pub document: Document,
     /// Places of the curves of its sets, in their order; none for a set that the document holds itself.
@@ -27,7 +27,7 @@ pub struct Kept {
 }
 
 /// The JSON of a document whose sets have their curves at these places, indented, with a final newline.
-pub fn to_json(document: &Document, places: &[(&OwnSet, &Place)]) -> Result<String, SessionError> {
+pub fn to_json(document: &Document, places: &[(&ImportedSet, &Place)]) -> Result<String, SessionError> {
     let mut rest = document.clone();
     rest.own.clear();
     let mut value = serde_json::to_value(rest)?;
@@ -46,8 +46,8 @@ pub fn to_json(document: &Document, places: &[(&OwnSet, &Place)]) -> Result<Stri
 /// A document from JSON, with curves from their places: `curves` reads a file's list. A set that cannot be read is omitted.
 pub fn from_json(
     json: &str,
-    curves: &mut dyn FnMut(&Place) -> Result<Vec<OwnCurve>, String>,
-) -> Result<Kept, SessionError> {
+    curves: &mut dyn FnMut(&Place) -> Result<Vec<ImportedCurve>, String>,
+) -> Result<LoadedDocument, SessionError> {
     let mut value: Value = serde_json::from_str(json)?;
     let sets = value.get_mut("own").and_then(Value::as_array_mut).map(std::mem::take).unwrap_or_default();
     let (mut own, mut places, mut lost) = (Vec::new(), Vec::new(), Vec::new());
@@ -61,25 +61,25 @@ pub fn from_json(
             Err(why) => lost.push(format!("{name}: {why}")),
         }
     }
-    Ok(Kept { document: from_value(value, own)?, places, lost })
+    Ok(LoadedDocument { document: from_value(value, own)?, places, lost })
 }
 
 fn with_curves(
     mut set: Value,
-    curves: &mut dyn FnMut(&Place) -> Result<Vec<OwnCurve>, String>,
-) -> Result<(OwnSet, Option<Place>), String> {
+    curves: &mut dyn FnMut(&Place) -> Result<Vec<ImportedCurve>, String>,
+) -> Result<(ImportedSet, Option<Place>), String> {
     let Some(place) = set.as_object_mut().and_then(|set| set.remove(CURVES_IN)) else {
         return serde_json::from_value(set).map(|set| (set, None)).map_err(|error| error.to_string());
     };
     let place: Place = serde_json::from_value(place).map_err(|error| error.to_string())?;
     set["curves"] = Value::Array(Vec::new());
-    let head: OwnSet = serde_json::from_value(set).map_err(|error| error.to_string())?;
-    Ok((OwnSet { curves: curves(&place)?, ..head }, Some(place)))
+    let head: ImportedSet = serde_json::from_value(set).map_err(|error| error.to_string())?;
+    Ok((ImportedSet { curves: curves(&place)?, ..head }, Some(place)))
 }
 
 /// All of a set but its curves, which may be millions of numbers.
-fn without_curves(set: &OwnSet) -> OwnSet {
-    OwnSet {
+fn without_curves(set: &ImportedSet) -> ImportedSet {
+    ImportedSet {
         name: set.name.clone(),
         file: set.file.clone(),
         path: set.path.clone(),

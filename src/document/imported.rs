@@ -8,9 +8,9 @@ use chromascope_core::spectral::{DistributionError, Response, SpectralDistributi
 use serde::{Deserialize, Serialize};
 pub use spectral_file::{ReadOptions, Role, WavelengthUnit};
 
-/// One curve, as it was read: in the units that [`OwnSet::read_as`] says.
+/// One curve, as it was read: in the units that [`ImportedSet::read_as`] says.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct OwnCurve {
+pub struct ImportedCurve {
     /// Its column's name.
     pub name: String,
     /// Wavelengths, ascending, in nanometers if the unit was decided right.
@@ -62,7 +62,7 @@ pub struct ReadAs {
 
 /// One of the user's sets.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct OwnSet {
+pub struct ImportedSet {
     /// Its name, unique among sets of its kind.
     pub name: String,
     /// The file it came from, or `clipboard`.
@@ -91,7 +91,7 @@ pub struct OwnSet {
     #[serde(default = "first_three")]
     pub channels: [usize; 3],
     /// The curves, as read.
-    pub curves: Vec<OwnCurve>,
+    pub curves: Vec<ImportedCurve>,
     /// Decisions made on reading, one line each, for display.
     #[serde(default)]
     pub decisions: Vec<String>,
@@ -115,9 +115,9 @@ impl Fingerprint {
     }
 }
 
-impl Eq for OwnSet {}
+impl Eq for ImportedSet {}
 
-impl Hash for OwnSet {
+impl Hash for ImportedSet {
     fn hash<H: Hasher>(&self, state: &mut H) {
         (&self.name, &self.file, self.role, self.read_as, self.unit, self.percent, self.per_photon, self.channels)
             .hash(state);
@@ -129,10 +129,10 @@ impl Hash for OwnSet {
     }
 }
 
-impl OwnSet {
+impl ImportedSet {
     /// The curves that its role uses, in nanometers and, for reflectances, as fractions.
     pub fn curves_in_nm(&self) -> Result<Vec<(String, SpectralDistribution)>, DistributionError> {
-        let used: Vec<&OwnCurve> = match self.role {
+        let used: Vec<&ImportedCurve> = match self.role {
             Role::Camera => self.channels.iter().filter_map(|&index| self.curves.get(index)).collect(),
             _ => self.curves.iter().collect(),
         };
@@ -145,7 +145,7 @@ impl OwnSet {
     }
 
     /// A curve with the units that the user has it in. Unchanged units change no bit.
-    fn spectrum(&self, curve: &OwnCurve) -> Result<SpectralDistribution, DistributionError> {
+    fn spectrum(&self, curve: &ImportedCurve) -> Result<SpectralDistribution, DistributionError> {
         let mut values: Vec<f64> = match (self.percent, self.read_as.percent) {
             (true, false) => curve.values.iter().map(|v| v / 100.0).collect(),
             (false, true) => curve.values.iter().map(|v| v * 100.0).collect(),
@@ -168,17 +168,19 @@ impl OwnSet {
 
 /// Saves shared sets as plain values.
 pub(super) mod list {
-    use super::{OwnSet, Shared};
+    use super::{ImportedSet, Shared};
     use serde::{Deserialize, Deserializer, Serializer};
 
     pub(in super::super) fn serialize<S: Serializer>(
-        sets: &[Shared<OwnSet>],
+        sets: &[Shared<ImportedSet>],
         serializer: S,
     ) -> Result<S::Ok, S::Error> {
         serializer.collect_seq(sets.iter().map(|set| &**set))
     }
 
-    pub(in super::super) fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<Shared<OwnSet>>, D::Error> {
-        Ok(Vec::<OwnSet>::deserialize(from)?.into_iter().map(Shared::new).collect())
+    pub(in super::super) fn deserialize<'de, D: Deserializer<'de>>(
+        from: D,
+    ) -> Result<Vec<Shared<ImportedSet>>, D::Error> {
+        Ok(Vec::<ImportedSet>::deserialize(from)?.into_iter().map(Shared::new).collect())
     }
 }

@@ -12,13 +12,13 @@ use chromascope_core::render::{Plan, ShadingImage, SpectralWeights};
 use chromascope_measure::harness::shortest;
 
 /// Measure and plan of a source.
-pub(super) struct Ways {
+pub(super) struct SourcePlans {
     /// One that there is.
     measure: Arc<Result<SpectralWeights, RenderingError>>,
     plan: Arc<Plan>,
 }
 
-impl Ways {
+impl SourcePlans {
     /// With the plan of the picture; none for a source that gives no signals under this light.
     pub(super) fn new(
         pictures: &PicturesQuery,

@@ -17,7 +17,7 @@ const LAYOUT: &str = "app.ron";
 
 impl Files {
     /// The saved document, else the default one.
-    pub fn kept_document(&mut self) -> Document {
+    pub fn saved_document(&mut self) -> Document {
         if self.keeper.is_first_run() {
             let words =
                 format!("Start: {}. The other start is in the Inspector and under Edit.", Start::default().name());
@@ -41,7 +41,7 @@ impl Files {
     }
 
     /// Documents that other windows saved, with their ages.
-    pub fn kept_documents(&self) -> Vec<(PathBuf, String)> {
+    pub fn other_documents(&self) -> Vec<(PathBuf, String)> {
         let now = SystemTime::now();
         let age = |modified: Option<SystemTime>| now.duration_since(modified?).ok().map(|age| age.as_secs() / 60);
         let words = |modified| match age(modified) {

@@ -6,14 +6,14 @@ use super::{Clock, Executor};
 
 /// State shared by the window and background threads, with a condition variable for waiting threads and a wake callback
 /// for the window.
-pub struct Desk<S> {
+pub struct Monitor<S> {
     state: Mutex<S>,
     news: Condvar,
     wake: Box<dyn Fn() + Send + Sync>,
     clock: Clock,
 }
 
-impl<S> Desk<S> {
+impl<S> Monitor<S> {
     /// Creates the initial state with an executor's clock. `wake` is called from the thread that changed the state.
     pub fn new(executor: &Executor, state: S, wake: impl Fn() + Send + Sync + 'static) -> Self {
         Self { state: Mutex::new(state), news: Condvar::new(), wake: Box::new(wake), clock: executor.clock() }

@@ -5,19 +5,19 @@ use std::collections::BTreeSet;
 use chromascope_core::query::Ask;
 use chromascope_core::query::render::MeshRoughnessQuery;
 use chromascope_core::reflectance::{Geometry, Normalization, Surface, coherent_prefactor, kappa};
-use chromascope_core::render::shading::Mirror;
+use chromascope_core::render::shading::CoherentSample;
 use chromascope_core::render::{CoherentIntegral, SpectralWeights};
 use chromascope_measure::harness::shortest;
 
 use super::{SUMS, SkippedWork, Sources, measured_on, some_of};
 
 /// They are computed here, with the quality in use. `None` for a normalization without a specular component.
-pub(super) fn mirrors(sources: &Sources<'_>, ask: &impl Ask) -> Option<SkippedWork> {
+pub(super) fn coherent_samples(sources: &Sources<'_>, ask: &impl Ask) -> Option<SkippedWork> {
     let shading = sources.shading;
     let quality = shading.quality();
     let of = &sources.pictures.shading;
     let all = shading.shades().len();
-    let has: BTreeSet<u32> = shading.mirrors().iter().map(|mirror| mirror.index).collect();
+    let has: BTreeSet<u32> = shading.coherent_samples().iter().map(|coherent| coherent.index).collect();
     let skipped: Vec<usize> = (0..all).filter(|&index| !has.contains(&(index as u32))).collect();
     if of.reading == Normalization::Lambertian || skipped.is_empty() {
         return None;
@@ -33,19 +33,19 @@ pub(super) fn mirrors(sources: &Sources<'_>, ask: &impl Ask) -> Option<SkippedWo
             _ => shading.geometry().angles().get(index).map(|angles| (angles.geometry(), angles.light(), surface)),
         }
     };
-    let mirror = |index: &usize| {
+    let coherent = |index: &usize| {
         let (geometry, light, surface) = place(*index)?;
-        Some(Mirror {
+        Some(CoherentSample {
             index: *index as u32,
             front: light * coherent_prefactor(&surface, &geometry, of.reading),
             kappa: kappa(&surface, &geometry),
             v: [geometry.vx_by_k, geometry.vy_by_k],
         })
     };
-    let taken: Vec<Mirror> = some_of(&skipped, SUMS).iter().filter_map(mirror).collect();
+    let taken: Vec<CoherentSample> = some_of(&skipped, SUMS).iter().filter_map(coherent).collect();
     let sum = |measure: &SpectralWeights| {
         let integral = CoherentIntegral::in_picture(shading, measure);
-        taken.iter().map(|mirror| integral.at(mirror)).collect::<Vec<_>>()
+        taken.iter().map(|coherent| integral.at(coherent)).collect::<Vec<_>>()
     };
     let seconds = shortest(|| sources.measures().map(sum).collect::<Vec<_>>());
     Some(SkippedWork {
@@ -55,7 +55,7 @@ pub(super) fn mirrors(sources: &Sources<'_>, ask: &impl Ask) -> Option<SkippedWo
         saved: seconds * skipped.len() as f64 / taken.len().max(1) as f64,
         how: format!(
             "below {:.0e} of the picture's brightest sample; made as this quality makes those that it has; {}, one thread",
-            quality.mirror_share(),
+            quality.coherent_share(),
             measured_on(taken.len(), skipped.len(), sources.places())
         ),
     })

@@ -7,9 +7,9 @@ use super::Files;
 
 /// A persistent message.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Standing {
+pub struct PersistentMessage {
     /// Its subject.
-    pub kind: StandingKind,
+    pub kind: PersistentMessageKind,
     /// The message.
     pub words: String,
     /// The file it is about.
@@ -18,7 +18,7 @@ pub struct Standing {
 
 /// The subject of a persistent message.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum StandingKind {
+pub enum PersistentMessageKind {
     /// Another window has the profile.
     OtherWindow,
     /// The document is not saved.
@@ -31,7 +31,7 @@ pub enum StandingKind {
     Copies,
 }
 
-impl StandingKind {
+impl PersistentMessageKind {
     /// True if the user can dismiss it.
     pub const fn is_dismissible(self) -> bool {
         matches!(self, Self::SetAside | Self::Moved | Self::Copies)
@@ -45,12 +45,12 @@ pub(super) struct Notices {
     pub(super) complaint: Option<(String, PathBuf)>,
     /// Number of documents that other windows had saved at the start.
     pub(super) copies: usize,
-    dismissed: HashSet<StandingKind>,
+    dismissed: HashSet<PersistentMessageKind>,
 }
 
 impl Files {
     /// The persistent messages, the most severe first.
-    pub fn standing(&self) -> Vec<Standing> {
+    pub fn standing(&self) -> Vec<PersistentMessage> {
         let Notices { complaint, copies, dismissed } = &self.standing;
         let failure = self.keeper.failure().map(|why| {
             let words = if self.keeper.is_saved() {
@@ -58,29 +58,35 @@ impl Files {
             } else {
                 format!("Changes are not saved: {why}. Retrying.")
             };
-            Standing { kind: StandingKind::NotSaved, words, file: None }
+            PersistentMessage { kind: PersistentMessageKind::NotSaved, words, file: None }
         });
-        let other =
-            self.copy().map(|(words, file)| Standing { kind: StandingKind::OtherWindow, words, file: Some(file) });
-        let aside =
-            complaint.clone().map(|(words, file)| Standing { kind: StandingKind::SetAside, words, file: Some(file) });
+        let other = self.copy().map(|(words, file)| PersistentMessage {
+            kind: PersistentMessageKind::OtherWindow,
+            words,
+            file: Some(file),
+        });
+        let aside = complaint.clone().map(|(words, file)| PersistentMessage {
+            kind: PersistentMessageKind::SetAside,
+            words,
+            file: Some(file),
+        });
         let moved = self.keeper.moved().map(|file| {
             let words = "Another program wrote to the document: changes here are saved in a copy.".to_owned();
-            Standing { kind: StandingKind::Moved, words, file: Some(file) }
+            PersistentMessage { kind: PersistentMessageKind::Moved, words, file: Some(file) }
         });
         let copies = (*copies > 0).then(|| {
             let words = match copies {
                 1 => "A document of another window was recovered: File, Recovered documents.".to_owned(),
                 many => format!("{many} documents of other windows were recovered: File, Recovered documents."),
             };
-            Standing { kind: StandingKind::Copies, words, file: None }
+            PersistentMessage { kind: PersistentMessageKind::Copies, words, file: None }
         });
         let all = [failure, aside, moved, other, copies].into_iter().flatten();
         all.filter(|standing| !dismissed.contains(&standing.kind)).collect()
     }
 
     /// Removes a message.
-    pub fn dismiss(&mut self, kind: StandingKind) {
+    pub fn dismiss(&mut self, kind: PersistentMessageKind) {
         self.standing.dismissed.insert(kind);
     }
 }

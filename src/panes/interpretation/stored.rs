@@ -5,16 +5,16 @@ use spectral_file::Values;
 
 use super::camera::RESPONSES;
 use super::{Closed, caption, list, name, note, switches};
-use crate::action::{Action, OwnAction};
+use crate::action::{Action, ImportedAction};
 use crate::document::SetKind;
-use crate::document::own::{OwnSet, Role};
+use crate::document::imported::{ImportedSet, Role};
 use crate::figures::curves::places;
 use crate::panes::context::PaneContext;
 use crate::panes::widgets::segmented;
 use crate::theme::{Theme, UNIT};
 
 /// Shows the set with controls; every change is one step of undo.
-pub(super) fn show(ui: &mut Ui, set: &OwnSet, context: &mut PaneContext<'_>) {
+pub(super) fn show(ui: &mut Ui, set: &ImportedSet, context: &mut PaneContext<'_>) {
     let theme = context.theme;
     name::show(ui, set, context);
     let curves = match set.curves.len() {
@@ -40,12 +40,12 @@ pub(super) fn show(ui: &mut Ui, set: &OwnSet, context: &mut PaneContext<'_>) {
     if changed != *set {
         follow(set, &mut changed);
         let (name, built_in) = (set.name.clone(), context.scene.catalog.names().clone());
-        context.push(Action::Own(OwnAction::Replace { name, with: Box::new(changed), built_in }));
+        context.push(Action::Imported(ImportedAction::Replace { name, with: Box::new(changed), built_in }));
     }
 }
 
 /// Has the file, when it comes back, read as the set was changed.
-fn follow(before: &OwnSet, changed: &mut OwnSet) {
+fn follow(before: &ImportedSet, changed: &mut ImportedSet) {
     let places = places(before);
     let options = &mut changed.wishes.options;
     if changed.role != before.role {
@@ -82,14 +82,14 @@ fn choice<T: Copy + PartialEq>(ui: &mut Ui, theme: &Theme, words: &str, choices:
 }
 
 /// Role, unit and percent.
-fn choices(ui: &mut Ui, set: &mut OwnSet, theme: &Theme) {
+fn choices(ui: &mut Ui, set: &mut ImportedSet, theme: &Theme) {
     choice(ui, theme, "This is a", &switches::ROLES, &mut set.role);
     choice(ui, theme, "Wavelengths in", &switches::UNITS, &mut set.unit);
     ui.checkbox(&mut set.percent, "Values are percent");
 }
 
 /// Channels, and their response basis.
-fn camera(ui: &mut Ui, set: &mut OwnSet, theme: &Theme) {
+fn camera(ui: &mut Ui, set: &mut ImportedSet, theme: &Theme) {
     let width = ui.available_width() - 2.0;
     for (channel, color) in ["Red", "Green", "Blue"].into_iter().enumerate() {
         let now = set.channels[channel];
@@ -109,7 +109,7 @@ fn camera(ui: &mut Ui, set: &mut OwnSet, theme: &Theme) {
 }
 
 /// Reason that the set cannot be used as it is read now, if so.
-fn trouble(set: &OwnSet, context: &PaneContext<'_>) -> Option<String> {
+fn trouble(set: &ImportedSet, context: &PaneContext<'_>) -> Option<String> {
     match set.role {
         Role::Camera => context.scene.sensor(SetKind::Camera, &set.name).err().map(|error| error.to_string()),
         _ => match set.curves_in_nm() {

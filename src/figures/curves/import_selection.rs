@@ -7,7 +7,7 @@ use spectral_file::{ReadError, SpectralFile};
 
 use crate::catalog::import::taken;
 use crate::catalog::opened::{FilePreview, OpenFile, Opened};
-use crate::document::own::{ImportOverrides, OwnSet};
+use crate::document::imported::{ImportOverrides, ImportedSet};
 use crate::scene::Scene;
 use crate::view::View;
 use crate::view::import::ImportItem;
@@ -18,7 +18,7 @@ pub struct ImportSelection {
     /// Selected item.
     pub item: ImportItem,
     /// The document's set.
-    pub set: Option<Shared<OwnSet>>,
+    pub set: Option<Shared<ImportedSet>>,
     /// Overrides with which it is, or is to be, read.
     pub wishes: ImportOverrides,
     /// True if the document does not contain this yet.
@@ -109,7 +109,7 @@ impl ImportSelection {
 }
 
 /// The places in its file of a set's curves.
-pub fn places(set: &OwnSet) -> Vec<usize> {
+pub fn places(set: &ImportedSet) -> Vec<usize> {
     let wished = set.wishes.taken.clone().filter(|taken| taken.len() == set.curves.len());
     wished.unwrap_or_else(|| (0..set.curves.len()).collect())
 }
