@@ -1,4 +1,4 @@
-//! Command-line interface: `locus`, `patches`, `compare`, `matrix`, `light`, `render`, `identify`, `inspect`, `bench`, `list`.
+//! Command-line interface: `locus`, `patches`, `compare`, `matrix`, `light`, `figure`, `render`, `identify`, `inspect`, `bench`, `list`.
 //!
 //! Arguments become a [`Document`](crate::document::Document), which is evaluated through [`Scene`](crate::scene::Scene), as in
 //! the window, so that the two cannot disagree. Nothing here needs a display or a graphics library.
@@ -8,6 +8,7 @@ mod bench;
 mod checks;
 mod compare;
 mod error;
+mod figure;
 mod fit;
 mod identify;
 mod inspect;
@@ -66,6 +67,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Outcome {
         Subcommand::Compare(arguments) => compare::run(&arguments, matches),
         Subcommand::Matrix(arguments) => matrix::run(&arguments),
         Subcommand::Render(arguments) => render::run(&arguments, matches),
+        Subcommand::Figure(arguments) => figure::run(&arguments, matches),
         Subcommand::Light(arguments) => light::run(&arguments, matches),
         Subcommand::Identify(arguments) => identify::run(&arguments),
         Subcommand::Inspect(arguments) => inspect::run(&arguments),

@@ -145,6 +145,8 @@ pub enum TourMove {
 /// A form to save in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Format {
+    /// Vector graphics for print, with its fonts.
+    Pdf,
     /// Vector graphics.
     Svg,
     /// Pixels.
@@ -157,11 +159,12 @@ pub enum Format {
 
 impl Format {
     /// All forms.
-    pub const ALL: [Self; 4] = [Self::Svg, Self::Png, Self::Csv, Self::Json];
+    pub const ALL: [Self; 5] = [Self::Svg, Self::Pdf, Self::Png, Self::Csv, Self::Json];
 
     /// The ending of its files.
     pub const fn extension(self) -> &'static str {
         match self {
+            Self::Pdf => "pdf",
             Self::Svg => "svg",
             Self::Png => "png",
             Self::Csv => "csv",

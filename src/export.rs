@@ -1,21 +1,26 @@
-//! Figures out of the program: SVG from the figure, PNG from that SVG, both in the bundled fonts.
+//! Figures out of the program: SVG and PDF from the figure, PNG from that SVG, all in the bundled fonts.
 
 pub mod card;
+pub mod paper;
 pub mod profile;
 pub mod render;
 pub mod spectra;
 
+use std::io::Cursor;
 use std::sync::{Arc, LazyLock};
 
 use base64::{Engine as _, prelude::BASE64_STANDARD};
-use chromascope_figure::{Cell, Figure, Image, Table, svg};
+use chromascope_figure::{Cell, Figure, Image, Table, pdf, svg};
 use image::{
     ExtendedColorType, ImageEncoder as _, RgbaImage,
     codecs::png::{CompressionType, FilterType, PngEncoder},
 };
 use resvg::{tiny_skia, usvg};
+use tiff::encoder::{Compression, DeflateLevel, Rational, TiffEncoder, colortype::RGB8};
+use tiff::tags::ResolutionUnit;
 
 use crate::theme::{self, Theme};
+pub use paper::Paper;
 
 /// The longest side of a picture in pixels.
 pub const MAX_SIDE: u32 = 16_384;
@@ -37,23 +42,15 @@ pub enum ExportError {
     /// The picture could not be encoded.
     #[error("the picture could not be encoded: {0}")]
     Encode(#[from] image::ImageError),
-}
-
-/// Layout of a figure on paper.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Paper {
-    /// Width in millimeters; `None` takes the figure's own points.
-    pub width_mm: Option<f64>,
-    /// Factor on text, relative to the figure.
-    pub text_scale: f64,
-    /// Factor on lines and markers, relative to the figure.
-    pub line_scale: f64,
-}
-
-impl Default for Paper {
-    fn default() -> Self {
-        Self { width_mm: None, text_scale: 1.0, line_scale: 1.0 }
-    }
+    /// The picture could not be encoded with its resolution.
+    #[error("the picture could not be encoded: {0}")]
+    Png(#[from] png::EncodingError),
+    /// The picture could not be written as TIFF.
+    #[error("the picture could not be encoded: {0}")]
+    Tiff(#[from] tiff::TiffError),
+    /// The figure could not be written as PDF.
+    #[error(transparent)]
+    Pdf(#[from] pdf::PdfError),
 }
 
 /// A table as JSON: version, title, names of the columns, and rows of numbers, texts and null.
@@ -77,9 +74,14 @@ pub fn json(title: &str, table: &Table) -> String {
 
 /// The figure as SVG. Figures for paper take [`Theme::LIGHT`].
 pub fn svg(figure: &Figure, theme: &Theme, paper: Paper) -> String {
-    let Paper { width_mm, text_scale, line_scale } = paper;
     let style = svg::SvgStyle::new(theme::FONT_FAMILY, theme::MONO_FAMILY, &data_uri);
-    svg::write(figure, theme, &svg::SvgStyle { width_mm, text_scale, line_scale, ..style })
+    svg::write(figure, theme, &style, &paper.page_style())
+}
+
+/// The figure as PDF, with its fonts in it.
+pub fn pdf(figure: &Figure, theme: &Theme, paper: Paper) -> Result<Vec<u8>, ExportError> {
+    let fonts = pdf::PdfFonts { text: theme::FONT, mono: theme::MONO_FONT };
+    Ok(pdf::write(figure, theme, fonts, &paper.page_style())?)
 }
 
 /// The SVG as a picture with `scale` pixels per point (1/72 inch).
@@ -113,6 +115,33 @@ fn drawn(tree: &usvg::Tree, scale: f32) -> Result<RgbaImage, ExportError> {
 /// The bytes of a PNG file.
 pub fn png_file(picture: &RgbaImage) -> Result<Vec<u8>, ExportError> {
     Ok(encoded(picture.as_raw(), picture.width(), picture.height(), CompressionType::Default)?)
+}
+
+/// The bytes of a PNG file that states its resolution in pixels per inch (pHYs).
+pub fn png_file_at(picture: &RgbaImage, dpi: f64) -> Result<Vec<u8>, ExportError> {
+    let per_meter = (dpi / 0.0254).round() as u32;
+    let mut file = Vec::new();
+    let mut encoder = png::Encoder::new(&mut file, picture.width(), picture.height());
+    encoder.set_color(png::ColorType::Rgba);
+    encoder.set_depth(png::BitDepth::Eight);
+    encoder.set_pixel_dims(Some(png::PixelDimensions { xppu: per_meter, yppu: per_meter, unit: png::Unit::Meter }));
+    let mut writer = encoder.write_header()?;
+    writer.write_image_data(picture.as_raw())?;
+    writer.finish()?;
+    Ok(file)
+}
+
+/// The bytes of a TIFF file, without opacity, that states its resolution in pixels per inch.
+pub fn tiff_file_at(picture: &RgbaImage, dpi: f64) -> Result<Vec<u8>, ExportError> {
+    let rgb: Vec<u8> = picture.pixels().flat_map(|pixel| [pixel[0], pixel[1], pixel[2]]).collect();
+    let mut file = Cursor::new(Vec::new());
+    let compression = Compression::Deflate(DeflateLevel::Balanced);
+    let mut encoder = TiffEncoder::new(&mut file)?.with_compression(compression);
+    let mut image = encoder.new_image::<RGB8>(picture.width(), picture.height())?;
+    let hundredths = Rational { n: (dpi * 100.0).round() as u32, d: 100 };
+    image.resolution(ResolutionUnit::Inch, hundredths);
+    image.write_data(&rgb)?;
+    Ok(file.into_inner())
 }
 
 fn encoded(rgba: &[u8], width: u32, height: u32, compression: CompressionType) -> Result<Vec<u8>, image::ImageError> {

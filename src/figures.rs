@@ -5,6 +5,7 @@ pub mod chromaticity;
 pub mod correction;
 pub mod curves;
 pub mod data_set;
+pub mod head_to_head;
 mod labels;
 pub mod light;
 pub mod metrics;

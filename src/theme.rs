@@ -88,6 +88,16 @@ impl Surround {
     }
 }
 
+/// Colors of compared sources in a figure.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum SourceInks {
+    /// Those on screen, told apart in all kinds of color vision.
+    #[default]
+    Screen,
+    /// Grays, told apart in print without color.
+    Gray,
+}
+
 /// The colors of one theme.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Theme {
@@ -191,6 +201,33 @@ impl Theme {
             hex(0x001F_7B91),
         ],
     };
+
+    /// Black on white, for print.
+    pub const PRINT: Self = Self {
+        panel: hex(0x00FF_FFFF),
+        line: hex(0x0080_8080),
+        grid: hex(0x00E2_E2E2),
+        text: hex(0x0000_0000),
+        weak: hex(0x0030_3030),
+        reference: hex(0x0000_0000),
+        observer: hex(0x0060_6060),
+        ..Self::LIGHT
+    };
+
+    /// Theme with other colors of compared sources.
+    #[must_use]
+    pub fn with_inks(self, inks: SourceInks) -> Self {
+        // Equal steps of L*, 18 to 77.5 on white and 42 to 96 on dark, neighbors in the list far apart.
+        const LIGHT: [u8; 8] = [0x67, 0xA8, 0x2C, 0x92, 0x3F, 0xBF, 0x52, 0x7C];
+        const DARK: [u8; 8] = [0x9E, 0xDE, 0x76, 0xF4, 0x8A, 0xC8, 0x63, 0xB3];
+        match inks {
+            SourceInks::Screen => self,
+            SourceInks::Gray => {
+                let grays = if self.dark { DARK } else { LIGHT };
+                Self { sources: grays.map(Color32::from_gray), ..self }
+            }
+        }
+    }
 
     /// The theme a [`egui::Ui`] or [`egui::Style`] with these visuals is drawn in.
     pub const fn of(visuals: &Visuals) -> Self {

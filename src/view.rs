@@ -41,6 +41,8 @@ use table::TableLook;
 pub struct View {
     /// State saved between runs.
     pub saved: SavedView,
+    /// Room for figures that are saved.
+    pub room: chromascope_figure::FigureRoom,
     /// Under the pointer now, in any pane.
     pub hovered: Option<PlotItem>,
     /// Under the pointer in the frame that is being made; becomes `hovered` at its end.

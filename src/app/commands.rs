@@ -454,11 +454,13 @@ impl ChromascopeApp {
 fn file_of(figure: &Figure, numbers: &Table, format: Format) -> Result<Vec<u8>, String> {
     let svg = || export::svg(figure, &Theme::LIGHT, export::Paper::default());
     match format {
+        Format::Pdf => export::pdf(figure, &Theme::LIGHT, export::Paper::default()).map_err(|error| error.to_string()),
         Format::Svg => Ok(svg().into_bytes()),
         Format::Csv => Ok(numbers.to_csv().into_bytes()),
         Format::Json => Ok(export::json(&figure.title, numbers).into_bytes()),
         Format::Png => {
-            let file = export::png(&svg(), PICTURE_SCALE).and_then(|picture| export::png_file(&picture));
+            let file = export::png(&svg(), PICTURE_SCALE)
+                .and_then(|picture| export::png_file_at(&picture, 72.0 * f64::from(PICTURE_SCALE)));
             file.map_err(|error| error.to_string())
         }
     }

@@ -8,11 +8,12 @@ use spectral_file::Values;
 
 use super::bench::BenchArguments;
 use super::compare::arguments::CompareArguments;
+use super::figure::arguments::FigureArguments;
 use super::identify::arguments::IdentifyArguments;
 use super::inspect::arguments::InspectArguments;
 use super::matrix::arguments::MatrixArguments;
 use super::render::arguments::RenderArguments;
-pub(super) use super::sources::{SourceArguments, Transform};
+pub(super) use super::sources::{CommonArguments, SourceArguments, Transform};
 use crate::document::SetKind;
 
 /// See, measure and explain how digital cameras render color, from spectra.
@@ -91,6 +92,9 @@ pub(super) enum Subcommand {
     /// Color correction matrix of a camera, with its errors, as text, DNG values, DCP, ICC or CLF
     #[command(after_help = super::matrix::arguments::EXAMPLES)]
     Matrix(Box<MatrixArguments>),
+    /// Figures for paper, laid out for a width: PDF, SVG, PNG, or the numbers behind them as CSV
+    #[command(after_help = super::figure::arguments::EXAMPLES)]
+    Figure(Box<FigureArguments>),
     /// Pictures of a mesh under a light, through cameras and observers, as PNG or OpenEXR
     #[command(after_help = super::render::arguments::EXAMPLES)]
     Render(Box<RenderArguments>),
@@ -108,30 +112,6 @@ pub(super) enum Subcommand {
         /// Kind of data sets [default: all]
         kind: Option<ListKind>,
     },
-}
-
-/// Arguments of both tables.
-#[derive(Debug, Args)]
-pub(super) struct CommonArguments {
-    #[command(flatten)]
-    pub(super) sources: SourceArguments,
-    /// The illuminant: a name, a file with one curve, `daylight:K` or `blackbody:K` [default: the preset's]
-    #[arg(long, value_name = "NAME|FILE")]
-    pub(super) illuminant: Option<OsString>,
-    /// A filter in front of the illuminant: a name of `chromascope list filters`, or a file with one transmittance; may be repeated,
-    /// in any order
-    #[arg(long, value_name = "NAME|FILE")]
-    pub(super) filter: Vec<OsString>,
-    /// The white-balance target, the RGB a perfect diffuser is mapped to: `unity`, an illuminant, `daylight:K` or `blackbody:K`
-    /// [default: the preset's]
-    #[arg(long = "white-balance", alias = "white", value_name = "WHITE")]
-    pub(super) white: Option<String>,
-    /// Output file [default: standard output, also `-`]
-    #[arg(long, value_name = "FILE")]
-    pub(super) out: Option<PathBuf>,
-    /// Overwrites the file named by --out
-    #[arg(long)]
-    pub(super) force: bool,
 }
 
 /// Arguments of `locus`.

@@ -113,6 +113,17 @@ fn recorded_set(request: &mut Request, arguments: &IdentifyArguments, levels: Le
     joined.map(Shared::new).map_err(|error| CliError::File(format!("{}: {error}", file_of(arguments))))
 }
 
+/// Patches of one table with their raw values: its own spectra, else those of the chart, under the light.
+pub(super) fn recorded_table(request: &mut Request, path: &Path) -> Result<RecordedSet, CliError> {
+    let RawTable { spectra, rows, .. } = raw_table(request, path)?;
+    let spectra = match spectra {
+        Some(text) => file_spectra(request, path, Some(&text), false)?,
+        None => chart_spectra(request)?,
+    };
+    let joined = recorded::join(&spectra, &rows, Levels { black: 0.0, clip: f64::INFINITY });
+    joined.map(Shared::new).map_err(|error| CliError::File(format!("{}: {error}", display_path(path))))
+}
+
 fn raw_table(request: &mut Request, path: &Path) -> Result<RawTable, CliError> {
     let bytes = request.bytes(path)?;
     recorded::read_table(&bytes).map_err(|error| CliError::File(format!("{}: {error}", display_path(path))))

@@ -2,9 +2,9 @@
 
 mod accuracy;
 pub(super) mod arguments;
-mod files;
+pub(super) mod files;
 mod image;
-mod setup;
+pub(super) mod setup;
 mod stats;
 
 use std::collections::BTreeMap;

@@ -1,6 +1,7 @@
 //! Arguments that choose sensors, the reference and the color transform.
 
 use std::ffi::OsString;
+use std::path::PathBuf;
 
 use chromascope_core::correction::CorrectionMethod;
 use clap::{Args, ValueEnum};
@@ -39,6 +40,30 @@ pub(super) struct SourceArguments {
     pub(super) correction: Option<CorrectionMethod>,
     #[command(flatten)]
     pub(super) fit: FitArguments,
+}
+
+/// Arguments of tables and figures: sensors, light, output.
+#[derive(Debug, Args)]
+pub(super) struct CommonArguments {
+    #[command(flatten)]
+    pub(super) sources: SourceArguments,
+    /// The illuminant: a name, a file with one curve, `daylight:K` or `blackbody:K` [default: the preset's]
+    #[arg(long, value_name = "NAME|FILE")]
+    pub(super) illuminant: Option<OsString>,
+    /// A filter in front of the illuminant: a name of `chromascope list filters`, or a file with one transmittance; may be repeated,
+    /// in any order
+    #[arg(long, value_name = "NAME|FILE")]
+    pub(super) filter: Vec<OsString>,
+    /// The white-balance target, the RGB a perfect diffuser is mapped to: `unity`, an illuminant, `daylight:K` or `blackbody:K`
+    /// [default: the preset's]
+    #[arg(long = "white-balance", alias = "white", value_name = "WHITE")]
+    pub(super) white: Option<String>,
+    /// Output file [default: standard output, also `-`]
+    #[arg(long, value_name = "FILE")]
+    pub(super) out: Option<PathBuf>,
+    /// Overwrites the file named by --out
+    #[arg(long)]
+    pub(super) force: bool,
 }
 
 impl SourceArguments {

@@ -90,13 +90,18 @@ pub fn figure(input: &FigureInput<'_>) -> Option<Figure> {
     let subject = match input.view.accuracy.shows {
         Shows::Scene(subject) => subject,
         Shows::Bench(workload) => {
-            return input.measured.reports.get(&workload)?.as_ref().as_ref().ok()?.figure(workload);
+            let report = input.measured.reports.get(&workload)?.as_ref().as_ref().ok()?;
+            return match input.view.room.width {
+                Some(width) => report.figure_within(workload, width),
+                None => report.figure(workload),
+            };
         }
     };
     let run = input.measured.run.as_ref()?;
     let trial = trial(run, subject)?;
-    let mut figure = Figure::new(format!("Run time against error: {}", subject.what()), SIZE);
-    figure.panels.push(panel(trial, input.measured.is_current, SIZE));
+    let size = input.view.room.size(SIZE, 0.0);
+    let mut figure = Figure::new(format!("Run time against error: {}", subject.what()), size);
+    figure.panels.push(panel(trial, input.measured.is_current, size));
     figure.legend = legend(trial);
     figure.legend_place = LegendPlace::Outside;
     figure.caption = format!(

@@ -17,8 +17,8 @@ use std::collections::BTreeSet;
 use chromascope_core::colorimetry::{UvPrime, Xy, Xyz};
 use chromascope_core::light::Cct;
 use chromascope_figure::{
-    Axis, Cell, Figure, InkRole, LegendEntry, LegendPlace, Mark, Panel, Projection, Rect, Shape, Stroke, Table, Ticks,
-    auto_ticks,
+    Axis, AxisRanges, Cell, Figure, InkRole, LegendEntry, LegendPlace, Mark, Numbers, Panel, Projection, Rect, Shape,
+    Stroke, Table, Ticks, auto_ticks,
 };
 
 use chromascope_core::spectral::sensor::TAIL_BELOW_K;
@@ -177,18 +177,27 @@ pub const STRIP: f64 = 136.0;
 
 /// The figure as it is saved: diagram, strip, legend, caption, and the numbers of all points.
 pub fn figure(scene: &Scene<'_>, view: &View) -> Figure {
-    figure_sized(scene, view, SIZE)
+    let strip = view.room.strip && super::strip::build(scene, [SIZE[0], STRIP]).is_some();
+    figure_sized(scene, view, view.room.size(SIZE, if strip { STRIP } else { 0.0 }))
 }
 
 /// The figure with a diagram of a size in points.
 pub fn figure_sized(scene: &Scene<'_>, view: &View, size: [f64; 2]) -> Figure {
     // Hovering is not shown on paper.
-    let paper = View { saved: view.saved.clone(), ..View::default() };
-    let built = build(scene, &paper, None, size);
+    let mut paper = View { saved: view.saved.clone(), ..View::default() };
+    match view.room.ranges {
+        AxisRanges::Full => paper.saved.diagram_fit = DiagramFit::Whole,
+        AxisRanges::Screen => paper.diagram.zoomed = view.diagram.zoomed.map(|part| Frame::around(part, size).ranges),
+    }
+    let mut built = build(scene, &paper, None, size);
+    if let Some([x, y]) = paper.diagram.zoomed {
+        (built.panel.x.range, built.panel.y.range) = (x, y);
+    }
     let mut figure = Figure::new("Chromaticity", size);
+    let shown = Projection::new(&built.panel, 1.0);
     figure.panels.push(built.panel);
     figure.panels.extend(built.lens.map(|lens| lens.panel));
-    if let Some(mut strip) = super::strip::build(scene, [size[0], STRIP]) {
+    if let Some(mut strip) = super::strip::build(scene, [size[0], STRIP]).filter(|_| view.room.strip) {
         strip.panel.area = Rect::from_min_size([0.0, size[1]], [size[0], STRIP]);
         figure.size[1] += STRIP;
         figure.panels.push(strip.panel);
@@ -197,7 +206,20 @@ pub fn figure_sized(scene: &Scene<'_>, view: &View, size: [f64; 2]) -> Figure {
     figure.legend_place = LegendPlace::Outside;
     figure.caption = caption(scene);
     figure.table = table(scene);
+    if view.room.numbers == Numbers::Visible {
+        keep_inside(&mut figure.table, scene.document.diagram, [shown.x, shown.y]);
+    }
     figure
+}
+
+/// Removes rows whose point lies outside of these ranges, or nowhere.
+fn keep_inside(table: &mut Table, diagram: Diagram, ranges: Ranges) {
+    let first = match diagram {
+        Diagram::Xy => 4,
+        Diagram::UvPrime => 6,
+    };
+    let is_inside = |cell: Option<&Cell>, [low, high]: [f64; 2]| matches!(cell, Some(Cell::Number(value)) if (low..=high).contains(value));
+    table.rows.retain(|row| (0..2).all(|axis| is_inside(row.get(first + axis), ranges[axis])));
 }
 
 fn legend_entry(source: &ComparedSensor) -> LegendEntry {

@@ -24,8 +24,8 @@ const CURVES: [Curve; 4] = [
 /// The figure of the Correction pane; `None` without two lights.
 pub fn figure(view: &View) -> Option<Figure> {
     let file = view.correction.shown.as_ref()?;
-    let mut figure = Figure::new(title(file), SIZE);
-    figure.panels.push(panel(file, SIZE)?);
+    let mut figure = Figure::new(title(file), view.room.size(SIZE, 0.0));
+    figure.panels.push(panel(file, figure.size)?);
     figure.legend = CURVES
         .map(|(name, _, role, dash)| LegendEntry {
             name: name.to_owned(),

@@ -6,8 +6,8 @@ mod import_selection;
 
 use chromascope_core::spectral::grid::{FIRST_NM, LAST_NM};
 use chromascope_figure::{
-    Anchor, Axis, Cell, Figure, Ink, InkRole, LegendEntry, LegendPlace, Mark, Panel, Projection, Rect, Shape, Stroke,
-    Table, Tag, TextSize, finite_runs,
+    Anchor, Axis, Cell, Figure, Ink, InkRole, LegendEntry, LegendPlace, Mark, Numbers, Panel, Projection, Rect, Shape,
+    Stroke, Table, Tag, TextSize, finite_runs,
 };
 
 pub use cache::CurveCache;
@@ -141,8 +141,9 @@ pub fn figure(input: &FigureInput<'_>) -> Option<Figure> {
     let curves = Curves::of(&shown, usize::MAX).ok()?;
     let mut drawn = curves.clone();
     drawn.cut(DRAWN);
-    let mut figure = Figure::new(format!("Curves of {}", curves.title), SIZE);
-    let mut panel = panel(&drawn, SIZE, None);
+    let size = input.view.room.size(SIZE, 0.0);
+    let mut figure = Figure::new(format!("Curves of {}", curves.title), size);
+    let mut panel = panel(&drawn, size, None);
     panel.name.clone_from(&curves.title);
     figure.panels.push(panel);
     if (2..=NAMED).contains(&drawn.drawn.len()) {
@@ -156,7 +157,7 @@ pub fn figure(input: &FigureInput<'_>) -> Option<Figure> {
         figure.legend_place = LegendPlace::Outside;
     }
     figure.caption = format!("{}: {}.", curves.title, curves.quantity);
-    figure.table = numbers(&curves);
+    figure.table = numbers(if input.view.room.numbers == Numbers::Visible { &drawn } else { &curves });
     Some(figure)
 }
 

@@ -7,15 +7,19 @@ use chromascope_core::colorimetry::rgb::{encode_srgb, srgb_from_xyz, srgb_white}
 use chromascope_core::query::{Consistency, Rendition};
 use chromascope_core::rendition::{ColorFidelity, HueBin};
 use chromascope_figure::{
-    Anchor, Axis, Cell, Dash, Figure, Ink, InkRole, Mark, Panel, Rect, Shape, Table, Tag, TextSize, Ticks,
+    Anchor, Axis, Cell, Dash, Figure, Ink, InkRole, Mark, Panel, Projection, Rect, Shape, Table, Tag, TextSize, Ticks,
+    text_width,
 };
 
 use crate::document::SetKind;
 use crate::format::fixed;
 use crate::scene::Scene;
+use crate::view::View;
 
 /// The size of the saved figure in points: bars left, vectors right.
 const SIZE: [f64; 2] = [640.0, 300.0];
+/// Width below which the vectors stand below the bars.
+const NARROW: f64 = 450.0;
 /// Largest radius of the vector graphic, the reference circle being 1.
 const RADIUS: f64 = 1.55;
 
@@ -42,7 +46,7 @@ pub fn bars(rendition: &Rendition, area: Rect) -> Option<Panel> {
         let at = [middle, value.max(0.0)];
         let text = fixed(*value, 0);
         // A number that is wider than its bar's place would run into the next; the bar itself still says it when pointed at.
-        if text.chars().count() as f64 * DIGIT_WIDTH > area.width() / values.len() as f64 {
+        if text_width(&text, TextSize::Small) + NUMBER_GAP > (area.width() - Projection::LEFT) / values.len() as f64 {
             continue;
         }
         let shape = Shape::Text { at, text, anchor, offset: [0.0, -1.0], size: TextSize::Small, ink };
@@ -51,8 +55,8 @@ pub fn bars(rendition: &Rendition, area: Rect) -> Option<Panel> {
     Some(panel)
 }
 
-/// Width of a digit of small text in points, with its share of the gap to the next number.
-const DIGIT_WIDTH: f64 = 7.0;
+/// Gap between numbers above neighboring bars, in points.
+const NUMBER_GAP: f64 = 3.0;
 
 /// The color vector graphic: hue bins of the reference on a circle, those of the light around it; none where it is undefined.
 pub fn vectors(rendition: &Rendition, area: Rect) -> Option<Panel> {
@@ -117,14 +121,28 @@ fn label(text: &str, at: [f64; 2], anchor: Anchor, role: InkRole) -> Mark {
 }
 
 /// The figure as it is saved; none while there is nothing to show.
-pub fn figure(scene: &Scene<'_>) -> Option<Figure> {
+pub fn figure(scene: &Scene<'_>, view: &View) -> Option<Figure> {
     let rendition = scene.rendition().ok()?;
-    let left = bars(&rendition, Rect::from_min_size([0.0, 0.0], [SIZE[0] - SIZE[1], SIZE[1]]));
-    let right = vectors(&rendition, Rect::from_min_size([SIZE[0] - SIZE[1], 0.0], [SIZE[1], SIZE[1]]));
-    let mut figure = Figure::new(format!("Rendition of {}", scene.light_name()), SIZE);
-    figure.panels.extend(left.into_iter().chain(right));
+    let [width, mut height] = view.room.size(SIZE, 0.0);
+    let is_narrow = width < NARROW;
+    if is_narrow && view.room.height.is_none() {
+        height = 1.1 * width;
+    }
+    // Bars beside the vectors, or above them.
+    let (first, second) = if is_narrow {
+        let side = (0.6 * height).min(width);
+        let low = Rect::from_min_size([0.5 * (width - side), height - side], [side, side]);
+        (Rect::from_min_size([0.0, 0.0], [width, height - side - 8.0]), low)
+    } else {
+        let side = height.min(0.5 * width);
+        let right = Rect::from_min_size([width - side, 0.0], [side, height]);
+        (Rect::from_min_size([0.0, 0.0], [width - side, height]), right)
+    };
+    let mut figure = Figure::new(format!("Rendition of {}", scene.light_name()), [width, height]);
+    figure.panels.extend(bars(&rendition, first).into_iter().chain(vectors(&rendition, second)));
+    let [one, other] = if is_narrow { ["Above", "Below"] } else { ["Left", "Right"] };
     figure.caption = format!(
-        "{}. Left: color rendering indices, CIE 13.3. Right: color vectors of ANSI/IES TM-30, the reference dashed.",
+        "{}. {one}: color rendering indices, CIE 13.3. {other}: color vectors of ANSI/IES TM-30, the reference dashed.",
         scene.light_name()
     );
     figure.table = table(scene, &rendition);

@@ -2,7 +2,9 @@
 
 use chromascope_core::query::metrics::{Better, distinguishable, rank_ranges};
 use chromascope_core::query::{CameraMetric, MetricValue, WhyNot};
-use chromascope_figure::{Anchor, Cell, Figure, Ink, InkRole, Mark, Panel, Rect, Shape, Table, Tag, TextSize};
+use chromascope_figure::{
+    Anchor, Cell, Figure, Ink, InkRole, Mark, Panel, Rect, Shape, Table, Tag, TextSize, text_width,
+};
 
 use super::FigureInput;
 use super::chromaticity::conditions;
@@ -115,8 +117,6 @@ pub fn uncertainty_of_difference(a: MetricValue, b: MetricValue) -> Option<f64> 
 
 /// Width of a saved figure in points.
 const WIDTH: f64 = 640.0;
-/// Width of its names.
-const NAMES: f64 = 220.0;
 /// Height of a row.
 const ROW: f64 = 16.0;
 
@@ -132,7 +132,10 @@ pub fn figure(input: &FigureInput<'_>) -> Option<Figure> {
     let largest_first = metric.better == Better::Higher;
     rows.sort_by(|a, b| if largest_first { b.2.total_cmp(&a.2) } else { a.2.abs().total_cmp(&b.2.abs()) });
     let unit = if unit(&metric).is_empty() { String::new() } else { format!(" in {}", unit(&metric)) };
-    let mut figure = Figure::new(format!("{}{unit}", metric.label), [WIDTH, 24.0 + ROW * rows.len() as f64]);
+    let name = |camera: usize| ranked.cameras[camera].id.name.as_str();
+    let names = rows.iter().map(|row| text_width(name(row.0), TextSize::Small)).fold(40.0, f64::max) + 20.0;
+    let width = view.room.width.unwrap_or(WIDTH).max(names + 120.0);
+    let mut figure = Figure::new(format!("{}{unit}", metric.label), [width, 24.0 + ROW * rows.len() as f64]);
     let mut panel = Panel::board("Metrics", Rect::from_min_size([0.0; 2], figure.size), Ink::new(InkRole::Plot));
     let text = |words: &str, at: [f64; 2], anchor: Anchor, size: TextSize| {
         let ink = Ink::new(InkRole::Text);
@@ -142,20 +145,20 @@ pub fn figure(input: &FigureInput<'_>) -> Option<Figure> {
     panel.marks.push(text(&figure.title, [8.0, 12.0], Anchor::LEFT, TextSize::Body));
     let largest =
         rows.iter().map(|row| row.2.abs() + row.1.uncertainty.unwrap_or(0.0)).fold(f64::MIN_POSITIVE, f64::max);
-    let x = |value: f64| NAMES + (WIDTH - NAMES - 72.0) * (value.abs() / largest).clamp(0.0, 1.0);
+    let x = |value: f64| names + (width - names - 72.0) * (value.abs() / largest).clamp(0.0, 1.0);
     for (index, (camera, value, number)) in rows.iter().enumerate() {
         let y = 24.0 + ROW * index as f64 + ROW / 2.0;
-        let name = &ranked.cameras[*camera].id.name;
-        panel.marks.push(text(name, [NAMES - 8.0, y], Anchor::RIGHT, TextSize::Small));
-        let bar = Shape::Rect { min: [NAMES, y - 5.0], max: [x(*number), y + 5.0] };
-        panel.marks.push(Mark::new(Tag::default(), name.as_str(), bar).with_fill(InkRole::Line));
+        let name = name(*camera);
+        panel.marks.push(text(name, [names - 8.0, y], Anchor::RIGHT, TextSize::Small));
+        let bar = Shape::Rect { min: [names, y - 5.0], max: [x(*number), y + 5.0] };
+        panel.marks.push(Mark::new(Tag::default(), name, bar).with_fill(InkRole::Line));
         if let Some(by) = value.uncertainty {
             let segments = vec![[[x((number.abs() - by).max(0.0)), y], [x(number.abs() + by), y]]];
             panel.marks.push(
                 Mark::new(Tag::default(), "uncertainty", Shape::Segments { segments }).with_stroke(InkRole::Text, 1.2),
             );
         }
-        panel.marks.push(text(&fixed(*number, metric.decimals), [WIDTH - 8.0, y], Anchor::RIGHT, TextSize::Small));
+        panel.marks.push(text(&fixed(*number, metric.decimals), [width - 8.0, y], Anchor::RIGHT, TextSize::Small));
     }
     figure.panels.push(panel);
     figure.caption = format!("Lines: ± one standard uncertainty of the sensitivities. {}", conditions(scene));

@@ -28,8 +28,8 @@ pub fn figure(view: &View) -> Option<Figure> {
     let (set, ranked) = view.recorded.ranked.as_ref()?;
     let (name, fit) = chosen(ranked, view)?;
     let names: Vec<String> = set.iter().map(|patch| patch.name.clone()).collect();
-    let mut figure = Figure::new(format!("Residuals of {name}"), SIZE);
-    figure.panels.push(panel(fit, &names, SIZE));
+    let mut figure = Figure::new(format!("Residuals of {name}"), view.room.size(SIZE, 0.0));
+    figure.panels.push(panel(fit, &names, figure.size));
     figure.legend = legend();
     figure.legend_place = LegendPlace::Outside;
     figure.caption = format!(

@@ -5,7 +5,9 @@ pub mod headline;
 pub mod returned;
 pub mod spectrum;
 
-use chromascope_figure::{Anchor, Cell, Figure, Image, Ink, Mark, Panel, Rect, Shape, Table, TextSize};
+use chromascope_figure::{
+    Anchor, Cell, Figure, FigureRoom, Image, Ink, Mark, Panel, Rect, Shape, Table, TextSize, text_width, wrapped,
+};
 use spectral_image::ImageQuantity;
 
 use self::headline::{Detail, Measure};
@@ -17,14 +19,14 @@ use crate::plot_item::{PickIndex, SensorId};
 use crate::render_service::RenderedFrame;
 use crate::render_service::made::MadePictures;
 use crate::render_service::pixel::{self, LitPixel, PixelReading, PixelShows};
-use crate::scene::Scene;
 use crate::scene::spectral_image::ImagePictures;
+use crate::scene::{ComparedSensor, Scene};
 use crate::view::render::{PixelPlace, RenderMode};
 
-/// The width of a saved picture in points, in a grid of two columns.
+/// The width of a saved picture in points, where the figure may be as wide as it likes.
 const WIDTH: f64 = 340.0;
-/// The height of the line above a picture.
-const CAPTION: f64 = 20.0;
+/// Height of a line above a picture.
+const LINE: f64 = 20.0;
 const GAP: f64 = 8.0;
 /// A pixel of an image with a sample that is no number.
 pub const NO_VALUE: &str = "no value in some band";
@@ -34,56 +36,51 @@ pub fn index_of(shot: &RenderedFrame, id: &SensorId) -> Option<usize> {
     shot.sources.iter().position(|source| source.kind == id.kind && source.name == id.name)
 }
 
+/// Pictures side by side for a number of sensors.
+fn columns(count: usize) -> usize {
+    ((count as f64).sqrt().ceil() as usize).max(1)
+}
+
+/// Width in points of each of some pictures in a figure with this room.
+pub fn picture_width(room: FigureRoom, count: usize) -> f64 {
+    let across = columns(count) as f64;
+    room.width.map_or(WIDTH, |width| ((width - GAP) / across - GAP).max(1.0))
+}
+
+/// Pictures shown, by index: all, or all but the reference.
+fn shown(shot: &RenderedFrame, mode: RenderMode) -> std::ops::Range<usize> {
+    let only_sources = matches!(mode, RenderMode::One | RenderMode::Difference);
+    usize::from(only_sources && shot.sources.len() > 1)..shot.sources.len()
+}
+
 /// The current pictures, with captions and numbers; `None` before there are any.
 pub fn figure(input: &FigureInput<'_>) -> Option<Figure> {
     let (scene, view, shot) = (input.scene, input.view, input.pictures?);
     let made = shot.made()?;
     let measure = Measure::of_frame(shot);
-    let mode = view.saved.render.mode;
-    let maps = (mode == RenderMode::Difference).then(|| difference::Scale::of(shot));
-    let only_sources = matches!(mode, RenderMode::One | RenderMode::Difference);
-    let first = usize::from(only_sources && shot.sources.len() > 1);
-    let shown: Vec<usize> = (first..shot.sources.len()).collect();
-    let columns = ((shown.len() as f64).sqrt().ceil() as usize).max(1);
-    let shape = made.pictures.iter().flatten().next().map_or([1, 1], |picture| [picture.width, picture.height]);
-    let height = WIDTH * shape[1] as f64 / shape[0].max(1) as f64;
-    let rows = shown.len().div_ceil(columns);
-    let scale = if maps.is_some() { difference::SCALE_HEIGHT } else { 0.0 };
-    let all = [columns as f64 * (WIDTH + GAP) + GAP, rows as f64 * (height + CAPTION + GAP) + GAP + scale];
-    let mut figure = Figure::new("Rendered pictures", all);
+    let maps = (view.saved.render.mode == RenderMode::Difference).then(|| difference::Scale::of(shot));
     // The gray that the pictures were made on, whatever paper they go to.
-    let surround = view.saved.surround;
-    let [ground, ink] = [surround.color(), surround.label()].map(|color| {
+    let [ground, ink] = [view.saved.surround.color(), view.saved.surround.label()].map(|color| {
         let [r, g, b, _] = color.to_array();
         Ink::rgb([r, g, b])
     });
+    let shown = shown(shot, view.saved.render.mode);
+    let columns = columns(shown.len());
+    let shape = made.pictures.iter().flatten().next().map_or([1, 1], |picture| [picture.width, picture.height]);
+    let width = picture_width(view.room, shown.len());
+    let size = [width, width * shape[1] as f64 / shape[0].max(1) as f64];
+    let cells: Vec<PictureCell<'_>> = shown.map(|at| PictureCell::new(shot, at, maps.is_some(), width)).collect();
+    let above = LINE * cells.iter().map(|cell| cell.lines.len()).max().unwrap_or(0) as f64;
+    let rows = cells.len().div_ceil(columns);
+    let scale = if maps.is_some() { difference::SCALE_HEIGHT } else { 0.0 };
+    let all = [columns as f64 * (size[0] + GAP) + GAP, rows as f64 * (size[1] + above + GAP) + GAP + scale];
+    let mut figure = Figure::new("Rendered pictures", all);
     let mut panel = Panel::board("Render", Rect::from_min_size([0.0, 0.0], all), ground);
-    for (place, &at) in shown.iter().enumerate() {
-        let x = GAP + (place % columns) as f64 * (WIDTH + GAP);
-        let y = GAP + (place / columns) as f64 * (height + CAPTION + GAP);
-        let source = &shot.sources[at];
-        let label = if source.is_reference { format!("Reference, {}", source.label) } else { source.label.clone() };
-        let difference = made.differences.get(at).and_then(Option::as_ref);
-        let detail = if maps.is_some() { Detail::Metric } else { Detail::Quantiles };
-        let note = difference.map(|difference| measure.words(difference, detail));
-        let middle = y + CAPTION / 2.0;
-        let marker = Shape::Points { points: vec![[x + 7.0, middle]], marker: source.marker, radius: 5.0 };
-        let mark = Mark::new(PickIndex::NONE, label.clone(), marker).with_stroke(ink, 1.5);
-        panel.marks.push(if source.marker.has_inside() { mark.with_fill(ink) } else { mark });
-        panel.marks.push(text(&label, [x + 18.0, middle], Anchor::LEFT, ink));
-        if let Some(note) = note {
-            panel.marks.push(text(&note, [x + WIDTH - GAP, middle], Anchor::RIGHT, ink));
-        }
-        if let Some(Ok(picture)) = made.pictures.get(at) {
-            let ([width, height_in_pixels], rgba) = match maps {
-                Some(scale) => difference::map(shot, at, scale.end),
-                None => ([picture.width, picture.height], picture.rgba.clone()),
-            };
-            let image = Image { width, height: height_in_pixels, rgba: rgba.into() };
-            let top = y + CAPTION;
-            let shape = Shape::Image { min: [x, top + height], max: [x + WIDTH, top], image };
-            panel.marks.push(Mark::new(PickIndex::NONE, format!("{label}, picture"), shape));
-        }
+    for (place, cell) in cells.iter().enumerate() {
+        let x = GAP + (place % columns) as f64 * (size[0] + GAP);
+        let y = GAP + (place / columns) as f64 * (size[1] + above + GAP);
+        panel.marks.extend(cell.heading([x, y], width, ink));
+        panel.marks.extend(cell.picture(shot, maps, Rect::from_min_size([x, y + above], size)));
     }
     if let Some(scale) = maps {
         let corner = [GAP, all[1] - difference::SCALE_HEIGHT];
@@ -99,15 +96,79 @@ pub fn figure(input: &FigureInput<'_>) -> Option<Figure> {
         }
         None => caption(scene, shot),
     };
-    if shown.len() > 1 || !shot.sources.iter().all(|source| source.is_reference) {
+    if cells.len() > 1 || !shot.sources.iter().all(|source| source.is_reference) {
         figure.caption = format!("{} {}", figure.caption, measure.meaning());
     }
     figure.table = table(shot, measure.name());
     Some(figure)
 }
 
-fn text(words: &str, at: [f64; 2], anchor: Anchor, ink: Ink) -> Mark {
-    let shape = Shape::Text { at, text: words.to_owned(), anchor, offset: [0.0, 0.0], size: TextSize::Body, ink };
+/// One picture with the words above it.
+struct PictureCell<'a> {
+    at: usize,
+    source: &'a ComparedSensor,
+    label: String,
+    /// Lines of the name, then of the difference, at the left.
+    lines: Vec<(String, TextSize)>,
+    /// Number of lines of the name.
+    named: usize,
+    /// Words at the right end of the first line.
+    note: String,
+}
+
+impl<'a> PictureCell<'a> {
+    /// Room for the marker before the name.
+    const KEY: f64 = 18.0;
+
+    fn new(shot: &'a RenderedFrame, at: usize, is_map: bool, width: f64) -> Self {
+        let source = &shot.sources[at];
+        let label = if source.is_reference { format!("Reference, {}", source.label) } else { source.label.clone() };
+        let difference = shot.made().and_then(|made| made.differences.get(at)?.as_ref());
+        let detail = if is_map { Detail::Metric } else { Detail::Quantiles };
+        let note = difference.map(|difference| Measure::of_frame(shot).words(difference, detail)).unwrap_or_default();
+        let both = text_width(&label, TextSize::Body) + text_width(&note, TextSize::Body) + Self::KEY + 2.0 * GAP;
+        let lines = |text: &str, size, room| wrapped(text, size, room).into_iter().map(move |line| (line, size));
+        if both <= width {
+            return Self { at, source, lines: vec![(label.clone(), TextSize::Body)], named: 1, label, note };
+        }
+        let fits = text_width(&label, TextSize::Body) + Self::KEY <= width;
+        let name = lines(&label, if fits { TextSize::Body } else { TextSize::Small }, width - Self::KEY);
+        let name: Vec<_> = name.collect();
+        let named = name.len();
+        let lines = name.into_iter().chain(lines(&note, TextSize::Small, width)).collect();
+        Self { at, source, label, lines, named, note: String::new() }
+    }
+
+    fn heading(&self, [x, y]: [f64; 2], width: f64, ink: Ink) -> Vec<Mark> {
+        let middle = y + LINE / 2.0;
+        let marker = Shape::Points { points: vec![[x + 7.0, middle]], marker: self.source.marker, radius: 5.0 };
+        let mark = Mark::new(PickIndex::NONE, self.label.clone(), marker).with_stroke(ink, 1.5);
+        let mut marks = vec![if self.source.marker.has_inside() { mark.with_fill(ink) } else { mark }];
+        for (row, (words, size)) in self.lines.iter().enumerate() {
+            let inset = if row < self.named { Self::KEY } else { 0.0 };
+            marks.push(text(words, [x + inset, middle + LINE * row as f64], Anchor::LEFT, (*size, ink)));
+        }
+        if !self.note.is_empty() {
+            marks.push(text(&self.note, [x + width - GAP, middle], Anchor::RIGHT, (TextSize::Body, ink)));
+        }
+        marks
+    }
+
+    fn picture(&self, shot: &RenderedFrame, maps: Option<difference::Scale>, area: Rect) -> Option<Mark> {
+        let made = shot.made()?;
+        let picture = made.pictures.get(self.at)?.as_ref().ok()?;
+        let ([width, height], rgba) = match maps {
+            Some(scale) => difference::map(shot, self.at, scale.end),
+            None => ([picture.width, picture.height], picture.rgba.clone()),
+        };
+        let image = Image { width, height, rgba: rgba.into() };
+        let shape = Shape::Image { min: [area.min[0], area.max[1]], max: [area.max[0], area.min[1]], image };
+        Some(Mark::new(PickIndex::NONE, format!("{}, picture", self.label), shape))
+    }
+}
+
+fn text(words: &str, at: [f64; 2], anchor: Anchor, (size, ink): (TextSize, Ink)) -> Mark {
+    let shape = Shape::Text { at, text: words.to_owned(), anchor, offset: [0.0, 0.0], size, ink };
     Mark::new(PickIndex::NONE, words, shape)
 }
 

@@ -53,7 +53,8 @@ pub fn camera(scene: &Scene<'_>, view: &View) -> Option<SensorId> {
 pub fn figure(input: &FigureInput<'_>) -> Option<Figure> {
     let id = camera(input.scene, input.view)?;
     let query = input.scene.camera_metrics_query(id.kind, &id.name).ok()?;
-    Some(page(input.scene, &id, &input.scene.results.ask(&query), WIDTH))
+    let width = input.view.room.width.unwrap_or(WIDTH).max(LIST_COLUMN);
+    Some(page(input.scene, &id, &input.scene.results.ask(&query), width))
 }
 
 /// The page of a camera with its figures of merit in a width; a narrow one has one column.

@@ -3,6 +3,7 @@
 use chromascope_figure::{Anchor, Axis, Cell, Figure, InkRole, Mark, Panel, Rect, Shape, Table, Tag, TextSize, Ticks};
 use chromascope_measure::pareto::duration;
 
+use super::FigureInput;
 use crate::format::capitalized;
 use crate::profiler::{LOCI, Measured, PATCHES, SkippedWork};
 use crate::results::Count;
@@ -40,14 +41,17 @@ pub fn sections(measured: &Measured) -> Vec<Section> {
 }
 
 /// As bars over time; none before anything was measured or remembered.
-pub fn figure(measured: &Measured) -> Option<Figure> {
-    let sections = sections(measured);
+pub fn figure(input: &FigureInput<'_>) -> Option<Figure> {
+    let sections = sections(input.measured);
     let rows = || sections.iter().flat_map(|section| &section.rows);
     let lines = rows().count() + sections.len();
     if sections.is_empty() {
         return None;
     }
-    let mut figure = Figure::new("Time saved by skipped work", [WIDTH, AROUND + ROW * lines as f64]);
+    let mut figure = Figure::new(
+        "Time saved by skipped work",
+        [input.view.room.width.unwrap_or(WIDTH), AROUND + ROW * lines as f64],
+    );
     let saved = |row: &SkippedWork| row.saved.max(1e-9).log10();
     let timed = rows().filter(|row| row.saved > 0.0).map(saved);
     let (low, high) = timed.fold((-6.0_f64, -3.0_f64), |(low, high), s| (low.min(s), high.max(s)));
@@ -58,7 +62,7 @@ pub fn figure(measured: &Measured) -> Option<Figure> {
     let mut panel = Panel::new("skipped", Rect::from_min_size([0.0, 0.0], figure.size), x, y);
     let text = |name: &str, at: [f64; 2], text: String| {
         let (anchor, offset, size, ink) = (Anchor::LEFT, [6.0, 0.0], TextSize::Small, InkRole::Text.into());
-        Mark::new(Tag::default(), name, Shape::Text { at, text, anchor, offset, size, ink })
+        Mark::new(Tag::default(), name, Shape::Text { at, text, anchor, offset, size, ink }).with_halo(InkRole::Plot)
     };
     let mut middle = 0.5;
     for section in &sections {

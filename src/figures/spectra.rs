@@ -144,8 +144,9 @@ const SIZE: [f64; 2] = [640.0, 560.0];
 
 /// The figure as it is saved, with all values on the 1 nm grid.
 pub fn figure(scene: &Scene<'_>, view: &View) -> Figure {
-    let built = build(scene, view, SIZE);
-    let mut figure = Figure::new("Spectra", SIZE);
+    let size = view.room.size(SIZE, 0.0);
+    let built = build(scene, view, size);
+    let mut figure = Figure::new("Spectra", size);
     figure.panels = built.panels;
     figure.legend = scene
         .sources()

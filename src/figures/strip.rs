@@ -2,15 +2,19 @@
 
 use chromascope_core::colorimetry::Xy;
 use chromascope_core::query::Locus;
-use chromascope_figure::{Anchor, Axis, Dash, Ink, InkRole, Mark, Marker, Panel, Projection, Rect, Shape, Ticks};
+use chromascope_figure::{
+    Anchor, Axis, Cell, Dash, Figure, Ink, InkRole, Mark, Marker, Panel, Projection, Rect, Shape, Table, TextSize,
+    Ticks, wrapped,
+};
 
-use super::chromaticity::{distance_symbol, id};
+use super::chromaticity::{self, distance_symbol, id};
 use super::labels::{Place, Room};
 use crate::document::{Diagram, LOCUS_RANGE_K, SetKind};
 use crate::format::number;
 use crate::plot_item::{PickIndex, PlotItem};
 use crate::scene::locus::{distance, split};
 use crate::scene::{ComparedSensor, Scene};
+use crate::view::View;
 
 /// The strip with the items of its lines.
 #[derive(Clone, Debug)]
@@ -25,6 +29,8 @@ pub struct Strip {
 const TICKS: [f64; 7] = [1000.0, 1200.0, 1500.0, 2000.0, 3000.0, 5000.0, 20_000.0];
 /// Height of the line of text at the upper edge, in points.
 const NOTE: f64 = 18.0;
+/// Height of each further line.
+const NOTE_LINE: f64 = 15.0;
 /// Largest distance drawn: a locus that goes to infinity leaves the strip, the others stay readable.
 const LARGEST: f64 = 0.6;
 /// Δu′v′ of lights that half of observers just tell apart (CIE TN 001:2014).
@@ -46,8 +52,15 @@ pub fn build(scene: &Scene<'_>, size: [f64; 2]) -> Option<Strip> {
     let diagram = scene.document.diagram;
     let mut things = PickIndex::default();
     let content = content(scene, &reference, &mut things)?;
-    // The uppermost line of text is free of lines.
-    let free = 1.0 - (NOTE / (size[1] - Projection::BOTTOM - Projection::TITLE).max(1.0)).min(0.5);
+    let note = format!(
+        "distance to reference ({}, square-root scale), normalized to {} (ring: minimum)",
+        distance_symbol(diagram),
+        scene.locus_balance()
+    );
+    // The note at the upper edge is free of lines.
+    let lines = wrapped(&note, TextSize::Small, size[0] - Projection::LEFT - 10.0).len().max(1);
+    let above = NOTE + NOTE_LINE * (lines as f64 - 1.0);
+    let free = 1.0 - (above / (size[1] - Projection::BOTTOM - Projection::TITLE).max(1.0)).min(0.5);
     let top = content.top.clamp(1e-6, LARGEST).sqrt() / free;
     let ticks = TICKS.iter().map(|kelvin| (1e6 / kelvin, format!("{kelvin:.0}"))).collect();
     let [cold, hot] = LOCUS_RANGE_K.map(|kelvin| 1e6 / kelvin);
@@ -55,15 +68,11 @@ pub fn build(scene: &Scene<'_>, size: [f64; 2]) -> Option<Strip> {
     let y = Axis::new("", [0.0, top]).with_ticks(Ticks::At(height_ticks((top * free).powi(2)))).with_grid(true);
     let mut panel =
         Panel::new("Distance to the reference over temperature", Rect::from_min_size([0.0, 0.0], size), x, y);
-    panel.note = format!(
-        "distance to reference ({}, square-root scale), normalized to {} (ring: minimum)",
-        distance_symbol(diagram),
-        scene.locus_balance()
-    );
+    panel.note = note;
     let mut room = Room::of(&panel);
     room.take(&content.lines);
     room.take(&content.signs);
-    let line = cursor(scene.document.temperature_k, top);
+    let line = cursor(scene.document.temperature_k, top * free);
     room.keep_clear_of(&line);
     let mut texts = vec![cursor_text(&mut room, scene.document.temperature_k, top)];
     texts.extend(content.minima.iter().map(|(source, at)| minimum_text(&mut room, source, *at)));
@@ -74,6 +83,20 @@ pub fn build(scene: &Scene<'_>, size: [f64; 2]) -> Option<Strip> {
     panel.marks.extend(cut(&panel.marks, top, room.height()));
     panel.marks.extend(texts.into_iter().flatten());
     Some(Strip { panel, things })
+}
+
+/// Size of a saved figure in points.
+const SIZE: [f64; 2] = [640.0, 170.0];
+
+/// The strip as a figure of its own, with its numbers; none where no sensor can be compared with the reference.
+pub fn figure(scene: &Scene<'_>, view: &View) -> Option<Figure> {
+    let size = view.room.size(SIZE, 0.0);
+    let whole = chromaticity::figure(scene, view);
+    let mut figure = Figure::new("Distance to the reference over temperature", size);
+    figure.panels.push(build(scene, size)?.panel);
+    let is_locus = |row: &Vec<Cell>| row.get(1) == Some(&Cell::from("locus"));
+    figure.table = Table { rows: whole.table.rows.into_iter().filter(is_locus).collect(), ..whole.table };
+    Some(Figure { legend: whole.legend, legend_place: whole.legend_place, caption: whole.caption, ..figure })
 }
 
 /// Lines and signs of the sensors; none where there are none.

@@ -108,12 +108,17 @@ pub fn worst(scene: &Scene<'_>) -> Option<(String, PlotItem)> {
 
 /// The size of a saved figure in points.
 const SIZE: [f64; 2] = [700.0, 300.0];
+/// Width below which a figure is higher than its proportions.
+const NARROW: f64 = 500.0;
 /// Height of the line below it that says how long bars are.
 const KEY: f64 = 18.0;
 
 /// The figure as it is saved (in rows with the five patches, the paper's Figure 5), with all numbers.
 pub fn figure(scene: &Scene<'_>, view: &View) -> Figure {
-    figure_sized(scene, view, SIZE)
+    let [width, height] = view.room.size(SIZE, KEY);
+    // On a narrow page charts stand below each other.
+    let least = if view.room.height.is_none() && width < NARROW { 0.8 * width } else { 0.0 };
+    figure_sized(scene, view, [width, height.max(least)])
 }
 
 /// The figure in a width, and at least a height, in points.

@@ -4,11 +4,10 @@ use chromascope_core::query::CameraMetric;
 use egui::{ComboBox, Rect, RichText, Ui, Vec2};
 
 use super::context::{Pane, PaneContext};
-use crate::document::SetKind;
-use crate::figures::metrics;
+use crate::figures::{head_to_head as figure, metrics};
 use crate::panes::widgets;
 use crate::panes::widgets::table::{CellNote, Column, DataTable};
-use crate::plot_item::{PlotItem, SensorId};
+use crate::plot_item::SensorId;
 use crate::ranking::Ranked;
 use crate::theme::UNIT;
 use crate::view::metrics::RankedCameras;
@@ -25,7 +24,7 @@ pub const PANE: Pane = Pane {
     kind: PaneKind::HEAD_TO_HEAD,
     title: "Head to head",
     show,
-    figure: None,
+    figure: Some(figure::figure),
     under_conditions: true,
     table: false,
 };
@@ -36,7 +35,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let body = Rect::from_min_max(body.min + Vec2::new(2.0 * UNIT, 0.0), body.max - Vec2::new(2.0 * UNIT, UNIT));
     // All cameras, or those of the table: one request serves both panes.
     let ranked = context.ranking.ask(&context.scene, context.view.saved.metrics.cameras);
-    let pair = pair(&ranked, context);
+    let pair = figure::pair(&ranked, &context.scene, context.view);
     let mut child = ui.new_child(egui::UiBuilder::new().id_salt("pair").max_rect(body));
     child.set_clip_rect(body.intersect(ui.clip_rect()));
     let chosen = [choose(&mut child, 0, &ranked, pair[0], context), choose(&mut child, 1, &ranked, pair[1], context)];
@@ -72,25 +71,6 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
 /// Explanation of the last column.
 const BETTER_HINT: &str =
     "The better camera where the difference exceeds its standard uncertainty; neither where it does not.";
-
-/// The two cameras, as indices in the ranking: chosen, else the selected one and the first compared one.
-fn pair(ranked: &Ranked, context: &PaneContext<'_>) -> [Option<usize>; 2] {
-    let place = |id: &SensorId| ranked.cameras.iter().position(|camera| camera.id == *id);
-    let [a, b] = context.view.saved.metrics.pair.each_ref().map(|id| id.as_ref().and_then(place));
-    let selected = context.view.selected.as_ref().and_then(PlotItem::source).and_then(place);
-    let compared: Vec<usize> = context
-        .scene
-        .document
-        .compared
-        .iter()
-        .filter(|c| c.kind == SetKind::Camera)
-        .filter_map(|c| place(&SensorId { kind: c.kind, name: c.name.clone() }))
-        .collect();
-    let candidates = || compared.iter().copied().chain(0..ranked.cameras.len());
-    let a = a.or(selected.filter(|selected| Some(*selected) != b)).or_else(|| candidates().find(|c| Some(*c) != b));
-    let b = b.or_else(|| candidates().find(|c| Some(*c) != a));
-    [a, b]
-}
 
 /// A list of cameras. Returns the one that was chosen.
 fn choose(

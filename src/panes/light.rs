@@ -22,7 +22,7 @@ pub const PANE: Pane = Pane {
     kind: PaneKind::LIGHT,
     title: "Light",
     show,
-    figure: Some(|input| light::figure(input.scene)),
+    figure: Some(|input| light::figure(input.scene, input.view)),
     under_conditions: true,
     table: true,
 };

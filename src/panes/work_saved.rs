@@ -18,7 +18,7 @@ pub const PANE: Pane = Pane {
     kind: PaneKind::WORK_SAVED,
     title: "Work saved",
     show,
-    figure: Some(|input| skipped_work::figure(input.measured)),
+    figure: Some(skipped_work::figure),
     under_conditions: false,
     table: false,
 };

@@ -1,6 +1,7 @@
 //! The command line, run as the user runs it, without a display.
 
 mod compare;
+mod figure;
 mod files;
 mod identify;
 mod inspect;

@@ -2,7 +2,7 @@
 
 use chromascope::catalog::Catalog;
 use chromascope::document::{Document, Subset, TransformChoice};
-use chromascope::export::{Paper, png, png_file, svg};
+use chromascope::export::{Paper, pdf, png, png_file, png_file_at, svg};
 use chromascope::figures::FigureInput;
 use chromascope::panes;
 use chromascope::results::Results;
@@ -10,6 +10,7 @@ use chromascope::scene::{LOCUS_POINTS, Scene};
 use chromascope::theme::Theme;
 use chromascope::view::View;
 use chromascope::workspaces::PaneKind;
+use chromascope_figure::{Page, TextSize};
 
 const PICTURED: [PaneKind; 3] = [PaneKind::CHROMATICITY, PaneKind::SWATCHES, PaneKind::SPECTRA];
 
@@ -30,7 +31,9 @@ fn every_figure_becomes_svg_png_and_numbers() {
         for pane in PICTURED {
             let figure = panes::figure(pane, &FigureInput::new(&scene, &View::default())).expect("it has a figure");
             let text = svg(&figure, &Theme::LIGHT, Paper::default());
-            assert!(!text.contains("NaN") && !text.contains("inf"), "{pane:?}");
+            // Encoded pictures may hold any three letters.
+            let attributes = text.split('"').filter(|part| !part.starts_with("data:"));
+            assert!({ attributes }.all(|part| !part.contains("NaN") && !part.contains("inf")), "{pane:?}");
             let picture = png(&text, 2.0).expect("the SVG is well formed");
             let path =
                 std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("{}_{index}.png", panes::title(pane)));
@@ -58,4 +61,29 @@ fn panes_without_a_figure_have_none() {
     let (catalog, results, document) = (Catalog::built_in(), Results::default(), Document::paper());
     let scene = Scene { document: &document, catalog: &catalog, results: &results };
     assert!(panes::figure(PaneKind::INSPECTOR, &FigureInput::new(&scene, &View::default())).is_none());
+}
+
+#[test]
+fn text_has_its_size_on_paper_whatever_the_width() {
+    let (catalog, results, document) = (Catalog::built_in(), Results::default(), Document::paper());
+    let scene = Scene { document: &document, catalog: &catalog, results: &results };
+    for pane in PICTURED {
+        for (mm, font_pt) in [(Paper::ONE_COLUMN_MM, 8.0), (Paper::TWO_COLUMNS_MM, 8.0), (Paper::ONE_COLUMN_MM, 6.0)] {
+            let paper = Paper { width_mm: Some(mm), font_pt, ..Paper::default() };
+            let make = |room| panes::figure(pane, &FigureInput::new(&scene, &View { room, ..View::default() }));
+            let figure = paper.laid_out(make).expect("it has a figure");
+            let page = Page::new(&figure, &paper.page_style()).area;
+            let body = f64::from(TextSize::Body.points()) * mm / 25.4 * 72.0 / page.width();
+            assert!((body - font_pt).abs() < 0.01, "{pane:?} at {mm} mm: {body} pt instead of {font_pt} pt");
+            let file = pdf(&figure, &paper.theme(), paper).expect("a PDF");
+            assert_eq!(file, pdf(&figure, &paper.theme(), paper).unwrap(), "the same bytes each time");
+        }
+    }
+}
+
+#[test]
+fn a_png_states_its_resolution() {
+    let file = png_file_at(&image::RgbaImage::new(4, 3), 300.0).expect("a PNG");
+    let at = file.windows(4).position(|part| part == b"pHYs").expect("pHYs") + 4;
+    assert_eq!(file[at..at + 9], [0, 0, 0x2E, 0x23, 0, 0, 0x2E, 0x23, 1], "11811 pixels per meter");
 }

@@ -232,7 +232,7 @@ fn a_figure_becomes_a_picture_in_both_themes() {
 
 #[test]
 fn a_figure_has_the_width_of_its_paper() {
-    let paper = Paper { width_mm: Some(85.0), text_scale: 1.4, line_scale: 1.2 };
+    let paper = Paper { width_mm: Some(85.0), line_scale: 1.2, ..Paper::default() };
     let svg = export::svg(&sample(), &Theme::LIGHT, paper);
     assert!(svg.contains("width=\"85mm\""));
     let picture = export::png(&svg, 300.0 / 72.0).expect("the SVG is well-formed");

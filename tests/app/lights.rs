@@ -148,7 +148,7 @@ fn the_pane_says_all_and_why_not() {
     // Independent values: see tests/core/rendition.rs.
     window.get_by_label("Ra 64.2   Rf 70.1   Rg 86.4   SSI 62");
     window.get_by_label("Color rendering indices as bars, and color vectors");
-    let figure = with(&document, |scene| figures::light::figure(scene).unwrap());
+    let figure = with(&document, |scene| figures::light::figure(scene, &chromascope::view::View::default()).unwrap());
     assert_eq!(figure.panels.len(), 2);
     assert!(figure.table.rows.len() > 60);
     // A light without temperature: reasons instead of numbers.

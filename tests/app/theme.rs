@@ -1,6 +1,6 @@
 //! Tests of the palette: visible against its background, and distinguishable, in any kind of color vision.
 
-use chromascope::theme::{self, Surround, Theme};
+use chromascope::theme::{self, SourceInks, Surround, Theme};
 use chromascope_core::colorimetry::{
     Lab, Xyz, delta_e_2000,
     lab::lab_from_xyz,
@@ -73,6 +73,16 @@ fn sources_are_told_apart_by_everyone() {
         let (few, all) = (closest(&keys(&theme, 4)), closest(&keys(&theme, 8)));
         assert!(few >= 16.0, "dark {}: truth, observer, 1-4: {few:.2}", theme.dark);
         assert!(all >= 11.7, "dark {}: all: {all:.2}", theme.dark);
+    }
+}
+
+#[test]
+fn gray_inks_differ_in_lightness() {
+    for theme in [Theme::PRINT, Theme::LIGHT, Theme::DARK].map(|theme| theme.with_inks(SourceInks::Gray)) {
+        let mut lightness: Vec<f64> = theme.sources.iter().map(|color| seen(*color, &SIGHTS[0]).l).collect();
+        lightness.push(seen(theme.plot, &SIGHTS[0]).l);
+        lightness.sort_by(f64::total_cmp);
+        assert!(lightness.windows(2).all(|pair| pair[1] - pair[0] > 7.0), "{lightness:?}");
     }
 }
 

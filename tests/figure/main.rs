@@ -4,10 +4,12 @@ use std::sync::Arc;
 
 use chromascope_figure::{
     Anchor, Axis, Cell, Dash, Figure, Image, Ink, InkRole, LegendEntry, LegendPlace, MIN_LABEL_SPACING, Mark, Marker,
-    MarkerOutline, Palette, Panel, Projection, Rect, Shape, Stroke, Table, Tag, TextSize, Ticks, annotations,
-    auto_ticks, finite_runs, fit_equal, svg, text_width, wrapped,
+    MarkerOutline, PageStyle, Palette, Panel, Projection, Rect, Shape, Stroke, Table, Tag, TextSize, Ticks,
+    annotations, auto_ticks, finite_runs, fit_equal, svg, text_width, wrapped,
 };
 use proptest::prelude::*;
+
+mod pdf;
 
 struct Gray;
 
@@ -26,8 +28,13 @@ fn no_image(_: &Image) -> Option<String> {
     None
 }
 
+fn written_with(figure: &Figure, encode: &dyn Fn(&Image) -> Option<String>) -> String {
+    let style = svg::SvgStyle::new("DejaVu Sans", "DejaVu Sans Mono", encode);
+    svg::write(figure, &Gray, &style, &PageStyle::default())
+}
+
 fn written(figure: &Figure) -> String {
-    svg::write(figure, &Gray, &svg::SvgStyle::new("DejaVu Sans", "DejaVu Sans Mono", &no_image))
+    written_with(figure, &no_image)
 }
 
 fn with_mark(mark: Mark) -> Figure {
@@ -278,7 +285,7 @@ fn pictures_go_through_the_encoder() {
     for (image, expected) in [(image, true), (broken, false)] {
         let shape = Shape::Image { min: [0.0, 0.0], max: [1.0, 1.0], image };
         let figure = with_mark(Mark::new(Tag(0), "", shape));
-        let svg = svg::write(&figure, &Gray, &svg::SvgStyle::new("a", "b", &encode));
+        let svg = written_with(&figure, &encode);
         assert_eq!(svg.contains("href=\"data:2\""), expected);
     }
 }

@@ -1,7 +1,7 @@
 //! Writes a figure with one curve as SVG to standard output.
 #![allow(clippy::disallowed_methods, reason = "an example writes its result")]
 
-use chromascope_figure::{Axis, Figure, Image, InkRole, Mark, Palette, Panel, Rect, Shape, Tag, svg};
+use chromascope_figure::{Axis, Figure, Image, InkRole, Mark, PageStyle, Palette, Panel, Rect, Shape, Tag, svg};
 use std::io::Write as _;
 
 /// Black on white.
@@ -23,5 +23,5 @@ fn main() -> std::io::Result<()> {
     figure.panels.push(panel);
     let no_image = |_: &Image| None;
     let style = svg::SvgStyle::new("sans-serif", "monospace", &no_image);
-    std::io::stdout().write_all(svg::write(&figure, &Print, &style).as_bytes())
+    std::io::stdout().write_all(svg::write(&figure, &Print, &style, &PageStyle::default()).as_bytes())
 }

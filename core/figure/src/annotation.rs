@@ -4,7 +4,10 @@ use super::mark::{Anchor, TextSize};
 use super::panel::Panel;
 use super::projection::Projection;
 use super::rect::Rect;
-use super::text::text_width;
+use super::text::{text_width, wrapped};
+
+/// Height of a line of a note, in points.
+const LINE: f64 = 15.0;
 
 /// A small text of a plot: an axis' label, a panel's note.
 #[derive(Debug, Clone, PartialEq)]
@@ -18,7 +21,7 @@ pub struct Annotation {
 }
 
 /// Labels of the axes (y upper left; x below the tick labels, symbols lower right) and the note (upper right) of a panel
-/// whose plot covers the given rectangle, for [`TextSize::Small`] drawn `text_scale` times as large as on screen. None covers another.
+/// whose plot covers the given rectangle, a long one in several lines, for [`TextSize::Small`] drawn `text_scale` times as large as on screen. None covers another.
 pub fn annotations(panel: &Panel, plot: Rect, text_scale: f64) -> Vec<Annotation> {
     let pad = 5.0 * text_scale;
     let width = |text: &str| text_scale * text_width(text, TextSize::Small);
@@ -35,7 +38,12 @@ pub fn annotations(panel: &Panel, plot: Rect, text_scale: f64) -> Vec<Annotation
     };
     [([left, top], &panel.y.label, Anchor::LEFT_TOP), ([right, top + below], &panel.note, Anchor::RIGHT_TOP), x]
         .into_iter()
-        .filter(|(_, text, _)| !text.is_empty())
-        .map(|(at, text, anchor)| Annotation { at, text: text.clone(), anchor })
+        .flat_map(|([x, y], text, anchor)| {
+            let lines = wrapped(text, TextSize::Small, (plot.width() - 2.0 * pad) / text_scale);
+            let first = if anchor.1 < 0.5 { 0.0 } else { 1.0 - lines.len() as f64 };
+            let line =
+                move |(i, text)| Annotation { at: [x, y + LINE * text_scale * (first + i as f64)], text, anchor };
+            lines.into_iter().enumerate().map(line)
+        })
         .collect()
 }

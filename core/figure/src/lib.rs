@@ -1,9 +1,9 @@
 //! A plot as data: panels with axes, marks, a legend, and the table beside it.
 //!
 //! A [`Figure`] specifies *what* is drawn and in which role, never in which color: the renderer's [`Palette`] maps an
-//! [`InkRole`] to sRGB. The window draws panels with egui, [`svg::write`] writes the whole figure as SVG, PNG and PDF
-//! are made from that SVG, and [`Table::to_csv`] writes the same numbers. Lengths are points (1/72 inch on paper,
-//! logical pixels on screen), y downward outside panels and by the axis inside.
+//! [`InkRole`] to sRGB. The window draws panels with egui, [`svg::write`] and [`pdf::write`] write the whole
+//! figure, PNG is made from that SVG, and [`Table::to_csv`] writes the same numbers. Lengths are points (1/72 inch on
+//! paper, logical pixels on screen), y downward outside panels and by the axis inside.
 //!
 //! Points that are not finite are never drawn: they break a line in two and are omitted from everything else.
 
@@ -12,9 +12,12 @@ mod axis;
 mod figure;
 mod ink;
 mod mark;
+mod page;
 mod panel;
+pub mod pdf;
 mod projection;
 mod rect;
+mod room;
 pub mod svg;
 mod table;
 mod text;
@@ -24,8 +27,10 @@ pub use axis::{Axis, MIN_LABEL_SPACING, Tick, Ticks, auto_ticks};
 pub use figure::Figure;
 pub use ink::{Ink, InkRole, Palette};
 pub use mark::{Anchor, Dash, Image, Mark, Marker, MarkerOutline, Rgb, Shape, Stroke, Tag, TextSize, finite_runs};
+pub use page::{AxisTitles, Page, PageStyle};
 pub use panel::{LegendEntry, LegendPlace, Panel};
 pub use projection::{Projection, fit_equal};
 pub use rect::Rect;
+pub use room::{AxisRanges, FigureRoom, Numbers};
 pub use table::{Cell, Table};
 pub use text::{text_width, wrapped};

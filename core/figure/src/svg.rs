@@ -1,207 +1,208 @@
 //! A figure as SVG.
 //!
-//! Plain shapes with presentation attributes, no style sheet, no script, no `dominant-baseline`, no `paint-order`: what
-//! browsers, Inkscape, office programs and resvg all draw alike.
+//! Plain shapes with presentation attributes, no style sheet, no script, no `dominant-baseline`. A text's halo is its own
+//! stroke, painted first (`paint-order`), so that each text is there once.
 
-mod canvas;
-mod marks;
+use std::fmt::Write as _;
 
-use super::annotation::annotations;
 use super::figure::Figure;
-use super::ink::{Ink, InkRole, Palette};
-use super::mark::{Anchor, Image, Stroke, TextSize};
-use super::panel::{LegendEntry, LegendPlace, Panel};
-use super::projection::Projection;
+use super::ink::{Ink, Palette};
+use super::mark::{Image, Stroke, TextSize};
+use super::page::{Canvas, Label, Page, PageStyle, draw};
 use super::rect::Rect;
-use super::text::{text_width, wrapped};
-use canvas::{Canvas, escaped};
 
-/// Fonts and images of a written figure, apart from its colors.
+/// Fonts and images of a written figure.
 pub struct SvgStyle<'a> {
     /// Font family of text.
     pub font_family: &'a str,
     /// Font family of [`TextSize::Mono`].
     pub mono_family: &'a str,
-    /// Factor on all text.
-    pub text_scale: f64,
-    /// Factor on the widths of lines and on markers.
-    pub line_scale: f64,
-    /// Width on paper in millimeters; `None` takes the figure's points.
-    pub width_mm: Option<f64>,
     /// Encodes a picture as a data URI (`data:image/png;base64,…`). Pictures it cannot encode are omitted.
     pub encode: &'a dyn Fn(&Image) -> Option<String>,
 }
 
 impl<'a> SvgStyle<'a> {
-    /// The size of the screen, in the given fonts.
+    /// The given fonts and encoder.
     pub fn new(font_family: &'a str, mono_family: &'a str, encode: &'a dyn Fn(&Image) -> Option<String>) -> Self {
-        Self { font_family, mono_family, text_scale: 1.0, line_scale: 1.0, width_mm: None, encode }
+        Self { font_family, mono_family, encode }
     }
 }
 
 /// Writes a figure as an SVG document.
-pub fn write(figure: &Figure, palette: &dyn Palette, style: &SvgStyle<'_>) -> String {
-    let Page { area: page, caption } = Page::new(figure, style.text_scale);
-    let mut canvas = Canvas::new(palette, style);
-    canvas.open(page, &figure.title);
-    canvas.rect(page, None, Some(InkRole::Plot.into()));
-    let projections: Vec<Projection> =
-        figure.panels.iter().map(|panel| Projection::new(panel, style.text_scale)).collect();
-    for (index, (panel, projection)) in figure.panels.iter().zip(&projections).enumerate() {
-        write_panel(&mut canvas, index, panel, projection);
-    }
-    if !figure.legend.is_empty() {
-        let first = figure.panels.first().zip(projections.first());
-        write_legend(&mut canvas, figure, first);
-    }
-    for (i, line) in caption.iter().enumerate() {
-        let y = figure.size[1] + (8.0 + Page::CAPTION_LINE * i as f64) * style.text_scale;
-        canvas.text([0.0, y], line, Anchor::LEFT_TOP, TextSize::Small, InkRole::Text.into());
-    }
-    canvas.close()
+pub fn write(figure: &Figure, palette: &dyn Palette, style: &SvgStyle<'_>, layout: &PageStyle) -> String {
+    let page = Page::new(figure, layout);
+    let mut canvas = Svg { style, palette, out: String::new(), clips: 0 };
+    canvas.open(page.area, &figure.title, layout.width_mm);
+    draw(figure, &page, layout, palette, &mut canvas);
+    canvas.out.push_str("</svg>\n");
+    canvas.out
 }
 
-/// The document's rectangle, around the figure's, and the lines of the caption.
-struct Page {
-    area: Rect,
-    caption: Vec<String>,
+/// A document being written.
+struct Svg<'a> {
+    style: &'a SvgStyle<'a>,
+    palette: &'a dyn Palette,
+    out: String,
+    /// Number of clipping rectangles so far.
+    clips: usize,
 }
 
-impl Page {
-    const CAPTION_LINE: f64 = 15.0;
-    /// Empty space around everything.
-    const MARGIN: f64 = 8.0;
+impl Svg<'_> {
+    fn open(&mut self, page: Rect, title: &str, width_mm: Option<f64>) {
+        let size = [page.width(), page.height()];
+        let [left, top] = page.min.map(coordinate);
+        let [width, height] = size.map(coordinate);
+        let (on_paper, unit) = match width_mm {
+            Some(mm) => ([mm, mm * size[1] / size[0].max(1.0)].map(coordinate), "mm"),
+            None => ([width.clone(), height.clone()], "pt"),
+        };
+        let [paper_width, paper_height] = on_paper;
+        let _ = write!(
+            self.out,
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{paper_width}{unit}\" \
+             height=\"{paper_height}{unit}\" viewBox=\"{left} {top} {width} {height}\" role=\"img\" \
+             font-family=\"{}\">\n<title>{}</title>\n",
+            escape(self.style.font_family),
+            escape(title)
+        );
+    }
 
-    fn new(figure: &Figure, text_scale: f64) -> Self {
-        let beside = if figure.legend_place == LegendPlace::Outside && !figure.legend.is_empty() {
-            12.0 + legend_size(&figure.legend, text_scale)[0]
+    fn hex(&self, ink: Ink) -> String {
+        let [r, g, b] = self.palette.rgb(ink.role);
+        format!("#{r:02x}{g:02x}{b:02x}")
+    }
+
+    /// Presentation attributes.
+    fn paint(&self, stroke: Option<Stroke>, fill: Option<Ink>) -> String {
+        let opacity = |name: &str, ink: Ink| match ink.alpha {
+            alpha if alpha < 1.0 => format!(" {name}-opacity=\"{}\"", coordinate(f64::from(alpha))),
+            _ => String::new(),
+        };
+        let mut out = match fill {
+            Some(ink) => format!(" fill=\"{}\"{}", self.hex(ink), opacity("fill", ink)),
+            None => " fill=\"none\"".to_owned(),
+        };
+        if let Some(stroke) = stroke {
+            let (color, opacity) = (self.hex(stroke.ink), opacity("stroke", stroke.ink));
+            let width = coordinate(stroke.width);
+            let _ = write!(out, " stroke=\"{color}\"{opacity} stroke-width=\"{width}\" stroke-linejoin=\"round\"");
+            match stroke.dash.pattern(stroke.width) {
+                Some([dash, gap]) => {
+                    let _ = write!(out, " stroke-dasharray=\"{} {}\"", coordinate(dash), coordinate(gap));
+                }
+                None => out.push_str(" stroke-linecap=\"round\""),
+            }
+        }
+        out
+    }
+}
+
+impl Canvas for Svg<'_> {
+    fn begin(&mut self, name: &str, clip: Option<Rect>) {
+        if let Some(clip) = clip {
+            let index = self.clips;
+            self.clips += 1;
+            let [x, y] = clip.min.map(coordinate);
+            let (width, height) = (coordinate(clip.width()), coordinate(clip.height()));
+            let _ = write!(
+                self.out,
+                "<clipPath id=\"panel{index}\"><rect x=\"{x}\" y=\"{y}\" width=\"{width}\" \
+                 height=\"{height}\"/></clipPath>\n<g clip-path=\"url(#panel{index})\">"
+            );
         } else {
-            0.0
-        };
-        let width = figure.size[0] + beside;
-        let caption = wrapped(&figure.caption, TextSize::Small, width / text_scale);
-        let below = match caption.len() {
-            0 => 0.0,
-            lines => (12.0 + Self::CAPTION_LINE * lines as f64) * text_scale,
-        };
-        let size = [width, figure.size[1] + below].map(|side| side + 2.0 * Self::MARGIN);
-        Self { area: Rect::from_min_size([-Self::MARGIN; 2], size), caption }
-    }
-}
-
-fn write_panel(canvas: &mut Canvas<'_>, index: usize, panel: &Panel, projection: &Projection) {
-    let plot = projection.plot;
-    canvas.group_clipped(index, plot, &panel.name);
-    canvas.rect(plot, None, Some(panel.background));
-    write_grid(canvas, panel, projection);
-    for mark in &panel.marks {
-        marks::write(canvas, mark, projection);
-    }
-    canvas.end_group();
-    if panel.framed {
-        canvas.rect(plot, Some(Stroke::solid(InkRole::Line, 1.0)), None);
-    }
-    write_tick_labels(canvas, panel, projection);
-    for note in annotations(panel, plot, canvas.style.text_scale) {
-        let halo = Some(panel.background);
-        canvas.text_with_halo(note.at, &note.text, note.anchor, TextSize::Small, InkRole::Weak.into(), halo);
-    }
-}
-
-fn write_grid(canvas: &mut Canvas<'_>, panel: &Panel, projection: &Projection) {
-    let (plot, stroke) = (projection.plot, Stroke::solid(InkRole::Grid, 1.0));
-    if panel.x.grid {
-        for tick in &projection.x_ticks {
-            let x = projection.at([tick.value, projection.y[0]])[0];
-            canvas.polyline(&[[x, plot.min[1]], [x, plot.max[1]]], false, stroke);
+            self.out.push_str("<g>");
         }
-    }
-    if panel.y.grid {
-        for tick in &projection.y_ticks {
-            let y = projection.at([projection.x[0], tick.value])[1];
-            canvas.polyline(&[[plot.min[0], y], [plot.max[0], y]], false, stroke);
+        if !name.is_empty() {
+            let _ = write!(self.out, "<title>{}</title>", escape(name));
         }
+        self.out.push('\n');
+    }
+
+    fn end(&mut self) {
+        self.out.push_str("</g>\n");
+    }
+
+    fn path(&mut self, points: &[[f64; 2]], closed: bool, stroke: Option<Stroke>, fill: Option<Ink>) {
+        let paint = self.paint(stroke, fill);
+        self.out.push_str("<path d=\"");
+        for (i, point) in points.iter().enumerate() {
+            let [x, y] = point.map(coordinate);
+            let _ = write!(self.out, "{}{x} {y}", if i == 0 { 'M' } else { 'L' });
+        }
+        let end = if closed { "Z" } else { "" };
+        let _ = writeln!(self.out, "{end}\"{paint}/>");
+    }
+
+    fn rect(&mut self, area: Rect, stroke: Option<Stroke>, fill: Option<Ink>) {
+        let [x, y] = area.min.map(coordinate);
+        let (width, height) = (coordinate(area.width()), coordinate(area.height()));
+        let paint = self.paint(stroke, fill);
+        let _ = writeln!(self.out, "<rect x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\"{paint}/>");
+    }
+
+    fn disk(&mut self, center: [f64; 2], radius: f64, stroke: Option<Stroke>, fill: Option<Ink>) {
+        let [x, y] = center.map(coordinate);
+        let (r, paint) = (coordinate(radius), self.paint(stroke, fill));
+        let _ = writeln!(self.out, "<circle cx=\"{x}\" cy=\"{y}\" r=\"{r}\"{paint}/>");
+    }
+
+    fn text(&mut self, label: &Label<'_>) {
+        let down = label.baseline();
+        let shift = if label.upward { [down, 0.0] } else { [0.0, down] };
+        let [x, y] = [0, 1].map(|axis| coordinate(label.at[axis] + shift[axis]));
+        let align = match label.anchor.0 {
+            h if h < 0.25 => "start",
+            h if h > 0.75 => "end",
+            _ => "middle",
+        };
+        let family = match label.size {
+            TextSize::Mono => format!(" font-family=\"{}\"", escape(self.style.mono_family)),
+            _ => String::new(),
+        };
+        let turned = if label.upward { format!(" transform=\"rotate(-90 {x} {y})\"") } else { String::new() };
+        let halo = label.halo.map(|ink| Stroke::solid(ink, Label::HALO));
+        let order = if halo.is_some() { " paint-order=\"stroke\"" } else { "" };
+        let (paint, points) = (self.paint(halo, Some(label.ink)), coordinate(f64::from(label.size.points())));
+        let _ = writeln!(
+            self.out,
+            "<text x=\"{x}\" y=\"{y}\" font-size=\"{points}\" text-anchor=\"{align}\"{family}{turned}{paint}{order}>{}</text>",
+            escape(label.text)
+        );
+    }
+
+    fn image(&mut self, area: Rect, image: &Image) {
+        let Some(uri) = (self.style.encode)(image) else { return };
+        let [x, y] = area.min.map(coordinate);
+        let (width, height) = (coordinate(area.width()), coordinate(area.height()));
+        let _ = writeln!(
+            self.out,
+            "<image x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\" \
+             preserveAspectRatio=\"none\" href=\"{}\"/>",
+            escape(&uri)
+        );
     }
 }
 
-fn write_tick_labels(canvas: &mut Canvas<'_>, panel: &Panel, projection: &Projection) {
-    let (plot, scale) = (projection.plot, canvas.style.text_scale);
-    let ink = Ink::new(InkRole::Weak);
-    for tick in &projection.x_ticks {
-        let half = 0.5 * scale * text_width(&tick.label, TextSize::Body);
-        let x = projection.at([tick.value, projection.y[0]])[0];
-        let x = x.min(panel.area.max[0] - half).max(panel.area.min[0] + half);
-        let at = [x, plot.max[1] + 6.0 * scale];
-        canvas.text(at, &tick.label, Anchor::TOP, TextSize::Body, ink);
-    }
-    for tick in &projection.y_ticks {
-        let half = 0.5 * scale * f64::from(TextSize::Body.points());
-        let y = projection.at([projection.x[0], tick.value])[1];
-        let y = y.min(panel.area.max[1] - half).max(panel.area.min[1] + half);
-        let at = [plot.min[0] - 7.0 * scale, y];
-        canvas.text(at, &tick.label, Anchor::RIGHT, TextSize::Body, ink);
-    }
-}
-
-const KEY_ROW: f64 = 20.0;
-const KEY_WIDTH: f64 = 28.0;
-const KEY_PAD: f64 = 8.0;
-
-fn legend_size(entries: &[LegendEntry], text_scale: f64) -> [f64; 2] {
-    let widest = entries.iter().map(|entry| text_width(&entry.name, TextSize::Body)).fold(0.0, f64::max);
-    let width = 3.0 * KEY_PAD + KEY_WIDTH + widest;
-    [width * text_scale, (KEY_ROW * entries.len() as f64 + KEY_PAD) * text_scale]
-}
-
-fn write_legend(canvas: &mut Canvas<'_>, figure: &Figure, first: Option<(&Panel, &Projection)>) {
-    let scale = canvas.style.text_scale;
-    let size = legend_size(&figure.legend, scale);
-    let area = legend_area(figure, first, size, scale);
-    if figure.legend_place != LegendPlace::Outside {
-        let ground = Ink { role: InkRole::Plot, alpha: 0.9 };
-        canvas.rect(area, Some(Stroke::solid(InkRole::Line, 1.0)), Some(ground));
-    }
-    for (i, entry) in figure.legend.iter().enumerate() {
-        let y = area.min[1] + (0.5 * KEY_PAD + KEY_ROW * (i as f64 + 0.5)) * scale;
-        let x = area.min[0] + KEY_PAD * scale;
-        write_key(canvas, entry, [x, y], KEY_WIDTH * scale);
-        let at = [x + (KEY_WIDTH + KEY_PAD) * scale, y];
-        canvas.text(at, &entry.name, Anchor::LEFT, TextSize::Body, InkRole::Text.into());
-    }
-}
-
-fn legend_area(figure: &Figure, first: Option<(&Panel, &Projection)>, size: [f64; 2], scale: f64) -> Rect {
-    let whole = Rect::from_min_size([0.0, 0.0], figure.size);
-    let plot = first.map_or(whole, |(_, projection)| projection.plot);
-    let note = if first.is_some_and(|(panel, _)| !panel.note.is_empty()) { 18.0 } else { 0.0 };
-    let pad = 8.0 * scale;
-    let (left, right) = (plot.min[0] + pad, plot.max[0] - pad - size[0]);
-    let (top, bottom) = (plot.min[1] + pad, plot.max[1] - pad - 16.0 * scale - size[1]);
-    let min = match figure.legend_place {
-        LegendPlace::UpperRight => [right, top + note * scale],
-        LegendPlace::UpperLeft => [left, top + 16.0 * scale],
-        LegendPlace::LowerRight => [right, bottom],
-        LegendPlace::LowerLeft => [left, bottom + 16.0 * scale],
-        LegendPlace::Outside => [figure.size[0] + 12.0, 0.0],
-    };
-    Rect::from_min_size(min, size)
-}
-
-fn write_key(canvas: &mut Canvas<'_>, entry: &LegendEntry, left: [f64; 2], width: f64) {
-    if let Some(stroke) = entry.stroke {
-        canvas.polyline(&[left, [left[0] + width, left[1]]], false, stroke);
-    }
-    if let Some(marker) = entry.marker {
-        let ink = entry.stroke.map(|stroke| stroke.ink).or(entry.fill);
-        let rim = ink.map(|ink| Stroke::solid(ink, 2.0));
-        let at = [left[0] + 0.5 * width, left[1]];
-        let inside = if marker.has_inside() { entry.fill.or(Some(InkRole::Plot.into())) } else { None };
-        let ground = Some(Ink::new(InkRole::Plot));
-        canvas.marker(at, marker, 5.0, rim, inside, ground);
-    }
+/// A length to a hundredth of a point. Far outside the page it is held, as renderers count in `f32`.
+fn coordinate(value: f64) -> String {
+    let rounded = (value.clamp(-1e6, 1e6) * 100.0).round() / 100.0;
+    let sign_free = if rounded == 0.0 { 0.0 } else { rounded };
+    format!("{sign_free}")
 }
 
 /// The text with XML's special characters escaped, and characters that XML forbids removed.
 pub fn escape(text: &str) -> String {
-    escaped(text)
+    let mut out = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            '&' => out.push_str("&amp;"),
+            '<' => out.push_str("&lt;"),
+            '>' => out.push_str("&gt;"),
+            '"' => out.push_str("&quot;"),
+            '\t' | '\n' | '\r' => out.push(' '),
+            '\u{0}'..='\u{1F}' | '\u{FFFE}' | '\u{FFFF}' => {}
+            _ => out.push(c),
+        }
+    }
+    out
 }

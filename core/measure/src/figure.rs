@@ -10,6 +10,8 @@ use crate::{Measurement, Report, Workload};
 pub(crate) const PANEL: [f64; 2] = [420.0, 320.0];
 /// Panels side by side, and where there are many.
 const ACROSS: usize = 2;
+/// Width in points below which a panel is hard to read.
+const LEAST_WIDTH: f64 = 300.0;
 const ACROSS_OF_MANY: usize = 3;
 const MANY: usize = 7;
 /// Markers for 1, 2, 4 and more threads: distinct from those of cameras, so without their colors, and with those of the
@@ -29,6 +31,21 @@ type Numbered<'a> = (usize, &'a Measurement);
 
 /// The figure of a workload with panels of a size. The marks' tags are the places of measurements among those of the workload, from 1.
 pub(crate) fn figure(report: &Report, workload: Workload, size: [f64; 2]) -> Option<Figure> {
+    let cases = cases(report, workload);
+    let across = if cases.len() < MANY { ACROSS.min(cases.len()) } else { ACROSS_OF_MANY };
+    arranged(report, workload, &cases, (size, across))
+}
+
+/// The figure of a workload in a width in points, with as many panels side by side as stay readable.
+pub(crate) fn figure_within(report: &Report, workload: Workload, width: f64) -> Option<Figure> {
+    let cases = cases(report, workload);
+    let across = ((width / LEAST_WIDTH) as usize).clamp(1, cases.len().max(1));
+    let side = width / across as f64;
+    arranged(report, workload, &cases, ([side, side * PANEL[1] / PANEL[0]], across))
+}
+
+/// Measurements with a place, by case.
+fn cases(report: &Report, workload: Workload) -> Vec<Vec<Numbered<'_>>> {
     let mut cases: Vec<Vec<Numbered<'_>>> = Vec::new();
     // What gives none of the values has no error, and so no place.
     for numbered in report.of(workload).enumerate().filter(|(_, measurement)| measurement.error.checked > 0) {
@@ -37,10 +54,18 @@ pub(crate) fn figure(report: &Report, workload: Workload, size: [f64; 2]) -> Opt
             None => cases.push(vec![numbered]),
         }
     }
+    cases
+}
+
+fn arranged(
+    report: &Report,
+    workload: Workload,
+    cases: &[Vec<Numbered<'_>>],
+    (size, across): ([f64; 2], usize),
+) -> Option<Figure> {
     if cases.is_empty() {
         return None;
     }
-    let across = if cases.len() < MANY { ACROSS.min(cases.len()) } else { ACROSS_OF_MANY };
     let down = cases.len().div_ceil(across);
     let mut figure = Figure::new(workload.title(), [size[0] * across as f64, size[1] * down as f64]);
     for (index, case) in cases.iter().enumerate() {

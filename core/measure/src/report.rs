@@ -52,6 +52,11 @@ impl Report {
         figure::figure(self, workload, figure::PANEL)
     }
 
+    /// That figure in a width in points.
+    pub fn figure_within(&self, workload: Workload, width: f64) -> Option<Figure> {
+        figure::figure_within(self, workload, width)
+    }
+
     /// The panels of that figure for areas of a size in points.
     pub fn panels(&self, workload: Workload, size: [f64; 2]) -> Vec<Panel> {
         figure::figure(self, workload, size).map_or_else(Vec::new, |figure| figure.panels)

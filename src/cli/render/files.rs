@@ -15,7 +15,7 @@ use crate::scene::ComparedSensor;
 use crate::terminal::say;
 
 /// Runs work, with a message on a terminal every 3 s that it still runs.
-pub(super) fn patiently<T>(what: &'static str, work: impl FnOnce() -> T) -> T {
+pub(in crate::cli) fn patiently<T>(what: &'static str, work: impl FnOnce() -> T) -> T {
     const EVERY: Duration = Duration::from_secs(3);
     let (done, end) = channel::<()>();
     if io::stderr().is_terminal() {

@@ -106,7 +106,7 @@ const MESHES: [(&str, MeshChoice); 4] = [
     ("plane", MeshChoice::Plane),
 ];
 
-fn mesh_choice(given: &OsStr) -> Result<MeshChoice, CliError> {
+pub(in crate::cli) fn mesh_choice(given: &OsStr) -> Result<MeshChoice, CliError> {
     let typed = &*given.to_string_lossy();
     let known = MESHES.into_iter().find(|(name, _)| typed.trim().eq_ignore_ascii_case(name));
     if let Some((_, choice)) = known {
@@ -134,7 +134,7 @@ fn mesh_name(choice: &MeshChoice) -> String {
     }
 }
 
-fn read_mesh(path: &PathBuf) -> Result<Shared<Mesh>, CliError> {
+pub(in crate::cli) fn read_mesh(path: &PathBuf) -> Result<Shared<Mesh>, CliError> {
     // Whole, so that a complaint can say in which folder the file is not.
     let whole = std::path::absolute(path).unwrap_or_else(|_| path.clone());
     let read = meshes::read(&whole, &|| false).map_err(|failure| CliError::File(failure.to_string()))?;

@@ -1,0 +1,165 @@
+//! The legend: inside the largest plot, beside the figure, or below it.
+
+use super::{Brush, Label, marks};
+use crate::figure::Figure;
+use crate::ink::{Ink, InkRole};
+use crate::mark::{Anchor, Stroke, TextSize};
+use crate::panel::{LegendEntry, LegendPlace, Panel};
+use crate::projection::Projection;
+use crate::rect::Rect;
+use crate::text::text_width;
+
+const ROW: f64 = 20.0;
+const KEY: f64 = 28.0;
+const PAD: f64 = 8.0;
+/// Most columns below a figure.
+const MOST_COLUMNS: usize = 6;
+/// Width below which a legend inside is small.
+const NARROW: f64 = 500.0;
+/// Distance from the figure.
+const GAP: f64 = 12.0;
+
+/// Columns of a legend with the size of its text.
+#[derive(Clone, PartialEq, Debug)]
+struct Columns {
+    widths: Vec<f64>,
+    size: TextSize,
+}
+
+impl Columns {
+    /// So many columns, filled row by row.
+    fn new(entries: &[LegendEntry], count: usize, size: TextSize) -> Self {
+        let mut widths = vec![0.0_f64; count.max(1)];
+        for (i, entry) in entries.iter().enumerate() {
+            let width = &mut widths[i % count.max(1)];
+            *width = width.max(2.0 * PAD + KEY + text_width(&entry.name, size));
+        }
+        Self { widths, size }
+    }
+
+    /// The fewest rows that fit below a figure; text that stands in fewer rows if it is small is small.
+    fn below(entries: &[LegendEntry], width: f64) -> Self {
+        let fit = |size| {
+            let most = entries.len().clamp(1, MOST_COLUMNS);
+            let fitting = (1..=most).rev().map(|count| Self::new(entries, count, size));
+            let fewest = fitting.into_iter().find(|columns| columns.width() <= width + PAD + 0.5);
+            let rows = fewest.map_or(entries.len(), |columns| columns.rows(entries)).max(1);
+            // In rows as full as possible.
+            Self::new(entries, entries.len().div_ceil(rows), size)
+        };
+        let [body, small] = [TextSize::Body, TextSize::Small].map(fit);
+        if body.widths.len() == 1 && small.widths.len() > 1 { small } else { body }
+    }
+
+    /// One column in a plot: of small text in a narrow figure, where it would cover too much.
+    fn inside(entries: &[LegendEntry], width: f64) -> Self {
+        Self::new(entries, 1, if width < NARROW { TextSize::Small } else { TextSize::Body })
+    }
+
+    fn rows(&self, entries: &[LegendEntry]) -> usize {
+        entries.len().div_ceil(self.widths.len())
+    }
+
+    fn width(&self) -> f64 {
+        self.widths.iter().sum()
+    }
+
+    fn size(&self, entries: &[LegendEntry]) -> [f64; 2] {
+        [self.width() + PAD, ROW * self.rows(entries) as f64 + PAD]
+    }
+}
+
+/// The rectangle of a legend that stands outside of a figure of the given size.
+pub(super) fn outside(figure: &Figure, place: LegendPlace, [width, height]: [f64; 2]) -> Option<Rect> {
+    match place {
+        _ if figure.legend.is_empty() => None,
+        LegendPlace::Outside => {
+            let size = Columns::new(&figure.legend, 1, TextSize::Body).size(&figure.legend);
+            Some(Rect::from_min_size([width + GAP, 0.0], size))
+        }
+        LegendPlace::Below => {
+            let columns = Columns::below(&figure.legend, width);
+            // Keys begin where the figure does, and the last column needs no room after it.
+            let size = [(columns.width() - PAD).min(width.max(columns.widths[0])), columns.size(&figure.legend)[1]];
+            Some(Rect::from_min_size([0.0, height + 0.5 * GAP], size))
+        }
+        _ => None,
+    }
+}
+
+/// Draws the legend in its rectangle outside, or inside the largest panel.
+pub(super) fn draw(
+    brush: &mut Brush<'_>,
+    figure: &Figure,
+    (place, outside): (LegendPlace, Option<Rect>),
+    panels: &[(&Panel, &Projection)],
+) {
+    let area = outside.unwrap_or_else(|| inside(figure, place, panels));
+    if outside.is_none() {
+        let ground = Ink { role: InkRole::Plot, alpha: 0.9 };
+        brush.rect(area, Some(Stroke::solid(InkRole::Line, 1.0)), Some(ground));
+    }
+    let (columns, inset) = match place {
+        LegendPlace::Below => (Columns::below(&figure.legend, area.width()), 0.0),
+        LegendPlace::Outside => (Columns::new(&figure.legend, 1, TextSize::Body), PAD),
+        _ => (Columns::inside(&figure.legend, figure.size[0]), PAD),
+    };
+    for (i, entry) in figure.legend.iter().enumerate() {
+        let column = i % columns.widths.len();
+        let x = area.min[0] + inset + columns.widths[..column].iter().sum::<f64>();
+        let y = area.min[1] + 0.5 * PAD + ROW * ((i / columns.widths.len()) as f64 + 0.5);
+        key(brush, entry, [x, y]);
+        let at = [x + KEY + PAD, y];
+        brush.text(&Label::new(at, &entry.name, Anchor::LEFT, columns.size, InkRole::Text.into()));
+    }
+}
+
+/// Place of the legend: [`LegendPlace::Inside`] is the corner where it covers no point, else it stands below.
+pub(super) fn place(figure: &Figure) -> LegendPlace {
+    if figure.legend_place != LegendPlace::Inside {
+        return figure.legend_place;
+    }
+    let projections: Vec<Projection> = figure.panels.iter().map(|panel| Projection::new(panel, 1.0)).collect();
+    let panels: Vec<_> = figure.panels.iter().zip(&projections).collect();
+    let Some((panel, projection)) = largest(&panels) else { return LegendPlace::Below };
+    [LegendPlace::UpperRight, LegendPlace::UpperLeft, LegendPlace::LowerRight, LegendPlace::LowerLeft]
+        .into_iter()
+        .find(|place| !marks::has_points_in(panel, projection, inside(figure, *place, &panels)))
+        .unwrap_or(LegendPlace::Below)
+}
+
+fn largest<'a>(panels: &[(&'a Panel, &'a Projection)]) -> Option<(&'a Panel, &'a Projection)> {
+    let area = |plot: Rect| plot.width() * plot.height();
+    panels.iter().copied().max_by(|a, b| area(a.1.plot).total_cmp(&area(b.1.plot)))
+}
+
+/// The rectangle of a legend in a corner of the largest panel.
+fn inside(figure: &Figure, place: LegendPlace, panels: &[(&Panel, &Projection)]) -> Rect {
+    let size = Columns::inside(&figure.legend, figure.size[0]).size(&figure.legend);
+    let largest = largest(panels);
+    let plot = largest.map_or(Rect::from_min_size([0.0, 0.0], figure.size), |(_, projection)| projection.plot);
+    let note = if largest.is_some_and(|(panel, _)| !panel.note.is_empty()) { 18.0 } else { 0.0 };
+    let (left, right) = (plot.min[0] + PAD, plot.max[0] - PAD - size[0]);
+    let (top, bottom) = (plot.min[1] + PAD, plot.max[1] - PAD - size[1]);
+    // The corners hold the labels of the axes and the note.
+    let min = match place {
+        LegendPlace::UpperLeft => [left, top + 16.0],
+        LegendPlace::LowerRight => [right, bottom - 16.0],
+        LegendPlace::LowerLeft => [left, bottom],
+        _ => [right, top + note],
+    };
+    Rect::from_min_size(min, size)
+}
+
+fn key(brush: &mut Brush<'_>, entry: &LegendEntry, left: [f64; 2]) {
+    if let Some(stroke) = entry.stroke {
+        brush.path(&[left, [left[0] + KEY, left[1]]], false, Some(stroke), None);
+    }
+    if let Some(marker) = entry.marker {
+        let ink = entry.stroke.map(|stroke| stroke.ink).or(entry.fill);
+        let rim = ink.map(|ink| Stroke::solid(ink, 2.0));
+        let inside = if marker.has_inside() { entry.fill.or(Some(InkRole::Plot.into())) } else { None };
+        let ground = Some(Ink::new(InkRole::Plot));
+        brush.marker([left[0] + 0.5 * KEY, left[1]], (marker, 5.0), rim, inside, ground);
+    }
+}

@@ -1,0 +1,175 @@
+//! Marks of a panel.
+
+use super::clip::{self, contains, enlarged};
+use super::{Brush, Label, ground};
+use crate::ink::{Ink, InkRole};
+use crate::mark::{Image, Mark, Rgb, Shape, Stroke, finite_runs};
+use crate::panel::Panel;
+use crate::projection::Projection;
+use crate::rect::Rect;
+use crate::text::text_width;
+
+/// Distance beyond the plot at which shapes are cut: further than half the width of a line, nearer than the page's edge.
+const REACH: f64 = 6.0;
+
+/// Draws a picture that is the ground of its panel, made opaque over the background.
+pub(super) fn draw_ground(brush: &mut Brush<'_>, mark: &Mark, projection: &Projection, background: Ink) {
+    let Shape::Image { min, max, image } = &mark.shape else { return };
+    let Some((area, image)) = picture(projection, [*min, *max], image) else { return };
+    let page = brush.palette.rgb(InkRole::Plot);
+    let over = |i: usize| {
+        let [under, over] = [page, brush.palette.rgb(background.role)].map(|rgb| f32::from(rgb[i]));
+        (under + background.alpha * (over - under)).round() as u8
+    };
+    let image = ground::flattened(image, [over(0), over(1), over(2)], area);
+    brush.canvas.begin(&mark.name, None);
+    brush.canvas.image(area, &image);
+    brush.canvas.end();
+}
+
+/// Draws one mark, its halo first.
+pub(super) fn draw(brush: &mut Brush<'_>, mark: &Mark, projection: &Projection) {
+    let reach = enlarged(projection.plot, REACH);
+    brush.canvas.begin(&mark.name, None);
+    match &mark.shape {
+        Shape::Line { points, closed } => line(brush, mark, projection, points, *closed),
+        Shape::Gradient { points } => gradient(brush, mark, projection, points),
+        Shape::Points { points, marker, radius } => {
+            for point in finite_runs(points).flatten() {
+                let center = at(projection, *point);
+                if contains(reach, center) {
+                    brush.marker(center, (*marker, *radius), mark.stroke, mark.fill, mark.halo);
+                }
+            }
+        }
+        Shape::Text { .. } => text(brush, mark, projection),
+        Shape::Rect { min, max } => {
+            if let Some(inside) = placed(projection, *min, *max).and_then(|area| clip::rect(reach, area)) {
+                if let Some(halo) = halo_stroke(mark) {
+                    brush.rect(inside, Some(halo), None);
+                }
+                brush.rect(inside, mark.stroke, mark.fill);
+            }
+        }
+        Shape::Polygon { points } => {
+            let points: Vec<[f64; 2]> = finite_runs(points).flatten().map(|p| at(projection, *p)).collect();
+            area(brush, mark, projection, &points);
+        }
+        Shape::Image { min, max, image } => {
+            if let Some((area, image)) = picture(projection, [*min, *max], image) {
+                brush.canvas.image(area, &image);
+            }
+        }
+        Shape::Segments { segments } => {
+            for stroke in halo_stroke(mark).into_iter().chain(mark.stroke) {
+                for segment in segments.iter().filter(|s| s.as_flattened().iter().all(|v| v.is_finite())) {
+                    if let Some(inside) = clip::segment(reach, segment.map(|p| at(projection, p))) {
+                        brush.path(&inside, false, Some(stroke), None);
+                    }
+                }
+            }
+        }
+    }
+    brush.canvas.end();
+}
+
+/// The place of a point. Far off the page it is held, so that sums and differences are finite.
+fn at(projection: &Projection, point: [f64; 2]) -> [f64; 2] {
+    projection.at(point).map(|v| v.clamp(-1e6, 1e6))
+}
+
+/// True if a marker, a line or a text of a panel has a point in a rectangle.
+pub(super) fn has_points_in(panel: &Panel, projection: &Projection, area: Rect) -> bool {
+    let inside = |point: &[f64; 2]| contains(area, at(projection, *point));
+    panel.marks.iter().any(|mark| match &mark.shape {
+        Shape::Line { points, .. } | Shape::Points { points, .. } => points.iter().any(inside),
+        Shape::Gradient { points } => points.iter().any(|(point, _)| inside(point)),
+        Shape::Text { at, .. } => inside(at),
+        _ => false,
+    })
+}
+
+fn halo_stroke(mark: &Mark) -> Option<Stroke> {
+    let width = mark.stroke.map_or(0.0, |stroke| stroke.width);
+    mark.halo.map(|ink| Stroke::solid(ink, width + 2.0 * Mark::HALO))
+}
+
+fn line(brush: &mut Brush<'_>, mark: &Mark, projection: &Projection, points: &[[f64; 2]], closed: bool) {
+    let reach = enlarged(projection.plot, REACH);
+    for stroke in halo_stroke(mark).into_iter().chain(mark.stroke) {
+        for run in finite_runs(points) {
+            let whole = closed && run.len() == points.len();
+            let mut placed: Vec<[f64; 2]> = run.iter().map(|p| at(projection, *p)).collect();
+            if whole && placed.iter().all(|p| contains(reach, *p)) {
+                brush.path(&placed, true, Some(stroke), None);
+                continue;
+            }
+            if whole {
+                placed.extend(placed.first().copied());
+            }
+            for part in clip::line(reach, &placed) {
+                brush.path(&part, false, Some(stroke), None);
+            }
+        }
+    }
+}
+
+/// Neighbors of one color are drawn as one line. Each line takes the color of its start.
+fn gradient(brush: &mut Brush<'_>, mark: &Mark, projection: &Projection, points: &[([f64; 2], Rgb)]) {
+    let reach = enlarged(projection.plot, REACH);
+    let style = mark.stroke.unwrap_or(Stroke::solid(InkRole::Text, 2.0));
+    let finite = |p: &([f64; 2], Rgb)| p.0.iter().all(|v| v.is_finite());
+    for run in points.split(|p| !finite(p)) {
+        let mut start = 0;
+        while start + 1 < run.len() {
+            let color = run[start].1;
+            let same = run[start + 1..].iter().take_while(|p| p.1 == color).count();
+            let end = (start + same.max(1) + 1).min(run.len());
+            let placed: Vec<[f64; 2]> = run[start..end].iter().map(|p| at(projection, p.0)).collect();
+            let ink = Ink { role: InkRole::Rgb(color), alpha: style.ink.alpha };
+            for part in clip::line(reach, &placed) {
+                brush.path(&part, false, Some(Stroke { ink, ..style }), None);
+            }
+            start = end - 1;
+        }
+    }
+}
+
+fn area(brush: &mut Brush<'_>, mark: &Mark, projection: &Projection, corners: &[[f64; 2]]) {
+    let inside = clip::area(enlarged(projection.plot, REACH), corners);
+    if let Some(halo) = halo_stroke(mark) {
+        brush.path(&inside, true, Some(halo), None);
+    }
+    brush.path(&inside, true, mark.stroke, mark.fill);
+}
+
+/// Text at a place in the plot, moved inward where it would be cut at a side.
+fn text(brush: &mut Brush<'_>, mark: &Mark, projection: &Projection) {
+    let Shape::Text { at: point, text, anchor, offset, size, ink } = &mark.shape else { return };
+    if !point.iter().all(|v| v.is_finite()) {
+        return;
+    }
+    let plot = projection.plot;
+    let place = at(projection, *point);
+    let [x, y] = [place[0] + offset[0], place[1] + offset[1]];
+    if !contains(enlarged(plot, REACH), place) || !contains(enlarged(plot, REACH), [x, y]) {
+        return;
+    }
+    let width = text_width(text, *size);
+    let left = x - anchor.0 * width;
+    let inside = if width < plot.width() { left.min(plot.max[0] - width).max(plot.min[0]) } else { left };
+    let label = Label::new([x + inside - left, y], text, *anchor, *size, *ink);
+    brush.text(&Label { halo: mark.halo, ..label });
+}
+
+fn placed(projection: &Projection, a: [f64; 2], b: [f64; 2]) -> Option<Rect> {
+    let (p, q) = (at(projection, a), at(projection, b));
+    let rect = Rect { min: [p[0].min(q[0]), p[1].min(q[1])], max: [p[0].max(q[0]), p[1].max(q[1])] };
+    [p, q].as_flattened().iter().all(|v| v.is_finite()).then_some(rect)
+}
+
+/// The visible part of a picture with its rectangle.
+fn picture(projection: &Projection, corners: [[f64; 2]; 2], image: &Image) -> Option<(Rect, Image)> {
+    let area = placed(projection, corners[0], corners[1]).filter(|_| image.is_drawable())?;
+    ground::cropped(image, area, projection.plot)
+}

@@ -1,0 +1,58 @@
+//! Room for a figure on paper.
+
+/// Ranges of the axes of a saved figure.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum AxisRanges {
+    /// Those on screen, zoomed or not.
+    #[default]
+    Screen,
+    /// The whole diagram.
+    Full,
+}
+
+/// Extent of the numbers written with a figure.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Numbers {
+    /// Everything that the figure is made from.
+    #[default]
+    All,
+    /// Only what its axes and panels show.
+    Visible,
+}
+
+/// Size that a saved figure is laid out for, in points, and what it leaves out.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FigureRoom {
+    /// Width; `None` takes the figure's own.
+    pub width: Option<f64>,
+    /// Height of the panels; `None` keeps the figure's own proportions.
+    pub height: Option<f64>,
+    /// True if the chromaticity diagram has its strip below.
+    pub strip: bool,
+    /// Ranges of the axes.
+    pub ranges: AxisRanges,
+    /// Extent of the numbers.
+    pub numbers: Numbers,
+}
+
+impl Default for FigureRoom {
+    fn default() -> Self {
+        Self { width: None, height: None, strip: true, ranges: AxisRanges::Screen, numbers: Numbers::All }
+    }
+}
+
+impl FigureRoom {
+    /// The least side of a figure.
+    const LEAST: f64 = 80.0;
+
+    /// The height below which a figure that is free to be higher keeps its own.
+    const LEAST_HEIGHT: f64 = 240.0;
+
+    /// Size of a figure that has this size by itself, with a part of fixed height below.
+    pub fn size(&self, own: [f64; 2], below: f64) -> [f64; 2] {
+        let width = self.width.unwrap_or(own[0]).max(Self::LEAST);
+        let proper = (own[1] / own[0] * width).max(own[1].min(Self::LEAST_HEIGHT));
+        let height = self.height.map_or(proper, |height| height - below);
+        [width, height.max(Self::LEAST)]
+    }
+}

@@ -1,0 +1,153 @@
+//! Figures for paper as PDF, SVG, PNG, TIFF, or the numbers behind them.
+
+pub(super) mod arguments;
+mod made;
+
+use std::path::Path;
+
+use chromascope_figure::{Figure, Page};
+use clap::ArgMatches;
+
+use self::arguments::{FigureArguments, FigureKind, Range};
+use super::error::CliError;
+use super::identify::recorded_table;
+use super::outputs::{self, Stop};
+use super::request::Request;
+use crate::document::{Document, session};
+use crate::export::{self, paper::Paper};
+use crate::figures::{FigureInput, strip};
+use crate::panes;
+use crate::results::Results;
+use crate::scene::Scene;
+use crate::scene::conditions::CONDITIONS;
+use crate::view::View;
+
+/// Form of a figure's file.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Form {
+    Pdf,
+    Svg,
+    Png,
+    Tiff,
+    Csv,
+}
+
+impl Form {
+    fn of(path: &Path) -> Option<Self> {
+        match path.extension()?.to_str()?.to_ascii_lowercase().as_str() {
+            "pdf" => Some(Self::Pdf),
+            "svg" => Some(Self::Svg),
+            "png" => Some(Self::Png),
+            "tif" | "tiff" => Some(Self::Tiff),
+            "csv" => Some(Self::Csv),
+            _ => None,
+        }
+    }
+}
+
+/// Draws a figure and writes it.
+pub(super) fn run(arguments: &FigureArguments, matches: &ArgMatches) -> Result<(), CliError> {
+    let out = arguments.common.out.as_deref();
+    let form = out.and_then(Form::of).ok_or_else(|| {
+        let reason = "a file that ends in .pdf, .svg, .png, .tif or .csv is needed".to_owned();
+        CliError::Argument { argument: "--out", reason }
+    })?;
+    let mut request = Request::new(&arguments.common, matches)?;
+    request.set_chart(arguments.chart.as_deref())?;
+    if let Some(light) = &arguments.second_light {
+        request.set_second_light(light)?;
+    }
+    let mut inputs = request.inputs();
+    let document = match &arguments.session {
+        None => {
+            let Request { document, sources, .. } = &mut request;
+            for (kind, name) in sources.iter() {
+                document.compare(name, *kind);
+            }
+            document.clone()
+        }
+        Some(path) => {
+            inputs.push(path.clone());
+            opened(&mut request, path)?
+        }
+    };
+    request.document = document;
+    let recorded = match (&arguments.file, arguments.kind) {
+        (Some(path), FigureKind::Recorded) => Some(recorded_table(&mut request, path)?),
+        (Some(path), FigureKind::Curves) => {
+            made::open_curves(&mut request, path)?;
+            None
+        }
+        (Some(_), _) => {
+            let reason = "only `curves` and `recorded` are of a file".to_owned();
+            return Err(CliError::Argument { argument: "FILE", reason });
+        }
+        (None, _) => None,
+    };
+    if let Some(mesh) = &arguments.mesh {
+        made::set_mesh(&mut request.document, mesh)?;
+    }
+    inputs.extend(request.inputs());
+    outputs::check(out, &inputs, arguments.common.force)?;
+    let results = Results::default();
+    let scene = Scene { document: &request.document, catalog: &request.catalog, results: &results };
+    let paper = arguments.paper.paper();
+    let mut view = View::default();
+    if let Range::Of(ranges) = arguments.paper.range {
+        view.diagram.zoomed = Some(ranges);
+    }
+    let made = made::Made::new(arguments.kind, &scene, &mut view, (&paper, recorded))?;
+    let figure = paper.laid_out(|room| {
+        view.room = room;
+        let input = FigureInput {
+            pictures: made.pictures.as_ref(),
+            measured: &made.measured,
+            ..FigureInput::new(&scene, &view)
+        };
+        match arguments.kind.pane() {
+            Some(pane) => panes::figure(pane, &input),
+            None => strip::figure(&scene, &view),
+        }
+    });
+    let figure = figure.ok_or_else(|| {
+        let reason = "there is nothing to draw: no camera is compared, or it cannot be computed".to_owned();
+        CliError::Argument { argument: "KIND", reason }
+    })?;
+    check_height(&figure, &paper, form)?;
+    let bytes = bytes(&scene, &figure, &paper, form)?;
+    outputs::stream(out, |out| out.write_all(&bytes).map_err(Stop::Output))
+}
+
+/// Refuses a height that a figure cannot take, because its rows or pictures have theirs.
+fn check_height(figure: &Figure, paper: &Paper, form: Form) -> Result<(), CliError> {
+    let Some(wanted) = paper.height_mm.filter(|_| form != Form::Csv) else { return Ok(()) };
+    let height = Page::new(figure, &paper.page_style()).area.height() * paper.scale() / 72.0 * 25.4;
+    if (height - wanted).abs() < 1.0 {
+        return Ok(());
+    }
+    let reason = format!("at this width and size of text the figure is {height:.0} mm high; leave --height out");
+    Err(CliError::Argument { argument: "--height", reason })
+}
+
+fn opened(request: &mut Request, path: &Path) -> Result<Document, CliError> {
+    let failed = |reason: String| CliError::File(format!("{}: {reason}", super::request::display_path(path)));
+    let text = String::from_utf8(request.bytes(path)?).map_err(|_| failed("it is not text".to_owned()))?;
+    session::from_json(&text).map_err(|error| failed(error.to_string()))
+}
+
+fn bytes(scene: &Scene<'_>, figure: &Figure, paper: &Paper, form: Form) -> Result<Vec<u8>, CliError> {
+    let theme = paper.theme();
+    match form {
+        Form::Pdf => Ok(export::pdf(figure, &theme, *paper)?),
+        Form::Svg => Ok(export::svg(figure, &theme, *paper).into_bytes()),
+        Form::Png | Form::Tiff => {
+            let picture = export::png(&export::svg(figure, &theme, *paper), (paper.dpi / 72.0) as f32)?;
+            let file = if form == Form::Png { export::png_file_at } else { export::tiff_file_at };
+            Ok(file(&picture, paper.dpi)?)
+        }
+        Form::Csv => {
+            let cells: Vec<_> = CONDITIONS.into_iter().zip(scene.conditions()).collect();
+            Ok(figure.table.clone().with_constants(&cells).to_csv().into_bytes())
+        }
+    }
+}

@@ -1,0 +1,166 @@
+//! What the window makes in the background for its figures: pictures, corrections, rankings, measurements.
+
+use std::ffi::OsStr;
+use std::path::Path;
+use std::sync::Arc;
+use std::time::Instant;
+
+use chromascope_core::correction::aces::IdtExposure;
+use chromascope_core::query::{Ask as _, RecordedSet, Shared};
+use chromascope_core::render::{Quality, RasterSize, Shadows};
+use chromascope_figure::FigureRoom;
+
+use super::arguments::FigureKind;
+use crate::catalog::import::{Origin, imported};
+use crate::catalog::spectral_images;
+use crate::cli::error::CliError;
+use crate::cli::render::files::patiently;
+use crate::cli::render::setup::{mesh_choice, read_mesh};
+use crate::cli::request::{Request, display_path};
+use crate::document::imported::ImportOverrides;
+use crate::document::render::{MeshChoice, RenderSettings};
+use crate::document::{Document, SetKind};
+use crate::export::Paper;
+use crate::export::profile::CorrectionFileQuery;
+use crate::figures::render::picture_width;
+use crate::figures::report_card;
+use crate::jobs::Job as _;
+use crate::profiler::{Measured, SceneRunJob};
+use crate::render_service::RenderedFrame;
+use crate::render_service::made::{PicturesAnswer, PicturesOf};
+use crate::scene::Scene;
+use crate::scene::orbit::Orbit;
+use crate::scene::render::Finish;
+use crate::view::View;
+use crate::view::import::ImportItem;
+use crate::view::render::RenderMode;
+
+/// Samples along the side of a pixel.
+const SAMPLES: u32 = 2;
+/// Longest side of a picture in pixels.
+const MOST_PIXELS: f64 = 2048.0;
+
+/// Background results of a figure.
+pub(super) struct Made {
+    /// The pictures.
+    pub(super) pictures: Option<RenderedFrame>,
+    /// Measurements of the scene.
+    pub(super) measured: Measured,
+}
+
+impl Made {
+    /// Makes what a figure of a kind needs; settings of panes go to the view.
+    pub(super) fn new(
+        kind: FigureKind,
+        scene: &Scene<'_>,
+        view: &mut View,
+        (paper, recorded): (&Paper, Option<RecordedSet>),
+    ) -> Result<Self, CliError> {
+        let mut made = Self { pictures: None, measured: Measured::NOTHING };
+        match kind {
+            FigureKind::Render | FigureKind::Difference => {
+                if kind == FigureKind::Difference {
+                    view.saved.render.mode = RenderMode::Difference;
+                }
+                made.pictures = Some(patiently("rendering", || pictures(scene, view, paper))?);
+            }
+            FigureKind::Correction => {
+                if let Some(camera) = report_card::camera(scene, view) {
+                    let query =
+                        CorrectionFileQuery::new(scene, (SetKind::Camera, &camera.name), None, IdtExposure::Rawtoaces)?;
+                    view.correction.shown = Some((*scene.results.ask(&query)).clone()?);
+                }
+            }
+            FigureKind::Recorded => {
+                let Some(set) = recorded else { return Err(missing("name the file with the raw values")) };
+                let ranking = scene.recorded_ranking(&set, view.recorded.freedom, &[])?;
+                let ranked = patiently("fitting", || (*scene.results.ask(&ranking)).clone())?;
+                view.recorded.ranked = Some((set, ranked));
+            }
+            FigureKind::Curves => {
+                let Some(set) = scene.document.own.last() else { return Err(missing("name the file")) };
+                view.import.selected = Some(ImportItem::Set(set.name.clone()));
+            }
+            FigureKind::Methods | FigureKind::WorkSaved => {
+                let own = own_mesh(scene.document)?;
+                let job = SceneRunJob::of(scene, own.as_ref(), None);
+                made.measured.run = Some(patiently("measuring", || job.run(scene.results)));
+                made.measured.is_current = true;
+            }
+            _ => {}
+        }
+        Ok(made)
+    }
+}
+
+fn missing(reason: &str) -> CliError {
+    CliError::Argument { argument: "FILE", reason: reason.to_owned() }
+}
+
+/// The mesh of a file, if the document has one.
+fn own_mesh(document: &Document) -> Result<Option<Shared<chromascope_mesh::Mesh>>, CliError> {
+    match &document.render.mesh {
+        MeshChoice::File(path) => read_mesh(path).map(Some),
+        _ => Ok(None),
+    }
+}
+
+/// Pictures with as many pixels as the paper has where they stand.
+fn pictures(scene: &Scene<'_>, view: &View, paper: &Paper) -> Result<RenderedFrame, CliError> {
+    let start = Instant::now();
+    let sources = scene.rendered_sources();
+    let count = sources.len() - usize::from(view.saved.render.mode == RenderMode::Difference && sources.len() > 1);
+    let width = paper.width_mm.map(|mm| mm / 25.4 * 72.0 / paper.scale());
+    let points = picture_width(FigureRoom { width, ..FigureRoom::default() }, count) * paper.scale();
+    let side = (points / 72.0 * paper.dpi).round().clamp(16.0, MOST_PIXELS) as u32;
+    let (query, answer) = if let MeshChoice::Image(path) = &scene.document.render.mesh {
+        let source = spectral_images::load(path).map_err(|error| CliError::File(error.to_string()))?.source;
+        let query = scene.image_pictures(&source, &sources, scene.image_use(1))?;
+        let answer = scene.results.ask(&query);
+        (PicturesOf::Image(query), PicturesAnswer::Image(answer))
+    } else {
+        let settings = &scene.document.render;
+        let own = own_mesh(scene.document)?;
+        let mesh = scene.mesh_of(own.as_ref()).ok_or_else(|| CliError::File("no mesh".to_owned()))?;
+        let quality = settings.quality();
+        let finish = Finish {
+            size: RasterSize { width: side, height: side, samples: SAMPLES }.clamped(),
+            quality,
+            shadows: if quality == Quality::Preview { Shadows::Coarse } else { Shadows::Full },
+            compared_samples: Some(usize::MAX),
+            open_sky: false,
+        };
+        let orbit = view.saved.render.orbit.unwrap_or_else(|| Orbit::of(&settings.mesh));
+        let viewpoint = orbit.viewpoint(1.0).ok_or_else(|| CliError::File("no viewpoint".to_owned()))?;
+        let query = scene.pictures_of(&sources, mesh, viewpoint, finish, None)?;
+        let answer = scene.results.ask(&query);
+        (PicturesOf::Mesh(query), PicturesAnswer::Mesh(answer))
+    };
+    let (sources, answer) = (sources.into(), Arc::new(answer));
+    let frame = RenderedFrame { query, sources, answer, time: start.elapsed(), is_last: true, serial: 0 };
+    match frame.pictures() {
+        Ok(_) => {}
+        Err(why) => return Err(CliError::File(format!("no picture: {why}"))),
+    }
+    Ok(frame)
+}
+
+/// Sets the mesh that is rendered, with the paper's surface for the fern.
+pub(super) fn set_mesh(document: &mut Document, mesh: &OsStr) -> Result<(), CliError> {
+    let mesh = mesh_choice(mesh)?;
+    let usual = if mesh == MeshChoice::Fern { RenderSettings::fern() } else { document.render.clone() };
+    document.render = RenderSettings { mesh, ..usual };
+    Ok(())
+}
+
+/// Adds the curves of a file to the document's sets.
+pub(super) fn open_curves(request: &mut Request, path: &Path) -> Result<(), CliError> {
+    let bytes = request.bytes(path)?;
+    let mut wishes = ImportOverrides::default();
+    let table = spectral_file::read(&bytes, &wishes.options);
+    let table = table.map_err(|error| CliError::File(format!("{}: {error}", display_path(path))))?;
+    wishes.taken = Some((0..table.curves.len()).collect());
+    let origin = Origin { path: Some(path.to_owned()), ..Origin::named(&display_path(path), &bytes) };
+    request.document.own.push(Shared::new(imported(&origin, &table, &wishes).set));
+    Ok(())
+}
