@@ -7,6 +7,7 @@ use egui::{Align, Layout, Rect, RichText, Sense, Slider, Ui, UiBuilder, Vec2};
 use super::context::PaneContext;
 use crate::action::{Action, CompareAction, SceneAction};
 use crate::document::correction::CorrectionChoice;
+use crate::document::render::{BALANCE, SUN};
 use crate::document::{Light, SetKind, Subset, TransformChoice, WhiteBalanceChoice};
 use crate::format::signed;
 use crate::panes::widgets::number_field::NumberField;
@@ -85,12 +86,28 @@ impl Condition {
     /// True if a visible pane shows something that depends on it.
     fn matters(self, context: &PaneContext<'_>) -> bool {
         let (view, light) = (&*context.view, &context.scene.document.light);
+        let sun = Light::Set(SUN.to_owned());
+        let light_of = |pane| match pane {
+            PaneKind::RENDER | PaneKind::RENDER_SETTINGS | PaneKind::TOLERANCE | PaneKind::STATISTICS
+                if context.scene.is_sunlit() =>
+            {
+                &sun
+            }
+            _ => light,
+        };
         if let Some(pane) = view.maximized {
-            return self.matters_to(pane, view, light);
+            return self.matters_to(pane, view, light_of(pane));
         }
         let places = view.saved.layout.places(view.saved.workspace).iter().flatten();
-        places.copied().any(|pane| self.matters_to(pane, view, light))
+        places.copied().any(|pane| self.matters_to(pane, view, light_of(pane)))
     }
+}
+
+/// True if the workspace shows pictures under the sun, whatever the light of the other panes.
+fn shows_sunlight(context: &PaneContext<'_>) -> bool {
+    let saved = &context.view.saved;
+    let mut places = saved.layout.places(saved.workspace).iter().flatten();
+    context.scene.is_sunlit() && places.any(|pane| *pane == PaneKind::RENDER)
 }
 
 /// A caption above a control of a fixed width, so that nothing moves when a value changes; dim where the control does nothing in
@@ -173,6 +190,9 @@ fn reference(ui: &mut Ui, context: &mut PaneContext<'_>) {
 
 /// The light's temperature, and that there are filters in front of it.
 fn light_caption(context: &PaneContext<'_>) -> String {
+    if shows_sunlight(context) {
+        return "Light of the pictures".to_owned();
+    }
     let filters = if context.scene.document.filters.is_empty() { "Light" } else { "Filtered" };
     match context.scene.light_temperature() {
         Ok(Ok(cct)) => format!("{filters} {:.0} K", cct.temperature.get()),
@@ -188,10 +208,15 @@ fn light(ui: &mut Ui, context: &mut PaneContext<'_>) {
         Light::BlackBody => "Blackbody".to_owned(),
         Light::Daylight => "Daylight".to_owned(),
     };
-    let filters = &context.scene.document.filters;
+    let sunlit = shows_sunlight(context);
     let mut hint =
         "The light on the scene. Blackbody and Daylight follow the temperature. Filters are ticked in the Library."
             .to_owned();
+    if sunlit {
+        hint = format!("The pictures are under the sun, balanced to {BALANCE}; other panes: {shown}. {hint}");
+    }
+    let shown = if sunlit { SUN.to_owned() } else { shown };
+    let filters = &context.scene.document.filters;
     for filter in filters {
         hint.extend(["\nFilter: ", filter]);
     }
@@ -295,6 +320,7 @@ fn white(ui: &mut Ui, context: &mut PaneContext<'_>) {
         WhiteBalanceChoice::Daylight(kelvin) => format!("Daylight {kelvin:.0} K"),
         WhiteBalanceChoice::BlackBody(kelvin) => format!("Blackbody {kelvin:.0} K"),
     };
+    let shown = if shows_sunlight(context) { BALANCE.to_owned() } else { shown };
     let hint = "White-balance target: the RGB that a perfect diffuser under the light is mapped to (Eq 11). With a \
                 fitted color transform it changes camera RGB only; the matrix compensates for it.";
     actions(ui, ("White balance", hint), &shown, context, |context| {

@@ -22,6 +22,7 @@ impl SceneRunJob {
         let (shown, hidden): (Vec<&ComparedSensor>, Vec<&ComparedSensor>) =
             sources.iter().partition(|source| source.visible);
         let rendering = |source: &&ComparedSensor| scene.rendering_of(source.kind, &source.name).ok();
+        let rendered = |source: &&ComparedSensor| scene.rendered_through(source.kind, &source.name).ok();
         let renderings: Vec<_> = shown.iter().filter_map(rendering).collect();
         let temperatures = Scene::locus_temperatures().ok();
         let locus = |rendering: &_| {
@@ -34,7 +35,7 @@ impl SceneRunJob {
         Self {
             scene: super::conditions::words(scene, scene.rendered_sources().len()),
             pictures: Self::pictures_of(scene, own, orbit, scene.document.render.quality()),
-            hidden: hidden.iter().filter_map(rendering).map(|rendering| SourceOf { rendering }).collect(),
+            hidden: hidden.iter().filter_map(rendered).map(|rendering| SourceOf { rendering }).collect(),
             sensors: shown.iter().filter_map(|source| scene.sensor(source.kind, &source.name).ok()).collect(),
             loci: renderings.iter().filter_map(locus).collect(),
             patches: renderings.iter().filter_map(colors).collect(),

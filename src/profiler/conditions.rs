@@ -122,7 +122,7 @@ pub(super) fn words(scene: &Scene<'_>, sources: usize) -> String {
         Roughness::Surface => format!("σ {} µm", number(settings.sigma_um)),
     };
     let reading = settings.reading.label();
-    let (mesh, light) = (settings.mesh.name(), scene.light_name());
+    let (mesh, [light, _]) = (settings.mesh.name(), scene.rendered_conditions());
     let light = if light == "E" { "E, equal energy".to_owned() } else { light };
     let plural = if sources == 1 { "source" } else { "sources" };
     format!("{mesh}, {}, {sigma}, {reading}, under {light}, {sources} {plural}", settings.material)

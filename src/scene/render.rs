@@ -23,7 +23,7 @@ pub struct Finish {
     pub shadows: Shadows,
     /// Approximate number of samples compared with the reference.
     pub compared_samples: Option<usize>,
-    /// True if the mesh hides no part of the sky: a first picture, before it is known which.
+    /// True if the mesh hides no part of the sky: pictures before it is known which.
     pub open_sky: bool,
 }
 
@@ -60,7 +60,7 @@ impl Scene<'_> {
     }
 
     /// A sensor under the rendered scene's light, balanced to its white.
-    fn rendered_through(&self, kind: SetKind, name: &str) -> Result<RenderingQuery, SceneError> {
+    pub fn rendered_through(&self, kind: SetKind, name: &str) -> Result<RenderingQuery, SceneError> {
         let chosen = self.rendering_of(kind, name)?;
         if !self.is_sunlit() {
             return Ok(chosen);
@@ -69,7 +69,7 @@ impl Scene<'_> {
         Ok(RenderingQuery { light, white, ..chosen })
     }
 
-    /// True if the rendered mesh is under the sun, whatever the light of the other panes.
+    /// True if the rendered mesh is under [`SUN`], balanced to [`BALANCE`], whatever the light of the other panes.
     pub fn is_sunlit(&self) -> bool {
         self.document.render.sunlight && !self.document.render.mesh.is_image()
     }

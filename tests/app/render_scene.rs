@@ -146,3 +146,36 @@ fn nothing_in_the_settings_jumps_when_values_change() {
     window.run_steps(2);
     assert_eq!(places(&window), before, "a pinned pixel");
 }
+
+#[test]
+fn pictures_of_what_moves_do_not_wait_until_it_is_known_where_the_mesh_hides_the_sky() {
+    let (executor, mut window) = crate::screenshots::driven([1280.0, 800.0], egui::Theme::Light);
+    window.state_mut().view_mut().saved.workspace = Workspace::Render;
+    window.run_steps(3);
+    let known = |executor: &chromascope::jobs::Executor| {
+        executor.results().counts().get("sky visibility").map_or(0, |count| count.misses)
+    };
+    // The open sky is one answer, the sky that the mesh hides another.
+    assert!(executor.run_one("pictures"));
+    window.run_steps(2);
+    assert!(window.state().render_service().frame().is_some() && known(&executor) == 1);
+    executor.run_all();
+    assert_eq!(known(&executor), 2);
+    render(&mut window, |settings| settings.triangles = 50_000);
+    assert!(executor.run_one("pictures"));
+    assert_eq!(known(&executor), 3, "another mesh is first seen under the open sky too");
+}
+
+#[test]
+fn the_scene_bar_tells_the_light_that_the_pictures_are_under() {
+    let mut window = crate::screenshots::open_with(Document::colorimetry(), [1280.0, 800.0], egui::Theme::Light);
+    let shows = |window: &Window, words: &str| window.query_all_by_label_contains(words).next().is_some();
+    assert!(!shows(&window, "Light of the pictures"), "panes beside the pictures have the light of the scene bar");
+    window.state_mut().view_mut().saved.workspace = Workspace::Render;
+    window.run_steps(3);
+    let [light, white] = [format!("Light: {SUN}"), format!("White balance: {BALANCE}")];
+    assert!(shows(&window, "Light of the pictures") && shows(&window, &light) && shows(&window, &white));
+    window.state_mut().push(Action::Scene(SceneAction::SetLight(Light::Set("A".to_owned()))));
+    window.run_steps(3);
+    assert!(!shows(&window, "Light of the pictures") && shows(&window, "Light: A") && !shows(&window, &white));
+}

@@ -221,6 +221,10 @@ impl Query for SkyReflectanceQuery {
     const ALWAYS_COMPLETE: bool = true;
     const CAPACITY: usize = 16;
 
+    fn bytes(reflectance: &Self::Answer) -> usize {
+        reflectance.bytes()
+    }
+
     fn answer(&self, _: &impl Ask) -> Self::Answer {
         SkyReflectance::new(self.surface, self.reading)
     }
@@ -285,8 +289,7 @@ impl Query for ShadingQuery {
         let Some(share) = self.sky.filter(|_| self.geometry.reach.everywhere) else { return Some(shading) };
         let image = ask.ask(&self.sky_image());
         let image = Arc::clone((*image).as_ref()?);
-        let reflectance = ask.ask(&SkyReflectanceQuery { surface: self.surface, reading: self.reading });
-        Some(shading.under(Sky { image, reflectance, share: f64::from_bits(share) }))
+        Some(shading.under(Sky { image, share: f64::from_bits(share) }))
     }
 }
 
@@ -347,31 +350,55 @@ impl Query for SpectralWeightsQuery {
 impl SpectralWeightsQuery {
     /// The measure that a shaded mesh takes: where lobes are untinted, with the weights of a white for them.
     pub fn in_picture(&self, shading: &ShadingImage, ask: &impl Ask) -> Arc<<Self as Query>::Answer> {
-        let measure = ask.ask(self);
-        let white = self.untinted(shading).map(|white| ask.ask(&white));
-        let leaf = shading.geometry().reach().through.then(|| {
-            let reflectance = (*ask.ask(&LeafTransmittanceQuery(self.reflectance.clone()))).clone();
-            ask.ask(&Self { reflectance, reading: Normalization::Lambertian, ..self.clone() })
-        });
-        let Ok(own) = &*measure else { return measure };
-        if white.is_none() && leaf.is_none() {
-            return measure;
+        let surface = shading.surface();
+        let sky = shading.sky().map(|_| *surface);
+        let lobes = sky.is_some() || !shading.coherent_samples().is_empty();
+        let untinted = surface.specular() == Specular::Fresnel && lobes;
+        let through = shading.geometry().reach().through;
+        if !untinted && !through && sky.is_none() {
+            return ask.ask(self);
         }
-        let mut own = own.clone();
-        if let Some(Ok(white)) = white.as_deref() {
-            own = own.with_untinted(Arc::new(white.clone()));
-        }
-        if let Some(Ok(leaf)) = leaf.as_deref() {
-            own = own.with_transmitted(leaf.totals());
-        }
-        Arc::new(Ok(own))
+        ask.ask(&PictureWeightsQuery { own: self.clone(), untinted, through, sky })
     }
+}
 
-    /// That of a white, where a shaded mesh has lobes that do not take the material's color.
-    fn untinted(&self, shading: &ShadingImage) -> Option<Self> {
-        let any = shading.surface().specular() == Specular::Fresnel
-            && (shading.sky().is_some() || !shading.coherent_samples().is_empty());
-        any.then(|| Self { reflectance: Shared::new(GridSpectrum::constant(1.0)), ..self.clone() })
+/// Spectral weights with those of all that a picture has beside the light on a surface of the material's color.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+struct PictureWeightsQuery {
+    own: SpectralWeightsQuery,
+    /// True if the coherent component takes the weights of a white.
+    untinted: bool,
+    /// True if light passes through as through a leaf.
+    through: bool,
+    /// The surface, under a sky.
+    sky: Option<Surface>,
+}
+
+impl Query for PictureWeightsQuery {
+    type Answer = <SpectralWeightsQuery as Query>::Answer;
+    const NAME: &'static str = "measure in a picture";
+    const ALWAYS_COMPLETE: bool = true;
+    const CAPACITY: usize = 64;
+
+    fn answer(&self, ask: &impl Ask) -> Self::Answer {
+        let of = |query: &SpectralWeightsQuery| (*ask.ask(query)).clone();
+        let mut own = of(&self.own)?;
+        if self.untinted {
+            let reflectance = Shared::new(GridSpectrum::constant(1.0));
+            own = own.with_untinted(Arc::new(of(&SpectralWeightsQuery { reflectance, ..self.own.clone() })?));
+        }
+        if self.through {
+            let reflectance = (*ask.ask(&LeafTransmittanceQuery(self.own.reflectance.clone()))).clone();
+            let reading = Normalization::Lambertian;
+            own =
+                own.with_transmitted(of(&SpectralWeightsQuery { reflectance, reading, ..self.own.clone() })?.totals());
+        }
+        if let Some(surface) = self.sky {
+            let reflectance = ask.ask(&SkyReflectanceQuery { surface, reading: self.own.reading });
+            let signals = reflectance.signals(&own);
+            own = own.with_sky(Arc::new(signals));
+        }
+        Ok(own)
     }
 }
 

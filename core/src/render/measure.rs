@@ -41,6 +41,16 @@ pub struct SpectralWeights {
     coherent_rules: OnceLock<CoherentRules>,
     untinted: Option<Arc<SpectralWeights>>,
     transmitted: [f64; 3],
+    sky: Option<Arc<SkySignals>>,
+}
+
+/// Signals of a surface under a whole uniform sky, in equal steps of cos θs from 0 to 1.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SkySignals {
+    /// Of the diffuse component.
+    pub diffuse: Vec<[f32; 3]>,
+    /// Of the coherent component.
+    pub coherent: Vec<[f32; 3]>,
 }
 
 /// Wavelengths for a table with errors below 1e-6 of the peak.
@@ -88,6 +98,7 @@ impl SpectralWeights {
             coherent_rules: OnceLock::new(),
             untinted: None,
             transmitted: [0.0; 3],
+            sky: None,
         }
     }
 
@@ -107,6 +118,17 @@ impl SpectralWeights {
     /// Signals of light that falls straight on the other side of a leaf; 0 where nothing passes.
     pub fn transmitted(&self) -> [f64; 3] {
         self.transmitted
+    }
+
+    /// This measure with the signals of a surface under the whole sky.
+    #[must_use]
+    pub fn with_sky(self, sky: Arc<SkySignals>) -> Self {
+        Self { sky: Some(sky), ..self }
+    }
+
+    /// Signals of the surface under the whole sky, where there is one.
+    pub fn sky(&self) -> Option<&SkySignals> {
+        self.sky.as_deref()
     }
 
     /// The weights of the coherent component: those of a white, or its own.

@@ -85,7 +85,7 @@ impl Quality {
         match self {
             Self::Preview => SkyFineness { directions: 16, run: 4 * pixel },
             Self::Full => SkyFineness { directions: 48, run: pixel },
-            Self::Fine | Self::Reference | Self::Regimes | Self::Within(_) => SkyFineness { directions: 256, run: 1 },
+            Self::Fine | Self::Reference | Self::Regimes | Self::Within(_) => SkyFineness { directions: 1024, run: 1 },
         }
     }
 

@@ -16,7 +16,7 @@ mod lobe;
 mod visible;
 
 use super::geometry::SeenPlace;
-use super::measure::{LAMBDA_0_NM, SpectralWeights};
+use super::measure::{LAMBDA_0_NM, SkySignals, SpectralWeights};
 use super::quality::SkyFineness;
 use super::stop::Stop;
 use super::visibility::Visibility;
@@ -24,7 +24,7 @@ use crate::reflectance::hemispherical::coherent_hemispherical;
 use crate::reflectance::{
     Geometry, Normalization, Specular, Surface, hemispherical_directional, kappa, wavelength_power,
 };
-use crate::spectral::grid::{FIRST_NM, LAST_NM};
+use crate::spectral::grid::{COUNT, FIRST_NM, LAST_NM, wavelength_nm};
 use chromascope_mesh::Mesh;
 use glam::{DVec3, Vec3};
 use lobe::Lobe;
@@ -154,19 +154,22 @@ impl Sampling<'_> {
 const ANGLES: usize = 14;
 /// Wavelengths at which the diffuse component's is.
 const WAVELENGTHS: usize = 6;
-/// Steps of cos θs in a camera's table.
+/// Steps of cos θs.
 const STEPS: usize = 256;
 
 /// g from which on e^-g is nothing.
 const NOTHING: f64 = 100.0;
 
-/// Hemispherical-directional reflectance of a surface over angle and wavelength. No camera is in it.
+/// Hemispherical-directional reflectance of a surface in equal steps of cos θs. No camera and no light is in it: under another
+/// light, or through another camera, signals are sums of products.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SkyReflectance {
-    surface: Surface,
-    reading: Normalization,
-    /// Over cos θs, then wavelength.
+    specular: Specular,
+    /// At the wavelengths of [`chebyshev`], without the power of the wavelength that a measure has already.
     diffuse: Vec<[f64; WAVELENGTHS]>,
+    /// At the wavelengths of the grid, likewise; none where it is dark.
+    coherent: Vec<Option<Box<[f32; COUNT]>>>,
+    power: i32,
 }
 
 impl SkyReflectance {
@@ -174,63 +177,67 @@ impl SkyReflectance {
     pub fn new(surface: Surface, reading: Normalization) -> Self {
         let wavelengths = chebyshev::<WAVELENGTHS>(FIRST_NM, LAST_NM);
         let at = |cos: f64| wavelengths.map(|nm| hemispherical_directional(&surface, reading, cos.acos(), nm).diffuse);
-        let angles: Vec<f64> = chebyshev::<ANGLES>(0.0, 1.0).to_vec();
-        Self { surface, reading, diffuse: angles.into_par_iter().map(at).collect() }
+        let at_angles: Vec<[f64; WAVELENGTHS]> =
+            chebyshev::<ANGLES>(0.0, 1.0).to_vec().into_par_iter().map(at).collect();
+        let diffuse = |step: usize| {
+            let shares = interpolated::<ANGLES>(0.0, 1.0, step as f64 / STEPS as f64);
+            std::array::from_fn(|w| shares.iter().zip(&at_angles).map(|(share, row)| share * row[w]).sum())
+        };
+        let power = wavelength_power(reading);
+        let coherent = |step: usize| {
+            let theta = (step as f64 / STEPS as f64).acos();
+            let g = kappa(&surface, &Geometry::from_angles(theta, theta, 0.0));
+            (g * (LAMBDA_0_NM / LAST_NM).powi(2) <= NOTHING).then(|| {
+                let at = |nm| coherent_hemispherical(&surface, reading, theta, nm) * (LAMBDA_0_NM / nm).powi(-power);
+                Box::new(std::array::from_fn(|index| at(wavelength_nm(index)) as f32))
+            })
+        };
+        Self {
+            specular: surface.specular(),
+            diffuse: (0..=STEPS).map(diffuse).collect(),
+            coherent: (0..STEPS + 1).into_par_iter().map(coherent).collect(),
+            power,
+        }
     }
 
     /// A camera's signals of a sample under the whole sky, by cos θs.
-    fn signals(&self, measure: &SpectralWeights) -> SkySignals {
+    pub fn signals(&self, measure: &SpectralWeights) -> SkySignals {
         let mut weights = [[0.0; 3]; WAVELENGTHS];
         for node in measure.dense() {
             let shares = interpolated::<WAVELENGTHS>(FIRST_NM, LAST_NM, node.wavelength_nm);
-            // The measure has the normalization's power of the wavelength already, the reflectance too.
-            let power = (LAMBDA_0_NM / node.wavelength_nm).powi(-wavelength_power(self.reading));
+            let power = (LAMBDA_0_NM / node.wavelength_nm).powi(-self.power);
             for (sum, share) in weights.iter_mut().zip(shares) {
                 for (sum, weight) in sum.iter_mut().zip(node.weights) {
                     *sum += share * weight * power;
                 }
             }
         }
-        let at_angle: Vec<[f64; 3]> = self
-            .diffuse
-            .iter()
-            .map(|row| std::array::from_fn(|c| row.iter().zip(&weights).map(|(r, w)| r * w[c]).sum()))
-            .collect();
-        let step = |index: usize| index as f64 / STEPS as f64;
-        let diffuse = (0..=STEPS).map(|index| {
-            let shares = interpolated::<ANGLES>(0.0, 1.0, step(index));
-            std::array::from_fn(|c| shares.iter().zip(&at_angle).map(|(share, row)| share * row[c]).sum::<f64>() as f32)
-        });
-        let coherent = (0..=STEPS).map(|index| self.coherent(measure, step(index)));
-        SkySignals { diffuse: diffuse.collect(), coherent: coherent.collect() }
-    }
-
-    /// A camera's signals of the coherent component.
-    fn coherent(&self, measure: &SpectralWeights, cos: f64) -> [f32; 3] {
-        let measure = if self.surface.specular() == Specular::Fresnel { measure.coherent() } else { measure };
-        let power = wavelength_power(self.reading);
-        let mut sums = [0.0; 3];
-        let theta = cos.clamp(0.0, 1.0).acos();
-        let reddest = kappa(&self.surface, &Geometry::from_angles(theta, theta, 0.0)) * (LAMBDA_0_NM / LAST_NM).powi(2);
-        if reddest > NOTHING {
-            return [0.0; 3];
-        }
+        let diffuse = |row: &[f64; WAVELENGTHS]| {
+            std::array::from_fn(|c| row.iter().zip(&weights).map(|(r, w)| r * w[c]).sum::<f64>() as f32)
+        };
+        let measure = if self.specular == Specular::Fresnel { measure.coherent() } else { measure };
+        let mut spectrum = [[0.0_f32; 3]; COUNT];
         for node in measure.dense() {
-            let nm = node.wavelength_nm;
-            let share = coherent_hemispherical(&self.surface, self.reading, theta, nm);
-            if share > 0.0 {
-                let share = share * (LAMBDA_0_NM / nm).powi(-power);
-                sums.iter_mut().zip(node.weights).for_each(|(sum, weight)| *sum += share * weight);
-            }
+            let index = (node.wavelength_nm - FIRST_NM).round() as usize;
+            spectrum[index.min(COUNT - 1)] = node.weights.map(|weight| weight as f32);
         }
-        sums.map(|sum| sum as f32)
+        let coherent = |row: &Option<Box<[f32; COUNT]>>| {
+            let mut sums = [0.0; 3];
+            for (share, weights) in row.iter().flat_map(|row| row.iter()).zip(&spectrum) {
+                sums.iter_mut().zip(weights).for_each(|(sum, weight)| *sum += share * weight);
+            }
+            sums
+        };
+        SkySignals {
+            diffuse: self.diffuse.iter().map(diffuse).collect(),
+            coherent: self.coherent.iter().map(coherent).collect(),
+        }
     }
-}
 
-/// One camera's signals under the whole sky, in equal steps of cos θs.
-struct SkySignals {
-    diffuse: Vec<[f32; 3]>,
-    coherent: Vec<[f32; 3]>,
+    /// Memory of the tables in bytes.
+    pub fn bytes(&self) -> usize {
+        size_of_val(&*self.diffuse) + self.coherent.iter().flatten().count() * size_of::<[f32; COUNT]>()
+    }
 }
 
 /// A uniform sky over a shaded mesh.
@@ -238,16 +245,14 @@ struct SkySignals {
 pub struct Sky {
     /// Visible shares.
     pub image: Arc<SkyImage>,
-    /// Reflectance under it.
-    pub reflectance: Arc<SkyReflectance>,
     /// s: irradiance of a level surface over that of a surface that faces the light.
     pub share: f64,
 }
 
 impl Sky {
-    /// Adds the sky's light to the signals of all samples that see the mesh.
+    /// Adds the sky's light to the signals of all samples that see the mesh, where the measure says what the surface returns of it.
     pub(super) fn add(&self, measure: &SpectralWeights, signals: &mut [[f32; 3]]) {
-        let table = self.reflectance.signals(measure);
+        let Some(table) = measure.sky() else { return };
         let share = self.share as f32;
         let through = measure.transmitted().map(|t| t as f32);
         let add = |(signal, sample): (&mut [f32; 3], &SkySample)| {

@@ -5,8 +5,8 @@ use std::sync::Arc;
 
 use chromascope_core::colorimetry::rgb::srgb_inverse_transfer;
 use chromascope_core::query::Shared;
-use chromascope_core::query::render::MeshQuery;
 use chromascope_core::query::render::picture::PicturesQuery;
+use chromascope_core::query::render::{MeshQuery, SkyVisibilityQuery};
 use chromascope_core::render::{Quality, RasterSize, Shadows};
 use chromascope_mesh::Mesh;
 use egui::Ui;
@@ -148,8 +148,15 @@ impl Wish<'_, '_> {
             self.size(1)
         };
         let compared_samples = Some(self.compared(0));
-        let open_sky = !self.context.render_service.has_made();
+        let open_sky = !self.sky_is_known();
         Finish { size, quality: Quality::Preview, shadows: Shadows::Coarse, compared_samples, open_sky }
+    }
+
+    /// True if it is known where the mesh hides the sky: only pictures at rest wait for that.
+    fn sky_is_known(&self) -> bool {
+        let through = self.context.scene.document.render.thin;
+        let query = SkyVisibilityQuery { mesh: self.mesh.clone(), shadows: true, through };
+        self.context.scene.results.known(&query).is_some()
     }
 
     /// At rest, before the slow part.
