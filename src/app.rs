@@ -10,6 +10,7 @@ mod meshes;
 mod notice;
 mod path_prompt;
 mod pictures;
+mod report;
 mod saving;
 mod startup;
 mod tour;
@@ -25,6 +26,7 @@ use crate::catalog::opened::Opened;
 use crate::catalog::recorded_store::RecordedStore;
 use crate::catalog::spectral_images::ImageStore;
 use crate::command::{Command, key_bindings};
+use crate::export::page::PageJob;
 use crate::figures::curves::CurveCache;
 use crate::files::Files;
 use crate::jobs::{Background, Executor};
@@ -33,6 +35,7 @@ use crate::plot_item::PlotItem;
 use crate::profiler::Profiler;
 use crate::ranking::Ranking;
 use crate::render_service::RenderService;
+use crate::report::ReportJob;
 use crate::results::Results;
 use crate::theme;
 use crate::view::import::{ImportItem, ImportView};
@@ -70,8 +73,12 @@ pub struct ChromascopeApp {
     closing: closing::Closing,
     /// What the user had before the tour.
     interrupted: Option<tour::Interrupted>,
+    /// The report that is being made.
+    report: Background<ReportJob>,
     /// Picture of the window about the program.
     portrait: Background<PicturesQuery>,
+    /// Pixels of the Figure page.
+    pages: Background<PageJob>,
     place: layout::WindowPlace,
     ctx: egui::Context,
 }
@@ -123,7 +130,9 @@ impl ChromascopeApp {
             focus: None,
             closing: closing::Closing::default(),
             interrupted: None,
+            report: Background::on(executor, "report", repaint()),
             portrait: Background::on(executor, "portrait", repaint()),
+            pages: Background::on(executor, "page", repaint()),
             place: layout::WindowPlace::default(),
             ctx: ctx.clone(),
         }
@@ -202,6 +211,11 @@ impl ChromascopeApp {
         &self.profiler
     }
 
+    /// Pixels of the Figure page.
+    pub fn pages(&self) -> &Background<PageJob> {
+        &self.pages
+    }
+
     /// Camera ranking service.
     pub fn ranking(&self) -> &Ranking {
         &self.ranking
@@ -232,7 +246,7 @@ impl ChromascopeApp {
         }
         focus::enter_pane(ctx, &mut self.view);
         let typing = ctx.text_edit_focused();
-        let focused = self.view.focused.unwrap_or(PaneKind::CHROMATICITY);
+        let focused = self.view.page.open.or(self.view.focused).unwrap_or(PaneKind::CHROMATICITY);
         for binding in key_bindings(focused) {
             // An open list closes first.
             if binding.command == Command::Escape && egui::Popup::is_any_open(ctx) {
@@ -294,6 +308,7 @@ impl eframe::App for ChromascopeApp {
         self.take_opened();
         self.take_meshes();
         self.take_images();
+        self.take_report();
         self.take_input(ctx);
         focus::into_sight(ctx, &mut self.focus);
         self.carry_out(ctx);

@@ -1,4 +1,4 @@
-//! Command-line interface: `locus`, `patches`, `compare`, `matrix`, `light`, `figure`, `render`, `identify`, `inspect`, `bench`, `list`.
+//! Command-line interface: `locus`, `patches`, `compare`, `matrix`, `light`, `figure`, `report`, `render`, `identify`, `inspect`, `bench`, `list`.
 //!
 //! Arguments become a [`Document`](crate::document::Document), which is evaluated through [`Scene`](crate::scene::Scene), as in
 //! the window, so that the two cannot disagree. Nothing here needs a display or a graphics library.
@@ -18,6 +18,7 @@ mod outputs;
 mod per;
 mod radiance;
 mod render;
+mod report;
 mod request;
 mod sources;
 mod tables;
@@ -68,6 +69,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Outcome {
         Subcommand::Matrix(arguments) => matrix::run(&arguments),
         Subcommand::Render(arguments) => render::run(&arguments, matches),
         Subcommand::Figure(arguments) => figure::run(&arguments, matches),
+        Subcommand::Report(arguments) => report::run(&arguments),
         Subcommand::Light(arguments) => light::run(&arguments, matches),
         Subcommand::Identify(arguments) => identify::run(&arguments),
         Subcommand::Inspect(arguments) => inspect::run(&arguments),

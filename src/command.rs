@@ -9,9 +9,9 @@ use crate::document::imported::{Fingerprint, ImportOverrides};
 use crate::export::spectra::Form;
 use crate::plot_item::{PlotItem, SensorId};
 use crate::theme::Surround;
-use crate::view::ViewChoice;
 use crate::view::correction::CorrectionForm;
 use crate::view::import::ImportItem;
+use crate::view::{ReportOn, ViewChoice};
 use crate::workspaces::{PaneKind, Workspace};
 
 /// Something to do at the start of the next frame.
@@ -29,6 +29,10 @@ pub enum Command {
     OpenRecorded,
     /// Show the dialog for a folder of files to open.
     OpenFolder,
+    /// Show the dialog for the folder of a report.
+    Report(ReportOn),
+    /// Stop the report that is being made.
+    StopReport,
     /// Open a document in place of this one, which is saved first.
     OpenDocument(std::path::PathBuf),
     /// Delete a document that another window saved.
@@ -63,6 +67,8 @@ pub enum Command {
     StopMeasuring,
     /// Read text as if it were a file.
     Paste(String),
+    /// Show a pane as the printed page, or go back.
+    FigurePage(PaneKind),
     /// Save a pane's figure or numbers.
     Export(PaneKind, Format),
     /// Save a source's rendered picture with its numbers.
@@ -159,7 +165,7 @@ pub enum Format {
 
 impl Format {
     /// All forms.
-    pub const ALL: [Self; 5] = [Self::Svg, Self::Pdf, Self::Png, Self::Csv, Self::Json];
+    pub const ALL: [Self; 5] = [Self::Pdf, Self::Svg, Self::Png, Self::Csv, Self::Json];
 
     /// The ending of its files.
     pub const fn extension(self) -> &'static str {
@@ -169,6 +175,25 @@ impl Format {
             Self::Png => "png",
             Self::Csv => "csv",
             Self::Json => "json",
+        }
+    }
+}
+
+impl Command {
+    /// True if it shows other panes, so that the Figure page closes.
+    pub fn shows_panes(&self) -> bool {
+        match self {
+            Self::TogglePane(pane) => *pane != PaneKind::LIBRARY,
+            Self::Show(_)
+            | Self::Maximize(_)
+            | Self::ToggleInspector
+            | Self::ResetLayout
+            | Self::GoTo(_)
+            | Self::Seek(..)
+            | Self::ShowImport(..)
+            | Self::SpectralWeights
+            | Self::Tour(_) => true,
+            _ => false,
         }
     }
 }
@@ -202,11 +227,6 @@ const fn plain(key: Key) -> KeyboardShortcut {
 
 const CTRL_SHIFT: Modifiers = Modifiers { shift: true, ..Modifiers::COMMAND };
 
-/// The form in which a pane's figure is saved first: pictures are made of pixels.
-fn export_format(pane: PaneKind) -> Format {
-    if pane == PaneKind::RENDER { Format::Png } else { Format::Svg }
-}
-
 /// All keys. `focused` is the pane that exports and maximizing mean.
 pub fn key_bindings(focused: PaneKind) -> Vec<KeyBinding> {
     let with_ctrl = |key, command, words| KeyBinding { shortcut: ctrl(key), command, words, rests_while_typing: false };
@@ -222,7 +242,7 @@ pub fn key_bindings(focused: PaneKind) -> Vec<KeyBinding> {
         shifted(Key::Z, Command::Redo, "Redo"),
         shifted(Key::C, Command::CopyPicture(focused), "Copy the pane's picture"),
         with_ctrl(Key::O, Command::Open, "Open files"),
-        with_ctrl(Key::E, Command::Export(focused, export_format(focused)), "Export the pane's figure"),
+        with_ctrl(Key::E, Command::FigurePage(focused), "The pane as the printed page: size, style, PDF"),
         with_ctrl(Key::Z, Command::Undo, "Undo"),
         with_ctrl(Key::Y, Command::Redo, "Redo"),
         with_ctrl(Key::F, Command::FocusSearch, "Search the library"),
@@ -258,6 +278,12 @@ pub const THEMES: [(egui::ThemePreference, &str); 3] = [
     (egui::ThemePreference::System, "System"),
     (egui::ThemePreference::Dark, "Dark"),
     (egui::ThemePreference::Light, "Light"),
+];
+
+/// Subjects of reports as menus name them.
+pub const REPORTS: [(ReportOn, &str); 2] = [
+    (ReportOn::Paper, "With the paper's cameras and patches…"),
+    (ReportOn::Document, "With these cameras and patches…"),
 ];
 
 /// A key as it is written here.

@@ -1,11 +1,14 @@
 //! Figures out of the program: SVG and PDF from the figure, PNG from that SVG, all in the bundled fonts.
 
 pub mod card;
+pub mod form;
+pub mod page;
 pub mod paper;
 pub mod profile;
 pub mod render;
 pub mod spectra;
 
+use std::io::Cursor;
 use std::sync::{Arc, LazyLock};
 
 use base64::{Engine as _, prelude::BASE64_STANDARD};
@@ -15,8 +18,11 @@ use image::{
     codecs::png::{CompressionType, FilterType, PngEncoder},
 };
 use resvg::{tiny_skia, usvg};
+use tiff::encoder::{Compression, DeflateLevel, Rational, TiffEncoder, colortype::RGB8};
+use tiff::tags::ResolutionUnit;
 
 use crate::theme::{self, Theme};
+pub use form::FigureForm;
 pub use paper::Paper;
 
 /// The longest side of a picture in pixels.
@@ -42,6 +48,9 @@ pub enum ExportError {
     /// The picture could not be encoded with its resolution.
     #[error("the picture could not be encoded: {0}")]
     Png(#[from] png::EncodingError),
+    /// The picture could not be written as TIFF.
+    #[error("the picture could not be encoded: {0}")]
+    Tiff(#[from] tiff::TiffError),
     /// The figure could not be written as PDF.
     #[error(transparent)]
     Pdf(#[from] pdf::PdfError),
@@ -123,6 +132,19 @@ pub fn png_file_at(picture: &RgbaImage, dpi: f64) -> Result<Vec<u8>, ExportError
     writer.write_image_data(picture.as_raw())?;
     writer.finish()?;
     Ok(file)
+}
+
+/// The bytes of a TIFF file, without opacity, that states its resolution in pixels per inch.
+pub fn tiff_file_at(picture: &RgbaImage, dpi: f64) -> Result<Vec<u8>, ExportError> {
+    let rgb: Vec<u8> = picture.pixels().flat_map(|pixel| [pixel[0], pixel[1], pixel[2]]).collect();
+    let mut file = Cursor::new(Vec::new());
+    let compression = Compression::Deflate(DeflateLevel::Balanced);
+    let mut encoder = TiffEncoder::new(&mut file)?.with_compression(compression);
+    let mut image = encoder.new_image::<RGB8>(picture.width(), picture.height())?;
+    let hundredths = Rational { n: (dpi * 100.0).round() as u32, d: 100 };
+    image.resolution(ResolutionUnit::Inch, hundredths);
+    image.write_data(&rgb)?;
+    Ok(file.into_inner())
 }
 
 fn encoded(rgba: &[u8], width: u32, height: u32, compression: CompressionType) -> Result<Vec<u8>, image::ImageError> {

@@ -177,6 +177,19 @@ impl Files {
     }
 }
 
+/// Makes a folder of a name in another one; where there is one, a number is added.
+pub fn new_folder(parent: &std::path::Path, name: &str) -> std::io::Result<PathBuf> {
+    let numbered = (2..).map(|number| format!("{name} {number}"));
+    for name in std::iter::once(name.to_owned()).chain(numbered) {
+        let folder = parent.join(name);
+        match std::fs::create_dir(&folder) {
+            Err(error) if error.kind() == std::io::ErrorKind::AlreadyExists => {}
+            made => return made.map(|()| folder),
+        }
+    }
+    unreachable!("numbers do not end")
+}
+
 /// A file's name of a stem and an ending, the stem cut where both together are longer than file systems take: 255 bytes.
 pub fn fitting(stem: &str, ending: &str) -> String {
     const LONGEST: usize = 255;

@@ -10,7 +10,7 @@
 //! render_service  bench  profiler   pictures of meshes; run time against error
 //! view ─► command              the view state; requests of keys, menus and panes
 //! ranking                      figures of merit of many cameras
-//! figures                      answers become figures
+//! figures ─► report            answers become figures; the paper's figures and claims
 //! panes  cli                   show them, and request changes
 //! app                          the window
 //! ```
@@ -41,6 +41,7 @@ pub mod plot_item;
 pub mod profiler;
 pub mod ranking;
 pub mod render_service;
+pub mod report;
 pub mod results;
 pub mod scene;
 pub mod terminal;

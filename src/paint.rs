@@ -11,7 +11,7 @@ mod pictures;
 mod texture;
 mod triangles;
 
-use chromascope_figure::{LegendEntry, Panel, Projection, Tag, Ticks, fit_equal};
+use chromascope_figure::{Image, LegendEntry, Panel, Projection, Tag, Ticks, fit_equal};
 use egui::{Id, Painter, Pos2, Rect, Response, Sense, Ui, Vec2};
 use egui_plot::{Plot, PlotUi};
 
@@ -208,6 +208,11 @@ pub fn still(painter: &Painter, panel: &Panel, theme: &Theme, rect: Rect) -> Vie
     let painter = painter.with_clip_rect(rect.intersect(painter.clip_rect()));
     decoration::panel(&painter, panel, &view, rect, theme, &|_| Emphasis::Normal);
     view
+}
+
+/// Draws a picture over a rectangle.
+pub fn picture(painter: &Painter, rect: Rect, image: &Image) {
+    texture::draw(painter, rect, image);
 }
 
 /// The two colors of a ring that is seen on any picture: the wider one below, the narrower one above.

@@ -40,6 +40,7 @@ pub mod chromaticity;
 pub mod context;
 pub mod correction;
 pub mod curves;
+pub mod figure_page;
 pub mod head_to_head;
 pub mod help;
 pub mod import;
@@ -69,7 +70,12 @@ use egui::{Rect, Ui};
 
 use context::{Pane, PaneContext};
 
+use crate::catalog::opened::Opened;
 use crate::figures::FigureInput;
+use crate::profiler::Profiler;
+use crate::render_service::RenderService;
+use crate::scene::Scene;
+use crate::view::View;
 use crate::workspaces::PaneKind;
 
 /// All panes, in the order they are listed.
@@ -117,4 +123,22 @@ pub fn show(ui: &mut Ui, kind: PaneKind, rect: Rect, context: &mut PaneContext<'
 /// A pane's figure as it would be saved: the same as on screen, with its numbers. None for panes without one.
 pub fn figure(kind: PaneKind, input: &FigureInput<'_>) -> Option<Figure> {
     (by_kind(kind)?.figure?)(input)
+}
+
+/// A pane's figure laid out on the paper of the Figure page, as it is printed and saved.
+pub fn figure_on_paper(
+    kind: PaneKind,
+    (scene, view): (&Scene<'_>, &mut View),
+    render_service: &RenderService,
+    profiler: &Profiler,
+    opened: &Opened,
+) -> Option<Figure> {
+    let room = view.room;
+    let paper = view.saved.page.paper;
+    let figure = paper.laid_out(|room| {
+        view.room = room;
+        figure(kind, &FigureInput::of((scene, view), render_service, profiler, opened))
+    });
+    view.room = room;
+    figure
 }

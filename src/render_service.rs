@@ -7,11 +7,15 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use chromascope_core::query::Ask as _;
+use chromascope_core::query::render::MeshQuery;
+use chromascope_core::render::{Quality, RasterSize, Shadows};
 
 use crate::jobs::{Background, Executor, Job};
 use crate::results::Results;
-use crate::scene::ComparedSensor;
+use crate::scene::orbit::Orbit;
+use crate::scene::render::Finish;
 use crate::scene::spectral_image::PixelSpectrumQuery;
+use crate::scene::{ComparedSensor, Scene, SceneError};
 use made::{MadePictures, NoPictures, PicturesAnswer, PicturesOf};
 
 /// For this many seconds after the last change something is taken to be moving.
@@ -35,6 +39,28 @@ pub struct RenderedFrame {
 }
 
 impl RenderedFrame {
+    /// Samples along the side of a pixel of pictures that are made at once.
+    const SAMPLES: u32 = 2;
+
+    /// Square pictures of a mesh through a scene's sensors, made at once, with this many pixels along a side; none without a
+    /// viewpoint.
+    pub fn of_mesh(scene: &Scene<'_>, mesh: MeshQuery, orbit: Orbit, side: u32) -> Result<Option<Self>, SceneError> {
+        let sources = scene.rendered_sources();
+        let quality = scene.document.render.quality();
+        let finish = Finish {
+            size: RasterSize { width: side, height: side, samples: Self::SAMPLES }.clamped(),
+            quality,
+            shadows: if quality == Quality::Preview { Shadows::Coarse } else { Shadows::Full },
+            compared_samples: Some(usize::MAX),
+            open_sky: false,
+        };
+        let Some(viewpoint) = orbit.viewpoint(1.0) else { return Ok(None) };
+        let query = scene.pictures_of(&sources, mesh, viewpoint, finish, None)?;
+        let answer = Arc::new(PicturesAnswer::Mesh(scene.results.ask(&query)));
+        let (query, sources) = (PicturesOf::Mesh(query), sources.into());
+        Ok(Some(Self { query, sources, answer, time: Duration::ZERO, is_last: true, serial: 0 }))
+    }
+
     /// The pictures, or why there are none.
     pub fn pictures(&self) -> Result<MadePictures<'_>, NoPictures> {
         self.answer.pictures()

@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 use std::fmt::Write as _;
-use std::io::{self, Write};
+use std::io::{self, IsTerminal as _, Write};
 
 use spectral_file::turns_text;
 
@@ -29,6 +29,23 @@ pub fn shown(text: &str) -> Cow<'_, str> {
 pub fn say(text: &str) {
     // No message can be written once the terminal is closed.
     let _gone = io::stderr().lock().write_all(shown(text).as_bytes());
+}
+
+/// Draws a bar of progress on standard error, over the one before; at the end it is wiped. Only for terminals: none elsewhere.
+pub fn draw_progress(done: usize, of: usize, what: &str) {
+    const WIDTH: usize = 24;
+    let mut error = io::stderr().lock();
+    if !error.is_terminal() {
+        return;
+    }
+    let full = WIDTH * done / of.max(1);
+    let bar = if done < of {
+        format!("\r{}{} {done}/{of} {}\u{1b}[K", "█".repeat(full), "░".repeat(WIDTH - full), shown(what))
+    } else {
+        "\r\u{1b}[K".to_owned()
+    };
+    // Nothing can be drawn once the terminal is closed.
+    let _gone = error.write_all(bar.as_bytes()).and_then(|()| error.flush());
 }
 
 /// Standard error for logs, a whole record at a time.

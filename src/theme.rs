@@ -89,7 +89,7 @@ impl Surround {
 }
 
 /// Colors of compared sources in a figure.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
 pub enum SourceInks {
     /// Those on screen, told apart in all kinds of color vision.
     #[default]
@@ -217,9 +217,9 @@ impl Theme {
     /// Theme with other colors of compared sources.
     #[must_use]
     pub fn with_inks(self, inks: SourceInks) -> Self {
-        // Equal steps of L*, 18 to 77.5 on white and 38 to 92.6 on dark, neighbors in the list far apart.
+        // Equal steps of L*, 18 to 77.5 on white and 42 to 96 on dark, neighbors in the list far apart.
         const LIGHT: [u8; 8] = [0x67, 0xA8, 0x2C, 0x92, 0x3F, 0xBF, 0x52, 0x7C];
-        const DARK: [u8; 8] = [0x94, 0xD4, 0x59, 0xBE, 0x6C, 0xEA, 0x80, 0xA9];
+        const DARK: [u8; 8] = [0x9E, 0xDE, 0x76, 0xF4, 0x8A, 0xC8, 0x63, 0xB3];
         match inks {
             SourceInks::Screen => self,
             SourceInks::Gray => {

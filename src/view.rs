@@ -6,6 +6,7 @@ pub mod diagram;
 pub mod help;
 pub mod import;
 pub mod metrics;
+pub mod page;
 pub mod pick;
 pub mod recorded;
 pub mod render;
@@ -30,6 +31,7 @@ use diagram::DiagramView;
 use help::HelpView;
 use import::{ImportItem, ImportMemory, ImportView};
 use metrics::MetricsLook;
+use page::{PageLook, PageView};
 use pick::PickState;
 use recorded::RecordedView;
 use render::{RenderLook, RenderMode, RenderView};
@@ -75,8 +77,12 @@ pub struct View {
     pub correction: CorrectionView,
     /// State of the Numerics workspace.
     pub accuracy: AccuracyView,
+    /// Subject of the report whose folder is asked for.
+    pub report_on: Option<ReportOn>,
     /// State of the Recorded pane.
     pub recorded: RecordedView,
+    /// The Figure page.
+    pub page: PageView,
     /// Plots show their own ranges again in this frame.
     pub reset_plots: bool,
     /// True while B is held: the reference replaces every camera.
@@ -113,6 +119,15 @@ pub struct View {
     pub other_documents: Vec<(PathBuf, String)>,
     /// The last message.
     pub status: Status,
+}
+
+/// Subject of a report.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ReportOn {
+    /// The paper's cameras and patches.
+    Paper,
+    /// Cameras and patches of this document.
+    Document,
 }
 
 /// The part of the view that is saved between runs.
@@ -154,6 +169,8 @@ pub struct SavedView {
     pub render: RenderLook,
     /// Remembered import settings by kind of file.
     pub import: ImportMemory,
+    /// Settings of figures on paper.
+    pub page: PageLook,
 }
 
 impl Default for SavedView {
@@ -176,6 +193,7 @@ impl Default for SavedView {
             recent: Vec::new(),
             render: RenderLook::default(),
             import: ImportMemory::default(),
+            page: PageLook::default(),
         }
     }
 }

@@ -382,6 +382,14 @@ pub fn arrange(
     made
 }
 
+/// Arranges the Figure page of a pane in an area, beside the library where there is room for both.
+pub fn arrange_page(pane: PaneKind, layout: &Layout, area: Rect, was_narrow: bool) -> Arrangement {
+    let mut layout = layout.clone();
+    *layout.places_mut(Workspace::Import) = [Some(pane), None, None, None];
+    // A narrow window has no room for the library there.
+    arrange(Workspace::Import, &layout, area, was_narrow, None, false)
+}
+
 /// One pane above the other, or the one there is.
 fn stack(made: &mut Arrangement, area: Rect, panes: [Option<PaneKind>; 2], lower_share: f32, splitter: Splitter) {
     match panes {

@@ -12,23 +12,19 @@ use crate::action::{Action, CompareAction};
 use crate::catalog::opened::Request;
 use crate::command::{Command, Format};
 use crate::document::SetKind;
-use crate::export;
+use crate::export::{self, Paper};
 use crate::figures::FigureInput;
 use crate::files::{FileEvent, FileForm, SaveRequest};
 use crate::panes;
 use crate::profiler::SceneRunJob;
 use crate::scene::Scene;
 use crate::scene::conditions::CONDITIONS;
-use crate::theme::Theme;
 use crate::view::SavedView;
 use crate::view::accuracy::Shows;
 use crate::view::import::Stop;
 use crate::view::pick::PickState;
 use crate::view::render::RenderMode;
 use crate::workspaces::{Layout, PaneKind, Workspace};
-
-/// Pixels per point in saved and copied pictures.
-const PICTURE_SCALE: f32 = 2.0;
 
 impl ChromascopeApp {
     /// Finished dialogs and writes, files that changed.
@@ -39,6 +35,7 @@ impl ChromascopeApp {
                     self.view.recorded.corners.clear();
                     paths.first().into_iter().for_each(|path| self.recorded.open(path));
                 }
+                FileEvent::Open(paths) if self.view.report_on.is_some() => self.begin_report(&paths),
                 FileEvent::Open(paths) => self.open(paths.into_iter().map(Request::Path).collect()),
                 FileEvent::Changed(paths) => self.read_changed(&paths),
                 FileEvent::Said(message) => self.view.say(message),
@@ -61,6 +58,10 @@ impl ChromascopeApp {
     }
 
     fn carry_out_one(&mut self, ctx: &egui::Context, command: Command) {
+        let is_library = matches!(command, Command::FocusSearch | Command::TogglePane(PaneKind::LIBRARY));
+        if command.shows_panes() || (is_library && self.arrangement.narrow) {
+            self.view.page.open = None;
+        }
         match command {
             Command::Do(action) => self.change(&action),
             Command::Undo => {
@@ -73,11 +74,20 @@ impl ChromascopeApp {
             }
             Command::Open | Command::OpenRecorded => {
                 self.view.recorded.opening = command == Command::OpenRecorded;
+                self.view.report_on = None;
                 self.files.ask_to_open();
             }
             Command::OpenFolder => {
                 self.view.recorded.opening = false;
-                self.files.ask_for_folder();
+                self.view.report_on = None;
+                self.files.ask_for_folder("Open all spectra of a folder");
+            }
+            Command::Report(on) => {
+                self.view.report_on = Some(on);
+                self.files.ask_for_folder("Folder in which the report's own folder is made");
+            }
+            Command::StopReport => {
+                self.stop_report();
             }
             Command::OpenDocument(path) => self.files.open_document(&path, self.history.document().clone()),
             Command::RemoveDocument(path) => {
@@ -109,6 +119,7 @@ impl ChromascopeApp {
             Command::SpectralWeights => self.measure(),
             Command::MeasureWorkload(workload) => self.profiler.run_bench(workload),
             Command::StopMeasuring => self.profiler.stop(),
+            Command::FigurePage(pane) => self.figure_page(ctx, pane),
             Command::Export(pane, format) => self.export(pane, format),
             Command::ExportExr(source) => self.export_exr(&source),
             Command::SaveSet(kind, name, form) => self.save_set(kind, &name, form),
@@ -232,7 +243,11 @@ impl ChromascopeApp {
         if self.files.prompt_mut().take().is_some() {
             return;
         }
-        if std::mem::take(&mut self.view.keeps_escape) || self.stop_opening() || self.stop_reading() {
+        if std::mem::take(&mut self.view.keeps_escape)
+            || self.stop_opening()
+            || self.stop_reading()
+            || self.stop_report()
+        {
             return;
         }
         if self.profiler.busy().is_some() {
@@ -245,7 +260,7 @@ impl ChromascopeApp {
         if view.palette.take().is_some() || view.help.escape() || std::mem::take(&mut view.about) {
             return;
         }
-        if std::mem::take(&mut view.inspector_over) {
+        if view.page.open.take().is_some() || std::mem::take(&mut view.inspector_over) {
             return;
         }
         if rendering && view.render.is_waiting() && !view.render.cancelled {
@@ -343,7 +358,7 @@ impl ChromascopeApp {
             _ => None,
         };
         import.focus = import.stop;
-        self.view.say(format!("{} (F fills the window, Ctrl+E exports)", panes::title(pane)));
+        self.view.say(format!("{} (F fills the window, Ctrl+E prints)", panes::title(pane)));
         // Keys that are meant for the next pane must not move what the last one had.
         ctx.memory_mut(|memory| memory.focused().map(|id| memory.surrender_focus(id)));
     }
@@ -353,27 +368,48 @@ impl ChromascopeApp {
         FigureInput::of((scene, &self.view), &self.render_service, &self.profiler, &self.opened)
     }
 
+    /// Shows a pane as the printed page, or goes back to where the page was opened.
+    fn figure_page(&mut self, ctx: &egui::Context, pane: PaneKind) {
+        if self.view.page.open.take().is_none() && self.printed(pane).is_some() {
+            self.view.page.open = Some(pane);
+            self.view.say(format!("{} as it is printed. Esc goes back.", panes::title(pane)));
+        }
+        ctx.memory_mut(|memory| memory.focused().map(|id| memory.surrender_focus(id)));
+    }
+
     /// The pane's figure as on screen, or a message that it has none.
     pub(super) fn figure(&mut self, pane: PaneKind) -> Option<Figure> {
         let scene = Scene { document: self.history.document(), catalog: &self.catalog, results: &self.results };
         let figure = panes::figure(pane, &self.figure_input(&scene));
+        self.checked(pane, figure)
+    }
+
+    /// The pane's figure on paper, or a message that it has none.
+    fn printed(&mut self, pane: PaneKind) -> Option<Figure> {
+        let scene = Scene { document: self.history.document(), catalog: &self.catalog, results: &self.results };
+        let view = &mut self.view;
+        let figure = panes::figure_on_paper(pane, (&scene, view), &self.render_service, &self.profiler, &self.opened);
+        self.checked(pane, figure)
+    }
+
+    fn checked(&mut self, pane: PaneKind, figure: Option<Figure>) -> Option<Figure> {
         if figure.is_none() {
             let others = panes::ALL.iter().filter(|pane| pane.figure.is_some()).map(|pane| pane.title);
             let others = others.collect::<Vec<_>>().join(", ");
-            self.view.fail(format!("{} has nothing to export now. Panes with figures: {others}.", panes::title(pane)));
+            self.view.fail(format!("{} has no figure now. Panes with figures: {others}.", panes::title(pane)));
         }
         figure
     }
 
     /// Asks where to save a pane's figure. The path's extension decides the format; the requested one is offered.
     fn export(&mut self, pane: PaneKind, format: Format) {
-        let Some(figure) = self.figure(pane) else { return };
+        let Some(figure) = self.printed(pane) else { return };
         let figure = Arc::new(figure);
         let others = Format::ALL.into_iter().filter(|other| *other != format);
         let forms = std::iter::once(format).chain(others).map(|format| {
             let figure = Arc::clone(&figure);
-            let numbers = self.numbers(pane, &figure);
-            FileForm::new(format.extension(), move || file_of(&figure, &numbers, format))
+            let (numbers, paper) = (self.numbers(pane, &figure), self.view.saved.page.paper);
+            FileForm::new(format.extension(), move || file_of(&figure, &numbers, &paper, format))
         });
         let name = format!("{}.{}", self.file_stem(pane), format.extension());
         let what = format!("{} as {}", panes::title(pane), format.extension().to_uppercase());
@@ -391,12 +427,14 @@ impl ChromascopeApp {
     }
 
     fn copy_picture(&mut self, ctx: &egui::Context, pane: PaneKind) {
-        let Some(figure) = self.figure(pane) else { return };
-        match export::png(&export::svg(&figure, &Theme::LIGHT, export::Paper::default()), PICTURE_SCALE) {
+        let Some(figure) = self.printed(pane) else { return };
+        let paper = self.view.saved.page.paper;
+        match export::png(&export::svg(&figure, &paper.theme(), paper), paper.pixels_per_point()) {
             Ok(picture) => {
                 let size = [picture.width() as usize, picture.height() as usize];
                 ctx.copy_image(egui::ColorImage::from_rgba_unmultiplied(size, picture.as_raw()));
-                self.view.say(format!("{}: picture copied.", panes::title(pane)));
+                let pixels = format!("{} × {} pixels", size[0], size[1]);
+                self.view.say(format!("{}: picture copied, {pixels}.", panes::title(pane)));
             }
             Err(error) => self.view.fail(error.to_string()),
         }
@@ -451,16 +489,16 @@ impl ChromascopeApp {
 }
 
 /// A figure's file in a format; the error is a message.
-fn file_of(figure: &Figure, numbers: &Table, format: Format) -> Result<Vec<u8>, String> {
-    let svg = || export::svg(figure, &Theme::LIGHT, export::Paper::default());
+fn file_of(figure: &Figure, numbers: &Table, paper: &Paper, format: Format) -> Result<Vec<u8>, String> {
+    let svg = || export::svg(figure, &paper.theme(), *paper);
     match format {
-        Format::Pdf => export::pdf(figure, &Theme::LIGHT, export::Paper::default()).map_err(|error| error.to_string()),
+        Format::Pdf => export::pdf(figure, &paper.theme(), *paper).map_err(|error| error.to_string()),
         Format::Svg => Ok(svg().into_bytes()),
         Format::Csv => Ok(numbers.to_csv().into_bytes()),
         Format::Json => Ok(export::json(&figure.title, numbers).into_bytes()),
         Format::Png => {
-            let file = export::png(&svg(), PICTURE_SCALE)
-                .and_then(|picture| export::png_file_at(&picture, 72.0 * f64::from(PICTURE_SCALE)));
+            let file = export::png(&svg(), paper.pixels_per_point())
+                .and_then(|picture| export::png_file_at(&picture, paper.dpi));
             file.map_err(|error| error.to_string())
         }
     }

@@ -8,7 +8,7 @@ use crate::panes;
 use crate::panes::context::PaneContext;
 use crate::scene::Scene;
 use crate::theme::{self, Theme};
-use crate::workspaces::{Splitter, arrange};
+use crate::workspaces::{Splitter, arrange, arrange_page};
 
 impl ChromascopeApp {
     /// The bars and panes of one frame.
@@ -25,6 +25,8 @@ impl ChromascopeApp {
             recorded: &self.recorded,
             radiators: &self.radiators,
             portrait: &self.portrait,
+            report: &self.report,
+            pages: &self.pages,
             render_service: &mut self.render_service,
             profiler: &mut self.profiler,
             ranking: &mut self.ranking,
@@ -65,16 +67,27 @@ impl ChromascopeApp {
             }
         }
         let saved = &context.view.saved;
-        self.arrangement = arrange(
-            saved.workspace,
-            &saved.layout,
-            area,
-            self.arrangement.narrow,
-            context.view.maximized,
-            context.view.inspector_over,
-        );
+        let page = context.view.page.open;
+        self.arrangement = match page {
+            Some(pane) => arrange_page(pane, &saved.layout, area, self.arrangement.narrow),
+            None => arrange(
+                saved.workspace,
+                &saved.layout,
+                area,
+                self.arrangement.narrow,
+                context.view.maximized,
+                context.view.inspector_over,
+            ),
+        };
         for (pane, rect) in self.arrangement.panes.clone() {
-            panes::show(ui, pane, rect, &mut context);
+            if page == Some(pane) {
+                panes::figure_page::show(ui, rect, pane, &mut context);
+            } else {
+                panes::show(ui, pane, rect, &mut context);
+            }
+        }
+        if page.is_none() {
+            context.pages.rest();
         }
         for (splitter, rect) in self.arrangement.splitters.clone() {
             drag_border(ui, splitter, rect, area, &mut context);

@@ -174,7 +174,7 @@ impl ChromascopeApp {
             log::info!("read again {}", names.join(", "));
             let built_in = self.catalog.names().clone();
             self.step(|history| {
-                history.apply_again(&Action::Imported(ImportedAction::ReplaceAll { what, with, built_in }))
+                history.apply_again(&Action::Imported(ImportedAction::ReplaceAll { what, with, built_in }));
             });
             self.history.end_gesture();
         }

@@ -13,6 +13,7 @@ use super::identify::arguments::IdentifyArguments;
 use super::inspect::arguments::InspectArguments;
 use super::matrix::arguments::MatrixArguments;
 use super::render::arguments::RenderArguments;
+use super::report::ReportArguments;
 pub(super) use super::sources::{CommonArguments, SourceArguments, Transform};
 use crate::document::SetKind;
 
@@ -38,6 +39,7 @@ const EXAMPLES: &str = "Examples:
   chromascope matrix \"Nikon D850\" --illuminant A --second-illuminant D65 --format dcp --out d850.dcp
   chromascope render --mesh head --camera \"Nikon D70\" --out pictures
   chromascope inspect measured.txt --csv measured.csv
+  chromascope report --out report
   chromascope list cameras
 
 Names are those of `chromascope list`. Case, punctuation and words such as CIE, illuminant, standard and observer are ignored; whole
@@ -95,6 +97,9 @@ pub(super) enum Subcommand {
     /// Figures for paper, laid out for a width: PDF, SVG, PNG, or the numbers behind them as CSV
     #[command(after_help = super::figure::arguments::EXAMPLES)]
     Figure(Box<FigureArguments>),
+    /// Figures and claims of the 2007 paper with public data: PDF, SVG, PNG, CSV and one page
+    #[command(after_help = super::report::EXAMPLES)]
+    Report(Box<ReportArguments>),
     /// Pictures of a mesh under a light, through cameras and observers, as PNG or OpenEXR
     #[command(after_help = super::render::arguments::EXAMPLES)]
     Render(Box<RenderArguments>),

@@ -1,10 +1,11 @@
-//! Figures for paper as PDF, SVG, PNG, or the numbers behind them.
+//! Figures for paper as PDF, SVG, PNG, TIFF, or the numbers behind them.
 
 pub(super) mod arguments;
 mod made;
 
 use std::path::Path;
 
+use chromascope_core::query::RecordedSet;
 use chromascope_figure::{Figure, Page};
 use clap::ArgMatches;
 
@@ -14,7 +15,7 @@ use super::identify::recorded_table;
 use super::outputs::{self, Stop};
 use super::request::Request;
 use crate::document::{Document, session};
-use crate::export::{self, paper::Paper};
+use crate::export::{FigureForm, Paper};
 use crate::figures::{FigureInput, strip};
 use crate::panes;
 use crate::results::Results;
@@ -22,68 +23,16 @@ use crate::scene::Scene;
 use crate::scene::conditions::CONDITIONS;
 use crate::view::View;
 
-/// Form of a figure's file.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Form {
-    Pdf,
-    Svg,
-    Png,
-    Csv,
-}
-
-impl Form {
-    fn of(path: &Path) -> Option<Self> {
-        match path.extension()?.to_str()?.to_ascii_lowercase().as_str() {
-            "pdf" => Some(Self::Pdf),
-            "svg" => Some(Self::Svg),
-            "png" => Some(Self::Png),
-            "csv" => Some(Self::Csv),
-            _ => None,
-        }
-    }
-}
-
 /// Draws a figure and writes it.
 pub(super) fn run(arguments: &FigureArguments, matches: &ArgMatches) -> Result<(), CliError> {
     let out = arguments.common.out.as_deref();
-    let form = out.and_then(Form::of).ok_or_else(|| {
-        let reason = "a file that ends in .pdf, .svg, .png or .csv is needed".to_owned();
+    let form = out.and_then(FigureForm::of).ok_or_else(|| {
+        let reason = "a file that ends in .pdf, .svg, .png, .tif or .csv is needed".to_owned();
         CliError::Argument { argument: "--out", reason }
     })?;
     let mut request = Request::new(&arguments.common, matches)?;
-    request.set_chart(arguments.chart.as_deref())?;
-    let mut inputs = request.inputs();
-    let document = match &arguments.session {
-        None => {
-            let Request { document, sources, .. } = &mut request;
-            for (kind, name) in sources.iter() {
-                document.compare(name, *kind);
-            }
-            document.clone()
-        }
-        Some(path) => {
-            inputs.push(path.clone());
-            opened(&mut request, path)?
-        }
-    };
-    request.document = document;
-    let recorded = match (&arguments.file, arguments.kind) {
-        (Some(path), FigureKind::Recorded) => Some(recorded_table(&mut request, path)?),
-        (Some(path), FigureKind::Curves) => {
-            made::open_curves(&mut request, path)?;
-            None
-        }
-        (Some(_), _) => {
-            let reason = "only `curves` and `recorded` are of a file".to_owned();
-            return Err(CliError::Argument { argument: "FILE", reason });
-        }
-        (None, _) => None,
-    };
-    if let Some(mesh) = &arguments.mesh {
-        made::set_mesh(&mut request.document, mesh)?;
-    }
-    inputs.extend(request.inputs());
-    outputs::check(out, &inputs, arguments.common.force)?;
+    let recorded = prepare(&mut request, arguments)?;
+    outputs::check(out, &request.inputs(), arguments.common.force)?;
     let results = Results::default();
     let scene = Scene { document: &request.document, catalog: &request.catalog, results: &results };
     let paper = arguments.paper.paper();
@@ -109,13 +58,42 @@ pub(super) fn run(arguments: &FigureArguments, matches: &ArgMatches) -> Result<(
         CliError::Argument { argument: "KIND", reason }
     })?;
     check_height(&figure, &paper, form)?;
-    let bytes = bytes(&scene, &figure, &paper, form)?;
+    let cells: Vec<_> = CONDITIONS.into_iter().zip(scene.conditions()).collect();
+    let bytes = form.bytes(&figure, &figure.table.clone().with_constants(&cells), &paper)?;
     outputs::stream(out, |out| out.write_all(&bytes).map_err(Stop::Output))
 }
 
+/// Completes the document: the session or the sensors compared, a file's content, the mesh. Returns recorded raw values.
+fn prepare(request: &mut Request, arguments: &FigureArguments) -> Result<Option<RecordedSet>, CliError> {
+    request.set_chart(arguments.chart.as_deref())?;
+    if let Some(light) = &arguments.second_light {
+        request.set_second_light(light)?;
+    }
+    if let Some(path) = &arguments.session {
+        request.document = opened(request, path)?;
+    } else {
+        let Request { document, sources, .. } = request;
+        for (kind, name) in sources.iter() {
+            document.compare(name, *kind);
+        }
+    }
+    if let Some(mesh) = &arguments.mesh {
+        made::set_mesh(&mut request.document, mesh)?;
+    }
+    match (&arguments.file, arguments.kind) {
+        (None, _) => Ok(None),
+        (Some(path), FigureKind::Recorded) => recorded_table(request, path).map(Some),
+        (Some(path), FigureKind::Curves) => made::open_curves(request, path).map(|()| None),
+        (Some(_), _) => {
+            let reason = "only `curves` and `recorded` are of a file".to_owned();
+            Err(CliError::Argument { argument: "FILE", reason })
+        }
+    }
+}
+
 /// Refuses a height that a figure cannot take, because its rows or pictures have theirs.
-fn check_height(figure: &Figure, paper: &Paper, form: Form) -> Result<(), CliError> {
-    let Some(wanted) = paper.height_mm.filter(|_| form != Form::Csv) else { return Ok(()) };
+fn check_height(figure: &Figure, paper: &Paper, form: FigureForm) -> Result<(), CliError> {
+    let Some(wanted) = paper.height_mm.filter(|_| form != FigureForm::Csv) else { return Ok(()) };
     let height = Page::new(figure, &paper.page_style()).area.height() * paper.scale() / 72.0 * 25.4;
     if (height - wanted).abs() < 1.0 {
         return Ok(());
@@ -128,20 +106,4 @@ fn opened(request: &mut Request, path: &Path) -> Result<Document, CliError> {
     let failed = |reason: String| CliError::File(format!("{}: {reason}", super::request::display_path(path)));
     let text = String::from_utf8(request.bytes(path)?).map_err(|_| failed("it is not text".to_owned()))?;
     session::from_json(&text).map_err(|error| failed(error.to_string()))
-}
-
-fn bytes(scene: &Scene<'_>, figure: &Figure, paper: &Paper, form: Form) -> Result<Vec<u8>, CliError> {
-    let theme = paper.theme();
-    match form {
-        Form::Pdf => Ok(export::pdf(figure, &theme, *paper)?),
-        Form::Svg => Ok(export::svg(figure, &theme, *paper).into_bytes()),
-        Form::Png => {
-            let picture = export::png(&export::svg(figure, &theme, *paper), (paper.dpi / 72.0) as f32)?;
-            Ok(export::png_file_at(&picture, paper.dpi)?)
-        }
-        Form::Csv => {
-            let cells: Vec<_> = CONDITIONS.into_iter().zip(scene.conditions()).collect();
-            Ok(figure.table.clone().with_constants(&cells).to_csv().into_bytes())
-        }
-    }
 }

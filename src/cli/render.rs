@@ -19,7 +19,8 @@ use clap::ArgMatches;
 use rayon::prelude::*;
 
 use self::arguments::{Format, RenderArguments};
-use self::files::{file_names, make_folder, patiently};
+pub(super) use self::files::make_folder;
+use self::files::{file_names, patiently};
 use self::setup::Setup;
 use super::error::CliError;
 use super::outputs::{self, is_standard_output, put, show, write_to};

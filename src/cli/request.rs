@@ -77,7 +77,17 @@ impl Request {
 
     /// Cameras alone, under the colorimetry preset.
     pub(super) fn of_cameras(argument: &'static str, cameras: &[OsString], per: Option<Per>) -> Result<Self, CliError> {
-        let mut request = Self::of_preset(Start::Colorimetry, per);
+        Self::of_cameras_under(Start::Colorimetry, argument, cameras, per)
+    }
+
+    /// Cameras alone, under a preset.
+    pub(super) fn of_cameras_under(
+        preset: Start,
+        argument: &'static str,
+        cameras: &[OsString],
+        per: Option<Per>,
+    ) -> Result<Self, CliError> {
+        let mut request = Self::of_preset(preset, per);
         let camera = |name: &OsString| Ok((SetKind::Camera, request.camera(argument, name)?));
         request.sources = cameras.iter().map(camera).collect::<Result<_, CliError>>()?;
         request.check_per(argument)?;

@@ -1,11 +1,12 @@
 //! Figures laid out for paper: size, text, lines, inks, legend.
 
 use chromascope_figure::{AxisRanges, AxisTitles, Figure, FigureRoom, LegendPlace, Numbers, Page, PageStyle, TextSize};
+use serde::{Deserialize, Serialize};
 
 use crate::theme::{SourceInks, Theme};
 
 /// Colors of a figure apart from those of its sources.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum PaperStyle {
     /// As on a light screen.
     #[default]
@@ -17,7 +18,8 @@ pub enum PaperStyle {
 }
 
 /// Layout of a figure on paper.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
 pub struct Paper {
     /// Width in millimeters; `None` takes the figure's own points, and then text has its size on screen.
     pub width_mm: Option<f64>,
@@ -31,7 +33,8 @@ pub struct Paper {
     pub style: PaperStyle,
     /// Colors of sources.
     pub inks: SourceInks,
-    /// Position of the legend; `None` places it beside a wide figure and below a narrow one.
+    /// Position of the legend; `None` places it beside a wide figure and below a narrow one. Beside, it stands below
+    /// where it would take half of the width.
     pub legend: Option<LegendPlace>,
     /// Titles of the axes.
     pub axis_titles: AxisTitles,
@@ -72,12 +75,25 @@ impl Paper {
     pub const ONE_COLUMN_MM: f64 = 85.0;
     /// Width of two columns of a journal in millimeters.
     pub const TWO_COLUMNS_MM: f64 = 174.0;
+    /// Range of width and height in millimeters.
+    pub const SIDE_MM: [f64; 2] = [20.0, 2000.0];
+    /// Range of the size of text in points.
+    pub const FONT_PT: [f64; 2] = [3.0, 48.0];
+    /// Range of the factor on the widths of lines.
+    pub const LINE_SCALE: [f64; 2] = [0.1, 10.0];
+    /// Range of resolutions.
+    pub const DPI: [f64; 2] = [36.0, 2400.0];
     /// Below this width in millimeters the legend stands below.
     const NARROW_MM: f64 = 120.0;
 
     /// Layout of the page.
     pub fn page_style(&self) -> PageStyle {
         PageStyle { width_mm: self.width_mm, line_scale: self.line_scale, axis_titles: self.axis_titles }
+    }
+
+    /// Pixels per point of pictures.
+    pub fn pixels_per_point(&self) -> f32 {
+        (self.dpi / 72.0) as f32
     }
 
     /// The colors.
@@ -105,6 +121,17 @@ impl Paper {
         let Some(width) = self.width_mm.map(points) else { return make(room) };
         room.width = Some(width);
         let mut figure = make(room)?;
+        let beside = figure.legend_place == LegendPlace::Outside;
+        let is_cramped = beside && Page::new(&figure, &self.page_style()).surplus(&figure)[0] > 0.5 * width;
+        let mut make = |room| {
+            make(room).map(|figure| match figure.legend_place {
+                LegendPlace::Outside if is_cramped => Figure { legend_place: LegendPlace::Below, ..figure },
+                _ => figure,
+            })
+        };
+        if is_cramped {
+            figure = make(room)?;
+        }
         // What stands around the panels depends on their width, and that on it.
         for _ in 0..2 {
             let surplus = Page::new(&figure, &self.page_style()).surplus(&figure);

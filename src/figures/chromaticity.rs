@@ -189,7 +189,10 @@ pub fn figure_sized(scene: &Scene<'_>, view: &View, size: [f64; 2]) -> Figure {
         AxisRanges::Full => paper.saved.diagram_fit = DiagramFit::Whole,
         AxisRanges::Screen => paper.diagram.zoomed = view.diagram.zoomed.map(|part| Frame::around(part, size).ranges),
     }
-    let built = build(scene, &paper, None, size);
+    let mut built = build(scene, &paper, None, size);
+    if let Some([x, y]) = paper.diagram.zoomed {
+        (built.panel.x.range, built.panel.y.range) = (x, y);
+    }
     let mut figure = Figure::new("Chromaticity", size);
     let shown = Projection::new(&built.panel, 1.0);
     figure.panels.push(built.panel);

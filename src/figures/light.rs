@@ -7,7 +7,8 @@ use chromascope_core::colorimetry::rgb::{encode_srgb, srgb_from_xyz, srgb_white}
 use chromascope_core::query::{Consistency, Rendition};
 use chromascope_core::rendition::{ColorFidelity, HueBin};
 use chromascope_figure::{
-    Anchor, Axis, Cell, Dash, Figure, Ink, InkRole, Mark, Panel, Rect, Shape, Table, Tag, TextSize, Ticks, text_width,
+    Anchor, Axis, Cell, Dash, Figure, Ink, InkRole, Mark, Panel, Projection, Rect, Shape, Table, Tag, TextSize, Ticks,
+    text_width,
 };
 
 use crate::document::SetKind;
@@ -44,7 +45,7 @@ pub fn bars(rendition: &Rendition, area: Rect) -> Option<Panel> {
         let at = [middle, value.max(0.0)];
         let text = fixed(*value, 0);
         // A number that is wider than its bar's place would run into the next; the bar itself still says it when pointed at.
-        if text_width(&text, TextSize::Small) + NUMBER_GAP > area.width() / values.len() as f64 {
+        if text_width(&text, TextSize::Small) + NUMBER_GAP > (area.width() - Projection::LEFT) / values.len() as f64 {
             continue;
         }
         let text = Mark::text(text, at, Anchor(0.5, 1.0), TextSize::Small, InkRole::Text).with_offset([0.0, -1.0]);

@@ -62,7 +62,7 @@ pub fn figure(input: &FigureInput<'_>) -> Option<Figure> {
     let mut panel = Panel::new("skipped", Rect::from_min_size([0.0, 0.0], figure.size), x, y);
     let text = |name: &str, at: [f64; 2], text: String| {
         let text = Mark::text(text, at, Anchor::LEFT, TextSize::Small, InkRole::Text);
-        Mark { name: name.to_owned(), ..text.with_offset([6.0, 0.0]) }
+        Mark { name: name.to_owned(), ..text.with_offset([6.0, 0.0]).with_halo(InkRole::Plot) }
     };
     let mut middle = 0.5;
     for section in &sections {

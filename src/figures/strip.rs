@@ -90,8 +90,7 @@ const SIZE: [f64; 2] = [640.0, 170.0];
 
 /// The strip as a figure of its own, with its numbers; none where no sensor can be compared with the reference.
 pub fn figure(scene: &Scene<'_>, view: &View) -> Option<Figure> {
-    let [width, height] = view.room.size(SIZE, 0.0);
-    let size = [width, if view.room.height.is_none() { SIZE[1] } else { height }];
+    let size = view.room.size(SIZE, 0.0);
     let whole = chromaticity::figure(scene, view);
     let mut figure = Figure::new("Distance to the reference over temperature", size);
     figure.panels.push(build(scene, size)?.panel);

@@ -22,9 +22,9 @@ impl Files {
         self.in_dialog(Question::Files, None);
     }
 
-    /// Shows the dialog for a folder of files to open.
-    pub fn ask_for_folder(&mut self) {
-        self.in_dialog(Question::Folder, None);
+    /// Shows the dialog for a folder, with this title.
+    pub fn ask_for_folder(&mut self, title: &'static str) {
+        self.in_dialog(Question::Folder { title }, None);
     }
 
     /// Prepares data to save in the background, then asks where to; the error is a message.

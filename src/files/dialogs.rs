@@ -20,8 +20,11 @@ const ENDINGS: [&str; 30] = [
 pub enum Question {
     /// Files to open.
     Files,
-    /// A folder whose files are to be opened.
-    Folder,
+    /// A folder.
+    Folder {
+        /// Title of the dialog.
+        title: &'static str,
+    },
     /// A path to save to.
     Save {
         /// Title of the dialog.
@@ -67,10 +70,9 @@ impl Dialogs for System {
                 .add_filter("Pictures of charts", &PICTURES)
                 .add_filter("All files", &["*"])
                 .pick_files(),
-            Question::Folder => rfd::FileDialog::new()
-                .set_title("Open all spectra of a folder")
-                .pick_folder()
-                .map(|folder| vec![folder]),
+            Question::Folder { title } => {
+                rfd::FileDialog::new().set_title(*title).pick_folder().map(|folder| vec![folder])
+            }
             Question::Save { title, name, endings } => {
                 let dialog = rfd::FileDialog::new().set_title(title).set_file_name(name);
                 let dialog = endings.iter().fold(dialog, |dialog, ending| dialog.add_filter(*ending, &[*ending]));

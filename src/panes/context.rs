@@ -14,6 +14,7 @@ use crate::catalog::recorded_store::RecordedStore;
 use crate::catalog::spectral_images::ImageStore;
 use crate::command::Command;
 use crate::document::render::RenderSettings;
+use crate::export::page::PageJob;
 use crate::figures::FigureInput;
 use crate::figures::curves::CurveCache;
 use crate::jobs::Background;
@@ -21,6 +22,7 @@ use crate::profiler::plans::PlanAnswer;
 use crate::profiler::{Profiler, SceneRunJob};
 use crate::ranking::Ranking;
 use crate::render_service::RenderService;
+use crate::report::ReportJob;
 use crate::results::Count;
 use crate::scene::Scene;
 use crate::theme::Theme;
@@ -62,12 +64,16 @@ pub struct PaneContext<'a> {
     pub images: &'a ImageStore,
     /// The spectral files that were opened.
     pub opened: &'a Opened,
+    /// The report that is being made.
+    pub report: &'a Background<ReportJob>,
     /// The file of recorded raw values.
     pub recorded: &'a RecordedStore,
     /// Finds the nearest blackbody of a color, on demand.
     pub radiators: &'a Background<NearestBlackBodyQuery>,
     /// Picture of the window about the program.
     pub portrait: &'a Background<PicturesQuery>,
+    /// Pixels of the Figure page.
+    pub pages: &'a Background<PageJob>,
     /// Renderer of the pictures.
     pub render_service: &'a mut RenderService,
     /// Profiler of the scene.

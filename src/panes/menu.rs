@@ -5,7 +5,7 @@ use egui::{Align, Atom, Button, Layout, Rect, RichText, Ui, UiBuilder, Vec2};
 use super::context::{Pane, PaneContext};
 use crate::action::history::History;
 use crate::action::{Action, SceneAction};
-use crate::command::{Command, Format, THEMES, TourMove, shortcut_of};
+use crate::command::{Command, Format, REPORTS, THEMES, TourMove, shortcut_of};
 use crate::document::start::Start;
 use crate::panes::widgets::{Icon, icon_button, pick_list};
 use crate::theme::{Surround, UNIT};
@@ -98,7 +98,7 @@ fn enabled_item(ui: &mut Ui, enabled: bool, words: &str, command: Command, conte
 }
 
 fn focused(context: &PaneContext<'_>) -> PaneKind {
-    context.view.focused.unwrap_or(PaneKind::CHROMATICITY)
+    context.view.page.open.or(context.view.focused).unwrap_or(PaneKind::CHROMATICITY)
 }
 
 /// The pane whose figure is meant: the focused one if it has figures, else the first visible one that has.
@@ -149,9 +149,17 @@ fn file(ui: &mut Ui, context: &mut PaneContext<'_>) {
     }
     ui.separator();
     let pane = pictured(context);
+    let words = format!("Figure page of {}", context.title(pane));
+    item(ui, &words, Command::FigurePage(pane), context);
+    item(ui, &format!("Export {} as PDF…", context.title(pane)), Command::Export(pane, Format::Pdf), context);
     item(ui, &format!("Export {} as SVG…", context.title(pane)), Command::Export(pane, Format::Svg), context);
     item(ui, &format!("Export {} as PNG…", context.title(pane)), Command::Export(pane, Format::Png), context);
     item(ui, &format!("Export numbers of {}…", context.title(pane)), Command::Export(pane, Format::Csv), context);
+    ui.menu_button("Report on the paper", |ui| {
+        for (on, words) in REPORTS {
+            item(ui, words, Command::Report(on), context);
+        }
+    });
     ui.separator();
     if ui.add(Button::new("Quit").shortcut_text("Ctrl+Q")).clicked() {
         context.push(Command::Quit);

@@ -15,6 +15,7 @@ use crate::format::fixed;
 use crate::panes::widgets::lines;
 use crate::plot_item::{PlotItem, SensorId};
 use crate::render_service::made::MadePictures;
+use crate::report::Report;
 use crate::theme::UNIT;
 use crate::view::{Status, Weight};
 use crate::workspaces::{Arrangement, PaneKind};
@@ -93,6 +94,10 @@ fn message(ui: &mut Ui, mut rect: Rect, context: &mut PaneContext<'_>) -> bool {
             return true;
         }
         ui.ctx().request_repaint_after(PATIENCE);
+    }
+    if context.report.busy().is_some() {
+        report_progress(ui, rect, context);
+        return true;
     }
     let opacity = remaining(ui, rect, context);
     let status = context.view.status.clone();
@@ -180,6 +185,14 @@ fn file_progress(ui: &mut Ui, rect: Rect, progress: &Progress, context: &mut Pan
     ui.ctx().request_repaint_after(Duration::from_millis(50));
     let words = progress_words(progress);
     let button = ("Stop", "Stop reading; nothing is changed (Esc)", Command::StopReading);
+    line(ui, rect, &words, context.theme.text, Some(button), context);
+}
+
+/// The message while a report is made.
+fn report_progress(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
+    let (steps, done) = context.report.progress();
+    let words = format!("Report: {}, {} of {}", Report::name(done), done + 1, steps.len());
+    let button = ("Stop", "Stop the report; the files so far stay (Esc)", Command::StopReport);
     line(ui, rect, &words, context.theme.text, Some(button), context);
 }
 

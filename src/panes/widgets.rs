@@ -160,6 +160,8 @@ fn export_menu(ui: &mut Ui, &Pane { kind, title, .. }: &Pane, context: &mut Pane
     let response = icon_button(ui, Icon::Export, &format!("Export {title}"));
     egui::Popup::menu(&response).show(|ui| {
         for (words, command) in [
+            ("Figure page (Ctrl+E)", Command::FigurePage(kind)),
+            ("Figure as PDF…", Command::Export(kind, Format::Pdf)),
             ("Figure as SVG…", Command::Export(kind, Format::Svg)),
             ("Figure as PNG…", Command::Export(kind, Format::Png)),
             ("Numbers as CSV…", Command::Export(kind, Format::Csv)),

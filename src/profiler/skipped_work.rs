@@ -75,6 +75,12 @@ impl Sources<'_> {
         shades.filter(|shade| shade.kind == DiffuseKind::Spectral).collect()
     }
 
+    /// True at a sample, or vertex, that the light reaches; a sample may be lit by the sky or from behind alone.
+    fn is_lit(&self, index: usize) -> bool {
+        let angles = self.shading.geometry().angles();
+        self.shading.vertices().is_some() || angles.get(index).is_some_and(|angles| angles.light() > 0.0)
+    }
+
     fn place(&self) -> &'static str {
         if self.shading.vertices().is_some() { "vertex" } else { "sample" }
     }

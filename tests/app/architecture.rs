@@ -58,6 +58,7 @@ const APP_LAYERS: &[&str] = &[
     "command",
     "ranking",
     "figures",
+    "report",
     "panes",
     "cli",
     "app",

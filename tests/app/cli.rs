@@ -13,6 +13,7 @@ mod outputs;
 mod presets;
 mod radiance;
 mod reference;
+mod report;
 
 use std::path::PathBuf;
 use std::process::{Command, Output};

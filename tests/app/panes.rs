@@ -8,7 +8,7 @@ use chromascope::panes;
 use chromascope::workspaces::{Layout, PaneKind, Workspace};
 
 /// Files beside the panes: what panes are made of, and the bars and pages around them.
-const BESIDE_PANES: [&str; 6] = ["context", "widgets", "help", "menu", "scene_bar", "status_bar"];
+const BESIDE_PANES: [&str; 7] = ["context", "widgets", "help", "menu", "scene_bar", "status_bar", "figure_page"];
 
 #[test]
 fn each_file_of_a_pane_is_registered_under_its_title() {

@@ -141,11 +141,11 @@ fn an_ending_that_cannot_be_written_is_refused_and_stays() {
     let mut window = window(Files::new(None).without_dialogs());
     export(&mut window, Format::Svg);
     until_box(&mut window);
-    for name in ["a.pdf", "b.tiff", "c.xyz"] {
+    for name in ["a.eps", "b.tiff", "c.xyz"] {
         let path = folder.path().join(name);
         type_path(&mut window, path.to_str().unwrap());
         enter(&mut window);
-        assert!(says(&window, "this can be saved as .svg, .png, .csv or .json"), "{name}");
+        assert!(says(&window, "this can be saved as .svg, .pdf, .png, .csv or .json"), "{name}");
         assert_eq!(text(&window), path.to_str().unwrap(), "to be mended");
     }
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
@@ -170,13 +170,13 @@ fn the_systems_dialog_follows_the_ending_too() {
         assert_eq!(form_of(&path), form);
     }
     let Question::Save { endings, .. } = dialogs.asked.lock().unwrap()[0].clone() else { panic!("not to save") };
-    assert_eq!(endings, ["svg", "png", "csv", "json"]);
+    assert_eq!(endings, ["svg", "pdf", "png", "csv", "json"]);
     // The dialog has closed: the path goes on in the box, with the reason.
     export(&mut window, Format::Svg);
-    answer.send(Answer::Chosen(vec![folder.path().join("d.pdf")])).unwrap();
+    answer.send(Answer::Chosen(vec![folder.path().join("d.eps")])).unwrap();
     until_box(&mut window);
-    assert!(says(&window, "Cannot write .pdf files here") && !says(&window, "No file dialog here"));
-    assert_eq!(text(&window), folder.path().join("d.pdf").to_str().unwrap());
+    assert!(says(&window, "Cannot write .eps files here") && !says(&window, "No file dialog here"));
+    assert_eq!(text(&window), folder.path().join("d.eps").to_str().unwrap());
     // The dialog did not know the extension and could not ask about the existing file, so that the prompt does.
     fs::write(folder.path().join("e.svg"), "mine").unwrap();
     window.key_press(egui::Key::Escape);

@@ -174,3 +174,42 @@ fn a_legend_below_and_titles_outside_enlarge_the_page() {
     assert!(svg(&style).contains(">u′<") && !svg(&none).contains(">u′<"));
     assert!(svg(&outside).contains("rotate(-90"), "the title of y runs upward");
 }
+
+#[test]
+fn a_legend_inside_covers_no_point_and_stands_below_where_none_is_free() {
+    let mut figure = figure();
+    let page = |figure: &Figure| Page::new(figure, &PageStyle::default()).area.height();
+    figure.panels[0].marks = vec![word("a word", [0.1, 0.9])];
+    let below = page(&figure);
+    figure.legend_place = LegendPlace::Inside;
+    assert!(page(&figure) < below - 20.0, "a corner is free");
+    let points = (0..100).map(|i| [f64::from(i % 10) / 9.0, f64::from(i / 10) / 9.0]).collect();
+    figure.panels[0].marks.push(Mark::new(Tag(0), "all over", Shape::Line { points, closed: false }));
+    assert_eq!(page(&figure), below, "none is");
+}
+
+#[test]
+fn a_legend_below_a_narrow_figure_has_as_few_rows_as_fit() {
+    let mut figure = figure();
+    let entry = figure.legend[0].clone();
+    let names = ["CIE 1931 2° (reference)", "Canon EOS 5D Mark II", "Nikon D70 (A.M.P.A.S.)", "Kodak DCS200"];
+    figure.legend = names.map(|name| LegendEntry { name: name.to_owned(), ..entry.clone() }).to_vec();
+    let height = |width: f64| {
+        let figure = Figure { size: [width, 200.0], ..figure.clone() };
+        let area = Page::new(&figure, &PageStyle::default()).area;
+        assert!(area.width() <= width + 16.5, "{width} {}", area.width());
+        area.height()
+    };
+    let [wide, column, narrow] = [1000.0, 375.0, 250.0].map(height);
+    assert!(wide + 15.0 < column && column + 30.0 < narrow, "one row, two rows, four rows: {wide} {column} {narrow}");
+}
+
+#[test]
+fn titles_of_y_stay_in_the_plot_where_they_are_longer_than_it_is_high() {
+    let mut figure = figure();
+    let outside = PageStyle { axis_titles: AxisTitles::Outside, ..PageStyle::default() };
+    let width = |figure: &Figure| Page::new(figure, &outside).area.width();
+    let beside = width(&figure);
+    figure.panels[0].y.label = "a quantity whose name is longer than its plot is high".to_owned();
+    assert!(width(&figure) < beside);
+}

@@ -120,7 +120,7 @@ impl Dash {
 }
 
 /// The geometry of a mark. Coordinates are in the panel's data units, radii and offsets in points.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub enum Shape {
     /// A line through points.
     Line {
@@ -184,6 +184,37 @@ pub enum Shape {
         /// Start and end of each.
         segments: Vec<[[f64; 2]; 2]>,
     },
+}
+
+impl PartialEq for Shape {
+    /// Gaps in a line equal each other, so that a figure equals its clone.
+    fn eq(&self, other: &Self) -> bool {
+        let is_same = |a: &f64, b: &f64| a == b || (!a.is_finite() && !b.is_finite());
+        let all_same = |a: &[[f64; 2]], b: &[[f64; 2]]| {
+            a.len() == b.len() && a.as_flattened().iter().zip(b.as_flattened()).all(|(a, b)| is_same(a, b))
+        };
+        match (self, other) {
+            (Self::Line { points: a, closed: c }, Self::Line { points: b, closed: d }) => c == d && all_same(a, b),
+            (Self::Gradient { points: a }, Self::Gradient { points: b }) => a == b,
+            (
+                Self::Points { points: a, marker, radius },
+                Self::Points { points: b, marker: other_marker, radius: other_radius },
+            ) => (marker, radius) == (other_marker, other_radius) && all_same(a, b),
+            (
+                Self::Text { at: a, text: b, anchor: c, offset: d, size: e, ink: f },
+                Self::Text { at: u, text: v, anchor: w, offset: x, size: y, ink: z },
+            ) => (a, b, c, d, e, f) == (u, v, w, x, y, z),
+            (Self::Rect { min: a, max: b }, Self::Rect { min: c, max: d }) => (a, b) == (c, d),
+            (Self::Polygon { points: a }, Self::Polygon { points: b }) => all_same(a, b),
+            (Self::Image { min: a, max: b, image: c }, Self::Image { min: d, max: e, image: f }) => {
+                (a, b, c) == (d, e, f)
+            }
+            (Self::Segments { segments: a }, Self::Segments { segments: b }) => {
+                all_same(a.as_flattened(), b.as_flattened())
+            }
+            _ => false,
+        }
+    }
 }
 
 /// A picture with straight alpha, sRGB, rows from the top.

@@ -18,6 +18,7 @@ pub(super) use canvas::{Canvas, Label};
 
 /// Position of the titles of the axes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum AxisTitles {
     /// In the corners of the plot.
     #[default]
@@ -50,7 +51,7 @@ impl Default for PageStyle {
 pub struct Page {
     /// The page, around the figure's origin.
     pub area: Rect,
-    legend: Option<Rect>,
+    legend: (LegendPlace, Option<Rect>),
     caption: Vec<String>,
     /// Height of the figure without legend and caption.
     height: f64,
@@ -67,7 +68,8 @@ impl Page {
         let titles = panels::room_of_titles(&figure.panels, style.axis_titles);
         let [width, height] = [0, 1].map(|side| figure.size[side] + titles[side]);
         let mut size = [width, height];
-        let legend = legend::outside(figure, size);
+        let place = legend::place(figure);
+        let legend = legend::outside(figure, place, size);
         if let Some(legend) = legend {
             size = [size[0].max(legend.max[0]), size[1].max(legend.max[1])];
         }
@@ -77,7 +79,7 @@ impl Page {
             size[1] += Self::CAPTION_GAP + Self::CAPTION_LINE * caption.len() as f64;
         }
         let area = Rect::from_min_size([-Self::MARGIN; 2], size.map(|side| side + 2.0 * Self::MARGIN));
-        Self { area, legend, caption, height: top }
+        Self { area, legend: (place, legend), caption, height: top }
     }
 
     /// Width and height that the page has beyond the figure's own size.
@@ -86,7 +88,7 @@ impl Page {
     }
 
     /// Points on paper for each point of the figure.
-    pub(super) fn scale(&self, style: &PageStyle) -> f64 {
+    pub fn scale(&self, style: &PageStyle) -> f64 {
         style.width_mm.map_or(1.0, |mm| mm / 25.4 * 72.0 / self.area.width().max(1.0))
     }
 }
@@ -101,8 +103,8 @@ pub(super) fn draw(figure: &Figure, page: &Page, style: &PageStyle, palette: &dy
         panels::draw(&mut brush, titled, projection);
     }
     if !figure.legend.is_empty() && figure.legend_place != LegendPlace::None {
-        let first = panels.first().map(|titled| &titled.panel).zip(projections.first());
-        legend::draw(&mut brush, figure, page.legend, first);
+        let drawn: Vec<_> = panels.iter().map(|titled| &titled.panel).zip(&projections).collect();
+        legend::draw(&mut brush, figure, page.legend, &drawn);
     }
     for (i, line) in page.caption.iter().enumerate() {
         let y = page.height + 8.0 + Page::CAPTION_LINE * i as f64;

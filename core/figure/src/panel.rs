@@ -67,16 +67,19 @@ pub struct LegendEntry {
 
 /// Position of a legend.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum LegendPlace {
-    /// Inside the first panel, upper right, below the panel's note.
+    /// Inside the largest panel, upper right, below the panel's note.
     #[default]
     UpperRight,
-    /// Inside the first panel, upper left.
+    /// Inside the largest panel, upper left.
     UpperLeft,
-    /// Inside the first panel, lower right.
+    /// Inside the largest panel, lower right.
     LowerRight,
-    /// Inside the first panel, lower left.
+    /// Inside the largest panel, lower left.
     LowerLeft,
+    /// In a corner of the largest panel where it covers no point, else below.
+    Inside,
     /// In a column right of the figure, which grows by it.
     Outside,
     /// In rows below the figure, which grows by them.

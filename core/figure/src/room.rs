@@ -2,6 +2,7 @@
 
 /// Ranges of the axes of a saved figure.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum AxisRanges {
     /// Those on screen, zoomed or not.
     #[default]
@@ -12,6 +13,7 @@ pub enum AxisRanges {
 
 /// Extent of the numbers written with a figure.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Numbers {
     /// Everything that the figure is made from.
     #[default]
@@ -45,10 +47,14 @@ impl FigureRoom {
     /// The least side of a figure.
     const LEAST: f64 = 80.0;
 
+    /// The height below which a figure that is free to be higher keeps its own.
+    const LEAST_HEIGHT: f64 = 240.0;
+
     /// Size of a figure that has this size by itself, with a part of fixed height below.
     pub fn size(&self, own: [f64; 2], below: f64) -> [f64; 2] {
         let width = self.width.unwrap_or(own[0]).max(Self::LEAST);
-        let height = self.height.map_or(own[1] / own[0] * width, |height| height - below);
+        let proper = (own[1] / own[0] * width).max(own[1].min(Self::LEAST_HEIGHT));
+        let height = self.height.map_or(proper, |height| height - below);
         [width, height.max(Self::LEAST)]
     }
 }

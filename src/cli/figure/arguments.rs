@@ -19,7 +19,7 @@ pub(in crate::cli) const EXAMPLES: &str = "Examples:
   chromascope figure render --mesh fern --width 174mm --out figure8.pdf
   chromascope figure chromaticity --range 0.3,0.5,0.3,0.42 --numbers visible --out points.csv
 
-The ending of the file decides its form: .pdf, .svg, .png or .csv, the numbers behind the figure. Text keeps its size
+The ending of the file decides its form: .pdf, .svg, .png, .tif or .csv, the numbers behind the figure. Text keeps its size
 whatever the width: the figure is laid out for it. In a PDF text can be searched, and its fonts are embedded.";
 
 /// Arguments of `figure`.
@@ -34,11 +34,15 @@ pub(in crate::cli) struct FigureArguments {
     pub(super) common: CommonArguments,
     /// A saved document, in place of sensors, reference, illuminant and patches
     #[arg(long, value_name = "FILE", conflicts_with_all = ["observer", "camera", "per", "reference", "transform", "fit_to",
-          "correction", "training", "illuminant", "filter", "white", "chart"])]
+          "correction", "training", "illuminant", "filter", "white", "chart",
+          "second_light"])]
     pub(super) session: Option<PathBuf>,
     /// A chart, a material, or a file with reflectances [default: the preset's]
     #[arg(long, value_name = "NAME|FILE")]
     pub(super) chart: Option<OsString>,
+    /// The second light of `correction`: a name or a file with one curve
+    #[arg(long, value_name = "NAME|FILE")]
+    pub(super) second_light: Option<OsString>,
     /// What is rendered: head, fern, sphere, plane, or an OBJ, PLY or STL file [default: the head, or the session's]
     #[arg(long, value_name = "MESH")]
     pub(super) mesh: Option<OsString>,
@@ -69,7 +73,7 @@ pub(super) enum FigureKind {
     HeadToHead,
     /// All figures of merit of one camera
     ReportCard,
-    /// Error of a correction between its two lights; needs a session with a second light
+    /// Error of a correction between its two lights; needs a second light
     Correction,
     /// Curves of a file
     Curves,
@@ -120,7 +124,7 @@ pub(super) struct PaperArguments {
     /// Factor on the widths of lines and on markers
     #[arg(long, value_name = "FACTOR", default_value_t = 1.0, value_parser = factor, help_heading = PAPER)]
     line_width: f64,
-    /// Resolution of PNG, in pixels per inch
+    /// Resolution of PNG and TIFF, in pixels per inch
     #[arg(long, value_name = "DPI", default_value_t = 300.0, value_parser = dpi, help_heading = PAPER)]
     dpi: f64,
     /// Colors of ground, text and frames
@@ -204,6 +208,8 @@ enum InksName {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum LegendName {
+    /// Inside, in a corner where it covers no point; below where there is none
+    Inside,
     /// Inside, at the upper right
     UpperRight,
     /// Inside, at the upper left
@@ -212,7 +218,7 @@ enum LegendName {
     LowerRight,
     /// Inside, at the lower left
     LowerLeft,
-    /// Right of the figure
+    /// Right of the figure; below where that would take half of the width
     Beside,
     /// Below the figure
     Below,
@@ -223,6 +229,7 @@ enum LegendName {
 impl LegendName {
     fn place(self) -> LegendPlace {
         match self {
+            Self::Inside => LegendPlace::Inside,
             Self::UpperRight => LegendPlace::UpperRight,
             Self::UpperLeft => LegendPlace::UpperLeft,
             Self::LowerRight => LegendPlace::LowerRight,
@@ -284,19 +291,19 @@ fn millimeters(text: &str) -> Result<f64, String> {
     let found = units.iter().find_map(|(unit, mm)| Some((text.trim().strip_suffix(unit)?, mm)));
     let (number, mm) = found.ok_or("a length needs a unit, such as 85mm or 3.35in")?;
     let length = number.trim().parse::<f64>().map_err(|error| error.to_string())? * mm;
-    within(length, [20.0, 2000.0], "mm")
+    within(length, Paper::SIDE_MM, "mm")
 }
 
 fn points(text: &str) -> Result<f64, String> {
-    within(text.parse().map_err(|_| "not a number".to_owned())?, [3.0, 48.0], "points")
+    within(text.parse().map_err(|_| "not a number".to_owned())?, Paper::FONT_PT, "points")
 }
 
 fn factor(text: &str) -> Result<f64, String> {
-    within(text.parse().map_err(|_| "not a number".to_owned())?, [0.1, 10.0], "")
+    within(text.parse().map_err(|_| "not a number".to_owned())?, Paper::LINE_SCALE, "")
 }
 
 fn dpi(text: &str) -> Result<f64, String> {
-    within(text.parse().map_err(|_| "not a number".to_owned())?, [36.0, 2400.0], "pixels per inch")
+    within(text.parse().map_err(|_| "not a number".to_owned())?, Paper::DPI, "pixels per inch")
 }
 
 fn within(value: f64, [low, high]: [f64; 2], unit: &str) -> Result<f64, String> {

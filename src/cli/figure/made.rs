@@ -7,7 +7,6 @@ use std::time::Instant;
 
 use chromascope_core::correction::aces::IdtExposure;
 use chromascope_core::query::{Ask as _, RecordedSet, Shared};
-use chromascope_core::render::{Quality, RasterSize, Shadows};
 use chromascope_figure::FigureRoom;
 
 use super::arguments::FigureKind;
@@ -30,13 +29,10 @@ use crate::render_service::RenderedFrame;
 use crate::render_service::made::{PicturesAnswer, PicturesOf};
 use crate::scene::Scene;
 use crate::scene::orbit::Orbit;
-use crate::scene::render::Finish;
 use crate::view::View;
 use crate::view::import::ImportItem;
 use crate::view::render::RenderMode;
 
-/// Samples along the side of a pixel.
-const SAMPLES: u32 = 2;
 /// Longest side of a picture in pixels.
 const MOST_PIXELS: f64 = 2048.0;
 
@@ -113,31 +109,20 @@ fn pictures(scene: &Scene<'_>, view: &View, paper: &Paper) -> Result<RenderedFra
     let width = paper.width_mm.map(|mm| mm / 25.4 * 72.0 / paper.scale());
     let points = picture_width(FigureRoom { width, ..FigureRoom::default() }, count) * paper.scale();
     let side = (points / 72.0 * paper.dpi).round().clamp(16.0, MOST_PIXELS) as u32;
-    let (query, answer) = if let MeshChoice::Image(path) = &scene.document.render.mesh {
+    let frame = if let MeshChoice::Image(path) = &scene.document.render.mesh {
         let source = spectral_images::load(path).map_err(|error| CliError::File(error.to_string()))?.source;
         let query = scene.image_pictures(&source, &sources, scene.image_use(1))?;
-        let answer = scene.results.ask(&query);
-        (PicturesOf::Image(query), PicturesAnswer::Image(answer))
+        let answer = Arc::new(PicturesAnswer::Image(scene.results.ask(&query)));
+        let (query, sources) = (PicturesOf::Image(query), sources.into());
+        RenderedFrame { query, sources, answer, time: start.elapsed(), is_last: true, serial: 0 }
     } else {
-        let settings = &scene.document.render;
         let own = own_mesh(scene.document)?;
         let mesh = scene.mesh_of(own.as_ref()).ok_or_else(|| CliError::File("no mesh".to_owned()))?;
-        let quality = settings.quality();
-        let finish = Finish {
-            size: RasterSize { width: side, height: side, samples: SAMPLES }.clamped(),
-            quality,
-            shadows: if quality == Quality::Preview { Shadows::Coarse } else { Shadows::Full },
-            compared_samples: Some(usize::MAX),
-            open_sky: false,
-        };
-        let orbit = view.saved.render.orbit.unwrap_or_else(|| Orbit::of(&settings.mesh));
-        let viewpoint = orbit.viewpoint(1.0).ok_or_else(|| CliError::File("no viewpoint".to_owned()))?;
-        let query = scene.pictures_of(&sources, mesh, viewpoint, finish, None)?;
-        let answer = scene.results.ask(&query);
-        (PicturesOf::Mesh(query), PicturesAnswer::Mesh(answer))
+        let orbit = view.saved.render.orbit.unwrap_or_else(|| Orbit::of(&scene.document.render.mesh));
+        let frame = RenderedFrame::of_mesh(scene, mesh, orbit, side)?;
+        let frame = frame.ok_or_else(|| CliError::File("no viewpoint".to_owned()))?;
+        RenderedFrame { time: start.elapsed(), ..frame }
     };
-    let (sources, answer) = (sources.into(), Arc::new(answer));
-    let frame = RenderedFrame { query, sources, answer, time: start.elapsed(), is_last: true, serial: 0 };
     match frame.pictures() {
         Ok(_) => {}
         Err(why) => return Err(CliError::File(format!("no picture: {why}"))),

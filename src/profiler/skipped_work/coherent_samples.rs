@@ -16,9 +16,10 @@ pub(super) fn coherent_samples(sources: &Sources<'_>, ask: &impl Ask) -> Option<
     let shading = sources.shading;
     let quality = shading.quality();
     let of = &sources.pictures.shading;
-    let all = shading.shades().len();
+    let lit: Vec<usize> = (0..shading.shades().len()).filter(|&index| sources.is_lit(index)).collect();
+    let all = lit.len();
     let has: BTreeSet<u32> = shading.coherent_samples().iter().map(|coherent| coherent.index).collect();
-    let skipped: Vec<usize> = (0..all).filter(|&index| !has.contains(&(index as u32))).collect();
+    let skipped: Vec<usize> = lit.into_iter().filter(|&index| !has.contains(&(index as u32))).collect();
     if of.reading == Normalization::Lambertian || skipped.is_empty() {
         return None;
     }

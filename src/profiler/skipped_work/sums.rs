@@ -10,8 +10,9 @@ use super::{SAMPLES, SUMS, SkippedWork, Sources, measured_on, some_of};
 
 /// Work skipped for dark samples; their sums are computed here.
 pub(super) fn dark(sources: &Sources<'_>) -> Option<SkippedWork> {
-    let shades = sources.shading.shades();
-    let dark: Vec<&Shade> = shades.iter().filter(|shade| shade.kind == DiffuseKind::Dark).collect();
+    let shades = sources.shading.shades().iter().enumerate();
+    let lit: Vec<&Shade> = shades.filter(|(index, _)| sources.is_lit(*index)).map(|(_, shade)| shade).collect();
+    let dark: Vec<&Shade> = lit.iter().copied().filter(|shade| shade.kind == DiffuseKind::Dark).collect();
     let taken = some_of(&dark, SAMPLES);
     if taken.is_empty() {
         return None;
@@ -30,7 +31,7 @@ pub(super) fn dark(sources: &Sources<'_>) -> Option<SkippedWork> {
     Some(SkippedWork {
         what: format!("lit {places} below the threshold").into(),
         count: dark.len() as u64,
-        of: Some(shades.len() as u64),
+        of: Some(lit.len() as u64),
         saved: seconds * dark.len() as f64 / taken.len() as f64,
         how: format!(
             "{threshold}: sums at nine wavelengths; {}, one thread",

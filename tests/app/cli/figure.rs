@@ -2,6 +2,8 @@
 
 use std::fs;
 
+use chromascope::panes;
+
 use super::run;
 
 #[test]
@@ -9,9 +11,13 @@ fn a_figure_takes_the_form_of_its_file_and_the_session_it_is_given() {
     let folder = tempfile::tempdir().expect("a folder");
     let at = |name: &str| folder.path().join(name).to_string_lossy().into_owned();
     fs::write(at("work.json"), "{\"format\":\"chromascope\",\"version\":1,\"diagram\":\"uv-prime\"}").expect("written");
-    for (name, beginning) in
-        [("a.pdf", &b"%PDF-"[..]), ("a.svg", b"<svg"), ("a.png", b"\x89PNG"), ("a.csv", b"sensor,")]
-    {
+    for (name, beginning) in [
+        ("a.pdf", &b"%PDF-"[..]),
+        ("a.svg", b"<svg"),
+        ("a.png", b"\x89PNG"),
+        ("a.tif", b"II*\0"),
+        ("a.csv", b"sensor,"),
+    ] {
         let out = at(name);
         let done = run(&["figure", "chromaticity", "--session", &at("work.json"), "--width", "3in", "--out", &out]);
         assert!(done.status.success(), "{name}: {}", String::from_utf8_lossy(&done.stderr));
@@ -28,4 +34,74 @@ fn a_figure_without_a_form_or_a_unit_is_refused() {
         let done = run(&[&["figure", "spectra"], arguments].concat());
         assert_eq!(done.status.code(), Some(2), "{arguments:?}");
     }
+}
+
+#[test]
+fn every_figure_of_the_window_is_listed() {
+    let help = String::from_utf8(run(&["figure", "--help"]).stdout).expect("text");
+    for pane in panes::ALL.iter().filter(|pane| pane.figure.is_some()) {
+        let name = pane.title.to_lowercase().replace(' ', "-");
+        assert!(help.contains(&format!("- {name}:")), "{name} is not in\n{help}");
+    }
+}
+
+#[test]
+fn every_figure_of_a_scene_is_made_at_one_column() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let at = |name: &str| folder.path().join(name).to_string_lossy().into_owned();
+    let raw = "patch,R,G,B\ndark skin,0.12,0.09,0.06\nlight skin,0.38,0.29,0.25\nblue sky,0.16,0.19,0.31\n\
+               foliage,0.11,0.14,0.06\nblue flower,0.25,0.22,0.40\nbluish green,0.29,0.43,0.43\n";
+    fs::write(at("raw.csv"), raw).expect("written");
+    let curves = "nm,first,second\n400,0.1,0.3\n500,0.5,0.2\n600,0.7,0.1\n700,0.8,0.9\n";
+    fs::write(at("curves.csv"), curves).expect("written");
+    let (raw, curves) = (at("raw.csv"), at("curves.csv"));
+    for (kind, arguments) in [
+        ("strip", &[][..]),
+        ("light", &["--illuminant", "A"]),
+        ("render", &["--mesh", "sphere", "--dpi", "40"]),
+        ("difference", &["--mesh", "plane", "--dpi", "40"]),
+        ("head-to-head", &[]),
+        ("report-card", &[]),
+        ("recorded", &[raw.as_str()]),
+        ("curves", &[curves.as_str()]),
+        ("correction", &["--second-light", "A"]),
+    ] {
+        let out = at(&format!("{kind}.svg"));
+        let done = run(&[&["figure", kind, "--out", &out], arguments].concat());
+        assert!(done.status.success(), "{kind}: {}", String::from_utf8_lossy(&done.stderr));
+        let svg = fs::read_to_string(&out).expect("a file");
+        assert!(svg.contains("width=\"85mm\"") && svg.contains("<text"), "{kind}");
+    }
+}
+
+#[test]
+fn numbers_are_all_or_those_within_the_axes() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let rows = |name: &str, arguments: &[&str]| {
+        let out = folder.path().join(name).to_string_lossy().into_owned();
+        let done = run(&[&["figure", "chromaticity", "--out", &out], arguments].concat());
+        assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
+        let text = fs::read_to_string(&out).expect("a file");
+        text.lines().skip(1).map(|line| line.split(',').map(str::to_owned).collect()).collect::<Vec<Vec<String>>>()
+    };
+    let range = ["--range", "0.3,0.4,0.3,0.4"];
+    let all = rows("all.csv", &range);
+    let visible = rows("visible.csv", &[&range[..], &["--numbers", "visible"]].concat());
+    assert!(!visible.is_empty() && visible.len() < all.len() / 2, "{} of {}", visible.len(), all.len());
+    // The diagram enlarges one range to equal units on both axes.
+    assert!(visible.iter().all(|row| all.contains(row) && row[5].parse::<f64>().is_ok_and(|y| y > 0.2 && y < 0.5)));
+    let data = rows("data.csv", &["--numbers", "visible"]);
+    assert!(data.len() > visible.len());
+}
+
+#[test]
+fn a_height_that_rows_do_not_have_is_refused() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let out = folder.path().join("a.svg").to_string_lossy().into_owned();
+    let done = run(&["figure", "head-to-head", "--height", "50mm", "--out", &out]);
+    assert_eq!(done.status.code(), Some(2));
+    assert!(String::from_utf8_lossy(&done.stderr).contains("mm high"));
+    let done = run(&["figure", "chromaticity", "--height", "90mm", "--out", &out]);
+    assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
+    assert!(fs::read_to_string(&out).expect("a file").contains("height=\"90"));
 }

@@ -1,6 +1,6 @@
-//! The legend: inside the first plot, beside the figure, or below it.
+//! The legend: inside the largest plot, beside the figure, or below it.
 
-use super::{Brush, Label};
+use super::{Brush, Label, marks};
 use crate::figure::Figure;
 use crate::ink::{Ink, InkRole};
 use crate::mark::{Anchor, Stroke, TextSize};
@@ -14,6 +14,8 @@ const KEY: f64 = 28.0;
 const PAD: f64 = 8.0;
 /// Most columns below a figure.
 const MOST_COLUMNS: usize = 6;
+/// Width below which a legend inside is small.
+const NARROW: f64 = 500.0;
 /// Distance from the figure.
 const GAP: f64 = 12.0;
 
@@ -49,6 +51,11 @@ impl Columns {
         if body.widths.len() == 1 && small.widths.len() > 1 { small } else { body }
     }
 
+    /// One column in a plot: of small text in a narrow figure, where it would cover too much.
+    fn inside(entries: &[LegendEntry], width: f64) -> Self {
+        Self::new(entries, 1, if width < NARROW { TextSize::Small } else { TextSize::Body })
+    }
+
     fn rows(&self, entries: &[LegendEntry]) -> usize {
         entries.len().div_ceil(self.widths.len())
     }
@@ -63,8 +70,8 @@ impl Columns {
 }
 
 /// The rectangle of a legend that stands outside of a figure of the given size.
-pub(super) fn outside(figure: &Figure, [width, height]: [f64; 2]) -> Option<Rect> {
-    match figure.legend_place {
+pub(super) fn outside(figure: &Figure, place: LegendPlace, [width, height]: [f64; 2]) -> Option<Rect> {
+    match place {
         _ if figure.legend.is_empty() => None,
         LegendPlace::Outside => {
             let size = Columns::new(&figure.legend, 1, TextSize::Body).size(&figure.legend);
@@ -80,21 +87,22 @@ pub(super) fn outside(figure: &Figure, [width, height]: [f64; 2]) -> Option<Rect
     }
 }
 
-/// Draws the legend in its rectangle outside, or inside the first panel.
+/// Draws the legend in its rectangle outside, or inside the largest panel.
 pub(super) fn draw(
     brush: &mut Brush<'_>,
     figure: &Figure,
-    outside: Option<Rect>,
-    first: Option<(&Panel, &Projection)>,
+    (place, outside): (LegendPlace, Option<Rect>),
+    panels: &[(&Panel, &Projection)],
 ) {
-    let area = outside.unwrap_or_else(|| inside(figure, first));
+    let area = outside.unwrap_or_else(|| inside(figure, place, panels));
     if outside.is_none() {
         let ground = Ink { role: InkRole::Plot, alpha: 0.9 };
         brush.rect(area, Some(Stroke::solid(InkRole::Line, 1.0)), Some(ground));
     }
-    let (columns, inset) = match figure.legend_place {
+    let (columns, inset) = match place {
         LegendPlace::Below => (Columns::below(&figure.legend, area.width()), 0.0),
-        _ => (Columns::new(&figure.legend, 1, TextSize::Body), PAD),
+        LegendPlace::Outside => (Columns::new(&figure.legend, 1, TextSize::Body), PAD),
+        _ => (Columns::inside(&figure.legend, figure.size[0]), PAD),
     };
     for (i, entry) in figure.legend.iter().enumerate() {
         let column = i % columns.widths.len();
@@ -106,15 +114,35 @@ pub(super) fn draw(
     }
 }
 
-fn inside(figure: &Figure, first: Option<(&Panel, &Projection)>) -> Rect {
-    let size = Columns::new(&figure.legend, 1, TextSize::Body).size(&figure.legend);
-    let whole = Rect::from_min_size([0.0, 0.0], figure.size);
-    let plot = first.map_or(whole, |(_, projection)| projection.plot);
-    let note = if first.is_some_and(|(panel, _)| !panel.note.is_empty()) { 18.0 } else { 0.0 };
+/// Place of the legend: [`LegendPlace::Inside`] is the corner where it covers no point, else it stands below.
+pub(super) fn place(figure: &Figure) -> LegendPlace {
+    if figure.legend_place != LegendPlace::Inside {
+        return figure.legend_place;
+    }
+    let projections: Vec<Projection> = figure.panels.iter().map(|panel| Projection::new(panel, 1.0)).collect();
+    let panels: Vec<_> = figure.panels.iter().zip(&projections).collect();
+    let Some((panel, projection)) = largest(&panels) else { return LegendPlace::Below };
+    [LegendPlace::UpperRight, LegendPlace::UpperLeft, LegendPlace::LowerRight, LegendPlace::LowerLeft]
+        .into_iter()
+        .find(|place| !marks::has_points_in(panel, projection, inside(figure, *place, &panels)))
+        .unwrap_or(LegendPlace::Below)
+}
+
+fn largest<'a>(panels: &[(&'a Panel, &'a Projection)]) -> Option<(&'a Panel, &'a Projection)> {
+    let area = |plot: Rect| plot.width() * plot.height();
+    panels.iter().copied().max_by(|a, b| area(a.1.plot).total_cmp(&area(b.1.plot)))
+}
+
+/// The rectangle of a legend in a corner of the largest panel.
+fn inside(figure: &Figure, place: LegendPlace, panels: &[(&Panel, &Projection)]) -> Rect {
+    let size = Columns::inside(&figure.legend, figure.size[0]).size(&figure.legend);
+    let largest = largest(panels);
+    let plot = largest.map_or(Rect::from_min_size([0.0, 0.0], figure.size), |(_, projection)| projection.plot);
+    let note = if largest.is_some_and(|(panel, _)| !panel.note.is_empty()) { 18.0 } else { 0.0 };
     let (left, right) = (plot.min[0] + PAD, plot.max[0] - PAD - size[0]);
     let (top, bottom) = (plot.min[1] + PAD, plot.max[1] - PAD - size[1]);
     // The corners hold the labels of the axes and the note.
-    let min = match figure.legend_place {
+    let min = match place {
         LegendPlace::UpperLeft => [left, top + 16.0],
         LegendPlace::LowerRight => [right, bottom - 16.0],
         LegendPlace::LowerLeft => [left, bottom],

@@ -4,6 +4,7 @@ use super::clip::{self, contains, enlarged};
 use super::{Brush, Label, ground};
 use crate::ink::{Ink, InkRole};
 use crate::mark::{Image, Mark, Rgb, Shape, Stroke, finite_runs};
+use crate::panel::Panel;
 use crate::projection::Projection;
 use crate::rect::Rect;
 use crate::text::text_width;
@@ -75,6 +76,17 @@ pub(super) fn draw(brush: &mut Brush<'_>, mark: &Mark, projection: &Projection) 
 /// The place of a point. Far off the page it is held, so that sums and differences are finite.
 fn at(projection: &Projection, point: [f64; 2]) -> [f64; 2] {
     projection.at(point).map(|v| v.clamp(-1e6, 1e6))
+}
+
+/// True if a marker, a line or a text of a panel has a point in a rectangle.
+pub(super) fn has_points_in(panel: &Panel, projection: &Projection, area: Rect) -> bool {
+    let inside = |point: &[f64; 2]| contains(area, at(projection, *point));
+    panel.marks.iter().any(|mark| match &mark.shape {
+        Shape::Line { points, .. } | Shape::Points { points, .. } => points.iter().any(inside),
+        Shape::Gradient { points } => points.iter().any(|(point, _)| inside(point)),
+        Shape::Text { at, .. } => inside(at),
+        _ => false,
+    })
 }
 
 fn halo_stroke(mark: &Mark) -> Option<Stroke> {

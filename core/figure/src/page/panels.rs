@@ -19,42 +19,64 @@ pub(super) struct Titled {
     y: String,
 }
 
-/// Left sides of panels with a title of y, lower sides of those with one of x.
-fn titled_sides(panels: &[Panel]) -> [Vec<f64>; 2] {
-    let sides = |side: fn(&Panel) -> Option<f64>| {
+/// True if the titles of y may stand along the axes: each is shorter than its plot is high.
+fn titles_fit(panels: &[Panel]) -> bool {
+    panels
+        .iter()
+        .all(|panel| text_width(&panel.y.label, TextSize::Small) <= panel.area.height() - Projection::bottom(&panel.x))
+}
+
+/// Left sides of panels with a title of y, lower sides of those with one of x, that stand outside in this layout. Titles of x with a
+/// line of their own are outside already.
+fn titled_sides(panels: &[Panel], titles: AxisTitles) -> [Vec<f64>; 2] {
+    let sides = |side: &dyn Fn(&Panel) -> Option<f64>| {
         let mut sides: Vec<f64> = panels.iter().filter_map(side).collect();
         sides.sort_by(f64::total_cmp);
         sides.dedup_by(|a, b| (*a - *b).abs() < 0.5);
         sides
     };
-    let left = |panel: &Panel| (!panel.y.label.is_empty()).then_some(panel.area.min[0]);
-    let lower = |panel: &Panel| (!panel.x.label.is_empty()).then_some(panel.area.max[1]);
-    [sides(left), sides(lower)]
+    if titles != AxisTitles::Outside {
+        return [Vec::new(), Vec::new()];
+    }
+    let fit = titles_fit(panels);
+    let left = |panel: &Panel| (fit && !panel.y.label.is_empty()).then_some(panel.area.min[0]);
+    let lower = |panel: &Panel| (!panel.x.label.is_empty() && !panel.x.has_title_line()).then_some(panel.area.max[1]);
+    [sides(&left), sides(&lower)]
 }
 
 /// Width and height by which a figure grows for the titles of its axes.
 pub(super) fn room_of_titles(panels: &[Panel], titles: AxisTitles) -> [f64; 2] {
-    if titles == AxisTitles::Outside { titled_sides(panels).map(|sides| TITLE * sides.len() as f64) } else { [0.0; 2] }
+    titled_sides(panels, titles).map(|sides| TITLE * sides.len() as f64)
 }
 
 /// The panels, moved apart by the titles of their axes.
 pub(super) fn spread(panels: &[Panel], titles: AxisTitles) -> Vec<Titled> {
-    let [left, lower] = titled_sides(panels);
+    let [left, lower] = titled_sides(panels, titles);
+    // Sides at the same height have one title, below which the next panel stands.
     let before = |sides: &[f64], edge: f64| TITLE * sides.iter().filter(|side| **side <= edge + 0.5).count() as f64;
+    let fit = titles_fit(panels);
     let place = |panel: &Panel| {
-        let mut panel = panel.clone();
-        if titles == AxisTitles::Inside {
-            return Titled { panel, x: String::new(), y: String::new() };
+        let mut titled = Titled { panel: panel.clone(), x: String::new(), y: String::new() };
+        let Panel { area, x, y, .. } = &mut titled.panel;
+        match titles {
+            AxisTitles::Inside => {}
+            AxisTitles::None => {
+                x.label.clear();
+                y.label.clear();
+            }
+            AxisTitles::Outside => {
+                if !x.has_title_line() {
+                    titled.x = std::mem::take(&mut x.label);
+                }
+                if fit {
+                    titled.y = std::mem::take(&mut y.label);
+                }
+                let size = [area.width(), area.height()];
+                let moved = [area.min[0] + before(&left, area.min[0]), area.min[1] + before(&lower, area.min[1])];
+                *area = Rect::from_min_size(moved, size);
+            }
         }
-        let [x, y] = [&mut panel.x.label, &mut panel.y.label].map(std::mem::take);
-        if titles == AxisTitles::None {
-            return Titled { panel, x: String::new(), y: String::new() };
-        }
-        let Rect { min, .. } = panel.area;
-        let size = [panel.area.width(), panel.area.height()];
-        let moved = [min[0] + before(&left, min[0]), min[1] + before(&lower, min[1])];
-        panel.area = Rect::from_min_size(moved, size);
-        Titled { panel, x, y }
+        titled
     };
     panels.iter().map(place).collect()
 }
@@ -118,11 +140,11 @@ fn draw_tick_labels(brush: &mut Brush<'_>, panel: &Panel, projection: &Projectio
 }
 
 fn draw_titles(brush: &mut Brush<'_>, titled: &Titled, projection: &Projection) {
-    let (plot, area, ink) = (projection.plot, titled.panel.area, Ink::new(InkRole::Text));
+    let (plot, area, ink) = (projection.plot, titled.panel.area, Ink::new(InkRole::Weak));
     let middle = [0, 1].map(|axis| 0.5 * (plot.min[axis] + plot.max[axis]));
     let below = [middle[0], area.max[1] + 0.5 * TITLE];
-    brush.text(&Label::new(below, &titled.x, Anchor::CENTER, TextSize::Body, ink));
+    brush.text(&Label::new(below, &titled.x, Anchor::CENTER, TextSize::Small, ink));
     let beside = [area.min[0] - 0.5 * TITLE, middle[1]];
-    let label = Label::new(beside, &titled.y, Anchor::CENTER, TextSize::Body, ink);
+    let label = Label::new(beside, &titled.y, Anchor::CENTER, TextSize::Small, ink);
     brush.text(&Label { upward: true, ..label });
 }

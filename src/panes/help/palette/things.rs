@@ -4,7 +4,7 @@ use super::{Found, IN_HELP};
 use crate::action::history::History;
 use crate::action::{Action, CompareAction, RenderAction, SceneAction};
 use crate::catalog::Entry;
-use crate::command::{Command, Format, TourMove, key_bindings, key_name};
+use crate::command::{Command, Format, REPORTS, TourMove, key_bindings, key_name};
 use crate::document::start::Start;
 use crate::document::{LOCUS_RANGE_K, Light, SetKind, WhiteBalanceChoice};
 use crate::help;
@@ -104,7 +104,10 @@ pub(super) fn panes(context: &PaneContext<'_>) -> Vec<Found> {
 pub(super) fn saves(context: &PaneContext<'_>) -> Vec<Found> {
     let mut found = Vec::new();
     for pane in context.panes.iter().filter(|pane| pane.figure.is_some()) {
+        let page = Found::new("Save", format!("Figure page of {}", pane.title), Command::FigurePage(pane.kind));
+        found.push(page.also("print paper export PDF journal"));
         for (format, words) in [
+            (Format::Pdf, "as PDF"),
             (Format::Svg, "as SVG"),
             (Format::Png, "as PNG"),
             (Format::Csv, "numbers as CSV"),
@@ -114,6 +117,10 @@ pub(super) fn saves(context: &PaneContext<'_>) -> Vec<Found> {
             found
                 .push(Found::new("Save", words, Command::Export(pane.kind, format)).also("export figure picture file"));
         }
+    }
+    for (on, words) in REPORTS {
+        let words = format!("Report on the paper: {}", words.to_lowercase());
+        found.push(Found::new("Save", words, Command::Report(on)).also("figures claims export pdf html"));
     }
     for form in CorrectionForm::ALL.into_iter().filter(|_| context.view.correction.shown.is_some()) {
         let (words, hint) = form.words();

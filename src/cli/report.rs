@@ -1,0 +1,92 @@
+//! `report`: the paper's figures and claims with public data, as files in a folder.
+
+use std::ffi::OsString;
+use std::io;
+use std::path::PathBuf;
+
+use clap::Args;
+
+use super::error::CliError;
+use super::outputs::{self, show, write_to};
+use super::per::Per;
+use super::render::make_folder;
+use super::request::Request;
+use crate::document::start::Start;
+use crate::document::{Document, SetKind};
+use crate::report::{PAGE, PIXELS, Report};
+use crate::results::Results;
+use crate::terminal::draw_progress;
+
+pub(super) const EXAMPLES: &str = "Examples:
+  chromascope report --out report
+  chromascope report --out mine --camera \"Canon EOS 5D Mark II\" --camera mine.csv --chart \"ColorChecker 24\"
+
+The folder gets Figures 1 to 9 of the paper as PDF, SVG, PNG and CSV (the numbers behind them), claims.csv with each claim, what is
+found and its stated accuracy, and report.html: one page with all of that, without links to the network. Claims about cameras that
+are not in the report are not judged.";
+
+/// Arguments of `report`.
+#[derive(Debug, Args)]
+pub(super) struct ReportArguments {
+    /// A folder, made if it is not there
+    #[arg(long, value_name = "FOLDER")]
+    pub(super) out: PathBuf,
+    /// A camera in place of the paper's, or a file with three sensitivities; may be repeated
+    #[arg(long, value_name = "NAME|FILE")]
+    pub(super) camera: Vec<OsString>,
+    /// Unit of the sensitivities in camera files, overriding the files: response per energy or per photon
+    #[arg(long, value_enum, value_name = "UNIT", requires = "camera")]
+    pub(super) per: Option<Per>,
+    /// A chart, a material, or a file with reflectances in place of the five patches
+    #[arg(long, value_name = "NAME|FILE")]
+    pub(super) chart: Option<OsString>,
+    /// A light in place of equal energy and of sunlight: a name, a file with one curve, `daylight:K` or `blackbody:K`
+    #[arg(long, value_name = "NAME|FILE")]
+    pub(super) illuminant: Option<OsString>,
+    /// Width and height of a rendered picture in pixels
+    #[arg(long, value_name = "PIXELS", default_value_t = PIXELS, value_parser = clap::value_parser!(u32).range(16..=2048))]
+    pub(super) picture_size: u32,
+    /// Overwrites the files of an earlier report
+    #[arg(long)]
+    pub(super) force: bool,
+}
+
+/// Makes the report.
+pub(super) fn run(arguments: &ReportArguments) -> Result<(), CliError> {
+    let mut request = Request::of_cameras_under(Start::Paper, "--camera", &arguments.camera, arguments.per)?;
+    request.set_chart(arguments.chart.as_deref())?;
+    if let Some(illuminant) = &arguments.illuminant {
+        request.set_light(illuminant)?;
+    }
+    let folder = &arguments.out;
+    let paths: Vec<PathBuf> = Report::names().iter().map(|name| folder.join(name)).collect();
+    outputs::check(paths.iter().map(PathBuf::as_path), &request.inputs(), arguments.force)?;
+    make_folder(folder)?;
+    let document = document(&request);
+    let report = Report::new(document, arguments.illuminant.is_some(), arguments.picture_size);
+    let results = Results::default();
+    for step in 0..Report::STEPS {
+        draw_progress(step, Report::STEPS, &Report::name(step));
+        let files = report.make(step, &results).map_err(CliError::File)?;
+        for file in files {
+            let path = folder.join(&file.name);
+            write_to(&path, &file.bytes).map_err(|error: io::Error| CliError::Output { path, error })?;
+        }
+    }
+    draw_progress(Report::STEPS, Report::STEPS, "");
+    show(&format!("{}\n", folder.join(PAGE).display()))
+}
+
+/// The paper's start with the cameras that were named.
+fn document(request: &Request) -> Document {
+    let mut document = request.document.clone();
+    if request.sources.is_empty() {
+        document.compared = Start::Paper.document().compared;
+        return document;
+    }
+    document.compare(&document.reference.clone(), SetKind::Observer);
+    for (kind, name) in &request.sources {
+        document.compare(name, *kind);
+    }
+    document
+}

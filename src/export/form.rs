@@ -1,0 +1,64 @@
+//! Forms of a figure's file.
+
+use std::path::Path;
+
+use chromascope_figure::{Figure, Table};
+
+use super::{ExportError, Paper, pdf, png, png_file_at, svg, tiff_file_at};
+
+/// Form of a figure's file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FigureForm {
+    /// Vectors with embedded fonts.
+    Pdf,
+    /// Vectors.
+    Svg,
+    /// Pixels.
+    Png,
+    /// Pixels, as some journals want them.
+    Tiff,
+    /// Numbers behind the figure.
+    Csv,
+}
+
+impl FigureForm {
+    /// All forms.
+    pub const ALL: [Self; 5] = [Self::Pdf, Self::Svg, Self::Png, Self::Tiff, Self::Csv];
+
+    /// Ending of its files.
+    pub const fn ending(self) -> &'static str {
+        match self {
+            Self::Pdf => "pdf",
+            Self::Svg => "svg",
+            Self::Png => "png",
+            Self::Tiff => "tif",
+            Self::Csv => "csv",
+        }
+    }
+
+    /// Form that the ending of a path names.
+    pub fn of(path: &Path) -> Option<Self> {
+        let ending = path.extension()?.to_str()?;
+        let ending = if ending.eq_ignore_ascii_case("tiff") { Self::Tiff.ending() } else { ending };
+        Self::ALL.into_iter().find(|form| form.ending().eq_ignore_ascii_case(ending))
+    }
+
+    /// Bytes of a figure's file, laid out for a paper; a table of numbers is written as it is.
+    ///
+    /// # Errors
+    ///
+    /// [`ExportError`] where the figure cannot be drawn.
+    pub fn bytes(self, figure: &Figure, numbers: &Table, paper: &Paper) -> Result<Vec<u8>, ExportError> {
+        let theme = paper.theme();
+        match self {
+            Self::Pdf => pdf(figure, &theme, *paper),
+            Self::Svg => Ok(svg(figure, &theme, *paper).into_bytes()),
+            Self::Png | Self::Tiff => {
+                let picture = png(&svg(figure, &theme, *paper), (paper.dpi / 72.0) as f32)?;
+                let file = if self == Self::Png { png_file_at } else { tiff_file_at };
+                file(&picture, paper.dpi)
+            }
+            Self::Csv => Ok(numbers.to_csv().into_bytes()),
+        }
+    }
+}

@@ -1,0 +1,271 @@
+//! Settings of the paper, and what to do with the page.
+
+use chromascope_figure::{AxisRanges, AxisTitles, LegendPlace, Numbers};
+use egui::{ComboBox, DragValue, Rect, Response, ScrollArea, Ui, WidgetInfo};
+
+use super::{inside, small};
+use crate::command::{Command, Format};
+use crate::export::Paper;
+use crate::export::page::PageFacts;
+use crate::export::paper::PaperStyle;
+use crate::panes::context::PaneContext;
+use crate::panes::widgets;
+use crate::theme::{ROW, SourceInks, UNIT};
+use crate::view::page::{LengthUnit, PageLook};
+use crate::workspaces::PaneKind;
+
+const STYLES: [(PaperStyle, &str, &str); 3] = [
+    (PaperStyle::Light, "Light", "As on a light screen"),
+    (PaperStyle::Print, "Print", "Black on white"),
+    (PaperStyle::Dark, "Dark", "Light on dark, for slides"),
+];
+const INKS: [(SourceInks, &str, &str); 2] = [
+    (SourceInks::Screen, "Color", "Colors told apart in all kinds of color vision"),
+    (SourceInks::Gray, "Gray", "Grays told apart in print without color"),
+];
+const TITLES: [(AxisTitles, &str, &str); 3] = [
+    (AxisTitles::Inside, "Inside", "In the corners of the plot"),
+    (AxisTitles::Outside, "Outside", "Along the axes"),
+    (AxisTitles::None, "None", "No titles"),
+];
+const RANGES: [(AxisRanges, &str, &str); 2] = [
+    (AxisRanges::Screen, "As on screen", "Zoomed or not"),
+    (AxisRanges::Full, "Full", "The whole diagram, the data enlarged where there is room"),
+];
+const NUMBERS: [(Numbers, &str, &str); 2] = [
+    (Numbers::All, "All", "All numbers that the figure is made from"),
+    (Numbers::Visible, "Visible", "Only those of points inside the axes"),
+];
+const LEGENDS: [(Option<LegendPlace>, &str); 9] = [
+    (None, "Automatic"),
+    (Some(LegendPlace::Outside), "Beside"),
+    (Some(LegendPlace::Below), "Below"),
+    (Some(LegendPlace::Inside), "Inside, where it covers nothing"),
+    (Some(LegendPlace::UpperRight), "Upper right"),
+    (Some(LegendPlace::UpperLeft), "Upper left"),
+    (Some(LegendPlace::LowerRight), "Lower right"),
+    (Some(LegendPlace::LowerLeft), "Lower left"),
+    (Some(LegendPlace::None), "None"),
+];
+/// Width of names before controls.
+const NAMES: f32 = 72.0;
+/// Widths of a journal's columns.
+const WIDTHS: [(f64, &str); 2] =
+    [(Paper::ONE_COLUMN_MM, "One column, 85 mm"), (Paper::TWO_COLUMNS_MM, "Two columns, 174 mm")];
+
+/// Shows the settings in a rectangle.
+pub(super) fn show(
+    ui: &mut Ui,
+    rect: Rect,
+    (kind, facts): (PaneKind, Option<PageFacts>),
+    context: &mut PaneContext<'_>,
+) {
+    let mut child = inside(ui, "page settings", rect);
+    ScrollArea::vertical().id_salt("page settings").auto_shrink(false).show(&mut child, |ui| {
+        ui.set_max_width(rect.width() - 5.0 * UNIT);
+        ui.add_space(UNIT);
+        ui.strong(format!("Figure: {}", context.title(kind)));
+        let before = context.view.saved.page;
+        let mut look = before;
+        size(ui, &mut look, facts, context);
+        ui.add_space(UNIT);
+        dress(ui, &mut look.paper, (kind, facts), context);
+        if look != before {
+            context.view.saved.page = look;
+            ui.ctx().request_repaint();
+        }
+        ui.add_space(2.0 * UNIT);
+        buttons(ui, kind, context);
+        ui.add_space(UNIT);
+        if let Some(facts) = facts {
+            ui.label(small(in_words(&facts, &look.paper), context));
+        }
+        ui.add_space(2.0 * UNIT);
+    });
+}
+
+/// Size of page, text and lines, and the resolution of pixels.
+fn size(ui: &mut Ui, look: &mut PageLook, facts: Option<PageFacts>, context: &mut PaneContext<'_>) {
+    let paper = &mut look.paper;
+    let preset = WIDTHS.iter().find(|(mm, _)| paper.width_mm == Some(*mm) && paper.height_mm.is_none());
+    let shown = preset.map_or("Own size", |(_, words)| words);
+    let combo = drop_down(ui, "Size", shown, context, |ui| {
+        for (mm, words) in WIDTHS {
+            if ui.selectable_label(shown == words, words).clicked() {
+                (paper.width_mm, paper.height_mm) = (Some(mm), None);
+            }
+        }
+    });
+    if std::mem::take(&mut context.view.tab_enters) {
+        combo.request_focus();
+    }
+    let size = facts.map_or([Paper::ONE_COLUMN_MM; 2], |facts| facts.size_mm());
+    ui.horizontal(|ui| {
+        let mut width = paper.width_mm.unwrap_or(size[0]);
+        if length(ui, "Width", &mut width, look.unit) {
+            paper.width_mm = Some(width);
+        }
+        for unit in [LengthUnit::Millimeter, LengthUnit::Inch] {
+            ui.selectable_value(&mut look.unit, unit, unit.symbol());
+        }
+    });
+    ui.horizontal(|ui| {
+        let mut height = paper.height_mm.unwrap_or(size[1]);
+        if length(ui, "Height", &mut height, look.unit) {
+            paper.height_mm = Some(height);
+        }
+        let mut own = paper.height_mm.is_none();
+        let hint = "The height that the figure has at this width";
+        if ui.checkbox(&mut own, "Automatic").on_hover_text(hint).changed() {
+            paper.height_mm = (!own).then_some(height);
+        }
+    });
+    ui.horizontal_wrapped(|ui| {
+        let lines = "Factor on the widths of lines and on markers";
+        number(ui, "Text", &mut paper.font_pt, (Paper::FONT_PT, 0.05, " pt"), "Size of labels, names and legend");
+        number(ui, "Lines", &mut paper.line_scale, (Paper::LINE_SCALE, 0.01, "×"), lines);
+        number(ui, "PNG", &mut paper.dpi, (Paper::DPI, 1.0, " dpi"), "Resolution of PNG and of the copied picture");
+    });
+}
+
+/// Style, legend, axes and what is left out.
+fn dress(ui: &mut Ui, paper: &mut Paper, (kind, facts): (PaneKind, Option<PageFacts>), context: &PaneContext<'_>) {
+    choice(ui, "Style", &STYLES, &mut paper.style, context);
+    choice(ui, "Colors", &INKS, &mut paper.inks, context);
+    if facts.is_some_and(|facts| facts.has_legend) {
+        legend(ui, paper, context);
+    }
+    if facts.is_some_and(|facts| facts.has_titles) {
+        choice(ui, "Axis titles", &TITLES, &mut paper.axis_titles, context);
+    }
+    if kind == PaneKind::CHROMATICITY {
+        choice(ui, "Axis ranges", &RANGES, &mut paper.ranges, context);
+        choice(ui, "Numbers", &NUMBERS, &mut paper.numbers, context);
+        ui.checkbox(&mut paper.strip, "Strip of distances below the diagram");
+    }
+    ui.checkbox(&mut paper.caption, "Caption with the conditions");
+}
+
+fn legend(ui: &mut Ui, paper: &mut Paper, context: &PaneContext<'_>) {
+    let shown = LEGENDS.iter().find(|(place, _)| *place == paper.legend).map_or("", |(_, words)| words);
+    drop_down(ui, "Legend", shown, context, |ui| {
+        for (place, words) in LEGENDS {
+            let line = ui.selectable_value(&mut paper.legend, place, words);
+            if place.is_none() {
+                line.on_hover_text("Below on a page narrower than 120 mm, else where the figure has it");
+            }
+        }
+    });
+}
+
+fn buttons(ui: &mut Ui, kind: PaneKind, context: &mut PaneContext<'_>) {
+    ui.horizontal_wrapped(|ui| {
+        for (words, format) in
+            [("Save PDF…", Format::Pdf), ("SVG…", Format::Svg), ("PNG…", Format::Png), ("CSV…", Format::Csv)]
+        {
+            let hint = if format == Format::Csv { "The numbers behind the figure" } else { "The figure as shown here" };
+            if ui.button(words).on_hover_text(hint).clicked() {
+                context.push(Command::Export(kind, format));
+            }
+        }
+    });
+    ui.horizontal(|ui| {
+        if ui.button("Copy picture").on_hover_text("At this resolution (Ctrl+Shift+C)").clicked() {
+            context.push(Command::CopyPicture(kind));
+        }
+        if ui.button("Done").on_hover_text("Back to the panes (Esc)").clicked() {
+            context.push(Command::FigurePage(kind));
+        }
+    });
+}
+
+/// Measures of the page in a sentence or two.
+fn in_words(facts: &PageFacts, paper: &Paper) -> String {
+    let [width, height] = facts.size_mm();
+    let mut words = format!("{width:.0} × {height:.0} mm");
+    if let Some(points) = facts.smallest_text_pt {
+        words += &format!(", smallest text {points:.1} pt");
+    }
+    if let Some(points) = facts.thinnest_line_pt {
+        words += &format!(", thinnest line {points:.2} pt");
+    }
+    words.push('.');
+    if paper.height_mm.is_some_and(|wanted| (height - wanted).abs() > 1.0) {
+        words += " Its rows or pictures have their own height.";
+    }
+    if let Some(apart) = facts.lightness_apart {
+        let told = if apart < PageFacts::TOLD_APART { "not told apart" } else { "told apart" };
+        words += &format!(" Without color, cameras are {told}: lightness differs by ΔL* {apart:.0} or more.");
+    }
+    words
+}
+
+/// A control behind its name.
+fn row<R>(ui: &mut Ui, name: &str, context: &PaneContext<'_>, control: impl FnOnce(&mut Ui) -> R) -> R {
+    ui.horizontal(|ui| {
+        let (place, _) = ui.allocate_exact_size(egui::vec2(NAMES, ROW), egui::Sense::hover());
+        widgets::lines::elided(ui, place, name, egui::TextStyle::Small, context.theme.weak);
+        control(ui)
+    })
+    .inner
+}
+
+/// A switch behind its name.
+fn choice<T: Copy + PartialEq>(
+    ui: &mut Ui,
+    name: &str,
+    choices: &[(T, &str, &str)],
+    now: &mut T,
+    context: &PaneContext<'_>,
+) {
+    if let Some(to) = row(ui, name, context, |ui| widgets::segmented(ui, choices, *now)) {
+        *now = to;
+    }
+}
+
+/// A list that drops down, behind its name.
+fn drop_down(ui: &mut Ui, name: &str, shown: &str, context: &PaneContext<'_>, lines: impl FnOnce(&mut Ui)) -> Response {
+    row(ui, name, context, |ui| {
+        let combo = ComboBox::from_id_salt(name).width(190.0).selected_text(shown).show_ui(ui, lines);
+        let said = format!("{name}: {shown}");
+        combo.response.widget_info(|| WidgetInfo::labeled(egui::Role::ComboBox, true, &said));
+        combo.response
+    })
+}
+
+/// The field of a length, behind its name. Returns true if it was changed.
+fn length(ui: &mut Ui, name: &str, mm: &mut f64, unit: LengthUnit) -> bool {
+    let (mut value, [low, high]) = (*mm / unit.mm(), Paper::SIDE_MM.map(|mm| mm / unit.mm()));
+    let (speed, decimals) = if unit == LengthUnit::Inch { (0.01, 2) } else { (0.5, 1) };
+    let field = DragValue::new(&mut value)
+        .range(low..=high)
+        .speed(speed)
+        .max_decimals(decimals)
+        .custom_formatter(|value, _| short(value))
+        .suffix(format!(" {}", unit.symbol()))
+        .update_while_editing(false);
+    let label = ui.label(name);
+    let changed = ui.add(field).labelled_by(label.id).changed();
+    if changed {
+        *mm = value * unit.mm();
+    }
+    changed
+}
+
+/// The field of a number, behind its name.
+fn number(ui: &mut Ui, name: &str, value: &mut f64, ([low, high], speed, suffix): ([f64; 2], f64, &str), hint: &str) {
+    let field = DragValue::new(value)
+        .range(low..=high)
+        .speed(speed)
+        .max_decimals(2)
+        .custom_formatter(|value, _| short(value))
+        .suffix(suffix)
+        .update_while_editing(false);
+    let label = ui.label(name);
+    ui.add(field).labelled_by(label.id).on_hover_text(hint);
+}
+
+/// A number with two decimals at most.
+fn short(value: f64) -> String {
+    format!("{}", (100.0 * value).round() / 100.0)
+}

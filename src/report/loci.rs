@@ -1,0 +1,147 @@
+//! Experiment 1: Planckian loci.
+
+use chromascope_core::query::Temperatures;
+use chromascope_core::units::Kelvin;
+
+use super::claim::{CANON, Claim, Finding, KODAK, NIKON, Series, Subject, Value, Verdict};
+use crate::document::{Diagram, LOCUS_RANGE_K, SetKind};
+use crate::scene::locus::distance;
+use crate::scene::{Scene, SceneError};
+
+const PART: &str = "Experiment 1: Planckian loci";
+
+/// Temperatures in kelvins that count as daylight.
+const DAYLIGHT: std::ops::RangeInclusive<f64> = 5000.0..=6200.0;
+/// Number of temperatures along a locus.
+const COUNT: usize = 2001;
+
+pub(super) const CLAIMS: [Claim; 4] = [
+    Claim {
+        key: "locus-length",
+        part: PART,
+        paper: "The Kodak's locus is the shortest of the three: it has the smallest range of colors.",
+        why: "Length of the locus in xy from 1000 to 20000 K. The Kodak's channels overlap most, so its signals differ \
+              least from one temperature to the next.",
+        find: lengths,
+    },
+    Claim {
+        key: "daylight-minimum",
+        part: PART,
+        paper: "The distances to the reference are smallest around daylight.",
+        why: "Eq 15 normalizes each locus to equal energy, so all loci pass near one point, where a blackbody is \
+              flattest: near daylight.",
+        find: minima,
+    },
+    Claim {
+        key: "daylight-is-the-cameras",
+        part: PART,
+        paper: "That the distances are smallest around daylight is a property of the cameras.",
+        why: "The minimum follows the balance. With cameras fitted to CIE 1931 under illuminant A, every camera has it \
+              at the temperature of A; with Eq 15, every camera of the library has it at daylight.",
+        find: minima_under_a,
+    },
+    Claim {
+        key: "canon-and-nikon-nearer",
+        part: PART,
+        paper: "Canon and Nikon are nearer to the reference than the Kodak at all temperatures.",
+        why: "In the mean over log T they are. In a narrow band around its minimum the Kodak is nearer than the Canon.",
+        find: means,
+    },
+];
+
+fn lengths(subject: &Subject<'_>) -> Result<Finding, SceneError> {
+    let scene = subject.scene(subject.document);
+    let [from, to] = LOCUS_RANGE_K;
+    let temperatures = Temperatures::Range { from: Kelvin::new(from)?, to: Kelvin::new(to)?, count: COUNT };
+    let length = |kind, name: &str| Ok(scene.locus_at(kind, name, temperatures.clone())?.length_xy());
+    let lengths = subject.all(subject.document, length)?;
+    let shortest =
+        lengths.get(KODAK).map(|kodak| lengths.0.iter().all(|(name, length)| name == KODAK || *length > kodak));
+    Ok(Finding { values: lengths.values("length in xy", "", 3), verdict: Verdict::of(shortest) })
+}
+
+/// Temperature at which a camera's locus is nearest to the reference's.
+fn minimum(scene: &Scene<'_>, camera: &str) -> f64 {
+    let nearest = scene.nearest_to_reference(SetKind::Camera, camera, Diagram::Xy);
+    nearest.map_or(f64::NAN, |nearest| nearest.kelvin)
+}
+
+fn minima(subject: &Subject<'_>) -> Result<Finding, SceneError> {
+    let scene = subject.scene(subject.document);
+    let minima = subject.each(|camera| Ok(minimum(&scene, camera)))?;
+    let around = minima.0.iter().all(|(_, kelvin)| DAYLIGHT.contains(kelvin));
+    Ok(Finding { values: minima.values("nearest at", "K", 0), verdict: Verdict::of(Some(around)) })
+}
+
+fn minima_under_a(subject: &Subject<'_>) -> Result<Finding, SceneError> {
+    let document = subject.fitted("A");
+    let scene = subject.scene(&document);
+    let minima = subject.each(|camera| Ok(minimum(&scene, camera)))?;
+    let moved = minima.0.iter().all(|(_, kelvin)| !DAYLIGHT.contains(kelvin));
+    let mut values = minima.values("nearest at, fitted under A", "K", 0);
+    let scene = subject.scene(subject.document);
+    let library = subject.catalog.of_kind(SetKind::Camera).map(|camera| minimum(&scene, &camera.name));
+    let [least, most] = library.fold([f64::INFINITY, 0.0], |[least, most]: [f64; 2], at| [least.min(at), most.max(at)]);
+    for (quantity, number) in [("least of the library, by Eq 15", least), ("most of the library, by Eq 15", most)] {
+        values.extend(Series(vec![(String::new(), number)]).values(quantity, "K", 0));
+    }
+    Ok(Finding { values, verdict: Verdict::of(Some(!moved)) })
+}
+
+/// Temperatures evenly in ln T.
+fn in_logarithm() -> Result<Vec<Kelvin>, SceneError> {
+    let [from, to] = LOCUS_RANGE_K;
+    let at = |index: usize| from * (to / from).powf(index as f64 / (COUNT - 1) as f64);
+    Ok((0..COUNT).map(|index| Kelvin::new(at(index).min(to))).collect::<Result<_, _>>()?)
+}
+
+/// Distances of a camera's locus from the reference's along temperatures.
+fn distances(scene: &Scene<'_>, camera: &str, temperatures: &[Kelvin]) -> Result<Vec<f64>, SceneError> {
+    let along = |kind, name: &str| scene.locus_at(kind, name, Temperatures::List(temperatures.to_vec()));
+    let (reference, own) = (along(SetKind::Observer, &scene.document.reference)?, along(SetKind::Camera, camera)?);
+    let pairs = own.points.iter().zip(&reference.points);
+    Ok(pairs.map(|(a, b)| distance(a, b, Diagram::Xy).unwrap_or(f64::NAN)).collect())
+}
+
+fn means(subject: &Subject<'_>) -> Result<Finding, SceneError> {
+    let scene = subject.scene(subject.document);
+    let temperatures = in_logarithm()?;
+    let mean = |distances: &[f64]| {
+        let pairs = distances.windows(2).map(|pair| f64::midpoint(pair[0], pair[1]));
+        pairs.sum::<f64>() / (distances.len() - 1) as f64
+    };
+    let means = subject.each(|camera| Ok(mean(&distances(&scene, camera, &temperatures)?)))?;
+    let mut values = means.values("mean distance in xy over log T", "", 3);
+    let named = [CANON, NIKON].map(|camera| means.get(camera)).into_iter().collect::<Option<Vec<f64>>>();
+    let Some((kodak, others)) = means.get(KODAK).zip(named) else {
+        return Ok(Finding { values, verdict: Verdict::Open });
+    };
+    let kodaks = distances(&scene, KODAK, &temperatures)?;
+    let canons = distances(&scene, CANON, &temperatures)?;
+    let lead: Vec<f64> = canons.iter().zip(&kodaks).map(|(canon, kodak)| canon - kodak).collect();
+    // Where the lead changes its sign.
+    let at = |index: usize| {
+        let share = lead[index] / (lead[index] - lead[index + 1]);
+        let [a, b] = [index, index + 1].map(|index| temperatures[index].get());
+        a + share * (b - a)
+    };
+    let crossings = (0..COUNT - 1).filter(|&index| (lead[index] > 0.0) != (lead[index + 1] > 0.0));
+    let nearer: Vec<f64> = crossings.map(at).collect();
+    for (quantity, kelvin) in
+        [("nearer than the Canon from", nearer.first()), ("nearer than the Canon to", nearer.last())]
+    {
+        values.extend(kelvin.map(|kelvin| Value {
+            quantity: quantity.to_owned(),
+            sensor: KODAK.to_owned(),
+            number: *kelvin,
+            decimals: 0,
+            unit: "K",
+        }));
+    }
+    let verdict = match (others.iter().all(|mean| *mean < kodak), nearer.is_empty()) {
+        (true, true) => Verdict::Holds,
+        (true, false) => Verdict::Partly,
+        (false, _) => Verdict::Fails,
+    };
+    Ok(Finding { values, verdict })
+}

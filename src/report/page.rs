@@ -1,0 +1,239 @@
+//! The page of a report: claims, figures, data, in one file without links to the network.
+
+use std::fmt::Write as _;
+
+use super::claim::{CANON, Finding, KODAK, NIKON, Subject, Value, Verdict};
+use super::figures::FIGURES;
+use super::{FORMS, Judged, file_name};
+use crate::document::render::{BALANCE, LEAF, SKIN, SUN};
+use crate::document::{CHART, PAPER_REFERENCE, SetKind};
+use crate::format::{capitalized, fixed};
+use crate::scene::conditions::CONDITIONS;
+
+const STYLE: &str = "
+body { font: 15px/1.5 'DejaVu Sans', Verdana, sans-serif; color: #1c1c1c; background: #fff; max-width: 1180px;
+  margin: 2em auto; padding: 0 1.5em; }
+h1 { font-size: 1.6em; margin-bottom: 0.2em; } h2 { font-size: 1.2em; margin-top: 2em; }
+table { border-collapse: collapse; width: 100%; }
+th, td { text-align: left; vertical-align: top; padding: 0.45em 0.7em; border-bottom: 1px solid #d4d4d4; }
+th { border-bottom: 2px solid #555; } td table { width: auto; }
+td td, td th { padding: 0 0.8em 0 0; border: 0; font-size: 0.86em; font-weight: normal; }
+td td:first-child { min-width: 9em; } td td + td { text-align: right; font-variant-numeric: tabular-nums; white-space: nowrap; }
+tr.part th { background: #f0f0f0; border-bottom: 1px solid #d4d4d4; }
+table.claims > tbody > tr > td:first-child, table.claims > tbody > tr > td:last-child { width: 22%; }
+.verdict { font-weight: bold; white-space: nowrap; } .quantity { color: #555; padding-top: 0.35em; }
+figure { margin: 2em 0; } figure svg { max-width: 100%; height: auto; border: 1px solid #e0e0e0; }
+figcaption, .note { color: #555; font-size: 0.9em; } a { color: #1c1c1c; }
+@media print { body { font-size: 9pt; margin: 0; } figure, tr { break-inside: avoid; } }
+";
+
+/// Data of the paper with the data in their place, by kind and name.
+const DATA: [(&str, SetKind, &str); 9] = [
+    ("Canon EOS 10D", SetKind::Camera, CANON),
+    ("Nikon D70", SetKind::Camera, NIKON),
+    ("Kodak DCS420, of which no table could be obtained; the DCS200 is its sister model", SetKind::Camera, KODAK),
+    ("Reference: Stiles & Burch, 2°", SetKind::Observer, PAPER_REFERENCE),
+    ("Macbeth chart", SetKind::Chart, CHART),
+    ("Skin", SetKind::Material, SKIN),
+    ("Leaf of the fern", SetKind::Material, LEAF),
+    ("Sunlight", SetKind::Illuminant, SUN),
+    ("White balance for sunlight", SetKind::Illuminant, BALANCE),
+];
+
+/// Things that are no table of spectra.
+const SHAPES: [(&str, &str); 3] = [
+    ("Mesh of the head, scanned", "A head computed from the shape of the MakeHuman base mesh (CC0)"),
+    ("Mesh of the fern", "A fern made by rules"),
+    ("Roughness of skin and leaf, not stated", "The default surface; see Figure 8 and Figure 9"),
+];
+
+/// The page; `drawn` gives the figures as SVG, by place.
+pub(super) fn page<'a>(subject: &Subject<'_>, judged: &[Judged], drawn: &dyn Fn(usize) -> Option<&'a str>) -> String {
+    let mut out = String::new();
+    let _ = write!(
+        out,
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
+         <meta name=\"viewport\" content=\"width=device-width\">\n\
+         <title>Report on Huynh and Robles-Kelly 2007</title>\n<style>{STYLE}</style>\n</head>\n<body>\n\
+         <h1>What holds of the paper</h1>\n\
+         <p>C. P. Huynh and A. Robles-Kelly, <cite>Comparative Colorimetric Simulation and Evaluation of Digital Cameras \
+         Using Spectroscopy Data</cite> (2007), computed again with public data by Chromascope {}. {}</p>\n",
+        env!("CARGO_PKG_VERSION"),
+        escaped(&summary(judged))
+    );
+    conditions(&mut out, subject);
+    claims(&mut out, subject, judged);
+    figures(&mut out, drawn);
+    data(&mut out, subject);
+    out.push_str("</body>\n</html>\n");
+    out
+}
+
+/// A text in HTML.
+fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+}
+
+/// Numbers of verdicts in words.
+fn summary(judged: &[Judged]) -> String {
+    let count = |verdict: Verdict| {
+        judged.iter().filter(|judged| judged.finding.as_ref().is_ok_and(|found| found.verdict == verdict)).count()
+    };
+    let [holds, partly, fails, open] = [Verdict::Holds, Verdict::Partly, Verdict::Fails, Verdict::Open].map(count);
+    let open =
+        if open == 0 { String::new() } else { format!(" {open} are about cameras or patches that are not here.") };
+    format!("Of {} claims, {holds} hold, {partly} hold in part, {fails} do not.{open}", judged.len())
+}
+
+fn conditions(out: &mut String, subject: &Subject<'_>) {
+    let scene = subject.scene(subject.document);
+    let cells = CONDITIONS.into_iter().zip(scene.conditions());
+    let cells: Vec<String> = cells.map(|(name, value)| format!("{}: {value}", name.replace('_', " "))).collect();
+    let cameras = subject.cameras().join(", ");
+    let _ = writeln!(
+        out,
+        "<p class=\"note\">Cameras: {}. Experiments 1 and 2: {}; patches: {}. Experiment 3: {}, white balance {BALANCE}.</p>",
+        escaped(&cameras),
+        escaped(&cells.join("; ")),
+        escaped(&subject.document.chart),
+        escaped(&subject.scene(&subject.in_sun(SKIN)).light_name())
+    );
+}
+
+fn claims(out: &mut String, subject: &Subject<'_>, judged: &[Judged]) {
+    out.push_str(
+        "<h2>Claims</h2>\n<p class=\"note\">The paper's claims are paraphrased. Numbers are rounded; claims.csv has their accuracy.</p>\n\
+         <table class=\"claims\">\n<thead><tr><th>The paper</th><th>Found</th><th></th><th>Why</th></tr></thead>\n<tbody>\n",
+    );
+    let mut part = "";
+    for Judged { claim, finding } in judged {
+        if claim.part != part {
+            part = claim.part;
+            let _ = writeln!(out, "<tr class=\"part\"><th colspan=\"4\">{}</th></tr>", escaped(part));
+        }
+        let (found, verdict) = match finding {
+            Ok(finding) => (found(subject, finding), finding.verdict.words()),
+            Err(why) => (escaped(why), "cannot be computed"),
+        };
+        let _ = writeln!(
+            out,
+            "<tr id=\"{}\"><td>{}</td><td>{found}</td><td class=\"verdict\">{}</td><td>{}</td></tr>",
+            claim.key,
+            escaped(claim.paper),
+            capitalized(verdict),
+            escaped(claim.why)
+        );
+    }
+    out.push_str("</tbody>\n</table>\n");
+}
+
+/// Numbers below their quantity or, where there are many, with a row for each quantity and a column for each sensor.
+fn found(subject: &Subject<'_>, finding: &Finding) -> String {
+    let cameras = subject.cameras();
+    let label = |sensor: &str| {
+        let is_camera = cameras.iter().any(|camera| camera == sensor);
+        let kind = if is_camera { SetKind::Camera } else { SetKind::Observer };
+        let entry = subject.scene(subject.document).entry(kind, sensor);
+        escaped(&entry.map_or_else(|_| sensor.to_owned(), |entry| entry.short))
+    };
+    let number = |value: &Value| format!("{} {}", fixed(value.number, value.decimals), value.unit);
+    let values = &finding.values;
+    let (sensors, quantities) = (unique(values, |value| &value.sensor), unique(values, |value| &value.quantity));
+    let mut out = String::from("<table>");
+    if quantities.len() > 2 && sensors.len() > 1 && !sensors.contains(&"") {
+        let heads: Vec<String> = sensors.iter().map(|sensor| format!("<td>{}</td>", label(sensor))).collect();
+        let _ = write!(out, "<tr><td></td>{}</tr>", heads.concat());
+        for quantity in quantities {
+            let of = |sensor: &&str| values.iter().find(|value| value.quantity == quantity && value.sensor == *sensor);
+            let cells =
+                sensors.iter().map(|sensor| format!("<td>{}</td>", of(sensor).map_or_else(String::new, number)));
+            let _ = write!(out, "<tr><td>{}</td>{}</tr>", escaped(quantity), cells.collect::<String>());
+        }
+        return out + "</table>";
+    }
+    let mut quantity = "";
+    for value in values {
+        if !value.sensor.is_empty() && value.quantity != quantity {
+            quantity = &value.quantity;
+            let _ = write!(out, "<tr><th class=\"quantity\" colspan=\"2\">{}</th></tr>", escaped(quantity));
+        }
+        let name = if value.sensor.is_empty() { escaped(&value.quantity) } else { label(&value.sensor) };
+        let _ = write!(out, "<tr><td>{name}</td><td>{}</td></tr>", number(value));
+    }
+    out + "</table>"
+}
+
+/// Texts of values, each once, in their order.
+fn unique(values: &[Value], text: impl Fn(&Value) -> &String) -> Vec<&str> {
+    let mut texts: Vec<&str> = Vec::new();
+    for value in values {
+        let text = text(value).as_str();
+        if !texts.contains(&text) {
+            texts.push(text);
+        }
+    }
+    texts
+}
+
+fn figures<'a>(out: &mut String, drawn: &dyn Fn(usize) -> Option<&'a str>) {
+    out.push_str(
+        "<h2>Figures</h2>\n<p class=\"note\">Figures 2, 5, 8 and 9 have the paper's numbers; the others follow the order of its \
+         experiments. Beside this page each is there for print and as numbers.</p>\n",
+    );
+    for (place, figure) in FIGURES.iter().enumerate() {
+        let Some(svg) = drawn(place) else { continue };
+        let links: Vec<String> = FORMS
+            .map(|form| format!("<a href=\"{}\">{}</a>", file_name(figure, form), form.ending().to_uppercase()))
+            .into();
+        let _ = writeln!(
+            out,
+            "<figure id=\"figure{number}\">\n{}\n<figcaption>Figure {number}: {}. {}</figcaption>\n</figure>",
+            apart(svg, figure.number).trim_end(),
+            escaped(figure.title),
+            links.join(" "),
+            number = figure.number
+        );
+    }
+}
+
+/// A figure whose names of parts no other figure of the page has.
+fn apart(svg: &str, number: u8) -> String {
+    svg.replace("id=\"panel", &format!("id=\"f{number}-panel")).replace("url(#panel", &format!("url(#f{number}-panel"))
+}
+
+fn data(out: &mut String, subject: &Subject<'_>) {
+    out.push_str(
+        "<h2>What stands in for what</h2>\n<table>\n<thead><tr><th>In the paper</th><th>Here</th><th>Source</th>\
+         <th>Terms</th></tr></thead>\n<tbody>\n",
+    );
+    let own = subject.cameras();
+    let is_used = |kind: SetKind, name: &str| match kind {
+        SetKind::Camera => own.iter().any(|camera| camera == name),
+        SetKind::Chart => subject.document.chart == name,
+        SetKind::Illuminant => name == BALANCE || !subject.has_own_light,
+        _ => true,
+    };
+    let mut rows: Vec<[String; 4]> = Vec::new();
+    for (paper, kind, name) in DATA.into_iter().filter(|(_, kind, name)| is_used(*kind, name)) {
+        rows.push(row(subject, paper, kind, name));
+    }
+    for camera in own.iter().filter(|camera| ![CANON, NIKON, KODAK].contains(&camera.as_str())) {
+        rows.push(row(subject, "–", SetKind::Camera, camera));
+    }
+    rows.extend(SHAPES.map(|(paper, here)| [paper, here, "", ""].map(str::to_owned)));
+    for row in rows {
+        let cells = row.map(|cell| format!("<td>{}</td>", escaped(&cell)));
+        let _ = writeln!(out, "<tr>{}</tr>", cells.concat());
+    }
+    out.push_str("</tbody>\n</table>\n");
+}
+
+/// A set with its source and terms.
+fn row(subject: &Subject<'_>, paper: &str, kind: SetKind, name: &str) -> [String; 4] {
+    let scene = subject.scene(subject.document);
+    let entry = scene.entry(kind, name).or_else(|_| scene.chart_entry(name)).ok();
+    let header = entry.and_then(|entry| entry.header);
+    let [source, license] =
+        header.map_or_else(Default::default, |header| [header.source.clone(), header.license.clone()]);
+    [paper.to_owned(), name.to_owned(), source, license]
+}

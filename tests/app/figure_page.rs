@@ -1,0 +1,149 @@
+//! The Figure page: a pane as it is printed, its settings, and the way back.
+
+use chromascope::app::ChromascopeApp;
+use chromascope::command::Command;
+use chromascope::export::{self, Paper};
+use chromascope::jobs::Executor;
+use chromascope::theme::SourceInks;
+use chromascope::view::page::{LengthUnit, PageLook, PageZoom};
+use chromascope::view::{SavedView, Weight};
+use chromascope::workspaces::PaneKind;
+use egui::{Key, Modifiers};
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable as _;
+
+use crate::screenshots::driven;
+
+type Window = Harness<'static, ChromascopeApp>;
+
+fn settle(executor: &Executor, window: &mut Window) {
+    for _ in 0..4 {
+        window.run_steps(2);
+        executor.run_all();
+    }
+    window.run_steps(2);
+}
+
+/// A window with the page of a pane.
+fn page_of(pane: PaneKind) -> (Executor, Window) {
+    let (executor, mut window) = driven([1280.0, 800.0], egui::Theme::Dark);
+    window.state_mut().view_mut().focused = Some(pane);
+    window.key_press_modifiers(Modifiers::COMMAND, Key::E);
+    settle(&executor, &mut window);
+    (executor, window)
+}
+
+fn open(window: &Window) -> Option<PaneKind> {
+    window.state().view().page.open
+}
+
+#[test]
+fn the_page_shows_the_picture_that_is_saved() {
+    let (_executor, window) = page_of(PaneKind::CHROMATICITY);
+    let app = window.state();
+    assert_eq!(open(&window), Some(PaneKind::CHROMATICITY));
+    let shown = app.pages().shown().expect("a page");
+    let job = &shown.job;
+    assert!(shown.current && job.paper == app.view().saved.page.paper);
+    let svg = export::svg(&job.figure, &job.paper.theme(), job.paper);
+    assert!(svg.contains("width=\"85mm\""), "one column");
+    let picture = export::png(&svg, job.scale).expect("a picture");
+    let image = shown.answer.as_ref().as_ref().expect("pixels");
+    assert_eq!(
+        ([image.width, image.height], &*image.rgba),
+        ([picture.width(), picture.height()].map(|side| side as usize), &**picture.as_raw())
+    );
+    assert!(window.query_by_label("Close Chromaticity").is_none(), "panes are out of sight");
+}
+
+#[test]
+fn escape_and_ctrl_e_go_back_to_where_one_was() {
+    let (executor, mut window) = page_of(PaneKind::SPECTRA);
+    window.key_press(Key::Escape);
+    settle(&executor, &mut window);
+    assert_eq!((open(&window), window.state().view().focused), (None, Some(PaneKind::SPECTRA)));
+    window.state_mut().view_mut().maximized = Some(PaneKind::SPECTRA);
+    for expected in [Some(PaneKind::SPECTRA), None] {
+        window.key_press_modifiers(Modifiers::COMMAND, Key::E);
+        settle(&executor, &mut window);
+        assert_eq!(open(&window), expected);
+        assert_eq!(window.state().view().maximized, Some(PaneKind::SPECTRA));
+    }
+    window.get_by_label("Close Spectra");
+    window.state_mut().push(Command::FigurePage(PaneKind::SPECTRA));
+    window.state_mut().push(Command::GoTo(PaneKind::CHROMATICITY));
+    settle(&executor, &mut window);
+    assert_eq!(open(&window), None, "another pane was asked for");
+}
+
+#[test]
+fn a_pane_without_a_figure_says_so() {
+    let (_executor, window) = page_of(PaneKind::LIBRARY);
+    assert_eq!(open(&window), None);
+    let status = &window.state().view().status;
+    assert!(status.weight == Weight::Error && status.text.starts_with("Library has no figure"), "{}", status.text);
+}
+
+#[test]
+fn settings_change_the_page_and_are_remembered() {
+    let (executor, mut window) = page_of(PaneKind::CHROMATICITY);
+    let first = window.state().pages().shown().expect("a page").job;
+    for switch in ["Gray", "200 %", "in", "Caption with the conditions"] {
+        window.get_by_label(switch).click();
+        settle(&executor, &mut window);
+    }
+    let job = window.state().pages().shown().expect("a page").job;
+    assert_eq!((job.paper.inks, job.paper.caption), (SourceInks::Gray, false));
+    assert!(!first.figure.caption.is_empty() && job.figure.caption.is_empty());
+    let saved = window.state().saved_view();
+    assert_eq!((saved.page.zoom, saved.page.unit), (PageZoom::Double, LengthUnit::Inch));
+    let text = ron::to_string(&saved).expect("text");
+    assert_eq!(ron::from_str::<SavedView>(&text).expect("a view").page, saved.page);
+    let earlier: SavedView = ron::from_str("(surround: Dark)").expect("a view of an earlier version");
+    assert_eq!(earlier.page, PageLook::default());
+    assert_eq!(earlier.page.paper.width_mm, Some(Paper::ONE_COLUMN_MM));
+}
+
+#[test]
+fn an_idle_page_draws_nothing_and_the_document_changes_it() {
+    let (executor, mut window) = page_of(PaneKind::CHROMATICITY);
+    let serial = |window: &Window| window.state().pages().shown().expect("a page").serial;
+    let before = serial(&window);
+    for step in 0..8 {
+        window.hover_at(egui::pos2(300.0 + 10.0 * step as f32, 300.0));
+        settle(&executor, &mut window);
+    }
+    assert_eq!(serial(&window), before, "the pointer changes no page");
+    window.state_mut().push(Command::ToggleSource(1));
+    settle(&executor, &mut window);
+    assert_eq!(serial(&window), before + 1);
+}
+
+#[test]
+fn the_keyboard_reaches_the_settings_and_escape_leaves_a_field_first() {
+    let (executor, mut window) = page_of(PaneKind::CHROMATICITY);
+    window.state_mut().push(Command::NextPane);
+    settle(&executor, &mut window);
+    while window.state().view().focused != Some(PaneKind::CHROMATICITY) {
+        window.key_press(Key::F6);
+        settle(&executor, &mut window);
+    }
+    assert_eq!(open(&window), Some(PaneKind::CHROMATICITY), "the page is one of the panes to go to");
+    window.key_press(Key::Tab);
+    settle(&executor, &mut window);
+    assert!(window.get_by_label("Size: One column, 85 mm").is_focused());
+    window.key_press(Key::Tab);
+    settle(&executor, &mut window);
+    window.event(egui::Event::Text("120".to_owned()));
+    window.key_press(Key::Enter);
+    settle(&executor, &mut window);
+    let paper = window.state().view().saved.page.paper;
+    assert_eq!(paper.width_mm, Some(120.0));
+    window.get_by_label("Width").focus();
+    settle(&executor, &mut window);
+    for expected in [Some(PaneKind::CHROMATICITY), None] {
+        window.key_press(Key::Escape);
+        settle(&executor, &mut window);
+        assert_eq!(open(&window), expected);
+    }
+}
