@@ -58,7 +58,7 @@ impl Query for FirstQuery {
     const CAPACITY: usize = 2;
 
     fn answer(&self, ask: &impl Ask) -> Self::Answer {
-        self.all.iter().take(self.count).map(|query| (*ask.ask(query)).clone()).collect()
+        ask.ask_all(&self.all[..self.count]).iter().map(|answer| (**answer).clone()).collect()
     }
 }
 

@@ -15,6 +15,7 @@ use std::time::{Duration, Instant};
 
 use chromascope_core::query::{Ask, Query};
 use chromascope_core::render::Stop;
+use rayon::iter::{IntoParallelRefIterator as _, ParallelExtend as _, ParallelIterator as _};
 
 use answers::{Answers, Asked, Kind};
 
@@ -130,6 +131,22 @@ impl Ask for Results {
             claim.end(is_complete.then_some(&answer), self.now(), made);
         }
         answer
+    }
+
+    /// The first alone, so that what all of them need is cached before the others are computed in parallel.
+    fn ask_all<Q: Query>(&self, queries: &[Q]) -> Vec<Arc<Q::Answer>> {
+        let Some((first, rest)) = queries.split_first() else { return Vec::new() };
+        let mut answers = vec![self.ask(first)];
+        let start = Instant::now();
+        let (store, stop) = (&self.store, &self.stop);
+        let access = || Self { store: Arc::clone(store), stop: stop.clone(), ..Self::default() };
+        answers.par_extend(rest.par_iter().map_init(access, |results, query| results.ask(query)));
+        let time = start.elapsed();
+        self.nested_time.set(self.nested_time.get() + time);
+        if self.depth.get() == 0 {
+            self.frame_time.set(self.frame_time.get() + time);
+        }
+        answers
     }
 
     fn stop(&self) -> Stop {
@@ -264,6 +281,17 @@ mod tests {
         fn answer(&self, _: &impl Ask) -> u8 {
             self.0
         }
+    }
+
+    #[test]
+    fn many_questions_are_answered_in_order_and_each_once() {
+        let results = Results::default();
+        let queries: Vec<Large> = [3, 1, 3, 2].map(Large).into();
+        let answers: Vec<u8> = results.ask_all(&queries[..2]).iter().map(|answer| **answer).collect();
+        assert_eq!(answers, [3, 1]);
+        let answers: Vec<u8> = results.ask_all(&queries).iter().map(|answer| **answer).collect();
+        assert_eq!((answers, results.counts()["large"].misses), (vec![3, 1, 3, 2], 3));
+        assert!(results.ask_all::<Large>(&[]).is_empty());
     }
 
     #[test]

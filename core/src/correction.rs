@@ -138,6 +138,10 @@ impl Training<'_> {
     /// [`FitError`] where the samples do not determine it.
     pub fn fit(self, correction: &Correction, white: Xyz) -> Result<RgbTransform, FitError> {
         let image = white.to_vector();
+        let fits = correction.method != CorrectionMethod::None && !self.samples.is_empty();
+        if fits && self.weights.iter().all(|weight| *weight == 0.0) {
+            return Err(FitError::NoWeight);
+        }
         match correction.method {
             CorrectionMethod::None => uncorrected(white).map(RgbTransform::Matrix),
             CorrectionMethod::LeastSquares if correction.keeps_white => {

@@ -177,13 +177,6 @@ impl<T: FromFile> FileStore<T> {
         }
     }
 
-    /// Reads a file again, changed or not. Its content stays visible meanwhile, and afterwards if it can no longer be read.
-    pub fn reload(&self, path: &Path) {
-        let mut state = self.monitor.lock();
-        state.known_at(path).stop();
-        self.begin(&mut state, path, None);
-    }
-
     /// Takes the results of finished open requests, one for each file that was not canceled.
     pub fn poll(&self) -> Vec<Opened<T>> {
         std::mem::take(&mut self.monitor.lock().opened)

@@ -10,7 +10,7 @@ use std::sync::atomic::{AtomicU32, Ordering};
 use chromascope_core::render::{BandWeights, LitSamples, SpectralImageError, SpectralImageSignals, Stop};
 use spectral_image::{EnviHeader, EnviImage, ExrImage, ImageError, ImageInfo, ImageQuantity, SpectralImage};
 
-use super::file_store::{FileFailure, FileState, FileStore, FromFile, Opened, Stamp};
+use super::file_store::{FileFailure, FileState, FileStore, FromFile, Stamp};
 use crate::document::render::MeshChoice;
 use crate::format::{file_name, io_reason};
 
@@ -196,8 +196,6 @@ impl LoadedImage {
 pub type ImageStore = FileStore<LoadedImage>;
 /// State of a spectral image.
 pub type ImageState = FileState<LoadedImage>;
-/// Outcome of opening a spectral image.
-pub type OpenedImage = Opened<LoadedImage>;
 
 /// Reads header and state of an image.
 ///

@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use chromascope_core::camera::quality::Electrons;
 use chromascope_core::query::metrics::rank_ranges;
-use chromascope_core::query::{Ask as _, CameraMetric, CameraMetrics, MetricValue};
+use chromascope_core::query::{Ask as _, CameraMetric, CameraMetrics, CameraMetricsQuery, MetricValue};
 use clap::ArgMatches;
 
 use self::arguments::{ALL, CompareArguments, Format, NAME, USUAL};
@@ -17,8 +17,8 @@ use super::request::Request;
 use super::tables;
 use crate::document::SetKind;
 use crate::results::Results;
-use crate::scene::Scene;
 use crate::scene::conditions::CONDITIONS;
+use crate::scene::{Scene, SceneError};
 
 /// A ranking: sensors in order, with their values.
 struct Comparison {
@@ -87,12 +87,13 @@ fn compared(scene: &Scene<'_>, request: &Request, arguments: &CompareArguments) 
     let electrons = electrons.transpose();
     let electrons =
         electrons.map_err(|error| CliError::Argument { argument: "--full-well", reason: error.to_string() })?;
-    let mut found = Vec::new();
-    for (kind, name) in &request.sources {
-        let mut query = scene.camera_metrics_query_at(*kind, name, arguments.temperature)?;
-        query.electrons = electrons;
-        found.push((*kind, name.clone(), scene.results.ask(&query)));
-    }
+    let query = |(kind, name): &(SetKind, String)| {
+        let query = scene.camera_metrics_query_at(*kind, name, arguments.temperature)?;
+        Ok(CameraMetricsQuery { electrons, ..query })
+    };
+    let queries: Vec<_> = request.sources.iter().map(query).collect::<Result<_, SceneError>>()?;
+    let sources = request.sources.iter().cloned().zip(scene.results.ask_all(&queries));
+    let found: Vec<_> = sources.map(|((kind, name), metrics)| (kind, name, metrics)).collect();
     let mut conditions: Vec<_> = CONDITIONS.into_iter().zip(scene.conditions()).collect();
     conditions.push(("chart", request.compared_chart_name()));
     conditions.push(("temperature_k", arguments.temperature.to_string()));

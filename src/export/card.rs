@@ -1,6 +1,6 @@
 //! A card to share: a pane's figure, the swatches and the conditions in one picture.
 
-use chromascope_figure::{Anchor, Figure, Ink, InkRole, Mark, Panel, Rect, Shape, Tag, TextSize, wrapped};
+use chromascope_figure::{Anchor, Figure, Ink, InkRole, Mark, Panel, Rect, TextSize, wrapped};
 use image::{RgbaImage, imageops};
 
 use super::{ExportError, Paper, png, png_within, svg};
@@ -68,10 +68,7 @@ impl Card {
         let size = POINTS.map(|side| side - 2.0 * EDGE);
         let mut panel = Panel::board("card", Rect::from_min_size([0.0; 2], size), Ink::new(InkRole::Plot));
         let mut write = |[x, y]: [f64; 2], text: &str, anchor, size, role: InkRole| {
-            let (at, text) = ([x - EDGE, y - EDGE], text.to_owned());
-            let name = text.clone();
-            let shape = Shape::Text { at, text, anchor, offset: [0.0; 2], size, ink: role.into() };
-            panel.marks.push(Mark::new(Tag::default(), name, shape));
+            panel.marks.push(Mark::text(text, [x - EDGE, y - EDGE], anchor, size, role));
         };
         write([MARGIN, MARGIN], &self.figure.title, Anchor::LEFT_TOP, TextSize::Heading, InkRole::Text);
         let right = [POINTS[0] - MARGIN, MARGIN];

@@ -94,10 +94,8 @@ fn marks(curve: &Curve, points: Vec<[f64; 2]>, on: bool, count: usize) -> Vec<Ma
         marks.push(Mark::new(tag, &curve.name, Shape::Points { points: alone, marker, radius: 3.0 }).with_fill(ink));
     }
     if let Some((letter, at)) = letter.zip(peak) {
-        let (anchor, ink) = (Anchor::LEFT_TOP, Ink::new(InkRole::Text));
-        let size = TextSize::Body;
-        let shape = Shape::Text { at, text: letter.to_owned(), anchor, offset: [5.0, 0.0], size, ink };
-        marks.push(Mark::new(tag, &curve.name, shape));
+        let letter = Mark::text(letter, at, Anchor::LEFT_TOP, TextSize::Body, InkRole::Text);
+        marks.push(Mark { tag, name: curve.name.clone(), ..letter.with_offset([5.0, 0.0]) });
     }
     marks
 }

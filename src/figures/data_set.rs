@@ -66,7 +66,6 @@ fn drawn(entry: &Entry, all: &[(String, SpectralDistribution)]) -> Vec<(String, 
 /// The name of a curve above its peak.
 fn at_peak(name: &str, points: &[[f64; 2]]) -> Option<Mark> {
     let at = points.iter().copied().max_by(|a, b| a[1].total_cmp(&b[1]))?;
-    let (size, ink) = (TextSize::Small, InkRole::Text.into());
-    let shape = Shape::Text { at, text: name.to_owned(), anchor: Anchor(0.5, 1.0), offset: [0.0, -1.0], size, ink };
-    Some(Mark::new(PickIndex::NONE, name, shape).with_halo(InkRole::Plot))
+    let text = Mark::text(name, at, Anchor(0.5, 1.0), TextSize::Small, InkRole::Text);
+    Some(text.with_offset([0.0, -1.0]).with_halo(InkRole::Plot))
 }

@@ -4,8 +4,6 @@ use chromascope_figure::{
     Anchor, Ink, Mark, Panel, Projection, Rect, Shape, TextSize, annotations, finite_runs, text_width,
 };
 
-use crate::plot_item::PickIndex;
-
 /// Height of a line of small text, in points.
 const HEIGHT: f64 = 13.0;
 /// Space left and right of a text, in points.
@@ -74,8 +72,7 @@ impl Room {
             (inside && apart && clear).then_some((area, *place))
         })?;
         self.texts.push(area);
-        let shape = Shape::Text { at, text: text.to_owned(), anchor, offset, size: TextSize::Small, ink };
-        Some(Mark::new(PickIndex::NONE, text, shape))
+        Some(Mark::text(text, at, anchor, TextSize::Small, ink).with_offset(offset))
     }
 
     /// Height of the plot in points.

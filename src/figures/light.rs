@@ -47,12 +47,11 @@ pub fn bars(rendition: &Rendition, area: Rect) -> Option<Panel> {
         let bar = Shape::Rect { min: [middle - 0.36, value.min(0.0)], max: [middle + 0.36, value.max(0.0)] };
         let role = if index == 0 { InkRole::Text } else { InkRole::Weak };
         panel.marks.push(Mark::new(Tag::default(), name, bar).with_fill(role));
-        let (anchor, ink) = (Anchor(0.5, 1.0), InkRole::Text.into());
         let at = [middle, value.max(0.0)];
         let text = fixed(*value, 0);
         let lift = if staggers && index % 2 == 1 { 12.0 } else { 0.0 };
-        let shape = Shape::Text { at, text, anchor, offset: [0.0, -1.0 - lift], size: TextSize::Small, ink };
-        panel.marks.push(Mark::new(Tag::default(), format!("{name} {value:.1}"), shape));
+        let text = Mark::text(text, at, Anchor(0.5, 1.0), TextSize::Small, InkRole::Text).with_offset([0.0, -1.0 - lift]);
+        panel.marks.push(Mark { name: format!("{name} {value:.1}"), ..text });
     }
     Some(panel)
 }
@@ -80,15 +79,21 @@ pub fn vectors(rendition: &Rendition, area: Rect) -> Option<Panel> {
         let ink = Ink::rgb(hue(index));
         let line = Shape::Segments { segments: vec![[*from, *to]] };
         panel.marks.push(Mark::new(Tag::default(), format!("hue bin {}", index + 1), line).with_stroke(ink, 3.0));
-        panel.marks.push(label(&(index + 1).to_string(), from.map(|v| 1.36 * v), Anchor::CENTER, InkRole::Weak));
+        panel.marks.push(Mark::text(
+            (index + 1).to_string(),
+            from.map(|v| 1.36 * v),
+            Anchor::CENTER,
+            TextSize::Small,
+            InkRole::Weak,
+        ));
     }
     let points = ends.iter().map(|[_, to]| *to).collect();
     let outline = Mark::new(Tag::default(), "light", Shape::Line { points, closed: true });
     panel.marks.push(outline.with_stroke(InkRole::Text, 1.6));
     let at = |x: f64, y: f64| [x * RADIUS, y * RADIUS];
     let [rf, rg] = [fidelity.fidelity, fidelity.gamut].map(|value| fixed(value, 1));
-    panel.marks.push(label(&format!("Rf {rf}"), at(-0.97, 0.95), Anchor::LEFT_TOP, InkRole::Text));
-    panel.marks.push(label(&format!("Rg {rg}"), at(0.97, 0.95), Anchor::RIGHT_TOP, InkRole::Text));
+    panel.marks.push(Mark::text(format!("Rf {rf}"), at(-0.97, 0.95), Anchor::LEFT_TOP, TextSize::Small, InkRole::Text));
+    panel.marks.push(Mark::text(format!("Rg {rg}"), at(0.97, 0.95), Anchor::RIGHT_TOP, TextSize::Small, InkRole::Text));
     Some(panel)
 }
 
@@ -114,12 +119,6 @@ fn hue(bin: usize) -> [u8; 3] {
         [cube(middle + 45.0 * cos / 500.0, white.x), cube(middle, white.y), cube(middle - 45.0 * sin / 200.0, white.z)];
     let linear = srgb_from_xyz() * Xyz { x, y, z }.to_vector();
     encode_srgb(linear.to_array()).bytes
-}
-
-fn label(text: &str, at: [f64; 2], anchor: Anchor, role: InkRole) -> Mark {
-    let shape =
-        Shape::Text { at, text: text.to_owned(), anchor, offset: [0.0; 2], size: TextSize::Small, ink: Ink::new(role) };
-    Mark::new(Tag::default(), text, shape)
 }
 
 /// The figure as it is saved; none while there is nothing to show.

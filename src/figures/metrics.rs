@@ -137,11 +137,8 @@ pub fn figure(input: &FigureInput<'_>) -> Option<Figure> {
     let width = view.room.width.unwrap_or(WIDTH).max(names + 120.0);
     let mut figure = Figure::new(format!("{}{unit}", metric.label), [width, 24.0 + ROW * rows.len() as f64]);
     let mut panel = Panel::board("Metrics", Rect::from_min_size([0.0; 2], figure.size), Ink::new(InkRole::Plot));
-    let text = |words: &str, at: [f64; 2], anchor: Anchor, size: TextSize| {
-        let ink = Ink::new(InkRole::Text);
-        let shape = Shape::Text { at, text: words.to_owned(), anchor, offset: [0.0; 2], size, ink };
-        Mark::new(Tag::default(), words, shape)
-    };
+    let text =
+        |words: &str, at: [f64; 2], anchor: Anchor, size: TextSize| Mark::text(words, at, anchor, size, InkRole::Text);
     panel.marks.push(text(&figure.title, [8.0, 12.0], Anchor::LEFT, TextSize::Body));
     let largest =
         rows.iter().map(|row| row.2.abs() + row.1.uncertainty.unwrap_or(0.0)).fold(f64::MIN_POSITIVE, f64::max);

@@ -77,15 +77,10 @@ pub fn panel(fit: &RecordedFit, names: &[String], size: [f64; 2]) -> Panel {
     }
     for (patch, rms) in fit.worst_patches().into_iter().take(3).filter(|(_, rms)| *rms > 1e-9) {
         let top = (0..3).filter_map(|c| percent(patch, c)).fold(f64::MIN, f64::max);
-        let shape = Shape::Text {
-            at: [patch as f64, top],
-            text: names[patch].clone(),
-            anchor: Anchor(patch as f64 / (count - 1.0).max(1.0), 1.0),
-            offset: [0.0, -6.0],
-            size: TextSize::Small,
-            ink: InkRole::Weak.into(),
-        };
-        panel.marks.push(Mark::new(Tag::default(), format!("{}: {} %", names[patch], fixed(rms * 100.0, 2)), shape));
+        let anchor = Anchor(patch as f64 / (count - 1.0).max(1.0), 1.0);
+        let text = Mark::text(names[patch].as_str(), [patch as f64, top], anchor, TextSize::Small, InkRole::Weak);
+        let name = format!("{}: {} %", names[patch], fixed(rms * 100.0, 2));
+        panel.marks.push(Mark { name, ..text.with_offset([0.0, -6.0]) });
     }
     panel
 }

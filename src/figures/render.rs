@@ -146,10 +146,12 @@ impl<'a> PictureCell<'a> {
         let mut marks = vec![if self.source.marker.has_inside() { mark.with_fill(ink) } else { mark }];
         for (row, (words, size)) in self.lines.iter().enumerate() {
             let inset = if row < self.named { Self::KEY } else { 0.0 };
-            marks.push(text(words, [x + inset, middle + LINE * row as f64], Anchor::LEFT, (*size, ink)));
+            let at = [x + inset, middle + LINE * row as f64];
+            marks.push(Mark::text(words.as_str(), at, Anchor::LEFT, *size, ink));
         }
         if !self.note.is_empty() {
-            marks.push(text(&self.note, [x + width - GAP, middle], Anchor::RIGHT, (TextSize::Body, ink)));
+            let at = [x + width - GAP, middle];
+            marks.push(Mark::text(self.note.as_str(), at, Anchor::RIGHT, TextSize::Body, ink));
         }
         marks
     }
@@ -165,11 +167,6 @@ impl<'a> PictureCell<'a> {
         let shape = Shape::Image { min: [area.min[0], area.max[1]], max: [area.max[0], area.min[1]], image };
         Some(Mark::new(PickIndex::NONE, format!("{}, picture", self.label), shape))
     }
-}
-
-fn text(words: &str, at: [f64; 2], anchor: Anchor, (size, ink): (TextSize, Ink)) -> Mark {
-    let shape = Shape::Text { at, text: words.to_owned(), anchor, offset: [0.0, 0.0], size, ink };
-    Mark::new(PickIndex::NONE, words, shape)
 }
 
 /// The conditions in sentences.

@@ -90,11 +90,6 @@ pub fn page(scene: &Scene<'_>, id: &SensorId, metrics: &CameraMetrics, width: f6
     figure
 }
 
-fn text(words: &str, at: [f64; 2], anchor: Anchor, size: TextSize, role: InkRole) -> Mark {
-    let shape = Shape::Text { at, text: words.to_owned(), anchor, offset: [0.0; 2], size, ink: Ink::new(role) };
-    Mark::new(Tag::default(), words, shape)
-}
-
 fn line(name: &str, points: Vec<[f64; 2]>, ink: Ink, width: f64) -> Mark {
     Mark::new(Tag::default(), name, Shape::Line { points, closed: false }).with_stroke(ink, width)
 }
@@ -104,11 +99,11 @@ fn title(scene: &Scene<'_>, id: &SensorId, area: Rect) -> Panel {
     let mut panel = Panel::board("title", area, Ink::new(InkRole::Plot));
     let entry = scene.entry(id.kind, &id.name).ok();
     let source = entry.and_then(|entry| entry.header).map_or_else(|| "yours".to_owned(), |header| header.source);
-    panel.marks.push(text(&id.name, [8.0, 13.0], Anchor::LEFT, TextSize::Heading, InkRole::Text));
+    panel.marks.push(Mark::text(id.name.as_str(), [8.0, 13.0], Anchor::LEFT, TextSize::Heading, InkRole::Text));
     let source = chromascope_figure::wrapped(&source, TextSize::Small, area.width() - 24.0);
     let cut = if source.len() > 1 { "…" } else { "" };
     let source = format!("{}{cut}", source.first().map_or("", String::as_str));
-    panel.marks.push(text(&source, [8.0, 33.0], Anchor::LEFT, TextSize::Small, InkRole::Weak));
+    panel.marks.push(Mark::text(source, [8.0, 33.0], Anchor::LEFT, TextSize::Small, InkRole::Weak));
     panel
 }
 
@@ -194,15 +189,8 @@ fn patches(scene: &Scene<'_>, metrics: &CameraMetrics, area: Rect) -> Panel {
             lift += 1.0;
         }
         taken.push(label(lift));
-        let shape = Shape::Text {
-            at: [patch as f64, value],
-            text: words.clone(),
-            anchor,
-            offset: [shift, -lift],
-            size: TextSize::Small,
-            ink: Ink::new(InkRole::Text),
-        };
-        panel.marks.push(Mark::new(Tag::default(), words, shape).with_halo(InkRole::Plot));
+        let name = Mark::text(words, [patch as f64, value], anchor, TextSize::Small, InkRole::Text);
+        panel.marks.push(name.with_offset([shift, -lift]).with_halo(InkRole::Plot));
     }
     panel
 }
@@ -247,19 +235,25 @@ fn values(metrics: &CameraMetrics, area: Rect, columns: &[Vec<Line>]) -> Panel {
     for (left, y, line) in places {
         let at = match line {
             Line::Group(group) => {
-                panel.marks.push(text(group.label(), [left, y], Anchor::LEFT, TextSize::Small, InkRole::Weak));
+                panel.marks.push(Mark::text(group.label(), [left, y], Anchor::LEFT, TextSize::Small, InkRole::Weak));
                 continue;
             }
             Line::Metric(at) => at,
         };
         let (metric, value) = (&CameraMetric::ALL[at], metrics.values[at]);
-        panel.marks.push(text(metric.symbol, [left + 8.0, y], Anchor::LEFT, TextSize::Small, InkRole::Text));
+        panel.marks.push(Mark::text(metric.symbol, [left + 8.0, y], Anchor::LEFT, TextSize::Small, InkRole::Text));
         let number = value.value.map_or_else(|_| "–".to_owned(), |value| fixed(value, metric.decimals));
         let number = format!("{number} {}", unit(metric));
-        panel.marks.push(text(number.trim_end(), [left + 150.0, y], Anchor::RIGHT, TextSize::Small, InkRole::Text));
+        panel.marks.push(Mark::text(
+            number.trim_end(),
+            [left + 150.0, y],
+            Anchor::RIGHT,
+            TextSize::Small,
+            InkRole::Text,
+        ));
         if let Some(by) = value.uncertainty.filter(|_| value.value.is_ok()) {
             let by = format!("± {}", fixed(by, metric.decimals));
-            panel.marks.push(text(&by, [left + 158.0, y], Anchor::LEFT, TextSize::Small, InkRole::Weak));
+            panel.marks.push(Mark::text(by, [left + 158.0, y], Anchor::LEFT, TextSize::Small, InkRole::Weak));
         }
     }
     panel

@@ -61,8 +61,8 @@ pub fn figure(input: &FigureInput<'_>) -> Option<Figure> {
     let y = Axis::new("", [lines as f64, 0.0]).with_ticks(Ticks::None).with_grid(false);
     let mut panel = Panel::new("skipped", Rect::from_min_size([0.0, 0.0], figure.size), x, y);
     let text = |name: &str, at: [f64; 2], text: String| {
-        let (anchor, offset, size, ink) = (Anchor::LEFT, [6.0, 0.0], TextSize::Small, InkRole::Text.into());
-        Mark::new(Tag::default(), name, Shape::Text { at, text, anchor, offset, size, ink }).with_halo(InkRole::Plot)
+        let text = Mark::text(text, at, Anchor::LEFT, TextSize::Small, InkRole::Text);
+        Mark { name: name.to_owned(), ..text.with_offset([6.0, 0.0]).with_halo(InkRole::Plot) }
     };
     let mut middle = 0.5;
     for section in &sections {

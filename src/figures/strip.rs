@@ -33,7 +33,7 @@ const NOTE: f64 = 18.0;
 const NOTE_LINE: f64 = 15.0;
 /// Largest distance drawn: a locus that goes to infinity leaves the strip, the others stay readable.
 const LARGEST: f64 = 0.6;
-/// Δu′v′ of lights that half of observers just tell apart (CIE TN 001:2014).
+/// Δu′v′ of lights that half of observers just tell apart.
 const JUST_VISIBLE: f64 = 0.0013;
 
 /// Marks of the strip, from back to front.
@@ -180,7 +180,7 @@ fn just_visible_line(reference: &Locus, diagram: Diagram, room: &mut Room) -> Ve
     let ink = Ink::new(InkRole::Weak);
     let free = room.place("just visible", ink, false, &places);
     let text = free.or_else(|| Some(room.place("just visible", ink, true, &places)?.with_halo(InkRole::Plot)));
-    let name = format!("just visible to half of observers: Δu′v′ {JUST_VISIBLE}, CIE TN 001");
+    let name = format!("just visible to half of observers: Δu′v′ {JUST_VISIBLE}");
     let line = Mark::new(PickIndex::NONE, name, Shape::Line { points, closed: false });
     std::iter::once(line.with_stroke(InkRole::Weak, 0.8)).chain(text).collect()
 }

@@ -7,11 +7,13 @@ use chromascope_core::render::{Quality, Shadows};
 use chromascope_figure::Figure;
 use egui::{Rect, Ui};
 
+use crate::action::{Action, RenderAction};
 use crate::catalog::meshes::MeshStore;
 use crate::catalog::opened::Opened;
 use crate::catalog::recorded_store::RecordedStore;
 use crate::catalog::spectral_images::ImageStore;
 use crate::command::Command;
+use crate::document::render::RenderSettings;
 use crate::export::page::PageJob;
 use crate::figures::FigureInput;
 use crate::figures::curves::CurveCache;
@@ -144,4 +146,11 @@ impl PaneContext<'_> {
     pub fn counts(&self) -> Vec<(&'static str, Count)> {
         self.scene.results.counts().into_iter().collect()
     }
+}
+
+/// Changes the settings of pictures; changes of the same name during one drag are one step.
+pub fn set_render(context: &mut PaneContext<'_>, what: &'static str, change: impl FnOnce(&mut RenderSettings)) {
+    let mut to = context.scene.document.render.clone();
+    change(&mut to);
+    context.push(Action::Render(RenderAction::Set { what, to: Box::new(to) }));
 }

@@ -5,7 +5,7 @@ mod controls;
 use std::sync::Arc;
 
 use chromascope_core::query::correction::CorrectionUnder;
-use egui::{Id, Label, Rect, RichText, ScrollArea, Sense, Ui, UiBuilder, Vec2};
+use egui::{Id, Label, Rect, RichText, ScrollArea, Sense, Ui, Vec2};
 
 use super::context::{Pane, PaneContext};
 use crate::command::Command;
@@ -29,11 +29,7 @@ pub const PANE: Pane = Pane {
 
 /// Shows the pane in its rectangle.
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
-    let body = widgets::pane(ui, &PANE, rect, context, |_, _| {});
-    let inner = body.shrink2(Vec2::new(2.0 * UNIT, 0.0));
-    let mut child = ui.new_child(UiBuilder::new().id_salt("correction").max_rect(inner));
-    child.set_clip_rect(body.intersect(ui.clip_rect()));
-    ScrollArea::vertical().id_salt("correction").auto_shrink(false).show(&mut child, |ui| {
+    widgets::scrolling_pane(ui, &PANE, rect, context, |ui, context| {
         ui.spacing_mut().item_spacing = Vec2::new(2.0 * UNIT, UNIT);
         let Some(camera) = controls::camera(ui, context) else {
             ui.label("Tick a camera in the library.");

@@ -9,9 +9,7 @@ mod view;
 
 use egui::{CollapsingHeader, Rect, ScrollArea, Ui, UiBuilder, Vec2};
 
-use super::context::{Pane, PaneContext};
-use crate::action::{Action, RenderAction};
-use crate::document::render::RenderSettings;
+use super::context::{Pane, PaneContext, set_render as set};
 use crate::panes::widgets;
 use crate::theme::UNIT;
 use crate::workspaces::PaneKind;
@@ -99,13 +97,6 @@ fn unless_image(
         caption(ui, reason, context);
     }
     ui.add_enabled_ui(!is_image, |ui| content(ui, context));
-}
-
-/// Changes the settings; changes of the same name during one drag are one step.
-fn set(context: &mut PaneContext<'_>, what: &'static str, change: impl FnOnce(&mut RenderSettings)) {
-    let mut to = context.scene.document.render.clone();
-    change(&mut to);
-    context.push(Action::Render(RenderAction::Set { what, to: Box::new(to) }));
 }
 
 /// A small caption above a control.

@@ -1,7 +1,7 @@
 //! Statistics of the visible pictures: samples, integration methods, computed and reused stages.
 
 use chromascope_figure::{Cell, Table};
-use egui::{Rect, RichText, ScrollArea, Ui, UiBuilder, Vec2};
+use egui::{Rect, RichText, Ui};
 
 use super::context::{Pane, PaneContext};
 use crate::command::Command;
@@ -32,12 +32,7 @@ pub const PANE: Pane =
 
 /// Shows the pane in its rectangle.
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
-    let body = widgets::pane(ui, &PANE, rect, context, |_, _| {});
-    let inner = body.shrink2(Vec2::new(2.0 * UNIT, 0.0));
-    let mut child = ui.new_child(UiBuilder::new().id_salt("statistics").max_rect(inner));
-    child.set_clip_rect(body.intersect(ui.clip_rect()));
-    ScrollArea::vertical().id_salt("statistics").auto_shrink(false).show(&mut child, |ui| {
-        ui.set_max_width(inner.width() - 2.0 * UNIT);
+    widgets::scrolling_pane(ui, &PANE, rect, context, |ui, context| {
         ui.spacing_mut().item_spacing.y = 0.5 * UNIT;
         pictures(ui, context);
         stages(ui, context);

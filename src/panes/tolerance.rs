@@ -2,11 +2,9 @@
 
 use chromascope_core::render::plan::{Candidate, Verdict};
 use chromascope_measure::pareto::duration;
-use egui::{CollapsingHeader, Rect, RichText, ScrollArea, Ui, UiBuilder, Vec2};
+use egui::{CollapsingHeader, Rect, RichText, Ui};
 
-use super::context::{NothingRendered, Pane, PaneContext};
-use crate::action::{Action, RenderAction};
-use crate::document::render::RenderSettings;
+use super::context::{NothingRendered, Pane, PaneContext, set_render as set};
 use crate::format::capitalized;
 use crate::panes::widgets;
 use crate::profiler::plans::Planned;
@@ -21,12 +19,7 @@ pub const PANE: Pane =
 
 /// Shows the pane in its rectangle.
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
-    let body = widgets::pane(ui, &PANE, rect, context, |_, _| {});
-    let inner = body.shrink2(Vec2::new(2.0 * UNIT, 0.0));
-    let mut child = ui.new_child(UiBuilder::new().id_salt("tolerance").max_rect(inner));
-    child.set_clip_rect(body.intersect(ui.clip_rect()));
-    ScrollArea::vertical().id_salt("tolerance").auto_shrink(false).show(&mut child, |ui| {
-        ui.set_max_width(inner.width() - 2.0 * UNIT);
+    widgets::scrolling_pane(ui, &PANE, rect, context, |ui, context| {
         choice(ui, context);
         ui.add_space(2.0 * UNIT);
         sources(ui, context);
@@ -60,12 +53,6 @@ fn choice(ui: &mut Ui, context: &mut PaneContext<'_>) {
         format!("Current quality: {}. Below: the methods that the tolerance would use.", settings.quality.label())
     };
     ui.label(RichText::new(words).small().color(context.theme.weak));
-}
-
-fn set(context: &mut PaneContext<'_>, what: &'static str, change: impl FnOnce(&mut RenderSettings)) {
-    let mut to = context.scene.document.render.clone();
-    change(&mut to);
-    context.push(Action::Render(RenderAction::Set { what, to: Box::new(to) }));
 }
 
 /// Each sensor with its plan.

@@ -15,7 +15,7 @@ pub use lines::focus_rim;
 use std::time::Duration;
 
 use chromascope_figure::{Ink, LegendEntry, Stroke};
-use egui::{Align, Button, Layout, Rect, Response, Sense, Ui, UiBuilder, Vec2};
+use egui::{Align, Button, Layout, Rect, Response, ScrollArea, Sense, Ui, UiBuilder, Vec2};
 
 use crate::command::{Command, Format};
 use crate::paint;
@@ -84,6 +84,24 @@ pub fn take_sought(response: &Response, name: &str) {
         response.request_focus();
         response.scroll_to_me(Some(Align::Center));
     }
+}
+
+/// Draws a pane's frame and header, and content that scrolls below.
+pub fn scrolling_pane(
+    ui: &mut Ui,
+    pane: &Pane,
+    rect: Rect,
+    context: &mut PaneContext<'_>,
+    content: impl FnOnce(&mut Ui, &mut PaneContext<'_>),
+) {
+    let body = self::pane(ui, pane, rect, context, |_, _| {});
+    let inner = body.shrink2(Vec2::new(2.0 * UNIT, 0.0));
+    let mut child = ui.new_child(UiBuilder::new().id_salt(pane.title).max_rect(inner));
+    child.set_clip_rect(body.intersect(ui.clip_rect()));
+    ScrollArea::vertical().id_salt(pane.title).auto_shrink(false).show(&mut child, |ui| {
+        ui.set_max_width(inner.width() - 2.0 * UNIT);
+        content(ui, context);
+    });
 }
 
 /// The title, which opens a menu of panes for this place.

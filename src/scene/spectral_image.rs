@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use chromascope_core::camera::{Rendering, RenderingError};
 use chromascope_core::colorimetry::Metric;
+use chromascope_core::math::quantile::quantile;
 use chromascope_core::query::render::difference::{BrightSamples, Difference};
 use chromascope_core::query::{Ask, Query, RenderingQuery, Shared};
 use chromascope_core::render::develop::{develop_signals, signal_differences};
@@ -287,9 +288,8 @@ pub fn screen_steps(info: &ImageInfo) -> Vec<usize> {
 /// Luminance below which most pixels are; none unless it is positive.
 fn bright(rendering: &Rendering, signals: &[[f32; 3]]) -> Option<f64> {
     let scale = ColorimetricScale::new(rendering, 1.0);
-    let mut luminances: Vec<f32> = signals.iter().map(|signal| scale.color(*signal).xyz.y as f32).collect();
-    let rank = ((luminances.len() as f64 * WHITE_QUANTILE).ceil() as usize).checked_sub(1)?;
-    let y = f64::from(*luminances.select_nth_unstable_by(rank, f32::total_cmp).1);
+    let mut luminances: Vec<f64> = signals.iter().map(|signal| scale.color(*signal).xyz.y).collect();
+    let y = quantile(&mut luminances, WHITE_QUANTILE)?;
     (y > 0.0 && y.recip().is_finite()).then_some(y)
 }
 

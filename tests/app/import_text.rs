@@ -7,6 +7,7 @@ use chromascope::workspaces::{PaneKind, Workspace};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
 
+use crate::import_switches::{says, settle};
 use crate::own_data::Dropped;
 use crate::screenshots::open;
 use crate::waiting::until;
@@ -33,25 +34,10 @@ fn window(size: [f32; 2], theme: egui::Theme, files: &[(&str, Vec<u8>)]) -> Wind
     window
 }
 
-/// Until all is looked at and done.
-fn settle(window: &mut Window) {
-    for _ in 0..3 {
-        window.run_steps(2);
-        window.state().opened().wait();
-    }
-    window.run_steps(2);
-}
-
 /// Number of computations of each kind of query on the files.
 fn computed(window: &Window) -> Vec<(&'static str, u64)> {
     let counts = window.state().results().counts().into_iter().filter(|(name, _)| name.ends_with(" a file"));
     counts.map(|(name, count)| (name, count.misses)).collect()
-}
-
-/// True if a control on screen contains these words.
-fn says(window: &Window, words: &str) -> bool {
-    let said = |text: Option<String>| text.is_some_and(|text| text.contains(words));
-    window.query_all_by(|node| said(node.label()) || said(node.value())).next().is_some()
 }
 
 #[test]

@@ -8,8 +8,9 @@ use chromascope::results::Results;
 use chromascope::scene::Scene;
 use egui::accesskit::Role;
 use egui_kittest::Harness;
-use egui_kittest::kittest::Queryable as _;
 
+use crate::import_switches::says;
+use crate::library::press;
 use crate::screenshots::open;
 
 type Window = Harness<'static, ChromascopeApp>;
@@ -18,29 +19,17 @@ fn window() -> Window {
     open([1280.0, 1000.0], egui::Theme::Dark)
 }
 
-fn camera(name: &str) -> SensorId {
+pub(crate) fn camera(name: &str) -> SensorId {
     SensorId { kind: SetKind::Camera, name: name.to_owned() }
 }
 
-fn patch(source: &str, name: &str) -> PlotItem {
+pub(crate) fn patch(source: &str, name: &str) -> PlotItem {
     PlotItem::Patch { source: Some(camera(source)), patch: name.to_owned() }
 }
 
 fn select(window: &mut Window, thing: PlotItem) {
     window.state_mut().view_mut().selected = Some(thing);
     window.run();
-}
-
-fn press(window: &mut Window, role: Role, label: &str) {
-    window.get_by_role_and_label(role, label).click();
-    window.run();
-}
-
-/// True if a control on screen contains these words.
-fn says(window: &Window, words: &str) -> bool {
-    let said = |text: Option<String>| text.is_some_and(|text| text.contains(words));
-    let mut found = window.query_all_by(|node| said(node.label()) || said(node.value())).peekable();
-    found.peek().is_some()
 }
 
 #[test]

@@ -17,7 +17,7 @@ fn window() -> Window {
     open([1280.0, 800.0], egui::Theme::Dark)
 }
 
-fn press(window: &mut Window, role: Role, label: &str) {
+pub(crate) fn press(window: &mut Window, role: Role, label: &str) {
     window.get_by_role_and_label(role, label).click();
     window.run();
 }

@@ -9,7 +9,7 @@ use chromascope::export;
 use chromascope::figures::{FigureInput, report_card};
 use chromascope::jobs::Executor;
 use chromascope::panes;
-use chromascope::plot_item::{PlotItem, SensorId};
+use chromascope::plot_item::PlotItem;
 use chromascope::results::Results;
 use chromascope::scene::Scene;
 use chromascope::theme::Theme;
@@ -22,6 +22,7 @@ use egui::accesskit::Role;
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT as _, Queryable};
 
+use crate::inspector::camera;
 use crate::screenshots::driven_with;
 
 type Window = Harness<'static, ChromascopeApp>;
@@ -61,10 +62,6 @@ fn name(row: &str) -> &str {
 fn number(row: &str, column: &str) -> Option<f64> {
     let words = row.split(&format!("{column} ")).nth(1)?;
     words.split([',', ' ']).next()?.replace('−', "-").parse().ok()
-}
-
-fn camera(name: &str) -> SensorId {
-    SensorId { kind: SetKind::Camera, name: name.to_owned() }
 }
 
 #[test]

@@ -9,15 +9,15 @@ use chromascope::catalog::import::{TAKEN_AT_FIRST, import};
 use chromascope::catalog::likeness::Likeness;
 use chromascope::catalog::opened::{Opened, OpenedEvent, Request};
 use chromascope::command::Command;
-use chromascope::document::imported::{Fingerprint, ImportOverrides, ImportedSet};
+use chromascope::document::imported::{Fingerprint, ImportOverrides};
 use chromascope::document::{Document, session};
 use chromascope::view::Weight;
 use chromascope::view::import::{ImportItem, ImportMemory};
 use egui_kittest::Harness;
 use spectral_file::{ReadOptions, Role, Values};
 
+use crate::import_switches::{own, until};
 use crate::screenshots::open;
-use crate::waiting;
 
 type Window = Harness<'static, ChromascopeApp>;
 
@@ -26,22 +26,6 @@ const BROKEN: &str = "nm,leaf\n400,0.1\n410,0.2\n420,oops\n430,0.2\n440,0.2\n";
 
 fn window() -> Window {
     open([1280.0, 800.0], egui::Theme::Dark)
-}
-
-/// Draws frames until something holds.
-fn until(window: &mut Window, what: &str, holds: impl Fn(&ChromascopeApp) -> bool) {
-    waiting::until(what, || {
-        if holds(window.state()) {
-            return Ok(());
-        }
-        window.run_steps(1);
-        Err(window.state().view().status.text.clone())
-    });
-    window.run_steps(2);
-}
-
-fn own(window: &Window) -> Vec<ImportedSet> {
-    window.state().history().document().own.iter().map(|set| (**set).clone()).collect()
 }
 
 fn wish(window: &mut Window, name: &str, options: ReadOptions) {

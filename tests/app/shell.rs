@@ -8,7 +8,7 @@ use chromascope::command::{Command, TourMove};
 use chromascope::document::start::Start;
 use chromascope::document::{Document, SetKind};
 use chromascope::files::Files;
-use chromascope::plot_item::{PlotItem, SensorId};
+use chromascope::plot_item::PlotItem;
 use chromascope::view::SavedView;
 use chromascope::workspaces::{PaneKind, Workspace};
 use eframe::App as _;
@@ -16,6 +16,8 @@ use egui::accesskit::Role;
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
+use crate::import_switches::says;
+use crate::inspector::patch;
 use crate::screenshots::{open, open_with};
 
 type Window = Harness<'static, ChromascopeApp>;
@@ -23,19 +25,6 @@ type Window = Harness<'static, ChromascopeApp>;
 const SIZE: [f32; 2] = [1280.0, 800.0];
 /// Camera of the library that neither start compares.
 const OTHER: &str = "Canon EOS 5D";
-
-fn camera(name: &str) -> SensorId {
-    SensorId { kind: SetKind::Camera, name: name.to_owned() }
-}
-
-fn patch(source: &str, name: &str) -> PlotItem {
-    PlotItem::Patch { source: Some(camera(source)), patch: name.to_owned() }
-}
-
-fn says(window: &Window, words: &str) -> bool {
-    let said = |text: Option<String>| text.is_some_and(|text| text.contains(words));
-    window.query_all_by(|node| said(node.label()) || said(node.value())).next().is_some()
-}
 
 /// Steps until egui's time has gone on by so many seconds.
 fn wait(window: &mut Window, seconds: f64) {

@@ -267,3 +267,20 @@ fn ids_name_one_method_each() {
         assert_eq!(CorrectionMethod::by_id(method.id()), Some(method));
     }
 }
+
+#[test]
+fn weights_that_are_all_zero_are_refused_with_a_remedy() {
+    let set = Set { weights: vec![0.0; set().weights.len()], ..set() };
+    let methods = [
+        CorrectionMethod::LeastSquares,
+        CorrectionMethod::Minimize(Objective::DeltaE2000),
+        CorrectionMethod::RootPolynomial(Degree::Two),
+    ];
+    for (method, keeps_white) in methods.into_iter().flat_map(|method| [(method, true), (method, false)]) {
+        let error = set.training().fit(&correction(method, keeps_white), white()).unwrap_err();
+        assert_eq!(error, FitError::NoWeight, "{method:?}");
+        assert!(error.to_string().contains("give at least one class a weight above 0"));
+    }
+    let uncorrected = correction(CorrectionMethod::None, true);
+    assert!(set.training().fit(&uncorrected, white()).is_ok(), "weights do not matter without a fit");
+}

@@ -66,8 +66,11 @@ fn what_is_no_color_makes_no_pair() {
     let seen = |value: f64| Seen { rgb: [value; 3], lab: Lab { l: value, a: 0.0, b: 0.0 } };
     let colors = [seen(f64::NAN), seen(f64::INFINITY), seen(0.5)];
     for confusion in [Confusion::Camera, Confusion::Observer] {
-        assert!(search(&colors, confusion, MetamerLimits::USUAL, 10).is_empty());
-        assert!(search(&[], confusion, MetamerLimits::USUAL, 10).is_empty());
+        assert!(search(&colors, confusion, MetamerLimits::USUAL, 10, || false).is_empty());
+        let two = [seen(10.0), Seen { rgb: [10.0; 3], ..seen(50.0) }];
+        let found = |stop: bool| search(&two, Confusion::Camera, MetamerLimits::USUAL, 10, || stop).len();
+        assert_eq!([found(false), found(true)], [1, 0], "a search that is stopped ends");
+        assert!(search(&[], confusion, MetamerLimits::USUAL, 10, || false).is_empty());
     }
     for limit in [0.0, -1.0, f64::NAN, f64::INFINITY] {
         assert_eq!(MetamerLimits::new(limit, 1.0), Err(MetamerLimitsError));
@@ -81,7 +84,7 @@ fn pairs_brighter_than_white_are_found() {
     // S_L is 2.94 at L* 180: ΔE*00 of 2.9 / 2.94 is confused, though ΔL* exceeds 1.75.
     let colors = [seen(178.55, 1.0), seen(181.45, 2.0)];
     let limits = MetamerLimits::new(1.0, 2.0).unwrap();
-    let pairs = search(&colors, Confusion::Observer, limits, 10);
+    let pairs = search(&colors, Confusion::Observer, limits, 10, || false);
     assert_eq!(pairs.len(), 1);
     assert_near("ΔE*00", pairs[0].observer_difference, 2.9 / (1.0 + 0.015 * 16_900.0 / 16_920_f64.sqrt()), 1e-12);
 }

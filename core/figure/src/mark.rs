@@ -37,6 +37,22 @@ impl Mark {
         Self { tag, name: name.into(), shape, stroke: None, fill: None, halo: None }
     }
 
+    /// A line of text that is its own name.
+    pub fn text(text: impl Into<String>, at: [f64; 2], anchor: Anchor, size: TextSize, ink: impl Into<Ink>) -> Self {
+        let text = text.into();
+        let shape = Shape::Text { at, text: text.clone(), anchor, offset: [0.0; 2], size, ink: ink.into() };
+        Self::new(Tag::default(), text, shape)
+    }
+
+    /// Text shifted by points, y downward; no other mark has an offset.
+    #[must_use]
+    pub fn with_offset(mut self, by: [f64; 2]) -> Self {
+        if let Shape::Text { offset, .. } = &mut self.shape {
+            *offset = by;
+        }
+        self
+    }
+
     /// Mark with a solid line of the given width in points.
     #[must_use]
     pub fn with_stroke(self, ink: impl Into<Ink>, width: f64) -> Self {

@@ -5,19 +5,6 @@ use spectral_file::{DecimalMark, Delimiter, Orientation, ReadOptions, Reader, Ro
 /// Number of bytes that determine the choices.
 pub const LENGTH: usize = 6;
 
-const READERS: [Reader; 11] = [
-    Reader::Table,
-    Reader::Cgats,
-    Reader::Jcamp,
-    Reader::Tm27,
-    Reader::Cxf,
-    Reader::Rawtoaces,
-    Reader::Dcamprof,
-    Reader::Enlighten,
-    Reader::Labels,
-    Reader::Alternate,
-    Reader::Camspec,
-];
 const DELIMITERS: [Delimiter; 6] = [
     Delimiter::Comma,
     Delimiter::CommaSpace,
@@ -47,7 +34,7 @@ fn pick<T: Copy>(all: &[T], number: u8) -> Option<T> {
 pub fn split(input: &[u8]) -> Option<(ReadOptions, &[u8])> {
     let ([reader, cells, axis, values, part, column], rest) = input.split_first_chunk::<LENGTH>()?;
     let options = ReadOptions {
-        reader: pick(&READERS, *reader),
+        reader: pick(&Reader::ALL, *reader),
         delimiter: pick(&DELIMITERS, cells & 15),
         decimal_mark: pick(&MARKS, cells >> 4),
         orientation: pick(&ORIENTATIONS, axis & 15),
@@ -69,5 +56,5 @@ pub fn only_reader(reader: u8) -> [u8; LENGTH] {
 
 /// Number of readers to choose from.
 pub const fn readers() -> u8 {
-    READERS.len() as u8
+    Reader::ALL.len() as u8
 }

@@ -21,6 +21,9 @@ pub enum FitError {
     /// The vector to be preserved is zero.
     #[error("the white has no signal")]
     NoWhite,
+    /// All weights are 0.
+    #[error("all training samples have weight 0; give at least one class a weight above 0")]
+    NoWeight,
 }
 
 /// The matrix M that minimizes `Σ |Mᵢⱼ aₖ − bₖ|²` among all with `M white = image`.

@@ -11,3 +11,4 @@ pub mod interpolation;
 pub mod least_squares;
 pub mod ln;
 pub mod minimum;
+pub mod quantile;

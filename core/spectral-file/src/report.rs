@@ -84,6 +84,23 @@ pub enum Reader {
     Camspec,
 }
 
+impl Reader {
+    /// All readers.
+    pub const ALL: [Self; 11] = [
+        Self::Table,
+        Self::Cgats,
+        Self::Jcamp,
+        Self::Tm27,
+        Self::Cxf,
+        Self::Rawtoaces,
+        Self::Dcamprof,
+        Self::Enlighten,
+        Self::Labels,
+        Self::Alternate,
+        Self::Camspec,
+    ];
+}
+
 impl fmt::Display for Reader {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {

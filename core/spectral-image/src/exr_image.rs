@@ -43,7 +43,7 @@ impl<R: Read + Seek> ExrImage<R> {
         let header = &meta.headers[layer];
         check(header, length)?;
         let (width, height) = (header.layer_size.width(), header.layer_size.height());
-        ImageInfo::check_size(width, height, found.len())?;
+        ImageInfo::check_size([width, height, found.len()], ["width", "height", "spectral channels"])?;
         let nm: Vec<f64> = found.iter().map(|(_, nm)| *nm).collect();
         let order = ascending(&nm, "channels")?;
         let mut places = vec![None; header.channels.list.len()];

@@ -178,7 +178,7 @@ impl EnviHeader {
         let fields = Fields::read(&text)?;
         let [width, height] = [fields.integer("samples", "640")?, fields.integer("lines", "480")?];
         let file_bands = fields.integer("bands", "31")?;
-        ImageInfo::check_size(width, height, file_bands)?;
+        ImageInfo::check_size([width, height, file_bands], ["samples", "lines", "bands"])?;
         refuse_unread(&fields)?;
         let data_type = data_type(&fields)?;
         let mut notes = Vec::new();

@@ -73,10 +73,10 @@ impl ImageInfo {
         (bytes / (self.row_samples() * size_of::<f32>()).max(1)).clamp(1, self.height)
     }
 
-    /// Checks sides and bands before anything is allocated by them.
-    pub(crate) fn check_size(width: usize, height: usize, bands: usize) -> Result<(), ImageError> {
-        let fields = [("samples", width, MAX_SIDE), ("lines", height, MAX_SIDE), ("bands", bands, MAX_BANDS)];
-        for (field, value, limit) in fields {
+    /// Checks sides and bands before anything is allocated by them; `fields` names them as the format does.
+    pub(crate) fn check_size([width, height, bands]: [usize; 3], fields: [&'static str; 3]) -> Result<(), ImageError> {
+        let sizes = [(width, MAX_SIDE), (height, MAX_SIDE), (bands, MAX_BANDS)];
+        for (field, (value, limit)) in fields.into_iter().zip(sizes) {
             if value == 0 || value > limit {
                 return Err(ImageError::Size { field, value, limit });
             }
@@ -103,5 +103,19 @@ pub(crate) fn ascending(wavelengths: &[f64], field: &'static str) -> Result<Vec<
     match order.windows(2).find(|pair| wavelengths[pair[0]] == wavelengths[pair[1]]) {
         Some(pair) => Err(ImageError::Twice { field, nm: wavelengths[pair[0]] }),
         None => Ok(order),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sizes_are_refused_in_the_words_of_the_format() {
+        let check =
+            |size| ImageInfo::check_size(size, ["width", "height", "spectral channels"]).map_err(|e| e.to_string());
+        assert_eq!(check([1, 1, 1]), Ok(()));
+        assert_eq!(check([MAX_SIDE + 1, 1, 1]), Err("`width` is 65537; expected 1 to 65536".to_owned()));
+        assert!(check([1, 1, 0]).is_err_and(|words| words.starts_with("`spectral channels` is 0")));
     }
 }

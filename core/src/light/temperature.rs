@@ -50,8 +50,7 @@ const CHUNK: usize = 4096;
 /// The sums go from 380 to 780 nm, as everywhere here. Over the whole table of the CIE, from 360 to 830 nm, temperatures are
 /// about 2 K lower at 6500 K: that, and not the method, is the difference from other programs.
 ///
-/// Error against 50 digits, held by tests for the CIE 1931 observer: below [`Self::MAX_ERROR_K`] and [`Self::MAX_ERROR_DUV`], up
-/// to the very ends.
+/// Error against 50 digits, held by tests for the CIE 1931 observer: below 2e-9 K and 1e-15, up to the very ends.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlanckianLocus {
     pieces: Pieces,
@@ -60,11 +59,6 @@ pub struct PlanckianLocus {
 }
 
 impl PlanckianLocus {
-    /// Error bound of a temperature, in kelvins.
-    pub const MAX_ERROR_K: f64 = 2e-9;
-    /// Error bound of a Duv.
-    pub const MAX_ERROR_DUV: f64 = 1e-15;
-
     /// Tabulates the locus of an observer: some 2100 sums over its curves, then a search for each node of the table.
     ///
     /// # Errors

@@ -90,7 +90,14 @@ fn largest_s_l(colors: &[Seen]) -> f64 {
 /// `L*(I)` is the CIE lightness of a balanced channel. The list is sorted by one coordinate in which confused colors are near (green, or
 /// L* by `|ΔL*| ≤ S_L ΔE*00`), so that only neighbors are compared: about `n² w` pairs for windows of a share w of the range, and ΔE*00 of
 /// those alone whose channels decide nothing. Every pair within the limits is found. Colors that are not finite are omitted.
-pub fn search(colors: &[Seen], confusion: Confusion, limits: MetamerLimits, most: usize) -> Vec<MetamerPair> {
+/// Incomplete once `stop` says so.
+pub fn search(
+    colors: &[Seen],
+    confusion: Confusion,
+    limits: MetamerLimits,
+    most: usize,
+    stop: impl Fn() -> bool,
+) -> Vec<MetamerPair> {
     let levels: Vec<[f64; 3]> = colors.iter().map(Seen::levels).collect();
     let (key, window): (Vec<f64>, f64) = match confusion {
         Confusion::Camera => (levels.iter().map(|level| level[1]).collect(), limits.confused),
@@ -105,7 +112,7 @@ pub fn search(colors: &[Seen], confusion: Confusion, limits: MetamerLimits, most
     let mut order: Vec<usize> = (0..colors.len()).filter(finite).collect();
     order.sort_by(|&a, &b| key[a].total_cmp(&key[b]));
     let mut found = Vec::new();
-    for (at, &first) in order.iter().enumerate() {
+    for (at, &first) in order.iter().enumerate().take_while(|_| !stop()) {
         for &second in order[at + 1..].iter().take_while(|&&second| key[second] - key[first] <= window) {
             let apart = (0..3).map(|c| (levels[first][c] - levels[second][c]).abs()).fold(0.0, f64::max);
             let possible = match confusion {

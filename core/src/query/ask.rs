@@ -31,6 +31,11 @@ pub trait Ask {
     /// Returns the answer to a query, computed or cached.
     fn ask<Q: Query>(&self, query: &Q) -> Arc<Q::Answer>;
 
+    /// Returns the answers to queries of one kind, in their order; an evaluator may compute them in parallel.
+    fn ask_all<Q: Query>(&self, queries: &[Q]) -> Vec<Arc<Q::Answer>> {
+        queries.iter().map(|query| self.ask(query)).collect()
+    }
+
     /// Stop flag of the evaluation. An answer computed after it was set may be incomplete and must not be cached.
     fn stop(&self) -> Stop {
         Stop::NEVER

@@ -11,6 +11,7 @@ use crate::correction::classes::ColorClass;
 use crate::correction::dng::{D50, DngMatrices, first_weight, mixed};
 use crate::correction::{Correction, CorrectionMethod, RgbTransform, Training};
 use crate::light::{RadiationConstants, planckian::black_body, temperature::single::nearest_blackbody};
+use crate::math::quantile::quantile;
 use crate::patch_set::PatchSet;
 use crate::spectral::{GridSpectrum, Sensor};
 use crate::units::Kelvin;
@@ -23,7 +24,7 @@ use super::shared::Shared;
 pub struct ErrorSummary {
     /// Mean.
     pub mean: f64,
-    /// 95th percentile, by nearest rank.
+    /// 95th percentile, as [`quantile`] defines it.
     pub p95: f64,
     /// Maximum.
     pub max: f64,
@@ -39,7 +40,7 @@ impl ErrorSummary {
         known.sort_by(|a, b| a.0.total_cmp(&b.0));
         let &(max, worst) = known.last()?;
         let mean = known.iter().map(|(value, _)| value).sum::<f64>() / known.len() as f64;
-        let p95 = known[(95 * known.len()).div_ceil(100).max(1) - 1].0;
+        let p95 = quantile(&mut known.iter().map(|(value, _)| *value).collect::<Vec<_>>(), 0.95)?;
         Some(Self { mean, p95, max, worst })
     }
 }

@@ -89,7 +89,7 @@ pub struct Consistency {
     pub differences: Vec<(usize, f64)>,
     /// Mean ΔE*00.
     pub mean: f64,
-    /// 95th percentile: the smallest difference that at least 95 % of the patches do not exceed.
+    /// 95th percentile, as [`crate::math::quantile::quantile`] defines it.
     pub percentile_95: f64,
     /// Largest ΔE*00.
     pub max: f64,

@@ -72,7 +72,8 @@ impl Query for MetamersQuery {
                 colors.push(Seen { rgb, lab: color.lab.ok_or(DifferenceError::NoLab)? });
             }
         }
-        let pairs = search(&colors, self.confusion, self.limits, self.most);
+        let stop = ask.stop();
+        let pairs = search(&colors, self.confusion, self.limits, self.most, || stop.is_set());
         Ok(Metamers { pairs, searched: colors.len() })
     }
 }

@@ -32,8 +32,7 @@ pub struct CameraMetrics {
 impl CameraMetrics {
     /// Value of a metric.
     pub fn of(&self, metric: CameraMetric) -> Option<MetricValue> {
-        let at = CameraMetric::ALL.iter().position(|entry| *entry == metric)?;
-        self.values.get(at).copied()
+        self.values.get(metric.place).copied()
     }
 }
 

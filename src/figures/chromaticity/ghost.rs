@@ -19,9 +19,8 @@ pub(super) fn add(drawing: &mut Drawing<'_>) {
     let ink = Ink::new(InkRole::Text).faded(0.7);
     let line = Mark::new(PickIndex::NONE, format!("{} (not compared)", id.name), Shape::Line { points, closed: false });
     drawing.marks.push(line.with_stroke(ink, 2.0).with_dash(Dash::Dashed).with_halo(InkRole::Plot));
-    let (anchor, offset, size) = (Anchor::TOP, [0.0, 6.0], TextSize::Small);
-    let shape = Shape::Text { at, text: id.name.clone(), anchor, offset, size, ink: InkRole::Text.into() };
-    drawing.marks.push(Mark::new(PickIndex::NONE, id.name, shape).with_halo(InkRole::Plot));
+    let text = Mark::text(id.name, at, Anchor::TOP, TextSize::Small, InkRole::Text);
+    drawing.marks.push(text.with_offset([0.0, 6.0]).with_halo(InkRole::Plot));
 }
 
 /// The sensor under the pointer, else the selected one, if it is not compared.

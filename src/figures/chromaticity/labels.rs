@@ -1,6 +1,6 @@
 //! Texts of the diagram: each where there is room, none over another.
 
-use chromascope_figure::{Anchor, Ink, InkRole, Mark, Shape, Tag, TextSize, text_width};
+use chromascope_figure::{Anchor, InkRole, Mark, Shape, Tag, TextSize, text_width};
 
 use super::frame::Frame;
 use crate::plot_item::PickIndex;
@@ -191,9 +191,8 @@ pub(super) fn placed(mut labels: Vec<Label>, marks: &[&[Mark]], frame: &Frame) -
         let kept = || boxes.first().filter(|_| label.rank == Rank::Pointed);
         let Some((Place { at, anchor, offset }, bounds)) = found.or_else(kept).copied() else { continue };
         taken.push(bounds);
-        let ink = Ink::new(label.ink);
-        let shape = Shape::Text { at, text: label.text.clone(), anchor, offset, size, ink };
-        texts.push(Mark::new(label.tag, label.text, shape).with_halo(InkRole::Plot));
+        let text = Mark::text(label.text, at, anchor, size, label.ink).with_offset(offset).with_halo(InkRole::Plot);
+        texts.push(Mark { tag: label.tag, ..text });
     }
     texts
 }

@@ -3,7 +3,6 @@
 use chromascope_core::colorimetry::Metric;
 use chromascope_figure::{Anchor, Image, Ink, Mark, Shape, TextSize};
 
-use super::text;
 use crate::format::number;
 use crate::plot_item::PickIndex;
 use crate::render_service::RenderedFrame;
@@ -93,12 +92,8 @@ pub(super) fn scale(scale: Scale, name: &str, [x, y]: [f64; 2], width: f64, ink:
     let mut marks = vec![Mark::new(PickIndex::NONE, "scale", shape)];
     for (share, value) in scale.ticks() {
         let words = if share < 1.0 { value } else { format!("{name} {value}") };
-        marks.push(text(
-            &words,
-            [left + f64::from(share) * (right - left), y + 26.0],
-            Anchor::CENTER,
-            (TextSize::Body, ink),
-        ));
+        let at = [left + f64::from(share) * (right - left), y + 26.0];
+        marks.push(Mark::text(words, at, Anchor::CENTER, TextSize::Body, ink));
     }
     marks
 }

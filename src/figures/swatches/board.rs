@@ -247,17 +247,13 @@ impl<'a> Board<'a> {
     }
 
     fn text(&mut self, tag: Tag, text: &str, at: [f64; 2], anchor: Anchor) {
-        let ink = Ink::new(InkRole::OnSurround);
-        let shape = Shape::Text { at, text: text.to_owned(), anchor, offset: [0.0, 0.0], size: TextSize::Body, ink };
-        self.marks.push(Mark::new(tag, text, shape));
+        self.marks.push(Mark { tag, ..Mark::text(text, at, anchor, TextSize::Body, InkRole::OnSurround) });
     }
 }
 
 /// Small text on the surround.
 pub(super) fn small(text: &str, at: [f64; 2], anchor: Anchor) -> Mark {
-    let ink = Ink::new(InkRole::OnSurround);
-    let shape = Shape::Text { at, text: text.to_owned(), anchor, offset: [0.0, 0.0], size: TextSize::Small, ink };
-    Mark::new(PickIndex::NONE, text, shape)
+    Mark::text(text, at, anchor, TextSize::Small, InkRole::OnSurround)
 }
 
 /// A column's name in at most two lines, each cut to the width.

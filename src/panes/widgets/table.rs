@@ -152,6 +152,9 @@ impl<'a> DataTable<'a> {
         context: &PaneContext<'_>,
     ) -> Body<'t> {
         let layouts = self.columns.iter().enumerate().map(|(index, column)| {
+            if !shown.contains(&index) {
+                return Layout::HIDDEN;
+            }
             let rows = 0..self.table.rows.len();
             let uncertainties = self.note.into_iter().flat_map(|note| {
                 rows.clone().filter_map(move |row| {

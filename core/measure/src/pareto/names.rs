@@ -4,7 +4,7 @@
 use std::f64::consts::TAU;
 
 use chromascope_figure::{
-    Anchor, Annotation, Ink, InkRole, Mark, Panel, Projection, Shape, TextSize, annotations, text_width,
+    Anchor, Annotation, InkRole, Mark, Panel, Projection, Shape, TextSize, annotations, text_width,
 };
 
 use super::Place;
@@ -125,9 +125,9 @@ impl Drawn<'_> {
     }
 
     fn text(&mut self, place: &Place, text: &str, at: [f64; 2], anchor: Anchor, offset: [f64; 2]) {
-        let (text, ink) = (text.to_owned(), Ink::new(InkRole::Text));
-        let shape = Shape::Text { at, text, anchor, offset, size: TextSize::Small, ink };
-        self.marks.push(Mark::new(place.tag, place.name.clone(), shape).with_halo(self.panel.background));
+        let text = Mark::text(text, at, anchor, TextSize::Small, InkRole::Text).with_offset(offset);
+        let text = text.with_halo(self.panel.background);
+        self.marks.push(Mark { tag: place.tag, name: place.name.clone(), ..text });
     }
 
     /// The data at a point of the figure.

@@ -2,6 +2,7 @@
 
 use super::value::WhyNot;
 use crate::colorimetry::{Lab, Metric};
+use crate::math::quantile::quantile;
 use crate::query::compare::{comparable_by_paper, difference};
 use crate::query::patches::{ColorTransformSpec, PatchColor, RenderingQuery};
 use crate::spectral::Primaries;
@@ -93,22 +94,13 @@ fn angle_deg(a: [f64; 3], b: [f64; 3]) -> Option<f64> {
 impl Statistic {
     /// The statistic of some values, in any order; none of nothing.
     pub fn over(self, mut values: Vec<f64>) -> Option<f64> {
-        values.sort_by(f64::total_cmp);
-        let last = values.len().checked_sub(1)?;
-        Some(match self {
-            Self::Mean => values.iter().sum::<f64>() / values.len() as f64,
-            Self::Median => quantile(&values, 0.5),
-            Self::Percentile95 => quantile(&values, 0.95),
-            Self::Maximum => values[last],
-        })
+        match self {
+            Self::Mean => (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64),
+            Self::Median => quantile(&mut values, 0.5),
+            Self::Percentile95 => quantile(&mut values, 0.95),
+            Self::Maximum => values.into_iter().max_by(f64::total_cmp),
+        }
     }
-}
-
-/// Quantile of sorted values, linear between the order statistics.
-fn quantile(sorted: &[f64], share: f64) -> f64 {
-    let place = share * (sorted.len() - 1) as f64;
-    let (below, above) = (place.floor() as usize, place.ceil() as usize);
-    sorted[below] + (sorted[above] - sorted[below]) * (place - below as f64)
 }
 
 /// For each metric the patches with the largest differences, largest first.

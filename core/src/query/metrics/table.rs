@@ -75,6 +75,8 @@ pub struct CameraMetric {
     pub decimals: usize,
     /// Direction in which values improve.
     pub better: Better,
+    /// Place in [`Self::ALL`].
+    pub(super) place: usize,
     evaluate: fn(&Evidence) -> Result<f64, WhyNot>,
 }
 
@@ -112,6 +114,7 @@ macro_rules! statistics {
             group: MetricGroup::Differences,
             decimals: $decimals,
             better: Better::Lower,
+            place: 0,
             evaluate: |evidence| evidence.statistic($at, $of),
         }
     };
@@ -283,6 +286,7 @@ const DIFFERENCE: CameraMetric = CameraMetric {
     group: MetricGroup::Differences,
     decimals: 2,
     better: Better::Lower,
+    place: 0,
     evaluate: |_| Err(WhyNot::NoPatches),
 };
 const LOCUS: CameraMetric = CameraMetric { group: MetricGroup::Locus, decimals: 4, ..DIFFERENCE };
@@ -314,8 +318,11 @@ const fn table() -> [CameraMetric; COUNT] {
     let (first, then) = (STATISTICS.as_flattened(), &SINGLE);
     let mut all = [SNR; COUNT];
     let mut at = 0;
-    while at + 1 < COUNT {
-        all[at] = if at < first.len() { first[at] } else { then[at - first.len()] };
+    while at < COUNT {
+        if at + 1 < COUNT {
+            all[at] = if at < first.len() { first[at] } else { then[at - first.len()] };
+        }
+        all[at].place = at;
         at += 1;
     }
     all

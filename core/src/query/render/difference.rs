@@ -4,6 +4,7 @@ use super::CameraImageQuery;
 use super::picture::ExposureQuery;
 use crate::camera::RenderingError;
 use crate::colorimetry::Metric;
+use crate::math::quantile::quantile;
 use crate::query::ask::{Ask, Query};
 use crate::query::compare;
 use crate::query::patches::RenderingQuery;
@@ -61,16 +62,12 @@ pub struct BrightSamples {
 }
 
 impl BrightSamples {
-    /// Nearest-rank quantiles; none of nothing.
+    /// Quantiles as [`quantile`] defines them; none of nothing.
     pub fn new(map: &[f32], lightness: &[f32]) -> Option<Self> {
         let bright = map.iter().zip(lightness).filter(|(_, l)| f64::from(**l) > BRIGHT_L);
-        let mut values: Vec<f32> = bright.map(|(difference, _)| *difference).collect();
-        let count = values.len();
-        let mut quantile = |percent: usize| {
-            let rank = (percent * count).div_ceil(100).max(1) - 1;
-            f64::from(*values.select_nth_unstable_by(rank, f32::total_cmp).1)
-        };
-        (count > 0).then(|| Self { count, median: quantile(50), p95: quantile(95) })
+        let mut values: Vec<f64> = bright.map(|(difference, _)| f64::from(*difference)).collect();
+        let [median, p95] = [0.5, 0.95].map(|share| quantile(&mut values, share));
+        Some(Self { count: values.len(), median: median?, p95: p95? })
     }
 }
 

@@ -87,6 +87,9 @@ pub(super) struct Layout {
 pub(super) type RowDecimals<'a> = &'a dyn Fn(usize) -> Option<usize>;
 
 impl Layout {
+    /// Layout of a column that is not shown.
+    pub(super) const HIDDEN: Self = Self { form: Form::Text, width: 0.0, uncertainty: 0.0, shades: None };
+
     /// Layout of a column. `uncertainties` are its cells', with decimals of their own; `compact` has the decimals of a compact
     /// table's rows, which hold quantities of their own.
     pub(super) fn of(
