@@ -28,12 +28,14 @@ pub fn bars(rendition: &Rendition, area: Rect) -> Option<Panel> {
     let low = values.iter().map(|(_, value)| *value).fold(0.0, f64::min);
     let floor = if low < 0.0 { (low / 50.0).floor() * 50.0 } else { 0.0 };
     let names = values.iter().enumerate().map(|(index, (name, _))| (index as f64 + 0.5, name.clone())).collect();
-    let x = Axis::new("test color (Ra: mean of R1 to R8)", [0.0, values.len() as f64])
+    // Numbers that are wider than a bar's place stand in two lines in turn.
+    let count = values.len() as f64;
+    let staggers = 3.0 * DIGIT_WIDTH > area.width() / count;
+    let beyond = if staggers { 0.3 } else { 0.0 };
+    let x = Axis::new("test color (Ra: mean of R1 to R8)", [-beyond, count + beyond])
         .with_ticks(Ticks::At(names))
         .with_grid(false);
-    // Numbers that are wider than a bar's place stand in two lines in turn.
-    let staggers = 3.0 * DIGIT_WIDTH > area.width() / values.len() as f64;
-    let y = Axis::new("color rendering index", [floor, if staggers { 165.0 } else { 140.0 }])
+    let y = Axis::new("color rendering index", [floor, if staggers { 170.0 } else { 140.0 }])
         .with_ticks(Ticks::Auto)
         .with_grid(true);
     let mut panel = Panel::new("rendering indices", area, x, y);
@@ -45,7 +47,7 @@ pub fn bars(rendition: &Rendition, area: Rect) -> Option<Panel> {
         let (anchor, ink) = (Anchor(0.5, 1.0), InkRole::Text.into());
         let at = [middle, value.max(0.0)];
         let text = fixed(*value, 0);
-        let lift = if staggers && index % 2 == 1 { 12.0 } else { 0.0 };
+        let lift = if staggers && index % 2 == 1 { 13.0 } else { 0.0 };
         let shape = Shape::Text { at, text, anchor, offset: [0.0, -1.0 - lift], size: TextSize::Small, ink };
         panel.marks.push(Mark::new(Tag::default(), format!("{name} {value:.1}"), shape));
     }
