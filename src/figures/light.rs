@@ -32,13 +32,15 @@ pub fn bars(rendition: &Rendition, area: Rect) -> Option<Panel> {
     let low = values.iter().map(|(_, value)| *value).fold(0.0, f64::min);
     let floor = if low < 0.0 { (low / 50.0).floor() * 50.0 } else { 0.0 };
     let names = values.iter().enumerate().map(|(index, (name, _))| (index as f64 + 0.5, name.clone())).collect();
-    let x = Axis::new("test color (Ra: mean of R1 to R8)", [0.0, values.len() as f64])
+    // Numbers that are wider than a bar's place stand in two lines in turn.
+    let count = values.len() as f64;
+    let widest = values.iter().map(|(_, value)| text_width(&fixed(*value, 0), TextSize::Small)).fold(0.0, f64::max);
+    let staggers = widest + NUMBER_GAP > (area.width() - Projection::LEFT) / count;
+    let beyond = if staggers { 0.3 } else { 0.0 };
+    let x = Axis::new("test color (Ra: mean of R1 to R8)", [-beyond, count + beyond])
         .with_ticks(Ticks::At(names))
         .with_grid(false);
-    // Numbers that are wider than a bar's place stand in two lines in turn.
-    let widest = values.iter().map(|(_, value)| text_width(&fixed(*value, 0), TextSize::Small)).fold(0.0, f64::max);
-    let staggers = widest + NUMBER_GAP > (area.width() - Projection::LEFT) / values.len() as f64;
-    let y = Axis::new("color rendering index", [floor, if staggers { 165.0 } else { 140.0 }])
+    let y = Axis::new("color rendering index", [floor, if staggers { 170.0 } else { 140.0 }])
         .with_ticks(Ticks::Auto)
         .with_grid(true);
     let mut panel = Panel::new("rendering indices", area, x, y);
@@ -49,8 +51,9 @@ pub fn bars(rendition: &Rendition, area: Rect) -> Option<Panel> {
         panel.marks.push(Mark::new(Tag::default(), name, bar).with_fill(role));
         let at = [middle, value.max(0.0)];
         let text = fixed(*value, 0);
-        let lift = if staggers && index % 2 == 1 { 12.0 } else { 0.0 };
-        let text = Mark::text(text, at, Anchor(0.5, 1.0), TextSize::Small, InkRole::Text).with_offset([0.0, -1.0 - lift]);
+        let lift = if staggers && index % 2 == 1 { 13.0 } else { 0.0 };
+        let text =
+            Mark::text(text, at, Anchor(0.5, 1.0), TextSize::Small, InkRole::Text).with_offset([0.0, -1.0 - lift]);
         panel.marks.push(Mark { name: format!("{name} {value:.1}"), ..text });
     }
     Some(panel)

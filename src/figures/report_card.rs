@@ -174,7 +174,7 @@ fn patches(scene: &Scene<'_>, metrics: &CameraMetrics, area: Rect) -> Panel {
     let mut taken: Vec<Rect> = Vec::new();
     for (rank, &patch) in worst.iter().enumerate() {
         let Some(value) = values.get(patch).copied().flatten() else { continue };
-        let number = fixed(value, scene.document.difference.decimals);
+        let number = fixed(value, scene.document.difference.decimals.saturating_sub(1));
         let words = format!("{}  {} {number}", rank + 1, name(patch));
         // Names are to the left of bars in the right half, so that none is cut.
         let (anchor, shift) =

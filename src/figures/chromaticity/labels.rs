@@ -91,6 +91,8 @@ struct Disk {
     center: [f64; 2],
     radius: f64,
     is_line: bool,
+    /// Part of the spectral locus, which only sensors' names keep off.
+    is_ground: bool,
 }
 
 /// A rectangle in points of the plot.
@@ -179,7 +181,7 @@ pub(super) fn placed(mut labels: Vec<Label>, marks: &[&[Mark]], frame: &Frame) -
         let is_apart = |bounds: &Bounds| !taken.iter().any(|other| bounds.overlaps(other));
         let is_sensor = label.rank == Rank::Sensor;
         let is_free = |bounds: &Bounds, lines: bool| {
-            let hidden = |d: &Disk| (lines || !d.is_line) && bounds.covers(d);
+            let hidden = |d: &Disk| (lines || !d.is_line) && (is_sensor || !d.is_ground) && bounds.covers(d);
             // Close to a patch's marker, a sensor's name would seem to be that marker's.
             let wide = if is_sensor { bounds.grown(CLEARANCE) } else { *bounds };
             let is_name_of = |d: &Disk| is_sensor && d.radius >= MARKER && !d.is_line && wide.covers(d);
@@ -218,11 +220,12 @@ fn disks_of(mark: &Mark, frame: &Frame) -> Vec<Disk> {
         return Vec::new();
     }
     let width = mark.stroke.map_or(0.0, |stroke| stroke.width);
-    let line = |center| Disk { center, radius: 0.5 * width + 1.0, is_line: true };
+    let is_ground = matches!(mark.shape, Shape::Gradient { .. });
+    let line = |center| Disk { center, radius: 0.5 * width + 1.0, is_line: true, is_ground };
     let disks: Vec<Disk> = match &mark.shape {
         Shape::Points { points, radius, .. } => points
             .iter()
-            .map(|point| Disk { center: frame.at(*point), radius: radius + 0.5 * width, is_line: false })
+            .map(|point| Disk { center: frame.at(*point), radius: radius + 0.5 * width, is_line: false, is_ground })
             .collect(),
         Shape::Line { points, .. } => {
             let placed: Vec<[f64; 2]> = points.iter().map(|point| frame.at(*point)).collect();

@@ -162,7 +162,7 @@ fn add_end(drawing: &mut Drawing<'_>, source: &ComparedSensor, points: &[[f64; 2
     };
     let [start, end] = [known.first(), known.last()];
     // Far from the blue ends, which lie close together, a name would seem to be another line's.
-    let red: &[f64] = &[7.0, 16.0, 26.0, 38.0];
+    let red: &[f64] = &[7.0, 16.0, 24.0];
     let blue = if source.is_reference { &red[..2] } else { &red[..1] };
     let inner = [known.get(3), known.len().checked_sub(4).and_then(|i| known.get(i))];
     let mut places = Vec::new();
@@ -173,8 +173,8 @@ fn add_end(drawing: &mut Drawing<'_>, source: &ComparedSensor, points: &[[f64; 2
     }
     // The outermost line has its name along it, if need be.
     if source.is_reference {
-        let shares = [0.06, 0.12, 0.2, 0.3, 0.7, 0.8].map(|share| (share * known.len() as f64) as usize);
-        places.extend(shares.iter().filter_map(|i| known.get(*i)).flat_map(|at| Place::around(*at, [0.5, -1.0], 9.0)));
+        let shares = (1..24).map(|i| i * known.len() / 24);
+        places.extend(shares.filter_map(|i| known.get(i)).flat_map(|at| Place::around(*at, [0.5, -1.0], 9.0)));
     }
     let tag = drawing.things.tag(PlotItem::Sensor(id(source)));
     drawing.labels.push(Label { tag, ..Label::new(&source.label, Rank::Sensor, source.role, places) });

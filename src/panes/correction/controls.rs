@@ -110,7 +110,8 @@ fn list(
     lines: impl FnOnce() -> Vec<Line>,
 ) -> Option<usize> {
     let row = ui.horizontal(|ui| {
-        ui.add_sized([CAPTION, ui.spacing().interact_size.y], egui::Label::new(name).halign(egui::Align::LEFT));
+        let width = ui.label(name).rect.width();
+        ui.add_space((CAPTION - width).max(0.0));
         let width = (ui.available_width() - 8.0).clamp(80.0, 300.0);
         pick_list::drop_down(ui, (name, hint), shown, width, &context.theme, lines)
     });
