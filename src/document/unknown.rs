@@ -1,5 +1,7 @@
 //! Fields of a file that this version does not know: kept, and written back where they were.
 
+use std::collections::HashMap;
+
 use serde_json::{Map, Value};
 
 /// Fields of a value that its known form lacks, in the same nesting; items of lists are told apart by `name`.
@@ -13,9 +15,11 @@ pub(super) fn of(value: &Value, known: &Value) -> Option<Value> {
             }
         }
         (Value::Array(items), Value::Array(known)) => {
+            let by_name: HashMap<&str, &Value> =
+                known.iter().rev().filter_map(|known| name(known).map(|name| (name, known))).collect();
             for item in items {
                 let Some(name) = name(item) else { continue };
-                let known = known.iter().find(|known| self::name(known) == Some(name));
+                let known = by_name.get(name);
                 rest.extend(known.and_then(|known| of(item, known)).map(|unknown| (name.to_owned(), unknown)));
             }
         }

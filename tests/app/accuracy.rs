@@ -97,7 +97,8 @@ fn a_run_has_times_errors_figures_and_what_was_left_out() {
     }
     let figure = panes::figure(PaneKind::METHODS, &window.state().figure_input(&scene)).expect("measured");
     let (conditions, csv) = (&measured.conditions, figure.table.to_csv());
-    assert!(conditions.scene.starts_with("head, Skin Caucasian mean") && conditions.scene.contains("E, equal energy"));
+    let scene = &conditions.scene;
+    assert!(scene.starts_with("head, Skin Caucasian mean") && scene.contains("under Direct sun"), "{scene}");
     for part in [&conditions.scene, &conditions.machine, &conditions.program, &conditions.began] {
         assert!(!part.is_empty() && figure.caption.contains(part), "{}", figure.caption);
         assert!(csv.contains(part), "{part}");
@@ -109,7 +110,7 @@ fn a_run_has_times_errors_figures_and_what_was_left_out() {
     let scene = Scene { document: window.state().history().document(), catalog: &catalog, results: &results };
     let figure = panes::figure(PaneKind::METHODS, &window.state().figure_input(&scene)).expect("measured");
     assert!(!figure.title.contains("on show") && !figure.caption.contains("on show"), "{}", figure.caption);
-    assert!(figure.caption.contains("E, equal energy"), "the light that it was measured under");
+    assert!(figure.caption.contains("under Direct sun"), "the light that it was measured under");
     assert!(window.state().profiler().measured.run.is_some());
 }
 

@@ -72,7 +72,7 @@ fn a_file_that_fails_is_known_and_reads_once_it_is_mended() {
     assert!(files[0].failure.as_ref().is_some_and(|failure| failure.starts_with("clipboard, line 4")));
     let item = ImportItem::File(files[0].origin.fingerprint);
     assert_eq!(window.state().view().status.change, Some((item.clone(), None)));
-    assert!(window.state().view().import.unseen.contains(&item));
+    assert_eq!(window.state().view().import.selected, Some(item), "a pasted table is shown in Import");
     assert!(own(&window).is_empty());
 }
 

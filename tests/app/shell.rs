@@ -280,7 +280,7 @@ fn a_card_has_figure_swatches_and_caption_in_1600_by_900_pixels() {
     }
     window.state_mut().push(Command::CopyCard(PaneKind::LIBRARY));
     window.run_steps(2);
-    assert!(says(&window, "nothing to export"));
+    assert!(says(&window, "has no figure now"));
 }
 
 #[test]

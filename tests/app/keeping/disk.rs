@@ -147,7 +147,7 @@ fn what_changes_while_a_document_is_saved_elsewhere_is_asked_about_again() {
     change(&mut window, 4567.0);
     window.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::A);
     window.run_steps(1);
-    let path = around.path().join("saved.json");
+    let path = around.path().join("saved.chromascope");
     window.get_by_role_and_label(Role::TextInput, "Path").type_text(path.to_str().unwrap());
     window.run_steps(1);
     window.key_press(egui::Key::Enter);
