@@ -115,7 +115,7 @@ impl Report {
     /// The reason in a sentence.
     pub fn make(&self, step: usize, results: &Results) -> Result<Vec<ReportFile>, String> {
         let subject = self.subject(results);
-        let Some(figure) = FIGURES.get(step) else { return self.claims_and_page(&subject) };
+        let Some(figure) = FIGURES.get(step) else { return Ok(self.claims_and_page(&subject)) };
         let made = figure.laid_out(&subject, &self.paper, self.pixels).ok_or_else(|| {
             format!("Figure {} cannot be drawn: no camera can be compared, or it was stopped.", figure.number)
         })?;
@@ -137,13 +137,13 @@ impl Report {
             .collect()
     }
 
-    fn claims_and_page(&self, subject: &Subject<'_>) -> Result<Vec<ReportFile>, String> {
+    fn claims_and_page(&self, subject: &Subject<'_>) -> Vec<ReportFile> {
         let judged = self.judged(subject.results);
         let drawn = |step: usize| self.figures[step].get().map(String::as_str);
         let page = page::page(subject, &judged, &drawn);
         let numbers = numbers(&judged).to_csv();
         let file = |name: &str, text: String| ReportFile { name: name.to_owned(), bytes: text.into_bytes() };
-        Ok(vec![file(NUMBERS, numbers), file(PAGE, page)])
+        vec![file(NUMBERS, numbers), file(PAGE, page)]
     }
 }
 
@@ -159,7 +159,7 @@ pub fn numbers(judged: &[Judged]) -> Table {
     for Judged { claim, finding } in judged {
         let Ok(finding) = finding else { continue };
         for value in &finding.values {
-            let step = 10_f64.powi(value.decimals as i32);
+            let step = 10_f64.powi(i32::try_from(value.decimals).unwrap_or(0));
             let rounded = (value.number * step).round() / step;
             let texts = [claim.key, claim.part, claim.paper, finding.verdict.words(), &value.quantity, &value.sensor];
             let numbers = [Cell::from(rounded), Cell::from(value.unit), Cell::from(0.5 / step)];
@@ -199,14 +199,11 @@ impl Job for ReportJob {
 
     fn run(&self, results: &Results) -> Arc<Self::Answer> {
         let written = self.report.make(self.step, results).and_then(|files| {
-            let files = files.into_iter().take_while(|_| !results.stop().is_set());
-            files
-                .map(|file| {
-                    let path = self.folder.join(&file.name);
-                    write_atomically(&path, &file.bytes)
-                        .map_err(|error| format!("Cannot write {}: {}.", path.display(), io_reason(&error)))
-                })
-                .collect()
+            files.into_iter().take_while(|_| !results.stop().is_set()).try_for_each(|file| {
+                let path = self.folder.join(&file.name);
+                write_atomically(&path, &file.bytes)
+                    .map_err(|error| format!("Cannot write {}: {}.", path.display(), io_reason(&error)))
+            })
         });
         Arc::new(written)
     }

@@ -80,19 +80,8 @@ impl ChromascopeApp {
                 let step = self.history.redo_name().map(|name| format!("Redone: {name}."));
                 self.travel(History::redo, step);
             }
-            Command::Open | Command::OpenRecorded => {
-                self.view.recorded.opening = command == Command::OpenRecorded;
-                self.view.report_on = None;
-                self.files.ask_to_open();
-            }
-            Command::OpenFolder => {
-                self.view.recorded.opening = false;
-                self.view.report_on = None;
-                self.files.ask_for_folder("Open all spectra of a folder");
-            }
-            Command::Report(on) => {
-                self.view.report_on = Some(on);
-                self.files.ask_for_folder("Folder in which the report's own folder is made");
+            Command::Open | Command::OpenRecorded | Command::OpenFolder | Command::Report(_) => {
+                self.ask_for_files(&command);
             }
             Command::StopReport => {
                 self.stop_report();
@@ -175,6 +164,20 @@ impl ChromascopeApp {
             Command::GoTo(pane) => self.go_to(ctx, pane),
             Command::Seek(pane, control) => self.seek(ctx, pane, control),
             Command::Quit => ctx.send_viewport_cmd(ViewportCommand::Close),
+        }
+    }
+
+    /// Asks for files to open, or for a folder: that of files, or of a report.
+    fn ask_for_files(&mut self, command: &Command) {
+        self.view.recorded.opening = *command == Command::OpenRecorded;
+        self.view.report_on = None;
+        match command {
+            Command::Report(on) => {
+                self.view.report_on = Some(*on);
+                self.files.ask_for_folder("Folder in which the report's own folder is made");
+            }
+            Command::OpenFolder => self.files.ask_for_folder("Open all spectra of a folder"),
+            _ => self.files.ask_to_open(),
         }
     }
 

@@ -33,17 +33,7 @@ impl ChromascopeApp {
             curves: &mut self.curves,
             commands: &mut self.commands,
         };
-        let bar = |ui: &mut Ui, id: &'static str, height: f32, top: bool| {
-            let panel = if top { Panel::top(id) } else { Panel::bottom(id) };
-            let frame = Frame::NONE.fill(theme.panel);
-            panel
-                .exact_size(height)
-                .resizable(false)
-                .frame(frame)
-                .show_separator_line(true)
-                .show(ui, |ui| ui.max_rect())
-                .inner
-        };
+        let bar = |ui: &mut Ui, id, height, top| bar(ui, &theme, (id, height), top);
         let menu = bar(ui, "menu", 30.0, true);
         let conditions = bar(ui, "conditions", 48.0, true);
         let tour = context.view.tour.map(|_| bar(ui, "tour", panes::help::tour::HEIGHT, true));
@@ -115,6 +105,13 @@ impl ChromascopeApp {
         focus::ring(ui.ctx(), &theme);
         drop_veil(ui, theme);
     }
+}
+
+/// Rectangle of a bar across the window, at its top or bottom.
+fn bar(ui: &mut Ui, theme: &Theme, (id, height): (&'static str, f32), top: bool) -> Rect {
+    let panel = if top { Panel::top(id) } else { Panel::bottom(id) };
+    let panel = panel.exact_size(height).resizable(false).frame(Frame::NONE.fill(theme.panel));
+    panel.show_separator_line(true).show(ui, |ui| ui.max_rect()).inner
 }
 
 /// A border between panes, which can be dragged and, with a double click, put back.

@@ -34,10 +34,18 @@ pub const FIGURES: [PaperFigure; 9] = [
         title: "Geometry of the reflectance model",
         make: |_, room, _| Some(geometry::figure(room)),
     },
-    PaperFigure { number: 2, title: "Sensitivities of the cameras and the reference", make: sensitivities },
-    PaperFigure { number: 3, title: "Planckian loci", make: loci },
-    PaperFigure { number: 4, title: "Chromaticities of the patches", make: points },
-    PaperFigure { number: 5, title: "Colors of the patches", make: patches },
+    PaperFigure {
+        number: 2,
+        title: "Sensitivities of the cameras and the reference",
+        make: |subject, room, _| Some(sensitivities(subject, room)),
+    },
+    PaperFigure { number: 3, title: "Planckian loci", make: |subject, room, _| Some(loci(subject, room)) },
+    PaperFigure {
+        number: 4,
+        title: "Chromaticities of the patches",
+        make: |subject, room, _| Some(points(subject, room)),
+    },
+    PaperFigure { number: 5, title: "Colors of the patches", make: |subject, room, _| Some(patches(subject, room)) },
     PaperFigure { number: 6, title: "Light and reflectances of the rendered scenes", make: materials },
     PaperFigure { number: 7, title: "Meshes of head and fern", make: meshes },
     PaperFigure {
@@ -64,7 +72,7 @@ fn view(room: FigureRoom) -> View {
     View { room, ..View::default() }
 }
 
-fn sensitivities(subject: &Subject<'_>, room: FigureRoom, _: Pixels) -> Option<Figure> {
+fn sensitivities(subject: &Subject<'_>, room: FigureRoom) -> Figure {
     let scene = subject.scene(subject.document);
     let mut view = view(room);
     view.saved.spectra_layout = SpectraLayout::Each;
@@ -73,7 +81,7 @@ fn sensitivities(subject: &Subject<'_>, room: FigureRoom, _: Pixels) -> Option<F
     // The light and the patches come first.
     let panels = figure.panels.iter().skip(2).cloned().collect();
     let caption = "Relative sensitivities, each sensor scaled to peak 1. Dotted: beyond the data.".to_owned();
-    Some(Figure { table, caption, legend: Vec::new(), ..stacked(figure, panels) })
+    Figure { table, caption, legend: Vec::new(), ..stacked(figure, panels) }
 }
 
 /// Number of columns of a table of spectra before those of sensitivities, without the wavelengths.
@@ -116,24 +124,24 @@ fn of_kind(mut table: Table, kind: &str) -> Table {
     table
 }
 
-fn loci(subject: &Subject<'_>, room: FigureRoom, _: Pixels) -> Option<Figure> {
+fn loci(subject: &Subject<'_>, room: FigureRoom) -> Figure {
     let overlays = Overlays { patches: false, ..subject.document.overlays };
     let figure = diagram(subject, room, &Document { overlays, ..subject.document.clone() });
-    Some(Figure { table: of_kind(figure.table.clone(), "locus"), ..figure })
+    Figure { table: of_kind(figure.table.clone(), "locus"), ..figure }
 }
 
-fn points(subject: &Subject<'_>, room: FigureRoom, _: Pixels) -> Option<Figure> {
+fn points(subject: &Subject<'_>, room: FigureRoom) -> Figure {
     let overlays = Overlays { loci: false, ..subject.document.overlays };
     let mut document = Document { overlays, ..subject.document.clone() };
     // By Eq 13 no CIE observer can be compared.
     document.compared.retain(|compared| compared.kind == SetKind::Camera || compared.name == document.reference);
     let figure = diagram(subject, FigureRoom { strip: false, ..room }, &document);
     let caption = chromaticity::conditions(&subject.scene(subject.document));
-    Some(Figure { table: of_kind(figure.table.clone(), "patch"), caption, ..figure })
+    Figure { table: of_kind(figure.table.clone(), "patch"), caption, ..figure }
 }
 
-fn patches(subject: &Subject<'_>, room: FigureRoom, _: Pixels) -> Option<Figure> {
-    Some(swatches::figure(&subject.scene(subject.document), &view(room)))
+fn patches(subject: &Subject<'_>, room: FigureRoom) -> Figure {
+    swatches::figure(&subject.scene(subject.document), &view(room))
 }
 
 fn materials(subject: &Subject<'_>, room: FigureRoom, _: Pixels) -> Option<Figure> {
@@ -197,7 +205,7 @@ fn meshes(subject: &Subject<'_>, room: FigureRoom, pixels: Pixels) -> Option<Fig
         (panel.area.min[0], panel.area.max[0]) = (panel.area.min[0] + width, panel.area.max[0] + width);
         figure.panels.push(Panel { name: fern.0.to_owned(), ..panel });
     }
-    figure.caption = "The meshes, Lambertian, through the reference.".to_owned();
+    "The meshes, Lambertian, through the reference.".clone_into(&mut figure.caption);
     figure.table = Table::new(["mesh", "triangles", "vertices"]);
     for (name, mesh) in [(head.0, head.2), (fern.0, fern.2)] {
         let counts = [mesh.triangles().len(), mesh.positions().len()].map(|count| Cell::from(count as f64));

@@ -22,11 +22,11 @@ pub(super) fn figure(room: FigureRoom) -> Figure {
     camera(&mut drawing);
     let area = Rect::from_min_size([0.0; 2], size);
     figure.panels.push(Panel { marks: drawing.marks, ..Panel::board("Geometry", area, Ink::new(InkRole::Plot)) });
-    figure.caption = "Left: light falls on a rough surface of RMS roughness σ and correlation length τ at θi from the normal \
+    "Left: light falls on a rough surface of RMS roughness σ and correlation length τ at θi from the normal \
                       and is scattered at θs; v is the difference of the wave vectors, 2X the width that is illuminated \
                       coherently (Eq 1 to 4). Right: a pixel at the angle α off the axis of a lens of diameter d at the \
                       distance z from the sensor (Eq 9)."
-        .to_owned();
+        .clone_into(&mut figure.caption);
     figure.table = Table::new(["symbol", "meaning", "drawn_at_deg"]);
     for (symbol, meaning, at) in [
         ("θi", "zenith angle of the light", Some(INCIDENT)),

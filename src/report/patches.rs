@@ -54,14 +54,17 @@ fn differences(subject: &Subject<'_>, document: &Document, camera: &str) -> Resu
     Ok(Series(pairs.filter_map(|(patch, value)| Some((patch.name.clone(), value.ok()?))).collect()))
 }
 
+/// Differences by camera.
+type OfCameras = Vec<(String, Series)>;
+
 /// Differences of all cameras, by patch, and those of each camera.
-fn table(subject: &Subject<'_>, document: &Document) -> Result<(Vec<Value>, Vec<(String, Series)>), SceneError> {
+fn table(subject: &Subject<'_>, document: &Document) -> Result<(Vec<Value>, OfCameras), SceneError> {
     const MANY: usize = 6;
     let metric = document.difference;
     let (unit, name) = ("", metric.name(document.transform.is_eq_13()));
     let cameras = subject.cameras().into_iter();
     let all = cameras.map(|name| Ok((name.clone(), differences(subject, document, &name)?)));
-    let all: Vec<(String, Series)> = all.collect::<Result<_, SceneError>>()?;
+    let all: OfCameras = all.collect::<Result<_, SceneError>>()?;
     let mut values = Vec::new();
     for (camera, series) in &all {
         let count = series.0.len();

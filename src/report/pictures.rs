@@ -183,6 +183,6 @@ fn skin_and_leaf_fitted(subject: &Subject<'_>) -> Result<Finding, SceneError> {
         let fitted = subject.fitted(SUN);
         let Document { chart, subset, .. } = subject.in_sun(material);
         let light = if subject.has_own_light { subject.document.light.clone() } else { fitted.light.clone() };
-        Document { chart, subset, light, ..fitted }
+        Document { light, chart, subset, ..fitted }
     })
 }

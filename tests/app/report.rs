@@ -45,10 +45,12 @@ fn claims_are_judged_by_what_is_found() {
     const CANON: &str = "Canon EOS 10D (2007 figure)";
     const NIKON: &str = "Nikon D70 (2007 figure)";
     const KODAK: &str = "Kodak DCS200";
+    /// Sensor, number, tolerance.
+    type Numbers = [(&'static str, f64, f64)];
     let judged = paper().judged(&Results::default());
     // Numbers of an independent computation, each with its own accuracy.
     #[rustfmt::skip]
-    let expected: [(&str, Verdict, &str, &[(&str, f64, f64)]); 10] = [
+    let expected: [(&str, Verdict, &str, &Numbers); 10] = [
         ("locus-length", Verdict::Holds, "length in xy",
             &[(REFERENCE, 0.387, 0.002), (CANON, 0.348, 0.001), (NIKON, 0.332, 0.002), (KODAK, 0.124, 0.001)]),
         ("daylight-minimum", Verdict::Holds, "nearest at", &[(CANON, 6034.0, 2.0), (NIKON, 5949.0, 2.0), (KODAK, 5773.0, 2.0)]),

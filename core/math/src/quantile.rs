@@ -1,7 +1,7 @@
 //! Quantiles of samples.
 
 /// Quantile of values in any order, linear between the order statistics `x₀ ≤ … ≤ xₙ₋₁` (type 7 of Hyndman and Fan 1996, the
-/// default of NumPy and R); none of nothing. The values are reordered.
+/// default of `NumPy` and R); none of nothing. The values are reordered.
 ///
 /// ```text
 /// Q(p) = x_⌊h⌋ + (h − ⌊h⌋)(x_⌊h⌋₊₁ − x_⌊h⌋),   h = (n − 1) p
