@@ -144,10 +144,16 @@ impl ChromascopeApp {
         if let Some((mut view, refused)) = session::take_view::<SavedView>(&mut document) {
             view.layout.retain(|pane| panes::by_kind(pane).is_some());
             self.view.saved.take_session(view);
-            self.view.reset_plots = true;
-            self.view.maximized = None;
             if !refused.is_empty() {
                 newer.push(format!("Parts of its view are not understood: {}.", refused.join(", ")));
+            }
+        }
+        // Ranges of axes and the order of tables are those of the document before.
+        self.view.reset_plots = true;
+        self.view.maximized = None;
+        if matches!(source, DocumentSource::New(..)) {
+            for look in self.view.saved.looks.values_mut() {
+                (look.sorting, look.filter) = (None, String::new());
             }
         }
         document.part_names(self.catalog.names());

@@ -16,6 +16,7 @@ use chromascope::files::Files;
 use chromascope::results::Results;
 use chromascope::scene::Scene;
 use chromascope::view::import::ImportItem;
+use chromascope::view::table::{Sorting, TableLook};
 use chromascope::view::template::TEMPLATES;
 use chromascope::view::{SavedView, ViewChoice, Weight};
 use chromascope::workspaces::Workspace;
@@ -349,13 +350,17 @@ fn each_template_is_a_document_of_its_own_that_its_pane_shows() {
     }
     let (_around, folder) = folder();
     let mut window = window(&folder.join("profile"));
+    let sorting = Some(Sorting { column: "max".to_owned(), descending: true });
+    let worst_first = TableLook { sorting, ..TableLook::default() };
     for template in &TEMPLATES {
+        window.state_mut().view_mut().saved.looks.insert("ranking".to_owned(), worst_first.clone());
         push(&mut window, SessionCommand::New(Some(template.name)));
         let wanted = template.document();
         until(&mut window, template.name, move |app| *app.history().document() == wanted);
         window.run_steps(2);
         let saved = &window.state().view().saved;
         assert!(saved.layout.shows(saved.workspace, template.pane), "{}", template.name);
+        assert_eq!(saved.looks["ranking"].sorting, None, "{}: the order of the session before", template.name);
     }
 }
 
