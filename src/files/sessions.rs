@@ -63,9 +63,7 @@ impl Files {
     /// Writes a template of the user's. The error says why it is not saved.
     pub fn save_template(&self, name: &str, text: &str) -> Result<(), String> {
         let folder = self.template_folder().ok_or("there is no folder for templates")?;
-        let fits = |c: char| if c.is_control() || "/\\:*?\"<>|".contains(c) { '-' } else { c };
-        let name: String = name.trim().chars().map(fits).collect();
-        let path = folder.join(super::fitting(name.trim_start_matches('.'), &format!(".{}", session::ENDING)));
+        let path = folder.join(format!("{}.{}", template_name(name), session::ENDING));
         fs::create_dir_all(&folder).map_err(|error| io_failure(&folder, &error))?;
         write_atomically(&path, text.as_bytes()).map_err(|error| io_failure(&path, &error))
     }
@@ -81,6 +79,15 @@ impl Files {
     fn template_folder(&self) -> Option<PathBuf> {
         Some(self.keeper.folder()?.join(TEMPLATES))
     }
+}
+
+/// Name of a template as its file has it, for a name that was typed.
+pub fn template_name(typed: &str) -> String {
+    let fits = |c: char| if c.is_control() || "/\\:*?\"<>|".contains(c) { '-' } else { c };
+    let name: String = typed.trim().chars().map(fits).collect();
+    let ending = format!(".{}", session::ENDING);
+    let file = super::fitting(name.trim_start_matches('.'), &ending);
+    file.strip_suffix(&ending).unwrap_or(&file).to_owned()
 }
 
 /// True if a file is a session by its name.

@@ -17,7 +17,8 @@ use std::time::Duration;
 use chromascope_figure::{Ink, LegendEntry, Stroke};
 use egui::{Align, Button, Layout, Rect, Response, ScrollArea, Sense, Ui, UiBuilder, Vec2};
 
-use crate::command::{Command, Format};
+use crate::command::Command;
+use crate::export::FigureForm;
 use crate::paint;
 use crate::panes::context::{Pane, PaneContext};
 use crate::plot_item::SensorId;
@@ -159,18 +160,19 @@ fn header_buttons(ui: &mut Ui, pane: &Pane, context: &mut PaneContext<'_>) {
 fn export_menu(ui: &mut Ui, &Pane { kind, title, .. }: &Pane, context: &mut PaneContext<'_>) {
     let response = icon_button(ui, Icon::Export, &format!("Export {title}"));
     egui::Popup::menu(&response).show(|ui| {
-        for (words, command) in [
-            ("Figure page (Ctrl+E)", Command::FigurePage(kind)),
-            ("Figure as PDF…", Command::Export(kind, Format::Pdf)),
-            ("Figure as SVG…", Command::Export(kind, Format::Svg)),
-            ("Figure as PNG…", Command::Export(kind, Format::Png)),
-            ("Numbers as CSV…", Command::Export(kind, Format::Csv)),
-            ("Numbers as JSON…", Command::Export(kind, Format::Json)),
+        let saves = FigureForm::ALL.map(|form| {
+            let what = if form.is_numbers() { "Numbers" } else { "Figure" };
+            (format!("{what} as {}…", form.name()), Command::Export(kind, form))
+        });
+        let others = [
             ("Card as PNG…", Command::SaveCard(kind)),
             ("Copy picture", Command::CopyPicture(kind)),
             ("Copy as card", Command::CopyCard(kind)),
             ("Copy numbers", Command::CopyNumbers(kind)),
-        ] {
+        ];
+        let page = ("Figure page (Ctrl+E)".to_owned(), Command::FigurePage(kind));
+        let others = others.map(|(words, command)| (words.to_owned(), command));
+        for (words, command) in std::iter::once(page).chain(saves).chain(others) {
             if ui.button(words).clicked() {
                 context.push(command);
                 ui.close();

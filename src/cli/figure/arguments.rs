@@ -19,8 +19,8 @@ pub(in crate::cli) const EXAMPLES: &str = "Examples:
   chromascope figure render --mesh fern --width 174mm --out figure8.pdf
   chromascope figure chromaticity --range 0.3,0.5,0.3,0.42 --numbers visible --out points.csv
 
-The ending of the file decides its form: .pdf, .svg, .png, .tif or .csv, the numbers behind the figure. Text keeps its size
-whatever the width: the figure is laid out for it. In a PDF text can be searched, and its fonts are embedded.";
+The ending of the file decides its form: .pdf, .svg, .png, .tif, or .csv and .json, the numbers behind the figure. Text
+keeps its size whatever the width: the figure is laid out for it. In a PDF text can be searched, and its fonts are embedded.";
 
 /// Arguments of `figure`.
 #[derive(Debug, Args)]

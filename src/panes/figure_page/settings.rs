@@ -4,8 +4,8 @@ use chromascope_figure::{AxisRanges, AxisTitles, LegendPlace, Numbers};
 use egui::{ComboBox, DragValue, Rect, Response, ScrollArea, Ui, WidgetInfo};
 
 use super::{inside, small};
-use crate::command::{Command, Format};
-use crate::export::Paper;
+use crate::command::Command;
+use crate::export::{FigureForm, Paper};
 use crate::export::page::PageFacts;
 use crate::export::paper::PaperStyle;
 use crate::panes::context::PaneContext;
@@ -124,7 +124,7 @@ fn size(ui: &mut Ui, look: &mut PageLook, facts: Option<PageFacts>, context: &mu
         let lines = "Factor on the widths of lines and on markers";
         number(ui, "Text", &mut paper.font_pt, (Paper::FONT_PT, 0.05, " pt"), "Size of labels, names and legend");
         number(ui, "Lines", &mut paper.line_scale, (Paper::LINE_SCALE, 0.01, "×"), lines);
-        number(ui, "PNG", &mut paper.dpi, (Paper::DPI, 1.0, " dpi"), "Resolution of PNG and of the copied picture");
+        number(ui, "PNG", &mut paper.dpi, (Paper::DPI, 1.0, " dpi"), "Resolution of PNG, TIFF and the copied picture");
     });
 }
 
@@ -160,12 +160,11 @@ fn legend(ui: &mut Ui, paper: &mut Paper, context: &PaneContext<'_>) {
 
 fn buttons(ui: &mut Ui, kind: PaneKind, context: &mut PaneContext<'_>) {
     ui.horizontal_wrapped(|ui| {
-        for (words, format) in
-            [("Save PDF…", Format::Pdf), ("SVG…", Format::Svg), ("PNG…", Format::Png), ("CSV…", Format::Csv)]
-        {
-            let hint = if format == Format::Csv { "The numbers behind the figure" } else { "The figure as shown here" };
+        for (index, form) in FigureForm::ALL.into_iter().enumerate() {
+            let words = format!("{}{}…", if index == 0 { "Save " } else { "" }, form.name());
+            let hint = if form.is_numbers() { "The numbers behind the figure" } else { "The figure as shown here" };
             if ui.button(words).on_hover_text(hint).clicked() {
-                context.push(Command::Export(kind, format));
+                context.push(Command::Export(kind, form));
             }
         }
     });
