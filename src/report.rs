@@ -33,6 +33,12 @@ use crate::results::Results;
 pub const PAGE: &str = "report.html";
 /// Name of the table of claims.
 pub const NUMBERS: &str = "claims.csv";
+/// Header of the table of claims.
+const SOURCE: &str = concat!(
+    "# title: Claims of Huynh and Robles-Kelly 2007, with what is found\n# source: computed by Chromascope ",
+    env!("CARGO_PKG_VERSION"),
+    " from its public data; the claims are paraphrased\n# terms: those of the program, MIT or Apache-2.0\n",
+);
 /// Side of a rendered picture in pixels unless the user says otherwise.
 pub const PIXELS: u32 = 480;
 
@@ -141,7 +147,7 @@ impl Report {
         let judged = self.judged(subject.results);
         let drawn = |step: usize| self.figures[step].get().map(String::as_str);
         let page = page::page(subject, &judged, &drawn);
-        let numbers = numbers(&judged).to_csv();
+        let numbers = SOURCE.to_owned() + &numbers(&judged).to_csv();
         let file = |name: &str, text: String| ReportFile { name: name.to_owned(), bytes: text.into_bytes() };
         vec![file(NUMBERS, numbers), file(PAGE, page)]
     }
