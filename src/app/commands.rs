@@ -13,7 +13,7 @@ use crate::action::{Action, CompareAction};
 use crate::catalog::opened::{CLIPBOARD, Request};
 use crate::command::Command;
 use crate::document::SetKind;
-use crate::export::{self, FigureForm, Paper};
+use crate::export::{self, FigureForm};
 use crate::figures::FigureInput;
 use crate::files::{DocumentSource, FileEvent, FileForm, SaveRequest};
 use crate::panes;
@@ -407,9 +407,7 @@ impl ChromascopeApp {
 
     fn checked(&mut self, pane: PaneKind, figure: Option<Figure>) -> Option<Figure> {
         if figure.is_none() {
-            let others = panes::ALL.iter().filter(|pane| pane.figure.is_some()).map(|pane| pane.title);
-            let others = others.collect::<Vec<_>>().join(", ");
-            self.view.fail(format!("{} has no figure now. Panes with figures: {others}.", panes::title(pane)));
+            self.view.fail(format!("{} has no figure now.", panes::title(pane)));
         }
         figure
     }

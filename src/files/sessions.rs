@@ -5,12 +5,12 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use super::Files;
 use super::atomic::{sweep, write_atomically};
 use super::event::{DocumentSource, FileEvent, Note, OpenedDocument};
 use super::keep::Aside;
 use super::save::MakeText;
 use super::store::{Unread, read};
+use super::{Files, template_name};
 use crate::document::imported::Fingerprint;
 use crate::document::{Document, SessionFile, session};
 use crate::format::{io_failure, io_reason};
@@ -79,15 +79,6 @@ impl Files {
     fn template_folder(&self) -> Option<PathBuf> {
         Some(self.keeper.folder()?.join(TEMPLATES))
     }
-}
-
-/// Name of a template as its file has it, for a name that was typed.
-pub fn template_name(typed: &str) -> String {
-    let fits = |c: char| if c.is_control() || "/\\:*?\"<>|".contains(c) { '-' } else { c };
-    let name: String = typed.trim().chars().map(fits).collect();
-    let ending = format!(".{}", session::ENDING);
-    let file = super::fitting(name.trim_start_matches('.'), &ending);
-    file.strip_suffix(&ending).unwrap_or(&file).to_owned()
 }
 
 /// True if a file is a session by its name.

@@ -8,8 +8,8 @@ use std::sync::{Arc, Mutex};
 use chromascope::action::history::History;
 use chromascope::app::ChromascopeApp;
 use chromascope::command::Command;
-use chromascope::export::FigureForm;
 use chromascope::document::Document;
+use chromascope::export::FigureForm;
 use chromascope::files::{Answer, Dialogs, Files, Question};
 use chromascope::view::SavedView;
 use chromascope::workspaces::PaneKind;
@@ -171,7 +171,7 @@ fn the_systems_dialog_follows_the_ending_too() {
         assert_eq!(form_of(&path), form);
     }
     let Question::Save { endings, .. } = dialogs.asked.lock().unwrap()[0].clone() else { panic!("not to save") };
-    assert_eq!(endings, ["svg", "pdf", "png", "csv", "json"]);
+    assert_eq!(endings, ["svg", "pdf", "png", "tif", "csv", "json"]);
     // The dialog has closed: the path goes on in the box, with the reason.
     export(&mut window, FigureForm::Svg);
     answer.send(Answer::Chosen(vec![folder.path().join("d.eps")])).unwrap();

@@ -7,8 +7,8 @@ use chromascope::action::history::History;
 use chromascope::app::ChromascopeApp;
 
 use chromascope::command::Command;
-use chromascope::export::FigureForm;
 use chromascope::document::{Document, SetKind};
+use chromascope::export::FigureForm;
 use chromascope::export::spectra::Form;
 use chromascope::files::Files;
 use chromascope::view::accuracy::Shows;
