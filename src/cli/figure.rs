@@ -40,7 +40,7 @@ pub(super) fn run(arguments: &FigureArguments, matches: &ArgMatches) -> Result<(
     if let Range::Of(ranges) = arguments.paper.range {
         view.diagram.zoomed = Some(ranges);
     }
-    let made = made::Made::new(arguments.kind, &scene, &mut view, (&paper, recorded))?;
+    let made = made::Made::new((arguments.kind, arguments.viewpoint), &scene, &mut view, (&paper, recorded))?;
     let figure = paper.laid_out(|room| {
         view.room = room;
         let input = FigureInput {

@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use chromascope_figure::{AxisRanges, AxisTitles, LegendPlace, Numbers};
 use clap::{Args, ValueEnum};
 
+use crate::cli::render::arguments::ViewpointArguments;
 use crate::cli::sources::CommonArguments;
 use crate::export::paper::{Paper, PaperStyle};
 use crate::theme::SourceInks;
@@ -46,6 +47,8 @@ pub(in crate::cli) struct FigureArguments {
     /// What is rendered: head, fern, sphere, plane, or an OBJ, PLY or STL file [default: the head, or the session's]
     #[arg(long, value_name = "MESH")]
     pub(super) mesh: Option<OsString>,
+    #[command(flatten)]
+    pub(super) viewpoint: ViewpointArguments,
     #[command(flatten)]
     pub(super) paper: PaperArguments,
 }

@@ -86,13 +86,8 @@ pub(in crate::cli) struct RenderArguments {
     /// Disables shadows
     #[arg(long, help_heading = SCENE)]
     pub(super) no_shadows: bool,
-    /// Viewpoint: degrees around and above the mesh, and distance in radii of the mesh [default: -25,5; -25,15 for the
-    /// fern, at the distance from which the mesh fills the picture]
-    #[arg(long, value_name = "yaw,pitch,distance", value_parser = three, allow_hyphen_values = true, help_heading = SCENE)]
-    pub(super) orbit: Option<[f64; 3]>,
-    /// The vertical field of view in degrees [default: 30, or 30 across in an upright picture]
-    #[arg(long, value_name = "DEGREES", value_parser = finite, allow_hyphen_values = true, help_heading = SCENE)]
-    pub(super) fov: Option<f64>,
+    #[command(flatten)]
+    pub(super) viewpoint: ViewpointArguments,
     /// RMS roughness in meters [default: 5e-6]
     #[arg(long, value_name = "METERS", value_parser = finite, allow_hyphen_values = true, help_heading = SURFACE)]
     pub(super) sigma: Option<f64>,
@@ -150,6 +145,18 @@ pub(in crate::cli) struct RenderArguments {
     /// Overwrites existing pictures and statistics
     #[arg(long, help_heading = PICTURE)]
     pub(super) force: bool,
+}
+
+/// Arguments of the viewpoint on a mesh.
+#[derive(Clone, Copy, Debug, Args)]
+pub(in crate::cli) struct ViewpointArguments {
+    /// Viewpoint: degrees around and above the mesh, and distance in radii of the mesh [default: -25,5; -25,15 for the
+    /// fern, at the distance from which the mesh fills the picture]
+    #[arg(long, value_name = "yaw,pitch,distance", value_parser = three, allow_hyphen_values = true, help_heading = SCENE)]
+    pub(in crate::cli) orbit: Option<[f64; 3]>,
+    /// The vertical field of view in degrees [default: 30, or 30 across in an upright picture]
+    #[arg(long, value_name = "DEGREES", value_parser = finite, allow_hyphen_values = true, help_heading = SCENE)]
+    pub(in crate::cli) fov: Option<f64>,
 }
 
 const SCENE: &str = "Scene";

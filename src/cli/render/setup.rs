@@ -13,7 +13,7 @@ use chromascope_core::scene::viewpoint::ViewpointError;
 use chromascope_mesh::Mesh;
 use clap::ArgMatches;
 
-use super::arguments::{RenderArguments, SpecularName};
+use super::arguments::{RenderArguments, SpecularName, ViewpointArguments};
 use crate::catalog::meshes;
 use crate::cli::error::CliError;
 use crate::cli::request::Request;
@@ -42,7 +42,8 @@ impl Setup {
     pub(super) fn new(arguments: &RenderArguments, matches: &ArgMatches) -> Result<Self, CliError> {
         let choice = mesh_choice(&arguments.mesh)?;
         // What only arguments decide comes before files are read.
-        let viewpoint = viewpoint(arguments, &choice)?;
+        let [width, height] = arguments.size.map(f64::from);
+        let viewpoint = viewpoint(arguments.viewpoint, Orbit::of(&choice), width / height)?;
         let size = raster(arguments)?;
         let mut request = compared_request(arguments, matches)?;
         let specular = request.document.render.specular;
@@ -198,10 +199,12 @@ fn surface_error(error: SurfaceError) -> CliError {
     CliError::Argument { argument, reason: format!("{error}; {remedy}") }
 }
 
-fn viewpoint(arguments: &RenderArguments, mesh: &MeshChoice) -> Result<Viewpoint, CliError> {
-    let usual = Orbit::of(mesh);
-    let [width, height] = arguments.size.map(f64::from);
-    let aspect = width / height;
+/// Viewpoint for a picture of some width over height, where not stated the usual one.
+pub(in crate::cli) fn viewpoint(
+    arguments: ViewpointArguments,
+    usual: Orbit,
+    aspect: f64,
+) -> Result<Viewpoint, CliError> {
     let Some([yaw, pitch, distance]) = arguments.orbit else {
         let field = arguments.fov.unwrap_or(usual.field_of_view_deg);
         Viewpoint::new(0.0, 0.0, 1.0, field.to_radians()).map_err(viewpoint_error)?;
