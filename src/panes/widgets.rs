@@ -160,24 +160,23 @@ fn header_buttons(ui: &mut Ui, pane: &Pane, context: &mut PaneContext<'_>) {
 fn export_menu(ui: &mut Ui, &Pane { kind, title, .. }: &Pane, context: &mut PaneContext<'_>) {
     let response = icon_button(ui, Icon::Export, &format!("Export {title}"));
     egui::Popup::menu(&response).show(|ui| {
-        let saves = FigureForm::ALL.map(|form| {
-            let what = if form.is_numbers() { "Numbers" } else { "Figure" };
-            (format!("{what} as {}…", form.name()), Command::Export(kind, form))
-        });
-        let others = [
-            ("Card as PNG…", Command::SaveCard(kind)),
-            ("Copy picture", Command::CopyPicture(kind)),
-            ("Copy as card", Command::CopyCard(kind)),
-            ("Copy numbers", Command::CopyNumbers(kind)),
-        ];
-        let page = ("Figure page (Ctrl+E)".to_owned(), Command::FigurePage(kind));
-        let others = others.map(|(words, command)| (words.to_owned(), command));
-        for (words, command) in std::iter::once(page).chain(saves).chain(others) {
+        let mut item = |ui: &mut Ui, words: &str, command: Command| {
             if ui.button(words).clicked() {
                 context.push(command);
                 ui.close();
             }
+        };
+        item(ui, "Figure page (Ctrl+E)", Command::FigurePage(kind));
+        ui.separator();
+        for form in FigureForm::ALL {
+            let what = if form.is_numbers() { "Numbers" } else { "Figure" };
+            item(ui, &format!("{what} as {}…", form.name()), Command::Export(kind, form));
         }
+        item(ui, "Card as PNG…", Command::SaveCard(kind));
+        ui.separator();
+        item(ui, "Copy picture", Command::CopyPicture(kind));
+        item(ui, "Copy as card", Command::CopyCard(kind));
+        item(ui, "Copy numbers", Command::CopyNumbers(kind));
         if let Some(shot) = context.render_service.frame().cloned().filter(|_| kind == PaneKind::RENDER) {
             ui.separator();
             for source in shot.sources.iter() {
