@@ -13,7 +13,7 @@ use crate::theme::{ROW, UNIT};
 use crate::view::tour::{STEPS, TourNumbers, TourStep};
 
 /// Height of the bar.
-pub const HEIGHT: f32 = 100.0;
+pub const HEIGHT: f32 = 104.0;
 /// Width of the buttons.
 const BUTTONS: f32 = 216.0;
 
@@ -71,7 +71,7 @@ fn numbers(step: &TourStep, context: &PaneContext<'_>) -> String {
         }
         TourNumbers::PatchDifferences => {
             let words = cameras().filter_map(|camera| patches_of(scene, camera));
-            format!("{}:   {}", scene.difference_name(), list(words.collect()))
+            format!("{}:   {}", scene.difference_name(), words.collect::<Vec<_>>().join("\n"))
         }
         TourNumbers::RenderedDifferences => rendered(context),
     }
