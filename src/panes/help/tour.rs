@@ -13,7 +13,7 @@ use crate::theme::{ROW, UNIT};
 use crate::view::tour::{STEPS, TourNumbers, TourStep};
 
 /// Height of the bar.
-pub const HEIGHT: f32 = 104.0;
+pub const HEIGHT: f32 = 100.0;
 /// Width of the buttons.
 const BUTTONS: f32 = 216.0;
 
