@@ -30,6 +30,10 @@ pub fn write_atomically_with(path: &Path, write: impl FnOnce(&mut dyn io::Write)
         }
         Err(_) => path.to_owned(),
     };
+    if fs::metadata(&target).is_ok_and(|known| !known.is_file() && !known.is_dir()) {
+        // A device or a pipe has no contents to keep, and stays what it is.
+        return write(&mut fs::OpenOptions::new().write(true).open(&target)?);
+    }
     let folder = target.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let mut file = temporary(folder)?;
     write(file.as_file_mut())?;

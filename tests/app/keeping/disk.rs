@@ -110,6 +110,17 @@ fn a_file_whose_name_is_removed_while_it_is_written_is_written_once_more() {
 }
 
 #[test]
+#[cfg(target_os = "linux")]
+fn a_device_is_written_itself_and_stays() {
+    let (_around, folder) = profile();
+    let path = folder.join("figure.svg");
+    symlink("/dev/full", &path).unwrap();
+    let failure = write_atomically_with(&path, |file| file.write_all(b"<svg/>")).unwrap_err();
+    assert_eq!(failure.kind(), std::io::ErrorKind::StorageFull);
+    assert!(!fs::metadata("/dev/full").unwrap().is_file());
+}
+
+#[test]
 fn where_the_document_moved_to_is_told_although_that_failed_at_first() {
     let (_around, folder) = profile();
     let mut files = open(&folder);
