@@ -8,7 +8,7 @@ use chromascope::app::ChromascopeApp;
 use chromascope::catalog::meshes::MeshState;
 use chromascope::command::Command;
 use chromascope::document::render::model::{AreaChoice, SpecularChoice};
-use chromascope::document::render::{BALANCE, GARMENT, MeshChoice, ReadingChoice, RenderSettings, SUN};
+use chromascope::document::render::{BALANCE, MeshChoice, ReadingChoice, RenderSettings, SUN};
 use chromascope::document::{Document, Light, SetKind, WhiteBalanceChoice, session};
 use chromascope::panes;
 use chromascope::plot_item::SensorId;
@@ -351,13 +351,22 @@ fn a_material_is_found_by_typing() {
     assert_eq!(document(&window).render.material, "Grass 025 (Vrhel)");
     assert!(window.query_by_label("Filter Material").is_none(), "the list is closed");
     // The garment has a list of its own, with bare shoulders first.
-    let garment = |window: &Window| document(window).render.garment.clone();
-    assert_eq!(garment(&window).as_deref(), Some(GARMENT));
-    window.get_by_role_and_label(Role::ComboBox, "Garment: Faded jeans 076 (Vrhel)").click();
+    let wool = "White and gray wool sock 047 (Vrhel)";
+    window.get_by_role_and_label(Role::ComboBox, "Garment: None: bare shoulders").click();
+    window.run_steps(2);
+    window.get_by_role_and_label(Role::TextInput, "Filter Garment").type_text("wool");
+    window.run_steps(2);
+    window.get_by_label(wool).click();
+    window.run_steps(3);
+    assert_eq!(document(&window).render.garment.as_deref(), Some(wool));
+    window.get_by_role_and_label(Role::ComboBox, &format!("Garment: {wool}")).click();
     window.run_steps(2);
     window.get_by_label("None: bare shoulders").click();
     window.run_steps(3);
-    assert_eq!((garment(&window), document(&window).render.material.as_str()), (None, "Grass 025 (Vrhel)"));
+    assert_eq!(
+        (document(&window).render.garment.as_deref(), document(&window).render.material.as_str()),
+        (None, "Grass 025 (Vrhel)")
+    );
 }
 
 #[test]

@@ -140,7 +140,7 @@ fn nothing_in_the_settings_jumps_when_values_change() {
     window.state().render_service().wait();
     window.run_steps(2);
     let before = places(&window);
-    assert_eq!(before.len(), 15, "{before:?}");
+    assert_eq!(before.len(), 16, "{before:?}");
     let widths: Vec<i32> =
         before.values().filter(|rect| rect[2] - rect[0] < 150).map(|rect| rect[2] - rect[0]).collect();
     assert!(widths.is_empty(), "sliders and lists are as wide as the pane: {widths:?}");
