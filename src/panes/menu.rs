@@ -20,14 +20,14 @@ pub fn show(ui: &mut Ui, rect: Rect, history: &History, context: &mut PaneContex
     let layout = Layout::left_to_right(Align::Center);
     let inner = rect.shrink2(Vec2::new(UNIT, 0.0));
     let mut bar = ui.new_child(UiBuilder::new().id_salt("menu bar").max_rect(inner).layout(layout));
-    egui::MenuBar::new().ui(&mut bar, |ui| {
+    let menus = egui::MenuBar::new().ui(&mut bar, |ui| {
         ui.menu_button("File", |ui| file(ui, context));
         ui.menu_button("Edit", |ui| edit(ui, history, context));
         ui.menu_button("View", |ui| view(ui, context));
-        ui.menu_button("Help", |ui| help(ui, context));
-        ui.add_space(3.0 * UNIT);
-        tabs(ui, rect, context);
+        ui.menu_button("Help", |ui| help(ui, context)).response.rect.max.x
     });
+    let beside = rect.with_min_x(menus.inner + 4.0 * UNIT);
+    tabs(&mut ui.new_child(UiBuilder::new().id_salt("tabs").max_rect(beside).layout(layout)), rect, context);
     let to_left = Layout::right_to_left(Align::Center);
     let mut right = ui.new_child(UiBuilder::new().id_salt("menu right").max_rect(inner).layout(to_left));
     let find = Button::new("Find anything").shortcut_text("Ctrl+K");

@@ -21,7 +21,7 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
     mesh(ui, &settings, context);
     summary(ui, &settings, context);
     super::image::show(ui, context);
-    let reason = "Triangles, material and light direction do nothing to a spectral image.";
+    let reason = "These do nothing to a spectral image.";
     unless_image(ui, reason, context, |ui, context| of_mesh(ui, &settings, context));
 }
 
