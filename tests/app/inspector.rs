@@ -33,6 +33,16 @@ fn select(window: &mut Window, thing: PlotItem) {
 }
 
 #[test]
+fn a_selection_says_how_to_end_it() {
+    let mut window = window();
+    select(&mut window, patch("Kodak DCS200", "blue"));
+    assert!(says(&window, "Kodak DCS200, blue selected; Esc shows all"));
+    window.key_press(egui::Key::Escape);
+    window.run();
+    assert!(!says(&window, "Kodak DCS200, blue selected; Esc shows all"));
+}
+
+#[test]
 fn without_a_selection_it_says_what_is_seen() {
     let window = window();
     assert!(says(&window, "A camera's spectral sensitivities differ from the eye's"));

@@ -38,7 +38,7 @@ pub(in crate::cli) struct RenderArguments {
     #[arg(long, value_name = "NAME|FILE", default_value = "head", help_heading = SCENE)]
     pub(super) mesh: OsString,
     /// A spectral image in place of a mesh: an ENVI header (.hdr) or an OpenEXR file with spectral channels
-    #[arg(long, value_name = "FILE", help_heading = SCENE, conflicts_with_all = ["mesh", "triangles", "material", "values", "light",
+    #[arg(long, value_name = "FILE", help_heading = SCENE, conflicts_with_all = ["mesh", "triangles", "material", "garment", "values", "light",
           "no_shadows", "sky", "leaf", "orbit", "fov", "sigma", "sigma_from_mesh", "tau", "patch", "ior", "area", "reading", "specular", "quality",
           "tolerance", "size", "samples", "stats"])]
     pub(super) image: Option<PathBuf>,
@@ -55,6 +55,10 @@ pub(in crate::cli) struct RenderArguments {
     /// The reflectance: `skin`, `leaf`, a name, or a file [default: skin; leaf for the fern]
     #[arg(long, value_name = "NAME|FILE", help_heading = SCENE)]
     pub(super) material: Option<OsString>,
+    /// The reflectance of the head's garment: `none` for bare shoulders, a name, or a file [default: Faded jeans 076 (Vrhel);
+    /// none in the paper's start]
+    #[arg(long, value_name = "NAME|FILE", help_heading = SCENE)]
+    pub(super) garment: Option<OsString>,
     /// Scale of the values in a file of reflectances that does not state it
     #[arg(long, value_name = "VALUES", value_parser = crate::cli::inspect::arguments::values(), requires = "material",
           help_heading = SCENE)]
