@@ -28,6 +28,8 @@ const WITH_LARGEST: f32 = 540.0;
 const HANDLE: f32 = 8.0;
 /// The radius of the ring around the pixel that is kept.
 const RING: f32 = 7.0;
+/// Size of the list of sensors above a picture.
+const CHOOSER: Vec2 = Vec2::new(190.0, CAPTION - 2.0);
 
 /// Draws the pictures of the pane, as far as they are available.
 pub(super) fn pictures(ui: &mut Ui, painter: &Painter, layout: &PictureLayout, context: &mut PaneContext<'_>) {
@@ -229,17 +231,18 @@ pub(super) fn choosers(ui: &mut Ui, layout: &PictureLayout, sources: &[ComparedS
     let painter = ui.painter().clone();
     let row = cell.caption.shrink2(Vec2::new(8.0, 0.0));
     let mut left = row.left();
-    if layout.mode == RenderMode::Split {
+    if let Some(seam) = layout.divider {
+        // Right of the seam, as the sensor is, as far as there is room.
+        left = (seam + 8.0).min(row.right() - CHOOSER.x - 20.0).max(row.left() + 0.3 * row.width());
         if let Some(reference) = layout.sources.first() {
-            let half = Rect::from_min_max(cell.caption.min, Pos2::new(row.center().x, row.bottom()));
-            let reference_cell = PictureSlot { caption: half, ..*cell };
+            let before = Rect::from_min_max(cell.caption.min, Pos2::new(left, row.bottom()));
+            let reference_cell = PictureSlot { caption: before, ..*cell };
             caption(ui, &painter, &reference_cell, reference, None, context);
         }
-        left = row.center().x;
     }
     let Some(now) = chosen(sources, context.view.render.chosen.as_ref()).cloned() else { return };
     marker(&painter, Rect::from_min_size(Pos2::new(left, row.top()), Vec2::new(16.0, CAPTION)), &now, context);
-    let place = Rect::from_min_size(Pos2::new(left + 20.0, row.top() + 1.0), Vec2::new(190.0, CAPTION - 2.0));
+    let place = Rect::from_min_size(Pos2::new(left + 20.0, row.top() + 1.0), CHOOSER);
     let place = place.intersect(row);
     let mut child = ui.new_child(UiBuilder::new().id_salt("visible sensor").max_rect(place));
     child.spacing_mut().interact_size.y = place.height();
