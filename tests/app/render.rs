@@ -361,6 +361,8 @@ fn a_material_is_found_by_typing() {
     assert_eq!(document(&window).render.garment.as_deref(), Some(wool));
     window.get_by_role_and_label(Role::ComboBox, &format!("Garment: {wool}")).click();
     window.run_steps(2);
+    window.get_by_role_and_label(Role::TextInput, "Filter Garment").type_text("bare");
+    window.run_steps(2);
     window.get_by_label("None: bare shoulders").click();
     window.run_steps(3);
     assert_eq!(
