@@ -222,7 +222,7 @@ fn texts_of_the_strip_stand_clear_of_its_lines() {
                     assert_eq!(inside.next(), None, "{text} at {temperature_k} K in {size:?}");
                 }
                 // A low strip drops at most one that has no room.
-                assert!(kelvins >= rings && rings >= 2, "{diagram:?} {temperature_k} K in {size:?}");
+                assert!(kelvins >= rings.max(1), "{diagram:?} {temperature_k} K in {size:?}");
             });
         }
     }
