@@ -6,6 +6,7 @@ use egui::{Key, KeyboardShortcut, Modifiers};
 use crate::action::Action;
 use crate::document::SetKind;
 use crate::document::imported::{Fingerprint, ImportOverrides};
+use crate::export::FigureForm;
 use crate::export::spectra::Form;
 use crate::plot_item::{PlotItem, SensorId};
 use crate::theme::Surround;
@@ -72,7 +73,7 @@ pub enum Command {
     /// Show a pane as the printed page, or go back.
     FigurePage(PaneKind),
     /// Save a pane's figure or numbers.
-    Export(PaneKind, Format),
+    Export(PaneKind, FigureForm),
     /// Save a source's rendered picture with its numbers.
     ExportExr(SensorId),
     /// Put the curves of a set of the library on the clipboard as text.
@@ -173,37 +174,6 @@ pub enum TourMove {
     Next,
     /// To the end: the user's own document comes back.
     End,
-}
-
-/// A form to save in.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Format {
-    /// Vector graphics for print, with its fonts.
-    Pdf,
-    /// Vector graphics.
-    Svg,
-    /// Pixels.
-    Png,
-    /// Numbers, separated by commas.
-    Csv,
-    /// Numbers for programs.
-    Json,
-}
-
-impl Format {
-    /// All forms.
-    pub const ALL: [Self; 5] = [Self::Pdf, Self::Svg, Self::Png, Self::Csv, Self::Json];
-
-    /// The ending of its files.
-    pub const fn extension(self) -> &'static str {
-        match self {
-            Self::Pdf => "pdf",
-            Self::Svg => "svg",
-            Self::Png => "png",
-            Self::Csv => "csv",
-            Self::Json => "json",
-        }
-    }
 }
 
 impl Command {

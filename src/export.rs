@@ -101,13 +101,15 @@ pub fn png_within(svg: &str, room: [f64; 2]) -> Result<RgbaImage, ExportError> {
 
 fn drawn(tree: &usvg::Tree, scale: f32) -> Result<RgbaImage, ExportError> {
     let size = tree.size();
-    let [width, height] = [size.width(), size.height()].map(|side| (side * scale).ceil() as u32);
+    // The page fills whole pixels: one in part would be a gray line along an edge.
+    let [width, height] = [size.width(), size.height()].map(|side| (side * scale).round().max(1.0) as u32);
     let too_large = || ExportError::Size { width, height };
     if width > MAX_SIDE || height > MAX_SIDE {
         return Err(too_large());
     }
     let mut pixels = tiny_skia::Pixmap::new(width, height).ok_or_else(too_large)?;
-    resvg::render(tree, tiny_skia::Transform::from_scale(scale, scale), &mut pixels.as_mut());
+    let whole = tiny_skia::Transform::from_scale(width as f32 / size.width(), height as f32 / size.height());
+    resvg::render(tree, whole, &mut pixels.as_mut());
     let straight = pixels.pixels().iter().flat_map(|pixel| {
         let color = pixel.demultiply();
         [color.red(), color.green(), color.blue(), color.alpha()]

@@ -197,3 +197,12 @@ pub fn fitting(stem: &str, ending: &str) -> String {
     let room = LONGEST.saturating_sub(ending.len());
     format!("{}{ending}", &stem[..stem.floor_char_boundary(room)])
 }
+
+/// Name of a template as its file has it, for a name that was typed.
+pub fn template_name(typed: &str) -> String {
+    let fits = |c: char| if c.is_control() || "/\\:*?\"<>|".contains(c) { '-' } else { c };
+    let name: String = typed.trim().chars().map(fits).collect();
+    let ending = format!(".{}", crate::document::session::ENDING);
+    let file = fitting(name.trim_start_matches('.'), &ending);
+    file.strip_suffix(&ending).unwrap_or(&file).to_owned()
+}

@@ -68,6 +68,18 @@ pub struct PlotOutput {
     pub hovered: Option<[f64; 2]>,
 }
 
+impl PlotOutput {
+    /// Ranges of x and y that the user zoomed or panned to; `None` while the panel's own are shown.
+    pub fn zoomed(&self, panel: &Panel) -> Option<[[f64; 2]; 2]> {
+        let pairs = [(self.view.x, panel.x.proper_range()), (self.view.y, panel.y.proper_range())];
+        let near = |(a, b): ([f64; 2], [f64; 2])| {
+            let slack = 1e-3 * (b[1] - b[0]).abs();
+            (a[0] - b[0]).abs() < slack && (a[1] - b[1]).abs() < slack
+        };
+        (!pairs.into_iter().all(near)).then_some([self.view.x, self.view.y])
+    }
+}
+
 /// A rectangle of the screen with the data it shows.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct View {

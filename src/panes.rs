@@ -65,7 +65,7 @@ pub mod tolerance;
 pub mod widgets;
 pub mod work_saved;
 
-use chromascope_figure::Figure;
+use chromascope_figure::{AxisRanges, Figure};
 use egui::{Rect, Ui};
 
 use context::{Pane, PaneContext};
@@ -122,7 +122,14 @@ pub fn show(ui: &mut Ui, kind: PaneKind, rect: Rect, context: &mut PaneContext<'
 
 /// A pane's figure as it would be saved: the same as on screen, with its numbers. None for panes without one.
 pub fn figure(kind: PaneKind, input: &FigureInput<'_>) -> Option<Figure> {
-    (by_kind(kind)?.figure?)(input)
+    let mut figure = (by_kind(kind)?.figure?)(input)?;
+    let zoomed = input.view.zoomed.get(&kind).filter(|_| input.view.room.ranges == AxisRanges::Screen);
+    if let Some(((title, [x, y]), panel)) = zoomed.zip(figure.panels.first_mut())
+        && *title == figure.title
+    {
+        (panel.x.range, panel.y.range) = (*x, *y);
+    }
+    Some(figure)
 }
 
 /// A pane's figure laid out on the paper of the Figure page, as it is printed and saved.

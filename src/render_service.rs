@@ -9,10 +9,10 @@ use std::time::Duration;
 use chromascope_core::query::Ask as _;
 use chromascope_core::query::render::MeshQuery;
 use chromascope_core::render::{Quality, RasterSize, Shadows};
+use chromascope_core::scene::Viewpoint;
 
 use crate::jobs::{Background, Executor, Job};
 use crate::results::Results;
-use crate::scene::orbit::Orbit;
 use crate::scene::render::Finish;
 use crate::scene::spectral_image::PixelSpectrumQuery;
 use crate::scene::{ComparedSensor, Scene, SceneError};
@@ -40,9 +40,8 @@ impl RenderedFrame {
     /// Samples along the side of a pixel of pictures that are made at once.
     const SAMPLES: u32 = 2;
 
-    /// Square pictures of a mesh through a scene's sensors, made at once, with this many pixels along a side; none without a
-    /// viewpoint.
-    pub fn of_mesh(scene: &Scene<'_>, mesh: MeshQuery, orbit: Orbit, side: u32) -> Result<Option<Self>, SceneError> {
+    /// Square pictures of a mesh through a scene's sensors, made at once, with this many pixels along a side.
+    pub fn of_mesh(scene: &Scene<'_>, mesh: MeshQuery, viewpoint: Viewpoint, side: u32) -> Result<Self, SceneError> {
         let sources = scene.rendered_sources();
         let quality = scene.document.render.quality();
         let finish = Finish {
@@ -52,11 +51,10 @@ impl RenderedFrame {
             compared_samples: Some(usize::MAX),
             open_sky: false,
         };
-        let Some(viewpoint) = orbit.viewpoint(1.0) else { return Ok(None) };
         let query = scene.pictures_of(&sources, mesh, viewpoint, finish, None)?;
         let answer = Arc::new(PicturesAnswer::Mesh(scene.results.ask(&query)));
         let (query, sources) = (PicturesOf::Mesh(query), sources.into());
-        Ok(Some(Self { query, sources, answer, time: Duration::ZERO, is_last: true, serial: 0 }))
+        Ok(Self { query, sources, answer, time: Duration::ZERO, is_last: true, serial: 0 })
     }
 
     /// The pictures, or why there are none.

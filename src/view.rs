@@ -14,7 +14,7 @@ pub mod table;
 pub mod template;
 pub mod tour;
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::mem::take;
 use std::path::PathBuf;
 
@@ -29,7 +29,7 @@ use accuracy::AccuracyView;
 use chromascope_figure::Tag;
 use correction::CorrectionView;
 pub use diagram::DiagramFit;
-use diagram::DiagramView;
+use diagram::{DiagramView, Ranges};
 use help::HelpView;
 use import::{ImportItem, ImportMemory, ImportView};
 use metrics::MetricsLook;
@@ -71,6 +71,8 @@ pub struct View {
     pub inspector_over: bool,
     /// Shown part of the diagram.
     pub diagram: DiagramView,
+    /// Other plots that are zoomed, by pane: the title of the figure, and its ranges.
+    pub zoomed: HashMap<PaneKind, (String, Ranges)>,
     /// State of the Import pane.
     pub import: ImportView,
     /// State of the Render pane.
@@ -339,6 +341,14 @@ impl View {
             ViewChoice::SwatchStyle(to) => saved.swatch_style = to,
             ViewChoice::Spectra(to) => saved.spectra_layout = to,
             ViewChoice::Pictures(to) => saved.render.mode = to,
+        }
+    }
+
+    /// Notes what a pane's plot, whose figure has this title, is zoomed to, if it is.
+    pub fn note_zoom(&mut self, pane: PaneKind, title: String, zoomed: Option<Ranges>) {
+        match zoomed {
+            Some(ranges) => drop(self.zoomed.insert(pane, (title, ranges))),
+            None => drop(self.zoomed.remove(&pane)),
         }
     }
 

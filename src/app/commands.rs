@@ -11,9 +11,9 @@ use super::session::SESSION;
 use crate::action::history::History;
 use crate::action::{Action, CompareAction};
 use crate::catalog::opened::{CLIPBOARD, Request};
-use crate::command::{Command, Format};
+use crate::command::Command;
 use crate::document::SetKind;
-use crate::export::{self, Paper};
+use crate::export::{self, FigureForm};
 use crate::figures::FigureInput;
 use crate::files::{DocumentSource, FileEvent, FileForm, SaveRequest};
 use crate::panes;
@@ -407,25 +407,24 @@ impl ChromascopeApp {
 
     fn checked(&mut self, pane: PaneKind, figure: Option<Figure>) -> Option<Figure> {
         if figure.is_none() {
-            let others = panes::ALL.iter().filter(|pane| pane.figure.is_some()).map(|pane| pane.title);
-            let others = others.collect::<Vec<_>>().join(", ");
-            self.view.fail(format!("{} has no figure now. Panes with figures: {others}.", panes::title(pane)));
+            self.view.fail(format!("{} has no figure now.", panes::title(pane)));
         }
         figure
     }
 
-    /// Asks where to save a pane's figure. The path's extension decides the format; the requested one is offered.
-    fn export(&mut self, pane: PaneKind, format: Format) {
+    /// Asks where to save a pane's figure. The path's extension decides the form; the requested one is offered.
+    fn export(&mut self, pane: PaneKind, form: FigureForm) {
         let Some(figure) = self.printed(pane) else { return };
-        let figure = Arc::new(figure);
-        let others = Format::ALL.into_iter().filter(|other| *other != format);
-        let forms = std::iter::once(format).chain(others).map(|format| {
-            let figure = Arc::clone(&figure);
-            let (numbers, paper) = (self.numbers(pane, &figure), self.view.saved.page.paper);
-            FileForm::new(format.extension(), move || file_of(&figure, &numbers, &paper, format))
+        let (numbers, paper) = (self.numbers(pane, &figure), self.view.saved.page.paper);
+        let shared = Arc::new((figure, numbers));
+        let others = FigureForm::ALL.into_iter().filter(|other| *other != form);
+        let forms = std::iter::once(form).chain(others).map(|form| {
+            let shared = Arc::clone(&shared);
+            let make = move || form.bytes(&shared.0, &shared.1, &paper).map_err(|error| error.to_string());
+            FileForm::new(form.ending(), make)
         });
-        let name = format!("{}.{}", self.file_stem(pane), format.extension());
-        let what = format!("{} as {}", panes::title(pane), format.extension().to_uppercase());
+        let name = format!("{}.{}", self.file_stem(pane), form.ending());
+        let what = format!("{} as {}", panes::title(pane), form.name());
         self.files.ask_to_save(SaveRequest { what, name, forms: forms.collect(), note: String::new() });
     }
 
@@ -479,21 +478,5 @@ impl ChromascopeApp {
     /// True if a set of this kind and name is on the list.
     pub fn compares(&self, kind: SetKind, name: &str) -> bool {
         self.history.document().compared(kind, name).is_some()
-    }
-}
-
-/// A figure's file in a format; the error is a message.
-fn file_of(figure: &Figure, numbers: &Table, paper: &Paper, format: Format) -> Result<Vec<u8>, String> {
-    let svg = || export::svg(figure, &paper.theme(), *paper);
-    match format {
-        Format::Pdf => export::pdf(figure, &paper.theme(), *paper).map_err(|error| error.to_string()),
-        Format::Svg => Ok(svg().into_bytes()),
-        Format::Csv => Ok(numbers.to_csv().into_bytes()),
-        Format::Json => Ok(export::json(&figure.title, numbers).into_bytes()),
-        Format::Png => {
-            let file = export::png(&svg(), paper.pixels_per_point())
-                .and_then(|picture| export::png_file_at(&picture, paper.dpi));
-            file.map_err(|error| error.to_string())
-        }
     }
 }

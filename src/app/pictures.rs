@@ -99,6 +99,7 @@ impl ChromascopeApp {
             balance,
             illuminant: &light,
             material: &document.render.material,
+            garment: document.render.worn(),
             mesh: &document.render.mesh.name(),
             quality: shading.quality,
             lighting: shading.geometry.lighting,

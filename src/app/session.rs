@@ -7,10 +7,11 @@ use std::sync::Arc;
 use egui::{Align2, Context, Key, RichText, TextEdit, Ui, Vec2, ViewportCommand, Window};
 
 use super::ChromascopeApp;
+use crate::action::history::History;
 use crate::command::{Command, SessionCommand};
 use crate::document::imported::Fingerprint;
 use crate::document::{Document, SessionFile, session};
-use crate::files::{DocumentSource, FileForm, MakeText, OpenedDocument, SaveRequest, SavedFile};
+use crate::files::{DocumentSource, FileForm, MakeText, OpenedDocument, SaveRequest, SavedFile, template_name};
 use crate::panes;
 use crate::theme::Theme;
 use crate::view::template::{TEMPLATES, Template};
@@ -40,6 +41,11 @@ pub(super) struct SessionState {
 }
 
 impl SessionState {
+    /// Drops what is still asked or to be written, because another document takes the place of this one.
+    fn end_saving(&mut self) {
+        (self.writing[1], self.named, self.changed, self.template) = (false, None, None, None);
+    }
+
     /// Closes an open question; returns whether there was one.
     pub(super) fn escape(&mut self) -> bool {
         self.changed.take().is_some() | self.template.take().is_some()
@@ -48,8 +54,13 @@ impl SessionState {
 
 impl ChromascopeApp {
     /// The user's own document, also while the tour is played.
-    fn own_document(&self) -> &Document {
+    pub(super) fn own_document(&self) -> &Document {
         self.interrupted.as_ref().map_or(&self.history, |own| &own.history).document()
+    }
+
+    /// The history of the user's own document, also while the tour is played.
+    fn own_history(&mut self) -> &mut History {
+        self.interrupted.as_mut().map_or(&mut self.history, |own| &mut own.history)
     }
 
     /// Looks at the file of the session that the program begins with.
@@ -68,6 +79,7 @@ impl ChromascopeApp {
 
     /// True if the document has changes that its file has not, or no file.
     fn is_unsaved(&mut self) -> bool {
+        // By fields: the result is noted beside it.
         let document = self.interrupted.as_ref().map_or(&self.history, |own| &own.history).document();
         match &self.session.compared {
             Some((known, unsaved)) if known == document => *unsaved,
@@ -157,6 +169,8 @@ impl ChromascopeApp {
             }
         }
         document.part_names(self.catalog.names());
+        // Questions and writes that are under way are about the document before.
+        self.session.end_saving();
         let (step, words) = match &source {
             DocumentSource::File(path) => {
                 self.view.remember_file(path.clone());
@@ -188,7 +202,7 @@ impl ChromascopeApp {
 
     /// Saves the session in its file, or asks for one.
     fn save_session(&mut self, replaces: bool) {
-        let Some(mut file) = self.history.document().session.clone() else { return self.save_session_as() };
+        let Some(mut file) = self.own_document().session.clone() else { return self.save_session_as() };
         if self.session.writing[0] {
             self.session.writing[1] = true;
             return;
@@ -216,23 +230,23 @@ impl ChromascopeApp {
 
     /// The document with the making of its session's text.
     fn text_to_save(&self) -> (Arc<Document>, MakeText) {
-        let document = Arc::new(self.history.document().clone());
-        let (written, view) = (Arc::clone(&document), self.view.saved.for_session());
+        let document = Arc::new(self.own_document().clone());
+        let (written, view) = (Arc::clone(&document), self.own_view().for_session());
         (document, Arc::new(move || session::to_session(&written, &view).map_err(|error| error.to_string())))
     }
 
     /// Handles a session that was saved under a name.
     pub(super) fn named(&mut self, saved: SavedFile) {
-        let Some(document) = self.session.named.take() else { return };
         self.view.remember_file(saved.file.path.clone());
-        self.history.set_session(&saved.file);
+        let Some(document) = self.session.named.take() else { return };
+        self.own_history().set_session(&saved.file);
         self.know_session(saved.file, document);
     }
 
     /// Handles the end of writing the session's file.
     pub(super) fn wrote_session(&mut self, file: SessionFile, document: Arc<Document>) {
-        if self.history.document().session.as_ref().is_some_and(|now| now.path == file.path) {
-            self.history.set_session(&file);
+        if self.own_document().session.as_ref().is_some_and(|now| now.path == file.path) {
+            self.own_history().set_session(&file);
         }
         self.view.say(format!("Saved {}.", file.path.display()));
         self.know_session(file, document);
@@ -284,6 +298,7 @@ impl ChromascopeApp {
             }
         }
         let Some(mut name) = self.session.template.take() else { return };
+        let own: Vec<String> = self.view.templates.iter().map(|(name, _)| name.clone()).collect();
         let answer = window(ui, "Save as a template", |ui| {
             let field = ui.add(TextEdit::singleline(&mut name).hint_text("Name").desired_width(WIDTH));
             field.widget_info(|| egui::WidgetInfo::labeled(egui::Role::TextInput, true, "Name of the template"));
@@ -291,9 +306,16 @@ impl ChromascopeApp {
             if !entered && ui.memory(|memory| memory.focused().is_none()) {
                 field.request_focus();
             }
+            let replaces = own.contains(&template_name(&name));
+            if replaces {
+                ui.colored_label(theme.warning, "A template has this name.");
+            }
             ui.horizontal(|ui| {
                 let is_named = !name.trim().is_empty();
-                let saves = ui.add_enabled(is_named, egui::Button::new("Save")).clicked() || entered && is_named;
+                let words = if replaces { "Replace" } else { "Save" };
+                // Enter alone replaces nothing.
+                let entered = entered && is_named && !replaces;
+                let saves = ui.add_enabled(is_named, egui::Button::new(words)).clicked() || entered;
                 let cancels = ui.button("Cancel").clicked();
                 saves.then_some(true).or(cancels.then_some(false))
             })

@@ -114,6 +114,7 @@ fn own_set(origin: &Origin, table: &SpectralFile, wishes: &ImportOverrides, take
         wavelengths: curve.wavelengths_nm.clone(),
         values: curve.values.clone(),
         unit: curve.unit.clone(),
+        unknown: serde_json::Map::new(),
     });
     let unit = table.reading.wavelength_unit.value;
     let percent = table.reading.values.value == Values::Percent;

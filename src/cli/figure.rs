@@ -27,7 +27,7 @@ use crate::view::View;
 pub(super) fn run(arguments: &FigureArguments, matches: &ArgMatches) -> Result<(), CliError> {
     let out = arguments.common.out.as_deref();
     let form = out.and_then(FigureForm::of).ok_or_else(|| {
-        let reason = "a file that ends in .pdf, .svg, .png, .tif or .csv is needed".to_owned();
+        let reason = "a file that ends in .pdf, .svg, .png, .tif, .csv or .json is needed".to_owned();
         CliError::Argument { argument: "--out", reason }
     })?;
     let mut request = Request::new(&arguments.common, matches)?;
@@ -40,7 +40,7 @@ pub(super) fn run(arguments: &FigureArguments, matches: &ArgMatches) -> Result<(
     if let Range::Of(ranges) = arguments.paper.range {
         view.diagram.zoomed = Some(ranges);
     }
-    let made = made::Made::new(arguments.kind, &scene, &mut view, (&paper, recorded))?;
+    let made = made::Made::new((arguments.kind, arguments.viewpoint), &scene, &mut view, (&paper, recorded))?;
     let figure = paper.laid_out(|room| {
         view.room = room;
         let input = FigureInput {
@@ -93,7 +93,7 @@ fn prepare(request: &mut Request, arguments: &FigureArguments) -> Result<Option<
 
 /// Refuses a height that a figure cannot take, because its rows or pictures have theirs.
 fn check_height(figure: &Figure, paper: &Paper, form: FigureForm) -> Result<(), CliError> {
-    let Some(wanted) = paper.height_mm.filter(|_| form != FigureForm::Csv) else { return Ok(()) };
+    let Some(wanted) = paper.height_mm.filter(|_| !form.is_numbers()) else { return Ok(()) };
     let height = Page::new(figure, &paper.page_style()).area.height() * paper.scale() / 72.0 * 25.4;
     if (height - wanted).abs() < 1.0 {
         return Ok(());

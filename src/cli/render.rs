@@ -134,6 +134,7 @@ impl<'a> Made<'a> {
             balance: if rendering.is_rgb { white } else { "none" },
             illuminant,
             material: &self.scene.document.render.material,
+            garment: self.scene.document.render.worn(),
             mesh: &self.setup.mesh_name,
             quality: shading.quality,
             lighting: shading.geometry.lighting,

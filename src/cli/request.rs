@@ -292,13 +292,13 @@ impl Request {
         }
     }
 
-    /// Chooses the reflectance of what is rendered.
-    pub(super) fn set_material(&mut self, given: &OsStr) -> Result<(), CliError> {
+    /// The name of a reflectance of what is rendered.
+    pub(super) fn material(&mut self, argument: &'static str, given: &OsStr) -> Result<String, CliError> {
         let material = &*given.to_string_lossy();
-        self.document.render.material = match material.to_ascii_lowercase().as_str() {
+        Ok(match material.to_ascii_lowercase().as_str() {
             "skin" => SKIN.to_owned(),
             "leaf" => LEAF.to_owned(),
-            _ if self.means_file("--material", &[SetKind::Material, SetKind::Chart], given) => {
+            _ if self.means_file(argument, &[SetKind::Material, SetKind::Chart], given) => {
                 let set = self.open(Path::new(given), Role::Reflectance)?;
                 if let [first, _, ..] = set.curves.as_slice() {
                     let count = set.curves.len();
@@ -306,9 +306,8 @@ impl Request {
                 }
                 set.name.clone()
             }
-            _ => self.name("--material", &[SetKind::Material], material)?,
-        };
-        Ok(())
+            _ => self.name(argument, &[SetKind::Material], material)?,
+        })
     }
 
     /// The name of a chart or a material, or [`FIVE`].

@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use chromascope_core::query::Shared;
 use chromascope_core::spectral::{DistributionError, Response, SpectralDistribution};
 use serde::{Deserialize, Serialize};
+use serde_json::{Map, Value};
 pub use spectral_file::{ReadOptions, Role, WavelengthUnit};
 
 /// One curve, as it was read: in the units that [`ImportedSet::read_as`] says.
@@ -22,6 +23,9 @@ pub struct ImportedCurve {
     /// The unit of the values as the file names it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub unit: Option<String>,
+    /// Fields that this version does not know, kept as they are.
+    #[serde(flatten)]
+    pub unknown: Map<String, Value>,
 }
 
 /// Numbers as JSON has them, where NaN and infinities are written as null: one of them must not cost the document.

@@ -17,6 +17,8 @@ use serde::{Deserialize, Serialize};
 pub const SKIN: &str = "Skin Caucasian mean (Vrhel)";
 /// The leaf of the default fern.
 pub const LEAF: &str = "Fern-like bush leaf 024 (Vrhel)";
+/// The garment that a head begins with, except in the paper's figures.
+pub const GARMENT: &str = "Faded jeans 076 (Vrhel)";
 /// The light of the paper's third experiment.
 pub const SUN: &str = "Direct sun (ASTM G173)";
 /// The balance of the paper's third experiment.
@@ -52,6 +54,9 @@ pub struct RenderSettings {
     pub triangles: usize,
     /// The name of a reflectance.
     pub material: String,
+    /// The name of the reflectance of the head's garment; none for bare shoulders, as in the paper.
+    #[serde(default)]
+    pub garment: Option<String>,
     /// Height deviation σ in micrometers.
     pub sigma_um: f64,
     /// Origin of σ and τ.
@@ -107,6 +112,7 @@ impl Default for RenderSettings {
             mesh: MeshChoice::Head,
             triangles: 100_000,
             material: SKIN.to_owned(),
+            garment: None,
             sigma_um: 5.0,
             roughness: RoughnessChoice::Surface,
             tau_um: 10.0,
@@ -177,12 +183,23 @@ impl RenderSettings {
             reading: ReadingChoice::Paper,
             specular: SpecularChoice::Paper,
             area: AreaChoice::Xy,
+            garment: None,
             light_distance: Some(NEAR),
             light_radius: 0.0,
             sky: 0.0,
             thin: false,
             ..self
         }
+    }
+
+    /// The garment that is seen: only the head wears one.
+    pub fn worn(&self) -> Option<&str> {
+        self.garment.as_deref().filter(|_| self.mesh == MeshChoice::Head)
+    }
+
+    /// The material, and the garment's.
+    pub fn materials(&self) -> String {
+        self.worn().map_or_else(|| self.material.clone(), |garment| format!("{}, garment: {garment}", self.material))
     }
 
     /// Exactness of the integrals once nothing moves.

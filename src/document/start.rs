@@ -1,7 +1,7 @@
 //! Named starts: the comparison and its conditions on the first screen and after a reset.
 
 use super::kind::SetKind;
-use super::render::model::SpecularChoice;
+use super::render::{GARMENT, model::SpecularChoice};
 use super::{CHART, CIE_1931, Document, Light, PAPER_REFERENCE, Subset, TransformChoice};
 use serde::{Deserialize, Serialize};
 
@@ -79,6 +79,7 @@ impl Start {
             document.light = Light::Set("D65".to_owned());
             CHART.clone_into(&mut document.chart);
             document.subset = Subset::All;
+            document.render.garment = Some(GARMENT.to_owned());
             document.set_transform(TransformChoice::Observer(CIE_1931.to_owned()));
         }
         document.render.specular = self.specular();

@@ -3,7 +3,7 @@
 use super::imported::ImportedSet;
 use super::kind::SetKind;
 use super::names::{BuiltInNames, caseless};
-use super::render::RenderSettings;
+use super::render::{GARMENT, RenderSettings};
 use super::{CHART, Document, LIGHT, Light, Subset, TRAINING, WhiteBalanceChoice};
 use chromascope_core::query::Shared;
 use std::collections::{HashMap, HashSet};
@@ -80,7 +80,7 @@ impl Document {
             }
             SetKind::Chart | SetKind::Material => {
                 let uses = [&mut self.chart, &mut self.render.material, &mut self.correction.training];
-                for used in uses.into_iter().filter(|used| *used == old) {
+                for used in uses.into_iter().chain(&mut self.render.garment).filter(|used| *used == old) {
                     new.clone_into(used);
                 }
             }
@@ -117,6 +117,9 @@ impl Document {
                 }
                 if self.render.material == name {
                     self.render.material = RenderSettings::default().material;
+                }
+                if self.render.garment.as_deref() == Some(name) {
+                    self.render.garment = Some(GARMENT.to_owned());
                 }
                 if self.correction.training == name {
                     TRAINING.clone_into(&mut self.correction.training);

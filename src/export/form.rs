@@ -4,7 +4,7 @@ use std::path::Path;
 
 use chromascope_figure::{Figure, Table};
 
-use super::{ExportError, Paper, pdf, png, png_file_at, svg, tiff_file_at};
+use super::{ExportError, Paper, json, pdf, png, png_file_at, svg, tiff_file_at};
 
 /// Form of a figure's file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -19,11 +19,13 @@ pub enum FigureForm {
     Tiff,
     /// Numbers behind the figure.
     Csv,
+    /// Numbers behind the figure, for programs.
+    Json,
 }
 
 impl FigureForm {
     /// All forms.
-    pub const ALL: [Self; 5] = [Self::Pdf, Self::Svg, Self::Png, Self::Tiff, Self::Csv];
+    pub const ALL: [Self; 6] = [Self::Pdf, Self::Svg, Self::Png, Self::Tiff, Self::Csv, Self::Json];
 
     /// Ending of its files.
     pub const fn ending(self) -> &'static str {
@@ -33,7 +35,25 @@ impl FigureForm {
             Self::Png => "png",
             Self::Tiff => "tif",
             Self::Csv => "csv",
+            Self::Json => "json",
         }
+    }
+
+    /// Name on screen.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Pdf => "PDF",
+            Self::Svg => "SVG",
+            Self::Png => "PNG",
+            Self::Tiff => "TIFF",
+            Self::Csv => "CSV",
+            Self::Json => "JSON",
+        }
+    }
+
+    /// True if its files hold numbers, not the figure.
+    pub const fn is_numbers(self) -> bool {
+        matches!(self, Self::Csv | Self::Json)
     }
 
     /// Form that the ending of a path names.
@@ -54,11 +74,12 @@ impl FigureForm {
             Self::Pdf => pdf(figure, &theme, *paper),
             Self::Svg => Ok(svg(figure, &theme, *paper).into_bytes()),
             Self::Png | Self::Tiff => {
-                let picture = png(&svg(figure, &theme, *paper), (paper.dpi / 72.0) as f32)?;
+                let picture = png(&svg(figure, &theme, *paper), paper.pixels_per_point())?;
                 let file = if self == Self::Png { png_file_at } else { tiff_file_at };
                 file(&picture, paper.dpi)
             }
             Self::Csv => Ok(numbers.to_csv().into_bytes()),
+            Self::Json => Ok(json(&figure.title, numbers).into_bytes()),
         }
     }
 }

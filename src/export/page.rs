@@ -53,7 +53,7 @@ pub struct PageFacts {
     pub smallest_text_pt: Option<f64>,
     /// Thinnest line of a mark in points; `None` without lines.
     pub thinnest_line_pt: Option<f64>,
-    /// Least difference in lightness L* of two cameras of the legend; `None` for fewer than two.
+    /// Least difference in lightness L* of two inks of the legend; `None` for fewer than two.
     pub lightness_apart: Option<f64>,
     /// True if there is a legend to be placed.
     pub has_legend: bool,
@@ -100,7 +100,7 @@ impl PageFacts {
     }
 }
 
-/// Least difference in L* between the inks of a legend's cameras.
+/// Least difference in L* between the inks of a legend.
 fn lightness_apart(figure: &Figure, theme: &Theme) -> Option<f64> {
     let inks = figure.legend.iter().filter_map(|entry| Some(entry.stroke.map(|line| line.ink).or(entry.fill)?.role));
     let roles: HashSet<InkRole> = inks.filter(|role| matches!(role, InkRole::Sensor(_))).collect();

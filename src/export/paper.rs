@@ -42,7 +42,7 @@ pub struct Paper {
     pub caption: bool,
     /// True if the chromaticity diagram has its strip below.
     pub strip: bool,
-    /// Ranges of the axes of the chromaticity diagram.
+    /// Ranges of the axes of plots that can be zoomed.
     pub ranges: AxisRanges,
     /// Extent of the numbers written as CSV.
     pub numbers: Numbers,

@@ -35,6 +35,8 @@ pub struct Provenance<'a> {
     pub illuminant: &'a str,
     /// The name of the material.
     pub material: &'a str,
+    /// The name of the garment's material, if one is worn.
+    pub garment: Option<&'a str>,
     /// The mesh's name.
     pub mesh: &'a str,
     /// Method of integration.
@@ -208,12 +210,19 @@ fn attributes(rendering: &Rendering, provenance: &Provenance<'_>) -> LayerAttrib
         ("fieldOfView", AttributeValue::F64(viewpoint.field_of_view().to_degrees())),
     ];
     let zoom = viewpoint.zoom().map(|zoom| ("framedDistance", AttributeValue::F64(zoom)));
+    let garment = provenance.garment.map(|garment| ("garment", text(garment)));
     let tolerance = provenance.quality.given_tolerance();
     let tolerance = tolerance.map(|tolerance| ("tolerance", AttributeValue::F64(tolerance.max_relative_error())));
     LayerAttributes {
         software_name: Some(utf8(concat!("chromascope ", env!("CARGO_PKG_VERSION")))),
         comments: Some(utf8(comments(provenance.reading))),
-        other: own.into_iter().chain(tolerance).chain(zoom).map(|(name, value)| (utf8(name), value)).collect(),
+        other: own
+            .into_iter()
+            .chain(garment)
+            .chain(tolerance)
+            .chain(zoom)
+            .map(|(name, value)| (utf8(name), value))
+            .collect(),
         ..LayerAttributes::default()
     }
 }

@@ -100,7 +100,7 @@ pub fn figure(input: &FigureInput<'_>) -> Option<Figure> {
     let run = input.measured.run.as_ref()?;
     let trial = trial(run, subject)?;
     let size = input.view.room.size(SIZE, 0.0);
-    let mut figure = Figure::new(format!("Run time against error: {}", subject.what()), size);
+    let mut figure = Figure::new(title(subject), size);
     figure.panels.push(panel(trial, input.measured.is_current, size));
     figure.legend = legend(trial);
     figure.legend_place = LegendPlace::Outside;
@@ -116,6 +116,11 @@ pub fn figure(input: &FigureInput<'_>) -> Option<Figure> {
     );
     figure.table = with_conditions(table(trial), trial, &run.conditions);
     Some(figure)
+}
+
+/// Title of the methods' figure.
+pub fn title(subject: Subject) -> String {
+    format!("Run time against error: {}", subject.what())
 }
 
 /// Each row with what, on what and when it was measured.

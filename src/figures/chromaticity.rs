@@ -187,7 +187,10 @@ pub fn figure_sized(scene: &Scene<'_>, view: &View, size: [f64; 2]) -> Figure {
     let mut paper = View { saved: view.saved.clone(), ..View::default() };
     match view.room.ranges {
         AxisRanges::Full => paper.saved.diagram_fit = DiagramFit::Whole,
-        AxisRanges::Screen => paper.diagram.zoomed = view.diagram.zoomed.map(|part| Frame::around(part, size).ranges),
+        AxisRanges::Screen => {
+            paper.diagram = view.diagram.for_paper(&fit_key(scene, view.saved.diagram_fit));
+            paper.diagram.zoomed = paper.diagram.zoomed.map(|part| Frame::centered(part, size).ranges);
+        }
     }
     let mut built = build(scene, &paper, None, size);
     if let Some([x, y]) = paper.diagram.zoomed {

@@ -1,7 +1,7 @@
 //! Errors of a two-light correction between its lights.
 
 use chromascope_figure::{
-    Axis, Cell, Dash, Figure, InkRole, LegendEntry, Mark, Panel, Rect, Shape, Stroke, Table, Tag, Ticks,
+    Axis, Cell, Dash, Figure, InkRole, LegendEntry, LegendPlace, Mark, Panel, Rect, Shape, Stroke, Table, Tag, Ticks,
 };
 
 use crate::export::profile::CorrectionFile;
@@ -34,6 +34,7 @@ pub fn figure(view: &View) -> Option<Figure> {
             fill: None,
         })
         .to_vec();
+    figure.legend_place = LegendPlace::Inside;
     let mut table = Table::new(["temperature_k", "first", "second", "own", "mixed"]);
     for point in file.sheet.between.iter().flatten() {
         let values = [point.temperature.get(), point.first, point.second, point.own, point.mixed];

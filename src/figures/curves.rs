@@ -140,7 +140,7 @@ pub fn figure(input: &FigureInput<'_>) -> Option<Figure> {
     let mut drawn = curves.clone();
     drawn.cut(DRAWN);
     let size = input.view.room.size(SIZE, 0.0);
-    let mut figure = Figure::new(format!("Curves of {}", curves.title), size);
+    let mut figure = Figure::new(title(&curves), size);
     let mut panel = panel(&drawn, size, None);
     panel.name.clone_from(&curves.title);
     figure.panels.push(panel);
@@ -157,6 +157,11 @@ pub fn figure(input: &FigureInput<'_>) -> Option<Figure> {
     figure.caption = format!("{}: {}.", curves.title, curves.quantity);
     figure.table = numbers(if input.view.room.numbers == Numbers::Visible { &drawn } else { &curves });
     Some(figure)
+}
+
+/// Title of the figure.
+pub fn title(curves: &Curves) -> String {
+    format!("Curves of {}", curves.title)
 }
 
 /// The values at the wavelengths of the file; nothing where a curve has none.

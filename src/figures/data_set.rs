@@ -3,8 +3,9 @@
 use chromascope_core::query::Ask;
 use chromascope_core::spectral::SpectralDistribution;
 use chromascope_core::spectral::grid::{FIRST_NM, LAST_NM};
-use chromascope_figure::{Anchor, Axis, InkRole, Mark, Panel, Rect, Shape, TextSize, Ticks};
+use chromascope_figure::{Axis, Ink, InkRole, Mark, Panel, Rect, Shape, Ticks};
 
+use super::labels::{Name, Room, channel_symbol};
 use crate::catalog::load::{LoadError, curves};
 use crate::catalog::{Entry, Place};
 use crate::document::SetKind;
@@ -26,18 +27,20 @@ pub fn panel(ask: &impl Ask, entry: &Entry, role: InkRole, size: [f64; 2]) -> Re
     let few = drawn.len() <= 4;
     let x = Axis::new("wavelength (nm)", [FIRST_NM, LAST_NM]).with_ticks(Ticks::Auto).with_grid(true);
     // Room for the axis title below the curves.
-    let y = Axis::hidden([low - 0.2 * high, high * if few && drawn.len() > 1 { 1.3 } else { 1.12 }]);
+    let y = Axis::hidden([low - 0.2 * high, high * if few && drawn.len() > 1 { 1.5 } else { 1.12 }]);
     let mut panel = Panel::new(format!("Curves of {}", entry.name), Rect::from_min_size([0.0, 0.0], size), x, y);
     for (name, points) in &drawn {
         let line = Shape::Line { points: points.clone(), closed: false };
         let width = if few { 1.5 } else { 1.0 };
         panel.marks.push(Mark::new(PickIndex::NONE, name.as_str(), line).with_stroke(role, width));
     }
-    if few && drawn.len() > 1 {
-        panel.marks.extend(drawn.iter().filter_map(|(name, points)| at_peak(name, points)));
-    }
     if all.len() > drawn.len() {
         panel.note = format!("{} of {} curves", drawn.len(), all.len());
+    }
+    if few && drawn.len() > 1 {
+        let mut room = Room::of(&panel);
+        room.take(&panel.marks);
+        panel.marks.extend(drawn.iter().filter_map(|(name, points)| at_peak(name, points)?.mark(&mut room)));
     }
     Ok(Some(panel))
 }
@@ -63,9 +66,8 @@ fn drawn(entry: &Entry, all: &[(String, SpectralDistribution)]) -> Vec<(String, 
     chosen.into_iter().map(curve).collect()
 }
 
-/// The name of a curve above its peak.
-fn at_peak(name: &str, points: &[[f64; 2]]) -> Option<Mark> {
+/// The name of a curve at its peak.
+fn at_peak(name: &str, points: &[[f64; 2]]) -> Option<Name> {
     let at = points.iter().copied().max_by(|a, b| a[1].total_cmp(&b[1]))?;
-    let text = Mark::text(name, at, Anchor(0.5, 1.0), TextSize::Small, InkRole::Text);
-    Some(text.with_offset([0.0, -1.0]).with_halo(InkRole::Plot))
+    Some(Name { text: channel_symbol(name), ink: Ink::new(InkRole::Text), points: vec![at] })
 }

@@ -28,7 +28,7 @@ pub fn figure(view: &View) -> Option<Figure> {
     let (set, ranked) = view.recorded.ranked.as_ref()?;
     let (name, fit) = chosen(ranked, view)?;
     let names: Vec<String> = set.iter().map(|patch| patch.name.clone()).collect();
-    let mut figure = Figure::new(format!("Residuals of {name}"), view.room.size(SIZE, 0.0));
+    let mut figure = Figure::new(title(name), view.room.size(SIZE, 0.0));
     figure.panels.push(panel(fit, &names, figure.size));
     figure.legend = legend();
     figure.legend_place = LegendPlace::Outside;
@@ -40,6 +40,11 @@ pub fn figure(view: &View) -> Option<Figure> {
     );
     figure.table = table(name, fit, &names);
     Some(figure)
+}
+
+/// Title of a camera's figure.
+pub fn title(name: &str) -> String {
+    format!("Residuals of {name}")
 }
 
 /// Keys of the channels.

@@ -191,7 +191,7 @@ fn caption(scene: &Scene<'_>, shot: &RenderedFrame) -> String {
     format!(
         "Mesh: {mesh}. Material: {}{thin}, {roughness}, n = {}. Normalization of P: {}; coherent component: {}; {}. Reference: {}. \
          Light: {light}{sky}. White balance: {white}.",
-        settings.material,
+        settings.materials(),
         settings.index,
         settings.reading.label(),
         settings.specular.label(),
@@ -214,20 +214,22 @@ pub fn image_words(shot: &RenderedFrame, image: &ImagePictures) -> String {
 }
 
 fn table(shot: &RenderedFrame, measure: &str) -> Table {
-    let columns = if shot.query.image().is_some() {
+    let is_image = shot.query.image().is_some();
+    let columns = if is_image {
         "sensor mean max clipped_pixels pixels_across pixels_down time_ms measure facing_light median p95 \
          pixels_with_value"
     } else {
         "sensor mean_of_lit max_of_lit clipped_samples pixels_across pixels_down time_ms measure facing_light \
-         median_above_l20 p95_above_l20 samples_above_l20"
+         median_above_l20 p95_above_l20 samples_above_l20 garment_facing_light"
     };
     let mut table = Table::new(columns.split(' '));
     let Some(made) = shot.made() else { return table };
     for (at, source) in shot.sources.iter().enumerate() {
         let difference = made.differences.get(at).and_then(Option::as_ref);
         let bright = difference.and_then(|difference| difference.bright);
+        let garment = (!is_image).then(|| Cell::from(difference.and_then(|difference| difference.garment)));
         let picture = made.pictures.get(at).and_then(|picture| picture.as_ref().ok());
-        table.push([
+        let row = [
             Cell::from(source.label.as_str()),
             Cell::from(difference.map(|difference| difference.mean)),
             Cell::from(difference.map(|difference| difference.max)),
@@ -240,7 +242,8 @@ fn table(shot: &RenderedFrame, measure: &str) -> Table {
             Cell::from(bright.map(|bright| bright.median)),
             Cell::from(bright.map(|bright| bright.p95)),
             Cell::from(difference.map(|_| bright.map_or(0.0, |bright| bright.count as f64))),
-        ]);
+        ];
+        table.push(row.into_iter().chain(garment));
     }
     table
 }

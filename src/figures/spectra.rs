@@ -14,7 +14,7 @@ use chromascope_figure::{
 
 use self::content::Content;
 use super::chromaticity::caption;
-use super::labels::Room;
+use super::labels::{Name, Room};
 use crate::document::{FIT_TARGET, SetKind};
 use crate::plot_item::{PickIndex, PlotItem};
 use crate::scene::{ComparedSensor, Scene};
@@ -71,9 +71,15 @@ fn panel(content: Content, area: Rect, large: bool) -> Panel {
     let axis = Axis::new(content.quantity, range).with_ticks(ticks).with_grid(large);
     let name = format!("{}, {}", content.quantity, content.note);
     let mut panel = Panel { note: content.note, ..Panel::new(name, area, x, axis) };
-    let mut room = Room::of(&panel);
-    room.take(&content.marks);
-    let names: Vec<Mark> = content.names.iter().filter_map(|name| name.mark(&mut room)).collect();
+    let written = |names: &[Name]| -> Vec<Mark> {
+        let mut room = Room::of(&panel);
+        room.take(&content.marks);
+        names.iter().filter_map(|name| name.mark(&mut room)).collect()
+    };
+    let mut names = written(&content.names);
+    if names.len() < content.names.len() && !content.common.is_empty() {
+        names = written(&content.common);
+    }
     panel.marks = hundreds(range);
     panel.marks.extend(content.marks);
     panel.marks.extend(names);
@@ -90,10 +96,13 @@ fn with_room(content: &Content, area: Rect, large: bool) -> [f64; 2] {
     let [title, note] = [content.quantity, content.note.as_str()].map(|text| text_width(text, TextSize::Small) + 12.0);
     let second = if title + note <= width { 0.0 } else { 16.0 };
     let nm = |share: f64| FIRST_NM + share.clamp(0.0, 1.0) * (LAST_NM - FIRST_NM);
+    let names = if content.names.is_empty() { 0.0 } else { 17.0 };
+    // Names stand below the title and the note, unless the panel is low.
+    let below = if area.height() < 70.0 { 0.0 } else { names };
     let needs = [
-        ([FIRST_NM, nm(title / width)], TEXT),
-        ([nm(1.0 - note / width), LAST_NM], TEXT + second),
-        ([FIRST_NM, LAST_NM], if content.names.is_empty() { 0.0 } else { 17.0 }),
+        ([FIRST_NM, nm(title / width)], TEXT + below),
+        ([nm(1.0 - note / width), LAST_NM], TEXT + second + below),
+        ([FIRST_NM, LAST_NM], names),
     ];
     let lines = content.marks.iter().filter_map(|mark| match &mark.shape {
         Shape::Line { points, .. } => Some(points),

@@ -74,14 +74,14 @@ pub fn build(scene: &Scene<'_>, size: [f64; 2]) -> Option<Strip> {
     room.take(&content.signs);
     let line = cursor(scene.document.temperature_k, top * free);
     room.keep_clear_of(&line);
-    let mut texts = vec![cursor_text(&mut room, scene.document.temperature_k, top)];
-    texts.extend(content.minima.iter().map(|(source, at)| minimum_text(&mut room, source, *at)));
     panel.marks = just_visible_line(&reference, diagram, &mut room);
+    let mut texts: Vec<Mark> = cursor_text(&mut room, scene.document.temperature_k, top).into_iter().collect();
+    texts.extend(content.minima.iter().flat_map(|(source, at)| minimum_text(&mut room, source, *at)));
     panel.marks.extend(content.lines);
     panel.marks.push(line);
     panel.marks.extend(content.signs);
     panel.marks.extend(cut(&panel.marks, top, room.height()));
-    panel.marks.extend(texts.into_iter().flatten());
+    panel.marks.extend(texts);
     Some(Strip { panel, things })
 }
 
@@ -149,15 +149,14 @@ fn minimum(scene: &Scene<'_>, source: &ComparedSensor) -> Option<[f64; 2]> {
     (!nearest.at_end).then(|| [1e6 / nearest.kelvin, nearest.distance.sqrt()])
 }
 
-/// The temperature of a minimum, in the sensor's ink: beside its ring or above.
-fn minimum_text(room: &mut Room, source: &ComparedSensor, at: [f64; 2]) -> Option<Mark> {
-    let sides = [(Anchor::LEFT_BOTTOM, 7.0), (Anchor::RIGHT_BOTTOM, -7.0)];
-    let row = |row: i32| sides.map(|(anchor, x)| (at, anchor, [x, 5.0 - 13.0 * f64::from(row)]));
-    let places: Vec<Place> = (0..5).flat_map(row).collect();
-    let text = format!("{:.0} K", 1e6 / at[0]);
-    let ink = source.role.into();
-    let mark = room.place(&text, ink, false, &places).or_else(|| room.place(&text, ink, true, &places))?;
-    Some(mark.with_halo(InkRole::Plot))
+/// The temperature of a minimum, in the sensor's ink: beside its ring, above, or farther at the end of a leader.
+fn minimum_text(room: &mut Room, source: &ComparedSensor, at: [f64; 2]) -> Vec<Mark> {
+    let away = |x: f64| (0..8).flat_map(move |row| [(x, row), (-x, row)]);
+    let places = [7.0, 24.0, 48.0, 80.0, 120.0, 170.0, 230.0].into_iter().flat_map(away).map(|(x, row)| {
+        let anchor = if x > 0.0 { Anchor::LEFT_BOTTOM } else { Anchor::RIGHT_BOTTOM };
+        (at, anchor, [x, 5.0 - 13.0 * f64::from(row)])
+    });
+    room.lead(&format!("{:.0} K", 1e6 / at[0]), source.role.into(), &places.collect::<Vec<Place>>())
 }
 
 /// Zero and two round distances with equal decimals, at the square roots where they lie.
@@ -175,13 +174,12 @@ fn just_visible_line(reference: &Locus, diagram: Diagram, room: &mut Room) -> Ve
     let points = reference.points.iter().filter_map(|p| Some([p.temperature.mired(), height(p.xy?)]));
     let points: Vec<[f64; 2]> = points.collect();
     let sides = [(Anchor::BOTTOM, -2.0), (Anchor::TOP, 2.0)];
-    let places = points.iter().step_by(8).flat_map(|at| sides.map(|(anchor, y)| (*at, anchor, [0.0, y])));
-    let places: Vec<Place> = places.collect();
-    let ink = Ink::new(InkRole::Weak);
-    let free = room.place("just visible", ink, false, &places);
-    let text = free.or_else(|| Some(room.place("just visible", ink, true, &places)?.with_halo(InkRole::Plot)));
+    let away = [2.0, 18.0, 31.0].into_iter().flat_map(|far| sides.map(|(anchor, y)| (anchor, y / 2.0 * far)));
+    let places = away.flat_map(|(anchor, y)| points.iter().step_by(8).map(move |at| (*at, anchor, [0.0, y])));
     let name = format!("just visible to half of observers: Δu′v′ {JUST_VISIBLE}");
-    let line = Mark::new(PickIndex::NONE, name, Shape::Line { points, closed: false });
+    let line = Mark::new(PickIndex::NONE, name, Shape::Line { points: points.clone(), closed: false });
+    room.take(std::slice::from_ref(&line));
+    let text = room.lead("just visible", InkRole::Weak.into(), &places.collect::<Vec<Place>>());
     std::iter::once(line.with_stroke(InkRole::Weak, 0.8)).chain(text).collect()
 }
 
@@ -221,9 +219,7 @@ fn cursor(kelvin: f64, top: f64) -> Mark {
 fn cursor_text(room: &mut Room, kelvin: f64, top: f64) -> Option<Mark> {
     let at = |share: f64, (anchor, x)| ([1e6 / kelvin, share * top], anchor, [x, 0.0]);
     let sides = [(Anchor::RIGHT, -5.0), (Anchor::LEFT, 5.0)];
-    let places: Vec<Place> =
-        [0.5, 0.62, 0.38, 0.74].into_iter().flat_map(|share| sides.map(|side| at(share, side))).collect();
-    let (text, ink) = (format!("{kelvin:.0} K"), Ink::new(InkRole::Text));
-    let mark = room.place(&text, ink, false, &places).or_else(|| room.place(&text, ink, true, &places))?;
-    Some(mark.with_halo(InkRole::Plot))
+    let shares = [0.5, 0.62, 0.38, 0.74, 0.68, 0.56, 0.44, 0.32, 0.26];
+    let places: Vec<Place> = shares.into_iter().flat_map(|share| sides.map(|side| at(share, side))).collect();
+    room.place(&format!("{kelvin:.0} K"), Ink::new(InkRole::Text), false, &places)
 }

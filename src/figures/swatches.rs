@@ -8,7 +8,7 @@ use chromascope_figure::{Anchor, Cell, Figure, Ink, InkRole, Panel, Rect, Table}
 
 use self::board::Board;
 use super::chromaticity::{caption, id};
-use crate::document::TransformChoice;
+use crate::document::{SetKind, TransformChoice};
 use crate::format::{fixed, number};
 use crate::plot_item::{PickIndex, PlotItem};
 use crate::scene::{ComparedSensor, Scene};
@@ -102,7 +102,11 @@ pub fn worst(scene: &Scene<'_>) -> Option<(String, PlotItem)> {
     });
     let (difference, source, patch) = differences.max_by(|a, b| a.0.total_cmp(&b.0))?;
     let number = short(scene.document.difference, difference);
-    let words = format!("Worst {} {number}: {}, {patch}", scene.difference_name(), source.label);
+    let compared = rows.iter().filter(|row| row.colors.iter().flatten().any(|(_, difference)| difference.is_some()));
+    let count = compared.clone().count();
+    let what = if compared.clone().all(|row| row.source.kind == SetKind::Camera) { "cameras" } else { "sensors" };
+    let among = if count > 1 { format!("Worst of {count} {what}") } else { "Worst".to_owned() };
+    let words = format!("{among}: {} {number}, {}, {patch}", scene.difference_name(), source.label);
     Some((words, PlotItem::Patch { source: Some(id(source)), patch: patch.clone() }))
 }
 

@@ -5,12 +5,12 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use super::Files;
 use super::atomic::{sweep, write_atomically};
 use super::event::{DocumentSource, FileEvent, Note, OpenedDocument};
 use super::keep::Aside;
 use super::save::MakeText;
 use super::store::{Unread, read};
+use super::{Files, template_name};
 use crate::document::imported::Fingerprint;
 use crate::document::{Document, SessionFile, session};
 use crate::format::{io_failure, io_reason};
@@ -63,9 +63,7 @@ impl Files {
     /// Writes a template of the user's. The error says why it is not saved.
     pub fn save_template(&self, name: &str, text: &str) -> Result<(), String> {
         let folder = self.template_folder().ok_or("there is no folder for templates")?;
-        let fits = |c: char| if c.is_control() || "/\\:*?\"<>|".contains(c) { '-' } else { c };
-        let name: String = name.trim().chars().map(fits).collect();
-        let path = folder.join(super::fitting(name.trim_start_matches('.'), &format!(".{}", session::ENDING)));
+        let path = folder.join(format!("{}.{}", template_name(name), session::ENDING));
         fs::create_dir_all(&folder).map_err(|error| io_failure(&folder, &error))?;
         write_atomically(&path, text.as_bytes()).map_err(|error| io_failure(&path, &error))
     }

@@ -140,12 +140,7 @@ fn plot(
 
 /// Records the ranges that the user zoomed or panned to: labels, arrows, lens and overview follow in the next frame.
 fn note_zoom(ui: &Ui, built: &Built, shown: &paint::PlotOutput, context: &mut PaneContext<'_>) {
-    let pairs = [(shown.view.x, built.panel.x.range), (shown.view.y, built.panel.y.range)];
-    let near = |(a, b): &([f64; 2], [f64; 2])| {
-        let slack = 1e-3 * (b[1] - b[0]);
-        (a[0] - b[0]).abs() < slack && (a[1] - b[1]).abs() < slack
-    };
-    let zoomed = (!pairs.iter().all(near)).then_some([shown.view.x, shown.view.y]);
+    let zoomed = shown.zoomed(&built.panel);
     if zoomed != context.view.diagram.zoomed {
         context.view.diagram.zoomed = zoomed;
         ui.ctx().request_repaint();

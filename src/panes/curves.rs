@@ -58,6 +58,7 @@ fn plot(ui: &mut Ui, body: Rect, item: &ImportItem, [curves, seen]: [&Curves; 2]
     let options = PlotOptions { zoomable: true, reset: context.view.reset_plots, ..PlotOptions::default() };
     let id = Id::unique(("curves", format!("{item:?}")));
     let shown = paint::plot(ui, id, &panel, &context.theme, body, options);
+    context.view.note_zoom(PaneKind::CURVES, curves::title(seen), shown.zoomed(&panel));
     let hit = shown.response.hover_pos().and_then(|at| paint::nearest(&panel, &shown.view, at, REACH));
     let place = hit.and_then(|hit| curves::place(hit.tag));
     hover(ui, shown.response.hovered(), place, context);

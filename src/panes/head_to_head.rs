@@ -65,7 +65,9 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
         ..Column::default()
     });
     let shown = DataTable::new(PaneKind::HEAD_TO_HEAD, "Head to head", &table).with_columns(columns.into());
-    let place = Rect::from_min_max(egui::pos2(body.left(), top.min(body.bottom())), body.max);
+    // The table reaches to the pane's edge: a narrow pane shows the first three columns whole.
+    let place =
+        Rect::from_min_max(egui::pos2(body.left(), top.min(body.bottom())), body.max + Vec2::new(2.0 * UNIT, 0.0));
     shown.with_notes(&note).show(ui, place, context);
 }
 

@@ -5,8 +5,9 @@ use egui::{Align, Atom, Button, Layout, Rect, RichText, Ui, UiBuilder, Vec2};
 use super::context::{Pane, PaneContext};
 use crate::action::history::History;
 use crate::action::{Action, SceneAction};
-use crate::command::{Command, Format, REPORTS, SessionCommand, THEMES, TourMove, shortcut_of};
+use crate::command::{Command, REPORTS, SessionCommand, THEMES, TourMove, shortcut_of};
 use crate::document::start::Start;
+use crate::export::FigureForm;
 use crate::panes::widgets::{Icon, icon_button, pick_list};
 use crate::theme::{Surround, UNIT};
 use crate::view::template::TEMPLATES;
@@ -20,14 +21,14 @@ pub fn show(ui: &mut Ui, rect: Rect, history: &History, context: &mut PaneContex
     let layout = Layout::left_to_right(Align::Center);
     let inner = rect.shrink2(Vec2::new(UNIT, 0.0));
     let mut bar = ui.new_child(UiBuilder::new().id_salt("menu bar").max_rect(inner).layout(layout));
-    egui::MenuBar::new().ui(&mut bar, |ui| {
+    let menus = egui::MenuBar::new().ui(&mut bar, |ui| {
         ui.menu_button("File", |ui| file(ui, context));
         ui.menu_button("Edit", |ui| edit(ui, history, context));
         ui.menu_button("View", |ui| view(ui, context));
-        ui.menu_button("Help", |ui| help(ui, context));
-        ui.add_space(3.0 * UNIT);
-        tabs(ui, rect, context);
+        ui.menu_button("Help", |ui| help(ui, context)).response.rect.max.x
     });
+    let beside = rect.with_min_x(menus.inner + 4.0 * UNIT);
+    tabs(&mut ui.new_child(UiBuilder::new().id_salt("tabs").max_rect(beside).layout(layout)), rect, context);
     let to_left = Layout::right_to_left(Align::Center);
     let mut right = ui.new_child(UiBuilder::new().id_salt("menu right").max_rect(inner).layout(to_left));
     let find = Button::new("Find anything").shortcut_text("Ctrl+K");
@@ -160,10 +161,11 @@ fn file(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let pane = pictured(context);
     let words = format!("Figure page of {}", context.title(pane));
     item(ui, &words, Command::FigurePage(pane), context);
-    item(ui, &format!("Export {} as PDF…", context.title(pane)), Command::Export(pane, Format::Pdf), context);
-    item(ui, &format!("Export {} as SVG…", context.title(pane)), Command::Export(pane, Format::Svg), context);
-    item(ui, &format!("Export {} as PNG…", context.title(pane)), Command::Export(pane, Format::Png), context);
-    item(ui, &format!("Export numbers of {}…", context.title(pane)), Command::Export(pane, Format::Csv), context);
+    for form in [FigureForm::Pdf, FigureForm::Svg, FigureForm::Png] {
+        let words = format!("Export {} as {}…", context.title(pane), form.name());
+        item(ui, &words, Command::Export(pane, form), context);
+    }
+    item(ui, &format!("Export numbers of {}…", context.title(pane)), Command::Export(pane, FigureForm::Csv), context);
     ui.menu_button("Report on the paper", |ui| {
         for (on, words) in REPORTS {
             item(ui, words, Command::Report(on), context);

@@ -82,6 +82,7 @@ fn scene(ui: &mut Ui, body: Rect, subject: Subject, context: &mut PaneContext<'_
     let options = PlotOptions { zoomable: true, reset: context.view.reset_plots, ..PlotOptions::default() };
     let id = Id::unique(("run time against error", subject.title()));
     let shown = paint::plot(ui, id, &panel, &context.theme, body, options);
+    context.view.note_zoom(PaneKind::METHODS, accuracy::title(subject), shown.zoomed(&panel));
     shown.response.widget_info(|| {
         egui::WidgetInfo::labeled(egui::Role::Canvas, true, format!("Run time against error: {}", subject.title()))
     });

@@ -200,6 +200,7 @@ fn ranking_and_residuals(
         let panel = recorded::panel(fit, &names, size);
         let options = PlotOptions { zoomable: true, reset: context.view.reset_plots, ..PlotOptions::default() };
         let shown = paint::plot(ui, Id::unique("residuals"), &panel, &context.theme, plot, options);
+        context.view.note_zoom(PaneKind::RECORDED, recorded::title(name), shown.zoomed(&panel));
         shown
             .response
             .widget_info(|| egui::WidgetInfo::labeled(egui::Role::Canvas, true, format!("Residuals of {name}")));

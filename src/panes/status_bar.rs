@@ -10,6 +10,7 @@ use super::context::PaneContext;
 use crate::catalog::opened::Progress;
 use crate::command::Command;
 use crate::document::SetKind;
+use crate::figures::chromaticity;
 use crate::figures::render::image_words;
 use crate::format::fixed;
 use crate::panes::widgets::lines;
@@ -63,8 +64,9 @@ pub fn show(ui: &mut Ui, rect: Rect, arrangement: &Arrangement, context: &mut Pa
 fn reading(ui: &mut Ui, rect: Rect, context: &PaneContext<'_>) {
     let view = &*context.view;
     let hovered = || view.hovered.as_ref().map(|thing| describe(thing, context));
-    let fits = rect.width() >= lines::width(ui, READY, TextStyle::Body);
-    let words = view.point.clone().or_else(hovered).or_else(|| fits.then(|| READY.to_owned()));
+    let idle = selection(context).unwrap_or_else(|| READY.to_owned());
+    let fits = rect.width() >= lines::width(ui, &idle, TextStyle::Body);
+    let words = view.point.clone().or_else(hovered).or_else(|| fits.then_some(idle));
     let Some(words) = words else { return };
     let cut = lines::elided(ui, rect, &words, TextStyle::Body, context.theme.text);
     let response = ui.interact(rect, ui.scope_id().with("reading"), egui::Sense::hover());
@@ -72,6 +74,13 @@ fn reading(ui: &mut Ui, rect: Rect, context: &PaneContext<'_>) {
     if cut {
         response.on_hover_text(words);
     }
+}
+
+/// Selection that dims the others, with how to end it.
+fn selection(context: &PaneContext<'_>) -> Option<String> {
+    let selected = context.view.selected.as_ref().filter(|_| !context.view.selected_elsewhere)?;
+    let name = chromaticity::brief(&context.scene, selected).into_iter().next()?;
+    Some(format!("{name} selected; Esc shows all"))
 }
 
 fn show_facts(ui: &mut Ui, rect: Rect, arrangement: &Arrangement, context: &PaneContext<'_>) {

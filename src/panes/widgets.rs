@@ -17,7 +17,8 @@ use std::time::Duration;
 use chromascope_figure::{Ink, LegendEntry, Stroke};
 use egui::{Align, Button, Layout, Rect, Response, ScrollArea, Sense, Ui, UiBuilder, Vec2};
 
-use crate::command::{Command, Format};
+use crate::command::Command;
+use crate::export::FigureForm;
 use crate::paint;
 use crate::panes::context::{Pane, PaneContext};
 use crate::plot_item::SensorId;
@@ -159,23 +160,23 @@ fn header_buttons(ui: &mut Ui, pane: &Pane, context: &mut PaneContext<'_>) {
 fn export_menu(ui: &mut Ui, &Pane { kind, title, .. }: &Pane, context: &mut PaneContext<'_>) {
     let response = icon_button(ui, Icon::Export, &format!("Export {title}"));
     egui::Popup::menu(&response).show(|ui| {
-        for (words, command) in [
-            ("Figure page (Ctrl+E)", Command::FigurePage(kind)),
-            ("Figure as PDF…", Command::Export(kind, Format::Pdf)),
-            ("Figure as SVG…", Command::Export(kind, Format::Svg)),
-            ("Figure as PNG…", Command::Export(kind, Format::Png)),
-            ("Numbers as CSV…", Command::Export(kind, Format::Csv)),
-            ("Numbers as JSON…", Command::Export(kind, Format::Json)),
-            ("Card as PNG…", Command::SaveCard(kind)),
-            ("Copy picture", Command::CopyPicture(kind)),
-            ("Copy as card", Command::CopyCard(kind)),
-            ("Copy numbers", Command::CopyNumbers(kind)),
-        ] {
+        let mut item = |ui: &mut Ui, words: &str, command: Command| {
             if ui.button(words).clicked() {
                 context.push(command);
                 ui.close();
             }
+        };
+        item(ui, "Figure page (Ctrl+E)", Command::FigurePage(kind));
+        ui.separator();
+        for form in FigureForm::ALL {
+            let what = if form.is_numbers() { "Numbers" } else { "Figure" };
+            item(ui, &format!("{what} as {}…", form.name()), Command::Export(kind, form));
         }
+        item(ui, "Card as PNG…", Command::SaveCard(kind));
+        ui.separator();
+        item(ui, "Copy picture", Command::CopyPicture(kind));
+        item(ui, "Copy as card", Command::CopyCard(kind));
+        item(ui, "Copy numbers", Command::CopyNumbers(kind));
         if let Some(shot) = context.render_service.frame().cloned().filter(|_| kind == PaneKind::RENDER) {
             ui.separator();
             for source in shot.sources.iter() {

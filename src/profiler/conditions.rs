@@ -125,5 +125,5 @@ pub(super) fn words(scene: &Scene<'_>, sources: usize) -> String {
     let (mesh, [light, _]) = (settings.mesh.name(), scene.rendered_conditions());
     let light = if light == "E" { "E, equal energy".to_owned() } else { light };
     let plural = if sources == 1 { "source" } else { "sources" };
-    format!("{mesh}, {}, {sigma}, {reading}, under {light}, {sources} {plural}", settings.material)
+    format!("{mesh}, {}, {sigma}, {reading}, under {light}, {sources} {plural}", settings.materials())
 }

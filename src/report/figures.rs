@@ -166,7 +166,7 @@ fn materials(subject: &Subject<'_>, room: FigureRoom, _: Pixels) -> Option<Figur
 fn pictures(scene: &Scene<'_>, room: FigureRoom, pixels: Pixels) -> Option<Figure> {
     let orbit = Orbit::of(&scene.document.render.mesh);
     // Times of this run, which it has none of, are no part of a figure.
-    let frame = RenderedFrame::of_mesh(scene, scene.mesh_of(None)?, orbit, pixels).ok()??;
+    let frame = RenderedFrame::of_mesh(scene, scene.mesh_of(None)?, orbit.viewpoint(1.0)?, pixels).ok()?;
     let view = view(room);
     let figure = render::figure(&FigureInput { pictures: Some(&frame), ..FigureInput::new(scene, &view) })?;
     let time = figure.table.columns.iter().position(|column| column == "time_ms")?;

@@ -178,7 +178,8 @@ fn unique(values: &[Value], text: impl Fn(&Value) -> &String) -> Vec<&str> {
 fn figures<'a>(out: &mut String, drawn: &dyn Fn(usize) -> Option<&'a str>) {
     out.push_str(
         "<h2>Figures</h2>\n<p class=\"note\">Figures 2, 5, 8 and 9 have the paper's numbers; the others follow the order of its \
-         experiments. Beside this page each is there for print and as numbers.</p>\n",
+         experiments. Beside this page, where it was made, each is there for print and as numbers; a page that was \
+         passed on alone leads to none of them, and <code>chromascope report</code> makes them again.</p>\n",
     );
     for (place, figure) in FIGURES.iter().enumerate() {
         let Some(svg) = drawn(place) else { continue };

@@ -51,6 +51,7 @@ impl Scene<'_> {
     pub fn mesh_of(&self, own: Option<&Shared<Mesh>>) -> Option<MeshQuery> {
         let settings = &self.document.render;
         match &settings.mesh {
+            MeshChoice::Head if settings.garment.is_some() => Some(MeshQuery::ClothedHead(settings.triangles)),
             MeshChoice::Head => Some(MeshQuery::Head(settings.triangles)),
             MeshChoice::Fern => Some(MeshQuery::Fern(settings.triangles)),
             MeshChoice::Sphere => Some(MeshQuery::Sphere(settings.triangles)),
@@ -115,6 +116,7 @@ impl Scene<'_> {
         Ok(PicturesQuery {
             shading,
             reflectance: self.material(&settings.material)?,
+            garment: settings.worn().map(|garment| self.material(garment)).transpose()?,
             reference: self.rendered_through(SetKind::Observer, &self.document.reference)?,
             sources: renderings.into_iter().map(|rendering| SourceOf { rendering }).collect(),
             ev: settings.exposure_ev.to_bits(),

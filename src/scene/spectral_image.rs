@@ -215,7 +215,7 @@ fn difference(map: Vec<f32>) -> Difference {
     let max = f64::from(map.iter().copied().fold(0.0, f32::max));
     // Every pixel counts: an image has no samples that are dark because they face away from a light.
     let bright = BrightSamples::new(&map, &vec![f32::INFINITY; map.len()]);
-    Difference { stride: 1, map, mean, max, facing: None, bright }
+    Difference { stride: 1, map, mean, max, facing: None, garment: None, bright }
 }
 
 impl Scene<'_> {

@@ -49,7 +49,7 @@ pub struct DiagramView {
     pub zoomed: Option<Ranges>,
 }
 
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 struct Held {
     key: FitKey,
     from: Ranges,
@@ -62,6 +62,16 @@ impl DiagramView {
     /// The ranges to show now, none before the first [`Self::hold`].
     pub fn fit(&self) -> Option<Fit> {
         self.held.as_ref().map(|held| Fit { shown: held.now, ..held.to })
+    }
+
+    /// What a saved figure shows: the fit that is held here, if its choices are the same, and what is zoomed to, if the
+    /// coordinates are.
+    #[must_use]
+    pub fn for_paper(&self, key: &FitKey) -> Self {
+        let is_other = self.held.as_ref().is_some_and(|held| held.key.diagram != key.diagram);
+        let held = self.held.clone().filter(|held| held.key == *key);
+        let held = held.map(|held| Held { now: held.to.shown, ..held });
+        Self { held, zoomed: self.zoomed.filter(|_| !is_other) }
     }
 
     /// Holds the ranges, eased over 150 ms to those of `fit` where the key changed or `refit` is asked for. `seconds` is the

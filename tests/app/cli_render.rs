@@ -247,6 +247,27 @@ fn a_cie_observer_has_no_red_green_and_blue() {
 }
 
 #[test]
+fn a_head_wears_the_garment_that_is_named() {
+    let folder = folder("garment");
+    let stats = |garment: &[&str]| -> Value {
+        let head = ["render", "--size", "40x30", "--triangles", "10000", "--observer", "CIE 1931 2°", "--stats", "-"];
+        let output = run(&folder, &[&head[..], &D70, garment].concat());
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        serde_json::from_slice(&output.stdout).unwrap()
+    };
+    let [bare, shirt] = [["--garment", "none"], ["--garment", "green sport shirt"]].map(|garment| stats(&garment));
+    assert_eq!(
+        (&bare["settings"]["garment"], &bare["sources"][0]["difference"]["garment_facing_light"]),
+        (&Value::Null, &Value::Null)
+    );
+    assert_eq!(shirt["settings"]["garment"], "Green sport shirt 073 (Vrhel)");
+    let difference = |stats: &Value, of: &str| stats["sources"][0]["difference"][of].as_f64();
+    assert!(difference(&shirt, "garment_facing_light").is_some_and(|difference| difference > 0.0));
+    assert_eq!(difference(&shirt, "facing_light"), difference(&bare, "facing_light"), "of the skin");
+    assert_ne!(difference(&shirt, "mean_of_lit"), difference(&bare, "mean_of_lit"));
+}
+
+#[test]
 fn statistics_are_json() {
     let folder = folder("stats");
     let smooth = ["--sigma", "3e-7", "--tau", "3e-6", "--patch", "2e-6,2e-6", "--sky", "0", "--stats", "-"];

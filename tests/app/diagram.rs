@@ -112,6 +112,54 @@ fn no_text_covers_another_or_leaves_the_plot() {
 }
 
 #[test]
+fn each_line_has_its_name_clear_of_the_data() {
+    for document in documents().into_iter().filter(|document| !document.overlays.whites) {
+        let labels = {
+            let (catalog, results) = (Catalog::built_in(), Results::default());
+            let scene = Scene { document: &document, catalog: &catalog, results: &results };
+            scene.sources().into_iter().map(|source| source.label).collect::<Vec<_>>()
+        };
+        for (view, size) in [View::default(), whole()].iter().flat_map(|view| SIZES.map(|size| (view, size))) {
+            let built = built(&document, view, size);
+            // A whole diagram without a lens only hints at the data; the smallest pane names few.
+            if view.saved.diagram_fit == DiagramFit::Whole && built.lens.is_none() {
+                continue;
+            }
+            let panel = built.lens.map_or(built.panel, |lens| lens.panel);
+            let size = [panel.area.width(), panel.area.height()];
+            let texts = texts(&panel, size);
+            let named = |label: &String| {
+                // Shortened where there is little room.
+                texts.iter().find(|(text, _)| text.len() > 2 && label.contains(text.as_str()))
+            };
+            let missing: Vec<&String> = labels.iter().filter(|label| named(label).is_none()).collect();
+            let has_room = size[0] >= 640.0 || size[0] >= 440.0 && labels.len() <= 5;
+            assert!(missing.is_empty() || !has_room, "{missing:?} in {size:?}");
+            let leaders = panel.marks.iter().filter(|mark| mark.name.ends_with(", leader"));
+            for ends in leaders.filter_map(|mark| match &mark.shape {
+                Shape::Segments { segments } => Some(segments[0].map(|end| at(&panel, size, end))),
+                _ => None,
+            }) {
+                for share in (0..=20).map(|i| f64::from(i) / 20.0) {
+                    let p = [0, 1].map(|i| ends[0][i] + share * (ends[1][i] - ends[0][i]));
+                    let crossed =
+                        texts.iter().find(|(_, area)| (0..2).all(|i| area.min[i] < p[i] && p[i] < area.max[i]));
+                    assert!(crossed.is_none(), "a leader crosses {crossed:?} in {size:?}");
+                }
+            }
+            for (name, area) in labels.iter().filter_map(named) {
+                let markers = panel.marks.iter().filter_map(|mark| match &mark.shape {
+                    Shape::Points { points, radius, .. } if *radius > 3.4 => Some(at(&panel, size, points[0])),
+                    _ => None,
+                });
+                let covered = |p: &[f64; 2]| (0..2).all(|i| area.min[i] < p[i] && p[i] < area.max[i]);
+                assert!(!markers.into_iter().any(|p| covered(&p)), "{name} on a marker in {size:?}");
+            }
+        }
+    }
+}
+
+#[test]
 fn the_reference_s_temperatures_stand_on_the_outer_side_of_its_line() {
     let mut document = Document { overlays: Overlays { patches: false, ..Overlays::default() }, ..Document::paper() };
     document.compared.retain(|compared| compared.name != "CIE 1931 2°");

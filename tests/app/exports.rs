@@ -34,7 +34,8 @@ fn every_figure_becomes_svg_png_and_numbers() {
             // Encoded pictures may hold any three letters.
             let attributes = text.split('"').filter(|part| !part.starts_with("data:"));
             assert!({ attributes }.all(|part| !part.contains("NaN") && !part.contains("inf")), "{pane:?}");
-            let picture = png(&text, 2.0).expect("the SVG is well formed");
+            let picture = png(&text, 2.003).expect("the SVG is well formed");
+            assert!(picture.pixels().all(|pixel| pixel.0[3] == 255), "{pane:?}: pixels in part along an edge");
             let path =
                 std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("{}_{index}.png", panes::title(pane)));
             std::fs::write(path, png_file(&picture).unwrap()).unwrap();

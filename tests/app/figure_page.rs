@@ -1,13 +1,16 @@
 //! The Figure page: a pane as it is printed, its settings, and the way back.
 
+use chromascope::action::{Action, SceneAction};
 use chromascope::app::ChromascopeApp;
 use chromascope::command::Command;
+use chromascope::document::{Diagram, WhiteBalanceChoice};
 use chromascope::export::{self, Paper};
 use chromascope::jobs::Executor;
 use chromascope::theme::SourceInks;
 use chromascope::view::page::{LengthUnit, PageLook, PageZoom};
 use chromascope::view::{SavedView, Weight};
 use chromascope::workspaces::PaneKind;
+use egui::accesskit::Role;
 use egui::{Key, Modifiers};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
@@ -146,4 +149,91 @@ fn the_keyboard_reaches_the_settings_and_escape_leaves_a_field_first() {
         settle(&executor, &mut window);
         assert_eq!(open(&window), expected);
     }
+}
+
+/// The figure of the page that is shown.
+fn figure(window: &Window) -> std::sync::Arc<chromascope_figure::Figure> {
+    std::sync::Arc::clone(&window.state().pages().shown().expect("a page").job.figure)
+}
+
+/// Turns the wheel over a plot.
+fn wheel(window: &mut Window, plot: &str, points: f32) {
+    let middle = window.get_by_role_and_label(Role::Canvas, plot).rect().center();
+    window.hover_at(middle);
+    window.run_steps(2);
+    window.event(egui::Event::MouseWheel {
+        unit: egui::MouseWheelUnit::Point,
+        delta: egui::Vec2::new(0.0, points),
+        phase: egui::TouchPhase::Move,
+        source: egui::MouseWheelSource::Unknown,
+        modifiers: Modifiers::NONE,
+    });
+    window.run_steps(30);
+}
+
+/// Asserts that a range on paper has one on screen in its middle, and all of it.
+fn holds(paper: [f64; 2], screen: [f64; 2]) {
+    let slack = 1e-6 * (paper[1] - paper[0]);
+    assert!(paper[0] <= screen[0] + slack && paper[1] >= screen[1] - slack, "{paper:?} does not hold {screen:?}");
+    assert!((paper[0] + paper[1] - screen[0] - screen[1]).abs() < 2.0 * slack, "{paper:?} is not around {screen:?}");
+}
+
+#[test]
+fn the_page_has_the_ranges_of_the_diagram_on_screen() {
+    let (executor, mut window) = driven([1280.0, 800.0], egui::Theme::Dark);
+    let page = |window: &mut Window| {
+        window.state_mut().push(Command::FigurePage(PaneKind::CHROMATICITY));
+        settle(&executor, window);
+        let figure = figure(window);
+        let panel = figure.panels[0].clone();
+        window.state_mut().push(Command::FigurePage(PaneKind::CHROMATICITY));
+        settle(&executor, window);
+        [panel.x.range, panel.y.range]
+    };
+    settle(&executor, &mut window);
+    // The fit is held while the data move.
+    let held = window.state().view().diagram.fit().expect("a fit").shown;
+    window.state_mut().push(Action::Scene(SceneAction::SetWhite(WhiteBalanceChoice::BlackBody(2856.0))));
+    settle(&executor, &mut window);
+    assert_eq!(window.state().view().diagram.fit().expect("a fit").shown, held);
+    for (paper, screen) in page(&mut window).into_iter().zip(held) {
+        assert!(paper[0] <= screen[0] + 1e-9 && paper[1] >= screen[1] - 1e-9, "{paper:?} does not hold {screen:?}");
+        let is_least = (paper[0] + 0.02).abs() < 1e-9;
+        assert!(is_least || (paper[0] + paper[1] - screen[0] - screen[1]).abs() < 1e-9, "{paper:?}, {screen:?}");
+    }
+    // Farther out than any color is, and nearer.
+    for points in [-200.0, 400.0] {
+        wheel(&mut window, "Chromaticity", points);
+        let zoomed = window.state().view().diagram.zoomed.expect("zoomed");
+        assert!((zoomed[0][0] < -0.02) == (points < 0.0), "{zoomed:?}");
+        page(&mut window).into_iter().zip(zoomed).for_each(|(paper, screen)| holds(paper, screen));
+    }
+    // Other coordinates are another place.
+    window.state_mut().push(Command::FigurePage(PaneKind::CHROMATICITY));
+    window.state_mut().push(Action::Scene(SceneAction::SetDiagram(Diagram::UvPrime)));
+    settle(&executor, &mut window);
+    let y = figure(&window).panels[0].y.range;
+    assert!(y[0] < 0.45 && y[1] > 0.55, "{y:?}");
+}
+
+#[test]
+fn the_page_has_the_ranges_of_curves_on_screen_or_its_own() {
+    let (executor, mut window) = driven([1280.0, 800.0], egui::Theme::Dark);
+    let table = "nm\tleaf\tbark\n400\t0.05\t0.1\n500\t0.1\t0.2\n600\t0.2\t0.3\n700\t0.5\t0.4\n";
+    window.state_mut().push(Command::Paste(table.to_owned()));
+    crate::waiting::until("the curves", || {
+        settle(&executor, &mut window);
+        let there = window.query_by_label("curves of the file").is_some();
+        if there { Ok(()) } else { Err("no curves".to_owned()) }
+    });
+    wheel(&mut window, "curves of the file", 200.0);
+    let (_, [x, y]) = window.state().view().zoomed[&PaneKind::CURVES].clone();
+    assert!(x[0] > 400.0 && x[1] < 700.0, "{x:?}");
+    window.state_mut().push(Command::FigurePage(PaneKind::CURVES));
+    settle(&executor, &mut window);
+    let panel = figure(&window).panels[0].clone();
+    assert_eq!([panel.x.range, panel.y.range], [x, y]);
+    window.get_by_label("Full").click();
+    settle(&executor, &mut window);
+    assert!(figure(&window).panels[0].x.range[0] <= 400.0);
 }

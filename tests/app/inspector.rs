@@ -2,7 +2,7 @@
 
 use chromascope::app::ChromascopeApp;
 use chromascope::catalog::Catalog;
-use chromascope::document::SetKind;
+use chromascope::document::{PAPER_REFERENCE, SetKind};
 use chromascope::plot_item::{PlotItem, SensorId};
 use chromascope::results::Results;
 use chromascope::scene::Scene;
@@ -33,6 +33,16 @@ fn select(window: &mut Window, thing: PlotItem) {
 }
 
 #[test]
+fn a_selection_says_how_to_end_it() {
+    let mut window = window();
+    select(&mut window, patch("Kodak DCS200", "blue"));
+    assert!(says(&window, "Kodak DCS200, blue selected; Esc shows all"));
+    window.key_press(egui::Key::Escape);
+    window.run();
+    assert!(!says(&window, "Kodak DCS200, blue selected; Esc shows all"));
+}
+
+#[test]
 fn without_a_selection_it_says_what_is_seen() {
     let window = window();
     assert!(says(&window, "A camera's spectral sensitivities differ from the eye's"));
@@ -54,6 +64,10 @@ fn a_patch_shows_the_difference_that_the_scene_computes() {
     assert!(says(&window, &format!("Δxy {blue:.4}")));
     assert!(says(&window, "b*: reference −40.8"), "a true minus sign");
     assert!(says(&window, "Patch 13 blue, light E"));
+    // A temperature in kelvins costs the rows above it no decimals.
+    let red = scene.patch_colors(SetKind::Observer, PAPER_REFERENCE).unwrap()[0].xy.expect("it has light");
+    select(&mut window, patch("Kodak DCS200", "red"));
+    assert!(says(&window, &format!("x: reference {:.4}", red.x)) && says(&window, "CCT: reference 2013"));
 }
 
 #[test]

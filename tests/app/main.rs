@@ -19,6 +19,8 @@ mod figure;
 mod figure_page;
 mod finding;
 mod focus;
+#[cfg(target_os = "linux")]
+mod frames;
 mod help;
 mod import;
 mod import_files;

@@ -7,8 +7,9 @@ use std::sync::{Arc, Mutex};
 
 use chromascope::action::history::History;
 use chromascope::app::ChromascopeApp;
-use chromascope::command::{Command, Format};
+use chromascope::command::Command;
 use chromascope::document::Document;
+use chromascope::export::FigureForm;
 use chromascope::files::{Answer, Dialogs, Files, Question};
 use chromascope::view::SavedView;
 use chromascope::workspaces::PaneKind;
@@ -79,8 +80,8 @@ fn open_box(window: &mut Window) {
     until_box(window);
 }
 
-fn export(window: &mut Window, format: Format) {
-    window.state_mut().push(Command::Export(PaneKind::SPECTRA, format));
+fn export(window: &mut Window, form: FigureForm) {
+    window.state_mut().push(Command::Export(PaneKind::SPECTRA, form));
     window.run_steps(2);
 }
 
@@ -116,7 +117,7 @@ fn the_ending_that_is_typed_decides_the_form() {
     let folder = tempfile::tempdir().unwrap();
     let mut window = window(Files::new(None).without_dialogs());
     for (name, form) in [("a.png", "png"), ("b.csv", "csv"), ("c.svg", "svg"), ("d.PNG", "png"), ("e", "svg")] {
-        export(&mut window, Format::Svg);
+        export(&mut window, FigureForm::Svg);
         until_box(&mut window);
         type_path(&mut window, folder.path().join(name).to_str().unwrap());
         enter(&mut window);
@@ -127,7 +128,7 @@ fn the_ending_that_is_typed_decides_the_form() {
     }
     // Without an extension, the requested format's is added; an existing file of the whole name must be confirmed.
     fs::write(folder.path().join("f.csv"), "mine").unwrap();
-    export(&mut window, Format::Csv);
+    export(&mut window, FigureForm::Csv);
     until_box(&mut window);
     type_path(&mut window, folder.path().join("f").to_str().unwrap());
     enter(&mut window);
@@ -139,13 +140,13 @@ fn the_ending_that_is_typed_decides_the_form() {
 fn an_ending_that_cannot_be_written_is_refused_and_stays() {
     let folder = tempfile::tempdir().unwrap();
     let mut window = window(Files::new(None).without_dialogs());
-    export(&mut window, Format::Svg);
+    export(&mut window, FigureForm::Svg);
     until_box(&mut window);
     for name in ["a.eps", "b.tiff", "c.xyz"] {
         let path = folder.path().join(name);
         type_path(&mut window, path.to_str().unwrap());
         enter(&mut window);
-        assert!(says(&window, "this can be saved as .svg, .pdf, .png, .csv or .json"), "{name}");
+        assert!(says(&window, "this can be saved as .svg, .pdf, .png, .tif, .csv or .json"), "{name}");
         assert_eq!(text(&window), path.to_str().unwrap(), "to be mended");
     }
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
@@ -163,16 +164,16 @@ fn the_systems_dialog_follows_the_ending_too() {
     let (answer, dialogs) = scripted();
     let mut window = window(Files::new(None).with_dialogs(dialogs.clone()));
     for (name, written, form) in [("a.png", "a.png", "png"), ("b.csv", "b.csv", "csv"), ("c", "c.svg", "svg")] {
-        export(&mut window, Format::Svg);
+        export(&mut window, FigureForm::Svg);
         answer.send(Answer::Chosen(vec![folder.path().join(name)])).unwrap();
         let path = folder.path().join(written);
         said(&mut window, &format!("Saved {}.", path.display()));
         assert_eq!(form_of(&path), form);
     }
     let Question::Save { endings, .. } = dialogs.asked.lock().unwrap()[0].clone() else { panic!("not to save") };
-    assert_eq!(endings, ["svg", "pdf", "png", "csv", "json"]);
+    assert_eq!(endings, ["svg", "pdf", "png", "tif", "csv", "json"]);
     // The dialog has closed: the path goes on in the box, with the reason.
-    export(&mut window, Format::Svg);
+    export(&mut window, FigureForm::Svg);
     answer.send(Answer::Chosen(vec![folder.path().join("d.eps")])).unwrap();
     until_box(&mut window);
     assert!(says(&window, "Cannot write .eps files here") && !says(&window, "No file dialog here"));
@@ -181,7 +182,7 @@ fn the_systems_dialog_follows_the_ending_too() {
     fs::write(folder.path().join("e.svg"), "mine").unwrap();
     window.key_press(egui::Key::Escape);
     window.run_steps(2);
-    export(&mut window, Format::Svg);
+    export(&mut window, FigureForm::Svg);
     answer.send(Answer::Chosen(vec![folder.path().join("e")])).unwrap();
     until_box(&mut window);
     assert!(says(&window, "That file exists: e.svg"));
@@ -194,7 +195,7 @@ fn the_box_comes_for_a_missing_dialog_and_not_for_cancel() {
     let mut window = window(Files::new(None).with_dialogs(dialogs));
     let ask = |window: &mut Window, save: bool| {
         if save {
-            export(window, Format::Svg);
+            export(window, FigureForm::Svg);
         } else {
             window.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::O);
             window.run_steps(2);
@@ -255,7 +256,7 @@ fn escape_brings_the_box_where_a_dialog_hangs() {
     let folder = tempfile::tempdir().unwrap();
     let (answer, dialogs) = scripted();
     let mut window = window(Files::new(None).with_dialogs(dialogs));
-    export(&mut window, Format::Svg);
+    export(&mut window, FigureForm::Svg);
     window.key_press(egui::Key::Escape);
     window.run_steps(3);
     assert!(has_box(&window));

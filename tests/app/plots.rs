@@ -2,7 +2,7 @@
 
 use chromascope::catalog::Catalog;
 use chromascope::document::{Diagram, Document, Light, SetKind};
-use chromascope::figures::{chromaticity, spectra, strip, swatches};
+use chromascope::figures::{chromaticity, data_set, spectra, strip, swatches};
 use chromascope::plot_item::PlotItem;
 use chromascope::results::Results;
 use chromascope::scene::Scene;
@@ -148,7 +148,8 @@ fn each_bar_has_its_number_and_each_column_its_name() {
     with(&Document::colorimetry(), |scene| {
         let patches: Vec<String> = scene.patches().expect("a chart").patches().iter().map(|p| p.name.clone()).collect();
         let cameras = scene.sources().iter().filter(|source| source.visible && !source.is_reference).count();
-        for (layout, size) in [(SwatchLayout::Rows, [724.0, 154.0]), (SwatchLayout::Charts, [724.0, 154.0])] {
+        let charts = [[724.0, 154.0], [656.0, 92.0], [420.0, 400.0]].map(|size| (SwatchLayout::Charts, size));
+        for (layout, size) in charts.into_iter().chain([(SwatchLayout::Rows, [724.0, 154.0])]) {
             let built = board(scene, layout, size);
             let bars = built.panel.marks.iter().filter(|mark| mark.name == "difference").count();
             let numbers = texts(&built.panel).into_iter().filter(|text| text.parse::<f64>().is_ok()).count();
@@ -161,9 +162,87 @@ fn each_bar_has_its_number_and_each_column_its_name() {
         }
         assert!(built.height > 154.0, "it scrolls");
         let (worst, thing) = swatches::worst(scene).expect("a worst patch");
-        assert_eq!(worst, "Worst ΔE*00 8.3: Kodak DCS200, cyan");
+        assert_eq!(worst, "Worst of 3 cameras: ΔE*00 8.3, Kodak DCS200, cyan");
         assert!(matches!(thing, PlotItem::Patch { source: Some(_), patch } if patch == "cyan"));
         assert_eq!(swatches::bar_scale(scene), "full bar: ΔE*00 = 20");
+    });
+}
+
+#[test]
+fn charts_of_many_sensors_keep_their_numbers() {
+    let mut document = Document::colorimetry();
+    for camera in ["Nikon D850", "Sony ILCE-7M3", "Fujifilm X-T4", "Canon EOS 5D"] {
+        document.compare(camera, SetKind::Camera);
+    }
+    with(&document, |scene| {
+        let built = board(scene, SwatchLayout::Charts, [724.0, 154.0]);
+        let numbers: Vec<&Mark> = built.panel.marks.iter().filter(|mark| mark.name.parse::<f64>().is_ok()).collect();
+        assert_eq!(numbers.len(), 7 * 24);
+        for (i, a) in numbers.iter().enumerate() {
+            let [a, b] = [Some(a), numbers.get(i + 1)].map(|mark| match mark.map(|mark| &mark.shape) {
+                Some(Shape::Text { at, text, anchor, .. }) => {
+                    let width = text_width(text, TextSize::Small);
+                    let left = at[0] - anchor.0 * width;
+                    Some(([left, left + width], at[1]))
+                }
+                _ => None,
+            });
+            let (Some((a, y)), Some((b, z))) = (a, b) else { continue };
+            assert!(y != z || a[1] <= b[0], "{a:?} {b:?}");
+        }
+    });
+}
+
+#[test]
+fn texts_of_the_strip_stand_clear_of_its_lines() {
+    for (start, diagram) in [Document::paper(), Document::colorimetry()]
+        .into_iter()
+        .flat_map(|start| [Diagram::Xy, Diagram::UvPrime].map(|diagram| (start.clone(), diagram)))
+    {
+        for (temperature_k, size) in [1500.0, 3000.0, 5500.0, 9000.0]
+            .into_iter()
+            .flat_map(|t| [(t, STRIP), (t, [620.0, 110.0]), (t, [1100.0, 130.0])])
+        {
+            let document = Document { diagram, temperature_k, ..start.clone() };
+            with(&document, |scene| {
+                let panel = strip::build(scene, size).expect("cameras compare").panel;
+                let projection = chromascope_figure::Projection::new(&panel, 1.0);
+                let rings = panel.marks.iter().filter(|mark| mark.name.contains(": minimum at ")).count();
+                let mut kelvins = 0;
+                for mark in &panel.marks {
+                    let Shape::Text { at, text, anchor, offset, .. } = &mark.shape else { continue };
+                    kelvins += usize::from(text.ends_with(" K"));
+                    let [x, y] = projection.at(*at);
+                    let width = text_width(text, TextSize::Small);
+                    let min = [x + offset[0] - anchor.0 * width, y + offset[1] - anchor.1 * 12.0];
+                    let lines = panel.marks.iter().filter_map(line).flatten().map(|point| projection.at(*point));
+                    let mut inside = lines.filter(|p| {
+                        p[0] > min[0] && p[0] < min[0] + width && p[1] > min[1] + 1.0 && p[1] < min[1] + 11.0
+                    });
+                    assert_eq!(inside.next(), None, "{text} at {temperature_k} K in {size:?}");
+                }
+                // A low strip drops at most one that has no room.
+                assert!(kelvins >= rings && rings >= 2, "{diagram:?} {temperature_k} K in {size:?}");
+            });
+        }
+    }
+}
+
+#[test]
+fn channels_have_their_letters_in_a_small_pane() {
+    with(&Document::colorimetry(), |scene| {
+        for size in [[245.0, 230.0], [300.0, 420.0], [700.0, 640.0]] {
+            let panels = plots(scene, SpectraLayout::Overlay, size);
+            let letters = texts(&panels[2]).concat();
+            let count = |letter| letters.matches(letter).count();
+            // One for all cameras where theirs have no room.
+            let each = if size[0] < 400.0 { 1 } else { 3 };
+            assert_eq!(["R", "G", "B"].map(count), [each; 3], "{size:?}");
+            assert_eq!(["x\u{304}", "y\u{304}", "z\u{304}"].map(count), [1; 3], "{size:?}");
+        }
+        let entry = scene.entry(SetKind::Camera, "Kodak DCS200").expect("a camera");
+        let panel = data_set::panel(scene.results, &entry, InkRole::Text, [240.0, 104.0]);
+        assert_eq!(texts(&panel.expect("curves").expect("curves")).concat().len(), 3, "R, G and B");
     });
 }
 

@@ -25,6 +25,7 @@ fn own(name: &str, role: Role) -> ImportedSet {
         wavelengths: vec![400.0, 550.0, 700.0],
         values: vec![0.2, 0.9, 0.4],
         unit: None,
+        unknown: serde_json::Map::new(),
     };
     ImportedSet {
         name: name.to_owned(),

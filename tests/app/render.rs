@@ -350,6 +350,23 @@ fn a_material_is_found_by_typing() {
     window.run_steps(3);
     assert_eq!(document(&window).render.material, "Grass 025 (Vrhel)");
     assert!(window.query_by_label("Filter Material").is_none(), "the list is closed");
+    // The garment has a list of its own, with bare shoulders first.
+    let wool = "White and gray wool sock 047 (Vrhel)";
+    window.get_by_role_and_label(Role::ComboBox, "Garment: None: bare shoulders").click();
+    window.run_steps(2);
+    window.get_by_role_and_label(Role::TextInput, "Filter Garment").type_text("wool");
+    window.run_steps(2);
+    window.get_by_label(wool).click();
+    window.run_steps(3);
+    assert_eq!(document(&window).render.garment.as_deref(), Some(wool));
+    window.get_by_role_and_label(Role::ComboBox, &format!("Garment: {wool}")).click();
+    window.run_steps(2);
+    window.get_by_label("None: bare shoulders").click();
+    window.run_steps(3);
+    assert_eq!(
+        (document(&window).render.garment.as_deref(), document(&window).render.material.as_str()),
+        (None, "Grass 025 (Vrhel)")
+    );
 }
 
 #[test]

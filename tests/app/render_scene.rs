@@ -6,12 +6,13 @@ use chromascope::action::{Action, RenderAction, SceneAction};
 use chromascope::app::ChromascopeApp;
 use chromascope::catalog::Catalog;
 use chromascope::command::Command;
-use chromascope::document::render::{BALANCE, LEAF, MeshChoice, ReadingChoice, RenderSettings, SKY, SUN};
+use chromascope::document::render::{BALANCE, GARMENT, LEAF, MeshChoice, ReadingChoice, RenderSettings, SKY, SUN};
 use chromascope::document::{Document, Light, session};
 use chromascope::results::Results;
 use chromascope::scene::Scene;
 use chromascope::view::render::PixelPlace;
 use chromascope::workspaces::Workspace;
+use chromascope_core::query::render::MeshQuery;
 use chromascope_core::render::QualityLevel;
 use egui::accesskit::Role;
 use egui_kittest::Harness;
@@ -57,11 +58,31 @@ fn the_figures_have_no_sky() {
 fn a_session_saved_before_has_neither_sky_nor_light_of_its_own() {
     let mut saved: serde_json::Value = serde_json::to_value(Document::colorimetry()).unwrap();
     let settings = saved["render"].as_object_mut().unwrap();
-    for field in ["sky", "thin", "sunlight"] {
+    for field in ["sky", "thin", "sunlight", "garment"] {
         assert!(settings.remove(field).is_some(), "{field}");
     }
     let opened = session::from_json(&saved.to_string()).unwrap();
     assert_eq!((opened.render.sky, opened.render.thin, opened.render.sunlight), (0.0, false, false));
+    assert_eq!(opened.render.garment, None);
+}
+
+#[test]
+fn the_head_wears_a_garment_but_in_the_papers_figures() {
+    let (catalog, results) = (Catalog::built_in(), Results::default());
+    let meshes = |document: &Document| Scene { document, catalog: &catalog, results: &results }.mesh_of(None).unwrap();
+    let mut document = Document::colorimetry();
+    let triangles = document.render.triangles;
+    assert_eq!(document.render.worn(), Some(GARMENT));
+    assert_eq!(meshes(&document), MeshQuery::ClothedHead(triangles));
+    assert!(document.render.materials().ends_with(", garment: Faded jeans 076 (Vrhel)"));
+    document.render.take(MeshChoice::Fern);
+    assert_eq!(document.render.worn(), None, "only the head wears one");
+    for figure in [RenderAction::Figure8, RenderAction::PaperFigure8] {
+        let mut document = Document::colorimetry();
+        Action::Render(figure).apply(&mut document);
+        assert_eq!((document.render.worn(), meshes(&document)), (None, MeshQuery::Head(triangles)));
+    }
+    assert_eq!(Document::paper().render.worn(), None);
 }
 
 #[test]
@@ -101,7 +122,7 @@ fn places(window: &Window) -> BTreeMap<String, [i32; 4]> {
     let lists = window.query_all_by_role(Role::ComboBox).filter_map(|node| {
         let label = node.accesskit_node().label()?;
         let (name, _) = label.split_once(": ")?;
-        ["Mesh", "Material", "Normalization", "Coherent component", "Quality"]
+        ["Mesh", "Material", "Garment", "Normalization", "Coherent component", "Quality"]
             .contains(&name)
             .then(|| (name.to_owned(), node.rect()))
     });
@@ -119,7 +140,7 @@ fn nothing_in_the_settings_jumps_when_values_change() {
     window.state().render_service().wait();
     window.run_steps(2);
     let before = places(&window);
-    assert_eq!(before.len(), 15, "{before:?}");
+    assert_eq!(before.len(), 16, "{before:?}");
     let widths: Vec<i32> =
         before.values().filter(|rect| rect[2] - rect[0] < 150).map(|rect| rect[2] - rect[0]).collect();
     assert!(widths.is_empty(), "sliders and lists are as wide as the pane: {widths:?}");

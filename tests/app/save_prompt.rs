@@ -6,8 +6,9 @@ use std::fs;
 use chromascope::action::history::History;
 use chromascope::app::ChromascopeApp;
 
-use chromascope::command::{Command, Format};
+use chromascope::command::Command;
 use chromascope::document::{Document, SetKind};
+use chromascope::export::FigureForm;
 use chromascope::export::spectra::Form;
 use chromascope::files::Files;
 use chromascope::view::accuracy::Shows;
@@ -109,16 +110,16 @@ fn another_kind_of_file_takes_its_own_ending() {
     let path = folder.path().join("m.svg");
     fs::write(&path, "mine").unwrap();
     let mut window = window();
-    let ask = |window: &mut Window, format: Format| {
-        window.state_mut().push(Command::Export(PaneKind::SPECTRA, format));
-        until_asked(window, &format!("Save Spectra as {}", format.extension().to_uppercase()));
+    let ask = |window: &mut Window, form: FigureForm| {
+        window.state_mut().push(Command::Export(PaneKind::SPECTRA, form));
+        until_asked(window, &format!("Save Spectra as {}", form.name()));
     };
-    ask(&mut window, Format::Svg);
+    ask(&mut window, FigureForm::Svg);
     type_path(&mut window, path.to_str().unwrap());
     window.key_press(egui::Key::Enter);
     window.run_steps(4);
     assert!(says(&window, "That file exists"));
-    ask(&mut window, Format::Csv);
+    ask(&mut window, FigureForm::Csv);
     let csv = folder.path().join("m.csv");
     assert_eq!(typed(&window), csv.to_str().unwrap());
     assert!(!says(&window, "That file exists"));
@@ -135,7 +136,7 @@ fn a_workload_is_offered_by_its_name() {
     window.state_mut().view_mut().accuracy.shows = Shows::Bench(Workload::Difference);
     let measured = &mut window.state_mut().profiler_mut().measured;
     measured.reports.insert(Workload::Difference, std::sync::Arc::new(Ok(report)));
-    window.state_mut().push(Command::Export(PaneKind::METHODS, Format::Csv));
+    window.state_mut().push(Command::Export(PaneKind::METHODS, FigureForm::Csv));
     window.run_steps(8);
     assert_eq!(typed(&window), "difference.csv");
 }

@@ -1,5 +1,7 @@
 //! Sessions as files, templates, and undo across them.
 
+mod kept;
+
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -61,6 +63,11 @@ fn with_leaf() -> Document {
 fn save_as(window: &mut Window, path: &Path) {
     push(window, SessionCommand::SaveAs);
     until(window, "the prompt", ChromascopeApp::is_asking);
+    answer(window, path);
+}
+
+/// Types a path into the prompt that is open.
+fn answer(window: &mut Window, path: &Path) {
     window.run_steps(2);
     window.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::A);
     window.run_steps(1);
@@ -155,6 +162,7 @@ fn what_is_unknown_is_kept_through_a_save_wherever_it_stands() {
     value["hologram"] = json!({ "mesh": "head" });
     value["render"]["fog"] = json!(0.5);
     value["own"][0]["doi"] = json!("10.1000/1");
+    value["own"][0]["curves"][0]["deviation"] = json!([0.01, 0.02]);
     value["compared"][1]["weight"] = json!(2);
     value["view"]["lens"] = json!("round");
     fs::write(&path, value.to_string()).unwrap();
@@ -165,7 +173,9 @@ fn what_is_unknown_is_kept_through_a_save_wherever_it_stands() {
     saved(&mut window);
     let now = json_of(&path);
     assert_eq!(now["temperature_k"], json!(4444.0));
-    for field in ["/hologram/mesh", "/render/fog", "/own/0/doi", "/compared/1/weight", "/view/lens"] {
+    for field in
+        ["/hologram/mesh", "/render/fog", "/own/0/doi", "/own/0/curves/0/deviation", "/compared/1/weight", "/view/lens"]
+    {
         assert_eq!(now.pointer(field), value.pointer(field), "{field}");
     }
     // Also through the document that is saved between runs.
@@ -173,7 +183,8 @@ fn what_is_unknown_is_kept_through_a_save_wherever_it_stands() {
     files.saved_document();
     files.save_document(&document(&window)).unwrap();
     drop(files);
-    assert_eq!(Files::new(Some(folder.join("next"))).saved_document().unknown, document(&window).unknown);
+    let next = Files::new(Some(folder.join("next"))).saved_document();
+    assert_eq!((&next.unknown, &next.own), (&document(&window).unknown, &document(&window).own));
 }
 
 #[test]
@@ -217,11 +228,7 @@ fn two_windows_never_overwrite_each_other() {
     push(&mut one, SessionCommand::Save);
     saved(&mut one);
     push(&mut two, SessionCommand::Save);
-    until(&mut two, "the question", |_| true);
-    crate::waiting::until("the question", || {
-        two.run_steps(1);
-        if says(&two, "wrote to") { Ok(()) } else { Err(two.state().view().status.text.clone()) }
-    });
+    until_asked(&mut two);
     assert_eq!(json_of(&path)["temperature_k"], json!(3000.0), "not overwritten");
     assert_eq!(two.state().title(), "*shared – Chromascope");
     two.get_by_label("Replace it").click();
@@ -230,15 +237,20 @@ fn two_windows_never_overwrite_each_other() {
     // Now the first window is asked, and takes the other's.
     push(&mut one, temperature(3100.0));
     push(&mut one, SessionCommand::Save);
-    crate::waiting::until("the question", || {
-        one.run_steps(1);
-        if says(&one, "wrote to") { Ok(()) } else { Err(one.state().view().status.text.clone()) }
-    });
+    until_asked(&mut one);
     one.get_by_label("Open that version").click();
     until(&mut one, "the other's", |app| app.history().document().temperature_k == 9000.0);
     assert_eq!(one.state().title(), "shared – Chromascope");
     push(&mut one, Command::Undo);
     assert_eq!(document(&one).temperature_k, 3100.0);
+}
+
+/// Waits for the question about a file that another program wrote to.
+fn until_asked(window: &mut Window) {
+    crate::waiting::until("the question", || {
+        window.run_steps(1);
+        if says(window, "wrote to") { Ok(()) } else { Err(window.state().view().status.text.clone()) }
+    });
 }
 
 #[test]
@@ -330,10 +342,7 @@ fn the_file_is_known_after_a_start_and_a_changed_one_is_asked_about() {
     let mut again = window(&folder.join("second"));
     assert_eq!(again.state().title(), "*a – Chromascope");
     push(&mut again, SessionCommand::Save);
-    crate::waiting::until("the question", || {
-        again.run_steps(1);
-        if says(&again, "wrote to") { Ok(()) } else { Err(again.state().view().status.text.clone()) }
-    });
+    until_asked(&mut again);
 }
 
 #[test]

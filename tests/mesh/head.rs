@@ -1,7 +1,8 @@
-//! The head: how many triangles, that it is closed, symmetric, smooth, of human proportions and on one limit surface.
+//! The head, bare and clothed: how many triangles, that it is closed, symmetric, smooth, of human proportions and on one limit
+//! surface; and that the collar stands off the neck.
 
 use chromascope_mesh::Mesh;
-use chromascope_mesh::head::head;
+use chromascope_mesh::head::{FEWEST, clothed, head};
 use glam::Vec3;
 use std::collections::BTreeMap;
 
@@ -57,12 +58,15 @@ fn the_number_of_triangles_is_about_what_was_asked() {
         assert!(got.abs_diff(asked) * 20 <= asked, "{asked}: {got}");
     }
     assert_eq!(head(0), head(2_000), "the cage's own is the coarsest");
+    for asked in [FEWEST[1], 25_000, 100_000, 777_000] {
+        let got = clothed(asked).triangles().len();
+        assert!(got.abs_diff(asked) * 20 <= asked, "clothed {asked}: {got}");
+    }
 }
 
 #[test]
 fn it_is_closed_and_faces_outward() {
-    for asked in COUNTS {
-        let mesh = head(asked);
+    for (asked, mesh) in COUNTS.into_iter().flat_map(|asked| [(asked, head(asked)), (asked, clothed(asked))]) {
         let mut edges: BTreeMap<[u32; 2], [u32; 2]> = BTreeMap::new();
         for &[a, b, c] in mesh.triangles() {
             for [from, to] in [[a, b], [b, c], [c, a]] {
@@ -76,8 +80,7 @@ fn it_is_closed_and_faces_outward() {
 
 #[test]
 fn normals_agree_with_the_winding() {
-    for asked in COUNTS {
-        let mesh = head(asked);
+    for (asked, mesh) in COUNTS.into_iter().flat_map(|asked| [(asked, head(asked)), (asked, clothed(asked))]) {
         let mut against = 0;
         for (triangle, [a, b, c]) in mesh.triangles().iter().zip(corners(&mesh)) {
             let normal = (b - a).cross(c - a);
@@ -91,7 +94,7 @@ fn normals_agree_with_the_winding() {
 
 #[test]
 fn the_halves_are_mirror_images() {
-    let mesh = head(20_000);
+    let mesh = clothed(20_000);
     let cells = Cells::new(&mesh, 1e-3);
     for (p, n) in mesh.positions().iter().zip(mesh.normals()) {
         let mirror = Vec3::new(-1.0, 1.0, 1.0);
@@ -153,6 +156,28 @@ fn proportions_are_human() {
     assert!((0.008..0.035).contains(&(nose - forehead)), "{}", nose - forehead);
     let shoulders = 2.0 * bounds.max.x;
     assert!((1.4..2.2).contains(&(shoulders / wide)), "{}", shoulders / wide);
+}
+
+#[test]
+fn a_garment_hides_the_shoulders_and_its_collar_stands_off_the_neck() {
+    let mesh = clothed(120_000);
+    let first = (0..mesh.triangles().len() as u32).find(|&triangle| mesh.is_garment(triangle)).unwrap() as usize;
+    assert!(!head(20_000).is_garment(19_000) && mesh.is_garment(mesh.triangles().len() as u32 - 1));
+    let skin =
+        Mesh::new(mesh.positions().to_vec(), mesh.normals().to_vec(), mesh.triangles()[..first].to_vec()).unwrap();
+    // From before and at half height between chin and base: the garment lies before the skin, at the collar by its thickness.
+    let ahead = |x: f32, y: f32| {
+        let (triangle, z) = foremost(&mesh, x, y)?;
+        let (_, behind) = foremost(&skin, x, y)?;
+        mesh.is_garment(triangle as u32).then_some(z - behind)
+    };
+    for x in [-0.1, -0.04, 0.0, 0.04, 0.1] {
+        assert!(ahead(x, 0.0).is_none() && ahead(x, -0.15).is_some_and(|gap| (0.002..0.02).contains(&gap)), "{x}");
+    }
+    // Down the front of the neck: skin, then the collar's edge, which stands off by more than its foot.
+    let gaps: Vec<f32> = (0..60).filter_map(|step| ahead(0.0, -0.09 - 0.001 * step as f32)).collect();
+    let [edge, foot] = [gaps[3], gaps[gaps.len() - 1]];
+    assert!(edge > 0.006 && edge < 0.02 && foot < edge, "{gaps:?}");
 }
 
 /// Of what lies on a line along z, the foremost triangle's index and depth.

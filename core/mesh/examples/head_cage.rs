@@ -1,4 +1,4 @@
-//! Writes the head's control cage, `core/mesh/src/head.obj`, from a head that ends with a jagged neck.
+//! Writes the control cages of the head and its garment, `core/mesh/src/head.obj`, from a head that ends with a jagged neck.
 //!
 //! ```text
 //! cargo run -p chromascope-mesh --example head_cage -- head.obj > core/mesh/src/head.obj
@@ -7,6 +7,7 @@
 //! The given OBJ file is the head of `MakeHuman`'s base mesh with the target `caucasian-male-young`, in meters, y up and z
 //! forward, with the groups `skin` and `eyes`. Taken of it is the skin above the lowest loop of edges around the neck. From
 //! there, rings of quadrilaterals follow curves from the neck over the shoulders to the edge of a base, and a grid closes it.
+//! The garment is a solid around the shoulders: its rings stand off that surface, and the first lie in the neck, out of sight.
 #![allow(clippy::print_stdout, clippy::print_stderr, clippy::disallowed_methods, reason = "a program of its own")]
 
 use glam::{Vec3, vec2, vec3};
@@ -20,6 +21,9 @@ const CHIN_TO_CROWN: [f32; 2] = [0.225, 0.23];
 /// The center of the source's left eyeball, by least squares over all of it but the cornea.
 const EYEBALL: Vec3 = vec3(0.02929, 0.02072, 0.06429);
 
+/// From left to right.
+const MIRROR: Vec3 = vec3(-1.0, 1.0, 1.0);
+
 /// The facts at the top of the file.
 const HEADER: &str = "\
 # title: Head
@@ -27,8 +31,8 @@ const HEADER: &str = "\
 # unit: m
 # source: MakeHuman base mesh hm08 with the target caucasian-male-young (makehumancommunity/mpfb2)
 # license: public domain (CC0 1.0: Data Collection AB, Joel Palmius and Jonas Hauquier, 2020)
-# note: The skin above the lowest closed loop of edges around the neck, 0.23 m from chin to crown; shoulders and base are added. \
-Written by the example head_cage of chromascope-mesh.
+# note: The skin above the lowest closed loop of edges around the neck, 0.23 m from chin to crown; shoulders, base and, as a group \
+of its own, a garment are added. Written by the example head_cage of chromascope-mesh.
 # note: The front looks towards +z, the top towards +y. Closed; it has no eyeballs.
 ";
 
@@ -51,6 +55,33 @@ const OUTLINES: [(usize, Outline); 5] = [
     (3, Outline { wide: 0.138, front: 0.096, back: 0.078, heights: [-0.213, -0.175, -0.190] }),
     (3, Outline { wide: 0.136, front: 0.095, back: 0.074, heights: [-0.232, -0.210, -0.217] }),
     (1, Outline { wide: 0.127, front: 0.086, back: 0.066, heights: [-0.238, -0.221, -0.226] }),
+];
+
+/// Rings of the garment: how many rings below the neck, and how far off the skin in the source's meters. From inside the neck up
+/// behind the collar, over its edge and down to the base.
+const GARMENT: [(f32, f32); 22] = [
+    (3.6, -0.0080),
+    (3.3, -0.0010),
+    (3.0, 0.0022),
+    (2.5, 0.0026),
+    (2.1, 0.0032),
+    (1.85, 0.0052),
+    (2.1, 0.0072),
+    (2.5, 0.0076),
+    (3.2, 0.0078),
+    (3.75, 0.0078),
+    (3.95, 0.0072),
+    (4.0, 0.0056),
+    (4.15, 0.0050),
+    (5.0, 0.0050),
+    (6.0, 0.0050),
+    (7.0, 0.0050),
+    (8.5, 0.0050),
+    (10.0, 0.0050),
+    (11.5, 0.0050),
+    (13.0, 0.0050),
+    (13.6, 0.0055),
+    (14.0, 0.0060),
 ];
 
 /// Vertices and quadrilaterals.
@@ -144,24 +175,53 @@ impl Cage {
         Some((Self { positions, quads }, ring.iter().map(|v| places[v]).collect()))
     }
 
-    /// Adds rings from the neck to the edge of the base and returns the last.
-    fn add_shoulders(&mut self, neck: &[usize]) -> Vec<usize> {
+    /// The places below each vertex of the neck, from there to the edge of the base.
+    fn curves(&self, neck: &[usize]) -> Vec<Vec<Vec3>> {
         let count = neck.len();
+        let curve = |i: usize| [vec![self.positions[neck[i]]], self.curve(neck, i)].concat();
         // The right half is the left one's mirror image, to the last bit.
-        let mirrored = |i: usize| self.curve(neck, i).into_iter().map(|p| p * vec3(-1.0, 1.0, 1.0)).collect();
-        let curves: Vec<Vec<Vec3>> =
-            (0..count).map(|i| if 2 * i <= count { self.curve(neck, i) } else { mirrored(count - i) }).collect();
-        let mut last = neck.to_vec();
-        for step in 0..curves[0].len() {
-            let ring: Vec<usize> = (0..count).map(|i| self.positions.len() + i).collect();
-            self.positions.extend(curves.iter().map(|curve| curve[step]));
-            for i in 0..count {
-                let next = (i + 1) % count;
-                self.quads.push([last[i], ring[i], ring[next], last[next]]);
-            }
-            last = ring;
+        let mirrored = |i: usize| curve(i).into_iter().map(|p| p * MIRROR).collect();
+        (0..count).map(|i| if 2 * i <= count { curve(i) } else { mirrored(count - i) }).collect()
+    }
+
+    /// Adds a ring of places, joined to another.
+    fn add_ring(&mut self, last: Option<&[usize]>, places: impl Iterator<Item = Vec3>) -> Vec<usize> {
+        let first = self.positions.len();
+        self.positions.extend(places);
+        let ring: Vec<usize> = (first..self.positions.len()).collect();
+        for i in last.iter().flat_map(|_| 0..ring.len()) {
+            let (last, next) = (last.unwrap_or_default(), (i + 1) % ring.len());
+            self.quads.push([last[i], ring[i], ring[next], last[next]]);
         }
-        last
+        ring
+    }
+
+    /// A garment around the surface of these curves, closed inside the neck and below.
+    fn garment(curves: &[Vec<Vec3>]) -> Self {
+        let (mut cage, count) = (Self::default(), curves.len());
+        let place = |i: usize, (step, off): (f32, f32)| {
+            let at = |i: usize, step: f32| {
+                let curve = &curves[i % count];
+                let low = (step.max(0.0) as usize).min(curve.len() - 2);
+                curve[low].lerp(curve[low + 1], step - low as f32)
+            };
+            let down = at(i, (step + 0.5).min(14.0)) - at(i, step - 0.5);
+            let around = at(i + 1, step) - at(i + count - 1, step);
+            at(i, step) + off * down.cross(around).normalize()
+        };
+        let places = |ring: (f32, f32)| {
+            let left: Vec<Vec3> = (0..=count / 2).map(|i| place(i, ring)).collect();
+            (0..count).map(move |i| if 2 * i <= count { left[i] } else { left[count - i] * MIRROR })
+        };
+        let first = cage.add_ring(None, places(GARMENT[0]));
+        let mut last = first.clone();
+        for ring in &GARMENT[1..] {
+            last = cage.add_ring(Some(&last), places(*ring));
+        }
+        cage.close(&last);
+        // Upward: the other way around.
+        cage.close(&(0..count).map(|i| first[(count - i) % count]).collect::<Vec<_>>());
+        cage
     }
 
     /// The places of the rings below one vertex of the neck.
@@ -276,22 +336,26 @@ fn main() -> Result<(), Error> {
     let skin = Cage::skin(&std::fs::read_to_string(path)?).ok_or_else(|| invalid("not of quadrilaterals"))?;
     let ring = skin.neck().ok_or_else(|| invalid("no loop of edges around the neck"))?;
     let (mut cage, neck) = skin.above(&ring).ok_or_else(|| invalid("nothing above the neck"))?;
-    let base = cage.add_shoulders(&neck);
+    let curves = cage.curves(&neck);
+    let base = (1..curves[0].len()).fold(neck, |last, step| cage.add_ring(Some(&last), curves.iter().map(|c| c[step])));
     cage.close(&base);
+    let garment = Cage::garment(&curves);
     let scale = CHIN_TO_CROWN[1] / CHIN_TO_CROWN[0];
     let low = cage.positions.iter().copied().reduce(Vec3::min).unwrap_or_default();
     let high = cage.positions.iter().copied().reduce(Vec3::max).unwrap_or_default();
     let middle = low.midpoint(high) * vec3(0.0, 1.0, 1.0);
     eprintln!("center of an eyeball: {:.5}", (EYEBALL - middle) * scale);
     let mut out = std::io::stdout().lock();
-    out.write_all(HEADER.as_bytes())?;
-    for p in &cage.positions {
-        let p = ((*p - middle) * scale * 1e5).round() / 1e5 + 0.0;
-        writeln!(out, "v {:.5} {:.5} {:.5}", p.x, p.y, p.z)?;
-    }
-    for quad in &cage.quads {
-        let [a, b, c, d] = quad.map(|v| v + 1);
-        writeln!(out, "f {a} {b} {c} {d}")?;
+    for (heading, cage, first) in [(HEADER, &cage, 1), ("g garment\n", &garment, 1 + cage.positions.len())] {
+        out.write_all(heading.as_bytes())?;
+        for p in &cage.positions {
+            let p = ((*p - middle) * scale * 1e5).round() / 1e5 + 0.0;
+            writeln!(out, "v {:.5} {:.5} {:.5}", p.x, p.y, p.z)?;
+        }
+        for quad in &cage.quads {
+            let [a, b, c, d] = quad.map(|v| v + first);
+            writeln!(out, "f {a} {b} {c} {d}")?;
+        }
     }
     Ok(())
 }

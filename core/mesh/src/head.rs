@@ -1,7 +1,8 @@
 //! A human head with neck and shoulders, from a control cage.
 //!
 //! The cage is data (`head.obj`): the base mesh of `MakeHuman` with its young Caucasian male target (CC0),
-//! continued below the neck. The head is its Catmull–Clark limit surface, with a ball behind the lids of each eye.
+//! continued below the neck, and a garment with a collar around the shoulders, which a head may wear or not. The head is its
+//! Catmull–Clark limit surface, with a ball behind the lids of each eye; the garment is another.
 
 use crate::subdivision::Surface;
 use crate::{Mesh, shapes};
@@ -19,8 +20,11 @@ const EYE_RADIUS: f32 = 0.0162;
 /// The share of the triangles that one eyeball has.
 const EYE_SHARE: usize = 64;
 
-/// Fewest triangles that a head is made of, about: two for each quadrilateral of its cage, and the eyes.
-pub const FEWEST: usize = 10_000;
+/// The share of the triangles that a garment has.
+const GARMENT_SHARE: usize = 5;
+
+/// Fewest triangles that a bare head and a clothed one are made of, about: two for each quadrilateral of the cages, and the eyes.
+pub const FEWEST: [usize; 2] = [10_000, 13_000];
 
 /// Most triangles that a head is made of.
 const MOST: usize = 2_000_000;
@@ -32,21 +36,32 @@ const MOST: usize = 2_000_000;
 pub fn head(triangles: usize) -> Mesh {
     let triangles = triangles.min(MOST);
     let eye = shapes::sphere_of(EYE_RADIUS, triangles / EYE_SHARE);
-    let skin = skin(triangles.saturating_sub(2 * eye.triangles().len()));
+    let skin = surface(false, triangles.saturating_sub(2 * eye.triangles().len()));
     let right = EYE * Vec3::new(-1.0, 1.0, 1.0);
-    joined([(&skin, Vec3::ZERO), (&eye, EYE), (&eye, right)])
+    joined(&[(&skin, Vec3::ZERO), (&eye, EYE), (&eye, right)])
 }
 
-fn skin(triangles: usize) -> Mesh {
-    let cage = cage(CAGE).and_then(|(positions, quads)| Surface::new(positions, &quads));
-    let cage = cage.expect("the head's cage is closed and of quadrilaterals");
-    cage.limit(triangles).expect("the head's cage is finite")
+/// [`head`] in a garment with a collar: a closed surface of its own, which hides the shoulders and comes last
+/// ([`Mesh::is_garment`]).
+pub fn clothed(triangles: usize) -> Mesh {
+    let triangles = triangles.min(MOST);
+    let garment = surface(true, triangles / GARMENT_SHARE);
+    let head = head(triangles.saturating_sub(garment.triangles().len()));
+    joined(&[(&head, Vec3::ZERO), (&garment, Vec3::ZERO)]).with_garment(head.triangles().len())
+}
+
+/// Limit surface of the head's cage, or of the garment's.
+fn surface(is_garment: bool, triangles: usize) -> Mesh {
+    let (head, garment) = CAGE.split_once("g garment\n").expect("the cage has two groups");
+    let cage = cage(if is_garment { garment } else { head });
+    let surface = cage.and_then(|(positions, quads)| Surface::new(positions, &quads));
+    surface.expect("cages are closed and of quadrilaterals").limit(triangles).expect("cages are finite")
 }
 
 /// Several meshes, each moved, as one.
-fn joined(parts: [(&Mesh, Vec3); 3]) -> Mesh {
+fn joined(parts: &[(&Mesh, Vec3)]) -> Mesh {
     let (mut positions, mut normals, mut triangles) = (Vec::new(), Vec::new(), Vec::new());
-    for (mesh, by) in parts {
+    for &(mesh, by) in parts {
         let first = positions.len() as u32;
         positions.extend(mesh.positions().iter().map(|&p| p + by));
         normals.extend_from_slice(mesh.normals());
@@ -55,16 +70,19 @@ fn joined(parts: [(&Mesh, Vec3); 3]) -> Mesh {
     Mesh::new(positions, normals, triangles).expect("parts are meshes")
 }
 
-/// Vertices and quadrilaterals of an OBJ file; none if a line of either holds anything but numbers.
+/// Vertices and quadrilaterals of a part of an OBJ file; none if a line of either holds anything but numbers.
 fn cage(text: &str) -> Option<(Vec<Vec3>, Vec<[u32; 4]>)> {
-    let (mut positions, mut quads) = (Vec::new(), Vec::new());
+    let (mut positions, mut quads) = (Vec::new(), Vec::<[u32; 4]>::new());
     for line in text.lines() {
         if let Some(place) = line.strip_prefix("v ") {
             positions.push(Vec3::from_array(numbers(place)?));
         } else if let Some(corners) = line.strip_prefix("f ") {
-            quads.push(numbers::<u32, 4>(corners)?.map(|vertex| vertex.wrapping_sub(1)));
+            quads.push(numbers(corners)?);
         }
     }
+    // Indices count through the file.
+    let first = quads.as_flattened().iter().copied().min()?;
+    quads.as_flattened_mut().iter_mut().for_each(|vertex| *vertex -= first);
     Some((positions, quads))
 }
 

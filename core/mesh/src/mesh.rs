@@ -60,6 +60,7 @@ pub struct Mesh {
     positions: Vec<Vec3>,
     normals: Vec<Vec3>,
     triangles: Vec<[u32; 3]>,
+    garment: usize,
     bounds: Bounds,
 }
 
@@ -92,7 +93,8 @@ impl Mesh {
         }
         let normals = normals.into_iter().map(unit).collect();
         let bounds = bounds(&positions, &triangles);
-        Ok(Self { positions, normals, triangles, bounds })
+        let garment = triangles.len();
+        Ok(Self { positions, normals, triangles, garment, bounds })
     }
 
     /// Takes vertices and triangles; each vertex's normal is the mean of its triangles' by area and angle at the vertex.
@@ -118,6 +120,17 @@ impl Mesh {
     /// The triangles, as indices of vertices.
     pub fn triangles(&self) -> &[[u32; 3]] {
         &self.triangles
+    }
+
+    /// The mesh with its triangles from this index on a garment: a part that may be of another material.
+    #[must_use]
+    pub fn with_garment(self, first: usize) -> Self {
+        Self { garment: first, ..self }
+    }
+
+    /// True if a triangle is of the garment.
+    pub fn is_garment(&self, triangle: u32) -> bool {
+        triangle as usize >= self.garment
     }
 
     /// The box around all vertices that a triangle uses.

@@ -107,7 +107,7 @@ pub(super) fn groups(dialect: Dialect, line: &str) -> Vec<Group> {
     for (column, cell) in dialect.cells(line).take(MAX_CURVES + 2).enumerate() {
         match head(dialect, cell) {
             Some(band) => bands.push((column, band)),
-            None => named |= bands.is_empty() && header_terms::names_wavelengths(cell),
+            None => named |= bands.is_empty() && has_letter(cell) && header_terms::names_wavelengths(cell),
         }
     }
     let mut all = Vec::new();
@@ -184,12 +184,18 @@ fn is_far(first: f64, second: f64) -> bool {
     first > TIMES * second || second > TIMES * first
 }
 
+/// False for numbers cut in pieces by a wrong separator, of which there are many: names and units of wavelengths have letters.
+fn has_letter(cell: &str) -> bool {
+    cell.contains(char::is_alphabetic)
+}
+
 /// The wavelength at the head of a column.
 fn head(dialect: Dialect, cell: &str) -> Option<Band<'_>> {
     let plain = |wavelength, unit| Band { prefix: "", suffix: "", wavelength, unit };
     match dialect.parse(cell) {
         Cell::Number(wavelength) => Some(plain(wavelength, None)),
         Cell::Gap => None,
+        Cell::Text if !has_letter(cell) => None,
         Cell::Text => {
             let label = dialect.parse_label(cell).map(|(wavelength, unit)| plain(wavelength, Some(unit)));
             label.or_else(|| band(dialect, cell))

@@ -76,6 +76,10 @@ fn is_unit(text: &str) -> bool {
 /// Returns whether a text can be the unit beside a single value: also one of power, which no header needs a list for.
 pub(super) fn is_value_unit(text: &str) -> bool {
     const BASES: [&str; 13] = ["w", "watt", "watts", "j", "a", "v", "lm", "lx", "lux", "cd", "mol", "count", "cts"];
+    // What a wrong separator leaves of numbers is no unit.
+    if text.bytes().all(|b| b.is_ascii() && !b.is_ascii_alphabetic() && b != b'%') {
+        return false;
+    }
     let lower = text.to_lowercase();
     let base = lower.split(['/', '·', '*', '.', ' ', '^']).next().unwrap_or_default();
     let bare = base.strip_prefix(['m', 'µ', 'μ', 'u', 'n', 'p', 'k']).unwrap_or(base);

@@ -40,7 +40,8 @@ impl fmt::Display for WavelengthUnit {
 impl WavelengthUnit {
     /// The unit of a symbol or name, such as `nm`, `um`, `µm` or `Micrometers`.
     pub(super) fn from_symbol(symbol: &str) -> Option<Self> {
-        if symbol.len() > 16 {
+        // Every unit has a letter: numbers cut in pieces by a wrong separator have none.
+        if symbol.len() > 16 || !symbol.contains(char::is_alphabetic) {
             return None;
         }
         let lower = symbol.to_lowercase();

@@ -32,6 +32,8 @@ use std::sync::Arc;
 pub enum MeshQuery {
     /// The head, with about this many triangles.
     Head(usize),
+    /// The head in a garment.
+    ClothedHead(usize),
     /// The fern.
     Fern(usize),
     /// A sphere.
@@ -55,6 +57,7 @@ impl Query for MeshQuery {
     fn answer(&self, _: &impl Ask) -> Self::Answer {
         match self {
             Self::Head(triangles) => Shared::new(head::head(*triangles)),
+            Self::ClothedHead(triangles) => Shared::new(head::clothed(*triangles)),
             Self::Fern(triangles) => Shared::new(fern::fern(*triangles)),
             Self::Sphere(triangles) => Shared::new(shapes::sphere(*triangles)),
             Self::Plane => Shared::new(shapes::plane(2)),
@@ -164,7 +167,7 @@ impl Query for SkyVisibilityQuery {
         if !self.shadows {
             return Some(SkyVisibility::open(&mesh));
         }
-        let is_closed = matches!(self.mesh, MeshQuery::Head(_) | MeshQuery::Sphere(_));
+        let is_closed = matches!(self.mesh, MeshQuery::Head(_) | MeshQuery::ClothedHead(_) | MeshQuery::Sphere(_));
         let tree = ask.ask(&ShadowTreeQuery(self.mesh.clone()));
         SkyVisibility::new(&mesh, &tree, self.through || !is_closed, &ask.stop())
     }
@@ -425,6 +428,8 @@ pub struct CameraImageQuery {
     pub shading: ShadingQuery,
     /// The camera under the light.
     pub measure: SpectralWeightsQuery,
+    /// Reflectance of the mesh's garment; none for that of the rest.
+    pub garment: Option<Shared<GridSpectrum>>,
 }
 
 impl Query for CameraImageQuery {
@@ -440,10 +445,22 @@ impl Query for CameraImageQuery {
     fn answer(&self, ask: &impl Ask) -> Self::Answer {
         let shading = ask.ask(&self.shading);
         let Some(shading) = (*shading).as_ref() else { return Ok(None) };
-        let measure = self.measure.in_picture(shading, ask);
-        let measure = (*measure).as_ref().map_err(|&e| e)?;
-        let plan = self.plan(shading, measure, ask)?;
-        Ok(CameraImage::new(shading, measure, plan, &ask.stop()))
+        let image = |of: &Self, part: Option<&[bool]>| {
+            let measure = of.measure.in_picture(shading, ask);
+            let measure = (*measure).as_ref().map_err(|&e| e)?;
+            let plan = of.plan(shading, measure, ask)?;
+            Ok(CameraImage::of_part(shading, measure, plan, part, &ask.stop()))
+        };
+        let Some(garment) = &self.garment else { return image(self, None) };
+        let visibility = &self.shading.geometry.visibility;
+        let (mesh, visibility) = (ask.ask(&visibility.mesh), ask.ask(visibility));
+        let Some(visibility) = (*visibility).as_ref() else { return Ok(None) };
+        let samples = shading.geometry().samples().iter();
+        let bare: Vec<bool> = samples.map(|&at| !mesh.is_garment(visibility.hits()[at as usize].triangle)).collect();
+        let worn: Vec<bool> = bare.iter().map(|bare| !bare).collect();
+        let measure = SpectralWeightsQuery { reflectance: garment.clone(), ..self.measure.clone() };
+        let garment = image(&Self { measure, ..self.clone() }, Some(&worn))?;
+        Ok(image(self, Some(&bare))?.zip(garment).map(|(skin, garment)| skin.with(&garment, &worn)))
     }
 }
 

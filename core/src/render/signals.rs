@@ -21,8 +21,29 @@ pub struct CameraImage {
 impl CameraImage {
     /// Integrates at every lit sample by the methods of a plan, [`Plan::for_picture`] or another; none if stopped.
     pub fn new(shading: &ShadingImage, measure: &SpectralWeights, plan: Arc<Plan>, stop: &Stop) -> Option<Self> {
-        let signals = Camera { measure, plan: &plan }.signals(shading, stop)?;
+        Self::of_part(shading, measure, plan, None, stop)
+    }
+
+    /// [`Self::new`] for some of the lit samples; the signals of the others mean nothing.
+    pub fn of_part(
+        shading: &ShadingImage,
+        measure: &SpectralWeights,
+        plan: Arc<Plan>,
+        part: Option<&[bool]>,
+        stop: &Stop,
+    ) -> Option<Self> {
+        // Between vertices all of them are needed.
+        let part = part.filter(|_| shading.vertices().is_none());
+        let signals = Camera { measure, plan: &plan, part }.signals(shading, stop)?;
         Some(Self { placed: Arc::clone(shading.geometry().placed()), signals: Arc::new(signals), plan })
+    }
+
+    /// This image with the signals of another material's where `part` is true.
+    #[must_use]
+    pub fn with(&self, other: &Self, part: &[bool]) -> Self {
+        let both = self.signals.iter().zip(&*other.signals).zip(part);
+        let signals = both.map(|((&own, &other), &part)| if part { other } else { own }).collect();
+        Self { signals: Arc::new(signals), ..self.clone() }
     }
 
     /// The methods of integration of the diffuse component.
@@ -44,20 +65,28 @@ impl CameraImage {
 struct Camera<'a> {
     measure: &'a SpectralWeights,
     plan: &'a Plan,
+    /// The samples whose signals are computed; none for all.
+    part: Option<&'a [bool]>,
 }
 
 impl Camera<'_> {
+    fn has(&self, index: usize) -> bool {
+        self.part.is_none_or(|part| part[index])
+    }
+
     fn signals(&self, shading: &ShadingImage, stop: &Stop) -> Option<Vec<[f32; 3]>> {
         let mut signals = vec![[0.0; 3]; shading.shades().len()];
         let chunk = self.plan.chunk();
-        signals.par_chunks_mut(chunk).zip(shading.shades().par_chunks(chunk)).for_each(|(signals, shades)| {
-            if !stop.is_set() {
-                self.diffuse(shades, signals);
-            }
-        });
+        signals.par_chunks_mut(chunk).zip(shading.shades().par_chunks(chunk)).enumerate().for_each(
+            |(index, (signals, shades))| {
+                if !stop.is_set() {
+                    self.diffuse(index * chunk, shades, signals);
+                }
+            },
+        );
         let integral = CoherentIntegral::in_picture(shading, self.measure);
         let coherent_samples = shading.coherent_samples().par_iter().with_min_len(64).map(|coherent| {
-            if stop.is_set() {
+            if stop.is_set() || !self.has(coherent.index as usize) {
                 return [0.0; 3];
             }
             integral.at(coherent)
@@ -88,13 +117,13 @@ impl Camera<'_> {
         (!stop.is_set()).then_some(signals)
     }
 
-    /// The diffuse component of some samples.
-    fn diffuse(&self, shades: &[Shade], signals: &mut [[f32; 3]]) {
+    /// The diffuse component of some samples, from index `first`.
+    fn diffuse(&self, first: usize, shades: &[Shade], signals: &mut [[f32; 3]]) {
         let (mut places, mut sums) = (Places::EMPTY, [[0.0; RUN]; 3]);
-        for (shades, signals) in shades.chunks(RUN).zip(signals.chunks_mut(RUN)) {
+        for (run, (shades, signals)) in shades.chunks(RUN).zip(signals.chunks_mut(RUN)).enumerate() {
             places.count = shades.len();
             for (i, shade) in shades.iter().enumerate() {
-                places.wanted[i] = shade.kind == DiffuseKind::Spectral;
+                places.wanted[i] = shade.kind == DiffuseKind::Spectral && self.has(first + run * RUN + i);
                 (places.kappa[i], places.beta[i]) =
                     if places.wanted[i] { (shade.kappa, shade.beta) } else { Places::UNWANTED };
             }

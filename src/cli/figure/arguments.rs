@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use chromascope_figure::{AxisRanges, AxisTitles, LegendPlace, Numbers};
 use clap::{Args, ValueEnum};
 
+use crate::cli::render::arguments::ViewpointArguments;
 use crate::cli::sources::CommonArguments;
 use crate::export::paper::{Paper, PaperStyle};
 use crate::theme::SourceInks;
@@ -19,8 +20,8 @@ pub(in crate::cli) const EXAMPLES: &str = "Examples:
   chromascope figure render --mesh fern --width 174mm --out figure8.pdf
   chromascope figure chromaticity --range 0.3,0.5,0.3,0.42 --numbers visible --out points.csv
 
-The ending of the file decides its form: .pdf, .svg, .png, .tif or .csv, the numbers behind the figure. Text keeps its size
-whatever the width: the figure is laid out for it. In a PDF text can be searched, and its fonts are embedded.";
+The ending of the file decides its form: .pdf, .svg, .png, .tif, or .csv and .json, the numbers behind the figure. Text
+keeps its size whatever the width: the figure is laid out for it. In a PDF text can be searched, and its fonts are embedded.";
 
 /// Arguments of `figure`.
 #[derive(Debug, Args)]
@@ -46,6 +47,8 @@ pub(in crate::cli) struct FigureArguments {
     /// What is rendered: head, fern, sphere, plane, or an OBJ, PLY or STL file [default: the head, or the session's]
     #[arg(long, value_name = "MESH")]
     pub(super) mesh: Option<OsString>,
+    #[command(flatten)]
+    pub(super) viewpoint: ViewpointArguments,
     #[command(flatten)]
     pub(super) paper: PaperArguments,
 }

@@ -13,8 +13,9 @@ use super::arguments::FigureKind;
 use crate::catalog::import::{Origin, imported};
 use crate::catalog::spectral_images;
 use crate::cli::error::CliError;
+use crate::cli::render::arguments::ViewpointArguments;
 use crate::cli::render::files::patiently;
-use crate::cli::render::setup::{mesh_choice, read_mesh};
+use crate::cli::render::setup::{mesh_choice, read_mesh, viewpoint};
 use crate::cli::request::{Request, display_path};
 use crate::document::imported::ImportOverrides;
 use crate::document::render::{MeshChoice, RenderSettings};
@@ -46,18 +47,25 @@ pub(super) struct Made {
 impl Made {
     /// Makes what a figure of a kind needs; settings of panes go to the view.
     pub(super) fn new(
-        kind: FigureKind,
+        (kind, wanted): (FigureKind, ViewpointArguments),
         scene: &Scene<'_>,
         view: &mut View,
         (paper, recorded): (&Paper, Option<RecordedSet>),
     ) -> Result<Self, CliError> {
+        let is_picture = matches!(kind, FigureKind::Render | FigureKind::Difference);
+        let is_of_mesh = is_picture && !matches!(scene.document.render.mesh, MeshChoice::Image(_));
+        if !is_of_mesh && (wanted.orbit.is_some() || wanted.fov.is_some()) {
+            let reason = "only pictures of a mesh have a viewpoint".to_owned();
+            let argument = if wanted.orbit.is_some() { "--orbit" } else { "--fov" };
+            return Err(CliError::Argument { argument, reason });
+        }
         let mut made = Self { pictures: None, measured: Measured::NOTHING };
         match kind {
             FigureKind::Render | FigureKind::Difference => {
                 if kind == FigureKind::Difference {
                     view.saved.render.mode = RenderMode::Difference;
                 }
-                made.pictures = Some(patiently("rendering", || pictures(scene, view, paper))?);
+                made.pictures = Some(patiently("rendering", || pictures(scene, view, paper, wanted))?);
             }
             FigureKind::Correction => {
                 if let Some(camera) = report_card::camera(scene, view) {
@@ -101,7 +109,12 @@ fn own_mesh(document: &Document) -> Result<Option<Shared<chromascope_mesh::Mesh>
 }
 
 /// Pictures with as many pixels as the paper has where they stand.
-fn pictures(scene: &Scene<'_>, view: &View, paper: &Paper) -> Result<RenderedFrame, CliError> {
+fn pictures(
+    scene: &Scene<'_>,
+    view: &View,
+    paper: &Paper,
+    wanted: ViewpointArguments,
+) -> Result<RenderedFrame, CliError> {
     let start = Instant::now();
     let sources = scene.rendered_sources();
     let count = sources.len() - usize::from(view.saved.render.mode == RenderMode::Difference && sources.len() > 1);
@@ -117,9 +130,8 @@ fn pictures(scene: &Scene<'_>, view: &View, paper: &Paper) -> Result<RenderedFra
     } else {
         let own = own_mesh(scene.document)?;
         let mesh = scene.mesh_of(own.as_ref()).ok_or_else(|| CliError::File("no mesh".to_owned()))?;
-        let orbit = view.saved.render.orbit.unwrap_or_else(|| Orbit::of(&scene.document.render.mesh));
-        let frame = RenderedFrame::of_mesh(scene, mesh, orbit, side)?;
-        let frame = frame.ok_or_else(|| CliError::File("no viewpoint".to_owned()))?;
+        let viewpoint = viewpoint(wanted, Orbit::of(&scene.document.render.mesh), 1.0)?;
+        let frame = RenderedFrame::of_mesh(scene, mesh, viewpoint, side)?;
         RenderedFrame { time: start.elapsed(), ..frame }
     };
     match frame.pictures() {

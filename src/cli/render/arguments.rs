@@ -38,7 +38,7 @@ pub(in crate::cli) struct RenderArguments {
     #[arg(long, value_name = "NAME|FILE", default_value = "head", help_heading = SCENE)]
     pub(super) mesh: OsString,
     /// A spectral image in place of a mesh: an ENVI header (.hdr) or an OpenEXR file with spectral channels
-    #[arg(long, value_name = "FILE", help_heading = SCENE, conflicts_with_all = ["mesh", "triangles", "material", "values", "light",
+    #[arg(long, value_name = "FILE", help_heading = SCENE, conflicts_with_all = ["mesh", "triangles", "material", "garment", "values", "light",
           "no_shadows", "sky", "leaf", "orbit", "fov", "sigma", "sigma_from_mesh", "tau", "patch", "ior", "area", "reading", "specular", "quality",
           "tolerance", "size", "samples", "stats"])]
     pub(super) image: Option<PathBuf>,
@@ -55,6 +55,10 @@ pub(in crate::cli) struct RenderArguments {
     /// The reflectance: `skin`, `leaf`, a name, or a file [default: skin; leaf for the fern]
     #[arg(long, value_name = "NAME|FILE", help_heading = SCENE)]
     pub(super) material: Option<OsString>,
+    /// The reflectance of the head's garment: `none` for bare shoulders, a name, or a file [default: Faded jeans 076 (Vrhel);
+    /// none in the paper's start]
+    #[arg(long, value_name = "NAME|FILE", help_heading = SCENE)]
+    pub(super) garment: Option<OsString>,
     /// Scale of the values in a file of reflectances that does not state it
     #[arg(long, value_name = "VALUES", value_parser = crate::cli::inspect::arguments::values(), requires = "material",
           help_heading = SCENE)]
@@ -86,13 +90,8 @@ pub(in crate::cli) struct RenderArguments {
     /// Disables shadows
     #[arg(long, help_heading = SCENE)]
     pub(super) no_shadows: bool,
-    /// Viewpoint: degrees around and above the mesh, and distance in radii of the mesh [default: -25,5; -25,15 for the
-    /// fern, at the distance from which the mesh fills the picture]
-    #[arg(long, value_name = "yaw,pitch,distance", value_parser = three, allow_hyphen_values = true, help_heading = SCENE)]
-    pub(super) orbit: Option<[f64; 3]>,
-    /// The vertical field of view in degrees [default: 30, or 30 across in an upright picture]
-    #[arg(long, value_name = "DEGREES", value_parser = finite, allow_hyphen_values = true, help_heading = SCENE)]
-    pub(super) fov: Option<f64>,
+    #[command(flatten)]
+    pub(super) viewpoint: ViewpointArguments,
     /// RMS roughness in meters [default: 5e-6]
     #[arg(long, value_name = "METERS", value_parser = finite, allow_hyphen_values = true, help_heading = SURFACE)]
     pub(super) sigma: Option<f64>,
@@ -150,6 +149,18 @@ pub(in crate::cli) struct RenderArguments {
     /// Overwrites existing pictures and statistics
     #[arg(long, help_heading = PICTURE)]
     pub(super) force: bool,
+}
+
+/// Arguments of the viewpoint on a mesh.
+#[derive(Clone, Copy, Debug, Args)]
+pub(in crate::cli) struct ViewpointArguments {
+    /// Viewpoint: degrees around and above the mesh, and distance in radii of the mesh [default: -25,5; -25,15 for the
+    /// fern, at the distance from which the mesh fills the picture]
+    #[arg(long, value_name = "yaw,pitch,distance", value_parser = three, allow_hyphen_values = true, help_heading = SCENE)]
+    pub(in crate::cli) orbit: Option<[f64; 3]>,
+    /// The vertical field of view in degrees [default: 30, or 30 across in an upright picture]
+    #[arg(long, value_name = "DEGREES", value_parser = finite, allow_hyphen_values = true, help_heading = SCENE)]
+    pub(in crate::cli) fov: Option<f64>,
 }
 
 const SCENE: &str = "Scene";

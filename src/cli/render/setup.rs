@@ -13,11 +13,10 @@ use chromascope_core::scene::viewpoint::ViewpointError;
 use chromascope_mesh::Mesh;
 use clap::ArgMatches;
 
-use super::arguments::{RenderArguments, SpecularName};
+use super::arguments::{RenderArguments, SpecularName, ViewpointArguments};
 use crate::catalog::meshes;
 use crate::cli::error::CliError;
 use crate::cli::request::Request;
-use crate::document::render::model::SpecularChoice;
 use crate::document::render::{BALANCE, MeshChoice, RenderSettings, RoughnessChoice, SUN};
 use crate::document::{Compared, Light, SetKind, WhiteBalanceChoice};
 use crate::scene::orbit::Orbit;
@@ -42,14 +41,20 @@ impl Setup {
     pub(super) fn new(arguments: &RenderArguments, matches: &ArgMatches) -> Result<Self, CliError> {
         let choice = mesh_choice(&arguments.mesh)?;
         // What only arguments decide comes before files are read.
-        let viewpoint = viewpoint(arguments, &choice)?;
+        let [width, height] = arguments.size.map(f64::from);
+        let viewpoint = viewpoint(arguments.viewpoint, Orbit::of(&choice), width / height)?;
         let size = raster(arguments)?;
         let mut request = compared_request(arguments, matches)?;
-        let specular = request.document.render.specular;
-        request.document.render = settings(arguments, choice, specular)?;
+        let start = request.document.render.clone();
+        request.document.render = settings(arguments, choice, start)?;
         request.values = arguments.values;
         if let Some(material) = &arguments.material {
-            request.set_material(material)?;
+            request.document.render.material = request.material("--material", material)?;
+        }
+        if let Some(garment) = &arguments.garment {
+            let is_bare = garment.eq_ignore_ascii_case("none");
+            let garment = if is_bare { None } else { Some(request.material("--garment", garment)?) };
+            request.document.render.garment = garment;
         }
         let start = Instant::now();
         let own_mesh = match &request.document.render.mesh {
@@ -145,15 +150,12 @@ pub(in crate::cli) fn read_mesh(path: &PathBuf) -> Result<Shared<Mesh>, CliError
 }
 
 /// Render settings: those of the paper's head or fern with the arguments applied.
-fn settings(
-    arguments: &RenderArguments,
-    mesh: MeshChoice,
-    specular: SpecularChoice,
-) -> Result<RenderSettings, CliError> {
+fn settings(arguments: &RenderArguments, mesh: MeshChoice, start: RenderSettings) -> Result<RenderSettings, CliError> {
     const MICRO: f64 = 1e6;
     let usual = if mesh == MeshChoice::Fern { RenderSettings::fern() } else { RenderSettings::default() };
     let mut settings = RenderSettings {
         mesh,
+        garment: start.garment,
         triangles: arguments.triangles as usize,
         sigma_um: arguments.sigma.map_or(usual.sigma_um, |sigma| sigma * MICRO),
         roughness: if arguments.sigma_from_mesh { RoughnessChoice::Mesh } else { RoughnessChoice::Surface },
@@ -162,7 +164,7 @@ fn settings(
         area: arguments.area.choice(),
         index: arguments.ior.unwrap_or(usual.index),
         reading: arguments.reading.choice(),
-        specular: arguments.specular.map_or(specular, SpecularName::choice),
+        specular: arguments.specular.map_or(start.specular, SpecularName::choice),
         quality: if arguments.tolerance.is_some() { QualityLevel::Tolerance } else { arguments.quality },
         tolerance: arguments.tolerance.unwrap_or(usual.tolerance),
         shadows: !arguments.no_shadows,
@@ -198,10 +200,12 @@ fn surface_error(error: SurfaceError) -> CliError {
     CliError::Argument { argument, reason: format!("{error}; {remedy}") }
 }
 
-fn viewpoint(arguments: &RenderArguments, mesh: &MeshChoice) -> Result<Viewpoint, CliError> {
-    let usual = Orbit::of(mesh);
-    let [width, height] = arguments.size.map(f64::from);
-    let aspect = width / height;
+/// Viewpoint for a picture of some width over height, where not stated the usual one.
+pub(in crate::cli) fn viewpoint(
+    arguments: ViewpointArguments,
+    usual: Orbit,
+    aspect: f64,
+) -> Result<Viewpoint, CliError> {
     let Some([yaw, pitch, distance]) = arguments.orbit else {
         let field = arguments.fov.unwrap_or(usual.field_of_view_deg);
         Viewpoint::new(0.0, 0.0, 1.0, field.to_radians()).map_err(viewpoint_error)?;

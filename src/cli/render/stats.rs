@@ -68,6 +68,7 @@ fn settings(made: &Made<'_>) -> Value {
     let surface = shading.surface;
     json!({
         "material": document.render.material,
+        "garment": document.render.worn(),
         "illuminant": made.scene.light_name(),
         "white": document.white.name(),
         "reference": document.reference,
@@ -151,6 +152,7 @@ fn source(made: &Made<'_>, index: usize, accuracy: Option<&Measured>) -> Value {
                 "max_of_lit": (!difference.map.is_empty()).then_some(difference.max),
                 "samples_of_lit": difference.map.len(),
                 "facing_light": difference.facing,
+                "garment_facing_light": difference.garment,
                 "median_above_l20": difference.bright.map(|bright| bright.median),
                 "p95_above_l20": difference.bright.map(|bright| bright.p95),
                 "samples_above_l20": difference.bright.map_or(0, |bright| bright.count),

@@ -28,14 +28,20 @@ pub(super) struct Frame {
 
 impl Frame {
     /// The frame that shows all of `ranges` in a panel of the given size: equal units on both axes, nothing below −0.02.
-    pub(super) fn around([x, y]: Ranges, panel: [f64; 2]) -> Self {
-        let size = [panel[0] - Projection::LEFT - 1.0, panel[1] - Projection::BOTTOM - 1.0].map(|side| side.max(1.0));
-        let (x, y) = fit_equal(x, y, size);
-        let ranges = [x, y].map(|[low, high]| {
+    pub(super) fn around(shown: Ranges, panel: [f64; 2]) -> Self {
+        let Self { ranges, size } = Self::centered(shown, panel);
+        let ranges = ranges.map(|[low, high]| {
             let up = (LEAST - low).max(0.0);
             [low + up, high + up]
         });
         Self { ranges, size }
+    }
+
+    /// The frame that shows all of `ranges` in the middle of a panel of the given size, with equal units on both axes.
+    pub(super) fn centered([x, y]: Ranges, panel: [f64; 2]) -> Self {
+        let size = [panel[0] - Projection::LEFT - 1.0, panel[1] - Projection::BOTTOM - 1.0].map(|side| side.max(1.0));
+        let (x, y) = fit_equal(x, y, size);
+        Self { ranges: [x, y], size }
     }
 
     /// Points for each unit.

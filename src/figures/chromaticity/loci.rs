@@ -65,14 +65,15 @@ fn add_one(drawing: &mut Drawing<'_>, source: &ComparedSensor, locus: &[LocusPoi
     if drawing.sketch || drawing.view.locus_share.is_some() {
         return;
     }
-    if source.is_reference {
+    let marker = if source.is_reference {
         add_ticks(drawing, source, &points, locus);
+        None
     } else {
         add_dots(drawing, source);
-        add_marker(drawing, source, &points);
-    }
+        add_marker(drawing, source, &points)
+    };
     add_mark(drawing, source);
-    add_end(drawing, source, &points);
+    add_end(drawing, source, &points, marker);
 }
 
 /// A dot at each marked temperature of a camera's locus.
@@ -126,7 +127,8 @@ fn outer_side(points: &[[f64; 2]]) -> Option<f64> {
 }
 
 /// The sensor's marker halfway along its line, by which lines are told apart without color; moved along where another one stands.
-fn add_marker(drawing: &mut Drawing<'_>, source: &ComparedSensor, points: &[[f64; 2]]) {
+/// Returns its place.
+fn add_marker(drawing: &mut Drawing<'_>, source: &ComparedSensor, points: &[[f64; 2]]) -> Option<[f64; 2]> {
     const SHARES: [f64; 7] = [0.5, 0.42, 0.58, 0.34, 0.66, 0.26, 0.74];
     let frame = drawing.frame;
     let placed: Vec<[f64; 2]> = points.iter().filter(|p| p[0].is_finite()).map(|p| frame.at(*p)).collect();
@@ -142,17 +144,18 @@ fn add_marker(drawing: &mut Drawing<'_>, source: &ComparedSensor, points: &[[f64
     let taken: Vec<[f64; 2]> = drawing.halfway.clone();
     let is_free = |at: &[f64; 2]| taken.iter().all(|other| (other[0] - at[0]).hypot(other[1] - at[1]) > 4.0 * HALFWAY);
     let mut places = SHARES.iter().filter_map(|share| at_share(*share));
-    let Some(at) = places.find(is_free).or_else(|| at_share(0.5)) else { return };
+    let at = places.find(is_free).or_else(|| at_share(0.5))?;
     drawing.halfway.push(at);
     let tag = drawing.things.tag(PlotItem::Sensor(id(source)));
     let shape = Shape::Points { points: vec![frame.value(at)], marker: source.marker, radius: HALFWAY };
     let mark = Mark::new(tag, format!("{}, line", source.label), shape).with_stroke(source.role, 1.5);
     let mark = if source.marker.has_inside() { mark.with_fill(source.role) } else { mark };
     drawing.small.push(mark.with_halo(InkRole::Plot));
+    Some(frame.value(at))
 }
 
-/// The sensor's name at the end of its locus, the red one first.
-fn add_end(drawing: &mut Drawing<'_>, source: &ComparedSensor, points: &[[f64; 2]]) {
+/// The sensor's name at the end of its locus, the red one first, else led there from its marker or that end.
+fn add_end(drawing: &mut Drawing<'_>, source: &ComparedSensor, points: &[[f64; 2]], marker: Option<[f64; 2]>) {
     let known: Vec<[f64; 2]> = points.iter().copied().filter(|p| p[0].is_finite()).collect();
     let beyond = |from: Option<&[f64; 2]>, to: Option<&[f64; 2]>| {
         let (from, to) = (drawing.frame.at(*from?), drawing.frame.at(*to?));
@@ -177,7 +180,8 @@ fn add_end(drawing: &mut Drawing<'_>, source: &ComparedSensor, points: &[[f64; 2
         places.extend(shares.filter_map(|i| known.get(i)).flat_map(|at| Place::around(*at, [0.5, -1.0], 9.0)));
     }
     let tag = drawing.things.tag(PlotItem::Sensor(id(source)));
-    drawing.labels.push(Label { tag, ..Label::new(&source.label, Rank::Sensor, source.role, places) });
+    let starts = marker.into_iter().chain(start.copied()).collect();
+    drawing.labels.push(Label { tag, starts, ..Label::new(&source.label, Rank::Sensor, source.role, places) });
 }
 
 /// The ring at the document's temperature.

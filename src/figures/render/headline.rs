@@ -12,7 +12,7 @@ use crate::format::fixed;
 use crate::render_service::RenderedFrame;
 
 /// Meaning of the numbers, for hints.
-pub const MEANING: &str = "Facing the light: the flat material under this light, as a patch. Median and 95 %: over the lit \
+pub const MEANING: &str = "Facing the light: the flat material, or garment, under this light, as a patch. Median and 95 %: over the lit \
     samples whose L* in the reference is above 20.";
 /// Meaning of the numbers of a spectral image.
 pub const IMAGE_MEANING: &str = "Mean, median, 95 % and maximum over all pixels with a value in every band.";
@@ -97,7 +97,9 @@ impl Measure {
                 || "all other samples too dark".to_owned(),
                 |bright| format!("median {}, 95 % {}", self.number(bright.median), self.number(bright.p95)),
             );
-            format!("{name} {facing} facing light, {rest}")
+            let garment =
+                difference.garment.map_or_else(String::new, |garment| format!(" (garment {})", self.number(garment)));
+            format!("{name} {facing}{garment} facing light, {rest}")
         };
         match detail {
             Detail::Number => format!("{} {facing}", self.short_name()),
@@ -117,7 +119,8 @@ mod tests {
     fn a_picture_without_light_has_no_difference() {
         let measure = Measure { metric: Metric::DELTA_E_2000, by_eq_13: false, of_image: false };
         let bright = Some(BrightSamples { count: 2, median: 2.0, p95: 4.0 });
-        let some = Difference { stride: 1, map: vec![1.0; 3], mean: 1.0, max: 5.0, facing: Some(3.12), bright };
+        let some =
+            Difference { stride: 1, map: vec![1.0; 3], mean: 1.0, max: 5.0, facing: Some(3.12), garment: None, bright };
         let said = [Detail::Number, Detail::Metric, Detail::Quantiles, Detail::Largest];
         assert_eq!(
             said.map(|detail| measure.words(&some, detail)),
@@ -128,6 +131,9 @@ mod tests {
                 "ΔE*00 3.1 facing light, median 2.0, 95 % 4.0, max 5.0"
             ]
         );
+        let clothed = Difference { garment: Some(2.04), ..some.clone() };
+        let words = "ΔE*00 3.1 (garment 2.0) facing light, median 2.0, 95 % 4.0";
+        assert_eq!(measure.words(&clothed, Detail::Quantiles), words);
         let dark = Difference { bright: None, ..some.clone() };
         let unlit = Difference { map: Vec::new(), mean: 0.0, max: 0.0, ..dark.clone() };
         assert_eq!(measure.words(&dark, Detail::Number), "ΔE 3.1");
@@ -141,8 +147,15 @@ mod tests {
 
     #[test]
     fn names_and_decimals_are_the_metrics() {
-        let facing =
-            Difference { stride: 1, map: vec![0.02], mean: 0.02, max: 0.02, facing: Some(0.0213), bright: None };
+        let facing = Difference {
+            stride: 1,
+            map: vec![0.02],
+            mean: 0.02,
+            max: 0.02,
+            facing: Some(0.0213),
+            garment: None,
+            bright: None,
+        };
         let of = |metric, by_eq_13| Measure { metric, by_eq_13, of_image: false }.words(&facing, Detail::Metric);
         assert_eq!(of(Metric::DELTA_E_2000, true), "Δ of Eq 13 colors 0.0");
         assert_eq!(of(Metric::XY, true), "Δxy 0.021");

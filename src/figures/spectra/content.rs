@@ -2,41 +2,17 @@
 
 use chromascope_core::spectral::SpectralDistribution;
 use chromascope_core::spectral::grid::{FIRST_NM, LAST_NM};
-use chromascope_figure::{Anchor, Dash, Ink, InkRole, Mark, Shape, Tag};
+use chromascope_figure::{Dash, Ink, InkRole, Mark, Shape, Tag};
 
 use super::Built;
 use crate::document::{SetKind, Subset};
 use crate::figures::chromaticity::id;
-use crate::figures::labels::{Place, Room};
+use crate::figures::labels::{Name, channel_symbol};
 use crate::plot_item::PlotItem;
 use crate::scene::{ComparedSensor, Scene};
 
 /// Largest number of patches whose curves are named in the plot.
 const NAMED: usize = 8;
-
-/// A text that names a curve.
-pub(super) struct Name {
-    text: String,
-    ink: Ink,
-    /// Points of the curve beside which it may stand, the best first.
-    points: Vec<[f64; 2]>,
-}
-
-impl Name {
-    /// The text beside the first point with room.
-    pub(super) fn mark(&self, room: &mut Room) -> Option<Mark> {
-        let sides = [
-            (Anchor::BOTTOM, [0.0, -3.0]),
-            (Anchor::TOP, [0.0, 6.0]),
-            (Anchor::RIGHT_BOTTOM, [-4.0, -2.0]),
-            (Anchor::LEFT_BOTTOM, [4.0, -2.0]),
-            (Anchor::LEFT_BOTTOM, [9.0, -2.0]),
-        ];
-        let places = self.points.iter().flat_map(|at| sides.map(|(anchor, offset)| (*at, anchor, offset)));
-        let mark = room.place(&self.text, self.ink, false, &places.collect::<Vec<Place>>())?;
-        Some(mark.with_halo(InkRole::Plot))
-    }
-}
 
 /// Content of a panel.
 pub(super) struct Content {
@@ -46,6 +22,8 @@ pub(super) struct Content {
     pub(super) note: String,
     pub(super) marks: Vec<Mark>,
     pub(super) names: Vec<Name>,
+    /// Names that stand for several curves each, where those have no room.
+    pub(super) common: Vec<Name>,
     /// Vertical range.
     pub(super) range: [f64; 2],
     /// Height relative to other panels.
@@ -72,6 +50,7 @@ pub(super) fn light(scene: &Scene<'_>, built: &mut Built) -> Option<Content> {
         note: format!("light: {name}"),
         marks,
         names: Vec::new(),
+        common: Vec::new(),
         range: [0.0, 1.3],
         weight: 0.8,
     })
@@ -107,7 +86,8 @@ pub(super) fn patches(scene: &Scene<'_>, built: &mut Built) -> Option<Content> {
     }
     let five = scene.document.subset == Subset::Five && scene.has_five();
     let note = if five { "patches: the paper's five".to_owned() } else { format!("patches: {}", scene.document.chart) };
-    Some(Content { quantity: "reflectance", note, marks, names, range: [0.0, top * 1.08], weight: 1.3 })
+    let range = [0.0, top * 1.08];
+    Some(Content { quantity: "reflectance", note, marks, names, common: Vec::new(), range, weight: 1.3 })
 }
 
 /// Opacity of the casing that separates a patch's line from any ground: strong for colors that are nearly a ground's own.
@@ -163,7 +143,11 @@ pub(super) fn sensitivities(
             low = low.min(1.1 * least / peak);
             let width = if source.is_reference { 3.0 } else { source.width };
             marks.extend(curve(tag, &name, spectrum, peak, source.role.into(), width, false));
-            names.push(Name { text: letter(channel), ink: source.role.into(), points: at_peak(spectrum, peak) });
+            names.push(Name {
+                text: channel_symbol(channel),
+                ink: source.role.into(),
+                points: at_peak(spectrum, peak),
+            });
             if sources.len() > 1 && !source.is_reference {
                 signs.extend(sign(tag, source, spectrum, peak, signs.len() / 3));
             }
@@ -171,23 +155,37 @@ pub(super) fn sensitivities(
     }
     // The reference's names are placed first.
     names.reverse();
+    let common = common(&names);
     marks.extend(signs);
     Content {
         quantity: "relative sensitivity",
         note: String::new(),
         marks,
         names,
+        common,
         range: [low.max(-1.0), 1.1],
         weight: 1.0,
     }
 }
 
-/// Symbol of a channel: the letter of a color, or the color-matching function's own.
-fn letter(channel: &str) -> String {
-    match channel {
-        "red" | "green" | "blue" => channel[..1].to_uppercase(),
-        symbol => symbol.to_owned(),
+/// A name for all of one text, at their points from the median outward; the reference's keep their ink.
+fn common(names: &[Name]) -> Vec<Name> {
+    let mut groups: Vec<Name> = Vec::new();
+    for name in names {
+        match groups.iter_mut().find(|group| group.text == name.text) {
+            Some(group) => {
+                group.points.extend(&name.points);
+                group.ink = InkRole::Text.into();
+            }
+            None => groups.push(name.clone()),
+        }
     }
+    for group in &mut groups {
+        group.points.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        let median = group.points.get(group.points.len() / 2).map_or(0.0, |point| point[0]);
+        group.points.sort_by(|a, b| (a[0] - median).abs().total_cmp(&(b[0] - median).abs()));
+    }
+    groups
 }
 
 /// The peak of a curve, between the first and the last sample that reaches it.

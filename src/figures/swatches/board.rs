@@ -71,14 +71,19 @@ impl<'a> Board<'a> {
         if !self.view.saved.difference_bars {
             return Note::None;
         }
-        let metric = self.scene.document.difference;
-        let numbers = rows.iter().flat_map(|row| row.colors.iter().flatten()).filter_map(|(_, difference)| *difference);
-        let widest = numbers.map(|d| text_width(&short(metric, d), TextSize::Small)).fold(0.0, f64::max);
+        let widest = self.widest_number(rows);
         match width {
             width if width >= BESIDE.max(widest + 24.0) => Note::Beside,
             width if width >= widest => Note::Above,
             _ => Note::Bar,
         }
+    }
+
+    /// Width of the widest number of a difference.
+    fn widest_number(&self, rows: &[Row]) -> f64 {
+        let metric = self.scene.document.difference;
+        let numbers = rows.iter().flat_map(|row| row.colors.iter().flatten()).filter_map(|(_, difference)| *difference);
+        numbers.map(|d| text_width(&short(metric, d), TextSize::Small)).fold(0.0, f64::max)
     }
 
     /// A row for each sensor, a column for each patch, in as many blocks as the columns need. Returns the height.
@@ -142,9 +147,14 @@ impl<'a> Board<'a> {
     pub(super) fn charts(&mut self, rows: &[Row], size: [f64; 2]) -> f64 {
         let columns = chart_columns(self.names.len());
         let lines = self.names.len().div_ceil(columns).max(1);
-        let (across, cell) = chart_cell(rows.len(), columns, lines, size);
+        let least = match (self.view.saved.difference_bars, columns * lines) {
+            (_, count) if count > 60 => [8.0; 2],
+            (true, _) => [self.widest_number(rows).max(12.0), Note::Above.height() + LEAST_COLOR],
+            (false, _) => [12.0; 2],
+        };
+        let (across, cell) = chart_cell(rows.len(), columns, lines, size, least);
         let note = match self.note(rows, cell[0]) {
-            // Colors come first: where they would be low, there are no numbers.
+            // Colors come first: of a chart with many low ones, there are no numbers.
             Note::Above | Note::Beside if cell[1] < Note::Above.height() + LEAST_COLOR => Note::Bar,
             note => note,
         };
@@ -157,7 +167,11 @@ impl<'a> Board<'a> {
             let y = MARGIN + (index / across) as f64 * (chart[1] + MARGIN);
             self.row_head(&row.source, [x, y + 8.0], pitch - MARGIN);
             match &row.colors {
-                Err(why) => self.text(PickIndex::NONE, why, [x, y + 32.0], Anchor::LEFT),
+                Err(why) => {
+                    for (line, words) in wrapped(why, TextSize::Body, pitch - MARGIN).iter().enumerate() {
+                        self.text(PickIndex::NONE, words, [x, y + 32.0 + 15.0 * line as f64], Anchor::LEFT);
+                    }
+                }
                 Ok(colors) => {
                     for (i, (color, difference)) in colors.iter().enumerate() {
                         let left = x + (i % columns) as f64 * (cell[0] + GAP / 2.0);
@@ -286,23 +300,24 @@ fn chart_columns(count: usize) -> usize {
     if count == 24 { 6 } else { ((count as f64 * 1.5).sqrt().ceil() as usize).max(1) }
 }
 
-/// Number of charts side by side, and the size of a swatch: the largest that fits, else the least.
-fn chart_cell(charts: usize, columns: usize, lines: usize, size: [f64; 2]) -> (usize, [f64; 2]) {
+/// Number of charts side by side, and the size of a swatch: the largest that fits, else the least high, and the charts scroll.
+fn chart_cell(charts: usize, columns: usize, lines: usize, size: [f64; 2], least: [f64; 2]) -> (usize, [f64; 2]) {
     let mut best = (1, [0.0_f64, 0.0_f64]);
     for across in 1..=charts.max(1) {
         let down = charts.div_ceil(across).max(1);
         let width = (size[0] - MARGIN * (2.0 * across as f64)) / across as f64 / columns as f64 - GAP / 2.0;
         let height = ((size[1] - MARGIN * (1.0 + down as f64)) / down as f64 - HEAD) / lines as f64 - GAP / 2.0;
-        let cell = [width.min(height * 1.6).min(56.0), height.min(width + 6.0).min(42.0)];
-        if cell[0].min(cell[1]) > best.1[0].min(best.1[1]) {
+        let cell = [width.min(height * 1.6).min(56.0), height.min((width + 6.0).max(least[1])).min(42.0)];
+        let fits = cell[0] >= least[0] && cell[1] >= least[1];
+        if fits && cell[0].min(cell[1]) > best.1[0].min(best.1[1]) {
             best = (across, cell);
         }
     }
-    let least = if columns * lines > 60 { 8.0 } else { 12.0 };
-    if best.1[0].min(best.1[1]) >= least {
+    if best.1[0] > 0.0 {
         return best;
     }
-    // They do not fit: they scroll.
-    let across = ((size[0] / (columns as f64 * (least + GAP / 2.0) + 2.0 * MARGIN)) as usize).clamp(1, charts.max(1));
-    (across, [least, least])
+    let width = |across: f64| (size[0] / across - 2.0 * MARGIN) / columns as f64 - GAP / 2.0;
+    let most = size[0] / (columns as f64 * (least[0] + GAP / 2.0) + 2.0 * MARGIN);
+    let across = (most as usize).clamp(1, charts.max(1));
+    (across, [width(across as f64).clamp(least[0], least[0].max(1.6 * least[1])), least[1]])
 }

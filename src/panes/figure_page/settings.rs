@@ -4,10 +4,10 @@ use chromascope_figure::{AxisRanges, AxisTitles, LegendPlace, Numbers};
 use egui::{ComboBox, DragValue, Rect, Response, ScrollArea, Ui, WidgetInfo};
 
 use super::{inside, small};
-use crate::command::{Command, Format};
-use crate::export::Paper;
+use crate::command::Command;
 use crate::export::page::PageFacts;
 use crate::export::paper::PaperStyle;
+use crate::export::{FigureForm, Paper};
 use crate::panes::context::PaneContext;
 use crate::panes::widgets;
 use crate::theme::{ROW, SourceInks, UNIT};
@@ -30,7 +30,7 @@ const TITLES: [(AxisTitles, &str, &str); 3] = [
 ];
 const RANGES: [(AxisRanges, &str, &str); 2] = [
     (AxisRanges::Screen, "As on screen", "Zoomed or not"),
-    (AxisRanges::Full, "Full", "The whole diagram, the data enlarged where there is room"),
+    (AxisRanges::Full, "Full", "All of the plot; of the diagram, the data enlarged where there is room"),
 ];
 const NUMBERS: [(Numbers, &str, &str); 2] = [
     (Numbers::All, "All", "All numbers that the figure is made from"),
@@ -124,7 +124,7 @@ fn size(ui: &mut Ui, look: &mut PageLook, facts: Option<PageFacts>, context: &mu
         let lines = "Factor on the widths of lines and on markers";
         number(ui, "Text", &mut paper.font_pt, (Paper::FONT_PT, 0.05, " pt"), "Size of labels, names and legend");
         number(ui, "Lines", &mut paper.line_scale, (Paper::LINE_SCALE, 0.01, "×"), lines);
-        number(ui, "PNG", &mut paper.dpi, (Paper::DPI, 1.0, " dpi"), "Resolution of PNG and of the copied picture");
+        number(ui, "PNG", &mut paper.dpi, (Paper::DPI, 1.0, " dpi"), "Resolution of PNG, TIFF and the copied picture");
     });
 }
 
@@ -138,8 +138,10 @@ fn dress(ui: &mut Ui, paper: &mut Paper, (kind, facts): (PaneKind, Option<PageFa
     if facts.is_some_and(|facts| facts.has_titles) {
         choice(ui, "Axis titles", &TITLES, &mut paper.axis_titles, context);
     }
-    if kind == PaneKind::CHROMATICITY {
+    if kind == PaneKind::CHROMATICITY || context.view.zoomed.contains_key(&kind) {
         choice(ui, "Axis ranges", &RANGES, &mut paper.ranges, context);
+    }
+    if kind == PaneKind::CHROMATICITY {
         choice(ui, "Numbers", &NUMBERS, &mut paper.numbers, context);
         ui.checkbox(&mut paper.strip, "Strip of distances below the diagram");
     }
@@ -160,14 +162,22 @@ fn legend(ui: &mut Ui, paper: &mut Paper, context: &PaneContext<'_>) {
 
 fn buttons(ui: &mut Ui, kind: PaneKind, context: &mut PaneContext<'_>) {
     ui.horizontal_wrapped(|ui| {
-        for (words, format) in
-            [("Save PDF…", Format::Pdf), ("SVG…", Format::Svg), ("PNG…", Format::Png), ("CSV…", Format::Csv)]
-        {
-            let hint = if format == Format::Csv { "The numbers behind the figure" } else { "The figure as shown here" };
+        let mut save = |ui: &mut Ui, words: &str, form: FigureForm| {
+            let hint = if form.is_numbers() { "The numbers behind the figure" } else { "The figure as shown here" };
             if ui.button(words).on_hover_text(hint).clicked() {
-                context.push(Command::Export(kind, format));
+                context.push(Command::Export(kind, form));
+                ui.close();
             }
-        }
+        };
+        let [pdf, svg, png, rest @ ..] = FigureForm::ALL;
+        save(ui, &format!("Save {}…", pdf.name()), pdf);
+        save(ui, &format!("{}…", svg.name()), svg);
+        save(ui, &format!("{}…", png.name()), png);
+        ui.menu_button("More", |ui| {
+            for form in rest {
+                save(ui, &format!("{}…", form.name()), form);
+            }
+        });
     });
     ui.horizontal(|ui| {
         if ui.button("Copy picture").on_hover_text("At this resolution (Ctrl+Shift+C)").clicked() {
@@ -192,7 +202,7 @@ fn in_words(facts: &PageFacts, paper: &Paper) -> String {
     let own_height = if own_height { " Its rows or pictures have their own height." } else { "" };
     let apart = facts.lightness_apart.map_or_else(String::new, |apart| {
         let told = if apart < PageFacts::TOLD_APART { "not told apart" } else { "told apart" };
-        format!(" Without color, cameras are {told}: lightness differs by ΔL* {apart:.0} or more.")
+        format!(" Without color, the inks of the legend are {told} (least ΔL* {apart:.0}).")
     });
     format!("{}.{own_height}{apart}", measures.join(", "))
 }

@@ -111,12 +111,9 @@ fn table(ui: &mut Ui, rows: &[Vec<Vec<Inline>>], ink: &Ink<'_>) -> Option<String
 }
 
 fn code(ui: &mut Ui, text: &str, ink: &Ink<'_>) -> Option<String> {
-    let id = ui.next_auto_id();
     egui::Frame::NONE.fill(ink.theme.plot).inner_margin(2.0 * UNIT).show(ui, |ui| {
-        ScrollArea::horizontal().id_salt(id).auto_shrink([false, true]).show(ui, |ui| {
-            let text = egui::RichText::new(text).monospace().size(MONO);
-            ui.add(egui::Label::new(text).wrap_mode(egui::TextWrapMode::Extend));
-        });
+        ui.set_width(ui.available_width());
+        ui.add(egui::Label::new(egui::RichText::new(text).monospace().size(MONO)).wrap());
     });
     None
 }

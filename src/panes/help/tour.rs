@@ -71,7 +71,7 @@ fn numbers(step: &TourStep, context: &PaneContext<'_>) -> String {
         }
         TourNumbers::PatchDifferences => {
             let words = cameras().filter_map(|camera| patches_of(scene, camera));
-            format!("{}:   {}", scene.difference_name(), list(words.collect()))
+            format!("{}:   {}", scene.difference_name(), words.collect::<Vec<_>>().join("\n"))
         }
         TourNumbers::RenderedDifferences => rendered(context),
     }

@@ -104,7 +104,8 @@ fn temperatures(scene: &Scene<'_>, colors: impl Iterator<Item = Option<Xyz>>) ->
 pub(super) fn show(ui: &mut Ui, id: &str, heads: &[String], rows: &[Row], context: &PaneContext<'_>) {
     let table = table(heads, rows);
     let names = std::iter::once(Column::default());
-    let columns = names.chain(heads.iter().map(|head| Column { name: head.clone(), ..Column::default() }));
+    let decimals = rows.iter().map(|row| row.decimals).max();
+    let columns = names.chain(heads.iter().map(|head| Column { name: head.clone(), decimals, ..Column::default() }));
     let note = |row: usize, _| CellNote { decimals: Some(rows[row].decimals), ..CellNote::default() };
     let shown = DataTable::new(PaneKind::INSPECTOR, id, &table).with_columns(columns.collect()).with_notes(&note);
     ScrollArea::horizontal().id_salt(id).auto_shrink([false, true]).show(ui, |ui| {

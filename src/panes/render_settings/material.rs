@@ -1,4 +1,4 @@
-//! The list of reflectances.
+//! The lists of reflectances: of the mesh, and of the head's garment.
 
 use egui::Ui;
 
@@ -9,17 +9,40 @@ use crate::panes::context::PaneContext;
 use crate::panes::widgets::facts;
 use crate::panes::widgets::pick_list::{self, Line};
 
+/// Part of a mesh that has a material.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Part {
+    /// All but the garment.
+    Skin,
+    /// The head's garment.
+    Garment,
+}
+
+/// The head without a garment.
+const BARE: &str = "None: bare shoulders";
+
 /// A list of all reflectances that is filtered as one types: the user's own, then the built-in ones by file.
-pub(super) fn choice(ui: &mut Ui, now: &str, context: &mut PaneContext<'_>) {
+pub(super) fn choice(ui: &mut Ui, part: Part, context: &mut PaneContext<'_>) {
     let mut names = Vec::new();
     let width = ui.available_width();
-    let hint = "Reflectance of the surface";
-    let chosen = pick_list::drop_down(ui, ("Material", hint), now, width, &context.theme, || {
+    let settings = &context.scene.document.render;
+    let (what, hint, now) = match part {
+        Part::Skin => ("Material", "Reflectance of the surface", settings.material.clone()),
+        Part::Garment => {
+            let hint = "Reflectance of the head's garment; its surface is that of the rest. Figures 8 and 9 have none.";
+            ("Garment", hint, settings.garment.clone().unwrap_or_else(|| BARE.to_owned()))
+        }
+    };
+    let chosen = pick_list::drop_down(ui, (what, hint), &now, width, &context.theme, || {
         let own = context.scene.entries(SetKind::Chart).filter(Entry::is_own);
         let mut entries: Vec<Entry> = own.chain(context.scene.entries(SetKind::Material)).collect();
         entries.sort_by_cached_key(|entry| (!entry.is_own(), entry.also.clone()));
         let mut lines: Vec<Line> = Vec::new();
         let mut last = None;
+        if part == Part::Garment {
+            lines.push(Line::new(BARE, now == BARE));
+            names.push(BARE.to_owned());
+        }
         for entry in entries {
             let facts = facts::provenance(&context.scene, &entry);
             let Entry { name, short, also, .. } = entry;
@@ -35,6 +58,9 @@ pub(super) fn choice(ui: &mut Ui, now: &str, context: &mut PaneContext<'_>) {
         lines
     });
     if let Some(name) = chosen.map(|index| names.swap_remove(index)) {
-        set(context, "Material", |settings| settings.material = name);
+        set(context, what, |settings| match part {
+            Part::Skin => settings.material = name,
+            Part::Garment => settings.garment = (name != BARE).then_some(name),
+        });
     }
 }

@@ -21,14 +21,15 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
     mesh(ui, &settings, context);
     summary(ui, &settings, context);
     super::image::show(ui, context);
-    let reason = "Triangles, material and light direction do nothing to a spectral image.";
+    let reason = "These do nothing to a spectral image.";
     unless_image(ui, reason, context, |ui, context| of_mesh(ui, &settings, context));
 }
 
 /// Controls of a mesh: its triangles, material and light.
 fn of_mesh(ui: &mut Ui, settings: &RenderSettings, context: &mut PaneContext<'_>) {
-    // The head's cage has so many that a smaller number would change nothing.
-    let least = if settings.mesh == MeshChoice::Head { FEWEST as f64 } else { *TRIANGLES.start() };
+    // The head's cages have so many that a smaller number would change nothing.
+    let is_head = settings.mesh == MeshChoice::Head;
+    let least = if is_head { FEWEST[usize::from(settings.garment.is_some())] as f64 } else { *TRIANGLES.start() };
     let dial = Dial {
         name: "Triangles",
         range: least..=*TRIANGLES.end(),
@@ -42,7 +43,10 @@ fn of_mesh(ui: &mut Ui, settings: &RenderSettings, context: &mut PaneContext<'_>
         set(context, "Triangles", |settings| settings.triangles = to as usize);
     }
     caption(ui, "Material", context);
-    material::choice(ui, &settings.material, context);
+    material::choice(ui, material::Part::Skin, context);
+    let words = if is_head { "Garment" } else { "Garment: only the head has one" };
+    caption(ui, words, context);
+    ui.add_enabled_ui(is_head, |ui| material::choice(ui, material::Part::Garment, context));
     conditions(ui, settings, context);
     light(ui, settings, context);
 }

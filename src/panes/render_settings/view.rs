@@ -31,7 +31,7 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
     if let Some(to) = dial.show(ui, settings.exposure_ev, context) {
         set(context, "Exposure", |settings| settings.exposure_ev = (to * 10.0).round() / 10.0);
     }
-    let reason = "Field of view and quality do nothing to a spectral image.";
+    let reason = "These do nothing to a spectral image.";
     unless_image(ui, reason, context, |ui, context| lens_and_quality(ui, &settings, context));
     without_picture(ui, context);
 }

@@ -17,6 +17,7 @@ fn a_figure_takes_the_form_of_its_file_and_the_session_it_is_given() {
         ("a.png", b"\x89PNG"),
         ("a.tif", b"II*\0"),
         ("a.csv", b"sensor,"),
+        ("a.json", b"{"),
     ] {
         let out = at(name);
         let done = run(&["figure", "chromaticity", "--session", &at("work.json"), "--width", "3in", "--out", &out]);
@@ -30,7 +31,8 @@ fn a_figure_takes_the_form_of_its_file_and_the_session_it_is_given() {
 
 #[test]
 fn a_figure_without_a_form_or_a_unit_is_refused() {
-    for arguments in [&["--out", "figure.txt"][..], &[], &["--width", "85", "--out", "figure.pdf"]] {
+    let turned = &["--orbit", "30,20,5", "--out", "figure.pdf"];
+    for arguments in [&["--out", "figure.txt"][..], &[], &["--width", "85", "--out", "figure.pdf"], turned] {
         let done = run(&[&["figure", "spectra"], arguments].concat());
         assert_eq!(done.status.code(), Some(2), "{arguments:?}");
     }
@@ -58,7 +60,7 @@ fn every_figure_of_a_scene_is_made_at_one_column() {
     for (kind, arguments) in [
         ("strip", &[][..]),
         ("light", &["--illuminant", "A"]),
-        ("render", &["--mesh", "sphere", "--dpi", "40"]),
+        ("render", &["--mesh", "sphere", "--dpi", "40", "--orbit", "30,-20,5"]),
         ("difference", &["--mesh", "plane", "--dpi", "40"]),
         ("head-to-head", &[]),
         ("report-card", &[]),

@@ -23,6 +23,7 @@ use crate::support;
 pub(super) struct RenderService {
     pub sources: Vec<RenderingQuery>,
     pub reflectance: Shared<GridSpectrum>,
+    pub garment: Option<Shared<GridSpectrum>>,
     pub mesh: MeshQuery,
     pub size: RasterSize,
     pub yaw: f64,
@@ -60,6 +61,7 @@ impl RenderService {
         Self {
             sources: sensors.iter().map(rendering).collect(),
             reflectance: Shared::new(skin.patches()[0].grid.clone()),
+            garment: None,
             mesh: MeshQuery::Sphere(2_000),
             size: RasterSize::new(40, 40),
             yaw: 0.0,
@@ -106,6 +108,7 @@ impl RenderService {
                 open_sky: false,
             },
             reflectance: self.reflectance.clone(),
+            garment: self.garment.clone(),
             reference: self.sources[0].clone(),
             sources: self.sources.iter().map(|rendering| SourceOf { rendering: rendering.clone() }).collect(),
             ev: self.ev.to_bits(),

@@ -7,7 +7,7 @@ use chromascope_core::accuracy::RelTolerance;
 use chromascope_core::camera::RenderingError;
 use chromascope_core::colorimetry::Metric;
 use chromascope_core::query::compare;
-use chromascope_core::query::render::difference::BrightSamples;
+use chromascope_core::query::render::difference::{BrightSamples, Difference};
 use chromascope_core::query::render::picture::Pictures;
 use chromascope_core::query::render::{MeshQuery, MeshRoughnessQuery, Roughness};
 use chromascope_core::query::{Ask, Direct, PatchColorsQuery, RenderingQuery, Shared};
@@ -328,6 +328,38 @@ fn every_sample_is_accounted_for() {
         assert_eq!(counts.lit, shading.dark + shading.flat + shading.spectral);
         assert_eq!(counts.lit, shading.coherent_samples + shading.coherent_skipped);
         assert!(counts.seen > 0 && counts.rays <= counts.lit + counts.shadowed);
+    }
+}
+
+/// Each sample of a clothed head is one of the head all of skin, or of the head all of cloth.
+#[test]
+fn a_garment_has_a_material_of_its_own() {
+    let cloth = support::patches("materials/textiles_vrhel.csv");
+    let cloth = Shared::new(cloth.patches().iter().find(|patch| patch.name.starts_with("Faded")).unwrap().grid.clone());
+    for (roughness, sky, sigma_m) in [(Roughness::Surface, Some(0.15), 0.05e-6), (Roughness::Mesh, None, 5e-6)] {
+        let skin =
+            RenderService { mesh: MeshQuery::ClothedHead(13_000), roughness, sky, sigma_m, ..RenderService::new() };
+        let all = RenderService { reflectance: cloth.clone(), ..skin.clone() };
+        let worn = RenderService { garment: Some(cloth.clone()), ..skin.clone() };
+        let seen = skin.question().shading.geometry.visibility;
+        let [skin, all, worn] = [skin, all, worn].map(|service| service.take(&Direct));
+        let (mesh, visibility) = (Direct.ask(&seen.mesh), Direct.ask(&seen));
+        let hits = (*visibility).as_ref().unwrap().hits();
+        let mut counts = [0; 2];
+        for (at, &sample) in worn.angles.samples().iter().enumerate() {
+            let is_garment = mesh.is_garment(hits[sample as usize].triangle);
+            counts[usize::from(is_garment)] += 1;
+            for ((worn, skin), all) in worn.images.iter().zip(&skin.images).zip(&all.images) {
+                let signal = |image: &Option<CameraImage>| image.as_ref().unwrap().signals()[at];
+                assert_eq!(signal(worn), if is_garment { signal(all) } else { signal(skin) });
+            }
+        }
+        assert!(counts.iter().all(|&count| count > 100), "{counts:?}");
+        let facing =
+            |pictures: &Pictures, of: fn(&Difference) -> Option<f64>| of(pictures.differences[1].as_ref().unwrap());
+        assert_eq!(facing(&worn, |d| d.garment), facing(&all, |d| d.facing));
+        assert_eq!(facing(&worn, |d| d.facing), facing(&skin, |d| d.facing));
+        assert_eq!(facing(&skin, |d| d.garment), None);
     }
 }
 

@@ -45,6 +45,31 @@ fn every_smooth_surface_keeps_its_error_against_401_wavelengths() {
 }
 
 #[test]
+fn views_places_of_the_light_and_roughnesses_share_their_plans() {
+    // Large enough that a search pays.
+    let mut start = RenderService {
+        size: RasterSize::new(256, 256),
+        mesh: MeshQuery::Head(9_000),
+        sigma_m: 0.3e-6,
+        ..RenderService::new()
+    };
+    start.sources.truncate(1);
+    let ask = Counting::default();
+    let plans = |services: &[RenderService]| -> usize {
+        services.iter().for_each(|service| drop(service.take(&ask)));
+        ask.made().get("plan").copied().unwrap_or_default()
+    };
+    assert_eq!(plans(&[start.clone()]), 1, "a search pays");
+    let turned: Vec<RenderService> =
+        (-8..=8).map(|step| RenderService { yaw: 0.3 * f64::from(step), ..start.clone() }).collect();
+    let lit: Vec<RenderService> =
+        (-6..=6).map(|step| RenderService { light_right: 12.0 * f64::from(step), ..start.clone() }).collect();
+    let rough: Vec<RenderService> =
+        (0..8).map(|step| RenderService { sigma_m: (0.1 + 0.1 * f64::from(step)) * 1e-6, ..start.clone() }).collect();
+    assert_eq!([plans(&turned), plans(&lit), plans(&rough)], [0, 0, 0]);
+}
+
+#[test]
 fn no_smooth_surface_takes_many_wavelengths() {
     // Of a head, few samples see the sun's image: next to the brightest of these, few coherent terms count.
     let start = RenderService { size: RasterSize::new(64, 64), mesh: MeshQuery::Head(9_000), ..RenderService::new() };

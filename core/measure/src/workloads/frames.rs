@@ -7,9 +7,11 @@ use chromascope_core::accuracy::RelTolerance;
 use chromascope_core::camera::rendering::white_divisors;
 use chromascope_core::reflectance::{Normalization, Surface, wavelength_power};
 use chromascope_core::render::{
-    CameraImage, GeometryImage, Plan, Quality, RasterSize, ShadingImage, Shadows, SpectralWeights, Stop, Visibility,
+    CameraImage, Demand, GeometryImage, Plan, Quality, RasterSize, ShadingImage, Shadows, SpectralWeights, Stop,
+    Visibility,
 };
 use chromascope_core::scene::lighting::SUN_RADIUS;
+use chromascope_core::scene::viewpoint::ViewpointError;
 use chromascope_core::scene::{Lighting, Viewpoint};
 use chromascope_core::spectral::Quantity;
 use chromascope_mesh::{Mesh, ShadowTree, head};
@@ -64,7 +66,7 @@ impl RenderService {
                 SpectralWeights::new(&sensor, &light, &skin, divisors, wavelength_power(Normalization::Radiometric));
             sources.push(measure);
         }
-        let eye = Viewpoint::new(0.3, 0.1, 3.6, 30_f64.to_radians());
+        let eye = eye(0);
         let lighting = Lighting::from_angles(25_f64.to_radians(), -25_f64.to_radians(), SUN_RADIUS);
         let mesh = Arc::new(head::head(triangles));
         let tree = Arc::new(ShadowTree::new(&mesh));
@@ -89,14 +91,23 @@ impl RenderService {
         ShadingImage::new(geometry, self.surface, Normalization::Radiometric, quality, stop)
     }
 
-    /// A frame of a visible surface through all sources by plans of its own.
-    fn planned(&self, geometry: Arc<GeometryImage>, quality: Quality, stop: &Stop) -> Option<Vec<CameraImage>> {
+    /// A frame of a visible surface through all sources, by the plans that are known for its request.
+    fn planned(
+        &self,
+        geometry: Arc<GeometryImage>,
+        known: &mut KnownPlans,
+        quality: Quality,
+        stop: &Stop,
+    ) -> Option<Vec<CameraImage>> {
         let shading = ShadingImage::new(geometry, self.surface, Normalization::Radiometric, quality, stop)?;
-        let image = |measure: &SpectralWeights| {
-            let plan = Plan::for_picture(&shading, measure).ok()?;
-            CameraImage::new(&shading, measure, Arc::new(plan), stop)
-        };
-        self.sources.iter().map(image).collect()
+        let plans = known.of(&shading, &self.sources)?;
+        let images = self.sources.iter().zip(plans);
+        images.map(|(measure, plan)| CameraImage::new(&shading, measure, Arc::clone(plan), stop)).collect()
+    }
+
+    /// This scene after turns by 2°, from the front again after sixteen.
+    fn turned(&self, count: usize) -> Self {
+        Self { eye: eye(count).unwrap_or(self.eye), ..self.clone() }
     }
 
     /// A frame through all sources by plans of this quality; none only if it was stopped.
@@ -131,13 +142,42 @@ impl RenderService {
     }
 }
 
+/// The viewpoint after turns by 2°.
+fn eye(turns: usize) -> Result<Viewpoint, ViewpointError> {
+    Viewpoint::new(0.3 + 2_f64.to_radians() * (turns % 16) as f64, 0.1, 3.6, 30_f64.to_radians())
+}
+
 /// The surface of all frames, at a roughness.
 fn surface(sigma_m: f64) -> Option<Surface> {
     Surface::new(sigma_m, 10e-6, 50e-6, 50e-6, 1.4).ok()
 }
 
+/// What a plan is made for, beside the sensor under its light: few for all views, places of the light and roughnesses.
+type Request = Option<(RelTolerance, Demand)>;
+
+/// Plans of all sources by request, as the window keeps them.
+#[derive(Default)]
+struct KnownPlans(Vec<(Request, Vec<Arc<Plan>>)>);
+
+impl KnownPlans {
+    /// The plans of a picture, made if they are not known; none if the tolerance cannot be met.
+    fn of(&mut self, shading: &ShadingImage, sources: &[SpectralWeights]) -> Option<&[Arc<Plan>]> {
+        let request = shading.plan_request();
+        let found = self.0.iter().position(|(known, _)| *known == request);
+        let index = match found {
+            Some(index) => index,
+            None => {
+                let plan = |measure: &SpectralWeights| Plan::for_picture(shading, measure).ok().map(Arc::new);
+                self.0.push((request, sources.iter().map(plan).collect::<Option<_>>()?));
+                self.0.len() - 1
+            }
+        };
+        Some(&self.0[index].1)
+    }
+}
+
 /// A change, after which a frame is made from the first stage that depends on it.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, PartialEq)]
 enum Change {
     /// The view: everything but the mesh and the shadow tree.
     View(Shadows),
@@ -145,16 +185,20 @@ enum Change {
     Light,
     /// The roughness: the light on the visible surface is reused too.
     Roughness,
+    /// The spectrum of the light or the material: only the plans and the signals are made anew.
+    Spectrum,
 }
 
-const CHANGES: [(&str, Change); 4] = [
+const CHANGES: [(&str, Change); 5] = [
     ("view, coarse shadows", Change::View(Shadows::Coarse)),
     ("view, a shadow ray per sample", Change::View(Shadows::Full)),
     ("light, a shadow ray per sample", Change::Light),
     ("roughness", Change::Roughness),
+    ("spectrum, with new plans", Change::Spectrum),
 ];
 
-/// Frames after a change, with the plans that the window makes anew for it, as a multiple of a changed view's time.
+/// Frames after a change, with the plans that it requires and the window does not know yet, as a multiple of a changed view's
+/// time. The view turns from frame to frame.
 fn changes(bench: &mut Bench<'_>, service: &RenderService, side: u32, roughness: &str) {
     let (quality, stop) = (Quality::Full, bench.stop);
     let counts = bench.pools.counts();
@@ -170,15 +214,21 @@ fn changes(bench: &mut Bench<'_>, service: &RenderService, side: u32, roughness:
     let mut candidates = Vec::new();
     for (name, change) in CHANGES {
         for &threads in &counts {
+            let (mut known, mut frames) = (KnownPlans::default(), 0);
             let work = move |_: usize| {
+                frames += 1;
                 let geometry = match change {
                     Change::View(shadows) => service
+                        .turned(frames)
                         .visibility(side, stop)
                         .and_then(|visibility| service.geometry(&visibility, shadows, stop)),
                     Change::Light => service.geometry(visibility, Shadows::Full, stop),
-                    Change::Roughness => Some(Arc::clone(geometry)),
+                    Change::Roughness | Change::Spectrum => Some(Arc::clone(geometry)),
                 };
-                black_box(geometry.and_then(|geometry| service.planned(geometry, quality, stop)));
+                if change == Change::Spectrum {
+                    known = KnownPlans::default();
+                }
+                black_box(geometry.and_then(|geometry| service.planned(geometry, &mut known, quality, stop)));
             };
             candidates.push(Candidate::new(name, 1, error.clone(), work).undivided().on(threads));
         }

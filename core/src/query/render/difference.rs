@@ -11,6 +11,7 @@ use crate::query::patches::RenderingQuery;
 use crate::query::patches::patch_colors;
 use crate::render::ColorimetricScale;
 use crate::render::develop::differences;
+use crate::spectral::GridSpectrum;
 use std::sync::Arc;
 
 /// L* of the reference above which samples count in [`BrightSamples`].
@@ -46,6 +47,8 @@ pub struct Difference {
     pub max: f64,
     /// Difference of the material as a flat patch that faces the light: [`compare::difference`] of the same reflectance.
     pub facing: Option<f64>,
+    /// [`Self::facing`] of the garment; none without one.
+    pub garment: Option<f64>,
     /// Quantiles over the samples that are bright in the reference; none where there is no such sample.
     pub bright: Option<BrightSamples>,
 }
@@ -100,10 +103,13 @@ impl Query for DifferenceQuery {
         };
         let mean = map.iter().map(|&d| f64::from(d)).sum::<f64>() / map.len().max(1) as f64;
         let max = f64::from(map.iter().copied().fold(0.0, f32::max));
-        let flat = |of, rendering| patch_colors(of, rendering, std::iter::once(&*self.exposure.reflectance));
-        let (sample, reference) = (flat(&self.rendering, rendering), flat(&self.exposure.reference, reference));
-        let facing = compare::difference(self.metric, &reference[0], &sample[0]).ok();
-        let bright = BrightSamples::new(&map, &lightness);
-        Ok(Some(Arc::new(Difference { stride: self.stride, map, mean, max, facing, bright })))
+        let facing = |material: &GridSpectrum| {
+            let flat = |of, rendering| patch_colors(of, rendering, std::iter::once(material));
+            let (sample, reference) = (flat(&self.rendering, rendering), flat(&self.exposure.reference, reference));
+            compare::difference(self.metric, &reference[0], &sample[0]).ok()
+        };
+        let garment = self.image.garment.as_ref().and_then(|garment| facing(garment));
+        let (facing, bright) = (facing(&self.exposure.reflectance), BrightSamples::new(&map, &lightness));
+        Ok(Some(Arc::new(Difference { stride: self.stride, map, mean, max, facing, garment, bright })))
     }
 }

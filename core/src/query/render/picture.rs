@@ -134,6 +134,8 @@ pub struct PicturesQuery {
     pub shading: ShadingQuery,
     /// The material.
     pub reflectance: Shared<GridSpectrum>,
+    /// Reflectance of the mesh's garment; none for that of the rest.
+    pub garment: Option<Shared<GridSpectrum>>,
     /// The reference; exposure and differences go by it.
     pub reference: RenderingQuery,
     /// All visible sensors, the reference among them or not.
@@ -187,7 +189,7 @@ impl PicturesQuery {
             reflectance: self.reflectance.clone(),
             reading: self.shading.reading,
         };
-        CameraImageQuery { shading: self.shading.clone(), measure }
+        CameraImageQuery { shading: self.shading.clone(), measure, garment: self.garment.clone() }
     }
 
     /// A source's picture.

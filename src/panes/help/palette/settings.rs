@@ -10,7 +10,7 @@ use crate::catalog::Entry;
 use crate::command::{Command, THEMES};
 use crate::document::correction::CorrectionChoice;
 use crate::document::render::model::{AreaChoice, SpecularChoice};
-use crate::document::render::{MeshChoice, NEAR, ReadingChoice, RenderSettings, RoughnessChoice};
+use crate::document::render::{GARMENT, MeshChoice, NEAR, ReadingChoice, RenderSettings, RoughnessChoice};
 use crate::document::{Diagram, Light, SetKind, Subset, TransformChoice, WhiteBalanceChoice};
 use crate::panes::PaneContext;
 use crate::theme::Surround;
@@ -175,6 +175,9 @@ pub(super) fn render(context: &PaneContext<'_>) -> Vec<Found> {
     };
     for mesh in [MeshChoice::Head, MeshChoice::Fern, MeshChoice::Sphere, MeshChoice::Plane] {
         set("Mesh", format!("Mesh: {}", mesh.name()), "scene object", &|to| to.mesh = mesh.clone());
+    }
+    for (words, garment) in [("Garment of the head: jeans", Some(GARMENT)), ("Garment of the head: none", None)] {
+        set("Garment", words.to_owned(), "clothes collar bare", &|to| to.garment = garment.map(str::to_owned));
     }
     for quality in QualityLevel::ALL {
         set("Quality", format!("Quality: {}", quality.label()), "", &|to| to.quality = quality);

@@ -4,9 +4,10 @@ use super::{Found, IN_HELP};
 use crate::action::history::History;
 use crate::action::{Action, CompareAction, RenderAction, SceneAction};
 use crate::catalog::Entry;
-use crate::command::{Command, Format, REPORTS, TourMove, key_bindings, key_name};
+use crate::command::{Command, REPORTS, TourMove, key_bindings, key_name};
 use crate::document::start::Start;
 use crate::document::{LOCUS_RANGE_K, Light, SetKind, WhiteBalanceChoice};
+use crate::export::FigureForm;
 use crate::help;
 use crate::panes::PaneContext;
 use crate::plot_item::{PlotItem, SensorId};
@@ -106,16 +107,10 @@ pub(super) fn saves(context: &PaneContext<'_>) -> Vec<Found> {
     for pane in context.panes.iter().filter(|pane| pane.figure.is_some()) {
         let page = Found::new("Save", format!("Figure page of {}", pane.title), Command::FigurePage(pane.kind));
         found.push(page.also("print paper export PDF journal"));
-        for (format, words) in [
-            (Format::Pdf, "as PDF"),
-            (Format::Svg, "as SVG"),
-            (Format::Png, "as PNG"),
-            (Format::Csv, "numbers as CSV"),
-            (Format::Json, "numbers as JSON"),
-        ] {
-            let words = format!("Save {} {words}…", pane.title);
-            found
-                .push(Found::new("Save", words, Command::Export(pane.kind, format)).also("export figure picture file"));
+        for form in FigureForm::ALL {
+            let numbers = if form.is_numbers() { "numbers " } else { "" };
+            let words = format!("Save {} {numbers}as {}…", pane.title, form.name());
+            found.push(Found::new("Save", words, Command::Export(pane.kind, form)).also("export figure picture file"));
         }
     }
     for (on, words) in REPORTS {
