@@ -91,7 +91,6 @@ pub enum RenderAction {
     Set {
         /// Name of the changed setting, as shown in the menu.
         what: &'static str,
-        /// The settings as they are to be.
         to: Box<RenderSettings>,
     },
     /// Selects the user's mesh file, which was read.
@@ -114,7 +113,6 @@ pub enum ImportedAction {
     /// Adds imported sets. A single set is put to use; of several, cameras are added to the comparison while the palette
     /// has room, and light and chart stay. A name in use is replaced by a free one.
     Import {
-        /// The sets.
         sets: Vec<ImportedSet>,
         /// Names that they may not have.
         built_in: BuiltInNames,
@@ -123,7 +121,6 @@ pub enum ImportedAction {
     Replace {
         /// The name it had.
         name: String,
-        /// The set as it is to be.
         with: Box<ImportedSet>,
         /// Names that it may not have.
         built_in: BuiltInNames,

@@ -29,7 +29,6 @@ use crate::document::names::{BuiltInNames, caseless};
 pub enum Place {
     /// A built-in file; `column` for files that hold several sets.
     BuiltIn {
-        /// The file.
         file: BuiltInFile,
         /// The value column, if the file holds several sets.
         column: Option<usize>,
@@ -43,7 +42,6 @@ pub enum Place {
 pub struct BuiltInFile {
     /// Its path below `assets`.
     pub path: &'static str,
-    /// Its contents.
     pub text: &'static str,
 }
 
@@ -63,7 +61,6 @@ impl Hash for BuiltInFile {
 /// One data set in the index.
 #[derive(Clone, Debug)]
 pub struct Entry {
-    /// Kind of data.
     pub kind: SetKind,
     /// Its name, unique within its kind.
     pub name: String,

@@ -106,7 +106,6 @@ fn yes() -> bool {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Light {
-    /// A data set.
     Set(String),
     /// A blackbody of the document's temperature.
     BlackBody,
@@ -121,7 +120,6 @@ pub enum Subset {
     /// The paper's five, where the chart has them.
     #[default]
     Five,
-    /// All.
     All,
 }
 

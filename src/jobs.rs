@@ -68,7 +68,6 @@ struct State<J: Job> {
 pub struct Shown<J: Job> {
     /// Job that produced the answer.
     pub job: J,
-    /// The answer.
     pub answer: Arc<J::Answer>,
     /// True if it is of the latest request.
     pub current: bool,

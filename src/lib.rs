@@ -22,6 +22,7 @@
     clippy::missing_errors_doc,
     reason = "each function returns one small error enum whose variants are documented"
 )]
+#![allow(missing_docs, reason = "what the name and type of a field say is not said again")]
 
 pub mod action;
 pub mod app;

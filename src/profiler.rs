@@ -54,7 +54,6 @@ pub struct SceneRun {
     pub conditions: Conditions,
     /// Of each kind of work its methods.
     pub trials: Vec<Trial>,
-    /// Work that was skipped.
     #[serde(alias = "left_out")]
     pub skipped_work: Vec<SkippedWork>,
     /// Total time of the measurement.

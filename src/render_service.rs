@@ -24,11 +24,9 @@ pub const REST_AFTER: f64 = 0.15;
 /// Pictures with the query that they answer.
 #[derive(Clone, Debug)]
 pub struct RenderedFrame {
-    /// The query.
     pub query: PicturesOf,
     /// The sensors, in the query's order.
     pub sources: Arc<[ComparedSensor]>,
-    /// The answer.
     pub answer: Arc<PicturesAnswer>,
     /// Time taken.
     pub time: Duration,
@@ -77,7 +75,6 @@ struct PicturesJob {
     sources: Arc<[ComparedSensor]>,
     /// True if nothing finer is to come.
     is_last: bool,
-    /// True if they are of something that moves.
     moving: bool,
 }
 

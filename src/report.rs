@@ -52,7 +52,6 @@ pub fn claims() -> impl Iterator<Item = &'static Claim> {
 
 /// A claim with its finding.
 pub struct Judged {
-    /// The claim.
     pub claim: &'static Claim,
     /// Finding, or the reason that there is none.
     pub finding: Result<Finding, String>,
@@ -62,7 +61,6 @@ pub struct Judged {
 pub struct ReportFile {
     /// Its name in the report's folder.
     pub name: String,
-    /// Its contents.
     pub bytes: Vec<u8>,
 }
 
@@ -178,11 +176,8 @@ pub fn numbers(judged: &[Judged]) -> Table {
 /// A step of a report that is written to a folder.
 #[derive(Clone)]
 pub struct ReportJob {
-    /// The report.
     pub report: Arc<Report>,
-    /// The folder.
     pub folder: PathBuf,
-    /// The step.
     pub step: usize,
 }
 

@@ -22,7 +22,7 @@ use chromascope_core::light::{DaylightError, RadiationConstants, daylight};
 use chromascope_core::patch_set::{PAPER_FIVE, PatchSet};
 use chromascope_core::query::{
     Ask, ColorTransformSpec, DifferenceError, Locus, LocusQuery, MonochromaticQuery, PatchColor, PatchColorsQuery,
-    RenderingQuery, Shared, SpectralLocusQuery, Temperatures, compare,
+    Query, RenderingQuery, Shared, SpectralLocusQuery, Temperatures, compare,
 };
 use chromascope_core::reflectance::SurfaceError;
 use chromascope_core::scene::lighting::LightingError;
@@ -33,7 +33,7 @@ use chromascope_figure::{InkRole, Marker};
 use crate::catalog::load::{
     FilterQuery, FilteredLightQuery, LightQuery, LoadError, LoadedLight, PatchesQuery, SensorQuery,
 };
-use crate::catalog::{Catalog, Entry, Place};
+use crate::catalog::{Catalog, Entry};
 use crate::document::names::caseless;
 use crate::document::{
     Compared, Document, FIT_TARGET, LOCUS_RANGE_K, Light, SetKind, Subset, TransformChoice, WhiteBalanceChoice,
@@ -48,36 +48,16 @@ pub const LOCUS_POINTS: usize = 200;
 pub enum SceneError {
     /// A name that no set has, as in a session from elsewhere.
     #[error("no {kind} is named \"{name}\" here; open its file, or choose another", kind = kind.singular())]
-    NoSet {
-        /// Kind of the data set.
-        kind: SetKind,
-        /// Its name.
-        name: String,
-    },
+    NoSet { kind: SetKind, name: String },
     /// A set that cannot be computed with.
     #[error("{name}: {error}")]
-    Load {
-        /// Its name.
-        name: String,
-        /// Reason.
-        error: LoadError,
-    },
+    Load { name: String, error: LoadError },
     /// A camera without an ACES input transform under this light.
     #[error("{name}: {error}")]
-    Idt {
-        /// Its name.
-        name: String,
-        /// Reason.
-        error: IdtError,
-    },
+    Idt { name: String, error: IdtError },
     /// A sensor that cannot be shown under this light.
     #[error("{name}: {error}")]
-    Rendering {
-        /// Its name.
-        name: String,
-        /// Reason.
-        error: RenderingError,
-    },
+    Rendering { name: String, error: RenderingError },
     /// A white that has no color.
     #[error("the white-balance target \"{0}\" has no color; choose another")]
     WhiteBalanceTarget(String),
@@ -106,11 +86,9 @@ pub struct ComparedSensor {
     pub label: String,
     /// Its color's role.
     pub role: InkRole,
-    /// Its marker.
     pub marker: Marker,
     /// The width of its lines in points.
     pub width: f64,
-    /// True if it is the reference.
     pub is_reference: bool,
     /// True if the user brought it.
     pub is_own: bool,
@@ -130,7 +108,6 @@ pub enum Caution {
     FitDiffers {
         /// The observer that is fitted to.
         target: String,
-        /// The reference.
         reference: String,
         /// True if the reference is an XYZ observer, so that it can be fitted to.
         can_fit: bool,
@@ -209,9 +186,7 @@ impl<'a> Scene<'a> {
 
     /// A camera's or observer's sensitivities.
     pub fn sensor(&self, kind: SetKind, name: &str) -> Result<Shared<Sensor>, SceneError> {
-        let place = self.find(kind, name)?.place.clone();
-        let answer = self.results.ask(&SensorQuery(place));
-        (*answer).clone().map_err(|error| SceneError::Load { name: name.to_owned(), error })
+        self.loaded(&SensorQuery(self.find(kind, name)?.place.clone()), name)
     }
 
     /// The temperature that marks the loci.
@@ -242,19 +217,26 @@ impl<'a> Scene<'a> {
         let mut names = self.document.filters.clone();
         names.sort();
         let filters = names.iter().map(|name| self.filter(name)).collect::<Result<_, _>>()?;
-        let answer = self.results.ask(&FilteredLightQuery { light, filters });
-        (*answer).clone().map_err(|error| SceneError::Load { name: self.with_filters(name.to_owned()), error })
+        self.loaded(&FilteredLightQuery { light, filters }, &self.with_filters(name.to_owned()))
     }
 
     /// Transmittance of a filter.
     pub fn filter(&self, name: &str) -> Result<Shared<GridSpectrum>, SceneError> {
-        let answer = self.results.ask(&FilterQuery(self.entry(SetKind::Filter, name)?.place));
-        (*answer).clone().map_err(|error| SceneError::Load { name: name.to_owned(), error })
+        self.loaded(&FilterQuery(self.entry(SetKind::Filter, name)?.place), name)
     }
 
-    fn loaded(&self, of: &LightQuery, name: &str) -> Result<LoadedLight, SceneError> {
-        let answer = self.results.ask(of);
-        (*answer).clone().map_err(|error| SceneError::Load { name: name.to_owned(), error })
+    /// The data of a set of that name.
+    fn loaded<T: Clone>(&self, query: &impl Query<Answer = Result<T, LoadError>>, name: &str) -> Result<T, SceneError> {
+        (*self.results.ask(query)).clone().map_err(|error| SceneError::Load { name: name.to_owned(), error })
+    }
+
+    /// What a sensor of that name makes of something.
+    pub(crate) fn rendered<T: Clone>(
+        &self,
+        query: &impl Query<Answer = Result<T, RenderingError>>,
+        name: &str,
+    ) -> Result<T, SceneError> {
+        (*self.results.ask(query)).clone().map_err(|error| SceneError::Rendering { name: name.to_owned(), error })
     }
 
     /// The name of the light with its temperature and the filters in front of it: `D65 × ND 0.3`.
@@ -293,18 +275,7 @@ impl<'a> Scene<'a> {
         name: &str,
         names: Option<&'static [&'static str]>,
     ) -> Result<Shared<PatchSet>, SceneError> {
-        let place = self.find_chart(name)?.place.clone();
-        self.loaded_patches(place, name, names)
-    }
-
-    fn loaded_patches(
-        &self,
-        place: Place,
-        name: &str,
-        names: Option<&'static [&'static str]>,
-    ) -> Result<Shared<PatchSet>, SceneError> {
-        let answer = self.results.ask(&PatchesQuery { place, names });
-        (*answer).clone().map_err(|error| SceneError::Load { name: name.to_owned(), error })
+        self.loaded(&PatchesQuery { place: self.find_chart(name)?.place.clone(), names }, name)
     }
 
     /// The color that a perfect white is to take.
@@ -372,12 +343,8 @@ impl<'a> Scene<'a> {
     pub fn locus_at(&self, kind: SetKind, name: &str, temperatures: Temperatures) -> Result<Arc<Locus>, SceneError> {
         let rendering = self.rendering_of(kind, name)?;
         let query = LocusQuery { rendering, temperatures, constants: RadiationConstants::Paper };
-        let answer = self.results.ask(&query);
-        match &*answer {
-            // One copy of 200 points against a second layer of shared ownership in every caller.
-            Ok(locus) => Ok(Arc::new(locus.clone())),
-            Err(error) => Err(SceneError::Rendering { name: name.to_owned(), error: *error }),
-        }
+        // One copy of 200 points against a second layer of shared ownership in every caller.
+        self.rendered(&query, name).map(Arc::new)
     }
 
     /// A sensor's Planckian locus over the visible range.
@@ -393,14 +360,12 @@ impl<'a> Scene<'a> {
     /// The current patches through a sensor.
     pub fn patch_colors(&self, kind: SetKind, name: &str) -> Result<Vec<PatchColor>, SceneError> {
         let query = PatchColorsQuery { rendering: self.rendering_of(kind, name)?, patches: self.patches()? };
-        let answer = self.results.ask(&query);
-        (*answer).clone().map_err(|error| SceneError::Rendering { name: name.to_owned(), error })
+        self.rendered(&query, name)
     }
 
     /// A sensor's response to monochromatic light.
     pub fn monochromatic(&self, kind: SetKind, name: &str) -> Result<Vec<SpectralPoint>, SceneError> {
-        let answer = self.results.ask(&MonochromaticQuery { rendering: self.rendering_of(kind, name)? });
-        (*answer).clone().map_err(|error| SceneError::Rendering { name: name.to_owned(), error })
+        self.rendered(&MonochromaticQuery { rendering: self.rendering_of(kind, name)? }, name)
     }
 
     /// The outline of the diagram: monochromatic light for CIE 1931.
@@ -447,7 +412,7 @@ impl<'a> Scene<'a> {
 
     /// The compared sensors with how they are drawn, the reference first, hidden ones included.
     pub fn sources(&self) -> Vec<ComparedSensor> {
-        let mut observers = 0_u8;
+        let mut observers = 0;
         let mut sources: Vec<ComparedSensor> =
             self.document.compared.iter().map(|c| self.source(c, &mut observers)).collect();
         sources.sort_by_key(|source| !source.is_reference);
@@ -455,7 +420,7 @@ impl<'a> Scene<'a> {
     }
 
     /// Appearance of one sensor. Observers other than the reference differ by marker only.
-    fn source(&self, compared: &Compared, observers: &mut u8) -> ComparedSensor {
+    fn source(&self, compared: &Compared, observers: &mut usize) -> ComparedSensor {
         let entry = self.find(compared.kind, &compared.name).ok();
         let short = entry.as_ref().map_or_else(|| compared.name.clone(), |entry| entry.short.clone());
         let is_reference = self.document.is_reference(compared);
@@ -463,9 +428,9 @@ impl<'a> Scene<'a> {
             _ if is_reference => (InkRole::Reference, Marker::Plus, 4.0),
             SetKind::Observer => {
                 *observers += 1;
-                (InkRole::Observer, if *observers % 2 == 1 { Marker::Cross } else { Marker::Asterisk }, 1.5)
+                (InkRole::Observer, Marker::observer(*observers - 1), 1.5)
             }
-            _ => (InkRole::Sensor(compared.slot % 8), slot_marker(compared.slot), 2.0),
+            _ => (InkRole::Sensor(compared.slot % 8), Marker::source(compared.slot.into()), 2.0),
         };
         ComparedSensor {
             kind: compared.kind,
@@ -479,20 +444,4 @@ impl<'a> Scene<'a> {
             visible: compared.visible,
         }
     }
-}
-
-/// The marker of a camera's slot; the ninth takes color 1 with marker 5, so that no two look the same before the seventeenth.
-fn slot_marker(slot: u8) -> Marker {
-    const MARKERS: [Marker; 8] = [
-        Marker::Circle,
-        Marker::Square,
-        Marker::TriangleUp,
-        Marker::Diamond,
-        Marker::TriangleDown,
-        Marker::Hexagon,
-        Marker::TriangleRight,
-        Marker::TriangleLeft,
-    ];
-    let slot = usize::from(slot);
-    MARKERS[(slot + slot / 8 * 4) % 8]
 }

@@ -3,15 +3,13 @@
 //! A function that takes a [`RelTolerance`] uses the fastest method whose error it has checked, and returns [`Unmet`] if none
 //! is accurate enough. The scale of the relative error is documented there: a peak, a value, the largest of three signals.
 
-use std::cmp::Ordering;
 use std::fmt;
-use std::hash::{Hash, Hasher};
 
-/// The largest relative error that is allowed: above 0, below 1. Equal and hashed by its bits, so that queries can hold it.
-#[derive(Clone, Copy, Debug)]
-pub struct RelTolerance {
-    max_relative_error: f64,
-}
+use ordered_float::OrderedFloat;
+
+/// The largest relative error that is allowed: above 0, below 1.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct RelTolerance(OrderedFloat<f64>);
 
 impl RelTolerance {
     /// Takes a relative error above 0 and below 1.
@@ -27,7 +25,7 @@ impl RelTolerance {
     /// ```
     pub fn new(max_relative_error: f64) -> Result<Self, NotATolerance> {
         if max_relative_error > 0.0 && max_relative_error < 1.0 {
-            Ok(Self { max_relative_error })
+            Ok(Self(OrderedFloat(max_relative_error)))
         } else {
             Err(NotATolerance { value: max_relative_error })
         }
@@ -35,24 +33,24 @@ impl RelTolerance {
 
     /// The largest relative error that is allowed.
     pub const fn max_relative_error(self) -> f64 {
-        self.max_relative_error
+        self.0.0
     }
 
     /// True if an error is within it. NaN never is.
     pub fn allows(self, relative_error: f64) -> bool {
-        relative_error <= self.max_relative_error
+        relative_error <= self.max_relative_error()
     }
 
     /// A share of it, above 0 and not above 1.
     pub(crate) fn times(self, share: f64) -> Self {
-        Self::at_best(self.max_relative_error * share)
+        Self::at_best(self.max_relative_error() * share)
     }
 
     /// Smallest supported tolerance. Errors of 1 and more, and NaN, count as the largest below 1.
     pub(crate) fn at_best(relative_error: f64) -> Self {
         let largest = 1.0 - f64::EPSILON;
         let clamped = if relative_error < largest { relative_error.max(f64::MIN_POSITIVE) } else { largest };
-        Self { max_relative_error: clamped }
+        Self(OrderedFloat(clamped))
     }
 
     /// Refusal of this tolerance, if a method of this error does not meet it.
@@ -65,38 +63,12 @@ impl RelTolerance {
     }
 }
 
-impl PartialEq for RelTolerance {
-    fn eq(&self, other: &Self) -> bool {
-        self.cmp(other) == Ordering::Equal
-    }
-}
-
-impl Eq for RelTolerance {}
-
-impl Hash for RelTolerance {
-    fn hash<H: Hasher>(&self, state: &mut H) {
-        self.max_relative_error.to_bits().hash(state);
-    }
-}
-
-impl PartialOrd for RelTolerance {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
-impl Ord for RelTolerance {
-    fn cmp(&self, other: &Self) -> Ordering {
-        self.max_relative_error.total_cmp(&other.max_relative_error)
-    }
-}
-
 impl fmt::Display for RelTolerance {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if let Some(digits) = f.precision() {
-            return write!(f, "{:.digits$e}", self.max_relative_error);
+            return write!(f, "{:.digits$e}", self.max_relative_error());
         }
-        write!(f, "{:e}", self.max_relative_error)
+        write!(f, "{:e}", self.max_relative_error())
     }
 }
 

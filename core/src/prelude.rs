@@ -13,4 +13,4 @@ pub use crate::light::{Cct, DaylightBasis, PlanckianLocus, RadiationConstants};
 pub use crate::patch_set::{Patch, PatchSet};
 pub use crate::query::{Ask, Direct, Query, Shared};
 pub use crate::spectral::{Dataset, GridSpectrum, Primaries, Quantity, Response, Sensor, SpectralDistribution};
-pub use crate::units::{Kelvin, Nanometers};
+pub use crate::units::Kelvin;

@@ -27,8 +27,8 @@ pub mod surface;
 
 pub use geometry::Geometry;
 pub use hemispherical::{HemisphericalReflectance, directional_hemispherical, hemispherical_directional};
-pub use normalization::{Method, Normalization};
-pub use power::{beta, coherent_prefactor, diffuse_prefactor, factor, factor_by, factors_by, kappa, wavelength_power};
+pub use normalization::Normalization;
+pub use power::{beta, coherent_prefactor, diffuse_prefactor, factor, factors, kappa, wavelength_power};
 pub use regimes::{Regime, diffuse_sum_by_regimes};
 pub use sum::{
     Precision, SeriesTerms, diffuse_sum, diffuse_sums_into, ln_diffuse_sum, ln_diffuse_sums_into, series_terms,

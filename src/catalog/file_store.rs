@@ -92,7 +92,6 @@ pub enum FileState<T> {
 /// Outcome of opening a file.
 #[derive(Debug)]
 pub struct Opened<T> {
-    /// The file.
     pub path: PathBuf,
     /// Its content, or the reason that there is none.
     pub result: Result<Arc<T>, String>,

@@ -12,7 +12,6 @@ pub const TAKEN_AT_FIRST: usize = 200;
 /// A set as it was read.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Imported {
-    /// The set.
     pub set: ImportedSet,
     /// Summary of the import in one sentence, with what the user should know first.
     pub message: String,
@@ -27,7 +26,6 @@ pub struct Origin {
     pub name: String,
     /// Path on disk, if there is one.
     pub path: Option<PathBuf>,
-    /// Fingerprint of the contents.
     pub fingerprint: Fingerprint,
 }
 

@@ -25,7 +25,6 @@ pub enum LoadError {
     /// A built-in file is damaged.
     #[error("{path}: {error}")]
     Damaged {
-        /// The file.
         path: &'static str,
         /// Cause.
         error: DatasetError,
@@ -132,7 +131,6 @@ impl Query for ReplicatesQuery {
 pub struct LoadedLight {
     /// As measured, or as the formula gives it.
     pub measured: SpectralDistribution,
-    /// On the grid.
     pub grid: Shared<GridSpectrum>,
 }
 
@@ -146,9 +144,7 @@ impl LoadedLight {
 /// Illuminant as a query to the catalog.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub enum LightQuery {
-    /// A data set.
     Set(Place),
-    /// A blackbody.
     BlackBody(Kelvin),
     /// CIE daylight.
     Daylight(Kelvin),
@@ -194,7 +190,6 @@ impl Query for FilterQuery {
 /// A light behind filters.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct FilteredLightQuery {
-    /// The light.
     pub light: LightQuery,
     /// Transmittances of the filters, in any order.
     pub filters: Vec<Shared<GridSpectrum>>,

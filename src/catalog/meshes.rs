@@ -9,7 +9,7 @@ use chromascope_core::query::Shared;
 use chromascope_mesh::Mesh;
 use chromascope_mesh::reading::{MeshReadError, Note, ReadMesh, read_mesh};
 
-use super::file_store::{FileFailure, FileState, FileStore, FromFile, Opened as OpenedFile, Stamp};
+use super::file_store::{FileFailure, FileState, FileStore, FromFile, Stamp};
 use crate::document::render::MeshChoice;
 use crate::format::{capitalized, file_name, io_reason};
 
@@ -17,8 +17,6 @@ use crate::format::{capitalized, file_name, io_reason};
 pub type MeshStore = FileStore<LoadedMesh>;
 /// State of a mesh file.
 pub type MeshState = FileState<LoadedMesh>;
-/// Outcome of opening a mesh file.
-pub type Opened = OpenedFile<LoadedMesh>;
 
 /// The largest mesh file that is read, in bytes.
 pub const MAX_FILE_BYTES: u64 = 1_000_000_000;
@@ -30,7 +28,6 @@ pub const ENDINGS: [&str; 3] = ["obj", "ply", "stl"];
 /// A mesh from a file.
 #[derive(Clone, Debug)]
 pub struct LoadedMesh {
-    /// The mesh.
     pub mesh: Shared<Mesh>,
     /// Tolerated findings, most serious first.
     pub notes: Vec<String>,
@@ -89,7 +86,6 @@ pub enum MeshFailure {
     Io {
         /// The file's name.
         file: String,
-        /// Reason.
         error: io::Error,
     },
     /// A folder or a device.
@@ -104,15 +100,12 @@ pub enum MeshFailure {
     TooLarge {
         /// The file's name.
         file: String,
-        /// Its size.
         bytes: u64,
     },
-    /// There is no memory for it.
     #[error("{file}: not enough memory for its {} MB; close other programs or simplify the mesh", .bytes / 1_000_000)]
     NoMemory {
         /// The file's name.
         file: String,
-        /// Its size.
         bytes: u64,
     },
     /// Its contents make no mesh.
@@ -182,14 +175,7 @@ fn joint(error: &MeshReadError) -> &'static str {
         | E::FaceTooShort { .. }
         | E::FaceTooLong { .. }
         | E::Syntax { .. } => ", ",
-        E::Empty
-        | E::NotAMesh { .. }
-        | E::NoFaces { .. }
-        | E::NoArea { .. }
-        | E::TooLarge { .. }
-        | E::Truncated { .. }
-        | E::Unfinished { .. }
-        | E::Stopped => ": ",
+        _ => ": ",
     }
 }
 

@@ -12,7 +12,6 @@ pub enum NameError {
         kind: &'static str,
         /// Name as typed.
         name: String,
-        /// The nearest names.
         nearest: Vec<String>,
     },
     /// Several names contain it.
@@ -61,7 +60,6 @@ pub fn matches_search(entry: &Entry, search: &str) -> bool {
 /// The entry that a typed name matches.
 #[derive(Clone, Debug)]
 pub struct Found<'a> {
-    /// The entry.
     pub entry: &'a Entry,
     /// True if its own name was typed, ignoring case, punctuation and words such as "illuminant".
     pub exact: bool,

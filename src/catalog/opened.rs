@@ -33,10 +33,8 @@ pub const CLIPBOARD: &str = "clipboard";
 /// A file on disk that could not be read, as it is remembered between runs.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Failing {
-    /// Path of the file.
     #[serde(with = "crate::document::paths")]
     pub path: PathBuf,
-    /// Fingerprint of the contents.
     pub fingerprint: Fingerprint,
     /// Reason, as a message that names the file.
     pub why: String,
@@ -62,7 +60,6 @@ pub enum OpenedEvent {
     Reread {
         /// The sets by the names they had: each as it is now, or why it stays as it was.
         sets: Vec<(String, Result<Imported, String>)>,
-        /// Reason.
         why: Why,
         /// A later reading has a larger number.
         ticket: u64,

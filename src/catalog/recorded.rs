@@ -30,7 +30,6 @@ pub struct RawRow {
 /// Raw values with their spectra.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RawTable {
-    /// The rows.
     pub rows: Vec<RawRow>,
     /// The table's text without the columns R, G and B, if it contains spectra.
     pub spectra: Option<String>,
@@ -68,7 +67,6 @@ pub enum RawTableError {
     Cells {
         /// The line, from 1.
         line: usize,
-        /// Number of cells.
         found: usize,
         /// Number of heads.
         expected: usize,
@@ -96,7 +94,6 @@ pub enum JoinError {
     Unknown {
         /// The line, from 1.
         line: usize,
-        /// The name.
         name: String,
         /// The first of the spectra's names.
         known: String,
@@ -106,7 +103,6 @@ pub enum JoinError {
     Twice {
         /// The line, from 1.
         line: usize,
-        /// The name.
         name: String,
     },
     /// Rows without names, and another number of spectra.
@@ -211,11 +207,8 @@ pub fn read_table(bytes: &[u8]) -> Result<RawTable, RawTableError> {
         let cells = if index == first { heads.clone() } else { cells(line, delimiter) };
         if has_spectra {
             let kept = cells.iter().enumerate().filter(|(at, _)| !columns.contains(at));
-            let needs_quotes = |cell: &str| cell.contains([delimiter, '"']);
-            let quoted = |cell: &String| {
-                if needs_quotes(cell) { format!("\"{}\"", cell.replace('"', "\"\"")) } else { cell.clone() }
-            };
-            spectra += &kept.map(|(_, cell)| quoted(cell)).collect::<Vec<_>>().join(&delimiter.to_string());
+            let kept = kept.map(|(_, cell)| spectral_file::quoted(cell, delimiter));
+            spectra += &kept.collect::<Vec<_>>().join(&delimiter.to_string());
             spectra.push('\n');
         }
         if index == first && !headless {

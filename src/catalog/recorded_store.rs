@@ -4,7 +4,7 @@ use std::fmt;
 use std::fs::File;
 use std::io::Read as _;
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::Arc;
 
 use chromascope_core::camera::chart_grid::ChartGrid;
 use chromascope_core::camera::recorded::RecordedPatch;
@@ -15,7 +15,7 @@ use spectral_file::{ReadOptions, Role};
 use super::chart_picture::ChartPicture;
 use super::recorded::{self, Levels, RawRow};
 use crate::format::{file_name, io_reason};
-use crate::jobs::Executor;
+use crate::jobs::{Executor, Monitor};
 
 /// Endings of pictures of charts.
 pub const PICTURES: [&str; 3] = ["tif", "tiff", "png"];
@@ -43,9 +43,7 @@ pub enum RecordedContent {
 
 /// A file of recorded values.
 pub struct RecordedFile {
-    /// Its name.
     pub name: String,
-    /// Contents.
     pub content: RecordedContent,
 }
 
@@ -71,43 +69,42 @@ pub enum RecordedState {
 
 /// Reads the file of recorded values on a thread.
 pub struct RecordedStore {
-    state: Arc<Mutex<(u64, RecordedState)>>,
+    /// With the number of files opened so far.
+    monitor: Arc<Monitor<(u64, RecordedState)>>,
     executor: Executor,
-    wake: Arc<dyn Fn() + Send + Sync>,
 }
 
 impl RecordedStore {
     /// Creates an empty store. `wake` is called when a file was read, from the thread that read it.
     pub fn on(executor: &Executor, wake: impl Fn() + Send + Sync + 'static) -> Self {
-        Self { state: Arc::default(), executor: executor.clone(), wake: Arc::new(wake) }
+        Self { monitor: Arc::new(Monitor::new(executor, (0, RecordedState::None), wake)), executor: executor.clone() }
     }
 
     /// State of the selected file.
     pub fn state(&self) -> RecordedState {
-        self.state.lock().unwrap_or_else(PoisonError::into_inner).1.clone()
+        self.monitor.lock().1.clone()
     }
 
     /// Starts reading a file in place of the selected one.
     pub fn open(&self, path: &Path) {
         let ticket = {
-            let mut state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
+            let mut state = self.monitor.lock();
             *state = (state.0 + 1, RecordedState::Loading(file_name(path)));
             state.0
         };
-        let (shared, wake, file) = (Arc::clone(&self.state), Arc::clone(&self.wake), path.to_owned());
+        let (monitor, file) = (Arc::clone(&self.monitor), path.to_owned());
         let work = move || {
             let read = read(&file);
-            let mut state = shared.lock().unwrap_or_else(PoisonError::into_inner);
+            let mut state = monitor.lock();
             // Another file may have been opened meanwhile.
             if state.0 == ticket {
                 state.1 = read.map_or_else(RecordedState::Failed, |file| RecordedState::Ready(Arc::new(file)));
             }
             drop(state);
-            wake();
+            monitor.tell();
         };
         if let Err(error) = self.executor.spawn("recorded", work) {
-            let mut state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
-            state.1 = RecordedState::Failed(format!("{}: {}", file_name(path), io_reason(&error)));
+            self.monitor.lock().1 = RecordedState::Failed(format!("{}: {}", file_name(path), io_reason(&error)));
         }
     }
 }

@@ -31,16 +31,10 @@ const DATA: [&str; 9] = ["img", "dat", "raw", "bil", "bip", "bsq", "bin", "cube"
 pub enum OpenImageError {
     /// The file cannot be read.
     #[error("{}: {}", path.display(), crate::format::io_reason(error))]
-    Io {
-        /// The file.
-        path: PathBuf,
-        /// Reason.
-        error: io::Error,
-    },
+    Io { path: PathBuf, error: io::Error },
     /// A header without its data file.
     #[error("{}: no data beside this header; expected {} or that name with .img, .dat, .bil, .bip or .bsq", header.display(), data.display())]
     NoData {
-        /// The header.
         header: PathBuf,
         /// The data's name.
         data: PathBuf,
@@ -48,19 +42,13 @@ pub enum OpenImageError {
     /// Data without its header file.
     #[error("{}: no header beside these data; expected {}", data.display(), header.display())]
     NoHeader {
-        /// The data.
         data: PathBuf,
         /// The header's name.
         header: PathBuf,
     },
     /// The file is no spectral image.
     #[error("{}: {error}", path.display())]
-    Image {
-        /// The file.
-        path: PathBuf,
-        /// Reason.
-        error: ImageError,
-    },
+    Image { path: PathBuf, error: ImageError },
 }
 
 /// A spectral image whose rows are read from disk when requested.
@@ -169,7 +157,6 @@ pub struct ImageSource {
     pub path: PathBuf,
     /// State of the header and of the data.
     pub version: [Stamp; 2],
-    /// Rows read.
     pub rows: RowsRead,
 }
 

@@ -17,6 +17,7 @@ use super::request::{Request, display_path};
 use crate::catalog::chart_picture::ChartPicture;
 use crate::catalog::recorded::{self, Levels, RawRow, RawTable, lit};
 use crate::document::imported::Role;
+use crate::document::start::Start;
 use crate::results::Results;
 use crate::scene::Scene;
 
@@ -25,7 +26,7 @@ type Spectra = Vec<(String, GridSpectrum)>;
 
 /// Ranks the cameras and writes the result.
 pub(super) fn run(arguments: &IdentifyArguments) -> Result<(), CliError> {
-    let mut request = Request::of_cameras("--camera", &arguments.camera, arguments.per)?;
+    let mut request = Request::of_cameras(Start::Colorimetry, "--camera", &arguments.camera, arguments.per)?;
     request.values = arguments.values;
     let levels = levels(arguments)?;
     let recorded = recorded_set(&mut request, arguments, levels)?;

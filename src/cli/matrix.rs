@@ -10,6 +10,7 @@ use arguments::{Format, MatrixArguments};
 use super::error::CliError;
 use super::outputs;
 use super::request::Request;
+use crate::document::start::Start;
 use crate::export::profile::{CorrectionFileQuery, clf, idt_note};
 use crate::results::Results;
 use crate::scene::{Scene, SceneError};
@@ -17,7 +18,8 @@ use crate::terminal::say;
 
 /// Writes the color correction of a camera.
 pub(super) fn run(arguments: &MatrixArguments) -> Result<(), CliError> {
-    let mut request = Request::of_cameras("CAMERA", std::slice::from_ref(&arguments.camera), arguments.per)?;
+    let cameras = std::slice::from_ref(&arguments.camera);
+    let mut request = Request::of_cameras(Start::Colorimetry, "CAMERA", cameras, arguments.per)?;
     request.set_light(&arguments.illuminant)?;
     request.set_fit_target(&arguments.fit_to)?;
     request.set_correction(arguments.fit, &arguments.training)?;

@@ -1,9 +1,8 @@
 //! Measured radiances as `patches` takes them: integrated as they are, balanced to the radiance of a white among them.
 
 use std::path::Path;
-use std::sync::Arc;
 
-use chromascope_core::query::{Ask as _, PatchColor, RadianceColorsQuery, RenderingQuery, Shared};
+use chromascope_core::query::{PatchColor, RadianceColorsQuery, RenderingQuery, Shared};
 use chromascope_core::spectral::{GridSpectrum, Quantity};
 
 use super::error::CliError;
@@ -46,9 +45,7 @@ impl Radiances {
         let light = adopted.clone().unwrap_or_else(|| Shared::new(GridSpectrum::constant(1.0)));
         let sensor = scene.sensor(kind, name)?;
         let rendering = RenderingQuery { sensor, light, white: scene.white()?, transform: scene.transform()? };
-        let answer = scene.results.ask(&RadianceColorsQuery { rendering, radiances: self.spectra.clone() });
-        let colors = Arc::unwrap_or_clone(answer);
-        let mut colors = colors.map_err(|error| SceneError::Rendering { name: name.to_owned(), error })?;
+        let mut colors = scene.rendered(&RadianceColorsQuery { rendering, radiances: self.spectra.clone() }, name)?;
         if adopted.is_none() {
             for color in &mut colors {
                 color.lab = None;

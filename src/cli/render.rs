@@ -12,8 +12,8 @@ use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
 use chromascope_core::camera::Rendering;
+use chromascope_core::query::DifferenceError;
 use chromascope_core::query::render::picture::{Pictures, PicturesQuery};
-use chromascope_core::query::{Ask as _, DifferenceError, RenderingQuery};
 use chromascope_core::render::{CameraImage, Picture};
 use clap::ArgMatches;
 use rayon::prelude::*;
@@ -87,9 +87,9 @@ impl<'a> Made<'a> {
         let mesh = mesh.ok_or_else(|| CliError::File(format!("{}: no mesh", arguments.mesh.display())))?;
         let query = scene.pictures_of(&sources, mesh, setup.viewpoint, setup.finish, None)?;
         // Exposure refers to the reference, compared or not. Errors are reported before anything large is computed.
-        rendering(&scene, &document.reference, &query.reference)?;
+        scene.rendered(&query.reference, &document.reference)?;
         for (source, of) in sources.iter().zip(&query.sources) {
-            rendering(&scene, &source.name, &of.rendering)?;
+            scene.rendered(&of.rendering, &source.name)?;
         }
         let comparable = |source: &ComparedSensor| Ok(scene.comparable(source.kind, &source.name)?.err());
         let not_comparable = sources.iter().map(comparable).collect::<Result<_, SceneError>>()?;
@@ -97,11 +97,8 @@ impl<'a> Made<'a> {
         let outputs = files.iter().map(PathBuf::as_path).chain(arguments.stats.as_deref());
         outputs::check(outputs, &setup.request.inputs(), arguments.force)?;
         make_folder(&arguments.out)?;
-        let pictures = match &*results.ask(&query) {
-            Ok(Some(pictures)) => pictures.clone(),
-            Ok(None) => return Err(CliError::File("the pictures were not finished".to_owned())),
-            Err(error) => return Err(SceneError::Rendering { name: document.reference.clone(), error: *error }.into()),
-        };
+        let unfinished = || CliError::File("the pictures were not finished".to_owned());
+        let pictures = scene.rendered(&query, &document.reference)?.ok_or_else(unfinished)?;
         Ok(Self { setup, scene, sources, not_comparable, files, query, pictures })
     }
 
@@ -130,7 +127,7 @@ impl<'a> Made<'a> {
         }
         let image = self.pictures.images[index].as_ref();
         let image = image.ok_or_else(|| CliError::File(format!("{name}: no picture")))?;
-        let rendering = rendering(&self.scene, name, &self.query.sources[index].rendering)?;
+        let rendering = self.scene.rendered(&self.query.sources[index].rendering, name)?;
         let shading = &self.query.shading;
         let provenance = Provenance {
             source: name,
@@ -212,10 +209,4 @@ impl Content<'_> {
             Self::Exr { image, rendering, provenance } => exr_bytes(image, rendering, provenance),
         }
     }
-}
-
-/// Color transform of a sensor, or the reason why it has none.
-fn rendering(scene: &Scene<'_>, name: &str, of: &RenderingQuery) -> Result<Rendering, SceneError> {
-    let answer = scene.results.ask(of);
-    (*answer).clone().map_err(|error| SceneError::Rendering { name: name.to_owned(), error })
 }

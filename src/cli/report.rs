@@ -18,7 +18,7 @@ use crate::terminal::draw_progress;
 
 /// Makes the report.
 pub(super) fn run(arguments: &ReportArguments) -> Result<(), CliError> {
-    let mut request = Request::of_cameras_under(Start::Paper, "--camera", &arguments.camera, arguments.per)?;
+    let mut request = Request::of_cameras(Start::Paper, "--camera", &arguments.camera, arguments.per)?;
     request.set_chart(arguments.chart.as_deref())?;
     if let Some(illuminant) = &arguments.illuminant {
         request.set_light(illuminant)?;

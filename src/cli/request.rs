@@ -75,13 +75,8 @@ impl Request {
         Ok(request)
     }
 
-    /// Cameras alone, under the colorimetry preset.
-    pub(super) fn of_cameras(argument: &'static str, cameras: &[OsString], per: Option<Per>) -> Result<Self, CliError> {
-        Self::of_cameras_under(Start::Colorimetry, argument, cameras, per)
-    }
-
     /// Cameras alone, under a preset.
-    pub(super) fn of_cameras_under(
+    pub(super) fn of_cameras(
         preset: Start,
         argument: &'static str,
         cameras: &[OsString],

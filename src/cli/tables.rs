@@ -9,7 +9,7 @@ use chromascope_core::query::{LocusPoint, PatchColor, Temperatures, compare};
 use chromascope_core::spectral::Primaries;
 use chromascope_core::units::Kelvin;
 use clap::ArgMatches;
-use spectral_file::guarded;
+use spectral_file::cell;
 
 use cct::ReferenceLocus;
 
@@ -236,6 +236,5 @@ pub(super) fn significant(value: f64) -> String {
 
 /// A text field, quoted where it must be, that no spreadsheet takes for a formula.
 pub(super) fn field(text: &str) -> String {
-    let text = guarded(text);
-    if text.contains([',', '"', '\n', '\r']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.into_owned() }
+    cell(text, ',')
 }

@@ -12,7 +12,6 @@ pub const TRAINING: &str = "Training reflectances (190)";
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, rename_all = "kebab-case")]
 pub struct CorrectionChoice {
-    /// Method.
     #[serde(with = "method_id")]
     pub method: CorrectionMethod,
     /// True if a perfect diffuser's color is preserved.

@@ -58,9 +58,7 @@ impl ImportOverrides {
 /// Units of the file as interpreted, before conversion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub struct ReadAs {
-    /// The unit of the wavelengths.
     pub unit: WavelengthUnit,
-    /// True if values were percent.
     pub percent: bool,
 }
 
@@ -122,7 +120,6 @@ impl Fingerprint {
 /// A session's file as it was last read or written by this window.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct SessionFile {
-    /// Its path.
     #[serde(with = "super::paths")]
     pub path: PathBuf,
     /// Fingerprint of its contents; other contents were written by another program.

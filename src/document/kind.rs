@@ -14,7 +14,6 @@ pub enum SetKind {
     Observer,
     /// A set of patches.
     Chart,
-    /// A light.
     Illuminant,
     /// Transmittance of a filter in front of the light.
     Filter,

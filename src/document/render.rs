@@ -49,7 +49,6 @@ pub fn decade(tolerance: f64) -> f64 {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct RenderSettings {
-    /// Mesh to render.
     pub mesh: MeshChoice,
     /// Approximate number of triangles of the program's own meshes.
     pub triangles: usize,
@@ -236,7 +235,6 @@ pub enum MeshChoice {
     Head,
     /// The program's fern.
     Fern,
-    /// A sphere.
     Sphere,
     /// A square.
     Plane,

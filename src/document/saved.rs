@@ -18,7 +18,6 @@ pub struct Place(pub String, pub usize);
 /// A document that was read, with its missing parts.
 #[derive(Debug)]
 pub struct LoadedDocument {
-    /// The document.
     pub document: Document,
     /// Places of the curves of its sets, in their order; none for a set that the document holds itself.
     pub places: Vec<Option<Place>>,

@@ -37,7 +37,6 @@ pub enum Node {
     Root(Box<Node>),
     /// Base with sub- and superscript, placed below and above a large operator.
     Scripts {
-        /// The base.
         base: Box<Node>,
         /// Subscript or lower limit.
         lower: Option<Box<Node>>,

@@ -8,20 +8,17 @@ use super::formula::{Formula, FormulaError};
 /// Part of a page.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Block {
-    /// A heading.
     Heading {
         /// From 1, the page's title, to 3.
         level: u8,
         /// The words.
         content: Vec<Inline>,
     },
-    /// A paragraph.
     Paragraph(Vec<Inline>),
     /// A list; numbered from `start` if there is one.
     List {
         /// The first number.
         start: Option<u64>,
-        /// The items.
         items: Vec<Vec<Block>>,
     },
     /// A table; the first row is its head.
@@ -39,7 +36,6 @@ pub enum Inline {
     Text {
         /// The words.
         text: String,
-        /// Their style.
         style: Style,
         /// Target of a click.
         link: Option<String>,
@@ -110,12 +106,6 @@ pub fn plain(content: &[Inline]) -> String {
         Inline::Formula(formula) => formula.words(),
     });
     words.collect()
-}
-
-/// The words with a capital first letter.
-pub fn capitalized(words: &str) -> String {
-    let mut letters = words.chars();
-    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }
 
 /// Parses a page.

@@ -2,7 +2,7 @@
 
 use chromascope_figure::{
     Anchor, Ink, InkRole, LegendEntry, Mark, Marker, MarkerOutline, Rgb, Shape as Form, Stroke as Pen, TextSize,
-    finite_runs,
+    color_runs, finite_runs,
 };
 use egui::{Color32, Painter, Pos2, Rect, Shape, Stroke, StrokeKind, Vec2, epaint::PathStroke};
 
@@ -137,18 +137,10 @@ impl Brush<'_> {
 
     fn gradient(&self, mark: &Mark, points: &[([f64; 2], Rgb)]) {
         let pen = mark.stroke.unwrap_or(Pen::solid(InkRole::Text, 2.0));
-        let finite = |p: &([f64; 2], Rgb)| p.0.iter().all(|v| v.is_finite());
-        for run in points.split(|p| !finite(p)) {
-            let mut start = 0;
-            while start + 1 < run.len() {
-                let color = run[start].1;
-                let same = run[start + 1..].iter().take_while(|p| p.1 == color).count();
-                let end = (start + same.max(1) + 1).min(run.len());
-                let placed: Vec<Pos2> = run[start..end].iter().map(|p| self.view.at(p.0)).collect();
-                let ink = Ink { role: InkRole::Rgb(color), alpha: pen.ink.alpha };
-                self.path(&placed, false, Pen { ink, ..pen });
-                start = end - 1;
-            }
+        for run in color_runs(points) {
+            let placed: Vec<Pos2> = run.iter().map(|p| self.view.at(p.0)).collect();
+            let ink = Ink { role: InkRole::Rgb(run[0].1), alpha: pen.ink.alpha };
+            self.path(&placed, false, Pen { ink, ..pen });
         }
     }
 

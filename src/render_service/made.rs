@@ -14,7 +14,6 @@ use crate::scene::spectral_image::{ImagePictures, ImagePicturesError, ImagePictu
 /// Query for pictures side by side.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub enum PicturesOf {
-    /// Of a mesh.
     Mesh(PicturesQuery),
     /// Of a spectral image.
     Image(ImagePicturesQuery),
@@ -95,7 +94,6 @@ pub enum NoPictures {
 /// Answer to a query for pictures.
 #[derive(Clone, Debug)]
 pub enum PicturesAnswer {
-    /// Of a mesh.
     Mesh(Arc<<PicturesQuery as Query>::Answer>),
     /// Of a spectral image.
     Image(Arc<<ImagePicturesQuery as Query>::Answer>),

@@ -14,7 +14,6 @@ use crate::results::Results;
 pub struct PixelReading {
     /// Right and down, in pixels.
     pub at: [usize; 2],
-    /// Contents of the pixel.
     pub shows: PixelShows,
 }
 

@@ -22,7 +22,6 @@ pub(super) const KODAK: &str = "Kodak DCS200";
 /// Agreement of a claim with what is found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdict {
-    /// It holds.
     Holds,
     /// It holds within limits.
     Partly,
@@ -56,11 +55,9 @@ impl Verdict {
 /// A number that was found.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Value {
-    /// Quantity.
     pub quantity: String,
     /// Sensor it is of; may be empty.
     pub sensor: String,
-    /// The number.
     pub number: f64,
     /// Decimals that are stated.
     pub decimals: usize,
@@ -83,7 +80,6 @@ pub struct Claim {
     pub key: &'static str,
     /// Part of the paper.
     pub part: &'static str,
-    /// The claim.
     pub paper: &'static str,
     /// Reason that it holds or not.
     pub why: &'static str,

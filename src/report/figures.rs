@@ -17,9 +17,7 @@ use crate::view::{SpectraLayout, View};
 
 /// A figure of the paper.
 pub struct PaperFigure {
-    /// Its number.
     pub number: u8,
-    /// Contents.
     pub title: &'static str,
     make: fn(&Subject<'_>, FigureRoom, Pixels) -> Option<Figure>,
 }

@@ -47,7 +47,6 @@ struct Made<A> {
 
 /// Result of a cache lookup.
 pub(super) enum Asked<'a, Q: Query> {
-    /// The answer.
     Known(Arc<Q::Answer>),
     /// The asker computes it.
     Ours(Claim<'a, Q>),

@@ -31,8 +31,7 @@ pub enum NoConsistency {
 impl Scene<'_> {
     /// Observers and samples of the indices.
     pub fn standards(&self) -> Result<Shared<Standards>, SceneError> {
-        let answer = self.results.ask(&StandardsQuery);
-        (*answer).clone().map_err(|error| SceneError::Load { name: "test samples".to_owned(), error })
+        self.loaded(&StandardsQuery, "test samples")
     }
 
     /// Rendition indices of the light, filters included.

@@ -9,9 +9,7 @@ use crate::document::{Diagram, SetKind, TransformChoice};
 /// The smallest distance between a locus and the reference's at equal temperature.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Nearest {
-    /// The temperature in kelvins.
     pub kelvin: f64,
-    /// The distance there.
     pub distance: f64,
     /// True if it lies at an end of the temperatures, where it is no minimum of the curve.
     pub at_end: bool,

@@ -98,9 +98,7 @@ impl Query for CatalogMetricsQuery {
 /// A set of the catalog or the user's, without its header.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct SetPlace {
-    /// Kind.
     pub kind: SetKind,
-    /// Name.
     pub name: String,
     /// Location of its figures.
     pub place: Place,
@@ -122,11 +120,9 @@ pub struct CatalogMetamersQuery {
 /// Two reflectances that are confused: set and name of each, and the kind of each set.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MetamerRow {
-    /// The pair.
     pub pair: MetamerPair,
     /// Name of its set, and of each in it.
     pub names: [[String; 2]; 2],
-    /// Kind of each set.
     pub kinds: [SetKind; 2],
 }
 

@@ -22,17 +22,9 @@ pub struct RankedCamera {
     pub fit: Result<RecordedFit, RecordedError>,
 }
 
-impl RankedCamera {
-    /// RMS of the log error in percent; none where there is no fit.
-    pub fn rms_percent(&self) -> Option<f64> {
-        self.fit.as_ref().ok().map(|fit| fit.rms() * 100.0)
-    }
-}
-
 /// Question for cameras ranked by their fit to recorded values. They are loaded where it is answered.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct RecordedRankingQuery {
-    /// The recorded values.
     pub recorded: RecordedSet,
     freedom: Freedom,
     cameras: Vec<SetPlace>,

@@ -9,6 +9,7 @@ use chromascope_core::spectral::GridSpectrum;
 use chromascope_mesh::Mesh;
 
 use super::{ComparedSensor, Scene, SceneError};
+use crate::catalog::load::PatchesQuery;
 use crate::document::render::{BALANCE, MeshChoice, SUN};
 use crate::document::{SetKind, WhiteBalanceChoice};
 
@@ -32,7 +33,7 @@ impl Scene<'_> {
     pub fn material(&self, name: &str) -> Result<Shared<GridSpectrum>, SceneError> {
         let no_set = || SceneError::NoSet { kind: SetKind::Material, name: name.to_owned() };
         let known = self.entry(SetKind::Material, name).or_else(|_| self.chart_entry(name)).map_err(|_| no_set())?;
-        let set = self.loaded_patches(known.place, name, None)?;
+        let set = self.loaded(&PatchesQuery { place: known.place, names: None }, name)?;
         let patch = set.patches().first().ok_or_else(no_set)?;
         Ok(Shared::new(patch.grid.clone()))
     }

@@ -49,7 +49,6 @@ pub struct ImageUse {
     pub quantity: Option<ImageQuantity>,
     /// Value that represents 1.
     pub scale: f64,
-    /// Exposure in EV.
     pub exposure_ev: f64,
     /// Every how many rows and pixels are taken.
     pub step: usize,
@@ -58,7 +57,6 @@ pub struct ImageUse {
 /// Query for the signals of sensors at the pixels of an image.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct ImageSignalsQuery {
-    /// The image.
     pub source: ImageSource,
     /// Quantity of the samples, overriding the file's.
     pub wanted: Option<ImageQuantity>,
@@ -78,7 +76,6 @@ pub struct ImageSignals {
     pub read: ReadSignals,
     /// Quantity of the samples.
     pub quantity: ImageQuantity,
-    /// The whole image.
     pub info: ImageInfo,
 }
 
@@ -124,7 +121,6 @@ impl ImageSignalsQuery {
 pub struct ImagePicturesQuery {
     /// Signals of the reference, then of each sensor that has colors.
     pub signals: ImageSignalsQuery,
-    /// The reference.
     pub reference: RenderingQuery,
     /// The sensors, and whether each is compared with the reference.
     pub sources: Vec<(RenderingQuery, bool)>,
@@ -296,7 +292,6 @@ fn bright(rendering: &Rendering, signals: &[[f32; 3]]) -> Option<f64> {
 /// Query for the spectrum of one pixel of an image.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct PixelSpectrumQuery {
-    /// The image.
     pub source: ImageSource,
     /// Quantity of the samples, overriding the file's.
     pub wanted: Option<ImageQuantity>,

@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use chromascope::action::history::History;
 use chromascope::app::ChromascopeApp;
-use chromascope::catalog::meshes::{LoadedMesh, MeshFailure, MeshState, MeshStore, Opened, is_mesh, read};
+use chromascope::catalog::meshes::{LoadedMesh, MeshFailure, MeshState, MeshStore, is_mesh, read};
 use chromascope::command::Command;
 use chromascope::document::render::MeshChoice;
 use chromascope::document::{Document, session};
@@ -65,9 +65,9 @@ fn wait<T>(what: &str, mut found: impl FnMut() -> Option<T>) -> T {
 
 fn opened(store: &MeshStore, path: &Path) -> Result<Arc<LoadedMesh>, String> {
     store.open(path);
-    let Opened { path: told, result } = wait("opening", || store.poll().pop());
-    assert_eq!(told, path);
-    result
+    let opened = wait("opening", || store.poll().pop());
+    assert_eq!(opened.path, path);
+    opened.result
 }
 
 fn settled(store: &MeshStore, path: &Path) -> MeshState {

@@ -6,7 +6,7 @@ use chromascope_core::light::planckian::{black_body, exitance, relative_exitance
 use chromascope_core::light::{DaylightBasis, DaylightError, RadiationConstants};
 use chromascope_core::spectral::grid::{COUNT, wavelength_nm};
 use chromascope_core::spectral::{GridSpectrum, Quantity};
-use chromascope_core::units::{Kelvin, Nanometers};
+use chromascope_core::units::Kelvin;
 use proptest::prelude::*;
 
 use crate::support::{CIE_1931, assert_near, assert_xy, cases, dataset, kelvin, reference_numbers, sensor};
@@ -31,7 +31,7 @@ fn planck_matches_fifty_digits() {
             // The law's own conditioning: an exponent x carries the rounding of its argument, x ε.
             let x = constants.second() * 1e9 / (nm * t);
             let conditioning = 1e-15 + 3.0 * x * f64::EPSILON;
-            let value = exitance(Nanometers::new(nm).unwrap(), kelvin(t), constants);
+            let value = exitance(nm, kelvin(t), constants);
             if row[2 + edition] == 0.0 {
                 assert!(value < 3e-308, "{what}: {value}");
             } else {
@@ -63,13 +63,13 @@ fn wiens_laws_hold() {
         let (nm, t) = (400.0_f64, 900.0);
         let x = constants.second() * 1e9 / (nm * t);
         let wien = constants.first() / (nm * 1e-9).powi(5) * (-x).exp();
-        let planck = exitance(Nanometers::new(nm).unwrap(), kelvin(t), constants);
+        let planck = exitance(nm, kelvin(t), constants);
         assert_near("Wien", planck / wien, 1.0, 1e-14);
         // And where x is small: Rayleigh and Jeans, to first order x/2.
         let t = 1e9;
         let x = constants.second() * 1e9 / (nm * t);
         let jeans = constants.first() / (nm * 1e-9).powi(5) / x;
-        let planck = exitance(Nanometers::new(nm).unwrap(), kelvin(t), constants);
+        let planck = exitance(nm, kelvin(t), constants);
         assert_near("Rayleigh-Jeans", planck / jeans, 1.0 - x / 2.0, 1e-9);
     }
 }
@@ -104,7 +104,7 @@ proptest! {
     #[test]
     fn hotter_is_brighter_and_bluer(t in 500.0..50_000.0, factor in 1.01..3.0) {
         for nm in [400.0, 550.0, 700.0] {
-            let at = |t: f64| exitance(Nanometers::new(nm).unwrap(), kelvin(t), RadiationConstants::Paper);
+            let at = |t: f64| exitance(nm, kelvin(t), RadiationConstants::Paper);
             prop_assert!(at(t * factor) > at(t));
         }
         let blue = |t: f64| relative_exitance(450.0, 650.0, kelvin(t), RadiationConstants::Paper);
@@ -173,7 +173,7 @@ fn daylight_is_refused_outside_its_range() {
 fn exitance_is_a_number_at_any_wavelength_and_temperature() {
     for nm in [5e-324, 1e-300, 1e-60, 1.0, 1e60, 1e300] {
         for t in [5e-324, 1e-300, 1.0, 1e100, 1e300] {
-            let e = exitance(Nanometers::new(nm).unwrap(), kelvin(t), RadiationConstants::Paper);
+            let e = exitance(nm, kelvin(t), RadiationConstants::Paper);
             assert!(e.is_finite() && e >= 0.0, "{nm} nm, {t} K: {e}");
         }
     }

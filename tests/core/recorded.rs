@@ -195,7 +195,7 @@ proptest! {
         let mut patches = recording(&camera, &light(D55), |_| 1.0, |p, c| noise[p][c]);
         for at in missing {
             let at = at.index(72);
-            patches[at / 3].rgb[at % 3] = Signal::excluded(Exclusion::Missing);
+            patches[at / 3].rgb[at % 3] = Signal::new(f64::NAN, f64::INFINITY);
         }
         let scaled: Vec<RecordedPatch> = patches.iter().enumerate().map(|(p, patch)| {
             let mut patch = patch.clone();

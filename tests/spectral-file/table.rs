@@ -25,7 +25,7 @@ fn ok_bytes(bytes: &[u8]) -> SpectralFile {
     read(bytes, &ReadOptions::default()).unwrap_or_else(|error| panic!("{error}"))
 }
 
-fn error(text: &str) -> ReadError {
+pub(crate) fn error(text: &str) -> ReadError {
     match read(text.as_bytes(), &ReadOptions::default()) {
         Err(error) => error,
         Ok(table) => panic!("read as {table:?}"),
@@ -36,7 +36,7 @@ fn samples(curve: &Curve) -> Vec<(f64, f64)> {
     curve.wavelengths_nm.iter().copied().zip(curve.values.iter().copied()).collect()
 }
 
-fn names(table: &SpectralFile) -> Vec<&str> {
+pub(crate) fn names(table: &SpectralFile) -> Vec<&str> {
     table.curves.iter().map(|curve| curve.name.as_str()).collect()
 }
 

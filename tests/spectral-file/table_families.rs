@@ -12,19 +12,10 @@ use spectral_file::{
     SpectralFile, Values, Warning, read,
 };
 
+use super::table::{error, names};
+
 fn ok(text: &str) -> SpectralFile {
     read(text.as_bytes(), &ReadOptions::default()).unwrap_or_else(|error| panic!("{error}\n{text}"))
-}
-
-fn error(text: &str) -> ReadError {
-    match read(text.as_bytes(), &ReadOptions::default()) {
-        Err(error) => error,
-        Ok(table) => panic!("read as {table:?}"),
-    }
-}
-
-fn names(table: &SpectralFile) -> Vec<&str> {
-    table.curves.iter().map(|curve| curve.name.as_str()).collect()
 }
 
 fn samples(table: &SpectralFile, curve: usize) -> Vec<(f64, f64)> {

@@ -26,7 +26,9 @@ pub use annotation::{Annotation, annotations};
 pub use axis::{Axis, MIN_LABEL_SPACING, Tick, Ticks, auto_ticks};
 pub use figure::Figure;
 pub use ink::{Ink, InkRole, Palette};
-pub use mark::{Anchor, Dash, Image, Mark, Marker, MarkerOutline, Rgb, Shape, Stroke, Tag, TextSize, finite_runs};
+pub use mark::{
+    Anchor, Dash, Image, Mark, Marker, MarkerOutline, Rgb, Shape, Stroke, Tag, TextSize, color_runs, finite_runs,
+};
 pub use page::{AxisTitles, Page, PageStyle};
 pub use panel::{LegendEntry, LegendPlace, Panel};
 pub use projection::{Projection, fit_equal};

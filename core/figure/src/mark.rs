@@ -404,3 +404,18 @@ fn star(lines: u32, first: f64, radius: f64) -> Vec<[[f64; 2]; 2]> {
 pub fn finite_runs(points: &[[f64; 2]]) -> impl Iterator<Item = &[[f64; 2]]> {
     points.split(|p| !p.iter().all(|v| v.is_finite())).filter(|run| !run.is_empty())
 }
+
+/// The stretches of a line between points that are not finite, cut where the color changes. Each takes the color of its start.
+pub fn color_runs(points: &[([f64; 2], Rgb)]) -> Vec<&[([f64; 2], Rgb)]> {
+    let mut runs = Vec::new();
+    for run in points.split(|p| !p.0.iter().all(|v| v.is_finite())) {
+        let mut start = 0;
+        while start + 1 < run.len() {
+            let same = run[start + 1..].iter().take_while(|p| p.1 == run[start].1).count();
+            let end = start + same.max(1);
+            runs.push(&run[start..=end]);
+            start = end;
+        }
+    }
+    runs
+}

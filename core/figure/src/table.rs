@@ -1,6 +1,6 @@
 //! The numbers beside a figure.
 
-use chromascope_text::guarded;
+use chromascope_text::cell;
 
 /// A cell of a table.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -83,11 +83,11 @@ impl Table {
 
     fn delimited(&self, separator: char) -> String {
         let mut out = String::new();
-        push_line(&mut out, self.columns.iter().map(|name| quoted(name, separator)), separator);
+        push_line(&mut out, self.columns.iter().map(|name| cell(name, separator)), separator);
         for row in &self.rows {
             let cells = (0..self.columns.len()).map(|i| match row.get(i) {
                 Some(Cell::Number(value)) if value.is_finite() => number(*value),
-                Some(Cell::Text(text)) => quoted(text, separator),
+                Some(Cell::Text(text)) => cell(text, separator),
                 _ => String::new(),
             });
             push_line(&mut out, cells, separator);
@@ -109,13 +109,4 @@ fn push_line(out: &mut String, cells: impl Iterator<Item = String>, separator: c
 fn number(value: f64) -> String {
     let magnitude = value.abs();
     if magnitude != 0.0 && !(1e-5..1e15).contains(&magnitude) { format!("{value:e}") } else { format!("{value}") }
-}
-
-fn quoted(text: &str, separator: char) -> String {
-    let text = guarded(text);
-    if text.contains([separator, '"', '\n', '\r']) {
-        format!("\"{}\"", text.replace('"', "\"\""))
-    } else {
-        text.into_owned()
-    }
 }

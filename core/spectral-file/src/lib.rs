@@ -87,7 +87,7 @@ mod wide;
 pub mod write;
 
 pub use binary::BinaryKind;
-pub use chromascope_text::{guarded, on_one_line, turns_text};
+pub use chromascope_text::{cell, guarded, lowered, on_one_line, quoted, turns_text};
 pub use error::{NearMiss, ReadError};
 pub use file::{Curve, SpectralFile};
 pub use limits::{MAX_BYTES, MAX_CURVES, MAX_SAMPLES};

@@ -47,11 +47,6 @@ impl Signal {
         })
     }
 
-    /// Signal that is omitted for a reason.
-    pub fn excluded(why: Exclusion) -> Self {
-        Self(Err(why))
-    }
-
     /// The value.
     ///
     /// # Errors

@@ -110,14 +110,6 @@ impl ClassWeights {
         self.0[class as usize]
     }
 
-    /// Weights with that of one class replaced.
-    #[must_use]
-    pub fn with(self, class: ColorClass, weight: f64) -> Self {
-        let mut weights = self.0;
-        weights[class as usize] = weight;
-        Self::new(weights)
-    }
-
     /// The weight of each training reflectance.
     pub fn for_targets(self, targets: &[DVec3], white: Xyz) -> Vec<f64> {
         if self == Self::default() {

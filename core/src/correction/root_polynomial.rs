@@ -94,11 +94,6 @@ impl RootPolynomial {
         Self { degree, coefficients }
     }
 
-    /// Degree.
-    pub fn degree(&self) -> Degree {
-        self.degree
-    }
-
     /// Coefficients of XYZ for each term.
     pub fn coefficients(&self) -> &[DVec3] {
         &self.coefficients

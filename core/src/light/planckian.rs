@@ -41,7 +41,7 @@ const LIGHT_SPEED: f64 = 299_792_458.0;
 /// k in J/K, exact (SI 2019).
 const BOLTZMANN: f64 = 1.380_649e-23;
 
-/// The spectral exitance of a blackbody, in W m⁻³ (Eq 14).
+/// The spectral exitance of a blackbody, in W m⁻³ (Eq 14); 0 unless the wavelength is positive.
 ///
 /// ```text
 /// E(λ, T) = c₁ / (λ⁵ (exp(c₂ / (λ T)) − 1))
@@ -52,17 +52,17 @@ const BOLTZMANN: f64 = 1.380_649e-23;
 ///
 /// ```
 /// use chromascope_core::light::{RadiationConstants, planckian::exitance};
-/// use chromascope_core::units::{Kelvin, Nanometers};
-/// let e = exitance(Nanometers::new(555.0)?, Kelvin::new(5500.0)?, RadiationConstants::Paper);
+/// use chromascope_core::units::Kelvin;
+/// let e = exitance(555.0, Kelvin::new(5500.0)?, RadiationConstants::Paper);
 /// assert!((e / 6.433_997e13 - 1.0).abs() < 1e-6);
 /// # Ok::<(), chromascope_core::units::NotPositive>(())
 /// ```
-pub fn exitance(wavelength: crate::units::Nanometers, temperature: Kelvin, constants: RadiationConstants) -> f64 {
-    let meters = wavelength.get() * 1e-9;
+pub fn exitance(wavelength_nm: f64, temperature: Kelvin, constants: RadiationConstants) -> f64 {
+    let meters = wavelength_nm * 1e-9;
     let exponent = constants.second() / (meters * temperature.get());
     let value = constants.first() / (meters.powi(5) * exponent.exp_m1());
     // Where λ⁵ underflows the exponent decides: NaN is 0 times infinity.
-    if value.is_nan() { 0.0 } else { value.min(f64::MAX) }
+    if value.is_nan() || wavelength_nm <= 0.0 { 0.0 } else { value.min(f64::MAX) }
 }
 
 /// Exitance relative to that at `anchor_nm`, which no temperature can overflow or blank.

@@ -7,10 +7,8 @@
 //! the mean of ρ0² over the light. It is taken along each axis, over a square as wide as the disk, which separates.
 
 use super::geometry::Geometry;
-use super::normalization::Normalization;
-use super::power::{LAMBDA_0_NM, beta, coherent_prefactor, diffuse_prefactor, kappa};
 use super::surface::Surface;
-use std::f64::consts::{FRAC_PI_2, TAU};
+use std::f64::consts::FRAC_PI_2;
 
 /// sin x / x, 1 at 0. Infinite x and NaN give 0.
 pub fn sinc(x: f64) -> f64 {
@@ -154,31 +152,4 @@ pub fn rho0_squared_bound(geometry: &Geometry, surface: &Surface, wave_number: f
         (1.0 / (nearest * nearest)).min(FRAC_PI_2 / w.max(FRAC_PI_2))
     });
     x * y
-}
-
-/// True if the coherent component at a wavelength is certainly below `tolerance` times the diffuse one.
-///
-/// ```text
-/// g ≥ ln(1.25 g coherent_prefactor ρ0²_bound / (diffuse_prefactor · tolerance)) + β,  g ≥ 10
-/// ```
-/// From g = 10 on `e^-β/g`, Eq 4, exceeds S by 6 % at most. Never said of smoother surfaces. A surface in the dark is left to
-/// the caller: both terms are 0 there, and the answer is yes.
-pub fn is_negligible(
-    surface: &Surface,
-    geometry: &Geometry,
-    reading: Normalization,
-    wavelength_nm: f64,
-    angular_radius: f64,
-    tolerance: f64,
-) -> bool {
-    let coherent = coherent_prefactor(surface, geometry, reading);
-    if coherent == 0.0 {
-        return true;
-    }
-    let ratio = LAMBDA_0_NM / wavelength_nm;
-    let g = kappa(surface, geometry) * ratio * ratio;
-    let wave_number = TAU / (wavelength_nm * 1e-9);
-    let bound = rho0_squared_bound(geometry, surface, wave_number, angular_radius);
-    let diffuse = diffuse_prefactor(surface, geometry, reading) * tolerance;
-    g >= 10.0 && g >= (1.25 * g * coherent * bound / diffuse).ln() + beta(surface, geometry)
 }

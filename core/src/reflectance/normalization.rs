@@ -1,6 +1,4 @@
-//! The choices that the paper leaves: what its P stands for, and how its sum is evaluated.
-
-use super::sum::Precision;
+//! The choice that the paper leaves: what its P stands for.
 
 /// Quantity that the scattered power P of Eq 12 stands for.
 ///
@@ -25,19 +23,4 @@ pub enum Normalization {
     Microfacet,
     /// 1: a surface that scatters evenly, whatever its roughness.
     Lambertian,
-}
-
-/// Method by which the sum of Eq 2 is evaluated.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum Method {
-    /// One method for all roughnesses, within the stated error.
-    Uniform(Precision),
-    /// The paper's three cases of g, to show what they cost.
-    Regimes,
-}
-
-impl Default for Method {
-    fn default() -> Self {
-        Self::Uniform(Precision::default())
-    }
 }

@@ -10,9 +10,8 @@
 use super::coherent::rho0_squared;
 use super::fresnel::{reflectance, transmittance, transmittance_by_cosine};
 use super::geometry::Geometry;
-use super::normalization::{Method, Normalization};
-use super::regimes::diffuse_sum_by_regimes;
-use super::sum::diffuse_sum;
+use super::normalization::Normalization;
+use super::sum::{Precision, diffuse_sum};
 use super::surface::{Specular, Surface};
 use std::f64::consts::{PI, TAU};
 
@@ -23,7 +22,8 @@ const LAMBDA_0_M: f64 = 550e-9;
 /// Limit at which unbounded values are cut: a thousandth of what a product of two parts could carry.
 const LARGEST: f64 = 1e150;
 
-/// Sum of the diffuse and the coherent component in Eq 12, with the diffuse sum at full precision: see [`factor_by`].
+/// Sum of the two components of [`factors`]: the factor beside S(λ) in Eq 12 where both carry it ([`Specular::Paper`]), or of
+/// a white.
 pub fn factor(
     surface: &Surface,
     geometry: &Geometry,
@@ -31,20 +31,7 @@ pub fn factor(
     reading: Normalization,
     angular_radius: f64,
 ) -> f64 {
-    factor_by(surface, geometry, wavelength_nm, reading, Method::default(), angular_radius)
-}
-
-/// Sum of the two components of [`factors_by`]: the factor beside S(λ) in Eq 12 where both carry it ([`Specular::Paper`]), or of
-/// a white.
-pub fn factor_by(
-    surface: &Surface,
-    geometry: &Geometry,
-    wavelength_nm: f64,
-    reading: Normalization,
-    method: Method,
-    angular_radius: f64,
-) -> f64 {
-    let [diffuse, coherent] = factors_by(surface, geometry, wavelength_nm, reading, method, angular_radius);
+    let [diffuse, coherent] = factors(surface, geometry, wavelength_nm, reading, angular_radius);
     bounded(diffuse + coherent)
 }
 
@@ -60,12 +47,11 @@ pub fn factor_by(
 /// For [`Normalization::Microfacet`] the cos θi within G² is `4 (l·ĥ)⁴/(cos θi (cos θi + cos θs)²)`, and `cos θi/cos θs` before ρ0² is 1,
 /// which it is in the specular direction. Under [`Specular::Fresnel`] ρ0² is multiplied by F(l·ĥ); in the paper it carries no
 /// Fresnel factor. ρ0² is its mean over the light's disk. 0 unless both light and viewer are before the surface; always finite.
-pub fn factors_by(
+pub fn factors(
     surface: &Surface,
     geometry: &Geometry,
     wavelength_nm: f64,
     reading: Normalization,
-    method: Method,
     angular_radius: f64,
 ) -> [f64; 2] {
     if !(geometry.is_lit() && wavelength_nm > 0.0 && wavelength_nm.is_finite()) {
@@ -79,10 +65,7 @@ pub fn factors_by(
     let g = kappa(surface, geometry) * (ratio * ratio);
     let reach = wave_number * surface.tau_m();
     let b = reach * reach * geometry.vxy2_by_k2 / 4.0;
-    let sum = match method {
-        Method::Uniform(precision) => diffuse_sum(g, b, precision),
-        Method::Regimes => diffuse_sum_by_regimes(g, b),
-    };
+    let sum = diffuse_sum(g, b, Precision::Full);
     let pattern = rho0_squared(geometry, surface, wave_number, angular_radius) * (-g).exp();
     let power = bounded(ratio.powi(wavelength_power(reading)));
     let (diffuse, coherent) =

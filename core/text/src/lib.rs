@@ -30,6 +30,23 @@ pub fn guarded(text: &str) -> Cow<'_, str> {
     if begins_formula(text.trim_start_matches('\'')) { Cow::Owned(format!("'{text}")) } else { text }
 }
 
+/// A text as a cell of a delimited table: [`guarded`], and quoted where it has to be.
+pub fn cell(text: &str, delimiter: char) -> String {
+    quoted(&guarded(text), delimiter)
+}
+
+/// A text in quotes if a cell could not hold it without.
+pub fn quoted(text: &str, delimiter: char) -> String {
+    let needed = text.contains([delimiter, '"', '\n', '\r']);
+    if needed { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
+}
+
+/// A text with its first letter in lower case.
+pub fn lowered(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().map_or_else(String::new, |first| first.to_lowercase().chain(letters).collect())
+}
+
 /// The text of a cell without the apostrophe of [`guarded`].
 pub fn unguarded(cell: &str) -> &str {
     match cell.strip_prefix('\'') {

@@ -9,7 +9,6 @@ use crate::catalog::import::Origin;
 pub struct OpenFile {
     /// Origin of the bytes.
     pub origin: Origin,
-    /// The bytes.
     pub bytes: Arc<[u8]>,
     /// Reason that it could not be read, as a message with its name.
     pub failure: Option<String>,

@@ -49,7 +49,6 @@ impl FilePreviewQuery {
 /// A file's text, its curves, and their places in the text.
 #[derive(Debug)]
 pub struct FilePreview {
-    /// Fingerprint of the file.
     pub fingerprint: Fingerprint,
     /// The switches it was read with.
     pub options: ReadOptions,

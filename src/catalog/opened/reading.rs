@@ -30,7 +30,6 @@ pub enum Request {
     Bytes {
         /// Name of the files together.
         name: String,
-        /// The bytes.
         bytes: Arc<[u8]>,
     },
     /// A file whose contents are known, with the user's settings.
@@ -145,7 +144,6 @@ pub fn files_of(folder: &Path) -> io::Result<Vec<PathBuf>> {
 
 /// Reason for missing bytes.
 enum Unread {
-    /// It is a mesh.
     Mesh(PathBuf),
     /// It is a spectral image.
     Image(PathBuf),

@@ -39,7 +39,6 @@ const MOST_PIXELS: f64 = 2048.0;
 
 /// Background results of a figure.
 pub(super) struct Made {
-    /// The pictures.
     pub(super) pictures: Option<RenderedFrame>,
     /// Measurements of the scene.
     pub(super) measured: Measured,

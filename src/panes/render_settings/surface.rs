@@ -195,8 +195,11 @@ fn cautions_of(settings: &RenderSettings) -> Vec<[String; 2]> {
     for caution in surface.cautions() {
         let whole = format!("{caution}.");
         let words = whole.split([',', ':']).next().unwrap_or(&whole);
-        let words =
-            if caution == Caution::Steep { format!("Empirical lobe: {}", lowered(words)) } else { words.to_owned() };
+        let words = if caution == Caution::Steep {
+            format!("Empirical lobe: {}", spectral_file::lowered(words))
+        } else {
+            words.to_owned()
+        };
         said.push([words, whole]);
     }
     said
@@ -206,10 +209,4 @@ fn cautions_of(settings: &RenderSettings) -> Vec<[String; 2]> {
 fn is_nearly_a_mirror(settings: &RenderSettings) -> bool {
     let phase = 4.0 * std::f64::consts::PI * settings.sigma_um / 0.55;
     settings.roughness == RoughnessChoice::Surface && (-phase * phase).exp() > 0.01
-}
-
-/// The text with its first letter in lower case.
-fn lowered(words: &str) -> String {
-    let mut letters = words.chars();
-    letters.next().map_or_else(String::new, |first| first.to_lowercase().chain(letters).collect())
 }

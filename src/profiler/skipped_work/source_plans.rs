@@ -13,7 +13,6 @@ use chromascope_measure::harness::shortest;
 
 /// Measure and plan of a source.
 pub(super) struct SourcePlans {
-    /// One that there is.
     measure: Arc<Result<SpectralWeights, RenderingError>>,
     plan: Arc<Plan>,
 }

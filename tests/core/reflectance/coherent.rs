@@ -3,11 +3,9 @@
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use chromascope_core::reflectance::coherent::{
-    is_negligible, mean_sinc_squared, rho0_squared, rho0_squared_bound, sinc, sine_integral,
+    mean_sinc_squared, rho0_squared, rho0_squared_bound, sinc, sine_integral,
 };
-use chromascope_core::reflectance::{
-    Geometry, Normalization, Precision, Surface, beta, coherent_prefactor, diffuse_prefactor, diffuse_sum, kappa,
-};
+use chromascope_core::reflectance::{Geometry, Surface};
 use proptest::prelude::*;
 
 use super::integral;
@@ -101,34 +99,4 @@ proptest! {
             prop_assert!(mean <= bound * (1.0 + 1e-9), "{} {}", mean, bound);
         }
     }
-
-    #[test]
-    fn what_is_called_negligible_is(
-        sigma in between(1e-8, 1e-5), tau in between(1e-6, 1e-4), half in between(1e-6, 1e-2), radius in between(1e-6, 0.1),
-        angles in (0.0..1.5_f64, 0.0..1.5_f64, -3.2..3.2_f64), nm in 380.0..780.0_f64, tolerance in between(1e-12, 0.1),
-    ) {
-        let surface = Surface::new(sigma, tau, half, half, 1.4).unwrap();
-        let geometry = Geometry::from_angles(angles.0, angles.1, angles.2);
-        for reading in [Normalization::Radiometric, Normalization::Paper, Normalization::Microfacet] {
-            if is_negligible(&surface, &geometry, reading, nm, radius, tolerance) {
-                let g = kappa(&surface, &geometry) * (550.0 / nm).powi(2);
-                let pattern = rho0_squared(&geometry, &surface, TAU / (nm * 1e-9), radius) * (-g).exp();
-                let coherent = coherent_prefactor(&surface, &geometry, reading) * pattern;
-                let sum = diffuse_sum(g, beta(&surface, &geometry) * g, Precision::Full);
-                let diffuse = diffuse_prefactor(&surface, &geometry, reading) * sum;
-                prop_assert!(coherent <= tolerance * diffuse * (1.0 + 1e-6), "{} {}", coherent, diffuse);
-            }
-        }
-    }
-}
-
-#[test]
-fn the_mirror_term_is_left_out_where_it_should_be() {
-    let geometry = Geometry::from_angles(0.3, 0.3, 0.0);
-    let light = 4.65e-3;
-    let [rough, smooth] = [5e-6, 5e-8].map(|sigma| Surface::new(sigma, 10e-6, 50e-6, 50e-6, 1.4).unwrap());
-    assert!(is_negligible(&rough, &geometry, Normalization::Radiometric, 550.0, light, 1e-12));
-    assert!(!is_negligible(&smooth, &geometry, Normalization::Radiometric, 550.0, light, 1e-3));
-    assert!(is_negligible(&smooth, &Geometry::DARK, Normalization::Radiometric, 550.0, light, 1e-12));
-    assert!(is_negligible(&smooth, &geometry, Normalization::Lambertian, 550.0, light, 1e-12));
 }

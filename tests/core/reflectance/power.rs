@@ -4,10 +4,9 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use chromascope_core::reflectance::coherent::rho0_squared;
 use chromascope_core::reflectance::fresnel::transmittance;
-use chromascope_core::reflectance::power::factor_by;
 use chromascope_core::reflectance::{
-    Geometry, IlluminatedArea, Method, Normalization, Precision, Specular, Surface, beta, coherent_prefactor,
-    diffuse_prefactor, diffuse_sum, factor, factors_by, fresnel, kappa, wavelength_power,
+    Geometry, IlluminatedArea, Normalization, Precision, Specular, Surface, beta, coherent_prefactor,
+    diffuse_prefactor, diffuse_sum, factor, factors, fresnel, kappa, wavelength_power,
 };
 use proptest::prelude::*;
 
@@ -36,7 +35,7 @@ fn the_papers_coherent_component_is_36_times_too_bright() {
     for reading in [Normalization::Radiometric, Normalization::Paper, Normalization::Microfacet] {
         let ratio = |theta: f64| {
             let mirrored = Geometry::from_angles(theta, theta, 0.0);
-            let at = |surface| factors_by(surface, &mirrored, 550.0, reading, Method::default(), 0.0);
+            let at = |surface| factors(surface, &mirrored, 550.0, reading, 0.0);
             let ([diffuse, tinted], [same, untinted]) = (at(&paper), at(&dielectric));
             assert_eq!(diffuse, same, "the diffuse component is left as it is");
             untinted / tinted
@@ -61,7 +60,7 @@ fn the_area_as_printed_is_a_quarter_of_the_patch() {
     assert_near("A = XY", printed.area_m2(), 2e-9, 1e-22);
     let mirrored = Geometry::from_angles(0.4, 0.4, 0.0);
     let ratio = |reading| {
-        let at = |surface| factors_by(surface, &mirrored, 550.0, reading, Method::default(), 0.0);
+        let at = |surface| factors(surface, &mirrored, 550.0, reading, 0.0);
         let (printed, whole) = (at(&printed), at(&whole));
         [printed[0] / whole[0], printed[1] / whole[1]]
     };
@@ -83,7 +82,7 @@ fn only_the_diffuse_component_is_reciprocal() {
     let (light, viewer) = (light.normalize(), viewer.normalize());
     let by = |light, viewer| {
         let geometry = Geometry::from_directions(light, viewer, normal);
-        factors_by(&surface, &geometry, 550.0, Normalization::Microfacet, Method::default(), 0.0)
+        factors(&surface, &geometry, 550.0, Normalization::Microfacet, 0.0)
     };
     let ([diffuse, coherent], [diffuse_back, coherent_back]) = (by(light, viewer), by(viewer, light));
     assert!((diffuse_back / diffuse - 1.0).abs() < 1e-12 && diffuse > 0.0, "{diffuse} {diffuse_back}");
@@ -192,14 +191,8 @@ fn rough_surfaces_scatter_all_wavelengths_alike_unless_read_literally() {
 }
 
 #[test]
-fn the_defaults_are_the_radiometric_reading_and_full_precision() {
+fn the_default_is_the_radiometric_reading() {
     assert_eq!(Normalization::default(), Normalization::Radiometric);
-    assert_eq!(Method::default(), Method::Uniform(Precision::Full));
-    let skin = Surface::new(1e-7, 10e-6, 50e-6, 50e-6, 1.4).unwrap();
-    let geometry = Geometry::from_angles(0.3, 0.31, 0.05);
-    let by = |method| factor_by(&skin, &geometry, 550.0, Normalization::default(), method, 0.0);
-    assert_eq!(factor(&skin, &geometry, 550.0, Normalization::default(), 0.0), by(Method::default()));
-    assert_ne!(by(Method::Regimes), by(Method::default()));
 }
 
 /// Every size alike.
@@ -235,11 +228,9 @@ proptest! {
     ) {
         let geometry = Geometry::from_angles(theta_i, if twin { theta_i } else { theta_s }, phi);
         for reading in READINGS {
-            for method in [Method::Uniform(Precision::Coarse), Method::default(), Method::Regimes] {
-                let value = factor_by(&surface, &geometry, nm, reading, method, radius);
-                prop_assert!(value.is_finite() && value >= 0.0, "{:?} {:?}: {}", reading, method, value);
-                prop_assert!(geometry.is_lit() || value == 0.0);
-            }
+            let value = factor(&surface, &geometry, nm, reading, radius);
+            prop_assert!(value.is_finite() && value >= 0.0, "{:?}: {}", reading, value);
+            prop_assert!(geometry.is_lit() || value == 0.0);
             let pieces = [
                 diffuse_prefactor(&surface, &geometry, reading),
                 coherent_prefactor(&surface, &geometry, reading),

@@ -6,9 +6,7 @@ use std::sync::Arc;
 use chromascope_core::query::render::MeshQuery;
 use chromascope_core::query::render::picture::Pictures;
 use chromascope_core::query::{Direct, Shared};
-use chromascope_core::reflectance::{
-    Geometry, Method, Normalization, Surface, hemispherical_directional, power::factors_by,
-};
+use chromascope_core::reflectance::{Geometry, Normalization, Surface, factors, hemispherical_directional};
 use chromascope_core::render::sky::{SkyVisibility, visible_share};
 use chromascope_core::render::{Quality, RasterSize, Shadows, Stop};
 use chromascope_mesh::{Mesh, ShadowTree};
@@ -30,7 +28,7 @@ fn by_midpoints(surface: &Surface, reading: Normalization, normal: DVec3, to_vie
             let to_light = DVec3::new(r * cos, y, r * sin);
             if to_light.dot(normal) > 0.0 {
                 let geometry = Geometry::from_directions(to_light, to_viewer, normal);
-                let [diffuse, _] = factors_by(surface, &geometry, nm, reading, Method::default(), 0.0);
+                let [diffuse, _] = factors(surface, &geometry, nm, reading, 0.0);
                 sum += diffuse * to_light.dot(normal);
             }
         }

@@ -6,12 +6,12 @@ use chromascope_core::camera::{LocusEvaluator, LocusMethod};
 use chromascope_core::colorimetry::{Uv60, Xy, Xyz};
 use chromascope_core::light::daylight::{DaylightBasis, chromaticity};
 use chromascope_core::light::planckian::{black_body, exitance, relative_exitance};
-use chromascope_core::light::temperature::published::{hernandez_andres_1999, kang_2002, mccamy_1992};
+use chromascope_core::light::temperature::published::{hernandez_andres_1999, mccamy_1992};
 use chromascope_core::light::temperature::tabulated::{Ohno, Robertson};
 use chromascope_core::light::{Cct, CctError, PlanckianLocus, RadiationConstants};
 use chromascope_core::query::Temperatures;
 use chromascope_core::spectral::{Primaries, Sensor};
-use chromascope_core::units::{Kelvin, Nanometers};
+use chromascope_core::units::Kelvin;
 use chromascope_math::double::Double;
 
 use super::draw::{Case, Draw, case};
@@ -22,7 +22,7 @@ use crate::support::{CANON_10D, CIE_1931, DCS200, NIKON_D70, REFERENCE, dataset,
 const C: RadiationConstants = RadiationConstants::Paper;
 
 pub(super) const WALKS: &[Walk] = &[
-    Walk { name: "Kelvin, Nanometers", promise: 1e-15, share: 20.0, draw: |d| case([d.anything()]), check: units },
+    Walk { name: "Kelvin", promise: 1e-15, share: 20.0, draw: |d| case([d.anything()]), check: units },
     Walk { name: "Temperatures", promise: 1e-15, share: 4.0, draw: draw_range, check: range },
     Walk { name: "exitance", promise: 1e-14, share: 40.0, draw: draw_body, check: body },
     Walk { name: "exitance ends", promise: 0.0, share: 20.0, draw: draw_far, check: body_ends },
@@ -56,13 +56,13 @@ static SUMS: LazyLock<Vec<LocusEvaluator<&'static Sensor>>> =
 
 fn units(&[x, ..]: &Case, v: &mut Verdict) {
     let taken = x > 0.0 && x.is_finite();
-    v.holds("taken and not", Kelvin::new(x).is_ok() == taken && Nanometers::new(x).is_ok() == taken);
+    v.holds("taken and not", Kelvin::new(x).is_ok() == taken);
     let Ok(t) = Kelvin::new(x) else { return v.refuse() };
     match Kelvin::from_mired(t.mired()) {
         Ok(back) => v.relative(back.get(), x, 0.0),
         Err(_) => v.holds("no way back", !(1e-290..1e290).contains(&x)),
     }
-    v.holds("another number", Nanometers::new(x).is_ok_and(|nm| nm.get() == x));
+    v.holds("another number", Kelvin::new(x).is_ok_and(|t| t.get() == x));
 }
 
 fn draw_range(d: &mut Draw) -> Case {
@@ -98,8 +98,8 @@ fn exact_exitance(meters: f64, kelvins: f64) -> Option<Double> {
 }
 
 fn body(&[nm, kelvins, ..]: &Case, v: &mut Verdict) {
-    let (Ok(l), Ok(t)) = (Nanometers::new(nm), Kelvin::new(kelvins)) else { return v.refuse() };
-    let value = exitance(l, t, C);
+    let (true, Ok(t)) = (nm.is_finite() && nm > 0.0, Kelvin::new(kelvins)) else { return v.refuse() };
+    let value = exitance(nm, t, C);
     v.finite(value);
     let exponent = C.second() / (nm * 1e-9 * kelvins);
     match exact_exitance(nm * 1e-9, kelvins) {
@@ -107,14 +107,14 @@ fn body(&[nm, kelvins, ..]: &Case, v: &mut Verdict) {
         None => v.holds("light of a cold body", (0.0..1e-200).contains(&value)),
     }
     if let Ok(hotter) = Kelvin::new(kelvins * (1.0 + 1e-12)) {
-        v.holds("falls with temperature", exitance(l, hotter, C) >= value * (1.0 - 1e-15));
+        v.holds("falls with temperature", exitance(nm, hotter, C) >= value * (1.0 - 1e-15));
     }
 }
 
 fn body_ends(&[nm, kelvins, ..]: &Case, v: &mut Verdict) {
-    let (Ok(l), Ok(t)) = (Nanometers::new(nm), Kelvin::new(kelvins)) else { return v.refuse() };
+    let Ok(t) = Kelvin::new(kelvins) else { return v.refuse() };
     for constants in [C, RadiationConstants::Si2019] {
-        let value = exitance(l, t, constants);
+        let value = exitance(nm, t, constants);
         v.finite(value);
         v.holds("below 0", value >= 0.0);
     }
@@ -299,7 +299,7 @@ fn ohno(&[kelvins, duv, ..]: &Case, v: &mut Verdict) {
     against(OHNO.cct(color), kelvins, v);
 }
 
-fn published(&[x, y, kelvins, ..]: &Case, v: &mut Verdict) {
+fn published(&[x, y, ..]: &Case, v: &mut Verdict) {
     let color = Xy { x, y };
     for answer in [mccamy_1992(color), hernandez_andres_1999(color)] {
         match answer {
@@ -309,9 +309,6 @@ fn published(&[x, y, kelvins, ..]: &Case, v: &mut Verdict) {
     }
     said(ROBERTSON.cct(Uv60 { u: x, v: y }), v);
     said(OHNO.cct(Uv60 { u: x, v: y }), v);
-    if let Some(xy) = Kelvin::new(kelvins.abs() * 1e4).ok().and_then(kang_2002) {
-        v.all_finite([xy.x, xy.y]);
-    }
 }
 
 fn draw_locus(d: &mut Draw) -> Case {

@@ -1,12 +1,12 @@
 //! Fresnel's formulas, the specular lobe, angles, and the scattered power.
 
 use chromascope_core::reflectance::coherent::{
-    is_negligible, mean_sinc_squared, rho0_squared, rho0_squared_bound, sinc, sine_integral,
+    mean_sinc_squared, rho0_squared, rho0_squared_bound, sinc, sine_integral,
 };
 use chromascope_core::reflectance::fresnel::{reflectance, transmittance, transmittance_by_cosine};
 use chromascope_core::reflectance::{
-    Geometry, IlluminatedArea, Method, Normalization, Precision, Specular, Surface, beta, coherent_prefactor,
-    diffuse_prefactor, diffuse_sum, directional_hemispherical, factor, factor_by, factors_by, kappa, wavelength_power,
+    Geometry, IlluminatedArea, Normalization, Specular, Surface, beta, coherent_prefactor, diffuse_prefactor,
+    directional_hemispherical, factor, factors, kappa, wavelength_power,
 };
 use chromascope_math::double::Double;
 use glam::DVec3;
@@ -275,26 +275,14 @@ fn power_of(surface: &Surface, [i, s, phi, nm]: [f64; 4], v: &mut Verdict) {
             v.finite(value);
             v.holds("below 0", value >= 0.0);
             v.holds("light in the dark", g.is_lit() || value == 0.0);
-            let parts = factors_by(&surface, &g, nm, reading, Method::default(), radius);
+            let parts = factors(&surface, &g, nm, reading, radius);
             v.holds("not the sum of its parts", parts[0] >= 0.0 && parts[1] >= 0.0 && parts[0] + parts[1] >= value);
-            let regimes = factor_by(&surface, &g, nm, reading, Method::Regimes, radius);
-            v.holds("regimes not finite", regimes.is_finite() && regimes >= 0.0);
             let (diffuse, coherent) =
                 (diffuse_prefactor(&surface, &g, reading), coherent_prefactor(&surface, &g, reading));
             v.holds("a prefactor below 0 or infinite", diffuse >= 0.0 && coherent >= 0.0 && diffuse + coherent < 1e151);
             if reading == Normalization::Microfacet && radius == 0.0 {
                 // Light and viewer can be exchanged.
                 v.relative(factor(&surface, &back, nm, reading, radius), value, 0.0);
-            }
-            if is_negligible(&surface, &g, reading, nm, radius, 1e-6)
-                && g.is_lit()
-                && reading != Normalization::Lambertian
-            {
-                let ratio = 550.0 / nm;
-                let smooth = k * ratio * ratio;
-                let coherent = coherent * pattern * (-smooth).exp();
-                let rest = diffuse * diffuse_sum(smooth, b * smooth, Precision::Full);
-                v.holds("not negligible", coherent <= 1.001e-6 * rest || coherent < 1e-290 || smooth > 680.0);
             }
         }
     }

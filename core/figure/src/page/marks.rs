@@ -3,7 +3,7 @@
 use super::clip::{self, contains, enlarged};
 use super::{Brush, Label, ground};
 use crate::ink::{Ink, InkRole};
-use crate::mark::{Image, Mark, Rgb, Shape, Stroke, finite_runs};
+use crate::mark::{Image, Mark, Rgb, Shape, Stroke, color_runs, finite_runs};
 use crate::panel::Panel;
 use crate::projection::Projection;
 use crate::rect::Rect;
@@ -114,23 +114,14 @@ fn line(brush: &mut Brush<'_>, mark: &Mark, projection: &Projection, points: &[[
     }
 }
 
-/// Neighbors of one color are drawn as one line. Each line takes the color of its start.
 fn gradient(brush: &mut Brush<'_>, mark: &Mark, projection: &Projection, points: &[([f64; 2], Rgb)]) {
     let reach = enlarged(projection.plot, REACH);
     let style = mark.stroke.unwrap_or(Stroke::solid(InkRole::Text, 2.0));
-    let finite = |p: &([f64; 2], Rgb)| p.0.iter().all(|v| v.is_finite());
-    for run in points.split(|p| !finite(p)) {
-        let mut start = 0;
-        while start + 1 < run.len() {
-            let color = run[start].1;
-            let same = run[start + 1..].iter().take_while(|p| p.1 == color).count();
-            let end = (start + same.max(1) + 1).min(run.len());
-            let placed: Vec<[f64; 2]> = run[start..end].iter().map(|p| at(projection, p.0)).collect();
-            let ink = Ink { role: InkRole::Rgb(color), alpha: style.ink.alpha };
-            for part in clip::line(reach, &placed) {
-                brush.path(&part, false, Some(Stroke { ink, ..style }), None);
-            }
-            start = end - 1;
+    for run in color_runs(points) {
+        let placed: Vec<[f64; 2]> = run.iter().map(|p| at(projection, p.0)).collect();
+        let ink = Ink { role: InkRole::Rgb(run[0].1), alpha: style.ink.alpha };
+        for part in clip::line(reach, &placed) {
+            brush.path(&part, false, Some(Stroke { ink, ..style }), None);
         }
     }
 }

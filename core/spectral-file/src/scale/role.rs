@@ -231,8 +231,10 @@ fn by_reference(grid: &Grid, evidence: &Evidence) -> Option<Decided<Role>> {
     let (line, ratio) = clues.ratio.or(clues.cosine_receptor.map(|line| (line, false)))?;
     if !ratio {
         if evidence.high() > COUNTS {
-            let why =
-                format!("Line {line} says that there was no reference, and {} like counts", lower(&evidence.words()));
+            let why = format!(
+                "Line {line} says that there was no reference, and {} like counts",
+                chromascope_text::lowered(&evidence.words())
+            );
             return Some(Decided::guess(Role::Unknown, why));
         }
         return Some(match clues.cosine_receptor {
@@ -247,10 +249,4 @@ fn by_reference(grid: &Grid, evidence: &Evidence) -> Option<Decided<Role>> {
     let doubtful = clues.ratios_in_percent.is_some() && !looks(Looks::Percent);
     let why = format!("Line {line} says that there was a reference");
     (!doubtful).then(|| Decided::guess(Role::Reflectance, why))
-}
-
-/// The words within a sentence.
-fn lower(words: &str) -> String {
-    let mut letters = words.chars();
-    letters.next().map_or_else(String::new, |first| first.to_lowercase().chain(letters).collect())
 }

@@ -42,32 +42,6 @@ pub fn hernandez_andres_1999(color: Xy) -> Result<Kelvin, CctError> {
     within(kelvins, 50_000.0, 800_000.0)
 }
 
-/// Kang, Moon, Hong, Lee, Cho and Kim 2002: the chromaticity of a blackbody, for 1667–25 000 K; none outside.
-///
-/// Cubics in 1/T for x, two of them, and in x for y, three. Only in this direction: the inverse was not published as a
-/// formula, and as a search for the nearest point it would cost as much as the exact locus. Measured: within 6e-4 in xy.
-pub fn kang_2002(temperature: Kelvin) -> Option<Xy> {
-    let kelvins = temperature.get();
-    if !(1667.0..=25_000.0).contains(&kelvins) {
-        return None;
-    }
-    let r = 1e3 / kelvins;
-    let cubic = |c: [f64; 4], s: f64| ((c[0] * s + c[1]) * s + c[2]) * s + c[3];
-    let x = if kelvins <= 4000.0 {
-        cubic([-0.266_123_9, -0.234_358_9, 0.877_695_6, 0.179_910], r)
-    } else {
-        cubic([-3.025_846_9, 2.107_037_9, 0.222_634_7, 0.240_390], r)
-    };
-    let y = if kelvins <= 2222.0 {
-        [-1.106_381_4, -1.348_110_20, 2.185_558_32, -0.202_196_83]
-    } else if kelvins <= 4000.0 {
-        [-0.954_947_6, -1.374_185_93, 2.091_370_15, -0.167_488_67]
-    } else {
-        [3.081_758_0, -5.873_386_70, 3.751_129_97, -0.370_014_83]
-    };
-    Some(Xy { x, y: cubic(y, x) })
-}
-
 /// The inverse slope of the line from a point where isotherms roughly meet. Below that point no temperature is defined.
 fn slope(color: Xy, x: f64, y: f64) -> Result<f64, CctError> {
     if !(color.x.is_finite() && color.y.is_finite()) {

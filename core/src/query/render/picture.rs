@@ -7,8 +7,8 @@ use crate::colorimetry::{Metric, Xyz};
 use crate::query::ask::{Ask, Query};
 use crate::query::patches::RenderingQuery;
 use crate::query::shared::Shared;
-use crate::reflectance::power::factors_by;
-use crate::reflectance::{Geometry, Method, Normalization, Specular, Surface};
+use crate::reflectance::power::factors;
+use crate::reflectance::{Geometry, Normalization, Specular, Surface};
 use crate::render::develop::develop;
 use crate::render::{CameraImage, Development, GeometryCounts, GeometryImage, Picture, ShadingCounts, SpectralWeights};
 use crate::spectral::GridSpectrum;
@@ -75,7 +75,7 @@ impl ExposureQuery {
         let facing = Geometry::from_angles(0.0, 0.0, 0.0);
         let radius = f64::from_bits(self.angular_radius);
         let component = |measure: &SpectralWeights, which: usize| {
-            let at = |nm| factors_by(&self.surface, &facing, nm, self.reading, Method::default(), radius)[which];
+            let at = |nm| factors(&self.surface, &facing, nm, self.reading, radius)[which];
             measure.fine().iter().map(|node| DVec3::from_array(node.weights) * at(node.wavelength_nm)).sum::<DVec3>()
         };
         let untinted = self.surface.specular() == Specular::Fresnel;
