@@ -114,7 +114,7 @@ impl ChromascopeApp {
             wanted.iter().zip(&brought).partition(|(_, set)| there.insert(set.name.as_str()));
         let failed = !failure.is_empty();
         let told =
-            [message, put_to_use(&before, after, &brought), renamed(&new), opened_again(&again, wanted.len()), failure];
+            [failure, message, put_to_use(&before, after, &brought), renamed(&new), opened_again(&again, wanted.len())];
         self.view.say(told.into_iter().filter(|words| !words.is_empty()).collect::<Vec<_>>().join(" "));
         if failed {
             self.view.status.weight = Weight::Warning;

@@ -180,7 +180,11 @@ fn file(ui: &mut Ui, context: &mut PaneContext<'_>) {
 /// The templates, and the user's own.
 fn templates(ui: &mut Ui, context: &mut PaneContext<'_>) {
     for template in &TEMPLATES {
-        if ui.button(template.name).on_hover_text(template.summary).clicked() {
+        let line = ui.button(template.name);
+        let mut hint = egui::Tooltip::for_enabled(&line);
+        hint.popup = hint.popup.align(egui::RectAlign::RIGHT);
+        hint.show(|ui| ui.label(template.summary));
+        if line.clicked() {
             context.push(SessionCommand::New(Some(template.name)));
             ui.close();
         }
@@ -320,7 +324,10 @@ fn view(ui: &mut Ui, context: &mut PaneContext<'_>) {
             ticked(ui, now == preference, words, "", Command::SetTheme(preference), context);
         }
     });
-    ui.checkbox(&mut context.view.saved.reduced_motion, "Reduce motion");
+    let reduced = &mut context.view.saved.reduced_motion;
+    let line = ui.add(Button::new((gutter(*reduced), "Reduce motion")));
+    line.widget_info(|| egui::WidgetInfo::selected(egui::Role::CheckBox, true, *reduced, "Reduce motion"));
+    *reduced ^= line.clicked();
     ui.menu_button((gutter(false), "Surround of swatches"), |ui| {
         for surround in Surround::ALL {
             let on = context.view.saved.surround == surround;

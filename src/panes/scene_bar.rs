@@ -267,7 +267,9 @@ fn temperature(ui: &mut Ui, slider_width: f32, context: &mut PaneContext<'_>) {
         // To ten kelvins: the precision of a drag and of reading.
         set = Some((kelvin / 10.0).round() * 10.0);
     }
-    slider.on_hover_text("Drag: evenly in mired (10⁶/T), as in the strip below the diagram");
+    if !slider.is_pointer_button_down_on() {
+        slider.on_hover_text("Drag: evenly in mired (10⁶/T), as in the strip below the diagram");
+    }
     let [coldest, hottest] = crate::document::LOCUS_RANGE_K;
     let coldest = if context.scene.document.light == Light::Daylight { 4000.0 } else { coldest };
     let field = NumberField {

@@ -31,7 +31,7 @@ const PATIENCE: Duration = Duration::from_millis(100);
 const CHANGE: f32 = 76.0;
 /// Share of the bar that readings have; messages and facts have the rest, so that neither moves the other. A longer message takes
 /// the room of readings while there is none.
-const READINGS: f32 = 0.5;
+const READINGS: f32 = 0.62;
 /// Seconds that a message is shown; warnings and errors stay until Esc or the next message.
 const MESSAGE: f64 = 6.0;
 /// Seconds of those in which it fades.

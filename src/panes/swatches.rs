@@ -121,7 +121,7 @@ fn board(ui: &mut Ui, area: Rect, built: &swatches::Built, context: &mut PaneCon
         }
     }
     if let Some(thing) = thing {
-        let lines = chromaticity::describe(&context.scene, &thing);
+        let lines = chromaticity::brief(&context.scene, &thing);
         widgets::read_at_pointer(&shown.response, &lines);
     }
 }

@@ -140,7 +140,9 @@ pub fn brief(scene: &Scene<'_>, thing: &PlotItem) -> Vec<String> {
             let difference =
                 index.and_then(|i| scene.differences(source.kind, &source.name).ok()?.get(i).copied()?.ok());
             let is_reference = source.kind == SetKind::Observer && source.name == scene.document.reference;
-            let words = difference.map(|difference| format!("{} {difference:.2}", scene.difference_name()));
+            let decimals = scene.document.difference.decimals;
+            let words = difference
+                .map(|value| format!("{} {}", scene.difference_name(), crate::format::fixed(value, decimals)));
             [name].into_iter().chain(words.filter(|_| !is_reference)).collect()
         }
         _ => describe(scene, thing),

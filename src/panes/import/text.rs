@@ -58,19 +58,18 @@ fn wrong(ui: &Ui, body: Rect, shown: &ImportSelection, context: &mut PaneContext
     let Some(error) = shown.error() else { return body };
     let theme = context.theme;
     let words = sentence(&error.to_string());
-    let place = Rect::from_min_max(egui::pos2(body.left(), body.bottom() - ROW), body.max);
+    let left = body.left() + 5.0 * UNIT;
+    let galley =
+        ui.painter().layout(words.clone(), TextStyle::Body.resolve(ui.style()), theme.error, body.right() - left);
+    let place = body.with_min_y(body.bottom() - galley.size().y.max(ROW));
     ui.painter().rect_filled(place, 0.0, theme.panel);
-    lines::warning_mark(ui.painter(), place.left_center() + Vec2::new(2.0 * UNIT, 0.0), theme.error);
-    let text = place.with_min_x(place.left() + 5.0 * UNIT);
-    let cut = lines::elided(ui, text, &words, TextStyle::Body, theme.error);
+    lines::warning_mark(ui.painter(), place.left_top() + Vec2::new(2.0 * UNIT, 0.5 * ROW), theme.error);
+    ui.painter().galley(egui::pos2(left, place.top() + 0.5 * UNIT), galley, theme.error);
     let response = ui.interact(place, Id::unique("reason below the text"), Sense::click());
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &words));
     if let Some(line) = error.line().filter(|_| response.clicked()) {
         context.view.import.line = Some(line);
         ui.ctx().request_repaint();
-    }
-    if cut {
-        response.on_hover_text(words);
     }
     body.with_max_y(place.top())
 }

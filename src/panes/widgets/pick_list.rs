@@ -21,6 +21,8 @@ const PAGE: usize = 10;
 const DROPPED: f32 = 14.0 * ROW;
 /// Least width of the list below a control.
 const LEAST: f32 = 280.0;
+/// Greatest width of that list; longer names are told on hover.
+const MOST: f32 = 440.0;
 
 /// A line of a list.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -232,7 +234,8 @@ pub fn menu(
 
 /// Field and lines within a popup, which closes when a line is chosen.
 fn within(ui: &mut Ui, key: Id, name: &str, theme: &Theme, all: &[Line]) -> Option<usize> {
-    ui.set_min_width(LEAST);
+    let longest = all.iter().map(|line| line.words.as_str()).max_by_key(|words| words.chars().count()).unwrap_or("");
+    ui.set_min_width((lines::width(ui, longest, TextStyle::Body) + GUTTER + 6.0 * UNIT).clamp(LEAST, MOST));
     let mut state: PickState = ui.data(|data| data.get_temp(key)).unwrap_or_default();
     let mut places = Vec::new();
     let field = format!("Filter {name}");

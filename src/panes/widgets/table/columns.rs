@@ -17,6 +17,15 @@ const MEASURED_ROWS: usize = 2000;
 const DIGITS: i32 = 6;
 /// Units that names of columns in files end in.
 const SUFFIXES: [(&str, &str); 4] = [("_nm", "nm"), ("_k", "K"), ("_ms", "ms"), ("_px", "px")];
+/// Symbols of quantities by their names in files.
+const SYMBOLS: [(&str, &str); 6] = [
+    ("u_prime", "u′"),
+    ("v_prime", "v′"),
+    ("distance_xy", "Δxy"),
+    ("distance_uv", "Δu′v′"),
+    ("cct", "CCT"),
+    ("duv", "Duv"),
+];
 
 /// Description and format of a table column.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -46,7 +55,15 @@ impl Column {
         let with_suffix =
             SUFFIXES.iter().find_map(|(suffix, unit)| head.strip_suffix(suffix).map(|name| (name, *unit)));
         let (name, unit) = in_brackets.or(with_suffix).unwrap_or((head, ""));
-        Self { name: name.to_owned(), unit: unit.to_owned(), ..Self::default() }
+        let symbol = SYMBOLS.iter().find(|(in_files, _)| *in_files == name);
+        // Of a blackbody it is 0 but for rounding.
+        let decimals = (name == "duv").then_some(6);
+        Self {
+            name: symbol.map_or(name, |(_, symbol)| symbol).to_owned(),
+            unit: unit.to_owned(),
+            decimals,
+            ..Self::default()
+        }
     }
 
     /// Name with unit, for screen readers and the pointer.
@@ -202,7 +219,7 @@ mod tests {
         };
         assert_eq!(head("wavelength (nm)"), ["wavelength", "nm"]);
         assert_eq!(head("temperature_k"), ["temperature", "K"]);
-        assert_eq!(head("u_prime"), ["u_prime", ""]);
+        assert_eq!(head("u_prime"), ["u′", ""]);
         assert_eq!(Column::from_head("time (µs)").full_name(), "time (µs)");
     }
 
