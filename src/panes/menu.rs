@@ -178,7 +178,12 @@ fn file(ui: &mut Ui, context: &mut PaneContext<'_>) {
 /// The templates, and the user's own.
 fn templates(ui: &mut Ui, context: &mut PaneContext<'_>) {
     for template in &TEMPLATES {
-        if ui.button(template.name).on_hover_text(template.summary).clicked() {
+        let response = ui.button(template.name);
+        let mut beside = egui::Tooltip::for_enabled(&response);
+        // Not over the next entries.
+        beside.popup = beside.popup.align(egui::RectAlign::RIGHT_START);
+        beside.show(|ui| ui.label(template.summary));
+        if response.clicked() {
             context.push(SessionCommand::New(Some(template.name)));
             ui.close();
         }
@@ -318,7 +323,13 @@ fn view(ui: &mut Ui, context: &mut PaneContext<'_>) {
             ticked(ui, now == preference, words, "", Command::SetTheme(preference), context);
         }
     });
-    ui.checkbox(&mut context.view.saved.reduced_motion, "Reduce motion");
+    let still = context.view.saved.reduced_motion;
+    let line = ui.add(Button::new((gutter(still), "Reduce motion")));
+    line.widget_info(|| egui::WidgetInfo::selected(egui::Role::Button, true, still, "Reduce motion"));
+    if line.clicked() {
+        context.view.saved.reduced_motion = !still;
+        ui.close();
+    }
     ui.menu_button((gutter(false), "Surround of swatches"), |ui| {
         for surround in Surround::ALL {
             let on = context.view.saved.surround == surround;

@@ -53,6 +53,7 @@ mod sessions;
 mod shell;
 mod spectral_images;
 mod starts;
+mod steering;
 mod table;
 mod temperature;
 mod theme;
