@@ -17,6 +17,7 @@ use crate::document::{Document, SetKind};
 use crate::export::profile::{CorrectionFile, CorrectionFileQuery};
 use crate::jobs::{Background, Executor, Shown};
 use crate::plot_item::SensorId;
+use crate::scene::light::LightSheetQuery;
 use crate::scene::metrics::{CatalogMetamersQuery, CatalogMetricsQuery, FoundMetamers};
 use crate::scene::recorded::RecordedRankingQuery;
 use crate::scene::{Scene, SceneError};
@@ -94,6 +95,7 @@ pub struct Ranking {
     card: Worker<CatalogMetricsQuery>,
     recorded: Worker<RecordedRankingQuery>,
     corrections: Worker<CorrectionFileQuery>,
+    light: Worker<LightSheetQuery>,
     asked: Option<Arc<Vec<RankedCamera>>>,
     /// Document and choice of cameras of the request.
     of: Option<(Document, RankedCameras)>,
@@ -112,6 +114,7 @@ impl Ranking {
             card: Worker::on(executor, "report card", wake.clone()),
             recorded: Worker::on(executor, "recorded ranking", wake.clone()),
             corrections: Worker::on(executor, "color corrections", wake.clone()),
+            light: Worker::on(executor, "light", wake.clone()),
             worker: Background::on(executor, "ranking", wake),
             asked: None,
             of: None,
@@ -193,6 +196,15 @@ impl Ranking {
         shown.map(|shown| (*shown.answer).clone()).transpose().map_err(|error| error.to_string())
     }
 
+    /// Indices of the light and consistency of the compared cameras; those of an earlier light while they are made.
+    ///
+    /// # Errors
+    ///
+    /// A sentence that says why there are none.
+    pub fn light(&mut self, scene: &Scene<'_>) -> Result<Option<Shown<LightSheetQuery>>, String> {
+        self.light.ask(scene.light_sheet_query().map_err(|error| error.to_string())?)
+    }
+
     fn ask_for(&mut self, cameras: Vec<RankedCamera>) {
         if self.asked.as_deref() == Some(&cameras) {
             return;
@@ -257,6 +269,7 @@ impl Ranking {
         self.card.end_frame();
         self.recorded.end_frame();
         self.corrections.end_frame();
+        self.light.end_frame();
         if !std::mem::take(&mut self.is_asked) && self.progress().is_some() {
             self.worker.rest();
             (self.asked, self.of) = (None, None);
@@ -269,6 +282,7 @@ impl Ranking {
         self.searcher.thread.wait();
         self.card.thread.wait();
         self.recorded.thread.wait();
+        self.light.thread.wait();
     }
 }
 

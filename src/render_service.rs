@@ -215,6 +215,12 @@ impl RenderService {
         self.frame.is_some()
     }
 
+    /// True if pictures of what is wanted are still to come, and others or none are there.
+    pub fn is_of_another(&self) -> bool {
+        let Some(wanted) = &self.wanted else { return false };
+        self.frame.as_ref().is_none_or(|frame| !frame.query.has_subject_of(wanted))
+    }
+
     /// True if the latest pictures are the final ones of the request.
     pub fn is_settled(&self) -> bool {
         self.frame.as_ref().is_some_and(|frame| self.wanted.as_ref() == Some(&frame.query))

@@ -117,6 +117,8 @@ pub struct View {
     pub cursor: Option<PlotItem>,
     /// Tab leads into the pane that has the keyboard.
     pub tab_enters: bool,
+    /// An arrow key does so in the next frame.
+    pub arrow_enters: bool,
     /// Times are neither shown nor renewed: for pictures that are compared.
     pub fixed_clock: bool,
     /// Documents that other windows saved, with their ages.

@@ -27,6 +27,16 @@ pub(super) fn frame(ui: &Ui, rect: Rect, theme: &Theme) {
     painter.rect_stroke(rect, 0.0, Stroke::new(FOCUS, theme.focus), StrokeKind::Inside);
 }
 
+/// Arrow keys that the pane with the keyboard has no use for lead into its controls in the next frame, as Tab does.
+pub(super) fn enter_by_arrows(ctx: &Context, view: &mut View) {
+    let free = ctx.memory(|memory| memory.focused().is_none()) && !egui::Popup::is_any_open(ctx);
+    let pressed = ctx.input(|input| input.key_pressed(Key::ArrowDown) || input.key_pressed(Key::ArrowUp));
+    view.arrow_enters = free && pressed && view.by_keyboard && view.palette.is_none();
+    if view.arrow_enters {
+        ctx.request_repaint();
+    }
+}
+
 /// Tab leads into the pane that has the keyboard, not to the first control of the window.
 pub(super) fn enter_pane(ctx: &Context, view: &mut View) {
     let free = ctx.memory(|memory| memory.focused().is_none());
@@ -34,7 +44,8 @@ pub(super) fn enter_pane(ctx: &Context, view: &mut View) {
         && view.by_keyboard
         && view.focused.is_some()
         && view.palette.is_none()
-        && ctx.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Tab));
+        && (std::mem::take(&mut view.arrow_enters)
+            || ctx.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Tab)));
     if view.tab_enters {
         ctx.memory_mut(|memory| memory.move_focus(FocusDirection::None));
     }

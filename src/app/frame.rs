@@ -95,6 +95,7 @@ impl ChromascopeApp {
         if let Some((_, rect)) = self.arrangement.panes.iter().find(|(pane, _)| Some(*pane) == framed) {
             focus::frame(ui, *rect, &theme);
         }
+        focus::enter_by_arrows(ui.ctx(), context.view);
         panes::status_bar::show(ui, status, &self.arrangement, &mut context);
         panes::help::show(ui, &self.history, &mut context);
         path_prompt::show(ui, &theme, &mut self.files);

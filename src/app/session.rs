@@ -16,6 +16,7 @@ use crate::panes;
 use crate::theme::Theme;
 use crate::view::template::{TEMPLATES, Template};
 use crate::view::{SavedView, Weight};
+use crate::workspaces::PaneKind;
 
 /// Description of the session where it is saved under a name.
 pub(super) const SESSION: &str = "the session";
@@ -196,6 +197,10 @@ impl ChromascopeApp {
             && let Some(template) = TEMPLATES.iter().find(|template| template.name == name)
         {
             self.push(Command::GoTo(template.pane));
+            // Matrix and errors need the height of the window; Esc goes back.
+            if template.pane == PaneKind::CORRECTION {
+                self.push(Command::Maximize(template.pane));
+            }
         }
         self.view.other_documents = self.files.other_documents();
     }

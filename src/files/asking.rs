@@ -216,8 +216,9 @@ fn write(path: &Path, form: &FileForm, SaveRequest { what, note, .. }: &SaveRequ
     match write_atomically(path, &bytes) {
         Ok(()) => {
             let note = if note.is_empty() { String::new() } else { format!(": {note}") };
-            let message = format!("Saved {}{note}.", path.display());
-            FileEvent::Saved(SavedFile { message, what: what.clone(), file: save::written(path, &bytes) })
+            let file = save::written(path, &bytes);
+            let message = format!("Saved {}{note}.", file.path.display());
+            FileEvent::Saved(SavedFile { message, what: what.clone(), file })
         }
         Err(error) => {
             FileEvent::Failed(format!("Cannot write {}: {}. Your work is safe.", path.display(), io_reason(&error)))

@@ -1,6 +1,7 @@
 //! Two cameras side by side: values, differences, and whether these exceed the uncertainty.
 
 use chromascope_core::query::CameraMetric;
+use chromascope_core::query::metrics::Better;
 use egui::{Rect, RichText, Ui, Vec2};
 
 use super::context::{Pane, PaneContext};
@@ -12,6 +13,7 @@ use crate::plot_item::SensorId;
 use crate::ranking::Ranked;
 use crate::theme::UNIT;
 use crate::view::metrics::RankedCameras;
+use crate::view::table::Sorting;
 use crate::workspaces::PaneKind;
 
 /// Columns of the difference, the better camera, and both values.
@@ -68,7 +70,11 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     // The table reaches to the pane's edge: a narrow pane shows the first three columns whole.
     let place =
         Rect::from_min_max(egui::pos2(body.left(), top.min(body.bottom())), body.max + Vec2::new(2.0 * UNIT, 0.0));
-    shown.with_notes(&note).show(ui, place, context);
+    let shown = shown.with_notes(&note).show(ui, place, context);
+    if let Some(metric) = shown.activated.and_then(|row| CameraMetric::ALL.get(row)) {
+        let sorting = Sorting { column: metric.symbol.to_owned(), descending: metric.better == Better::Higher };
+        context.view.saved.looks.entry(metrics::TABLE.to_owned()).or_default().sorting = Some(sorting);
+    }
 }
 
 /// Explanation of the last column.
@@ -113,7 +119,7 @@ fn note(ranked: &Ranked, cameras: [usize; 2], row: usize, column: usize) -> Cell
         FIRST => (None, reason(a)),
         SECOND => (None, reason(b)),
         DIFFERENCE => (pair.and_then(|(a, b)| metrics::uncertainty_of_difference(a, b)), String::new()),
-        0 => (None, metric.label.to_owned()),
+        0 => (None, format!("{}. Enter or a double click sorts Metrics by it.", metric.label)),
         _ => (None, String::new()),
     };
     let same = pair.and_then(|(a, b)| metrics::differ(a, b)) == Some(false);

@@ -13,7 +13,7 @@ mod welcome;
 use chromascope_core::colorimetry::Metric;
 use chromascope_core::query::DifferenceError;
 use chromascope_core::spectral::{Assumed, Evidence, Sensor};
-use egui::{Rect, RichText, ScrollArea, Ui, UiBuilder, Vec2};
+use egui::{Rect, RichText, Ui};
 
 use super::context::{Pane, PaneContext};
 use crate::command::Command;
@@ -32,14 +32,7 @@ pub const PANE: Pane =
 
 /// Shows the pane in its rectangle.
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
-    let body = widgets::pane(ui, &PANE, rect, context, |_, _| {});
-    let inner = body.shrink2(Vec2::new(2.0 * UNIT, 0.0));
-    let mut child = ui.new_child(UiBuilder::new().id_salt("inspector").max_rect(inner));
-    child.set_clip_rect(body.intersect(ui.clip_rect()));
-    // The handle is seen at rest too, so that a page that goes on below says so.
-    child.spacing_mut().scroll.dormant_handle_opacity = 0.5;
-    ScrollArea::vertical().id_salt("inspector").auto_shrink(false).show(&mut child, |ui| {
-        ui.set_max_width(inner.width() - UNIT);
+    widgets::scrolling_pane(ui, &PANE, rect, context, |ui, context| {
         ui.spacing_mut().item_spacing.y = 0.5 * UNIT;
         content(ui, context);
         ui.add_space(2.0 * UNIT);

@@ -1,19 +1,24 @@
 //! The light judged: its temperature, rendition indices and color vectors, and how consistent each camera is under it.
 
+use std::sync::Arc;
+
 use chromascope_core::light::temperature::MAX_DUV;
 use chromascope_core::query::Rendition;
 use chromascope_core::rendition::cri;
 use chromascope_figure::{Cell, Rect as Area, Table};
-use egui::{Rect, RichText, ScrollArea, Sense, Ui, UiBuilder, Vec2};
+use egui::{Rect, RichText, Sense, Ui, UiBuilder, Vec2};
 
 use super::context::{Pane, PaneContext};
 use crate::document::SetKind;
 use crate::figures::light;
 use crate::format::{fixed, sentence, signed};
+use crate::jobs::Shown;
 use crate::paint;
 use crate::panes::widgets;
 use crate::panes::widgets::table::{CellNote, Column, DataTable};
+use crate::plot_item::{PlotItem, SensorId};
 use crate::scene::Scene;
+use crate::scene::light::LightSheetQuery;
 use crate::theme::UNIT;
 use crate::workspaces::PaneKind;
 
@@ -36,26 +41,31 @@ const VECTORS: f32 = 250.0;
 /// Shows the pane in its rectangle.
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let body = widgets::pane(ui, &PANE, rect, context, |_, _| {});
-    let inner = body.shrink2(Vec2::new(2.0 * UNIT, 0.0));
     let scene = context.scene;
-    let mut child = ui.new_child(UiBuilder::new().id_salt("light").max_rect(inner));
-    child.set_clip_rect(body.intersect(ui.clip_rect()));
-    let rendition = match scene.rendition() {
-        Ok(rendition) => rendition,
-        Err(error) => {
-            child.colored_label(context.theme.warning, sentence(&error.to_string()));
+    let mut child = ui.new_child(UiBuilder::new().id_salt("light").max_rect(body.shrink2(Vec2::new(2.0 * UNIT, 0.0))));
+    let failed = |ui: &mut Ui, why: &str| {
+        ui.colored_label(context.theme.warning, sentence(why));
+    };
+    let shown = match context.ranking.light(&scene) {
+        Ok(Some(shown)) => shown,
+        Ok(None) => {
+            child.label(RichText::new("computing…").color(context.theme.weak));
             return;
         }
+        Err(why) => return failed(&mut child, &why),
     };
-    if context.view.saved.tables.contains(&PANE.kind) {
+    let rendition = match &shown.answer.rendition {
+        Ok(rendition) => Arc::clone(rendition),
+        Err(error) => return failed(&mut child, &error.to_string()),
+    };
+    if shown.current && context.view.saved.tables.contains(&PANE.kind) {
         widgets::table::show_numbers(ui, body, PANE.kind, &light::table(&scene, &rendition), context);
         return;
     }
-    ScrollArea::vertical().id_salt("light").auto_shrink(false).show(&mut child, |ui| {
-        ui.set_max_width(inner.width() - 2.0 * UNIT);
+    widgets::scroll::show(ui, (PANE.kind, "light"), body, context, |ui, context| {
         summary(ui, &scene, &rendition, context);
         pictures(ui, &rendition, context);
-        cameras(ui, &scene, context);
+        cameras(ui, &scene, &shown, context);
     });
 }
 
@@ -133,8 +143,8 @@ fn pictures(ui: &mut Ui, rendition: &Rendition, context: &PaneContext<'_>) {
 }
 
 /// Differences of each compared camera between this light and its reference illuminant.
-fn cameras(ui: &mut Ui, scene: &Scene<'_>, context: &PaneContext<'_>) {
-    let cameras: Vec<_> = scene.sources().into_iter().filter(|source| source.kind == SetKind::Camera).collect();
+fn cameras(ui: &mut Ui, scene: &Scene<'_>, shown: &Shown<LightSheetQuery>, context: &mut PaneContext<'_>) {
+    let (cameras, found) = (&shown.job.cameras, &shown.answer.cameras);
     if cameras.is_empty() {
         return;
     }
@@ -146,19 +156,31 @@ fn cameras(ui: &mut Ui, scene: &Scene<'_>, context: &PaneContext<'_>) {
     let names = scene.patches().map(|set| set.patches().iter().map(|patch| patch.name.clone()).collect::<Vec<_>>());
     let names = names.unwrap_or_default();
     let mut table = Table::new(["camera", "mean", "95 %", "max", "worst patch"]);
-    let found: Vec<_> = cameras.iter().map(|source| scene.consistency(&source.name)).collect();
-    for (source, found) in cameras.iter().zip(&found) {
+    for ((label, _), found) in cameras.iter().zip(found) {
         let found = found.as_ref().ok();
         let [mean, p95, max] =
             [found.map(|f| f.mean), found.map(|f| f.percentile_95), found.map(|f| f.max)].map(Cell::from);
         let worst = found.and_then(|found| names.get(found.worst)).map_or("", String::as_str);
-        table.push([Cell::from(source.label.as_str()), mean, p95, max, Cell::from(worst)]);
+        table.push([Cell::from(label.as_str()), mean, p95, max, Cell::from(worst)]);
     }
+    let sources = scene.sources();
+    let item = |row: usize| {
+        let source = sources.iter().find(|source| source.kind == SetKind::Camera && source.label == cameras[row].0)?;
+        Some(PlotItem::Sensor(SensorId { kind: source.kind, name: source.name.clone() }))
+    };
     let columns = table.columns.iter().map(|head| Column { decimals: Some(2), ..Column::from_head(head) }).collect();
     let note = |row: usize, _| CellNote {
         hint: found[row].as_ref().err().map_or_else(String::new, |error| sentence(&error.to_string())),
         ..CellNote::default()
     };
     let shown = DataTable::new(PANE.kind, "consistency", &table).with_columns(columns).with_notes(&note);
-    shown.show_compact(ui, context);
+    let top = ui.cursor().top();
+    if let Some(row) = shown.with_items(&item).show_compact(ui, context).clicked {
+        context.view.click(item(row).as_ref());
+    }
+    if widgets::walk::along(ui, PANE.kind, context, |_| {
+        (0..cameras.len()).map(|row| item(row).into_iter().collect()).collect()
+    }) {
+        ui.scroll_to_rect(Rect::from_x_y_ranges(ui.max_rect().x_range(), top..=ui.cursor().top()), None);
+    }
 }

@@ -180,11 +180,12 @@ fn file(ui: &mut Ui, context: &mut PaneContext<'_>) {
 /// The templates, and the user's own.
 fn templates(ui: &mut Ui, context: &mut PaneContext<'_>) {
     for template in &TEMPLATES {
-        let line = ui.button(template.name);
-        let mut hint = egui::Tooltip::for_enabled(&line);
-        hint.popup = hint.popup.align(egui::RectAlign::RIGHT);
-        hint.show(|ui| ui.label(template.summary));
-        if line.clicked() {
+        let response = ui.button(template.name);
+        let mut beside = egui::Tooltip::for_enabled(&response);
+        // Not over the next entries.
+        beside.popup = beside.popup.align(egui::RectAlign::RIGHT_START);
+        beside.show(|ui| ui.label(template.summary));
+        if response.clicked() {
             context.push(SessionCommand::New(Some(template.name)));
             ui.close();
         }
@@ -324,10 +325,13 @@ fn view(ui: &mut Ui, context: &mut PaneContext<'_>) {
             ticked(ui, now == preference, words, "", Command::SetTheme(preference), context);
         }
     });
-    let reduced = &mut context.view.saved.reduced_motion;
-    let line = ui.add(Button::new((gutter(*reduced), "Reduce motion")));
-    line.widget_info(|| egui::WidgetInfo::selected(egui::Role::CheckBox, true, *reduced, "Reduce motion"));
-    *reduced ^= line.clicked();
+    let still = context.view.saved.reduced_motion;
+    let line = ui.add(Button::new((gutter(still), "Reduce motion")));
+    line.widget_info(|| egui::WidgetInfo::selected(egui::Role::Button, true, still, "Reduce motion"));
+    if line.clicked() {
+        context.view.saved.reduced_motion = !still;
+        ui.close();
+    }
     ui.menu_button((gutter(false), "Surround of swatches"), |ui| {
         for surround in Surround::ALL {
             let on = context.view.saved.surround == surround;

@@ -102,7 +102,7 @@ fn switches(ui: &mut Ui, context: &mut PaneContext<'_>) {
     }
     let slow = context.ranking.busy().is_some_and(|busy| busy >= PATIENCE);
     if let Some((done, all)) = context.ranking.progress().filter(|_| slow) {
-        ui.label(RichText::new(format!("{done} of {all}…")).small().color(context.theme.weak));
+        ui.label(RichText::new(format!("Computing: {done} of {all}")).small().color(context.theme.weak));
     }
     if context.ranking.busy().is_some() {
         ui.ctx().request_repaint_after(PATIENCE);

@@ -7,10 +7,13 @@ mod orbit;
 mod request;
 mod switches;
 
+use std::time::Duration;
+
 use egui::{Align2, FontId, Rect, Sense, Ui, Vec2};
 
 use super::context::{Pane, PaneContext};
 use crate::panes::widgets;
+use crate::render_service::REST_AFTER;
 use crate::theme::{HEADING, UNIT};
 use crate::view::render::{PixelPlace, RenderMode};
 use crate::workspaces::PaneKind;
@@ -60,6 +63,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
         say(&painter, body, &words, context);
     } else {
         draw::pictures(ui, &painter, &layout, context);
+        mark_old(ui, &painter, &response, context);
         point_at(ui, &response, &layout, context);
         draw::divider(ui, &layout, context);
         draw::choosers(ui, &layout, &sources, context);
@@ -69,6 +73,25 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
         let stroke = egui::Stroke::new(1.0, context.theme.surround.label());
         ui.painter().rect_stroke(body, 0.0, stroke, egui::StrokeKind::Inside);
     }
+}
+
+/// Dims pictures of something else than what is chosen, and says what is being rendered, unless the new ones come at once.
+fn mark_old(ui: &Ui, painter: &egui::Painter, response: &egui::Response, context: &mut PaneContext<'_>) {
+    let now = ui.input(|input| input.time);
+    let view = &mut context.view.render;
+    if view.cancelled || !context.render_service.is_of_another() {
+        view.old_since = None;
+        return;
+    }
+    let left = *view.old_since.get_or_insert(now) + REST_AFTER - now;
+    if left > 0.0 {
+        ui.ctx().request_repaint_after(Duration::from_secs_f64(left));
+        return;
+    }
+    let words = format!("Rendering {}, {}…", context.scene.document.render.mesh.name(), context.scene.light_name());
+    painter.rect_filled(response.rect, 0.0, context.theme.surround.color().gamma_multiply(0.6));
+    say(painter, response.rect, &words, context);
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Canvas, true, &words));
 }
 
 /// Draws a message in place of pictures.

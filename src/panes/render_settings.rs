@@ -49,11 +49,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let foot = if kept { PIXEL + PIXEL_LINE * sources.min(PIXEL_LINES) as f32 + spectrum } else { NO_PIXEL };
     let below = if body.height() > WITH_PIXEL { foot } else { 0.0 };
     let groups = Rect::from_min_max(body.min, egui::pos2(body.right(), body.bottom() - below));
-    let inner = groups.shrink2(Vec2::new(2.0 * UNIT, 0.0));
-    let mut child = ui.new_child(UiBuilder::new().id_salt("render setup").max_rect(inner));
-    child.set_clip_rect(groups.intersect(ui.clip_rect()));
-    ScrollArea::vertical().id_salt("render setup").auto_shrink(false).show(&mut child, |ui| {
-        ui.set_max_width(inner.width() - 2.0 * UNIT);
+    widgets::scroll::show(ui, (PANE.kind, "render setup"), groups, context, |ui, context| {
         ui.spacing_mut().item_spacing.y = 0.5 * UNIT;
         group(ui, "Mesh and light", true, context, scene::show);
         let no_surface = "A spectral image has no surface.";
@@ -66,7 +62,11 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     });
     if below > 0.0 {
         let rect = Rect::from_min_max(groups.left_bottom(), body.max);
-        ui.painter().hline(inner.x_range(), rect.top(), egui::Stroke::new(1.0, context.theme.line));
+        ui.painter().hline(
+            groups.shrink2(Vec2::new(2.0 * UNIT, 0.0)).x_range(),
+            rect.top(),
+            egui::Stroke::new(1.0, context.theme.line),
+        );
         let room = rect.shrink2(Vec2::new(2.0 * UNIT, UNIT));
         let mut child = ui.new_child(UiBuilder::new().id_salt("pixel").max_rect(room));
         child.set_clip_rect(rect.intersect(ui.clip_rect()));

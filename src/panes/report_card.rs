@@ -1,6 +1,7 @@
 //! One camera on one page, as it is exported.
 
-use egui::{Align2, FontId, Id, Rect, ScrollArea, Ui, UiBuilder, Vec2};
+use chromascope_figure::{Figure, InkRole, Shape, Stroke};
+use egui::{Align2, FontId, Id, Rect, ScrollArea, Ui, Vec2};
 
 use super::context::{Pane, PaneContext};
 use crate::document::SetKind;
@@ -9,12 +10,15 @@ use crate::format::sentence;
 use crate::paint::{self, PlotOptions};
 use crate::panes::widgets;
 use crate::panes::widgets::pick_list::{self, Line};
-use crate::plot_item::SensorId;
+use crate::plot_item::{PlotItem, SensorId};
 use crate::theme::UNIT;
 use crate::workspaces::PaneKind;
 
 /// Narrowest page, in points; a narrower pane scrolls.
 const NARROWEST: f32 = 300.0;
+
+/// Panel of the patches.
+const BARS: &str = "patches";
 
 /// The pane.
 pub const PANE: Pane = Pane {
@@ -39,7 +43,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
         say("Tick a camera in the Library.", context.theme.weak);
         return;
     };
-    let page = match context.ranking.card(&context.scene, &camera) {
+    let mut page = match context.ranking.card(&context.scene, &camera) {
         Ok(Some(metrics)) => report_card::page(&context.scene, &camera, &metrics, width),
         Ok(None) => return,
         Err(why) => {
@@ -51,20 +55,39 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
         widgets::table::show_numbers(ui, body, PaneKind::REPORT_CARD, &page.table, context);
         return;
     }
-    let mut child = ui.new_child(UiBuilder::new().id_salt("report card").max_rect(body));
-    child.set_clip_rect(body.intersect(ui.clip_rect()));
-    ScrollArea::both().id_salt("report card").auto_shrink(false).show(&mut child, |ui| {
-        let size = Vec2::new(page.size[0] as f32, page.size[1] as f32);
-        let (area, _) = ui.allocate_exact_size(size, egui::Sense::hover());
-        for panel in &page.panels {
-            let [min, max] = [panel.area.min, panel.area.max].map(|[x, y]| area.min + Vec2::new(x as f32, y as f32));
-            let options = PlotOptions { zoomable: false, ..PlotOptions::default() };
-            let id = Id::unique(("report card", &panel.name));
-            let shown = paint::plot(ui, id, panel, &context.theme, Rect::from_min_max(min, max), options);
-            let said = format!("{}: {}", page.title, panel.name);
-            shown.response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Canvas, true, &said));
-        }
+    let moved = widgets::walk::along(ui, PANE.kind, context, |context| {
+        vec![context.scene.patches().map_or_else(|_| Vec::new(), |set| widgets::walk::patches(&set, Some(&camera)))]
     });
+    let marked = [&context.view.hovered, &context.view.selected].map(|item| match item {
+        Some(PlotItem::Patch { source: Some(source), patch }) if *source == camera => Some(patch.clone()),
+        _ => None,
+    });
+    for mark in page.panels.iter_mut().filter(|panel| panel.name == BARS).flat_map(|panel| &mut panel.marks) {
+        if matches!(mark.shape, Shape::Rect { .. }) && marked.iter().flatten().any(|patch| *patch == mark.name) {
+            mark.stroke = Some(Stroke::solid(InkRole::Text, 2.0));
+        }
+    }
+    let body = body.expand2(Vec2::new(2.0 * UNIT, 0.0));
+    widgets::scroll::show(ui, (PANE.kind, "report card"), body, context, |ui, context| {
+        ScrollArea::horizontal().auto_shrink([false, true]).show(ui, |ui| draw(ui, &page, moved, context));
+    });
+}
+
+/// Draws the page; `follow` brings the bars into sight.
+fn draw(ui: &mut Ui, page: &Figure, follow: bool, context: &PaneContext<'_>) {
+    let size = Vec2::new(page.size[0] as f32, page.size[1] as f32);
+    let (area, _) = ui.allocate_exact_size(size, egui::Sense::hover());
+    for panel in &page.panels {
+        let [min, max] = [panel.area.min, panel.area.max].map(|[x, y]| area.min + Vec2::new(x as f32, y as f32));
+        let options = PlotOptions { zoomable: false, ..PlotOptions::default() };
+        let id = Id::unique(("report card", &panel.name));
+        let shown = paint::plot(ui, id, panel, &context.theme, Rect::from_min_max(min, max), options);
+        let said = format!("{}: {}", page.title, panel.name);
+        shown.response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Canvas, true, &said));
+        if follow && panel.name == BARS {
+            shown.response.scroll_to_me(None);
+        }
+    }
 }
 
 /// A list of cameras; the first entry follows the selection.

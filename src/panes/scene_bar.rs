@@ -62,7 +62,7 @@ enum Condition {
 
 impl Condition {
     /// True if a pane shows something that depends on it.
-    fn matters_to(self, pane: PaneKind, view: &View, light: &Light) -> bool {
+    fn matters_to(self, pane: PaneKind, view: &View, (light, is_eq_13): (&Light, bool)) -> bool {
         // A light of its own has its own temperature: what is set marks the loci alone.
         let is_of_light = self != Self::Temperature || !matches!(light, Light::Set(_));
         match pane {
@@ -76,6 +76,9 @@ impl Condition {
             }
             // Ranks are by every metric.
             PaneKind::METRICS | PaneKind::HEAD_TO_HEAD => self != Self::Difference,
+            // There is no correction without a fit.
+            PaneKind::CORRECTION if is_eq_13 => self == Self::Transform,
+            PaneKind::CORRECTION => is_of_light && !matches!(self, Self::Reference | Self::Patches),
             PaneKind::LIGHT => is_of_light && !matches!(self, Self::Reference | Self::White | Self::Difference),
             PaneKind::RECORDED => is_of_light && matches!(self, Self::Light | Self::Temperature | Self::Patches),
             PaneKind::METHODS | PaneKind::WORK_SAVED => is_of_light && self != Self::Difference,
@@ -87,6 +90,7 @@ impl Condition {
     fn matters(self, context: &PaneContext<'_>) -> bool {
         let (view, light) = (&*context.view, &context.scene.document.light);
         let sun = Light::Set(SUN.to_owned());
+        let is_eq_13 = context.scene.document.transform.is_eq_13();
         let light_of = |pane| match pane {
             PaneKind::RENDER | PaneKind::RENDER_SETTINGS | PaneKind::TOLERANCE | PaneKind::STATISTICS
                 if context.scene.is_sunlit() =>
@@ -96,10 +100,10 @@ impl Condition {
             _ => light,
         };
         if let Some(pane) = view.maximized {
-            return self.matters_to(pane, view, light_of(pane));
+            return self.matters_to(pane, view, (light_of(pane), is_eq_13));
         }
         let places = view.saved.layout.places(view.saved.workspace).iter().flatten();
-        places.copied().any(|pane| self.matters_to(pane, view, light_of(pane)))
+        places.copied().any(|pane| self.matters_to(pane, view, (light_of(pane), is_eq_13)))
     }
 }
 

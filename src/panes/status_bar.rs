@@ -288,6 +288,12 @@ fn facts(arrangement: &Arrangement, context: &PaneContext<'_>) -> Vec<String> {
         let milliseconds = scene.results.last_work().as_secs_f64() * 1e3;
         facts.push(format!("updated in {} ms", fixed(milliseconds, usize::from(milliseconds < 100.0))));
     }
+    if arrangement.panes.iter().any(|(pane, _)| *pane == PaneKind::METRICS)
+        && let Some((done, all)) = context.ranking.progress()
+    {
+        facts.push(format!("Computing: {done} of {all}"));
+        return facts;
+    }
     let sources = scene.sources();
     let shown = || sources.iter().filter(|source| source.visible);
     if arrangement.panes.iter().any(|(pane, _)| *pane == PaneKind::CHROMATICITY) && scene.document.overlays.loci {

@@ -48,7 +48,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
         board(ui, area, &built, context);
     });
     if height - shown.state.clamped_offset().y > body.height() + 1.0 {
-        more_below(ui, slot, context);
+        widgets::scroll::more_below(ui, slot, context.theme.surround.label());
     }
 }
 
@@ -82,18 +82,6 @@ fn footer(ui: &mut Ui, body: Rect, context: &mut PaneContext<'_>) -> (Rect, Rect
     let rest = Rect::from_min_max(body.min, egui::Pos2::new(body.right(), top));
     let beside_button = egui::Pos2::new(place.right() + 2.0 * UNIT, place.top());
     (rest, Rect::from_min_size(beside_button, Vec2::new(body.right() - beside_button.x, place.height())))
-}
-
-/// A hint at the left of a place, where it fits, that there is more to scroll to.
-fn more_below(ui: &Ui, slot: Rect, context: &PaneContext<'_>) {
-    let color = context.theme.surround.label();
-    let font = egui::FontId::proportional(crate::theme::SMALL);
-    let words = ui.painter().layout_no_wrap("more below".to_owned(), font, color);
-    let at = slot.left_center() + Vec2::new(14.0, -0.5 * words.size().y);
-    let tip = slot.left_center() + Vec2::new(6.0, 3.0);
-    ui.painter().galley(at, words, color);
-    let corners = vec![tip, tip + Vec2::new(-4.0, -5.0), tip + Vec2::new(4.0, -5.0)];
-    ui.painter().add(egui::Shape::convex_polygon(corners, color, egui::Stroke::NONE));
 }
 
 fn board(ui: &mut Ui, area: Rect, built: &swatches::Built, context: &mut PaneContext<'_>) {

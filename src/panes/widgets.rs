@@ -6,6 +6,7 @@ pub mod lines;
 pub mod number_field;
 pub mod pick_list;
 pub mod pixel_spectrum;
+pub mod scroll;
 pub mod table;
 pub mod tolerance;
 pub mod walk;
@@ -15,7 +16,7 @@ pub use lines::focus_rim;
 use std::time::Duration;
 
 use chromascope_figure::{Ink, LegendEntry, Stroke};
-use egui::{Align, Button, Layout, Rect, Response, ScrollArea, Sense, Ui, UiBuilder, Vec2};
+use egui::{Align, Button, Layout, Rect, Response, Sense, Ui, UiBuilder, Vec2};
 
 use crate::command::Command;
 use crate::export::FigureForm;
@@ -96,13 +97,7 @@ pub fn scrolling_pane(
     content: impl FnOnce(&mut Ui, &mut PaneContext<'_>),
 ) {
     let body = self::pane(ui, pane, rect, context, |_, _| {});
-    let inner = body.shrink2(Vec2::new(2.0 * UNIT, 0.0));
-    let mut child = ui.new_child(UiBuilder::new().id_salt(pane.title).max_rect(inner));
-    child.set_clip_rect(body.intersect(ui.clip_rect()));
-    ScrollArea::vertical().id_salt(pane.title).auto_shrink(false).show(&mut child, |ui| {
-        ui.set_max_width(inner.width() - 2.0 * UNIT);
-        content(ui, context);
-    });
+    scroll::show(ui, (pane.kind, pane.title), body, context, content);
 }
 
 /// The title, which opens a menu of panes for this place.

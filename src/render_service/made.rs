@@ -67,6 +67,21 @@ impl PicturesOf {
         })
     }
 
+    /// True if another query is of the same mesh, material, sensors and light, however they are viewed and made; images count as
+    /// such by their kind alone.
+    pub fn has_subject_of(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Self::Mesh(own), Self::Mesh(other)) => {
+                own.shading.geometry.visibility.mesh == other.shading.geometry.visibility.mesh
+                    && own.reflectance == other.reflectance
+                    && own.sources == other.sources
+                    && own.reference == other.reference
+            }
+            (Self::Image(_), Self::Image(_)) => true,
+            _ => false,
+        }
+    }
+
     /// True if another query is of the same shaded mesh, or of the same signals of an image.
     pub fn has_signals_of(&self, other: &Self) -> bool {
         match (self, other) {

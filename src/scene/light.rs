@@ -4,11 +4,14 @@ use std::sync::Arc;
 
 use chromascope_core::colorimetry::Xyz;
 use chromascope_core::light::{Cct, CctError, PlanckianLocus, RadiationConstants};
+use chromascope_core::patch_set::PatchSet;
 use chromascope_core::query::{
-    Ask, CctQuery, Consistency, ConsistencyError, ConsistencyQuery, NearestBlackBodyQuery, Rendition, RenditionQuery,
-    Shared,
+    Ask, CctQuery, Consistency, ConsistencyError, ConsistencyQuery, NearestBlackBodyQuery, Query, Rendition,
+    RenditionQuery, Shared,
 };
 use chromascope_core::rendition::{RenditionError, Standards};
+use chromascope_core::spectral::grid::GridSpectrum;
+use chromascope_core::spectral::{Sensor, SpectralDistribution};
 
 use super::{Scene, SceneError};
 use crate::catalog::load::StandardsQuery;
@@ -28,7 +31,79 @@ pub enum NoConsistency {
     Scene(#[from] SceneError),
 }
 
+/// Question for the indices of a light, and for the consistency of cameras under it.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct LightSheetQuery {
+    measured: Shared<SpectralDistribution>,
+    grid: Shared<GridSpectrum>,
+    observer: Shared<Sensor>,
+    training: Shared<PatchSet>,
+    patches: Shared<PatchSet>,
+    /// The cameras, by label.
+    pub cameras: Vec<(String, Shared<Sensor>)>,
+}
+
+/// Indices of a light, and the consistency of cameras under it.
+pub struct LightSheet {
+    /// The indices.
+    pub rendition: Result<Arc<Rendition>, SceneError>,
+    /// Consistency of each camera of the question.
+    pub cameras: Vec<Result<Consistency, NoConsistency>>,
+}
+
+impl LightSheetQuery {
+    fn rendition(&self, ask: &impl Ask) -> Result<Arc<Rendition>, SceneError> {
+        let standards = (*ask.ask(&StandardsQuery)).clone();
+        let standards = standards.map_err(|error| SceneError::Load { name: "test samples".to_owned(), error })?;
+        Ok(ask.ask(&RenditionQuery { light: self.measured.clone(), standards }))
+    }
+
+    fn consistency(&self, sensor: &Shared<Sensor>, ask: &impl Ask) -> Result<Consistency, NoConsistency> {
+        let rendition = self.rendition(ask)?;
+        let (reference, _) = rendition.reference.as_ref().map_err(|&error| error)?;
+        let query = ConsistencyQuery {
+            sensor: sensor.clone(),
+            light: self.grid.clone(),
+            reference: reference.clone(),
+            observer: self.observer.clone(),
+            training: self.training.clone(),
+            patches: self.patches.clone(),
+        };
+        Ok((*ask.ask(&query)).clone()?)
+    }
+}
+
+impl Query for LightSheetQuery {
+    type Answer = LightSheet;
+    const NAME: &'static str = "light and cameras under it";
+    const CAPACITY: usize = 4;
+
+    fn answer(&self, ask: &impl Ask) -> LightSheet {
+        let cameras = self.cameras.iter().map(|(_, sensor)| self.consistency(sensor, ask)).collect();
+        LightSheet { rendition: self.rendition(ask), cameras }
+    }
+}
+
 impl Scene<'_> {
+    /// Question for the light with the compared cameras.
+    pub fn light_sheet_query(&self) -> Result<LightSheetQuery, SceneError> {
+        let sources = self.sources().into_iter().filter(|source| source.kind == SetKind::Camera);
+        let cameras = sources.map(|source| Ok((source.label, self.sensor(source.kind, &source.name)?)));
+        self.light_query_of(cameras.collect::<Result<_, SceneError>>()?)
+    }
+
+    fn light_query_of(&self, cameras: Vec<(String, Shared<Sensor>)>) -> Result<LightSheetQuery, SceneError> {
+        let light = self.light()?;
+        Ok(LightSheetQuery {
+            measured: Shared::new(light.measured),
+            grid: light.grid,
+            observer: self.sensor(SetKind::Observer, self.fit_target())?,
+            training: self.patch_set(TRAINING, None)?,
+            patches: self.patches()?,
+            cameras,
+        })
+    }
+
     /// Observers and samples of the indices.
     pub fn standards(&self) -> Result<Shared<Standards>, SceneError> {
         self.loaded(&StandardsQuery, "test samples")
@@ -80,16 +155,7 @@ impl Scene<'_> {
     /// Color consistency of a camera: differences of the patches from those under the light's reference illuminant. The correction
     /// is fitted under the latter to the observer that the document fits to, or to CIE 1931.
     pub fn consistency(&self, camera: &str) -> Result<Consistency, NoConsistency> {
-        let rendition = self.rendition()?;
-        let (reference, _) = rendition.reference.as_ref().map_err(|&error| error)?;
-        let query = ConsistencyQuery {
-            sensor: self.sensor(SetKind::Camera, camera)?,
-            light: self.light()?.grid,
-            reference: reference.clone(),
-            observer: self.sensor(SetKind::Observer, self.fit_target())?,
-            training: self.patch_set(TRAINING, None)?,
-            patches: self.patches()?,
-        };
-        Ok((*self.results.ask(&query)).clone()?)
+        let sensor = self.sensor(SetKind::Camera, camera)?;
+        self.light_query_of(Vec::new())?.consistency(&sensor, self.results)
     }
 }

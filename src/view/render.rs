@@ -79,6 +79,8 @@ pub struct RenderView {
     pub rows_read: Option<f32>,
     /// True if finer pictures than the current ones are not wanted.
     pub cancelled: bool,
+    /// Time of egui in seconds since which the pictures are of something else than what is chosen.
+    pub old_since: Option<f64>,
     /// The pictures as textures.
     pub textures: PictureTextures,
 }

@@ -25,7 +25,7 @@ pub struct Template {
 pub const TEMPLATES: [Template; 7] = [
     Template {
         name: "The paper, experiment 1",
-        summary: "Planckian loci of the paper's cameras and observers from 1000 to 20000 K; Eq 13.",
+        summary: "The colors of blackbodies from 1000 to 20000 K as two cameras and the eye see them: lines that part (Eq 13).",
         pane: PaneKind::CHROMATICITY,
         start: Start::Paper,
         actions: |document| {
@@ -34,14 +34,14 @@ pub const TEMPLATES: [Template; 7] = [
     },
     Template {
         name: "The paper, experiment 2",
-        summary: "Five patches of the ColorChecker under equal energy; Eq 13; distances in xy.",
+        summary: "Five patches of the ColorChecker as each camera and as the eye sees them, side by side (equal energy, Eq 13, Δxy).",
         pane: PaneKind::SWATCHES,
         start: Start::Paper,
         actions: |_| Vec::new(),
     },
     Template {
         name: "The paper, experiment 3",
-        summary: "A head of measured skin in direct sunlight, balanced to D55, as in Figure 8.",
+        summary: "A person in direct sunlight as each camera and as the eye sees him (measured skin, balanced to D55, Figure 8).",
         pane: PaneKind::RENDER,
         start: Start::Paper,
         actions: |_| vec![Action::Render(RenderAction::Figure8)],

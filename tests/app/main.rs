@@ -55,6 +55,7 @@ mod sessions;
 mod shell;
 mod spectral_images;
 mod starts;
+mod steering;
 mod table;
 mod temperature;
 mod theme;

@@ -1,6 +1,6 @@
 //! Turning and approaching the mesh. View state: no step of undo.
 
-use egui::{EventFilter, Key, PointerButton, Response, Ui};
+use egui::{EventFilter, Key, Modifiers, PointerButton, Response, Ui};
 
 use crate::panes::context::PaneContext;
 use crate::scene::orbit::Orbit;
@@ -48,11 +48,11 @@ pub(super) fn by_keys(ui: &Ui, response: &Response, context: &mut PaneContext<'_
     if !response.has_focus() && !idle {
         return;
     }
-    let (x, y, nearer) = ui.input(|input| {
-        let presses = |key: Key| input.num_presses(key) as f64;
+    let (x, y, nearer) = ui.input_mut(|input| {
         if !input.modifiers.is_none() && !input.modifiers.shift_only() {
             return (0.0, 0.0, 0.0);
         }
+        let mut presses = |key: Key| input.count_and_consume_key(Modifiers::NONE, key) as f64;
         (
             presses(Key::ArrowRight) - presses(Key::ArrowLeft),
             presses(Key::ArrowUp) - presses(Key::ArrowDown),

@@ -27,12 +27,13 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
 
 /// Controls of a mesh: its triangles, material and light.
 fn of_mesh(ui: &mut Ui, settings: &RenderSettings, context: &mut PaneContext<'_>) {
-    // The head's cages have so many that a smaller number would change nothing.
+    // The head's cages have so many that a smaller number would change nothing. The slider has one range for all meshes: equal
+    // numbers have equal places.
     let is_head = settings.mesh == MeshChoice::Head;
     let least = if is_head { FEWEST[usize::from(settings.garment.is_some())] as f64 } else { *TRIANGLES.start() };
     let dial = Dial {
         name: "Triangles",
-        range: least..=*TRIANGLES.end(),
+        range: TRIANGLES,
         logarithmic: Some(1.0),
         unit: "",
         hint: "Approximate number of triangles of head, fern and sphere. Generating a mesh takes longer than drawing it.",
@@ -40,7 +41,7 @@ fn of_mesh(ui: &mut Ui, settings: &RenderSettings, context: &mut PaneContext<'_>
         enabled: matches!(settings.mesh, MeshChoice::Head | MeshChoice::Fern | MeshChoice::Sphere),
     };
     if let Some(to) = dial.show(ui, (settings.triangles as f64).max(least), context) {
-        set(context, "Triangles", |settings| settings.triangles = to as usize);
+        set(context, "Triangles", |settings| settings.triangles = to.max(least) as usize);
     }
     caption(ui, "Material", context);
     material::choice(ui, material::Part::Skin, context);
@@ -57,7 +58,11 @@ fn conditions(ui: &mut Ui, settings: &RenderSettings, context: &mut PaneContext<
     ui.horizontal(|ui| {
         let choices = [
             (true, "Sun, D55", "Direct sun (ASTM G173), balanced to D55, in this workspace alone"),
-            (false, "Scene bar", "Light and white balance as above; choosing one there chooses this too"),
+            (
+                false,
+                "As above",
+                "The light and white balance chosen above, as in all workspaces; choosing one there chooses this too",
+            ),
         ];
         if let Some(to) = widgets::segmented(ui, &choices, settings.sunlight) {
             set(context, "Light and white balance", |settings| settings.sunlight = to);

@@ -1,6 +1,8 @@
 //! The field of a number: drag it, or click and type. A number out of range is refused, with the range, not clamped.
 
-use egui::{Align2, Area, CursorIcon, Frame, Id, Key, Order, Rect, Response, Role, Sense, TextEdit, Ui, WidgetInfo};
+use egui::{
+    Align2, Area, CursorIcon, Event, Frame, Id, Key, Order, Rect, Response, Role, Sense, TextEdit, Ui, WidgetInfo,
+};
 
 use super::mark_all;
 use crate::panes::context::PaneContext;
@@ -65,6 +67,12 @@ impl NumberField<'_> {
         ui.painter().text(rect.center(), Align2::CENTER_CENTER, words, font, theme.text);
         if response.clicked() {
             response.request_focus();
+            // In a slow frame the first letters may come with the click.
+            let typed = |event: &Event| if let Event::Text(text) = event { Some(text.clone()) } else { None };
+            let text: String = ui.input(|input| input.events.iter().filter_map(typed).collect());
+            if !text.is_empty() {
+                ui.data_mut(|data| data.insert_temp(self.id, Typed { of: self.now, text, wrong: None }));
+            }
         }
         let moved = f64::from(response.drag_delta().x) * self.speed;
         response.on_hover_cursor(CursorIcon::ResizeHorizontal).on_hover_text(self.hint);

@@ -73,7 +73,8 @@ pub fn curves(context: &PaneContext<'_>) -> Vec<Vec<PlotItem>> {
     vec![vec![PlotItem::Light], reflectances, sensors.collect()]
 }
 
-fn patches(set: &PatchSet, source: Option<&SensorId>) -> Vec<PlotItem> {
+/// The patches of a set, of a sensor or as such.
+pub fn patches(set: &PatchSet, source: Option<&SensorId>) -> Vec<PlotItem> {
     let patch = |patch: &str| PlotItem::Patch { source: source.cloned(), patch: patch.to_owned() };
     set.patches().iter().map(|known| patch(&known.name)).collect()
 }
