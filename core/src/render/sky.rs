@@ -143,7 +143,7 @@ impl Sampling<'_> {
         });
         SkySample {
             diffuse: falloff * self.lobe.visible_mean(normal, to_viewer, visible),
-            coherent: own * falloff * lobe::above(mirrored.y) * visible(mirrored),
+            coherent: own * falloff * lobe::above(mirrored.y, lobe::EDGE) * visible(mirrored),
             behind: falloff * through,
             cos_s,
         }

@@ -164,13 +164,12 @@ impl KnownPlans {
     fn of(&mut self, shading: &ShadingImage, sources: &[SpectralWeights]) -> Option<&[Arc<Plan>]> {
         let request = shading.plan_request();
         let found = self.0.iter().position(|(known, _)| *known == request);
-        let index = match found {
-            Some(index) => index,
-            None => {
-                let plan = |measure: &SpectralWeights| Plan::for_picture(shading, measure).ok().map(Arc::new);
-                self.0.push((request, sources.iter().map(plan).collect::<Option<_>>()?));
-                self.0.len() - 1
-            }
+        let index = if let Some(index) = found {
+            index
+        } else {
+            let plan = |measure: &SpectralWeights| Plan::for_picture(shading, measure).ok().map(Arc::new);
+            self.0.push((request, sources.iter().map(plan).collect::<Option<_>>()?));
+            self.0.len() - 1
         };
         Some(&self.0[index].1)
     }

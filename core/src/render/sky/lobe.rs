@@ -5,8 +5,11 @@ use crate::reflectance::{Geometry, Normalization, Surface, kappa};
 use glam::Vec3;
 use std::f32::consts::TAU;
 
-/// Heights above the horizon between which the sky begins, in y of the unit direction: half of the distance between directions.
-const EDGE: f32 = 0.05;
+/// Least height about the horizon over which the sky begins, in y of the unit direction.
+pub(super) const EDGE: f32 = 0.05;
+
+/// That height for a single direction over the hemisphere: half of the distance between directions goes with 1/√count.
+const EDGE_OF_ONE: f32 = 1.25;
 
 /// Steps of Fresnel's transmittance over the cosine.
 const STEPS: usize = 128;
@@ -31,9 +34,9 @@ enum Form {
     Microfacet,
 }
 
-/// 0 below the horizon, 1 above, linear between.
-pub(super) fn above(y: f32) -> f32 {
-    (0.5 + y / (2.0 * EDGE)).clamp(0.0, 1.0)
+/// 0 below the horizon, 1 above, linear from −edge to edge.
+pub(super) fn above(y: f32, edge: f32) -> f32 {
+    (0.5 + y / (2.0 * edge)).clamp(0.0, 1.0)
 }
 
 impl Lobe {
@@ -70,10 +73,13 @@ impl Lobe {
         let along = (to_viewer - normal * cos_s).try_normalize();
         let along = along.unwrap_or_else(|| normal.any_orthonormal_vector());
         let across = normal.cross(along);
-        // e^-b/n has the width of the slopes where g is large, and of diffraction by τ where it is small.
+        // The mean of n/g in Σ gⁿ/(n! n) e^(-b/n): the width of the slopes where g is large, of diffraction by τ where it is small.
         let g = (self.g * cos_s * cos_s).max(f32::MIN_POSITIVE);
-        let width = (self.slope2 * (1.0 + 1.0 / g)).min(1e12).sqrt();
+        let width = (self.slope2 / -(-g).exp_m1()).min(1e12).sqrt();
         let sin_s = (1.0 - cos_s * cos_s).max(0.0).sqrt();
+        // Facets turn what they reflect by twice their slope.
+        let reach = if self.form == Form::Lambert { 1.0 } else { (2.0 * width).min(1.0) };
+        let edge = (EDGE_OF_ONE * reach / (self.nodes.len() as f32).sqrt()).max(EDGE);
         let (mut seen, mut all) = (0.0, 0.0);
         for &[p, q] in &self.nodes {
             let (local, weight) = match self.form {
@@ -85,7 +91,7 @@ impl Lobe {
             }
             all += weight;
             let direction = along * local.x + across * local.y + normal * local.z;
-            let above = above(direction.y);
+            let above = above(direction.y, edge);
             if above > 0.0 {
                 seen += weight * above * visible(direction);
             }
