@@ -45,7 +45,8 @@ pub fn show(
     }
     ui.data_mut(|data| data.insert_temp(key, height));
     if kept > 0.0 && height - shown.state.clamped_offset().y > view.height() + 1.0 {
-        more_below(ui, slot.shrink2(Vec2::new(2.0 * UNIT, 0.0)), context.theme.weak);
+        let slot = slot.shrink2(Vec2::new(2.0 * UNIT, 0.0));
+        more_below(&ui.new_child(UiBuilder::new().id_salt((name, "below")).max_rect(slot)), slot, context.theme.weak);
     }
 }
 
