@@ -19,7 +19,8 @@ fn window() -> Window {
 
 pub(crate) fn press(window: &mut Window, role: Role, label: &str) {
     window.get_by_role_and_label(role, label).click();
-    window.run();
+    // Answers that arrive meanwhile ask for frames of their own.
+    window.run_steps(4);
 }
 
 fn search(window: &mut Window, words: &str) {

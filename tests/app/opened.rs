@@ -54,7 +54,8 @@ fn a_folder_is_one_step_and_what_fails_is_named() {
     let names: Vec<String> = own(&window).into_iter().map(|set| set.name).collect();
     assert_eq!(names, ["a", "b"]);
     let said = window.state().view().status.text.clone();
-    assert!(said.starts_with("2 files read.") && said.contains("c.csv, line 4: no number in column 2"), "{said}");
+    assert!(said.starts_with("1 of 3 files could not be read: c.csv, line 4: no number in column 2"), "{said}");
+    assert!(said.contains("2 files read."), "{said}");
     window.state_mut().push(Command::Undo);
     window.run();
     assert_eq!(*window.state().history().document(), Document::paper());
