@@ -85,7 +85,9 @@ pub(super) fn patches(scene: &Scene<'_>, built: &mut Built) -> Option<Content> {
         }
     }
     let five = scene.document.subset == Subset::Five && scene.has_five();
-    let note = if five { "patches: the paper's five".to_owned() } else { format!("patches: {}", scene.document.chart) };
+    // Without the chart's edition, which the caption of a figure has: a small pane holds it in one line.
+    let chart = scene.document.chart.split(" (").next().unwrap_or_default();
+    let note = if five { "patches: the paper's five".to_owned() } else { format!("patches: {chart}") };
     let range = [0.0, top * 1.08];
     Some(Content { quantity: "reflectance", note, marks, names, common: Vec::new(), range, weight: 1.3 })
 }
