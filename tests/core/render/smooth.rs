@@ -56,7 +56,9 @@ fn views_places_of_the_light_and_roughnesses_share_their_plans() {
     start.sources.truncate(1);
     let ask = Counting::default();
     let plans = |services: &[RenderService]| -> usize {
-        services.iter().for_each(|service| drop(service.take(&ask)));
+        for service in services {
+            drop(service.take(&ask));
+        }
         ask.made().get("plan").copied().unwrap_or_default()
     };
     assert_eq!(plans(&[start.clone()]), 1, "a search pays");
