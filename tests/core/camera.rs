@@ -273,6 +273,21 @@ fn a_channel_that_sees_nothing_of_the_light_is_named() {
     );
 }
 
+#[test]
+fn a_white_too_bright_for_a_faint_sensor_is_refused() {
+    let e = GridSpectrum::constant(1.0);
+    let at = |nm: f64| SpectralDistribution::new(vec![nm, nm + 1.0], vec![1e-250; 2]).unwrap();
+    let faint = Sensor::new(Primaries::Camera, [at(450.0), at(550.0), at(650.0)], Response::PerEnergy).unwrap();
+    let balanced = |white| Rendering::new(&faint, &e, white, ColorTransform::Paper);
+    assert!(balanced(WhiteBalanceTarget::UNITY).unwrap().locus_gain.is_finite());
+    let bright = WhiteBalanceTarget([1.0, 1e100, 0.5]);
+    assert_eq!(balanced(bright), Err(RenderingError::GainOverflow { channel: 1 }));
+    // A matrix would divide by a white that is nearly nothing.
+    let transform = ColorTransform::Observer { reference: &sensor(CIE_1931), training: &training() };
+    let dark = WhiteBalanceTarget([1.0, 1e-310, 1.0]);
+    assert_eq!(Rendering::new(&sensor(CANON_10D), &e, dark, transform), Err(RenderingError::NoWhite));
+}
+
 /// Nothing is divided by Z, so deep red light, which z̄ does not see, is no reason to refuse.
 #[test]
 fn a_cie_observer_sees_deep_red_light() {

@@ -53,6 +53,12 @@ pub enum RenderingError {
     /// The reference of a fit must count in XYZ.
     #[error("the observer that a color transform is fitted to must be an XYZ observer")]
     Reference,
+    /// The chosen white's signal over a channel's response exceeds the range of numbers.
+    #[error("channel {} responds too weakly for the chosen white; choose another white or larger sensitivities", channel + 1)]
+    GainOverflow {
+        /// The channel, 0 to 2.
+        channel: usize,
+    },
     /// The color that white is to take leaves a channel at zero, which no matrix can undo.
     #[error("the chosen white leaves a channel at zero; choose another white")]
     NoWhite,
@@ -227,6 +233,15 @@ pub fn white_divisors(sensor: &Sensor, light: &GridSpectrum) -> Result<DVec3, Re
     }
 }
 
+/// Factors from raw integrals to signals.
+fn gain(white: DVec3, integrals: DVec3) -> Result<DVec3, RenderingError> {
+    let gain = white / integrals;
+    match (0..3).find(|&channel| !gain[channel].is_finite()) {
+        Some(channel) => Err(RenderingError::GainOverflow { channel }),
+        None => Ok(gain),
+    }
+}
+
 /// A CIE observer: tristimulus values with Y = 1 for a perfect white under the light.
 fn direct(sensor: &Sensor, light: &GridSpectrum) -> Result<Rendering, RenderingError> {
     // Only Y divides: light that the other two do not see, such as deep red, is no reason to refuse.
@@ -241,7 +256,7 @@ fn direct(sensor: &Sensor, light: &GridSpectrum) -> Result<Rendering, RenderingE
     Ok(Rendering {
         white: DVec3::ONE,
         white_integrals: divisor,
-        locus_gain: divisor.recip(),
+        locus_gain: gain(DVec3::ONE, divisor)?,
         xyz_from_signals: DMat3::IDENTITY,
         root_polynomial: None,
         srgb_from_xyz: screen_from(white),
@@ -264,7 +279,7 @@ fn paper(
     Ok(Rendering {
         white: s,
         white_integrals: integrals,
-        locus_gain: s / flat,
+        locus_gain: gain(s, flat)?,
         xyz_from_signals: XYZ_FROM_SRGB,
         root_polynomial: None,
         srgb_from_xyz: srgb_from_xyz(),
@@ -362,7 +377,7 @@ fn fitted(
     let (samples, integrals, conditioning) = balanced(sensor, light, training)?;
     let FitTargets { reference, targets } = targets?;
     let s = DVec3::from_array(white);
-    if s.abs().min_element() == 0.0 {
+    if !s.recip().is_finite() {
         return Err(RenderingError::NoWhite);
     }
     check_lobes(sensor, correction.method)?;
@@ -375,7 +390,7 @@ fn fitted(
     Ok(Rendering {
         white: s,
         white_integrals: integrals,
-        locus_gain: s / integrals,
+        locus_gain: gain(s, integrals)?,
         xyz_from_signals: unity * DMat3::from_diagonal(s.recip()),
         root_polynomial,
         srgb_from_xyz: reference.srgb_from_xyz,

@@ -112,7 +112,7 @@ impl Camera<'_> {
             );
         }
         if let Some(sky) = shading.sky() {
-            sky.add(self.measure, &mut signals);
+            sky.add(self.measure, shading.geometry().angles(), &mut signals);
         }
         (!stop.is_set()).then_some(signals)
     }

@@ -15,7 +15,7 @@
 mod lobe;
 mod visible;
 
-use super::geometry::SeenPlace;
+use super::geometry::{Angles, SeenPlace};
 use super::measure::{LAMBDA_0_NM, SkySignals, SpectralWeights};
 use super::quality::SkyFineness;
 use super::stop::Stop;
@@ -47,8 +47,6 @@ pub struct SkySample {
     pub coherent: f32,
     /// Irradiance of the other side over that of a level surface under the whole sky, times cos⁴α; 0 where nothing shines through.
     pub behind: f32,
-    /// cos θs.
-    pub cos_s: f32,
 }
 
 /// Visible shares of the sky at each sample that sees the mesh. No light, spectrum or camera is in it.
@@ -145,7 +143,6 @@ impl Sampling<'_> {
             diffuse: falloff * self.lobe.visible_mean(normal, to_viewer, visible),
             coherent: own * falloff * lobe::above(mirrored.y, lobe::EDGE) * visible(mirrored),
             behind: falloff * through,
-            cos_s,
         }
     }
 }
@@ -251,12 +248,12 @@ pub struct Sky {
 
 impl Sky {
     /// Adds the sky's light to the signals of all samples that see the mesh, where the measure says what the surface returns of it.
-    pub(super) fn add(&self, measure: &SpectralWeights, signals: &mut [[f32; 3]]) {
+    pub(super) fn add(&self, measure: &SpectralWeights, angles: &[Angles], signals: &mut [[f32; 3]]) {
         let Some(table) = measure.sky() else { return };
         let share = self.share as f32;
         let through = measure.transmitted().map(|t| t as f32);
-        let add = |(signal, sample): (&mut [f32; 3], &SkySample)| {
-            let at = sample.cos_s.clamp(0.0, 1.0) * STEPS as f32;
+        let add = |((signal, sample), angles): ((&mut [f32; 3], &SkySample), &Angles)| {
+            let at = angles.cos_s.clamp(0.0, 1.0) * STEPS as f32;
             let low = (at as usize).min(STEPS - 1);
             let t = at - low as f32;
             let mix = |table: &[[f32; 3]], c: usize| table[low][c] * (1.0 - t) + table[low + 1][c] * t;
@@ -265,7 +262,7 @@ impl Sky {
                 *signal += share * (own + sample.behind * through[c]);
             }
         };
-        signals.par_iter_mut().zip(self.image.samples()).with_min_len(4096).for_each(add);
+        signals.par_iter_mut().zip(self.image.samples()).zip(angles).with_min_len(4096).for_each(add);
     }
 }
 
