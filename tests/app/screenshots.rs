@@ -53,7 +53,9 @@ fn open_on(
     size: [f32; 2],
     theme: egui::Theme,
 ) -> Harness<'static, ChromascopeApp> {
+    // Each answer of a worker that arrives asks for frames of its own, and a busy machine brings them one by one.
     let mut harness = Harness::builder()
+        .with_max_steps(64)
         .with_size(size)
         .with_pixels_per_point(1.0)
         .with_theme(theme)
