@@ -343,3 +343,29 @@ fn constants_stand_at_the_end_of_every_row() {
     let table = table.with_constants(&[("light", "E, equal".to_owned())]);
     assert_eq!(table.to_csv(), "a,b,light\n1,2,\"E, equal\"\n3,,\"E, equal\"\n");
 }
+
+#[test]
+fn a_text_begins_where_its_anchor_says() {
+    let attribute = |line: &str, name: &str| {
+        line.split_once(&format!(" {name}=\""))
+            .and_then(|(_, rest)| rest.split('"').next())
+            .unwrap_or_default()
+            .to_owned()
+    };
+    let left = |anchor: f64| {
+        let words = "Kodak DCS200";
+        let mark = Mark::text(words, [0.5, 0.5], Anchor(anchor, 0.0), TextSize::Small, InkRole::Text);
+        let svg = written(&with_mark(mark));
+        let line = svg.lines().find(|line| line.starts_with("<text") && line.contains(words)).expect("written");
+        let share = match attribute(line, "text-anchor").as_str() {
+            "start" => 0.0,
+            "middle" => 0.5,
+            _ => 1.0,
+        };
+        attribute(line, "x").parse::<f64>().expect("a number") - share * text_width(words, TextSize::Small)
+    };
+    let width = text_width("Kodak DCS200", TextSize::Small);
+    for anchor in [0.1, 0.2, 0.37, 0.5, 0.63, 0.8, 0.95, 1.0] {
+        assert!((left(0.0) - left(anchor) - anchor * width).abs() < 0.02, "{anchor}");
+    }
+}

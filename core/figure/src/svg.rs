@@ -10,6 +10,7 @@ use super::ink::{Ink, Palette};
 use super::mark::{Image, Stroke, TextSize};
 use super::page::{Canvas, Label, Page, PageStyle, draw};
 use super::rect::Rect;
+use super::text::text_width;
 
 /// Fonts and images of a written figure.
 pub struct SvgStyle<'a> {
@@ -148,13 +149,15 @@ impl Canvas for Svg<'_> {
 
     fn text(&mut self, label: &Label<'_>) {
         let down = label.baseline();
-        let shift = if label.upward { [down, 0.0] } else { [0.0, down] };
-        let [x, y] = [0, 1].map(|axis| coordinate(label.at[axis] + shift[axis]));
-        let align = match label.anchor.0 {
-            h if h < 0.25 => "start",
-            h if h > 0.75 => "end",
-            _ => "middle",
+        // SVG has three anchors; between them the text is moved along its line.
+        let (align, anchor) = match label.anchor.0 {
+            h if h < 0.25 => ("start", 0.0),
+            h if h > 0.75 => ("end", 1.0),
+            _ => ("middle", 0.5),
         };
+        let along = (anchor - label.anchor.0) * text_width(label.text, label.size);
+        let shift = if label.upward { [down, -along] } else { [along, down] };
+        let [x, y] = [0, 1].map(|axis| coordinate(label.at[axis] + shift[axis]));
         let family = match label.size {
             TextSize::Mono => format!(" font-family=\"{}\"", escape(self.style.mono_family)),
             _ => String::new(),
