@@ -13,7 +13,6 @@ pub mod portrait;
 pub mod recorded;
 pub mod render;
 pub mod report_card;
-pub mod skipped_work;
 pub mod spectra;
 pub mod strip;
 pub mod swatches;

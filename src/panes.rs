@@ -63,7 +63,6 @@ pub mod status_bar;
 pub mod swatches;
 pub mod tolerance;
 pub mod widgets;
-pub mod work_saved;
 
 use chromascope_figure::{AxisRanges, Figure};
 use egui::{Rect, Ui};
@@ -96,7 +95,6 @@ pub const ALL: &[&Pane] = &[
     &curves::PANE,
     &interpretation::PANE,
     &methods::PANE,
-    &work_saved::PANE,
     &tolerance::PANE,
     &statistics::PANE,
     &recorded::PANE,

@@ -1,4 +1,4 @@
-//! Measured cost and error of each method for the visible scene, and the work skipped.
+//! Measured cost and error of each method for the visible scene.
 //!
 //! A run starts with an empty cache, so that cached answers do not distort its times. It is a [`Job`], not a `Query`: each
 //! request measures again.
@@ -9,14 +9,13 @@ mod conditions;
 mod integral;
 mod loci;
 pub mod plans;
-mod skipped_work;
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
 use std::time::Duration;
 
-use chromascope_core::query::render::picture::{PicturesQuery, SourceOf};
-use chromascope_core::query::{Ask, LocusQuery, PatchColorsQuery, Shared};
+use chromascope_core::query::render::picture::PicturesQuery;
+use chromascope_core::query::{Ask, Shared};
 use chromascope_core::spectral::Sensor;
 use chromascope_measure::harness::timed;
 use chromascope_measure::method::Point;
@@ -27,23 +26,16 @@ use crate::jobs::{Background, Executor, Job};
 use crate::results::Results;
 pub use conditions::Conditions;
 use plans::{PlanAnswer, PlansQuery};
-pub use skipped_work::{LOCI, PATCHES, SkippedWork};
 
-/// Measures the cost of each method for a scene, and the skipped work.
+/// Measures the cost of each method for a scene.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SceneRunJob {
     /// Description of the rendered scene.
     pub scene: String,
     /// The pictures; none where there is nothing to render.
     pub pictures: Option<PicturesQuery>,
-    /// The sensors that are not visible.
-    pub hidden: Vec<SourceOf>,
     /// The visible sensors.
     pub sensors: Vec<Shared<Sensor>>,
-    /// The loci of the diagram.
-    pub loci: Vec<LocusQuery>,
-    /// The patches of the diagram and the swatches.
-    pub patches: Vec<PatchColorsQuery>,
 }
 
 /// Measurements of a scene.
@@ -54,8 +46,6 @@ pub struct SceneRun {
     pub conditions: Conditions,
     /// Of each kind of work its methods.
     pub trials: Vec<Trial>,
-    #[serde(alias = "left_out")]
-    pub skipped_work: Vec<SkippedWork>,
     /// Total time of the measurement.
     pub time: Duration,
 }
@@ -126,11 +116,9 @@ impl Job for SceneRunJob {
 
     fn run(&self, results: &Results) -> Arc<SceneRun> {
         let (conditions, ask) = (Conditions::now(self), &fresh(results));
-        let ((trials, skipped_work), seconds) = timed(|| {
-            let trials = [integral::trial(self, ask), loci::trial(self, ask)].into_iter().flatten().collect();
-            (trials, skipped_work::rows(self, ask))
-        });
-        Arc::new(SceneRun { conditions, trials, skipped_work, time: Duration::from_secs_f64(seconds) })
+        let (trials, seconds) =
+            timed(|| [integral::trial(self, ask), loci::trial(self, ask)].into_iter().flatten().collect());
+        Arc::new(SceneRun { conditions, trials, time: Duration::from_secs_f64(seconds) })
     }
 }
 
@@ -160,15 +148,13 @@ pub struct Measured {
     pub run: Option<Arc<SceneRun>>,
     /// True if it is of the scene as it is now.
     pub is_current: bool,
-    /// Work saved by the cache since the program started.
-    pub remembered: Vec<SkippedWork>,
     /// The last reports of the bench, or why there is none.
     pub reports: BTreeMap<Workload, Arc<Result<Report, String>>>,
 }
 
 impl Measured {
     /// Before anything was measured.
-    pub const NOTHING: Self = Self { run: None, is_current: false, remembered: Vec::new(), reports: BTreeMap::new() };
+    pub const NOTHING: Self = Self { run: None, is_current: false, reports: BTreeMap::new() };
 }
 
 /// Background measurements and their latest results.

@@ -38,7 +38,6 @@ impl PaneKind {
     /// Run time against error by method.
     pub const METHODS: Self = Self::new("Accuracy");
     /// Skipped work, and the time it saved.
-    pub const WORK_SAVED: Self = Self::new("SkippedWork");
     /// Counts of samples and methods of the pictures.
     pub const STATISTICS: Self = Self::new("Statistics");
     /// Cameras by figures of merit.
@@ -226,12 +225,7 @@ impl Default for Layout {
                 Some(PaneKind::LIGHT),
             ],
             import: [Some(PaneKind::IMPORT), Some(PaneKind::CURVES), Some(PaneKind::INTERPRETATION), None],
-            numerics: [
-                Some(PaneKind::METHODS),
-                Some(PaneKind::WORK_SAVED),
-                Some(PaneKind::TOLERANCE),
-                Some(PaneKind::STATISTICS),
-            ],
+            numerics: [Some(PaneKind::METHODS), None, Some(PaneKind::TOLERANCE), Some(PaneKind::STATISTICS)],
         }
     }
 }

@@ -222,7 +222,7 @@ fn run(ui: &mut Ui, now: Shows, context: &mut PaneContext<'_>) {
         Shows::Scene(_) => context.profiler.measured.run.is_some(),
         Shows::Bench(workload) => context.profiler.measured.reports.contains_key(&workload),
     };
-    let hint = "Measures the methods and the work saved on this scene. Takes a few seconds.";
+    let hint = "Measures the methods on this scene. Takes a few seconds.";
     if ui.button(if again { "Run again" } else { "Run" }).on_hover_text(hint).clicked() {
         context.push(measure(now));
     }

@@ -81,7 +81,7 @@ impl Condition {
             PaneKind::CORRECTION => is_of_light && !matches!(self, Self::Reference | Self::Patches),
             PaneKind::LIGHT => is_of_light && !matches!(self, Self::Reference | Self::White | Self::Difference),
             PaneKind::RECORDED => is_of_light && matches!(self, Self::Light | Self::Temperature | Self::Patches),
-            PaneKind::METHODS | PaneKind::WORK_SAVED => is_of_light && self != Self::Difference,
+            PaneKind::METHODS => is_of_light && self != Self::Difference,
             _ => true,
         }
     }

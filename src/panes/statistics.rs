@@ -12,7 +12,7 @@ use crate::theme::UNIT;
 use crate::workspaces::{PaneKind, Workspace};
 
 /// Stages in the order they follow each other, as counted and as shown.
-const STAGES: [(&str, &str); 11] = [
+const STAGES: [(&str, &str); 14] = [
     ("mesh", "mesh"),
     ("shadow tree", "shadow tree"),
     ("visibility", "visibility"),
@@ -24,6 +24,9 @@ const STAGES: [(&str, &str); 11] = [
     ("plan", "integration methods"),
     ("camera image", "signals"),
     ("picture", "pixels"),
+    ("locus", "loci"),
+    ("radiator signals", "blackbodies"),
+    ("patch colors", "patches"),
 ];
 
 /// The pane.

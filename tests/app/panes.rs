@@ -39,7 +39,7 @@ fn layouts_of_earlier_versions_open() {
         layout.compare,
         [Some(PaneKind::CHROMATICITY), Some(PaneKind::INTERPRETATION), None, Some(PaneKind::SPECTRA)]
     );
-    let accuracy = [PaneKind::METHODS, PaneKind::WORK_SAVED, PaneKind::TOLERANCE, PaneKind::RENDER_SETTINGS];
+    let accuracy = [PaneKind::METHODS, PaneKind::new("SkippedWork"), PaneKind::TOLERANCE, PaneKind::RENDER_SETTINGS];
     assert_eq!(layout.numerics, accuracy.map(Some));
     let again = ron::to_string(&layout).unwrap();
     assert!(again.contains("Some(Understood)"), "{again}");

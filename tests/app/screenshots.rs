@@ -12,7 +12,7 @@ use chromascope::document::{Diagram, Document, Overlays, SetKind, Subset, Transf
 use chromascope::files::Files;
 use chromascope::jobs::Executor;
 use chromascope::plot_item::{PlotItem, SensorId};
-use chromascope::profiler::{SceneRun, SkippedWork};
+use chromascope::profiler::SceneRun;
 use chromascope::view::import::ImportItem;
 use chromascope::view::render::RenderMode;
 use chromascope::view::{DiagramFit, SavedView};
@@ -232,7 +232,6 @@ fn import() {
 #[derive(Clone, serde::Serialize, serde::Deserialize)]
 pub(crate) struct Measured {
     pub(crate) run: SceneRun,
-    remembered: Vec<SkippedWork>,
 }
 
 impl Measured {
@@ -247,7 +246,7 @@ impl Measured {
             harness.run_steps(3);
             let measured = &harness.state().profiler().measured;
             let run = SceneRun::clone(measured.run.as_ref().expect("measured"));
-            let measured = Self { run, remembered: measured.remembered.clone() };
+            let measured = Self { run };
             std::fs::write(&path, serde_json::to_string_pretty(&measured).unwrap() + "\n").unwrap();
         }
         serde_json::from_str(&std::fs::read_to_string(&path).unwrap()).unwrap()
@@ -257,12 +256,12 @@ impl Measured {
 /// The Numerics workspace with what was measured once.
 pub(crate) fn accuracy(size: [f32; 2], theme: egui::Theme) -> Harness<'static, ChromascopeApp> {
     let mut harness = open(size, theme);
-    let Measured { run, remembered } = Measured::kept();
+    let Measured { run } = Measured::kept();
     let view = harness.state_mut().view_mut();
     view.saved.workspace = Workspace::Numerics;
     view.fixed_clock = true;
     let measured = &mut harness.state_mut().profiler_mut().measured;
-    (measured.run, measured.remembered) = (Some(std::sync::Arc::new(run)), remembered);
+    measured.run = Some(std::sync::Arc::new(run));
     measured.is_current = true;
     for _ in 0..3 {
         harness.run_steps(2);

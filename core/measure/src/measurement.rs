@@ -130,11 +130,6 @@ impl Errors {
         errors
     }
 
-    /// Adds an item that the method gives no answer to.
-    pub(crate) fn refuse(&mut self) {
-        self.refused += 1;
-    }
-
     /// The differences as one error.
     pub(crate) fn sum_up(self, what: &str, scale: ErrorScale) -> ErrorOf {
         let [rms_abs, rms_rel] = self.squares.map(|sum| (sum / self.checked.max(1) as f64).sqrt());

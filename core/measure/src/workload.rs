@@ -21,22 +21,19 @@ pub enum Workload {
     Frames,
     /// Correlated color temperature and Duv.
     Temperature,
-    /// Files of spectra.
-    Reading,
     /// Color differences ΔE*00.
     Difference,
 }
 
 impl Workload {
     /// All, in the order of the pipeline's queries.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 7] = [
         Self::Locus,
         Self::Responses,
         Self::DiffuseSum,
         Self::Integral,
         Self::Frames,
         Self::Temperature,
-        Self::Reading,
         Self::Difference,
     ];
 
@@ -49,7 +46,6 @@ impl Workload {
             Self::Integral => "integral",
             Self::Frames => "frames",
             Self::Temperature => "temperature",
-            Self::Reading => "reading",
             Self::Difference => "difference",
         }
     }
@@ -63,7 +59,6 @@ impl Workload {
             Self::Integral => "The spectral integral of a pixel",
             Self::Frames => "Frames of the head through four sources",
             Self::Temperature => "Correlated color temperature and Duv",
-            Self::Reading => "Reading files of spectra",
             Self::Difference => "Color differences \u{394}E*00",
         }
     }

@@ -12,7 +12,6 @@ pub mod exact;
 mod frames;
 mod integral;
 mod locus;
-mod reading;
 mod responses;
 mod temperature;
 pub(crate) mod timing;
@@ -62,7 +61,6 @@ pub fn run(
             Workload::Integral => integral::run(&mut bench)?,
             Workload::Frames => frames::run(&mut bench)?,
             Workload::Temperature => temperature::run(&mut bench)?,
-            Workload::Reading => reading::run(&mut bench),
             Workload::Difference => difference::run(&mut bench),
         }
     }

@@ -15,7 +15,6 @@
 
 mod coefficients;
 mod direct;
-mod factorials;
 mod narrow;
 mod pieces;
 mod saddle;

@@ -84,7 +84,8 @@ pub(super) enum FigureKind {
     Recorded,
     /// Run time of each method against its error, measured now
     Methods,
-    /// Time saved by skipped work, measured now
+    /// Skipped work is a table: `render --stats`
+    #[value(hide = true)]
     WorkSaved,
 }
 
@@ -105,7 +106,7 @@ impl FigureKind {
             Self::Curves => PaneKind::CURVES,
             Self::Recorded => PaneKind::RECORDED,
             Self::Methods => PaneKind::METHODS,
-            Self::WorkSaved => PaneKind::WORK_SAVED,
+            Self::WorkSaved => return None,
         })
     }
 }

@@ -84,7 +84,11 @@ impl Made {
                 let Some(set) = scene.document.own.last() else { return Err(missing("name the file")) };
                 view.import.selected = Some(ImportItem::Set(set.name.clone()));
             }
-            FigureKind::Methods | FigureKind::WorkSaved => {
+            FigureKind::WorkSaved => {
+                let reason = "skipped work is a table: `chromascope render --stats -`, or Statistics in Numerics";
+                return Err(CliError::Argument { argument: "KIND", reason: reason.to_owned() });
+            }
+            FigureKind::Methods => {
                 let own = own_mesh(scene.document)?;
                 let job = SceneRunJob::of(scene, own.as_ref(), None);
                 made.measured.run = Some(patiently("measuring", || job.run(scene.results)));

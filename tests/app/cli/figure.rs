@@ -39,6 +39,13 @@ fn a_figure_without_a_form_or_a_unit_is_refused() {
 }
 
 #[test]
+fn skipped_work_says_where_its_table_is() {
+    let done = run(&["figure", "work-saved", "--out", "figure.pdf"]);
+    let said = String::from_utf8_lossy(&done.stderr).into_owned();
+    assert!(!done.status.success() && said.contains("render --stats"), "{said}");
+}
+
+#[test]
 fn every_figure_of_the_window_is_listed() {
     let help = String::from_utf8(run(&["figure", "--help"]).stdout).expect("text");
     for pane in panes::ALL.iter().filter(|pane| pane.figure.is_some()) {

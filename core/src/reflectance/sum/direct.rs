@@ -10,9 +10,25 @@
 
 #![expect(clippy::inline_always, reason = "every instruction set needs a copy of its own")]
 
-use super::factorials::LN_FACTORIALS;
 use super::saddle::{Peak, roughly_ln};
+use chromascope_math::double::Double;
 use std::f64::consts::{LN_2, LOG2_E};
+use std::sync::LazyLock;
+
+/// `ln(n! n) − n ln 64` for n = 1, 2, …, rounded from 106 bits.
+///
+/// With 64ⁿ taken out, the numbers of the terms that weigh stay below 60, so that their rounding costs less than 1e-14.
+static LN_FACTORIALS: LazyLock<[f64; LISTED]> = LazyLock::new(|| {
+    let (mut listed, mut ln_factorial, ln_64) = ([0.0; LISTED], Double::default(), Double::LN_2 * Double::new(6.0));
+    for (i, value) in listed.iter_mut().enumerate() {
+        let n = Double::new((i + 1) as f64);
+        ln_factorial = ln_factorial + n.ln();
+        *value = (ln_factorial + n.ln() - n * ln_64).value();
+    }
+    listed
+});
+/// Number of the logarithms.
+const LISTED: usize = 352;
 
 /// More terms than any span has; a multiple of [`LANES`].
 const MOST: usize = 128;
@@ -50,7 +66,7 @@ impl Choice {
         // Between two numbers the larger term, where b decides: t_{n+1} against t_n goes as m² against n (n + 1).
         let (m, floor) = (peak.m, peak.m as usize);
         let top = floor + usize::from(m * m > (floor * (floor + 1)) as f64);
-        Self { first, last, stride, top: top.clamp(1, LN_FACTORIALS.len()) }
+        Self { first, last, stride, top: top.clamp(1, LISTED) }
     }
 }
 
@@ -71,7 +87,8 @@ pub(super) fn sum(g: f64, b: f64, choice: Choice) -> (f64, f64) {
 #[inline(always)]
 fn terms(choice: Choice, b: f64, ln_ratio: f64) -> f64 {
     let Choice { first, last, stride, top } = choice;
-    let (n0, h0) = (top as f64, LN_FACTORIALS[top - 1]);
+    let listed: &[f64; LISTED] = &LN_FACTORIALS;
+    let (n0, h0) = (top as f64, listed[top - 1]);
     let b0 = b / n0;
     let count = ((last - first) / stride + 1).next_multiple_of(LANES).min(MOST);
     let mut buffer = [0.0; MOST];
@@ -83,7 +100,7 @@ fn terms(choice: Choice, b: f64, ln_ratio: f64) -> f64 {
         (n - n0) * (ln_ratio + b0 / n) + (h0 - h)
     };
     // Slices of unknown length, because loops of fixed length are unrolled before they could be vectorized.
-    let heights = &LN_FACTORIALS[first - 1..];
+    let heights = &listed[first - 1..];
     if stride == 1 {
         for (i, (term, h)) in terms.iter_mut().zip(heights).enumerate() {
             *term = exp(exponent(i, *h));
