@@ -221,7 +221,11 @@ impl Request {
 
     /// Chooses the second calibration light.
     pub(super) fn set_second_light(&mut self, given: &OsStr) -> Result<(), CliError> {
-        let name = self.set_or_file("--second-illuminant", &[SetKind::Illuminant], Role::Illuminant, given)?;
+        const ARGUMENT: &str = "--second-illuminant";
+        let name = match radiator(ARGUMENT, &given.to_string_lossy())? {
+            Some((light, kelvin)) => format!("{} {kelvin} K", light.name()),
+            None => self.set_or_file(ARGUMENT, &[SetKind::Illuminant], Role::Illuminant, given)?,
+        };
         self.document.correction.second_light = Some(name);
         Ok(())
     }
@@ -336,6 +340,13 @@ impl Request {
 
     /// The catalog's name for an illuminant. A formula without its temperature is no name for a measured set.
     fn illuminant(&self, argument: &'static str, typed: &str) -> Result<String, CliError> {
+        let number = typed.trim().trim_end_matches(['K', 'k']).trim_end();
+        if let Some(kelvin) = number.parse::<f64>().ok().filter(|kelvin| *kelvin >= 500.0) {
+            let reason = format!(
+                "\"{typed}\" is a temperature, which many lights have; write daylight:{kelvin} or blackbody:{kelvin}"
+            );
+            return Err(CliError::Argument { argument, reason });
+        }
         let formula = match telling_words(typed).concat().as_str() {
             "daylight" => "daylight",
             "blackbody" | "planckian" | "planckianradiator" => "blackbody",
@@ -459,6 +470,16 @@ fn is_shells(_: &Path, _: &fs::Metadata) -> bool {
 enum Radiator {
     Daylight,
     BlackBody,
+}
+
+impl Radiator {
+    /// Its name where it is named with its temperature.
+    const fn name(self) -> &'static str {
+        match self {
+            Self::Daylight => "daylight",
+            Self::BlackBody => "blackbody",
+        }
+    }
 }
 
 /// `daylight:K` and `blackbody:K`.

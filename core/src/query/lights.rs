@@ -14,6 +14,7 @@ use crate::rendition::fidelity::color_fidelity;
 use crate::rendition::reference::reference_illuminant;
 use crate::rendition::similarity::similarity_reference;
 use crate::rendition::{ColorFidelity, RenderingIndices, RenditionError, Standards, spectral_similarity};
+use crate::spectral::grid::{FIRST_NM, LAST_NM};
 use crate::spectral::{GridSpectrum, Sensor, SpectralDistribution};
 
 /// Rendition indices of a light.
@@ -36,6 +37,37 @@ pub struct Rendition {
     pub reference: Result<(Shared<GridSpectrum>, Cct), RenditionError>,
     /// Spectral similarity index to a blackbody below 4000 K, to daylight from there on, at the light's temperature; unrounded.
     pub similarity: Result<f64, RenditionError>,
+    /// Rf, Rg and the similarity index if the table's end values were held to 380 and 780 nm; none for a table that reaches there.
+    pub held: Option<Result<[f64; 3], RenditionError>>,
+}
+
+/// The light with its end values held to the ends of the grid; none if it reaches them.
+fn held(light: &SpectralDistribution) -> Option<SpectralDistribution> {
+    let ([first, last], values) = (light.range_nm(), light.values());
+    let beyond = [(first > FIRST_NM).then_some(FIRST_NM), (last < LAST_NM).then_some(LAST_NM)];
+    let [before, after] = beyond.map(|end| end.into_iter());
+    let ends = (*values.first()?, *values.last()?);
+    let nm: Vec<f64> = before.clone().chain(light.wavelengths_nm().iter().copied()).chain(after.clone()).collect();
+    let held = before.map(|_| ends.0).chain(values.iter().copied()).chain(after.map(|_| ends.1)).collect();
+    (nm.len() > values.len()).then(|| SpectralDistribution::new(nm, held).ok())?
+}
+
+/// Spectral similarity of a light to another light.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct SimilarityQuery {
+    /// The light.
+    pub light: Shared<SpectralDistribution>,
+    /// The light it is compared with.
+    pub reference: Shared<SpectralDistribution>,
+}
+
+impl Query for SimilarityQuery {
+    type Answer = Result<f64, RenditionError>;
+    const NAME: &'static str = "spectral similarity";
+
+    fn answer(&self, _: &impl Ask) -> Self::Answer {
+        spectral_similarity(&self.light, &self.reference)
+    }
 }
 
 impl Query for RenditionQuery {
@@ -44,10 +76,16 @@ impl Query for RenditionQuery {
 
     fn answer(&self, _: &impl Ask) -> Rendition {
         let reference = reference_illuminant(&self.light, &self.standards);
-        let similarity = reference.as_ref().map_err(|&error| error).and_then(|(_, cct)| {
-            spectral_similarity(&self.light, &similarity_reference(cct.temperature, &self.standards)?)
+        let similarity = |light: &SpectralDistribution, cct: Cct| {
+            spectral_similarity(light, &similarity_reference(cct.temperature, &self.standards)?)
+        };
+        let held = held(&self.light).map(|light| {
+            let ColorFidelity { fidelity, gamut, cct, .. } = color_fidelity(&light, &self.standards)?;
+            Ok([fidelity, gamut, similarity(&light, cct)?])
         });
+        let similarity = reference.as_ref().map_err(|&error| error).and_then(|(_, cct)| similarity(&self.light, *cct));
         Rendition {
+            held,
             rendering: rendering_indices(&self.light, &self.standards),
             fidelity: color_fidelity(&self.light, &self.standards),
             reference: reference.map(|(spectrum, cct)| (Shared::new(spectrum), cct)),
@@ -58,7 +96,6 @@ impl Query for RenditionQuery {
 
 /// Color consistency of a camera: differences of its colors under a light from those under the reference illuminant. The idea of
 /// EBU's television lighting consistency index, for any camera.
-/// lighting consistency index, for any camera.
 ///
 /// ```text
 /// Xᵢ = M (Iᵢ / W),   I = ∫ C S L dλ,   W = ∫ C L dλ
