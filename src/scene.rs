@@ -26,7 +26,7 @@ use chromascope_core::query::{
 };
 use chromascope_core::reflectance::SurfaceError;
 use chromascope_core::scene::lighting::LightingError;
-use chromascope_core::spectral::{GridSpectrum, Sensor, SpectralDistribution};
+use chromascope_core::spectral::{GridSpectrum, Sensor};
 use chromascope_core::units::{Kelvin, NotPositive};
 use chromascope_figure::{InkRole, Marker};
 
@@ -206,14 +206,17 @@ impl<'a> Scene<'a> {
 
     /// An illuminant of the catalog, or one by formula such as `blackbody 3200 K`, through the document's filters.
     pub(crate) fn illuminant(&self, name: &str) -> Result<LoadedLight, SceneError> {
+        self.filtered(self.light_of(name)?, name)
+    }
+
+    fn light_of(&self, name: &str) -> Result<LightQuery, SceneError> {
         let formula = name.strip_suffix(" K").and_then(|name| name.split_once(' '));
         let formula = formula.and_then(|(formula, kelvin)| Some((formula, Kelvin::new(kelvin.parse().ok()?).ok()?)));
-        let light = match formula {
+        Ok(match formula {
             Some(("blackbody", kelvin)) => LightQuery::BlackBody(kelvin),
             Some(("daylight", kelvin)) => LightQuery::Daylight(kelvin),
             _ => LightQuery::Set(self.entry(SetKind::Illuminant, name)?.place),
-        };
-        self.filtered(light, name)
+        })
     }
 
     fn filtered(&self, light: LightQuery, name: &str) -> Result<LoadedLight, SceneError> {
@@ -288,11 +291,6 @@ impl<'a> Scene<'a> {
     /// The color that a perfect white is to take.
     pub fn white(&self) -> Result<WhiteBalanceTarget, SceneError> {
         self.white_target(&self.document.white)
-    }
-
-    /// A light of the catalog or the user's as measured, without filters.
-    pub fn measured_light(&self, light: &Entry) -> Result<SpectralDistribution, SceneError> {
-        Ok(self.loaded(&LightQuery::Set(light.place.clone()), &light.name)?.measured)
     }
 
     /// A light of the library.

@@ -5,7 +5,6 @@ pub(super) mod arguments;
 use chromascope_core::light::{Cct, CctError};
 use chromascope_core::query::{Consistency, Rendition};
 use chromascope_core::rendition::RenditionError;
-use chromascope_core::spectral::SpectralDistribution;
 use clap::ArgMatches;
 use serde_json::{Value, json};
 use std::fmt::Write as _;
@@ -41,14 +40,8 @@ pub(super) fn run(arguments: &LightArguments, matches: &ArgMatches) -> Result<()
     let mut request = Request::of_sources(&arguments.sources, matches)?;
     request.set_chart(arguments.chart.as_deref())?;
     let results = Results::default();
-    let similar_to = match &arguments.ssi_reference {
-        Some(reference) => {
-            request.set_light(reference)?;
-            let scene = Scene { document: &request.document, catalog: &request.catalog, results: &results };
-            Some((scene.light_name(), scene.light()?.measured))
-        }
-        None => None,
-    };
+    let similar_to = arguments.ssi_reference.as_deref().map(|given| request.light_named("--ssi-reference", given));
+    let similar_to = similar_to.transpose()?;
     request.set_filters(&arguments.filter)?;
     let named = !arguments.sources.names_no_sensor();
     let cameras = request.sources.iter().filter(|(kind, _)| named && *kind == SetKind::Camera);
@@ -57,7 +50,7 @@ pub(super) fn run(arguments: &LightArguments, matches: &ArgMatches) -> Result<()
     for light in &arguments.lights {
         request.set_light(light)?;
         let scene = Scene { document: &request.document, catalog: &request.catalog, results: &results };
-        answers.push(answer(&scene, &cameras, similar_to.as_ref())?);
+        answers.push(answer(&scene, &cameras, similar_to.as_deref())?);
     }
     outputs::check(arguments.out.as_deref(), &request.inputs(), arguments.force)?;
     answers
@@ -73,13 +66,9 @@ pub(super) fn run(arguments: &LightArguments, matches: &ArgMatches) -> Result<()
     outputs::put(&if people { shown(&text).into_owned() } else { text }, arguments.out.as_deref())
 }
 
-fn answer(
-    scene: &Scene<'_>,
-    cameras: &[String],
-    similar_to: Option<&(String, SpectralDistribution)>,
-) -> Result<Answer, CliError> {
+fn answer(scene: &Scene<'_>, cameras: &[String], similar_to: Option<&str>) -> Result<Answer, CliError> {
     let (patches, rendition) = (scene.patches()?, scene.rendition()?);
-    let similarity = similar_to.map(|(name, light)| Ok::<_, SceneError>((name.clone(), scene.similarity_to(light)?)));
+    let similarity = similar_to.map(|name| Ok::<_, SceneError>((name.to_owned(), scene.similarity_to(name)?)));
     Ok(Answer {
         name: scene.light_name(),
         temperature: scene.light_temperature()?,
@@ -139,15 +128,14 @@ fn heads() -> Vec<String> {
 
 fn csv(answers: &[Answer]) -> String {
     let rest = "camera,consistency_mean,consistency_p95,consistency_max,worst_patch";
-    let mut text = format!("light,{},ssi_reference,cautions,{rest}\n", heads().join(","));
+    let mut text = format!("light,{},ssi_reference,{rest},cautions\n", heads().join(","));
     for answer in answers {
         let cells = numbers(answer).into_iter().map(|value| value.map_or_else(String::new, significant));
         let to = answer.similarity.as_ref().map_or("", |(name, _)| name);
-        let words =
-            [to, &reasons(answer).into_iter().chain(cautions(answer)).collect::<Vec<_>>().join("; ")].map(field);
-        let start = std::iter::once(field(&answer.name)).chain(cells).chain(words).collect::<Vec<_>>().join(",");
+        let cautions = field(&reasons(answer).into_iter().chain(cautions(answer)).collect::<Vec<_>>().join("; "));
+        let start = std::iter::once(field(&answer.name)).chain(cells).chain([field(to)]).collect::<Vec<_>>().join(",");
         if answer.cameras.is_empty() {
-            let _ = writeln!(text, "{start},,,,,");
+            let _ = writeln!(text, "{start},,,,,,{cautions}");
         }
         for (camera, consistency) in &answer.cameras {
             let values = consistency.as_ref().map_or_else(
@@ -157,7 +145,7 @@ fn csv(answers: &[Answer]) -> String {
                     format!("{mean},{p95},{max},{}", field(&answer.patches[c.worst]))
                 },
             );
-            let _ = writeln!(text, "{start},{},{values}", field(camera));
+            let _ = writeln!(text, "{start},{},{values},{cautions}", field(camera));
         }
     }
     text

@@ -221,13 +221,16 @@ impl Request {
 
     /// Chooses the second calibration light.
     pub(super) fn set_second_light(&mut self, given: &OsStr) -> Result<(), CliError> {
-        const ARGUMENT: &str = "--second-illuminant";
-        let name = match radiator(ARGUMENT, &given.to_string_lossy())? {
-            Some((light, kelvin)) => format!("{} {kelvin} K", light.name()),
-            None => self.set_or_file(ARGUMENT, &[SetKind::Illuminant], Role::Illuminant, given)?,
-        };
-        self.document.correction.second_light = Some(name);
+        self.document.correction.second_light = Some(self.light_named("--second-illuminant", given)?);
         Ok(())
+    }
+
+    /// The name of an illuminant, of the file of one, or of a formula with its temperature.
+    pub(super) fn light_named(&mut self, argument: &'static str, given: &OsStr) -> Result<String, CliError> {
+        match radiator(argument, &given.to_string_lossy())? {
+            Some((light, kelvin)) => Ok(format!("{} {kelvin} K", light.name())),
+            None => self.set_or_file(argument, &[SetKind::Illuminant], Role::Illuminant, given),
+        }
     }
 
     /// True if an argument is a file path. A built-in set's name refers to that set even if a file of that name exists.

@@ -135,8 +135,7 @@ fn similarity(ui: &mut Ui, scene: &Scene<'_>, context: &mut PaneContext<'_>) {
             context.view.similar_to = names.swap_remove(index);
         }
         let Some(name) = &now else { return };
-        let reference = scene.entry(SetKind::Illuminant, name).and_then(|entry| scene.measured_light(&entry));
-        match reference.and_then(|reference| scene.similarity_to(&reference)) {
+        match scene.similarity_to(name) {
             Ok(Ok(value)) => ui.label(fixed(value, 0)),
             Ok(Err(error)) => ui.colored_label(context.theme.warning, sentence(&error.to_string())),
             Err(error) => ui.colored_label(context.theme.warning, sentence(&error.to_string())),

@@ -50,22 +50,6 @@ impl Verdict {
         }
     }
 
-    /// Predicate of a number of claims.
-    pub(super) const fn counted(self, count: usize) -> &'static str {
-        match (self, count == 1) {
-            (Self::Holds, true) => "holds",
-            (Self::Holds, false) => "hold",
-            (Self::Partly, true) => "holds in part",
-            (Self::Partly, false) => "hold in part",
-            (Self::Fails, true) => "does not hold",
-            (Self::Fails, false) => "do not hold",
-            (Self::Ambiguous, true) => "is ambiguous",
-            (Self::Ambiguous, false) => "are ambiguous",
-            (Self::Open, true) => "is about cameras or patches that are not here",
-            (Self::Open, false) => "are about cameras or patches that are not here",
-        }
-    }
-
     /// Verdict of a condition; none where what it is about is not there.
     pub(super) fn of(holds: Option<bool>) -> Self {
         match holds {
@@ -106,8 +90,6 @@ pub struct Claim {
     pub part: &'static str,
     /// The claim, paraphrased but for what stands between quotation marks.
     pub paper: &'static str,
-    /// True if the verdict is on the paper's Kodak, another model than [`KODAK`].
-    pub is_on_kodak: bool,
     /// Reason that it holds or not.
     pub why: &'static str,
     /// Computes what is found.
@@ -120,9 +102,9 @@ impl Claim {
         self.part != FURTHER
     }
 
-    /// Qualification of the verdict, if one is given; empty for none.
+    /// Qualification of a verdict on the paper's Kodak; empty for others.
     pub fn condition(&self, verdict: Verdict) -> &'static str {
-        if self.is_on_kodak && verdict != Verdict::Open { STAND_IN } else { "" }
+        if self.paper.contains("Kodak") && verdict != Verdict::Open { STAND_IN } else { "" }
     }
 }
 
@@ -190,12 +172,12 @@ impl Subject<'_> {
         let tables = self.catalog.of_kind(SetKind::Camera).filter(|entry| model_of(&entry.name) == model);
         let numbers = tables.map(|entry| number(&entry.name)).collect::<Result<Vec<f64>, _>>()?;
         let among = format!("among {} tables of one {model}", numbers.len());
-        let ends = [("least", f64::min as fn(f64, f64) -> f64), ("most", f64::max)];
-        let ends = ends.into_iter().filter_map(|(end, fold)| {
-            let number = numbers.iter().copied().reduce(fold)?;
-            Some(Series(vec![(String::new(), number)]).values(&format!("{quantity}, {end} {among}"), unit, decimals))
-        });
-        Ok(ends.flatten().collect())
+        let end = |end: &str, number| {
+            Series(vec![(String::new(), number)]).values(&format!("{quantity}, {end} {among}"), unit, decimals)
+        };
+        let [least, most] =
+            [f64::min as fn(f64, f64) -> f64, f64::max].map(|fold| numbers.iter().copied().fold(f64::NAN, fold));
+        Ok([end("least", least), end("most", most)].concat())
     }
 
     /// A number for the reference of a document and for each camera.

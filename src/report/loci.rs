@@ -20,7 +20,6 @@ pub(super) const CLAIMS: [Claim; 3] = [
         key: "locus-length",
         part: PART,
         paper: "The Kodak's locus is the shortest of the three: it has the smallest range of colors.",
-        is_on_kodak: true,
         why: "Length of the locus in xy from 1000 to 20000 K. The Kodak's channels overlap most, so its signals differ \
               least from one temperature to the next.",
         find: lengths,
@@ -29,7 +28,6 @@ pub(super) const CLAIMS: [Claim; 3] = [
         key: "daylight-minimum",
         part: PART,
         paper: "The distances to the reference are smallest around daylight.",
-        is_on_kodak: false,
         why: "Eq 15 normalizes each locus to equal energy, so all loci pass near one point, where a blackbody is \
               flattest: near daylight.",
         find: minima,
@@ -38,7 +36,6 @@ pub(super) const CLAIMS: [Claim; 3] = [
         key: "canon-and-nikon-nearer",
         part: PART,
         paper: "The loci of Canon and Nikon “are closer to the ground truth than the Kodak curve”.",
-        is_on_kodak: true,
         why: "In the mean over log T they are. The paper does not say that they are at each temperature: in a narrow \
               band around its minimum the Kodak is nearer than the Canon.",
         find: means,
@@ -49,7 +46,6 @@ pub(super) const CHECKS: [Claim; 1] = [Claim {
     key: "daylight-is-the-cameras",
     part: FURTHER,
     paper: "That the distances are smallest around daylight is a property of the cameras.",
-    is_on_kodak: false,
     why: "The minimum follows the balance. With cameras fitted to CIE 1931 under illuminant A, every camera has it at \
           the temperature of A; with Eq 15, every table of the library has it at daylight.",
     find: minima_under_a,

@@ -22,7 +22,6 @@ pub(super) const CLAIMS: [Claim; 2] = [
         key: "balance",
         part: PART,
         paper: "The white balance for sunlight of 5500 K is 1.1040 : 0.9870 : 0.8233 (Eq 11).",
-        is_on_kodak: false,
         why: "These are linear sRGB of D55 at Y = 1, by the published matrix. A blackbody of 5500 K has other values.",
         find: balance,
     },
@@ -30,7 +29,6 @@ pub(super) const CLAIMS: [Claim; 2] = [
         key: "falloff",
         part: PART,
         paper: "Irradiance on the sensor falls off with cos⁴ α (Eq 9).",
-        is_on_kodak: false,
         why: "It does, and pictures have it. The factor of the aperture beside it is printed as (d/z)⁴; it is \
               (d/z)². Being constant it cancels in Eq 12.",
         find: falloff,
@@ -41,7 +39,6 @@ pub(super) const CHECKS: [Claim; 1] = [Claim {
     key: "white-stays-white",
     part: FURTHER,
     paper: "Eq 1 to 12 render a rough white surface in the color of the light.",
-    is_on_kodak: false,
     why: "As printed they do not: Eq 4 is proportional to λ² without a compensating λ⁻², so rough surfaces turn \
           yellow. With radiance per irradiance (the radiometric normalization) white stays white.",
     find: tint,

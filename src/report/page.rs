@@ -77,15 +77,12 @@ fn escaped(text: &str) -> String {
 /// Numbers of verdicts on the paper's claims in words.
 fn summary(judged: &[Judged]) -> String {
     let (claims, further): (Vec<&Judged>, Vec<&Judged>) = judged.iter().partition(|judged| judged.claim.is_of_paper());
-    let verdicts = || claims.iter().filter_map(|judged| judged.finding.as_ref().ok().map(|found| found.verdict));
-    let mut text = format!("Of {} claims", claims.len());
-    for verdict in [Verdict::Holds, Verdict::Partly, Verdict::Fails, Verdict::Ambiguous, Verdict::Open] {
-        let count = verdicts().filter(|own| *own == verdict).count();
-        if count > 0 {
-            let _ = write!(text, ", {count} {}", verdict.counted(count));
-        }
-    }
-    format!("{text}. {} further checks are not claims of the paper.", further.len())
+    let counts = [Verdict::Holds, Verdict::Partly, Verdict::Fails, Verdict::Ambiguous, Verdict::Open].map(|verdict| {
+        let is_it = |judged: &&&Judged| judged.finding.as_ref().is_ok_and(|found| found.verdict == verdict);
+        format!("{} {}", verdict.words(), claims.iter().filter(is_it).count())
+    });
+    let (count, checks) = (claims.len(), further.len());
+    format!("Of {count} claims: {}. {checks} further checks are not claims of the paper.", counts.join(", "))
 }
 
 fn conditions(out: &mut String, subject: &Subject<'_>) {

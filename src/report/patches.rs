@@ -15,7 +15,6 @@ pub(super) const CLAIMS: [Claim; 3] = [
         key: "white-alike",
         part: PART,
         paper: "The white patch is the same for all cameras.",
-        is_on_kodak: false,
         why: "Nearly: its reflectance falls toward 400 nm, and cameras whose blue channels peak elsewhere record \
               different amounts of that. A perfect white is exactly 1 : 1 : 1 through each.",
         find: white,
@@ -24,7 +23,6 @@ pub(super) const CLAIMS: [Claim; 3] = [
         key: "red-nearer-xy",
         part: PART,
         paper: "Red and orange yellow are nearer to the reference than green and blue for Canon and Nikon.",
-        is_on_kodak: false,
         why: "In the chromaticity diagram they are, in xy as in u′v′.",
         find: in_diagram,
     },
@@ -32,7 +30,6 @@ pub(super) const CLAIMS: [Claim; 3] = [
         key: "kodak-farthest",
         part: PART,
         paper: "The Kodak is farther from the reference than Canon and Nikon in all colored patches.",
-        is_on_kodak: true,
         why: "Its sensitivities overlap most.",
         find: farthest,
     },
@@ -42,7 +39,6 @@ pub(super) const CHECKS: [Claim; 1] = [Claim {
     key: "red-nearer-delta-e",
     part: FURTHER,
     paper: "Red and orange yellow look nearer to the reference than green and blue for Canon and Nikon.",
-    is_on_kodak: false,
     why: "By ΔE*00, which weighs differences as the eye does (cameras fitted to CIE 1931 under D65), red is the \
           farthest of all: distances in the diagram are not differences to the eye.",
     find: by_eye,

@@ -16,7 +16,6 @@ pub(super) const CLAIMS: [Claim; 5] = [
         key: "kodak-head-brighter",
         part: PART,
         paper: "Through the Kodak the head appears “slightly brighter”.",
-        is_on_kodak: true,
         why: "Y of the skin by Eq 13, relative to the reference. The Kodak's green channel reaches into the red, which \
               skin reflects most.",
         find: brighter,
@@ -26,7 +25,6 @@ pub(super) const CLAIMS: [Claim; 5] = [
         part: PART,
         paper: "Through the Kodak the head “has a higher saturation and tends further to the white, which makes the \
                 head appear slightly brighter”.",
-        is_on_kodak: true,
         why: "If saturation is how near pixels are to the largest value, it holds: the head is brighter and nearer to \
               white. If it is saturation of color, it does not: the color is less saturated, for overlapping channels \
               record more nearly equal signals.",
@@ -36,7 +34,6 @@ pub(super) const CLAIMS: [Claim; 5] = [
         key: "kodak-fern-white",
         part: PART,
         paper: "The fern is nearer to white through the Kodak.",
-        is_on_kodak: true,
         why: "The same overlap of its channels.",
         find: fern_white,
     },
@@ -44,7 +41,6 @@ pub(super) const CLAIMS: [Claim; 5] = [
         key: "fern-greener",
         part: PART,
         paper: "The fern is greener through Canon and Nikon.",
-        is_on_kodak: false,
         why: "Barely: their a* is lower than the reference's by less than one unit.",
         find: greener,
     },
@@ -52,7 +48,6 @@ pub(super) const CLAIMS: [Claim; 5] = [
         key: "match-skin-differ-leaf",
         part: PART,
         paper: "Canon and Nikon match the reference on skin and differ on the leaf.",
-        is_on_kodak: false,
         why: "Lightness, not color, is compared: a difference grows with lightness, and the two materials are not \
               equally light. Scaled to L* 50 for the reference, the leaf is no worse by Eq 13.",
         find: skin_and_leaf,
@@ -63,7 +58,6 @@ pub(super) const CHECKS: [Claim; 1] = [Claim {
     key: "match-skin-differ-leaf-fitted",
     part: FURTHER,
     paper: "Canon and Nikon differ more on the leaf than on skin when they are fitted to CIE 1931.",
-    is_on_kodak: false,
     why: "Through fitted matrices and at equal lightness the leaf is farther: there it is a matter of color.",
     find: skin_and_leaf_fitted,
 }];

@@ -150,9 +150,10 @@ impl Scene<'_> {
         Ok(rendition_cautions(&self.light()?.measured, self.light_temperature()?.ok(), rendition))
     }
 
-    /// Spectral similarity of the light to another illuminant, which is without filters.
-    pub fn similarity_to(&self, reference: &SpectralDistribution) -> Result<Result<f64, RenditionError>, SceneError> {
-        let (light, reference) = (Shared::new(self.light()?.measured), Shared::new(reference.clone()));
+    /// Spectral similarity of the light to another illuminant by name, which is without filters.
+    pub fn similarity_to(&self, name: &str) -> Result<Result<f64, RenditionError>, SceneError> {
+        let reference = self.loaded(&self.light_of(name)?, name)?.measured;
+        let (light, reference) = (Shared::new(self.light()?.measured), Shared::new(reference));
         Ok(*self.results.ask(&SimilarityQuery { light, reference }))
     }
 

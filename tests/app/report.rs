@@ -98,7 +98,8 @@ fn what_the_paper_does_not_say_is_not_counted_among_its_claims() {
         String::from_utf8(file.bytes.clone()).unwrap()
     };
     let page = text(PAGE);
-    let summary = "Of 13 claims, 9 hold, 2 hold in part, 1 does not hold, 1 is ambiguous. 4 further checks";
+    let summary =
+        "Of 13 claims: holds 9, holds in part 2, does not hold 1, ambiguous 1, not judged 0. 4 further checks";
     assert!(page.contains(summary));
     // The saturation claim as the paper has it.
     assert!(page.contains("tends further to the white, which makes the head appear slightly brighter"));

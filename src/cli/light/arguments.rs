@@ -16,9 +16,10 @@ pub(in crate::cli) const EXAMPLES: &str = "Examples:
 CSV columns: light; cct_k, duv (CIE 1931 2\u{b0}, 380-780 nm); ra, r1 to r14 (CIE 13.3; none for lamps that are
 mainly monochromatic, which it excludes); rf, rg (ANSI/IES TM-30, CIE 224); ssi, the spectral similarity of SMPTE ST 2122 to the
 reference of the same temperature, unrounded; rf_h1, rcs_h1, fidelity and chroma shift of the first hue bin (reds); ssi_to, the similarity
-to the light of --ssi-reference, and ssi_reference, its name; cautions, what to know about the indices; then, in a row for each camera: camera,
+to the light of --ssi-reference, and ssi_reference, its name; then, in a row for each camera: camera,
 consistency_mean, consistency_p95, consistency_max, the \u{394}E*00 of the patches between this light and its reference illuminant
-through the camera, balanced to each and corrected by the matrix of the reference; worst_patch. Undefined values are empty; the
+through the camera, balanced to each and corrected by the matrix of the reference; worst_patch; cautions, what
+to know about the indices. Undefined values are empty; the
 reason is reported on standard error.";
 
 /// Arguments of `light`.

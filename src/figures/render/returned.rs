@@ -104,17 +104,6 @@ mod tests {
     }
 
     #[test]
-    fn a_steep_surface_says_that_it_is_not_exposed_for_what_comes_straight_back() {
-        let words = said(|document| document.render.sigma_um = 20.0).expect("a sentence");
-        assert!(
-            words
-                .text
-                .ends_with("seen from the light 0.01 of a diffuse white, brighter at grazing views: exposed for 0.2")
-        );
-        assert!(!words.is_warning && words.text.starts_with("Returns 0.04 of the light"), "{}", words.text);
-    }
-
-    #[test]
     fn without_one_surface_nothing_is_said() {
         assert_eq!(said(|document| document.render.reading = ReadingChoice::Lambertian), None);
         assert_eq!(said(|document| document.render.roughness = RoughnessChoice::Mesh), None);
