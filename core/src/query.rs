@@ -21,7 +21,7 @@ pub use compare::DifferenceError;
 pub use correction::{
     CorrectionReport, CorrectionReportQuery, ErrorSummary, StimulusCheck, TwoLightPoint, TwoLightQuery,
 };
-pub use lights::{Consistency, ConsistencyError, ConsistencyQuery, Rendition, RenditionQuery, SimilarityQuery};
+pub use lights::{Consistency, ConsistencyError, ConsistencyQuery, Rendition, RenditionQuery};
 pub use loci::{
     CctQuery, Locus, LocusPoint, LocusQuery, LocusRulesQuery, MonochromaticQuery, NearestBlackBodyQuery,
     RadiatorSignalsQuery, SpectralLocusQuery, Temperatures,

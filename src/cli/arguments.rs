@@ -59,7 +59,8 @@ Columns: sensor, temperature_k, x, y, u_prime, v_prime; distance_xy and distance
 temperature, in x, y and in u\u{2032}, v\u{2032}; cct_error_k, the correlated color temperature by CIE 15 read on
 the reference's own locus (nearest in CIE 1960 u, v, within 0.05) minus the true temperature, the metric of `compare`; arc_length_xy,
 the length in x, y of the straight steps from row to row since the sensor's first (more rows, nearer to the locus's own length);
-extrapolated, true below the temperature from which the end of the sensor's table matters (drawn dotted in figures); then the conditions: reference, illuminant, white_balance, transform, preset.
+extrapolated, true below the temperature from which the end of the sensor's table matters (drawn dotted in figures); then the
+conditions: reference, illuminant, white_balance, transform, preset.
 
 Temperatures are in kelvins, from 1 to 1e15. Rows are ordered by sensor, as named, then by temperature. Undefined values
 are empty.";

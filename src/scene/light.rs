@@ -7,10 +7,10 @@ use chromascope_core::light::{Cct, CctError, PlanckianLocus, RadiationConstants}
 use chromascope_core::patch_set::PatchSet;
 use chromascope_core::query::{
     Ask, CctQuery, Consistency, ConsistencyError, ConsistencyQuery, NearestBlackBodyQuery, Query, Rendition,
-    RenditionQuery, Shared, SimilarityQuery,
+    RenditionQuery, Shared,
 };
 use chromascope_core::rendition::cri::{self, monochromatic_band};
-use chromascope_core::rendition::{RenditionError, Standards};
+use chromascope_core::rendition::{RenditionError, Standards, spectral_similarity};
 use chromascope_core::spectral::grid::{GridSpectrum, wavelength_nm};
 use chromascope_core::spectral::{Sensor, SpectralDistribution};
 
@@ -51,34 +51,6 @@ pub struct LightSheet {
     pub rendition: Result<Arc<Rendition>, SceneError>,
     /// Consistency of each camera of the question.
     pub cameras: Vec<Result<Consistency, NoConsistency>>,
-}
-
-/// Conditions under which indices of a light mean less than they seem, in sentences.
-pub fn rendition_cautions(light: &SpectralDistribution, shown: Option<Cct>, rendition: &Rendition) -> Vec<String> {
-    /// Temperatures that are one: the sums of the indices differ by 2 K.
-    const SAME_K: f64 = 5.0;
-    let mut cautions = Vec::new();
-    if rendition.rendering.as_ref().is_ok_and(|indices| indices.distance > cri::NEAR) {
-        cautions.push(format!(
-            "farther than {} from the reference illuminant in u, v: CIE 13.3 calls Ra and R1 to R14 less accurate there",
-            cri::NEAR
-        ));
-    }
-    if let Some(held) = &rendition.held {
-        let [first, last] = light.range_nm();
-        let effect = held.as_ref().map_or_else(ToString::to_string, |[rf, rg, ssi]| {
-            format!("held, they would be Rf {}, Rg {}, SSI {}", fixed(*rf, 1), fixed(*rg, 1), fixed(*ssi, 0))
-        });
-        cautions.push(format!(
-            "the table covers {first} to {last} nm: beyond, Ra takes its end values, but Rf, Rg and SSI zero; {effect}"
-        ));
-    }
-    let of_reference = rendition.reference.as_ref().ok().map(|(_, cct)| cct.temperature.get());
-    let apart = shown.map(|cct| cct.temperature.get()).zip(of_reference).filter(|(a, b)| (a - b).abs() > SAME_K);
-    cautions.extend(apart.map(|(cct, reference)| {
-        format!("Rf, Rg and SSI take their reference at {reference:.0} K, the temperature without what is beyond the table; CCT is {cct:.0} K")
-    }));
-    cautions
 }
 
 impl LightSheetQuery {
@@ -147,14 +119,40 @@ impl Scene<'_> {
 
     /// Conditions under which indices of the light mean less than they seem, in sentences.
     pub fn rendition_cautions(&self, rendition: &Rendition) -> Result<Vec<String>, SceneError> {
-        Ok(rendition_cautions(&self.light()?.measured, self.light_temperature()?.ok(), rendition))
+        /// Temperatures that are one: the sums of the indices differ by 2 K.
+        const SAME_K: f64 = 5.0;
+        let (light, shown) = (self.light()?.measured, self.light_temperature()?.ok());
+        let mut cautions = Vec::new();
+        if rendition.rendering.as_ref().is_ok_and(|indices| indices.distance > cri::NEAR) {
+            cautions.push(format!(
+                "farther than {} from the reference illuminant in u, v: CIE 13.3 calls Ra and R1 to R14 less accurate there",
+                cri::NEAR
+            ));
+        }
+        if let Some(held) = &rendition.held {
+            let [first, last] = light.range_nm();
+            let effect = held.as_ref().map_or_else(ToString::to_string, |[rf, rg, ssi]| {
+                format!("held, they would be Rf {}, Rg {}, SSI {}", fixed(*rf, 1), fixed(*rg, 1), fixed(*ssi, 0))
+            });
+            cautions.push(format!(
+                "the table covers {first} to {last} nm: beyond, Ra takes its end values, but Rf, Rg and SSI zero; {effect}"
+            ));
+        }
+        let of_reference = rendition.reference.as_ref().ok().map(|(_, cct)| cct.temperature.get());
+        let apart = shown.map(|cct| cct.temperature.get()).zip(of_reference).filter(|(a, b)| (a - b).abs() > SAME_K);
+        cautions.extend(apart.map(|(cct, reference)| {
+            format!(
+                "Rf, Rg and SSI take their reference at {reference:.0} K, the temperature without what is beyond the \
+                 table; CCT is {cct:.0} K"
+            )
+        }));
+        Ok(cautions)
     }
 
     /// Spectral similarity of the light to another illuminant by name, which is without filters.
     pub fn similarity_to(&self, name: &str) -> Result<Result<f64, RenditionError>, SceneError> {
         let reference = self.loaded(&self.light_of(name)?, name)?.measured;
-        let (light, reference) = (Shared::new(self.light()?.measured), Shared::new(reference));
-        Ok(*self.results.ask(&SimilarityQuery { light, reference }))
+        Ok(spectral_similarity(&self.light()?.measured, &reference))
     }
 
     /// Tristimulus values of the light for the CIE 1931 observer, in its own units.

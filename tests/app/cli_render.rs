@@ -506,7 +506,7 @@ fn the_papers_start_has_no_sky() {
     let folder = folder("paper_sky");
     let digest = |more: &[&str]| {
         rendered(&folder, &[&SMALL[..], &D70, more].concat());
-        std::fs::read(folder.join("sphere_nikon-d70-2007-figure.png")).unwrap()
+        std::fs::read(folder.join("sphere_nikon-d70-2007.png")).unwrap()
     };
     let paper = digest(&[]);
     assert_eq!(paper, digest(&["--sky", "0"]));

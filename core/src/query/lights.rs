@@ -43,31 +43,17 @@ pub struct Rendition {
 
 /// The light with its end values held to the ends of the grid; none if it reaches them.
 fn held(light: &SpectralDistribution) -> Option<SpectralDistribution> {
-    let ([first, last], values) = (light.range_nm(), light.values());
-    let beyond = [(first > FIRST_NM).then_some(FIRST_NM), (last < LAST_NM).then_some(LAST_NM)];
-    let [before, after] = beyond.map(|end| end.into_iter());
-    let ends = (*values.first()?, *values.last()?);
-    let nm: Vec<f64> = before.clone().chain(light.wavelengths_nm().iter().copied()).chain(after.clone()).collect();
-    let held = before.map(|_| ends.0).chain(values.iter().copied()).chain(after.map(|_| ends.1)).collect();
-    (nm.len() > values.len()).then(|| SpectralDistribution::new(nm, held).ok())?
-}
-
-/// Spectral similarity of a light to another light.
-#[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub struct SimilarityQuery {
-    /// The light.
-    pub light: Shared<SpectralDistribution>,
-    /// The light it is compared with.
-    pub reference: Shared<SpectralDistribution>,
-}
-
-impl Query for SimilarityQuery {
-    type Answer = Result<f64, RenditionError>;
-    const NAME: &'static str = "spectral similarity";
-
-    fn answer(&self, _: &impl Ask) -> Self::Answer {
-        spectral_similarity(&self.light, &self.reference)
+    let ([first, last], mut nm, mut values) =
+        (light.range_nm(), light.wavelengths_nm().to_vec(), light.values().to_vec());
+    if first > FIRST_NM {
+        nm.insert(0, FIRST_NM);
+        values.insert(0, values[0]);
     }
+    if last < LAST_NM {
+        nm.push(LAST_NM);
+        values.push(values[values.len() - 1]);
+    }
+    (nm.len() > light.values().len()).then(|| SpectralDistribution::new(nm, values).ok())?
 }
 
 impl Query for RenditionQuery {

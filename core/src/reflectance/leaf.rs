@@ -91,8 +91,8 @@ impl LeafModel {
 /// Share of the light that falls on a leaf that its rough surface scatters, by angle of incidence: the diffuse component's
 /// directional-hemispherical reflectance of a white at 550 nm.
 ///
-/// The model returns that share of R, for what passes a boundary twice, and what leaves below the horizon, is lost. T takes the same share, so that the
-/// light a leaf lets through is to the light it returns as T is to R, whatever its surface.
+/// The model returns that share of R: the boundary takes some twice, and what would leave below the horizon is lost. T takes the
+/// same share, so that the light a leaf lets through is to the light it returns as T is to R, whatever its surface.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ScatteredShare {
     /// In equal steps of cos θi from 0 to 1.

@@ -10,7 +10,8 @@ use rayon::prelude::*;
 use std::sync::Arc;
 
 /// One camera's picture: `cos θi cos⁴α ∫C_c P S L dλ / ∫C_c L dλ` at each lit sample (Eq 12 without its s), with the light of a
-/// sky and what shines through a leaf, `ρd(|θi|) |cos θi| cos⁴α ∫C_c T L dλ / ∫C_c L dλ`, ρd = [`crate::reflectance::leaf::ScatteredShare`].
+/// sky and what shines through a leaf, `ρd |cos θi| cos⁴α ∫C_c T L dλ / ∫C_c L dλ`, ρd being
+/// [`crate::reflectance::leaf::ScatteredShare`].
 #[derive(Clone, Debug)]
 pub struct CameraImage {
     placed: Arc<LitSamples>,

@@ -17,8 +17,8 @@ pub const NEAR: f64 = 5.4e-3;
 const BAND_NM: usize = 20;
 const BAND_SHARE: f64 = 0.8;
 
-/// Band of a mainly monochromatic light, from its luminance at steps of 1 nm: index of the band's middle, and the share of the luminance in it; none
-/// where no 20 nm hold four fifths.
+/// Band of a mainly monochromatic light, from its luminance at steps of 1 nm: index of the band's middle, and the share of the
+/// luminance in it; none where no 20 nm hold four fifths.
 pub fn monochromatic_band(luminance: &[f64]) -> Option<(usize, f64)> {
     let sum: f64 = luminance.iter().sum();
     let bands = luminance.windows(BAND_NM + 1).map(|band| band.iter().sum::<f64>() / sum);
@@ -50,8 +50,8 @@ pub struct RenderingIndices {
 ///
 /// # Errors
 ///
-/// [`RenditionError`] where the light has no visible power, is mainly monochromatic, which CIE 13.3 excludes, or has no temperature from 1667 K
-/// to 25 000 K.
+/// [`RenditionError`] where the light has no visible power, is mainly monochromatic, which CIE 13.3 excludes, or has no temperature
+/// from 1667 K to 25 000 K.
 pub fn rendering_indices(
     light: &SpectralDistribution,
     standards: &Standards,

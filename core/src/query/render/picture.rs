@@ -18,8 +18,8 @@ use std::sync::Arc;
 /// The luminance that a material facing the light takes at 0 EV.
 pub const MID_LUMINANCE: f64 = 0.4;
 
-/// Least share of the brightness of an even (Lambertian) scatterer that a material facing the light is exposed for. Steeper surfaces send less
-/// straight back and more to grazing views: exposed for that, they would be white there.
+/// Least share of the brightness of an even (Lambertian) scatterer that a material facing the light is exposed for. Steeper
+/// surfaces send less straight back and more to grazing views: exposed for that, they would be white there.
 pub const LEAST_FACING: f64 = 0.2;
 
 /// XYZ of a material that faces light and viewer, through the reference.
