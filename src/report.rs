@@ -17,7 +17,7 @@ use std::sync::{Arc, OnceLock};
 use chromascope_core::query::Ask as _;
 use chromascope_figure::{Cell, Table};
 
-pub use claim::{Claim, Finding, Subject, Value, Verdict};
+pub use claim::{Claim, FURTHER, Finding, Subject, Value, Verdict};
 pub use figures::{FIGURES, PaperFigure};
 
 use crate::catalog::Catalog;
@@ -37,7 +37,7 @@ pub const NUMBERS: &str = "claims.csv";
 const SOURCE: &str = concat!(
     "# title: Claims of Huynh and Robles-Kelly 2007, with what is found\n# source: computed by Chromascope ",
     env!("CARGO_PKG_VERSION"),
-    " from its public data; the claims are paraphrased\n# terms: those of the program, MIT or Apache-2.0\n",
+    " from its public data; claims are paraphrased but for words in quotation marks\n# terms: those of the program, MIT or Apache-2.0\n",
 );
 /// Side of a rendered picture in pixels unless the user says otherwise.
 pub const PIXELS: u32 = 480;
@@ -45,9 +45,10 @@ pub const PIXELS: u32 = 480;
 /// Forms of each figure.
 const FORMS: [FigureForm; 4] = [FigureForm::Pdf, FigureForm::Svg, FigureForm::Png, FigureForm::Csv];
 
-/// All claims, in the paper's order.
+/// All claims, in the paper's order, then the checks beyond it.
 pub fn claims() -> impl Iterator<Item = &'static Claim> {
-    loci::CLAIMS.iter().chain(&patches::CLAIMS).chain(&pictures::CLAIMS).chain(&model::CLAIMS)
+    let claims = loci::CLAIMS.iter().chain(&patches::CLAIMS).chain(&pictures::CLAIMS).chain(&model::CLAIMS);
+    claims.chain(&loci::CHECKS).chain(&patches::CHECKS).chain(&pictures::CHECKS).chain(&model::CHECKS)
 }
 
 /// A claim with its finding.
@@ -156,16 +157,28 @@ fn file_name(figure: &PaperFigure, form: FigureForm) -> String {
     format!("figure{}.{}", figure.number, form.ending())
 }
 
-/// Findings as a table: a row for each number, rounded to the decimals that are stated.
+/// Findings as a table: a row for each number, rounded to the decimals that are stated, with half of the last one; that is the rounding, and
+/// no accuracy of what the number is about.
 pub fn numbers(judged: &[Judged]) -> Table {
-    let mut table =
-        Table::new(["claim", "part", "paper", "verdict", "quantity", "sensor", "value", "unit", "accuracy"]);
+    let mut table = Table::new([
+        "claim",
+        "part",
+        "paper",
+        "verdict",
+        "condition",
+        "quantity",
+        "sensor",
+        "value",
+        "unit",
+        "rounding",
+    ]);
     for Judged { claim, finding } in judged {
         let Ok(finding) = finding else { continue };
         for value in &finding.values {
             let step = 10_f64.powi(i32::try_from(value.decimals).unwrap_or(0));
             let rounded = (value.number * step).round() / step;
-            let texts = [claim.key, claim.part, claim.paper, finding.verdict.words(), &value.quantity, &value.sensor];
+            let (verdict, condition) = (finding.verdict.words(), claim.condition(finding.verdict));
+            let texts = [claim.key, claim.part, claim.paper, verdict, condition, &value.quantity, &value.sensor];
             let numbers = [Cell::from(rounded), Cell::from(value.unit), Cell::from(0.5 / step)];
             table.push(texts.map(Cell::from).into_iter().chain(numbers));
         }

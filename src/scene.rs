@@ -204,9 +204,19 @@ impl<'a> Scene<'a> {
         self.filtered(light, name)
     }
 
-    /// An illuminant of the catalog through the document's filters.
+    /// An illuminant of the catalog, or one by formula such as `blackbody 3200 K`, through the document's filters.
     pub(crate) fn illuminant(&self, name: &str) -> Result<LoadedLight, SceneError> {
-        self.filtered(LightQuery::Set(self.entry(SetKind::Illuminant, name)?.place), name)
+        self.filtered(self.light_of(name)?, name)
+    }
+
+    fn light_of(&self, name: &str) -> Result<LightQuery, SceneError> {
+        let formula = name.strip_suffix(" K").and_then(|name| name.split_once(' '));
+        let formula = formula.and_then(|(formula, kelvin)| Some((formula, Kelvin::new(kelvin.parse().ok()?).ok()?)));
+        Ok(match formula {
+            Some(("blackbody", kelvin)) => LightQuery::BlackBody(kelvin),
+            Some(("daylight", kelvin)) => LightQuery::Daylight(kelvin),
+            _ => LightQuery::Set(self.entry(SetKind::Illuminant, name)?.place),
+        })
     }
 
     fn filtered(&self, light: LightQuery, name: &str) -> Result<LoadedLight, SceneError> {

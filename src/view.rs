@@ -109,6 +109,8 @@ pub struct View {
     pub locus_share: Option<f64>,
     /// Time of egui in seconds at which the loci began to draw in.
     pub draws_since: Option<f64>,
+    /// Illuminant that the spectral similarity of the light is taken to.
+    pub similar_to: Option<String>,
     /// The palette that finds anything, while open.
     pub palette: Option<PickState>,
     /// The keyboard walks through panes: the pane that has it is framed.

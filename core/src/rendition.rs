@@ -1,4 +1,4 @@
-//! Rendition of colors by a light: CIE 13.3 rendering indices, TM-30 fidelity and gamut, and the Academy's spectral similarity.
+//! Rendition of colors by a light: CIE 13.3 rendering indices, TM-30 fidelity and gamut, and the spectral similarity of SMPTE ST 2122.
 //!
 //! Each index follows the convention of its own standard, not the 380–780 nm grid of the rest, so that published numbers are met:
 //!

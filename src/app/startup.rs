@@ -14,22 +14,26 @@ use crate::view::SavedView;
 /// The program's name in the system: folders, window class.
 const APP_ID: &str = "chromascope";
 
+/// What there is without a window.
+const WITHOUT: &str = "Without a window, `chromascope locus`, `patches`, `compare`, `light`, `matrix`, `figure`, `report`, `render`, \
+                       `identify`, `inspect`, `bench` and `list` do the same.";
+
 /// Reason that the window did not open.
 #[derive(Debug, thiserror::Error)]
 pub enum WindowError {
     /// There is no screen to open it on.
     #[error(
-        "no display: neither DISPLAY nor WAYLAND_DISPLAY is set.\n\
-         Without a window, `chromascope locus`, `patches`, `render`, `inspect`, `bench` and `list` do the same.\n\
-         For a window without a screen, install the Debian package xvfb and run `xvfb-run chromascope`."
+        "no display: neither DISPLAY nor WAYLAND_DISPLAY is set.\n{}\n\
+         For a window without a screen, install the Debian package xvfb and run `xvfb-run chromascope`.",
+        WITHOUT
     )]
     NoDisplay,
     /// The system refused.
     #[error(
         "the window could not be opened: {0}.\n\
          It needs X11 (Debian packages libx11-6 libx11-xcb1 libxcursor1 libxi6 libxkbcommon-x11-0 libgl1) or Wayland \
-         (libwayland-client0 libwayland-egl1 libxkbcommon0 libegl1), and libgl1-mesa-dri.\n\
-         Without a window, `chromascope locus`, `patches`, `render`, `inspect`, `bench` and `list` do the same."
+         (libwayland-client0 libwayland-egl1 libxkbcommon0 libegl1), and libgl1-mesa-dri.\n{without}",
+        without = WITHOUT
     )]
     Refused(#[from] eframe::Error),
 }

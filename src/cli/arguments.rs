@@ -55,10 +55,12 @@ Examples:
   chromascope locus --preset paper --from 2000 --to 10000 --count 50
   chromascope locus --camera \"Nikon D70\" --camera mine.csv --reference \"CIE 1964 10°\" --illuminant A --white-balance D55
 
-Columns: sensor, temperature_k, x, y, u_prime, v_prime; distance_xy and distance_uv, the distances to the reference at the same
-temperature, in x, y and in u\u{2032}, v\u{2032}; cct_error_k, the correlated color temperature read on the reference's
-own locus (nearest in CIE 1960 u, v, within 0.05) minus the true temperature, so that the reference's is 0 (within 0.02 K); arc_length_xy, the length in x, y of the
-straight steps from row to row since the sensor's first (more rows, nearer to the locus's own length); then the conditions: reference, illuminant, white_balance, transform, preset.
+Columns: sensor, temperature_k, x, y, u_prime, v_prime; distance_xy and distance_uv_prime, the distances to the reference at the same
+temperature, in x, y and in u\u{2032}, v\u{2032}; cct_error_k, the correlated color temperature by CIE 15 read on
+the reference's own locus (nearest in CIE 1960 u, v, within 0.05) minus the true temperature, the metric of `compare`; arc_length_xy,
+the length in x, y of the straight steps from row to row since the sensor's first (more rows, nearer to the locus's own length);
+extrapolated, true below the temperature from which the end of the sensor's table matters (drawn dotted in figures); then the
+conditions: reference, illuminant, white_balance, transform, preset.
 
 Temperatures are in kelvins, from 1 to 1e15. Rows are ordered by sensor, as named, then by temperature. Undefined values
 are empty.";
@@ -74,7 +76,7 @@ for a perfect diffuser, under Eq 13 within 5e-5); x, y; u_prime, v_prime; lab_l,
 cct_k, duv, the nearest blackbody for the CIE 1931 observer;
 delta_…, the differences from the reference, a column for each metric; then the conditions: reference, illuminant,
 white_balance, transform, preset. Undefined values are empty: with the paper's matrix, Eq 13 takes RGB as sRGB
-whatever the sensor, so its colors have distances in the diagrams, but no \u{394}E*, and their L*a*b* is not that of the CIE.
+whatever the sensor, so its colors have distances in the diagrams, but no L*a*b*, no color temperature and no \u{394}E*.
 
 A file's reflectances are fractions or percent, its wavelengths nm or µm; guesses are reported on standard error. Numbers above one whose
 scale the file does not state need --values percent or --values plain; a file of radiances is refused as a chart.";

@@ -10,6 +10,7 @@ use arguments::{Format, MatrixArguments};
 use super::error::CliError;
 use super::outputs;
 use super::request::Request;
+use super::tables::say_light;
 use crate::document::start::Start;
 use crate::export::profile::{CorrectionFileQuery, clf, idt_note};
 use crate::results::Results;
@@ -21,6 +22,7 @@ pub(super) fn run(arguments: &MatrixArguments) -> Result<(), CliError> {
     let cameras = std::slice::from_ref(&arguments.camera);
     let mut request = Request::of_cameras(Start::Colorimetry, "CAMERA", cameras, arguments.per)?;
     request.set_light(&arguments.illuminant)?;
+    request.set_filters(&arguments.filter)?;
     request.set_fit_target(&arguments.fit_to)?;
     request.set_correction(arguments.fit, &arguments.training)?;
     if let Some(light) = &arguments.second_illuminant {
@@ -34,6 +36,7 @@ pub(super) fn run(arguments: &MatrixArguments) -> Result<(), CliError> {
     let results = Results::default();
     let scene = Scene { document: &request.document, catalog: &request.catalog, results: &results };
     let bytes = written(arguments, &request, &scene)?;
+    say_light(&scene)?;
     outputs::stream(arguments.out.as_deref(), |out| Ok(out.write_all(&bytes)?))
 }
 

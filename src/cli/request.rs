@@ -221,9 +221,16 @@ impl Request {
 
     /// Chooses the second calibration light.
     pub(super) fn set_second_light(&mut self, given: &OsStr) -> Result<(), CliError> {
-        let name = self.set_or_file("--second-illuminant", &[SetKind::Illuminant], Role::Illuminant, given)?;
-        self.document.correction.second_light = Some(name);
+        self.document.correction.second_light = Some(self.light_named("--second-illuminant", given)?);
         Ok(())
+    }
+
+    /// The name of an illuminant, of the file of one, or of a formula with its temperature.
+    pub(super) fn light_named(&mut self, argument: &'static str, given: &OsStr) -> Result<String, CliError> {
+        match radiator(argument, &given.to_string_lossy())? {
+            Some((light, kelvin)) => Ok(format!("{} {kelvin} K", light.name())),
+            None => self.set_or_file(argument, &[SetKind::Illuminant], Role::Illuminant, given),
+        }
     }
 
     /// True if an argument is a file path. A built-in set's name refers to that set even if a file of that name exists.
@@ -336,6 +343,13 @@ impl Request {
 
     /// The catalog's name for an illuminant. A formula without its temperature is no name for a measured set.
     fn illuminant(&self, argument: &'static str, typed: &str) -> Result<String, CliError> {
+        let number = typed.trim().trim_end_matches(['K', 'k']).trim_end();
+        if let Some(kelvin) = number.parse::<f64>().ok().filter(|kelvin| *kelvin >= 500.0) {
+            let reason = format!(
+                "\"{typed}\" is a temperature, which many lights have; write daylight:{kelvin} or blackbody:{kelvin}"
+            );
+            return Err(CliError::Argument { argument, reason });
+        }
         let formula = match telling_words(typed).concat().as_str() {
             "daylight" => "daylight",
             "blackbody" | "planckian" | "planckianradiator" => "blackbody",
@@ -459,6 +473,16 @@ fn is_shells(_: &Path, _: &fs::Metadata) -> bool {
 enum Radiator {
     Daylight,
     BlackBody,
+}
+
+impl Radiator {
+    /// Its name where it is named with its temperature.
+    const fn name(self) -> &'static str {
+        match self {
+            Self::Daylight => "daylight",
+            Self::BlackBody => "blackbody",
+        }
+    }
 }
 
 /// `daylight:K` and `blackbody:K`.

@@ -1,17 +1,14 @@
 //! The tables that the commands print.
 
-mod cct;
-
 use std::io::Write;
 
 use chromascope_core::colorimetry::Metric;
-use chromascope_core::query::{LocusPoint, PatchColor, Temperatures, compare};
+use chromascope_core::query::metrics::ReferenceLocusQuery;
+use chromascope_core::query::{Ask as _, LocusPoint, PatchColor, Temperatures, compare};
 use chromascope_core::spectral::Primaries;
 use chromascope_core::units::Kelvin;
 use clap::ArgMatches;
 use spectral_file::cell;
-
-use cct::ReferenceLocus;
 
 use super::arguments::{CommonArguments, LocusArguments, PatchesArguments};
 use super::error::CliError;
@@ -26,7 +23,8 @@ use crate::scene::conditions::CONDITIONS;
 use crate::scene::{Caution, LOCUS_POINTS, Scene, SceneError};
 use crate::terminal::say;
 
-const LOCUS_HEAD: &str = "sensor,temperature_k,x,y,u_prime,v_prime,distance_xy,distance_uv,cct_error_k,arc_length_xy";
+const LOCUS_HEAD: &str =
+    "sensor,temperature_k,x,y,u_prime,v_prime,distance_xy,distance_uv_prime,cct_error_k,arc_length_xy,extrapolated";
 const PATCHES_HEAD: &str = "sensor,patch,r,g,b,x_tristimulus,y_tristimulus,z_tristimulus,x,y,u_prime,v_prime,\
                             lab_l,lab_a,lab_b,cct_k,duv";
 
@@ -45,11 +43,10 @@ pub(super) fn locus(arguments: &LocusArguments, matches: &ArgMatches) -> Result<
         scene.locus_at(*kind, name, Temperatures::List(temperatures.part(0..1)))?;
         let _comparable = scene.comparable(*kind, name)?;
     }
-    let own = ReferenceLocus::new(&scene)?;
     outputs::stream(arguments.common.out.as_deref(), |out| {
         out.write_all(head(LOCUS_HEAD).as_bytes())?;
         for (kind, name) in &request.sources {
-            locus_rows(out, &scene, (*kind, name), &temperatures, &own)?;
+            locus_rows(out, &scene, (*kind, name), &temperatures)?;
         }
         Ok(())
     })?;
@@ -62,9 +59,11 @@ fn locus_rows(
     scene: &Scene<'_>,
     (kind, name): (SetKind, &str),
     temperatures: &Temperatures,
-    own: &ReferenceLocus,
 ) -> Result<(), Stop> {
     let conditions = conditions(scene, &scene.light_name());
+    let reference = ReferenceLocusQuery(scene.rendering_of(SetKind::Observer, &scene.document.reference)?);
+    let own = scene.results.ask(&reference);
+    let below = scene.extrapolated_below(kind, name).map(|(kelvin, _)| kelvin);
     let comparable = scene.comparable(kind, name)?;
     let mut before: Option<LocusPoint> = None;
     let mut length = 0.0;
@@ -82,11 +81,16 @@ fn locus_rows(
             let rest = [
                 distance(Metric::XY),
                 distance(Metric::UV_PRIME),
-                comparable.ok().and_then(|()| own.error_k(point)),
+                comparable
+                    .ok()
+                    .and_then(|()| own.as_ref().as_ref().ok()?.deviation(point.temperature, point.uv?)?.cct_error_k),
                 point.xy.map(|_| length),
             ];
             let row = [places, rest].concat();
-            out.write_all(row_of(&[&field(name), &point.temperature.get().to_string()], &row, &conditions).as_bytes())?;
+            let kelvin = point.temperature.get();
+            let is_beyond = if below.is_some_and(|below| kelvin < below) { ",true" } else { ",false" };
+            let row = row_of(&[&field(name), &kelvin.to_string()], &row, &format!("{is_beyond}{conditions}"));
+            out.write_all(row.as_bytes())?;
         }
         // Answers that were already written are dropped.
         scene.results.end_frame();
@@ -111,6 +115,7 @@ fn head(columns: &str) -> String {
 
 /// Reports once the reason that differences from the reference are empty or not those of the color transform alone.
 pub(super) fn say_caution(scene: &Scene<'_>, request: &Request) -> Result<(), SceneError> {
+    say_light(scene)?;
     let Some(caution) = scene.caution() else { return Ok(()) };
     let remedy = match caution {
         Caution::FitDiffers { .. } => "",
@@ -123,6 +128,14 @@ pub(super) fn say_caution(scene: &Scene<'_>, request: &Request) -> Result<(), Sc
         }
     };
     say(&format!("chromascope: {}{remedy}\n", caution.sentence()));
+    Ok(())
+}
+
+/// Reports that a light shows next to no colors.
+pub(super) fn say_light(scene: &Scene<'_>) -> Result<(), SceneError> {
+    if let Some(caution) = scene.light_caution()? {
+        say(&format!("chromascope: {caution}\n"));
+    }
     Ok(())
 }
 
@@ -168,16 +181,19 @@ pub(super) fn patches(arguments: &PatchesArguments, matches: &ArgMatches) -> Res
     let reference = colors(SetKind::Observer, &request.document.reference)?;
     let metrics: String = Metric::ALL.iter().flat_map(|metric| [",", metric.column]).collect();
     let mut text = head(&format!("{PATCHES_HEAD}{metrics}"));
+    let mut is_any_by_eq_13 = false;
     for (kind, name) in &request.sources {
         let comparable = scene.comparable(*kind, name)?;
-        // Eq 13 takes RGB as sRGB whatever the sensor: distances between its colors are not ΔE*.
+        // Eq 13 takes RGB as sRGB whatever the sensor: its colors have no L*a*b* and no CCT, and distances between them are no ΔE*.
         let by_eq_13 = request.document.transform == TransformChoice::Paper
             && scene.sensor(*kind, name)?.primaries() != Primaries::Xyz;
+        is_any_by_eq_13 |= by_eq_13;
         let colors = colors(*kind, name)?;
         let temperatures = scene.temperatures_of(&colors.iter().map(|color| Some(color.xyz)).collect::<Vec<_>>())?;
         for (((patch, color), reference), cct) in names.iter().zip(colors).zip(&reference).zip(temperatures) {
-            let mut row = color_cells(&color);
-            row.extend([cct.ok().map(|cct| cct.temperature.get()), cct.ok().map(|cct| cct.duv)]);
+            let cct = cct.ok().filter(|_| !by_eq_13);
+            let mut row = color_cells(&color, by_eq_13);
+            row.extend([cct.map(|cct| cct.temperature.get()), cct.map(|cct| cct.duv)]);
             row.extend(Metric::ALL.iter().map(|&metric| {
                 let defined = comparable.is_ok() && !(by_eq_13 && metric.needs_adopted_white());
                 compare::difference(metric, reference, &color).ok().filter(|_| defined)
@@ -186,16 +202,21 @@ pub(super) fn patches(arguments: &PatchesArguments, matches: &ArgMatches) -> Res
         }
     }
     say_caution(&scene, &request)?;
+    if is_any_by_eq_13 {
+        say(
+            "chromascope: Eq 13 takes RGB as sRGB: L*a*b*, CCT and \u{394}E* are left empty; add --transform fitted.\n",
+        );
+    }
     Ok(text)
 }
 
-/// RGB, XYZ, xy, u′v′ and L*a*b*.
-fn color_cells(color: &PatchColor) -> Vec<Option<f64>> {
+/// RGB, XYZ, xy, u′v′ and L*a*b*; without the last for colors of Eq 13, which are no CIE XYZ.
+fn color_cells(color: &PatchColor, by_eq_13: bool) -> Vec<Option<f64>> {
     let rgb = color.rgb.map_or([None; 3], |rgb| rgb.map(Some));
     let xyz = [color.xyz.x, color.xyz.y, color.xyz.z].map(Some);
     let xy = [color.xy.map(|p| p.x), color.xy.map(|p| p.y)];
     let uv = [color.uv.map(|p| p.u), color.uv.map(|p| p.v)];
-    let lab = color.lab.map_or([None; 3], |lab| [lab.l, lab.a, lab.b].map(Some));
+    let lab = color.lab.filter(|_| !by_eq_13).map_or([None; 3], |lab| [lab.l, lab.a, lab.b].map(Some));
     [&rgb[..], &xyz, &xy, &uv, &lab].concat()
 }
 

@@ -24,7 +24,7 @@ pub const SUN: &str = "Direct sun (ASTM G173)";
 /// The balance of the paper's third experiment.
 pub const BALANCE: &str = "D55";
 
-/// The sky that a scene begins with, over direct sunlight: a clear day's.
+/// The sky that a scene begins with, over direct sunlight: a clear day's share, in the light's own spectrum (a clear sky is blue).
 pub const SKY: f64 = 0.15;
 
 /// The distance that a near light begins with, in radii of the mesh.

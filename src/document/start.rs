@@ -82,6 +82,10 @@ impl Start {
             document.render.garment = Some(GARMENT.to_owned());
             document.set_transform(TransformChoice::Observer(CIE_1931.to_owned()));
         }
+        if self == Self::Paper {
+            // The paper's light is a point.
+            document.render.sky = 0.0;
+        }
         document.render.specular = self.specular();
         for (name, kind) in self.sensors() {
             document.compare(name, *kind);

@@ -277,7 +277,7 @@ fn table(scene: &Scene<'_>) -> Table {
         "u_prime",
         "v_prime",
         "distance_xy",
-        "distance_uv",
+        "distance_uv_prime",
         "extrapolated",
         "cct_k",
         "duv",

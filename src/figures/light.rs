@@ -178,6 +178,9 @@ pub fn table(scene: &Scene<'_>, rendition: &Rendition) -> Table {
         push("Rhs,h (rad)", &of, Some(bin.hue_shift));
     }
     push("SSI", &light, rendition.similarity.as_ref().ok().copied());
+    for caution in scene.rendition_cautions(rendition).unwrap_or_default() {
+        push(&format!("caution: {caution}"), &light, None);
+    }
     for source in scene.sources().iter().filter(|source| source.kind == SetKind::Camera) {
         let consistency = scene.consistency(&source.name).ok();
         let value = |take: fn(&Consistency) -> f64| consistency.as_ref().map(take);

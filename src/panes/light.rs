@@ -4,7 +4,6 @@ use std::sync::Arc;
 
 use chromascope_core::light::temperature::MAX_DUV;
 use chromascope_core::query::Rendition;
-use chromascope_core::rendition::cri;
 use chromascope_figure::{Cell, Rect as Area, Table};
 use egui::{Rect, RichText, Sense, Ui, UiBuilder, Vec2};
 
@@ -15,6 +14,7 @@ use crate::format::{fixed, sentence, signed};
 use crate::jobs::Shown;
 use crate::paint;
 use crate::panes::widgets;
+use crate::panes::widgets::pick_list::{self, Line};
 use crate::panes::widgets::table::{CellNote, Column, DataTable};
 use crate::plot_item::{PlotItem, SensorId};
 use crate::scene::Scene;
@@ -32,6 +32,8 @@ pub const PANE: Pane = Pane {
     table: true,
 };
 
+/// Width of the list of lights.
+const LIST: f32 = 220.0;
 /// Minimum width for bars and vectors side by side.
 const WIDE: f32 = 520.0;
 /// Heights of the bars and of the vectors below them.
@@ -64,6 +66,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     }
     widgets::scroll::show(ui, (PANE.kind, "light"), body, context, |ui, context| {
         summary(ui, &scene, &rendition, context);
+        similarity(ui, &scene, context);
         pictures(ui, &rendition, context);
         cameras(ui, &scene, &shown, context);
     });
@@ -99,22 +102,45 @@ fn summary(ui: &mut Ui, scene: &Scene<'_>, rendition: &Rendition, context: &Pane
         Err(error) => reason("SSI", error.to_string()),
     }
     if !words.is_empty() {
-        let hint = "Ra: CIE 13.3. Rf, Rg: ANSI/IES TM-30, CIE 224. SSI: Academy, against a blackbody below 4000 K and \
+        let hint = "Ra: CIE 13.3. Rf, Rg: ANSI/IES TM-30, CIE 224. SSI: SMPTE ST 2122, to a blackbody below 4000 K and \
                     daylight from there on, at the light's temperature.";
         ui.label(words.join("   ")).on_hover_text(hint);
     }
-    if rendition.rendering.as_ref().is_ok_and(|indices| indices.distance > cri::NEAR) {
-        let note = format!(
-            "Farther than {} from the reference illuminant in u, v: CIE 13.3 calls its indices less accurate there.",
-            cri::NEAR
-        );
-        ui.label(RichText::new(note).small().color(context.theme.weak));
+    for note in scene.rendition_cautions(rendition).unwrap_or_default() {
+        ui.label(RichText::new(sentence(&note)).small().color(context.theme.weak));
     }
     reasons.dedup();
     for reason in reasons {
         let hint = format!("A color temperature is defined up to Duv \u{b1}{MAX_DUV}, indices for white lights only.");
         ui.colored_label(context.theme.warning, reason).on_hover_text(hint);
     }
+}
+
+/// Spectral similarity to a light that is chosen.
+fn similarity(ui: &mut Ui, scene: &Scene<'_>, context: &mut PaneContext<'_>) {
+    let now = context.view.similar_to.clone();
+    ui.horizontal(|ui| {
+        ui.label("SSI to");
+        let hint = (
+            "Light of the similarity index",
+            "A light that SSI is taken to, beside the reference at the light's temperature",
+        );
+        let mut names = vec![None];
+        let lines = || {
+            names.extend(scene.entries(SetKind::Illuminant).map(|entry| Some(entry.name)));
+            names.iter().map(|name| Line::new(name.as_deref().unwrap_or("None"), *name == now)).collect()
+        };
+        let shown = now.as_deref().unwrap_or("None");
+        if let Some(index) = pick_list::drop_down(ui, hint, shown, LIST, &context.theme, lines) {
+            context.view.similar_to = names.swap_remove(index);
+        }
+        let Some(name) = &now else { return };
+        match scene.similarity_to(name) {
+            Ok(Ok(value)) => ui.label(fixed(value, 0)),
+            Ok(Err(error)) => ui.colored_label(context.theme.warning, sentence(&error.to_string())),
+            Err(error) => ui.colored_label(context.theme.warning, sentence(&error.to_string())),
+        };
+    });
 }
 
 /// Bars and vectors, side by side or stacked.

@@ -10,14 +10,19 @@ use crate::catalog::Catalog;
 use crate::document::render::{BALANCE, SUN};
 use crate::document::{CIE_1931, Document, Light, SetKind, Subset, TransformChoice, WhiteBalanceChoice};
 use crate::results::Results;
+use crate::scene::metrics::model_of;
 use crate::scene::{Scene, SceneError};
 
 /// The paper's Canon.
 pub(super) const CANON: &str = "Canon EOS 10D (2007 figure)";
 /// The paper's Nikon.
 pub(super) const NIKON: &str = "Nikon D70 (2007 figure)";
-/// The camera in place of the paper's Kodak.
+/// The camera in place of the paper's Kodak, a DCS420.
 pub(super) const KODAK: &str = "Kodak DCS200";
+/// Qualification of verdicts on the paper's Kodak.
+pub(super) const STAND_IN: &str = "Kodak DCS200 in place of the paper's DCS420";
+/// Part of the checks that go beyond the paper.
+pub const FURTHER: &str = "Further checks";
 
 /// Agreement of a claim with what is found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,6 +32,8 @@ pub enum Verdict {
     Partly,
     /// It does not hold.
     Fails,
+    /// Its words have more than one meaning, and the verdict depends on which.
+    Ambiguous,
     /// It is about cameras or patches that are not in this report.
     Open,
 }
@@ -38,6 +45,7 @@ impl Verdict {
             Self::Holds => "holds",
             Self::Partly => "holds in part",
             Self::Fails => "does not hold",
+            Self::Ambiguous => "ambiguous",
             Self::Open => "not judged",
         }
     }
@@ -74,17 +82,30 @@ pub struct Finding {
     pub verdict: Verdict,
 }
 
-/// A claim of the paper.
+/// A claim of the paper, or a further check that it suggests.
 pub struct Claim {
     /// Name in tables.
     pub key: &'static str,
-    /// Part of the paper.
+    /// Part of the paper, or [`FURTHER`].
     pub part: &'static str,
+    /// The claim, paraphrased but for what stands between quotation marks.
     pub paper: &'static str,
     /// Reason that it holds or not.
     pub why: &'static str,
     /// Computes what is found.
     pub find: fn(&Subject<'_>) -> Result<Finding, SceneError>,
+}
+
+impl Claim {
+    /// True if the paper makes it.
+    pub fn is_of_paper(&self) -> bool {
+        self.part != FURTHER
+    }
+
+    /// Qualification of a verdict on the paper's Kodak; empty for others.
+    pub fn condition(&self, verdict: Verdict) -> &'static str {
+        if self.paper.contains("Kodak") && verdict != Verdict::Open { STAND_IN } else { "" }
+    }
 }
 
 /// A number for each of several sensors.
@@ -137,6 +158,26 @@ impl Subject<'_> {
     pub(super) fn each(&self, number: impl Fn(&str) -> Result<f64, SceneError>) -> Result<Series, SceneError> {
         let cameras = self.cameras().into_iter();
         cameras.map(|name| Ok((name.clone(), number(&name)?))).collect::<Result<_, _>>().map(Series)
+    }
+
+    /// Least and most of a number among the library's tables of the paper's Nikon: what it depends on the table.
+    pub(super) fn spread(
+        &self,
+        quantity: &str,
+        unit: &'static str,
+        decimals: usize,
+        number: impl Fn(&str) -> Result<f64, SceneError>,
+    ) -> Result<Vec<Value>, SceneError> {
+        let model = model_of(NIKON);
+        let tables = self.catalog.of_kind(SetKind::Camera).filter(|entry| model_of(&entry.name) == model);
+        let numbers = tables.map(|entry| number(&entry.name)).collect::<Result<Vec<f64>, _>>()?;
+        let among = format!("among {} tables of one {model}", numbers.len());
+        let end = |end: &str, number| {
+            Series(vec![(String::new(), number)]).values(&format!("{quantity}, {end} {among}"), unit, decimals)
+        };
+        let [least, most] =
+            [f64::min as fn(f64, f64) -> f64, f64::max].map(|fold| numbers.iter().copied().fold(f64::NAN, fold));
+        Ok([end("least", least), end("most", most)].concat())
     }
 
     /// A number for the reference of a document and for each camera.

@@ -10,14 +10,14 @@ use chromascope_core::scene::lighting::Lighting;
 use chromascope_core::spectral::SpectralDistribution;
 use chromascope_core::spectral::grid::{COUNT, wavelength_nm};
 
-use super::claim::{Claim, Finding, Series, Subject, Verdict};
+use super::claim::{Claim, FURTHER, Finding, Series, Subject, Verdict};
 use crate::document::render::{BALANCE, RenderSettings, SKIN};
 use crate::document::{Document, Light, SetKind};
 use crate::scene::SceneError;
 
 const PART: &str = "Equations";
 
-pub(super) const CLAIMS: [Claim; 3] = [
+pub(super) const CLAIMS: [Claim; 2] = [
     Claim {
         key: "balance",
         part: PART,
@@ -33,15 +33,16 @@ pub(super) const CLAIMS: [Claim; 3] = [
               (d/z)². Being constant it cancels in Eq 12.",
         find: falloff,
     },
-    Claim {
-        key: "white-stays-white",
-        part: PART,
-        paper: "Eq 1 to 12 render a rough white surface in the color of the light.",
-        why: "As printed they do not: Eq 4 is proportional to λ² without a compensating λ⁻², so rough surfaces turn \
-              yellow. With radiance per irradiance (the radiometric normalization) white stays white.",
-        find: tint,
-    },
 ];
+
+pub(super) const CHECKS: [Claim; 1] = [Claim {
+    key: "white-stays-white",
+    part: FURTHER,
+    paper: "Eq 1 to 12 render a rough white surface in the color of the light.",
+    why: "As printed they do not: Eq 4 is proportional to λ² without a compensating λ⁻², so rough surfaces turn \
+          yellow. With radiance per irradiance (the radiometric normalization) white stays white.",
+    find: tint,
+}];
 
 fn balance(subject: &Subject<'_>) -> Result<Finding, SceneError> {
     const PRINTED: [f64; 3] = [1.1040, 0.9870, 0.8233];

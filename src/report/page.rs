@@ -74,15 +74,15 @@ fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
-/// Numbers of verdicts in words.
+/// Numbers of verdicts on the paper's claims in words.
 fn summary(judged: &[Judged]) -> String {
-    let count = |verdict: Verdict| {
-        judged.iter().filter(|judged| judged.finding.as_ref().is_ok_and(|found| found.verdict == verdict)).count()
-    };
-    let [holds, partly, fails, open] = [Verdict::Holds, Verdict::Partly, Verdict::Fails, Verdict::Open].map(count);
-    let open =
-        if open == 0 { String::new() } else { format!(" {open} are about cameras or patches that are not here.") };
-    format!("Of {} claims, {holds} hold, {partly} hold in part, {fails} do not.{open}", judged.len())
+    let (claims, further): (Vec<&Judged>, Vec<&Judged>) = judged.iter().partition(|judged| judged.claim.is_of_paper());
+    let counts = [Verdict::Holds, Verdict::Partly, Verdict::Fails, Verdict::Ambiguous, Verdict::Open].map(|verdict| {
+        let is_it = |judged: &&&Judged| judged.finding.as_ref().is_ok_and(|found| found.verdict == verdict);
+        format!("{} {}", verdict.words(), claims.iter().filter(is_it).count())
+    });
+    let (count, checks) = (claims.len(), further.len());
+    format!("Of {count} claims: {}. {checks} further checks are not claims of the paper.", counts.join(", "))
 }
 
 fn conditions(out: &mut String, subject: &Subject<'_>) {
@@ -102,22 +102,27 @@ fn conditions(out: &mut String, subject: &Subject<'_>) {
 
 fn claims(out: &mut String, subject: &Subject<'_>, judged: &[Judged]) {
     out.push_str(
-        "<h2>Claims</h2>\n<p class=\"note\">The paper's claims are paraphrased. Numbers are rounded; claims.csv has their accuracy.</p>\n\
+        "<h2>Claims</h2>\n<p class=\"note\">Words between quotation marks are the paper's; all others are a paraphrase. \
+         Numbers are rounded to the digits shown, which is not how well they are known: other tables of the same camera give \
+         others.</p>\n\
          <table class=\"claims\">\n<thead><tr><th>The paper</th><th>Found</th><th></th><th>Why</th></tr></thead>\n<tbody>\n",
     );
     let mut part = "";
     for Judged { claim, finding } in judged {
         if claim.part != part {
             part = claim.part;
-            let _ = writeln!(out, "<tr class=\"part\"><th colspan=\"4\">{}</th></tr>", escaped(part));
+            let beyond = if claim.is_of_paper() { "" } else { ": not in the paper" };
+            let _ = writeln!(out, "<tr class=\"part\"><th colspan=\"4\">{}{beyond}</th></tr>", escaped(part));
         }
-        let (found, verdict) = match finding {
-            Ok(finding) => (found(subject, finding), finding.verdict.words()),
-            Err(why) => (escaped(why), "cannot be computed"),
+        let (found, verdict, condition) = match finding {
+            Ok(finding) => (found(subject, finding), finding.verdict.words(), claim.condition(finding.verdict)),
+            Err(why) => (escaped(why), "cannot be computed", ""),
         };
+        let condition =
+            if condition.is_empty() { String::new() } else { format!("<p class=\"note\">{}</p>", escaped(condition)) };
         let _ = writeln!(
             out,
-            "<tr id=\"{}\"><td>{}</td><td>{found}</td><td class=\"verdict\">{}</td><td>{}</td></tr>",
+            "<tr id=\"{}\"><td>{}</td><td>{found}</td><td><span class=\"verdict\">{}</span>{condition}</td><td>{}</td></tr>",
             claim.key,
             escaped(claim.paper),
             capitalized(verdict),

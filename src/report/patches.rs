@@ -2,7 +2,7 @@
 
 use chromascope_core::colorimetry::Metric;
 
-use super::claim::{CANON, Claim, Finding, KODAK, NIKON, Series, Subject, Value, Verdict};
+use super::claim::{CANON, Claim, FURTHER, Finding, KODAK, NIKON, Series, Subject, Value, Verdict};
 use crate::document::{Document, SetKind};
 use crate::scene::SceneError;
 
@@ -10,7 +10,7 @@ const PART: &str = "Experiment 2: patches";
 /// Spread of a signal above which a white is not the same through all sensors.
 const SAME: f64 = 0.005;
 
-pub(super) const CLAIMS: [Claim; 4] = [
+pub(super) const CLAIMS: [Claim; 3] = [
     Claim {
         key: "white-alike",
         part: PART,
@@ -27,14 +27,6 @@ pub(super) const CLAIMS: [Claim; 4] = [
         find: in_diagram,
     },
     Claim {
-        key: "red-nearer-delta-e",
-        part: PART,
-        paper: "Red and orange yellow look nearer to the reference than green and blue for Canon and Nikon.",
-        why: "By ΔE*00, which weighs differences as the eye does (cameras fitted to CIE 1931 under D65), red is the \
-              farthest of all: distances in the diagram are not differences to the eye.",
-        find: by_eye,
-    },
-    Claim {
         key: "kodak-farthest",
         part: PART,
         paper: "The Kodak is farther from the reference than Canon and Nikon in all colored patches.",
@@ -42,6 +34,15 @@ pub(super) const CLAIMS: [Claim; 4] = [
         find: farthest,
     },
 ];
+
+pub(super) const CHECKS: [Claim; 1] = [Claim {
+    key: "red-nearer-delta-e",
+    part: FURTHER,
+    paper: "Red and orange yellow look nearer to the reference than green and blue for Canon and Nikon.",
+    why: "By ΔE*00, which weighs differences as the eye does (cameras fitted to CIE 1931 under D65), red is the \
+          farthest of all: distances in the diagram are not differences to the eye.",
+    find: by_eye,
+}];
 
 /// The colored ones of the paper's patches.
 const COLORED: [&str; 4] = ["red", "green", "blue", "orange yellow"];

@@ -9,13 +9,15 @@ use chromascope_core::query::{
     Ask, CctQuery, Consistency, ConsistencyError, ConsistencyQuery, NearestBlackBodyQuery, Query, Rendition,
     RenditionQuery, Shared,
 };
-use chromascope_core::rendition::{RenditionError, Standards};
-use chromascope_core::spectral::grid::GridSpectrum;
+use chromascope_core::rendition::cri::{self, monochromatic_band};
+use chromascope_core::rendition::{RenditionError, Standards, spectral_similarity};
+use chromascope_core::spectral::grid::{GridSpectrum, wavelength_nm};
 use chromascope_core::spectral::{Sensor, SpectralDistribution};
 
 use super::{Scene, SceneError};
 use crate::catalog::load::StandardsQuery;
-use crate::document::{FIT_TARGET, SetKind, TRAINING};
+use crate::document::{FIT_TARGET, Light, SetKind, TRAINING};
+use crate::format::fixed;
 
 /// Reason that a camera has no consistency under the light.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -115,11 +117,72 @@ impl Scene<'_> {
         Ok(self.results.ask(&RenditionQuery { light, standards: self.standards()? }))
     }
 
+    /// Conditions under which indices of the light mean less than they seem, in sentences.
+    pub fn rendition_cautions(&self, rendition: &Rendition) -> Result<Vec<String>, SceneError> {
+        /// Temperatures that are one: the sums of the indices differ by 2 K.
+        const SAME_K: f64 = 5.0;
+        let (light, shown) = (self.light()?.measured, self.light_temperature()?.ok());
+        let mut cautions = Vec::new();
+        if rendition.rendering.as_ref().is_ok_and(|indices| indices.distance > cri::NEAR) {
+            cautions.push(format!(
+                "farther than {} from the reference illuminant in u, v: CIE 13.3 calls Ra and R1 to R14 less accurate there",
+                cri::NEAR
+            ));
+        }
+        if let Some(held) = &rendition.held {
+            let [first, last] = light.range_nm();
+            let effect = held.as_ref().map_or_else(ToString::to_string, |[rf, rg, ssi]| {
+                format!("held, they would be Rf {}, Rg {}, SSI {}", fixed(*rf, 1), fixed(*rg, 1), fixed(*ssi, 0))
+            });
+            cautions.push(format!(
+                "the table covers {first} to {last} nm: beyond, Ra takes its end values, but Rf, Rg and SSI zero; {effect}"
+            ));
+        }
+        let of_reference = rendition.reference.as_ref().ok().map(|(_, cct)| cct.temperature.get());
+        let apart = shown.map(|cct| cct.temperature.get()).zip(of_reference).filter(|(a, b)| (a - b).abs() > SAME_K);
+        cautions.extend(apart.map(|(cct, reference)| {
+            format!(
+                "Rf, Rg and SSI take their reference at {reference:.0} K, the temperature without what is beyond the \
+                 table; CCT is {cct:.0} K"
+            )
+        }));
+        Ok(cautions)
+    }
+
+    /// Spectral similarity of the light to another illuminant by name, which is without filters.
+    pub fn similarity_to(&self, name: &str) -> Result<Result<f64, RenditionError>, SceneError> {
+        let reference = self.loaded(&self.light_of(name)?, name)?.measured;
+        Ok(spectral_similarity(&self.light()?.measured, &reference))
+    }
+
     /// Tristimulus values of the light for the CIE 1931 observer, in its own units.
     pub fn light_color(&self) -> Result<Xyz, SceneError> {
         let observer = self.sensor(SetKind::Observer, FIT_TARGET)?;
         let [x, y, z] = observer.integrate(self.light()?.grid.values());
         Ok(Xyz { x, y, z })
+    }
+
+    /// Reason that colors under the light say next to nothing: one band carries it, or a body that does not glow.
+    pub fn light_caution(&self) -> Result<Option<String>, SceneError> {
+        /// Draper point in kelvins: colder bodies emit no visible light.
+        const DRAPER_K: f64 = 798.0;
+        let (name, kelvin) = (self.light_name(), self.document.temperature_k);
+        if self.document.light == Light::BlackBody && kelvin < DRAPER_K {
+            return Ok(Some(format!(
+                "{name} has next to no visible light (below {DRAPER_K} K no body glows): results rest on the red ends \
+                 of the tables alone and mean nothing"
+            )));
+        }
+        let (observer, light) = (self.sensor(SetKind::Observer, FIT_TARGET)?, self.light()?.grid);
+        let luminance: Vec<f64> = observer.weighted(1).iter().zip(light.values()).map(|(y, l)| y * l).collect();
+        Ok(monochromatic_band(&luminance).map(|(index, share)| {
+            format!(
+                "{name} is mainly monochromatic, {:.0} % of its luminance within 20 nm of {:.0} nm: it shows next to \
+                 no colors, and differences under it say little",
+                (100.0 * share).floor(),
+                wavelength_nm(index)
+            )
+        }))
     }
 
     /// Query of the nearest blackbody for the CIE 1931 observer.

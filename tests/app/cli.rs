@@ -74,7 +74,7 @@ fn loci_of_the_first_screen() {
     assert_eq!(
         rows[0].join(","),
         format!(
-            "sensor,temperature_k,x,y,u_prime,v_prime,distance_xy,distance_uv,cct_error_k,arc_length_xy,{CONDITIONS}"
+            "sensor,temperature_k,x,y,u_prime,v_prime,distance_xy,distance_uv_prime,cct_error_k,arc_length_xy,extrapolated,{CONDITIONS}"
         )
     );
     assert_eq!(rows.len(), 1 + 4 * 200);

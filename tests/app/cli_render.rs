@@ -71,7 +71,7 @@ fn as_in_the_window(samples: u32, quality: Quality) -> (Pictures, [f64; 3]) {
         compared: vec![compared("Nikon D70 (2007 figure)", SetKind::Camera)],
         light: Light::Set(SUN.to_owned()),
         white: WhiteBalanceChoice::Light("D55".to_owned()),
-        render: RenderSettings { mesh: MeshChoice::Sphere, triangles: 800, ..RenderSettings::default() },
+        render: RenderSettings { mesh: MeshChoice::Sphere, triangles: 800, sky: 0.0, ..RenderSettings::default() },
         ..Document::paper()
     };
     let (catalog, results) = (Catalog::built_in(), Results::default());
@@ -499,4 +499,38 @@ fn differences_are_by_the_metric_asked_for() {
     }
     let output = run(&folder, &[&SMALL[..], &D70, &["--difference", "delta-e1976"]].concat());
     assert!(!output.status.success() && String::from_utf8_lossy(&output.stderr).contains("--transform fitted"));
+}
+
+#[test]
+fn the_papers_start_has_no_sky() {
+    let folder = folder("paper_sky");
+    let digest = |more: &[&str]| {
+        rendered(&folder, &[&SMALL[..], &D70, more].concat());
+        std::fs::read(folder.join("sphere_nikon-d70-2007.png")).unwrap()
+    };
+    let paper = digest(&[]);
+    assert_eq!(paper, digest(&["--sky", "0"]));
+    assert_ne!(paper, digest(&["--sky", "0.15"]));
+}
+
+#[test]
+fn a_steep_leaf_is_not_white_and_says_how_it_is_exposed() {
+    let folder = folder("steep");
+    let leaf = ["--mesh", "sphere", "--triangles", "800", "--size", "40x40", "--material", "leaf", "--ior", "1.45"];
+    let clipped = |sigma: &str| {
+        let more = ["--camera", "Nikon D70 (2007 figure)", "--sigma", sigma, "--stats", "-"];
+        let output = run(&folder, &[&leaf[..], &more, &["--force"]].concat());
+        let stats: Value = serde_json::from_slice(&output.stdout).unwrap();
+        let clipped =
+            stats["sources"].as_array().unwrap().iter().map(|source| source["clipped_samples"].as_u64().unwrap());
+        (clipped.max().unwrap(), String::from_utf8(output.stderr).unwrap())
+    };
+    let (steep, said) = clipped("20e-6");
+    let (usual, nothing) = clipped("5e-6");
+    assert!(steep <= usual, "{steep} samples clip, {usual} at 5 µm");
+    assert!(
+        said.contains("seen from the light 0.01 of a diffuse white, brighter at grazing views: exposed for 0.2"),
+        "{said}"
+    );
+    assert!(!nothing.contains("seen from the light"), "{nothing}");
 }

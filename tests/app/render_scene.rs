@@ -29,9 +29,10 @@ fn conditions(document: &Document) -> [String; 2] {
 
 #[test]
 fn it_opens_under_sun_and_sky_until_a_light_is_chosen() {
-    for mut document in [Document::colorimetry(), Document::paper()] {
+    // The paper's light is a point: no sky.
+    for (mut document, sky) in [(Document::colorimetry(), SKY), (Document::paper(), 0.0)] {
         assert_eq!(conditions(&document), [SUN, BALANCE]);
-        assert_eq!(document.render.sky, SKY);
+        assert_eq!(document.render.sky, sky);
         Action::Scene(SceneAction::SetTemperature(4000.0)).apply(&mut document);
         assert_eq!(conditions(&document)[0], SUN);
         Action::Scene(SceneAction::SetLight(Light::Set("A".to_owned()))).apply(&mut document);

@@ -193,9 +193,8 @@ fn published_figures_of_the_paper_s_sensors() {
 
 #[test]
 fn cameras_misread_the_temperature_of_illuminant_a() {
-    // Eq 13 and Stiles & Burch 1955 under equal energy, nearest in u′v′: numpy and scipy.optimize.minimize_scalar on the 1 nm sum.
-    // A review printed 247 K, 242 K and about 1900 K, of a table of temperatures.
-    for (path, expected) in [(DCS200, 1898.404), (CANON_10D, 245.524), (NIKON_D70, 239.505)] {
+    // Eq 13 and Stiles & Burch 1955 under equal energy, nearest in CIE 1960 u, v: a search over 20,000 points, 1.4 K apart at 5500 K.
+    for (path, expected) in [(DCS200, 1589.4), (CANON_10D, 73.3), (NIKON_D70, 95.1)] {
         let asked = query_under("illuminants/e.csv", sensor(path), &ColorTransformSpec::Paper, sensor(REFERENCE));
         let deviation = Direct.ask(&LocusDeviationQuery {
             rendering: asked.rendering.clone(),
@@ -203,7 +202,7 @@ fn cameras_misread_the_temperature_of_illuminant_a() {
             temperature: asked.temperature,
         });
         let deviation = (*deviation).unwrap();
-        assert_near(path, deviation.cct_error_k.unwrap(), expected, 0.02);
+        assert_near(path, deviation.cct_error_k.unwrap(), expected, 0.7);
         let colors = [&asked.rendering, &asked.reference].map(|rendering| {
             let temperatures = Temperatures::List(vec![asked.temperature]);
             let constants = RadiationConstants::Paper;

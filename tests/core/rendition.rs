@@ -69,6 +69,7 @@ fn indices_of_all_lights_are_those_of_another_program() {
     assert!(rows.len() > 80, "{}", rows.len());
     let mut worst = [0.0_f64; 8];
     let mut which = [const { String::new() }; 8];
+    let mut monochromatic = 0;
     for row in rows {
         let spectrum = light(&row[0], row[1].parse().unwrap());
         let expected: Vec<f64> = row[2..].iter().map(|field| field.parse().unwrap()).collect();
@@ -78,9 +79,16 @@ fn indices_of_all_lights_are_those_of_another_program() {
                 (worst[place], which[place]) = (off, format!("{} {}", row[0], row[1]));
             }
         };
-        let indices = rendering_indices(&spectrum, &standards).unwrap();
-        note(0, indices.general, &expected[0]);
-        indices.special.iter().zip(&expected[1..15]).for_each(|(value, expected)| note(1, *value, expected));
+        let indices = match rendering_indices(&spectrum, &standards) {
+            // CIE 13.3 excludes lamps of one line, which the other program does not.
+            Err(RenditionError::Monochromatic { nm: 589 }) => None,
+            indices => Some(indices.unwrap()),
+        };
+        monochromatic += usize::from(indices.is_none());
+        if let Some(indices) = indices {
+            note(0, indices.general, &expected[0]);
+            indices.special.iter().zip(&expected[1..15]).for_each(|(value, expected)| note(1, *value, expected));
+        }
         let fidelity = color_fidelity(&spectrum, &standards).unwrap();
         // Between wavelengths at 5 nm the samples are interpolated here, and read from the 1 nm table there.
         let place = if spectrum.uniform_step_nm() == Some(5.0) { 2 } else { 3 };
@@ -94,6 +102,7 @@ fn indices_of_all_lights_are_those_of_another_program() {
         note(6, ninth.hue_shift, &expected[21]);
         note(7, spectral_similarity(&spectrum, &light("d50.csv", 1)).unwrap(), &expected[22]);
     }
+    assert_eq!(monochromatic, 1, "low-pressure sodium");
     let tolerances = [1e-6, 1e-6, 1e-3, 1e-2, 1e-5, 1e-5, 1e-4, 1e-6];
     assert!(worst.iter().zip(tolerances).all(|(worst, tolerance)| *worst <= tolerance), "{worst:?} {which:?}");
 }

@@ -2,7 +2,7 @@
 
 use super::locus::LocusEvaluator;
 use super::rendering::Rendering;
-use crate::colorimetry::UvPrime;
+use crate::colorimetry::{Uv60, UvPrime};
 use crate::math::minimum::minimum;
 use crate::spectral::Sensor;
 use crate::units::Kelvin;
@@ -26,8 +26,8 @@ pub struct LocusDeviation {
     pub along: f64,
     /// Component across it, positive towards larger v′ (green and yellow).
     pub off: f64,
-    /// Temperature of the point of the reference's locus that is nearest in u′, v′, minus the true temperature, in kelvins; none beyond
-    /// 500 K and 100 000 K, and farther than 0.05 in CIE 1960 u, v from the locus.
+    /// Correlated color temperature on the reference's own locus, nearest in CIE 1960 u, v as CIE 15 defines it, minus the true
+    /// temperature, in kelvins; none beyond 500 K and 100 000 K, and farther than 0.05 in u, v from the locus.
     pub cct_error_k: Option<f64>,
 }
 
@@ -36,7 +36,8 @@ pub struct LocusDeviation {
 pub struct ReferenceLocus<S> {
     evaluator: LocusEvaluator<S>,
     rendering: Rendering,
-    points: Vec<(f64, UvPrime)>,
+    /// Mired, and place in the CIE 1960 diagram.
+    points: Vec<(f64, Uv60)>,
 }
 
 impl<S: Deref<Target = Sensor>> ReferenceLocus<S> {
@@ -45,7 +46,7 @@ impl<S: Deref<Target = Sensor>> ReferenceLocus<S> {
         let mut locus = Self { evaluator, rendering, points: Vec::new() };
         let [first, last] = RANGE_MIRED;
         let mired = (0..POINTS).map(|i| first + (last - first) * i as f64 / (POINTS - 1) as f64);
-        locus.points = mired.filter_map(|mired| Some((mired, locus.at(mired)?))).collect();
+        locus.points = mired.filter_map(|mired| Some((mired, locus.at(mired)?.uv60()))).collect();
         locus
     }
 
@@ -67,22 +68,22 @@ impl<S: Deref<Target = Sensor>> ReferenceLocus<S> {
         (length > 0.0).then(|| LocusDeviation {
             along: (u * du + v * dv) / length,
             off: upwards * (v * du - u * dv) / length,
-            cct_error_k: self.nearest_k(color).map(|kelvin| kelvin - temperature.get()),
+            cct_error_k: self.nearest_k(color.uv60()).map(|kelvin| kelvin - temperature.get()),
         })
     }
 
-    /// Temperature of the nearest point of the locus in u′, v′.
-    fn nearest_k(&self, color: UvPrime) -> Option<f64> {
-        let distance = |place: &(f64, UvPrime)| place.1.distance(color);
+    /// Temperature of the nearest point of the locus in u, v.
+    fn nearest_k(&self, color: Uv60) -> Option<f64> {
+        let away = |place: Uv60| (place.u - color.u).hypot(place.v - color.v);
+        let distance = |place: &(f64, Uv60)| away(place.1);
         let nearest =
             (0..self.points.len()).min_by(|&a, &b| distance(&self.points[a]).total_cmp(&distance(&self.points[b])))?;
         if nearest == 0 || nearest + 1 == self.points.len() {
             return None;
         }
         let (low, high) = (self.points[nearest - 1].0, self.points[nearest + 1].0);
-        let away = |mired: f64| self.at(mired).map_or(f64::INFINITY, |place| place.distance(color));
-        let mired = minimum(low, high, SEARCH, away);
-        let (foot, color) = (self.at(mired)?.uv60(), color.uv60());
-        ((foot.u - color.u).hypot(foot.v - color.v) <= FARTHEST_UV).then(|| 1e6 / mired)
+        let at = |mired: f64| self.at(mired).map_or(f64::INFINITY, |place| away(place.uv60()));
+        let mired = minimum(low, high, SEARCH, at);
+        (at(mired) <= FARTHEST_UV).then(|| 1e6 / mired)
     }
 }

@@ -1,6 +1,7 @@
 //! Queries about color corrections: their errors, what they do to white and to narrow blue lights, and their DNG matrices.
 
 use super::ask::{Ask, Query};
+use super::loci::CctQuery;
 use super::patches::{FitTargetsQuery, RenderingQuery};
 use crate::camera::rendering::check_lobes;
 use crate::camera::{FitSamples, Rendering, RenderingError};
@@ -10,7 +11,7 @@ use crate::correction::aces::{Idt, IdtError, IdtExposure, input_device_transform
 use crate::correction::classes::ColorClass;
 use crate::correction::dng::{D50, DngMatrices, first_weight, mixed};
 use crate::correction::{Correction, CorrectionMethod, RgbTransform, Training};
-use crate::light::{RadiationConstants, planckian::black_body, temperature::single::nearest_blackbody};
+use crate::light::{RadiationConstants, planckian::black_body};
 use crate::math::quantile::quantile;
 use crate::patch_set::PatchSet;
 use crate::spectral::{GridSpectrum, Sensor};
@@ -247,7 +248,7 @@ impl Query for TwoLightQuery {
         let steps = (0..self.count).map(|i| from + (to - from) * i as f64 / (self.count.max(2) - 1) as f64);
         let temperatures = steps.map_while(|mired| Kelvin::from_mired(mired).ok().filter(|_| !ask.stop().is_set()));
         let point = |temperature: Kelvin| {
-            let light = Shared::new(black_body(temperature, RadiationConstants::Si2019));
+            let light = Shared::new(black_body(temperature, RadiationConstants::Paper));
             let rendering = RenderingQuery { light, ..self.first.clone() };
             let (set, _) = samples(&rendering, ask)?;
             let own = forward(&rendering)?;
@@ -329,9 +330,8 @@ impl CorrectionSheetQuery {
         let report = (*report).clone()?;
         let light = DVec3::from_array(self.observer.integrate(query.rendering.light.values()));
         let xy = Xyz::from_vector(light).chromaticity();
-        // A whole locus is not made for one color.
-        let nearest = |uv: UvPrime| nearest_blackbody(&self.observer, RadiationConstants::Si2019, uv.uv60()).ok();
-        let cct = xy.and_then(Xy::uv_prime).and_then(nearest);
+        let nearest = |uv: UvPrime| *ask.ask(&CctQuery::new(self.observer.clone(), uv.uv60()));
+        let cct = xy.and_then(Xy::uv_prime).and_then(|uv| nearest(uv).ok());
         Ok(CorrectionUnder { report, xy, temperature: cct.map(|cct| cct.temperature) })
     }
 }

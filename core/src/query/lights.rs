@@ -14,6 +14,7 @@ use crate::rendition::fidelity::color_fidelity;
 use crate::rendition::reference::reference_illuminant;
 use crate::rendition::similarity::similarity_reference;
 use crate::rendition::{ColorFidelity, RenderingIndices, RenditionError, Standards, spectral_similarity};
+use crate::spectral::grid::{FIRST_NM, LAST_NM};
 use crate::spectral::{GridSpectrum, Sensor, SpectralDistribution};
 
 /// Rendition indices of a light.
@@ -36,6 +37,23 @@ pub struct Rendition {
     pub reference: Result<(Shared<GridSpectrum>, Cct), RenditionError>,
     /// Spectral similarity index to a blackbody below 4000 K, to daylight from there on, at the light's temperature; unrounded.
     pub similarity: Result<f64, RenditionError>,
+    /// Rf, Rg and the similarity index if the table's end values were held to 380 and 780 nm; none for a table that reaches there.
+    pub held: Option<Result<[f64; 3], RenditionError>>,
+}
+
+/// The light with its end values held to the ends of the grid; none if it reaches them.
+fn held(light: &SpectralDistribution) -> Option<SpectralDistribution> {
+    let ([first, last], mut nm, mut values) =
+        (light.range_nm(), light.wavelengths_nm().to_vec(), light.values().to_vec());
+    if first > FIRST_NM {
+        nm.insert(0, FIRST_NM);
+        values.insert(0, values[0]);
+    }
+    if last < LAST_NM {
+        nm.push(LAST_NM);
+        values.push(values[values.len() - 1]);
+    }
+    (nm.len() > light.values().len()).then(|| SpectralDistribution::new(nm, values).ok())?
 }
 
 impl Query for RenditionQuery {
@@ -44,10 +62,16 @@ impl Query for RenditionQuery {
 
     fn answer(&self, _: &impl Ask) -> Rendition {
         let reference = reference_illuminant(&self.light, &self.standards);
-        let similarity = reference.as_ref().map_err(|&error| error).and_then(|(_, cct)| {
-            spectral_similarity(&self.light, &similarity_reference(cct.temperature, &self.standards)?)
+        let similarity = |light: &SpectralDistribution, cct: Cct| {
+            spectral_similarity(light, &similarity_reference(cct.temperature, &self.standards)?)
+        };
+        let held = held(&self.light).map(|light| {
+            let ColorFidelity { fidelity, gamut, cct, .. } = color_fidelity(&light, &self.standards)?;
+            Ok([fidelity, gamut, similarity(&light, cct)?])
         });
+        let similarity = reference.as_ref().map_err(|&error| error).and_then(|(_, cct)| similarity(&self.light, *cct));
         Rendition {
+            held,
             rendering: rendering_indices(&self.light, &self.standards),
             fidelity: color_fidelity(&self.light, &self.standards),
             reference: reference.map(|(spectrum, cct)| (Shared::new(spectrum), cct)),
@@ -58,7 +82,6 @@ impl Query for RenditionQuery {
 
 /// Color consistency of a camera: differences of its colors under a light from those under the reference illuminant. The idea of
 /// EBU's television lighting consistency index, for any camera.
-/// lighting consistency index, for any camera.
 ///
 /// ```text
 /// Xᵢ = M (Iᵢ / W),   I = ∫ C S L dλ,   W = ∫ C L dλ

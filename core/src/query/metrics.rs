@@ -13,7 +13,7 @@ use super::ask::{Ask, Query};
 
 pub use conditions::{CameraMetricsQuery, IndexConditions, Replicates};
 pub use differences::{PatchDifferences, Statistic, WORST};
-pub use evidence::{LocusDeviationQuery, MetamerismIndexQuery, SpaceQualityQuery};
+pub use evidence::{LocusDeviationQuery, MetamerismIndexQuery, ReferenceLocusQuery, SpaceQualityQuery};
 pub use table::{Better, CameraMetric, MetricGroup};
 pub use uncertainty::{distinguishable, rank_ranges};
 pub use value::{MetricValue, WhyNot};

@@ -13,13 +13,13 @@ use plan::PlanQuery;
 use super::ask::{Ask, Query};
 use super::shared::Shared;
 use crate::camera::{RenderingError, rendering::white_divisors};
-use crate::reflectance::leaf::LeafModel;
+use crate::reflectance::leaf::{LeafModel, ScatteredShare};
 use crate::reflectance::{Normalization, Specular, Surface, wavelength_power};
 use crate::render::quality::SkyFineness;
 use crate::render::sky::SkyView;
 use crate::render::{
     Against, CameraImage, GeometryImage, Plan, Quality, RasterSize, Reach, ShadingImage, Shadows, Sky, SkyImage,
-    SkyReflectance, SkyVisibility, SpectralWeights, VertexImage, Visibility,
+    SkyReflectance, SkyVisibility, SpectralWeights, Transmitted, VertexImage, Visibility,
 };
 use crate::scene::roughness::{VertexRoughness, vertex_roughness};
 use crate::scene::{Lighting, Viewpoint};
@@ -357,8 +357,8 @@ impl SpectralWeightsQuery {
         let sky = shading.sky().map(|_| *surface);
         let lobes = sky.is_some() || !shading.coherent_samples().is_empty();
         let untinted = surface.specular() == Specular::Fresnel && lobes;
-        let through = shading.geometry().reach().through;
-        if !untinted && !through && sky.is_none() {
+        let through = shading.geometry().reach().through.then_some(*surface);
+        if !untinted && through.is_none() && sky.is_none() {
             return ask.ask(self);
         }
         ask.ask(&PictureWeightsQuery { own: self.clone(), untinted, through, sky })
@@ -371,8 +371,8 @@ struct PictureWeightsQuery {
     own: SpectralWeightsQuery,
     /// True if the coherent component takes the weights of a white.
     untinted: bool,
-    /// True if light passes through as through a leaf.
-    through: bool,
+    /// The surface, where light passes through as through a leaf.
+    through: Option<Surface>,
     /// The surface, under a sky.
     sky: Option<Surface>,
 }
@@ -390,11 +390,12 @@ impl Query for PictureWeightsQuery {
             let reflectance = Shared::new(GridSpectrum::constant(1.0));
             own = own.with_untinted(Arc::new(of(&SpectralWeightsQuery { reflectance, ..self.own.clone() })?));
         }
-        if self.through {
+        if let Some(surface) = self.through {
             let reflectance = (*ask.ask(&LeafTransmittanceQuery(self.own.reflectance.clone()))).clone();
             let reading = Normalization::Lambertian;
-            own =
-                own.with_transmitted(of(&SpectralWeightsQuery { reflectance, reading, ..self.own.clone() })?.totals());
+            let signals = of(&SpectralWeightsQuery { reflectance, reading, ..self.own.clone() })?.totals();
+            let share = ask.ask(&ScatteredShareQuery { surface, reading: self.own.reading });
+            own = own.with_transmitted(Transmitted { signals, share });
         }
         if let Some(surface) = self.sky {
             let reflectance = ask.ask(&SkyReflectanceQuery { surface, reading: self.own.reading });
@@ -402,6 +403,24 @@ impl Query for PictureWeightsQuery {
             own = own.with_sky(Arc::new(signals));
         }
         Ok(own)
+    }
+}
+
+/// Share of light that a leaf's surface scatters ([`ScatteredShare`]).
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+struct ScatteredShareQuery {
+    surface: Surface,
+    reading: Normalization,
+}
+
+impl Query for ScatteredShareQuery {
+    type Answer = ScatteredShare;
+    const NAME: &'static str = "leaf surface";
+    const ALWAYS_COMPLETE: bool = true;
+    const CAPACITY: usize = 16;
+
+    fn answer(&self, _: &impl Ask) -> Self::Answer {
+        ScatteredShare::new(&self.surface, self.reading)
     }
 }
 

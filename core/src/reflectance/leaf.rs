@@ -14,6 +14,8 @@
 
 use super::coherent::GAUSS;
 use super::fresnel::transmittance;
+use super::{Normalization, Surface, directional_hemispherical};
+use rayon::prelude::*;
 
 /// N: 1.5 plates, a typical leaf with palisade and spongy tissue (Jacquemoud and Baret 1990: 1.4 to 1.7 for dicotyledons).
 const PLATES: f64 = 1.5;
@@ -83,6 +85,49 @@ impl LeafModel {
         let [rest_r, rest_t] = stokes(r, t, PLATES - 1.0);
         let between = 1.0 - rest_r * r;
         [first_r + first_t * rest_r * t / between, first_t * rest_t / between]
+    }
+}
+
+/// Share of the light that falls on a leaf that its rough surface scatters, by angle of incidence: the diffuse component's
+/// directional-hemispherical reflectance of a white at 550 nm.
+///
+/// The model returns that share of R: the boundary takes some twice, and what would leave below the horizon is lost. T takes the
+/// same share, so that the light a leaf lets through is to the light it returns as T is to R, whatever its surface.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ScatteredShare {
+    /// In equal steps of cos θi from 0 to 1.
+    by_cosine: Vec<f64>,
+    under_sky: f64,
+}
+
+impl ScatteredShare {
+    /// Integrates over the hemisphere.
+    pub fn new(surface: &Surface, reading: Normalization) -> Self {
+        const STEPS: u32 = 32;
+        let at = |step: u32| {
+            let theta = (f64::from(step) / f64::from(STEPS)).acos();
+            directional_hemispherical(surface, reading, theta).diffuse
+        };
+        let by_cosine: Vec<f64> = (0..=STEPS).into_par_iter().map(at).collect();
+        // Irradiance from all directions alike goes with cos θ dω: 2 c dc.
+        let moment = |step: usize| by_cosine[step] * step as f64 / f64::from(STEPS);
+        let sum: f64 = (0..STEPS as usize).map(|step| moment(step) + moment(step + 1)).sum();
+        let under_sky = sum / f64::from(STEPS);
+        Self { by_cosine, under_sky }
+    }
+
+    /// Share of light from one direction above the horizon.
+    pub fn at(&self, cos_i: f64) -> f64 {
+        let last = self.by_cosine.len() - 1;
+        let place = cos_i.clamp(0.0, 1.0) * last as f64;
+        let low = (place as usize).min(last - 1);
+        let t = place - low as f64;
+        self.by_cosine[low] * (1.0 - t) + self.by_cosine[low + 1] * t
+    }
+
+    /// Share of light from all directions alike.
+    pub fn under_sky(&self) -> f64 {
+        self.under_sky
     }
 }
 

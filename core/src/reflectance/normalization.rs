@@ -9,8 +9,9 @@
 pub enum Normalization {
     /// π f with the bidirectional reflectance `f = A/(λ² cos θs) (cos θi ρ0² e^-g + D)`, in 1/sr.
     ///
-    /// The default: energy is accounted for (a smooth surface reflects as a mirror, a rough one scatters what falls on it), and
-    /// rough surfaces scatter all wavelengths alike, as geometrical optics demands.
+    /// The default: a smooth surface returns what its boundary reflects, no surface returns more than falls on it (to 0.4 % for indices from
+    /// 1.2 on), and rough surfaces scatter all wavelengths alike, as geometrical optics demands. Energy is not conserved: without multiple
+    /// scattering steep surfaces and grazing light lose most of it ([`super::directional_hemispherical`]).
     #[default]
     Radiometric,
     /// P itself, Eq 1–3 as printed but for A, which is 4XY or XY ([`super::IlluminatedArea`]): for reproducing the paper.

@@ -31,8 +31,8 @@ pub enum SurfaceError {
 /// The area A of the coherently illuminated patch with half-widths X and Y.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum IlluminatedArea {
-    /// A = 4XY: with the arguments `v_x X` and `v_y Y` of the paper's sinc the patch is 2X by 2Y, and only with this area do
-    /// the coherent and the diffuse component add up to what falls on the surface.
+    /// A = 4XY: with the arguments `v_x X` and `v_y Y` of the paper's sinc the patch is 2X by 2Y, and only with this area does
+    /// the coherent lobe of a smooth surface hold all that its boundary reflects.
     #[default]
     FourXy,
     /// A = XY, as the paper prints it. Radiometrically three quarters of the coherent component are lost; in the paper's own
@@ -214,7 +214,7 @@ impl fmt::Display for Caution {
                 "The correlation length is shorter than a wavelength: tangent planes no longer stand for the surface"
             }
             Self::Steep => {
-                "The RMS slope exceeds 0.4, where facets shadow each other, which the model leaves out: outside its validity, the lobe is empirical"
+                "The RMS slope is above 0.4, the limit of the model: steeper facets shadow each other, which it leaves out, so brightness by angle is approximate"
             }
         })
     }

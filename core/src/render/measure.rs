@@ -6,6 +6,7 @@
 
 use super::coherent::rules::CoherentRules;
 use crate::math::gauss::{gauss_rule, interpolatory_rule};
+use crate::reflectance::leaf::ScatteredShare;
 use crate::spectral::grid::{COUNT, wavelength_nm};
 use crate::spectral::{GridSpectrum, Sensor};
 use glam::DVec3;
@@ -40,8 +41,17 @@ pub struct SpectralWeights {
     totals: [f64; 3],
     coherent_rules: OnceLock<CoherentRules>,
     untinted: Option<Arc<SpectralWeights>>,
-    transmitted: [f64; 3],
+    transmitted: Option<Transmitted>,
     sky: Option<Arc<SkySignals>>,
+}
+
+/// Light that passes through a leaf, equal in all directions.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Transmitted {
+    /// `∫ C_c T L dλ / ∫ C_c L dλ`.
+    pub signals: [f64; 3],
+    /// Share of it that the surface of the other side scatters.
+    pub share: Arc<ScatteredShare>,
 }
 
 /// Signals of a surface under a whole uniform sky, in equal steps of cos θs from 0 to 1.
@@ -97,7 +107,7 @@ impl SpectralWeights {
             totals,
             coherent_rules: OnceLock::new(),
             untinted: None,
-            transmitted: [0.0; 3],
+            transmitted: None,
             sky: None,
         }
     }
@@ -109,15 +119,15 @@ impl SpectralWeights {
         Self { untinted: Some(white), ..self }
     }
 
-    /// This measure with the signals of a leaf that lets all light through alike, `∫ C_c T L dλ / ∫ C_c L dλ`.
+    /// This measure with the light that passes through a leaf.
     #[must_use]
-    pub fn with_transmitted(self, transmitted: [f64; 3]) -> Self {
-        Self { transmitted, ..self }
+    pub fn with_transmitted(self, transmitted: Transmitted) -> Self {
+        Self { transmitted: Some(transmitted), ..self }
     }
 
-    /// Signals of light that falls straight on the other side of a leaf; 0 where nothing passes.
-    pub fn transmitted(&self) -> [f64; 3] {
-        self.transmitted
+    /// Light that passes through a leaf; none where nothing does.
+    pub fn transmitted(&self) -> Option<&Transmitted> {
+        self.transmitted.as_ref()
     }
 
     /// This measure with the signals of a surface under the whole sky.

@@ -10,7 +10,8 @@ use rayon::prelude::*;
 use std::sync::Arc;
 
 /// One camera's picture: `cos θi cos⁴α ∫C_c P S L dλ / ∫C_c L dλ` at each lit sample (Eq 12 without its s), with the light of a
-/// sky and what shines through a leaf, `|cos θi| cos⁴α ∫C_c T L dλ / ∫C_c L dλ`.
+/// sky and what shines through a leaf, `ρd |cos θi| cos⁴α ∫C_c T L dλ / ∫C_c L dλ`, ρd being
+/// [`crate::reflectance::leaf::ScatteredShare`].
 #[derive(Clone, Debug)]
 pub struct CameraImage {
     placed: Arc<LitSamples>,
@@ -101,12 +102,12 @@ impl Camera<'_> {
             Some(vertices) => vertices.mixed(&signals),
             None => signals,
         };
-        let transmitted = self.measure.transmitted();
-        if shading.geometry().reach().through && transmitted != [0.0; 3] {
+        if let Some(transmitted) = self.measure.transmitted().filter(|_| shading.geometry().reach().through) {
             let angles = shading.geometry().angles();
             signals.par_iter_mut().zip(angles).with_min_len(4096).filter(|(_, angles)| angles.cos_i < 0.0).for_each(
                 |(signal, angles)| {
-                    let through = scaled(transmitted, angles.light_behind());
+                    let share = transmitted.share.at(-f64::from(angles.cos_i));
+                    let through = scaled(transmitted.signals, share * angles.light_behind());
                     signal.iter_mut().zip(through).for_each(|(signal, through)| *signal += through);
                 },
             );

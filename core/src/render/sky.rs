@@ -251,7 +251,9 @@ impl Sky {
     pub(super) fn add(&self, measure: &SpectralWeights, angles: &[Angles], signals: &mut [[f32; 3]]) {
         let Some(table) = measure.sky() else { return };
         let share = self.share as f32;
-        let through = measure.transmitted().map(|t| t as f32);
+        let through = measure.transmitted().map_or([0.0; 3], |transmitted| {
+            transmitted.signals.map(|signal| (signal * transmitted.share.under_sky()) as f32)
+        });
         let add = |((signal, sample), angles): ((&mut [f32; 3], &SkySample), &Angles)| {
             let at = angles.cos_s.clamp(0.0, 1.0) * STEPS as f32;
             let low = (at as usize).min(STEPS - 1);

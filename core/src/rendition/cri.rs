@@ -13,6 +13,19 @@ pub const SAMPLES: usize = 14;
 /// Distance from the reference illuminant in u, v beyond which CIE 13.3 calls its indices less accurate.
 pub const NEAR: f64 = 5.4e-3;
 
+/// Width in nanometers of a band that makes a light mainly monochromatic, and the least share of its luminance there.
+const BAND_NM: usize = 20;
+const BAND_SHARE: f64 = 0.8;
+
+/// Band of a mainly monochromatic light, from its luminance at steps of 1 nm: index of the band's middle, and the share of the
+/// luminance in it; none where no 20 nm hold four fifths.
+pub fn monochromatic_band(luminance: &[f64]) -> Option<(usize, f64)> {
+    let sum: f64 = luminance.iter().sum();
+    let bands = luminance.windows(BAND_NM + 1).map(|band| band.iter().sum::<f64>() / sum);
+    let (first, share) = bands.enumerate().max_by(|a, b| a.1.total_cmp(&b.1))?;
+    (share >= BAND_SHARE).then_some((first + BAND_NM / 2, share))
+}
+
 /// Color rendering indices of a light.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RenderingIndices {
@@ -37,7 +50,8 @@ pub struct RenderingIndices {
 ///
 /// # Errors
 ///
-/// [`RenditionError`] where the light has no visible power or no temperature from 1667 K to 25 000 K.
+/// [`RenditionError`] where the light has no visible power, is mainly monochromatic, which CIE 13.3 excludes, or has no temperature
+/// from 1667 K to 25 000 K.
 pub fn rendering_indices(
     light: &SpectralDistribution,
     standards: &Standards,
@@ -48,6 +62,9 @@ pub fn rendering_indices(
     }
     let sums = Sums::new(&standards.cie_1931, wavelengths(360, 780, 1))?;
     let (test, seen) = sums.unit(&held(light, &sums.nm))?;
+    if let Some((index, _)) = monochromatic_band(&sums.luminance(&test)) {
+        return Err(RenditionError::Monochromatic { nm: sums.nm[index] as u16 });
+    }
     let color = uv(seen).ok_or(CctError::NoChromaticity)?;
     let cct = Robertson::as_printed(&standards.cie_1931)?.cct(color)?;
     let spectrum = if cct.temperature.get() < 5000.0 {

@@ -15,7 +15,7 @@ pub const BINS: usize = 16;
 /// Fidelity and gamut of a light.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ColorFidelity {
-    /// Fidelity index Rf, 0 to 100.
+    /// Fidelity index Rf, above 0; the formula's 10 ln(1 + e¹⁰) = 100.0005 for no difference at all.
     pub fidelity: f64,
     /// Gamut index Rg: area of the mean colors of the hue bins, 100 for that of the reference.
     pub gamut: f64,

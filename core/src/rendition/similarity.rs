@@ -1,4 +1,4 @@
-//! The Academy's spectral similarity index.
+//! Spectral similarity index of SMPTE ST 2122.
 
 use super::reference;
 use super::standards::{RenditionError, Standards};
@@ -17,7 +17,7 @@ const BANDS: usize = 30;
 /// t and r are the shares of the light and of the reference in 30 bands of 10 nm from 375 to 675 nm; the bands at both ends count less.
 /// 100 for proportional spectra; below 0 for lights of a few lines. Not symmetric.
 ///
-/// Source: Academy of Motion Picture Arts and Sciences, *Academy Spectral Similarity Index (SSI): Overview*, 2020.
+/// Source: SMPTE ST 2122:2020; Academy of Motion Picture Arts and Sciences, *Academy Spectral Similarity Index (SSI): Overview*, 2020.
 ///
 /// # Errors
 ///

@@ -15,6 +15,14 @@ pub enum RenditionError {
         /// Last wavelength of the range in nanometers.
         last_nm: u16,
     },
+    /// Lamps of one line, such as low-pressure sodium, are outside CIE 13.3.
+    #[error(
+        "four fifths of the luminance lie within 20 nm of {nm} nm, and CIE 13.3 excludes lamps that are mainly monochromatic"
+    )]
+    Monochromatic {
+        /// Middle of the band in nanometers.
+        nm: u16,
+    },
     /// There is no temperature to take the reference illuminant at.
     #[error("no reference illuminant: {0}")]
     Temperature(#[from] CctError),

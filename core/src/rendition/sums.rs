@@ -57,6 +57,11 @@ impl Sums {
         Xyz { x, y, z }
     }
 
+    /// `ȳ S` at each wavelength.
+    pub(super) fn luminance(&self, spectrum: &[f64]) -> Vec<f64> {
+        self.bars[1].iter().zip(spectrum).map(|(bar, value)| bar * value).collect()
+    }
+
     /// A spectrum scaled to Y = 1, with its tristimulus values.
     pub(super) fn unit(&self, spectrum: &[f64]) -> Result<(Vec<f64>, Xyz), RenditionError> {
         let peak = spectrum.iter().fold(0.0_f64, |peak, v| peak.max(v.abs()));

@@ -16,9 +16,9 @@ pub(in crate::cli) const EXAMPLES: &str = "Examples:
   chromascope matrix \"Nikon D200\" --illuminant \"ISO 7589 studio tungsten\" --format clf --out d200.clf
 
 text: the matrix from balanced RGB to XYZ, its errors over the training reflectances and by leave-one-out (each reflectance by a fit to
-all others), what it does to white and to narrow blue LEDs (20 nm wide), the DNG matrices and the ACES IDT. dng: ColorMatrix and
-ForwardMatrix as lines. dcp: DNG camera profile for raw developers, of one light or two. icc: matrix profile for linear RGB that is
-balanced for the light. clf: the ACES input transform that rawtoaces defines (its own fit: least squares in L*a*b*, six
+all others; optimistic where the set has near copies of it, as the 190 reflectances have), what it does to white and to narrow blue
+LEDs (20 nm wide), the DNG matrices and the ACES IDT. dng: ColorMatrix and ForwardMatrix as lines. dcp: DNG camera
+profile for raw developers, of one light or two. icc: matrix profile for linear RGB that is balanced for the light. clf: the ACES input transform that rawtoaces defines (its own fit: least squares in L*a*b*, six
 parameters, 190 training reflectances), for RGB balanced by the multipliers in its description.";
 
 /// Arguments of `matrix`.
@@ -30,7 +30,10 @@ pub(in crate::cli) struct MatrixArguments {
     /// The illuminant: a name, a file with one curve, `daylight:K` or `blackbody:K`
     #[arg(long, value_name = "NAME|FILE")]
     pub(super) illuminant: OsString,
-    /// A second illuminant, for text, dng and dcp: a name or a file
+    /// A filter in front of the illuminants: a name of `chromascope list filters`, or a file with one transmittance; may be repeated
+    #[arg(long, value_name = "NAME|FILE")]
+    pub(super) filter: Vec<OsString>,
+    /// A second illuminant, for text, dng and dcp: a name, a file with one curve, `daylight:K` or `blackbody:K`
     #[arg(long, value_name = "NAME|FILE")]
     pub(super) second_illuminant: Option<OsString>,
     /// The fit

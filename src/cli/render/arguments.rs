@@ -78,7 +78,7 @@ pub(in crate::cli) struct RenderArguments {
     #[arg(long, value_name = "x,y,z", value_parser = three, allow_hyphen_values = true, help_heading = SCENE)]
     pub(super) light: Option<[f64; 3]>,
     /// Uniform sky of the illuminant's spectrum: irradiance of a level surface over that of a surface that faces the light, from 0
-    /// to 1 [default: 0.15]
+    /// to 1 [default: 0.15; none in the paper's start, whose light is a point]
     #[arg(long, value_name = "SHARE", value_parser = share, allow_hyphen_values = true, help_heading = SCENE)]
     pub(super) sky: Option<f64>,
     /// Lets light through as a leaf of the material's reflectance does [default: for the fern]
@@ -108,7 +108,8 @@ pub(in crate::cli) struct RenderArguments {
     /// The refractive index [default: 1.4; 1.45 for the fern]
     #[arg(long, value_name = "N", value_parser = finite, allow_hyphen_values = true, help_heading = SURFACE)]
     pub(super) ior: Option<f64>,
-    /// Area A of the patch with those half-widths: 4xy conserves energy, xy is what the paper prints [default: 4xy]
+    /// Area A of the patch with those half-widths: 4xy normalizes the coherent lobe, so that a smooth surface returns what its
+    /// boundary reflects; xy is what the paper prints [default: 4xy]
     #[arg(long, value_enum, hide_default_value = true, default_value_t = AreaName::FourXy, help_heading = SURFACE)]
     pub(super) area: AreaName,
     /// Normalization of P. Returned at normal incidence, and at 85°, by the default surface: 0.49 and 0.03 of the light

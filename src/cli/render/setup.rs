@@ -168,7 +168,7 @@ fn settings(arguments: &RenderArguments, mesh: MeshChoice, start: RenderSettings
         quality: if arguments.tolerance.is_some() { QualityLevel::Tolerance } else { arguments.quality },
         tolerance: arguments.tolerance.unwrap_or(usual.tolerance),
         shadows: !arguments.no_shadows,
-        sky: arguments.sky.unwrap_or(usual.sky),
+        sky: arguments.sky.unwrap_or(start.sky),
         thin: arguments.leaf.unwrap_or(usual.thin),
         sunlight: false,
         exposure_ev: arguments.exposure,

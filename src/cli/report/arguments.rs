@@ -13,8 +13,8 @@ pub(in crate::cli) const EXAMPLES: &str = "Examples:
   chromascope report --out mine --camera \"Canon EOS 5D Mark II\" --camera mine.csv --chart \"ColorChecker 24\"
 
 The folder gets Figures 1 to 9 of the paper as PDF, SVG, PNG and CSV (the numbers behind them), claims.csv with each claim, what is
-found and its stated accuracy, and report.html: one page with all of that, without links to the network. Claims about cameras that
-are not in the report are not judged.";
+found and its rounding (half of the last digit, not how well it is known), and report.html: one page with all of that, without links
+to the network. Claims about cameras that are not in the report are not judged; checks beyond the paper stand apart.";
 
 /// Arguments of `report`.
 #[derive(Debug, Args)]

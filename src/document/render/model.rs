@@ -106,7 +106,8 @@ impl AreaChoice {
     pub const fn why(self) -> &'static str {
         match self {
             Self::FourXy => {
-                "With the paper's sinc(v_x X) sinc(v_y Y) the illuminated area is 2X by 2Y: only A = 4XY conserves energy."
+                "With the paper's sinc(v_x X) sinc(v_y Y) the illuminated area is 2X by 2Y: only A = 4XY normalizes the \
+                 coherent lobe, so that a smooth surface returns what its boundary reflects."
             }
             Self::Xy => {
                 "As printed in the paper. Three quarters of the coherent component are lost; with the normalization \

@@ -1,6 +1,7 @@
 //! Share of light that the chosen surface returns, in words: an indication of the reflectance model's limits.
 
 use chromascope_core::query::Ask as _;
+use chromascope_core::query::render::picture::LEAST_FACING;
 use chromascope_core::query::render::returned::{ReturnedLight, ReturnedLightQuery};
 use chromascope_core::reflectance::{Normalization, Surface};
 
@@ -43,7 +44,9 @@ pub const fn meaning(reading: ReadingChoice) -> &'static str {
         _ => {
             "The model's directional-hemispherical reflectance at 550 nm, diffuse and coherent, for S(λ) = 1: ∫ f \
              cos θs dω. Without multiple scattering, shadowing and masking, energy is not conserved at grazing \
-             angles."
+             angles: light that falls there is lost, and a viewer there sees the surface brighter than an exchange of \
+             light and viewer would have it. A steep surface sends little straight back to the light; a picture of it \
+             is exposed as if that were at least a fifth of a diffuse white's."
         }
     }
 }
@@ -57,6 +60,12 @@ fn sentence(light: ReturnedLight, reading: Normalization) -> Words {
     let mut text = format!("Returns {normal} of the light at normal incidence ({grazing} at 85°)");
     if reading == Normalization::Paper {
         text.push_str(", with P as π f");
+    }
+    if reading != Normalization::Paper && light.facing < LEAST_FACING {
+        let facing = share(light.facing);
+        text = format!(
+            "{text}; seen from the light {facing} of a diffuse white, brighter at grazing views: exposed for {LEAST_FACING}"
+        );
     }
     if let Some(from) = light.exceeds_one_from_deg {
         let from = number(from.round());

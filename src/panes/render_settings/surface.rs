@@ -69,14 +69,14 @@ fn presets(ui: &mut Ui, context: &mut PaneContext<'_>) {
                 SKIN,
                 1.40,
                 rough.sigma_um,
-                "σ 5 µm, τ 10 µm, n 1.40. RMS slope 0.7: outside the model's validity, the lobe is empirical",
+                "σ 5 µm, τ 10 µm, n 1.40. RMS slope 0.7, above the model's limit of 0.4: brightness by angle is approximate",
             ),
             (
                 "Leaf",
                 LEAF,
                 1.45,
                 rough.sigma_um,
-                "σ 5 µm, τ 10 µm, n 1.45. RMS slope 0.7: outside the model's validity, the lobe is empirical",
+                "σ 5 µm, τ 10 µm, n 1.45. RMS slope 0.7, above the model's limit of 0.4: brightness by angle is approximate",
             ),
             (
                 "Smooth",
@@ -196,7 +196,7 @@ fn cautions_of(settings: &RenderSettings) -> Vec<[String; 2]> {
         let whole = format!("{caution}.");
         let words = whole.split([',', ':']).next().unwrap_or(&whole);
         let words = if caution == Caution::Steep {
-            format!("Empirical lobe: {}", spectral_file::lowered(words))
+            format!("Slope {:.1}, model good to 0.4: brightness by angle is approximate", surface.slope())
         } else {
             words.to_owned()
         };

@@ -62,3 +62,102 @@ fn filters_are_in_the_conditions_and_in_the_numbers() {
     let two = file("two_gels.csv", "nm,Transmittance a,Transmittance b\n400,0.2,0.3\n500,0.5,0.4\n700,0.9,0.8\n");
     refused(&["locus", "--filter", two.to_str().unwrap()], &["expected exactly one curve for a filter"]);
 }
+
+/// The last cell of a light's first row, which may hold commas.
+fn cautions(light: &[&str]) -> String {
+    let output = run(&[&["light"], light, &["--format", "csv"]].concat());
+    let text = String::from_utf8(output.stdout).unwrap();
+    let row = text.lines().nth(1).unwrap();
+    row.rsplit_once(",\"").map_or_else(String::new, |(_, cell)| cell.trim_end_matches('"').to_owned())
+}
+
+#[test]
+fn a_lamp_of_one_line_has_no_rendering_index() {
+    let output = run(&["light", "Low-pressure sodium"]);
+    let (text, why) = (String::from_utf8(output.stdout).unwrap(), String::from_utf8(output.stderr).unwrap());
+    assert!(text.contains("Ra \u{2013}") && text.contains("R9 \u{2013}"), "{text}");
+    assert!(
+        why.contains("no Ra: four fifths of the luminance lie within 20 nm of 589 nm") && why.contains("CIE 13.3"),
+        "{why}"
+    );
+    assert!(cautions(&["Low-pressure sodium"]).contains("mainly monochromatic"));
+    // A lamp of three lines is none.
+    assert!(!column(&table(&["light", "FL11", "--format", "csv"]), "ra")[0].is_empty());
+}
+
+#[test]
+fn cautions_of_the_pane_are_on_the_command_line() {
+    for form in ["table", "json"] {
+        let output = run(&["light", "FL5", "--format", form]);
+        let text = String::from_utf8(output.stdout).unwrap();
+        assert!(text.contains("farther than 0.0054 from the reference illuminant"), "{form}: {text}");
+    }
+    assert!(cautions(&["FL5"]).contains("farther than 0.0054"));
+    assert_eq!(cautions(&["D65"]), "");
+}
+
+#[test]
+fn a_cut_table_says_what_that_does() {
+    let planck = |nm: f64| nm.powi(-5) / ((1.4388e7 / (nm * 2856.0)).exp() - 1.0) * 1e17;
+    let row = |nm: u32| format!("{nm},{}\n", planck(f64::from(nm)));
+    let text =
+        |range: std::ops::RangeInclusive<u32>| format!("nm,power\n{}", range.step_by(5).map(row).collect::<String>());
+    let cut = file("blackbody_400_700.csv", &text(400..=700));
+    let said = cautions(&[cut.to_str().unwrap()]);
+    assert!(said.contains("the table covers 400 to 700 nm: beyond, Ra takes its end values"), "{said}");
+    assert!(said.contains("held, they would be Rf") && said.contains("SSI"), "{said}");
+    let whole = file("blackbody_380_780.csv", &text(380..=780));
+    assert_eq!(cautions(&[whole.to_str().unwrap()]), "");
+    // One temperature shown, another used: both are said.
+    let said = cautions(&["ISO 7589 photoflood"]);
+    assert!(said.contains("take their reference at 3418 K") && said.contains("CCT is 3400 K"), "{said}");
+}
+
+#[test]
+fn similarity_is_taken_to_a_light_of_choice() {
+    let of = |light: &str, reference: &str| {
+        let rows = table(&["light", light, "--ssi-reference", reference, "--format", "csv"]);
+        (column(&rows, "ssi_reference")[0].to_owned(), number(column(&rows, "ssi_to")[0]))
+    };
+    let (name, same) = of("D50", "D50");
+    assert!(name == "D50" && (same - 100.0).abs() < 1e-9, "{name} {same}");
+    // As the core's, to a published whole number.
+    let (_, hmi) = of("HMI", "D50");
+    assert_eq!(hmi.round(), 72.0);
+    let (name, tungsten) = of("A", "blackbody:3200");
+    assert!(name == "blackbody 3200 K" && (90.0..99.0).contains(&tungsten), "{name} {tungsten}");
+    // Filters are in front of the light, not of the reference.
+    let rows = table(&["light", "D50", "--ssi-reference", "D50", "--filter", "Warming 131 mired", "--format", "csv"]);
+    assert!(number(column(&rows, "ssi_to")[0]) < 90.0);
+    refused(&["light", "D65", "--ssi-reference", "no such light"], &["no such light"]);
+}
+
+#[test]
+fn the_first_hue_bin_is_in_the_table() {
+    let rows = table(&["light", "FL2", "--format", "csv"]);
+    let json = run(&["light", "FL2", "--format", "json"]);
+    let json: serde_json::Value = serde_json::from_slice(&json.stdout).unwrap();
+    for (head, key) in [("rf_h1", "rf_h"), ("rcs_h1", "rcs_h")] {
+        let expected = json[0]["hue_bins"][0][key].as_f64().unwrap();
+        assert!((number(column(&rows, head)[0]) - expected).abs() < 1e-9, "{head}");
+    }
+}
+
+#[test]
+fn a_light_that_shows_no_colors_says_so() {
+    let said = |arguments: &[&str]| String::from_utf8(run(arguments).stderr).unwrap();
+    let camera = ["--camera", "Kodak DCS200"];
+    let compare =
+        |light: &str| said(&[&["compare", "--metrics", "condition", "--illuminant", light], &camera[..]].concat());
+    assert!(compare("blackbody:100").contains("blackbody 100 K has next to no visible light"));
+    assert!(compare("Low-pressure sodium").contains("mainly monochromatic"));
+    assert!(!compare("blackbody:1500").contains("light") && !compare("FL11").contains("monochromatic"));
+    assert!(said(&["matrix", "Kodak DCS200", "--illuminant", "blackbody:100"]).contains("mean nothing"));
+}
+
+#[test]
+fn a_bare_temperature_is_answered_with_what_to_write() {
+    for typed in ["6500K", "6500", "6500 k"] {
+        refused(&["compare", "--illuminant", typed], &["is a temperature", "daylight:6500", "blackbody:6500"]);
+    }
+}

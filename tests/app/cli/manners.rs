@@ -225,3 +225,25 @@ fn a_long_locus_is_that_of_its_parts() {
     let arc: Vec<f64> = super::column(&rows, "arc_length_xy").into_iter().map(super::number).collect();
     assert!(arc.windows(2).all(|pair| pair[0] < pair[1]), "the length goes on from part to part");
 }
+
+#[cfg(target_os = "linux")]
+#[test]
+fn without_a_display_all_commands_that_work_are_named() {
+    let help = String::from_utf8(run(&["--help"]).stdout).unwrap();
+    let (_, commands) = help.split_once("Commands:\n").unwrap();
+    let names: Vec<&str> = commands
+        .lines()
+        .take_while(|line| !line.is_empty())
+        .filter(|line| line.starts_with("  ") && !line.starts_with("   "))
+        .filter_map(|line| line.split_whitespace().next())
+        .filter(|name| *name != "help")
+        .collect();
+    assert!(names.len() > 10, "{names:?}");
+    let said = String::from_utf8(run(&[]).stderr).unwrap();
+    for name in names {
+        assert!(
+            said.contains(&format!("`{name}`")) || said.contains(&format!("`chromascope {name}`")),
+            "{name}: {said}"
+        );
+    }
+}

@@ -93,3 +93,25 @@ fn corrections_reach_the_tables() {
     let rows = table(&["patches", "--camera", "Nikon D200", "--correction", "root-polynomial"]);
     assert!(column(&rows, "transform").iter().all(|cell| cell.contains("Root polynomial of degree 2")));
 }
+
+#[test]
+fn a_second_light_may_be_a_formula_and_filters_stand_before_both() {
+    let dng = text(&["--format", "dng", "--second-illuminant", "blackbody:5000"]);
+    assert!(dng.contains("CalibrationIlluminant2: 255") && dng.contains("AsShotNeutral (blackbody 5000 K)"), "{dng}");
+    let filtered = text(&["--format", "dng", "--filter", "Cooling 131 mired"]);
+    assert!(filtered.contains("studio tungsten \u{d7} Cooling 131 mired"), "{filtered}");
+    assert_ne!(filtered, text(&["--format", "dng"]));
+    refused(&with(&["--second-illuminant", "blackbody:warm"]), &["--second-illuminant", "blackbody:5500"]);
+}
+
+#[test]
+fn a_light_has_one_temperature_wherever_it_stands() {
+    for light in ["D55", "D65", "A", "FL2"] {
+        let output = run(&["matrix", "Nikon D200", "--illuminant", light]);
+        let text = String::from_utf8(output.stdout).unwrap();
+        let (_, rest) = text.split_once(&format!("Under {light}, ")).unwrap();
+        let kelvin = rest.split_once(" K").unwrap().0;
+        let rows = super::table(&["light", light, "--format", "csv"]);
+        assert_eq!(kelvin, format!("{:.0}", number(column(&rows, "cct_k")[0])), "{light}");
+    }
+}

@@ -4,6 +4,8 @@ use chromascope_core::colorimetry::{Lab, delta_e_1976, delta_e_2000};
 
 use super::{PAPER, column, number, refused, run, table};
 
+const CANON: &str = "Canon EOS 10D (2007 figure)";
+
 fn numbers(rows: &[Vec<String>], head: &str) -> Vec<Option<f64>> {
     column(rows, head).into_iter().map(|cell| (!cell.is_empty()).then(|| number(cell))).collect()
 }
@@ -86,10 +88,17 @@ fn differences_of_patches_are_those_of_their_coordinates() {
 #[test]
 fn the_papers_matrix_has_distances_but_no_delta_e() {
     let output = run(&["patches", "--preset", "paper"]);
-    assert!(output.status.success() && output.stderr.is_empty(), "{output:?}");
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert!(output.status.success() && said.matches("L*a*b*, CCT and \u{394}E* are left empty").count() == 1, "{said}");
     let rows = table(&["patches", "--preset", "paper"]);
     for head in ["delta_e_2000", "delta_e_1976"] {
         assert!(numbers(&rows, head).iter().all(Option::is_none), "{head}");
+    }
+    // Nor have colors of Eq 13 a CIE L*a*b* or a color temperature; those of the CIE observer have.
+    for head in ["lab_l", "lab_a", "lab_b", "cct_k", "duv"] {
+        let values = numbers(&rows, head);
+        assert!(values[..20].iter().all(Option::is_none), "{head}");
+        assert!(values[20..].iter().any(Option::is_some), "{head}");
     }
     let distances = numbers(&rows, "delta_xy");
     assert!(distances[..20].iter().all(Option::is_some) && distances[20..].iter().all(Option::is_none));
@@ -108,7 +117,7 @@ fn the_papers_matrix_has_distances_but_no_delta_e() {
 fn loci_have_distances_cct_errors_and_lengths() {
     let rows = table(&["locus", "--temperatures", "1000,2856,6504,20000,25000"]);
     let [x, y, u, v] = ["x", "y", "u_prime", "v_prime"].map(|head| all(&rows, head));
-    let [dxy, duv, arc] = ["distance_xy", "distance_uv", "arc_length_xy"].map(|head| all(&rows, head));
+    let [dxy, duv, arc] = ["distance_xy", "distance_uv_prime", "arc_length_xy"].map(|head| all(&rows, head));
     let cct = numbers(&rows, "cct_error_k");
     for (row, start) in (0..4).flat_map(|sensor| (0..5).map(move |row| (5 * sensor + row, 5 * sensor))) {
         let reference = row - start;
@@ -135,6 +144,38 @@ fn under_eq_13_too_the_reference_reads_true_temperatures() {
         assert!((found.unwrap() - expected).abs() < 0.7, "{cct:?}");
     }
     assert!(cct[8..].iter().all(Option::is_none), "a CIE observer is not comparable under Eq 13: {cct:?}");
+}
+
+#[test]
+fn a_cct_error_is_the_same_number_wherever_it_stands() {
+    for preset in ["paper", "colorimetry"] {
+        for kelvin in ["2856", "4000", "9300"] {
+            let common = ["--preset", preset, "--camera", CANON, "--camera", "Kodak DCS200"];
+            let locus = table(&[&["locus", "--temperatures", kelvin], &common[..]].concat());
+            let compare =
+                [&["compare", "--metrics", "cct-error", "--format", "csv", "--temperature", kelvin], &common[..]];
+            let compare = table(&compare.concat());
+            for camera in [CANON, "Kodak DCS200"] {
+                let of = |rows: &[Vec<String>], column: &str| {
+                    let at = rows[0].iter().position(|cell| cell == column).unwrap();
+                    rows.iter().find(|row| row.iter().any(|cell| cell == camera)).unwrap()[at].parse::<f64>().unwrap()
+                };
+                let [a, b] = [of(&locus, "cct_error_k"), of(&compare, "cct_error_k")];
+                assert!((a - b).abs() < 1e-6, "{preset}, {camera} at {kelvin} K: {a} and {b}");
+            }
+        }
+    }
+}
+
+#[test]
+fn loci_mark_what_is_drawn_dotted() {
+    let rows = table(&["locus", "--camera", CANON, "--camera", "Kodak DCS200", "--temperatures", "2400,2600"]);
+    let of = |camera: &str| -> Vec<String> {
+        let at = rows[0].iter().position(|cell| cell == "extrapolated").unwrap();
+        rows.iter().filter(|row| row[0] == camera).map(|row| row[at].clone()).collect()
+    };
+    assert_eq!(of(CANON), ["true", "false"], "its table ends at 700 nm");
+    assert_eq!(of("CIE 1931 2°"), ["false", "false"]);
 }
 
 #[test]

@@ -79,3 +79,22 @@ fn a_smooth_surface_returns_what_its_boundary_reflects() {
         assert_eq!(directional_hemispherical(&smooth, Normalization::Paper, nonsense).total(), 0.0);
     }
 }
+
+#[test]
+fn no_surface_returns_more_light_than_falls_on_it() {
+    for index in [1.2, 1.4, 1.45, 2.5] {
+        for tau in [1e-6, 3e-6, 10e-6, 100e-6] {
+            for sigma in [0.0, 0.02e-6, 0.1e-6, 0.3e-6, 1e-6, 2e-6, 5e-6, 20e-6, 100e-6] {
+                for degrees in [0.0_f64, 20.0, 40.0, 60.0, 75.0, 85.0, 89.0] {
+                    let surface = Surface::new(sigma, tau, 50e-6, 50e-6, index).unwrap();
+                    for surface in [surface, surface.with_specular(Specular::Fresnel)] {
+                        let radians = degrees.to_radians();
+                        let returned = directional_hemispherical(&surface, Normalization::Radiometric, radians).total();
+                        // The quadrature's own error.
+                        assert!((0.0..=1.004).contains(&returned), "{surface:?} at {degrees}\u{b0}: {returned}");
+                    }
+                }
+            }
+        }
+    }
+}

@@ -56,7 +56,7 @@ fn cautions_say_where_the_model_is_stretched() {
     assert_eq!(cautions(1e-6, 10e-6, 50e-6, 49e-6), [Caution::SmallPatch]);
     assert_eq!(cautions(1e-7, 700e-9, 50e-6, 50e-6), [Caution::ShortCorrelation]);
     assert_eq!(cautions(1.0, 1e-9, 1e-9, 1.0), [Caution::SmallPatch, Caution::ShortCorrelation, Caution::Steep]);
-    assert!(Caution::Steep.to_string().contains("the lobe is empirical"));
+    assert!(Caution::Steep.to_string().contains("brightness by angle is approximate"));
     for caution in [Caution::SmallPatch, Caution::ShortCorrelation, Caution::Steep] {
         assert!(caution.to_string().len() > 40);
     }

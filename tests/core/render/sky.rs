@@ -6,7 +6,9 @@ use std::sync::Arc;
 use chromascope_core::query::render::MeshQuery;
 use chromascope_core::query::render::picture::Pictures;
 use chromascope_core::query::{Direct, Shared};
-use chromascope_core::reflectance::{Geometry, Normalization, Surface, factors, hemispherical_directional};
+use chromascope_core::reflectance::{
+    Geometry, Normalization, Surface, directional_hemispherical, factors, hemispherical_directional,
+};
 use chromascope_core::render::sky::{SkyVisibility, visible_share};
 use chromascope_core::render::{Quality, RasterSize, Shadows, Stop};
 use chromascope_mesh::{Mesh, ShadowTree};
@@ -243,14 +245,49 @@ fn a_leaf_lit_from_behind_shines_in_its_transmittance() {
         ..RenderService::new()
     };
     let made = service.take(&Direct);
-    let image = made.images[0].as_ref().unwrap();
     assert_eq!((made.geometry.lit, made.geometry.through), (0, made.geometry.seen));
     let opaque = RenderService { through: false, ..service.clone() }.take(&Direct);
     assert!(opaque.images[0].as_ref().unwrap().signals().is_empty(), "it is dark without");
+    // What the rough surface takes from the reflectance it takes from the transmittance.
+    let theta = f64::from(-made.angles.angles()[0].cos_i).acos();
+    let scattered = directional_hemispherical(&service.surface(), service.reading, theta).diffuse;
+    assert!((0.3..0.6).contains(&scattered), "{scattered}");
+    let check = |made: &Pictures, transmitted: f64| {
+        let (image, angles) = (made.images[0].as_ref().unwrap(), Arc::clone(&made.angles));
+        for (signal, angles) in image.signals().iter().zip(angles.angles()) {
+            let expected = transmitted * f64::from(-angles.cos_i * angles.falloff);
+            assert!(signal.iter().all(|s| (f64::from(*s) - expected).abs() < 1e-4), "{signal:?} for {expected}");
+        }
+    };
     let transmitted = LeafModel::new().transmittance(gray);
-    let angles: &Arc<_> = &made.angles;
-    for (signal, angles) in image.signals().iter().zip(angles.angles()) {
-        let expected = transmitted * f64::from(-angles.cos_i * angles.falloff);
-        assert!(signal.iter().all(|s| (f64::from(*s) - expected).abs() < 1e-5), "{signal:?} for {expected}");
+    check(&made, transmitted * scattered);
+    let even = RenderService { reading: Normalization::Lambertian, ..service }.take(&Direct);
+    check(&even, transmitted);
+}
+
+#[test]
+fn a_level_leaf_lets_through_and_returns_light_as_its_transmittance_to_its_reflectance() {
+    use chromascope_core::reflectance::leaf::{LeafModel, ScatteredShare};
+    let transmitted = LeafModel::new().transmittance(0.09);
+    assert!(transmitted > 0.0);
+    for (sigma, tau) in [(5e-6, 10e-6), (1e-6, 10e-6), (20e-6, 10e-6), (0.1e-6, 2e-6), (0.0, 10e-6)] {
+        for reading in [Normalization::Radiometric, Normalization::Microfacet] {
+            let surface = surface(sigma, tau);
+            let share = ScatteredShare::new(&surface, reading);
+            // The side that faces the light returns this share of R; the other one shines with as much of T.
+            for degrees in [0.0_f64, 20.0, 45.0, 70.0] {
+                let theta = degrees.to_radians();
+                let returned = directional_hemispherical(&surface, reading, theta).diffuse;
+                assert!((share.at(theta.cos()) - returned).abs() < 4e-3, "{sigma} {reading:?} {degrees}: {returned}");
+            }
+            // Mean over a uniform sky, by midpoints in cos² θ.
+            let cosine = |k: u32| ((f64::from(k) + 0.5) / 200.0).sqrt();
+            let mean =
+                (0..200).map(|k| directional_hemispherical(&surface, reading, cosine(k).acos()).diffuse).sum::<f64>()
+                    / 200.0;
+            assert!((share.under_sky() - mean).abs() < 3e-3, "{sigma} {reading:?}: {} for {mean}", share.under_sky());
+        }
     }
+    let even = ScatteredShare::new(&surface(5e-6, 10e-6), Normalization::Lambertian);
+    assert!((even.at(0.5) - 1.0).abs() < 1e-12 && (even.under_sky() - 1.0).abs() < 1e-12);
 }

@@ -67,7 +67,7 @@ impl Query for SpaceQualityQuery {
 
 /// The reference's own Planckian locus.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
-struct ReferenceLocusQuery(RenderingQuery);
+pub struct ReferenceLocusQuery(pub RenderingQuery);
 
 impl Query for ReferenceLocusQuery {
     type Answer = Result<ReferenceLocus<Shared<Sensor>>, RenderingError>;

@@ -168,7 +168,7 @@ const SINGLE: [CameraMetric; 17] = [
     CameraMetric {
         id: "cct-error",
         column: "cct_error_k",
-        label: "CCT error of a blackbody, nearest in u′v′ on the reference's own locus",
+        label: "CCT error of a blackbody, by CIE 15 (nearest in CIE 1960 u, v) on the reference's own locus",
         symbol: "CCT error",
         unit: "K",
         decimals: 0,

@@ -8,7 +8,7 @@ use crate::query::ask::{Ask, Query};
 use crate::query::patches::RenderingQuery;
 use crate::query::shared::Shared;
 use crate::reflectance::power::factors;
-use crate::reflectance::{Geometry, Normalization, Specular, Surface};
+use crate::reflectance::{Geometry, Normalization, Specular, Surface, wavelength_power};
 use crate::render::develop::develop;
 use crate::render::{CameraImage, Development, GeometryCounts, GeometryImage, Picture, ShadingCounts, SpectralWeights};
 use crate::spectral::GridSpectrum;
@@ -17,6 +17,10 @@ use std::sync::Arc;
 
 /// The luminance that a material facing the light takes at 0 EV.
 pub const MID_LUMINANCE: f64 = 0.4;
+
+/// Least share of the brightness of an even (Lambertian) scatterer that a material facing the light is exposed for. Steeper
+/// surfaces send less straight back and more to grazing views: exposed for that, they would be white there.
+pub const LEAST_FACING: f64 = 0.2;
 
 /// XYZ of a material that faces light and viewer, through the reference.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
@@ -40,12 +44,15 @@ pub struct ExposureReference {
     pub material: Xyz,
     /// Y of a white of the same roughness.
     pub white: f64,
+    /// Y that is exposed for: that of the material, but not below [`LEAST_FACING`] of what it would be if it scattered evenly, where the
+    /// normalization makes P a reflectance.
+    pub exposed: f64,
 }
 
 impl ExposureReference {
-    /// The factor on all cameras' signals at an exposure in EV: `2^EV · 0.4 / Y`. 0 for a black material.
+    /// The factor on all cameras' signals at an exposure in EV: `2^EV · 0.4 / Y`, Y = [`Self::exposed`]. 0 for a black material.
     pub fn factor(&self, ev: f64) -> f64 {
-        if self.material.y > 0.0 { ev.exp2() * MID_LUMINANCE / self.material.y } else { 0.0 }
+        if self.exposed > 0.0 { ev.exp2() * MID_LUMINANCE / self.exposed } else { 0.0 }
     }
 }
 
@@ -64,7 +71,10 @@ impl Query for ExposureQuery {
         let white = (*white).as_ref().map_err(|&e| e)?;
         let material = (*material).as_ref().map_err(|&e| e)?;
         let xyz = |measure: &SpectralWeights| rendering.xyz(rendering.white * self.signals(measure, white));
-        Ok(ExposureReference { material: xyz(material), white: xyz(white).y })
+        let (facing, is_reflectance) = (xyz(material), wavelength_power(self.reading) != 0);
+        let even = rendering.xyz(rendering.white * DVec3::from_array(material.totals())).y;
+        let exposed = if is_reflectance { facing.y.max(LEAST_FACING * even) } else { facing.y };
+        Ok(ExposureReference { material: facing, white: xyz(white).y, exposed })
     }
 }
 

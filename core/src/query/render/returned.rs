@@ -1,7 +1,8 @@
 //! Share of light that a surface returns: where the reflectance model loses or makes energy.
 
 use crate::query::ask::{Ask, Query};
-use crate::reflectance::{Normalization, Surface, directional_hemispherical};
+use crate::reflectance::power::{LAMBDA_0_NM, factor};
+use crate::reflectance::{Geometry, Normalization, Surface, directional_hemispherical};
 
 /// The grazing angle of incidence that is stated beside normal incidence, in degrees.
 pub const GRAZING_DEG: f64 = 85.0;
@@ -26,6 +27,8 @@ pub struct ReturnedLight {
     pub normal: f64,
     /// At [`GRAZING_DEG`].
     pub grazing: f64,
+    /// Brightness of a white of this surface seen from the light at normal incidence, over that of a white that scatters evenly.
+    pub facing: f64,
     /// Smallest angle of incidence, in degrees, from which on it exceeds 1; none where it does at no angle looked at.
     pub exceeds_one_from_deg: Option<f64>,
 }
@@ -46,6 +49,7 @@ impl Query for ReturnedLightQuery {
             }
             above
         });
-        ReturnedLight { normal: shares[0], grazing: shares[ANGLES_DEG.len() - 1], exceeds_one_from_deg }
+        let facing = factor(&self.surface, &Geometry::from_angles(0.0, 0.0, 0.0), LAMBDA_0_NM, self.reading, 0.0);
+        ReturnedLight { normal: shares[0], grazing: shares[ANGLES_DEG.len() - 1], facing, exceeds_one_from_deg }
     }
 }

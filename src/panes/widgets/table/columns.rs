@@ -22,7 +22,7 @@ const SYMBOLS: [(&str, &str); 6] = [
     ("u_prime", "u′"),
     ("v_prime", "v′"),
     ("distance_xy", "Δxy"),
-    ("distance_uv", "Δu′v′"),
+    ("distance_uv_prime", "Δu′v′"),
     ("cct", "CCT"),
     ("duv", "Duv"),
 ];
