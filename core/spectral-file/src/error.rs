@@ -226,6 +226,9 @@ pub enum ReadError {
         /// The wavelength in the unit decided on.
         wavelength_nm: f64,
     },
+    /// Values that no quantity of their role has.
+    #[error("{0}: correct it, leave it empty if it is missing, or choose plain numbers to use it as it is")]
+    ImpossibleValues(Box<Warning>),
     /// More than [`MAX_CURVES`] curves.
     #[error("line {0}: more than {MAX_CURVES} curves: split the file")]
     TooManyCurves(usize),
@@ -249,6 +252,7 @@ impl ReadError {
             | Self::NotWavelengthColumn { .. } => None,
             Self::Unsupported(..) => Some(1),
             Self::AsChosen { ref error, .. } => error.line(),
+            Self::ImpossibleValues(ref warning) => warning.line(),
             Self::OneColumn(line)
             | Self::NearlyRow { line, .. }
             | Self::Malformed { line, .. }

@@ -12,7 +12,7 @@ use crate::separators::Delimiter;
 use crate::sniff::Layout;
 use crate::text::{Lines, Section, comment};
 use crate::wavelength_unit::WavelengthUnit;
-use crate::{header_terms, unit_text};
+use crate::{header_terms, heads, unit_text};
 
 /// Maximum number of stored comments; more are not a header.
 const MAX_COMMENTS: usize = 1000;
@@ -68,8 +68,8 @@ impl Header {
 
     /// The header's information about a column.
     pub(super) fn label(&self, column: usize) -> String {
-        let unit = self.units.get(column).map_or("", String::as_str);
-        format!("{} {unit}", self.name(column).unwrap_or_default()).trim().to_owned()
+        let (name, unit) = (self.name(column).unwrap_or_default(), self.units.get(column).map_or("", String::as_str));
+        if name == unit { name.to_owned() } else { format!("{name} {unit}").trim().to_owned() }
     }
 
     /// The unit that the header gives for a column of values.
@@ -117,6 +117,7 @@ pub(super) fn read(section: Section<'_>, layout: &Layout) -> Header {
     }
     if layout.orientation.value == Orientation::Down {
         header.take_names(&near, layout);
+        heads::take(&mut header);
     }
     header
 }

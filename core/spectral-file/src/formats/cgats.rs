@@ -291,7 +291,9 @@ impl File {
         let unit = Some(Decided::certain(WavelengthUnit::Nanometer, "CGATS prescribes it"));
         let part = Some(Decided::guess(self.wanted, format!("{} tables have spectral fields", parts.len())));
         let wavelengths = bands.wavelengths;
-        let grid = Grid { wavelengths, lines, curves, header, unit, parts, part, rows, ..Grid::default() };
+        let samples = self.fields.iter().any(|field| matches!(field.as_str(), "SAMPLE_ID" | "SAMPLE_NAME"));
+        let role = samples.then(|| Decided::guess(Role::Reflectance, "CGATS lists samples, mostly those of a chart"));
+        let grid = Grid { wavelengths, lines, curves, header, unit, parts, part, rows, role, ..Grid::default() };
         let dialect = (Delimiter::Spaces, DecimalMark::Point);
         let layout = Layout::fixed(dialect, Orientation::Across, self.data_line + 1, "CGATS prescribes it");
         let why = format!("Line {} begins a data format", self.format_line);
