@@ -215,6 +215,9 @@ pub enum ReadError {
     /// The header gives photon energies, or another scale that is not converted.
     #[error("line {0}: the header gives neither wavelengths nor wave numbers nor THz: convert to wavelengths in nm")]
     NotWavelengths(usize),
+    /// A value that is beyond the largest number once it is multiplied by the factor of the file.
+    #[error("line {0}: a value times the factor of the file is beyond the largest number, 1.8e308: correct the factor")]
+    TooGreat(usize),
     /// Only one sample, or no curve with two.
     #[error("line {0}: a curve needs values at two wavelengths or more: check the columns")]
     TooFewSamples(usize),
@@ -265,6 +268,7 @@ impl ReadError {
             | Self::AmbiguousCommas(line)
             | Self::AmbiguousUnit { line, .. }
             | Self::NotWavelengths(line)
+            | Self::TooGreat(line)
             | Self::TooFewSamples(line)
             | Self::WavelengthOutOfRange { line, .. }
             | Self::TooManyCurves(line)
