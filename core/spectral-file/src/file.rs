@@ -54,7 +54,7 @@ impl SpectralFile {
             _ => false,
         });
         match impossible {
-            Some(warning) => Err(ReadError::ImpossibleValues(Box::new(warning.clone()))),
+            Some(warning) => Err(ReadError::ImpossibleValues { line: warning.line(), what: warning.to_string() }),
             None => Ok(self),
         }
     }

@@ -140,6 +140,10 @@ fn finish(
     if grid.wavelengths.len() < 2 {
         return Err(ReadError::TooFewSamples(grid.line(0).max(layout.first_line)));
     }
+    let infinite = |values: &[f64]| values.iter().position(|value| value.is_infinite());
+    if let Some(at) = grid.curves.iter().find_map(|curve| infinite(&curve.values)) {
+        return Err(ReadError::TooGreat(grid.line(at)));
+    }
     let (parts, part) = grid.settle_parts(options.part, layout.first_line)?;
     let wavelength_unit = wavelengths::unit(&grid, options)?;
     wavelengths::to_nanometers(&mut grid, wavelength_unit.value)?;

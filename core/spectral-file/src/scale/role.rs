@@ -76,17 +76,25 @@ fn mixed(grid: &Grid) -> Option<Decided<Role>> {
     (named("a") && (named("r") || named("t"))).then(|| Decided::open(Role::Unknown, why))
 }
 
-/// The role that the columns name. Of several columns a few may only be named after their samples, such as a radiant blue: they say
-/// less than a line about all.
+/// The role that the columns name. What only a sample is called, such as `radiance paint` among others or against a line
+/// above, decides nothing.
 fn named(grid: &Grid) -> Option<Decided<Role>> {
-    let named = || grid.curves.iter().filter_map(|curve| Some((header_terms::role(&curve.label)?, &curve.label)));
-    let (role, name) = named().next()?;
+    let all = grid.curves.len() > 1 && grid.curves.iter().all(|curve| header_terms::role(&curve.label).is_some());
+    let mut named = grid.curves.iter().filter_map(|curve| Some((header_terms::role(&curve.label)?, &curve.label)));
+    let (role, name) = named.next()?;
     let why = format!("A column is named “{}”", excerpt(name));
-    if named().all(|(other, _)| other == role) && named().count() == grid.curves.len() {
-        return Some(Decided::certain(role, why));
+    let agree = named.all(|(other, _)| other == role);
+    let is_head = |curve: &&RawCurve| {
+        let unit = curve.unit.as_ref().is_some_and(|unit| role.is_fraction() || !header_terms::says_percent(unit));
+        unit || header_terms::is_quantity(unit_text::without_unit(&curve.label))
+    };
+    if !all && !grid.curves.iter().filter(is_head).any(|curve| header_terms::role(&curve.label) == Some(role)) {
+        let denied = grid.header.mentioned.is_some_and(|(_, mentioned)| mentioned != role);
+        let only = grid.curves.len() == 1;
+        let said = if only { Decided::certain(role, why) } else { Decided::guess(role, why) };
+        return Some(said).filter(|_| !denied && (only || role.is_fraction()));
     }
-    let line = grid.header.mentioned.map(|(line, role)| Decided::guess(role, format!("Line {line} mentions it")));
-    line.or_else(|| Some(Decided::guess(role, why)))
+    Some(if agree { Decided::certain(role, why) } else { Decided::guess(role, why) })
 }
 
 /// The role that settings and comments with a key of their own name.

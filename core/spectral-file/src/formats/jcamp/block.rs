@@ -156,12 +156,6 @@ impl Block {
         for sample in &mut self.samples {
             sample.value *= y_factor;
         }
-        // Values are finite: a factor that leaves the range of doubles is wrong.
-        let overflown = self.samples.iter().find(|sample| sample.value.is_infinite());
-        if let (Some(sample), Some((line, factor))) = (overflown, self.number("YFACTOR")) {
-            let (label, announced, found) = ("YFACTOR", factor.value, sample.value);
-            return Err(ReadError::ScaleContradicts { line, label, announced, found });
-        }
         self.check()
     }
 
