@@ -168,7 +168,7 @@ pub(super) fn says_counts(text: &str) -> bool {
 }
 
 /// How names of quantities begin, in English, German, French, Spanish, Italian, Portuguese, Japanese and Chinese.
-const SENSITIVITIES: &str = "sensitiv|photosensitiv|responsiv|color match|colour match|color-match|cone fund|\
+const SENSITIVITIES: &str = "sensitivit|photosensitiv|responsiv|color match|colour match|color-match|colour-match|cone fund|\
     empfindlichkeit|sensibilit|sensibilid|感度|luminous efficien|tristimulus val|action spectr";
 const REFLECTANCES: &str =
     "reflect|reflekt|reflexi|refletâ|réflect|réflexi|riflett|rifless|remission|r-factor|反射率|反射比";
@@ -224,7 +224,7 @@ pub(super) fn role(text: &str) -> Option<Role> {
     let light = || {
         let text = lower(text);
         let word = || words(&text).any(|word| matches!(word, "lux" | "cct"));
-        begins(&text, "radian|irradian|illuminan|light source") || word()
+        begins(&text, "radianc|radiant flux|radiant power|radiant energ|irradian|illuminan|light source") || word()
     };
     match quantity(text) {
         Some(Quantity::Counts | Quantity::Relative) | None => light().then_some(Role::Illuminant),

@@ -31,14 +31,7 @@ fn names_of_columns_hold_wavelengths() {
             assert_eq!((table.reading.rows, table.warnings.len()), (2, 0), "{text}: {:?}", table.warnings);
         }
     }
-    let asked = ok(&wide(&["# nm [%]"], ";"));
-    assert_eq!(
-        (asked.role.certainty, asked.curves[0].unit.as_deref()),
-        (Certainty::Open, Some("%")),
-        "percent of what?"
-    );
-    let options = ReadOptions { role: Some(Role::Reflectance), ..ReadOptions::default() };
-    let percent = read(wide(&["# nm [%]"], ";").as_bytes(), &options).unwrap();
+    let percent = ok(&wide(&["# nm [%]"], ";"));
     assert_eq!((percent.reading.values.value, percent.curves[0].unit.as_deref()), (Values::Percent, Some("%")));
     assert_eq!(percent.reading.wavelength_unit.certainty, Certainty::Certain);
     assert_eq!(ok(&wide(&["SCI #nm"], ",")).role.value, Role::Reflectance);

@@ -293,8 +293,11 @@ impl File {
         let unit = Some(Decided::certain(WavelengthUnit::Nanometer, "CGATS prescribes it"));
         let part = Some(Decided::guess(self.wanted, format!("{} tables have spectral fields", parts.len())));
         let wavelengths = bands.wavelengths;
+        let fraction = |value: &f64| value.is_nan() || (-0.2..=1.2).contains(value);
+        let fractions = curves.iter().flat_map(|curve: &RawCurve| &curve.values).all(fraction);
         let samples = self.fields.iter().any(|field| matches!(field.as_str(), "SAMPLE_ID" | "SAMPLE_NAME"));
-        let role = samples.then(|| Decided::guess(Role::Reflectance, "CGATS lists samples, mostly those of a chart"));
+        let role = (samples && (fractions || header.values.is_some()))
+            .then(|| Decided::guess(Role::Reflectance, "CGATS lists samples, mostly those of a chart"));
         let grid = Grid { wavelengths, lines, curves, header, unit, parts, part, rows, role, ..Grid::default() };
         let dialect = (Delimiter::Spaces, DecimalMark::Point);
         let layout = Layout::fixed(dialect, Orientation::Across, self.data_line + 1, "CGATS prescribes it");

@@ -91,7 +91,10 @@ fn named(grid: &Grid) -> Option<Decided<Role>> {
     if !all && !grid.curves.iter().filter(is_head).any(|curve| header_terms::role(&curve.label) == Some(role)) {
         let denied = grid.header.mentioned.is_some_and(|(_, mentioned)| mentioned != role);
         let only = grid.curves.len() == 1;
-        let said = if only { Decided::certain(role, why) } else { Decided::guess(role, why) };
+        // `Lamp radiance` states it; `radiance paint` may be the name of a sample.
+        let last = name.rsplit([' ', '_']).next().unwrap_or(name);
+        let stated = only && (role != Role::Illuminant || header_terms::role(last) == Some(role));
+        let said = if stated { Decided::certain(role, why) } else { Decided::guess(role, why) };
         return Some(said).filter(|_| !denied && (only || role.is_fraction()));
     }
     Some(if agree { Decided::certain(role, why) } else { Decided::guess(role, why) })
@@ -176,7 +179,9 @@ fn hinted(grid: &Grid, chosen: Option<Values>) -> Option<Decided<Role>> {
         return Some(Decided::guess(Role::Transmittance, format!("Line {line} mentions absorbances")));
     }
     match values {
-        Some(Values::Percent) if chosen.is_some() => Some(Decided::guess(Role::Reflectance, why)),
+        Some(Values::Percent) if grid.beside.is_none() || chosen.is_some() => {
+            Some(lamp(grid).filter(|_| chosen.is_none()).unwrap_or_else(|| Decided::guess(Role::Reflectance, why)))
+        }
         // Most spectrometers derive absorbances from what passes a sample.
         Some(Values::Absorbance) => Some(Decided::guess(Role::Transmittance, why)),
         Some(Values::Decibels) => Some(Decided::guess(Role::Illuminant, why)),
