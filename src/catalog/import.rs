@@ -1,8 +1,10 @@
 //! Import of a file's bytes as an own set, with the decisions made.
 
+use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
-use spectral_file::{Certainty, Effect, ReadError, Role, SpectralFile, Values, Watch};
+use spectral_file::{Certainty, Effect, METADATA, ReadError, Role, Source, SpectralFile, Values, Watch};
 
 use crate::document::imported::{Fingerprint, ImportOverrides, ImportedCurve, ImportedSet, ReadAs};
 
@@ -27,13 +29,38 @@ pub struct Origin {
     /// Path on disk, if there is one.
     pub path: Option<PathBuf>,
     pub fingerprint: Fingerprint,
+    /// Contents of the metadata file beside it; may be empty.
+    pub metadata: Arc<[u8]>,
 }
 
 impl Origin {
     /// Of bytes that are not on disk.
     pub fn named(name: &str, bytes: &[u8]) -> Self {
-        Self { name: name.to_owned(), path: None, fingerprint: Fingerprint::of(bytes) }
+        Self { name: name.to_owned(), path: None, fingerprint: Fingerprint::of(bytes), metadata: Arc::default() }
     }
+
+    /// Of a file on disk, called by a name.
+    pub fn on_disk(name: &str, path: &Path, bytes: &[u8]) -> Self {
+        Self { path: Some(path.to_owned()), metadata: metadata_beside(path), ..Self::named(name, bytes) }
+    }
+
+    /// The bytes with what stands beside them, for the reader.
+    pub fn source<'a>(&'a self, bytes: &'a [u8]) -> Source<'a> {
+        let path = self.path.as_deref().and_then(Path::to_str).unwrap_or(&self.name);
+        Source { bytes, path, metadata: &self.metadata }
+    }
+}
+
+/// Contents of the metadata file beside a table; empty if there is none.
+fn metadata_beside(path: &Path) -> Arc<[u8]> {
+    const MOST_BYTES: u64 = 1 << 20;
+    let found = METADATA.iter().find_map(|ending| {
+        let mut name = path.as_os_str().to_owned();
+        name.push(ending);
+        let known = fs::metadata(&name).ok()?;
+        if known.is_file() && known.len() <= MOST_BYTES { fs::read(&name).ok() } else { None }
+    });
+    found.unwrap_or_default().into()
 }
 
 /// Reads a file's bytes; `file` names it. A role that is given is not guessed.
@@ -48,7 +75,8 @@ pub fn import_as(
     wishes: &ImportOverrides,
     watch: Watch<'_>,
 ) -> Result<Imported, ReadError> {
-    Ok(imported(origin, &spectral_file::read_watched(bytes, &wishes.options, watch)?, wishes))
+    let table = spectral_file::read_watched(origin.source(bytes), &wishes.options, watch)?.usable()?;
+    Ok(imported(origin, &table, wishes))
 }
 
 /// Import of a table that was read with the options of these overrides.

@@ -10,7 +10,7 @@ use chromascope_core::camera::chart_grid::ChartGrid;
 use chromascope_core::camera::recorded::RecordedPatch;
 use chromascope_core::spectral::{GridSpectrum, Quantity, SpectralDistribution};
 use chromascope_figure::Image;
-use spectral_file::{ReadOptions, Role};
+use spectral_file::{Certainty, ReadOptions, Role};
 
 use super::chart_picture::ChartPicture;
 use super::recorded::{self, Levels, RawRow};
@@ -134,7 +134,15 @@ fn read(path: &PathBuf) -> Result<RecordedFile, String> {
 
 /// Spectra in the file of the raw values.
 fn spectra(text: &str) -> Result<TableSpectra, String> {
-    let table = spectral_file::read(text.as_bytes(), &ReadOptions::default()).map_err(|error| error.to_string())?;
+    let read = |role: Option<Role>| {
+        let options = ReadOptions { role, ..ReadOptions::default() };
+        spectral_file::read(text.as_bytes(), &options).map_err(|error| error.to_string())
+    };
+    let mut table = read(None)?;
+    // Beside the raw values of a chart, spectra that are no radiances are its reflectances.
+    if table.role.certainty == Certainty::Open {
+        table = read(Some(Role::Reflectance))?;
+    }
     let are_radiances = table.role.value == Role::Illuminant;
     let curve = |curve: &spectral_file::Curve| {
         let spectrum = SpectralDistribution::new(curve.wavelengths_nm.clone(), curve.values.clone());

@@ -1,53 +1,49 @@
 //! Checks that a file contains the quantity that its option requires.
 
-use spectral_file::{Certainty, ReadOptions, SpectralFile, Warning};
+use spectral_file::{Certainty, SpectralFile, Warning};
 
 use super::error::CliError;
 use crate::document::imported::{ImportedSet, Role};
 use crate::terminal::say;
 
-/// Rejects as reflectances data that the file declares as another quantity, and values of unknown scale.
-pub(super) fn reflectances(path: &str, role: Role, table: &SpectralFile) -> Result<(), CliError> {
-    if !role.is_fraction() {
-        return Ok(());
-    }
-    let other = table.warnings.iter().find_map(|warning| match warning {
-        Warning::OtherQuantity { quantity, .. } => {
-            quantity.role().filter(|role| matches!(role, Role::Illuminant | Role::Camera)).map(|_| quantity)
-        }
-        _ => None,
-    });
-    if let Some(quantity) = other {
-        let why = format!(
-            "the file states {quantity}, which is not a reflectance; use patches --radiance for measured \
-                     radiances"
-        );
-        return Err(CliError::File(format!("{path}: {why}")));
+/// Rejects a file that states another quantity than its option takes, values of unknown scale, and values that no such quantity has;
+/// reports the use of a file that states none.
+pub(super) fn quantity(path: &str, role: Role, table: &SpectralFile) -> Result<(), CliError> {
+    let refuse = |why: String| Err(CliError::File(format!("{path}: {why}")));
+    let content = &table.reading.content_role;
+    let other = content.value != role && !(content.value.is_fraction() && role.is_fraction());
+    if other && content.certainty == Certainty::Certain && content.value != Role::Unknown {
+        let option = match content.value {
+            Role::Camera => "--camera",
+            Role::Reflectance => "--chart",
+            Role::Transmittance => "--filter",
+            Role::Illuminant | Role::Unknown => "--illuminant, or patches --radiance for measured radiances",
+        };
+        let quantity = table.warnings.iter().find_map(|warning| match warning {
+            Warning::OtherQuantity { quantity, .. } => Some(quantity.to_string()),
+            _ => None,
+        });
+        let stated = quantity.unwrap_or_else(|| content.value.to_string());
+        let why = spectral_file::lowered(&content.why);
+        return refuse(format!("the file states {stated}, not {role} ({why}); use {option}, or correct its header"));
     }
     let values = &table.reading.values;
-    if values.certainty == Certainty::Open {
+    if role.is_fraction() && values.certainty == Certainty::Open {
         let remedy = if role == Role::Transmittance {
             "state it in the file, such as Transmittance (%)"
         } else {
             "add --values percent, or --values plain for fractions"
         };
-        return Err(CliError::File(format!("{path}: {}; {remedy}", values.why)));
+        return refuse(format!("{}; {remedy}", values.why));
+    }
+    if other && content.certainty != Certainty::Certain {
+        let why = match content.certainty {
+            Certainty::Guess => format!("{}, which suggests {}", content.why, content.value),
+            _ => "the file does not state its quantity".to_owned(),
+        };
+        say(&format!("chromascope: {path}: {why}; used as {role} because of the option\n"));
     }
     Ok(())
-}
-
-/// Reports the assumed quantity of a file that does not state it.
-pub(super) fn say_role(path: &str, role: Role, table: &SpectralFile, bytes: &[u8]) {
-    // Only a file that names no quantity can be open.
-    let unnamed = table.reading.quantity.certainty == Certainty::Chosen;
-    let open = || {
-        spectral_file::read(bytes, &ReadOptions::default()).is_ok_and(|table| table.role.certainty == Certainty::Open)
-    };
-    if unnamed && open() {
-        say(&format!(
-            "chromascope: {path}: the file does not state its quantity; used as {role} because of the option\n"
-        ));
-    }
 }
 
 /// Refuses sensitivities of which nothing says which are red, green and blue.

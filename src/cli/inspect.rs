@@ -21,6 +21,7 @@ use self::out::Out;
 use super::error::CliError;
 use super::outputs::{Stop, put, show, stream};
 use super::request::read;
+use crate::catalog::import::Origin;
 use crate::catalog::opened::files_of;
 use crate::format::{io_failure, io_reason};
 use crate::terminal::say;
@@ -146,7 +147,8 @@ fn answer(
 
 fn inspect(file: &Path, name: &str, arguments: &InspectArguments) -> Result<SpectralFile, Failure> {
     let bytes = contents(file).map_err(|error| Failure::Disk(io_reason(&error)))?;
-    let mut table = spectral_file::read(&bytes, &arguments.options()).map_err(Failure::Read)?;
+    let origin = Origin::on_disk(name, file, &bytes);
+    let mut table = spectral_file::read(origin.source(&bytes), &arguments.options()).map_err(Failure::Read)?;
     name_the_only_curve(&mut table, name);
     if let Some(per_photon) = arguments.per_photon() {
         respond(&mut table, per_photon)?;
@@ -154,11 +156,19 @@ fn inspect(file: &Path, name: &str, arguments: &InspectArguments) -> Result<Spec
     Ok(table)
 }
 
+/// Reflectances pass one by noise and fluorescence.
+const LARGEST_FRACTION: f64 = 1.2;
+
 /// Open question of a table, with the options that decide it.
 fn question(table: &SpectralFile) -> Option<String> {
     let (role, values) = (&table.role, &table.reading.values);
     if role.certainty == Certainty::Open {
-        let remedy = "add --role reflectance --values percent, --role illuminant or --role unknown";
+        let large = table.curves.iter().flat_map(|curve| &curve.values).any(|value| *value > LARGEST_FRACTION);
+        let remedy = if large {
+            "add --role reflectance --values percent, --role illuminant or --role unknown"
+        } else {
+            "add --role reflectance, --role transmittance, --role illuminant, --role camera or --role unknown"
+        };
         return Some(format!("{}; {remedy}", role.why));
     }
     (values.certainty == Certainty::Open).then(|| format!("{}; add --values percent or --values plain", values.why))

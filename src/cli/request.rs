@@ -405,16 +405,16 @@ impl Request {
         let file = display_path(path);
         let mut wishes = ImportOverrides::for_role(Some(role));
         wishes.options.values = self.values.filter(|_| role.is_fraction());
-        let table =
-            spectral_file::read(bytes, &wishes.options).map_err(|error| CliError::File(format!("{file}: {error}")))?;
-        checks::reflectances(&file, role, &table)?;
+        let origin = Origin::on_disk(&file, path, bytes);
+        let table = spectral_file::read(origin.source(bytes), &wishes.options)
+            .map_err(|error| CliError::File(format!("{file}: {error}")))?;
+        checks::quantity(&file, role, &table)?;
+        let table = table.usable().map_err(|error| CliError::File(format!("{file}: {error}")))?;
         checks::channels(&file, role, &table)?;
-        checks::say_role(&file, role, &table, bytes);
         wishes.taken = Some((0..table.curves.len()).collect());
         if role == Role::Camera {
             wishes.per_photon = self.per.map(|per| per == Per::Photon);
         }
-        let origin = Origin { path: Some(path.to_owned()), ..Origin::named(&file, bytes) };
         let imported = imported(&origin, &table, &wishes);
         if imported.guessed || !table.warnings.is_empty() {
             say(&format!("chromascope: {}\n", imported.message));

@@ -29,7 +29,7 @@ use crate::waiting::until;
 
 mod disk;
 
-const LEAF: &str = "nm,leaf\n400,0.05\n500,0.1\n600,0.2\n700,0.5\n";
+const LEAF: &str = "# quantity: reflectance\nnm,leaf\n400,0.05\n500,0.1\n600,0.2\n700,0.5\n";
 
 /// A profile folder, within one that is removed afterwards.
 fn profile() -> (tempfile::TempDir, PathBuf) {

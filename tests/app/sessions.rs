@@ -53,7 +53,13 @@ fn temperature(kelvin: f64) -> Action {
 }
 
 fn with_leaf() -> Document {
-    let set = import("leaf.csv", b"nm,leaf\n400,0.05\n500,0.1\n600,0.2\n700,0.5\n", None).unwrap().set;
+    let set = import(
+        "leaf.csv",
+        b"nm,leaf\n400,0.05\n500,0.1\n600,0.2\n700,0.5\n",
+        Some(chromascope::document::imported::Role::Reflectance),
+    )
+    .unwrap()
+    .set;
     let mut document = Document::paper();
     crate::import_sets(vec![set]).apply(&mut document);
     document
@@ -115,7 +121,7 @@ fn json_of(path: &Path) -> Value {
 fn a_session_made_here_opens_in_a_fresh_home() {
     let (_around, folder) = folder();
     let leaf = folder.join("leaf.csv");
-    fs::write(&leaf, "nm,leaf\n400,0.05\n500,0.1\n600,0.2\n700,0.5\n").unwrap();
+    fs::write(&leaf, "# quantity: reflectance\nnm,leaf\n400,0.05\n500,0.1\n600,0.2\n700,0.5\n").unwrap();
     let mut here = window(&folder.join("here"));
     assert_eq!(here.state().title(), "Chromascope");
     push(&mut here, Command::OpenPath(leaf.clone()));

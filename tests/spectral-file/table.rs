@@ -6,6 +6,7 @@ mod bands;
 mod columns;
 mod damage;
 mod doubts;
+mod evidence;
 mod light_units;
 mod limits;
 mod parts;
@@ -215,7 +216,7 @@ fn percent_and_fractions() {
         ("# quantity: reflectance\n# unit: 1\n400,0.05\n500,0.5\n", false, Sure::Certain),
         ("Y Units:  Reflectance (percent)\n400 5\n500 50\n", true, Sure::Certain),
         ("Wavelength (nm) Reflectance (%)\n400 5\n500 50\n", true, Sure::Certain),
-        ("400,0.05\n500,0.5\n", false, Sure::Guess),
+        ("nm,R%\n400,5\n500,50\n", true, Sure::Certain),
     ] {
         let table = ok(text);
         assert_eq!(table.role.value, Role::Reflectance, "{text:?}");
@@ -223,6 +224,10 @@ fn percent_and_fractions() {
         let decided = &table.reading.values;
         let values = if percent { Values::Percent } else { Values::Plain };
         assert_eq!((decided.value, decided.certainty), (values, certainty), "{text:?}");
+    }
+    for text in ["400,0.05\n500,0.5\n", "400,1e-5\n500,2e-5\n"] {
+        let open = ok(text);
+        assert_eq!((open.role.value, open.role.certainty), (Role::Unknown, Sure::Open), "{text:?}");
     }
     let open = ok("400,5\n500,98\n");
     assert_eq!((open.role.value, open.role.certainty), (Role::Unknown, Sure::Open));
@@ -287,7 +292,7 @@ fn roles() {
         ("nm,R,G,B\n400,1,2,3\n500,2,3,4\n".to_owned(), Is::Camera, Sure::Certain),
         ("nm,red,green,blue\n400,1,2,3\n500,2,3,4\n".to_owned(), Is::Camera, Sure::Guess),
         ("nm,x,y,z\n400,1,2,3\n500,2,3,4\n".to_owned(), Is::Camera, Sure::Certain),
-        (bells([600.0, 540.0, 450.0]), Is::Camera, Sure::Guess),
+        (bells([600.0, 540.0, 450.0]), Is::Unknown, Sure::Open),
         ("# quantity: spectral irradiance\n400,0.1\n500,0.2\n".to_owned(), Is::Illuminant, Sure::Certain),
         ("CCT\t5198\n400\t0.1\n500\t0.2\n".to_owned(), Is::Illuminant, Sure::Guess),
         ("400,63\n560,105.3\n600,124\n".to_owned(), Is::Unknown, Sure::Open),
@@ -296,12 +301,14 @@ fn roles() {
         ("Y Units: T-Factor\n400 3\n500 4\n".to_owned(), Is::Transmittance, Sure::Certain),
         ("Technique\tTransmission\nWavelength\ta (%)\n400\t3\n500\t4\n".to_owned(), Is::Transmittance, Sure::Certain),
         ("400,49\n560,100\n600,97\n".to_owned(), Is::Illuminant, Sure::Guess),
-        ("nm,leaf,bark\n400,0.1,0.2\n500,0.9,1.1\n".to_owned(), Is::Reflectance, Sure::Guess),
+        ("nm,leaf,bark\n400,0.1,0.2\n500,0.9,1.1\n".to_owned(), Is::Unknown, Sure::Open),
     ] {
         let table = ok(&text);
         assert_eq!((table.role.value, table.role.certainty), (role, certainty), "{text:?}");
     }
-    assert_eq!(ok(&bells([450.0, 600.0, 540.0])).reading.camera_columns, Some([1, 2, 0]));
+    let camera = ReadOptions { role: Some(Role::Camera), ..ReadOptions::default() };
+    let by_peak = read(bells([450.0, 600.0, 540.0]).as_bytes(), &camera).unwrap();
+    assert_eq!(by_peak.reading.camera_columns, Some([1, 2, 0]));
     assert_eq!(ok("nm,B,G,R,IR\n400,1,2,3,4\n500,2,3,4,5\n").reading.camera_columns, Some([2, 1, 0]));
 }
 

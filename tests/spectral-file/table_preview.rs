@@ -6,7 +6,7 @@ mod lines;
 
 use std::collections::BTreeMap;
 
-use spectral_file::{Mark, Marker, Preview, ReadOptions, SpectralFile, Watch, What, read_marked};
+use spectral_file::{Mark, Marker, Preview, ReadOptions, Role, SpectralFile, Watch, What, read_marked};
 
 /// A file, what it was read as, and its marks.
 struct Seen {
@@ -86,7 +86,7 @@ const LEAF: &str = "Wavelength (nm);Leaf (%);Bark (%)\n400;5,5;1,5\n410;6,0;1,25
 
 #[test]
 fn a_table_down_is_marked_cell_by_cell() {
-    let seen = whole(LEAF.as_bytes());
+    let seen = whole_with(LEAF.as_bytes(), &ReadOptions { role: Some(Role::Reflectance), ..ReadOptions::default() });
     assert_eq!(
         seen.said(1),
         [

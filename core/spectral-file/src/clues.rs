@@ -43,6 +43,11 @@ const MEASURED: [&str; 16] = [
     "y label",
 ];
 
+/// Returns whether a setting of such a name, in lower case, says what is measured.
+pub(super) fn is_measured(key: &str) -> bool {
+    MEASURED.contains(&key)
+}
+
 /// Programs that write reflectances and transmittances in percent whatever their values: what a line starts with.
 const IN_PERCENT: [(&str, &str); 8] = [
     ("SpectraSuite Data File", "Ocean SpectraSuite"),
@@ -95,7 +100,7 @@ impl Clues {
             };
             self.ratio = said.map(|said| (line, said)).or(self.ratio);
         }
-        if MEASURED.contains(&key) {
+        if is_measured(key) {
             self.role = header_terms::role(value).map(|role| (line, role)).or(self.role);
             let values = header_terms::values(value).filter(|values| *values != Values::Plain);
             self.values = values.map(|values| (line, values)).or(self.values);

@@ -51,6 +51,13 @@ impl Dialect {
         Cells { rest: (!spaces_only).then_some(rest), delimiter: self.delimiter, quotes: true, joined, at: 0 }
     }
 
+    /// Returns whether each quote that opens a cell of a line is closed where a cell ends.
+    pub(super) fn closes_quotes(self, line: &str) -> bool {
+        let mut cells = self.cells(line);
+        while cells.next().is_some() {}
+        cells.quotes
+    }
+
     #[inline]
     pub(super) fn parse(self, cell: &str) -> Cell {
         match self.number(cell) {

@@ -215,6 +215,9 @@ pub enum ReadError {
     /// The header gives photon energies, or another scale that is not converted.
     #[error("line {0}: the header gives neither wavelengths nor wave numbers nor THz: convert to wavelengths in nm")]
     NotWavelengths(usize),
+    /// A value that is beyond the largest number once it is multiplied by the factor of the file.
+    #[error("line {0}: a value times the factor of the file is beyond the largest number, 1.8e308: correct the factor")]
+    TooGreat(usize),
     /// Only one sample, or no curve with two.
     #[error("line {0}: a curve needs values at two wavelengths or more: check the columns")]
     TooFewSamples(usize),
@@ -225,6 +228,14 @@ pub enum ReadError {
         line: usize,
         /// The wavelength in the unit decided on.
         wavelength_nm: f64,
+    },
+    /// Values that no quantity of their role has.
+    #[error("{what}: correct it, leave it empty if it is missing, or choose plain numbers to use it as it is")]
+    ImpossibleValues {
+        /// The line of the first, where known.
+        line: Option<usize>,
+        /// The first, with its line.
+        what: String,
     },
     /// More than [`MAX_CURVES`] curves.
     #[error("line {0}: more than {MAX_CURVES} curves: split the file")]
@@ -249,6 +260,7 @@ impl ReadError {
             | Self::NotWavelengthColumn { .. } => None,
             Self::Unsupported(..) => Some(1),
             Self::AsChosen { ref error, .. } => error.line(),
+            Self::ImpossibleValues { line, .. } => line,
             Self::OneColumn(line)
             | Self::NearlyRow { line, .. }
             | Self::Malformed { line, .. }
@@ -265,6 +277,7 @@ impl ReadError {
             | Self::AmbiguousCommas(line)
             | Self::AmbiguousUnit { line, .. }
             | Self::NotWavelengths(line)
+            | Self::TooGreat(line)
             | Self::TooFewSamples(line)
             | Self::WavelengthOutOfRange { line, .. }
             | Self::TooManyCurves(line)

@@ -1,7 +1,8 @@
 //! Result of reading: curves with their report.
 
-use crate::report::{Decided, Decision, ReadReport};
-use crate::role::Role;
+use crate::error::ReadError;
+use crate::report::{Certainty, Decided, Decision, ReadReport};
+use crate::role::{Role, Values};
 use crate::warning::Warning;
 
 /// One curve: values over wavelength, in the order of wavelength.
@@ -35,6 +36,29 @@ pub struct SpectralFile {
 }
 
 impl SpectralFile {
+    /// This file, unless it holds values that no quantity of its role has: fractions of light far from 0 to 1, and numbers beyond any
+    /// unit. A scale that is open, or that was chosen to be as written, is not judged.
+    ///
+    /// # Errors
+    /// [`ReadError::ImpossibleValues`], with the first of them.
+    pub fn usable(self) -> Result<Self, ReadError> {
+        const NOISE: f64 = 0.05;
+        let values = &self.reading.values;
+        let asked = values.certainty == Certainty::Open || self.role.certainty == Certainty::Open;
+        if asked || (values.certainty, values.value) == (Certainty::Chosen, Values::Plain) {
+            return Ok(self);
+        }
+        let impossible = self.warnings.iter().find(|warning| match warning {
+            Warning::NotReflectances { .. } => true,
+            Warning::BelowZero { min, .. } => self.role.value.is_fraction() && *min < -NOISE,
+            _ => false,
+        });
+        match impossible {
+            Some(warning) => Err(ReadError::ImpossibleValues { line: warning.line(), what: warning.to_string() }),
+            None => Ok(self),
+        }
+    }
+
     /// Every decision made on reading, the role first, ready to be listed for the user.
     pub fn decisions(&self) -> Vec<Decision> {
         let mut all = vec![Decision::new("Role", &self.role)];

@@ -1,14 +1,14 @@
 //! Numbers that stand for missing values: −999, 9999, −1.23e34.
 //!
-//! Such a number is taken for a gap only where it stands out: ten times as large as all other values of its curve, or as far
-//! below them.
+//! Such a number is taken for a gap only where it stands out: five times as large as all other values of its curve, or ten times
+//! as far below them.
 
 use crate::grid::{Grid, RawCurve};
 use crate::warning::{LineList, Sentinel, Warning};
 use crate::watch::Log;
 
 /// Numbers that programs write for missing values, as sizes; each with either sign. (−9999 is one wherever it stands.)
-const SIZES: [f64; 17] = [
+const SIZES: [f64; 19] = [
     99.0,
     99.9,
     99.99,
@@ -24,25 +24,29 @@ const SIZES: [f64; 17] = [
     999_999.0,
     9_999_999.0,
     99_999_999.0,
+    32_767.0,
     32_768.0,
+    65_535.0,
     2_147_483_648.0,
 ];
 
 /// Sizes far beyond what is measured: of USGS (1.23e34), netCDF (9.97e36), instruments with SCPI (9.91e37), and the largest number
-/// in single precision, each to the digits that are written.
+/// in single precision, each to the digits that are written; and its half.
 const HUGE: [f64; 13] =
     [1e30, 1e31, 1e32, 1e33, 1e34, 1.23e34, 1e35, 1e36, 9.969_21e36, 1e37, 9.9e37, 9.91e37, 3.402_823e38];
+const HALF: [f64; 2] = [1.7e38, 1.701_411e38];
 const WRITTEN: f64 = 1e-6;
 
 /// Largest size of measured values beside them.
 const COMMON: f64 = 1e19;
 
 fn is_huge(size: f64) -> bool {
-    size >= HUGE[0] * (1.0 - WRITTEN) && HUGE.iter().any(|known| (size - known).abs() <= WRITTEN * known)
+    let near = |known: &f64| (size - known).abs() <= WRITTEN * known;
+    size >= HUGE[0] * (1.0 - WRITTEN) && HUGE.iter().chain(&HALF).any(near)
 }
 
-/// Factor by which a number must stand out.
-const TIMES: f64 = 10.0;
+/// Factors by which a number must stand out below and above the others: percent reach 100, beside which 999 is none.
+const TIMES: [f64; 2] = [10.0, 5.0];
 
 fn is_candidate(value: f64) -> bool {
     let size = value.abs();
@@ -77,8 +81,8 @@ impl Others {
         match () {
             () if self.count == 0 => value < 0.0,
             () if is_huge(value.abs()) => largest <= COMMON,
-            () if value < 0.0 => self.low >= value / TIMES,
-            () => value >= TIMES * largest,
+            () if value < 0.0 => self.low >= value / TIMES[0],
+            () => value >= TIMES[1] * largest,
         }
     }
 }

@@ -28,6 +28,8 @@ pub(super) struct Grid {
     pub(super) unit: Option<Decided<WavelengthUnit>>,
     /// Role of the curves, if the format gives or suggests it.
     pub(super) role: Option<Decided<Role>>,
+    /// Role that the metadata beside the file state, or that the names of file and folders suggest.
+    pub(super) beside: Option<Decided<Role>>,
     /// Quantity of the values, if the format gives it.
     pub(super) quantity: Option<Decided<Quantity>>,
     /// The parts of the file, if it can have several, and which one this is.

@@ -12,7 +12,7 @@ use crate::separators::Delimiter;
 use crate::sniff::Layout;
 use crate::text::{Lines, Section, comment};
 use crate::wavelength_unit::WavelengthUnit;
-use crate::{header_terms, unit_text};
+use crate::{clues, header_terms, heads, unit_text, units};
 
 /// Maximum number of stored comments; more are not a header.
 const MAX_COMMENTS: usize = 1000;
@@ -53,6 +53,8 @@ pub(super) struct Header {
     pub(super) role: Option<(usize, Role)>,
     /// Role that free text mentions; only good for a guess.
     pub(super) mentioned: Option<(usize, Role)>,
+    /// The one mentioned before it.
+    pub(super) earlier: Option<(usize, Role)>,
     /// Clues in the settings of the instrument.
     pub(super) clues: Clues,
 }
@@ -60,8 +62,8 @@ pub(super) struct Header {
 impl Header {
     /// The name of a column, if the header gives one.
     pub(super) fn name(&self, column: usize) -> Option<&str> {
-        // A line of units such as `nm,R%` may be all there is.
-        let unit = || self.units.get(column).filter(|unit| unit_text::percent_name(unit).is_some());
+        // A line of units such as `nm,R%` or `nm,leaf %R` may be all there is.
+        let unit = || self.units.get(column).filter(|unit| unit.contains('%') && !unit.starts_with('%'));
         let name = self.names.get(column).or_else(|| unit().filter(|_| self.names.is_empty()));
         name.map(String::as_str).filter(|name| !name.is_empty())
     }
@@ -69,7 +71,12 @@ impl Header {
     /// The header's information about a column.
     pub(super) fn label(&self, column: usize) -> String {
         let unit = self.units.get(column).map_or("", String::as_str);
-        format!("{} {unit}", self.name(column).unwrap_or_default()).trim().to_owned()
+        let name = self.name(column).filter(|name| *name != unit).unwrap_or_default();
+        // In brackets, the sign of percent behind `T8` is the unit that it is.
+        if unit.starts_with('%') && !name.is_empty() {
+            return format!("{name} ({unit})");
+        }
+        format!("{name} {unit}").trim().to_owned()
     }
 
     /// The unit that the header gives for a column of values.
@@ -100,11 +107,13 @@ impl Header {
 pub(super) fn read(section: Section<'_>, layout: &Layout) -> Header {
     let mut header = Header::default();
     let mut near: Vec<(usize, &str)> = Vec::with_capacity(NEAR + 1);
-    for (number, line) in Lines::of(section).take_while(|(number, _)| *number < layout.header_end()) {
+    let mut lines = Lines::of(section).take_while(|(number, _)| *number < layout.header_end());
+    while let Some((number, line)) = lines.next() {
         if line.trim().is_empty() {
             continue;
         }
         let body = comment(line);
+        let line = body.map_or_else(|| whole(section, line, layout.dialect(), &mut lines), |_| line);
         if let Some((key, value)) = body.and_then(|body| body.split_once(':')) {
             header.take_comment(number, key.trim(), value.trim());
             continue;
@@ -117,6 +126,7 @@ pub(super) fn read(section: Section<'_>, layout: &Layout) -> Header {
     }
     if layout.orientation.value == Orientation::Down {
         header.take_names(&near, layout);
+        heads::take(&mut header);
     }
     header
 }
@@ -125,11 +135,13 @@ impl Header {
     /// Takes the information of a comment `# key: value`.
     pub(super) fn take_comment(&mut self, line: usize, key: &str, value: &str) {
         let lower = key.to_ascii_lowercase();
-        if matches!(lower.as_str(), "unit" | "units" | "quantity" | "y unit" | "y units" | "yunit" | "yunits") {
+        if matches!(lower.as_str(), "unit" | "units" | "y unit" | "y units" | "yunit" | "yunits") {
             self.take_value_unit(line, value);
-            if lower != "quantity" {
-                self.unit = unit_text::unit_cell(value).filter(|unit| unit != "1").or(self.unit.take());
-            }
+            self.unit = unit_text::unit_cell(value).filter(|unit| unit != "1").or(self.unit.take());
+        } else if lower == "quantity" || is_title_with_unit(value) && says_values(&lower) {
+            self.take_value_unit(line, value);
+            let unit = unit_text::unit(value).filter(|_| unit_text::without_unit(value) != value);
+            self.unit = unit.or(self.unit.take());
         }
         if matches!(lower.as_str(), "response" | "title" | "description") {
             self.mentioned = self.mentioned.or_else(|| header_terms::role(value).map(|role| (line, role)));
@@ -191,13 +203,17 @@ impl Header {
         ]
         .iter()
         .any(|word| begins(word));
+        // As a sign of a comment it is no unit.
+        let text = text.trim_start().trim_start_matches('%');
         if about_y || is_title_with_unit(text) {
             self.take_value_unit(line, text);
             let unit = text.split_once([':', ';', ',', '=']).and_then(|(_, value)| unit_text::unit(value));
             self.unit = unit.or_else(|| unit_text::unit(bare_title(text))).or(self.unit.take());
         }
         self.take_mode(line, text);
-        self.mentioned = header_terms::role_in_prose(text).map(|role| (line, role)).or(self.mentioned);
+        if let Some(role) = header_terms::role_in_prose(text) {
+            (self.mentioned, self.earlier) = (Some((line, role)), self.mentioned);
+        }
         self.clues.take(line, text);
     }
 
@@ -253,6 +269,9 @@ impl Header {
             }
             self.names = cells;
             self.line = Some(number);
+            // Names of samples say less than a line above them.
+            let above = self.earlier.filter(|_| self.mentioned.is_some_and(|(line, _)| line == number));
+            self.mentioned = above.or(self.mentioned);
             // Some programs name only the curves.
             let headed = row_key(&self.names[0]).is_some()
                 || self.names.iter().any(|name| header_terms::names_wavelengths(name));
@@ -315,6 +334,12 @@ fn name_row<'a>(layout: &Layout, rows: impl Iterator<Item = &'a (usize, &'a str)
     keyed.find(|(_, cells)| cells.len() > 1 && row_key(&cells[0]) == Some(RowKey::Name))
 }
 
+/// Returns whether a comment with such a key tells what the values are, if it gives a quantity and a unit.
+fn says_values(key: &str) -> bool {
+    let names = ["data", "data type", "value", "values", "y", "signal", "spectrum", "spectra", "column", "columns"];
+    clues::is_measured(key) || names.contains(&key)
+}
+
 /// A line that is a title, without separators that fill it up.
 fn bare_title(text: &str) -> &str {
     text.trim_matches([' ', '\t', ',', ';', '"'])
@@ -328,7 +353,8 @@ fn is_title_with_unit(text: &str) -> bool {
         && !title.contains([',', ';'])
         && title.ends_with([']', ')'])
         && unit_text::without_unit(title) != title
-        && header_terms::quantity(title).is_some()
+        && (header_terms::quantity(title).is_some()
+            || unit_text::unit(title).is_some_and(|unit| units::parse(&unit).is_some()))
 }
 
 /// Returns whether a line above two columns is a setting of the instrument, such as `LUX 695`, and no pair of names.
@@ -357,10 +383,37 @@ fn is_measured(layout: &Layout, cells: &[String]) -> bool {
         && values.iter().filter_map(number).any(|value| value.fract() != 0.0)
 }
 
+/// A line with those below it into which a cell in quotes goes on.
+fn whole<'a>(
+    section: Section<'a>,
+    line: &'a str,
+    dialect: Dialect,
+    lines: &mut (impl Iterator<Item = (usize, &'a str)> + Clone),
+) -> &'a str {
+    const MOST: usize = 8;
+    if !line.contains('"') || dialect.closes_quotes(line) {
+        return line;
+    }
+    let mut ahead = lines.clone();
+    let start = line.as_ptr() as usize - section.text.as_ptr() as usize;
+    for _ in 0..MOST {
+        let Some((_, next)) = ahead.next() else { break };
+        let end = next.as_ptr() as usize - section.text.as_ptr() as usize + next.len();
+        if dialect.closes_quotes(&section.text[start..end]) {
+            *lines = ahead;
+            return &section.text[start..end];
+        }
+    }
+    line
+}
+
 /// The cells of a header line, unescaped, without empty ones at the end.
 pub(super) fn split(dialect: Dialect, line: &str) -> Vec<String> {
-    let mut cells: Vec<String> =
-        dialect.cells(line).take(MAX_CURVES + 1).map(|cell| unguarded(cell).replace("\"\"", "\"")).collect();
+    let plain = |cell: &str| {
+        let cell = unguarded(cell).replace("\"\"", "\"");
+        if cell.contains(['\n', '\r']) { unit_text::tidy(&cell) } else { cell }
+    };
+    let mut cells: Vec<String> = dialect.cells(line).take(MAX_CURVES + 1).map(plain).collect();
     while cells.last().is_some_and(String::is_empty) {
         cells.pop();
     }

@@ -5,7 +5,8 @@ mod axis;
 pub(super) use axis::*;
 
 use crate::role::{Quantity, Role, Values};
-use crate::text::{lower, words};
+use crate::text::{begins, lower, spaced, words};
+use crate::unit_text::percent_sign;
 
 /// Returns whether a column's header names a scale of the spectrum, which is no curve: wavelengths, wave numbers, energies of photons.
 pub(super) fn names_axis(text: &str) -> bool {
@@ -18,9 +19,9 @@ pub(super) fn names_axis(text: &str) -> bool {
 /// Returns whether a header says percent.
 pub(super) fn says_percent(text: &str) -> bool {
     let text = lower(text);
-    // `50% gray` is a name: only a sign that follows no figure is a unit.
-    let sign = text.match_indices('%').any(|(at, _)| !text[..at].trim_end().ends_with(|c: char| c.is_ascii_digit()));
-    sign || upper_end(&text) == Some(100) || words(&text).any(|word| matches!(word, "percent" | "pct" | "percentage"))
+    percent_sign(&text).is_some()
+        || upper_end(&text) == Some(100)
+        || words(&text).any(|word| matches!(word, "percent" | "pct" | "percentage"))
 }
 
 /// Returns whether a header says that values are fractions of one.
@@ -93,11 +94,10 @@ fn says_absorbance(lower: &str) -> bool {
     let culture = |word: &str| {
         word.strip_prefix("od").is_some_and(|nm| nm.len() == 3 && nm.bytes().all(|digit| digit.is_ascii_digit()))
     };
-    lower.contains("absorban")
+    begins(lower, "absorban|optical density")
         || lower.trim() == "extinktion"
         || matches!(lower.trim(), "a (au)" | "a [au]" | "a(au)")
         || words(lower).any(culture)
-        || lower.contains("optical density")
         || inverse_log(lower).is_some()
         || ((short() || abs()) && !says_percent(lower))
 }
@@ -119,8 +119,7 @@ pub(super) fn not_converted(text: &str) -> Option<&'static str> {
 pub(super) fn mentions_absorbance(text: &str) -> bool {
     const MOST_WORDS: usize = 15;
     let short = lower(text);
-    let about = |start: &str| short.match_indices(start).any(|(at, _)| !short[..at].ends_with(char::is_alphabetic));
-    ["absorban", "extinktion", "optical density"].iter().any(|start| about(start))
+    begins(&short, "absorban|extinktion|optical density")
         && words(&short).count() <= MOST_WORDS
         && quantity(text).is_none()
         && !says_percent(text)
@@ -136,7 +135,7 @@ pub(super) fn names_light_scale(text: &str) -> bool {
 
 /// Returns whether a header names a response, which is neither a light nor a fraction of one.
 pub(super) fn names_response(text: &str) -> bool {
-    words(&lower(text)).any(|word| word == "response")
+    words(&lower(text)).any(|word| matches!(word, "response" | "responses" | "quantum"))
 }
 
 /// Returns whether the unit of a header is AU, which is of absorbance or arbitrary.
@@ -168,36 +167,47 @@ pub(super) fn says_counts(text: &str) -> bool {
     words(&lower(text)).any(|word| matches!(word, "count" | "counts" | "adc" | "dn"))
 }
 
-/// The physical quantity that a header names.
+/// How names of quantities begin, in English, German, French, Spanish, Italian, Portuguese, Japanese and Chinese.
+const SENSITIVITIES: &str = "sensitivit|photosensitiv|responsiv|color match|colour match|color-match|colour-match|cone fund|\
+    empfindlichkeit|sensibilit|sensibilid|感度|luminous efficien|tristimulus val|action spectr";
+const REFLECTANCES: &str =
+    "reflect|reflekt|reflexi|refletâ|réflect|réflexi|riflett|rifless|remission|r-factor|反射率|反射比";
+const TRANSMITTANCES: &str = "transmit|transmiss|trasmitt|trasmiss|t-factor|透過率|透射";
+const IRRADIANCES: &str = "irradian|irradiân|irraggiam|exitance|bestrahlungsst|éclairement énerg|放射照度";
+const RADIANCES: &str = "radianc|radianz|radiânc|strahldichte|luminance énerg|放射輝度";
+
+/// The physical quantity that a header names, in whole words.
 pub(super) fn quantity(text: &str) -> Option<Quantity> {
-    let text = lower(text);
-    let any = |parts: &[&str]| parts.iter().any(|part| text.contains(part));
+    let text = spaced(text);
+    let any = |parts: &str| begins(&text, parts);
     let word = |wanted: &[&str]| words(&text).any(|word| wanted.contains(&word));
     // Light that something reflects or transmits is light.
-    let passed = any(&["reflected", "transmitted"]) && any(&["radian", "spectral flux", "power"]);
+    let passed = any("reflected|transmitted") && any("radian|irradian|spectral flux|power");
     let letter = percent_letter(&text).or_else(|| inverse_log(&text));
-    let found = if any(&["quantum eff"]) || word(&["qe"]) {
+    let found = if text.trim() == crate::heads::UNSPECIFIED {
+        Quantity::Unknown
+    } else if any("quantum eff") || word(&["qe"]) {
         Quantity::QuantumEfficiency
-    } else if any(&["sensitiv", "responsiv", "color match", "colour match", "color-match", "cone fund"]) {
+    } else if any(SENSITIVITIES) {
         Quantity::Sensitivity
-    } else if any(&["absorptan"]) {
+    } else if any("absorptan") {
         Quantity::Absorptance
-    } else if any(&["ln(1/", "ln 1/", "-ln("]) {
+    } else if any("ln(1/|ln 1/|-ln(") {
         // A natural logarithm, which is not converted.
         Quantity::Unknown
-    } else if !passed && (any(&["reflect", "r-factor", "反射率"]) || letter == Some('r')) {
+    } else if !passed && (any(REFLECTANCES) || word(&["rfr", "rpc", "rfl"]) || letter == Some('r')) {
         Quantity::Reflectance
-    } else if !passed && (any(&["transmit", "transmiss", "t-factor", "透過率"]) || letter == Some('t')) {
+    } else if !passed && (any(TRANSMITTANCES) || word(&["tfr", "tpc"]) || letter == Some('t')) {
         Quantity::Transmittance
-    } else if any(&["irradian", "exitance", "bestrahlungsst", "éclairement énerg"]) {
+    } else if any(IRRADIANCES) || word(&["irrad"]) {
         Quantity::Irradiance
-    } else if any(&["radiance"]) {
+    } else if any(RADIANCES) {
         Quantity::Radiance
-    } else if any(&["radiant intensity"]) {
+    } else if any("radiant intensity") {
         Quantity::RadiantIntensity
-    } else if any(&["radiant flux", "spectral flux"]) {
+    } else if any("radiant flux|spectral flux") {
         Quantity::RadiantFlux
-    } else if any(&["spectral power", "emission"]) || word(&["spd"]) {
+    } else if any("spectral power|spectral distribution") || word(&["spd", "emission", "emissions"]) {
         Quantity::SpectralPower
     } else if says_counts(&text) {
         Quantity::Counts
@@ -213,9 +223,8 @@ pub(super) fn quantity(text: &str) -> Option<Quantity> {
 pub(super) fn role(text: &str) -> Option<Role> {
     let light = || {
         let text = lower(text);
-        let any = |parts: &[&str]| parts.iter().any(|part| text.contains(part));
         let word = || words(&text).any(|word| matches!(word, "lux" | "cct"));
-        any(&["radian", "illuminan", "light source"]) || word()
+        begins(&text, "radianc|radiant flux|radiant power|radiant energ|irradian|illuminan|light source") || word()
     };
     match quantity(text) {
         Some(Quantity::Counts | Quantity::Relative) | None => light().then_some(Role::Illuminant),

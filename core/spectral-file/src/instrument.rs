@@ -13,8 +13,10 @@ const LONGEST: usize = 400;
 
 const THORLABS: &str = "Thorlabs (read as described, no real file was at hand)";
 
+const SVC: &str = "/*** Spectra Vista SIG Data";
+
 /// Beginnings or contents of lines, and the programs that write them.
-const MARKS: [(Mark, &str); 14] = [
+const MARKS: [(Mark, &str); 15] = [
     (Mark::Start("SpectraSuite Data File"), "Ocean SpectraSuite"),
     (Mark::Start("OOIBase32 Version"), "Ocean OOIBase32"),
     (Mark::Start("Jaz Data File"), "Ocean Jaz"),
@@ -29,6 +31,7 @@ const MARKS: [(Mark, &str); 14] = [
     (Mark::Start("#Thorlabs"), THORLABS),
     (Mark::Start("Thorlabs"), THORLABS),
     (Mark::Start("X Units:"), "the ECOSTRESS library"),
+    (Mark::Start(SVC), "Spectra Vista"),
 ];
 
 #[derive(Debug, Clone, Copy)]
@@ -61,6 +64,9 @@ pub(super) fn recognize(text: &str, grid: &mut Grid) -> Option<Decision> {
         grid.role
             .get_or_insert_with(|| Decided::guess(Role::Illuminant, format!("Line {line} is of an analyzer of light")));
     }
+    if text.starts_with(SVC) {
+        take_ratio(line, grid);
+    }
     if let Some((at, name)) = lines().find_map(|(at, line)| Some((at, library_name(line)?))) {
         grid.header.note(at, "title", name);
         if let [only] = grid.curves.as_mut_slice()
@@ -75,6 +81,19 @@ pub(super) fn recognize(text: &str, grid: &mut Grid) -> Option<Decision> {
 
 fn decision(program: &str, line: usize) -> Decision {
     Decision::new("Program", &Decided::certain(format!("a file of {program}"), format!("Line {line} shows it")))
+}
+
+/// Takes the last of the three columns of a Spectra Vista file, the target over the reference in percent; `units=` is of the others.
+fn take_ratio(line: usize, grid: &mut Grid) {
+    if grid.curves.len() != 3 {
+        return;
+    }
+    let why = "Its fourth column is the target over the reference in percent";
+    grid.curves.drain(..2);
+    grid.role = Some(Decided::certain(Role::Reflectance, why));
+    grid.quantity = Some(Decided::certain(Quantity::Reflectance, why));
+    grid.header.values = Some((line, Values::Percent));
+    (grid.header.role, grid.header.unit, grid.curves[0].unit) = (None, None, None);
 }
 
 /// The name of a sample of a spectral library.

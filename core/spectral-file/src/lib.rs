@@ -42,6 +42,7 @@
 )]
 
 mod bands;
+mod beside;
 mod binary;
 mod clues;
 mod columns;
@@ -56,6 +57,7 @@ mod gaps;
 mod grid;
 mod header;
 mod header_terms;
+mod heads;
 mod instrument;
 mod layout;
 mod limits;
@@ -86,6 +88,7 @@ mod wavelengths;
 mod wide;
 pub mod write;
 
+pub use beside::{METADATA, Source};
 pub use binary::BinaryKind;
 pub use chromascope_text::{cell, guarded, lowered, on_one_line, quoted, turns_text};
 pub use error::{NearMiss, ReadError};

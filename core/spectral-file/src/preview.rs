@@ -8,13 +8,13 @@
 //! ```
 //! use spectral_file::{Preview, ReadOptions, Watch, What, read_marked};
 //!
-//! let bytes = "nm;Leaf (%)\n400;5,5\n410;6,0\n".as_bytes();
+//! let bytes = "nm;Leaf reflectance (%)\n400;5,5\n410;6,0\n".as_bytes();
 //! let (table, marker) = read_marked(bytes, &ReadOptions::default(), Watch::none())?;
 //! let preview = Preview::new(bytes)?;
 //! let marks = preview.marks(2, &table, &marker);
 //! assert_eq!(&preview.line(2).unwrap()[marks[1].range.clone()], "5,5");
 //! assert_eq!(marks[0].what.describe(&table), "400 nm");
-//! assert_eq!(marks[1].what.describe(&table), "Leaf: 0.055 at 400 nm (written 5.5, percent)");
+//! assert_eq!(marks[1].what.describe(&table), "Leaf reflectance: 0.055 at 400 nm (written 5.5, percent)");
 //! # Ok::<(), spectral_file::ReadError>(())
 //! ```
 

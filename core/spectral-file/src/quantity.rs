@@ -35,7 +35,13 @@ fn said(grid: &Grid, role: &Decided<Role>) -> Option<Decided<Quantity>> {
     }
     // A relative scale of sensitivities is one of sensitivities.
     let fits = |quantity: Quantity| quantity != Quantity::Relative || !matches!(role.value, Role::Camera);
-    let labeled = grid.curves.iter().find_map(|curve| Some((header_terms::quantity(&curve.label)?, &curve.label)));
+    // A sample may be called `radiance paint`.
+    let own = |quantity: &Quantity| {
+        !role.value.is_fraction() || role.certainty == Certainty::Chosen || quantity.role() != Some(Role::Illuminant)
+    };
+    let labels = grid.curves.iter().map(|curve| &curve.label);
+    let mut labeled = labels.filter_map(|label| Some((header_terms::quantity(label).filter(own)?, label)));
+    let labeled = labeled.next();
     if let Some((quantity, label)) = labeled.filter(|(quantity, _)| fits(*quantity)) {
         return Some(Decided::certain(quantity, format!("A column is headed “{}”", excerpt(label))));
     }

@@ -46,5 +46,9 @@ fn is_processed(curve: &RawCurve) -> bool {
 }
 
 fn is_raw_name(name: &str) -> bool {
-    ["raw", "dark", "ref", "reference", "sample", "scope"].iter().any(|word| name.eq_ignore_ascii_case(word))
+    // Spectral Evolution: `Norm. DN (Ref.)`, `Rad. (Target)`.
+    let lower = name.to_lowercase();
+    let measured = lower.starts_with("norm. dn") || lower.starts_with("rad. (");
+    measured
+        || ["raw", "dark", "ref", "reference", "sample", "scope"].iter().any(|word| name.eq_ignore_ascii_case(word))
 }

@@ -1,5 +1,6 @@
 //! Reading of a file, from its bytes to its curves.
 
+use crate::beside::Source;
 use crate::error::ReadError;
 use crate::file::SpectralFile;
 use crate::formats::found::Found;
@@ -12,13 +13,13 @@ use crate::switch::Switch;
 use crate::warning::Warning;
 use crate::watch::{Log, Watch};
 use crate::wavelength_unit::WavelengthUnit;
-use crate::{formats, gaps, no_curve, photons, quantity, scale, text, wavelengths};
+use crate::{beside, formats, gaps, no_curve, photons, quantity, scale, text, wavelengths};
 
 /// Files up to this size are read again to find what an error is due to.
 const LONGEST: usize = 1 << 20;
 
 /// The error, with the chosen setting without which there would be none, if there is one.
-pub(super) fn blame(bytes: &[u8], options: &ReadOptions, error: ReadError, watch: Watch<'_>) -> ReadError {
+pub(super) fn blame(source: Source<'_>, options: &ReadOptions, error: ReadError, watch: Watch<'_>) -> ReadError {
     let own = matches!(
         error,
         ReadError::Stopped
@@ -29,11 +30,11 @@ pub(super) fn blame(bytes: &[u8], options: &ReadOptions, error: ReadError, watch
             | ReadError::OtherLayout(..)
             | ReadError::NotWavelengthColumn { .. }
     );
-    if own || bytes.len() > LONGEST {
+    if own || source.bytes.len() > LONGEST {
         return error;
     }
     for (switch, without) in switches(options) {
-        match read_once(bytes, &without, watch) {
+        match read_once(source, &without, watch) {
             Ok(_) => return ReadError::AsChosen { switch, error: Box::new(error) },
             Err(ReadError::Stopped) => return ReadError::Stopped,
             Err(_) => {}
@@ -65,14 +66,14 @@ fn switches(options: &ReadOptions) -> Vec<(Switch, ReadOptions)> {
     found.into_iter().flatten().collect()
 }
 
-/// Reads the bytes of a file as spectral curves.
+/// Reads the bytes of a file as spectral curves. What stands beside them is looked at where they do not say what the curves are.
 ///
-/// Deterministic: equal bytes and options give equal results. File names decide nothing.
+/// Deterministic: equal sources and options give equal results.
 ///
 /// # Errors
 /// The reason why the file could not be read, with line, column and remedy.
-pub fn read(bytes: &[u8], options: &ReadOptions) -> Result<SpectralFile, ReadError> {
-    read_watched(bytes, options, Watch::none())
+pub fn read<'a>(source: impl Into<Source<'a>>, options: &ReadOptions) -> Result<SpectralFile, ReadError> {
+    read_watched(source, options, Watch::none())
 }
 
 /// [`read`] with progress reports, which can stop it.
@@ -81,8 +82,13 @@ pub fn read(bytes: &[u8], options: &ReadOptions) -> Result<SpectralFile, ReadErr
 ///
 /// # Errors
 /// Those of [`read`], and [`ReadError::Stopped`].
-pub fn read_watched(bytes: &[u8], options: &ReadOptions, watch: Watch<'_>) -> Result<SpectralFile, ReadError> {
-    read_once(bytes, options, watch).map_err(|error| blame(bytes, options, error, watch))
+pub fn read_watched<'a>(
+    source: impl Into<Source<'a>>,
+    options: &ReadOptions,
+    watch: Watch<'_>,
+) -> Result<SpectralFile, ReadError> {
+    let source = source.into();
+    read_once(source, options, watch).map_err(|error| blame(source, options, error, watch))
 }
 
 /// [`read_watched`], with a record of where in the text each sample stands, for a [`crate::Preview`].
@@ -91,29 +97,35 @@ pub fn read_watched(bytes: &[u8], options: &ReadOptions, watch: Watch<'_>) -> Re
 ///
 /// # Errors
 /// Those of [`read_watched`].
-pub fn read_marked(bytes: &[u8], options: &ReadOptions, watch: Watch<'_>) -> Result<(SpectralFile, Marker), ReadError> {
+pub fn read_marked<'a>(
+    source: impl Into<Source<'a>>,
+    options: &ReadOptions,
+    watch: Watch<'_>,
+) -> Result<(SpectralFile, Marker), ReadError> {
+    let source = source.into();
     let found =
-        read_text(bytes, options, watch, true).and_then(|(file, marker)| Ok((file, marker.ok_or(ReadError::Empty)?)));
-    found.map_err(|error| blame(bytes, options, error, watch))
+        read_text(source, options, watch, true).and_then(|(file, marker)| Ok((file, marker.ok_or(ReadError::Empty)?)));
+    found.map_err(|error| blame(source, options, error, watch))
 }
 
 /// [`read_watched`], without a second look at what an error is due to.
-fn read_once(bytes: &[u8], options: &ReadOptions, watch: Watch<'_>) -> Result<SpectralFile, ReadError> {
-    read_text(bytes, options, watch, false).map(|(file, _)| file)
+fn read_once(source: Source<'_>, options: &ReadOptions, watch: Watch<'_>) -> Result<SpectralFile, ReadError> {
+    read_text(source, options, watch, false).map(|(file, _)| file)
 }
 
 fn read_text(
-    bytes: &[u8],
+    source: Source<'_>,
     options: &ReadOptions,
     watch: Watch<'_>,
     marked: bool,
 ) -> Result<(SpectralFile, Option<Marker>), ReadError> {
-    let (text, encoding) = text::decode(bytes)?;
+    let (text, encoding) = text::decode(source.bytes)?;
     let mut log = Log::new(watch, text.len());
     log.places = marked.then(|| Places::new(&text));
     log.look(0)?;
-    let found = formats::read(&text, options, &mut log)?;
+    let mut found = formats::read(&text, options, &mut log)?;
     log.look(text.len())?;
+    beside::take(source, &mut found.grid);
     finish(found, encoding, options, log)
 }
 
@@ -127,6 +139,10 @@ fn finish(
     let Found { mut grid, layout, reader, mut notes } = found;
     if grid.wavelengths.len() < 2 {
         return Err(ReadError::TooFewSamples(grid.line(0).max(layout.first_line)));
+    }
+    let infinite = |values: &[f64]| values.iter().position(|value| value.is_infinite());
+    if let Some(at) = grid.curves.iter().find_map(|curve| infinite(&curve.values)) {
+        return Err(ReadError::TooGreat(grid.line(at)));
     }
     let (parts, part) = grid.settle_parts(options.part, layout.first_line)?;
     let wavelength_unit = wavelengths::unit(&grid, options)?;
@@ -181,6 +197,7 @@ fn finish(
         wavelength_unit,
         values: scale.values,
         wavelength_column,
+        content_role: scale.content,
         quantity,
         per_photon,
         parts,

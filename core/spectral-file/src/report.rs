@@ -5,7 +5,7 @@ use std::fmt;
 
 use crate::decimal::clean;
 pub use crate::decision::{Certainty, Decided, Decision, Effect};
-use crate::role::{Quantity, Values};
+use crate::role::{Quantity, Role, Values};
 use crate::separators::{DecimalMark, Delimiter};
 use crate::wavelength_unit::WavelengthUnit;
 
@@ -222,6 +222,8 @@ pub struct ReadReport {
     pub wavelength_column: Option<usize>,
     /// Scale of the values, or of those of the columns that the header marks.
     pub values: Decided<Values>,
+    /// Role of the curves by their file and what stands beside it, whatever was chosen.
+    pub content_role: Decided<Role>,
     /// The physical quantity of the values.
     pub quantity: Decided<Quantity>,
     /// For camera sensitivities, whether they are responses per photon and not per energy.

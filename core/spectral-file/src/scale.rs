@@ -26,10 +26,10 @@ use crate::watch::Log;
 /// Decides what the curves are and what the values of each stand for.
 pub(super) fn decide(grid: &Grid, options: &ReadOptions, log: &mut Log<'_>) -> Scale {
     let evidence = evidence::Evidence::of(grid);
-    let said = role::said(grid, options);
+    let said = role::said(grid, options.values.filter(|_| options.role.is_none()));
     let from_file = said.is_some();
-    let found = said.unwrap_or_else(|| role::suggested(grid, &evidence));
-    let role = Decided::or_chosen(options.role, || found);
+    let content = said.unwrap_or_else(|| role::suggested(grid, &evidence));
+    let role = Decided::or_chosen(options.role, || content.clone());
     let (values, columns) = values::decide(grid, options, &role, from_file, &evidence, log);
-    Scale { role, values, columns }
+    Scale { role, content, values, columns }
 }

@@ -165,9 +165,14 @@ impl<'a> Iterator for Lines<'a> {
     }
 }
 
-/// The text of a comment line (`# …`), or `None`. A line that begins with a spreadsheet's error cell is no comment.
+/// The text of a comment line (`# …`, or `% …` as MATLAB and LaTeX have it), or `None`. A line that begins with a
+/// spreadsheet's error cell is no comment, and `%R` is a name.
 pub(super) fn comment(line: &str) -> Option<&str> {
-    let rest = line.trim_start().strip_prefix('#')?;
+    let line = line.trim_start();
+    if let Some(rest) = line.strip_prefix('%').map(|rest| rest.trim_start_matches('%')) {
+        return (rest.is_empty() || rest.starts_with(' ')).then(|| rest.trim());
+    }
+    let rest = line.strip_prefix('#')?;
     let error_cell = ["N/A", "DIV/0!", "NUM!", "VALUE!", "REF!", "NAME?"].iter().any(|cell| rest.starts_with(cell));
     (!error_cell).then(|| rest.trim())
 }
@@ -182,6 +187,25 @@ pub(super) fn lower(text: &str) -> String {
 
 pub(super) fn words(lower: &str) -> impl Iterator<Item = &str> {
     lower.split(|c: char| !c.is_alphanumeric() && c != '-' && c != '^' && c != '/').filter(|word| !word.is_empty())
+}
+
+/// Returns whether a word of a text in lower case begins with one of the parts between bars: `emission` is in `emission lines`, not
+/// in `remission`.
+pub(super) fn begins(lower: &str, parts: &str) -> bool {
+    let is_start = |at: usize| !lower[..at].ends_with(|c: char| c.is_ascii_alphabetic());
+    parts.split('|').any(|part| lower.match_indices(part).any(|(at, _)| is_start(at)))
+}
+
+/// A header with blanks between the words of names such as `LeafReflectance`, in lower case.
+pub(super) fn spaced(text: &str) -> String {
+    let mut out = String::with_capacity(text.len() + 8);
+    for c in text.chars().filter(|_| text.len() <= LONGEST) {
+        if c.is_uppercase() && out.ends_with(char::is_lowercase) {
+            out.push(' ');
+        }
+        out.push(c);
+    }
+    out.to_lowercase()
 }
 
 /// At most the first 40 characters of a piece of text, for messages.

@@ -14,13 +14,37 @@ pub(super) fn unit(text: &str) -> Option<String> {
         pairs.iter().find_map(|&(open, close)| last_bracket(text, open, close).filter(|inner| is_unit(inner)));
     // `R%` is a name with its sign.
     let signed = || Some("%").filter(|_| text.contains('%') && percent_name(text).is_some());
-    bracketed.or_else(signed).or_else(|| Some(text).filter(|text| is_unit(text))).map(repaired)
+    let behind_slash = || slashed(text).map(|(_, unit)| unit).filter(|unit| is_quotient(unit));
+    bracketed.or_else(signed).or_else(behind_slash).or_else(|| Some(text).filter(|text| is_unit(text))).map(repaired)
 }
 
-/// The name before a sign of percent that ends it, unless a figure stands there: `R%`, `leaf %`.
+/// The first sign of percent that is a unit: none in a figure such as `50%`, `50 %` or `50_%`, but that of `T8 %`.
+pub(super) fn percent_sign(text: &str) -> Option<usize> {
+    text.match_indices('%').map(|(at, _)| at).find(|&at| {
+        let before = text[..at].trim_end_matches([' ', '_']);
+        let word = before.rsplit([' ', '\t', '_', '(', '[', '"']).next().unwrap_or_default();
+        let number = word.bytes().all(|b| b.is_ascii_digit() || matches!(b, b'.' | b',' | b'-' | b'+'));
+        !(before.ends_with(|c: char| c.is_ascii_digit()) && (number || before.len() == at))
+    })
+}
+
+/// The name before a sign of percent that ends it, unless a figure stands there: `R%`, `leaf %`, `T8 %`.
 pub(super) fn percent_name(text: &str) -> Option<&str> {
-    let name = text.trim().strip_suffix('%')?.trim_end();
-    name.ends_with(char::is_alphabetic).then_some(name)
+    let name = text.trim().strip_suffix('%')?;
+    let signed = percent_sign(text.trim()) == Some(name.len());
+    Some(name.trim_end_matches([' ', '/', '_'])).filter(|name| signed && name.ends_with(char::is_alphanumeric))
+}
+
+/// A name and the unit behind a slash, as ISO 80000 has it: `Frequency/THz`, `λ / nm`. What stands before is letters alone.
+pub(super) fn slashed(text: &str) -> Option<(&str, &str)> {
+    let (name, unit) = text.split_once('/').map(|(name, unit)| (name.trim(), unit.trim()))?;
+    let letters = name.starts_with(char::is_alphabetic) && !name.contains(|c: char| c.is_ascii_digit() || c == '(');
+    Some((name, unit)).filter(|(_, unit)| letters && !unit.is_empty())
+}
+
+/// Returns whether a text is a whole unit of light, such as `W m-2 nm-1`, and no part of one, such as `m2/nm`.
+fn is_quotient(text: &str) -> bool {
+    units::parse(text).is_some_and(|unit| unit.start == 0)
 }
 
 /// A column's name without the unit in brackets at its end.
@@ -31,7 +55,12 @@ pub(super) fn without_unit(name: &str) -> &str {
         let bare = name[..inner.as_ptr() as usize - name.as_ptr() as usize].trim_end().strip_suffix(open)?.trim_end();
         Some(bare).filter(|bare| !bare.is_empty())
     });
-    ends.or_else(|| percent_name(name)).unwrap_or(name)
+    let behind_slash = || slashed(name).filter(|(_, unit)| is_quotient(unit)).map(|(bare, _)| bare);
+    ends.map(|bare| bare.trim_end_matches(['/', ' ']))
+        .or_else(|| percent_name(name))
+        .or_else(behind_slash)
+        .filter(|bare| !bare.is_empty())
+        .unwrap_or(name)
 }
 
 /// Content of the last pair of brackets, which may hold others.
@@ -47,7 +76,12 @@ fn last_bracket(text: &str, open: char, close: char) -> Option<&str> {
 
 /// The unit in a cell of a row of units, whatever it is.
 pub(super) fn unit_cell(cell: &str) -> Option<String> {
-    let bare = cell.trim().trim_start_matches(['[', '(']).trim_end_matches([']', ')']).trim();
+    let cell = cell.trim();
+    let inner = |[open, close]: [char; 2]| {
+        let inner = cell.strip_prefix(open)?.strip_suffix(close)?.trim();
+        Some(inner).filter(|inner| last_bracket(cell, open, close) == Some(*inner))
+    };
+    let bare = inner(['[', ']']).or_else(|| inner(['(', ')'])).unwrap_or(cell).trim();
     let usable = !bare.is_empty() && bare.chars().count() <= LONGEST_UNIT;
     usable.then(|| repaired(bare))
 }

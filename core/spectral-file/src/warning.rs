@@ -221,7 +221,7 @@ pub enum Warning {
         /// As found.
         found: usize,
     },
-    /// Curves read as fractions of light that reach values no such fraction has.
+    /// Curves that reach values no quantity of their role has.
     NotReflectances {
         /// Number.
         count: usize,

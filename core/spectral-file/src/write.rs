@@ -31,7 +31,7 @@
 //! let leaf = Trace { name: "leaf", wavelengths_nm: &[400.0, 410.0], values: &[0.055, 0.06] };
 //! let sheet = Sheet { title: "Leaf", content: Content::Reflectance, curves: &[leaf], ..Sheet::default() };
 //! let written = write(&sheet, Format::Csv, Grid::Native)?;
-//! assert!(written.text.ends_with("wavelength_nm,leaf\n400,0.055\n410,0.06\n"));
+//! assert!(written.text.ends_with("wavelength_nm,leaf [reflectance factor in 1]\n400,0.055\n410,0.06\n"));
 //! assert!(written.notes.is_empty());
 //! # Ok::<(), spectral_file::write::WriteError>(())
 //! ```
@@ -137,7 +137,7 @@ pub fn write(sheet: &Sheet<'_>, format: Format, grid: Grid) -> Result<Written, W
     Ok(Written { text, notes })
 }
 
-/// The table of the command line: `wavelength_nm,<curve>…` and nothing above it.
+/// The table of the command line: `wavelength_nm,<curve> [<quantity> in <unit>]…` and nothing above it.
 ///
 /// Has a row for every wavelength of any curve; a cell is blank where its curve has no sample.
 ///

@@ -70,7 +70,9 @@ impl Query for FilePreviewQuery {
         let preview = (*ask.ask(&PreviewQuery { contents: contents.clone() })).clone();
         let stop = ask.stop();
         let go_on = |_: f32| !stop.is_set();
-        let (table, marker) = match spectral_file::read_marked(&contents.bytes, options, Watch::new(&go_on)) {
+        let source = contents.origin.source(&contents.bytes);
+        let read = spectral_file::read_marked(source, options, Watch::new(&go_on));
+        let (table, marker) = match read.and_then(|(table, marker)| Ok((table.usable()?, marker))) {
             Ok((table, marker)) => (Ok(Arc::new(table)), Some(marker)),
             Err(error) => (Err(error), None),
         };

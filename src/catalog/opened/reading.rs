@@ -173,8 +173,7 @@ fn contents(
                     format!("{name}: a session stores the path of a mesh, so the mesh must be on disk; save it first");
                 return Err(Unread::Because(sentence));
             }
-            let origin = Origin { path: None, fingerprint: Fingerprint::of(&bytes), name };
-            Ok(Some((origin, bytes, None)))
+            Ok(Some((Origin::named(&name, &bytes), bytes, None)))
         }
         Request::Path(path) => {
             let path = known_path(path, monitor);
@@ -205,7 +204,7 @@ fn known_path(path: PathBuf, monitor: &Monitor) -> PathBuf {
 }
 
 fn origin(path: &Path, bytes: &[u8]) -> Origin {
-    Origin { name: file_name(path), path: Some(path.to_owned()), fingerprint: Fingerprint::of(bytes) }
+    Origin::on_disk(&file_name(path), path, bytes)
 }
 
 fn take(

@@ -8,6 +8,7 @@ use std::time::Instant;
 use chromascope_core::correction::aces::IdtExposure;
 use chromascope_core::query::{Ask as _, RecordedSet, Shared};
 use chromascope_figure::FigureRoom;
+use spectral_file::SpectralFile;
 
 use super::arguments::FigureKind;
 use crate::catalog::import::{Origin, imported};
@@ -157,10 +158,10 @@ pub(super) fn set_mesh(document: &mut Document, mesh: &OsStr) -> Result<(), CliE
 pub(super) fn open_curves(request: &mut Request, path: &Path) -> Result<(), CliError> {
     let bytes = request.bytes(path)?;
     let mut wishes = ImportOverrides::default();
-    let table = spectral_file::read(&bytes, &wishes.options);
+    let origin = Origin::on_disk(&display_path(path), path, &bytes);
+    let table = spectral_file::read(origin.source(&bytes), &wishes.options).and_then(SpectralFile::usable);
     let table = table.map_err(|error| CliError::File(format!("{}: {error}", display_path(path))))?;
     wishes.taken = Some((0..table.curves.len()).collect());
-    let origin = Origin { path: Some(path.to_owned()), ..Origin::named(&display_path(path), &bytes) };
     request.document.own.push(Shared::new(imported(&origin, &table, &wishes).set));
     Ok(())
 }

@@ -11,36 +11,62 @@ use crate::panes::widgets::lines;
 use crate::theme::UNIT;
 
 /// An answer: its text, a hint, and its effect.
-type Answer = (&'static str, &'static str, Option<Role>, Values);
+type Answer = (&'static str, &'static str, Option<Role>, Option<Values>);
 
 /// Answers where nothing indicates the quantity.
-const KINDS: [Answer; 3] = [
+const KINDS: [Answer; 5] = [
+    ("Reflectances", "Use the numbers as reflectances, fractions of one", Some(Role::Reflectance), None),
+    ("Filter", "Use the numbers as transmittances, fractions of one", Some(Role::Transmittance), None),
+    LIGHT,
+    CAMERA,
+    AS_WRITTEN,
+];
+
+/// Answers where nothing indicates the quantity, and fractions of one are out of the question.
+const LARGE_KINDS: [Answer; 5] = [
     (
         "Reflectances in percent",
         "Divide the numbers by 100 and use them as reflectances",
         Some(Role::Reflectance),
-        Values::Percent,
+        Some(Values::Percent),
     ),
-    ("Light", "Use the numbers as spectral power of a light", Some(Role::Illuminant), Values::Plain),
     (
-        "As written",
-        "Import as spectra of an unknown kind; change it any time under “This is a”",
-        Some(Role::Unknown),
-        Values::Plain,
+        "Filter in percent",
+        "Divide the numbers by 100 and use them as transmittances",
+        Some(Role::Transmittance),
+        Some(Values::Percent),
     ),
+    LIGHT,
+    CAMERA,
+    AS_WRITTEN,
 ];
+
+const LIGHT: Answer = ("Light", "Use the numbers as spectral power of a light", Some(Role::Illuminant), None);
+const CAMERA: Answer = ("Camera", "Use the numbers as sensitivities of a camera", Some(Role::Camera), None);
+const AS_WRITTEN: Answer = (
+    "As written",
+    "Import as spectra of an unknown kind; change it any time under “This is a”",
+    Some(Role::Unknown),
+    None,
+);
 
 /// Answers where only the scale is open.
 const SCALES: [Answer; 2] = [
-    ("In percent", "Divide the numbers by 100", None, Values::Percent),
-    ("As written", "Use the numbers as fractions of one", None, Values::Plain),
+    ("In percent", "Divide the numbers by 100", None, Some(Values::Percent)),
+    ("As written", "Use the numbers as fractions of one", None, Some(Values::Plain)),
 ];
+
+/// Reflectances pass one by noise and fluorescence.
+const LARGEST_FRACTION: f64 = 1.2;
 
 /// Open question about the visible file, and the answers.
 fn question(table: &SpectralFile) -> Option<(&str, &'static [Answer])> {
     let open = |certainty| certainty == Certainty::Open;
     match (&table.role, &table.reading.values) {
-        (role, _) if open(role.certainty) => Some((&role.why, &KINDS)),
+        (role, _) if open(role.certainty) => {
+            let large = table.curves.iter().flat_map(|curve| &curve.values).any(|value| *value > LARGEST_FRACTION);
+            Some((&role.why, if large { &LARGE_KINDS } else { &KINDS }))
+        }
         (_, values) if open(values.certainty) => Some((&values.why, &SCALES)),
         _ => None,
     }
@@ -63,7 +89,7 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, shown: &ImportSelection, context: &m
             if ui.button(*words).on_hover_text(*hint).clicked() {
                 let mut wishes = shown.wishes.clone();
                 wishes.options.role = role.or(wishes.options.role);
-                wishes.options.values = Some(*values);
+                wishes.options.values = values.or(wishes.options.values);
                 context.push(Command::Wish(shown.item.clone(), Box::new(wishes)));
             }
         }

@@ -77,7 +77,8 @@ fn the_table_is_fractions_and_reads_back() {
     assert!(done(&[&leaf, "--csv", out.to_str().unwrap()]).contains("Role"), "the report stays");
     let text = std::fs::read_to_string(&out).unwrap();
     assert!(
-        text.starts_with("wavelength_nm,leaf\n") && text.ends_with("\n400,0.055\n410,0.06\n430,0.0825\n"),
+        text.starts_with("wavelength_nm,leaf [reflectance factor in 1]\n")
+            && text.ends_with("\n400,0.055\n410,0.06\n430,0.0825\n"),
         "{text}"
     );
     let (first, again) =

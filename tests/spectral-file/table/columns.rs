@@ -104,7 +104,7 @@ fn points_that_are_chosen_leave_commas_to_thousands() {
 
 #[test]
 fn fractions_of_three_digits_are_no_thousands() {
-    let table = ok("nm;%\n400;99.125\n410;100\n420;98.750\n430;97.125\n440;96.500\n");
+    let table = ok("nm;Reflectance (%)\n400;99.125\n410;100\n420;98.750\n430;97.125\n440;96.500\n");
     assert_eq!((table.curves[0].values[0], table.warnings.as_slice()), (0.99125, &[][..]));
     let named = ok("nm;Reflectance\n400;9.125\n410;7.100\n420;8.750\n430;7.125\n440;6.500\n");
     assert_eq!((named.curves[0].values[0], named.warnings.as_slice()), (0.09125, &[][..]));

@@ -6,6 +6,10 @@ use super::{names, ok, samples};
 
 #[test]
 fn cells_with_a_unit_are_numbers_where_the_column_agrees() {
+    let ok = |text: &str| {
+        let options = ReadOptions { role: text.contains('%').then_some(Role::Reflectance), ..ReadOptions::default() };
+        read(text.as_bytes(), &options).unwrap()
+    };
     let table = ok("nm,A\n400,4.0%\n410,5.0%\n420,6.5%\n");
     assert_eq!(samples(&table.curves[0]), [(400.0, 0.04), (410.0, 0.05), (420.0, 0.065)]);
     assert_eq!((table.curves[0].unit.as_deref(), table.warnings.len()), (Some("%"), 0));
@@ -49,7 +53,7 @@ fn marks(text: &str, line: usize) -> Vec<Mark> {
 
 #[test]
 fn values_with_units_are_marked_in_the_text() {
-    let marks = marks("nm,A\n400,4.0%\n410,5.0%\n420,6.5%\n", 2);
+    let marks = marks("nm,Reflectance\n400,4.0%\n410,5.0%\n420,6.5%\n", 2);
     assert_eq!(marks[1].what, What::Value { curve: 0, nm: 400.0, value: 0.04, written: 4.0 });
 }
 
@@ -86,7 +90,8 @@ fn rows_that_begin_anew_are_another_spectrum() {
 #[test]
 fn a_sign_of_percent_behind_a_name_is_its_unit() {
     for (head, name) in [("R%", "R"), ("leaf %", "leaf")] {
-        let table = ok(&format!("nm,{head}\n400,10\n410,20\n420,30\n"));
+        let options = ReadOptions { role: Some(Role::Reflectance), ..ReadOptions::default() };
+        let table = read(format!("nm,{head}\n400,10\n410,20\n420,30\n").as_bytes(), &options).unwrap();
         let curve = &table.curves[0];
         assert_eq!((curve.name.as_str(), curve.unit.as_deref(), curve.values[0]), (name, Some("%"), 0.1));
     }

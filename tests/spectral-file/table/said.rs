@@ -27,7 +27,7 @@ fn quantities_and_units() {
             Sure::Certain,
         ),
         ("nm,Absorptance\n400,0.3\n500,0.4\n", None, Is::Absorptance, Sure::Certain),
-        ("400,0.3\n500,0.4\n", None, Is::Reflectance, Sure::Guess),
+        ("400,0.3\n500,0.4\n", None, Is::Unknown, Sure::Open),
         ("400,300\n500,400\n", None, Is::Unknown, Sure::Open),
     ] {
         let table = ok(text);

@@ -21,7 +21,8 @@ fn csv() {
     let (curves, comments) = (three(), comments());
     let sheet = Sheet { comments: &comments, ..sheet(CAMERA, &curves) };
     let out = written(&sheet, Format::Csv, Grid::Native);
-    let table = "wavelength_nm,red,green,blue\n400,0,0.1,1\n410,0.25,1,0.5\n420,1,1e-7,-0\n";
+    let names = ["red", "green", "blue"].map(|name| format!("{name} [relative spectral sensitivity per energy in 1]"));
+    let table = format!("wavelength_nm,{}\n400,0,0.1,1\n410,0.25,1,0.5\n420,1,1e-7,-0\n", names.join(","));
     let head = "# title: Made up\n# quantity: relative spectral sensitivity\n# unit: 1\n# response: per energy\n";
     let more = "# manufacturer: Nobody\n# model: N1\n# source: made up\n# license: CC0-1.0\n";
     assert_eq!(out.text, format!("{head}{more}{table}"));
@@ -39,11 +40,14 @@ fn what_is_known_goes_along() {
     let comments = [pair("license", "CC0-1.0"), pair("License", "MIT"), pair("a: b", "c"), pair("empty", " \n")];
     let lamp = Sheet { title: "", unit: Some("W/m²/nm"), comments: &comments, ..sheet(Content::Illuminant, &curves) };
     let csv = written(&lamp, Format::Csv, Grid::Native).text;
-    let head = "# title: lamp\n# quantity: spectral power\n# unit: W/m²/nm\n# license: CC0-1.0\n# License: MIT\n";
-    assert!(csv.starts_with(&format!("{head}# a  b: c\nwavelength_nm,lamp\n")), "{csv}");
+    let head = "# title: lamp\n# quantity: spectral irradiance\n# unit: W/m²/nm\n# license: CC0-1.0\n# License: MIT\n";
+    assert!(
+        csv.starts_with(&format!("{head}# a  b: c\nwavelength_nm,lamp [spectral irradiance in W/m²/nm]\n")),
+        "{csv}"
+    );
     let json = written(&lamp, Format::RawtoacesJson, Grid::Native);
     assert!(json.text.contains("\"license\": \"CC0-1.0; MIT\"") && json.notes.is_empty());
-    assert!(json.text.contains("\"comments\": \"quantity: spectral power; unit: W/m²/nm; a: b: c\""));
+    assert!(json.text.contains("\"comments\": \"quantity: spectral irradiance; unit: W/m²/nm; a: b: c\""));
     let leaf = written(&Sheet { content: Content::Reflectance, ..lamp }, Format::Csv, Grid::Native).text;
     assert!(leaf.starts_with("# title: lamp\n# quantity: reflectance factor\n# unit: 1\n"), "a fraction has no unit");
 }
@@ -56,8 +60,9 @@ fn csv_of_several_grids_and_odd_names() {
     let curves = [a, b, c];
     let sheet = sheet(Content::Other, &curves);
     let out = canonical_csv(&sheet, Grid::Native).unwrap();
+    let no = "[unspecified quantity]";
     let rows = "401,0.1,,\n405,0.5,0.25,\n411,,,1\n412,0.2,,2\n500.5,,1,\n";
-    assert_eq!(out.text, format!("wavelength_nm,\"say \"\"a, b\"\"\",two  lines,Curve 3\n{rows}"));
+    assert_eq!(out.text, format!("wavelength_nm,\"say \"\"a, b\"\" {no}\",two  lines {no},Curve 3 {no}\n{rows}"));
     assert_eq!(out.notes, [Note::Renamed(2)]);
     let out = canonical_csv(&sheet, Grid::Step(7.0)).unwrap();
     let rows: Vec<&str> = out.text.lines().skip(1).collect();

@@ -150,25 +150,51 @@ fn what_they_are_comes_back() {
 
 #[test]
 fn what_curves_are_is_certain_in_every_format() {
-    let irradiance = Some("W/m²/nm");
+    use spectral_file::Quantity as Is;
     each(|format, content, names| {
-        let role = match content {
-            CAMERA | Content::Observer => Role::Camera,
-            Content::Reflectance => Role::Reflectance,
-            Content::Transmittance => Role::Transmittance,
-            Content::Illuminant => Role::Illuminant,
-            _ => return,
+        let (role, quantity) = match content {
+            CAMERA | Content::Observer => (Role::Camera, Is::Sensitivity),
+            Content::Reflectance => (Role::Reflectance, Is::Reflectance),
+            Content::Transmittance => (Role::Transmittance, Is::Transmittance),
+            Content::Illuminant => (Role::Illuminant, Is::SpectralPower),
+            _ => (Role::Unknown, Is::Unknown),
         };
         let curves = Curves::bells(names, [400.0, 700.0], 10.0);
         let traces = curves.traces();
-        let light = content == Content::Illuminant;
-        for unit in [None, irradiance.filter(|_| light)] {
-            let table = back(&written(&Sheet { unit, ..sheet(content, &traces) }, format, Grid::Native).text);
-            let found = (table.role.value, table.role.certainty);
-            assert_eq!(found, (role, Certainty::Certain), "{format} {content:?} {unit:?}: {}", table.role.why);
-            // rawtoaces has a list of its own for units.
-            let kept = unit.is_some() && format != Format::RawtoacesJson;
-            assert!(!kept || table.curves[0].unit.as_deref() == unit, "{format} {content:?}");
+        let units = [("W/m²/nm", Is::Irradiance), ("mW/sr/m²/nm", Is::Radiance), ("W/nm", Is::RadiantFlux)];
+        let units = units.into_iter().filter(|_| content == Content::Illuminant).map(|(unit, is)| (Some(unit), is));
+        for (unit, quantity) in units.chain([(None, quantity)]) {
+            let sheet = Sheet { unit, ..sheet(content, &traces) };
+            let mut texts = vec![written(&sheet, format, Grid::Native).text];
+            if format == Format::Csv {
+                // Without the lines above the table, its heads say it; without its heads, those lines.
+                texts.push(canonical_csv(&sheet, Grid::Native).unwrap().text);
+                let bare = format!("wavelength_nm,{}\n", names.join(","));
+                let above = texts[0].lines().filter(|line| line.starts_with('#')).map(|line| format!("{line}\n"));
+                let rows = texts[1].split_once('\n').unwrap().1;
+                texts.push(above.chain([bare, rows.to_owned()]).collect());
+            }
+            for text in texts {
+                let table = back(&text);
+                let found = (table.role.value, table.role.certainty);
+                assert_eq!(
+                    found,
+                    (role, Certainty::Certain),
+                    "{format} {content:?} {unit:?}: {}\n{text}",
+                    table.role.why
+                );
+                assert_ne!(table.reading.values.certainty, Certainty::Open, "{format} {content:?} {unit:?}");
+                // rawtoaces has a list of its own for units.
+                let kept = content != Content::Illuminant || format != Format::RawtoacesJson;
+                assert!(
+                    !kept || table.reading.quantity.value == quantity,
+                    "{format} {content:?} {unit:?}: {:?}",
+                    table.reading.quantity
+                );
+                assert!(!kept || unit.is_none() || table.curves[0].unit.as_deref() == unit, "{format} {content:?}");
+                let per_photon = table.reading.per_photon.filter(|_| content == CAMERA);
+                assert!(per_photon.is_none_or(|said| said.certainty == Certainty::Certain && !said.value), "{format}");
+            }
         }
     });
 }

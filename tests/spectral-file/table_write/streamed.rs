@@ -137,5 +137,5 @@ fn what_is_written_of_a_name_stays_on_its_line() {
     let (wavelengths, values) = ([400.0, 500.0], [0.1, 0.2]);
     let trace = Trace { name: "a\u{0}b\r\nc\u{202e}d", wavelengths_nm: &wavelengths, values: &values };
     let text = canonical_csv(&sheet(Content::Other, &[trace]), Grid::Native).unwrap().text;
-    assert_eq!(text, "wavelength_nm,a b  cd\n400,0.1\n500,0.2\n");
+    assert_eq!(text, "wavelength_nm,a b  cd [unspecified quantity]\n400,0.1\n500,0.2\n");
 }

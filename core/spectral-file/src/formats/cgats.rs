@@ -132,6 +132,7 @@ impl File {
             "SPECTRAL_START_NM" => self.declared.start = number,
             "SPECTRAL_END_NM" => self.declared.end = number,
             "SPECTRAL_NORM" | "SPEC_SCALE" => self.scale = number.filter(|n| *n > 0.0).map(|n| (line, n)),
+            "IT8.7/1" => self.header.role = Some((line, Role::Transmittance)),
             "DEVICE_CLASS" => {
                 let role = if value == "DISPLAY" { Role::Illuminant } else { Role::Reflectance };
                 self.header.mentioned = self.header.mentioned.or(Some((line, role)));
@@ -272,6 +273,7 @@ impl File {
         if let Some((line, norm)) = self.scale {
             scale = norm;
             header.values = Some((line, Values::Plain));
+            header.mentioned = by_norm(&header, line, norm).or(header.mentioned);
             let divided = Decided::certain(format!("divided by {norm}"), format!("Line {line} gives the scale"));
             notes.push(Decision::new("Scale", &divided));
         }
@@ -291,7 +293,12 @@ impl File {
         let unit = Some(Decided::certain(WavelengthUnit::Nanometer, "CGATS prescribes it"));
         let part = Some(Decided::guess(self.wanted, format!("{} tables have spectral fields", parts.len())));
         let wavelengths = bands.wavelengths;
-        let grid = Grid { wavelengths, lines, curves, header, unit, parts, part, rows, ..Grid::default() };
+        let fraction = |value: &f64| value.is_nan() || (-0.2..=1.2).contains(value);
+        let fractions = curves.iter().flat_map(|curve: &RawCurve| &curve.values).all(fraction);
+        let samples = self.fields.iter().any(|field| matches!(field.as_str(), "SAMPLE_ID" | "SAMPLE_NAME"));
+        let role = (samples && (fractions || header.values.is_some()))
+            .then(|| Decided::guess(Role::Reflectance, "CGATS lists samples, mostly those of a chart"));
+        let grid = Grid { wavelengths, lines, curves, header, unit, parts, part, rows, role, ..Grid::default() };
         let dialect = (Delimiter::Spaces, DecimalMark::Point);
         let layout = Layout::fixed(dialect, Orientation::Across, self.data_line + 1, "CGATS prescribes it");
         let why = format!("Line {} begins a data format", self.format_line);
@@ -314,6 +321,11 @@ impl File {
         }
         Ok(parts)
     }
+}
+
+/// Older versions of Argyll call every file “Spectral power/reflectance information”: a scale of other than 1 or 100 is of lights.
+fn by_norm(header: &Header, line: usize, norm: f64) -> Option<(usize, Role)> {
+    header.comment("SPECTRAL_NORM").filter(|_| norm != 1.0 && norm != 100.0).map(|_| (line, Role::Illuminant))
 }
 
 /// Role of the curves of a kind of measurement, as Argyll names it.

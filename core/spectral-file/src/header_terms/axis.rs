@@ -2,6 +2,7 @@
 
 use crate::report::Medium;
 use crate::text::{lower, words};
+use crate::unit_text::slashed;
 use crate::wavelength_unit::WavelengthUnit;
 
 /// Quantity on the x axis, as a header may name it.
@@ -14,7 +15,7 @@ pub(crate) enum XUnit {
 
 /// The first unit of length, of wave number or of frequency in a piece of text.
 pub(crate) fn x_unit(text: &str) -> Option<XUnit> {
-    let text = lower(text).replace('⁻', "-").replace('¹', "1");
+    let text = bracketed(lower(text)).replace('⁻', "-").replace('¹', "1");
     if let Some(unit) = bracketed_letter(&text) {
         return Some(unit);
     }
@@ -28,13 +29,31 @@ pub(crate) fn x_unit(text: &str) -> Option<XUnit> {
     unit.or_else(|| wave_numbers.then_some(XUnit::Wavelength(WavelengthUnit::Wavenumber)))
 }
 
+/// Words for wavelengths and what stands for them.
+const NAMES: [&str; 11] =
+    ["wavelength", "wavelengths", "wave", "wl", "lambda", "λ", "wavenumber", "wave number", "frequency", "freq", "ν"];
+
+/// As other languages call them.
+const CALLED: [&str; 7] =
+    ["wellenl", "longueur d", "longitud de onda", "lunghezza d", "comprimento de onda", "波長", "波长"];
+
+/// A header in lower case with its unit in brackets, if it stands behind a slash: `frequency (thz)` of `frequency/thz`.
+fn bracketed(lower: String) -> String {
+    match slashed(&lower) {
+        Some((name, unit)) if NAMES.contains(&name) || CALLED.iter().any(|start| name.starts_with(start)) => {
+            format!("{name} ({})", unit.trim_matches(['(', ')']))
+        }
+        _ => lower,
+    }
+}
+
 /// A unit of one letter, or a multiple of one, in brackets right after the word for wavelengths: `Wavelength (A)`, `wave(m)`,
 /// `Wavenumber (10^3 cm-1)`.
 fn bracketed_letter(lower: &str) -> Option<XUnit> {
-    const NAMES: [&str; 7] = ["wavelength", "wavelengths", "wave", "wl", "lambda", "wavenumber", "wave number"];
     let (name, rest) = lower.split_once(['(', '['])?;
     let unit = rest[..rest.find([')', ']'])?].trim();
-    if !NAMES.contains(&name.trim_matches(|c: char| !c.is_alphanumeric())) {
+    let name = name.trim_matches(|c: char| !c.is_alphanumeric());
+    if !NAMES.contains(&name) && !CALLED.iter().any(|start| name.starts_with(start)) {
         return None;
     }
     let multiple = ["10^3", "10^4", "10³", "1000", "k"].iter().any(|start| unit.starts_with(start));
@@ -93,11 +112,9 @@ pub(crate) fn begins_with_wavelengths(text: &str) -> bool {
 
 /// Returns whether a column's header names wavelengths, wave numbers or frequencies of light.
 pub(crate) fn names_wavelengths(text: &str) -> bool {
-    // As other languages call them, and as their unit alone does.
-    const CALLED: [&str; 7] =
-        ["wellenl", "longueur d", "longitud de onda", "lunghezza d", "comprimento de onda", "波長", "波长"];
+    // As their unit alone does.
     const UNITS: [&str; 10] = ["[nm]", "(nm)", "[µm]", "(µm)", "[μm]", "(μm)", "[um]", "(um)", "[cm-1]", "(cm-1)"];
-    let text = without_argument(&lower(text));
+    let text = without_argument(&bracketed(lower(text)));
     if CALLED.iter().chain(&UNITS).any(|part| text.contains(part)) {
         return true;
     }

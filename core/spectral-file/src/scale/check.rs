@@ -9,7 +9,9 @@ use crate::watch::Log;
 
 /// Warns of reflectances that cannot be, and of values further below zero than noise, also of lights.
 pub(crate) fn warn(scale: &Scale, grid: &Grid, log: &mut Log<'_>) {
-    const LARGEST: f64 = 2.0;
+    const LARGEST_FRACTION: f64 = 2.0;
+    // Photons on a square meter in a second and a nanometer stay below 1e22.
+    const LARGEST: f64 = 1e30;
     const NOISE: f64 = 0.05;
     let role = scale.role.value;
     let light = role == Role::Illuminant;
@@ -29,7 +31,7 @@ pub(crate) fn warn(scale: &Scale, grid: &Grid, log: &mut Log<'_>) {
                 lowest = if value < lowest.0 { (value, at) } else { lowest };
             }
         }
-        if role.is_fraction() && max > LARGEST && !all {
+        if (role.is_fraction() && max > LARGEST_FRACTION && !all) || max > LARGEST {
             bright += 1;
             first_bright.get_or_insert((curve, max));
         }

@@ -7,6 +7,8 @@ use crate::role::{Role, Values};
 #[derive(Debug)]
 pub(crate) struct Scale {
     pub(crate) role: Decided<Role>,
+    /// The role by content and surroundings, where another was chosen.
+    pub(crate) content: Decided<Role>,
     /// Scale of most curves.
     pub(crate) values: Decided<Values>,
     pub(super) columns: Vec<Values>,

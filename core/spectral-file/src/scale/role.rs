@@ -1,7 +1,6 @@
 //! Role of the curves: as stated in the file, as suggested by its settings, or by its numbers.
 
 use crate::grid::{Grid, RawCurve};
-use crate::options::ReadOptions;
 use crate::report::{Certainty, Decided};
 use crate::role::{Role, Values};
 use crate::scale::camera::{MOST_CHANNELS, bells, channels};
@@ -10,9 +9,12 @@ use crate::scale::values::LARGEST_PERCENT;
 use crate::text::excerpt;
 use crate::{header_terms, quantity, unit_text};
 
-/// Role that words in the file state or mention.
-pub(super) fn said(grid: &Grid, options: &ReadOptions) -> Option<Decided<Role>> {
-    stated(grid).or_else(|| hinted(grid, options))
+/// Counts of detectors are larger, irradiances and radiances in the usual units smaller.
+const COUNTS: f64 = 1000.0;
+
+/// Role that words in the file state or mention, or that suits the scale that was chosen.
+pub(super) fn said(grid: &Grid, chosen: Option<Values>) -> Option<Decided<Role>> {
+    stated(grid).or_else(|| hinted(grid, chosen))
 }
 
 /// Role that the format, the header, the names of columns or a setting state.
@@ -22,6 +24,9 @@ fn stated(grid: &Grid) -> Option<Decided<Role>> {
     }
     if let Some((line, role)) = grid.header.role {
         return Some(Decided::certain(role, format!("Line {line} says so")));
+    }
+    if let Some(beside) = grid.beside.as_ref().filter(|beside| beside.certainty == Certainty::Certain) {
+        return named(grid).or_else(|| of_settings(grid)).or_else(|| Some(beside.clone()));
     }
     let names: Vec<&str> = grid.curves.iter().take(MOST_CHANNELS + 1).map(|curve| curve.name.as_str()).collect();
     let channels = channels(&names).map(|(_, letters)| {
@@ -71,12 +76,27 @@ fn mixed(grid: &Grid) -> Option<Decided<Role>> {
     (named("a") && (named("r") || named("t"))).then(|| Decided::open(Role::Unknown, why))
 }
 
-/// The role that the columns name.
+/// The role that the columns name. What only a sample is called, such as `radiance paint` among others or against a line
+/// above, decides nothing.
 fn named(grid: &Grid) -> Option<Decided<Role>> {
+    let all = grid.curves.len() > 1 && grid.curves.iter().all(|curve| header_terms::role(&curve.label).is_some());
     let mut named = grid.curves.iter().filter_map(|curve| Some((header_terms::role(&curve.label)?, &curve.label)));
     let (role, name) = named.next()?;
     let why = format!("A column is named “{}”", excerpt(name));
     let agree = named.all(|(other, _)| other == role);
+    let is_head = |curve: &&RawCurve| {
+        let unit = curve.unit.as_ref().is_some_and(|unit| role.is_fraction() || !header_terms::says_percent(unit));
+        unit || header_terms::is_quantity(unit_text::without_unit(&curve.label))
+    };
+    if !all && !grid.curves.iter().filter(is_head).any(|curve| header_terms::role(&curve.label) == Some(role)) {
+        let denied = grid.header.mentioned.is_some_and(|(_, mentioned)| mentioned != role);
+        let only = grid.curves.len() == 1;
+        // `Lamp radiance` states it; `radiance paint` may be the name of a sample.
+        let last = name.rsplit([' ', '_']).next().unwrap_or(name);
+        let stated = only && (role != Role::Illuminant || header_terms::role(last) == Some(role));
+        let said = if stated { Decided::certain(role, why) } else { Decided::guess(role, why) };
+        return Some(said).filter(|_| !denied && (only || role.is_fraction()));
+    }
     Some(if agree { Decided::certain(role, why) } else { Decided::guess(role, why) })
 }
 
@@ -129,8 +149,8 @@ fn of_illuminants(grid: &Grid) -> Option<Decided<Role>> {
 }
 
 /// Role that is mentioned, that settings imply, or that suits a scale that the file states.
-fn hinted(grid: &Grid, options: &ReadOptions) -> Option<Decided<Role>> {
-    let (values, why) = match (options.values, grid.header.values.or(grid.header.clues.values)) {
+fn hinted(grid: &Grid, chosen: Option<Values>) -> Option<Decided<Role>> {
+    let (values, why) = match (chosen, grid.header.values.or(grid.header.clues.values)) {
         (Some(values), _) => (Some(values), "It was chosen what the values stand for".to_owned()),
         (None, Some((line, values))) => (Some(values), format!("Line {line} says {values}")),
         (None, None) => {
@@ -146,7 +166,7 @@ fn hinted(grid: &Grid, options: &ReadOptions) -> Option<Decided<Role>> {
         return Some(role.clone());
     }
     let label = |is: fn(&str) -> bool| grid.curves.iter().map(|curve| &*curve.label).find(|label| is(label));
-    if options.values.is_none() && values == Some(Values::Percent) {
+    if chosen.is_none() && values == Some(Values::Percent) {
         if let Some(label) = label(header_terms::names_response) {
             return Some(Decided::open(Role::Unknown, format!("“{}” is of a sensor or of a light", excerpt(label))));
         }
@@ -159,11 +179,13 @@ fn hinted(grid: &Grid, options: &ReadOptions) -> Option<Decided<Role>> {
         return Some(Decided::guess(Role::Transmittance, format!("Line {line} mentions absorbances")));
     }
     match values {
-        Some(Values::Percent) => Some(Decided::guess(Role::Reflectance, why)),
+        Some(Values::Percent) if grid.beside.is_none() || chosen.is_some() => {
+            Some(lamp(grid).filter(|_| chosen.is_none()).unwrap_or_else(|| Decided::guess(Role::Reflectance, why)))
+        }
         // Most spectrometers derive absorbances from what passes a sample.
         Some(Values::Absorbance) => Some(Decided::guess(Role::Transmittance, why)),
         Some(Values::Decibels) => Some(Decided::guess(Role::Illuminant, why)),
-        Some(Values::Plain) | None => lamp(grid),
+        Some(Values::Percent | Values::Plain) | None => lamp(grid),
     }
 }
 
@@ -185,17 +207,14 @@ fn lamp(grid: &Grid) -> Option<Decided<Role>> {
     Some(Decided::guess(Role::Illuminant, format!("“{}” is the name of a light", excerpt(name))))
 }
 
-/// Role that settings and numbers suggest where no word gives one. Where lights and reflectances in percent look the
-/// same, it stays open.
+/// Role that settings, a weaker word or the names of file and folders suggest where no word states one. Numbers alone say nothing:
+/// a lamp, a filter and a reflectance may all stay below one, and it stays open which they are.
 pub(super) fn suggested(grid: &Grid, evidence: &Evidence) -> Decided<Role> {
     // Lights scaled the usual way are exactly 100 at 560 nm.
     const ANCHOR: (f64, f64) = (560.0, 100.0);
     let labels = || grid.curves.iter().map(|curve| &*curve.label);
     if let Some(why) = labels().find_map(header_terms::not_converted) {
         return Decided::open(Role::Unknown, why);
-    }
-    if bells(grid).is_some() {
-        return Decided::guess(Role::Camera, "Three bells, one in each third of the visible range");
     }
     if let Some(role) = by_reference(grid, evidence) {
         return role;
@@ -204,29 +223,35 @@ pub(super) fn suggested(grid: &Grid, evidence: &Evidence) -> Decided<Role> {
     if at.is_some_and(|i| grid.curves.iter().all(|curve| curve.values[i] == ANCHOR.1)) {
         return Decided::guess(Role::Illuminant, "Values are 100 at 560 nm");
     }
-    let (min, max) = evidence.range();
-    if min >= -0.2 && max <= 1.2 && max > 0.0 {
-        if let Some(label) = labels().find(|label| header_terms::names_light_scale(label)) {
-            return Decided::guess(Role::Illuminant, format!("“{}” names light", excerpt(label)));
-        }
-        if labels().any(header_terms::says_au) {
-            return Decided::open(Role::Unknown, "AU may be absorbance units or arbitrary units");
-        }
-        return Decided::guess(Role::Reflectance, evidence.words());
+    if let Some(label) = labels().find(|label| header_terms::names_light_scale(label)) {
+        return if evidence.high() > COUNTS {
+            Decided::open(Role::Unknown, format!("“{}” may be of light or of counts", excerpt(label)))
+        } else {
+            Decided::guess(Role::Illuminant, format!("“{}” names light", excerpt(label)))
+        };
     }
-    Decided::open(
-        Role::Unknown,
-        format!(
-            "{}, and nothing says whether they are reflectances in percent, a light or something else",
-            evidence.words()
-        ),
-    )
+    if labels().any(header_terms::says_au) {
+        return Decided::open(Role::Unknown, "AU may be absorbance units or arbitrary units");
+    }
+    if let Some(label) = labels().find(|label| header_terms::names_response(label)) {
+        return Decided::guess(Role::Camera, format!("“{}” names a response", excerpt(label)));
+    }
+    if let Some(beside) = &grid.beside {
+        return beside.clone();
+    }
+    if bells(grid).is_some() {
+        let why = "Three bells, one in each third of the visible range: a camera, or three lights or filters";
+        return Decided::open(Role::Unknown, why);
+    }
+    let (min, max) = evidence.range();
+    let reflectances = if min >= -0.2 && max <= 1.2 { "reflectances" } else { "reflectances in percent" };
+    let why =
+        format!("{}, and nothing says whether they are {reflectances}, a light or something else", evidence.words());
+    Decided::open(Role::Unknown, why)
 }
 
 /// Role that follows from a measured reference, or from its absence.
 fn by_reference(grid: &Grid, evidence: &Evidence) -> Option<Decided<Role>> {
-    /// Counts of detectors are larger, irradiances and radiances in the usual units smaller.
-    const COUNTS: f64 = 1000.0;
     let clues = &grid.header.clues;
     let (line, ratio) = clues.ratio.or(clues.cosine_receptor.map(|line| (line, false)))?;
     if !ratio {

@@ -6,7 +6,7 @@ use crate::header_terms;
 use crate::options::ReadOptions;
 use crate::report::{Certainty, Decided};
 use crate::role::{Role, Values};
-use crate::scale::evidence::{Evidence, Looks};
+use crate::scale::evidence::{Evidence, Looks, Span};
 use crate::warning::Warning;
 use crate::watch::Log;
 
@@ -34,7 +34,7 @@ pub(super) fn decide(
         doubt_percent(values, evidence, log);
         return all(Decided::certain(values, format!("Line {line} says so")));
     }
-    if let Some(headed) = by_headers(grid, role.value) {
+    if let Some(headed) = by_headers(grid, role.value, evidence) {
         doubt_percent(headed.0.value, evidence, log);
         return headed;
     }
@@ -61,18 +61,27 @@ pub(super) fn decide(
     by_numbers(grid, from_file || role.certainty != Certainty::Chosen, evidence, log)
 }
 
-/// Each curve by its own header, if any header has information.
-fn by_headers(grid: &Grid, role: Role) -> Option<(Decided<Values>, Vec<Values>)> {
-    let columns: Vec<Option<Values>> = grid.curves.iter().map(|curve| headed(curve, role)).collect();
+/// Each curve by its own header, if any header has information. A table has one scale: beside columns headed percent, a silent
+/// one with a sign of percent in its name, or that reaches as far, is percent too.
+fn by_headers(grid: &Grid, role: Role, evidence: &Evidence) -> Option<(Decided<Values>, Vec<Values>)> {
+    let mut columns: Vec<Option<Values>> = grid.curves.iter().map(|curve| headed(curve, role)).collect();
     let first = columns.iter().flatten().next().copied()?;
+    let count = columns.iter().flatten().count();
+    for ((said, curve), span) in columns.iter_mut().zip(&grid.curves).zip(&evidence.curves) {
+        let open = said.is_none() && first == Values::Percent && header_terms::values(&curve.label).is_none();
+        let same = |span: &Span| curve.label.contains('%') || span.looks(LARGEST_PERCENT.0) == Looks::Percent;
+        *said = said.or_else(|| span.filter(|span| open && curve.unit.is_none() && same(span)).map(|_| first));
+    }
+    let assumed = columns.iter().flatten().count() > count;
     let other = columns.iter().flatten().find(|values| **values != first);
     let why = match other {
         Some(other) => format!("Columns are headed differently, some {first}, others {other}, each read so"),
-        None if columns.iter().all(Option::is_some) => format!("The columns are headed {first}"),
+        None if count == columns.len() => format!("The columns are headed {first}"),
+        None if assumed => format!("Some columns are headed {first}, and the table has one scale"),
         None => format!("Some columns, and only they, are headed {first}"),
     };
     let columns = columns.into_iter().map(|values| values.unwrap_or(Values::Plain)).collect();
-    Some((Decided::certain(first, why), columns))
+    Some((if assumed { Decided::guess(first, why) } else { Decided::certain(first, why) }, columns))
 }
 
 /// Scale that the header of a curve gives, as far as it suits the role.

@@ -55,6 +55,9 @@ impl Warning {
                     _ => write!(f, "{count} curves fall further below zero than noise, the first {first} to {min}"),
                 }
             }
+            Self::NotReflectances { first, max, .. } if *max > 1e30 => {
+                write!(f, "{first} reaches {max:e}, more than any quantity of light can")
+            }
             Self::NotReflectances { count: 1, first, max } => {
                 write!(f, "{first} reaches {max}, more than a fraction of light can")
             }

@@ -85,9 +85,10 @@ impl<'a> Prepared<'a> {
 
     fn write(&mut self, mut out: String, put: &mut dyn FnMut(&str) -> bool) {
         out.push_str("wavelength_nm");
+        let head = self.sheet.head();
         for piece in &self.pieces {
             out.push(',');
-            push_name(&mut out, &piece.name);
+            push_name(&mut out, &format!("{}{head}", piece.name));
         }
         out.push('\n');
         for rows in self.rows.chunks((CELLS / self.pieces.len()).max(1)) {

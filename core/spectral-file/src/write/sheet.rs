@@ -4,8 +4,10 @@ use std::borrow::Cow;
 
 use crate::file::Curve;
 use crate::limits::{MAX_CURVES, MAX_SAMPLES};
+use crate::role::Quantity;
 use crate::write::note::{Note, WriteError};
 use crate::write::text;
+use crate::{heads, quantity};
 
 /// A curve to be written: values over wavelength.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -99,9 +101,19 @@ impl<'a> Sheet<'a> {
             Content::Reflectance => Some("reflectance factor"),
             Content::Transmittance => Some("transmittance"),
             Content::Illuminant if relative => Some("relative spectral power"),
-            Content::Illuminant => Some("spectral power"),
-            Content::Other => None,
+            Content::Illuminant => {
+                let quantity = self.unit().and_then(quantity::of_unit).unwrap_or(Quantity::SpectralPower);
+                Some(heads::of_light(quantity))
+            }
+            Content::Other => Some(heads::UNSPECIFIED),
         }
+    }
+
+    /// The end of the head of every column: quantity and unit.
+    pub(super) fn head(&self) -> String {
+        let per_photon = if let Content::Camera { per_photon, .. } = self.content { per_photon } else { None };
+        let unit = self.unit().map(text::one_line);
+        self.quantity().map_or_else(String::new, |quantity| heads::tail(quantity, per_photon, unit.as_deref()))
     }
 
     /// The comments on one line each, without those that repeat the rest of the sheet.

@@ -1,0 +1,165 @@
+//! Evidence beside a file: its metadata, and the names of the file and its folders.
+
+use crate::grid::Grid;
+use crate::report::Decided;
+use crate::role::Role;
+use crate::text::excerpt;
+
+/// Endings, after the whole name of a table, of files with its metadata: of the CIE, and of the W3C's CSV on the Web.
+pub const METADATA: [&str; 2] = ["_metadata.json", "-metadata.json"];
+
+/// Bytes of a file, and what stands beside them, for where the file itself does not say what its curves are.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Source<'a> {
+    /// The file's bytes.
+    pub bytes: &'a [u8],
+    /// The file's path; the names of the file and of the two folders around it are the reason for a guess. May be empty.
+    pub path: &'a str,
+    /// Contents of the file's metadata: its own name with an ending of [`METADATA`]. May be empty.
+    pub metadata: &'a [u8],
+}
+
+impl<'a> From<&'a [u8]> for Source<'a> {
+    fn from(bytes: &'a [u8]) -> Self {
+        Self { bytes, ..Self::default() }
+    }
+}
+
+impl<'a, const N: usize> From<&'a [u8; N]> for Source<'a> {
+    fn from(bytes: &'a [u8; N]) -> Self {
+        Self::from(bytes.as_slice())
+    }
+}
+
+impl<'a> From<&'a Vec<u8>> for Source<'a> {
+    fn from(bytes: &'a Vec<u8>) -> Self {
+        Self::from(bytes.as_slice())
+    }
+}
+
+/// Takes what stands beside a file: names and units that its table lacks, and the role of its curves.
+pub(super) fn take(source: Source<'_>, grid: &mut Grid) {
+    #[cfg(feature = "json")]
+    metadata::take(source.metadata, grid);
+    grid.beside = grid.beside.take().or_else(|| of_path(source.path));
+}
+
+/// The role that the name of a file suggests, else that of the folder it is in, else of the folder around.
+fn of_path(path: &str) -> Option<Decided<Role>> {
+    let mut names = path.rsplit(['/', '\\']);
+    let file = names.next()?;
+    let stem = file.rsplit_once('.').map_or(file, |(stem, _)| stem);
+    let folders = names.filter(|name| !name.is_empty()).take(2).map(|name| ("folder", name));
+    let (what, name, role) =
+        std::iter::once(("file", stem)).chain(folders).find_map(|(what, name)| Some((what, name, of_name(name)?)))?;
+    Some(match role {
+        Some(role) => Decided::guess(role, format!("The {what} is named “{}”", excerpt(name))),
+        None => Decided::open(
+            Role::Unknown,
+            format!("The name of the {what}, “{}”, may mean several things", excerpt(name)),
+        ),
+    })
+}
+
+/// The role that the words of a name suggest; `Some(None)` if they contradict each other.
+fn of_name(name: &str) -> Option<Option<Role>> {
+    const LONGEST: usize = 200;
+    if name.len() > LONGEST {
+        return None;
+    }
+    let mut roles = words(name).into_iter().filter_map(|word| role_of_word(&word));
+    let first = roles.next()?;
+    Some(Some(first).filter(|first| roles.all(|role| role == *first)))
+}
+
+/// The words of a name in lower case, those joined by capitals or digits apart: `CanonSSF_2` is canon and ssf.
+fn words(name: &str) -> Vec<String> {
+    let (mut words, mut word, mut small) = (Vec::new(), String::new(), false);
+    for c in name.chars().chain(Some(' ')) {
+        if !c.is_alphabetic() || (small && c.is_uppercase()) {
+            words.extend((!word.is_empty()).then(|| std::mem::take(&mut word)));
+        }
+        word.extend(c.to_lowercase().filter(|c| c.is_alphabetic()));
+        small = c.is_lowercase();
+    }
+    words
+}
+
+/// The role that a word in the name of a file or a folder suggests: a quantity, or a thing that has only one spectrum.
+fn role_of_word(word: &str) -> Option<Role> {
+    const STARTS: [(&str, Role); 11] = [
+        ("illumin", Role::Illuminant),
+        ("irradian", Role::Illuminant),
+        ("radian", Role::Illuminant),
+        ("luminaire", Role::Illuminant),
+        ("reflect", Role::Reflectance),
+        ("remission", Role::Reflectance),
+        ("transmi", Role::Transmittance),
+        ("sensitiv", Role::Camera),
+        ("responsiv", Role::Camera),
+        ("quantum", Role::Camera),
+        ("camera", Role::Camera),
+    ];
+    let starts = STARTS.iter().find(|(start, _)| word.starts_with(start)).map(|(_, role)| *role);
+    starts.or_else(|| match word {
+        "illum" | "irrad" | "spd" | "spds" | "lamp" | "lamps" | "led" | "leds" | "lights" | "bulb" | "bulbs"
+        | "daylight" | "sunlight" | "skylight" | "halogen" | "xenon" | "tungsten" | "incandescent" | "fluorescent"
+        | "emission" => Some(Role::Illuminant),
+        "ssf" | "ssfs" | "qe" | "cmf" | "cmfs" | "cmos" | "response" | "responses" | "photopic" | "scotopic"
+        | "melanopic" | "observer" | "observers" => Some(Role::Camera),
+        "refl" | "rfl" | "colorchecker" | "colourchecker" | "munsell" => Some(Role::Reflectance),
+        "filter" | "filters" | "trans" | "gel" | "gels" | "wratten" => Some(Role::Transmittance),
+        _ => None,
+    })
+}
+
+#[cfg(feature = "json")]
+mod metadata {
+    //! Metadata of a table in JSON, as the CIE delivers them (`datatableInfo.columnHeaders`) and as CSV on the Web has them.
+
+    use serde_json::Value;
+
+    use crate::grid::Grid;
+    use crate::header_terms;
+    use crate::report::Decided;
+    use crate::role::Quantity;
+    use crate::text::excerpt;
+    use crate::wavelength_unit::WavelengthUnit;
+
+    /// Takes names, units, quantity and title that the table itself lacks.
+    pub(super) fn take(json: &[u8], grid: &mut Grid) {
+        let Ok(found) = serde_json::from_slice::<Value>(json) else { return };
+        let text = |value: &Value, keys: &[&str]| {
+            let found = keys.iter().find_map(|key| value.get(key)?.as_str()).map(str::trim);
+            found.filter(|text| !text.is_empty()).map(str::to_owned)
+        };
+        let title = text(&found["titles"][0], &["title"]).or_else(|| text(&found, &["dc:title", "title"]));
+        if let Some(title) = title.as_ref().filter(|_| grid.header.comment("title").is_none()) {
+            grid.header.note(0, "title", title);
+        }
+        let columns = [&found["datatableInfo"]["columnHeaders"], &found["tableSchema"]["columns"]];
+        let columns = columns.into_iter().find_map(Value::as_array).map_or(&[][..], Vec::as_slice);
+        let mut said = None;
+        if let Some((axis, columns)) = columns.split_first().filter(|(_, rest)| rest.len() == grid.curves.len()) {
+            let unit = text(axis, &["unit"]).and_then(|unit| WavelengthUnit::from_symbol(&unit));
+            if let Some(unit) = unit.filter(|_| grid.unit.is_none() && grid.header.x_unit.is_none()) {
+                grid.unit = Some(Decided::certain(unit, "The metadata beside the file say so"));
+            }
+            for (curve, column) in grid.curves.iter_mut().zip(columns) {
+                if let Some(name) = text(column, &["title", "titles", "name"]).filter(|_| !curve.named) {
+                    curve.name = name.trim_end_matches("(lambda)").trim_end().to_owned();
+                    curve.named = true;
+                }
+                let unit = text(column, &["unit"]).filter(|unit| unit != "dimensionless" && unit != "1");
+                curve.unit = curve.unit.take().or(unit);
+            }
+            let words = columns.iter().filter_map(|column| text(column, &["quantity", "description"]));
+            said = words.into_iter().find(|words| header_terms::quantity(words).is_some());
+        }
+        let Some(words) = said.or_else(|| title.filter(|title| header_terms::role(title).is_some())) else { return };
+        let why = format!("The metadata beside the file say “{}”", excerpt(&words));
+        grid.beside = header_terms::role(&words).map(|role| Decided::certain(role, &*why));
+        let quantity = header_terms::quantity(&words).filter(|quantity| *quantity != Quantity::Relative);
+        grid.quantity = grid.quantity.take().or_else(|| Some(Decided::certain(quantity?, why)));
+    }
+}
