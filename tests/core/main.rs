@@ -30,3 +30,4 @@ mod spectral_image;
 mod stress;
 mod support;
 mod temperature;
+mod uncertainty;
