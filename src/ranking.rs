@@ -6,15 +6,13 @@
 use std::sync::Arc;
 use std::time::Duration;
 
-use chromascope_core::camera::RenderingError;
-use chromascope_core::correction::aces::IdtExposure;
 use chromascope_core::metamers::Confusion;
 use chromascope_core::query::{Ask, CameraMetrics, Query, Shared};
 
 use crate::catalog::Entry;
 use crate::catalog::load::LoadError;
 use crate::document::{Document, SetKind};
-use crate::export::profile::{CorrectionFile, CorrectionFileQuery};
+use crate::export::profile::{CorrectionFile, CorrectionFileQuery, CorrectionRequest};
 use crate::jobs::{Background, Executor, Shown};
 use crate::plot_item::SensorId;
 use crate::scene::light::LightSheetQuery;
@@ -186,13 +184,13 @@ impl Ranking {
     /// # Errors
     ///
     /// A sentence that says why there is none.
-    pub fn correction(&mut self, scene: &Scene<'_>, camera: &str) -> Result<Option<Arc<CorrectionFile>>, String> {
-        if scene.document.transform.is_eq_13() {
-            let error = SceneError::Rendering { name: camera.to_owned(), error: RenderingError::NotFitted };
-            return Err(error.to_string());
-        }
-        let query = CorrectionFileQuery::new(scene, (SetKind::Camera, camera), None, IdtExposure::Rawtoaces);
-        let shown = self.corrections.ask(query.map_err(|error| error.to_string())?)?.filter(|shown| shown.current);
+    pub fn correction(
+        &mut self,
+        scene: &Scene<'_>,
+        request: CorrectionRequest<'_>,
+    ) -> Result<Option<Arc<CorrectionFile>>, String> {
+        let query = CorrectionFileQuery::new(scene, request).map_err(|error| error.to_string())?;
+        let shown = self.corrections.ask(query)?.filter(|shown| shown.current);
         shown.map(|shown| (*shown.answer).clone()).transpose().map_err(|error| error.to_string())
     }
 

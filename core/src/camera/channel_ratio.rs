@@ -115,7 +115,9 @@ impl fmt::Display for ChannelRatio {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (word, RatioDeviation { deviation, tables }) = match self {
             Self::Unchecked => return f.write_str("unchecked: fewer than three other tables of the maker hold one"),
-            Self::Lost(RatioLoss::EqualMaxima) => return f.write_str("lost: each channel is scaled to the same maximum"),
+            Self::Lost(RatioLoss::EqualMaxima) => {
+                return f.write_str("lost: each channel is scaled to the same maximum");
+            }
             Self::Lost(RatioLoss::PrintedFigure) => return f.write_str("lost: read off a printed figure"),
             Self::Plausible(found) => ("plausible", found),
             Self::Implausible(found) => ("implausible", found),
