@@ -8,6 +8,7 @@
 mod accuracy;
 mod batch;
 mod camera;
+mod channel_ratio;
 mod chart_grid;
 mod colorimetry;
 mod correction;

@@ -6,12 +6,12 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 use chromascope_core::camera::curve_spread::{Deviation, SITES, at_sites};
-use chromascope_core::camera::{CurveSpread, WhiteBalanceTarget};
+use chromascope_core::camera::{ChannelRatio, CurveSpread, WhiteBalanceTarget};
 use chromascope_core::correction::minimize::Objective;
 use chromascope_core::correction::{Correction, CorrectionMethod};
 use chromascope_core::data;
 use chromascope_core::patch_set::COLOR_CHECKER_CHROMATIC;
-use chromascope_core::query::metrics::{MetricGroup, RatioEvidence, UncertaintySource};
+use chromascope_core::query::metrics::{MetricGroup, UncertaintySource};
 use chromascope_core::query::{
     Ask, CameraMetric, CameraMetricsQuery, ColorTransformSpec, Direct, IndexConditions, MetricUncertaintiesQuery,
     MetricUncertainty, Query, RenderingQuery, Shared,
@@ -113,7 +113,7 @@ fn query(camera: Sensor) -> CameraMetricsQuery {
 }
 
 fn ask_all(of: &CameraMetricsQuery, response: Evidence, ask: &impl Ask) -> Vec<Option<MetricUncertainty>> {
-    let (metrics, spread, ratio) = (of.clone(), spread(), RatioEvidence::Unchecked);
+    let (metrics, spread, ratio) = (of.clone(), spread(), ChannelRatio::Unchecked);
     (*ask.ask(&MetricUncertaintiesQuery { metrics, spread, response, ratio })).clone()
 }
 
@@ -148,13 +148,17 @@ fn draws_have_the_covariance_of_the_spread() {
     }
 }
 
-/// What the source of the prior states for the D70, drawn from it (D55, 24 patches, 400–700 nm).
+/// What the source of the prior states for the D70, drawn from it (D55, 24 patches, 400–700 nm), to what another interpolation between the
+/// samples makes.
 #[test]
 fn the_prior_gives_what_its_source_states() {
     let all = ask_all(&query(at_10_nm(D70)), Evidence::Stated, &Direct);
-    for (id, stated, digits) in
-        [("vora", 0.0065, 0.0005), ("luther", 0.016, 0.0015), ("delta-e2000-mean", 0.10, 0.01), ("delta-e2000-max", 0.31, 0.03)]
-    {
+    for (id, stated, digits) in [
+        ("vora", 0.0065, 0.0008),
+        ("luther", 0.016, 0.0015),
+        ("delta-e2000-mean", 0.10, 0.01),
+        ("delta-e2000-max", 0.31, 0.03),
+    ] {
         assert_near(id, of(&all, id).contributions.curves, stated, digits);
     }
 }
@@ -206,7 +210,9 @@ fn the_95_percent_interval_of_a_table_holds_the_true_value() {
             let table = with_deviation(&truth, &mut normal);
             let values = ask.ask(&table);
             for (at, found) in ask_all(&table, Evidence::Stated, &ask).into_iter().enumerate() {
-                let (Ok(value), Ok(truth), Some(found)) = (values.values[at], truths.values[at], found) else { continue };
+                let (Ok(value), Ok(truth), Some(found)) = (values.values[at], truths.values[at], found) else {
+                    continue;
+                };
                 all[at] += 1;
                 inside[at] += usize::from((value - truth).abs() <= found.coverage * found.contributions.curves);
             }
