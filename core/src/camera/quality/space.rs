@@ -33,20 +33,24 @@ pub struct SpaceQuality {
 impl SpaceQuality {
     /// Agreement of a sensor with an observer; none where the curves of one of them are linearly dependent.
     pub fn new(sensor: &Sensor, observer: &Sensor) -> Option<Self> {
-        let [channels, matching] = [sensor, observer].map(curves);
-        let (own, seen) = (basis(&channels)?, basis(&matching)?);
+        Self::of(&curves(sensor), &curves(observer))
+    }
+
+    /// Agreement of two sets of curves on the grid, each set in one scale.
+    pub(crate) fn of(channels: &[Vec<f64>; 3], matching: &[Vec<f64>; 3]) -> Option<Self> {
+        let (own, seen) = (basis(channels)?, basis(matching)?);
         let vora = own.iter().map(|curve| inside(curve, &seen)).sum::<f64>() / 3.0;
         let power: f64 = matching.iter().map(|curve| dot(curve, curve)).sum();
         let left: f64 = matching.iter().map(|curve| outside(curve, &own)).sum();
         let factor = |curve: &Vec<f64>| inside(curve, &seen) / dot(curve, curve);
-        let [r, g, b] = &channels;
+        let [r, g, b] = channels;
         Some(Self { vora, luther: (left / power).sqrt(), factors: [factor(r), factor(g), factor(b)] })
     }
 }
 
 /// The three curves on the grid, each scaled to its largest value: neither spaces nor ratios within a curve's set change where all
 /// three have one scale, and squares neither overflow nor vanish.
-fn curves(sensor: &Sensor) -> [Vec<f64>; 3] {
+pub(crate) fn curves(sensor: &Sensor) -> [Vec<f64>; 3] {
     let mut curves =
         [0, 1, 2].map(|channel: usize| (0..COUNT).map(|i| sensor.at_index(i)[channel]).collect::<Vec<_>>());
     let largest = curves.iter().flatten().fold(0.0_f64, |m, v| m.max(v.abs()));
