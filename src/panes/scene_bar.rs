@@ -20,8 +20,9 @@ use crate::workspaces::PaneKind;
 const MIRED: [f64; 2] = [50.0, 1000.0];
 /// Opacity of a control that does nothing in the workspace.
 const DIM: f32 = 0.45;
-/// Below this width the difference is chosen in the View menu.
+/// Below this width the list of differences has no room for its name, only for a button.
 const WITH_DIFFERENCE: f32 = 1100.0;
+const BUTTON: f32 = 20.0;
 
 /// Shows the bar in its rectangle.
 pub fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
@@ -43,9 +44,8 @@ pub fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     field(&mut bar, (Condition::Patches, "Patches"), 196.0 * compact, context, patches);
     field(&mut bar, (Condition::White, "White balance"), 108.0 * compact, context, white);
     field(&mut bar, (Condition::Transform, "Color transform"), 146.0 * compact, context, transform);
-    if wide {
-        field(&mut bar, (Condition::Difference, "Difference"), 90.0, context, difference);
-    }
+    let (caption, width) = if wide { ("Difference", 90.0) } else { ("Δ", BUTTON) };
+    field(&mut bar, (Condition::Difference, caption), width, context, difference);
 }
 
 /// A condition of the scene.
@@ -155,7 +155,12 @@ fn choice(
     lines: impl FnOnce() -> Vec<Line>,
 ) -> Option<usize> {
     let width = ui.available_width();
-    pick_list::drop_down(ui, (name, hint), shown, width, &context.theme, lines)
+    if width > BUTTON {
+        return pick_list::drop_down(ui, (name, hint), shown, width, &context.theme, lines);
+    }
+    let (button, chosen) = pick_list::menu(ui, ("⋯", name, &format!("{name}: {shown}\n{hint}")), &context.theme, lines);
+    button.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, format!("{name}: {shown}")));
+    chosen
 }
 
 /// A list of what can be set, each with its action. Pushes the one that was chosen.
