@@ -252,24 +252,28 @@ impl ChromascopeApp {
         focus::enter_pane(ctx, &mut self.view);
         let typing = ctx.text_edit_focused();
         let focused = self.view.page.open.or(self.view.focused).unwrap_or(PaneKind::CHROMATICITY);
-        for binding in key_bindings(focused) {
-            // An open list closes first.
-            if binding.command == Command::Escape && egui::Popup::is_any_open(ctx) {
-                continue;
-            }
+        // All keys belong to an open list or menu, which Escape closes.
+        let is_free = !egui::Popup::is_any_open(ctx);
+        for binding in key_bindings(focused).into_iter().filter(|_| is_free) {
             if binding.rests_while_typing && (typing || ctx.egui_wants_keyboard_input()) {
                 continue;
             }
-            if ctx.input_mut(|input| input.consume_shortcut(&binding.shortcut)) {
+            if ctx.input_mut(|input| take_key(input, &binding.shortcut)) {
+                // What is typed next belongs to the field that opens.
+                let opens_field = matches!(binding.command, Command::FindAnything | Command::FocusTemperature);
                 self.commands.push(binding.command);
+                if opens_field {
+                    break;
+                }
             }
         }
-        self.view.blink = !typing && ctx.input(|input| input.key_down(egui::Key::B) && input.modifiers.is_none());
+        let is_free = is_free && !typing;
+        self.view.blink = is_free && ctx.input(|input| input.key_down(egui::Key::B) && input.modifiers.is_none());
         let events = ctx.input(|input| input.events.clone());
-        for event in events {
+        for event in events.into_iter().filter(|_| is_free) {
             match event {
-                Event::Paste(text) if !typing => self.commands.push(Command::Paste(text)),
-                Event::Copy if !typing && !self.view.table_copies => self.commands.push(Command::CopyNumbers(focused)),
+                Event::Paste(text) => self.commands.push(Command::Paste(text)),
+                Event::Copy if !self.view.table_copies => self.commands.push(Command::CopyNumbers(focused)),
                 _ => {}
             }
         }
@@ -304,6 +308,22 @@ impl ChromascopeApp {
     }
 }
 
+/// Takes a key out of the input, with the text that a keyboard types by it: a field that it opens must not receive its letter.
+fn take_key(input: &mut egui::InputState, shortcut: &egui::KeyboardShortcut) -> bool {
+    let is_pressed = |event: &Event| match event {
+        Event::Key { key, pressed: true, modifiers, .. } => {
+            *key == shortcut.logical_key && modifiers.matches_logically(shortcut.modifiers)
+        }
+        _ => false,
+    };
+    let before = input.events.len();
+    while let Some(at) = input.events.iter().position(is_pressed) {
+        let typed = usize::from(matches!(input.events.get(at + 1), Some(Event::Text(_))));
+        input.events.drain(at..=at + typed);
+    }
+    input.events.len() < before
+}
+
 impl eframe::App for ChromascopeApp {
     fn logic(&mut self, ctx: &egui::Context, frame: &mut eframe::Frame) {
         self.results.end_frame();
@@ -332,6 +352,7 @@ impl eframe::App for ChromascopeApp {
             ui.ctx().request_repaint();
         }
         self.view.table_copies = false;
+        self.view.keeps_escape = false;
         let document = self.history.document();
         let source = self.view.selected.as_ref().and_then(PlotItem::source);
         self.view.selected_elsewhere = source.is_some_and(|id| document.compared(id.kind, &id.name).is_none())

@@ -90,6 +90,17 @@ impl Entry {
         self.header.as_ref().is_some_and(Header::is_digitized)
     }
 
+    /// Its name with its gloss, as lists of lights show it: "A, incandescent 2856 K".
+    pub fn glossed_name(&self) -> String {
+        self.also.as_ref().map_or_else(|| self.name.clone(), |also| format!("{}, {also}", self.name))
+    }
+
+    /// Words that find it beside its name: short name, gloss and kind.
+    pub fn gloss(&self) -> String {
+        let kind = if self.kind == SetKind::Illuminant { "CIE light illuminant" } else { self.kind.singular() };
+        format!("{} {} {kind} {}", self.short, self.also.as_deref().unwrap_or_default(), self.kind.plural())
+    }
+
     /// An entry for one of the user's sets.
     pub fn from_own(set: &Shared<ImportedSet>) -> Self {
         let name = set.name.clone();

@@ -45,9 +45,20 @@ pub enum Outcome {
 
 /// Reads the arguments; runs a command if they name one.
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Outcome {
-    let matches = match Arguments::command().try_get_matches_from(arguments) {
+    let arguments: Vec<OsString> = arguments.into_iter().collect();
+    let matches = match Arguments::command().try_get_matches_from(&arguments) {
         Ok(matches) => matches,
-        Err(error) => return Outcome::Done(explain(&error)),
+        Err(error) => {
+            // Help was asked of a command that does not exist.
+            let word = arguments.get(1).filter(|_| error.kind() == clap::error::ErrorKind::DisplayHelp);
+            let is_command = |word: &OsString| Arguments::command().find_subcommand(word).is_some();
+            let word =
+                word.filter(|word| !word.to_string_lossy().starts_with('-') && *word != "help" && !is_command(word));
+            return Outcome::Done(match word.filter(|word| is_mistyped_command(Path::new(word))) {
+                Some(word) => unknown_command(Path::new(word)),
+                None => explain(&error),
+            });
+        }
     };
     let parsed = match Arguments::from_arg_matches(&matches) {
         Ok(parsed) => parsed,
@@ -55,8 +66,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Outcome {
     };
     let (Some(subcommand), Some((_, matches))) = (parsed.subcommand, matches.subcommand()) else {
         if let Some(word) = parsed.files.iter().find(|file| is_mistyped_command(file)) {
-            say(&format!("chromascope: {}: no such command or file; see chromascope --help\n", word.display()));
-            return Outcome::Done(2);
+            return Outcome::Done(unknown_command(word));
         }
         return Outcome::Window(parsed.session.into_iter().chain(parsed.files).collect());
     };
@@ -83,6 +93,12 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Outcome {
             error.code()
         }
     })
+}
+
+/// Refuses a word that is no command.
+fn unknown_command(word: &Path) -> u8 {
+    say(&format!("chromascope: {}: no such command or file; see chromascope --help\n", word.display()));
+    2
 }
 
 /// True if an argument in the place of a file is a bare word and no such file exists: a mistyped command.

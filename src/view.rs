@@ -348,6 +348,12 @@ impl View {
         }
     }
 
+    /// The pane whose figure a key or menu means: the wanted one if it has figures, else the first in the workspace that has.
+    pub fn pictured(&self, wanted: PaneKind, has_figures: impl Fn(PaneKind) -> bool) -> PaneKind {
+        let places = self.saved.layout.places(self.saved.workspace).iter().flatten().copied();
+        std::iter::once(wanted).chain(places).find(|kind| has_figures(*kind)).unwrap_or(PaneKind::CHROMATICITY)
+    }
+
     /// Notes what a pane's plot, whose figure has this title, is zoomed to, if it is.
     pub fn note_zoom(&mut self, pane: PaneKind, title: String, zoomed: Option<Ranges>) {
         match zoomed {

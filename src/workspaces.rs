@@ -60,6 +60,11 @@ impl PaneKind {
         Layout::home(self).unwrap_or(Workspace::Metrics)
     }
 
+    /// True for a pane of controls, which gains nothing from the whole window.
+    pub fn is_controls(self) -> bool {
+        matches!(self, Self::LIBRARY | Self::RENDER_SETTINGS | Self::TOLERANCE | Self::INTERPRETATION)
+    }
+
     /// A pane of this id. Ids stay: layouts of earlier runs name them.
     pub const fn new(id: &'static str) -> Self {
         Self(id)

@@ -117,17 +117,21 @@ impl ChromascopeApp {
             Command::SpectralWeights => self.measure(),
             Command::MeasureWorkload(workload) => self.profiler.run_bench(workload),
             Command::StopMeasuring => self.profiler.stop(),
-            Command::FigurePage(pane) => self.figure_page(ctx, pane),
+            Command::FigurePage(pane) => self.figure_page(ctx, self.pictured(pane)),
             Command::Export(pane, format) => self.export(pane, format),
             Command::ExportExr(source) => self.export_exr(&source),
             Command::CopySet(kind, name) => self.copy_set(ctx, kind, &name),
             Command::SaveSet(kind, name, form) => self.save_set(kind, &name, form),
             Command::SaveCorrection(form) => self.save_correction(form),
-            Command::CopyPicture(pane) => self.copy_picture(ctx, pane),
+            Command::CopyPicture(pane) => self.copy_picture(ctx, self.pictured(pane)),
             Command::CopyCard(pane) => self.copy_card(ctx, pane),
             Command::SaveCard(pane) => self.save_card(pane),
-            Command::CopyNumbers(pane) => self.copy_numbers(ctx, pane),
+            Command::CopyNumbers(pane) => self.copy_numbers(ctx, self.pictured(pane)),
             Command::Show(workspace) => self.show_workspace(workspace),
+            Command::Maximize(pane) if pane.is_controls() => {
+                self.view
+                    .say(format!("{} keeps its size: click a pane with pictures, then press F.", panes::title(pane)));
+            }
             Command::Maximize(pane) => {
                 self.view.maximized = if self.view.maximized == Some(pane) { None } else { Some(pane) };
             }
@@ -371,7 +375,8 @@ impl ChromascopeApp {
             _ => None,
         };
         import.focus = import.stop;
-        self.view.say(format!("{} (F fills the window, Ctrl+E prints)", panes::title(pane)));
+        let keys = if pane.is_controls() { "" } else { " (F fills the window, Ctrl+E prints)" };
+        self.view.say(format!("{}{keys}", panes::title(pane)));
         // Keys that are meant for the next pane must not move what the last one had.
         ctx.memory_mut(|memory| memory.focused().map(|id| memory.surrender_focus(id)));
     }
@@ -379,6 +384,11 @@ impl ChromascopeApp {
     /// Input for a pane's figure of a scene.
     pub fn figure_input<'a>(&'a self, scene: &'a Scene<'a>) -> FigureInput<'a> {
         FigureInput::of((scene, &self.view), &self.render_service, &self.profiler, &self.opened)
+    }
+
+    /// The pane whose figure is meant by a key in a pane.
+    fn pictured(&self, pane: PaneKind) -> PaneKind {
+        self.view.pictured(pane, |kind| panes::by_kind(kind).is_some_and(|pane| pane.figure.is_some()))
     }
 
     /// Shows a pane as the printed page, or goes back to where the page was opened.

@@ -69,6 +69,11 @@ impl ChromascopeApp {
                 context.view.inspector_over,
             ),
         };
+        // Keys never mean a pane that is out of sight.
+        let mut shown = self.arrangement.panes.iter().chain(&self.arrangement.over).map(|(pane, _)| *pane);
+        if page.is_none() && context.view.focused.is_some_and(|focused| !shown.any(|pane| pane == focused)) {
+            context.view.focused = context.view.maximized;
+        }
         for (pane, rect) in self.arrangement.panes.clone() {
             if page == Some(pane) {
                 panes::figure_page::show(ui, rect, pane, &mut context);

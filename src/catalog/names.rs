@@ -6,7 +6,7 @@ use super::Entry;
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum NameError {
     /// Nothing of that name.
-    #[error("no {kind} is named \"{name}\"{}", suggest(.nearest))]
+    #[error("no {kind} is named \"{name}\"{}", suggest(.name, .nearest))]
     Unknown {
         /// Kind of data set searched for.
         kind: &'static str,
@@ -24,8 +24,11 @@ pub enum NameError {
     },
 }
 
-fn suggest(nearest: &[String]) -> String {
+fn suggest(name: &str, nearest: &[String]) -> String {
     match nearest {
+        [] if is_for_phone(name) => "; no phone is among the built-in cameras: name a file with a table of your own \
+                                     (wavelength, R, G, B)"
+            .to_owned(),
         [] => String::new(),
         names => format!("; did you mean {}?", names.join(", ")),
     }
@@ -50,11 +53,110 @@ pub fn sort_key(name: &str) -> Vec<(String, u64)> {
     key
 }
 
-/// True if every word of a search occurs in an entry's name, short name or gloss.
-pub fn matches_search(entry: &Entry, search: &str) -> bool {
-    let text = format!("{} {} {}", entry.name, entry.short, entry.also.as_deref().unwrap_or_default());
-    let text = folded(&text);
-    search.split_whitespace().map(folded).all(|word| text.contains(&word))
+/// How well a name fits a search; the best comes first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Fit {
+    /// It is the name, or what stands behind its colon or before its comma: "A" of "A, incandescent 2856 K".
+    Exact,
+    /// The name begins with it.
+    Start,
+    /// Each word is one of the name's.
+    Words,
+    /// Each word begins where one of the name's does.
+    WordStarts,
+    /// Each word is within one of the name's.
+    Inside,
+    /// Words of the gloss alone.
+    Gloss,
+    /// A letter of a word differs.
+    Similar,
+}
+
+/// The words of a search as they are compared.
+pub fn typed_words(text: &str) -> Vec<String> {
+    text.split_whitespace().map(folded).filter(|word| !word.is_empty()).collect()
+}
+
+/// How typed words fit a name, if they do: the ranking of every search. Words of the gloss find the name and leave the rank to the
+/// others, so that "illuminant A" is as exact as "A".
+pub fn fit(typed: &[String], name: &str, gloss: &str) -> Option<Fit> {
+    let gloss = words(gloss);
+    let telling: Vec<String> = typed.iter().filter(|word| !gloss.contains(word)).cloned().collect();
+    let by_name = fit_of_name(typed, name, &gloss);
+    match telling.as_slice() {
+        [] => by_name.or(Some(Fit::Gloss)),
+        telling if telling.len() == typed.len() => by_name,
+        telling => by_name.into_iter().chain(fit_of_name(telling, name, &gloss)).min(),
+    }
+}
+
+fn fit_of_name(typed: &[String], name: &str, gloss: &[String]) -> Option<Fit> {
+    let text = typed.concat();
+    let value = name.split_once(": ").map_or(name, |(_, value)| value);
+    let parts = [name, value].map(|part| [part, part.split_once(", ").map_or(part, |(head, _)| head)]);
+    let whole = parts.as_flattened().iter().filter_map(|part| match folded(part).strip_prefix(&text)? {
+        "" => Some(Fit::Exact),
+        _ => Some(Fit::Start),
+    });
+    let known = words(name);
+    let begins = |known: &[String], word: &str| (0..known.len()).any(|at| known[at..].concat().starts_with(word));
+    let within = |known: &[String], word: &str| known.iter().any(|known| known.contains(word));
+    let of_word = |word: &String| match () {
+        () if known.contains(word) => Some(Fit::Words),
+        () if begins(&known, word) => Some(Fit::WordStarts),
+        () if within(&known, word) => Some(Fit::Inside),
+        () if begins(gloss, word) || within(gloss, word) => Some(Fit::Gloss),
+        () => known.iter().any(|known| is_similar(known, word)).then_some(Fit::Similar),
+    };
+    whole.min().or_else(|| typed.iter().try_fold(Fit::Exact, |worst, word| Some(worst.max(of_word(word)?))))
+}
+
+/// True if a word was mistyped by one letter. Numbers must be right.
+fn is_similar(known: &str, typed: &str) -> bool {
+    const LEAST: usize = 5;
+    let is_long = typed.chars().count() >= LEAST && typed.chars().all(char::is_alphabetic);
+    is_long && known.len().abs_diff(typed.len()) <= 2 && strsim::osa_distance(known, typed) == 1
+}
+
+/// The items that fit a search in groups, the best first, else in the given order; similar words only where nothing else fits.
+/// `facts` are an item's group, name and gloss.
+pub fn ranked<T, G: PartialEq>(
+    text: &str,
+    items: impl Iterator<Item = T>,
+    facts: impl Fn(&T) -> (G, String, String),
+) -> Vec<(G, Vec<T>)> {
+    let typed = typed_words(text);
+    let found = items.filter_map(|item| {
+        let (group, name, gloss) = facts(&item);
+        Some((fit(&typed, &name, &gloss)?, group, item))
+    });
+    let mut found: Vec<(Fit, G, T)> = found.collect();
+    found.sort_by_key(|(fit, ..)| *fit);
+    let is_exact = found.first().is_some_and(|(fit, ..)| *fit < Fit::Similar);
+    let mut groups: Vec<(G, Vec<T>)> = Vec::new();
+    for (_, group, item) in found.into_iter().filter(|(fit, ..)| !is_exact || *fit < Fit::Similar) {
+        match groups.iter_mut().find(|(known, _)| *known == group) {
+            Some((_, items)) => items.push(item),
+            None => groups.push((group, vec![item])),
+        }
+    }
+    groups
+}
+
+/// What lists say to a search for a phone.
+pub const NO_PHONES: &str =
+    "No phone is among the built-in cameras. Open a table of your own (Ctrl+O): wavelength, R, G, B.";
+
+/// True if a search is for a phone.
+pub fn is_for_phone(text: &str) -> bool {
+    const MAKES: [&str; 8] = ["nokia", "samsung", "pixel", "galaxy", "huawei", "xiaomi", "oneplus", "smartphone"];
+    let is_phone = |word: &String| word.contains("phone") || MAKES.iter().any(|make| word.starts_with(make));
+    typed_words(text).iter().any(is_phone)
+}
+
+/// What a list says that has nothing for a search.
+pub fn no_match(text: &str) -> String {
+    if is_for_phone(text) { format!("No match. {NO_PHONES}") } else { "No match.".to_owned() }
 }
 
 /// The entry that a typed name matches.
@@ -137,7 +239,6 @@ pub fn find<'a>(
         telling.iter().all(|word| words.contains(word))
     };
     let glossed = |e: &Entry| format!("{} {} {}", e.name, e.short, e.also.as_deref().unwrap_or_default());
-    let spaced = telling.join(" ");
     let having = |test: &dyn Fn(&Entry) -> bool| entries.iter().copied().filter(|e| test(e)).collect::<Vec<_>>();
     let whole_words: [&dyn Fn(&Entry) -> bool; 2] = [&|e| all_in(&e.name), &|e| all_in(&glossed(e))];
     for test in whole_words {
@@ -150,9 +251,13 @@ pub fn find<'a>(
         }
     }
     // Words with others between them come last.
-    let parts: [&dyn Fn(&Entry) -> bool; 2] = [&|e| folded(&e.name).contains(&wanted), &|e| matches_search(e, &spaced)];
+    let fits = |name: &str, gloss: &str| fit(&telling, name, gloss).filter(|fit| *fit < Fit::Similar);
+    let parts: [&dyn Fn(&Entry) -> bool; 2] =
+        [&|e| fits(&e.name, "").is_some(), &|e| fits(&e.name, &glossed(e)).is_some()];
     for test in parts {
-        match having(test).as_slice() {
+        let mut candidates = having(test);
+        candidates.sort_by_key(|e| fits(&e.name, &glossed(e)));
+        match candidates.as_slice() {
             [] => {}
             [only] => return Ok(Found::near(only)),
             several => return Err(ambiguous(name, several)),

@@ -144,7 +144,9 @@ fn content(ui: &mut Ui, page: &'static Page, context: &mut PaneContext<'_>) {
             context.view.help.back();
         }
     });
-    let wanted = context.view.help.scroll_to.take();
+    // A hit on another page is scrolled to when that page is drawn.
+    let is_open = context.view.help.page == Some(page.name);
+    let wanted = if is_open { context.view.help.scroll_to.take() } else { None };
     let terms = terms(&context.view.help.query);
     let ink = Ink { theme: context.theme, terms: &terms };
     let mut clicked = None;

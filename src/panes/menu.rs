@@ -104,12 +104,9 @@ fn focused(context: &PaneContext<'_>) -> PaneKind {
     context.view.page.open.or(context.view.focused).unwrap_or(PaneKind::CHROMATICITY)
 }
 
-/// The pane whose figure is meant: the focused one if it has figures, else the first visible one that has.
+/// The pane whose figure is meant.
 fn pictured(context: &PaneContext<'_>) -> PaneKind {
-    let saved = &context.view.saved;
-    let places = saved.layout.places(saved.workspace).iter().flatten().copied();
-    let has_figures = |kind: &PaneKind| context.pane(*kind).is_some_and(|pane| pane.figure.is_some());
-    std::iter::once(focused(context)).chain(places).find(has_figures).unwrap_or(PaneKind::CHROMATICITY)
+    context.view.pictured(focused(context), |kind| context.pane(kind).is_some_and(|pane| pane.figure.is_some()))
 }
 
 fn file(ui: &mut Ui, context: &mut PaneContext<'_>) {
@@ -311,7 +308,9 @@ fn view(ui: &mut Ui, context: &mut PaneContext<'_>) {
     ui.separator();
     let pane = focused(context);
     let maximized = context.view.maximized == Some(pane);
-    ticked(ui, maximized, &format!("Maximize {}", context.title(pane)), "", Command::Maximize(pane), context);
+    if !pane.is_controls() {
+        ticked(ui, maximized, &format!("Maximize {}", context.title(pane)), "", Command::Maximize(pane), context);
+    }
     ticked(ui, false, "Reset view", "", Command::ResetView, context);
     ticked(ui, false, "Reset layout", "", Command::ResetLayout, context);
     ui.separator();

@@ -4,13 +4,14 @@ use std::time::Duration;
 
 use chromascope_figure::LegendEntry;
 use chromascope_measure::Workload;
-use egui::{Align2, ComboBox, FontId, Id, Label, Rect, RichText, ScrollArea, Ui, UiBuilder, Vec2};
+use egui::{Align2, FontId, Id, Label, Rect, RichText, ScrollArea, Ui, UiBuilder, Vec2};
 
 use super::context::{Pane, PaneContext};
 use crate::command::Command;
 use crate::figures::accuracy;
 use crate::paint::{self, PlotOptions};
 use crate::panes::widgets;
+use crate::panes::widgets::pick_list::{self, Line};
 use crate::profiler::Subject;
 use crate::profiler::bench::{BUILD, bench};
 use crate::theme::UNIT;
@@ -187,17 +188,14 @@ fn switches(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let choices = Subject::ALL.map(|subject| (Shows::Scene(subject), subject.title(), subject.words()));
     let mut chosen = widgets::segmented(ui, &choices, now);
     let words = if let Shows::Bench(workload) = now { workload.name() } else { "Bench" };
-    let combo = ComboBox::from_id_salt("workload").width(96.0).selected_text(words).show_ui(ui, |ui| {
-        for workload in Workload::ALL {
-            let on = now == Shows::Bench(workload);
-            if ui.selectable_label(on, workload.name()).on_hover_text(workload.title()).clicked() {
-                chosen = Some(Shows::Bench(workload));
-            }
-        }
-    });
-    let said = format!("Workload of the bench: {words}");
-    combo.response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::ComboBox, true, &said));
-    combo.response.on_hover_text("The program's methods on standard inputs, independent of the scene");
+    let hint = ("Workload of the bench", "The program's methods on standard inputs, independent of the scene");
+    let line = |workload: Workload| {
+        let line = Line::new(workload.name(), now == Shows::Bench(workload));
+        Line { also: workload.title().to_owned(), ..line }
+    };
+    let index =
+        pick_list::drop_down(ui, hint, words, 96.0, &context.theme, || Workload::ALL.into_iter().map(line).collect());
+    chosen = index.and_then(|index| Workload::ALL.into_iter().nth(index)).map(Shows::Bench).or(chosen);
     if let Some(shows) = chosen {
         context.view.accuracy.shows = shows;
         ui.ctx().request_repaint();

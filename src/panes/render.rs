@@ -12,6 +12,7 @@ use std::time::Duration;
 use egui::{Align2, FontId, Rect, Sense, Ui, Vec2};
 
 use super::context::{Pane, PaneContext};
+use crate::document::render::SUN;
 use crate::panes::widgets;
 use crate::render_service::REST_AFTER;
 use crate::theme::{HEADING, UNIT};
@@ -88,7 +89,8 @@ fn mark_old(ui: &Ui, painter: &egui::Painter, response: &egui::Response, context
         ui.ctx().request_repaint_after(Duration::from_secs_f64(left));
         return;
     }
-    let words = format!("Rendering {}, {}…", context.scene.document.render.mesh.name(), context.scene.light_name());
+    let light = if context.scene.is_sunlit() { SUN.to_owned() } else { context.scene.light_name() };
+    let words = format!("Rendering {}, {light}…", context.scene.document.render.mesh.name());
     painter.rect_filled(response.rect, 0.0, context.theme.surround.color().gamma_multiply(0.6));
     say(painter, response.rect, &words, context);
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Canvas, true, &words));

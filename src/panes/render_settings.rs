@@ -10,7 +10,10 @@ mod view;
 use egui::{CollapsingHeader, Rect, ScrollArea, Ui, UiBuilder, Vec2};
 
 use super::context::{Pane, PaneContext, set_render as set};
-use crate::panes::widgets;
+use crate::panes::widgets::{
+    self,
+    pick_list::{self, Line},
+};
 use crate::theme::UNIT;
 use crate::workspaces::PaneKind;
 
@@ -175,21 +178,33 @@ impl Dial<'_> {
     }
 }
 
-/// A list of the settings, its name above it, over the width of the pane.
+/// A list of the settings, its name above it, over the width of the pane. Returns the line that was chosen.
 fn list(
     ui: &mut Ui,
     name: &'static str,
     [shown, hint]: [&str; 2],
-    context: &mut PaneContext<'_>,
-    content: impl FnOnce(&mut Ui, &mut PaneContext<'_>),
-) {
+    context: &PaneContext<'_>,
+    lines: impl FnOnce() -> Vec<Line>,
+) -> Option<usize> {
     caption(ui, name, context);
-    let combo = egui::ComboBox::from_id_salt(name).width(ui.available_width()).truncate();
-    let response = combo.selected_text(shown).show_ui(ui, |ui| content(ui, context)).response;
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::ComboBox, true, format!("{name}: {shown}")));
-    if !hint.is_empty() {
-        response.on_hover_text(hint);
-    }
+    let width = ui.available_width();
+    pick_list::drop_down(ui, (name, hint), shown, width, &context.theme, lines)
+}
+
+/// A list of choices that are told apart by their labels. Returns the one that was chosen.
+fn choices<T: Copy + PartialEq>(
+    ui: &mut Ui,
+    (name, hint): (&'static str, &str),
+    (all, now): (&[T], T),
+    words: impl Fn(T) -> [&'static str; 2],
+    context: &PaneContext<'_>,
+) -> Option<T> {
+    let line = |&choice: &T| {
+        let [label, facts] = words(choice);
+        Line { facts: facts.to_owned(), ..Line::new(label, choice == now) }
+    };
+    let chosen = list(ui, name, [words(now)[0], hint], context, || all.iter().map(line).collect());
+    chosen.map(|index| all[index])
 }
 
 /// A value as it is shown: three digits.

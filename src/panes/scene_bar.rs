@@ -20,8 +20,9 @@ use crate::workspaces::PaneKind;
 const MIRED: [f64; 2] = [50.0, 1000.0];
 /// Opacity of a control that does nothing in the workspace.
 const DIM: f32 = 0.45;
-/// Below this width the difference is chosen in the View menu.
+/// Below this width the list of differences has no room for its name, only for a button.
 const WITH_DIFFERENCE: f32 = 1100.0;
+const BUTTON: f32 = 20.0;
 
 /// Shows the bar in its rectangle.
 pub fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
@@ -43,9 +44,8 @@ pub fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     field(&mut bar, (Condition::Patches, "Patches"), 196.0 * compact, context, patches);
     field(&mut bar, (Condition::White, "White balance"), 108.0 * compact, context, white);
     field(&mut bar, (Condition::Transform, "Color transform"), 146.0 * compact, context, transform);
-    if wide {
-        field(&mut bar, (Condition::Difference, "Difference"), 90.0, context, difference);
-    }
+    let (caption, width) = if wide { ("Difference", 90.0) } else { ("Δ", BUTTON) };
+    field(&mut bar, (Condition::Difference, caption), width, context, difference);
 }
 
 /// A condition of the scene.
@@ -155,7 +155,12 @@ fn choice(
     lines: impl FnOnce() -> Vec<Line>,
 ) -> Option<usize> {
     let width = ui.available_width();
-    pick_list::drop_down(ui, (name, hint), shown, width, &context.theme, lines)
+    if width > BUTTON {
+        return pick_list::drop_down(ui, (name, hint), shown, width, &context.theme, lines);
+    }
+    let (button, chosen) = pick_list::menu(ui, ("⋯", name, &format!("{name}: {shown}\n{hint}")), &context.theme, lines);
+    button.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, format!("{name}: {shown}")));
+    chosen
 }
 
 /// A list of what can be set, each with its action. Pushes the one that was chosen.
@@ -185,7 +190,7 @@ fn reference(ui: &mut Ui, context: &mut PaneContext<'_>) {
     actions(ui, ("Reference", "The observer that cameras are compared with."), &shown, context, |context| {
         let observers = context.scene.entries(SetKind::Observer).map(|entry| {
             let counts_in_xyz = entry.counts_in_xyz();
-            let line = Line { also: entry.also.unwrap_or_default(), ..Line::new(&entry.name, entry.name == now) };
+            let line = Line::of_set(&entry, entry.name == now);
             (line, Some(Action::Compare(CompareAction::SetReference { name: entry.name, counts_in_xyz })))
         });
         observers.collect()
@@ -240,9 +245,8 @@ fn light(ui: &mut Ui, context: &mut PaneContext<'_>) {
         all.push(offer(Light::Daylight, "Daylight at the temperature, 4000–20000 K".to_owned()));
         all.push((Line::heading("Illuminants"), None));
         all.extend(context.scene.entries(SetKind::Illuminant).map(|entry| {
-            let words =
-                entry.also.as_ref().map_or_else(|| entry.name.clone(), |also| format!("{}, {also}", entry.name));
-            offer(Light::Set(entry.name), words)
+            let light = Light::Set(entry.name.clone());
+            (Line::of_set(&entry, now == light), Some(Action::Scene(SceneAction::SetLight(light))))
         }));
         all
     });
@@ -287,10 +291,25 @@ fn temperature(ui: &mut Ui, slider_width: f32, context: &mut PaneContext<'_>) {
     };
     let (rect, _) = ui.allocate_exact_size(Vec2::new(66.0, ROW), Sense::hover());
     let focus = std::mem::take(&mut context.view.focus_temperature);
-    set = field.show(ui, rect, focus, context).or(set);
+    let matters = Condition::Temperature.matters(context);
+    set = field.show(ui, rect, focus && matters, context).or(set);
+    if !matters && (focus || set.is_some()) {
+        context.view.say(without_effect(context));
+    }
     if let Some(kelvin) = set.filter(|kelvin| *kelvin != now) {
         context.push(Action::Scene(SceneAction::SetTemperature(kelvin)));
     }
+}
+
+/// Reason that the temperature changes nothing in the workspace, with the remedy.
+fn without_effect(context: &PaneContext<'_>) -> String {
+    let words = format!("The temperature has no effect on the panes of {}", context.view.saved.workspace.title());
+    let light = match &context.scene.document.light {
+        _ if shows_sunlight(context) => SUN,
+        Light::Set(name) if Condition::Light.matters(context) => name,
+        _ => return format!("{words}."),
+    };
+    format!("{words}: the light is {light}. Choose Blackbody or Daylight under Light.")
 }
 
 fn patches(ui: &mut Ui, context: &mut PaneContext<'_>) {
@@ -309,10 +328,12 @@ fn patches(ui: &mut Ui, context: &mut PaneContext<'_>) {
         }
         for (kind, words) in [(SetKind::Chart, "Charts"), (SetKind::Material, "Single reflectances")] {
             all.push((Line::heading(words), None));
-            all.extend(context.scene.entries(kind).map(|entry| {
-                let line = Line { also: entry.also.unwrap_or_default(), ..Line::new(&entry.name, entry.name == now) };
-                (line, set(SceneAction::SetChart(entry.name)))
-            }));
+            all.extend(
+                context
+                    .scene
+                    .entries(kind)
+                    .map(|entry| (Line::of_set(&entry, entry.name == now), set(SceneAction::SetChart(entry.name)))),
+            );
         }
         all
     });
@@ -341,8 +362,10 @@ fn white(ui: &mut Ui, context: &mut PaneContext<'_>) {
             offer(WhiteBalanceChoice::BlackBody(kelvin), format!("Blackbody {kelvin:.0} K")),
             (Line::heading("Illuminants"), None),
         ];
-        let lights = context.scene.entries(SetKind::Illuminant);
-        all.extend(lights.map(|entry| offer(WhiteBalanceChoice::Light(entry.name.clone()), entry.name)));
+        all.extend(context.scene.entries(SetKind::Illuminant).map(|entry| {
+            let white = WhiteBalanceChoice::Light(entry.name.clone());
+            (Line::of_set(&entry, now == white), Some(Action::Scene(SceneAction::SetWhite(white))))
+        }));
         all
     });
 }

@@ -137,7 +137,7 @@ fn header_buttons(ui: &mut Ui, pane: &Pane, context: &mut PaneContext<'_>) {
         context.push(if maximized { Command::Maximize(kind) } else { Command::TogglePane(kind) });
     }
     let words = if maximized { "Restore" } else { "Maximize" };
-    if icon_button(ui, Icon::Maximize, &format!("{words} {title} (F)")).clicked() {
+    if !kind.is_controls() && icon_button(ui, Icon::Maximize, &format!("{words} {title} (F)")).clicked() {
         context.push(Command::Maximize(kind));
     }
     if pane.figure.is_some() {

@@ -80,11 +80,16 @@ fn escape_and_ctrl_e_go_back_to_where_one_was() {
 }
 
 #[test]
-fn a_pane_without_a_figure_says_so() {
-    let (_executor, window) = page_of(PaneKind::LIBRARY);
+fn a_figure_that_cannot_be_made_now_says_so() {
+    let (executor, mut window) = page_of(PaneKind::CHROMATICITY);
+    window.key_press(Key::Escape);
+    window.state_mut().push(Command::GoTo(PaneKind::RECORDED));
+    settle(&executor, &mut window);
+    window.key_press_modifiers(Modifiers::COMMAND, Key::E);
+    settle(&executor, &mut window);
     assert_eq!(open(&window), None);
     let status = &window.state().view().status;
-    assert!(status.weight == Weight::Error && status.text.starts_with("Library has no figure"), "{}", status.text);
+    assert!(status.weight == Weight::Error && status.text.starts_with("Recorded has no figure"), "{}", status.text);
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! Finding and steering: the palette, lists that filter, the way from pane to pane by keyboard.
 
 use chromascope::app::ChromascopeApp;
+use chromascope::catalog::names::{Fit, fit, typed_words};
 use chromascope::command::Command;
 use chromascope::document::{Diagram, Document, Light, Overlays, SetKind};
 use chromascope::plot_item::{PlotItem, SensorId};
@@ -12,6 +13,8 @@ use egui::accesskit::{Role, Toggled};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
 
+use crate::import_switches::says;
+use crate::keyboard::press_like_keyboard;
 use crate::screenshots::open_with;
 
 type Window = Harness<'static, ChromascopeApp>;
@@ -139,6 +142,103 @@ fn a_long_list_filters_as_one_types() {
         "{}",
         window.state().history().document().chart
     );
+}
+
+/// Words of the lines in sight that a palette or list shows, from above.
+fn lines(window: &Window) -> Vec<String> {
+    let shown =
+        window.query_all_by(|node| node.role() == Role::Button && node.toggled().is_some() && !node.is_hidden());
+    let wide = shown.filter(|node| node.rect().width() > 250.0);
+    wide.filter_map(|node| node.accesskit_node().label()).collect()
+}
+
+#[test]
+fn exact_names_win_in_lists_and_in_the_palette() {
+    const A: &str = "A, incandescent 2856 K";
+    for (typed, first) in [
+        ("a", A),
+        ("A", A),
+        ("illuminant a", A),
+        ("light A", A),
+        ("incandescent", A),
+        ("a, inc", A),
+        ("fl2", "FL2, CIE fluorescent lamps"),
+        ("fl", "FL1, CIE fluorescent lamps"),
+        ("d6", "D60, daylight 6000 K"),
+    ] {
+        let mut window = window();
+        window.get_by_label_contains("Light: ").click();
+        window.run_steps(3);
+        press_like_keyboard(&mut window, typed);
+        assert_eq!(lines(&window)[0], first, "{typed} in the list");
+        window.key_press(Key::Enter);
+        window.run_steps(3);
+        let name = first.split(", ").next().unwrap().to_owned();
+        assert_eq!(window.state().history().document().light, Light::Set(name), "{typed}");
+        let mut window = self::window();
+        window.state_mut().push(Command::FindAnything);
+        window.run_steps(3);
+        press_like_keyboard(&mut window, typed);
+        assert_eq!(picked(&window), first, "{typed} in the palette");
+    }
+    for typed in ["D200", "camera d200", "d 200"] {
+        let mut window = window();
+        window.state_mut().push(Command::FindAnything);
+        window.run_steps(3);
+        press_like_keyboard(&mut window, typed);
+        assert_eq!(picked(&window), "Nikon D200", "{typed}");
+        assert!(!says(&window, "Canon EOS 10D"), "{typed}");
+    }
+}
+
+#[test]
+fn a_search_for_a_phone_says_that_there_is_none() {
+    for typed in ["phone", "iPhone 15", "nokia", "Samsung", "pixel"] {
+        let mut window = window();
+        window.state_mut().push(Command::FindAnything);
+        window.run_steps(3);
+        press_like_keyboard(&mut window, typed);
+        assert!(says(&window, "No phone is among the built-in cameras"), "{typed}");
+        window.key_press(Key::Escape);
+        window.run_steps(2);
+        window.state_mut().view_mut().search = typed.to_owned();
+        window.run_steps(2);
+        assert!(says(&window, "Open a table of your own (Ctrl+O)"), "{typed}");
+    }
+}
+
+#[test]
+fn the_library_ranks_as_all_searches_do() {
+    let mut window = window();
+    for (search, first) in [("A", "A"), ("d200", "Nikon D200"), ("camera d200", "Nikon D200"), ("nikkon d90", "")] {
+        window.state_mut().view_mut().search = search.to_owned();
+        window.run_steps(3);
+        let sets = window.query_all_by(|node| {
+            matches!(node.role(), Role::CheckBox | Role::RadioButton) && node.toggled().is_some() && !node.is_hidden()
+        });
+        let sets: Vec<String> = sets
+            .filter(|node| node.rect().left() < 100.0 && node.rect().top() > 300.0)
+            .filter_map(|node| node.accesskit_node().label())
+            .collect();
+        assert_eq!(sets.first().map_or("", String::as_str), first, "{search}: {sets:?}");
+        assert!(!sets.iter().any(|set| search.contains("200") && set.contains("10D")), "{sets:?}");
+    }
+}
+
+#[test]
+fn names_are_ranked_by_how_much_of_them_was_typed() {
+    let fit = |text: &str, name: &str, gloss: &str| fit(&typed_words(text), name, gloss);
+    let ordered = ["Day", "Daylight 5000 K", "Clear day", "Clear daylight", "Midday"];
+    let fits: Vec<_> = ordered.iter().map(|name| fit("day", name, "").unwrap()).collect();
+    assert_eq!(fits, [Fit::Exact, Fit::Start, Fit::Words, Fit::WordStarts, Fit::Inside]);
+    assert_eq!(fit("day", "Noon", "daylight"), Some(Fit::Gloss));
+    assert_eq!(fit("nikkon d70", "Nikon D70", ""), Some(Fit::Similar));
+    assert_eq!(fit("d71", "Nikon D70", ""), None, "numbers must be right");
+    assert_eq!(fit("D200", "Canon EOS 10D (2007 figure)", "Canon 10D (2007) camera"), None);
+    assert_eq!(fit("eos5dmark", "Canon EOS 5D Mark II", ""), Some(Fit::WordStarts));
+    assert_eq!(fit("illuminant A", "A, incandescent 2856 K", "CIE light illuminant"), Some(Fit::Exact));
+    assert_eq!(fit("a", "White balance: A, incandescent 2856 K", ""), Some(Fit::Exact));
+    assert_eq!(fit("camera", "Nikon D70", "camera"), Some(Fit::Gloss));
 }
 
 #[test]

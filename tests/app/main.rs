@@ -31,6 +31,7 @@ mod import_text;
 mod inspector;
 #[cfg(unix)]
 mod keeping;
+mod keyboard;
 mod library;
 mod lights;
 mod meshes;

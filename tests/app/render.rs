@@ -20,6 +20,7 @@ use egui::accesskit::Role;
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
+use crate::keyboard::press_like_keyboard;
 use crate::screenshots::{driven, open};
 use crate::waiting::until;
 
@@ -278,8 +279,7 @@ fn a_narrow_window_keeps_the_scene_pane() {
     assert!(window.query_by_role_and_label(Role::Button, "Close Render settings").is_some());
     let search = |window: &Window| window.query_by_role_and_label(Role::TextInput, "Search the library").is_some();
     assert!(!search(&window));
-    window.key_press(egui::Key::L);
-    window.run_steps(2);
+    press_like_keyboard(&mut window, "l");
     assert!(search(&window), "it lies over the pictures");
     assert!(window.query_by_role_and_label(Role::Button, "Close Render settings").is_some());
     window.key_press(egui::Key::Escape);
@@ -308,8 +308,7 @@ fn a_double_click_shows_one_picture_and_all_again() {
     window.key_press(egui::Key::Escape);
     window.run_steps(2);
     assert_eq!(window.state().view().saved.render.mode, RenderMode::Grid);
-    window.key_press(egui::Key::D);
-    window.run_steps(2);
+    press_like_keyboard(&mut window, "d");
     assert_eq!(window.state().view().saved.render.mode, RenderMode::Difference);
 }
 

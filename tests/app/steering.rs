@@ -19,6 +19,7 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
 use crate::import_switches::says;
+use crate::keyboard::press_like_keyboard;
 use crate::screenshots::{driven, driven_with};
 
 type Window = Harness<'static, ChromascopeApp>;
@@ -205,8 +206,7 @@ fn the_temperature_keeps_the_keyboard_while_the_start_is_still_loading() {
             window.drop_at(at);
         }
         for letter in ["4", "3", "2", "1"] {
-            window.event(egui::Event::Text(letter.to_owned()));
-            window.step();
+            press_like_keyboard(&mut window, letter);
             executor.run_next();
             window.state_mut().push(Command::Show(Workspace::Metrics));
             window.step();

@@ -9,6 +9,7 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
 
 use crate::import_switches::says;
+use crate::keyboard::press_like_keyboard;
 use crate::screenshots::open;
 
 type Window = Harness<'static, ChromascopeApp>;
@@ -27,17 +28,12 @@ fn text(window: &Window) -> Option<String> {
 
 /// T, then the text, letter by letter.
 fn type_temperature(window: &mut Window, words: &str) {
-    window.key_press(egui::Key::T);
-    window.run_steps(3);
+    press_like_keyboard(window, "t");
     type_on(window, words);
 }
 
 fn type_on(window: &mut Window, words: &str) {
-    for letter in words.chars() {
-        window.event(egui::Event::Text(letter.to_string()));
-        window.run_steps(1);
-    }
-    window.run_steps(2);
+    press_like_keyboard(window, words);
 }
 
 fn press(window: &mut Window, key: egui::Key) {

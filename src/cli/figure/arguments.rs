@@ -16,7 +16,7 @@ use crate::workspaces::PaneKind;
 pub(in crate::cli) const EXAMPLES: &str = "Examples:
   chromascope figure chromaticity --preset paper --width 85mm --font-size 8 --out figure3.pdf
   chromascope figure spectra --camera \"Nikon D70\" --width 174mm --style print --out spectra.svg
-  chromascope figure swatches --session work.json --width 3.35in --dpi 600 --out swatches.png
+  chromascope figure swatches --session work.chromascope --width 3.35in --dpi 600 --out swatches.png
   chromascope figure render --mesh fern --width 174mm --out figure8.pdf
   chromascope figure chromaticity --range 0.3,0.5,0.3,0.42 --numbers visible --out points.csv
 

@@ -1,7 +1,7 @@
 //! Settings of the paper, and what to do with the page.
 
 use chromascope_figure::{AxisRanges, AxisTitles, LegendPlace, Numbers};
-use egui::{ComboBox, DragValue, Rect, Response, ScrollArea, Ui, WidgetInfo};
+use egui::{DragValue, Rect, Response, ScrollArea, Ui};
 
 use super::{inside, small};
 use crate::command::Command;
@@ -10,6 +10,7 @@ use crate::export::paper::PaperStyle;
 use crate::export::{FigureForm, Paper};
 use crate::panes::context::PaneContext;
 use crate::panes::widgets;
+use crate::panes::widgets::pick_list::{self, Line};
 use crate::theme::{ROW, SourceInks, UNIT};
 use crate::view::page::{LengthUnit, PageLook};
 use crate::workspaces::PaneKind;
@@ -89,13 +90,11 @@ fn size(ui: &mut Ui, look: &mut PageLook, facts: Option<PageFacts>, context: &mu
     let paper = &mut look.paper;
     let preset = WIDTHS.iter().find(|(mm, _)| paper.width_mm == Some(*mm) && paper.height_mm.is_none());
     let shown = preset.map_or("Own size", |(_, words)| words);
-    let combo = drop_down(ui, "Size", shown, context, |ui| {
-        for (mm, words) in WIDTHS {
-            if ui.selectable_label(shown == words, words).clicked() {
-                (paper.width_mm, paper.height_mm) = (Some(mm), None);
-            }
-        }
-    });
+    let words = WIDTHS.map(|(_, words)| words);
+    let (combo, chosen) = drop_down(ui, ("Size", "Width of the page"), shown, &words, context);
+    if let Some(index) = chosen {
+        (paper.width_mm, paper.height_mm) = (Some(WIDTHS[index].0), None);
+    }
     if std::mem::take(&mut context.view.tab_enters) {
         combo.request_focus();
     }
@@ -150,14 +149,11 @@ fn dress(ui: &mut Ui, paper: &mut Paper, (kind, facts): (PaneKind, Option<PageFa
 
 fn legend(ui: &mut Ui, paper: &mut Paper, context: &PaneContext<'_>) {
     let shown = LEGENDS.iter().find(|(place, _)| *place == paper.legend).map_or("", |(_, words)| words);
-    drop_down(ui, "Legend", shown, context, |ui| {
-        for (place, words) in LEGENDS {
-            let line = ui.selectable_value(&mut paper.legend, place, words);
-            if place.is_none() {
-                line.on_hover_text("Below on a page narrower than 120 mm, else where the figure has it");
-            }
-        }
-    });
+    let hint = "Automatic: below on a page narrower than 120 mm, else where the figure has it";
+    let words = LEGENDS.map(|(_, words)| words);
+    if let Some(index) = drop_down(ui, ("Legend", hint), shown, &words, context).1 {
+        paper.legend = LEGENDS[index].0;
+    }
 }
 
 fn buttons(ui: &mut Ui, kind: PaneKind, context: &mut PaneContext<'_>) {
@@ -230,13 +226,17 @@ fn choice<T: Copy + PartialEq>(
     }
 }
 
-/// A list that drops down, behind its name.
-fn drop_down(ui: &mut Ui, name: &str, shown: &str, context: &PaneContext<'_>, lines: impl FnOnce(&mut Ui)) -> Response {
-    row(ui, name, context, |ui| {
-        let combo = ComboBox::from_id_salt(name).width(190.0).selected_text(shown).show_ui(ui, lines);
-        let said = format!("{name}: {shown}");
-        combo.response.widget_info(|| WidgetInfo::labeled(egui::Role::ComboBox, true, &said));
-        combo.response
+/// A list that drops down, behind its name. Returns the control, and the line that was chosen.
+fn drop_down(
+    ui: &mut Ui,
+    words: (&str, &str),
+    shown: &str,
+    lines: &[&str],
+    context: &PaneContext<'_>,
+) -> (Response, Option<usize>) {
+    row(ui, words.0, context, |ui| {
+        let lines = || lines.iter().map(|line| Line::new(*line, *line == shown)).collect();
+        pick_list::combo(ui, words, shown, 190.0, &context.theme, lines)
     })
 }
 

@@ -6,10 +6,10 @@ mod things;
 use egui::{Align2, Id, Ui, Vec2, Window};
 
 use crate::action::history::History;
-use crate::catalog::names::folded;
+use crate::catalog::names::ranked;
 use crate::command::Command;
 use crate::panes::PaneContext;
-use crate::panes::widgets::pick_list::{Line, PickList, typed_words};
+use crate::panes::widgets::pick_list::{Line, PickList};
 
 /// Group of places in the help, which stands last.
 const IN_HELP: &str = "In the help";
@@ -21,12 +21,17 @@ const HEIGHT: f32 = 380.0;
 struct Found {
     group: &'static str,
     line: Line,
-    command: Command,
+    /// None for the heading of a group.
+    command: Option<Command>,
 }
 
 impl Found {
     fn new(group: &'static str, words: impl Into<String>, command: impl Into<Command>) -> Self {
-        Self { group, line: Line::new(words, false), command: command.into() }
+        Self { group, line: Line::new(words, false), command: Some(command.into()) }
+    }
+
+    fn heading(group: &'static str) -> Self {
+        Self { group, line: Line::heading(group), command: None }
     }
 
     /// Further words that find it.
@@ -68,11 +73,9 @@ pub(super) fn show(ui: &Ui, history: &History, context: &mut PaneContext<'_>) {
         };
         let mut commands = Vec::new();
         let lines = |text: &str| {
-            let mut lines = Vec::new();
-            for (line, command) in grouped(find(text, history, context), text) {
-                lines.push(line);
-                commands.push(command);
-            }
+            let found = find(text, history, context);
+            let (lines, made) = found.into_iter().map(|found| (found.line, found.command)).unzip();
+            commands = made;
             lines
         };
         let index = list.show(ui, &mut state, lines, &theme);
@@ -84,62 +87,33 @@ pub(super) fn show(ui: &Ui, history: &History, context: &mut PaneContext<'_>) {
     }
 }
 
-/// Everything that matches.
+/// Everything that matches, by group, each below its heading; places in the help come last.
 fn find(text: &str, history: &History, context: &PaneContext<'_>) -> Vec<Found> {
-    let typed = typed_words(text);
-    let mut found = things::numbers(text, context);
-    let mut all = things::commands(history, context);
+    let mut all = things::numbers(text, context);
+    all.extend(things::commands(history, context));
     all.extend(things::panes(context));
+    all.extend(things::phones(text));
+    all.extend(things::sets(context));
     all.extend(settings::scene(context));
     all.extend(settings::view(context));
     all.extend(settings::render(context));
     all.extend(things::saves(context));
     all.extend(things::patches(context));
-    all.extend(things::sets(context));
     all.extend(things::pages());
-    found.extend(all.into_iter().filter(|found| found.line.matches(&typed)));
-    found.extend(things::help_text(text));
+    let mut found = matching(all, text);
+    let hits = things::help_text(text);
+    if !hits.is_empty() {
+        found.push(Found::heading(IN_HELP));
+        found.extend(hits);
+    }
     found
 }
 
-/// What was found, by group, each below its heading; a heading has no command. The group with the best match is first.
-fn grouped(found: Vec<Found>, text: &str) -> Vec<(Line, Option<Command>)> {
-    let typed = typed_words(text);
-    let mut groups: Vec<(&'static str, Vec<(usize, Found)>)> = Vec::new();
-    for found in found {
-        let rank = rank(&found.line, &typed);
-        match groups.iter_mut().find(|(name, _)| *name == found.group) {
-            Some((_, group)) => group.push((rank, found)),
-            None => groups.push((found.group, vec![(rank, found)])),
-        }
-    }
-    for (_, group) in &mut groups {
-        group.sort_by_key(|(rank, _)| *rank);
-    }
-    groups.sort_by_key(|(name, group)| (*name == IN_HELP, group[0].0));
-    let lines = groups.into_iter().flat_map(|(name, group)| {
-        let heading = std::iter::once((Line::heading(name), None));
-        heading.chain(group.into_iter().map(|(_, found)| (found.line, Some(found.command))))
-    });
-    lines.collect()
-}
-
-/// How well a line matches: begins with whole words, begins with, has words that begin with, contains, has other words for it. What
-/// stands behind a colon counts as a beginning.
-fn rank(line: &Line, typed: &[String]) -> usize {
-    let text = typed.concat();
-    let known = typed_words(&line.words);
-    let parts = [folded(&line.words), line.words.split_once(':').map_or_else(String::new, |(_, value)| folded(value))];
-    let begins = !text.is_empty() && parts.iter().any(|part| part.starts_with(&text));
-    let has_whole = typed.iter().all(|word| known.contains(word));
-    let has_beginnings = typed.iter().all(|word| known.iter().any(|known| known.starts_with(word.as_str())));
-    match () {
-        () if begins && has_whole => 0,
-        () if begins => 1,
-        () if has_beginnings => 2,
-        () if typed.iter().all(|word| parts[0].contains(word.as_str())) => 3,
-        () => 4,
-    }
+/// What matches, by group, each below its heading; the group with the best match is first.
+fn matching(all: Vec<Found>, text: &str) -> Vec<Found> {
+    let facts = |found: &Found| (found.group, found.line.words.clone(), found.line.also.clone());
+    let groups = ranked(text, all.into_iter(), facts);
+    groups.into_iter().flat_map(|(group, found)| std::iter::once(Found::heading(group)).chain(found)).collect()
 }
 
 #[cfg(test)]
@@ -150,23 +124,14 @@ mod tests {
     fn settings_come_before_what_only_contains_the_words() {
         let found = |group, words: &str| Found::new(group, words, Command::Undo);
         let all = vec![
-            found(IN_HELP, "Fitted. A color correction matrix"),
             found("Patches shown", "outfit"),
             found("Settings", "Color transform: fitted to CIE 1931"),
             found("Settings", "Diagram: fit to data"),
         ];
-        let lines: Vec<String> = grouped(all, "fit").into_iter().map(|(line, _)| line.words).collect();
+        let lines: Vec<String> = matching(all, "fit").into_iter().map(|found| found.line.words).collect();
         assert_eq!(
             lines,
-            [
-                "Settings",
-                "Diagram: fit to data",
-                "Color transform: fitted to CIE 1931",
-                "Patches shown",
-                "outfit",
-                IN_HELP,
-                "Fitted. A color correction matrix"
-            ]
+            ["Settings", "Diagram: fit to data", "Color transform: fitted to CIE 1931", "Patches shown", "outfit"]
         );
     }
 }

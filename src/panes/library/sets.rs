@@ -51,21 +51,24 @@ impl<'a> Row<'a> {
     }
 }
 
-/// All rows as if the pane were endless; while searching all groups are open and hold what matches.
+/// All rows as if the pane were endless; while searching all groups are open and hold what matches, the best match first.
 pub(super) fn rows<'a>(context: &PaneContext<'a>) -> Vec<Row<'a>> {
     let search = context.view.search.trim();
     let searching = !search.is_empty();
     let (document, catalog) = (context.scene.document, context.scene.catalog);
+    let of_kind = |kind| {
+        let own = document.own.iter().filter(move |set| SetKind::of_own(set) == kind).map(Row::Own);
+        own.chain(catalog.of_kind(kind).map(Row::BuiltIn))
+    };
+    let groups: Vec<(SetKind, Vec<Row<'a>>)> = if searching {
+        let all = SetKind::ALL.into_iter().flat_map(|kind| of_kind(kind).filter_map(|row| Some((row.entry()?, row))));
+        let found = names::ranked(search, all, |(entry, _)| (entry.kind, entry.glossed_name(), entry.gloss()));
+        found.into_iter().map(|(kind, found)| (kind, found.into_iter().map(|(_, row)| row).collect())).collect()
+    } else {
+        SetKind::ALL.into_iter().map(|kind| (kind, of_kind(kind).collect())).collect()
+    };
     let mut rows = Vec::new();
-    for kind in SetKind::ALL {
-        let matches = |entry: &Entry| names::matches_search(entry, search);
-        let own = document.own.iter().filter(|set| SetKind::of_own(set) == kind);
-        let own = own.filter(|set| !searching || matches(&Entry::from_own(set))).map(Row::Own);
-        let built_in = catalog.of_kind(kind).filter(|entry| !searching || matches(entry)).map(Row::BuiltIn);
-        let found: Vec<Row<'a>> = own.chain(built_in).collect();
-        if found.is_empty() && (searching || kind == SetKind::Unsorted) {
-            continue;
-        }
+    for (kind, found) in groups.into_iter().filter(|(kind, found)| !found.is_empty() || *kind != SetKind::Unsorted) {
         let open = searching || !context.view.saved.folded.contains(kind.plural());
         rows.push(Row::Group { kind, count: found.len(), open });
         if open {
@@ -83,12 +86,10 @@ pub(super) fn first_match<'a>(rows: &[Row<'a>]) -> Option<Cow<'a, Entry>> {
 /// The list; only visible rows are laid out.
 pub(super) fn list(ui: &mut Ui, rows: &[Row<'_>], context: &mut PaneContext<'_>) {
     if rows.is_empty() {
-        ui.horizontal(|ui| {
-            ui.label("No match.");
-            if ui.button("Clear search").clicked() {
-                context.view.search.clear();
-            }
-        });
+        ui.label(names::no_match(&context.view.search));
+        if ui.button("Clear search").clicked() {
+            context.view.search.clear();
+        }
         return;
     }
     ui.spacing_mut().item_spacing.y = 0.0;

@@ -25,7 +25,6 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     {
         context.view.focused = Some(PaneKind::LIBRARY);
     }
-    context.view.keeps_escape = false;
     let inner = rect.shrink2(Vec2::new(2.0 * UNIT, UNIT));
     let mut column = ui.new_child(UiBuilder::new().id_salt("library").max_rect(inner));
     column.set_clip_rect(rect.intersect(ui.clip_rect()));

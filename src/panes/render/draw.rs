@@ -1,9 +1,7 @@
 //! Drawing of pictures with captions, pinned pixel and divider.
 
 use chromascope_figure::{Ink, InkRole, Mark, Panel, Rect as Area, Shape};
-use egui::{
-    Align2, ComboBox, CursorIcon, FontId, Key, Painter, Pos2, Rect, Sense, Stroke, TextStyle, Ui, UiBuilder, Vec2,
-};
+use egui::{Align2, CursorIcon, FontId, Key, Painter, Pos2, Rect, Sense, Stroke, TextStyle, Ui, UiBuilder, Vec2};
 
 use super::cells::{CAPTION, PictureLayout, PictureSlot, chosen};
 use super::difference;
@@ -13,6 +11,7 @@ use crate::figures::render::{difference as maps, index_of};
 use crate::paint::{self, PictureQuery};
 use crate::panes::context::PaneContext;
 use crate::panes::widgets::lines;
+use crate::panes::widgets::pick_list::{self, Line};
 use crate::plot_item::PickIndex;
 use crate::render_service::RenderedFrame;
 use crate::scene::ComparedSensor;
@@ -247,17 +246,14 @@ pub(super) fn choosers(ui: &mut Ui, layout: &PictureLayout, sources: &[ComparedS
     let mut child = ui.new_child(UiBuilder::new().id_salt("visible sensor").max_rect(place));
     child.spacing_mut().interact_size.y = place.height();
     child.spacing_mut().button_padding.y = 1.0;
-    let combo = ComboBox::from_id_salt("visible sensor").width(place.width()).truncate().selected_text(title(&now));
-    let response = combo.show_ui(&mut child, |ui| {
-        for source in sources.iter().filter(|source| layout.mode == RenderMode::One || !source.is_reference) {
-            let here = source.kind == now.kind && source.name == now.name;
-            if ui.selectable_label(here, title(source)).clicked() {
-                context.view.render.chosen = Some(id(source));
-            }
-        }
+    let offered = || sources.iter().filter(|source| layout.mode == RenderMode::One || !source.is_reference);
+    let words = ("Visible sensor", "The sensor whose picture is shown");
+    let chosen = pick_list::drop_down(&mut child, words, &title(&now), place.width(), &context.theme, || {
+        offered().map(|source| Line::new(title(source), source.kind == now.kind && source.name == now.name)).collect()
     });
-    let said = format!("Visible sensor: {}", title(&now));
-    response.response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::ComboBox, true, &said));
+    if let Some(source) = chosen.and_then(|index| offered().nth(index)) {
+        context.view.render.chosen = Some(id(source));
+    }
     let made = shot.as_deref().and_then(|shot| index_of(shot, &id(&now)));
     let rest = Rect::from_min_max(Pos2::new(place.right() + 8.0, row.top()), row.max);
     let made = shot.as_deref().zip(made).and_then(|(shot, at)| note(shot, at, rest.width() + 90.0));

@@ -1,11 +1,12 @@
 //! Spectral image in place of a mesh: facts, quantity and scale of its samples.
 
-use egui::{ComboBox, DragValue, RichText, Ui};
+use egui::{DragValue, RichText, Ui};
 
 use super::set;
 use crate::catalog::spectral_images::ImageState;
 use crate::document::render::{MeshChoice, QuantityChoice};
 use crate::panes::context::PaneContext;
+use crate::panes::widgets::pick_list::{self, Line};
 
 /// Quantities with their names and hints.
 const QUANTITIES: [(QuantityChoice, &str, &str); 3] = [
@@ -25,16 +26,23 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
     ui.horizontal(|ui| {
         let now = settings.image_quantity;
         let name = QUANTITIES.iter().find(|(quantity, ..)| *quantity == now).map_or("", |(_, name, _)| name);
-        let combo = ComboBox::from_id_salt("image quantity").width(150.0).selected_text(name);
-        let response = combo.show_ui(ui, |ui| {
-            for (quantity, name, hint) in QUANTITIES {
-                if ui.selectable_label(now == quantity, name).on_hover_text(hint).clicked() {
-                    set(context, "Quantity of the image", |settings| settings.image_quantity = quantity);
-                }
-            }
-        });
-        let said = format!("Quantity: {name}");
-        response.response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::ComboBox, true, &said));
+        let chosen = pick_list::drop_down(
+            ui,
+            ("Quantity", "Quantity of the image's samples"),
+            name,
+            150.0,
+            &context.theme,
+            || {
+                let line = |(quantity, name, hint): (QuantityChoice, &str, &str)| Line {
+                    facts: hint.to_owned(),
+                    ..Line::new(name, quantity == now)
+                };
+                QUANTITIES.map(line).to_vec()
+            },
+        );
+        if let Some(index) = chosen {
+            set(context, "Quantity of the image", |settings| settings.image_quantity = QUANTITIES[index].0);
+        }
         ui.label("Quantity");
     });
     ui.horizontal(|ui| {

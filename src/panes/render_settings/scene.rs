@@ -1,5 +1,7 @@
 //! Mesh, material, and where the light is.
 
+use std::path::PathBuf;
+
 use chromascope_core::scene::lighting::SUN_RADIUS;
 use chromascope_mesh::head::FEWEST;
 use egui::Ui;
@@ -9,8 +11,9 @@ use crate::catalog::meshes::{MeshState, is_mesh};
 use crate::catalog::spectral_images::has_image_ending;
 use crate::command::Command;
 use crate::document::render::{MeshChoice, NEAR, RenderSettings};
+use crate::format::{capitalized, file_name};
 use crate::panes::context::PaneContext;
-use crate::panes::widgets;
+use crate::panes::widgets::{self, pick_list::Line};
 
 /// Choices of the number of triangles.
 const TRIANGLES: std::ops::RangeInclusive<f64> = 2e3..=2e6;
@@ -72,39 +75,29 @@ fn conditions(ui: &mut Ui, settings: &RenderSettings, context: &mut PaneContext<
 
 fn mesh(ui: &mut Ui, settings: &RenderSettings, context: &mut PaneContext<'_>) {
     let shown = match &settings.mesh {
-        MeshChoice::Head => "Head".to_owned(),
-        MeshChoice::Fern => "Fern".to_owned(),
-        MeshChoice::Sphere => "Sphere".to_owned(),
-        MeshChoice::Plane => "Plane".to_owned(),
-        MeshChoice::File(path) | MeshChoice::Image(path) => {
-            path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
-        }
+        MeshChoice::File(path) | MeshChoice::Image(path) => file_name(path),
+        own => capitalized(&own.name()),
     };
-    list(ui, "Mesh", [&shown, ""], context, |ui, context| {
-        for (choice, words) in [
-            (MeshChoice::Head, "Head"),
-            (MeshChoice::Fern, "Fern"),
-            (MeshChoice::Sphere, "Sphere"),
-            (MeshChoice::Plane, "Plane"),
-        ] {
-            if ui.selectable_label(settings.mesh == choice, words).clicked() {
-                set(context, "Mesh", |settings| settings.take(choice));
-            }
-        }
-        ui.separator();
-        let recent = context.view.saved.recent.clone();
-        for path in recent.into_iter().filter(|path| is_mesh(path, &[]) || has_image_ending(path)) {
-            let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
+    let own = [MeshChoice::Head, MeshChoice::Fern, MeshChoice::Sphere, MeshChoice::Plane];
+    let recent = context.view.saved.recent.iter().filter(|path| is_mesh(path, &[]) || has_image_ending(path));
+    let recent: Vec<PathBuf> = recent.cloned().collect();
+    let chosen = list(ui, "Mesh", [&shown, "What is rendered"], context, || {
+        let mesh = |mesh: &MeshChoice| Line::new(capitalized(&mesh.name()), settings.mesh == *mesh);
+        let file = |path: &PathBuf| {
             let here = [MeshChoice::File(path.clone()), MeshChoice::Image(path.clone())].contains(&settings.mesh);
-            if ui.selectable_label(here, name).on_hover_text(path.display().to_string()).clicked() {
-                context.push(Command::OpenPath(path));
-            }
-        }
+            Line { facts: path.display().to_string(), ..Line::new(file_name(path), here) }
+        };
         let hint = "OBJ, PLY or STL, or a spectral image (ENVI, OpenEXR); or drop it on the window";
-        if ui.selectable_label(false, "Open mesh or image…").on_hover_text(hint).clicked() {
-            context.push(Command::Open);
-        }
+        let open = Line { facts: hint.to_owned(), ..Line::new("Open mesh or image…", false) };
+        own.iter().map(mesh).chain(recent.iter().map(file)).chain([open]).collect()
     });
+    let Some(index) = chosen else { return };
+    let path = index.checked_sub(own.len()).and_then(|index| recent.get(index)).cloned();
+    match (own.into_iter().nth(index), path) {
+        (Some(mesh), _) => set(context, "Mesh", |settings| settings.take(mesh)),
+        (None, Some(path)) => context.push(Command::OpenPath(path)),
+        (None, None) => context.push(Command::Open),
+    }
 }
 
 /// Notes on the mesh file that was read: one line, empty for the program's own meshes.

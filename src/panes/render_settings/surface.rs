@@ -3,7 +3,7 @@
 use chromascope_core::reflectance::Caution;
 use egui::Ui;
 
-use super::{Dial, SLIDER, VALUE, caption, line, list, set};
+use super::{Dial, SLIDER, VALUE, caption, choices, line, set};
 use crate::document::render::model::{AreaChoice, SpecularChoice};
 use crate::document::render::{LEAF, ReadingChoice, RenderSettings, RoughnessChoice, SKIN};
 use crate::figures::render::returned;
@@ -42,13 +42,11 @@ fn area(ui: &mut Ui, settings: &RenderSettings, context: &mut PaneContext<'_>) {
 
 /// The reflectance factor of the coherent component.
 fn specular(ui: &mut Ui, now: SpecularChoice, context: &mut PaneContext<'_>) {
-    list(ui, "Coherent component", [now.label(), now.why()], context, |ui, context| {
-        for choice in SpecularChoice::ALL {
-            if ui.selectable_label(now == choice, choice.label()).on_hover_text(choice.why()).clicked() {
-                set(context, "Coherent component", |settings| settings.specular = choice);
-            }
-        }
-    });
+    let words = |choice: SpecularChoice| [choice.label(), choice.why()];
+    let all = (SpecularChoice::ALL.as_slice(), now);
+    if let Some(to) = choices(ui, ("Coherent component", now.why()), all, words, context) {
+        set(context, "Coherent component", |settings| settings.specular = to);
+    }
 }
 
 /// The share of light that the surface returns; where that is more than came, in the color of a warning.
@@ -153,13 +151,11 @@ fn lengths(ui: &mut Ui, settings: &RenderSettings, context: &mut PaneContext<'_>
 }
 
 fn reading(ui: &mut Ui, now: ReadingChoice, context: &mut PaneContext<'_>) {
-    list(ui, "Normalization", [now.label(), now.why()], context, |ui, context| {
-        for reading in ReadingChoice::ALL {
-            if ui.selectable_label(now == reading, reading.label()).on_hover_text(reading.why()).clicked() {
-                set(context, "Normalization", |settings| settings.reading = reading);
-            }
-        }
-    });
+    let words = |reading: ReadingChoice| [reading.label(), reading.why()];
+    let all = (ReadingChoice::ALL.as_slice(), now);
+    if let Some(to) = choices(ui, ("Normalization", now.why()), all, words, context) {
+        set(context, "Normalization", |settings| settings.reading = to);
+    }
 }
 
 /// Limits of the model that the surface exceeds: the first in one line that is always there, all of them on hover.

@@ -2,7 +2,7 @@
 
 use egui::Ui;
 
-use super::{Dial, caption, line, list, set, unless_image};
+use super::{Dial, caption, choices, line, set, unless_image};
 
 use crate::document::render::RenderSettings;
 use crate::panes::context::PaneContext;
@@ -56,13 +56,10 @@ fn lens_and_quality(ui: &mut Ui, settings: &RenderSettings, context: &mut PaneCo
     }
     let now = settings.quality;
     let hint = "Accuracy of integrals over wavelength at rest";
-    list(ui, "Quality", [now.label(), hint], context, |ui, context| {
-        for quality in QualityLevel::ALL {
-            if ui.selectable_label(now == quality, quality.label()).clicked() {
-                set(context, "Quality", |settings| settings.quality = quality);
-            }
-        }
-    });
+    let words = |quality: QualityLevel| [quality.label(), ""];
+    if let Some(to) = choices(ui, ("Quality", hint), (&QualityLevel::ALL, now), words, context) {
+        set(context, "Quality", |settings| settings.quality = to);
+    }
     caption(ui, "Tolerance", context);
     ui.add_enabled_ui(now == QualityLevel::Tolerance, |ui| tolerance(ui, settings, context));
     if ui.button("Reset view").on_hover_text("Initial view of the mesh (Home)").clicked() {

@@ -91,8 +91,9 @@ impl NumberField<'_> {
         if response.changed() {
             typed.wrong = None;
         }
-        // Escape discards the typed text, and nothing else.
-        context.view.keeps_escape |= response.has_focus();
+        // Escape discards the typed text, and nothing else; refused text also from elsewhere.
+        let given_up = ui.input(|input| input.key_down(Key::Escape));
+        context.view.keeps_escape |= response.has_focus() || typed.wrong.is_some();
         let arrows =
             ui.input(|input| input.num_presses(Key::ArrowUp) as f64 - input.num_presses(Key::ArrowDown) as f64);
         if response.has_focus() && arrows != 0.0 {
@@ -103,12 +104,11 @@ impl NumberField<'_> {
             ui.data_mut(|data| data.insert_temp(self.id, typed));
             return (chosen != self.now).then_some(chosen);
         }
-        if !response.lost_focus() && (response.has_focus() || typed.wrong.is_some()) {
+        if !response.lost_focus() && (response.has_focus() || typed.wrong.is_some() && !given_up) {
             self.explain(ui, &response, &typed, context);
             ui.data_mut(|data| data.insert_temp(self.id, typed));
             return None;
         }
-        let given_up = ui.input(|input| input.key_down(Key::Escape));
         let taken = if given_up || typed.text == self.digits() { Ok(None) } else { self.read(&typed.text).map(Some) };
         match taken {
             Ok(chosen) => {

@@ -7,7 +7,9 @@ use egui::{
 };
 
 use super::lines;
-use crate::catalog::names::folded;
+use crate::catalog::Entry;
+use crate::catalog::names::{no_match, ranked};
+use crate::document::SetKind;
 use crate::theme::{ROW, Theme, UNIT};
 use crate::view::pick::PickState;
 
@@ -52,16 +54,27 @@ impl Line {
         Self { words: words.into(), is_heading: true, ..Self::default() }
     }
 
-    /// True if it contains every word that was typed; case and punctuation are ignored.
-    pub fn matches(&self, typed: &[String]) -> bool {
-        let words = folded(&format!("{} {}", self.words, self.also));
-        typed.iter().all(|word| words.contains(word))
+    /// The line of a data set.
+    pub fn of_set(entry: &Entry, on: bool) -> Self {
+        let words = if entry.kind == SetKind::Illuminant { entry.glossed_name() } else { entry.name.clone() };
+        Self { also: entry.gloss(), ..Self::new(words, on) }
     }
 }
 
-/// The words of a text as they are compared.
-pub fn typed_words(text: &str) -> Vec<String> {
-    text.split_whitespace().map(folded).filter(|word| !word.is_empty()).collect()
+/// The lines that fit a text below their headings, as indices: the best group first, and the best line first in it.
+pub fn found(all: &[Line], text: &str) -> Vec<usize> {
+    let mut heading = None;
+    let lines = all.iter().enumerate().filter_map(|(index, line)| {
+        if line.is_heading {
+            heading = Some(index);
+        }
+        (!line.is_heading).then_some((heading, index))
+    });
+    let groups = ranked(text, lines, |&(heading, index)| (heading, all[index].words.clone(), all[index].also.clone()));
+    groups
+        .into_iter()
+        .flat_map(|(heading, lines)| heading.into_iter().chain(lines.into_iter().map(|(_, index)| index)))
+        .collect()
 }
 
 /// A search field above the lines that match.
@@ -88,12 +101,13 @@ impl PickList<'_> {
         theme: &Theme,
     ) -> Option<usize> {
         let moved = self.moved(ui);
+        // Before it is drawn: in a slow frame the first letters come with the key that opened the list.
+        if !ui.memory(|memory| memory.has_focus(self.id)) {
+            ui.memory_mut(|memory| memory.request_focus(self.id));
+        }
         let field = TextEdit::singleline(&mut state.text).id(self.id).hint_text(self.hint).desired_width(f32::INFINITY);
         let field = ui.add(field);
         field.widget_info(|| WidgetInfo::labeled(Role::TextInput, true, self.name));
-        if !field.has_focus() && !field.lost_focus() {
-            field.request_focus();
-        }
         if field.changed() {
             state.picked = None;
         }
@@ -107,7 +121,7 @@ impl PickList<'_> {
         let picked = now.saturating_add_signed(moved).min(last);
         state.picked = Some(picked);
         if choices.is_empty() {
-            ui.label("No match.");
+            ui.label(no_match(&state.text));
             return None;
         }
         let entered = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
@@ -193,12 +207,24 @@ pub fn tick(painter: &egui::Painter, at: egui::Pos2, color: egui::Color32) {
 /// A control that drops down a list filtered as one types. `lines` are all lines. Returns the line that was chosen.
 pub fn drop_down(
     ui: &mut Ui,
-    (name, hint): (&str, &str),
+    words: (&str, &str),
     shown: &str,
     width: f32,
     theme: &Theme,
     lines: impl FnOnce() -> Vec<Line>,
 ) -> Option<usize> {
+    combo(ui, words, shown, width, theme, lines).1
+}
+
+/// The same, with the control itself.
+pub fn combo(
+    ui: &mut Ui,
+    (name, hint): (&str, &str),
+    shown: &str,
+    width: f32,
+    theme: &Theme,
+    lines: impl FnOnce() -> Vec<Line>,
+) -> (Response, Option<usize>) {
     let key = ui.make_persistent_id((name, "filter"));
     let combo = ComboBox::from_id_salt(name)
         .width(width)
@@ -212,8 +238,7 @@ pub fn drop_down(
     }
     let response = opened.response;
     response.widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, format!("{name}: {shown}")));
-    response.on_hover_text(format!("{hint}\nNow: {shown}"));
-    opened.inner.flatten()
+    (response.on_hover_text(format!("{hint}\nNow: {shown}")), opened.inner.flatten())
 }
 
 /// A button that opens a list filtered as one types, with a heading of what it chooses. Returns the line that was chosen.
@@ -239,31 +264,17 @@ fn within(ui: &mut Ui, key: Id, name: &str, theme: &Theme, all: &[Line]) -> Opti
     let mut state: PickState = ui.data(|data| data.get_temp(key)).unwrap_or_default();
     let mut places = Vec::new();
     let field = format!("Filter {name}");
+    let lines = |text: &str| {
+        places = found(all, text);
+        places.iter().map(|&index| all[index].clone()).collect()
+    };
     let list = PickList { id: key, name: &field, hint: "Type to filter", height: DROPPED, from_set: true };
-    let chosen = list.show(ui, &mut state, |text| filtered(all, text, &mut places), theme);
+    let chosen = list.show(ui, &mut state, lines, theme);
     ui.data_mut(|data| data.insert_temp(key, state));
     if chosen.is_some() {
         ui.close();
     }
     chosen.and_then(|index| places.get(index).copied())
-}
-
-/// The lines that match a text, below those headings that have any; `places` are their indices.
-fn filtered(all: &[Line], text: &str, places: &mut Vec<usize>) -> Vec<Line> {
-    let typed = typed_words(text);
-    let mut heading = None;
-    let mut found = Vec::new();
-    for (index, line) in all.iter().enumerate() {
-        if line.is_heading {
-            heading = Some(index);
-        } else if line.matches(&typed) {
-            for index in heading.take().into_iter().chain([index]) {
-                places.push(index);
-                found.push(all[index].clone());
-            }
-        }
-    }
-    found
 }
 
 #[cfg(test)]
@@ -279,12 +290,9 @@ mod tests {
             Line::new("D50", false),
             Line { also: "noon daylight".to_owned(), ..Line::new("D65", false) },
         ];
-        let mut places = Vec::new();
-        let found = filtered(&all, "noon d6", &mut places);
-        assert_eq!(places, [2, 4]);
-        assert_eq!(found.iter().map(|line| line.words.as_str()).collect::<Vec<_>>(), ["Daylight", "D65"]);
-        places.clear();
-        assert_eq!(filtered(&all, " ", &mut places), all);
-        assert!(filtered(&all, "zeiss", &mut Vec::new()).is_empty());
+        assert_eq!(found(&all, "noon d6"), [2, 4]);
+        assert_eq!(found(&all, " "), [0, 1, 2, 3, 4]);
+        assert!(found(&all, "zeiss").is_empty());
+        assert_eq!(found(&all, "a"), [0, 1, 2, 4], "the name before what only contains it");
     }
 }

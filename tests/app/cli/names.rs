@@ -155,3 +155,23 @@ fn a_mistyped_command_is_named() {
     let said = String::from_utf8(output.stderr).unwrap();
     assert!(output.status.code() == Some(2) && said.contains("lists: no such command or file"), "{said}");
 }
+
+#[test]
+fn help_of_a_command_that_does_not_exist_is_refused() {
+    let of = |arguments: &[&str]| {
+        let output = std::process::Command::new(env!("CARGO_BIN_EXE_chromascope")).args(arguments).output().unwrap();
+        (output.status.code(), String::from_utf8(output.stderr).unwrap())
+    };
+    let (code, said) = of(&["rank", "--help"]);
+    assert!(code == Some(2) && said.contains("rank: no such command or file"), "{said}");
+    for known in [&["compare", "--help"][..], &["--help"], &["help"], &["help", "compare"]] {
+        assert_eq!(of(known), (Some(0), String::new()), "{known:?}");
+    }
+}
+
+#[test]
+fn a_phone_is_said_to_be_none_of_the_cameras() {
+    for phone in ["iPhone", "Nokia 808", "Pixel 8"] {
+        refused(&["patches", "--camera", phone], &["no phone is among the built-in cameras", "name a file"]);
+    }
+}

@@ -112,7 +112,7 @@ fn white_and_transform(context: &PaneContext<'_>) -> Vec<Found> {
     };
     found.push(white("unity, 1 : 1 : 1".to_owned(), WhiteBalanceChoice::Unity));
     let lights = context.scene.entries(SetKind::Illuminant);
-    found.extend(lights.map(|entry| white(entry.name.clone(), WhiteBalanceChoice::Light(entry.name))));
+    found.extend(lights.map(|entry| white(entry.glossed_name(), WhiteBalanceChoice::Light(entry.name))));
     found
 }
 

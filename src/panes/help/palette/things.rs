@@ -1,9 +1,10 @@
 //! Commands, panes, data sets, patches, numbers and help, as they are found.
 
-use super::{Found, IN_HELP};
+use super::Found;
 use crate::action::history::History;
 use crate::action::{Action, CompareAction, RenderAction, SceneAction};
 use crate::catalog::Entry;
+use crate::catalog::names::{NO_PHONES, is_for_phone};
 use crate::command::{Command, REPORTS, TourMove, key_bindings, key_name};
 use crate::document::start::Start;
 use crate::document::{LOCUS_RANGE_K, Light, SetKind, WhiteBalanceChoice};
@@ -11,6 +12,7 @@ use crate::export::FigureForm;
 use crate::export::profile::CorrectionForm;
 use crate::help;
 use crate::panes::PaneContext;
+use crate::panes::widgets::pick_list::Line;
 use crate::plot_item::{PlotItem, SensorId};
 use crate::view::import::ImportItem;
 use crate::workspaces::{PaneKind, Workspace};
@@ -52,7 +54,9 @@ pub(super) fn commands(history: &History, context: &PaneContext<'_>) -> Vec<Foun
             Command::Redo => name("Redo", history.redo_name()),
             _ => Some(binding.words.to_owned()),
         };
-        if let Some(words) = words.filter(|_| !found.iter().any(|known| known.command == binding.command)) {
+        if let Some(words) =
+            words.filter(|_| !found.iter().any(|known| known.command.as_ref() == Some(&binding.command)))
+        {
             found.push(Found::new("Commands", words, binding.command).note(key_name(binding.shortcut)));
         }
     }
@@ -148,7 +152,8 @@ pub(super) fn sets(context: &PaneContext<'_>) -> Vec<Found> {
 
 fn set(kind: SetKind, entry: Entry, context: &PaneContext<'_>) -> Found {
     let document = context.scene.document;
-    let Entry { name, short, also, .. } = entry;
+    let line = Line::of_set(&entry, false);
+    let name = entry.name;
     let (group, command, note, on) = match kind {
         SetKind::Camera | SetKind::Observer => {
             let group = if kind == SetKind::Camera { "Cameras" } else { "Observers" };
@@ -180,7 +185,13 @@ fn set(kind: SetKind, entry: Entry, context: &PaneContext<'_>) -> Found {
             ("Unsorted spectra", command, "choose what it is", false)
         }
     };
-    Found::new(group, name, command).note(note).on(on).also(format!("{short} {}", also.unwrap_or_default()))
+    Found { line, ..Found::new(group, "", command) }.note(note).on(on)
+}
+
+/// To a search for a phone: that there is none, and how one is brought in.
+pub(super) fn phones(text: &str) -> Option<Found> {
+    let help = Command::Help("own-spectra", 0);
+    is_for_phone(text).then(|| Found::new("Cameras", NO_PHONES, help).note("how").also(text))
 }
 
 /// Help pages by title.
@@ -192,5 +203,5 @@ pub(super) fn pages() -> Vec<Found> {
 /// Places in the help that contain what was typed.
 pub(super) fn help_text(text: &str) -> Vec<Found> {
     let hits = help::search::search(help::pages(), text).into_iter().take(MOST_HITS);
-    hits.map(|hit| Found::new(IN_HELP, hit.excerpt, Command::Help(hit.page, hit.block)).note(hit.heading)).collect()
+    hits.map(|hit| Found::new("", hit.excerpt, Command::Help(hit.page, hit.block)).note(hit.heading)).collect()
 }
