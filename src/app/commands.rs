@@ -176,7 +176,10 @@ impl ChromascopeApp {
         let is_light = match &action {
             Action::Scene(scene) => matches!(
                 scene,
-                SceneAction::SetLight(_) | SceneAction::SetFilter(..) | SceneAction::ClearFilters | SceneAction::SetWhite(_)
+                SceneAction::SetLight(_)
+                    | SceneAction::SetFilter(..)
+                    | SceneAction::ClearFilters
+                    | SceneAction::SetWhite(_)
             ),
             Action::Imported(Use(kind, _)) => matches!(kind, SetKind::Illuminant | SetKind::Filter),
             _ => false,

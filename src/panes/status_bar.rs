@@ -289,7 +289,8 @@ fn button(ui: &mut Ui, (title, hint): (&str, &str), press: &Press, context: &mut
 fn file_progress(ui: &mut Ui, rect: Rect, progress: &Progress, context: &mut PaneContext<'_>) {
     ui.ctx().request_repaint_after(Duration::from_millis(50));
     let words = progress_words(progress);
-    let stop = ("Stop".to_owned(), "Stop reading; nothing is changed (Esc)".to_owned(), Press::Run(Command::StopReading));
+    let stop =
+        ("Stop".to_owned(), "Stop reading; nothing is changed (Esc)".to_owned(), Press::Run(Command::StopReading));
     line(ui, rect, &words, context.theme.text, &[stop], context);
 }
 

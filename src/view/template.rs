@@ -76,9 +76,12 @@ pub const TEMPLATES: [Template; 7] = [
             let Some(set) = skin() else { return Vec::new() };
             let name = set.name.clone();
             let sets = vec![set];
-            [ImportedAction::Import { sets, built_in: BuiltInNames::default() }, ImportedAction::Use(SetKind::Chart, name)]
-                .map(Action::Imported)
-                .into()
+            [
+                ImportedAction::Import { sets, built_in: BuiltInNames::default() },
+                ImportedAction::Use(SetKind::Chart, name),
+            ]
+            .map(Action::Imported)
+            .into()
         },
     },
     Template {

@@ -2,8 +2,8 @@
 
 use chromascope_core::query::Shared;
 
-use crate::document::{Document, SetKind};
 use crate::document::imported::{ImportedSet, Role};
+use crate::document::{Document, SetKind};
 
 /// Names the sets that were renamed because another set already had the name in their files.
 pub(super) fn renamed(new: &[(&ImportedSet, &Shared<ImportedSet>)]) -> String {
