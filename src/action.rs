@@ -12,8 +12,10 @@ use crate::document::imported::ImportedSet;
 use crate::document::names::BuiltInNames;
 use crate::document::render::{BALANCE, MeshChoice, RenderSettings, SUN};
 use crate::document::start::Start;
+use crate::document::uses::PLACES;
 use crate::document::{
-    Diagram, Document, FIT_TARGET, LOCUS_RANGE_K, Light, Overlays, SetKind, Subset, TransformChoice, WhiteBalanceChoice,
+    Diagram, Document, FIT_TARGET, LOCUS_RANGE_K, Light, MOST_COMPARED, Overlays, SetKind, Subset, TransformChoice,
+    WhiteBalanceChoice,
 };
 
 /// A change of the document.
@@ -27,6 +29,8 @@ pub enum Action {
     Render(RenderAction),
     /// To the user's own sets.
     Imported(ImportedAction),
+    /// A choice of light or white balance made where pictures of their own light are visible: they take it too.
+    ForPictures(Box<Action>),
     /// Begins again from a named start; imported sets stay.
     Start(Start),
     /// All back to the start that the document was made from; imported sets stay.
@@ -110,8 +114,8 @@ pub enum RenderAction {
 /// Changes to the user's own sets.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ImportedAction {
-    /// Adds imported sets. A single set is put to use; of several, cameras are added to the comparison while the palette
-    /// has room, and light and chart stay. A name in use is replaced by a free one.
+    /// Adds imported sets. Cameras are added to the comparison, of several while the palette has room; light, filters and chart
+    /// stay. A name in use is replaced by a free one.
     Import {
         sets: Vec<ImportedSet>,
         /// Names that they may not have.
@@ -125,12 +129,16 @@ pub enum ImportedAction {
         /// Names that it may not have.
         built_in: BuiltInNames,
     },
+    /// Uses a set: as the light, as the chart, as a filter, in the comparison.
+    Use(SetKind, String),
     /// Replaces some sets by other versions, as a step of the given name.
     ReplaceAll {
         /// Name of the undo step.
         what: String,
         /// The names they had, and the sets as they are to be.
         with: Vec<(String, ImportedSet)>,
+        /// Sets that are added and not used: a file came back in another role.
+        beside: Vec<ImportedSet>,
         /// Names that they may not have.
         built_in: BuiltInNames,
     },
@@ -149,13 +157,8 @@ impl Action {
                 format!("Open {}", name.to_string_lossy())
             }
             Self::Render(action) => action.name().to_owned(),
-            Self::Imported(ImportedAction::Import { sets, .. }) => match sets.as_slice() {
-                [one] => format!("Open {}", one.name),
-                many => format!("Open {} sets", many.len()),
-            },
-            Self::Imported(ImportedAction::Replace { name, .. }) => format!("Change {name}"),
-            Self::Imported(ImportedAction::ReplaceAll { what, .. }) => what.clone(),
-            Self::Imported(ImportedAction::Remove(name)) => format!("Remove {name}"),
+            Self::Imported(action) => action.name(),
+            Self::ForPictures(action) => action.name(),
             Self::Start(start) => format!("Start: {}", start.name()),
             Self::Reset => "Reset to the first screen".to_owned(),
         }
@@ -167,6 +170,9 @@ impl Action {
             (self, next)
         {
             return what == next;
+        }
+        if let (Self::ForPictures(action), Self::ForPictures(next)) = (self, next) {
+            return action.is_same_gesture(next);
         }
         matches!(
             (self, next),
@@ -183,6 +189,10 @@ impl Action {
             Self::Scene(action) => action.apply(document),
             Self::Render(action) => action.apply(document),
             Self::Imported(action) => action.apply(document),
+            Self::ForPictures(action) => {
+                document.render.sunlight = false;
+                action.apply(document);
+            }
             Self::Start(start) => begin(document, *start),
             Self::Reset => begin(document, document.start),
         }
@@ -267,10 +277,6 @@ impl SceneAction {
     }
 
     fn apply(&self, document: &mut Document) {
-        if matches!(self, Self::SetLight(_) | Self::SetFilter(..) | Self::ClearFilters | Self::SetWhite(_)) {
-            // What was chosen holds for the rendered scene too.
-            document.render.sunlight = false;
-        }
         match self {
             Self::SetLight(light) => {
                 document.light = light.clone();
@@ -344,31 +350,45 @@ impl RenderAction {
 }
 
 impl ImportedAction {
+    /// Returns the name of the undo step, as shown in the menu.
+    pub fn name(&self) -> String {
+        match self {
+            Self::Import { sets, .. } => match sets.as_slice() {
+                [one] => format!("Open {}", one.name),
+                many => format!("Open {} sets", many.len()),
+            },
+            Self::Replace { name, .. } => format!("Change {name}"),
+            Self::ReplaceAll { what, .. } => what.clone(),
+            Self::Use(kind, name) => match kind.used_as() {
+                Some(used) => format!("Use {name} as {used}"),
+                None => format!("Compare {name}"),
+            },
+            Self::Remove(name) => format!("Remove {name}"),
+        }
+    }
+
     fn apply(&self, document: &mut Document) {
         match self {
             Self::Import { sets, built_in } => {
+                let most = if sets.len() == 1 { MOST_COMPARED } else { PLACES };
                 for set in sets {
-                    if let Some(index) = document.same_set(set) {
-                        bring_again(document, index, set, sets.len() == 1, built_in);
-                        continue;
-                    }
-                    let mut set = Shared::new(set.clone());
-                    let name = document.free_name(SetKind::of_own(&set), &set.name, None, built_in);
-                    if name != set.name {
-                        set = Shared::new(ImportedSet { name, ..(*set).clone() });
-                    }
-                    if sets.len() == 1 {
-                        document.put_to_use(&set);
-                    } else {
-                        document.put_beside(&set);
-                    }
-                    document.own.push(set);
+                    let set = add(document, set, built_in);
+                    document.compare_camera(&set, most);
+                }
+            }
+            Self::Use(kind, name) => {
+                let is_it = |set: &&Shared<ImportedSet>| SetKind::of_own(set) == *kind && set.name == *name;
+                if let Some(set) = document.own.iter().find(is_it).cloned() {
+                    document.put_to_use(&set);
                 }
             }
             Self::Replace { name, with, built_in } => replace(document, name, with, built_in),
-            Self::ReplaceAll { with, built_in, .. } => {
+            Self::ReplaceAll { with, beside, built_in, .. } => {
                 for (name, with) in with {
                     replace(document, name, with, built_in);
+                }
+                for set in beside {
+                    add(document, set, built_in);
                 }
             }
             Self::Remove(name) => {
@@ -380,19 +400,20 @@ impl ImportedAction {
     }
 }
 
-/// Reopens the file of a set. Unchanged contents leave the set and the user's settings as they are; changed contents replace the
-/// set's under its name.
-fn bring_again(document: &mut Document, index: usize, set: &ImportedSet, alone: bool, built_in: &BuiltInNames) {
+/// Adds a set, or finds it: the file of a set that is opened again with the same contents leaves the set and the user's settings
+/// as they are; other contents in the same role replace the set's under its name.
+fn add(document: &mut Document, set: &ImportedSet, built_in: &BuiltInNames) -> Shared<ImportedSet> {
+    let Some(index) = document.same_set(set) else {
+        let name = document.free_name(SetKind::of_own(set), &set.name, None, built_in);
+        let set = Shared::new(ImportedSet { name, ..set.clone() });
+        document.own.push(set.clone());
+        return set;
+    };
     let name = document.own[index].name.clone();
     if set.fingerprint != document.own[index].fingerprint {
         replace(document, &name, &ImportedSet { name: name.clone(), ..set.clone() }, built_in);
     }
-    let known = document.own[index].clone();
-    if alone {
-        document.put_to_use(&known);
-    } else {
-        document.put_beside(&known);
-    }
+    document.own[index].clone()
 }
 
 /// Replaces a set by another version. Its uses stay, unless its kind has changed.
@@ -408,7 +429,7 @@ fn replace(document: &mut Document, name: &str, with: &ImportedSet, built_in: &B
     document.own[index] = set.clone();
     if kind != before {
         document.forget_name(before, name);
-        document.put_to_use(&set);
+        document.compare_camera(&set, MOST_COMPARED);
     } else if set.name != name {
         document.follow_name(kind, name, &set.name);
     }

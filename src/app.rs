@@ -65,6 +65,8 @@ pub struct ChromascopeApp {
     ranking: Ranking,
     curves: Option<CurveCache>,
     commands: Vec<Command>,
+    /// Files named at the start that are not read yet: a single one is put to use.
+    at_start: std::collections::BTreeSet<std::path::PathBuf>,
     /// The latest reading of each set that was read again.
     last_read: std::collections::HashMap<String, u64>,
     arrangement: Arrangement,
@@ -126,6 +128,7 @@ impl ChromascopeApp {
             ranking: Ranking::on(executor, repaint()),
             curves: None,
             commands: Vec::new(),
+            at_start: std::collections::BTreeSet::new(),
             last_read: std::collections::HashMap::new(),
             arrangement: Arrangement::default(),
             first_frame: None,

@@ -20,7 +20,7 @@ use std::path::PathBuf;
 
 use serde::{Deserialize, Serialize};
 
-use crate::document::Compared;
+use crate::document::{Compared, SetKind};
 use crate::paint::Emphasis;
 use crate::plot_item::{PickIndex, PlotItem, Relation, SensorId};
 use crate::theme::Surround;
@@ -305,6 +305,19 @@ pub struct Status {
     pub change: Option<(ImportItem, Option<usize>)>,
     /// Time of egui in seconds when it was first shown.
     pub since: Option<f64>,
+    /// What waits for the user's word; the message stays until then.
+    pub offers: Vec<Offer>,
+    /// The button of the offers takes the keyboard in this frame.
+    pub takes_keyboard: bool,
+}
+
+/// Something that is done only at the user's word, by a button of a message.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Offer {
+    /// Uses a set.
+    Use(SetKind, String),
+    /// Opens a file.
+    Open(PathBuf),
 }
 
 impl Status {
@@ -321,7 +334,7 @@ impl Status {
 }
 
 /// Severity of a message.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Weight {
     /// Information.
     #[default]
@@ -333,6 +346,12 @@ pub enum Weight {
 }
 
 impl View {
+    /// Adds offers to the message. `takes_keyboard` has one Enter take the first.
+    pub fn offer(&mut self, offers: Vec<Offer>, takes_keyboard: bool) {
+        self.status.takes_keyboard = takes_keyboard && !offers.is_empty();
+        self.status.offers = offers;
+    }
+
     /// Makes a choice of how plots and pictures stand.
     pub fn choose(&mut self, choice: ViewChoice) {
         let saved = &mut self.saved;

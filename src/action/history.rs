@@ -2,12 +2,17 @@
 
 use std::collections::VecDeque;
 
+use chromascope_core::query::Shared;
+
 use super::Action;
+use crate::document::imported::ImportedSet;
 use crate::document::names::BuiltInNames;
 use crate::document::{Document, SessionFile};
 
 /// Largest number of steps.
 const DEPTH: usize = 10_000;
+/// Largest number of steps that are reloads: each holds another reading of a file.
+const RELOADS: usize = 20;
 
 /// One step: its name, and the document before (undo) or after it (redo). Documents share their sets.
 #[derive(Clone, Debug)]
@@ -18,6 +23,8 @@ struct Step {
     action: Option<Action>,
     /// True if another session begins with it.
     begins: bool,
+    /// True if it is a reload of changed files.
+    reloads: bool,
 }
 
 /// The document with its undo history.
@@ -68,19 +75,23 @@ impl History {
             }
         } else {
             let kept = action.is_same_gesture(action).then(|| action.clone());
-            self.undo.push_back(Step { name: action.name(), document: before, action: kept, begins: false });
-            if self.undo.len() > DEPTH {
-                self.undo.pop_front();
-            }
+            self.push(Step { name: action.name(), document: before, action: kept, begins: false, reloads: false });
         }
         self.gesture = true;
+    }
+
+    fn push(&mut self, step: Step) {
+        self.undo.push_back(step);
+        if self.undo.len() > DEPTH {
+            self.undo.pop_front();
+        }
     }
 
     /// Replaces the document by that of another session, as a step of its own.
     pub fn replace(&mut self, name: String, document: Document) {
         let before = std::mem::replace(&mut self.document, document);
         self.redo.clear();
-        self.undo.push_back(Step { name, document: before, action: None, begins: true });
+        self.undo.push_back(Step { name, document: before, action: None, begins: true, reloads: false });
         self.gesture = false;
     }
 
@@ -93,14 +104,42 @@ impl History {
         }
     }
 
-    /// Applies an action that continues the last step: one undo reverts all of them.
-    pub fn apply_again(&mut self, action: &Action) {
-        if self.undo_name() != Some(&action.name()) {
-            self.apply(action);
+    /// Carries out a reload of changed files: one undo reverts successive ones.
+    pub fn reload(&mut self, action: &Action) {
+        let before = self.document.clone();
+        action.apply(&mut self.document);
+        if before == self.document {
             return;
         }
-        action.apply(&mut self.document);
         self.redo.clear();
+        let name = action.name();
+        match self.undo.back_mut().filter(|step| step.reloads) {
+            Some(step) if step.name == name => {}
+            Some(step) => "Reload files".clone_into(&mut step.name),
+            None => self.push(Step { name, document: before, action: None, begins: false, reloads: true }),
+        }
+        self.forget_readings();
+    }
+
+    /// Of a file that changes again and again between other steps, the oldest readings but one give way to the next.
+    fn forget_readings(&mut self) {
+        let reloads: Vec<usize> = (0..self.undo.len()).filter(|&index| self.undo[index].reloads).collect();
+        let &[first, second, ..] = reloads.as_slice() else { return };
+        if reloads.len() <= RELOADS {
+            return;
+        }
+        self.undo.remove(second);
+        let after = self.undo.get(second).map_or(&self.document, |step| &step.document).own.clone();
+        for step in self.undo.range_mut(first + 1..second) {
+            for set in &mut step.document.own {
+                let is_later = |later: &&Shared<ImportedSet>| {
+                    later.name == set.name && later.role == set.role && later.path == set.path
+                };
+                if let Some(later) = after.iter().find(is_later) {
+                    *set = later.clone();
+                }
+            }
+        }
     }
 
     /// The pointer was released, or nothing was dragged: what comes is a new step.

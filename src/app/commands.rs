@@ -71,7 +71,10 @@ impl ChromascopeApp {
             self.view.page.open = None;
         }
         match command {
-            Command::Do(action) => self.change(&action),
+            Command::Do(action) => {
+                let action = self.for_pictures(action);
+                self.change(&action);
+            }
             Command::Undo => {
                 let step = self.history.undo_name().map(|name| format!("Undone: {name}."));
                 self.travel(History::undo, step);
@@ -171,6 +174,27 @@ impl ChromascopeApp {
         }
     }
 
+    /// A choice of light or white balance; where pictures of their own light are visible, it is for them too.
+    fn for_pictures(&self, action: Action) -> Action {
+        use crate::action::{ImportedAction::Use, SceneAction};
+        let is_light = match &action {
+            Action::Scene(scene) => matches!(
+                scene,
+                SceneAction::SetLight(_)
+                    | SceneAction::SetFilter(..)
+                    | SceneAction::ClearFilters
+                    | SceneAction::SetWhite(_)
+            ),
+            Action::Imported(Use(kind, _)) => matches!(kind, SetKind::Illuminant | SetKind::Filter),
+            _ => false,
+        };
+        let is_seen = self.arrangement.panes.iter().any(|(pane, _)| *pane == PaneKind::RENDER);
+        if is_light && is_seen && self.history.document().render.sunlight {
+            return Action::ForPictures(Box::new(action));
+        }
+        action
+    }
+
     /// Asks for files to open, or for a folder: that of files, or of a report.
     fn ask_for_files(&mut self, command: &Command) {
         self.view.recorded.opening = *command == Command::OpenRecorded;
@@ -258,6 +282,10 @@ impl ChromascopeApp {
     /// picture, message.
     fn escape(&mut self) {
         if self.files.prompt_mut().take().is_some() || self.session.escape() {
+            return;
+        }
+        if !self.view.status.offers.is_empty() && self.view.palette.is_none() {
+            self.view.status = crate::view::Status::default();
             return;
         }
         if std::mem::take(&mut self.view.keeps_escape)

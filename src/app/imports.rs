@@ -1,5 +1,6 @@
 //! Opening the user's spectra: read first, then put to use; and reading them otherwise, or again.
 
+mod reload;
 mod words;
 
 use std::collections::BTreeSet;
@@ -14,10 +15,11 @@ use crate::catalog::import::{Imported, imported};
 use crate::catalog::likeness::Likeness;
 use crate::catalog::opened::{CLIPBOARD, OpenFile, OpenedEvent, Request, Why};
 use crate::command::Command;
+use crate::document::SetKind;
 use crate::document::imported::{Fingerprint, ImportOverrides, ImportedSet};
 use crate::panes::import;
 use crate::view::import::{ImportItem, of_a_kind};
-use crate::view::{Status, Weight};
+use crate::view::{Offer, Status, Weight};
 use crate::workspaces::{PaneKind, Workspace};
 use words::{opened_again, put_to_use, renamed};
 
@@ -29,6 +31,12 @@ impl ChromascopeApp {
         self.opened.open(requests, move |bytes| {
             if memory.remembered.is_empty() { ImportOverrides::default() } else { memory.wishes(&Likeness::of(bytes)) }
         });
+    }
+
+    /// Opens files named at the start, which are the user's word: a single one is put to use.
+    pub fn open_at_start(&mut self, paths: Vec<PathBuf>) {
+        self.at_start = paths.iter().filter_map(|path| std::path::absolute(path).ok()).collect();
+        self.open(paths.into_iter().map(Request::Path).collect());
     }
 
     /// Files dropped on the window in one gesture.
@@ -72,12 +80,17 @@ impl ChromascopeApp {
                 OpenedEvent::Document(path) => self.push(Command::OpenDocument(path)),
                 OpenedEvent::Failed(message, files) => {
                     let first = files.first().map(|file| ImportItem::File(*file));
+                    if let Some(first) = first.clone().filter(|_| !self.is_trying()) {
+                        self.view.import.select(first);
+                    }
                     let is_pasted =
                         |file: &Fingerprint| self.opened.file(*file).is_some_and(|file| file.origin.name == CLIPBOARD);
                     if let Some(pasted) = files.iter().copied().find(is_pasted) {
                         self.view.import.select(ImportItem::File(pasted));
                         self.show_workspace(Workspace::Import);
                     }
+                    // An earlier success must not stand beside it.
+                    self.view.status = Status::default();
                     self.view.import.unseen.extend(files.iter().copied().map(ImportItem::File));
                     // Where the list of files is in sight, it says which failed and why.
                     let mut panes = self.arrangement.panes.iter();
@@ -116,12 +129,20 @@ impl ChromascopeApp {
         let told =
             [failure, message, put_to_use(&before, after, &brought), renamed(&new), opened_again(&again, wanted.len())];
         self.view.say(told.into_iter().filter(|words| !words.is_empty()).collect::<Vec<_>>().join(" "));
+        // A file named at the start is the user's word already.
+        let named = brought.iter().any(|set| set.path.as_ref().is_some_and(|path| self.at_start.remove(path)));
+        match self.offers(&brought).as_slice() {
+            [Offer::Use(kind, name)] if named => {
+                self.change(&Action::Imported(ImportedAction::Use(*kind, name.clone())));
+                self.history.end_gesture();
+            }
+            offers => self.view.offer(offers.to_vec(), true),
+        }
         if failed {
             self.view.status.weight = Weight::Warning;
         }
         let items: Vec<ImportItem> = brought.iter().map(|set| ImportItem::Set(set.name.clone())).collect();
-        // Trials on other files continue.
-        let trying = self.view.import.selected.as_ref().is_some_and(|item| self.view.import.pending(item).is_some());
+        let trying = self.is_trying();
         for (set, item) in brought.iter().zip(&items) {
             self.view.import.tried.remove(item);
             if let Some(fingerprint) = set.fingerprint {
@@ -149,58 +170,19 @@ impl ChromascopeApp {
         }
     }
 
-    /// Puts sets that were read again in their places, as one step.
-    fn put_in_place(&mut self, sets: Vec<(String, Result<Imported, String>)>, why: Why, ticket: u64) {
-        self.end_tour();
-        let (mut with, mut failures, mut again) = (Vec::new(), Vec::new(), Vec::new());
-        for (name, result) in sets {
-            // Items that were renamed, removed or reloaded meanwhile are no longer concerned.
-            let Some(set) = self.history.document().own.iter().find(|set| set.name == name).cloned() else { continue };
-            if self.last_read.get(&name).is_some_and(|last| *last > ticket) {
-                continue;
-            }
-            self.last_read.insert(name.clone(), ticket);
-            match result {
-                Ok(imported) if why == Why::Changed && imported.set.wishes != set.wishes => again.push((*set).clone()),
-                Ok(imported) => with.push((name.clone(), ImportedSet { name, ..imported.set })),
-                Err(sentence) => {
-                    self.view.import.unseen.insert(ImportItem::Set(name));
-                    failures.push(sentence);
-                }
-            }
-        }
-        if !again.is_empty() {
-            self.opened.reread(again, why);
-        }
-        let names: Vec<String> = with.iter().map(|(name, _)| name.clone()).collect();
-        let which = match names.as_slice() {
-            [] => String::new(),
-            [one] => one.clone(),
-            many => format!("{} sets", many.len()),
-        };
-        if !with.is_empty() {
-            let what = match why {
-                Why::Changed => format!("Reload {which}"),
-                Why::Alike => format!("Read {which} with the same settings"),
-            };
-            log::info!("read again {}", names.join(", "));
-            let built_in = self.catalog.names().clone();
-            self.step(|history| {
-                history.apply_again(&Action::Imported(ImportedAction::ReplaceAll { what, with, built_in }));
-            });
-            self.history.end_gesture();
-        }
-        let done = match why {
-            _ if which.is_empty() => String::new(),
-            Why::Changed => format!("{which} changed on disk and was reloaded. Ctrl+Z undoes this."),
-            Why::Alike => format!("{which}: read with the same settings. Ctrl+Z undoes this."),
-        };
-        if failures.is_empty() && !done.is_empty() {
-            self.view.say(done);
-        } else if !failures.is_empty() {
-            let failures = failures.join(".  ");
-            self.view.fail(format!("{failures}. The earlier data are unchanged. {done}").trim_end().to_owned());
-        }
+    /// True while settings are tried on the selected file, which then stays selected.
+    fn is_trying(&self) -> bool {
+        self.view.import.selected.as_ref().is_some_and(|item| self.view.import.pending(item).is_some())
+    }
+
+    /// What can be done with sets that are not in use.
+    fn offers(&self, sets: &[Shared<ImportedSet>]) -> Vec<Offer> {
+        let document = self.history.document();
+        let kinds = sets.iter().map(|set| (SetKind::of_own(set), set.name.clone()));
+        let unused = kinds.filter(|(kind, name)| *kind != SetKind::Unsorted && !document.uses(*kind, name));
+        let mut offers: Vec<Offer> = unused.map(|(kind, name)| Offer::Use(kind, name)).collect();
+        offers.dedup();
+        offers
     }
 
     /// Applies the settings tried on the selected set once its file was read with them and yields a curve. Until then the
@@ -222,9 +204,16 @@ impl ChromascopeApp {
         let with = ImportedSet { name: name.clone(), file: set.file.clone(), path: set.path.clone(), ..fresh };
         self.view.import.tried.remove(&item);
         self.view.saved.import.remember(Likeness::of(&file.bytes), &wishes);
-        let built_in = self.catalog.names().clone();
+        let (built_in, role) = (self.catalog.names().clone(), with.role);
+        let place = self.history.document().own.iter().position(|set| set.name == name);
         self.change(&Action::Imported(ImportedAction::Replace { name, with: Box::new(with), built_in }));
         self.history.end_gesture();
+        let now: Vec<_> = place.and_then(|place| self.history.document().own.get(place)).cloned().into_iter().collect();
+        let offers = if role == set.role { Vec::new() } else { self.offers(&now) };
+        if !offers.is_empty() {
+            self.view.say(format!("{}: {role}, in the Library.", now[0].name));
+            self.view.offer(offers, false);
+        }
     }
 
     /// Changes the document; the selection in Import follows sets to their new names.
@@ -285,36 +274,6 @@ impl ChromascopeApp {
         self.files.watch(paths);
         let wanted: Vec<Fingerprint> = document.own.iter().filter_map(|set| set.fingerprint).collect();
         self.opened.keep(&wanted);
-    }
-
-    /// Reads the sets of files that changed on disk again, and files that could not be read.
-    pub(super) fn read_changed(&mut self, paths: &[PathBuf]) {
-        let own = &self.history.document().own;
-        let changed = own.iter().filter(|set| set.path.as_ref().is_some_and(|path| paths.contains(path)));
-        let sets: Vec<ImportedSet> = changed.map(|set| (**set).clone()).collect();
-        let is_set = |path: &PathBuf| own.iter().any(|set| set.path.as_ref() == Some(path));
-        let failing = self.opened.failing().into_iter().map(|failing| failing.path);
-        let failing: Vec<Request> =
-            failing.filter(|path| paths.contains(path) && !is_set(path)).map(Request::Path).collect();
-        if !sets.is_empty() {
-            self.opened.reread(sets, Why::Changed);
-        }
-        if !failing.is_empty() {
-            self.open(failing);
-        }
-    }
-
-    /// Reloads a set's file at the user's request.
-    pub(super) fn read_again(&mut self, name: &str) {
-        let Some(set) = self.history.document().own.iter().find(|set| set.name == name) else { return };
-        match &set.path {
-            Some(path) => {
-                let path = path.clone();
-                self.view.say(format!("{} is unchanged.", set.file));
-                self.read_changed(&[path]);
-            }
-            None => self.view.fail(format!("{} did not come from a file on disk.", set.file)),
-        }
     }
 
     /// Opens Import with a file selected.

@@ -15,7 +15,7 @@ use crate::files::{DocumentSource, FileForm, MakeText, OpenedDocument, SaveReque
 use crate::panes;
 use crate::theme::Theme;
 use crate::view::template::{TEMPLATES, Template};
-use crate::view::{SavedView, Weight};
+use crate::view::{Offer, SavedView, Weight};
 use crate::workspaces::PaneKind;
 
 /// Description of the session where it is saved under a name.
@@ -86,7 +86,7 @@ impl ChromascopeApp {
             Some((known, unsaved)) if known == document => *unsaved,
             _ => {
                 let known = document.session.as_ref().and_then(|file| self.session.known.get(&file.path));
-                let unsaved = known.is_none_or(|(_, saved)| !is_same(saved, document));
+                let unsaved = known.is_none_or(|(_, saved)| !saved.is_same_session(document));
                 self.session.compared = Some((document.clone(), unsaved));
                 unsaved
             }
@@ -119,7 +119,8 @@ impl ChromascopeApp {
     /// Opens a document in place of this one. This one is saved on its own if its file has not all of it.
     pub(super) fn open_document(&mut self, source: DocumentSource) {
         let is_safe = !self.is_unsaved();
-        self.files.open_document(source, self.history.document().clone(), is_safe);
+        let recent = self.view.saved.recent.clone();
+        self.files.open_document(source, self.history.document().clone(), is_safe, recent);
     }
 
     /// Begins or saves a session.
@@ -147,7 +148,7 @@ impl ChromascopeApp {
     /// Puts a document that was read in the place of this one, as one step.
     pub(super) fn take_document(&mut self, opened: OpenedDocument) {
         self.end_tour();
-        let OpenedDocument { source, mut document, newer, aside, lost, before } = opened;
+        let OpenedDocument { source, mut document, newer, aside, lost, other, before } = opened;
         if before != *self.history.document() {
             // The document changed meanwhile: its current state is saved.
             return self.open_document(source);
@@ -193,9 +194,30 @@ impl ChromascopeApp {
             }
             Some(first) => self.view.fail(format!("{words} Parts that could not be read are missing: {first}.")),
         }
+        if let Some(first) = other.first() {
+            let which = match other.len() {
+                1 => format!("{} differs", crate::format::file_name(first)),
+                count => format!("{count} files differ"),
+            };
+            self.view.status.text += &format!(" {which} here: the session's own curves are used.");
+            self.view.offer(other.into_iter().map(Offer::Open).collect(), true);
+        }
         if let DocumentSource::New(name, _) = source
             && let Some(template) = TEMPLATES.iter().find(|template| template.name == name)
         {
+            // How the session before was looked at could hide the answer.
+            let fresh = SavedView::default();
+            self.view.saved = SavedView {
+                metrics: fresh.metrics,
+                tables: fresh.tables,
+                diagram_fit: fresh.diagram_fit,
+                swatch_layout: fresh.swatch_layout,
+                swatch_style: fresh.swatch_style,
+                spectra_layout: fresh.spectra_layout,
+                difference_bars: fresh.difference_bars,
+                render: fresh.render,
+                ..std::mem::take(&mut self.view.saved)
+            };
             self.push(Command::GoTo(template.pane));
             // Matrix and errors need the height of the window; Esc goes back.
             if template.pane == PaneKind::CORRECTION {
@@ -332,12 +354,6 @@ impl ChromascopeApp {
             None => self.session.template = Some(name),
         }
     }
-}
-
-/// True if two documents differ at most in where they are saved.
-fn is_same(saved: &Document, document: &Document) -> bool {
-    let (session, unknown) = (saved.session.clone(), saved.unknown.clone());
-    *saved == Document { session, unknown, ..document.clone() }
 }
 
 /// Shows a question; returns the answer.

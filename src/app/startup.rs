@@ -7,7 +7,6 @@ use eframe::{NativeOptions, egui::ViewportBuilder};
 
 use super::{ChromascopeApp, LAYOUT_KEY};
 use crate::action::history::History;
-use crate::catalog::opened::Request;
 use crate::files::{self, Files};
 use crate::view::SavedView;
 
@@ -71,7 +70,7 @@ pub fn run(paths: Vec<PathBuf>, start: Instant) -> Result<(), WindowError> {
             let mut app = ChromascopeApp::new(&cc.egui_ctx, history, saved, kept);
             app.restore_place(cc.storage);
             app.report_first_frame(start);
-            app.open(paths.into_iter().map(Request::Path).collect());
+            app.open_at_start(paths);
             Ok(Box::new(app))
         }),
     )?;

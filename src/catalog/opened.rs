@@ -12,6 +12,7 @@ pub use file::OpenFile;
 pub use look::{FilePreview, FilePreviewQuery};
 pub use reading::{Request, files_of};
 
+use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -26,6 +27,9 @@ use crate::jobs::{self, Background, Executor};
 
 /// Maximum total bytes of files without a set; beyond it the oldest are dropped.
 const REMEMBERED_BYTES: usize = 256_000_000;
+
+/// Earlier contents of a changed file that are kept, for undo.
+const READINGS: usize = 3;
 
 /// Name of what is pasted, in place of a file's.
 pub const CLIPBOARD: &str = "clipboard";
@@ -246,9 +250,21 @@ impl Opened {
         self.monitor.lock().files.retain(|file| file.origin.fingerprint != fingerprint);
     }
 
-    /// Drops the oldest files without a set, beyond the memory limit.
+    /// Drops the oldest contents of files that change again and again, and the oldest files without a set, beyond the memory limit.
     pub fn keep(&self, wanted: &[Fingerprint]) {
         let mut state = self.monitor.lock();
+        let mut later: HashMap<&Path, usize> = HashMap::new();
+        let mut old = Vec::new();
+        for file in state.files.iter().rev() {
+            let fingerprint = file.origin.fingerprint;
+            let Some(path) = file.origin.path.as_deref().filter(|_| !wanted.contains(&fingerprint)) else { continue };
+            let count = later.entry(path).or_default();
+            *count += 1;
+            old.extend((*count > READINGS).then_some(fingerprint));
+        }
+        if !old.is_empty() {
+            state.files.retain(|file| !old.contains(&file.origin.fingerprint));
+        }
         let size = |state: &State| state.files.iter().map(|file| file.bytes.len()).sum::<usize>();
         while size(&state) > REMEMBERED_BYTES {
             let spare = |file: &OpenFile| !wanted.contains(&file.origin.fingerprint);

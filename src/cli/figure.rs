@@ -105,5 +105,10 @@ fn check_height(figure: &Figure, paper: &Paper, form: FigureForm) -> Result<(), 
 fn opened(request: &mut Request, path: &Path) -> Result<Document, CliError> {
     let failed = |reason: String| CliError::File(format!("{}: {reason}", super::request::display_path(path)));
     let text = String::from_utf8(request.bytes(path)?).map_err(|_| failed("it is not text".to_owned()))?;
-    session::from_json(&text).map_err(|error| failed(error.to_string()))
+    let mut document = session::from_json(&text).map_err(|error| failed(error.to_string()))?;
+    // A session names a mesh without its folder: it is beside it.
+    if let (Some(mesh), Some(folder)) = (document.render.mesh.file_mut(), path.parent()) {
+        *mesh = folder.join(&*mesh);
+    }
+    Ok(document)
 }

@@ -117,6 +117,11 @@ impl Fingerprint {
     }
 }
 
+/// True if two lists of sets differ at most in the folders of their files.
+pub(super) fn same_but_folders(a: &[Shared<ImportedSet>], b: &[Shared<ImportedSet>]) -> bool {
+    a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a == b || a.is_same_but_folder(b))
+}
+
 /// A session's file as it was last read or written by this window.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct SessionFile {
@@ -148,6 +153,46 @@ impl ImportedSet {
             _ => self.curves.iter().collect(),
         };
         used.into_iter().map(|curve| Ok((curve.name.clone(), self.spectrum(curve)?))).collect()
+    }
+
+    /// Least and greatest visible value, if the role's quantity cannot have them: below −5 % of the greatest or, of reflectances and
+    /// transmittances, above 2.
+    pub fn out_of_range(&self) -> Option<[f64; 2]> {
+        let is_fraction = matches!(self.role, Role::Reflectance | Role::Transmittance);
+        let curves = self.curves_in_nm().ok()?;
+        let range_of = |curve: &SpectralDistribution| {
+            let points = curve.wavelengths_nm().iter().zip(curve.values());
+            let visible = points.filter(|(nm, _)| (380.0..=780.0).contains(*nm)).map(|(_, value)| *value);
+            visible.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| [low.min(value), high.max(value)])
+        };
+        let is_out = |[low, high]: &[f64; 2]| *low < -0.05 * high.max(0.0) || (is_fraction && *high > 2.0);
+        curves.iter().map(|(_, curve)| range_of(curve)).find(is_out).filter(|_| self.role != Role::Unknown)
+    }
+
+    /// All but the curves, which may be millions of numbers.
+    #[must_use]
+    pub fn without_curves(&self) -> Self {
+        Self {
+            name: self.name.clone(),
+            file: self.file.clone(),
+            path: self.path.clone(),
+            fingerprint: self.fingerprint,
+            wishes: self.wishes.clone(),
+            role: self.role,
+            read_as: self.read_as,
+            unit: self.unit,
+            percent: self.percent,
+            per_photon: self.per_photon,
+            channels: self.channels,
+            curves: Vec::new(),
+            decisions: self.decisions.clone(),
+        }
+    }
+
+    /// True if another set differs at most in the folder of its file.
+    fn is_same_but_folder(&self, other: &Self) -> bool {
+        let head = |set: &Self| Self { path: None, ..set.without_curves() };
+        head(self) == head(other) && self.curves == other.curves
     }
 
     /// Quantity that its sensitivities respond to.

@@ -52,6 +52,16 @@ impl SetKind {
         }
     }
 
+    /// Use of one of the user's sets under the conditions, as buttons name it; none for sensors, which are compared.
+    pub const fn used_as(self) -> Option<&'static str> {
+        match self {
+            Self::Illuminant => Some("light"),
+            Self::Chart | Self::Material => Some("chart"),
+            Self::Filter => Some("filter"),
+            Self::Camera | Self::Observer | Self::Unsorted => None,
+        }
+    }
+
     /// One of them.
     pub const fn singular(self) -> &'static str {
         match self {

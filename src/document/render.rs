@@ -256,6 +256,26 @@ impl MeshChoice {
         }
     }
 
+    /// The file that it names, if it names one.
+    pub fn file_mut(&mut self) -> Option<&mut PathBuf> {
+        match self {
+            Self::File(path) | Self::Image(path) => Some(path),
+            Self::Head | Self::Fern | Self::Sphere | Self::Plane => None,
+        }
+    }
+
+    /// The same by its file's name alone.
+    #[must_use]
+    pub fn without_folder(&self) -> Self {
+        let mut named = self.clone();
+        if let Some(path) = named.file_mut()
+            && let Some(name) = path.file_name().map(PathBuf::from)
+        {
+            *path = name;
+        }
+        named
+    }
+
     /// True for a spectral image: no surface, light direction or viewpoint matters to it.
     pub const fn is_image(&self) -> bool {
         matches!(self, Self::Image(_))

@@ -33,7 +33,7 @@ pub fn to_json(document: &Document, places: &[(&ImportedSet, &Place)]) -> Result
     rest.own.clear();
     let mut value = serde_json::to_value(rest)?;
     let sets = places.iter().map(|(set, place)| {
-        let mut head = serde_json::to_value(without_curves(set))?;
+        let mut head = serde_json::to_value(set.without_curves())?;
         if let Some(head) = head.as_object_mut() {
             head.remove("curves");
             head.insert(CURVES_IN.to_owned(), serde_json::to_value(place)?);
@@ -92,23 +92,4 @@ fn with_curves(
     };
     let unknown = unknown::of(&set, &serde_json::to_value(&head).map_err(words)?);
     Ok((ImportedSet { curves, ..head }, place, unknown))
-}
-
-/// All of a set but its curves, which may be millions of numbers.
-fn without_curves(set: &ImportedSet) -> ImportedSet {
-    ImportedSet {
-        name: set.name.clone(),
-        file: set.file.clone(),
-        path: set.path.clone(),
-        fingerprint: set.fingerprint,
-        wishes: set.wishes.clone(),
-        role: set.role,
-        read_as: set.read_as,
-        unit: set.unit,
-        percent: set.percent,
-        per_photon: set.per_photon,
-        channels: set.channels,
-        curves: Vec::new(),
-        decisions: set.decisions.clone(),
-    }
 }

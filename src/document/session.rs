@@ -6,7 +6,7 @@ use serde::de::DeserializeOwned;
 use serde::{Deserialize as _, Serialize};
 use serde_json::{Map, Value};
 
-use super::imported::{ImportedSet, Role};
+use super::imported::{ImportedSet, Role, same_but_folders};
 use super::kind::SetKind;
 use super::names::BuiltInNames;
 use super::start::Start;
@@ -42,9 +42,14 @@ pub fn to_json(document: &Document) -> Result<String, SessionError> {
     Ok(text(&value_of(document)?))
 }
 
-/// A session as JSON: the document with its curves, and the view.
+/// A session as JSON: the document with its curves, and the view. Files go by their names: a session is passed on, and folders are
+/// those of this computer.
 pub fn to_session(document: &Document, view: &impl Serialize) -> Result<String, SessionError> {
     let mut value = value_of(&Document { session: None, ..document.clone() })?;
+    for set in value.get_mut("own").and_then(Value::as_array_mut).into_iter().flatten() {
+        set.as_object_mut().map(|set| set.remove("path"));
+    }
+    value["render"]["mesh"] = serde_json::to_value(document.render.mesh.without_folder())?;
     let mut view = serde_json::to_value(view)?;
     if let Some(Value::Object(rest)) = document.unknown.get(VIEW) {
         unknown::put_back(&mut view, rest);
@@ -242,6 +247,16 @@ fn name(record: &Value) -> Option<String> {
 }
 
 impl Document {
+    /// True if another document is the same in a session's file, where files have no folders.
+    pub fn is_same_session(&self, other: &Self) -> bool {
+        let rest = |document: &Self| {
+            let mut rest = Self { own: Vec::new(), session: None, unknown: Map::new(), ..document.clone() };
+            rest.render.mesh = rest.render.mesh.without_folder();
+            rest
+        };
+        rest(self) == rest(other) && same_but_folders(&self.own, &other.own)
+    }
+
     /// Brings values that a file could have spoiled back into their ranges, so that everything past this is total.
     fn mend(&mut self) {
         let [low, high] = super::LOCUS_RANGE_K;

@@ -48,7 +48,7 @@ impl Document {
         free_name(kind, wanted, &taken, built_in, &mut HashMap::new())
     }
 
-    /// Uses a newly opened set: a camera in the comparison, a chart as the patches, a light as the light.
+    /// Uses a set: a camera in the comparison, a chart as the patches, a light as the light.
     pub fn put_to_use(&mut self, set: &Shared<ImportedSet>) {
         match SetKind::of_own(set) {
             SetKind::Camera | SetKind::Observer => self.compare(&set.name, SetKind::Camera),
@@ -62,11 +62,22 @@ impl Document {
         }
     }
 
-    /// Uses one of several opened sets: a camera, while the palette has room.
-    pub fn put_beside(&mut self, set: &Shared<ImportedSet>) {
+    /// Compares an opened set that is a camera, while fewer than `most` cameras are compared.
+    pub fn compare_camera(&mut self, set: &Shared<ImportedSet>, most: usize) {
         let shown = self.compared.iter().filter(|compared| compared.kind == SetKind::Camera).count();
-        if SetKind::of_own(set) == SetKind::Camera && shown < PLACES {
+        if SetKind::of_own(set) == SetKind::Camera && shown < most {
             self.compare(&set.name, SetKind::Camera);
+        }
+    }
+
+    /// True if a set is compared, or is the light, the chart or a filter.
+    pub fn uses(&self, kind: SetKind, name: &str) -> bool {
+        match kind {
+            SetKind::Camera | SetKind::Observer => self.compared(kind, name).is_some(),
+            SetKind::Chart | SetKind::Material => self.chart == name,
+            SetKind::Illuminant => matches!(&self.light, Light::Set(light) if light == name),
+            SetKind::Filter => self.filters.iter().any(|filter| filter == name),
+            SetKind::Unsorted => false,
         }
     }
 
@@ -165,12 +176,12 @@ impl Document {
         }
     }
 
-    /// The place of the own set that another reading of a file is of: of the same contents, or of the same file on disk, and of
-    /// the same part of it.
+    /// The place of the own set that another reading of a file is of: of the same contents, or of the same file on disk in the
+    /// same role, and of the same part of it.
     pub fn same_set(&self, set: &ImportedSet) -> Option<usize> {
         let is_same = |known: &Shared<ImportedSet>| {
             let contents = set.fingerprint.is_some() && set.fingerprint == known.fingerprint;
-            let file = set.path.is_some() && set.path == known.path;
+            let file = set.path.is_some() && set.path == known.path && set.role == known.role;
             (contents || file) && set.wishes.options.part == known.wishes.options.part
         };
         self.own.iter().position(is_same)

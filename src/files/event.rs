@@ -89,6 +89,8 @@ pub struct OpenedDocument {
     pub aside: bool,
     /// Sets of it that could not be read, in words; may be empty.
     pub lost: Vec<String>,
+    /// Files on this computer whose contents are not those that its sets of these names were made of.
+    pub other: Vec<PathBuf>,
     /// The document being replaced.
     pub before: Document,
 }

@@ -137,14 +137,7 @@ impl Profile {
             }
             let _gone = fs::remove_file(&path);
         }
-        let mut texts = Vec::new();
-        for path in entries(folder).filter(|path| path.extension().is_some_and(|ending| ending == "json")) {
-            match fs::read(&path) {
-                Ok(bytes) => texts.push(String::from_utf8_lossy(&bytes).into_owned()),
-                // Its references are unknown.
-                Err(_) => return,
-            }
-        }
+        let Some(texts) = texts_of_documents(folder) else { return };
         for path in entries(&folder.join(CURVES)) {
             let is_named = || texts.iter().any(|text| text.contains(name_of(&path)));
             if is_older(&path, UNNAMED, now) && !is_named() {
@@ -169,6 +162,12 @@ impl Drop for Lock {
             let _gone = fs::remove_file(path);
         }
     }
+}
+
+/// Texts of all documents of a profile; none if one cannot be read, whose references are unknown.
+pub(super) fn texts_of_documents(folder: &Path) -> Option<Vec<String>> {
+    let documents = entries(folder).filter(|path| path.extension().is_some_and(|ending| ending == "json"));
+    documents.map(|path| fs::read(path).ok().map(|bytes| String::from_utf8_lossy(&bytes).into_owned())).collect()
 }
 
 /// A free name for a document that is set aside.

@@ -5,13 +5,15 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use chromascope_core::query::Shared;
+
 use super::atomic::{sweep, write_atomically};
 use super::event::{DocumentSource, FileEvent, Note, OpenedDocument};
 use super::keep::Aside;
 use super::save::MakeText;
 use super::store::{Unread, read};
 use super::{Files, template_name};
-use crate::document::imported::Fingerprint;
+use crate::document::imported::{Fingerprint, ImportedSet};
 use crate::document::{Document, SessionFile, session};
 use crate::format::{io_failure, io_reason};
 
@@ -19,10 +21,11 @@ use crate::format::{io_failure, io_reason};
 const TEMPLATES: &str = "templates";
 
 impl Files {
-    /// Reads a document to replace this one, which is saved in a file of its own before unless it `is_safe`.
-    pub fn open_document(&self, source: DocumentSource, before: Document, is_safe: bool) {
+    /// Reads a document to replace this one, which is saved in a file of its own before unless it `is_safe`. `recent` are the files opened lately, among which those that it names are looked for.
+    pub fn open_document(&self, source: DocumentSource, before: Document, is_safe: bool, recent: Vec<PathBuf>) {
         let (aside, folder) = (self.keeper.aside(), self.keeper.folder().map(Path::to_owned));
-        self.in_background(move || [Note::Event(opened(source, before, is_safe, &aside, folder.as_deref()))]);
+        let places = (folder, recent);
+        self.in_background(move || [Note::Event(opened(source, before, is_safe, &aside, &places))]);
     }
 
     /// Reads the file of the session that the program begins with, to know whether it holds the same.
@@ -33,7 +36,7 @@ impl Files {
             let (kept, fingerprint) = read(&file.path).ok()?;
             let there = Document { session: Some(file.clone()), unknown: document.unknown.clone(), ..kept.document };
             // A program that was killed just after it wrote the file did not note that it had.
-            let is_known = fingerprint == file.fingerprint || there == document;
+            let is_known = fingerprint == file.fingerprint || there.is_same_session(&document);
             let file = SessionFile { fingerprint, ..file };
             is_known.then(|| Note::Event(FileEvent::SessionKnown(file, Arc::new(there))))
         });
@@ -86,15 +89,23 @@ pub(super) fn is_session_name(path: &Path) -> bool {
     path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case(session::ENDING))
 }
 
-fn opened(source: DocumentSource, before: Document, is_safe: bool, aside: &Aside, own: Option<&Path>) -> FileEvent {
+fn opened(
+    source: DocumentSource,
+    before: Document,
+    is_safe: bool,
+    aside: &Aside,
+    (own, recent): &(Option<PathBuf>, Vec<PathBuf>),
+) -> FileEvent {
     let name = source.name();
+    let mut other = Vec::new();
     let (mut document, lost, newer) = match &source {
         DocumentSource::New(_, document) => ((**document).clone(), Vec::new(), None),
         DocumentSource::File(path) | DocumentSource::Template(path) => match read(path) {
             Ok((mut kept, fingerprint)) => {
                 // A document of this program's folder belongs to the session that it names itself.
-                if own.is_none_or(|own| path.parent() != Some(own)) {
+                if own.as_deref().is_none_or(|own| path.parent() != Some(own)) {
                     let path = std::path::absolute(path).unwrap_or_else(|_| path.clone());
+                    other = connect(&mut kept.document, path.parent().unwrap_or(&path), recent);
                     // A file of a newer version is not written over.
                     let is_file = matches!(source, DocumentSource::File(_)) && is_session_name(&path);
                     kept.document.session =
@@ -106,8 +117,8 @@ fn opened(source: DocumentSource, before: Document, is_safe: bool, aside: &Aside
             Err(Unread::Because(why)) => return FileEvent::Failed(format!("{name} could not be opened: {why}.")),
         },
     };
-    let is_same = || Document { unknown: before.unknown.clone(), ..document.clone() } == before;
-    if matches!(source, DocumentSource::File(_)) && is_same() {
+    let is_same = document.session == before.session && document.is_same_session(&before);
+    if matches!(source, DocumentSource::File(_)) && is_same {
         return FileEvent::Said(format!("{name} is the current document."));
     }
     if !lost.is_empty() {
@@ -118,12 +129,46 @@ fn opened(source: DocumentSource, before: Document, is_safe: bool, aside: &Aside
     let put_aside = !is_safe && !is_untouched;
     match if put_aside { aside.put_aside(&before) } else { Ok(()) } {
         Ok(()) => {
-            FileEvent::Document(Box::new(OpenedDocument { source, document, newer, aside: put_aside, lost, before }))
+            let aside = put_aside;
+            FileEvent::Document(Box::new(OpenedDocument { source, document, newer, aside, lost, other, before }))
         }
         Err(why) => {
             FileEvent::Failed(format!("{name} was not opened because the current document could not be saved: {why}."))
         }
     }
+}
+
+/// Finds the files that a session names: where it says, beside it, or among those opened lately. A set follows a file that has the
+/// contents it was made of. Returns the files that have others.
+fn connect(document: &mut Document, folder: &Path, recent: &[PathBuf]) -> Vec<PathBuf> {
+    let places = |path: Option<&PathBuf>, name: &std::ffi::OsStr| -> Vec<PathBuf> {
+        let lately = recent.iter().filter(|recent| recent.file_name() == Some(name)).cloned();
+        let places = path.cloned().into_iter().chain([folder.join(name)]).chain(lately);
+        places.filter(|place| place.is_absolute() && place.is_file()).collect()
+    };
+    let mut other: Vec<PathBuf> = Vec::new();
+    for set in &mut document.own {
+        let Some(fingerprint) = set.fingerprint else { continue };
+        let there = places(set.path.as_ref(), std::ffi::OsStr::new(&set.file));
+        let is_it = |path: &&PathBuf| {
+            let is_small = fs::metadata(path).is_ok_and(|facts| facts.len() <= spectral_file::MAX_BYTES as u64);
+            is_small && fs::read(path).is_ok_and(|bytes| Fingerprint::of(&bytes) == fingerprint)
+        };
+        let path = there.iter().find(is_it).cloned();
+        if path.is_none() {
+            let differs = there.into_iter().next().filter(|place| !other.contains(place));
+            other.extend(differs);
+        }
+        if path != set.path {
+            *set = Shared::new(ImportedSet { path, ..(**set).clone() });
+        }
+    }
+    if let Some(path) = document.render.mesh.file_mut()
+        && let Some(there) = path.file_name().and_then(|name| places(Some(path), name).into_iter().next())
+    {
+        *path = there;
+    }
+    other
 }
 
 fn saved(file: SessionFile, document: Arc<Document>, bytes: &[u8], replaces: bool) -> FileEvent {

@@ -12,12 +12,15 @@ use std::ptr::from_ref;
 use chromascope_core::query::Shared;
 
 use super::atomic::write_atomically;
-use super::profile::{CURVES, Lock, free_copy};
+use super::profile::{CURVES, Lock, free_copy, texts_of_documents};
 use crate::document::imported::{Fingerprint, ImportedCurve, ImportedSet};
 use crate::document::saved::{self, LoadedDocument, Place};
 use crate::document::session::SessionError;
 use crate::document::{Document, VERSION};
 use crate::format::{io_failure, io_reason};
+
+/// Files of curves kept that the document of this run named before.
+const SUPERSEDED: usize = 16;
 
 /// Result of writing a document.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -47,6 +50,8 @@ pub(super) struct Store {
     known: HashMap<usize, (Shared<ImportedSet>, Place)>,
     /// Curves that this window wrote, by their text.
     written: HashMap<u128, Place>,
+    /// Files of those curves, the oldest first.
+    order: Vec<String>,
     /// True if the file on disk holds curves itself, which are lost with it.
     by_value: bool,
     /// True if the file on disk is known to be in the present format, or backed up.
@@ -134,6 +139,9 @@ impl Store {
         if skipped_work.is_empty() && self.known.len() > present.len() {
             self.known.retain(|address, _| present.contains(address));
         }
+        if skipped_work.is_empty() {
+            self.remove_superseded(&folder);
+        }
         Ok(Written { skipped_work })
     }
 
@@ -172,6 +180,22 @@ impl Store {
         }
     }
 
+    /// Removes the oldest files of curves that this window wrote and its document names no longer, such as earlier contents of a file
+    /// that changes each second, unless another document names them. Steps of undo hold their curves in memory.
+    fn remove_superseded(&mut self, folder: &Path) {
+        let named: HashSet<&String> = self.known.values().map(|(_, Place(name, _))| name).collect();
+        let spare: Vec<String> = self.order.iter().filter(|name| !named.contains(name)).cloned().collect();
+        let Some(count) = spare.len().checked_sub(SUPERSEDED).filter(|count| *count > 0) else { return };
+        let Some(texts) = texts_of_documents(folder) else { return };
+        for name in spare.into_iter().take(count) {
+            self.order.retain(|known| *known != name);
+            if !texts.iter().any(|text| text.contains(&name)) {
+                let _gone = fs::remove_file(folder.join(CURVES).join(&name));
+                self.written.retain(|_, Place(known, _)| *known != name);
+            }
+        }
+    }
+
     /// Writes the curves that are in no file yet, all into one: a folder of files that is opened costs one flush.
     fn write_new(&mut self, folder: &Path, sets: &[Shared<ImportedSet>]) -> Result<(), String> {
         let mut fresh = Vec::new();
@@ -199,6 +223,8 @@ impl Store {
         let failed = |error: io::Error| io_failure(&folder, &error);
         fs::create_dir_all(&folder).map_err(failed)?;
         write_atomically(&folder.join(&name), &text).map_err(failed)?;
+        self.order.retain(|known| *known != name);
+        self.order.push(name.clone());
         for (index, (set, key, _)) in fresh.into_iter().enumerate() {
             let place = Place(name.clone(), index);
             self.written.insert(key, place.clone());

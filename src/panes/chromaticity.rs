@@ -65,10 +65,10 @@ fn switches(ui: &mut Ui, context: &mut PaneContext<'_>) {
     }
     ui.add_space(UNIT);
     let fits = [
-        (DiagramFit::Data, "Data", "Fit to loci and patches"),
+        (DiagramFit::Data, "Data", "Fit to loci and patches, again if pressed again"),
         (DiagramFit::Whole, "Full diagram", "The full spectral locus"),
     ];
-    if let Some(fit) = widgets::segmented(ui, &fits, context.view.saved.diagram_fit) {
+    if let Some(fit) = widgets::pressed(ui, &fits, context.view.saved.diagram_fit) {
         context.view.saved.diagram_fit = fit;
         context.view.reset_plots = true;
         ui.ctx().request_repaint();

@@ -12,6 +12,7 @@ use crate::document::{Light, SetKind, Subset, TransformChoice, WhiteBalanceChoic
 use crate::format::signed;
 use crate::panes::widgets::number_field::NumberField;
 use crate::panes::widgets::pick_list::{self, Line};
+use crate::panes::widgets::{self, Icon};
 use crate::theme::{ROW, UNIT};
 use crate::view::View;
 use crate::workspaces::PaneKind;
@@ -42,7 +43,8 @@ pub fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
         temperature(ui, slider, context);
     });
     field(&mut bar, (Condition::Patches, "Patches"), 196.0 * compact, context, patches);
-    field(&mut bar, (Condition::White, "White balance"), 108.0 * compact, context, white);
+    let caption = if shows_sunlight(context) { "Render's own white" } else { "White balance" };
+    field(&mut bar, (Condition::White, caption), 108.0 * compact, context, white);
     field(&mut bar, (Condition::Transform, "Color transform"), 146.0 * compact, context, transform);
     let (caption, width) = if wide { ("Difference", 90.0) } else { ("Δ", BUTTON) };
     field(&mut bar, (Condition::Difference, caption), width, context, difference);
@@ -200,7 +202,7 @@ fn reference(ui: &mut Ui, context: &mut PaneContext<'_>) {
 /// The light's temperature, and that there are filters in front of it.
 fn light_caption(context: &PaneContext<'_>) -> String {
     if shows_sunlight(context) {
-        return "Light of the pictures".to_owned();
+        return "Render's own light".to_owned();
     }
     let filters = if context.scene.document.filters.is_empty() { "Light" } else { "Filtered" };
     match context.scene.light_temperature() {
@@ -222,12 +224,32 @@ fn light(ui: &mut Ui, context: &mut PaneContext<'_>) {
         "The light on the scene. Blackbody and Daylight follow the temperature. Filters are ticked in the Library."
             .to_owned();
     if sunlit {
-        hint = format!("The pictures are under the sun, balanced to {BALANCE}; other panes: {shown}. {hint}");
+        hint = format!(
+            "The pictures are under the sun, balanced to {BALANCE}, by Render's own choice; other panes: {shown}. What is \
+             chosen here is for both. {hint}"
+        );
     }
-    let shown = if sunlit { SUN.to_owned() } else { shown };
-    let filters = &context.scene.document.filters;
-    for filter in filters {
+    let filters = context.scene.document.filters.clone();
+    let shown = match filters.as_slice() {
+        _ if sunlit => SUN.to_owned(),
+        [] => shown,
+        [filter] => format!("{shown} × {filter}"),
+        many => format!("{shown} × {} filters", many.len()),
+    };
+    for filter in &filters {
         hint.extend(["\nFilter: ", filter]);
+    }
+    // Where there is a filter, it is taken off beside the list.
+    let off = if sunlit || filters.is_empty() { 0.0 } else { ROW };
+    let whole = ui.available_rect_before_wrap();
+    ui.set_max_width(whole.width() - off);
+    if off > 0.0 {
+        let place = Rect::from_min_size(egui::pos2(whole.right() - off, whole.top()), Vec2::splat(off));
+        let words = if let [filter] = filters.as_slice() { filter } else { "all filters" };
+        let mut child = ui.new_child(UiBuilder::new().id_salt("filters off").max_rect(place));
+        if widgets::icon_button(&mut child, Icon::Close, &format!("Remove {words}")).clicked() {
+            context.push(Action::Scene(SceneAction::ClearFilters));
+        }
     }
     if let Ok(Ok(cct)) = context.scene.light_temperature() {
         hint.extend(["\nDuv ", &signed(cct.duv)]);

@@ -30,7 +30,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let body = widgets::pane(ui, &PANE, rect, context, |ui, context| {
         let choices = [
             (SpectraLayout::Overlay, "Overlay", "All sensitivities in one plot"),
-            (SpectraLayout::Each, "Each", "A plot for each sensor"),
+            (SpectraLayout::Each, "Each", "A plot for each sensor, where there is room for them"),
         ];
         if let Some(layout) = widgets::segmented(ui, &choices, context.view.saved.spectra_layout) {
             context.view.saved.spectra_layout = layout;
@@ -49,10 +49,14 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
         ui.painter().text(body.center(), Align2::CENTER_CENTER, words, font, context.theme.weak);
         return;
     }
-    let panels = match context.view.saved.spectra_layout {
-        SpectraLayout::Overlay => 3,
-        SpectraLayout::Each => 2 + context.scene.sources().iter().filter(|source| source.visible).count(),
-    };
+    let each = 2 + context.scene.sources().iter().filter(|source| source.visible).count();
+    let wanted = context.view.saved.spectra_layout;
+    // A small pane of another workspace would show a cut list of plots without their axis.
+    let is_small = PaneKind::SPECTRA.group() != context.view.saved.workspace && body.height() < each as f32 * LEAST;
+    if is_small {
+        context.view.saved.spectra_layout = SpectraLayout::Overlay;
+    }
+    let panels = if context.view.saved.spectra_layout == SpectraLayout::Each { each } else { 3 };
     let height = body.height().max(panels as f32 * LEAST);
     let mut child = ui.new_child(UiBuilder::new().id_salt("spectra").max_rect(body));
     child.set_clip_rect(body.intersect(ui.clip_rect()));
@@ -60,6 +64,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
         let (area, _) = ui.allocate_exact_size(Vec2::new(body.width(), height), egui::Sense::hover());
         panels_in(ui, area, context);
     });
+    context.view.saved.spectra_layout = wanted;
 }
 
 fn panels_in(ui: &mut Ui, area: Rect, context: &mut PaneContext<'_>) {

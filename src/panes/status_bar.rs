@@ -7,18 +7,19 @@ use chromascope_core::camera::LocusMethod;
 use egui::{Align, Button, Color32, Layout, Rect, TextStyle, Ui, UiBuilder, Vec2};
 
 use super::context::PaneContext;
+use crate::action::{Action, ImportedAction};
 use crate::catalog::opened::Progress;
 use crate::command::Command;
 use crate::document::SetKind;
 use crate::figures::chromaticity;
 use crate::figures::render::image_words;
-use crate::format::fixed;
-use crate::panes::widgets::lines;
+use crate::format::{file_name, fixed};
+use crate::panes::widgets::{lines, pick_list};
 use crate::plot_item::{PlotItem, SensorId};
 use crate::render_service::made::MadePictures;
 use crate::report::Report;
 use crate::theme::UNIT;
-use crate::view::{Status, Weight};
+use crate::view::{Offer, Status, Weight};
 use crate::workspaces::{Arrangement, PaneKind};
 
 /// Text of the bar when there is nothing else.
@@ -27,8 +28,6 @@ const READY: &str = "Ready. Drop a spectrum or camera file anywhere.";
 const LONG: Duration = Duration::from_millis(500);
 /// Reading time above which progress is shown.
 const PATIENCE: Duration = Duration::from_millis(100);
-/// The width of the button after a message.
-const CHANGE: f32 = 76.0;
 /// Share of the bar that readings have; messages and facts have the rest, so that neither moves the other. A longer message takes
 /// the room of readings while there is none.
 const READINGS: f32 = 0.62;
@@ -128,16 +127,65 @@ fn message(ui: &mut Ui, mut rect: Rect, context: &mut PaneContext<'_>) -> bool {
         lines::warning_mark(ui.painter(), egui::pos2(rect.left() + 7.0, rect.center().y), color);
         rect.min.x += 5.0 * UNIT;
     }
-    let button = status.change.map(|(item, line)| {
+    line(ui, rect, &status.text, color, &buttons(&status), context);
+    true
+}
+
+/// A button behind a message: its title, its tooltip, what it does.
+type LineButton = (String, String, Press);
+
+/// Effect of a button behind a message.
+enum Press {
+    Run(Command),
+    /// Takes one of the message's offers; the first has the keyboard.
+    Take(Vec<Offer>),
+}
+
+/// Buttons of a message: its offers, and where it leads.
+fn buttons(status: &Status) -> Vec<LineButton> {
+    const LEAVES: &str = "Enter does it, Esc leaves it: until then nothing changes";
+    let offers = match status.offers.as_slice() {
+        [] => None,
+        [one] => Some((offered(one, true), LEAVES)),
+        [Offer::Open(_), ..] => Some(("Open…".to_owned(), LEAVES)),
+        _ => Some(("Use as…".to_owned(), LEAVES)),
+    };
+    let offers = offers.map(|(title, hint)| (title, hint.to_owned(), Press::Take(status.offers.clone())));
+    let change = status.change.clone().map(|(item, line)| {
         let (title, hint) = if status.weight == Weight::Error {
             ("Show line", "Show the text where reading failed")
         } else {
             ("Change", "Check and correct how the file was read")
         };
-        (title, hint, Command::ShowImport(item, line))
+        (title.to_owned(), hint.to_owned(), Press::Run(Command::ShowImport(item, line)))
     });
-    line(ui, rect, &status.text, color, button, context);
-    true
+    offers.into_iter().chain(change).collect()
+}
+
+/// An offer on its button, or as one of several.
+fn offered(offer: &Offer, is_alone: bool) -> String {
+    match offer {
+        Offer::Open(path) => format!("Open {}", file_name(path)),
+        Offer::Use(kind, _) if is_alone => {
+            kind.used_as().map_or_else(|| "Compare".to_owned(), |used| format!("Use as {used}"))
+        }
+        Offer::Use(kind, name) => ImportedAction::Use(*kind, name.clone()).name(),
+    }
+}
+
+/// Takes an offer; the others of its message stay.
+fn take(offer: &Offer, context: &mut PaneContext<'_>) {
+    let mut left = std::mem::take(&mut context.view.status.offers);
+    left.retain(|other| other != offer);
+    context.view.say(match offer {
+        Offer::Use(..) => format!("{}: done. Ctrl+Z undoes this.", offered(offer, false)),
+        Offer::Open(_) => String::new(),
+    });
+    context.view.offer(left, true);
+    context.push(match offer {
+        Offer::Use(kind, name) => Command::Do(Action::Imported(ImportedAction::Use(*kind, name.clone()))),
+        Offer::Open(path) => Command::OpenPath(path.clone()),
+    });
 }
 
 /// Width that the last message takes in one line, with its mark and its button.
@@ -147,14 +195,18 @@ fn message_width(ui: &Ui, context: &PaneContext<'_>) -> f32 {
         return 0.0;
     }
     let mark = if status.weight == Weight::Note { 0.0 } else { 5.0 * UNIT };
-    let button = if status.change.is_some() { CHANGE + 2.0 * UNIT } else { 0.0 };
-    mark + lines::width(ui, &status.text, TextStyle::Body).ceil() + 1.0 + button
+    let buttons: f32 = buttons(status).iter().map(|(title, ..)| button_width(ui, title) + UNIT).sum();
+    mark + lines::width(ui, &status.text, TextStyle::Body).ceil() + 1.0 + buttons
+}
+
+fn button_width(ui: &Ui, title: &str) -> f32 {
+    lines::width(ui, title, TextStyle::Button).ceil() + 2.0 * ui.spacing().button_padding.x
 }
 
 /// Opacity of the message by egui's time; one whose time is over is cleared. Under the pointer it stays.
 fn remaining(ui: &Ui, rect: Rect, context: &mut PaneContext<'_>) -> f32 {
     let status = &mut context.view.status;
-    if status.text.is_empty() || status.weight != Weight::Note {
+    if status.text.is_empty() || status.weight != Weight::Note || !status.offers.is_empty() {
         return 1.0;
     }
     let now = ui.input(|input| input.time);
@@ -174,28 +226,29 @@ fn remaining(ui: &Ui, rect: Rect, context: &mut PaneContext<'_>) -> f32 {
     (left / FADE) as f32
 }
 
-/// One line, with a button behind it where something can be done about it.
+/// One line, with buttons behind it where something can be done about it.
 fn line(
     ui: &mut Ui,
     mut rect: Rect,
     words: &str,
     color: Color32,
-    button: Option<(&str, &str, Command)>,
+    buttons: &[LineButton],
     context: &mut PaneContext<'_>,
 ) {
-    if let Some((title, hint, command)) = button {
-        let right = rect.right();
-        rect.max.x -= CHANGE + UNIT;
+    if !buttons.is_empty() {
+        let width: f32 = buttons.iter().map(|(title, ..)| button_width(ui, title) + UNIT).sum();
+        rect.max.x -= width;
         let wrap = Some(egui::TextWrapMode::Truncate);
         let galley = egui::WidgetText::from(words).into_galley(ui, wrap, rect.width().max(0.0), TextStyle::Body);
-        let left = (rect.left() + galley.size().x + UNIT).min(right - CHANGE);
-        let place = Rect::from_min_size(egui::pos2(left, rect.top() + 1.0), Vec2::new(CHANGE, rect.height() - 2.0));
+        let left = (rect.left() + galley.size().x).min(rect.right()) + UNIT;
+        let place = Rect::from_min_size(egui::pos2(left, rect.top() + 1.0), Vec2::new(width, rect.height() - 2.0));
         let layout = Layout::left_to_right(Align::Center);
-        let mut child = ui.new_child(UiBuilder::new().id_salt(title).max_rect(place).layout(layout));
+        let mut child = ui.new_child(UiBuilder::new().id_salt("buttons").max_rect(place).layout(layout));
+        child.spacing_mut().item_spacing.x = UNIT;
         child.spacing_mut().button_padding.y = 0.0;
         child.spacing_mut().interact_size.y = place.height();
-        if child.add(Button::new(title)).on_hover_text(hint).clicked() {
-            context.push(command);
+        for (title, hint, press) in buttons {
+            button(&mut child, (title, hint), press, context);
         }
     }
     let cut = lines::elided(ui, rect, words, TextStyle::Body, color);
@@ -206,20 +259,47 @@ fn line(
     }
 }
 
+fn button(ui: &mut Ui, (title, hint): (&str, &str), press: &Press, context: &mut PaneContext<'_>) {
+    let response = match press {
+        Press::Take(offers) if offers.len() > 1 => {
+            let choices = || offers.iter().map(|offer| pick_list::Line::new(offered(offer, false), false)).collect();
+            let (response, chosen) = pick_list::menu(ui, (title, "offers", hint), &context.theme, choices);
+            if let Some(index) = chosen {
+                take(&offers[index], context);
+            }
+            response
+        }
+        _ => ui.add(Button::new(title)).on_hover_text(hint),
+    };
+    match press {
+        Press::Run(command) if response.clicked() => context.push(command.clone()),
+        Press::Take(offers) => {
+            if std::mem::take(&mut context.view.status.takes_keyboard) && !ui.ctx().text_edit_focused() {
+                response.request_focus();
+            }
+            if let ([one], true) = (offers.as_slice(), response.clicked()) {
+                take(one, context);
+            }
+        }
+        Press::Run(_) => {}
+    }
+}
+
 /// The message while files are read.
 fn file_progress(ui: &mut Ui, rect: Rect, progress: &Progress, context: &mut PaneContext<'_>) {
     ui.ctx().request_repaint_after(Duration::from_millis(50));
     let words = progress_words(progress);
-    let button = ("Stop", "Stop reading; nothing is changed (Esc)", Command::StopReading);
-    line(ui, rect, &words, context.theme.text, Some(button), context);
+    let stop =
+        ("Stop".to_owned(), "Stop reading; nothing is changed (Esc)".to_owned(), Press::Run(Command::StopReading));
+    line(ui, rect, &words, context.theme.text, &[stop], context);
 }
 
 /// The message while a report is made.
 fn report_progress(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let (steps, done) = context.report.progress();
     let words = format!("Report: {}, {} of {}", Report::name(done), done + 1, steps.len());
-    let button = ("Stop", "Stop the report; the files so far stay (Esc)", Command::StopReport);
-    line(ui, rect, &words, context.theme.text, Some(button), context);
+    let hint = "Stop the report; the files so far stay (Esc)".to_owned();
+    line(ui, rect, &words, context.theme.text, &[("Stop".to_owned(), hint, Press::Run(Command::StopReport))], context);
 }
 
 /// File being read, and its progress.

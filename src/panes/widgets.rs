@@ -289,13 +289,18 @@ pub fn icon_button(ui: &mut Ui, icon: Icon, name: &str) -> Response {
 
 /// A switch of a few words of which one is on. Returns the one clicked.
 pub fn segmented<T: Copy + PartialEq>(ui: &mut Ui, choices: &[(T, &str, &str)], current: T) -> Option<T> {
+    pressed(ui, choices, current).filter(|choice| *choice != current)
+}
+
+/// The same, for choices that do something when pressed again.
+pub fn pressed<T: Copy + PartialEq>(ui: &mut Ui, choices: &[(T, &str, &str)], current: T) -> Option<T> {
     let mut clicked = None;
     for &(choice, words, hint) in choices {
         let on = choice == current;
         let theme = Theme::of(ui.visuals());
         let fill = if on { theme.hover } else { theme.panel };
         let button = Button::new(words).fill(fill).selected(on).frame_when_inactive(on);
-        if ui.add(button).on_hover_text(hint).clicked() && !on {
+        if ui.add(button).on_hover_text(hint).clicked() {
             clicked = Some(choice);
         }
     }

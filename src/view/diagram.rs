@@ -2,7 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::document::Diagram;
+use crate::document::imported::Fingerprint;
+use crate::document::{Diagram, Subset};
 use crate::plot_item::SensorId;
 
 /// Values at the ends of x and of y.
@@ -21,7 +22,7 @@ pub enum DiagramFit {
 /// Seconds from one fit to the next.
 const EASE: f64 = 0.15;
 
-/// Choices that a fit belongs to: another set of sensors is fitted anew, other patches or lights are not.
+/// Choices that a fit belongs to: other sensors and patches are fitted anew, another light is not.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FitKey {
     /// The coordinates.
@@ -30,6 +31,8 @@ pub struct FitKey {
     pub fit: DiagramFit,
     /// The sensors that are fitted, sorted.
     pub sensors: Vec<SensorId>,
+    /// The chart, the contents of the file it was read from, and how many of its patches.
+    pub patches: (String, Option<Fingerprint>, Subset),
 }
 
 /// Ranges of a fit.
@@ -109,7 +112,7 @@ mod tests {
 
     fn key(names: &[&str]) -> FitKey {
         let sensors = names.iter().map(|name| SensorId { kind: SetKind::Camera, name: (*name).to_owned() }).collect();
-        FitKey { diagram: Diagram::Xy, fit: DiagramFit::Data, sensors }
+        FitKey { diagram: Diagram::Xy, fit: DiagramFit::Data, sensors, patches: Default::default() }
     }
 
     const SMALL: Fit = Fit { shown: [[0.2, 0.4]; 2], data: [[0.2, 0.4]; 2] };

@@ -5,7 +5,7 @@ use crate::catalog::import::import;
 use crate::document::imported::{ImportedSet, Role};
 use crate::document::names::BuiltInNames;
 use crate::document::start::Start;
-use crate::document::{Document, Light, Overlays, WhiteBalanceChoice};
+use crate::document::{Document, Light, Overlays, SetKind, WhiteBalanceChoice};
 use crate::workspaces::PaneKind;
 
 /// A document to begin a new session with.
@@ -73,12 +73,15 @@ pub const TEMPLATES: [Template; 7] = [
         pane: PaneKind::METRICS,
         start: Start::Colorimetry,
         actions: |_| {
-            skin()
-                .map(|set| {
-                    Action::Imported(ImportedAction::Import { sets: vec![set], built_in: BuiltInNames::default() })
-                })
-                .into_iter()
-                .collect()
+            let Some(set) = skin() else { return Vec::new() };
+            let name = set.name.clone();
+            let sets = vec![set];
+            [
+                ImportedAction::Import { sets, built_in: BuiltInNames::default() },
+                ImportedAction::Use(SetKind::Chart, name),
+            ]
+            .map(Action::Imported)
+            .into()
         },
     },
     Template {

@@ -37,6 +37,7 @@ mod lights;
 mod meshes;
 mod metrics;
 mod opened;
+mod opening;
 mod own_data;
 mod panes;
 mod path_box;

@@ -2,8 +2,8 @@
 
 use chromascope_core::query::Shared;
 
-use crate::document::Document;
 use crate::document::imported::{ImportedSet, Role};
+use crate::document::{Document, SetKind};
 
 /// Names the sets that were renamed because another set already had the name in their files.
 pub(super) fn renamed(new: &[(&ImportedSet, &Shared<ImportedSet>)]) -> String {
@@ -26,10 +26,11 @@ pub(super) fn opened_again(again: &[(&ImportedSet, &Shared<ImportedSet>)], count
     }
 }
 
-/// Roles of several sets opened together. A single set is used in its own role.
+/// What becomes of sets that were opened: cameras are compared, all others wait in the library.
 pub(super) fn put_to_use(before: &Document, after: &Document, brought: &[Shared<ImportedSet>]) -> String {
-    if brought.len() < 2 {
-        return String::new();
+    if let [one] = brought {
+        let waits = SetKind::of_own(one).used_as().is_some() && !after.uses(SetKind::of_own(one), &one.name);
+        return if waits { "In the Library; the conditions are unchanged.".to_owned() } else { String::new() };
     }
     let cameras = brought.iter().filter(|set| set.role == Role::Camera).count();
     let shown = after.compared.len() - before.compared.len();

@@ -2,7 +2,7 @@
 
 use super::drawing::id;
 use super::frame::{LEAST, place};
-use crate::document::Diagram;
+use crate::document::{Diagram, SetKind};
 use crate::scene::{ComparedSensor, Scene};
 use crate::view::diagram::{DiagramFit, Fit, FitKey};
 
@@ -24,7 +24,10 @@ pub fn fit_key(scene: &Scene<'_>, fit: DiagramFit) -> FitKey {
     let all = fitted.iter().all(|source| source.is_reference);
     let mut sensors: Vec<_> = fitted.into_iter().chain(other.into_iter().filter(|_| all)).map(id).collect();
     sensors.sort_by(|a, b| a.name.cmp(&b.name));
-    FitKey { diagram: scene.document.diagram, fit, sensors }
+    let document = scene.document;
+    let own = document.own.iter().find(|set| SetKind::of_own(set) == SetKind::Chart && set.name == document.chart);
+    let patches = (document.chart.clone(), own.and_then(|set| set.fingerprint), document.subset);
+    FitKey { diagram: document.diagram, fit, sensors, patches }
 }
 
 /// Ranges that hold the visible loci and patches of the fitted sensors.

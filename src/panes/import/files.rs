@@ -15,6 +15,8 @@ use crate::workspaces::PaneKind;
 
 /// Height of a file's two lines.
 const HEIGHT: f32 = 38.0;
+/// Height of one more line, for the reason why a file was not read.
+const LINE: f32 = 14.0;
 /// Width of the mark before a name.
 const MARK: f32 = 16.0;
 /// Width that a scroll bar overlaps.
@@ -41,15 +43,30 @@ pub(super) fn column(ui: &mut Ui, rect: Rect, entries: &[Entry], context: &mut P
     child.set_clip_rect(list.intersect(ui.clip_rect()));
     child.spacing_mut().item_spacing.y = 0.0;
     let mut area = ScrollArea::vertical().id_salt("files scroll").auto_shrink(false);
+    let tops = tops(entries);
     if let Some(index) = moved {
         // The previous and the next one stay visible, too.
-        area = area.vertical_scroll_offset((index as f32 * HEIGHT - (list.height() - HEIGHT) / 2.0).max(0.0));
+        area = area.vertical_scroll_offset((tops[index] - (list.height() - HEIGHT) / 2.0).max(0.0));
     }
-    area.show_rows(&mut child, HEIGHT, entries.len(), |ui, range| {
-        for index in range {
-            row(ui, index, entries, context);
+    area.show_viewport(&mut child, |ui, viewport| {
+        ui.set_height(tops[entries.len()]);
+        let origin = ui.max_rect().min;
+        let is_seen = |index: &usize| tops[index + 1] > viewport.top() && tops[*index] < viewport.bottom();
+        for index in (0..entries.len()).filter(is_seen) {
+            let [top, bottom] = [tops[index], tops[index + 1]].map(|y| origin.y + y);
+            row(ui, Rect::from_x_y_ranges(ui.max_rect().x_range(), top..=bottom), index, entries, context);
         }
     });
+}
+
+/// Upper ends of the files in the list, and its height.
+fn tops(entries: &[Entry]) -> Vec<f32> {
+    let mut tops = vec![0.0];
+    for entry in entries {
+        let line = if entry.state == State::Failed { LINE } else { 0.0 };
+        tops.push(tops[tops.len() - 1] + HEIGHT + line);
+    }
+    tops
 }
 
 /// Legend of the marks before the files.
@@ -175,10 +192,9 @@ fn keys(ui: &Ui, entries: &[Entry], context: &mut PaneContext<'_>) -> Option<usi
 }
 
 /// One file.
-fn row(ui: &mut Ui, index: usize, entries: &[Entry], context: &mut PaneContext<'_>) {
+fn row(ui: &mut Ui, rect: Rect, index: usize, entries: &[Entry], context: &mut PaneContext<'_>) {
     let entry = &entries[index];
     let theme = context.theme;
-    let (rect, _) = ui.allocate_exact_size(Vec2::new(ui.available_width(), HEIGHT), Sense::hover());
     let rect = Rect::from_min_max(rect.min, rect.max - Vec2::new(SCROLL_BAR, 1.0));
     let response = ui.interact(rect, id(index), Sense::click());
     let on = context.view.import.selected.as_ref() == Some(&entry.item);
@@ -189,7 +205,7 @@ fn row(ui: &mut Ui, index: usize, entries: &[Entry], context: &mut PaneContext<'
         ui.memory_mut(|memory| memory.set_focus_lock_filter(id(index), filter));
     }
     ground(ui, rect, &response, on, &theme);
-    let middle = rect.center().y;
+    let middle = rect.top() + 0.5 * HEIGHT;
     draw_mark(ui.painter(), egui::pos2(rect.left() + 9.0, rect.top() + 10.0), entry.state, on, &theme);
     let left = rect.left() + MARK + 2.0;
     let upper = Rect::from_min_max(egui::pos2(left, rect.top() + 1.0), egui::pos2(rect.right() - lines::DOTS, middle));
@@ -201,7 +217,11 @@ fn row(ui: &mut Ui, index: usize, entries: &[Entry], context: &mut PaneContext<'
         (false, State::Failed) => theme.error,
         (false, _) => theme.weak,
     };
-    lines::elided(ui, lower, &entry.note, TextStyle::Small, color);
+    if entry.state == State::Failed {
+        lines::wrapped(ui, lower, &entry.note, 2, color);
+    } else {
+        lines::elided(ui, lower, &entry.note, TextStyle::Small, color);
+    }
     let dots = Rect::from_min_max(egui::pos2(rect.right() - lines::DOTS, rect.top()), egui::pos2(rect.right(), middle));
     menu(ui, dots, index, entries, context);
     if response.clicked() {

@@ -148,16 +148,8 @@ fn rim(ui: &Ui, rect: Rect, response: &Response, context: &PaneContext<'_>) {
 /// True if a set is in use, and whether that can be changed here.
 fn state(entry: &Entry, context: &PaneContext<'_>) -> (bool, bool) {
     let document = context.scene.document;
-    match entry.kind {
-        SetKind::Camera | SetKind::Observer => {
-            let on = document.compared(entry.kind, &entry.name).is_some();
-            (on, entry.kind != SetKind::Observer || entry.name != document.reference)
-        }
-        SetKind::Chart | SetKind::Material => (document.chart == entry.name, true),
-        SetKind::Illuminant => (document.light == Light::Set(entry.name.clone()), true),
-        SetKind::Filter => (document.filters.contains(&entry.name), true),
-        SetKind::Unsorted => (false, true),
-    }
+    let is_reference = entry.kind == SetKind::Observer && entry.name == document.reference;
+    (document.uses(entry.kind, &entry.name), !is_reference)
 }
 
 /// Puts a set to use, or removes it from the comparison.

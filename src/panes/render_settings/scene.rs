@@ -64,7 +64,7 @@ fn conditions(ui: &mut Ui, settings: &RenderSettings, context: &mut PaneContext<
             (
                 false,
                 "As above",
-                "The light and white balance chosen above, as in all workspaces; choosing one there chooses this too",
+                "The light and white balance of all workspaces; choosing one above while pictures are visible chooses this too",
             ),
         ];
         if let Some(to) = widgets::segmented(ui, &choices, settings.sunlight) {

@@ -21,6 +21,15 @@ pub fn elided(ui: &Ui, rect: Rect, words: &str, style: TextStyle, color: Color32
     cut
 }
 
+/// Draws small text into a rectangle, in at most so many rows, with an ellipsis if it does not fit.
+pub fn wrapped(ui: &Ui, rect: Rect, words: &str, rows: usize, color: Color32) {
+    let font = TextStyle::Small.resolve(ui.style());
+    let mut job = egui::text::LayoutJob::simple(words.to_owned(), font, color, rect.width().max(0.0));
+    job.wrap.max_rows = rows;
+    let galley = ui.ctx().fonts_mut(|fonts| fonts.layout_job(job));
+    ui.painter().galley(rect.min, galley, color);
+}
+
 /// Width of a line of text.
 pub fn width(ui: &Ui, words: &str, style: TextStyle) -> f32 {
     WidgetText::from(words).into_galley(ui, Some(TextWrapMode::Extend), f32::INFINITY, style).size().x
