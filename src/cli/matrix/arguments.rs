@@ -18,7 +18,8 @@ pub(in crate::cli) const EXAMPLES: &str = "Examples:
   chromascope matrix \"Nikon D200\" --illuminant \"ISO 7589 studio tungsten\" --format clf --out d200.clf
 
 text: the matrix from balanced RGB to XYZ, its errors over the training reflectances and by leave-one-out (each reflectance by a fit to
-all others; optimistic where the set has near copies, as the 190 reflectances have), what it does to white and to narrow blue LEDs (20 nm wide), the DNG matrices and the ACES IDT. dng: ColorMatrix and
+all others; optimistic where the set has near copies, as the 190 reflectances have), what it does to white and to narrow blue LEDs
+(20 nm wide), the DNG matrices and the ACES IDT. dng: ColorMatrix and
 ForwardMatrix as lines. dcp: DNG camera profile for raw developers, of one light or two. icc: matrix profile for linear RGB that is
 balanced for the light. clf: the ACES input transform that rawtoaces defines (its own fit: least squares in L*a*b*, six
 parameters, 190 training reflectances), for RGB balanced by the multipliers in its description. dng, dcp and clf hold the ratio between
