@@ -193,7 +193,9 @@ fn table(answers: &[Answer]) -> String {
             let _ = write!(text, " R{} {}", index + 1, cell(*value, 0));
         }
         text.push('\n');
-        answer.cautions.iter().for_each(|caution| text += &format!("  Caution: {caution}\n"));
+        for caution in &answer.cautions {
+            let _ = writeln!(text, "  Caution: {caution}");
+        }
         for (camera, consistency) in &answer.cameras {
             let line = match consistency {
                 Ok(c) => {
