@@ -252,6 +252,7 @@ impl ChromascopeApp {
         if ctx.input(|input| input.pointer.any_pressed()) {
             (self.view.by_keyboard, self.view.cursor) = (false, None);
         }
+        focus::leave_offer(ctx);
         focus::enter_pane(ctx, &mut self.view);
         let typing = ctx.text_edit_focused();
         let focused = self.view.page.open.or(self.view.focused).unwrap_or(PaneKind::CHROMATICITY);

@@ -37,6 +37,16 @@ pub(super) fn enter_by_arrows(ctx: &Context, view: &mut View) {
     }
 }
 
+/// A letter or digit is a shortcut, not meant for the button of an offer that has the keyboard.
+pub(super) fn leave_offer(ctx: &Context) {
+    let offer: Option<Id> = ctx.data(|data| data.get_temp(Id::unique("offer")));
+    let is_shortcut = |event: &Event| matches!(event, Event::Key { key, pressed: true, .. } if key.name().len() == 1);
+    let Some(offer) = offer.filter(|offer| ctx.memory(|memory| memory.has_focus(*offer))) else { return };
+    if ctx.input(|input| input.events.iter().any(is_shortcut)) {
+        ctx.memory_mut(|memory| memory.surrender_focus(offer));
+    }
+}
+
 /// Tab leads into the pane that has the keyboard, not to the first control of the window.
 pub(super) fn enter_pane(ctx: &Context, view: &mut View) {
     let free = ctx.memory(|memory| memory.focused().is_none());

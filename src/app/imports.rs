@@ -126,18 +126,19 @@ impl ChromascopeApp {
         let (new, again): (Vec<_>, Vec<_>) =
             wanted.iter().zip(&brought).partition(|(_, set)| there.insert(set.name.as_str()));
         let failed = !failure.is_empty();
-        let told =
-            [failure, message, put_to_use(&before, after, &brought), renamed(&new), opened_again(&again, wanted.len())];
-        self.view.say(told.into_iter().filter(|words| !words.is_empty()).collect::<Vec<_>>().join(" "));
+        let mut offers = self.offers(&brought);
         // A file named at the start is the user's word already.
-        let named = brought.iter().any(|set| set.path.as_ref().is_some_and(|path| self.at_start.remove(path)));
-        match self.offers(&brought).as_slice() {
-            [Offer::Use(kind, name)] if named => {
-                self.change(&Action::Imported(ImportedAction::Use(*kind, name.clone())));
-                self.history.end_gesture();
-            }
-            offers => self.view.offer(offers.to_vec(), true),
+        let named =
+            brought.iter().filter(|set| set.path.as_ref().is_some_and(|path| self.at_start.remove(path))).count();
+        if let ([Offer::Use(kind, name)], 1) = (offers.as_slice(), named) {
+            self.change(&Action::Imported(ImportedAction::Use(*kind, name.clone())));
+            self.history.end_gesture();
+            offers.clear();
         }
+        let used = put_to_use(&before, self.history.document(), &brought);
+        let told = [failure, message, used, renamed(&new), opened_again(&again, wanted.len())];
+        self.view.say(told.into_iter().filter(|words| !words.is_empty()).collect::<Vec<_>>().join(" "));
+        self.view.offer(offers, true);
         if failed {
             self.view.status.weight = Weight::Warning;
         }

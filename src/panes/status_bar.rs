@@ -276,6 +276,7 @@ fn button(ui: &mut Ui, (title, hint): (&str, &str), press: &Press, context: &mut
         Press::Take(offers) => {
             if std::mem::take(&mut context.view.status.takes_keyboard) && !ui.ctx().text_edit_focused() {
                 response.request_focus();
+                ui.data_mut(|data| data.insert_temp(egui::Id::unique("offer"), response.id));
             }
             if let ([one], true) = (offers.as_slice(), response.clicked()) {
                 take(one, context);

@@ -88,6 +88,9 @@ fn an_imported_transmittance_is_a_filter() {
     let mut document = Document::colorimetry();
     let name = set.name.clone();
     crate::import_sets(vec![set]).apply(&mut document);
+    assert!(document.filters.is_empty(), "it waits in the library");
+    let used = chromascope::action::ImportedAction::Use(SetKind::Filter, name.clone());
+    Action::Imported(used).apply(&mut document);
     assert_eq!(document.filters, std::slice::from_ref(&name));
     with(&document, |scene| {
         let (light, d65) = (scene.light().unwrap(), with(&Document::colorimetry(), |scene| scene.light().unwrap()));

@@ -117,6 +117,12 @@ fn an_offer_stays_until_it_is_taken_and_a_field_that_is_typed_into_keeps_the_key
     settle(&mut window);
     assert_eq!(document(&window).light, Light::Set("Lamp".to_owned()));
     assert_eq!(before.chart, document(&window).chart);
+    // Letters are shortcuts, also while the offer has the keyboard.
+    drop_file(&mut window, "leaf.csv", LEAF);
+    assert!(has_keyboard(&window, "Use as chart"));
+    press(&mut window, Key::F);
+    assert!(window.state().view().maximized.is_some());
+    assert_eq!(window.state().view().status.offers.len(), 1);
 }
 
 #[test]
@@ -382,7 +388,7 @@ fn data_fits_the_data_again() {
     let fit = |window: &Window| window.state().view().diagram.fit().unwrap().shown;
     let whole = fit(&window);
     let seconds = |window: &mut Window| (0..30).for_each(|_| window.step());
-    window.state_mut().push(Action::Scene(SceneAction::SetChart("Munsell matt (Parkkinen 1989)".to_owned())));
+    window.state_mut().push(Action::Scene(SceneAction::SetChart("Training reflectances (190)".to_owned())));
     window.state_mut().push(Action::Scene(SceneAction::SetSubset(chromascope::document::Subset::All)));
     seconds(&mut window);
     let other = document(&window).chart;

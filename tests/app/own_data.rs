@@ -52,7 +52,7 @@ fn a_dropped_file_is_shown_and_undone() {
     harness.run_steps(1);
     let (text, weight) = until_said(&mut harness);
     assert!(text.starts_with("leaf.csv: 1 curve") && weight == Weight::Note, "{text}");
-    assert_eq!(harness.state().history().document().chart, "leaf");
+    assert_eq!(harness.state().history().document().own[0].name, "leaf");
     harness.state_mut().push(Command::Undo);
     harness.run();
     assert_eq!(*harness.state().history().document(), Document::paper());

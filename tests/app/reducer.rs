@@ -102,15 +102,26 @@ fn a_slot_is_kept_and_the_ninth_takes_color_1_with_marker_5() {
     assert_eq!((source.role, source.marker), (InkRole::Sensor(0), Marker::TriangleDown));
 }
 
+/// Puts a set of the library to use.
+fn put_to_use(kind: SetKind, name: &str, document: &mut Document) {
+    Action::Imported(ImportedAction::Use(kind, name.to_owned())).apply(document);
+}
+
 #[test]
-fn what_is_opened_is_put_to_use() {
+fn a_camera_is_compared_when_opened_and_all_else_is_used_at_a_word() {
     check(&import(&["mine"], Role::Camera), |document| assert!(document.compared(SetKind::Camera, "mine").is_some()));
-    check(&import(&["mine"], Role::Illuminant), |document| {
-        assert_eq!(document.light, Light::Set("mine".to_owned()));
-    });
-    check(&import(&["mine"], Role::Reflectance), |document| {
-        assert_eq!((document.chart.as_str(), document.subset), ("mine", Subset::All));
-    });
+    for role in [Role::Illuminant, Role::Reflectance, Role::Transmittance] {
+        check(&import(&["mine"], role), |document| {
+            assert_eq!(Document { own: Vec::new(), ..document.clone() }, Document::paper());
+            let mut used = document.clone();
+            put_to_use(SetKind::of_own(&document.own[0]), "mine", &mut used);
+            match role {
+                Role::Illuminant => assert_eq!(used.light, Light::Set("mine".to_owned())),
+                Role::Reflectance => assert_eq!((used.chart.as_str(), used.subset), ("mine", Subset::All)),
+                _ => assert_eq!(used.filters, ["mine"]),
+            }
+        });
+    }
 }
 
 #[test]
@@ -197,6 +208,8 @@ fn what_is_removed_is_no_longer_used() {
     let mut document = Document::paper();
     import(&["leaf"], Role::Reflectance).apply(&mut document);
     import(&["lamp"], Role::Illuminant).apply(&mut document);
+    put_to_use(SetKind::Chart, "leaf", &mut document);
+    put_to_use(SetKind::Illuminant, "lamp", &mut document);
     document.white = WhiteBalanceChoice::Light("lamp".to_owned());
     for name in ["leaf", "lamp"] {
         Action::Imported(ImportedAction::Remove(name.to_owned())).apply(&mut document);
@@ -208,6 +221,7 @@ fn what_is_removed_is_no_longer_used() {
 fn another_role_moves_a_set() {
     let mut document = Document::paper();
     import(&["x"], Role::Reflectance).apply(&mut document);
+    put_to_use(SetKind::Chart, "x", &mut document);
     let with = Box::new(own("x", Role::Camera));
     Action::Imported(ImportedAction::Replace { name: "x".to_owned(), with, built_in: crate::built_in_names() })
         .apply(&mut document);
@@ -286,6 +300,7 @@ fn a_set_that_is_renamed_keeps_its_uses_and_gets_no_others() {
     let mut document = Document::paper();
     import(&["leaf"], Role::Reflectance).apply(&mut document);
     import(&["bark"], Role::Reflectance).apply(&mut document);
+    put_to_use(SetKind::Chart, "bark", &mut document);
     let rename = |from: &str, to: &str, document: &mut Document| {
         let set = document.own.iter().find(|set| set.name == from).unwrap();
         let with = Box::new(ImportedSet { name: to.to_owned(), ..(**set).clone() });
