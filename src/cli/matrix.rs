@@ -64,7 +64,7 @@ fn written(arguments: &MatrixArguments, request: &Request, scene: &Scene<'_>) ->
     Ok(file.written(match arguments.format {
         Format::Dng => CorrectionForm::Dng,
         Format::Dcp => CorrectionForm::Dcp,
-        Format::Icc => CorrectionForm::Icc(arguments.icc_version.version()),
+        Format::Icc => CorrectionForm::Icc(arguments.icc_version),
         Format::Text | Format::Clf => CorrectionForm::Text,
     })?)
 }

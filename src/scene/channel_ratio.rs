@@ -11,32 +11,12 @@ use crate::document::SetKind;
 /// The light under which neutrals are compared.
 const LIGHT: &str = "D65";
 
-/// Query for the neutral of a camera's table.
-#[derive(Clone, Debug, PartialEq, Eq, Hash)]
-struct RatioTableQuery {
-    camera: Place,
-    light: Place,
-    is_digitized: bool,
-}
-
-impl Query for RatioTableQuery {
-    type Answer = Result<RatioTable, LoadError>;
-    const NAME: &'static str = "neutral of a table";
-
-    fn answer(&self, ask: &impl Ask) -> Self::Answer {
-        let camera = (*ask.ask(&SensorQuery(self.camera.clone()))).clone()?;
-        let light = ask.ask(&LightQuery::Set(self.light.clone()));
-        let light = (*light).as_ref().map_err(Clone::clone)?;
-        Ok(RatioTable::new(&camera, &light.grid, self.is_digitized))
-    }
-}
-
 /// Query for the credibility of a camera's channel ratio.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct ChannelRatioQuery {
-    table: RatioTableQuery,
-    /// Built-in tables of the same maker.
-    others: Vec<RatioTableQuery>,
+    light: Place,
+    /// The camera's table, then the built-in ones of the same maker; true for tables read off a printed figure.
+    tables: Vec<(Place, bool)>,
 }
 
 impl Query for ChannelRatioQuery {
@@ -44,9 +24,15 @@ impl Query for ChannelRatioQuery {
     const NAME: &'static str = "channel ratio";
 
     fn answer(&self, ask: &impl Ask) -> Self::Answer {
-        let own = (*ask.ask(&self.table)).clone()?;
-        let others = self.others.iter().map(|other| (*ask.ask(other)).clone());
-        Ok(ChannelRatio::new(&own, others.collect::<Result<Vec<_>, _>>()?))
+        let light = ask.ask(&LightQuery::Set(self.light.clone()));
+        let light = (*light).as_ref().map_err(Clone::clone)?;
+        let table = |(place, is_digitized): &(Place, bool)| {
+            let camera = (*ask.ask(&SensorQuery(place.clone()))).clone()?;
+            Ok(RatioTable::new(&camera, &light.grid, *is_digitized))
+        };
+        let tables = self.tables.iter().map(table).collect::<Result<Vec<_>, LoadError>>()?;
+        let (own, others) = tables.split_first().ok_or(LoadError::NoCurve)?;
+        Ok(ChannelRatio::new(own, others.iter().copied()))
     }
 }
 
@@ -62,17 +48,12 @@ impl Scene<'_> {
     ///
     /// [`SceneError::NoSet`] for a name that no camera has.
     pub fn channel_ratio_query(&self, name: &str) -> Result<ChannelRatioQuery, SceneError> {
-        let light = self.entry(SetKind::Illuminant, LIGHT)?.place;
         let own = self.entry(SetKind::Camera, name)?;
-        let table = |entry: &Entry| RatioTableQuery {
-            camera: entry.place.clone(),
-            light: light.clone(),
-            is_digitized: entry.is_digitized(),
-        };
         let maker = maker_of(&own.name);
         let is_other = |other: &&Entry| other.place != own.place && maker_of(&other.name) == maker;
-        let others = self.catalog.of_kind(SetKind::Camera).filter(is_other).map(table).collect();
-        Ok(ChannelRatioQuery { table: table(&own), others })
+        let others = self.catalog.of_kind(SetKind::Camera).filter(is_other);
+        let tables = std::iter::once(&own).chain(others).map(|entry| (entry.place.clone(), entry.is_digitized()));
+        Ok(ChannelRatioQuery { light: self.entry(SetKind::Illuminant, LIGHT)?.place, tables: tables.collect() })
     }
 
     /// Credibility of a camera's channel ratio. Loads the tables of its maker.

@@ -38,7 +38,7 @@ impl RatioTable {
     pub fn new(camera: &Sensor, light: &GridSpectrum, is_digitized: bool) -> Self {
         let [red, green, blue] = camera.integrate(light.values());
         let neutral = Some([red / green, blue / green]).filter(|n| n.iter().all(|v| v.is_finite() && *v > 0.0));
-        let loss = if has_equal_maxima(camera) { Some(RatioLoss::EqualMaxima) } else { None };
+        let loss = has_equal_maxima(camera).then_some(RatioLoss::EqualMaxima);
         Self { neutral, loss: loss.or_else(|| is_digitized.then_some(RatioLoss::PrintedFigure)) }
     }
 }

@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use chromascope_core::correction::CorrectionMethod;
 use chromascope_core::correction::neutral::Neutral;
 use chromascope_profile::icc::IccVersion;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
 
 use crate::cli::fit::{FitArguments, method};
@@ -51,7 +52,7 @@ pub(in crate::cli) struct MatrixArguments {
     /// Unit of the sensitivities in a camera file, overriding the file: response per energy or per photon
     #[arg(long, value_enum, value_name = "UNIT")]
     pub(super) per: Option<Per>,
-    /// The camera model as its raw files state it (UniqueCameraModel), by which raw developers choose a DCP file [default: by the
+    /// The camera model as its raw files state it (`UniqueCameraModel`), by which raw developers choose a DCP file [default: by the
     /// built-in table of names]
     #[arg(long, value_name = "MODEL")]
     pub(super) model: Option<String>,
@@ -60,8 +61,8 @@ pub(in crate::cli) struct MatrixArguments {
     #[arg(long, value_name = "R,G,B")]
     pub(super) neutral: Option<Neutral>,
     /// For icc: the version of the format; 2 for programs that read no version 4
-    #[arg(long, value_enum, value_name = "VERSION", default_value_t = Version::Four)]
-    pub(super) icc_version: Version,
+    #[arg(long, value_name = "VERSION", value_parser = icc_version(), default_value = "4")]
+    pub(super) icc_version: IccVersion,
     /// For clf: fit with white at 1 where rawtoaces' scaling puts it elsewhere
     #[arg(long)]
     pub(super) white_at_one: bool,
@@ -76,24 +77,9 @@ pub(in crate::cli) struct MatrixArguments {
     pub(super) force: bool,
 }
 
-/// Version of ICC files.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(super) enum Version {
-    /// ICC.1:2001-04
-    #[value(name = "2")]
-    Two,
-    /// ICC.1:2022
-    #[value(name = "4")]
-    Four,
-}
-
-impl Version {
-    pub(super) fn version(self) -> IccVersion {
-        match self {
-            Self::Two => IccVersion::V2,
-            Self::Four => IccVersion::V4,
-        }
-    }
+/// Reads the version of ICC files.
+fn icc_version() -> impl TypedValueParser<Value = IccVersion> {
+    PossibleValuesParser::new(["2", "4"]).map(|text| if text == "2" { IccVersion::V2 } else { IccVersion::V4 })
 }
 
 /// A form in which a correction is written.
