@@ -103,7 +103,7 @@ fn notes(comparison: &Comparison) -> String {
 
 /// What ± is, with coverage factor, degrees of freedom and origin, and the cameras that the prior is stretched for.
 fn uncertainty_note(comparison: &Comparison) -> String {
-    let uncertainties = |row: &'_ Row| row.values.iter().filter_map(|value| value.uncertainty).collect::<Vec<_>>();
+    let uncertainties = |row: &Row| row.values.iter().filter_map(|value| value.uncertainty).collect::<Vec<_>>();
     let all: Vec<MetricUncertainty> = comparison.rows.iter().flat_map(uncertainties).collect();
     let Some(first) = all.first() else { return String::new() };
     let mut text = format!(
