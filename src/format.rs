@@ -30,6 +30,15 @@ pub(crate) fn signed(value: f64) -> String {
     if text.starts_with('−') { text } else { format!("+{text}") }
 }
 
+/// A rank as `3`, or as `1–3` where it is not certain.
+pub(crate) fn rank_in_words(rank: Option<[usize; 2]>) -> String {
+    match rank {
+        Some([first, last]) if first == last => first.to_string(),
+        Some([first, last]) => format!("{first}–{last}"),
+        None => "–".to_owned(),
+    }
+}
+
 /// A text with a capital at its start.
 pub(crate) fn capitalized(words: &str) -> String {
     let mut letters = words.chars();

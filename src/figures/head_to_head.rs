@@ -71,10 +71,11 @@ pub fn figure(input: &FigureInput<'_>) -> Option<Figure> {
     figure.panels.push(panel);
     figure.caption = format!(
         "A: {name_a}. B: {name_b}. Better: the camera that is better by more than the standard uncertainty of the \
-         difference. {}",
+         difference. {} {}",
+        scene.metrics_words(),
         conditions(scene)
     );
-    figure.table = table;
+    figure.table = table.with_constants(&scene.metrics_constants(scene.document.temperature_k));
     Some(figure)
 }
 

@@ -158,8 +158,12 @@ pub fn figure(input: &FigureInput<'_>) -> Option<Figure> {
         panel.marks.push(text(&fixed(*number, metric.decimals), [width - 8.0, y], Anchor::RIGHT, TextSize::Small));
     }
     figure.panels.push(panel);
-    figure.caption = format!("Lines: ± one standard uncertainty of the sensitivities. {}", conditions(scene));
-    figure.table = numbers(&ranked);
+    figure.caption = format!(
+        "Lines: ± one standard uncertainty of the sensitivities. {} {}",
+        scene.metrics_words(),
+        conditions(scene)
+    );
+    figure.table = numbers(&ranked).with_constants(&scene.metrics_constants(scene.document.temperature_k));
     Some(figure)
 }
 

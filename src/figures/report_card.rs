@@ -85,8 +85,9 @@ pub fn page(scene: &Scene<'_>, id: &SensorId, metrics: &CameraMetrics, width: f6
     panels.push(values(metrics, place(LINE * (rows as f64 + 1.0)), &columns));
     let mut figure = Figure::new(format!("Report card: {}", id.name), [width, top]);
     figure.panels = panels;
-    figure.caption = format!("± one standard uncertainty of the sensitivities. {}", conditions(scene));
-    figure.table = numbers(id, metrics);
+    let words = scene.metrics_words();
+    figure.caption = format!("± one standard uncertainty of the sensitivities. {words} {}", conditions(scene));
+    figure.table = numbers(id, metrics).with_constants(&scene.metrics_constants(scene.document.temperature_k));
     figure
 }
 

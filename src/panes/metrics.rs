@@ -86,6 +86,7 @@ fn switches(ui: &mut Ui, context: &mut PaneContext<'_>) {
         ui.ctx().request_repaint();
     }
     ui.add_space(UNIT);
+    widgets::pixel::show(ui, context);
     if let Some(PlotItem::Sensor(id)) = context.view.selected.clone().filter(|_| selected(context).is_some()) {
         let compared = context.scene.document.compared(id.kind, &id.name).is_some();
         let (words, hint) = if compared {

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
+use chromascope_core::camera::quality::Electrons;
 use chromascope_core::metamers::{Confusion, MetamerLimits, MetamerPair};
 use chromascope_core::patch_set::{COLOR_CHECKER_CHROMATIC, PatchSet};
 use chromascope_core::query::{
@@ -28,6 +29,7 @@ pub struct MetricsConditions {
     patches: Shared<PatchSet>,
     temperature: Kelvin,
     index: IndexConditions,
+    electrons: Option<Electrons>,
     /// Camera models with more than one built-in table.
     models: Vec<String>,
     /// Those tables.
@@ -52,7 +54,7 @@ impl MetricsConditions {
             patches: self.patches.clone(),
             temperature: self.temperature,
             index: self.index.clone(),
-            electrons: None,
+            electrons: self.electrons,
             replicates: (*ask.ask(&self.tables)).clone()?,
             model,
         })
@@ -212,6 +214,7 @@ impl Scene<'_> {
             patches: self.patches()?,
             temperature: Kelvin::new(temperature_k)?,
             index: self.index_conditions()?,
+            electrons: self.document.pixel.and_then(|pixel| pixel.electrons().ok()),
             models,
             tables: ReplicatesQuery(places),
         })

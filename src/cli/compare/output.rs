@@ -7,7 +7,7 @@ use std::fmt::Write as _;
 
 use super::{Comparison, Row};
 use crate::cli::tables::{field, significant};
-use crate::format::fixed;
+use crate::format::{fixed, rank_in_words};
 
 /// Version of the JSON form.
 const VERSION: u32 = 1;
@@ -22,7 +22,7 @@ pub(super) fn table(comparison: &Comparison) -> String {
     for row in &comparison.rows {
         let values = comparison.metrics.iter().zip(&row.values).map(|(metric, value)| cell(*metric, *value));
         let name = row.name.chars().take(LONGEST_NAME).collect();
-        cells.push([rank(row.rank), name].into_iter().chain(values).collect());
+        cells.push([rank_in_words(row.rank), name].into_iter().chain(values).collect());
     }
     let columns = cells.first().map_or(0, Vec::len);
     let width = |column: usize| cells.iter().map(|row| length(&row[column])).max().unwrap_or(0);
@@ -51,15 +51,6 @@ fn head(metric: &CameraMetric) -> String {
 /// Characters that take a place.
 fn length(text: &str) -> usize {
     text.chars().count()
-}
-
-/// A rank as `3`, or as `1–3` where values cannot be distinguished.
-fn rank(rank: Option<[usize; 2]>) -> String {
-    match rank {
-        Some([first, last]) if first == last => first.to_string(),
-        Some([first, last]) => format!("{first}–{last}"),
-        None => "–".to_owned(),
-    }
 }
 
 fn cell(metric: CameraMetric, value: MetricValue) -> String {

@@ -235,7 +235,11 @@ impl<'a> DataTable<'a> {
             table.push(cells.collect::<Vec<_>>());
         }
         if context.pane(self.pane).is_some_and(|pane| pane.under_conditions) {
-            let conditions: Vec<_> = CONDITIONS.into_iter().zip(context.scene.conditions()).collect();
+            let mut conditions: Vec<_> = CONDITIONS.into_iter().zip(context.scene.conditions()).collect();
+            if matches!(self.pane, PaneKind::METRICS | PaneKind::HEAD_TO_HEAD) {
+                let document = context.scene.document;
+                conditions.extend(context.scene.metrics_constants(document.temperature_k));
+            }
             return table.with_constants(&conditions);
         }
         table
