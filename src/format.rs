@@ -24,6 +24,39 @@ pub(crate) fn fixed(value: f64, decimals: usize) -> String {
     if is_zero { text.trim_start_matches('-').to_owned() } else { text.replace('-', "−") }
 }
 
+/// Most decimals of a value with its uncertainty.
+const MOST_DECIMALS: i32 = 9;
+/// Sign behind an uncertainty that is extrapolated.
+pub(crate) const EXTRAPOLATED: &str = "†";
+
+/// Decimals at which a value with a standard uncertainty ends: where two significant digits of the uncertainty do, the most that the GUM
+/// finds useful (JCGM 100:2008, 7.2.6). Negative for tens and hundreds; none for an uncertainty of zero.
+pub(crate) fn decimals_by(uncertainty: f64) -> Option<i32> {
+    // Rounded before it is counted: 0.0996 is 0.10.
+    let exponent: i32 = format!("{uncertainty:.1e}").split_once('e')?.1.parse().ok()?;
+    (uncertainty > 0.0).then_some((1 - exponent).min(MOST_DECIMALS))
+}
+
+/// A number rounded to a count of decimals; a negative count is of zeros before the point.
+pub(crate) fn rounded(value: f64, decimals: i32) -> String {
+    let unit = 10_f64.powi(-decimals.min(0));
+    fixed((value / unit).round() * unit, decimals.max(0) as usize)
+}
+
+/// A number with fewer decimals than others below it, padded so that decimal points stand below each other.
+pub(crate) fn aligned(value: f64, decimals: i32, column: usize) -> String {
+    let own = decimals.max(0) as usize;
+    let point = usize::from(own == 0 && column > 0);
+    format!("{}{}", rounded(value, decimals), " ".repeat(column.saturating_sub(own) + point))
+}
+
+/// A value, which ends where its standard uncertainty ends, and the uncertainty; without one, the value with as many decimals as given.
+pub(crate) fn measured(value: f64, uncertainty: Option<f64>, decimals: usize) -> (String, Option<String>) {
+    let known = uncertainty.and_then(|by| Some((by, decimals_by(by)?)));
+    let own = known.map_or(decimals as i32, |(_, own)| own);
+    (rounded(value, own), known.map(|(by, own)| rounded(by, own)))
+}
+
 /// Duv and other signed numbers with four decimals: `+0.0032`.
 pub(crate) fn signed(value: f64) -> String {
     let text = fixed(value, 4);
@@ -107,6 +140,31 @@ pub(crate) fn slug(name: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_value_ends_where_its_uncertainty_ends() {
+        let cases = [
+            (0.90512, Some(0.1149), "0.91", Some("0.11")),
+            (0.90512, Some(0.0996), "0.91", Some("0.10")),
+            (0.90512, Some(0.003_54), "0.9051", Some("0.0035")),
+            (246.39, Some(123.0), "250", Some("120")),
+            (-16.4348, Some(14.6), "−16", Some("15")),
+            (20.8626, Some(2.3), "20.9", Some("2.3")),
+            (-0.4, Some(15.0), "0", Some("15")),
+            (99.96, Some(0.996), "100.0", Some("1.0")),
+            (1.5, Some(0.0), "1.50", None),
+            (1.5, Some(f64::NAN), "1.50", None),
+            (1.5, Some(f64::INFINITY), "1.50", None),
+            (1.5, None, "1.50", None),
+        ];
+        for (value, uncertainty, number, by) in cases {
+            let (a, b) = measured(value, uncertainty, 2);
+            assert_eq!((a.as_str(), b.as_deref()), (number, by), "{value} {uncertainty:?}");
+        }
+        let column = [(12.3, 2), (4.52, 1), (7.1, 0), (123.0, -1)].map(|(value, own)| aligned(value, own, 2));
+        assert_eq!(column, ["12.30", "4.5 ", "7   ", "120   "]);
+        assert_eq!(aligned(123.0, -1, 0), "120");
+    }
 
     #[test]
     fn merged_rows_are_not_left_out() {

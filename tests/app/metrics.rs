@@ -4,7 +4,8 @@ use chromascope::action::{Action, CompareAction, SceneAction};
 use chromascope::app::ChromascopeApp;
 use chromascope::catalog::Catalog;
 use chromascope::command::Command;
-use chromascope::document::{Document, Light, SetKind};
+use chromascope::document::pixel::Pixel;
+use chromascope::document::{Document, Light, SetKind, session};
 use chromascope::export;
 use chromascope::figures::{FigureInput, report_card};
 use chromascope::jobs::Executor;
@@ -329,12 +330,51 @@ fn all_numbers_go_out_as_csv_and_json() {
     let figure = panes::figure(PaneKind::METRICS, &FigureInput::new(&scene, &View::default())).expect("a figure");
     let cameras = catalog.of_kind(SetKind::Camera).count();
     assert_eq!(figure.table.rows.len(), cameras);
-    assert_eq!(figure.table.columns.len(), 1 + 2 * CameraMetric::ALL.len());
+    let (conditions, metrics) = (2, CameraMetric::ALL.len());
+    assert_eq!(figure.table.columns.len(), 1 + 2 * metrics + conditions);
+    assert!(figure.table.columns.ends_with(&["chart".to_owned(), "temperature_k".to_owned()]));
     let json: serde_json::Value = serde_json::from_str(&export::json(&figure.title, &figure.table)).unwrap();
     assert_eq!((json["version"].as_u64(), json["rows"].as_array().map(Vec::len)), (Some(1), Some(cameras)));
     let column = json["columns"].as_array().unwrap().iter().position(|c| c == "delta_e_2000_mean").unwrap();
     assert!(json["rows"][0][column].as_f64().is_some_and(|value| value > 0.0), "{}", json["rows"][0]);
     assert!(figure.table.to_csv().starts_with("camera,delta_e_2000_mean,delta_e_2000_mean_uncertainty,"));
+}
+
+#[test]
+fn full_well_and_read_noise_are_settings_that_give_the_snr() {
+    let (_executor, mut window) = ranked();
+    let snr = |window: &Window| rows(window).iter().filter_map(|(row, _)| number(row, "SNR")).count();
+    assert_eq!(snr(&window), 0, "no electrons are given");
+    window.get_by_role_and_label(Role::Button, "Pixel").click();
+    window.run_steps(3);
+    let type_in = |window: &mut Window, name: &str, text: &str| {
+        window.get_by_label(name).click();
+        window.run_steps(2);
+        window.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::A);
+        window.event(egui::Event::Text(text.to_owned()));
+        window.run_steps(1);
+        window.key_press(egui::Key::Enter);
+        window.run_steps(3);
+    };
+    type_in(&mut window, "Full-well capacity", "40000");
+    type_in(&mut window, "Read noise (RMS)", "3");
+    let pixel = Pixel { full_well: 40_000.0, read_noise: 3.0 };
+    assert_eq!(window.state().history().document().pixel, Some(pixel));
+    window.state().ranking().wait();
+    window.run_steps(3);
+    assert!(snr(&window) > 30, "{:?}", rows(&window).first());
+    let action = Action::Scene(SceneAction::SetPixel(Some(pixel)));
+    assert_eq!(action.name(), "Pixel: full well 40000 electrons, read noise 3 electrons");
+    // A session keeps them; numbers that describe no pixel are refused by actions and sessions.
+    let document = window.state().history().document().clone();
+    let text = session::to_json(&document).unwrap();
+    assert_eq!(session::from_json(&text).unwrap().pixel, Some(pixel));
+    let spoiled = text.replace("\"read-noise\": 3.0", "\"read-noise\": -3.0");
+    assert!(spoiled != text && session::from_json(&spoiled).unwrap().pixel.is_none(), "{text}");
+    let wrong = Pixel { full_well: 10.0, read_noise: 11.0 };
+    window.state_mut().push(Action::Scene(SceneAction::SetPixel(Some(wrong))));
+    window.run_steps(2);
+    assert_eq!(window.state().history().document().pixel, None);
 }
 
 #[test]
