@@ -1,4 +1,4 @@
-//! Figures of merit of many cameras, computed in the background a few at a time.
+//! Figures of merit of many cameras, computed in the background a few at a time; their uncertainties follow for all at once.
 //!
 //! The latest request stops the one before it, and one that no frame repeats is stopped. Until all cameras are done, the last
 //! complete ranking stays.
@@ -9,7 +9,7 @@ use std::time::Duration;
 use chromascope_core::camera::RenderingError;
 use chromascope_core::correction::aces::IdtExposure;
 use chromascope_core::metamers::Confusion;
-use chromascope_core::query::{Ask, CameraMetrics, Query, Shared};
+use chromascope_core::query::{Ask, Query, Shared};
 
 use crate::catalog::Entry;
 use crate::catalog::load::LoadError;
@@ -18,7 +18,7 @@ use crate::export::profile::{CorrectionFile, CorrectionFileQuery};
 use crate::jobs::{Background, Executor, Shown};
 use crate::plot_item::SensorId;
 use crate::scene::light::LightSheetQuery;
-use crate::scene::metrics::{CatalogMetamersQuery, CatalogMetricsQuery, FoundMetamers};
+use crate::scene::metrics::{CameraFigures, CatalogMetamersQuery, CatalogMetricsQuery, FoundMetamers};
 use crate::scene::recorded::RecordedRankingQuery;
 use crate::scene::{Scene, SceneError};
 use crate::view::metrics::RankedCameras;
@@ -43,7 +43,7 @@ pub struct Ranked {
     /// The requested cameras.
     pub cameras: Vec<RankedCamera>,
     /// Their figures of merit: reason for none, or none while they are being made.
-    pub metrics: Vec<Option<Result<Arc<CameraMetrics>, String>>>,
+    pub metrics: Vec<Option<Result<CameraFigures, String>>>,
 }
 
 /// The first `count` queries of a list.
@@ -54,7 +54,7 @@ struct FirstQuery {
 }
 
 impl Query for FirstQuery {
-    type Answer = Vec<Result<Arc<CameraMetrics>, LoadError>>;
+    type Answer = Vec<Result<CameraFigures, LoadError>>;
     const NAME: &'static str = "ranking";
     const CAPACITY: usize = 2;
 
@@ -76,8 +76,13 @@ impl<Q: Query> Worker<Q> {
 
     /// The last answer, which may be of an earlier question; an error if this question has none.
     fn ask(&mut self, query: Q) -> Result<Option<Shown<Q>>, String> {
+        self.ask_in_stages(vec![query])
+    }
+
+    /// The same of a question in stages from coarse to fine.
+    fn ask_in_stages(&mut self, stages: Vec<Q>) -> Result<Option<Shown<Q>>, String> {
         self.is_asked = true;
-        self.thread.ask(vec![query]);
+        self.thread.ask(stages);
         self.thread.failure().map_or_else(|| Ok(self.thread.shown()), Err)
     }
 
@@ -155,18 +160,19 @@ impl Ranking {
         Ok(self.searcher.ask(query)?.filter(|shown| shown.current).map(|shown| shown.answer))
     }
 
-    /// Figures of merit of one camera; the last ones while those of other conditions are made.
+    /// Figures of merit of one camera, their uncertainties a little later; the last ones while those of other conditions are made.
     ///
     /// # Errors
     ///
     /// A sentence that says why there are none.
-    pub fn card(&mut self, scene: &Scene<'_>, camera: &SensorId) -> Result<Option<Arc<CameraMetrics>>, String> {
+    pub fn card(&mut self, scene: &Scene<'_>, camera: &SensorId) -> Result<Option<CameraFigures>, String> {
         let conditions = scene.metrics_conditions(scene.document.temperature_k);
         let entry = scene.entry(camera.kind, &camera.name);
         let (conditions, entry) =
             conditions.and_then(|conditions| Ok((conditions, entry?))).map_err(|error| error.to_string())?;
         let query = CatalogMetricsQuery::new(&entry, Shared::new(conditions));
-        let Some(shown) = self.card.ask(query.clone())?.filter(|shown| shown.job.is_of_same_camera(&query)) else {
+        let stages = vec![query.clone(), query.with_uncertainties()];
+        let Some(shown) = self.card.ask_in_stages(stages)?.filter(|shown| shown.job.is_of_same_camera(&query)) else {
             return Ok(None);
         };
         (*shown.answer).clone().map(Some).map_err(|error| unloaded(camera, error))
@@ -211,9 +217,13 @@ impl Ranking {
         }
         let queries: Vec<_> = cameras.iter().filter_map(|camera| camera.query.clone().ok()).collect();
         let last = queries.len();
+        let finest = Shared::new(queries.iter().map(CatalogMetricsQuery::with_uncertainties).collect());
         let all = Shared::new(queries);
         let counts = (1..=last.div_ceil(STEP)).map(|step| (step * STEP).min(last));
-        self.worker.ask(counts.map(|count| FirstQuery { all: all.clone(), count }).collect());
+        let values = counts.map(|count| FirstQuery { all: all.clone(), count });
+        // Values do not wait for uncertainties.
+        let uncertainties = (last > 0).then_some(FirstQuery { all: finest, count: last });
+        self.worker.ask(values.chain(uncertainties).collect());
         self.asked = Some(Arc::new(cameras));
         (self.serial, self.done) = (None, 0);
         if last == 0 {
@@ -224,7 +234,7 @@ impl Ranking {
     }
 
     /// Shows the results; after a complete ranking only when all are available.
-    fn take_in(&mut self, made: &[Result<Arc<CameraMetrics>, LoadError>]) {
+    fn take_in(&mut self, made: &[Result<CameraFigures, LoadError>]) {
         self.done = made.len();
         let shown = self.with(made);
         if self.progress().is_none() {
@@ -236,7 +246,7 @@ impl Ranking {
     }
 
     /// The requested cameras, with the figures of merit of the first that have any.
-    fn with(&self, made: &[Result<Arc<CameraMetrics>, LoadError>]) -> Arc<Ranked> {
+    fn with(&self, made: &[Result<CameraFigures, LoadError>]) -> Arc<Ranked> {
         let cameras = self.asked.as_deref().cloned().unwrap_or_default();
         let mut made = made.iter();
         let metrics = cameras.iter().map(|camera| match &camera.query {
@@ -270,7 +280,7 @@ impl Ranking {
         self.recorded.end_frame();
         self.corrections.end_frame();
         self.light.end_frame();
-        if !std::mem::take(&mut self.is_asked) && self.progress().is_some() {
+        if !std::mem::take(&mut self.is_asked) && self.worker.busy().is_some() {
             self.worker.rest();
             (self.asked, self.of) = (None, None);
         }
@@ -308,12 +318,12 @@ fn unloaded(camera: &SensorId, error: LoadError) -> String {
     SceneError::Load { name: camera.name.clone(), error }.to_string()
 }
 
-/// Figures of merit of a choice of cameras, without delay: cached answers are used, all others are computed.
+/// Figures of merit of a choice of cameras with uncertainties, without delay: cached answers are used, all others are computed.
 pub fn ranked(scene: &Scene<'_>, which: RankedCameras) -> Ranked {
     let cameras = cameras(scene, which);
     let metrics = |camera: &RankedCamera| {
-        let query = camera.query.as_ref().map_err(Clone::clone);
-        Some(query.and_then(|query| (*scene.results.ask(query)).clone().map_err(|error| unloaded(&camera.id, error))))
+        let query = camera.query.as_ref().map(CatalogMetricsQuery::with_uncertainties).map_err(Clone::clone);
+        Some(query.and_then(|query| (*scene.results.ask(&query)).clone().map_err(|error| unloaded(&camera.id, error))))
     };
     Ranked { metrics: cameras.iter().map(metrics).collect(), cameras }
 }

@@ -2,6 +2,7 @@
 
 pub mod batch;
 pub mod chart_grid;
+pub mod curve_spread;
 pub mod locus;
 pub mod locus_deviation;
 pub mod locus_table;
@@ -11,6 +12,7 @@ pub mod rendering;
 pub mod white_balance;
 
 pub use batch::{Batch, BatchError};
+pub use curve_spread::{CurveSpread, CurveSpreadError};
 pub use locus::{LocusEvaluator, LocusMethod};
 pub use locus_deviation::{LocusDeviation, ReferenceLocus};
 pub use locus_table::{LocusTable, LocusTableError};

@@ -27,7 +27,10 @@ pub use loci::{
     RadiatorSignalsQuery, SpectralLocusQuery, Temperatures,
 };
 pub use metamers::{Metamers, MetamersQuery};
-pub use metrics::{CameraMetric, CameraMetrics, CameraMetricsQuery, IndexConditions, MetricValue, Replicates, WhyNot};
+pub use metrics::{
+    CameraMetric, CameraMetrics, CameraMetricsQuery, IndexConditions, MetricUncertaintiesQuery, MetricUncertainty,
+    MetricValue, WhyNot,
+};
 pub use patches::{ColorTransformSpec, FitTargetsQuery, PatchColor, PatchColorsQuery, RenderingQuery};
 pub use radiances::RadianceColorsQuery;
 pub use recorded::{RecordedFitQuery, RecordedSet};

@@ -1,12 +1,13 @@
 //! Queries that convert a set's values to the form used by the core.
 
+use chromascope_core::camera::{CurveSpread, CurveSpreadError};
 use chromascope_core::light::filter::{filtered, transmittance};
 use chromascope_core::light::{DaylightBasis, DaylightError, RadiationConstants, planckian::black_body};
 use chromascope_core::patch_set::PatchSet;
-use chromascope_core::query::{Ask, Query, Replicates, Shared};
+use chromascope_core::query::{Ask, Query, Shared};
 use chromascope_core::rendition::Standards;
 use chromascope_core::spectral::{
-    Dataset, DatasetError, DistributionError, GridSpectrum, Primaries, Quantity, Sensor, SensorError,
+    Dataset, DatasetError, DistributionError, Evidence, GridSpectrum, Primaries, Quantity, Sensor, SensorError,
     SpectralDistribution,
 };
 use chromascope_core::units::Kelvin;
@@ -15,6 +16,9 @@ use super::{BuiltInFile, Place};
 
 /// The daylight basis among the built-in files.
 pub const DAYLIGHT_BASIS: &str = "illuminants/cie_daylight_basis.csv";
+
+/// The spread of sensitivities among them.
+pub const CURVE_SPREAD: &str = "uncertainty/curve_spread.csv";
 
 /// Reason that a set's figures cannot be computed with.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -35,6 +39,9 @@ pub enum LoadError {
     /// The curves make no sensor.
     #[error(transparent)]
     Sensor(#[from] SensorError),
+    /// The file of the spread is damaged.
+    #[error(transparent)]
+    Spread(#[from] CurveSpreadError),
     /// The user's settings make a spectrum that cannot be.
     #[error(transparent)]
     Spectrum(#[from] DistributionError),
@@ -111,18 +118,27 @@ impl Query for SensorQuery {
     }
 }
 
-/// The tables of each of some camera models. All cameras of a ranking request the same ones.
-#[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub struct ReplicatesQuery(pub Vec<Vec<Place>>);
+/// Evidence for what a camera's sensitivities are a response to; what a file of the user's was read as is a guess that is shown.
+pub fn response_evidence(place: &Place, ask: &impl Ask) -> Evidence {
+    match place {
+        Place::BuiltIn { file, .. } => {
+            let file = ask.ask(&FileQuery(*file));
+            (*file).as_ref().map_or(Evidence::Unknown, |file| file.header.response_evidence())
+        }
+        Place::Own(_) => Evidence::Inferred,
+    }
+}
 
-impl Query for ReplicatesQuery {
-    type Answer = Result<Shared<Replicates>, LoadError>;
-    const NAME: &'static str = "replicates";
+/// The spread of sensitivities between laboratories.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct CurveSpreadQuery;
+
+impl Query for CurveSpreadQuery {
+    type Answer = Result<Shared<CurveSpread>, LoadError>;
+    const NAME: &'static str = "curve spread";
 
     fn answer(&self, ask: &impl Ask) -> Self::Answer {
-        let sensor = |place: &Place| (*ask.ask(&SensorQuery(place.clone()))).clone();
-        let models = self.0.iter().map(|places| places.iter().map(sensor).collect());
-        Ok(Shared::new(Replicates::new(models.collect::<Result<Vec<Vec<_>>, LoadError>>()?)))
+        Ok(Shared::new(CurveSpread::from_dataset(&asset(CURVE_SPREAD, ask)?)?))
     }
 }
 

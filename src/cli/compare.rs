@@ -3,10 +3,8 @@
 pub(super) mod arguments;
 mod output;
 
-use std::sync::Arc;
-
 use chromascope_core::query::metrics::rank_ranges;
-use chromascope_core::query::{Ask as _, CameraMetric, CameraMetrics, MetricValue};
+use chromascope_core::query::{Ask as _, CameraMetric, CameraMetricsQuery, MetricValue};
 use clap::ArgMatches;
 
 use self::arguments::{ALL, CompareArguments, Format, LOCUS_K, NAME, USUAL};
@@ -17,6 +15,7 @@ use super::tables;
 use crate::document::SetKind;
 use crate::results::Results;
 use crate::scene::conditions::CONDITIONS;
+use crate::scene::metrics::CameraFigures;
 use crate::scene::{Scene, SceneError};
 
 /// A ranking: sensors in order, with their values.
@@ -35,7 +34,7 @@ struct Comparison {
 struct Row {
     kind: SetKind,
     name: String,
-    all: Arc<CameraMetrics>,
+    all: CameraFigures,
     /// Values of the comparison's metrics, in their order.
     values: Vec<MetricValue>,
     /// Their ranks from 1, as ranges.
@@ -86,8 +85,15 @@ fn compared(scene: &Scene<'_>, request: &Request, arguments: &CompareArguments) 
     let temperature = arguments.temperature.or(scene.document.radiator_k()).unwrap_or(LOCUS_K);
     let query = |(kind, name): &(SetKind, String)| scene.camera_metrics_query_at(*kind, name, temperature);
     let queries: Vec<_> = request.sources.iter().map(query).collect::<Result<_, SceneError>>()?;
-    let sources = request.sources.iter().cloned().zip(scene.results.ask_all(&queries));
-    let found: Vec<_> = sources.map(|((kind, name), metrics)| (kind, name, metrics)).collect();
+    let uncertainty = |((kind, name), query): (&(SetKind, String), &CameraMetricsQuery)| {
+        scene.metric_uncertainties_query(*kind, name, query.clone())
+    };
+    let uncertainties: Vec<_> =
+        request.sources.iter().zip(&queries).map(uncertainty).collect::<Result<_, SceneError>>()?;
+    let figures = scene.results.ask_all(&queries).into_iter().zip(scene.results.ask_all(&uncertainties));
+    let figures = figures.map(|(metrics, all)| CameraFigures { metrics, uncertainties: Some(all) });
+    let found: Vec<_> =
+        request.sources.iter().cloned().zip(figures).map(|((kind, name), all)| (kind, name, all)).collect();
     let mut conditions: Vec<_> = CONDITIONS.into_iter().zip(scene.conditions()).collect();
     conditions.extend(scene.metrics_constants(temperature));
     let patches = scene.patches()?.patches().iter().map(|patch| patch.name.clone()).collect();
@@ -96,7 +102,7 @@ fn compared(scene: &Scene<'_>, request: &Request, arguments: &CompareArguments) 
 
 /// The rows in order, with ranks.
 fn rows(
-    found: &[(SetKind, String, Arc<CameraMetrics>)],
+    found: &[(SetKind, String, CameraFigures)],
     metrics: &[CameraMetric],
     sorted_by: Option<CameraMetric>,
 ) -> Vec<Row> {
@@ -125,7 +131,7 @@ fn rows(
         Row {
             kind: *kind,
             name: name.clone(),
-            all: Arc::clone(all),
+            all: all.clone(),
             values: columns.iter().map(|values| values[at]).collect(),
             ranks: ranks.iter().map(|ranks| ranks[at]).collect(),
             rank: sorting_ranks.as_ref().and_then(|ranks| ranks[at]),

@@ -1,6 +1,6 @@
 //! Figures of merit of cameras: tables, ranks, the differences of two cameras, and cameras in order of one metric.
 
-use chromascope_core::query::metrics::{Better, distinguishable, rank_ranges};
+use chromascope_core::query::metrics::{Better, Difference, rank_ranges};
 use chromascope_core::query::{CameraMetric, MetricValue, WhyNot};
 use chromascope_figure::{
     Anchor, Cell, Figure, Ink, InkRole, Mark, Panel, Rect, Shape, Table, Tag, TextSize, text_width,
@@ -11,6 +11,7 @@ use super::chromaticity::conditions;
 use crate::format::fixed;
 use crate::ranking::{Ranked, ranked};
 use crate::scene::Scene;
+use crate::scene::metrics::CameraFigures;
 use crate::view::table::Sorting;
 
 /// Id of the table of cameras in what is saved between runs.
@@ -38,13 +39,17 @@ pub fn first(scene: &Scene<'_>) -> Option<CameraMetric> {
 
 /// Value of a metric for a ranked camera.
 pub fn value(ranked: &Ranked, camera: usize, metric: CameraMetric) -> Option<MetricValue> {
-    ranked.metrics.get(camera)?.as_ref()?.as_ref().ok()?.of(metric)
+    figures(ranked, camera)?.of(metric)
 }
 
-/// True if two values differ by more than the standard uncertainty of their difference; none where a value is missing.
+/// Figures of merit of a ranked camera.
+pub fn figures(ranked: &Ranked, camera: usize) -> Option<&CameraFigures> {
+    ranked.metrics.get(camera)?.as_ref()?.as_ref().ok()
+}
+
+/// True if two values differ at 95 %; none where a value is missing.
 pub fn differ(a: MetricValue, b: MetricValue) -> Option<bool> {
-    let (x, y) = (a.value.ok()?, b.value.ok()?);
-    Some(distinguishable((x, a.uncertainty), (y, b.uncertainty)))
+    Difference::new(a, b).map(Difference::is_significant)
 }
 
 /// True if the first of two values is better; none where the metric ranks nothing or a value is missing.
@@ -57,8 +62,12 @@ pub fn is_better(metric: CameraMetric, a: MetricValue, b: MetricValue) -> Option
     }
 }
 
-/// Ranks of cameras as ranges from 1: no rank is claimed among values that do not differ.
+/// Ranks of cameras as ranges from 1: no rank is claimed among values that do not differ, nor before uncertainties are known.
 pub fn ranks(ranked: &Ranked, metric: CameraMetric) -> Vec<Option<[usize; 2]>> {
+    let all = 0..ranked.cameras.len();
+    if all.clone().filter_map(|camera| figures(ranked, camera)).any(|figures| figures.uncertainties.is_none()) {
+        return all.map(|_| None).collect();
+    }
     let missing = MetricValue { value: Err(WhyNot::NoPatches), uncertainty: None };
     let values = (0..ranked.cameras.len()).map(|camera| value(ranked, camera, metric).unwrap_or(missing));
     rank_ranges(metric.better, &values.collect::<Vec<_>>())
@@ -72,7 +81,7 @@ pub fn numbers(ranked: &Ranked) -> Table {
         let cells = CameraMetric::ALL.iter().flat_map(|metric| {
             let value = value(ranked, camera, *metric);
             let number = value.and_then(|value| value.value.ok());
-            [Cell::from(number), Cell::from(value.and_then(|value| value.uncertainty).filter(|_| number.is_some()))]
+            [Cell::from(number), Cell::from(value.and_then(|value| value.uncertainty).map(|by| by.standard))]
         });
         table.push(std::iter::once(Cell::from(row.id.name.as_str())).chain(cells));
     }
@@ -109,10 +118,7 @@ pub fn head_to_head(ranked: &Ranked, [a, b]: [usize; 2]) -> Table {
 
 /// Standard uncertainty of the difference of two values, if either has one.
 pub fn uncertainty_of_difference(a: MetricValue, b: MetricValue) -> Option<f64> {
-    match (a.uncertainty, b.uncertainty) {
-        (None, None) => None,
-        (a, b) => Some(a.unwrap_or(0.0).hypot(b.unwrap_or(0.0))),
-    }
+    Difference::new(a, b)?.standard
 }
 
 /// Width of a saved figure in points.
@@ -140,8 +146,10 @@ pub fn figure(input: &FigureInput<'_>) -> Option<Figure> {
     let text =
         |words: &str, at: [f64; 2], anchor: Anchor, size: TextSize| Mark::text(words, at, anchor, size, InkRole::Text);
     panel.marks.push(text(&figure.title, [8.0, 12.0], Anchor::LEFT, TextSize::Body));
-    let largest =
-        rows.iter().map(|row| row.2.abs() + row.1.uncertainty.unwrap_or(0.0)).fold(f64::MIN_POSITIVE, f64::max);
+    let largest = rows
+        .iter()
+        .map(|row| row.2.abs() + row.1.uncertainty.map_or(0.0, |by| by.standard))
+        .fold(f64::MIN_POSITIVE, f64::max);
     let x = |value: f64| names + (width - names - 72.0) * (value.abs() / largest).clamp(0.0, 1.0);
     for (index, (camera, value, number)) in rows.iter().enumerate() {
         let y = 24.0 + ROW * index as f64 + ROW / 2.0;
@@ -149,7 +157,7 @@ pub fn figure(input: &FigureInput<'_>) -> Option<Figure> {
         panel.marks.push(text(name, [names - 8.0, y], Anchor::RIGHT, TextSize::Small));
         let bar = Shape::Rect { min: [names, y - 5.0], max: [x(*number), y + 5.0] };
         panel.marks.push(Mark::new(Tag::default(), name, bar).with_fill(InkRole::Line));
-        if let Some(by) = value.uncertainty {
+        if let Some(by) = value.uncertainty.map(|by| by.standard) {
             let segments = vec![[[x((number.abs() - by).max(0.0)), y], [x(number.abs() + by), y]]];
             panel.marks.push(
                 Mark::new(Tag::default(), "uncertainty", Shape::Segments { segments }).with_stroke(InkRole::Text, 1.2),
@@ -165,25 +173,4 @@ pub fn figure(input: &FigureInput<'_>) -> Option<Figure> {
     );
     figure.table = numbers(&ranked).with_constants(&scene.metrics_constants(scene.document.temperature_k));
     Some(figure)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn value(value: f64, uncertainty: Option<f64>) -> MetricValue {
-        MetricValue { value: Ok(value), uncertainty }
-    }
-
-    #[test]
-    fn a_difference_counts_beyond_its_uncertainty() {
-        assert_eq!(
-            differ(value(1.0, Some(0.3)), value(1.5, Some(0.4))),
-            Some(false),
-            "0.5 is not more than √(0.3² + 0.4²)"
-        );
-        assert_eq!(differ(value(1.0, Some(0.3)), value(1.6, Some(0.4))), Some(true));
-        assert_eq!(uncertainty_of_difference(value(1.0, Some(0.3)), value(1.6, Some(0.4))), Some(0.5));
-        assert_eq!(uncertainty_of_difference(value(1.0, None), value(1.6, None)), None);
-    }
 }

@@ -2,7 +2,7 @@
 
 use chromascope_core::colorimetry::Metric;
 use chromascope_core::query::metrics::MetricGroup;
-use chromascope_core::query::{Ask, CameraMetric, CameraMetrics};
+use chromascope_core::query::{CameraMetric, CameraMetrics};
 use chromascope_core::spectral::SpectralDistribution;
 use chromascope_core::spectral::grid::{FIRST_NM, LAST_NM};
 use chromascope_figure::{
@@ -18,6 +18,7 @@ use crate::format::fixed;
 use crate::plot_item::{PlotItem, SensorId};
 use crate::scene::Scene;
 use crate::scene::locus::distance;
+use crate::scene::metrics::CameraFigures;
 use crate::view::View;
 
 /// Width of the saved page in points.
@@ -52,13 +53,13 @@ pub fn camera(scene: &Scene<'_>, view: &View) -> Option<SensorId> {
 /// The page of the camera of the card as it is saved; none without a camera that can be shown.
 pub fn figure(input: &FigureInput<'_>) -> Option<Figure> {
     let id = camera(input.scene, input.view)?;
-    let query = input.scene.camera_metrics_query(id.kind, &id.name).ok()?;
+    let figures = input.scene.camera_figures(id.kind, &id.name).ok()?;
     let width = input.view.room.width.unwrap_or(WIDTH).max(LIST_COLUMN);
-    Some(page(input.scene, &id, &input.scene.results.ask(&query), width))
+    Some(page(input.scene, &id, &figures, width))
 }
 
 /// The page of a camera with its figures of merit in a width; a narrow one has one column.
-pub fn page(scene: &Scene<'_>, id: &SensorId, metrics: &CameraMetrics, width: f64) -> Figure {
+pub fn page(scene: &Scene<'_>, id: &SensorId, figures: &CameraFigures, width: f64) -> Figure {
     let mut top = 0.0;
     let mut place = |height: f64| {
         top += height;
@@ -79,15 +80,15 @@ pub fn page(scene: &Scene<'_>, id: &SensorId, metrics: &CameraMetrics, width: f6
     };
     panels.push(sensitivities(scene, id, areas[0]));
     panels.push(locus(scene, id, areas[1]));
-    panels.push(patches(scene, metrics, areas[2]));
+    panels.push(patches(scene, &figures.metrics, areas[2]));
     let columns = list(if width < TWO_COLUMNS { 1 } else { ((width / LIST_COLUMN) as usize).max(2) });
     let rows = columns.iter().map(Vec::len).max().unwrap_or(0);
-    panels.push(values(metrics, place(LINE * (rows as f64 + 1.0)), &columns));
+    panels.push(values(figures, place(LINE * (rows as f64 + 1.0)), &columns));
     let mut figure = Figure::new(format!("Report card: {}", id.name), [width, top]);
     figure.panels = panels;
     let words = scene.metrics_words();
     figure.caption = format!("± one standard uncertainty of the sensitivities. {words} {}", conditions(scene));
-    figure.table = numbers(id, metrics).with_constants(&scene.metrics_constants(scene.document.temperature_k));
+    figure.table = numbers(id, figures).with_constants(&scene.metrics_constants(scene.document.temperature_k));
     figure
 }
 
@@ -227,7 +228,7 @@ fn list(columns: usize) -> Vec<Vec<Line>> {
 }
 
 /// All figures of merit in columns, by group.
-fn values(metrics: &CameraMetrics, area: Rect, columns: &[Vec<Line>]) -> Panel {
+fn values(figures: &CameraFigures, area: Rect, columns: &[Vec<Line>]) -> Panel {
     let mut panel = Panel::board("figures of merit", area, Ink::new(InkRole::Plot));
     let places = columns.iter().enumerate().flat_map(|(column, lines)| {
         let left = 8.0 + column as f64 * area.width() / columns.len() as f64;
@@ -241,7 +242,8 @@ fn values(metrics: &CameraMetrics, area: Rect, columns: &[Vec<Line>]) -> Panel {
             }
             Line::Metric(at) => at,
         };
-        let (metric, value) = (&CameraMetric::ALL[at], metrics.values[at]);
+        let metric = &CameraMetric::ALL[at];
+        let Some(value) = figures.of(*metric) else { continue };
         panel.marks.push(Mark::text(metric.symbol, [left + 8.0, y], Anchor::LEFT, TextSize::Small, InkRole::Text));
         let number = value.value.map_or_else(|_| "–".to_owned(), |value| fixed(value, metric.decimals));
         let number = format!("{number} {}", unit(metric));
@@ -252,24 +254,25 @@ fn values(metrics: &CameraMetrics, area: Rect, columns: &[Vec<Line>]) -> Panel {
             TextSize::Small,
             InkRole::Text,
         ));
-        if let Some(by) = value.uncertainty.filter(|_| value.value.is_ok()) {
-            let by = format!("± {}", fixed(by, metric.decimals));
+        if let Some(by) = value.uncertainty {
+            let by = format!("± {}", fixed(by.standard, metric.decimals));
             panel.marks.push(Mark::text(by, [left + 158.0, y], Anchor::LEFT, TextSize::Small, InkRole::Weak));
         }
     }
     panel
 }
 
-fn numbers(id: &SensorId, metrics: &CameraMetrics) -> Table {
+fn numbers(id: &SensorId, figures: &CameraFigures) -> Table {
     let mut table = Table::new(["camera", "metric", "name", "unit", "value", "uncertainty", "reason"]);
-    for (metric, value) in CameraMetric::ALL.iter().zip(&metrics.values) {
+    for metric in CameraMetric::ALL {
+        let Some(value) = figures.of(*metric) else { continue };
         table.push([
             Cell::from(id.name.as_str()),
             Cell::from(metric.column),
             Cell::from(metric.label),
             Cell::from(metric.unit),
             Cell::from(value.value.ok()),
-            Cell::from(value.uncertainty.filter(|_| value.value.is_ok())),
+            Cell::from(value.uncertainty.map(|by| by.standard)),
             Cell::from(value.value.err().map_or_else(String::new, |why| why.to_string())),
         ]);
     }

@@ -220,7 +220,7 @@ impl<'a> Rows<'a> {
         };
         let other = self.selected.filter(|selected| *selected != row).and_then(|row| self.value(row, column));
         CellNote {
-            uncertainty: value.uncertainty.filter(|_| value.value.is_ok()),
+            uncertainty: value.uncertainty.map(|by| by.standard),
             is_gray: other.and_then(|other| metrics::differ(value, other)) == Some(false),
             hint: value.value.err().map_or_else(String::new, |why| format!("{why}.")),
             ..CellNote::default()

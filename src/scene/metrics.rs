@@ -1,19 +1,20 @@
 //! Figures of merit of cameras under the document's conditions.
 
-use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use chromascope_core::camera::quality::Electrons;
 use chromascope_core::metamers::{Confusion, MetamerLimits, MetamerPair};
 use chromascope_core::patch_set::{COLOR_CHECKER_CHROMATIC, PatchSet};
+use chromascope_core::query::metrics::RatioEvidence;
 use chromascope_core::query::{
-    Ask, CameraMetrics, CameraMetricsQuery, IndexConditions, MetamersQuery, Query, RenderingQuery, Shared,
+    Ask, CameraMetric, CameraMetrics, CameraMetricsQuery, IndexConditions, MetamersQuery, MetricUncertaintiesQuery,
+    MetricUncertainty, MetricValue, Query, RenderingQuery, Shared,
 };
 use chromascope_core::spectral::Sensor;
 use chromascope_core::units::Kelvin;
 
 use super::{Scene, SceneError};
-use crate::catalog::load::{LightQuery, LoadError, PatchesQuery, ReplicatesQuery, SensorQuery};
+use crate::catalog::load::{CurveSpreadQuery, LightQuery, LoadError, PatchesQuery, SensorQuery, response_evidence};
 use crate::catalog::{Entry, Place};
 use crate::document::{CHART, CIE_1931, SetKind};
 
@@ -30,40 +31,37 @@ pub struct MetricsConditions {
     temperature: Kelvin,
     index: IndexConditions,
     electrons: Option<Electrons>,
-    /// Camera models with more than one built-in table.
-    models: Vec<String>,
-    /// Those tables.
-    tables: ReplicatesQuery,
 }
 
 impl MetricsConditions {
-    /// The question for all figures of merit of a sensor. Loads the tables of the models that have several.
-    ///
-    /// # Errors
-    ///
-    /// [`LoadError`] for a damaged table.
-    pub fn query(
-        &self,
-        sensor: Shared<Sensor>,
-        model: Option<usize>,
-        ask: &impl Ask,
-    ) -> Result<CameraMetricsQuery, LoadError> {
-        Ok(CameraMetricsQuery {
+    /// The question for all figures of merit of a sensor.
+    pub fn query(&self, sensor: Shared<Sensor>) -> CameraMetricsQuery {
+        CameraMetricsQuery {
             rendering: RenderingQuery { sensor, ..self.reference.clone() },
             reference: self.reference.clone(),
             patches: self.patches.clone(),
             temperature: self.temperature,
             index: self.index.clone(),
             electrons: self.electrons,
-            replicates: (*ask.ask(&self.tables)).clone()?,
-            model,
-        })
+        }
     }
+}
 
-    /// Place of a camera's model among those with several tables.
-    fn model(&self, name: &str) -> Option<usize> {
-        let model = model_of(name);
-        self.models.iter().position(|known| known == model)
+/// Uncertainties of all metrics of a camera, in their order.
+pub type Uncertainties = Arc<Vec<Option<MetricUncertainty>>>;
+
+/// Figures of merit of a camera, with their uncertainties once these are computed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CameraFigures {
+    pub metrics: Arc<CameraMetrics>,
+    /// None while they are not computed.
+    pub uncertainties: Option<Uncertainties>,
+}
+
+impl CameraFigures {
+    /// Value of a metric with its uncertainty.
+    pub fn of(&self, metric: CameraMetric) -> Option<MetricValue> {
+        self.metrics.with(self.uncertainties.as_ref().map(|all| all.as_slice()), metric)
     }
 }
 
@@ -71,14 +69,20 @@ impl MetricsConditions {
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct CatalogMetricsQuery {
     place: Place,
-    model: Option<usize>,
     conditions: Shared<MetricsConditions>,
+    with_uncertainties: bool,
 }
 
 impl CatalogMetricsQuery {
-    /// The question for a camera under conditions.
+    /// The question for a camera under conditions, without uncertainties.
     pub fn new(camera: &Entry, conditions: Shared<MetricsConditions>) -> Self {
-        Self { place: camera.place.clone(), model: conditions.model(&camera.name), conditions }
+        Self { place: camera.place.clone(), conditions, with_uncertainties: false }
+    }
+
+    /// The same with uncertainties, which take longer.
+    #[must_use]
+    pub fn with_uncertainties(&self) -> Self {
+        Self { with_uncertainties: true, ..self.clone() }
     }
 
     /// True if both are of the same camera, whatever the conditions.
@@ -88,13 +92,30 @@ impl CatalogMetricsQuery {
 }
 
 impl Query for CatalogMetricsQuery {
-    type Answer = Result<Arc<CameraMetrics>, LoadError>;
+    type Answer = Result<CameraFigures, LoadError>;
     const NAME: &'static str = "camera of the ranking";
 
     fn answer(&self, ask: &impl Ask) -> Self::Answer {
-        let sensor = (*ask.ask(&SensorQuery(self.place.clone()))).clone()?;
-        Ok(ask.ask(&self.conditions.query(sensor, self.model, ask)?))
+        let query = self.conditions.query((*ask.ask(&SensorQuery(self.place.clone()))).clone()?);
+        let metrics = ask.ask(&query);
+        let uncertainties =
+            if self.with_uncertainties { Some(ask.ask(&uncertainties_query(query, &self.place, ask)?)) } else { None };
+        Ok(CameraFigures { metrics, uncertainties })
     }
+}
+
+/// The question for the uncertainties of a camera's figures of merit.
+fn uncertainties_query(
+    metrics: CameraMetricsQuery,
+    place: &Place,
+    ask: &impl Ask,
+) -> Result<MetricUncertaintiesQuery, LoadError> {
+    Ok(MetricUncertaintiesQuery {
+        metrics,
+        spread: (*ask.ask(&CurveSpreadQuery)).clone()?,
+        response: response_evidence(place, ask),
+        ratio: RatioEvidence::Unchecked,
+    })
 }
 
 /// A set of the catalog or the user's, without its header.
@@ -195,28 +216,36 @@ impl Scene<'_> {
         name: &str,
         temperature_k: f64,
     ) -> Result<CameraMetricsQuery, SceneError> {
-        let conditions = self.metrics_conditions(temperature_k)?;
-        let model = conditions.model(name).filter(|_| kind == SetKind::Camera);
-        let failed = |error| SceneError::Load { name: "cameras with several tables".to_owned(), error };
-        conditions.query(self.sensor(kind, name)?, model, self.results).map_err(failed)
+        Ok(self.metrics_conditions(temperature_k)?.query(self.sensor(kind, name)?))
+    }
+
+    /// Query for the uncertainties of a sensor's figures of merit; an observer has none.
+    pub fn metric_uncertainties_query(
+        &self,
+        kind: SetKind,
+        name: &str,
+        metrics: CameraMetricsQuery,
+    ) -> Result<MetricUncertaintiesQuery, SceneError> {
+        let failed = |error| SceneError::Load { name: name.to_owned(), error };
+        uncertainties_query(metrics, &self.entry(kind, name)?.place, self.results).map_err(failed)
+    }
+
+    /// Figures of merit of a sensor with their uncertainties.
+    pub fn camera_figures(&self, kind: SetKind, name: &str) -> Result<CameraFigures, SceneError> {
+        let query = self.camera_metrics_query(kind, name)?;
+        let metrics = self.results.ask(&query);
+        let uncertainties = Some(self.results.ask(&self.metric_uncertainties_query(kind, name, query)?));
+        Ok(CameraFigures { metrics, uncertainties })
     }
 
     /// Conditions of figures of merit, the locus at a temperature in kelvins. Loads no camera.
     pub fn metrics_conditions(&self, temperature_k: f64) -> Result<MetricsConditions, SceneError> {
-        let mut tables: BTreeMap<&str, Vec<Place>> = BTreeMap::new();
-        for entry in self.catalog.of_kind(SetKind::Camera) {
-            tables.entry(model_of(&entry.name)).or_default().push(entry.place.clone());
-        }
-        tables.retain(|_, places| places.len() > 1);
-        let (models, places) = tables.into_iter().map(|(model, places)| (model.to_owned(), places)).unzip();
         Ok(MetricsConditions {
             reference: self.rendering_of(SetKind::Observer, &self.document.reference)?,
             patches: self.patches()?,
             temperature: Kelvin::new(temperature_k)?,
             index: self.index_conditions()?,
             electrons: self.document.pixel.and_then(|pixel| pixel.electrons().ok()),
-            models,
-            tables: ReplicatesQuery(places),
         })
     }
 

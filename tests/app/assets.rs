@@ -10,7 +10,8 @@ use chromascope::document::SetKind;
 use chromascope_core::spectral::Dataset;
 
 const ROOT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/assets");
-const FOLDERS: [&str; 7] = ["observers", "cameras", "charts", "illuminants", "materials", "filters", "test-samples"];
+const FOLDERS: [&str; 8] =
+    ["observers", "cameras", "charts", "illuminants", "materials", "filters", "test-samples", "uncertainty"];
 const RESPONSES: [&str; 5] =
     ["per energy (stated)", "per energy (inferred)", "per photon (stated)", "per photon (inferred)", "unknown"];
 /// Header keys in the required order; the flag marks optional keys.

@@ -114,7 +114,7 @@ fn values_are_those_that_the_scene_computes() {
     let metric = CameraMetric::by_id("delta-e2000-mean").unwrap();
     for (row, _) in rows(&window).iter().take(3) {
         let query = scene.camera_metrics_query(SetKind::Camera, name(row)).unwrap();
-        let value = results.ask(&query).of(metric).unwrap().value.unwrap();
+        let value = results.ask(&query).of(metric).unwrap().unwrap();
         assert_eq!(number(row, "ΔE*00 mean"), Some((value * 100.0).round() / 100.0), "{row}");
     }
 }
@@ -137,7 +137,7 @@ fn the_latest_conditions_win_and_the_last_answer_stays_meanwhile() {
     let results = window.state().results();
     let scene = Scene { document: window.state().history().document(), catalog: &Catalog::built_in(), results };
     let query = scene.camera_metrics_query(SetKind::Camera, name(&after[0].0)).unwrap();
-    let value = results.ask(&query).of(CameraMetric::by_id("delta-e2000-mean").unwrap()).unwrap().value.unwrap();
+    let value = results.ask(&query).of(CameraMetric::by_id("delta-e2000-mean").unwrap()).unwrap().unwrap();
     assert!((number(&after[0].0, "ΔE*00 mean").unwrap() - value).abs() < 0.0051, "of the latest light");
 }
 
@@ -229,9 +229,8 @@ fn two_cameras_stand_head_to_head() {
     let document = window.state().history().document().clone();
     let scene = Scene { document: &document, catalog: &catalog, results: &results };
     let metric = CameraMetric::by_id("delta-e2000-mean").unwrap();
-    let [a, b] = pair.map(|id| {
-        results.ask(&scene.camera_metrics_query(id.kind, &id.name).unwrap()).of(metric).unwrap().value.unwrap()
-    });
+    let [a, b] = pair
+        .map(|id| results.ask(&scene.camera_metrics_query(id.kind, &id.name).unwrap()).of(metric).unwrap().unwrap());
     assert!(a < b, "{a} {b}");
     assert!(row.contains(&format!("A {a:.2}")) && row.contains(&format!("B {b:.2}")), "{row}");
     assert!(row.contains(&format!("A − B −{:.2} ± 0.", b - a)) && row.contains("better A,"), "{row}");
@@ -289,10 +288,9 @@ fn names_of_the_worst_patches_stand_apart_at_any_width() {
     let scene = Scene { document: &document, catalog: &catalog, results: &results };
     for name in ["Canon EOS 5D Mark II", "Nikon D70 (A.M.P.A.S.)", "Kodak DCS200"] {
         let id = camera(name);
-        let query = scene.camera_metrics_query(id.kind, &id.name).expect("a query");
-        let metrics = results.ask(&query);
+        let figures = scene.camera_figures(id.kind, &id.name).expect("figures");
         for width in [300.0, 560.0, 884.0, 1264.0] {
-            let page = report_card::page(&scene, &id, &metrics, width);
+            let page = report_card::page(&scene, &id, &figures, width);
             let names = bar_names(&page);
             assert_eq!(names.len(), 5);
             for (index, a) in names.iter().enumerate() {

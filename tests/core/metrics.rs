@@ -6,11 +6,11 @@ use chromascope_core::colorimetry::Metric;
 use chromascope_core::light::RadiationConstants;
 use chromascope_core::patch_set::{COLOR_CHECKER_CHROMATIC, PatchSet};
 use chromascope_core::query::metrics::{
-    Better, LocusDeviationQuery, MetricGroup, Statistic, distinguishable, rank_ranges,
+    Better, Contributions, Difference, LocusDeviationQuery, MetricGroup, Statistic, UncertaintySource, rank_ranges,
 };
 use chromascope_core::query::{
     Ask, CameraMetric, CameraMetrics, CameraMetricsQuery, ColorTransformSpec, DifferenceError, Direct, IndexConditions,
-    LocusQuery, MetricValue, RenderingQuery, Replicates, Shared, Temperatures, WhyNot,
+    LocusQuery, MetricUncertainty, MetricValue, RenderingQuery, Shared, Temperatures, WhyNot,
 };
 use chromascope_core::spectral::{Primaries, Response, Sensor};
 
@@ -19,7 +19,6 @@ use crate::support::{
 };
 
 const D70_AMPAS: &str = "cameras/nikon_d70_a_m_p_a_s.csv";
-const D70_UPENN: &str = "cameras/nikon_d70_upenn_2011.csv";
 const D5100: [&str; 2] = ["cameras/nikon_d5100.csv", "cameras/nikon_d5100_npl.csv"];
 
 fn query_under(light: &str, sample: Sensor, transform: &ColorTransformSpec, reference: Sensor) -> CameraMetricsQuery {
@@ -41,8 +40,6 @@ fn query_under(light: &str, sample: Sensor, transform: &ColorTransformSpec, refe
             patches: Shared::new(chart().subset(&COLOR_CHECKER_CHROMATIC)),
         },
         electrons: None,
-        replicates: Shared::new(Replicates::default()),
-        model: None,
     }
 }
 
@@ -55,7 +52,7 @@ fn fitted() -> ColorTransformSpec {
 }
 
 fn value(metrics: &CameraMetrics, id: &str) -> Result<f64, WhyNot> {
-    metrics.of(CameraMetric::by_id(id).unwrap()).unwrap().value
+    metrics.of(CameraMetric::by_id(id).unwrap()).unwrap()
 }
 
 #[test]
@@ -310,54 +307,40 @@ fn linearly_dependent_curves_have_no_space() {
     }
 }
 
-fn replicates() -> Shared<Replicates> {
-    let tables = |paths: &[&str]| paths.iter().map(|path| Shared::new(sensor(path))).collect::<Vec<_>>();
-    Shared::new(Replicates::new([tables(&D5100), tables(&[NIKON_D70, D70_AMPAS, D70_UPENN])]))
-}
-
-#[test]
-fn a_measurement_published_twice_counts_once() {
-    let counts: Vec<usize> = replicates().models().iter().map(Vec::len).collect();
-    assert_eq!(counts, [1, 3]);
-}
-
-#[test]
-fn uncertainty_is_the_spread_of_tables_of_one_model() {
-    let ask = |path: &str, model| {
-        let asked = query(sensor(path), &fitted(), sensor(CIE_1931));
-        Direct.ask(&CameraMetricsQuery { replicates: replicates(), model, ..asked })
-    };
-    let own = ask(D70_AMPAS, Some(1));
-    let tables = [NIKON_D70, D70_AMPAS, D70_UPENN].map(|path| ask(path, None));
-    for (at, metric) in CameraMetric::ALL.iter().enumerate() {
-        let values: Vec<f64> = tables.iter().filter_map(|table| table.values[at].value.ok()).collect();
-        let Some(found) = own.values[at].uncertainty else {
-            assert!(values.is_empty(), "{}", metric.id);
-            continue;
-        };
-        let mean = values.iter().sum::<f64>() / 3.0;
-        let deviation = (values.iter().map(|v| (v - mean).powi(2)).sum::<f64>() / 2.0).sqrt();
-        assert_near(metric.id, found, deviation, 1e-12 + 1e-9 * deviation);
+/// An uncertainty of the prior.
+fn uncertainty(standard: f64, coverage: f64) -> MetricUncertainty {
+    MetricUncertainty {
+        standard,
+        contributions: Contributions { curves: standard, ..Contributions::default() },
+        freedom: 14.0,
+        coverage,
+        source: UncertaintySource::Prior,
+        is_extrapolated: false,
+        bias: 0.0,
     }
-    // One model has several tables, so that the prior of all others is its spread; also that of a model with one table twice.
-    for (path, model) in [(CANON_10D, None), (D5100[0], Some(0))] {
-        let other = ask(path, model);
-        let mean = CameraMetric::by_id("delta-e2000-mean").unwrap();
-        assert_eq!(other.of(mean).unwrap().uncertainty, own.of(mean).unwrap().uncertainty);
-    }
-    assert!(ask(REFERENCE, None).values.iter().all(|value| value.uncertainty.is_none()));
 }
 
 #[test]
 fn ranks_are_claimed_beyond_the_uncertainty_alone() {
-    let value = |value: f64| MetricValue { value: Ok(value), uncertainty: Some(0.1) };
+    let value = |value: f64| MetricValue { value: Ok(value), uncertainty: Some(uncertainty(0.05, 2.0)) };
     let missing = MetricValue { value: Err(WhyNot::NoPatches), uncertainty: None };
     let values = [value(1.0), value(1.1), value(-2.0), missing, value(1.2)];
-    // 1.0 and 1.2 are apart by more than √2 × 0.1; 1.1 is from neither.
+    // 1.0 and 1.2 are apart by more than 2 √2 × 0.05; 1.1 is from neither.
     assert_eq!(rank_ranges(Better::Lower, &values), [Some([1, 2]), Some([1, 3]), Some([4, 4]), None, Some([2, 3])]);
     assert_eq!(rank_ranges(Better::Higher, &values), [Some([2, 3]), Some([1, 3]), Some([4, 4]), None, Some([1, 2])]);
     assert_eq!(rank_ranges(Better::Neither, &values), [None; 5]);
-    assert!(!distinguishable((1.0, None), (1.0, None)) && distinguishable((1.0, None), (1.0 + 1e-9, None)));
+    let plain =
+        |value: f64, by: Option<f64>| MetricValue { value: Ok(value), uncertainty: by.map(|by| uncertainty(by, 2.0)) };
+    let differ = |a, b| Difference::new(a, b).map(|found| (found.is_significant(), found.standard));
+    assert_eq!(
+        differ(plain(1.0, Some(0.3)), plain(1.99, Some(0.4))),
+        Some((false, Some(0.5))),
+        "0.99 is not more than 2 × 0.5"
+    );
+    assert_eq!(differ(plain(1.0, Some(0.3)), plain(2.01, Some(0.4))), Some((true, Some(0.5))));
+    assert_eq!(differ(plain(1.0, None), plain(1.0, None)), Some((false, None)));
+    assert_eq!(differ(plain(1.0, None), plain(1.0 + 1e-9, None)), Some((true, None)));
+    assert_eq!(differ(plain(1.0, None), missing), None);
     assert_eq!(MetricGroup::ALL.map(|group| CameraMetric::ALL.iter().any(|metric| metric.group == group)), [true; 4]);
 }
 

@@ -5,6 +5,7 @@ use crate::accuracy::Unmet;
 use crate::colorimetry::adaptation::bradford;
 use crate::colorimetry::rgb::{XYZ_FROM_SRGB, srgb_from_xyz, srgb_white};
 use crate::colorimetry::{Lab, Xyz, lab::lab_from_xyz};
+use crate::correction::minimize::Refit;
 use crate::correction::root_polynomial::RootPolynomial;
 use crate::correction::{Correction, CorrectionMethod, RgbTransform, Training};
 use crate::math::dot::{dot, dot_each};
@@ -165,6 +166,65 @@ impl Rendering {
         self.white * (DVec3::from_array(raw) / self.white_integrals)
     }
 
+    /// Rendering by Eq 13 of a sensor with these integrals `∫ C_c L dλ` and `∫ C_c dλ`.
+    ///
+    /// # Errors
+    ///
+    /// [`RenderingError::GainOverflow`].
+    pub(crate) fn by_paper(
+        white: DVec3,
+        integrals: DVec3,
+        flat: DVec3,
+        conditioning: f64,
+    ) -> Result<Self, RenderingError> {
+        Ok(Self {
+            white,
+            white_integrals: integrals,
+            locus_gain: gain(white, flat)?,
+            xyz_from_signals: XYZ_FROM_SRGB,
+            root_polynomial: None,
+            srgb_from_xyz: srgb_from_xyz(),
+            // A perfect diffuser takes `white`, so that is the adopted white. Another one would let a wrong target shrink every
+            // difference.
+            lab_white: Xyz::from_vector(XYZ_FROM_SRGB * white),
+            is_rgb: true,
+            conditioning,
+        })
+    }
+
+    /// Rendering of a sensor with these integrals `∫ C_c L dλ` through a transform that is fitted.
+    ///
+    /// # Errors
+    ///
+    /// [`RenderingError::NoWhite`] and [`RenderingError::GainOverflow`].
+    pub(crate) fn by_fit(
+        targets: &FitTargets,
+        transform: RgbTransform,
+        white: DVec3,
+        integrals: DVec3,
+        (conditioning, is_rgb): (f64, bool),
+    ) -> Result<Self, RenderingError> {
+        if !white.recip().is_finite() {
+            return Err(RenderingError::NoWhite);
+        }
+        let (unity, root_polynomial) = match transform {
+            RgbTransform::Matrix(matrix) => (matrix, None),
+            RgbTransform::RootPolynomial(polynomial) => (polynomial.at_white(), Some(polynomial)),
+        };
+        let FitTargets { reference, .. } = targets;
+        Ok(Self {
+            white,
+            white_integrals: integrals,
+            locus_gain: gain(white, integrals)?,
+            xyz_from_signals: unity * DMat3::from_diagonal(white.recip()),
+            root_polynomial,
+            srgb_from_xyz: reference.srgb_from_xyz,
+            lab_white: reference.lab_white,
+            is_rgb,
+            conditioning,
+        })
+    }
+
     /// Rendering under equal energy with unity white balance by Eq 13: the conditions of the paper's first two experiments.
     ///
     /// # Errors
@@ -275,19 +335,7 @@ fn paper(
     let (integrals, conditioning) = white_integrals(sensor, light)?;
     let equal_energy = GridSpectrum::constant(1.0);
     let (flat, _) = white_integrals(sensor, &equal_energy)?;
-    let s = DVec3::from_array(white);
-    Ok(Rendering {
-        white: s,
-        white_integrals: integrals,
-        locus_gain: gain(s, flat)?,
-        xyz_from_signals: XYZ_FROM_SRGB,
-        root_polynomial: None,
-        srgb_from_xyz: srgb_from_xyz(),
-        // A perfect diffuser takes `s`, so that is the adopted white. Another one would let a wrong target shrink every difference.
-        lab_white: Xyz::from_vector(XYZ_FROM_SRGB * s),
-        is_rgb: true,
-        conditioning,
-    })
+    Rendering::by_paper(DVec3::from_array(white), integrals, flat, conditioning)
 }
 
 /// XYZ of the training reflectances through a reference observer: the part of a fit that all sensors share.
@@ -312,6 +360,27 @@ impl FitTargets {
         let targets =
             training.patches().iter().map(|patch| raw(&product, patch.grid.values()) / rendering.white_integrals);
         Ok(Self { targets: targets.collect(), reference: rendering })
+    }
+
+    /// Transform of balanced samples to the targets.
+    ///
+    /// # Errors
+    ///
+    /// [`FitError`] where the samples do not determine it.
+    pub fn fit(&self, samples: &[DVec3], correction: &Correction) -> Result<RgbTransform, FitError> {
+        let weights = correction.weights.for_targets(&self.targets, self.reference.lab_white);
+        let training = Training { samples, targets: &self.targets, weights: &weights };
+        training.fit(correction, self.reference.lab_white)
+    }
+
+    /// Fits near one of these samples; none for a method that does not search, whose fits are cheap anyway.
+    pub(crate) fn refit(&self, samples: &[DVec3], correction: &Correction, fitted: &RgbTransform) -> Option<Refit> {
+        let (CorrectionMethod::Minimize(objective), RgbTransform::Matrix(matrix)) = (correction.method, fitted) else {
+            return None;
+        };
+        let weights = correction.weights.for_targets(&self.targets, self.reference.lab_white);
+        let training = Training { samples, targets: &self.targets, weights: &weights };
+        Refit::new(training, self.reference.lab_white, correction.keeps_white, objective, *matrix)
     }
 }
 
@@ -375,29 +444,11 @@ fn fitted(
 ) -> Result<Rendering, RenderingError> {
     // The sensor first: a light that neither sees is the sensor's own trouble.
     let (samples, integrals, conditioning) = balanced(sensor, light, training)?;
-    let FitTargets { reference, targets } = targets?;
-    let s = DVec3::from_array(white);
-    if !s.recip().is_finite() {
-        return Err(RenderingError::NoWhite);
-    }
+    let targets = targets?;
     check_lobes(sensor, correction.method)?;
-    let weights = correction.weights.for_targets(targets, reference.lab_white);
-    let training = Training { samples: &samples, targets, weights: &weights };
-    let (unity, root_polynomial) = match training.fit(correction, reference.lab_white)? {
-        RgbTransform::Matrix(matrix) => (matrix, None),
-        RgbTransform::RootPolynomial(polynomial) => (polynomial.at_white(), Some(polynomial)),
-    };
-    Ok(Rendering {
-        white: s,
-        white_integrals: integrals,
-        locus_gain: gain(s, integrals)?,
-        xyz_from_signals: unity * DMat3::from_diagonal(s.recip()),
-        root_polynomial,
-        srgb_from_xyz: reference.srgb_from_xyz,
-        lab_white: reference.lab_white,
-        is_rgb: matches!(sensor.primaries(), Primaries::Camera | Primaries::Rgb),
-        conditioning,
-    })
+    let transform = targets.fit(&samples, correction)?;
+    let is_rgb = matches!(sensor.primaries(), Primaries::Camera | Primaries::Rgb);
+    Rendering::by_fit(targets, transform, DVec3::from_array(white), integrals, (conditioning, is_rgb))
 }
 
 /// Refuses roots for a sensor with a sensitivity below zero.

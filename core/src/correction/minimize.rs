@@ -157,9 +157,7 @@ impl<'a> Problem<'a> {
         objective: Objective,
         start: DMat3,
     ) -> Self {
-        let along = DVec3::ONE.normalize();
-        let across = along.any_orthonormal_vector();
-        let basis = DMat3::from_cols(along, across, along.cross(across));
+        let basis = white_basis();
         let columns = start * basis;
         Self {
             samples: training.samples.iter().map(|sample| basis.transpose() * *sample).collect(),
@@ -254,6 +252,101 @@ impl LeastSquaresProblem<f64, Dyn, Dyn> for Problem<'_> {
         }
         Some(jacobian)
     }
+}
+
+/// Rounds of reweighting of a [`Refit`].
+const REFIT_ROUNDS: usize = 4;
+
+/// Fits near one that was minimized, for samples that differ little: by reweighted least squares with L\*a\*b\* linearized there.
+#[derive(Clone, Debug)]
+pub struct Refit {
+    samples: Vec<DVec3>,
+    /// Difference vector of each sample and its derivative by XYZ.
+    linear: Vec<(DVec3, DMat3)>,
+    weights: Vec<f64>,
+    matrix: DMat3,
+    basis: DMat3,
+    first: usize,
+    squares: bool,
+}
+
+impl Refit {
+    /// Prepares fits near `matrix`, which minimizes the objective over the training samples; none where a sample has no L\*a\*b\*.
+    pub fn new(
+        training: Training<'_>,
+        white: Xyz,
+        keeps_white: bool,
+        objective: Objective,
+        matrix: DMat3,
+    ) -> Option<Self> {
+        let linear = |(sample, target): (&DVec3, &DVec3)| {
+            let xyz = Xyz::from_vector(matrix * *sample);
+            let [target, lab] = [lab_from_xyz(Xyz::from_vector(*target), white)?, lab_from_xyz(xyz, white)?];
+            Some((objective.vector(target, lab), objective.derivative(target, lab) * lab_by_xyz(xyz, white)))
+        };
+        let linear = training.samples.iter().zip(training.targets).map(linear).collect::<Option<_>>()?;
+        let (basis, first) = (white_basis(), usize::from(keeps_white));
+        let (samples, weights) = (training.samples.to_vec(), training.weights.to_vec());
+        Some(Self { samples, linear, weights, matrix, basis, first, squares: objective.squares() })
+    }
+
+    /// The matrix for other samples in the same order; none where they do not determine one.
+    pub fn matrix(&self, samples: &[DVec3]) -> Option<DMat3> {
+        let parts = self.samples.iter().zip(samples).zip(&self.linear);
+        let mut rows: Vec<(DVec3, DVec3, DMat3)> = parts
+            .map(|((old, new), (vector, by_xyz))| {
+                let moved = *vector + *by_xyz * (self.matrix * (*new - *old));
+                (self.basis.transpose() * *new, moved, *by_xyz)
+            })
+            .collect();
+        let mut shift = DMat3::ZERO;
+        for _ in 0..if self.squares { 1 } else { REFIT_ROUNDS } {
+            let step = self.step(&rows)?;
+            shift += step;
+            for (sample, vector, by_xyz) in &mut rows {
+                *vector += *by_xyz * (step * *sample);
+            }
+        }
+        let matrix = self.matrix + shift * self.basis.transpose();
+        matrix.is_finite().then_some(matrix)
+    }
+
+    /// Change of the columns in the basis that minimizes the weighted squares of rows of sample, difference and derivative.
+    fn step(&self, rows: &[(DVec3, DVec3, DMat3)]) -> Option<DMat3> {
+        let free = 3 - self.first;
+        let mut normal = [[DMat3::ZERO; 3]; 3];
+        let mut right = [DVec3::ZERO; 3];
+        for ((sample, vector, by_xyz), weight) in rows.iter().zip(&self.weights) {
+            let weight = if self.squares { *weight } else { weight / vector.length().max(SMALLEST) };
+            let transposed = by_xyz.transpose() * weight;
+            let (square, pull) = (transposed * *by_xyz, transposed * *vector);
+            for j in 0..free {
+                let a = sample[self.first + j];
+                right[j] -= pull * a;
+                for (k, block) in normal[j].iter_mut().enumerate().take(j + 1) {
+                    *block += square * (a * sample[self.first + k]);
+                }
+            }
+        }
+        let entry = |row: usize, column: usize| {
+            let (j, k) = (row.max(column) / 3, row.min(column) / 3);
+            normal[j][k].col(column % 3)[row % 3]
+        };
+        let matrix = DMatrix::from_fn(3 * free, 3 * free, entry);
+        let solved = matrix.cholesky()?.solve(&DVector::from_fn(3 * free, |row, _| right[row / 3][row % 3]));
+        let mut columns = [DVec3::ZERO; 3];
+        for (column, values) in columns[self.first..].iter_mut().zip(solved.as_slice().chunks_exact(3)) {
+            *column = DVec3::from_slice(values);
+        }
+        Some(DMat3::from_cols(columns[0], columns[1], columns[2]))
+    }
+}
+
+/// Orthonormal columns, the first along (1, 1, 1).
+fn white_basis() -> DMat3 {
+    let along = DVec3::ONE.normalize();
+    let across = along.any_orthonormal_vector();
+    DMat3::from_cols(along, across, along.cross(across))
 }
 
 /// Derivatives of L*, a*, b* by X, Y, Z: columns.

@@ -5,24 +5,27 @@
 mod conditions;
 mod differences;
 mod evidence;
+mod perturbed;
+mod ranks;
 mod table;
 mod uncertainty;
 mod value;
 
 use super::ask::{Ask, Query};
 
-pub use conditions::{CameraMetricsQuery, IndexConditions, Replicates};
+pub use conditions::{CameraMetricsQuery, IndexConditions};
 pub use differences::{PatchDifferences, Statistic, WORST};
 pub use evidence::{LocusDeviationQuery, MetamerismIndexQuery, SpaceQualityQuery};
+pub use ranks::{Difference, rank_ranges};
 pub use table::{Better, CameraMetric, MetricGroup};
-pub use uncertainty::{distinguishable, rank_ranges};
+pub use uncertainty::{Contributions, MetricUncertaintiesQuery, MetricUncertainty, RatioEvidence, UncertaintySource};
 pub use value::{MetricValue, WhyNot};
 
-/// All figures of merit of one camera.
+/// All figures of merit of one camera, without their uncertainties, which take longer: see [`MetricUncertaintiesQuery`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct CameraMetrics {
-    /// Values in the order of [`CameraMetric::ALL`].
-    pub values: Vec<MetricValue>,
+    /// Values in the order of [`CameraMetric::ALL`], or reasons for none.
+    pub values: Vec<Result<f64, WhyNot>>,
     /// Differences of each patch from the reference, in the order of the chart; empty where the camera cannot be shown.
     pub patches: Vec<PatchDifferences>,
     /// For each metric of `Metric::ALL` the patches with the largest differences, largest first, at most [`WORST`].
@@ -31,8 +34,19 @@ pub struct CameraMetrics {
 
 impl CameraMetrics {
     /// Value of a metric.
-    pub fn of(&self, metric: CameraMetric) -> Option<MetricValue> {
+    pub fn of(&self, metric: CameraMetric) -> Option<Result<f64, WhyNot>> {
         self.values.get(metric.place).copied()
+    }
+
+    /// Value of a metric with its uncertainty among those of all metrics, where they are known.
+    pub fn with(
+        &self,
+        uncertainties: Option<&[Option<MetricUncertainty>]>,
+        metric: CameraMetric,
+    ) -> Option<MetricValue> {
+        let value = self.of(metric)?;
+        let uncertainty = uncertainties.and_then(|all| *all.get(metric.place)?).filter(|_| value.is_ok());
+        Some(MetricValue { value, uncertainty })
     }
 }
 
@@ -42,12 +56,7 @@ impl Query for CameraMetricsQuery {
 
     fn answer(&self, ask: &impl Ask) -> CameraMetrics {
         let own = evidence::Evidence::new(self, ask);
-        let uncertainties = uncertainty::standard_uncertainties(self, ask);
-        let values = CameraMetric::ALL.iter().zip(uncertainties).map(|(metric, uncertainty)| {
-            let value = metric.evaluate(&own);
-            MetricValue { value, uncertainty: uncertainty.filter(|_| value.is_ok()) }
-        });
-        let values = values.collect();
+        let values = CameraMetric::ALL.iter().map(|metric| metric.evaluate(&own)).collect();
         let patches = own.patches.unwrap_or_default();
         CameraMetrics { values, worst: differences::worst(&patches), patches }
     }

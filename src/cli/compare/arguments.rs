@@ -103,13 +103,14 @@ Without --camera and --observer: all built-in cameras. Metrics of the chart's pa
 Other metrics:
 {list}
 
-The number after ± is the standard uncertainty that the sensitivities' own uncertainty causes: the spread of independent tables of
-the model where there are several, otherwise the pooled spread of those models. A rank is a range where values differ by less than
-the standard uncertainty of their difference. A value that is undefined is –, with the reason below.
+The number after ± is the standard uncertainty that errors of the sensitivities cause: the spread between laboratories, propagated
+through the camera's own curves. A rank is a range where values do not differ at 95 %. A value that is undefined is –, with the reason
+below.
 
-CSV: sensor, rank_first, rank_last (by the metric of --sort); for each metric its column and the same with _uncertainty; then the
-conditions. JSON: format, version, conditions, metrics, cameras with value,
-uncertainty and rank of each metric or the reason for none, and worst_patches, those of the largest \u{394}E*00."
+CSV: sensor, rank_first, rank_last (by the metric of --sort); for each metric its column and the same with _uncertainty; origin of the
+uncertainty, coverage factor, degrees of freedom, extrapolated; then the conditions. JSON: format, version, conditions, metrics,
+cameras with value, uncertainty, its budget and rank of each metric or the reason for none, and worst_patches, those of the largest
+\u{394}E*00."
     )
 }
 

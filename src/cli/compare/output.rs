@@ -1,7 +1,7 @@
 //! A ranking as an aligned table, as CSV and as JSON.
 
-use chromascope_core::query::metrics::Better;
-use chromascope_core::query::{CameraMetric, MetricValue};
+use chromascope_core::query::metrics::{Better, UncertaintySource};
+use chromascope_core::query::{CameraMetric, MetricUncertainty, MetricValue};
 use serde_json::{Value, json};
 use std::fmt::Write as _;
 
@@ -56,7 +56,7 @@ fn length(text: &str) -> usize {
 fn cell(metric: CameraMetric, value: MetricValue) -> String {
     match (value.value, value.uncertainty) {
         (Ok(number), Some(uncertainty)) => {
-            format!("{} ± {}", fixed(number, metric.decimals), fixed(uncertainty, metric.decimals))
+            format!("{} ± {}", fixed(number, metric.decimals), fixed(uncertainty.standard, metric.decimals))
         }
         (Ok(number), None) => fixed(number, metric.decimals),
         (Err(_), _) => "–".to_owned(),
@@ -71,9 +71,9 @@ fn notes(comparison: &Comparison) -> String {
     }
     if let Some(metric) = comparison.sorted_by {
         let _ =
-            writeln!(text, "Rank by {}; a range where values differ by less than their uncertainty.", metric.symbol);
+            writeln!(text, "Rank by {}; a range where values do not differ at 95 % (k √(u₁² + u₂²)).", metric.symbol);
     }
-    text += "±: standard uncertainty from independent tables of the same model, or pooled from those models.\n";
+    text += &uncertainty_note(comparison);
     let mut reasons: Vec<(String, Vec<&str>)> = Vec::new();
     for row in &comparison.rows {
         for (metric, value) in comparison.metrics.iter().zip(&row.values) {
@@ -92,22 +92,77 @@ fn notes(comparison: &Comparison) -> String {
     text
 }
 
+/// What ± is, with coverage factor, degrees of freedom and origin, and the cameras that the prior is stretched for.
+fn uncertainty_note(comparison: &Comparison) -> String {
+    let uncertainties = |row: &'_ Row| row.values.iter().filter_map(|value| value.uncertainty).collect::<Vec<_>>();
+    let all: Vec<MetricUncertainty> = comparison.rows.iter().flat_map(uncertainties).collect();
+    let Some(first) = all.first() else { return String::new() };
+    let mut text = format!(
+        "±: standard uncertainty u of the sensitivities ({}); 95 %: ± {:.2} u ({} degrees of freedom).\n",
+        if all.iter().all(|u| u.source == UncertaintySource::Prior) {
+            "prior: spread between laboratories"
+        } else {
+            "own or prior"
+        },
+        first.coverage,
+        first.freedom
+    );
+    let is_extrapolated = |row: &&Row| uncertainties(row).iter().any(|u| u.is_extrapolated);
+    let names: Vec<&str> = comparison.rows.iter().filter(is_extrapolated).map(|row| row.name.as_str()).collect();
+    if !names.is_empty() {
+        let _ = writeln!(
+            text,
+            "± extrapolated (unlike the models of the prior, or uses beyond 400–700 nm): {}",
+            names.join(", ")
+        );
+    }
+    text
+}
+
+/// Heads of the columns that tell what uncertainties are.
+pub(super) const UNCERTAINTY_HEADS: [&str; 4] =
+    ["uncertainty_source", "coverage_factor_95", "degrees_of_freedom", "extrapolated"];
+
+/// Those columns of a row; extrapolated where any of its values is.
+fn uncertainty_cells(row: &Row) -> [String; 4] {
+    let known: Vec<MetricUncertainty> = row.values.iter().filter_map(|value| value.uncertainty).collect();
+    let Some(first) = known.first() else { return Default::default() };
+    let extrapolated = known.iter().any(|u| u.is_extrapolated);
+    [first.source.word().to_owned(), significant(first.coverage), significant(first.freedom), extrapolated.to_string()]
+}
+
 /// One row for each sensor; values with 15 significant digits.
 pub(super) fn csv(comparison: &Comparison) -> String {
     let mut heads = vec!["sensor".to_owned(), "rank_first".to_owned(), "rank_last".to_owned()];
     for metric in &comparison.metrics {
         heads.extend([metric.column.to_owned(), format!("{}_uncertainty", metric.column)]);
     }
+    heads.extend(UNCERTAINTY_HEADS.map(str::to_owned));
     heads.extend(comparison.conditions.iter().map(|(head, _)| (*head).to_owned()));
     let conditions: Vec<String> = comparison.conditions.iter().map(|(_, value)| field(value)).collect();
     let row = |row: &Row| {
         let optional = |value: Option<f64>| value.map(significant).unwrap_or_default();
         let place = |end: usize| row.rank.map(|rank| rank[end].to_string()).unwrap_or_default();
-        let values = row.values.iter().flat_map(|value| [optional(value.value.ok()), optional(value.uncertainty)]);
-        let cells = [field(&row.name), place(0), place(1)].into_iter().chain(values);
+        let standard = |value: &MetricValue| value.uncertainty.map(|u| u.standard);
+        let values = row.values.iter().flat_map(|value| [optional(value.value.ok()), optional(standard(value))]);
+        let cells = [field(&row.name), place(0), place(1)].into_iter().chain(values).chain(uncertainty_cells(row));
         cells.chain(conditions.iter().cloned()).collect::<Vec<_>>().join(",") + "\n"
     };
     format!("{}\n{}", heads.join(","), comparison.rows.iter().map(row).collect::<String>())
+}
+
+/// What an uncertainty is made of.
+fn budget(of: MetricUncertainty) -> Value {
+    json!({
+        "source": of.source.word(),
+        "coverage_factor_95": of.coverage,
+        "degrees_of_freedom": of.freedom,
+        "extrapolated": of.is_extrapolated,
+        "curves": of.contributions.curves,
+        "response": of.contributions.response,
+        "channel_ratio": of.contributions.channel_ratio,
+        "bias": of.bias,
+    })
 }
 
 /// One object.
@@ -125,13 +180,16 @@ pub(super) fn json(comparison: &Comparison) -> String {
     let camera = |row: &Row| {
         let values = comparison.metrics.iter().zip(&row.values).zip(&row.ranks).map(|((metric, value), rank)| {
             let told = match value.value {
-                Ok(number) => json!({ "value": number, "uncertainty": value.uncertainty, "rank": rank }),
+                Ok(number) => {
+                    let standard = value.uncertainty.map(|u| u.standard);
+                    json!({ "value": number, "uncertainty": standard, "budget": value.uncertainty.map(budget), "rank": rank })
+                }
                 Err(why) => json!({ "reason": why.to_string() }),
             };
             (metric.id.to_owned(), told)
         });
         let worst: Vec<&String> =
-            row.all.worst.iter().take(1).flatten().filter_map(|&patch| comparison.patches.get(patch)).collect();
+            row.all.metrics.worst.iter().take(1).flatten().filter_map(|&patch| comparison.patches.get(patch)).collect();
         json!({
             "name": row.name,
             "kind": row.kind.singular(),

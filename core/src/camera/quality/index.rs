@@ -3,8 +3,9 @@
 use crate::camera::rendering::{RenderingError, raw, under_light, white_divisors};
 use crate::colorimetry::lab::lab_from_xyz;
 use crate::colorimetry::{Xyz, delta_e_1976};
-use crate::correction::minimize::Objective;
+use crate::correction::minimize::{Objective, Refit};
 use crate::correction::{Correction, CorrectionMethod, RgbTransform, Training};
+use crate::math::least_squares::FitError;
 use crate::patch_set::PatchSet;
 use crate::spectral::{GridSpectrum, Sensor};
 use glam::DVec3;
@@ -64,21 +65,38 @@ impl IndexSamples {
         }
         let samples: Vec<DVec3> =
             patches.patches().iter().map(|patch| raw(&product, patch.grid.values()) / divisors).collect();
-        let weights = vec![1.0; samples.len()];
-        let training = Training { samples: &samples, targets: &self.targets, weights: &weights };
-        let by = |method| {
-            let correction = Correction { method, keeps_white: false, ..Correction::default() };
-            let transform = training.fit(&correction, self.white)?;
-            self.of(&samples, &transform).ok_or(RenderingError::NoWhite)
-        };
+        let by = |method| self.of(&samples, &self.fit(&samples, method)?).ok_or(RenderingError::NoWhite);
         Ok(MetamerismIndex {
             least_squares: by(CorrectionMethod::LeastSquares)?,
             min_delta_e: by(CorrectionMethod::Minimize(Objective::DeltaE1976))?,
         })
     }
 
+    /// Transform of samples, balanced to unity, to the observer's colors.
+    ///
+    /// # Errors
+    ///
+    /// [`FitError`] where the samples do not determine one.
+    pub(crate) fn fit(&self, samples: &[DVec3], method: CorrectionMethod) -> Result<RgbTransform, FitError> {
+        let correction = Correction { method, keeps_white: false, ..Correction::default() };
+        self.training(samples, &vec![1.0; samples.len()]).fit(&correction, self.white)
+    }
+
+    /// Fits near that of minimum ΔE*ab of these samples; none where there is no such fit.
+    pub(crate) fn refit(&self, samples: &[DVec3]) -> Option<Refit> {
+        let objective = Objective::DeltaE1976;
+        let RgbTransform::Matrix(matrix) = self.fit(samples, CorrectionMethod::Minimize(objective)).ok()? else {
+            return None;
+        };
+        Refit::new(self.training(samples, &vec![1.0; samples.len()]), self.white, false, objective, matrix)
+    }
+
+    fn training<'a>(&'a self, samples: &'a [DVec3], weights: &'a [f64]) -> Training<'a> {
+        Training { samples, targets: &self.targets, weights }
+    }
+
     /// The index of samples through a transform.
-    fn of(&self, samples: &[DVec3], transform: &RgbTransform) -> Option<f64> {
+    pub(crate) fn of(&self, samples: &[DVec3], transform: &RgbTransform) -> Option<f64> {
         let lab = |xyz: DVec3| lab_from_xyz(Xyz::from_vector(xyz), self.white);
         let differences = samples.iter().zip(&self.targets).map(|(sample, target)| {
             let (found, wanted) = (lab(transform.xyz(*sample))?, lab(*target)?);

@@ -46,7 +46,7 @@ impl SpaceQuality {
 
 /// The three curves on the grid, each scaled to its largest value: neither spaces nor ratios within a curve's set change where all
 /// three have one scale, and squares neither overflow nor vanish.
-fn curves(sensor: &Sensor) -> [Vec<f64>; 3] {
+pub(crate) fn curves(sensor: &Sensor) -> [Vec<f64>; 3] {
     let mut curves =
         [0, 1, 2].map(|channel: usize| (0..COUNT).map(|i| sensor.at_index(i)[channel]).collect::<Vec<_>>());
     let largest = curves.iter().flatten().fold(0.0_f64, |m, v| m.max(v.abs()));

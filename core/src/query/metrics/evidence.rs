@@ -3,8 +3,8 @@
 use super::conditions::{CameraMetricsQuery, IndexConditions};
 use super::differences::{DifferenceConditions, PatchDifferences, Statistic};
 use super::value::WhyNot;
-use crate::camera::quality::{IndexSamples, MetamerismIndex, NoiseAmplification, SpaceQuality, gray_snr_db};
-use crate::camera::{LocusDeviation, ReferenceLocus, RenderingError};
+use crate::camera::quality::{Electrons, IndexSamples, MetamerismIndex, NoiseAmplification, SpaceQuality, gray_snr_db};
+use crate::camera::{LocusDeviation, ReferenceLocus, Rendering, RenderingError};
 use crate::light::RadiationConstants;
 use crate::query::ask::{Ask, Query};
 use crate::query::compare::DifferenceError;
@@ -16,7 +16,7 @@ use crate::units::Kelvin;
 
 /// Colors of the patches for the observer of the index.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
-struct IndexSamplesQuery(IndexConditions);
+pub(super) struct IndexSamplesQuery(pub(super) IndexConditions);
 
 impl Query for IndexSamplesQuery {
     type Answer = Result<IndexSamples, RenderingError>;
@@ -67,7 +67,7 @@ impl Query for SpaceQualityQuery {
 
 /// The reference's own Planckian locus.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
-struct ReferenceLocusQuery(RenderingQuery);
+pub(super) struct ReferenceLocusQuery(pub(super) RenderingQuery);
 
 impl Query for ReferenceLocusQuery {
     type Answer = Result<ReferenceLocus<Shared<Sensor>>, RenderingError>;
@@ -198,7 +198,7 @@ fn patch_differences(of: &CameraMetricsQuery, ask: &impl Ask) -> Result<Vec<Patc
 }
 
 /// Checks that the ratio between a camera's channels is in the table: three maxima that agree to 1e-6 are no coincidence.
-fn channel_scale(sensor: &Sensor) -> Result<(), WhyNot> {
+pub(super) fn channel_scale(sensor: &Sensor) -> Result<(), WhyNot> {
     if sensor.primaries() != Primaries::Camera {
         return Err(WhyNot::NoChannels);
     }
@@ -208,19 +208,22 @@ fn channel_scale(sensor: &Sensor) -> Result<(), WhyNot> {
 }
 
 /// Noise gains, and the signal-to-noise ratio of a gray.
-fn noise(
-    of: &CameraMetricsQuery,
-    scale: Result<(), WhyNot>,
-    ask: &impl Ask,
-) -> (Result<NoiseAmplification, WhyNot>, Result<f64, WhyNot>) {
+fn noise(of: &CameraMetricsQuery, scale: Result<(), WhyNot>, ask: &impl Ask) -> Noise {
     let rendering = ask.ask(&of.rendering);
-    let rendering = match (&*rendering, scale) {
-        (_, Err(WhyNot::NoChannels)) => return (Err(WhyNot::NoChannels), Err(WhyNot::NoChannels)),
-        (Err(error), _) => return (Err((*error).into()), Err((*error).into())),
-        (Ok(rendering), _) => rendering,
-    };
+    match (&*rendering, scale) {
+        (_, Err(WhyNot::NoChannels)) => (Err(WhyNot::NoChannels), Err(WhyNot::NoChannels)),
+        (Err(error), _) => (Err((*error).into()), Err((*error).into())),
+        (Ok(rendering), _) => noise_of(rendering, of.electrons, scale),
+    }
+}
+
+/// Noise gains, and the signal-to-noise ratio of a gray in decibels.
+type Noise = (Result<NoiseAmplification, WhyNot>, Result<f64, WhyNot>);
+
+/// Noise of a camera's rendering.
+pub(super) fn noise_of(rendering: &Rendering, electrons: Option<Electrons>, scale: Result<(), WhyNot>) -> Noise {
     let gains = NoiseAmplification::new(rendering).ok_or(WhyNot::Rendering(RenderingError::NoWhite));
-    let snr = match of.electrons {
+    let snr = match electrons {
         _ if scale.is_err() => scale.map(|()| 0.0),
         None => Err(WhyNot::NoElectrons),
         Some(electrons) => gray_snr_db(rendering, electrons).ok_or(WhyNot::Rendering(RenderingError::NoWhite)),

@@ -1,5 +1,6 @@
 //! Values of metrics, and reasons for none.
 
+use super::uncertainty::MetricUncertainty;
 use crate::camera::RenderingError;
 use crate::query::compare::DifferenceError;
 
@@ -46,6 +47,6 @@ pub enum WhyNot {
 pub struct MetricValue {
     /// The value in the metric's unit, or the reason for none.
     pub value: Result<f64, WhyNot>,
-    /// Standard uncertainty that the sensitivities' own uncertainty causes, in the metric's unit; none where it is unknown.
-    pub uncertainty: Option<f64>,
+    /// Uncertainty that the sensitivities cause; none where it is unknown, or not computed yet.
+    pub uncertainty: Option<MetricUncertainty>,
 }

@@ -1,0 +1,170 @@
+//! Spread of published sensitivities of one camera model between laboratories: what a table of an unknown laboratory may be off by.
+
+use crate::math::interpolation::Sprague;
+use crate::spectral::grid::{COUNT, FIRST_NM};
+use crate::spectral::{Dataset, Sensor};
+use std::hash::{Hash, Hasher};
+
+/// Wavelengths that the spread is known at: 400, 410, …, 700 nm.
+pub const SITES: usize = 31;
+const FIRST_SITE_NM: f64 = 400.0;
+const STEP_NM: f64 = 10.0;
+/// Places of the first and the last of them on the grid.
+pub const SITE_RANGE: [usize; 2] = [20, 320];
+
+/// Modes of the covariance.
+const MODES: usize = 8;
+/// Distance from the mean of the models' curves beyond which a sensor is unlike them: one and a half times that of the farthest.
+const UNLIKE: f64 = 1.5 * 0.071;
+
+/// Deviations of the three channels at the sites, in units of the channel's peak.
+pub type Deviation = [[f64; SITES]; 3];
+
+/// Covariance of the tables of one model that different laboratories published, relative to each channel's peak.
+///
+/// ```text
+/// Σ = Σ_k m_k m_kᵀ + s² I,   8 modes m_k over red, green and blue together, s = 0.0054
+/// ```
+/// From 24 tables of 10 models on 400–700 nm by 10 nm. The ratio of the channels is not in it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CurveSpread {
+    modes: Vec<Deviation>,
+    rest: f64,
+    mean: Deviation,
+}
+
+/// Reason that a data file is no [`CurveSpread`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("expected 8 modes of red, green and blue, the rest and the mean of each, at 400, 410, …, 700 nm")]
+pub struct CurveSpreadError;
+
+impl Eq for CurveSpread {}
+
+impl Hash for CurveSpread {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        self.modes.iter().flatten().flatten().for_each(|v| v.to_bits().hash(state));
+    }
+}
+
+impl CurveSpread {
+    /// Degrees of freedom of the covariance: 24 tables less 10 means of models.
+    pub const FREEDOM: f64 = 14.0;
+
+    /// The spread of a data file with the columns `red_1` to `blue_8`, `rest`, `red_mean`, `green_mean` and `blue_mean`.
+    ///
+    /// # Errors
+    ///
+    /// [`CurveSpreadError`] for other columns or wavelengths.
+    pub fn from_dataset(dataset: &Dataset) -> Result<Self, CurveSpreadError> {
+        let columns: Vec<[f64; SITES]> = dataset
+            .curves
+            .iter()
+            .filter(|curve| curve.range_nm()[0] == FIRST_SITE_NM && curve.uniform_step_nm() == Some(STEP_NM))
+            .map(|curve| <[f64; SITES]>::try_from(curve.values()).map_err(|_| CurveSpreadError))
+            .collect::<Result<_, _>>()?;
+        let Some((modes, [rest, means @ ..])) = columns.split_at_checked(3 * MODES) else {
+            return Err(CurveSpreadError);
+        };
+        let mean = Deviation::try_from(means).map_err(|_| CurveSpreadError)?;
+        Ok(Self { modes: modes.as_chunks::<3>().0.to_vec(), rest: rest[0], mean })
+    }
+
+    /// True if a sensor resembles the ten models that the spread is of: the root mean square of its curves' distance from the models'
+    /// mean, peaks at 1, is at most one and a half times that of the farthest model.
+    pub fn is_of_kind(&self, curves: &Deviation) -> bool {
+        let pairs = curves.iter().flatten().zip(self.mean.iter().flatten());
+        let squares: f64 = pairs.map(|(own, mean)| (own - mean).powi(2)).sum();
+        (squares / (3 * SITES) as f64).sqrt() <= UNLIKE
+    }
+
+    /// Draws of the deviation: in pairs of opposite sign, with mean zero and exactly the covariance of the spread, the same at each call.
+    ///
+    /// ```text
+    /// ±√n Q_i,   Q a random orthogonal n × n matrix, n = 8 modes + 93 samples of the rest
+    /// ```
+    /// What depends linearly on the curves thus has exactly its linearized uncertainty (spherical cubature of degree 3).
+    pub fn draws(&self) -> Vec<Deviation> {
+        let count = MODES + 3 * SITES;
+        let length = (count as f64).sqrt();
+        let mut draws = Vec::with_capacity(2 * count);
+        for axis in orthogonal(count) {
+            let mut deviation = [[0.0; SITES]; 3];
+            for (mode, z) in self.modes.iter().zip(&axis) {
+                add(&mut deviation, mode, z * length);
+            }
+            let rest = deviation.iter_mut().flatten().zip(&axis[MODES..]);
+            rest.for_each(|(value, z)| *value += self.rest * z * length);
+            draws.push(deviation);
+            draws.push(deviation.map(|channel| channel.map(|value| -value)));
+        }
+        draws
+    }
+
+    /// A deviation from 101 independent standard normal numbers: for simulations.
+    pub fn deviation(&self, mut normal: impl FnMut() -> f64) -> Deviation {
+        let mut deviation = [[0.0; SITES]; 3];
+        for mode in &self.modes {
+            add(&mut deviation, mode, normal());
+        }
+        deviation.iter_mut().flatten().for_each(|value| *value += self.rest * normal());
+        deviation
+    }
+}
+
+fn add(to: &mut Deviation, mode: &Deviation, factor: f64) {
+    to.iter_mut().flatten().zip(mode.iter().flatten()).for_each(|(value, part)| *value += factor * part);
+}
+
+/// Rows of a random orthogonal matrix, always the same: Gram and Schmidt's method, done twice, on numbers of a counter.
+fn orthogonal(count: usize) -> Vec<Vec<f64>> {
+    let mut counter = 0_u64;
+    // Directions need no exact normal numbers: sums of twelve uniform ones round alike on every machine.
+    let mut number = || {
+        let sum: f64 = (0..12)
+            .map(|_| {
+                counter += 1;
+                (mix(counter) >> 11) as f64 / (1_u64 << 53) as f64
+            })
+            .sum();
+        sum - 6.0
+    };
+    let mut rows: Vec<Vec<f64>> = Vec::with_capacity(count);
+    while rows.len() < count {
+        let row: Vec<f64> = (0..count).map(|_| number()).collect();
+        let rest = super::quality::space::remove(&super::quality::space::remove(&row, &rows), &rows);
+        let length = rest.iter().map(|v| v * v).sum::<f64>().sqrt();
+        rows.push(rest.iter().map(|v| v / length).collect());
+    }
+    rows
+}
+
+/// Finalizer of splitmix64 (Steele, Lea and Flood 2014) of the golden ratio's multiples.
+fn mix(counter: u64) -> u64 {
+    let mut z = counter.wrapping_mul(0x9E37_79B9_7F4A_7C15);
+    z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+    z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+    z ^ (z >> 31)
+}
+
+/// The deviation of 1 at one site and 0 at all others on the grid, brought there as tables at 10 nm are (CIE 167).
+pub fn site_curve(site: usize) -> [f64; COUNT] {
+    let mut samples = [0.0; SITES];
+    samples[site] = 1.0;
+    let mut values = [0.0; COUNT];
+    if let Some(sprague) = Sprague::new(FIRST_SITE_NM, STEP_NM, &samples) {
+        for (index, value) in values.iter_mut().enumerate().take(SITE_RANGE[1] + 1).skip(SITE_RANGE[0]) {
+            *value = sprague.at(FIRST_NM + index as f64);
+        }
+    }
+    values
+}
+
+/// A sensor's curves at the sites with each channel's peak between them at 1, and these peaks.
+pub fn at_sites(sensor: &Sensor) -> (Deviation, [f64; 3]) {
+    let [first, last] = SITE_RANGE;
+    let peaks =
+        [0, 1, 2].map(|c: usize| (first..=last).map(|i| sensor.at_index(i)[c]).fold(f64::MIN_POSITIVE, f64::max));
+    let step = STEP_NM as usize;
+    let at = |c: usize| std::array::from_fn(|site| sensor.at_index(first + step * site)[c] / peaks[c]);
+    ([at(0), at(1), at(2)], peaks)
+}

@@ -1,0 +1,354 @@
+//! Metrics of a camera whose curves deviate a little: from its linear responses alone, which deviate as the curves do.
+
+use super::conditions::{CameraMetricsQuery, IndexConditions};
+use super::differences::{DifferenceConditions, PatchDifferences};
+use super::evidence::{Evidence, IndexSamplesQuery, ReferenceLocusQuery, channel_scale, noise_of};
+use super::table::CameraMetric;
+use super::value::WhyNot;
+use crate::camera::curve_spread::{Deviation, SITE_RANGE, SITES, site_curve};
+use crate::camera::quality::space::{basis, curves};
+use crate::camera::quality::{IndexSamples, MetamerismIndex, SpaceQuality};
+use crate::camera::{FitTargets, LocusDeviation, ReferenceLocus, Rendering, RenderingError};
+use crate::correction::minimize::Refit;
+use crate::correction::{CorrectionMethod, RgbTransform};
+use crate::light::{RadiationConstants, planckian::black_body};
+use crate::math::dot::dot;
+use crate::patch_set::PatchSet;
+use crate::query::ask::{Ask, Query};
+use crate::query::patches::{FitTargetsQuery, PatchColor, PatchColorsQuery, color};
+use crate::query::shared::Shared;
+use crate::spectral::grid::COUNT;
+use crate::spectral::{GridSpectrum, Sensor};
+use crate::units::Kelvin;
+use glam::{DMat3, DVec3};
+use std::ops::Range;
+use std::sync::Arc;
+
+/// Sites of a deviation, filled up so that dot products have no rest.
+const PADDED: usize = 32;
+/// Places of single stimuli: the light, equal energy, the blackbody, the light of the index. Then come patches under their lights.
+const LIGHT: usize = 0;
+const FLAT: usize = 1;
+const BLACKBODY: usize = 2;
+const INDEX_LIGHT: usize = 3;
+const SINGLE: usize = 4;
+
+/// Spectra that a camera's responses to determine its metrics.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub(super) struct StimuliQuery {
+    light: Shared<GridSpectrum>,
+    patches: Shared<PatchSet>,
+    training: Option<Shared<PatchSet>>,
+    index: IndexConditions,
+    temperature: Kelvin,
+    observer: Shared<Sensor>,
+}
+
+/// Those spectra, with the response to each of a deviation of 1 at each site; and what the metrics of spaces need.
+pub(super) struct Stimuli {
+    spectra: Vec<[f64; COUNT]>,
+    of_sites: Vec<[f64; PADDED]>,
+    patches: Range<usize>,
+    training: Range<usize>,
+    index: Range<usize>,
+    /// Curves of the deviations.
+    sites: Vec<[f64; COUNT]>,
+    /// Their scalar products.
+    products: Vec<[f64; SITES]>,
+    observer: Option<ObserverSpace>,
+}
+
+/// An observer's space: orthonormal basis, its products with the deviations, the observer's curves in it and their power.
+struct ObserverSpace {
+    axes: Vec<Vec<f64>>,
+    of_sites: [[f64; PADDED]; 3],
+    matching: DMat3,
+    power: f64,
+}
+
+impl StimuliQuery {
+    pub(super) fn new(of: &CameraMetricsQuery) -> Self {
+        Self {
+            light: of.rendering.light.clone(),
+            patches: of.patches.clone(),
+            training: of.rendering.transform.fit().map(|(_, training, _)| training.clone()),
+            index: of.index.clone(),
+            temperature: of.temperature,
+            observer: of.reference.sensor.clone(),
+        }
+    }
+}
+
+impl Query for StimuliQuery {
+    type Answer = Stimuli;
+    const NAME: &'static str = "stimuli of metrics";
+
+    fn answer(&self, _: &impl Ask) -> Stimuli {
+        let index_light = &self.index.light;
+        let equal = GridSpectrum::constant(1.0);
+        let blackbody = black_body(self.temperature, RadiationConstants::Paper);
+        let single = [&*self.light, &equal, &blackbody, &**index_light];
+        let mut spectra: Vec<[f64; COUNT]> = single.map(|light| *light.values()).into();
+        let mut add = |light: &GridSpectrum, patches: &PatchSet| {
+            let first = spectra.len();
+            spectra.extend(patches.patches().iter().map(|patch| *light.times(&patch.grid).values()));
+            first..spectra.len()
+        };
+        let patches = add(&self.light, &self.patches);
+        let training = self.training.as_ref().map_or(SINGLE..SINGLE, |training| add(&self.light, training));
+        let index = add(index_light, &self.index.patches);
+        let sites: Vec<[f64; COUNT]> = (0..SITES).map(site_curve).collect();
+        let weighted: Vec<[f64; COUNT]> = sites.iter().map(|curve| trapezoid(*curve)).collect();
+        let of_sites = |spectrum: &[f64]| padded(weighted.iter().map(|curve| dot(curve, spectrum)));
+        let products = sites.iter().map(|a| std::array::from_fn(|j| dot(a, &sites[j]))).collect();
+        let observer = ObserverSpace::new(&self.observer, &sites);
+        let of_sites = spectra.iter().map(|spectrum| of_sites(spectrum)).collect();
+        Stimuli { spectra, of_sites, patches, training, index, sites, products, observer }
+    }
+}
+
+impl ObserverSpace {
+    fn new(observer: &Sensor, sites: &[[f64; COUNT]]) -> Option<Self> {
+        let matching = curves(observer);
+        let axes = basis(&matching)?;
+        let of_sites = [0, 1, 2].map(|axis: usize| padded(sites.iter().map(|curve| dot(curve, &axes[axis]))));
+        let in_axes = |curve: &[f64]| DVec3::from_array([0, 1, 2].map(|axis: usize| dot(curve, &axes[axis])));
+        let [a, b, c] = &matching;
+        let power = matching.iter().map(|curve| dot(curve, curve)).sum();
+        Some(Self { of_sites, matching: DMat3::from_cols(in_axes(a), in_axes(b), in_axes(c)), power, axes })
+    }
+}
+
+/// Half weights at the ends of 400–700 nm, as integrals of tables have them.
+fn trapezoid(mut curve: [f64; COUNT]) -> [f64; COUNT] {
+    for end in SITE_RANGE {
+        curve[end] *= 0.5;
+    }
+    curve
+}
+
+fn padded(values: impl Iterator<Item = f64>) -> [f64; PADDED] {
+    let mut filled = [0.0; PADDED];
+    filled.iter_mut().zip(values).for_each(|(place, value)| *place = value);
+    filled
+}
+
+/// A camera with all that its metrics under deviations need.
+pub(super) struct Perturbed<'a> {
+    of: &'a CameraMetricsQuery,
+    stimuli: &'a Stimuli,
+    peaks: DVec3,
+    /// Responses to the stimuli.
+    raw: Vec<DVec3>,
+    targets: Option<Arc<Result<FitTargets, RenderingError>>>,
+    refit: Option<Refit>,
+    conditioning: f64,
+    index: Arc<Result<IndexSamples, RenderingError>>,
+    index_refit: Option<Refit>,
+    reference: Arc<Result<Vec<PatchColor>, RenderingError>>,
+    way: DifferenceConditions,
+    locus: Arc<Result<ReferenceLocus<Shared<Sensor>>, RenderingError>>,
+    space: Option<CameraSpace>,
+    scale: Result<(), WhyNot>,
+}
+
+/// A camera's curves, peaks at 1: their products with each other, the deviations and the observer's axes.
+struct CameraSpace {
+    gram: DMat3,
+    of_sites: [[f64; PADDED]; 3],
+    in_axes: DMat3,
+}
+
+impl<'a> Perturbed<'a> {
+    /// Prepares a camera; none that cannot be shown under these conditions.
+    pub(super) fn new(
+        of: &'a CameraMetricsQuery,
+        stimuli: &'a Stimuli,
+        peaks: [f64; 3],
+        ask: &impl Ask,
+    ) -> Option<Self> {
+        let sensor = &of.rendering.sensor;
+        let raw: Vec<DVec3> = stimuli.spectra.iter().map(|s| DVec3::from_array(sensor.integrate(s))).collect();
+        let (reference, patches) = (of.reference.clone(), of.patches.clone());
+        let rendering = ask.ask(&of.rendering);
+        let rendering = (*rendering).as_ref().ok()?;
+        let index = ask.ask(&IndexSamplesQuery(of.index.clone()));
+        let mut found = Self {
+            targets: of.rendering.transform.fit().map(|(reference, training, _)| {
+                let (reference, light) = (reference.clone(), of.rendering.light.clone());
+                ask.ask(&FitTargetsQuery { reference, light, training: training.clone() })
+            }),
+            refit: None,
+            conditioning: rendering.conditioning,
+            index_refit: None,
+            index,
+            reference: ask.ask(&PatchColorsQuery { rendering: reference.clone(), patches }),
+            way: DifferenceConditions::new(&of.rendering, &reference),
+            locus: ask.ask(&ReferenceLocusQuery(reference)),
+            space: stimuli.observer.as_ref().map(|observer| CameraSpace::new(sensor, stimuli, observer, peaks)),
+            scale: channel_scale(sensor),
+            peaks: DVec3::from_array(peaks),
+            of,
+            stimuli,
+            raw,
+        };
+        found.refit = found.near(rendering);
+        let samples = found.index_samples(&found.raw);
+        found.index_refit = (*found.index).as_ref().ok().and_then(|index| index.refit(&samples));
+        Some(found)
+    }
+
+    /// Fits near the camera's own, for those that are searched.
+    fn near(&self, rendering: &Rendering) -> Option<Refit> {
+        let (_, _, correction) = self.of.rendering.transform.fit()?;
+        let targets = self.targets.as_ref()?;
+        let unity = rendering.xyz_from_signals * DMat3::from_diagonal(rendering.white);
+        let samples = balanced(&self.raw[self.stimuli.training.clone()], self.raw[LIGHT]);
+        (**targets).as_ref().ok()?.refit(&samples, &correction, &RgbTransform::Matrix(unity))
+    }
+
+    fn index_samples(&self, raw: &[DVec3]) -> Vec<DVec3> {
+        balanced(&raw[self.stimuli.index.clone()], raw[INDEX_LIGHT])
+    }
+
+    /// Values of all metrics if the curves deviate, relative to their peaks.
+    pub(super) fn values(&self, deviation: &Deviation) -> Vec<Result<f64, WhyNot>> {
+        let evidence = self.evidence(deviation);
+        CameraMetric::ALL.iter().map(|metric| metric.evaluate(&evidence)).collect()
+    }
+
+    fn evidence(&self, deviation: &Deviation) -> Evidence {
+        let moved = deviation.map(|channel| padded(channel.into_iter()));
+        let shift = |of_sites: &[f64; PADDED]| {
+            self.peaks * DVec3::from_array([0, 1, 2].map(|c: usize| dot(of_sites, &moved[c])))
+        };
+        let raw: Vec<DVec3> =
+            self.raw.iter().zip(&self.stimuli.of_sites).map(|(own, sites)| *own + shift(sites)).collect();
+        let (patches, locus, (noise, snr_db)) = match self.rendering(&raw) {
+            Ok(rendering) => (
+                self.patches(&rendering, &raw),
+                self.locus(&rendering, raw[BLACKBODY]),
+                noise_of(&rendering, self.of.electrons, self.scale),
+            ),
+            Err(error) => (Err(error.into()), Err(error.into()), (Err(error.into()), Err(error.into()))),
+        };
+        let index = self.index(&raw).map_err(WhyNot::from);
+        let space = self.space(deviation, &moved).ok_or(WhyNot::Dependent);
+        Evidence { patches, locus, space, index, noise, scale: self.scale, snr_db }
+    }
+
+    fn rendering(&self, raw: &[DVec3]) -> Result<Rendering, RenderingError> {
+        let white = DVec3::from_array(self.of.rendering.white.0);
+        let integrals = raw[LIGHT];
+        if !(integrals.min_element() > 0.0) {
+            return Err(RenderingError::NoWhite);
+        }
+        let (Some((_, _, correction)), Some(targets)) = (self.of.rendering.transform.fit(), &self.targets) else {
+            return Rendering::by_paper(white, integrals, raw[FLAT], self.conditioning);
+        };
+        let targets = (**targets).as_ref().map_err(|&e| e)?;
+        let samples = balanced(&raw[self.stimuli.training.clone()], integrals);
+        let transform = match self.refit.as_ref().and_then(|refit| refit.matrix(&samples)) {
+            Some(matrix) => RgbTransform::Matrix(matrix),
+            None => targets.fit(&samples, &correction)?,
+        };
+        Rendering::by_fit(targets, transform, white, integrals, (self.conditioning, true))
+    }
+
+    fn patches(&self, rendering: &Rendering, raw: &[DVec3]) -> Result<Vec<PatchDifferences>, WhyNot> {
+        let reference = (*self.reference).as_ref().map_err(|&e| e)?;
+        let pairs = reference.iter().zip(&raw[self.stimuli.patches.clone()]);
+        Ok(pairs.map(|(reference, raw)| self.way.differences(reference, &color(rendering, *raw))).collect())
+    }
+
+    fn locus(&self, rendering: &Rendering, raw: DVec3) -> Result<LocusDeviation, WhyNot> {
+        self.way.comparable?;
+        let locus = (*self.locus).as_ref().map_err(|&e| e)?;
+        let color = rendering.blackbody(raw.to_array()).uv_prime().ok_or(WhyNot::NoLocus)?;
+        locus.deviation(self.of.temperature, color).ok_or(WhyNot::NoLocus)
+    }
+
+    fn index(&self, raw: &[DVec3]) -> Result<MetamerismIndex, RenderingError> {
+        let index = (*self.index).as_ref().map_err(|&e| e)?;
+        let samples = self.index_samples(raw);
+        let of = |transform: &RgbTransform| index.of(&samples, transform).ok_or(RenderingError::NoWhite);
+        let refit = self.index_refit.as_ref().and_then(|refit| refit.matrix(&samples));
+        Ok(MetamerismIndex {
+            least_squares: of(&index.fit(&samples, CorrectionMethod::LeastSquares)?)?,
+            min_delta_e: of(&RgbTransform::Matrix(refit.ok_or(RenderingError::NoWhite)?))?,
+        })
+    }
+
+    fn space(&self, deviation: &Deviation, moved: &[[f64; PADDED]; 3]) -> Option<SpaceQuality> {
+        let (camera, observer) = (self.space.as_ref()?, self.stimuli.observer.as_ref()?);
+        let product = |a: usize, b: usize| -> f64 {
+            let rows = deviation[a].iter().zip(&self.stimuli.products);
+            let both: f64 = rows.map(|(value, row)| value * dot(row, &deviation[b])).sum();
+            camera.gram.col(b)[a] + dot(&camera.of_sites[a], &moved[b]) + dot(&camera.of_sites[b], &moved[a]) + both
+        };
+        let along = |axis: usize, c: usize| camera.in_axes.col(c)[axis] + dot(&observer.of_sites[axis], &moved[c]);
+        space_quality(matrix(product), matrix(along), observer)
+    }
+
+    /// What each metric may be off by because of the ratio of the channels, its relative standard uncertainty being the same for red and
+    /// blue against green; 0 where the balance divides it out.
+    pub(super) fn ratio_parts(&self, relative: f64) -> Vec<f64> {
+        let Ok(rendering) = self.rendering(&self.raw) else { return vec![0.0; CameraMetric::ALL.len()] };
+        let values = |factor: DVec3| -> Vec<Result<f64, WhyNot>> {
+            let scaled = Rendering { white_integrals: rendering.white_integrals * factor, ..rendering.clone() };
+            let (noise, snr_db) = noise_of(&scaled, self.of.electrons, self.scale);
+            let none = WhyNot::NoPatches;
+            let (patches, locus, space, index) = (Err(none), Err(none), Err(none), Err(none));
+            let evidence = Evidence { patches, locus, space, index, noise, scale: self.scale, snr_db };
+            CameraMetric::ALL.iter().map(|metric| metric.evaluate(&evidence)).collect()
+        };
+        let ends = [DVec3::X, DVec3::Z].map(|channel| [relative, -relative].map(|step| values((channel * step).exp())));
+        let part = |at: usize| {
+            let half = |[up, down]: &[Vec<Result<f64, WhyNot>>; 2]| match (up[at], down[at]) {
+                (Ok(up), Ok(down)) => (up - down) / 2.0,
+                _ => 0.0,
+            };
+            half(&ends[0]).hypot(half(&ends[1]))
+        };
+        (0..CameraMetric::ALL.len()).map(part).collect()
+    }
+}
+
+impl CameraSpace {
+    fn new(sensor: &Sensor, stimuli: &Stimuli, observer: &ObserverSpace, peaks: [f64; 3]) -> Self {
+        let curve = |c: usize| -> Vec<f64> { (0..COUNT).map(|i| sensor.at_index(i)[c] / peaks[c]).collect() };
+        let own = [curve(0), curve(1), curve(2)];
+        Self {
+            gram: matrix(|a, b| dot(&own[a], &own[b])),
+            of_sites: own.each_ref().map(|curve| padded(stimuli.sites.iter().map(|site| dot(site, curve)))),
+            in_axes: matrix(|axis, c| dot(&observer.axes[axis], &own[c])),
+        }
+    }
+}
+
+/// Agreement of spaces from the camera's products and its components along the observer's axes.
+///
+/// ```text
+/// tr(P_A P_C) = tr(X G⁻¹ Xᵀ),   ‖P_C A‖² = tr(R G⁻¹ Rᵀ),   G = Cᵀ C,   X = Qᵀ C,   R = Aᵀ C
+/// ```
+fn space_quality(gram: DMat3, in_axes: DMat3, observer: &ObserverSpace) -> Option<SpaceQuality> {
+    let inverse = gram.inverse();
+    let trace = |matrix: DMat3| {
+        let product = matrix * inverse * matrix.transpose();
+        product.x_axis.x + product.y_axis.y + product.z_axis.z
+    };
+    let left = 1.0 - trace(observer.matching.transpose() * in_axes) / observer.power;
+    let factors = [0, 1, 2].map(|c| in_axes.col(c).length_squared() / gram.col(c)[c]);
+    let found = SpaceQuality { vora: trace(in_axes) / 3.0, luther: left.max(0.0).sqrt(), factors };
+    found.vora.is_finite().then_some(found)
+}
+
+fn matrix(entry: impl Fn(usize, usize) -> f64) -> DMat3 {
+    let column = |b: usize| DVec3::new(entry(0, b), entry(1, b), entry(2, b));
+    DMat3::from_cols(column(0), column(1), column(2))
+}
+
+/// Responses over those to white.
+fn balanced(raw: &[DVec3], white: DVec3) -> Vec<DVec3> {
+    raw.iter().map(|raw| *raw / white).collect()
+}
