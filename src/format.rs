@@ -27,7 +27,7 @@ pub(crate) fn fixed(value: f64, decimals: usize) -> String {
 /// Most decimals of a value with its uncertainty.
 const MOST_DECIMALS: i32 = 9;
 /// Sign behind an uncertainty that is extrapolated.
-pub(crate) const EXTRAPOLATED: &str = "†";
+const EXTRAPOLATED: &str = "†";
 
 /// Decimals at which a value with a standard uncertainty ends: where two significant digits of the uncertainty do, the most that the GUM
 /// finds useful (JCGM 100:2008, 7.2.6). Negative for tens and hundreds; none for an uncertainty of zero.
@@ -50,11 +50,10 @@ pub(crate) fn aligned(value: f64, decimals: i32, column: usize) -> String {
     format!("{}{}", rounded(value, decimals), " ".repeat(column.saturating_sub(own) + point))
 }
 
-/// A value, which ends where its standard uncertainty ends, and the uncertainty; without one, the value with as many decimals as given.
-pub(crate) fn measured(value: f64, uncertainty: Option<f64>, decimals: usize) -> (String, Option<String>) {
-    let known = uncertainty.and_then(|by| Some((by, decimals_by(by)?)));
-    let own = known.map_or(decimals as i32, |(_, own)| own);
-    (rounded(value, own), known.map(|(by, own)| rounded(by, own)))
+/// A standard uncertainty as it is written behind its value; none for one of zero.
+pub(crate) fn behind(uncertainty: f64, is_extrapolated: bool) -> Option<String> {
+    let mark = if is_extrapolated { EXTRAPOLATED } else { "" };
+    Some(format!("± {}{mark}", rounded(uncertainty, decimals_by(uncertainty)?)))
 }
 
 /// Duv and other signed numbers with four decimals: `+0.0032`.
@@ -144,23 +143,29 @@ mod tests {
     #[test]
     fn a_value_ends_where_its_uncertainty_ends() {
         let cases = [
-            (0.90512, Some(0.1149), "0.91", Some("0.11")),
-            (0.90512, Some(0.0996), "0.91", Some("0.10")),
-            (0.90512, Some(0.003_54), "0.9051", Some("0.0035")),
-            (246.39, Some(123.0), "250", Some("120")),
-            (-16.4348, Some(14.6), "−16", Some("15")),
-            (20.8626, Some(2.3), "20.9", Some("2.3")),
-            (-0.4, Some(15.0), "0", Some("15")),
-            (99.96, Some(0.996), "100.0", Some("1.0")),
+            (0.90512, Some(0.1149), "0.91", Some("± 0.11")),
+            (0.90512, Some(0.0996), "0.91", Some("± 0.10")),
+            (0.90512, Some(0.003_54), "0.9051", Some("± 0.0035")),
+            (246.39, Some(123.0), "250", Some("± 120")),
+            (-16.4348, Some(14.6), "−16", Some("± 15")),
+            (20.8626, Some(2.3), "20.9", Some("± 2.3")),
+            (-0.4, Some(15.0), "0", Some("± 15")),
+            (99.96, Some(0.996), "100.0", Some("± 1.0")),
             (1.5, Some(0.0), "1.50", None),
             (1.5, Some(f64::NAN), "1.50", None),
             (1.5, Some(f64::INFINITY), "1.50", None),
             (1.5, None, "1.50", None),
         ];
         for (value, uncertainty, number, by) in cases {
-            let (a, b) = measured(value, uncertainty, 2);
-            assert_eq!((a.as_str(), b.as_deref()), (number, by), "{value} {uncertainty:?}");
+            let own = uncertainty.and_then(decimals_by).unwrap_or(2);
+            let written = uncertainty.and_then(|by| behind(by, false));
+            assert_eq!(
+                (rounded(value, own), written),
+                (number.to_owned(), by.map(str::to_owned)),
+                "{value} {uncertainty:?}"
+            );
         }
+        assert_eq!(behind(0.0996, true).as_deref(), Some("± 0.10†"));
         let column = [(12.3, 2), (4.52, 1), (7.1, 0), (123.0, -1)].map(|(value, own)| aligned(value, own, 2));
         assert_eq!(column, ["12.30", "4.5 ", "7   ", "120   "]);
         assert_eq!(aligned(123.0, -1, 0), "120");

@@ -11,7 +11,7 @@ mod order;
 use chromascope_figure::{Cell, Table};
 use egui::{Event, Id, Key, Modifiers, Rect, Ui, UiBuilder, Vec2};
 
-use crate::format::{EXTRAPOLATED, decimals_by, rounded};
+use crate::format::{behind, decimals_by};
 use crate::panes::context::PaneContext;
 use crate::plot_item::PlotItem;
 use crate::scene::conditions::CONDITIONS;
@@ -55,9 +55,7 @@ impl CellNote {
 
     /// The uncertainty as it is written behind the number.
     fn behind(&self) -> Option<String> {
-        let by = self.uncertainty?;
-        let mark = if self.is_extrapolated { EXTRAPOLATED } else { "" };
-        Some(format!("± {}{mark}", rounded(by, decimals_by(by)?)))
+        behind(self.uncertainty?, self.is_extrapolated)
     }
 }
 

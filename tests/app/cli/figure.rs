@@ -78,8 +78,8 @@ fn every_figure_of_a_scene_is_made_at_one_column() {
     }
 }
 
-/// Value of each metric's column of a camera, by `compare`.
-fn compared(camera: &str, options: &[&str]) -> Vec<(String, Option<f64>)> {
+/// Value and uncertainty of each metric's column of a camera, by `compare`.
+fn compared(camera: &str, options: &[&str]) -> Vec<(String, [Option<f64>; 2])> {
     let named = ["compare", "--camera", camera, "--metrics", "all", "--format", "json"];
     let object: Value = serde_json::from_slice(&run(&[&named[..], options].concat()).stdout).expect("JSON");
     let value =
@@ -108,26 +108,29 @@ fn figures_of_metrics_have_the_numbers_and_the_temperature_of_compare() {
         (&["--illuminant", "blackbody:3000"], "3000"),
     ] {
         let wanted = pair.map(|camera| compared(camera, options));
-        assert!(wanted[0].iter().filter(|(_, value)| value.is_some()).count() > 30);
+        assert!(wanted[0].iter().filter(|(_, [value, by])| value.is_some() && by.is_some()).count() > 30);
         let cameras = [&["--camera", pair[0], "--camera", pair[1]], options].concat();
         let said = |row: &serde_json::Map<String, Value>| assert_eq!(row["temperature_k"], kelvin, "{options:?}");
         let card = numbers("report-card", &[&["--camera", pair[0]], options].concat());
         for (row, (column, value)) in card.iter().zip(&wanted[0]) {
-            assert_eq!((row["metric"].as_str(), row["value"].as_f64()), (Some(column.as_str()), *value), "{options:?}");
+            let told = ["value", "uncertainty"].map(|key| row[key].as_f64());
+            assert_eq!((row["metric"].as_str(), told), (Some(column.as_str()), *value), "{options:?}");
             said(row);
         }
         let rows = numbers("head-to-head", &cameras);
         assert_eq!(rows.len(), wanted[0].len());
         for (index, row) in rows.iter().enumerate() {
-            let [a, b] = [0, 1].map(|camera| wanted[camera][index].1);
-            assert_eq!([row["A"].as_f64(), row["B"].as_f64()], [a, b], "{options:?}: {row:?}");
+            let [[a, u], [b, v]] = [0, 1].map(|camera| wanted[camera][index].1);
+            let told = ["A", "A uncertainty", "B", "B uncertainty"].map(|key| row[key].as_f64());
+            assert_eq!(told, [a, u, b, v], "{options:?}: {row:?}");
             assert_eq!(row["A − B"].as_f64(), a.zip(b).map(|(a, b)| a - b));
             said(row);
         }
         let all = numbers("metrics", &cameras);
         let row = all.iter().find(|row| row["camera"] == pair[0]).expect("the camera");
         for (column, value) in &wanted[0] {
-            assert_eq!(row[column].as_f64(), *value, "{options:?}: {column}");
+            let told = [row[column].as_f64(), row[&format!("{column}_uncertainty")].as_f64()];
+            assert_eq!(told, *value, "{options:?}: {column}");
         }
         said(row);
         let svg = tempfile::Builder::new().suffix(".svg").tempfile().expect("a file");
