@@ -58,7 +58,16 @@ fn one_number_in_three_forms() {
     let worst = object["cameras"][0]["worst_patches"].as_array().unwrap();
     assert!(worst.len() == 5 && worst.iter().all(Value::is_string), "{worst:?}");
     let aligned = text(&named);
-    assert!(aligned.contains(&format!("{mean:.2} ± ")) && aligned.contains("CCT error [K]"), "{aligned}");
+    let uncertainty = told["uncertainty"].as_f64().unwrap();
+    assert!((0.0995..0.995).contains(&uncertainty), "two decimals: {uncertainty}");
+    assert!(
+        aligned.contains(&format!("{mean:.2} ± {uncertainty:.2}")) && aligned.contains("CCT error [K]"),
+        "{aligned}"
+    );
+    let heads = ["uncertainty_source", "coverage_factor_95", "degrees_of_freedom", "extrapolated"];
+    assert!(heads.iter().all(|head| !column(&rows, head)[0].is_empty()));
+    let dagger = column(&rows, "extrapolated")[0] == "true";
+    assert_eq!((aligned.contains('†'), aligned.contains("95 %: ± ")), (dagger, true), "{aligned}");
     // numpy and colour-science, tests/core/reference/camera_metrics.csv.
     assert!((mean - 2.041_838_01).abs() < 1e-7);
 }
