@@ -10,6 +10,7 @@ use chromascope_core::query::Shared;
 use crate::document::correction::CorrectionChoice;
 use crate::document::imported::ImportedSet;
 use crate::document::names::BuiltInNames;
+use crate::document::pixel::Pixel;
 use crate::document::render::{BALANCE, MeshChoice, RenderSettings, SUN};
 use crate::document::start::Start;
 use crate::document::uses::PLACES;
@@ -69,6 +70,8 @@ pub enum SceneAction {
     ClearFilters,
     /// Another temperature, in kelvins.
     SetTemperature(f64),
+    /// Another full well and read noise, or none.
+    SetPixel(Option<Pixel>),
     /// Another chart.
     SetChart(String),
     /// Five patches or all.
@@ -177,6 +180,7 @@ impl Action {
         matches!(
             (self, next),
             (Self::Scene(SceneAction::SetTemperature(_)), Self::Scene(SceneAction::SetTemperature(_)))
+                | (Self::Scene(SceneAction::SetPixel(_)), Self::Scene(SceneAction::SetPixel(_)))
                 | (Self::Scene(SceneAction::SetWhite(_)), Self::Scene(SceneAction::SetWhite(_)))
                 | (Self::Scene(SceneAction::SetCorrection(_)), Self::Scene(SceneAction::SetCorrection(_)))
         )
@@ -262,6 +266,8 @@ impl SceneAction {
             Self::SetFilter(name, false) => format!("Remove filter {name}"),
             Self::ClearFilters => "Remove all filters".to_owned(),
             Self::SetTemperature(kelvin) => format!("Temperature: {kelvin:.0} K"),
+            Self::SetPixel(Some(pixel)) => format!("Pixel: {}", pixel.describe()),
+            Self::SetPixel(None) => "Pixel: not given".to_owned(),
             Self::SetChart(name) => format!("Patches: {name}"),
             Self::SetSubset(Subset::Five) => "Patches: five".to_owned(),
             Self::SetSubset(Subset::All) => "Patches: all".to_owned(),
@@ -292,6 +298,7 @@ impl SceneAction {
                 document.temperature_k = kelvin.clamp(low, LOCUS_RANGE_K[1]);
             }
             Self::SetTemperature(_) => {}
+            Self::SetPixel(pixel) => document.pixel = pixel.filter(|pixel| pixel.electrons().is_ok()),
             Self::SetChart(chart) => document.chart.clone_from(chart),
             Self::SetSubset(subset) => document.subset = *subset,
             Self::SetWhite(white) => document.white = white.clone(),

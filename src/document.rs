@@ -8,6 +8,7 @@ pub mod imported;
 pub mod kind;
 pub mod names;
 pub mod paths;
+pub mod pixel;
 pub mod render;
 pub mod saved;
 pub mod session;
@@ -22,6 +23,7 @@ pub use correction::TRAINING;
 use imported::ImportedSet;
 pub use imported::SessionFile;
 pub use kind::SetKind;
+use pixel::Pixel;
 use render::RenderSettings;
 use serde::{Deserialize, Serialize};
 use start::Start;
@@ -50,6 +52,9 @@ pub struct Document {
     pub filters: Vec<String>,
     /// Marks the loci; the light's own temperature where that has one. In kelvins.
     pub temperature_k: f64,
+    /// Full well and read noise of the cameras, where they are given: for their signal-to-noise ratio.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub pixel: Option<Pixel>,
     /// The patches.
     pub chart: String,
     /// Subset of the chart's patches.
@@ -271,6 +276,8 @@ pub const FIT_TARGET: &str = CIE_1931;
 pub const CIE_1931: &str = "CIE 1931 2°";
 /// Default chart.
 pub const CHART: &str = "ColorChecker 24 (Ohta 1997)";
+/// Name of the paper's five patches of the default chart, on the command line and in files.
+pub const FIVE: &str = "ColorChecker five";
 /// The light on the scene unless the user says otherwise.
 pub const LIGHT: &str = "E";
 /// Maximum number of compared sensors: each has a place of its own in the palette.
@@ -296,6 +303,7 @@ impl Document {
             light: Light::Set(LIGHT.to_owned()),
             filters: Vec::new(),
             temperature_k: 5500.0,
+            pixel: None,
             chart: CHART.to_owned(),
             subset: Subset::Five,
             white: WhiteBalanceChoice::Unity,
@@ -364,6 +372,11 @@ impl Document {
         if follows {
             self.difference = self.transform.preferred_metric(diagram);
         }
+    }
+
+    /// Temperature in kelvins of a blackbody or CIE daylight as the light.
+    pub fn radiator_k(&self) -> Option<f64> {
+        (!matches!(self.light, Light::Set(_))).then_some(self.temperature_k)
     }
 
     /// True if a sensor is the reference.

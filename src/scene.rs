@@ -12,6 +12,7 @@ pub mod orbit;
 pub mod recorded;
 pub mod render;
 pub mod spectral_image;
+pub mod uncertainty;
 
 use std::borrow::Cow;
 use std::sync::Arc;

@@ -3,12 +3,11 @@
 pub(super) mod arguments;
 mod output;
 
-use chromascope_core::camera::quality::Electrons;
 use chromascope_core::query::metrics::rank_ranges;
 use chromascope_core::query::{Ask as _, CameraMetric, CameraMetricsQuery, MetricValue};
 use clap::ArgMatches;
 
-use self::arguments::{ALL, CompareArguments, Format, NAME, USUAL};
+use self::arguments::{ALL, CompareArguments, Format, LOCUS_K, NAME, USUAL};
 use super::error::CliError;
 use super::outputs;
 use super::request::Request;
@@ -53,8 +52,9 @@ pub(super) fn run(arguments: &CompareArguments, matches: &ArgMatches) -> Result<
         let cameras = request.catalog.of_kind(SetKind::Camera);
         request.sources = cameras.map(|entry| (SetKind::Camera, entry.name.clone())).collect();
     }
-    if !(1.0..=1e15).contains(&arguments.temperature) {
-        let reason = format!("{} is not a temperature; use kelvins from 1 to 1e15", arguments.temperature);
+    request.document.pixel = arguments.pixel.pixel()?;
+    if let Some(wrong) = arguments.temperature.filter(|kelvin| !(1.0..=1e15).contains(kelvin)) {
+        let reason = format!("{wrong} is not a temperature; use kelvins from 1 to 1e15");
         return Err(CliError::Argument { argument: "--temperature", reason });
     }
     tables::check_out(&arguments.common, &request)?;
@@ -82,14 +82,8 @@ fn compared(scene: &Scene<'_>, request: &Request, arguments: &CompareArguments) 
         Some(id) => named(id),
         None => metrics.first().copied(),
     };
-    let electrons = arguments.full_well.map(|full_well| Electrons::new(full_well, arguments.read_noise));
-    let electrons = electrons.transpose();
-    let electrons =
-        electrons.map_err(|error| CliError::Argument { argument: "--full-well", reason: error.to_string() })?;
-    let query = |(kind, name): &(SetKind, String)| {
-        let query = scene.camera_metrics_query_at(*kind, name, arguments.temperature)?;
-        Ok(CameraMetricsQuery { electrons, ..query })
-    };
+    let temperature = arguments.temperature.or(scene.document.radiator_k()).unwrap_or(LOCUS_K);
+    let query = |(kind, name): &(SetKind, String)| scene.camera_metrics_query_at(*kind, name, temperature);
     let queries: Vec<_> = request.sources.iter().map(query).collect::<Result<_, SceneError>>()?;
     let uncertainty = |((kind, name), query): (&(SetKind, String), &CameraMetricsQuery)| {
         scene.metric_uncertainties_query(*kind, name, query.clone())
@@ -101,8 +95,7 @@ fn compared(scene: &Scene<'_>, request: &Request, arguments: &CompareArguments) 
     let found: Vec<_> =
         request.sources.iter().cloned().zip(figures).map(|((kind, name), all)| (kind, name, all)).collect();
     let mut conditions: Vec<_> = CONDITIONS.into_iter().zip(scene.conditions()).collect();
-    conditions.push(("chart", request.compared_chart_name()));
-    conditions.push(("temperature_k", arguments.temperature.to_string()));
+    conditions.extend(scene.metrics_constants(temperature));
     let patches = scene.patches()?.patches().iter().map(|patch| patch.name.clone()).collect();
     Ok(Comparison { rows: rows(&found, &metrics, sorted_by), metrics, sorted_by, patches, conditions })
 }

@@ -10,11 +10,12 @@ use chromascope_figure::{Figure, Page};
 use clap::ArgMatches;
 
 use self::arguments::{FigureArguments, FigureKind, Range};
+use super::compare::arguments::LOCUS_K;
 use super::error::CliError;
 use super::identify::recorded_table;
 use super::outputs::{self, Stop};
 use super::request::Request;
-use crate::document::{Document, session};
+use crate::document::{Document, LOCUS_RANGE_K, session};
 use crate::export::{FigureForm, Paper};
 use crate::figures::{FigureInput, strip};
 use crate::panes;
@@ -77,6 +78,10 @@ fn prepare(request: &mut Request, arguments: &FigureArguments) -> Result<Option<
             document.compare(name, *kind);
         }
     }
+    set_temperature(&mut request.document, arguments)?;
+    if let Some(pixel) = arguments.pixel.pixel()? {
+        request.document.pixel = Some(pixel);
+    }
     if let Some(mesh) = &arguments.mesh {
         made::set_mesh(&mut request.document, mesh)?;
     }
@@ -88,6 +93,29 @@ fn prepare(request: &mut Request, arguments: &FigureArguments) -> Result<Option<
             let reason = "only `curves` and `recorded` are of a file".to_owned();
             Err(CliError::Argument { argument: "FILE", reason })
         }
+    }
+}
+
+/// Chooses the temperature that marks the loci and that locus metrics are of.
+fn set_temperature(document: &mut Document, arguments: &FigureArguments) -> Result<(), CliError> {
+    let refused = |reason: String| CliError::Argument { argument: "--temperature", reason };
+    let [low, high] = LOCUS_RANGE_K;
+    match (arguments.temperature, document.radiator_k()) {
+        (Some(wanted), _) if !(low..=high).contains(&wanted) => {
+            Err(refused(format!("{wanted} is out of range; use kelvins from {low} to {high}")))
+        }
+        (Some(wanted), Some(of_light)) if wanted != of_light => {
+            Err(refused(format!("the light's own temperature, {of_light} K, marks the loci; leave --temperature out")))
+        }
+        (Some(wanted), _) => {
+            document.temperature_k = wanted;
+            Ok(())
+        }
+        (None, None) if arguments.session.is_none() && arguments.kind.is_of_metrics() => {
+            document.temperature_k = LOCUS_K;
+            Ok(())
+        }
+        (None, _) => Ok(()),
     }
 }
 

@@ -24,12 +24,10 @@ use crate::document::correction::CorrectionChoice;
 use crate::document::imported::{ImportOverrides, ImportedSet, Role};
 use crate::document::render::{LEAF, MeshChoice, SKIN};
 use crate::document::start::Start;
-use crate::document::{CHART, CIE_1931, Document, Light, SetKind, Subset, TransformChoice, WhiteBalanceChoice};
+use crate::document::{CHART, CIE_1931, Document, FIVE, Light, SetKind, Subset, TransformChoice, WhiteBalanceChoice};
 use crate::format::io_reason;
 use crate::terminal::say;
 
-/// Name of the paper's five patches as a chart.
-pub(super) const FIVE: &str = "ColorChecker five";
 /// Kinds of sets of reflectances.
 const REFLECTANCES: [SetKind; 2] = [SetKind::Chart, SetKind::Material];
 
@@ -288,15 +286,6 @@ impl Request {
             self.document.chart = found;
         }
         Ok(())
-    }
-
-    /// The name of the patches that are compared.
-    pub(super) fn compared_chart_name(&self) -> String {
-        if self.document.subset == Subset::Five && self.document.chart == CHART {
-            FIVE.to_owned()
-        } else {
-            self.document.chart.clone()
-        }
     }
 
     /// The name of a reflectance of what is rendered.

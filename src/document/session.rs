@@ -261,6 +261,7 @@ impl Document {
     fn mend(&mut self) {
         let [low, high] = super::LOCUS_RANGE_K;
         self.temperature_k = if self.temperature_k.is_finite() { self.temperature_k.clamp(low, high) } else { 5500.0 };
+        self.pixel = self.pixel.filter(|pixel| pixel.electrons().is_ok());
         let reference = self.reference.clone();
         if !self.compared.iter().any(|c| c.kind == SetKind::Observer && c.name == reference) {
             self.compare(&reference, SetKind::Observer);

@@ -1,17 +1,17 @@
 //! Figures of merit of cameras: tables, ranks, the differences of two cameras, and cameras in order of one metric.
 
 use chromascope_core::query::metrics::{Better, Difference, rank_ranges};
-use chromascope_core::query::{CameraMetric, MetricValue, WhyNot};
+use chromascope_core::query::{CameraMetric, MetricUncertainty, MetricValue, WhyNot};
 use chromascope_figure::{
     Anchor, Cell, Figure, Ink, InkRole, Mark, Panel, Rect, Shape, Table, Tag, TextSize, text_width,
 };
 
 use super::FigureInput;
 use super::chromaticity::conditions;
-use crate::format::fixed;
 use crate::ranking::{Ranked, ranked};
 use crate::scene::Scene;
 use crate::scene::metrics::CameraFigures;
+use crate::scene::uncertainty::{UNCERTAINTY_HEADS, nature, number, uncertainty};
 use crate::view::table::Sorting;
 
 /// Id of the table of cameras in what is saved between runs.
@@ -76,6 +76,7 @@ pub fn ranks(ranked: &Ranked, metric: CameraMetric) -> Vec<Option<[usize; 2]>> {
 /// All figures of merit of all cameras, each with its uncertainty, as files hold them.
 pub fn numbers(ranked: &Ranked) -> Table {
     let heads = CameraMetric::ALL.iter().flat_map(|m| [m.column.to_owned(), format!("{}_uncertainty", m.column)]);
+    let heads = heads.chain(UNCERTAINTY_HEADS.map(str::to_owned));
     let mut table = Table::new(std::iter::once("camera".to_owned()).chain(heads));
     for (camera, row) in ranked.cameras.iter().enumerate() {
         let cells = CameraMetric::ALL.iter().flat_map(|metric| {
@@ -83,9 +84,25 @@ pub fn numbers(ranked: &Ranked) -> Table {
             let number = value.and_then(|value| value.value.ok());
             [Cell::from(number), Cell::from(value.and_then(|value| value.uncertainty).map(|by| by.standard))]
         });
-        table.push(std::iter::once(Cell::from(row.id.name.as_str())).chain(cells));
+        let known = uncertainties(ranked, [camera]);
+        table.push(std::iter::once(Cell::from(row.id.name.as_str())).chain(cells).chain(nature_cells(known)));
     }
     table
+}
+
+/// Uncertainties of cameras in all metrics, where they are known.
+pub fn uncertainties(
+    ranked: &Ranked,
+    cameras: impl IntoIterator<Item = usize>,
+) -> impl Iterator<Item = MetricUncertainty> {
+    let all = cameras.into_iter().filter_map(|camera| figures(ranked, camera)?.uncertainties.as_ref());
+    all.flat_map(|all| all.iter().copied().flatten())
+}
+
+/// Cells under [`UNCERTAINTY_HEADS`].
+pub fn nature_cells(of: impl IntoIterator<Item = MetricUncertainty>) -> [Cell; 4] {
+    let Some((source, coverage, freedom, extrapolated)) = nature(of) else { return Default::default() };
+    [source.word().into(), coverage.into(), freedom.into(), extrapolated.to_string().as_str().into()]
 }
 
 /// Two cameras head to head: each metric with the difference, the camera better by more than the uncertainty, and both values.
@@ -116,9 +133,13 @@ pub fn head_to_head(ranked: &Ranked, [a, b]: [usize; 2]) -> Table {
     table
 }
 
-/// Standard uncertainty of the difference of two values, if either has one.
-pub fn uncertainty_of_difference(a: MetricValue, b: MetricValue) -> Option<f64> {
-    Difference::new(a, b)?.standard
+/// Difference of two values with its uncertainty, whose parts are not told apart; extrapolated where either is.
+pub fn difference(a: MetricValue, b: MetricValue) -> Option<MetricValue> {
+    let difference = Difference::new(a, b)?;
+    let of_either = a.uncertainty.or(b.uncertainty).zip(difference.standard);
+    let is_extrapolated = [a, b].iter().any(|value| value.uncertainty.is_some_and(|by| by.is_extrapolated));
+    let uncertainty = of_either.map(|(one, standard)| MetricUncertainty { standard, is_extrapolated, ..one });
+    Some(MetricValue { value: Ok(difference.value), uncertainty })
 }
 
 /// Width of a saved figure in points.
@@ -140,7 +161,7 @@ pub fn figure(input: &FigureInput<'_>) -> Option<Figure> {
     let unit = if unit(&metric).is_empty() { String::new() } else { format!(" in {}", unit(&metric)) };
     let name = |camera: usize| ranked.cameras[camera].id.name.as_str();
     let names = rows.iter().map(|row| text_width(name(row.0), TextSize::Small)).fold(40.0, f64::max) + 20.0;
-    let width = view.room.width.unwrap_or(WIDTH).max(names + 120.0);
+    let width = view.room.width.unwrap_or(WIDTH).max(names + 180.0);
     let mut figure = Figure::new(format!("{}{unit}", metric.label), [width, 24.0 + ROW * rows.len() as f64]);
     let mut panel = Panel::board("Metrics", Rect::from_min_size([0.0; 2], figure.size), Ink::new(InkRole::Plot));
     let text =
@@ -150,23 +171,39 @@ pub fn figure(input: &FigureInput<'_>) -> Option<Figure> {
         .iter()
         .map(|row| row.2.abs() + row.1.uncertainty.map_or(0.0, |by| by.standard))
         .fold(f64::MIN_POSITIVE, f64::max);
-    let x = |value: f64| names + (width - names - 72.0) * (value.abs() / largest).clamp(0.0, 1.0);
-    for (index, (camera, value, number)) in rows.iter().enumerate() {
+    let written = |value: MetricValue| {
+        [number(metric, value), uncertainty(value).unwrap_or_default()].map(|words| {
+            let width = text_width(&words, TextSize::Small);
+            (words, width)
+        })
+    };
+    let [numbers_width, behind_width] =
+        rows.iter().map(|row| written(row.1)).fold([0.0_f64; 2], |[a, b], [x, y]| [a.max(x.1), b.max(y.1)]);
+    let margin = 72.0_f64.max(numbers_width + behind_width + 24.0);
+    let x = |value: f64| names + (width - names - margin) * (value.abs() / largest).clamp(0.0, 1.0);
+    for (index, (camera, value, merit)) in rows.iter().enumerate() {
         let y = 24.0 + ROW * index as f64 + ROW / 2.0;
         let name = name(*camera);
         panel.marks.push(text(name, [names - 8.0, y], Anchor::RIGHT, TextSize::Small));
-        let bar = Shape::Rect { min: [names, y - 5.0], max: [x(*number), y + 5.0] };
+        let bar = Shape::Rect { min: [names, y - 5.0], max: [x(*merit), y + 5.0] };
         panel.marks.push(Mark::new(Tag::default(), name, bar).with_fill(InkRole::Line));
         if let Some(by) = value.uncertainty.map(|by| by.standard) {
-            let segments = vec![[[x((number.abs() - by).max(0.0)), y], [x(number.abs() + by), y]]];
+            let segments = vec![[[x((merit.abs() - by).max(0.0)), y], [x(merit.abs() + by), y]]];
             panel.marks.push(
                 Mark::new(Tag::default(), "uncertainty", Shape::Segments { segments }).with_stroke(InkRole::Text, 1.2),
             );
         }
-        panel.marks.push(text(&fixed(*number, metric.decimals), [width - 8.0, y], Anchor::RIGHT, TextSize::Small));
+        let [(number, _), (behind, _)] = written(*value);
+        let end = width - 12.0 - behind_width;
+        panel.marks.push(text(&number, [end, y], Anchor::RIGHT, TextSize::Small));
+        panel.marks.push(Mark::text(behind, [end + 4.0, y], Anchor::LEFT, TextSize::Small, InkRole::Weak));
     }
     figure.panels.push(panel);
-    figure.caption = format!("Lines: ± one standard uncertainty of the sensitivities. {}", conditions(scene));
-    figure.table = numbers(&ranked);
+    figure.caption = format!(
+        "Lines: ± u. {} {}",
+        scene.metrics_words_with(rows.iter().filter_map(|row| row.1.uncertainty).collect::<Vec<_>>()),
+        conditions(scene)
+    );
+    figure.table = numbers(&ranked).with_constants(&scene.metrics_constants(scene.document.temperature_k));
     Some(figure)
 }

@@ -1,13 +1,13 @@
 //! Residuals of a camera's sensitivities against recorded raw values, patch by patch.
 
-use chromascope_core::camera::recorded::RecordedFit;
+use chromascope_core::camera::recorded::{RankRange, RecordedFit};
 use chromascope_figure::{
     Anchor, Axis, Cell, Figure, Ink, InkRole, LegendEntry, LegendPlace, Mark, Marker, Panel, Rect, Shape, Table, Tag,
     TextSize, Ticks,
 };
 
 use crate::format::fixed;
-use crate::scene::recorded::{CHANNELS, RankedCamera};
+use crate::scene::recorded::{CHANNELS, RankedCamera, range_in_words};
 use crate::view::View;
 
 /// Markers and colors of the three channels.
@@ -17,28 +17,29 @@ const MARKS: [(Marker, [u8; 3]); 3] =
 const SIZE: [f64; 2] = [720.0, 320.0];
 
 /// The camera whose residuals are shown: the one chosen, or the best.
-pub fn chosen<'a>(ranked: &'a [RankedCamera], view: &View) -> Option<(&'a str, &'a RecordedFit)> {
+pub fn chosen<'a>(ranked: &'a [RankedCamera], view: &View) -> Option<(&'a str, &'a RecordedFit, RankRange)> {
     let named = |camera: &&RankedCamera| view.recorded.camera.as_ref().is_none_or(|name| *name == camera.name);
     let camera = ranked.iter().find(named).or(ranked.first())?;
-    Some((&camera.name, camera.fit.as_ref().ok()?))
+    Some((&camera.name, camera.fit.as_ref().ok()?, camera.rank?))
 }
 
 /// Residual per patch and channel of the selected camera, with the numbers.
 pub fn figure(view: &View) -> Option<Figure> {
     let (set, ranked) = view.recorded.ranked.as_ref()?;
-    let (name, fit) = chosen(ranked, view)?;
+    let (name, fit, rank) = chosen(ranked, view)?;
     let names: Vec<String> = set.iter().map(|patch| patch.name.clone()).collect();
     let mut figure = Figure::new(title(name), view.room.size(SIZE, 0.0));
     figure.panels.push(panel(fit, &names, figure.size));
     figure.legend = legend();
     figure.legend_place = LegendPlace::Outside;
     figure.caption = format!(
-        "Recorded over modeled raw values of {name}, 100 ln; RMS {} %, {} values, {} fitted parameters.",
+        "Recorded over modeled raw values of {name}, 100 ln; RMS {} %, {} values, {} fitted parameters; {}.",
         fixed(fit.rms() * 100.0, 2),
         fit.values,
-        fit.parameters
+        fit.parameters,
+        range_in_words(rank)
     );
-    figure.table = table(name, fit, &names);
+    figure.table = table(name, fit, rank, &names);
     Some(figure)
 }
 
@@ -91,8 +92,9 @@ pub fn panel(fit: &RecordedFit, names: &[String], size: [f64; 2]) -> Panel {
 }
 
 /// Residuals as numbers.
-fn table(name: &str, fit: &RecordedFit, names: &[String]) -> Table {
-    let mut table = Table::new(["camera", "patch", "channel", "residual_percent", "excluded", "brightness"]);
+fn table(name: &str, fit: &RecordedFit, rank: RankRange, names: &[String]) -> Table {
+    let heads = ["camera", "patch", "channel", "residual_percent", "excluded", "brightness", "rank_first", "rank_last"];
+    let mut table = Table::new(heads);
     for (row, patch) in names.iter().enumerate() {
         for (channel, residual) in CHANNELS.into_iter().zip(&fit.residuals[row]) {
             let why = residual.err().map_or(Cell::Empty, |why| Cell::Text(why.to_string()));
@@ -103,6 +105,8 @@ fn table(name: &str, fit: &RecordedFit, names: &[String]) -> Table {
                 residual.ok().map(|log| log * 100.0).into(),
                 why,
                 fit.brightness[row].into(),
+                (rank.range[0] as f64).into(),
+                (rank.range[1] as f64).into(),
             ]);
         }
     }

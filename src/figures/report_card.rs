@@ -12,13 +12,14 @@ use chromascope_figure::{
 
 use super::FigureInput;
 use super::chromaticity::{conditions, distance_symbol};
-use super::metrics::unit;
+use super::metrics::{nature_cells, unit};
 use crate::document::{LOCUS_RANGE_K, SetKind};
 use crate::format::fixed;
 use crate::plot_item::{PlotItem, SensorId};
 use crate::scene::Scene;
 use crate::scene::locus::distance;
 use crate::scene::metrics::CameraFigures;
+use crate::scene::uncertainty::{UNCERTAINTY_HEADS, in_words, number, uncertainty};
 use crate::view::View;
 
 /// Width of the saved page in points.
@@ -83,11 +84,21 @@ pub fn page(scene: &Scene<'_>, id: &SensorId, figures: &CameraFigures, width: f6
     panels.push(patches(scene, &figures.metrics, areas[2]));
     let columns = list(if width < TWO_COLUMNS { 1 } else { ((width / LIST_COLUMN) as usize).max(2) });
     let rows = columns.iter().map(Vec::len).max().unwrap_or(0);
-    panels.push(values(figures, place(LINE * (rows as f64 + 1.0)), &columns));
+    let temperature_k = scene.document.temperature_k;
+    panels.push(values(figures, place(LINE * (rows as f64 + 1.0)), &columns, temperature_k));
+    let known: Vec<_> = figures.uncertainties.iter().flat_map(|all| all.iter().copied().flatten()).collect();
+    let words = chromascope_figure::wrapped(&in_words(known), TextSize::Small, width - 16.0);
+    let mut foot = Panel::board("uncertainty", place(LINE * words.len() as f64), Ink::new(InkRole::Plot));
+    for (row, words) in words.into_iter().enumerate() {
+        let at = [8.0, LINE * (row as f64 + 0.5)];
+        foot.marks.push(Mark::text(words, at, Anchor::LEFT, TextSize::Small, InkRole::Weak));
+    }
+    panels.push(foot);
     let mut figure = Figure::new(format!("Report card: {}", id.name), [width, top]);
     figure.panels = panels;
-    figure.caption = format!("± one standard uncertainty of the sensitivities. {}", conditions(scene));
-    figure.table = numbers(id, figures);
+    let words = scene.metrics_words();
+    figure.caption = format!("{words} {}", conditions(scene));
+    figure.table = numbers(id, figures).with_constants(&scene.metrics_constants(temperature_k));
     figure
 }
 
@@ -227,7 +238,7 @@ fn list(columns: usize) -> Vec<Vec<Line>> {
 }
 
 /// All figures of merit in columns, by group.
-fn values(figures: &CameraFigures, area: Rect, columns: &[Vec<Line>]) -> Panel {
+fn values(figures: &CameraFigures, area: Rect, columns: &[Vec<Line>], temperature_k: f64) -> Panel {
     let mut panel = Panel::board("figures of merit", area, Ink::new(InkRole::Plot));
     let places = columns.iter().enumerate().flat_map(|(column, lines)| {
         let left = 8.0 + column as f64 * area.width() / columns.len() as f64;
@@ -236,7 +247,9 @@ fn values(figures: &CameraFigures, area: Rect, columns: &[Vec<Line>]) -> Panel {
     for (left, y, line) in places {
         let at = match line {
             Line::Group(group) => {
-                panel.marks.push(Mark::text(group.label(), [left, y], Anchor::LEFT, TextSize::Small, InkRole::Weak));
+                let at = if group == MetricGroup::Locus { format!(" at {temperature_k} K") } else { String::new() };
+                let words = format!("{}{at}", group.label());
+                panel.marks.push(Mark::text(words, [left, y], Anchor::LEFT, TextSize::Small, InkRole::Weak));
                 continue;
             }
             Line::Metric(at) => at,
@@ -244,8 +257,7 @@ fn values(figures: &CameraFigures, area: Rect, columns: &[Vec<Line>]) -> Panel {
         let metric = &CameraMetric::ALL[at];
         let Some(value) = figures.of(*metric) else { continue };
         panel.marks.push(Mark::text(metric.symbol, [left + 8.0, y], Anchor::LEFT, TextSize::Small, InkRole::Text));
-        let number = value.value.map_or_else(|_| "–".to_owned(), |value| fixed(value, metric.decimals));
-        let number = format!("{number} {}", unit(metric));
+        let number = format!("{} {}", number(*metric, value), unit(metric));
         panel.marks.push(Mark::text(
             number.trim_end(),
             [left + 150.0, y],
@@ -253,8 +265,7 @@ fn values(figures: &CameraFigures, area: Rect, columns: &[Vec<Line>]) -> Panel {
             TextSize::Small,
             InkRole::Text,
         ));
-        if let Some(by) = value.uncertainty {
-            let by = format!("± {}", fixed(by.standard, metric.decimals));
+        if let Some(by) = uncertainty(value) {
             panel.marks.push(Mark::text(by, [left + 158.0, y], Anchor::LEFT, TextSize::Small, InkRole::Weak));
         }
     }
@@ -262,10 +273,11 @@ fn values(figures: &CameraFigures, area: Rect, columns: &[Vec<Line>]) -> Panel {
 }
 
 fn numbers(id: &SensorId, figures: &CameraFigures) -> Table {
-    let mut table = Table::new(["camera", "metric", "name", "unit", "value", "uncertainty", "reason"]);
+    let heads = ["camera", "metric", "name", "unit", "value", "uncertainty", "reason"];
+    let mut table = Table::new(heads.into_iter().chain(UNCERTAINTY_HEADS));
     for metric in CameraMetric::ALL {
         let Some(value) = figures.of(*metric) else { continue };
-        table.push([
+        let cells = [
             Cell::from(id.name.as_str()),
             Cell::from(metric.column),
             Cell::from(metric.label),
@@ -273,7 +285,8 @@ fn numbers(id: &SensorId, figures: &CameraFigures) -> Table {
             Cell::from(value.value.ok()),
             Cell::from(value.uncertainty.map(|by| by.standard)),
             Cell::from(value.value.err().map_or_else(String::new, |why| why.to_string())),
-        ]);
+        ];
+        table.push(cells.into_iter().chain(nature_cells(value.uncertainty)));
     }
     table
 }

@@ -58,11 +58,13 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
         return;
     };
     let top = child.min_rect().bottom() + UNIT;
+    let known: Vec<_> = metrics::uncertainties(&ranked, [a, b]).collect();
+    let body = widgets::caution::foot(ui, body, &context.scene.metrics_words_with(known), context);
     let table = metrics::head_to_head(&ranked, [a, b]);
     let note = |row: usize, column: usize| note(&ranked, [a, b], row, column);
     let columns = ["metric", "A − B", "better", "A", "B"].map(|name| Column {
         name: name.to_owned(),
-        decimals: Some(4),
+        decimals: Some(0),
         hint: if name == "better" { BETTER_HINT.to_owned() } else { String::new() },
         ..Column::default()
     });
@@ -78,8 +80,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
 }
 
 /// Explanation of the last column.
-const BETTER_HINT: &str =
-    "The better camera where the difference exceeds its standard uncertainty; neither where it does not.";
+const BETTER_HINT: &str = "The better camera at 95 %: where the difference exceeds k times its standard uncertainty; neither where it does not.";
 
 /// A list of cameras. Returns the one that was chosen.
 fn choose(
@@ -115,17 +116,18 @@ fn note(ranked: &Ranked, cameras: [usize; 2], row: usize, column: usize) -> Cell
     let reason = |value: Option<chromascope_core::query::MetricValue>| {
         value.and_then(|value| value.value.err()).map_or_else(String::new, |why| format!("{why}."))
     };
-    let (uncertainty, hint) = match column {
-        FIRST => (None, reason(a)),
-        SECOND => (None, reason(b)),
-        DIFFERENCE => (pair.and_then(|(a, b)| metrics::uncertainty_of_difference(a, b)), String::new()),
+    let (shown, hint) = match column {
+        FIRST => (a, reason(a)),
+        SECOND => (b, reason(b)),
+        DIFFERENCE => (pair.and_then(|(a, b)| metrics::difference(a, b)), String::new()),
         0 => (None, format!("{}. Enter or a double click sorts Metrics by it.", metric.label)),
         _ => (None, String::new()),
     };
     let same = pair.and_then(|(a, b)| metrics::differ(a, b)) == Some(false);
-    let missing = pair.is_none_or(|(a, b)| a.value.is_err() || b.value.is_err());
+    let uncertainty = shown.and_then(|value| value.uncertainty);
     CellNote {
-        uncertainty: uncertainty.filter(|_| !missing),
+        uncertainty: uncertainty.map(|by| by.standard),
+        is_extrapolated: uncertainty.is_some_and(|by| by.is_extrapolated),
         is_gray: same && matches!(column, DIFFERENCE | BETTER),
         decimals: Some(metric.decimals),
         hint,

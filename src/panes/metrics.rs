@@ -69,6 +69,8 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
         }
         None => shown,
     };
+    let known: Vec<_> = metrics::uncertainties(&ranked, 0..ranked.cameras.len()).collect();
+    let body = widgets::caution::foot(ui, body, &context.scene.metrics_words_with(known), context);
     if let Some(row) = shown.show(ui, body, context).activated {
         compare(&ranked.cameras[row].id, context);
     }
@@ -86,6 +88,7 @@ fn switches(ui: &mut Ui, context: &mut PaneContext<'_>) {
         ui.ctx().request_repaint();
     }
     ui.add_space(UNIT);
+    widgets::pixel::show(ui, context);
     if let Some(PlotItem::Sensor(id)) = context.view.selected.clone().filter(|_| selected(context).is_some()) {
         let compared = context.scene.document.compared(id.kind, &id.name).is_some();
         let (words, hint) = if compared {
@@ -135,10 +138,7 @@ fn nothing(ui: &mut Ui, body: Rect, which: RankedCameras, context: &PaneContext<
 fn columns() -> Vec<Column> {
     let before = [
         ("camera", ""),
-        (
-            "rank",
-            "By the column that rows are sorted by. A range where values do not differ by more than their uncertainty.",
-        ),
+        ("rank", "By the column that rows are sorted by. A range where values do not differ at 95 %."),
         ("compared", "Double click or Enter adds a camera to the comparison."),
     ];
     let before =
@@ -147,7 +147,7 @@ fn columns() -> Vec<Column> {
         name: metric.symbol.to_owned(),
         unit: metrics::unit(metric).to_owned(),
         hint: format!(
-            "{}.{} ± one standard uncertainty. Gray numbers do not differ from the selected camera's by more than theirs.",
+            "{}.{} ± one standard uncertainty. Gray numbers do not differ from the selected camera's at 95 %.",
             metric.label,
             match metric.better {
                 Better::Lower => " Smaller is better.",
@@ -220,6 +220,7 @@ impl<'a> Rows<'a> {
         let other = self.selected.filter(|selected| *selected != row).and_then(|row| self.value(row, column));
         CellNote {
             uncertainty: value.uncertainty.map(|by| by.standard),
+            is_extrapolated: value.uncertainty.is_some_and(|by| by.is_extrapolated),
             is_gray: other.and_then(|other| metrics::differ(value, other)) == Some(false),
             hint: value.value.err().map_or_else(String::new, |why| format!("{why}.")),
             ..CellNote::default()

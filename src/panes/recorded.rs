@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use chromascope_core::camera::recorded::{RecordedFit, RecordedPatch};
+use chromascope_core::camera::recorded::{RankRange, RecordedFit, RecordedPatch};
 use chromascope_core::query::{RecordedSet, Shared};
 use chromascope_figure::{Axis, Cell, Image, InkRole, Mark, Marker, Panel, Shape, Table, Tag};
 use egui::{DragValue, Id, Label, Rect, RichText, Sense, Ui, UiBuilder, Vec2};
@@ -13,13 +13,13 @@ use crate::catalog::recorded_store::{RecordedContent, RecordedFile, RecordedStat
 use crate::command::Command;
 use crate::document::SetKind;
 use crate::figures::recorded;
-use crate::format::fixed;
+use crate::format::{fixed, rank_in_words};
 use crate::paint::{self, PlotOptions};
 use crate::panes::widgets;
 use crate::panes::widgets::table::{CellNote, Column, DataTable};
 use crate::plot_item::{PlotItem, SensorId};
 use crate::scene::Scene;
-use crate::scene::recorded::{RankedCamera, cause_in_words};
+use crate::scene::recorded::{RANK_CAUTION, RankedCamera, cause_in_words, range_in_words};
 use crate::theme::{ROW, UNIT};
 use crate::view::recorded::RecordedInputs;
 use crate::workspaces::PaneKind;
@@ -67,8 +67,8 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let Some((set, ranked)) = context.view.recorded.ranked.clone() else {
         return sentence(ui, body, "Fitting the cameras…", false, context);
     };
-    if let Some((name, fit)) = recorded::chosen(&ranked, context.view) {
-        return ranking_and_residuals(ui, body, &file, (&set, &ranked), (name, fit), context);
+    if let Some(camera) = recorded::chosen(&ranked, context.view) {
+        return ranking_and_residuals(ui, body, &file, (&set, &ranked), camera, context);
     }
     let why = ranked.first().and_then(|camera| camera.fit.as_ref().err());
     let why = why.map_or_else(|| "there are no cameras".to_owned(), ToString::to_string);
@@ -184,11 +184,11 @@ fn ranking_and_residuals(
     body: Rect,
     file: &RecordedFile,
     (set, ranked): (&RecordedSet, &[RankedCamera]),
-    (name, fit): (&str, &RecordedFit),
+    (name, fit, rank): (&str, &RecordedFit, RankRange),
     context: &mut PaneContext<'_>,
 ) {
     let names: Vec<String> = set.iter().map(|patch| patch.name.clone()).collect();
-    let top = words(ui, body, file, name, fit, &names, context);
+    let top = words(ui, body, file, (name, fit, rank), &names, context);
     let body = Rect::from_min_max(egui::pos2(body.left(), top), body.max);
     let (plot, list) = body.split_top_bottom_at_fraction(0.55);
     if context.view.saved.tables.contains(&PaneKind::RECORDED) {
@@ -220,8 +220,7 @@ fn words(
     ui: &mut Ui,
     body: Rect,
     file: &RecordedFile,
-    name: &str,
-    fit: &RecordedFit,
+    (name, fit, rank): (&str, &RecordedFit, RankRange),
     names: &[String],
     context: &PaneContext<'_>,
 ) -> f32 {
@@ -235,12 +234,13 @@ fn words(
     let decimals = (3.0 - largest.log10().floor()).clamp(0.0, 12.0) as usize;
     let gains = fit.gains.map(|gain| gain.map_or_else(|| "–".to_owned(), |gain| fixed(gain, decimals)));
     let line = format!(
-        "{}: {name}, RMS {} % ({} % by the degrees of freedom); {} values{left}; gains {}",
+        "{}: {name}, RMS {} % ({} % by the degrees of freedom); {} values{left}; gains {}; {}",
         file.name,
         percent(fit.rms()),
         percent(fit.deviation()),
         fit.values,
-        gains.join(", ")
+        gains.join(", "),
+        range_in_words(rank)
     );
     child.add(Label::new(RichText::new(line).small().color(context.theme.weak)).wrap());
     for link in fit.links.iter().filter(|link| link.share >= NOTABLE) {
@@ -272,15 +272,22 @@ fn ranking(
         let percent = |log: Option<f64>| Cell::from(log.map(|log| 100.0 * log));
         let worst = fit.and_then(|fit| names.get(fit.worst_patches().first()?.0)).map_or("", String::as_str);
         let channels = fit.map_or([None; 3], RecordedFit::channel_rms).map(percent);
-        let first =
-            [Cell::from(camera.name.as_str()), Cell::from((index + 1) as f64), percent(fit.map(RecordedFit::rms))];
+        let rank = fit.map(|_| (index + 1) as f64);
+        let first = [Cell::from(camera.name.as_str()), Cell::from(rank), percent(fit.map(RecordedFit::rms))];
         table.push(first.into_iter().chain(channels).chain([Cell::from(worst)]));
     }
     let columns = table.columns.iter().map(|head| {
         let column = Column::from_head(head);
-        Column { decimals: (column.unit == "%").then_some(2), shaded: column.unit == "%", ..column }
+        let hint = if column.name == "rank" {
+            format!("95 % range by a bootstrap over the patches. {RANK_CAUTION}")
+        } else {
+            String::new()
+        };
+        Column { hint, decimals: (column.unit == "%").then_some(2), shaded: column.unit == "%", ..column }
     });
+    let range = |row: usize| ranked[row].rank.map(|rank| rank.range).filter(|[first, last]| first < last);
     let note = |row: usize, column: usize| CellNote {
+        words: range(row).filter(|_| column == 1).map(|range| rank_in_words(Some(range))),
         hint: ranked[row].fit.as_ref().err().filter(|_| column > 0).map_or_else(String::new, ToString::to_string),
         ..CellNote::default()
     };

@@ -5,6 +5,7 @@ pub mod facts;
 pub mod lines;
 pub mod number_field;
 pub mod pick_list;
+pub mod pixel;
 pub mod pixel_spectrum;
 pub mod scroll;
 pub mod table;

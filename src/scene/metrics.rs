@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use chromascope_core::camera::ChannelRatio;
+use chromascope_core::camera::quality::Electrons;
 use chromascope_core::metamers::{Confusion, MetamerLimits, MetamerPair};
 use chromascope_core::patch_set::{COLOR_CHECKER_CHROMATIC, PatchSet};
 use chromascope_core::query::{
@@ -30,6 +31,7 @@ pub struct MetricsConditions {
     patches: Shared<PatchSet>,
     temperature: Kelvin,
     index: IndexConditions,
+    electrons: Option<Electrons>,
 }
 
 impl MetricsConditions {
@@ -41,7 +43,7 @@ impl MetricsConditions {
             patches: self.patches.clone(),
             temperature: self.temperature,
             index: self.index.clone(),
-            electrons: None,
+            electrons: self.electrons,
         }
     }
 }
@@ -250,6 +252,7 @@ impl Scene<'_> {
             patches: self.patches()?,
             temperature: Kelvin::new(temperature_k)?,
             index: self.index_conditions()?,
+            electrons: self.document.pixel.and_then(|pixel| pixel.electrons().ok()),
         })
     }
 

@@ -2,7 +2,9 @@
 
 use std::sync::Arc;
 
-use chromascope_core::camera::recorded::{Freedom, LinkKind, RecordedError, RecordedFit};
+use chromascope_core::camera::recorded::{
+    Freedom, LinkKind, RESAMPLES, RankRange, RecordedError, RecordedFit, rank_ranges,
+};
 use chromascope_core::query::{Ask, Query, RecordedFitQuery, RecordedSet};
 use chromascope_core::spectral::{GridSpectrum, Primaries};
 
@@ -11,7 +13,7 @@ use super::{Scene, SceneError};
 use crate::catalog::load::SensorQuery;
 use crate::catalog::recorded::lit;
 use crate::document::SetKind;
-use crate::format::fixed;
+use crate::format::{fixed, rank_in_words};
 
 /// A camera and its fit to recorded values.
 #[derive(Clone, Debug)]
@@ -20,6 +22,8 @@ pub struct RankedCamera {
     pub name: String,
     /// Its fit, or the reason that there is none.
     pub fit: Result<RecordedFit, RecordedError>,
+    /// Its rank by a bootstrap over the patches; none without a fit.
+    pub rank: Option<RankRange>,
 }
 
 /// Question for cameras ranked by their fit to recorded values. They are loaded where it is answered.
@@ -42,11 +46,17 @@ impl Query for RecordedRankingQuery {
             let sensor = sensor.map_err(|error| SceneError::Load { name: name.clone(), error })?;
             if sensor.primaries() == Primaries::Camera {
                 let query = RecordedFitQuery { recorded: self.recorded.clone(), sensor, freedom: self.freedom };
-                ranked.push(RankedCamera { name: name.clone(), fit: (*ask.ask(&query)).clone() });
+                ranked.push(RankedCamera { name: name.clone(), fit: (*ask.ask(&query)).clone(), rank: None });
             }
         }
         let rms = |camera: &RankedCamera| camera.fit.as_ref().map_or(f64::INFINITY, RecordedFit::rms);
         ranked.sort_by(|a, b| rms(a).total_cmp(&rms(b)));
+        let fits: Vec<&RecordedFit> = ranked.iter().filter_map(|camera| camera.fit.as_ref().ok()).collect();
+        // Those with a fit come first.
+        let ranges = rank_ranges(&fits, self.freedom);
+        for (camera, rank) in ranked.iter_mut().zip(ranges) {
+            camera.rank = Some(rank);
+        }
         Ok(Arc::new(ranked))
     }
 }
@@ -80,6 +90,16 @@ impl Scene<'_> {
 
 /// Names of the channels in words.
 pub const CHANNELS: [&str; 3] = ["red", "green", "blue"];
+
+/// What a rank does not tell.
+pub const RANK_CAUTION: &str =
+    "A rank is of tables: sensors of one maker or family often fit equally well, so it does not prove a model.";
+
+/// A rank with its range in words.
+pub fn range_in_words(rank: RankRange) -> String {
+    let (range, first) = (rank_in_words(Some(rank.range)), fixed(rank.first * 100.0, 0));
+    format!("rank {range} in 95 % of {RESAMPLES} resamples of the patches, smallest RMS in {first} %")
+}
 
 /// A cause of residuals in words, with its amount.
 pub fn cause_in_words(kind: LinkKind, amount: f64, patches: &[String]) -> String {

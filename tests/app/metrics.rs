@@ -4,9 +4,10 @@ use chromascope::action::{Action, CompareAction, SceneAction};
 use chromascope::app::ChromascopeApp;
 use chromascope::catalog::Catalog;
 use chromascope::command::Command;
-use chromascope::document::{Document, Light, SetKind};
+use chromascope::document::pixel::Pixel;
+use chromascope::document::{Document, Light, SetKind, session};
 use chromascope::export;
-use chromascope::figures::{FigureInput, report_card};
+use chromascope::figures::{FigureInput, metrics, report_card};
 use chromascope::jobs::Executor;
 use chromascope::panes;
 use chromascope::plot_item::PlotItem;
@@ -16,7 +17,8 @@ use chromascope::theme::Theme;
 use chromascope::view::View;
 use chromascope::view::metrics::RankedCameras;
 use chromascope::workspaces::{Layout, PaneKind, Workspace};
-use chromascope_core::query::{Ask, CameraMetric};
+use chromascope_core::query::metrics::{Contributions, UncertaintySource};
+use chromascope_core::query::{Ask, CameraMetric, MetricUncertainty, MetricValue};
 use chromascope_figure::{Figure, Projection, Rect, Shape, text_width};
 use egui::accesskit::Role;
 use egui_kittest::Harness;
@@ -58,6 +60,12 @@ fn name(row: &str) -> &str {
     row.split(": rank ").next().unwrap_or_default()
 }
 
+/// A value that ends where its uncertainty of two significant digits ends, for uncertainties from 0.01 to 10.
+fn written(value: f64, uncertainty: f64) -> String {
+    let decimals = if uncertainty < 0.0995 { 3 } else { 2 - usize::from(uncertainty >= 0.995) };
+    format!("{value:.decimals$} ± {uncertainty:.decimals$}").replace('-', "−")
+}
+
 /// Number under a column's head in a row as it is spoken.
 fn number(row: &str, column: &str) -> Option<f64> {
     let words = row.split(&format!("{column} ")).nth(1)?;
@@ -77,8 +85,34 @@ fn the_library_is_ranked_beside_the_window_with_progress() {
     window.state().ranking().wait();
     window.run_steps(3);
     assert_eq!(window.state().ranking().progress(), None);
-    let values: Vec<f64> = rows(&window).iter().filter_map(|(row, _)| number(row, "ΔE*00 mean")).collect();
-    assert!(values.len() > 30 && values.is_sorted(), "sorted by the first metric: {values:?}");
+    let shown = rows(&window);
+    assert!(shown.len() > 30 && shown.iter().all(|(row, _)| number(row, "ΔE*00 mean").is_some()), "{shown:?}");
+    let (catalog, results) = (Catalog::built_in(), Results::default());
+    let document = window.state().history().document().clone();
+    let scene = Scene { document: &document, catalog: &catalog, results: &results };
+    let metric = CameraMetric::by_id("delta-e2000-mean").unwrap();
+    let value = |row: &str| {
+        results.ask(&scene.camera_metrics_query(SetKind::Camera, name(row)).unwrap()).of(metric).unwrap().unwrap()
+    };
+    let values: Vec<f64> = shown.iter().map(|(row, _)| value(row)).collect();
+    assert!(values.is_sorted(), "sorted by the first metric: {values:?}");
+}
+
+#[test]
+fn values_do_not_wait_for_their_uncertainties() {
+    let (executor, mut window) = open();
+    while window.state().ranking().progress().is_some() {
+        assert!(executor.run_one("ranking"));
+        window.run_steps(3);
+    }
+    let first = |window: &Window| rows(window)[0].0.clone();
+    let row = first(&window);
+    assert!(number(&row, "ΔE*00 mean").is_some() && !row.contains('±'), "{row}");
+    assert!(!row.contains(": rank 1"), "no rank is claimed before: {row}");
+    window.state().ranking().wait();
+    window.run_steps(3);
+    let row = first(&window);
+    assert!(row.contains('±') && row.contains(": rank 1"), "{row}");
 }
 
 /// Data files that were parsed so far.
@@ -112,9 +146,9 @@ fn values_are_those_that_the_scene_computes() {
     let scene = Scene { document: &document, catalog: &catalog, results: &results };
     let metric = CameraMetric::by_id("delta-e2000-mean").unwrap();
     for (row, _) in rows(&window).iter().take(3) {
-        let query = scene.camera_metrics_query(SetKind::Camera, name(row)).unwrap();
-        let value = results.ask(&query).of(metric).unwrap().unwrap();
-        assert_eq!(number(row, "ΔE*00 mean"), Some((value * 100.0).round() / 100.0), "{row}");
+        let value = scene.camera_figures(SetKind::Camera, name(row)).unwrap().of(metric).unwrap();
+        let written = written(value.value.unwrap(), value.uncertainty.unwrap().standard);
+        assert!(row.contains(&format!("ΔE*00 mean {written}")), "{written} is not in {row}");
     }
 }
 
@@ -228,13 +262,37 @@ fn two_cameras_stand_head_to_head() {
     let document = window.state().history().document().clone();
     let scene = Scene { document: &document, catalog: &catalog, results: &results };
     let metric = CameraMetric::by_id("delta-e2000-mean").unwrap();
-    let [a, b] = pair
-        .map(|id| results.ask(&scene.camera_metrics_query(id.kind, &id.name).unwrap()).of(metric).unwrap().unwrap());
+    let values = pair.map(|id| scene.camera_figures(id.kind, &id.name).unwrap().of(metric).unwrap());
+    let [(a, u), (b, v)] = values.map(|value| (value.value.unwrap(), value.uncertainty.unwrap().standard));
     assert!(a < b, "{a} {b}");
-    assert!(row.contains(&format!("A {a:.2}")) && row.contains(&format!("B {b:.2}")), "{row}");
-    assert!(row.contains(&format!("A − B −{:.2} ± 0.", b - a)) && row.contains("better A,"), "{row}");
-    let uncertainty = row.split("± ").nth(1).and_then(|rest| rest.split(',').next()).expect("an uncertainty");
-    assert_eq!(uncertainty.len(), "0.12".len(), "as many decimals as the metric: {row}");
+    for words in [format!("A {}", written(a, u)), format!("B {}", written(b, v)), written(a - b, u.hypot(v))] {
+        assert!(row.contains(&words), "{words} is not in {row}");
+    }
+    let better =
+        if b - a > values[0].uncertainty.unwrap().coverage * u.hypot(v) { "better A," } else { "better neither," };
+    assert!(row.contains(better), "{row}");
+    let foot = "Locus metrics at 5500 K. ±: standard uncertainty u";
+    assert!(window.query_all_by_label_contains(foot).count() > 1, "at the foot of Metrics and Head to head");
+}
+
+#[test]
+fn better_is_claimed_at_95_percent() {
+    let uncertainty = MetricUncertainty {
+        standard: 0.1,
+        contributions: Contributions::default(),
+        freedom: 14.0,
+        coverage: 2.5,
+        source: UncertaintySource::Prior,
+        is_extrapolated: true,
+        bias: 0.0,
+    };
+    let value = |value: f64| MetricValue { value: Ok(value), uncertainty: Some(uncertainty) };
+    // k u of the difference is 2.5 · 0.1 · √2 = 0.354.
+    assert_eq!(metrics::differ(value(1.0), value(1.35)), Some(false));
+    assert_eq!(metrics::differ(value(1.0), value(1.36)), Some(true));
+    let difference = metrics::difference(value(1.0), value(1.36)).unwrap();
+    assert!((difference.uncertainty.unwrap().standard - 0.02_f64.sqrt()).abs() < 1e-15);
+    assert!(difference.uncertainty.unwrap().is_extrapolated);
 }
 
 #[test]
@@ -327,12 +385,52 @@ fn all_numbers_go_out_as_csv_and_json() {
     let figure = panes::figure(PaneKind::METRICS, &FigureInput::new(&scene, &View::default())).expect("a figure");
     let cameras = catalog.of_kind(SetKind::Camera).count();
     assert_eq!(figure.table.rows.len(), cameras);
-    assert_eq!(figure.table.columns.len(), 1 + 2 * CameraMetric::ALL.len());
+    let (conditions, metrics) = (2, CameraMetric::ALL.len());
+    let of_uncertainty = 4;
+    assert_eq!(figure.table.columns.len(), 1 + 2 * metrics + of_uncertainty + conditions);
+    assert!(figure.table.columns.ends_with(&["chart".to_owned(), "temperature_k".to_owned()]));
     let json: serde_json::Value = serde_json::from_str(&export::json(&figure.title, &figure.table)).unwrap();
     assert_eq!((json["version"].as_u64(), json["rows"].as_array().map(Vec::len)), (Some(1), Some(cameras)));
     let column = json["columns"].as_array().unwrap().iter().position(|c| c == "delta_e_2000_mean").unwrap();
     assert!(json["rows"][0][column].as_f64().is_some_and(|value| value > 0.0), "{}", json["rows"][0]);
     assert!(figure.table.to_csv().starts_with("camera,delta_e_2000_mean,delta_e_2000_mean_uncertainty,"));
+}
+
+#[test]
+fn full_well_and_read_noise_are_settings_that_give_the_snr() {
+    let (_executor, mut window) = ranked();
+    let snr = |window: &Window| rows(window).iter().filter_map(|(row, _)| number(row, "SNR")).count();
+    assert_eq!(snr(&window), 0, "no electrons are given");
+    window.get_by_role_and_label(Role::Button, "Pixel").click();
+    window.run_steps(3);
+    let type_in = |window: &mut Window, name: &str, text: &str| {
+        window.get_by_label(name).click();
+        window.run_steps(2);
+        window.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::A);
+        window.event(egui::Event::Text(text.to_owned()));
+        window.run_steps(1);
+        window.key_press(egui::Key::Enter);
+        window.run_steps(3);
+    };
+    type_in(&mut window, "Full-well capacity", "40000");
+    type_in(&mut window, "Read noise (RMS)", "3");
+    let pixel = Pixel { full_well: 40_000.0, read_noise: 3.0 };
+    assert_eq!(window.state().history().document().pixel, Some(pixel));
+    window.state().ranking().wait();
+    window.run_steps(3);
+    assert!(snr(&window) > 30, "{:?}", rows(&window).first());
+    let action = Action::Scene(SceneAction::SetPixel(Some(pixel)));
+    assert_eq!(action.name(), "Pixel: full well 40000 electrons, read noise 3 electrons");
+    // A session keeps them; numbers that describe no pixel are refused by actions and sessions.
+    let document = window.state().history().document().clone();
+    let text = session::to_json(&document).unwrap();
+    assert_eq!(session::from_json(&text).unwrap().pixel, Some(pixel));
+    let spoiled = text.replace("\"read-noise\": 3.0", "\"read-noise\": -3.0");
+    assert!(spoiled != text && session::from_json(&spoiled).unwrap().pixel.is_none(), "{text}");
+    let wrong = Pixel { full_well: 10.0, read_noise: 11.0 };
+    window.state_mut().push(Action::Scene(SceneAction::SetPixel(Some(wrong))));
+    window.run_steps(2);
+    assert_eq!(window.state().history().document().pixel, None);
 }
 
 #[test]

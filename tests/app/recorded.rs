@@ -112,6 +112,9 @@ fn a_table_is_opened_ranked_and_drawn() {
     let mut window = window(&table(), [1280.0, 800.0], egui::Theme::Dark);
     open(&mut window);
     assert!(window.query_by_label_contains("recorded.csv: Nikon D70 (A.M.P.A.S.), RMS 0.").is_some());
+    assert!(
+        window.query_by_label_contains("in 95 % of 1000 resamples of the patches, smallest RMS in 100 %").is_some()
+    );
     let figure = |window: &Window| {
         let app = window.state();
         let catalog = chromascope::catalog::Catalog::built_in();
@@ -122,6 +125,7 @@ fn a_table_is_opened_ranked_and_drawn() {
     let shown = figure(&window);
     assert!(shown.title.contains("Nikon D70 (A.M.P.A.S.)"));
     assert_eq!(shown.table.rows.len(), 72);
+    assert!(shown.caption.contains("rank 1 in 95 %") && shown.table.to_csv().lines().all(|line| !line.ends_with(",")));
     // Another camera's residuals at a click on its row.
     window.get_all_by_label("Nikon D70 (UPenn 2011)").last().unwrap().click();
     window.run_steps(3);

@@ -1,7 +1,7 @@
 //! Recorded raw RGB against sensitivities: synthetic recordings with known answers.
 
 use chromascope_core::camera::recorded::{
-    Exclusion, Freedom, LinkKind, RecordedError, RecordedFit, RecordedPatch, Signal,
+    Exclusion, Freedom, LinkKind, RecordedError, RecordedFit, RecordedPatch, Signal, rank_ranges,
 };
 use chromascope_core::query::{Ask as _, Direct, RecordedFitQuery, Shared};
 use chromascope_core::spectral::{GridSpectrum, Sensor};
@@ -222,4 +222,70 @@ proptest! {
             [a, b] => prop_assert_eq!(a, b),
         }
     }
+}
+
+/// Fits of a few cameras to the chart under D55 through the D70, with noise.
+fn noisy_fits() -> (Vec<String>, Vec<RecordedFit>) {
+    let noise = |p: usize, c: usize| 0.01 * (((p * 31 + c * 17) % 23) as f64 / 11.0 - 1.0);
+    let patches = recording(&sensor(NIKON_D70), &light(D55), uneven, noise);
+    sensors("cameras").into_iter().map(|(name, sensor)| (name, fit(&patches, &sensor))).unzip()
+}
+
+#[test]
+fn rank_ranges_hold_the_rank_and_are_the_same_on_every_run() {
+    let (names, fits) = noisy_fits();
+    let all: Vec<&RecordedFit> = fits.iter().collect();
+    let ranges = rank_ranges(&all, Freedom::default());
+    let mut order: Vec<usize> = (0..all.len()).collect();
+    order.sort_by(|&a, &b| all[a].rms().total_cmp(&all[b].rms()));
+    for (rank, &at) in order.iter().enumerate() {
+        let [first, last] = ranges[at].range;
+        assert!(first <= rank + 1 && rank < last && last <= all.len(), "{}: {:?}", names[at], ranges[at]);
+    }
+    assert_eq!(names[order[0]], NIKON_D70);
+    let shares: f64 = ranges.iter().map(|range| range.first).sum();
+    assert_near("one is first in each resample", shares, 1.0, 1e-9);
+    assert_eq!(ranges, rank_ranges(&all, Freedom::default()));
+    // The patches are drawn before any camera is looked at, so that the order of the cameras does not matter.
+    let reversed: Vec<&RecordedFit> = all.iter().rev().copied().collect();
+    let mut again = rank_ranges(&reversed, Freedom::default());
+    again.reverse();
+    assert_eq!(ranges, again);
+}
+
+#[test]
+fn equal_fits_share_their_rank_and_a_sure_one_has_no_range() {
+    let camera = sensor(NIKON_D70);
+    let good = fit(&recording(&camera, &light(D55), uneven, orthogonal), &camera);
+    let bad = fit(&recording(&camera, &light(D55), uneven, |p, c| 3.0 * orthogonal(p, c)), &camera);
+    let ranges = rank_ranges(&[&good, &bad, &good], Freedom::default());
+    assert_eq!(ranges.iter().map(|range| range.range).collect::<Vec<_>>(), [[1, 1], [3, 3], [1, 1]]);
+    assert_eq!(ranges.iter().map(|range| range.first).collect::<Vec<_>>(), [1.0, 0.0, 1.0]);
+}
+
+#[test]
+fn half_of_the_patches_for_each_camera_leaves_the_rank_open() {
+    // The first camera is right in even patches and the second in odd ones, by the same amounts: either may be first.
+    let camera = sensor(NIKON_D70);
+    let half = |parity: usize| {
+        let noise = |p: usize, c: usize| if p % 2 == parity { orthogonal(p / 2, c) } else { 0.0 };
+        fit(&recording(&camera, &light(D55), uneven, noise), &camera)
+    };
+    let (even, odd) = (half(0), half(1));
+    let ranges = rank_ranges(&[&even, &odd], Freedom::default());
+    for range in ranges {
+        assert_eq!(range.range, [1, 2]);
+        // Of 24 patches with replacement as many are even as odd in 16 %.
+        assert!((0.42..0.66).contains(&range.first), "{range:?}");
+    }
+}
+
+#[test]
+fn one_patch_ranks_nothing() {
+    let camera = sensor(NIKON_D70);
+    let patches = &recording(&camera, &light(D55), uneven, |_, _| 0.0)[..1];
+    let held = Freedom { gains: false, brightness: false };
+    let one = RecordedFit::new(patches, &camera, held).unwrap();
+    assert_eq!(rank_ranges(&[&one, &one, &one], held)[0].range, [1, 3]);
+    assert!(rank_ranges(&[], held).is_empty());
 }

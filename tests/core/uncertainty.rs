@@ -201,7 +201,7 @@ fn fits_of_least_color_difference_are_followed() {
 #[test]
 fn the_95_percent_interval_of_a_table_holds_the_true_value() {
     let count = CameraMetric::ALL.len();
-    let (mut inside, mut all) = (vec![0; count], vec![0; count]);
+    let (mut inside, mut all) = (vec![0_usize; count], vec![0_usize; count]);
     for (name, seed) in [(D70, 1), ("Sony ILCE-7M3", 2), ("Canon EOS 5D Mark II", 3)] {
         let (ask, mut normal) = (Kept::default(), Normal(0xC0FE + seed));
         let truth = query(at_10_nm(name));
@@ -258,8 +258,8 @@ fn the_prior_is_stretched_for_sensors_unlike_its_models_and_beyond_its_wavelengt
         })
     };
     assert_eq!(marked(camera("Kodak DCS200")), [true; 4]);
-    assert_eq!(marked(camera("Nikon D850"))[0], false);
+    assert!(!marked(camera("Nikon D850"))[0]);
     // Two percent of its blue are below 400 nm.
-    assert_eq!(marked(camera(D70))[2], true);
+    assert!(marked(camera(D70))[2]);
     assert_eq!(marked(at_10_nm(D70)), [false; 4]);
 }

@@ -7,10 +7,12 @@
 //! (uneven illumination, shading, angle), r = residual. With the logarithm the model is linear: two-way and additive, so least squares
 //! have a closed form in one 3×3 system, whatever values are omitted.
 
+mod bootstrap;
 mod links;
 mod two_way;
 
 use crate::spectral::{GridSpectrum, Sensor};
+pub use bootstrap::{RESAMPLES, RankRange, rank_ranges};
 pub use links::{Link, LinkKind};
 pub use two_way::Freedom;
 use two_way::Grid;
@@ -129,7 +131,7 @@ impl RecordedFit {
 
     /// Root mean square of the residuals; times 100, the log error in percent.
     pub fn rms(&self) -> f64 {
-        rms(self.residuals.iter().flatten()).unwrap_or(0.0)
+        rms(self.residuals.iter().flatten().flatten().copied()).unwrap_or(0.0)
     }
 
     /// Estimated standard deviation of one value's logarithm: `√(Σr² / (values − parameters))`.
@@ -140,12 +142,12 @@ impl RecordedFit {
 
     /// Root mean square of each channel's residuals.
     pub fn channel_rms(&self) -> [Option<f64>; 3] {
-        [0, 1, 2].map(|c: usize| rms(self.residuals.iter().map(|row| &row[c])))
+        [0, 1, 2].map(|c: usize| rms(self.residuals.iter().filter_map(|row| row[c].ok())))
     }
 
     /// Root mean square of a patch's residuals.
     pub fn patch_rms(&self, patch: usize) -> Option<f64> {
-        rms(self.residuals.get(patch)?)
+        rms(self.residuals.get(patch)?.iter().flatten().copied())
     }
 
     /// Patches by the root mean square of their residuals, largest first; those without a usable value are omitted.
@@ -157,10 +159,9 @@ impl RecordedFit {
     }
 }
 
-/// Root mean square of those that are there.
-fn rms<'a>(residuals: impl IntoIterator<Item = &'a Result<f64, Exclusion>>) -> Option<f64> {
-    let (count, squares) =
-        residuals.into_iter().flatten().fold((0_usize, 0.0), |(n, sum), value| (n + 1, sum + value * value));
+/// Root mean square; none of nothing.
+fn rms(residuals: impl Iterator<Item = f64>) -> Option<f64> {
+    let (count, squares) = residuals.fold((0_usize, 0.0), |(n, sum), value| (n + 1, sum + value * value));
     (count > 0).then(|| (squares / count as f64).sqrt())
 }
 

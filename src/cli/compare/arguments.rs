@@ -9,6 +9,8 @@ use clap::{Args, ValueEnum};
 use spectral_file::Values;
 
 use crate::cli::arguments::CommonArguments;
+use crate::cli::error::CliError;
+use crate::document::pixel::Pixel;
 
 /// Arguments of `compare`.
 #[derive(Debug, Args)]
@@ -30,17 +32,41 @@ pub(in crate::cli) struct CompareArguments {
     /// Form of the output
     #[arg(long, value_enum, default_value_t = Format::Table)]
     pub(in crate::cli) format: Format,
-    /// Temperature in kelvins of the blackbody whose place on the locus is compared
-    #[arg(long, value_name = "K", default_value_t = 2856.0)]
-    pub(in crate::cli) temperature: f64,
-    /// Full-well capacity of a pixel in electrons, for gray-snr
-    #[arg(long, value_name = "ELECTRONS")]
-    pub(in crate::cli) full_well: Option<f64>,
-    /// Read noise of a pixel in electrons (RMS)
-    #[arg(long, value_name = "ELECTRONS", default_value_t = 0.0, requires = "full_well")]
-    pub(in crate::cli) read_noise: f64,
+    /// Temperature in kelvins of the blackbody whose place on the locus is compared [default: that of a blackbody or daylight as the
+    /// illuminant, otherwise 2856]
+    #[arg(long, value_name = "K")]
+    pub(in crate::cli) temperature: Option<f64>,
+    #[command(flatten)]
+    pub(in crate::cli) pixel: PixelArguments,
 }
 
+/// A pixel of the cameras.
+#[derive(Clone, Copy, Debug, Args)]
+pub(in crate::cli) struct PixelArguments {
+    /// Full-well capacity of a pixel in electrons, for gray-snr
+    #[arg(long, value_name = "ELECTRONS")]
+    full_well: Option<f64>,
+    /// Read noise of a pixel in electrons (RMS)
+    #[arg(long, value_name = "ELECTRONS", default_value_t = 0.0, requires = "full_well")]
+    read_noise: f64,
+}
+
+impl PixelArguments {
+    /// The pixel, if its full well is named.
+    ///
+    /// # Errors
+    ///
+    /// [`CliError::Argument`] for numbers that describe no pixel.
+    pub(in crate::cli) fn pixel(self) -> Result<Option<Pixel>, CliError> {
+        let pixel = self.full_well.map(|full_well| Pixel { full_well, read_noise: self.read_noise });
+        let valid = pixel.map_or(Ok(()), |pixel| pixel.electrons().map(drop));
+        valid.map_err(|error| CliError::Argument { argument: "--full-well", reason: error.to_string() })?;
+        Ok(pixel)
+    }
+}
+
+/// Temperature in kelvins of the locus metrics unless another is named.
+pub(in crate::cli) const LOCUS_K: f64 = 2856.0;
 /// Metrics of the table unless some are named.
 pub(super) const USUAL: [&str; 8] = [
     "delta-e2000-mean",

@@ -1,13 +1,14 @@
 //! A ranking as an aligned table, as CSV and as JSON.
 
-use chromascope_core::query::metrics::{Better, UncertaintySource};
+use chromascope_core::query::metrics::Better;
 use chromascope_core::query::{CameraMetric, MetricUncertainty, MetricValue};
 use serde_json::{Value, json};
 use std::fmt::Write as _;
 
 use super::{Comparison, Row};
 use crate::cli::tables::{field, significant};
-use crate::format::fixed;
+use crate::format::{aligned, rank_in_words};
+use crate::scene::uncertainty::{UNCERTAINTY_HEADS, decimals, in_words, nature, uncertainty};
 
 /// Version of the JSON form.
 const VERSION: u32 = 1;
@@ -19,10 +20,15 @@ const LONGEST_NAME: usize = 40;
 pub(super) fn table(comparison: &Comparison) -> String {
     let heads = comparison.metrics.iter().map(head);
     let mut cells: Vec<Vec<String>> = vec![["rank".to_owned(), "sensor".to_owned()].into_iter().chain(heads).collect()];
-    for row in &comparison.rows {
-        let values = comparison.metrics.iter().zip(&row.values).map(|(metric, value)| cell(*metric, *value));
+    let columns =
+        comparison.metrics.iter().enumerate().map(|(at, metric)| {
+            cells_of(*metric, &comparison.rows.iter().map(|row| row.values[at]).collect::<Vec<_>>())
+        });
+    let columns: Vec<Vec<String>> = columns.collect();
+    for (at, row) in comparison.rows.iter().enumerate() {
+        let values = columns.iter().map(|column| column[at].clone());
         let name = row.name.chars().take(LONGEST_NAME).collect();
-        cells.push([rank(row.rank), name].into_iter().chain(values).collect());
+        cells.push([rank_in_words(row.rank), name].into_iter().chain(values).collect());
     }
     let columns = cells.first().map_or(0, Vec::len);
     let width = |column: usize| cells.iter().map(|row| length(&row[column])).max().unwrap_or(0);
@@ -53,23 +59,18 @@ fn length(text: &str) -> usize {
     text.chars().count()
 }
 
-/// A rank as `3`, or as `1–3` where values cannot be distinguished.
-fn rank(rank: Option<[usize; 2]>) -> String {
-    match rank {
-        Some([first, last]) if first == last => first.to_string(),
-        Some([first, last]) => format!("{first}–{last}"),
-        None => "–".to_owned(),
-    }
-}
-
-fn cell(metric: CameraMetric, value: MetricValue) -> String {
-    match (value.value, value.uncertainty) {
-        (Ok(number), Some(uncertainty)) => {
-            format!("{} ± {}", fixed(number, metric.decimals), fixed(uncertainty.standard, metric.decimals))
-        }
-        (Ok(number), None) => fixed(number, metric.decimals),
-        (Err(_), _) => "–".to_owned(),
-    }
+/// Cells of a metric, with decimal points and ± below each other.
+fn cells_of(metric: CameraMetric, values: &[MetricValue]) -> Vec<String> {
+    let has_value = |value: &&MetricValue| value.value.is_ok();
+    let ends = values.iter().filter(has_value).map(|value| decimals(metric, *value).max(0));
+    let column = ends.max().unwrap_or(0) as usize;
+    let behind: Vec<String> = values.iter().map(|value| uncertainty(*value).unwrap_or_default()).collect();
+    let width = behind.iter().map(|words| length(words)).max().unwrap_or(0);
+    let cell = |(value, behind): (&MetricValue, String)| {
+        let number = value.value.map_or("–".to_owned(), |number| aligned(number, decimals(metric, *value), column));
+        format!("{number} {behind:width$}")
+    };
+    values.iter().zip(behind).map(cell).collect()
 }
 
 /// Conditions, the meaning of rank and ±, and why values are missing.
@@ -82,7 +83,8 @@ fn notes(comparison: &Comparison) -> String {
         let _ =
             writeln!(text, "Rank by {}; a range where values do not differ at 95 % (k √(u₁² + u₂²)).", metric.symbol);
     }
-    text += &uncertainty_note(comparison);
+    let all: Vec<MetricUncertainty> = comparison.rows.iter().flat_map(uncertainties).collect();
+    text.extend(Some(in_words(all)).filter(|words| !words.is_empty()).map(|words| words + "\n"));
     let mut reasons: Vec<(String, Vec<&str>)> = Vec::new();
     for row in &comparison.rows {
         for (metric, value) in comparison.metrics.iter().zip(&row.values) {
@@ -101,43 +103,14 @@ fn notes(comparison: &Comparison) -> String {
     text
 }
 
-/// What ± is, with coverage factor, degrees of freedom and origin, and the cameras that the prior is stretched for.
-fn uncertainty_note(comparison: &Comparison) -> String {
-    let uncertainties = |row: &'_ Row| row.values.iter().filter_map(|value| value.uncertainty).collect::<Vec<_>>();
-    let all: Vec<MetricUncertainty> = comparison.rows.iter().flat_map(uncertainties).collect();
-    let Some(first) = all.first() else { return String::new() };
-    let mut text = format!(
-        "±: standard uncertainty u of the sensitivities ({}); 95 %: ± {:.2} u ({} degrees of freedom).\n",
-        if all.iter().all(|u| u.source == UncertaintySource::Prior) {
-            "prior: spread between laboratories"
-        } else {
-            "own or prior"
-        },
-        first.coverage,
-        first.freedom
-    );
-    let is_extrapolated = |row: &&Row| uncertainties(row).iter().any(|u| u.is_extrapolated);
-    let names: Vec<&str> = comparison.rows.iter().filter(is_extrapolated).map(|row| row.name.as_str()).collect();
-    if !names.is_empty() {
-        let _ = writeln!(
-            text,
-            "± extrapolated (unlike the models of the prior, or uses beyond 400–700 nm): {}",
-            names.join(", ")
-        );
-    }
-    text
+/// Those of a row's columns that tell what its uncertainties are; extrapolated where any of them is.
+fn uncertainty_cells(row: &Row) -> [String; 4] {
+    let Some((source, coverage, freedom, extrapolated)) = nature(uncertainties(row)) else { return Default::default() };
+    [source.word().to_owned(), significant(coverage), significant(freedom), extrapolated.to_string()]
 }
 
-/// Heads of the columns that tell what uncertainties are.
-pub(super) const UNCERTAINTY_HEADS: [&str; 4] =
-    ["uncertainty_source", "coverage_factor_95", "degrees_of_freedom", "extrapolated"];
-
-/// Those columns of a row; extrapolated where any of its values is.
-fn uncertainty_cells(row: &Row) -> [String; 4] {
-    let known: Vec<MetricUncertainty> = row.values.iter().filter_map(|value| value.uncertainty).collect();
-    let Some(first) = known.first() else { return Default::default() };
-    let extrapolated = known.iter().any(|u| u.is_extrapolated);
-    [first.source.word().to_owned(), significant(first.coverage), significant(first.freedom), extrapolated.to_string()]
+fn uncertainties(row: &Row) -> impl Iterator<Item = MetricUncertainty> + Clone {
+    row.values.iter().filter_map(|value| value.uncertainty)
 }
 
 /// One row for each sensor; values with 15 significant digits.

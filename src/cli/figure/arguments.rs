@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use chromascope_figure::{AxisRanges, AxisTitles, LegendPlace, Numbers};
 use clap::{Args, ValueEnum};
 
+use crate::cli::compare::arguments::PixelArguments;
 use crate::cli::render::arguments::ViewpointArguments;
 use crate::cli::sources::CommonArguments;
 use crate::export::paper::{Paper, PaperStyle};
@@ -18,6 +19,7 @@ pub(in crate::cli) const EXAMPLES: &str = "Examples:
   chromascope figure spectra --camera \"Nikon D70\" --width 174mm --style print --out spectra.svg
   chromascope figure swatches --session work.chromascope --width 3.35in --dpi 600 --out swatches.png
   chromascope figure render --mesh fern --width 174mm --out figure8.pdf
+  chromascope figure head-to-head --camera \"Nikon D70\" --camera \"Nikon D200\" --temperature 3200 --out pair.pdf
   chromascope figure chromaticity --range 0.3,0.5,0.3,0.42 --numbers visible --out points.csv
 
 The ending of the file decides its form: .pdf, .svg, .png, .tif, or .csv and .json, the numbers behind the figure. Text
@@ -44,6 +46,12 @@ pub(in crate::cli) struct FigureArguments {
     /// The second light of `correction`: a name or a file with one curve
     #[arg(long, value_name = "NAME|FILE")]
     pub(super) second_light: Option<OsString>,
+    /// Temperature in kelvins that marks the loci, and of the locus metrics [default: that of a blackbody or daylight as the
+    /// illuminant, a session's own, otherwise as in `compare` 2856 for metrics, head-to-head and report-card, 5500 for others]
+    #[arg(long, value_name = "K")]
+    pub(super) temperature: Option<f64>,
+    #[command(flatten)]
+    pub(super) pixel: PixelArguments,
     /// What is rendered: head, fern, sphere, plane, or an OBJ, PLY or STL file [default: the head, or the session's]
     #[arg(long, value_name = "MESH")]
     pub(super) mesh: Option<OsString>,
@@ -90,6 +98,11 @@ pub(super) enum FigureKind {
 }
 
 impl FigureKind {
+    /// True if it shows what `compare` computes.
+    pub(super) const fn is_of_metrics(self) -> bool {
+        matches!(self, Self::Metrics | Self::HeadToHead | Self::ReportCard)
+    }
+
     /// The pane whose figure it is; none for a part of one.
     pub(super) const fn pane(self) -> Option<PaneKind> {
         Some(match self {

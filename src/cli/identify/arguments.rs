@@ -18,8 +18,10 @@ FILE is a spectral table, one row a patch, with three more columns R, G, B of li
 with --chart, a table of R, G, B alone. Rows belong to spectra by the patches' names, or in order. Model: recorded = gain of the
 channel × brightness of the patch × the integral of sensitivity, reflectance and light; fitted by least squares of the logarithm.
 RMS is that of the remaining log error in percent; missing, zero, negative and clipped values are excluded and listed.
+A rank is given as its 95 % range by a bootstrap over the patches. It is of tables: sensors of one maker or family often fit equally
+well, so it does not prove a model.
 
-Columns of --format csv: rank, camera, rms_percent, deviation_percent (RMS over the degrees of freedom), rms_r_percent, rms_g_percent,
+Columns of --format csv: rank, rank_first, rank_last (95 % range), first_share (of the resamples with the smallest RMS), camera, rms_percent, deviation_percent (RMS over the degrees of freedom), rms_r_percent, rms_g_percent,
 rms_b_percent, gain_r, gain_g, gain_b, values, parameters, worst_patch, worst_patch_percent, cause, cause_share (of the squares, to
 first order). Columns of --residuals: camera, patch, channel, residual_percent (100 ln recorded / modeled), excluded.";
 

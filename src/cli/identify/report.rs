@@ -2,12 +2,12 @@
 
 use std::fmt::Write as _;
 
-use chromascope_core::camera::recorded::{Freedom, Link, LinkKind, RecordedFit, RecordedPatch};
+use chromascope_core::camera::recorded::{Freedom, Link, LinkKind, RESAMPLES, RankRange, RecordedFit, RecordedPatch};
 use serde_json::{Value, json};
 
 use crate::cli::tables::{field, significant};
-use crate::format::fixed;
-use crate::scene::recorded::{CHANNELS, RankedCamera, cause_in_words};
+use crate::format::{fixed, rank_in_words};
+use crate::scene::recorded::{CHANNELS, RANK_CAUTION, RankedCamera, cause_in_words, range_in_words};
 
 /// Cameras that the table shows; CSV and JSON have all.
 const SHOWN: usize = 15;
@@ -18,10 +18,9 @@ fn names(patches: &[RecordedPatch]) -> Vec<String> {
     patches.iter().map(|patch| patch.name.clone()).collect()
 }
 
-/// Cameras that have a fit, with their rank from 1.
-fn fitted(ranked: &[RankedCamera]) -> impl Iterator<Item = (usize, &str, &RecordedFit)> {
-    let fits = ranked.iter().filter_map(|camera| Some((camera.name.as_str(), camera.fit.as_ref().ok()?)));
-    fits.enumerate().map(|(index, (name, fit))| (index + 1, name, fit))
+/// Cameras that have a fit, with their ranks by the bootstrap.
+fn fitted(ranked: &[RankedCamera]) -> impl Iterator<Item = (RankRange, &str, &RecordedFit)> {
+    ranked.iter().filter_map(|camera| Some((camera.rank?, camera.name.as_str(), camera.fit.as_ref().ok()?)))
 }
 
 /// Percent of a logarithm, aligned; a dash for none.
@@ -33,20 +32,22 @@ fn percent(log: Option<f64>) -> String {
 pub(super) fn table(patches: &[RecordedPatch], ranked: &[RankedCamera]) -> String {
     let names = names(patches);
     let widest = fitted(ranked).take(SHOWN).map(|(_, name, _)| name.chars().count()).max().unwrap_or(0);
-    let mut text = format!("rank  {:widest$}  RMS %    R %    G %    B %  worst patch\n", "camera");
+    let mut text = format!(" rank  {:widest$}  RMS %    R %    G %    B %  worst patch\n", "camera");
     for (rank, name, fit) in fitted(ranked).take(SHOWN) {
+        let rank = rank_in_words(Some(rank.range));
         let [r, g, b] = fit.channel_rms().map(percent);
         let worst =
             fit.worst_patches().first().map(|(patch, rms)| format!("{}, {} %", names[*patch], percent(Some(*rms))));
         let worst = worst.unwrap_or_default();
         let rms = percent(Some(fit.rms()));
-        let _ = writeln!(text, "{rank:>4}  {name:widest$}  {rms:>5}  {r:>5}  {g:>5}  {b:>5}  {worst}");
+        let _ = writeln!(text, "{rank:>5}  {name:widest$}  {rms:>5}  {r:>5}  {g:>5}  {b:>5}  {worst}");
     }
     let left = fitted(ranked).count().saturating_sub(SHOWN);
     if left > 0 {
-        let _ = writeln!(text, "      {left} more cameras: --format csv");
+        let _ = writeln!(text, "       {left} more cameras: --format csv");
     }
-    let Some((_, name, fit)) = fitted(ranked).next() else { return text };
+    let Some((rank, name, fit)) = fitted(ranked).next() else { return text };
+    let _ = write!(text, "\n{name}: {}.\n{RANK_CAUTION}\n", range_in_words(rank));
     let _ = write!(text, "\nResiduals of {name} in percent (recorded over modeled)\n\n");
     let widest = names.iter().map(|name| name.chars().count()).max().unwrap_or(0).max(5);
     let _ = writeln!(text, "{:widest$}       R       G       B  brightness", "patch");
@@ -93,10 +94,12 @@ fn number(value: Option<f64>) -> String {
 
 pub(super) fn csv(patches: &[RecordedPatch], ranked: &[RankedCamera]) -> String {
     let names = names(patches);
-    let mut text = "rank,camera,rms_percent,deviation_percent,rms_r_percent,rms_g_percent,rms_b_percent,\
+    let mut text = "rank,rank_first,rank_last,first_share,camera,rms_percent,deviation_percent,rms_r_percent,rms_g_percent,rms_b_percent,\
                     gain_r,gain_g,gain_b,values,parameters,worst_patch,worst_patch_percent,cause,cause_share\n"
         .to_owned();
-    for (rank, name, fit) in fitted(ranked) {
+    for (index, (rank, name, fit)) in fitted(ranked).enumerate() {
+        let RankRange { range: [first, last], first: share_first } = rank;
+        let (rank, share_first) = (index + 1, significant(share_first));
         let logs = [Some(fit.rms()), Some(fit.deviation())].into_iter().chain(fit.channel_rms());
         let numbers = logs.map(|log| number(log.map(|log| log * 100.0))).chain(fit.gains.map(number));
         let numbers: Vec<String> = numbers.collect();
@@ -109,7 +112,7 @@ pub(super) fn csv(patches: &[RecordedPatch], ranked: &[RankedCamera]) -> String 
         let (values, parameters) = (fit.values, fit.parameters);
         let _ = writeln!(
             text,
-            "{rank},{},{},{values},{parameters},{patch},{worst},{cause},{share}",
+            "{rank},{first},{last},{share_first},{},{},{values},{parameters},{patch},{worst},{cause},{share}",
             field(name),
             numbers.join(",")
         );
@@ -137,7 +140,9 @@ pub(super) fn residuals(patches: &[RecordedPatch], ranked: &[RankedCamera]) -> S
 /// Everything as JSON.
 pub(super) fn json(patches: &[RecordedPatch], ranked: &[RankedCamera], freedom: Freedom) -> String {
     let names = names(patches);
-    let cameras: Vec<Value> = fitted(ranked).map(|(rank, name, fit)| camera(rank, name, fit, &names)).collect();
+    let numbered = fitted(ranked).enumerate();
+    let cameras: Vec<Value> =
+        numbered.map(|(index, (rank, name, fit))| camera(index + 1, rank, (name, fit), &names)).collect();
     let recorded = |patch: &RecordedPatch| {
         let rgb = patch.rgb.map(|signal| signal.value().ok());
         let excluded = patch.rgb.map(|signal| signal.value().err().map(|why| why.to_string()));
@@ -145,13 +150,14 @@ pub(super) fn json(patches: &[RecordedPatch], ranked: &[RankedCamera], freedom: 
     };
     let value = json!({
         "free": { "gains": freedom.gains, "brightness": freedom.brightness },
+        "resamples": RESAMPLES,
         "patches": patches.iter().map(recorded).collect::<Vec<_>>(),
         "cameras": cameras,
     });
     format!("{value:#}\n")
 }
 
-fn camera(rank: usize, name: &str, fit: &RecordedFit, names: &[String]) -> Value {
+fn camera(rank: usize, by_bootstrap: RankRange, (name, fit): (&str, &RecordedFit), names: &[String]) -> Value {
     let percent = |log: Option<f64>| log.map(|log| log * 100.0);
     let link = |link: &Link| {
         let kind = match link.kind {
@@ -164,6 +170,8 @@ fn camera(rank: usize, name: &str, fit: &RecordedFit, names: &[String]) -> Value
     };
     json!({
         "rank": rank,
+        "rank_range": by_bootstrap.range,
+        "first_share": by_bootstrap.first,
         "camera": name,
         "rms_percent": fit.rms() * 100.0,
         "deviation_percent": fit.deviation() * 100.0,

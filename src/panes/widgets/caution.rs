@@ -1,4 +1,4 @@
-//! Warning at the head of a pane: a condition under which the numbers have an unusual meaning.
+//! Sentences about a pane's numbers: at its head a condition under which they have an unusual meaning, at its foot what they mean.
 
 use egui::{Align, Layout, Rect, TextStyle, Ui, UiBuilder, Vec2};
 
@@ -34,4 +34,26 @@ pub fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) -> Rect {
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Alert, true, &sentence));
     response.on_hover_text(sentence);
     Rect::from_min_max(egui::pos2(rect.left(), line.bottom() + 0.5 * UNIT), rect.max)
+}
+
+/// Largest share of a pane's height that sentences at its foot take; longer ones are cut and stand under the pointer.
+const FOOT: f32 = 0.3;
+
+/// Writes sentences at the foot of a pane. Returns the rectangle that remains above.
+pub fn foot(ui: &Ui, rect: Rect, words: &str, context: &PaneContext<'_>) -> Rect {
+    let font = TextStyle::Small.resolve(ui.style());
+    let galley = ui.painter().layout(words.to_owned(), font, context.theme.weak, rect.width());
+    let line = galley.rows.first().map_or(0.0, |row| row.height());
+    let fits = galley.size().y <= FOOT * rect.height();
+    let height = if fits { galley.size().y } else { line };
+    let place = Rect::from_min_max(egui::pos2(rect.left(), rect.bottom() - height), rect.max);
+    if fits {
+        ui.painter().galley(place.min, galley, context.theme.weak);
+    } else {
+        lines::elided(ui, place, words, TextStyle::Small, context.theme.weak);
+    }
+    let response = ui.interact(place, ui.scope_id().with(("foot", rect.min.x as i32)), egui::Sense::hover());
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, words));
+    response.on_hover_text(words);
+    Rect::from_min_max(rect.min, egui::pos2(rect.right(), place.top() - UNIT))
 }

@@ -11,6 +11,7 @@ mod order;
 use chromascope_figure::{Cell, Table};
 use egui::{Event, Id, Key, Modifiers, Rect, Ui, UiBuilder, Vec2};
 
+use crate::format::{behind, decimals_by};
 use crate::panes::context::PaneContext;
 use crate::plot_item::PlotItem;
 use crate::scene::conditions::CONDITIONS;
@@ -32,16 +33,30 @@ const HEAD_LINE: f32 = 15.0;
 /// Appearance and tooltip of a cell.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct CellNote {
-    /// One standard deviation, in the value's unit.
+    /// Standard uncertainty in the value's unit; the value ends where it ends.
     pub uncertainty: Option<f64>,
+    /// The uncertainty is extrapolated: a dagger behind it.
+    pub is_extrapolated: bool,
     /// Written in gray: a difference within the uncertainty.
     pub is_gray: bool,
-    /// Decimals, where the cell has fewer than its column.
+    /// Decimals without an uncertainty, where the cell has others than its column.
     pub decimals: Option<usize>,
     /// Words in place of the number, such as a range of ranks.
     pub words: Option<String>,
     /// Tooltip, such as the reason for a missing value.
     pub hint: String,
+}
+
+impl CellNote {
+    /// Decimals of the cell, where they are its own.
+    fn own_decimals(&self) -> Option<i32> {
+        self.uncertainty.and_then(decimals_by).or(self.decimals.map(|own| own as i32))
+    }
+
+    /// The uncertainty as it is written behind the number.
+    fn behind(&self) -> Option<String> {
+        behind(self.uncertainty?, self.is_extrapolated)
+    }
 }
 
 /// A table as it is shown.
@@ -155,15 +170,8 @@ impl<'a> DataTable<'a> {
             if !shown.contains(&index) {
                 return Layout::HIDDEN;
             }
-            let rows = 0..self.table.rows.len();
-            let uncertainties = self.note.into_iter().flat_map(|note| {
-                rows.clone().filter_map(move |row| {
-                    let note = note(row, index);
-                    note.uncertainty.map(|by| (by, note.decimals))
-                })
-            });
-            let decimals = |row: usize| self.note.and_then(|note| note(row, index).decimals);
-            Layout::of(column, self.table, index, uncertainties, self.compact.then_some(&decimals))
+            let note = |row: usize| self.note.map_or_else(CellNote::default, |note| note(row, index));
+            Layout::of(column, self.table, index, &note, self.compact)
         });
         Body::new(self, layouts.collect(), shown, order, look, context)
     }
@@ -235,7 +243,11 @@ impl<'a> DataTable<'a> {
             table.push(cells.collect::<Vec<_>>());
         }
         if context.pane(self.pane).is_some_and(|pane| pane.under_conditions) {
-            let conditions: Vec<_> = CONDITIONS.into_iter().zip(context.scene.conditions()).collect();
+            let mut conditions: Vec<_> = CONDITIONS.into_iter().zip(context.scene.conditions()).collect();
+            if matches!(self.pane, PaneKind::METRICS | PaneKind::HEAD_TO_HEAD) {
+                let document = context.scene.document;
+                conditions.extend(context.scene.metrics_constants(document.temperature_k));
+            }
             return table.with_constants(&conditions);
         }
         table

@@ -3,6 +3,8 @@
 use std::fs;
 
 use chromascope::panes;
+use chromascope_core::query::CameraMetric;
+use serde_json::Value;
 
 use super::run;
 
@@ -81,6 +83,86 @@ fn every_figure_of_a_scene_is_made_at_one_column() {
         let svg = fs::read_to_string(&out).expect("a file");
         assert!(svg.contains("width=\"85mm\"") && svg.contains("<text"), "{kind}");
     }
+}
+
+/// Value and uncertainty of each metric's column of a camera, by `compare`.
+fn compared(camera: &str, options: &[&str]) -> Vec<(String, [Option<f64>; 2])> {
+    let named = ["compare", "--camera", camera, "--metrics", "all", "--format", "json"];
+    let object: Value = serde_json::from_slice(&run(&[&named[..], options].concat()).stdout).expect("JSON");
+    let value =
+        |metric: &CameraMetric| (metric.column.to_owned(), object["cameras"][0]["values"][metric.id]["value"].as_f64());
+    CameraMetric::ALL.iter().map(value).collect()
+}
+
+/// Rows of a figure's numbers by their columns.
+fn numbers(kind: &str, arguments: &[&str]) -> Vec<serde_json::Map<String, Value>> {
+    let out = tempfile::Builder::new().suffix(".json").tempfile().expect("a file");
+    let path = out.path().to_string_lossy().into_owned();
+    let done = run(&[&["figure", kind, "--force", "--out", &path], arguments].concat());
+    assert!(done.status.success(), "{kind}: {}", String::from_utf8_lossy(&done.stderr));
+    let object: Value = serde_json::from_str(&fs::read_to_string(&path).expect("a file")).expect("JSON");
+    let heads: Vec<String> = serde_json::from_value(object["columns"].clone()).expect("heads");
+    let rows = object["rows"].as_array().expect("rows").iter();
+    rows.map(|row| heads.iter().cloned().zip(row.as_array().expect("cells").iter().cloned()).collect()).collect()
+}
+
+#[test]
+fn figures_of_metrics_have_the_numbers_and_the_temperature_of_compare() {
+    let pair = ["Nikon D70 (A.M.P.A.S.)", "Sigma SD1"];
+    for (options, kelvin) in [
+        (&[][..], "2856"),
+        (&["--temperature", "4100", "--full-well", "40000", "--read-noise", "3"], "4100"),
+        (&["--illuminant", "blackbody:3000"], "3000"),
+    ] {
+        let wanted = pair.map(|camera| compared(camera, options));
+        assert!(wanted[0].iter().filter(|(_, [value, by])| value.is_some() && by.is_some()).count() > 30);
+        let cameras = [&["--camera", pair[0], "--camera", pair[1]], options].concat();
+        let said = |row: &serde_json::Map<String, Value>| assert_eq!(row["temperature_k"], kelvin, "{options:?}");
+        let card = numbers("report-card", &[&["--camera", pair[0]], options].concat());
+        for (row, (column, value)) in card.iter().zip(&wanted[0]) {
+            let told = ["value", "uncertainty"].map(|key| row[key].as_f64());
+            assert_eq!((row["metric"].as_str(), told), (Some(column.as_str()), *value), "{options:?}");
+            said(row);
+        }
+        let rows = numbers("head-to-head", &cameras);
+        assert_eq!(rows.len(), wanted[0].len());
+        for (index, row) in rows.iter().enumerate() {
+            let [[a, u], [b, v]] = [0, 1].map(|camera| wanted[camera][index].1);
+            let told = ["A", "A uncertainty", "B", "B uncertainty"].map(|key| row[key].as_f64());
+            assert_eq!(told, [a, u, b, v], "{options:?}: {row:?}");
+            assert_eq!(row["A − B"].as_f64(), a.zip(b).map(|(a, b)| a - b));
+            said(row);
+        }
+        let all = numbers("metrics", &cameras);
+        let row = all.iter().find(|row| row["camera"] == pair[0]).expect("the camera");
+        for (column, value) in &wanted[0] {
+            let told = [row[column].as_f64(), row[&format!("{column}_uncertainty")].as_f64()];
+            assert_eq!(told, *value, "{options:?}: {column}");
+        }
+        said(row);
+        let svg = tempfile::Builder::new().suffix(".svg").tempfile().expect("a file");
+        let path = svg.path().to_string_lossy().into_owned();
+        assert!(
+            run(&[&["figure", "head-to-head", "--force", "--width", "180mm", "--out", &path], &cameras[..]].concat())
+                .status
+                .success()
+        );
+        let svg = fs::read_to_string(&path).expect("a file");
+        assert!(svg.contains(&format!("Locus metrics at {kelvin} K")), "{svg}");
+    }
+}
+
+#[test]
+fn a_temperature_that_the_light_contradicts_or_the_window_lacks_is_refused() {
+    let of_light = ["--illuminant", "blackbody:3000", "--temperature", "4000"];
+    for (arguments, words) in [(&of_light[..], "leave --temperature out"), (&["--temperature", "100"], "1000 to 20000")]
+    {
+        let done = run(&[&["figure", "report-card", "--out", "card.pdf"], arguments].concat());
+        let said = String::from_utf8_lossy(&done.stderr);
+        assert!(done.status.code() == Some(2) && said.contains(words), "{said}");
+    }
+    let done = run(&["figure", "report-card", "--out", "card.pdf", "--full-well", "-1"]);
+    assert!(!done.status.success());
 }
 
 #[test]

@@ -50,6 +50,7 @@ fn the_camera_is_found_from_a_table_in_any_order() {
     let [r, g] = ["gain_r", "gain_g"].map(|head| number(column(&found, head)[0]));
     assert!((r / g - 0.8).abs() < 1e-9);
     assert_eq!((column(&found, "values")[0], column(&found, "parameters")[0]), ("70", "26"));
+    assert_eq!(["rank", "rank_first", "rank_last", "first_share"].map(|head| column(&found, head)[0]), ["1"; 4]);
     let text = std::fs::read_to_string(residuals).unwrap();
     let excluded: Vec<&str> =
         text.lines().filter(|line| line.starts_with("Nikon D70 (A.M") && !line.ends_with(',')).collect();
@@ -61,6 +62,30 @@ fn the_camera_is_found_from_a_table_in_any_order() {
             format!("Nikon D70 (A.M.P.A.S.),{},red,,zero or negative", name(5)),
         ]
     );
+}
+
+#[test]
+fn ranks_are_ranges_that_say_how_sure_they_are() {
+    // Noise of 3 %, more than tables of like cameras differ by.
+    let noise = |p: usize, c: usize| 1.0 + 0.03 * (((p * 31 + c * 17) % 23) as f64 / 11.0 - 1.0);
+    let rows = recording().into_iter().enumerate();
+    let rows: Vec<_> = rows.map(|(p, (name, rgb))| (name, [0, 1, 2].map(|c| rgb[c] * noise(p, c)))).collect();
+    let path = file("identify_noise.csv", &csv(&rows));
+    let named = [&["identify", path.to_str().unwrap()], &CHART[..]].concat();
+    let text = |arguments: &[&str]| String::from_utf8(run(arguments).stdout).unwrap();
+    let found = table(&[&named[..], &["--format", "csv"]].concat());
+    let [first, last, share] = ["rank_first", "rank_last", "first_share"].map(|head| number(column(&found, head)[0]));
+    assert!(first == 1.0 && last > 1.0 && (0.0..1.0).contains(&share), "{first} {last} {share}");
+    let shares: f64 = column(&found, "first_share").into_iter().map(number).sum();
+    assert!((shares - 1.0).abs() < 1e-9, "{shares}");
+    let best = column(&found, "camera")[0];
+    let said = format!("{best}: rank 1–{last} in 95 % of 1000 resamples of the patches, smallest RMS in ");
+    let aligned = text(&named);
+    assert!(aligned.contains(&said) && aligned.contains("does not prove a model"), "{said} is not in {aligned}");
+    assert_eq!(aligned, text(&named), "the same digits every time");
+    let object: Value = serde_json::from_str(&text(&[&named[..], &["--format", "json"]].concat())).unwrap();
+    assert_eq!(object["cameras"][0]["rank_range"], serde_json::json!([1, last as u64]));
+    assert_eq!((object["cameras"][0]["first_share"].as_f64(), object["resamples"].as_u64()), (Some(share), Some(1000)));
 }
 
 #[test]

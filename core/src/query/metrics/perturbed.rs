@@ -89,7 +89,7 @@ impl Query for StimuliQuery {
         let training = self.training.as_ref().map_or(SINGLE..SINGLE, |training| add(&self.light, training));
         let index = add(index_light, &self.index.patches);
         let sites: Vec<[f64; COUNT]> = (0..SITES).map(site_curve).collect();
-        let weighted: Vec<[f64; COUNT]> = sites.iter().map(|curve| trapezoid(*curve)).collect();
+        let weighted: Vec<[f64; COUNT]> = sites.iter().map(trapezoid).collect();
         let of_sites = |spectrum: &[f64]| padded(weighted.iter().map(|curve| dot(curve, spectrum)));
         let matching = curves(&self.observer);
         let of_sites = spectra.iter().map(|spectrum| of_sites(spectrum)).collect();
@@ -98,11 +98,12 @@ impl Query for StimuliQuery {
 }
 
 /// Half weights at the ends of 400–700 nm, as integrals of tables have them.
-fn trapezoid(mut curve: [f64; COUNT]) -> [f64; COUNT] {
+fn trapezoid(curve: &[f64; COUNT]) -> [f64; COUNT] {
+    let mut weighted = *curve;
     for end in SITE_RANGE {
-        curve[end] *= 0.5;
+        weighted[end] *= 0.5;
     }
-    curve
+    weighted
 }
 
 fn padded(values: impl Iterator<Item = f64>) -> [f64; PADDED] {
@@ -212,7 +213,7 @@ impl<'a> Perturbed<'a> {
     fn rendering(&self, raw: &[DVec3]) -> Result<Rendering, RenderingError> {
         let white = DVec3::from_array(self.of.rendering.white.0);
         let integrals = raw[LIGHT];
-        if !(integrals.min_element() > 0.0) {
+        if !integrals.cmpgt(DVec3::ZERO).all() {
             return Err(RenderingError::NoWhite);
         }
         let (Some((_, _, correction)), Some(targets)) = (self.of.rendering.transform.fit(), &self.targets) else {

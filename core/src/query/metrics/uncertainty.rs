@@ -24,7 +24,8 @@ const WIDENED: f64 = 1.15;
 /// Coverage factor for 95 %.
 const COVERAGE: f64 = WIDENED * T_95;
 
-/// Probability that a table is per photon although its use by the source's programs says per energy, or the reverse.
+/// Probability that a table is per photon although its use by the source's programs says per energy, or the reverse. An assumption:
+/// in 12 of 18 pairs of tables of one model a factor of wavelength brings one nearer to the other.
 const INFERRED_WRONG: f64 = 0.1;
 /// The same where nothing says either.
 const UNKNOWN_WRONG: f64 = 0.5;

@@ -13,6 +13,7 @@ use crate::document::render::model::{AreaChoice, SpecularChoice};
 use crate::document::render::{GARMENT, MeshChoice, NEAR, ReadingChoice, RenderSettings, RoughnessChoice};
 use crate::document::{Diagram, Light, SetKind, Subset, TransformChoice, WhiteBalanceChoice};
 use crate::panes::PaneContext;
+use crate::panes::widgets::pixel::PIXEL;
 use crate::theme::Surround;
 use crate::view::render::RenderMode;
 use crate::view::{DiagramFit, SpectraLayout, SwatchLayout, SwatchStyle, ViewChoice};
@@ -76,6 +77,8 @@ pub(super) fn scene(context: &PaneContext<'_>) -> Vec<Found> {
     if !document.filters.is_empty() {
         found.push(set("Remove filters".to_owned(), SceneAction::ClearFilters, false));
     }
+    let pixel = Found::new(SETTINGS, "Pixel: full well and read noise", Command::Seek(PaneKind::METRICS, PIXEL));
+    found.push(pixel.note("go to the menu").also("gray SNR signal-to-noise ratio electrons"));
     found.extend(white_and_transform(context));
     found
 }

@@ -4,7 +4,7 @@ use chromascope_figure::Cell;
 use egui::{Id, Rect, Response, Role, Sense, Stroke, StrokeKind, TextStyle, Ui, UiBuilder, Vec2, WidgetInfo};
 use egui_table::{CellInfo, HeaderCellInfo, HeaderRow, PrefetchInfo, TableDelegate};
 
-use super::columns::{Form, Layout, air, uncertainty_words, words};
+use super::columns::{Form, Layout, air, words};
 use super::{COMPACT_LINE, CellNote, DataTable, HEAD_LINE, LINE, TableLook, TableOutput, cut};
 use crate::panes::context::PaneContext;
 use crate::panes::widgets::{focus_rim, lines};
@@ -201,10 +201,11 @@ impl<'a> Body<'a> {
             Cell::Empty => "–".to_owned(),
             Cell::Text(text) => text.clone(),
             Cell::Number(value) => {
-                let number =
-                    note.words.clone().unwrap_or_else(|| words(*value, form, note.decimals).trim_end().to_owned());
-                note.uncertainty
-                    .map_or(number.clone(), |by| format!("{number} {}", uncertainty_words(by, form, note.decimals)))
+                let number = note
+                    .words
+                    .clone()
+                    .unwrap_or_else(|| words(*value, form, note.own_decimals()).trim_end().to_owned());
+                note.behind().map_or(number.clone(), |behind| format!("{number} {behind}"))
             }
         }
     }
@@ -227,7 +228,7 @@ impl<'a> Body<'a> {
             let ground = rect.shrink2(Vec2::new(1.0, 2.0)).expand2(Vec2::new(2.0 * UNIT - 2.0, 0.0));
             ui.painter().rect_filled(ground, 2.0, self.theme.shade(share));
         }
-        let written = note.words.clone().unwrap_or_else(|| words(value, layout.form, note.decimals));
+        let written = note.words.clone().unwrap_or_else(|| words(value, layout.form, note.own_decimals()));
         // Rows of a compact table are quantities of their own: their points stand apart anyway.
         let written = if self.of.compact { written.trim_end() } else { &written };
         let mut place = rect;
@@ -237,8 +238,7 @@ impl<'a> Body<'a> {
         } else {
             lines::right_aligned(ui, place, written, TextStyle::Monospace, ink);
         }
-        let Some(uncertainty) = note.uncertainty else { return };
-        let behind = uncertainty_words(uncertainty, layout.form, note.decimals);
+        let Some(behind) = note.behind() else { return };
         place = Rect::from_min_max(egui::pos2(place.max.x + UNIT, rect.top()), rect.max);
         lines::elided(ui, place, &behind, TextStyle::Small, self.theme.weak);
     }

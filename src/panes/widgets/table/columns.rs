@@ -2,7 +2,8 @@
 
 use chromascope_figure::{Cell, Table, TextSize, text_width};
 
-use crate::format::{fixed, number};
+use super::CellNote;
+use crate::format::{aligned, number};
 use crate::theme::UNIT;
 
 /// Maximum width of a text column, in points; longer text is cut and shown under the pointer.
@@ -100,28 +101,31 @@ pub(super) struct Layout {
     pub(super) shades: Option<[f64; 2]>,
 }
 
-/// Decimals of each row, where it has fewer than its column.
-pub(super) type RowDecimals<'a> = &'a dyn Fn(usize) -> Option<usize>;
-
 impl Layout {
     /// Layout of a column that is not shown.
     pub(super) const HIDDEN: Self = Self { form: Form::Text, width: 0.0, uncertainty: 0.0, shades: None };
 
-    /// Layout of a column. `uncertainties` are its cells', with decimals of their own; `compact` has the decimals of a compact
-    /// table's rows, which hold quantities of their own.
+    /// Layout of a column, with the notes of its rows. Rows of a compact table hold quantities of their own.
     pub(super) fn of(
         column: &Column,
         table: &Table,
         index: usize,
-        uncertainties: impl Iterator<Item = (f64, Option<usize>)>,
-        compact: Option<RowDecimals<'_>>,
+        note: &dyn Fn(usize) -> CellNote,
+        compact: bool,
     ) -> Self {
-        let row_decimals = compact;
-        let compact = compact.is_some();
+        let rows = || table.rows.iter().enumerate().filter_map(|(row, cells)| cells.get(index).map(|cell| (row, cell)));
         let size = if compact { TextSize::Small } else { TextSize::Body };
         let cells = || table.rows.iter().filter_map(|row| row.get(index));
         let numbers = || cells().filter_map(|cell| if let Cell::Number(value) = cell { Some(*value) } else { None });
-        let form = form(column, numbers(), cells().any(|cell| matches!(cell, Cell::Text(_))));
+        let own = rows().filter_map(|(row, cell)| matches!(cell, Cell::Number(_)).then(|| note(row).own_decimals()));
+        let own: Vec<Option<i32>> = own.collect();
+        let form = match form(column, numbers(), cells().any(|cell| matches!(cell, Cell::Text(_)))) {
+            Form::Fixed(decimals) => {
+                let ends = own.iter().map(|own| own.map_or(decimals, |own| own.max(0) as usize));
+                Form::Fixed(ends.max().unwrap_or(decimals))
+            }
+            other => other,
+        };
         let texts = cells().take(MEASURED_ROWS).filter_map(|cell| match cell {
             Cell::Text(text) => Some(text_width(text, size)),
             _ => None,
@@ -130,20 +134,15 @@ impl Layout {
         let extremes = numbers().fold([0.0_f64; 2], |[low, high], value| [low.min(value), high.max(value)]);
         let written = |value: f64| text_width(&words(value, form, None), TextSize::Mono);
         let number = if form == Form::Text { numbers().map(written).fold(0.0, f64::max) } else { 0.0 };
-        let number = match row_decimals {
-            Some(decimals) => {
-                let rows = table.rows.iter().enumerate().filter_map(|(row, cells)| match cells.get(index) {
-                    Some(Cell::Number(value)) => Some(words(*value, form, decimals(row))),
-                    _ => None,
-                });
-                rows.map(|words| text_width(words.trim_end(), TextSize::Mono)).fold(number, f64::max)
-            }
-            None => extremes.into_iter().map(written).fold(number, f64::max),
+        let number = if compact {
+            let words = numbers().zip(&own).map(|(value, own)| words(value, form, *own));
+            words.map(|words| text_width(words.trim_end(), TextSize::Mono)).fold(number, f64::max)
+        } else {
+            extremes.into_iter().map(written).fold(number, f64::max)
         };
         let number = if numbers().next().is_some() { number } else { 0.0 };
-        let behind = uncertainties
-            .map(|(by, own)| text_width(&uncertainty_words(by, form, own), TextSize::Small) + f64::from(UNIT))
-            .fold(0.0, f64::max);
+        let behind = rows().filter_map(|(row, _)| note(row).behind());
+        let behind = behind.map(|words| text_width(&words, TextSize::Small) + f64::from(UNIT)).fold(0.0, f64::max);
         let (arrow, least) = if compact { (0.0, 0.0) } else { (12.0, NARROWEST) };
         let head = text_width(&column.name, TextSize::Small).max(text_width(&column.unit, TextSize::Small)) + arrow;
         let content = text.max(number) + behind;
@@ -189,22 +188,13 @@ fn form(column: &Column, numbers: impl Iterator<Item = f64> + Clone, has_text: b
 }
 
 /// A number in its column's format, or with its own decimals: then padded, so that decimal points line up.
-pub(super) fn words(value: f64, form: Form, decimals: Option<usize>) -> String {
+pub(super) fn words(value: f64, form: Form, decimals: Option<i32>) -> String {
     match (form, decimals) {
-        (Form::Fixed(column), Some(own)) if own < column => {
-            let point = usize::from(own == 0);
-            format!("{}{}", fixed(value, own), " ".repeat(column - own + point))
-        }
-        (Form::Fixed(decimals), _) => fixed(value, decimals),
+        (Form::Fixed(column), own) => aligned(value, own.unwrap_or(column as i32), column),
         (Form::Scientific, _) if value == 0.0 => "0".to_owned(),
         (Form::Scientific, _) => format!("{value:.3e}").replace('-', "−"),
         (Form::Text, _) => number(value),
     }
-}
-
-/// An uncertainty in its column's form, or with decimals of its own.
-pub(super) fn uncertainty_words(value: f64, form: Form, decimals: Option<usize>) -> String {
-    format!("± {}", words(value, form, decimals).trim_end())
 }
 
 #[cfg(test)]
@@ -234,9 +224,6 @@ mod tests {
         assert_eq!(words(-0.3, Form::Fixed(2), None), "−0.30");
         assert_eq!(words(41.5, Form::Fixed(4), Some(2)), "41.50  ");
         assert_eq!(words(41.5, Form::Fixed(4), Some(0)), "42     ");
-        assert_eq!(uncertainty_words(0.366, Form::Fixed(2), None), "± 0.37");
-        assert_eq!(uncertainty_words(0.1222, Form::Fixed(4), Some(2)), "± 0.12");
-        assert_eq!(uncertainty_words(5.4952, Form::Fixed(4), Some(0)), "± 5");
     }
 
     #[test]

@@ -1,0 +1,71 @@
+//! Ranks of fits as ranges, by a paired bootstrap over the patches (Efron and Tibshirani 1993, *An Introduction to the Bootstrap*).
+
+use super::RecordedFit;
+use super::two_way::{Freedom, Grid};
+
+/// Resamples of the patches.
+pub const RESAMPLES: usize = 1000;
+/// Start of the pseudorandom numbers: the same resamples on every run.
+const SEED: u64 = 0x0043_6872_6F6D_6173;
+
+/// Rank of a fit among others under resampling of the patches.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RankRange {
+    /// First and last rank of the 95 % range: quantiles 0.025 and 0.975 of the ranks, widened to the rank by all patches.
+    pub range: [usize; 2],
+    /// Share of the resamples in which no other fit has a smaller RMS.
+    pub first: f64,
+}
+
+/// Rank range of each of several fits to the same patches.
+///
+/// Each resample draws as many patches as there are, with replacement, the same ones for all fits; gains and brightnesses are fitted
+/// again, and the fits are ranked by RMS. Fits that tie share the better rank. One patch tells nothing: all ranks are then possible.
+pub fn rank_ranges(fits: &[&RecordedFit], freedom: Freedom) -> Vec<RankRange> {
+    let count = fits.len();
+    let patches = fits.iter().map(|fit| fit.residuals.len()).min().unwrap_or(0);
+    if patches < 2 {
+        return vec![RankRange { range: [1, count], first: 1.0 }; count];
+    }
+    let mut seen = vec![Vec::with_capacity(RESAMPLES); count];
+    let mut state = SEED;
+    let mut drawn = vec![0; patches];
+    for _ in 0..RESAMPLES {
+        drawn.fill_with(|| next(&mut state, patches));
+        let rms: Vec<f64> = fits.iter().map(|fit| resampled_rms(fit, &drawn, freedom)).collect();
+        for (ranks, rank) in seen.iter_mut().zip(ranks(&rms)) {
+            ranks.push(rank);
+        }
+    }
+    let all: Vec<f64> = fits.iter().map(|fit| fit.rms()).collect();
+    let range = |(mut seen, rank): (Vec<usize>, usize)| {
+        seen.sort_unstable();
+        let at = |share: f64| seen[(share * (RESAMPLES - 1) as f64).round() as usize];
+        let first = seen.iter().filter(|&&rank| rank == 1).count() as f64 / RESAMPLES as f64;
+        RankRange { range: [at(0.025).min(rank), at(0.975).max(rank)], first }
+    };
+    seen.into_iter().zip(ranks(&all)).map(range).collect()
+}
+
+/// Ranks from 1 by value, smallest first.
+fn ranks(values: &[f64]) -> Vec<usize> {
+    let mut sorted = values.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    values.iter().map(|value| 1 + sorted.partition_point(|other| other < value)).collect()
+}
+
+/// RMS of a fit to drawn patches; infinite where none of them has a usable value. A fit of the residuals leaves what a fit of the
+/// values leaves, because the model is linear.
+fn resampled_rms(fit: &RecordedFit, drawn: &[usize], freedom: Freedom) -> f64 {
+    let grid = Grid::new(drawn.iter().map(|&patch| fit.residuals[patch].map(Result::ok)).collect(), freedom);
+    let effects = grid.fit();
+    super::rms(effects.residuals.into_iter().flatten().flatten()).unwrap_or(f64::INFINITY)
+}
+
+/// Next number below `count` by SplitMix64 (Steele, Lea and Flood 2014).
+fn next(state: &mut u64, count: usize) -> usize {
+    *state = state.wrapping_add(0x9E37_79B9_7F4A_7C15);
+    let mixed = (*state ^ (*state >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+    let mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+    ((u128::from(mixed ^ (mixed >> 31)) * count as u128) >> 64) as usize
+}
