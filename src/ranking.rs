@@ -6,15 +6,13 @@
 use std::sync::Arc;
 use std::time::Duration;
 
-use chromascope_core::camera::RenderingError;
-use chromascope_core::correction::aces::IdtExposure;
 use chromascope_core::metamers::Confusion;
 use chromascope_core::query::{Ask, Query, Shared};
 
 use crate::catalog::Entry;
 use crate::catalog::load::LoadError;
 use crate::document::{Document, SetKind};
-use crate::export::profile::{CorrectionFile, CorrectionFileQuery};
+use crate::export::profile::{CorrectionFile, CorrectionFileQuery, CorrectionRequest};
 use crate::jobs::{Background, Executor, Shown};
 use crate::plot_item::SensorId;
 use crate::scene::light::LightSheetQuery;
@@ -170,7 +168,8 @@ impl Ranking {
         let entry = scene.entry(camera.kind, &camera.name);
         let (conditions, entry) =
             conditions.and_then(|conditions| Ok((conditions, entry?))).map_err(|error| error.to_string())?;
-        let query = CatalogMetricsQuery::new(&entry, Shared::new(conditions));
+        let query =
+            CatalogMetricsQuery::new(&entry, Shared::new(conditions), scene.channel_ratio_query(&entry.name).ok());
         let stages = vec![query.clone(), query.with_uncertainties()];
         let Some(shown) = self.card.ask_in_stages(stages)?.filter(|shown| shown.job.is_of_same_camera(&query)) else {
             return Ok(None);
@@ -192,13 +191,13 @@ impl Ranking {
     /// # Errors
     ///
     /// A sentence that says why there is none.
-    pub fn correction(&mut self, scene: &Scene<'_>, camera: &str) -> Result<Option<Arc<CorrectionFile>>, String> {
-        if scene.document.transform.is_eq_13() {
-            let error = SceneError::Rendering { name: camera.to_owned(), error: RenderingError::NotFitted };
-            return Err(error.to_string());
-        }
-        let query = CorrectionFileQuery::new(scene, (SetKind::Camera, camera), None, IdtExposure::Rawtoaces);
-        let shown = self.corrections.ask(query.map_err(|error| error.to_string())?)?.filter(|shown| shown.current);
+    pub fn correction(
+        &mut self,
+        scene: &Scene<'_>,
+        request: CorrectionRequest<'_>,
+    ) -> Result<Option<Arc<CorrectionFile>>, String> {
+        let query = CorrectionFileQuery::new(scene, request).map_err(|error| error.to_string())?;
+        let shown = self.corrections.ask(query)?.filter(|shown| shown.current);
         shown.map(|shown| (*shown.answer).clone()).transpose().map_err(|error| error.to_string())
     }
 
@@ -306,7 +305,9 @@ fn cameras(scene: &Scene<'_>, which: RankedCameras) -> Vec<RankedCamera> {
     let conditions = scene.metrics_conditions(scene.document.temperature_k);
     let conditions = conditions.map(Shared::new).map_err(|error| error.to_string());
     let camera = |entry: Entry| RankedCamera {
-        query: conditions.clone().map(|conditions| CatalogMetricsQuery::new(&entry, conditions)),
+        query: conditions.clone().map(|conditions| {
+            CatalogMetricsQuery::new(&entry, conditions, scene.channel_ratio_query(&entry.name).ok())
+        }),
         is_own: entry.is_own(),
         id: SensorId { kind: SetKind::Camera, name: entry.name },
     };

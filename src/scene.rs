@@ -2,6 +2,7 @@
 //!
 //! Used by panes, exports and the command line alike, so that they cannot disagree.
 
+pub mod channel_ratio;
 pub mod conditions;
 pub mod correction;
 pub mod light;

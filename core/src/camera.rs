@@ -1,6 +1,7 @@
 //! From spectra to a camera's signals, and from signals to the diagram.
 
 pub mod batch;
+pub mod channel_ratio;
 pub mod chart_grid;
 pub mod curve_spread;
 pub mod locus;
@@ -12,6 +13,7 @@ pub mod rendering;
 pub mod white_balance;
 
 pub use batch::{Batch, BatchError};
+pub use channel_ratio::{ChannelRatio, RatioTable};
 pub use curve_spread::{CurveSpread, CurveSpreadError};
 pub use locus::{LocusEvaluator, LocusMethod};
 pub use locus_deviation::{LocusDeviation, ReferenceLocus};

@@ -7,6 +7,7 @@ pub mod aces;
 pub mod classes;
 pub mod dng;
 pub mod minimize;
+pub mod neutral;
 pub mod root_polynomial;
 
 use std::sync::Arc;

@@ -1,13 +1,14 @@
 //! Sets of the library as files.
 
+use chromascope_core::query::Ask as _;
+
 use super::ChromascopeApp;
 use crate::document::SetKind;
-use crate::export::profile;
+use crate::export::profile::{self, CorrectionFileQuery, CorrectionForm};
 use crate::export::spectra::{self, Form};
 use crate::files::{FileForm, SaveRequest};
 use crate::results::Results;
 use crate::scene::Scene;
-use crate::view::correction::CorrectionForm;
 
 impl ChromascopeApp {
     /// Writes a set in the background and asks where to save it; differences from the set are reported when it is
@@ -46,22 +47,20 @@ impl ChromascopeApp {
         }
     }
 
-    /// Asks where to save the current color correction.
+    /// Makes a file of the camera's color correction in the background and asks where to save it. Needs no visible pane.
     pub(super) fn save_correction(&mut self, form: CorrectionForm) {
-        let Some(file) = self.view.correction.shown.clone() else { return };
-        let bytes = match form {
-            CorrectionForm::Dcp => file.dcp().map_err(|error| error.to_string()),
-            CorrectionForm::Icc => file.icc().map_err(|error| error.to_string()),
-            CorrectionForm::Clf => file.clf().map(String::into_bytes).map_err(|error| error.to_string()),
-            CorrectionForm::Text => Ok(file.text().into_bytes()),
+        let scene = Scene { document: self.history.document(), catalog: &self.catalog, results: &self.results };
+        let view = &self.view.correction;
+        let Some(camera) = view.camera(&scene) else {
+            return self.view.fail("No camera is compared: choose one in the pane Correction.");
         };
-        let (what, name) = (format!("{}, color correction", file.camera), profile::file_name(&file, form.ending()));
-        match bytes {
-            Err(error) => self.view.fail(error),
-            Ok(bytes) => self.files.make_to_save(move || {
-                let forms = vec![FileForm::of_bytes(form.ending(), bytes)];
-                Ok(SaveRequest { what, name, forms, note: String::new() })
-            }),
-        }
+        let query = CorrectionFileQuery::new(&scene, view.request(&scene, &camera));
+        self.files.make_to_save(move || {
+            let file = query.and_then(|query| (*Results::default().ask(&query)).clone()).map_err(|e| e.to_string())?;
+            let bytes = file.written(form).map_err(|error| error.to_string())?;
+            let (what, name) = (format!("{}, color correction", file.camera), profile::file_name(&file, form));
+            let forms = vec![FileForm::of_bytes(form.ending(), bytes)];
+            Ok(SaveRequest { what, name, forms, note: String::new() })
+        });
     }
 }

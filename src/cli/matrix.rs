@@ -4,6 +4,7 @@ pub(super) mod arguments;
 
 use chromascope_core::correction::aces::IdtExposure;
 use chromascope_core::query::Ask as _;
+use chromascope_core::query::correction::IdtQuery;
 
 use arguments::{Format, MatrixArguments};
 
@@ -11,7 +12,7 @@ use super::error::CliError;
 use super::outputs;
 use super::request::Request;
 use crate::document::start::Start;
-use crate::export::profile::{CorrectionFileQuery, clf, idt_note};
+use crate::export::profile::{CorrectionFileQuery, CorrectionForm, CorrectionRequest, clf, has_ratio, idt_note};
 use crate::results::Results;
 use crate::scene::{Scene, SceneError};
 use crate::terminal::say;
@@ -40,23 +41,27 @@ pub(super) fn run(arguments: &MatrixArguments) -> Result<(), CliError> {
 fn written(arguments: &MatrixArguments, request: &Request, scene: &Scene<'_>) -> Result<Vec<u8>, CliError> {
     let [(kind, name)] = request.sources.as_slice() else { return Ok(Vec::new()) };
     let exposure = if arguments.white_at_one { IdtExposure::WhiteAtOne } else { IdtExposure::Rawtoaces };
+    let neutral = arguments.neutral;
     if arguments.format == Format::Clf {
-        let idt = scene.results.ask(&scene.input_device_transform(*kind, name, exposure)?);
+        let light = scene.light_name();
+        has_ratio(name, &light, scene.channel_ratio(name)?, neutral)?;
+        let query = IdtQuery { neutral, ..scene.input_device_transform(*kind, name, exposure)? };
+        let idt = scene.results.ask(&query);
         let idt = idt.as_ref().as_ref().map_err(|error| SceneError::Idt { name: name.clone(), error: *error })?;
         if let Some(note) = idt_note(idt) {
             say(&format!("chromascope: {note}; --white-at-one fits it there\n"));
         }
-        return Ok(clf(name, &scene.light_name(), idt)?.into_bytes());
+        return Ok(clf(name, &light, idt)?.into_bytes());
     }
-    let query = CorrectionFileQuery::new(scene, (*kind, name), arguments.model.as_deref(), exposure)?;
-    let file = (*scene.results.ask(&query)).clone()?;
+    let request = CorrectionRequest { camera: name, model: arguments.model.as_deref(), neutral, exposure };
+    let file = (*scene.results.ask(&CorrectionFileQuery::new(scene, request)?)).clone()?;
     if let Some(Err(error)) = &file.sheet.second {
         return Err(SceneError::Rendering { name: name.clone(), error: *error }.into());
     }
-    Ok(match arguments.format {
-        Format::Dng => file.dng()?.into_bytes(),
-        Format::Dcp => file.dcp()?,
-        Format::Icc => file.icc()?,
-        Format::Text | Format::Clf => file.text().into_bytes(),
-    })
+    Ok(file.written(match arguments.format {
+        Format::Dng => CorrectionForm::Dng,
+        Format::Dcp => CorrectionForm::Dcp,
+        Format::Icc => CorrectionForm::Icc(arguments.icc_version.version()),
+        Format::Text | Format::Clf => CorrectionForm::Text,
+    })?)
 }

@@ -1,29 +1,33 @@
 //! Color corrections out of the program: text, DNG values, DCP, ICC, CLF.
 
-use std::fmt::Write as _;
-use std::sync::Arc;
+mod form;
+mod model;
+mod query;
 
+use std::fmt::Write as _;
+
+use chromascope_core::camera::ChannelRatio;
 use chromascope_core::colorimetry::Xyz;
 use chromascope_core::correction::RgbTransform;
-use chromascope_core::correction::aces::{Idt, IdtError, IdtExposure};
-use chromascope_core::correction::dng::ProfileMatrix;
+use chromascope_core::correction::aces::{Idt, IdtError};
+use chromascope_core::correction::dng::{DngMatrices, ProfileMatrix};
+use chromascope_core::correction::neutral::Neutral;
 use chromascope_core::correction::root_polynomial::RootPolynomial;
 use chromascope_core::glam::{DMat3, DVec3};
-use chromascope_core::patch_set::PatchSet;
-use chromascope_core::query::correction::{
-    CorrectionSheet, CorrectionSheetQuery, CorrectionUnder, IdtQuery, StimulusCheck,
-};
-use chromascope_core::query::{Ask, ErrorSummary, Query, Shared};
+use chromascope_core::query::ErrorSummary;
+use chromascope_core::query::correction::{CorrectionSheet, CorrectionUnder, StimulusCheck};
 use chromascope_core::units::Kelvin;
 use chromascope_profile::clf::Clf;
 use chromascope_profile::dcp::{Calibration, CalibrationIlluminant, Dcp};
-use chromascope_profile::icc::{D50, IccProfile};
+use chromascope_profile::icc::{D50, IccProfile, IccVersion};
 use chromascope_profile::{Matrix, ProfileError};
 
-use crate::document::SetKind;
+pub use form::CorrectionForm;
+pub use model::unique_camera_model;
+pub use query::{CorrectionFileQuery, CorrectionRequest};
+
 use crate::format::slug;
 use crate::scene::correction::exif_light;
-use crate::scene::{Scene, SceneError};
 
 /// Reason that a correction has no file of a kind.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -39,6 +43,19 @@ pub enum CorrectionFileError {
     /// The format cannot hold it.
     #[error(transparent)]
     Profile(#[from] ProfileError),
+    /// The file holds the ratio between the channels, which the table does not.
+    #[error(
+        "{camera}: its channel ratio is {ratio}. DCP, DNG and CLF files hold that ratio: give AsShotNeutral of a raw file under \
+         {light} (--neutral R,G,B; in the window the field Neutral). ICC files do without"
+    )]
+    Ratio {
+        /// The camera.
+        camera: String,
+        /// The light of the neutral.
+        light: String,
+        /// What is known of the ratio.
+        ratio: ChannelRatio,
+    },
 }
 
 /// Color correction of a camera with the names that files need.
@@ -60,66 +77,14 @@ pub struct CorrectionFile {
     pub sheet: CorrectionSheet,
     /// ACES input transform under the first light.
     pub idt: Result<Idt, IdtError>,
-}
-
-/// Query for the color correction of a camera of the scene, with its ACES input transform.
-#[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub struct CorrectionFileQuery {
-    camera: String,
-    model: String,
-    correction: String,
-    lights: Vec<String>,
-    metric: &'static str,
-    training: Shared<PatchSet>,
-    sheet: CorrectionSheetQuery,
-    idt: IdtQuery,
-}
-
-impl CorrectionFileQuery {
-    /// Query for a camera. `model` is the camera's name in raw files, if that is another.
-    ///
-    /// # Errors
-    ///
-    /// [`SceneError`] where the camera, a light or the training reflectances are not available.
-    pub fn new(
-        scene: &Scene<'_>,
-        (kind, camera): (SetKind, &str),
-        model: Option<&str>,
-        exposure: IdtExposure,
-    ) -> Result<Self, SceneError> {
-        let choice = &scene.document.correction;
-        Ok(Self {
-            camera: camera.to_owned(),
-            model: model.unwrap_or(camera).to_owned(),
-            correction: choice.describe(scene.fit_target()),
-            lights: std::iter::once(scene.light_name())
-                .chain(choice.second_light.clone().map(|light| scene.with_filters(light)))
-                .collect(),
-            metric: scene.correction_metric().symbol,
-            training: scene.patch_set(&choice.training, None)?,
-            sheet: scene.correction_sheet(kind, camera)?,
-            idt: scene.input_device_transform(kind, camera, exposure)?,
-        })
-    }
-}
-
-impl Query for CorrectionFileQuery {
-    type Answer = Result<Arc<CorrectionFile>, SceneError>;
-    const NAME: &'static str = "color correction with its names";
-
-    fn answer(&self, ask: &impl Ask) -> Self::Answer {
-        let sheet = (*ask.ask(&self.sheet)).clone();
-        Ok(Arc::new(CorrectionFile {
-            camera: self.camera.clone(),
-            model: self.model.clone(),
-            correction: self.correction.clone(),
-            lights: self.lights.clone(),
-            metric: self.metric,
-            training: self.training.patches().iter().map(|patch| patch.name.clone()).collect(),
-            sheet: sheet.map_err(|error| SceneError::Rendering { name: self.camera.clone(), error })?,
-            idt: (*ask.ask(&self.idt)).clone(),
-        }))
-    }
+    /// Names of the training reflectances of that transform.
+    pub idt_training: Vec<String>,
+    /// Credibility of the ratio between the table's channels.
+    pub ratio: ChannelRatio,
+    /// Camera RGB of a neutral under the first light, given in place of the table's own.
+    pub neutral: Option<Neutral>,
+    /// Terms of the table, for the files' copyright.
+    pub terms: String,
 }
 
 impl CorrectionFile {
@@ -142,30 +107,57 @@ impl CorrectionFile {
         unders
     }
 
-    /// DNG camera profile; of two lights, the warmer first.
+    /// Bytes of a file.
     ///
     /// # Errors
     ///
-    /// [`CorrectionFileError`] for a root polynomial, a singular matrix, or a name that the format cannot hold.
-    pub fn dcp(&self) -> Result<Vec<u8>, CorrectionFileError> {
-        let unders = self.warmer_first();
-        let calibrations: Option<Vec<Calibration>> =
-            unders.iter().map(|(name, under)| calibration(name, under)).collect();
-        let dcp = Dcp {
-            camera: self.model.clone(),
-            name: self.name(),
-            copyright: String::new(),
-            calibrations: calibrations.ok_or(CorrectionFileError::NoMatrix("DCP"))?,
+    /// [`CorrectionFileError`] for what the format cannot hold, and for one that needs the channel ratio where that is not credible.
+    pub fn written(&self, form: CorrectionForm) -> Result<Vec<u8>, CorrectionFileError> {
+        match form {
+            CorrectionForm::Dcp => self.dcp(),
+            CorrectionForm::Icc(version) => self.icc(version),
+            CorrectionForm::Clf => self.clf().map(String::into_bytes),
+            CorrectionForm::Dng => self.dng().map(String::into_bytes),
+            CorrectionForm::Text => Ok(self.text().into_bytes()),
+        }
+    }
+
+    /// Checks that the ratio between the channels is credible, or a neutral is given in its place.
+    ///
+    /// # Errors
+    ///
+    /// [`CorrectionFileError::Ratio`].
+    pub fn has_ratio(&self) -> Result<(), CorrectionFileError> {
+        let light = self.lights.first().map_or("", String::as_str);
+        has_ratio(&self.camera, light, self.ratio, self.neutral)
+    }
+
+    /// DNG matrices of a light; with a given neutral, the camera's channels are scaled to it under the first light.
+    pub fn dng_matrices(&self, under: &CorrectionUnder) -> Option<DngMatrices> {
+        let dng = under.report.dng?;
+        let Some(neutral) = self.neutral else { return Some(dng) };
+        dng.with_gains(neutral.to_vector() / self.sheet.first.report.dng?.neutral())
+    }
+
+    /// DNG camera profile; of two lights, the warmer first.
+    fn dcp(&self) -> Result<Vec<u8>, CorrectionFileError> {
+        let calibration = |(light, under): &(&String, &CorrectionUnder)| {
+            let illuminant = match (exif_light(light), under.xy) {
+                (Some(code), _) => CalibrationIlluminant::Exif(code),
+                (None, xy) => xy.map(|xy| CalibrationIlluminant::Other([xy.x, xy.y]))?,
+            };
+            let dng = self.dng_matrices(under)?;
+            Some(Calibration { illuminant, color: rows(dng.color), forward: rows(dng.forward) })
         };
+        let calibrations: Option<Vec<Calibration>> = self.warmer_first().iter().map(calibration).collect();
+        let calibrations = calibrations.ok_or(CorrectionFileError::NoMatrix("DCP"))?;
+        self.has_ratio()?;
+        let dcp = Dcp { camera: self.model.clone(), name: self.name(), copyright: self.terms.clone(), calibrations };
         Ok(dcp.to_bytes()?)
     }
 
-    /// ICC matrix profile of the first light.
-    ///
-    /// # Errors
-    ///
-    /// [`CorrectionFileError`] as [`Self::dcp`].
-    pub fn icc(&self) -> Result<Vec<u8>, CorrectionFileError> {
+    /// ICC matrix profile of the first light. It takes balanced RGB, so that the channel ratio is not in it.
+    fn icc(&self, version: IccVersion) -> Result<Vec<u8>, CorrectionFileError> {
         let report = &self.sheet.first.report;
         let RgbTransform::Matrix(matrix) = &report.transform else { return Err(CorrectionFileError::NoMatrix("ICC")) };
         let to = Xyz::from_vector(DVec3::from_array(D50));
@@ -173,24 +165,24 @@ impl CorrectionFile {
         let profile = profile.ok_or(CorrectionFileError::NoMatrix("ICC"))?;
         let icc = IccProfile {
             description: format!("{}, {}", self.camera, self.name()),
-            copyright: String::new(),
+            copyright: self.terms.clone(),
             xyz_from_rgb: rows(profile.xyz_from_rgb),
             adaptation: rows(profile.adaptation),
         };
-        Ok(icc.to_bytes()?)
+        Ok(icc.to_bytes(version)?)
     }
 
     /// DNG's matrices as `Tag: values` lines; of two lights, the warmer first.
     ///
     /// # Errors
     ///
-    /// [`CorrectionFileError::NoMatrix`] for a root polynomial or a singular matrix.
+    /// [`CorrectionFileError`] for a root polynomial or a singular matrix, and without a credible channel ratio.
     pub fn dng(&self) -> Result<String, CorrectionFileError> {
         let mut text = format!("UniqueCameraModel: {}\n", self.model);
         for (index, (name, under)) in self.warmer_first().into_iter().enumerate() {
             let number = index + 1;
-            let dng = under.report.dng.ok_or(CorrectionFileError::NoMatrix("DNG"))?;
-            let neutral = DVec3::from_array(dng.balance).recip();
+            let dng = self.dng_matrices(under).ok_or(CorrectionFileError::NoMatrix("DNG"))?;
+            let neutral = dng.neutral();
             let _ = writeln!(text, "CalibrationIlluminant{number}: {}", exif_light(name).unwrap_or(255));
             if let Some(xy) = under.xy.filter(|_| exif_light(name).is_none()) {
                 let _ = writeln!(text, "IlluminantData{number}: {:.6} {:.6}", xy.x, xy.y);
@@ -199,22 +191,23 @@ impl CorrectionFile {
             let _ = writeln!(text, "ForwardMatrix{number}: {}", on_a_line(dng.forward));
             let _ = writeln!(text, "AsShotNeutral ({name}): {:.6} {:.6} {:.6}", neutral.x, neutral.y, neutral.z);
         }
-        Ok(text)
+        self.has_ratio().map(|()| text)
     }
 
-    /// ACES input transform in Common LUT Format.
-    ///
-    /// # Errors
-    ///
-    /// [`CorrectionFileError`] without a transform, or for a name that the format cannot hold.
-    pub fn clf(&self) -> Result<String, CorrectionFileError> {
+    /// ACES input transform in Common LUT Format. Its description states balance multipliers, which are the channel ratio.
+    fn clf(&self) -> Result<String, CorrectionFileError> {
         let light = self.lights.first().map_or("", String::as_str);
-        clf(&self.camera, light, self.idt.as_ref().map_err(|error| *error)?)
+        let idt = self.idt.as_ref().map_err(|error| *error)?;
+        self.has_ratio()?;
+        clf(&self.camera, light, idt)
     }
 
     /// Everything in words and aligned numbers.
     pub fn text(&self) -> String {
-        let mut text = format!("{}\n{}\n", self.camera, self.correction);
+        let mut text = format!("{}\n{}\nChannel ratio {}\n", self.camera, self.correction, self.ratio);
+        if let Some(DVec3 { x, y, z }) = self.neutral.map(Neutral::to_vector) {
+            let _ = writeln!(text, "Given neutral under {}: {x:.6} {y:.6} {z:.6}", self.lights[0]);
+        }
         for (name, under) in self.unders() {
             let kelvin = under.temperature.map_or(String::new(), |kelvin| format!(", {:.0} K", kelvin.get()));
             let _ = writeln!(text, "\nUnder {name}{kelvin}");
@@ -232,14 +225,24 @@ impl CorrectionFile {
             }
         }
         if let Ok(idt) = &self.idt {
-            let [r, g, b] = idt.balance;
-            let _ =
-                writeln!(text, "\nACES IDT (rawtoaces), after balance {r:.7} {g:.7} {b:.7}\n{}", aligned(idt.matrix));
-            if let Some(note) = idt_note(idt) {
-                let _ = writeln!(text, "{note}");
-            }
+            let _ = writeln!(text, "\nACES IDT (rawtoaces)\n{}", self.idt_text(idt));
+        }
+        if let Err(error) = self.has_ratio() {
+            let _ = writeln!(text, "\n{error}");
         }
         text
+    }
+
+    /// Balance, matrix and errors of the ACES input transform; no balance without a credible channel ratio.
+    pub fn idt_text(&self, idt: &Idt) -> String {
+        let [r, g, b] = idt.balance;
+        let balance = self.has_ratio().map_or(String::new(), |()| format!("balance {r:.7} {g:.7} {b:.7}\n"));
+        let errors: Vec<Option<f64>> = idt.errors.iter().copied().map(Some).collect();
+        let summary = ErrorSummary::new(&errors);
+        let rows = [("training", summary)];
+        let table = error_table(&format!("\u{394}E*00 of {}", errors.len()), &rows, &self.idt_training);
+        let note = idt_note(idt).map_or(String::new(), |note| format!("\n{note}"));
+        format!("{balance}{}\n\n{IDT_FIT}\n{table}{note}", aligned(idt.matrix))
     }
 
     fn under(&self, text: &mut String, under: &CorrectionUnder) {
@@ -249,9 +252,11 @@ impl CorrectionFile {
         for check in std::iter::once(&report.white).chain(&report.blue) {
             let _ = writeln!(text, "{}", check_lines(check, self.metric).join("  "));
         }
-        if let Some(dng) = &report.dng {
+        if let Some(dng) = self.dng_matrices(under) {
             let [r, g, b] = dng.balance;
-            let _ = writeln!(text, "\nbalance {r:.6} {g:.6} {b:.6}\nDNG ColorMatrix\n{}", aligned(dng.color));
+            if self.has_ratio().is_ok() {
+                let _ = writeln!(text, "\nbalance {r:.6} {g:.6} {b:.6}\nDNG ColorMatrix\n{}", aligned(dng.color));
+            }
             let _ = writeln!(text, "DNG ForwardMatrix\n{}", aligned(dng.forward));
         }
     }
@@ -267,18 +272,44 @@ impl CorrectionFile {
     /// Training and leave-one-out errors before and after, as aligned lines.
     pub fn errors_text(&self, under: &CorrectionUnder) -> String {
         let report = &under.report;
-        let mut lines =
-            vec![format!("{:<16}    mean    95 %     max  at", format!("{} of {}", self.metric, report.count))];
         let rows = [("uncorrected", report.before), ("training", report.training), ("leave-one-out", report.left_out)];
-        lines.extend(rows.map(|(label, summary)| format!("{label:<16}{}", self.summary(summary))));
-        lines.join("\n")
+        error_table(&format!("{} of {}", self.metric, report.count), &rows, &self.training)
     }
+}
 
-    fn summary(&self, summary: Option<ErrorSummary>) -> String {
-        let Some(ErrorSummary { mean, p95, max, worst }) = summary else { return "undefined".to_owned() };
-        let worst = self.training.get(worst).map_or("", String::as_str);
-        format!("{mean:8.3}{p95:8.3}{max:8.3}  {worst}")
+/// The fit of the ACES input transform in words, where its errors stand beside those of the other matrices.
+const IDT_FIT: &str = "Another fit than of DCP and ICC, to ACES: least squares in L*a*b* over 190 reflectances, CAT02";
+
+/// Checks that a channel ratio is credible, or a neutral is given in its place.
+///
+/// # Errors
+///
+/// [`CorrectionFileError::Ratio`].
+pub fn has_ratio(
+    camera: &str,
+    light: &str,
+    ratio: ChannelRatio,
+    neutral: Option<Neutral>,
+) -> Result<(), CorrectionFileError> {
+    if ratio.is_credible() || neutral.is_some() {
+        return Ok(());
     }
+    Err(CorrectionFileError::Ratio { camera: camera.to_owned(), light: light.to_owned(), ratio })
+}
+
+/// Summaries of errors as aligned lines; `names` are those of the reflectances.
+fn error_table(head: &str, rows: &[(&str, Option<ErrorSummary>)], names: &[String]) -> String {
+    let line = |(label, summary): &(&str, Option<ErrorSummary>)| match summary {
+        None => format!("{label:<16}undefined"),
+        Some(ErrorSummary { mean, p95, max, worst }) => {
+            let worst = names.get(*worst).map_or("", String::as_str);
+            format!("{label:<16}{mean:8.3}{p95:8.3}{max:8.3}  {worst}")
+        }
+    };
+    std::iter::once(format!("{head:<16}    mean    95 %     max  at"))
+        .chain(rows.iter().map(line))
+        .collect::<Vec<_>>()
+        .join("\n")
 }
 
 /// ACES input transform in Common LUT Format.
@@ -338,8 +369,9 @@ pub fn check_lines(check: &StimulusCheck, metric: &str) -> [String; 2] {
 }
 
 /// Name of a correction's file.
-pub fn file_name(file: &CorrectionFile, ending: &str) -> String {
-    format!("{}-{}.{ending}", slug(&file.camera), slug(&file.lights.join(" ")))
+pub fn file_name(file: &CorrectionFile, form: CorrectionForm) -> String {
+    let (camera, lights) = (slug(&file.camera), slug(&file.lights.join(" ")));
+    format!("{camera}-{lights}{}.{}", form.suffix(), form.ending())
 }
 
 fn polynomial_table(polynomial: &RootPolynomial) -> String {
@@ -347,15 +379,6 @@ fn polynomial_table(polynomial: &RootPolynomial) -> String {
         format!("{:<10}{:14.6}{:14.6}{:14.6}", RootPolynomial::term_name(index), c.x, c.y, c.z)
     };
     polynomial.coefficients().iter().enumerate().map(line).collect::<Vec<_>>().join("\n")
-}
-
-fn calibration(light: &str, under: &CorrectionUnder) -> Option<Calibration> {
-    let dng = under.report.dng?;
-    let illuminant = match (exif_light(light), under.xy) {
-        (Some(code), _) => CalibrationIlluminant::Exif(code),
-        (None, xy) => xy.map(|xy| CalibrationIlluminant::Other([xy.x, xy.y]))?,
-    };
-    Some(Calibration { illuminant, color: rows(dng.color), forward: rows(dng.forward) })
 }
 
 fn rows(matrix: DMat3) -> Matrix {

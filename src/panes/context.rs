@@ -97,6 +97,11 @@ impl PaneContext<'_> {
         self.pane(kind).map_or("", |pane| pane.title)
     }
 
+    /// The camera whose color correction is shown and saved.
+    pub fn correction_camera(&self) -> Option<String> {
+        self.view.correction.camera(&self.scene)
+    }
+
     /// Input for a figure.
     pub fn figure_input(&self) -> FigureInput<'_> {
         FigureInput::of((&self.scene, self.view), self.render_service, self.profiler, self.opened)

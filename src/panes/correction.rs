@@ -8,13 +8,11 @@ use chromascope_core::query::correction::CorrectionUnder;
 use egui::{Id, Label, Rect, RichText, ScrollArea, Sense, Ui, Vec2};
 
 use super::context::{Pane, PaneContext};
-use crate::command::Command;
-use crate::export::profile::{CorrectionFile, aligned, check_lines, idt_note};
+use crate::export::profile::{CorrectionFile, CorrectionFileError, aligned, check_lines};
 use crate::figures::correction as figure;
 use crate::paint::{self, PlotOptions};
 use crate::panes::widgets;
 use crate::theme::UNIT;
-use crate::view::correction::CorrectionForm;
 use crate::workspaces::PaneKind;
 
 /// The pane.
@@ -31,10 +29,9 @@ pub const PANE: Pane = Pane {
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     widgets::scrolling_pane(ui, &PANE, rect, context, |ui, context| {
         ui.spacing_mut().item_spacing = Vec2::new(2.0 * UNIT, UNIT);
-        let Some(camera) = controls::camera(ui, context) else {
-            ui.label("Tick a camera in the library.");
-            return;
-        };
+        let Some(camera) = controls::camera(ui, context) else { return };
+        controls::files(ui, context);
+        controls::stated(ui, &camera, context);
         controls::method(ui, context);
         controls::training(ui, context);
         match refreshed(&camera, context) {
@@ -51,8 +48,8 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
 
 /// The correction of a camera, requested in the background; the last one while it is made.
 fn refreshed(camera: &str, context: &mut PaneContext<'_>) -> Result<Option<Arc<CorrectionFile>>, String> {
-    let made = context.ranking.correction(&context.scene, camera);
     let view = &mut context.view.correction;
+    let made = context.ranking.correction(&context.scene, view.request(&context.scene, camera));
     match made {
         Ok(Some(file)) => view.shown = Some(file),
         Ok(None) => {}
@@ -75,23 +72,20 @@ fn sheet(ui: &mut Ui, file: &CorrectionFile, context: &mut PaneContext<'_>) {
         ui.add(Label::new(RichText::new(error.to_string()).color(theme.error)).wrap());
     }
     between(ui, file, context);
-    if let Ok(dng) = file.dng() {
-        section(ui, "DNG matrices", Some(&dng), "Copy the DNG matrices");
-        for line in dng.lines() {
-            ui.add(Label::new(RichText::new(line).monospace()).wrap());
-        }
-    }
-    aces(ui, file, context);
-    ui.add_space(UNIT);
-    ui.horizontal_wrapped(|ui| {
-        ui.label("Save as");
-        for form in CorrectionForm::ALL {
-            let (label, hint) = form.words();
-            if ui.button(label).on_hover_text(hint).clicked() {
-                context.push(Command::SaveCorrection(form));
+    match file.dng() {
+        Ok(dng) => {
+            section(ui, "DNG matrices", Some(&dng), "Copy the DNG matrices");
+            for line in dng.lines() {
+                ui.add(Label::new(RichText::new(line).monospace()).wrap());
             }
         }
-    });
+        Err(error @ CorrectionFileError::Ratio { .. }) => {
+            section(ui, "DNG matrices", None, "");
+            ui.add(Label::new(RichText::new(error.to_string()).color(theme.warning)).wrap());
+        }
+        Err(_) => {}
+    }
+    aces(ui, file, context);
     ui.add_space(2.0 * UNIT);
 }
 
@@ -158,13 +152,8 @@ fn between(ui: &mut Ui, file: &CorrectionFile, context: &mut PaneContext<'_>) {
 fn aces(ui: &mut Ui, file: &CorrectionFile, context: &PaneContext<'_>) {
     match &file.idt {
         Ok(idt) => {
-            let matrix = aligned(idt.matrix);
-            section(ui, "ACES IDT (rawtoaces)", Some(&matrix), "Copy the IDT matrix");
-            let [r, g, b] = idt.balance;
-            mono(ui, &format!("balance {r:.7} {g:.7} {b:.7}\n{matrix}"));
-            if let Some(note) = idt_note(idt) {
-                ui.add(Label::new(RichText::new(note).small().color(context.theme.warning)).wrap());
-            }
+            section(ui, "ACES IDT (rawtoaces)", Some(&aligned(idt.matrix)), "Copy the IDT matrix");
+            mono(ui, &file.idt_text(idt));
         }
         Err(error) => {
             section(ui, "ACES IDT (rawtoaces)", None, "");

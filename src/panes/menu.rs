@@ -8,6 +8,7 @@ use crate::action::{Action, SceneAction};
 use crate::command::{Command, REPORTS, SessionCommand, THEMES, TourMove, shortcut_of};
 use crate::document::start::Start;
 use crate::export::FigureForm;
+use crate::export::profile::CorrectionForm;
 use crate::panes::widgets::{Icon, icon_button, pick_list};
 use crate::theme::{Surround, UNIT};
 use crate::view::template::TEMPLATES;
@@ -166,6 +167,13 @@ fn file(ui: &mut Ui, context: &mut PaneContext<'_>) {
         item(ui, &words, Command::Export(pane, form), context);
     }
     item(ui, &format!("Export numbers of {}…", context.title(pane)), Command::Export(pane, FigureForm::Csv), context);
+    if let Some(camera) = context.correction_camera() {
+        ui.menu_button(format!("Color correction of {camera}"), |ui| {
+            for form in CorrectionForm::ALL {
+                item(ui, form.words().0, Command::SaveCorrection(form), context);
+            }
+        });
+    }
     ui.menu_button("Report on the paper", |ui| {
         for (on, words) in REPORTS {
             item(ui, words, Command::Report(on), context);

@@ -21,6 +21,7 @@ use egui::{Align, Button, Layout, Rect, Response, Sense, Ui, UiBuilder, Vec2};
 
 use crate::command::Command;
 use crate::export::FigureForm;
+use crate::export::profile::CorrectionForm;
 use crate::paint;
 use crate::panes::context::{Pane, PaneContext};
 use crate::plot_item::SensorId;
@@ -162,6 +163,12 @@ fn export_menu(ui: &mut Ui, &Pane { kind, title, .. }: &Pane, context: &mut Pane
                 ui.close();
             }
         };
+        if kind == PaneKind::CORRECTION {
+            for form in CorrectionForm::ALL {
+                item(ui, form.words().0, Command::SaveCorrection(form));
+            }
+            ui.separator();
+        }
         item(ui, "Figure page (Ctrl+E)", Command::FigurePage(kind));
         ui.separator();
         for form in FigureForm::ALL {

@@ -57,6 +57,7 @@ impl Scene<'_> {
             observer: self.sensor(SetKind::Observer, CIE_1931)?,
             training: self.patch_set(TRAINING, None)?,
             exposure,
+            neutral: None,
         })
     }
 

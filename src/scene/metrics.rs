@@ -2,10 +2,10 @@
 
 use std::sync::Arc;
 
+use chromascope_core::camera::ChannelRatio;
 use chromascope_core::camera::quality::Electrons;
 use chromascope_core::metamers::{Confusion, MetamerLimits, MetamerPair};
 use chromascope_core::patch_set::{COLOR_CHECKER_CHROMATIC, PatchSet};
-use chromascope_core::query::metrics::RatioEvidence;
 use chromascope_core::query::{
     Ask, CameraMetric, CameraMetrics, CameraMetricsQuery, IndexConditions, MetamersQuery, MetricUncertaintiesQuery,
     MetricUncertainty, MetricValue, Query, RenderingQuery, Shared,
@@ -13,6 +13,7 @@ use chromascope_core::query::{
 use chromascope_core::spectral::Sensor;
 use chromascope_core::units::Kelvin;
 
+use super::channel_ratio::ChannelRatioQuery;
 use super::{Scene, SceneError};
 use crate::catalog::load::{CurveSpreadQuery, LightQuery, LoadError, PatchesQuery, SensorQuery, response_evidence};
 use crate::catalog::{Entry, Place};
@@ -70,13 +71,14 @@ impl CameraFigures {
 pub struct CatalogMetricsQuery {
     place: Place,
     conditions: Shared<MetricsConditions>,
+    ratio: Option<ChannelRatioQuery>,
     with_uncertainties: bool,
 }
 
 impl CatalogMetricsQuery {
     /// The question for a camera under conditions, without uncertainties.
-    pub fn new(camera: &Entry, conditions: Shared<MetricsConditions>) -> Self {
-        Self { place: camera.place.clone(), conditions, with_uncertainties: false }
+    pub fn new(camera: &Entry, conditions: Shared<MetricsConditions>, ratio: Option<ChannelRatioQuery>) -> Self {
+        Self { place: camera.place.clone(), conditions, ratio, with_uncertainties: false }
     }
 
     /// The same with uncertainties, which take longer.
@@ -98,8 +100,11 @@ impl Query for CatalogMetricsQuery {
     fn answer(&self, ask: &impl Ask) -> Self::Answer {
         let query = self.conditions.query((*ask.ask(&SensorQuery(self.place.clone()))).clone()?);
         let metrics = ask.ask(&query);
-        let uncertainties =
-            if self.with_uncertainties { Some(ask.ask(&uncertainties_query(query, &self.place, ask)?)) } else { None };
+        let uncertainties = if self.with_uncertainties {
+            Some(ask.ask(&uncertainties_query(query, &self.place, self.ratio.as_ref(), ask)?))
+        } else {
+            None
+        };
         Ok(CameraFigures { metrics, uncertainties })
     }
 }
@@ -108,13 +113,14 @@ impl Query for CatalogMetricsQuery {
 fn uncertainties_query(
     metrics: CameraMetricsQuery,
     place: &Place,
+    ratio: Option<&ChannelRatioQuery>,
     ask: &impl Ask,
 ) -> Result<MetricUncertaintiesQuery, LoadError> {
     Ok(MetricUncertaintiesQuery {
         metrics,
         spread: (*ask.ask(&CurveSpreadQuery)).clone()?,
         response: response_evidence(place, ask),
-        ratio: RatioEvidence::Unchecked,
+        ratio: ratio.map_or(Ok(ChannelRatio::Unchecked), |ratio| (*ask.ask(ratio)).clone())?,
     })
 }
 
@@ -227,7 +233,8 @@ impl Scene<'_> {
         metrics: CameraMetricsQuery,
     ) -> Result<MetricUncertaintiesQuery, SceneError> {
         let failed = |error| SceneError::Load { name: name.to_owned(), error };
-        uncertainties_query(metrics, &self.entry(kind, name)?.place, self.results).map_err(failed)
+        let ratio = self.channel_ratio_query(name).ok().filter(|_| kind == SetKind::Camera);
+        uncertainties_query(metrics, &self.entry(kind, name)?.place, ratio.as_ref(), self.results).map_err(failed)
     }
 
     /// Figures of merit of a sensor with their uncertainties.

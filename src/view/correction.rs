@@ -1,52 +1,49 @@
 //! View state of the Correction pane.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use crate::export::profile::CorrectionFile;
+use chromascope_core::correction::neutral::{Neutral, NeutralError};
+
+use crate::document::SetKind;
+use crate::export::profile::{CorrectionFile, CorrectionRequest};
+use crate::scene::Scene;
 
 /// State of the Correction pane.
 #[derive(Debug, Default)]
 pub struct CorrectionView {
     /// The camera chosen there; the first that is compared otherwise.
     pub camera: Option<String>,
+    /// Camera models as typed, by camera.
+    pub models: BTreeMap<String, String>,
+    /// Neutrals as typed, by camera and light: one of another light would be wrong.
+    pub neutrals: BTreeMap<(String, String), String>,
     /// The current correction.
     pub shown: Option<Arc<CorrectionFile>>,
 }
 
-/// A file that a correction is saved as.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum CorrectionForm {
-    /// DNG camera profile.
-    Dcp,
-    /// ICC matrix profile.
-    Icc,
-    /// ACES input transform.
-    Clf,
-    /// Everything in words and numbers.
-    Text,
-}
-
-impl CorrectionForm {
-    /// All forms, in the order of their buttons.
-    pub const ALL: [Self; 4] = [Self::Dcp, Self::Icc, Self::Clf, Self::Text];
-
-    /// The ending of such files.
-    pub const fn ending(self) -> &'static str {
-        match self {
-            Self::Dcp => "dcp",
-            Self::Icc => "icc",
-            Self::Clf => "clf",
-            Self::Text => "txt",
-        }
+impl CorrectionView {
+    /// The camera that is corrected: the one chosen, else the first that is compared.
+    pub fn camera(&self, scene: &Scene<'_>) -> Option<String> {
+        let chosen = self.camera.clone().filter(|name| scene.entry(SetKind::Camera, name).is_ok());
+        let compared = || scene.sources().into_iter().find(|source| source.kind == SetKind::Camera);
+        chosen.or_else(|| Some(compared()?.name))
     }
 
-    /// Label of the button, and the object it saves.
-    pub const fn words(self) -> (&'static str, &'static str) {
-        match self {
-            Self::Dcp => ("DCP…", "Save a DNG camera profile for raw developers: matrices of one light or two"),
-            Self::Icc => ("ICC…", "Save an ICC matrix profile for linear RGB, balanced for the light"),
-            Self::Clf => ("ACES CLF…", "Save the ACES input transform as rawtoaces defines it, in Common LUT Format"),
-            Self::Text => ("Text…", "Save all that stands here as text"),
-        }
+    /// The neutral typed for a camera under the light on the scene; none for an empty field.
+    ///
+    /// # Errors
+    ///
+    /// [`NeutralError`] for text that is no neutral.
+    pub fn neutral(&self, scene: &Scene<'_>, camera: &str) -> Result<Option<Neutral>, NeutralError> {
+        let typed = self.neutrals.get(&(camera.to_owned(), scene.light_name()));
+        typed.filter(|typed| !typed.trim().is_empty()).map(|typed| typed.parse()).transpose()
+    }
+
+    /// What the files of a camera are to state. A neutral that cannot be read counts as none.
+    pub fn request<'a>(&'a self, scene: &Scene<'_>, camera: &'a str) -> CorrectionRequest<'a> {
+        let model = self.models.get(camera).map(|typed| typed.trim()).filter(|typed| !typed.is_empty());
+        let neutral = self.neutral(scene, camera).ok().flatten();
+        CorrectionRequest { camera, model, neutral, ..CorrectionRequest::default() }
     }
 }

@@ -133,6 +133,27 @@ fn headers_hold_the_required_keys_in_order() {
     }
 }
 
+/// Names that raw files give to the cameras of the library, each once, without a parenthesis that no raw file has.
+#[test]
+fn models_of_raw_files_are_those_of_the_library() {
+    let file = read(Path::new(ROOT).join("models/unique_camera_model.csv"), "models");
+    let keys: Vec<&str> = file.header.iter().map(|(_, key, _)| key.as_str()).collect();
+    assert!(keys.starts_with(&["title", "quantity", "unit", "source", "license", "note"]), "{keys:?}");
+    assert_eq!(file.heads, ["name", "unique_camera_model"]);
+    let mut listed = BTreeSet::new();
+    for (line, row) in &file.rows {
+        let [name, model] = row.as_slice() else { panic!("{}: two fields", file.at(*line)) };
+        assert!(listed.insert(name.clone()), "{}: {name} twice", file.at(*line));
+        assert!(model.is_ascii() && !model.contains('('), "{}: {model}", file.at(*line));
+    }
+    let catalog = Catalog::built_in();
+    let names = catalog.of_kind(SetKind::Camera).map(|entry| entry.name.split(" (").next().unwrap().to_owned());
+    let models: BTreeSet<String> = names.collect();
+    let unlisted: Vec<&String> = models.difference(&listed).collect();
+    assert_eq!(unlisted, ["ARRI D21", "Kodak DCS200"], "they write no raw file with such a name");
+    assert!(listed.is_subset(&models), "{:?}", listed.difference(&models));
+}
+
 /// Meshes are OBJ files, in which a header is a comment too.
 #[test]
 fn meshes_have_headers_too() {

@@ -1,5 +1,6 @@
 //! The Correction pane and the document's correction.
 
+use std::collections::BTreeSet;
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex};
 
@@ -14,6 +15,7 @@ use chromascope::jobs::Executor;
 use chromascope::view::SavedView;
 use chromascope::workspaces::PaneKind;
 use chromascope_core::correction::CorrectionMethod;
+use egui::accesskit::Role;
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
 
@@ -94,10 +96,12 @@ fn each_kind_of_file_is_saved_from_the_pane() {
         harness.step();
         harness.query_by_label("DCP…").map(|_| ()).ok_or_else(|| "no buttons".to_owned())
     });
-    let begins: [(&str, usize, &[u8]); 4] = [
+    let begins: [(&str, usize, &[u8]); 6] = [
         ("DCP…", 0, b"IIRC"),
-        ("ICC…", 36, b"acsp"),
+        ("ICC v4…", 36, b"acsp"),
+        ("ICC v2…", 36, b"acsp"),
         ("ACES CLF…", 0, b"<?xml"),
+        ("DNG text…", 0, b"UniqueCameraModel: Canon EOS 5D Mark II"),
         ("Text…", 0, b"Canon EOS 5D Mark II"),
     ];
     for (count, (button, at, expected)) in begins.into_iter().enumerate() {
@@ -112,5 +116,76 @@ fn each_kind_of_file_is_saved_from_the_pane() {
         });
     }
     let endings: Vec<_> = dialogs.1.lock().unwrap().iter().map(|path| path.extension().unwrap().to_owned()).collect();
-    assert_eq!(endings, ["dcp", "icc", "clf", "txt"]);
+    assert_eq!(endings, ["dcp", "icc", "icc", "clf", "txt", "txt"]);
+    let names: BTreeSet<PathBuf> = dialogs.1.lock().unwrap().iter().cloned().collect();
+    assert_eq!(names.len(), 6, "each has a name of its own");
+}
+
+/// Opens the pane with a camera that is not compared.
+fn pane_of(camera: &str, size: [f32; 2]) -> Harness<'static, ChromascopeApp> {
+    let mut harness = open_with(Document::colorimetry(), size, egui::Theme::Dark);
+    harness.state_mut().view_mut().correction.camera = Some(camera.to_owned());
+    harness.state_mut().push(Command::Maximize(PANE));
+    harness
+}
+
+fn shows(harness: &mut Harness<'static, ChromascopeApp>, words: &str) {
+    until(words, || {
+        harness.step();
+        let shown = harness.query_all_by_label_contains(words).next().is_some();
+        if shown { Ok(()) } else { Err("it is not shown".to_owned()) }
+    });
+}
+
+#[test]
+fn a_camera_of_the_library_is_corrected_without_being_compared() {
+    let mut harness = pane_of("Nikon D850", [900.0, 1600.0]);
+    shows(&mut harness, "UniqueCameraModel: Nikon D850");
+    harness.get_by_label("Camera: Nikon D850").click();
+    harness.run_steps(3);
+    for name in ["Compared", "Library"] {
+        assert!(harness.query_all_by_label(name).next().is_some(), "{name}");
+    }
+    harness.get_by_role_and_label(Role::TextInput, "Filter Camera").type_text("rebel");
+    harness.run_steps(2);
+    harness.key_press(egui::Key::Enter);
+    shows(&mut harness, "UniqueCameraModel: Canon EOS 400D DIGITAL");
+}
+
+#[test]
+fn a_lost_channel_ratio_is_said_and_mended_in_the_pane() {
+    let mut harness = pane_of("Nikon D5100", [900.0, 1600.0]);
+    shows(&mut harness, "Channel ratio lost: each channel is scaled to the same maximum");
+    shows(&mut harness, "hold that ratio: give AsShotNeutral");
+    harness.get_by_role_and_label(Role::TextInput, "Neutral").focus();
+    harness.step();
+    harness.get_by_role_and_label(Role::TextInput, "Neutral").type_text("0.47,1,0.72");
+    shows(&mut harness, "AsShotNeutral (D65): 0.470000 1.000000 0.720000");
+    assert!(harness.query_all_by_label_contains("Channel ratio lost").next().is_none());
+}
+
+#[test]
+fn corrections_are_saved_from_every_menu() {
+    let mut harness = open_with(Document::colorimetry(), [1280.0, 800.0], egui::Theme::Dark);
+    harness.get_by_label("File").click();
+    shows(&mut harness, "Color correction of ");
+    harness.key_press(egui::Key::Escape);
+    for (typed, found) in
+        [("dcp", "DCP…"), ("icc", "ICC v2…"), ("clf", "ACES CLF…"), ("save matrix", "DNG text…"), ("profile", "DCP…")]
+    {
+        harness.state_mut().push(Command::FindAnything);
+        harness.run_steps(3);
+        harness.get_by_role_and_label(Role::TextInput, "Find anything").type_text(typed);
+        shows(&mut harness, &format!("Save the color correction as {found}"));
+        harness.state_mut().push(Command::Escape);
+        harness.step();
+    }
+    harness.state_mut().push(Command::Maximize(PANE));
+    shows(&mut harness, "Export Correction");
+    harness.get_by_label("Export Correction").click();
+    until("the share menu", || {
+        harness.step();
+        let count = harness.query_all_by_label("ICC v2…").count();
+        if count == 2 { Ok(()) } else { Err(format!("{count} in the pane and the menu")) }
+    });
 }

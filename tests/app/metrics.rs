@@ -98,6 +98,23 @@ fn the_library_is_ranked_beside_the_window_with_progress() {
     assert!(values.is_sorted(), "sorted by the first metric: {values:?}");
 }
 
+#[test]
+fn values_do_not_wait_for_their_uncertainties() {
+    let (executor, mut window) = open();
+    while window.state().ranking().progress().is_some() {
+        assert!(executor.run_one("ranking"));
+        window.run_steps(3);
+    }
+    let first = |window: &Window| rows(window)[0].0.clone();
+    let row = first(&window);
+    assert!(number(&row, "ΔE*00 mean").is_some() && !row.contains('±'), "{row}");
+    assert!(!row.contains(": rank 1"), "no rank is claimed before: {row}");
+    window.state().ranking().wait();
+    window.run_steps(3);
+    let row = first(&window);
+    assert!(row.contains('±') && row.contains(": rank 1"), "{row}");
+}
+
 /// Data files that were parsed so far.
 fn parsed(executor: &Executor) -> u64 {
     executor.results().counts().get("data file").map_or(0, |count| count.misses)

@@ -8,6 +8,7 @@
 mod accuracy;
 mod batch;
 mod camera;
+mod channel_ratio;
 mod chart_grid;
 mod colorimetry;
 mod correction;
@@ -30,3 +31,4 @@ mod spectral_image;
 mod stress;
 mod support;
 mod temperature;
+mod uncertainty;

@@ -6,10 +6,10 @@ mod reading;
 
 use chromascope_profile::clf::Clf;
 use chromascope_profile::dcp::{Calibration, CalibrationIlluminant, Dcp};
-use chromascope_profile::icc::IccProfile;
+use chromascope_profile::icc::{IccProfile, IccVersion};
 use chromascope_profile::{Matrix, ProfileError};
 use proptest::prelude::*;
-use reading::{clf_numbers, icc_tags, tiff_fields};
+use reading::{clf_numbers, icc_tags, md5, tiff_fields};
 use std::path::PathBuf;
 
 const FORWARD: Matrix = [[0.7, 0.2, 0.0642], [0.3, 0.8, -0.1], [0.0, -0.1, 0.9249]];
@@ -33,7 +33,7 @@ fn two_lights() -> Vec<Calibration> {
 fn icc() -> IccProfile {
     IccProfile {
         description: "Nikon D200, σ".to_owned(),
-        copyright: String::new(),
+        copyright: "Terms of the table: Apache-2.0".to_owned(),
         xyz_from_rgb: FORWARD,
         adaptation: BRADFORD,
     }
@@ -91,7 +91,7 @@ fn dcp_holds_its_fields_in_the_order_of_tags() {
 /// bits 152, 190, 72; the matrix and colour-science 0.4.7 give 151.90, 190.01, 71.90.
 #[test]
 fn icc_profile_has_its_tags() {
-    let bytes = icc().to_bytes().unwrap();
+    let bytes = icc().to_bytes(IccVersion::V4).unwrap();
     compare("matrix.icc", &bytes);
     assert_eq!(u32::from_be_bytes(bytes[..4].try_into().unwrap()) as usize, bytes.len());
     assert_eq!(&bytes[8..12], [4, 0x40, 0, 0]);
@@ -115,8 +115,49 @@ fn icc_profile_has_its_tags() {
     // A curve without entries is the identity.
     assert_eq!(tag("gTRC").bytes, b"curv\0\0\0\0\0\0\0\0");
     assert_eq!(tag("desc").text(), "Nikon D200, σ");
-    assert_eq!(tag("cprt").text(), "None");
+    assert_eq!(tag("cprt").text(), "Terms of the table: Apache-2.0");
     assert!(tags.iter().all(|tag| tag.offset.is_multiple_of(4)));
+}
+
+/// ICC.1:2010, 7.2.18: MD5 (RFC 1321) of the file with flags, rendering intent and the identifier itself zero.
+#[test]
+fn the_profile_id_is_the_md5_of_the_rule() {
+    let bytes = icc().to_bytes(IccVersion::V4).unwrap();
+    let mut hashed = bytes.clone();
+    for field in [44..48, 64..68, 84..100] {
+        hashed[field].fill(0);
+    }
+    assert_eq!(bytes[84..100], md5(&hashed));
+    // RFC 1321, A.5: of nothing, and of "abc".
+    let hex = |bytes: [u8; 16]| bytes.map(|byte| format!("{byte:02x}")).concat();
+    assert_eq!(hex(md5(b"")), "d41d8cd98f00b204e9800998ecf8427e");
+    assert_eq!(hex(md5(b"abc")), "900150983cd24fb0d6963f7d28e17f72");
+    let other = IccProfile { description: "Nikon D201".to_owned(), ..icc() }.to_bytes(IccVersion::V4).unwrap();
+    assert_ne!(bytes[84..100], other[84..100]);
+}
+
+/// The committed file was read by `ArgyllCMS` (`iccdump`), which refuses version 4, and by Little CMS 2.
+#[test]
+fn icc_version_2_has_its_types() {
+    let bytes = icc().to_bytes(IccVersion::V2).unwrap();
+    compare("matrix_v2.icc", &bytes);
+    assert_eq!(u32::from_be_bytes(bytes[..4].try_into().unwrap()) as usize, bytes.len());
+    assert_eq!(bytes[8..12], [2, 0x40, 0, 0]);
+    assert_eq!(bytes[84..100], [0; 16], "version 2 has no identifier");
+    let (two, four) = (icc_tags(&bytes), icc_tags(&icc().to_bytes(IccVersion::V4).unwrap()));
+    for (two, four) in two.iter().zip(&four).skip(2) {
+        assert_eq!((&two.name, &two.bytes), (&four.name, &four.bytes));
+    }
+    // ICC.1:2001-04, 6.5.17: ASCII with its zero, then UTF-16 with its count, then 70 bytes of script code.
+    let description = &two[0].bytes;
+    assert_eq!(&description[..8], b"desc\0\0\0\0");
+    assert_eq!(&description[8..12], [0, 0, 0, 14]);
+    assert_eq!(&description[12..26], b"Nikon D200, ?\0");
+    assert_eq!(description[26..34], [0, 0, 0, 0, 0, 0, 0, 14]);
+    let units: Vec<u16> = description[34..62].chunks(2).map(|pair| u16::from_be_bytes([pair[0], pair[1]])).collect();
+    assert_eq!(String::from_utf16(&units).unwrap(), "Nikon D200, σ\0");
+    assert_eq!(description.len(), 62 + 70);
+    assert_eq!(two[1].bytes, b"text\0\0\0\0Terms of the table: Apache-2.0\0");
 }
 
 /// The committed file was read by `OpenColorIO` 2.6, which takes 0.5, 0.25, 0.75 to 0.3, 0.25, 0.45 as the matrix does.
@@ -139,13 +180,13 @@ fn what_a_format_cannot_hold_is_refused() {
     assert_eq!(refused, Err(ProfileError::Empty { field: "UniqueCameraModel" }));
     let refused = Dcp { name: "a\0b".to_owned(), ..dcp(two_lights()) }.to_bytes();
     assert_eq!(refused, Err(ProfileError::Control { field: "ProfileName" }));
-    let refused = IccProfile { description: "x".repeat(1001), ..icc() }.to_bytes();
+    let refused = IccProfile { description: "x".repeat(1001), ..icc() }.to_bytes(IccVersion::V2);
     assert_eq!(refused, Err(ProfileError::Long { field: "description", bytes: 1001 }));
     for bad in [f64::NAN, f64::INFINITY, 1e9] {
         let matrix = [[bad; 3]; 3];
         let calibration = Calibration { color: matrix, ..two_lights()[0] };
         assert!(dcp(vec![calibration]).to_bytes().is_err());
-        assert!(IccProfile { xyz_from_rgb: matrix, ..icc() }.to_bytes().is_err());
+        assert!(IccProfile { xyz_from_rgb: matrix, ..icc() }.to_bytes(IccVersion::V4).is_err());
         assert!(Clf { matrix, ..clf() }.to_xml().is_err());
     }
     assert!(Clf { name: "\u{8}".to_owned(), ..clf() }.to_xml().is_err());
@@ -163,7 +204,8 @@ proptest! {
         let colors = fields.iter().find(|field| field.tag == 50721).unwrap().rationals();
         prop_assert!(colors.iter().zip(values).all(|(a, b)| (a - b).abs() <= 0.5e-6 + 1e-12));
         prop_assert_eq!(fields.iter().find(|field| field.tag == 50936).unwrap().text(), name.clone());
-        let bytes = IccProfile { description: name.clone(), xyz_from_rgb: matrix, ..icc() }.to_bytes().unwrap();
+        let bytes = IccProfile { description: name.clone(), xyz_from_rgb: matrix, ..icc() };
+        let bytes = bytes.to_bytes(IccVersion::V4).unwrap();
         prop_assert_eq!(icc_tags(&bytes)[0].text(), name.clone());
         let xml = Clf { name, matrix, ..clf() }.to_xml().unwrap();
         prop_assert!(clf_numbers(&xml).iter().zip(values).all(|(a, b)| (a - b).abs() <= 1e-10));

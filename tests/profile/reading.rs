@@ -1,4 +1,4 @@
-//! Readers of TIFF directories, ICC tags and CLF numbers, written from the specifications.
+//! Readers of TIFF directories, ICC tags and CLF numbers, and MD5, written from the specifications.
 
 /// A field of a TIFF directory.
 pub(crate) struct TiffField {
@@ -96,4 +96,32 @@ pub(crate) fn clf_numbers(xml: &str) -> Vec<f64> {
     let (_, rest) = xml.split_once("<Array dim=\"3 3\">").unwrap();
     let (numbers, _) = rest.split_once("</Array>").unwrap();
     numbers.split_whitespace().map(|number| number.parse().unwrap()).collect()
+}
+
+/// MD5 of a message (RFC 1321).
+pub(crate) fn md5(message: &[u8]) -> [u8; 16] {
+    const TURNS: [[u32; 4]; 4] = [[7, 12, 17, 22], [5, 9, 14, 20], [4, 11, 16, 23], [6, 10, 15, 21]];
+    let mut padded = [message, &[0x80]].concat();
+    padded.resize((padded.len() + 8).next_multiple_of(64) - 8, 0);
+    padded.extend((8 * message.len() as u64).to_le_bytes());
+    let mut state: [u32; 4] = [0x6745_2301, 0xefcd_ab89, 0x98ba_dcfe, 0x1032_5476];
+    for block in padded.chunks_exact(64) {
+        let word = |i: usize| u32::from_le_bytes(block[4 * i..4 * i + 4].try_into().unwrap());
+        let [mut a, mut b, mut c, mut d] = state;
+        for i in 0..64 {
+            let (mixed, place) = match i / 16 {
+                0 => ((b & c) | (!b & d), i),
+                1 => ((d & b) | (!d & c), (5 * i + 1) % 16),
+                2 => (b ^ c ^ d, (3 * i + 5) % 16),
+                _ => (c ^ (b | !d), 7 * i % 16),
+            };
+            let sine = (((i + 1) as f64).sin().abs() * 4_294_967_296.0) as u32;
+            let sum = a.wrapping_add(mixed).wrapping_add(sine).wrapping_add(word(place));
+            (a, d, c, b) = (d, c, b, b.wrapping_add(sum.rotate_left(TURNS[i / 16][i % 4])));
+        }
+        for (total, part) in state.iter_mut().zip([a, b, c, d]) {
+            *total = total.wrapping_add(part);
+        }
+    }
+    state.map(u32::to_le_bytes).concat().try_into().unwrap()
 }

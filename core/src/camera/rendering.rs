@@ -86,6 +86,9 @@ pub enum RenderingError {
     Accuracy(#[from] Unmet),
 }
 
+/// Rounds of reweighting of fits near one that minimizes a mean difference over training reflectances.
+const REFIT_ROUNDS: usize = 24;
+
 /// Below this share of the unsigned integral a balance is refused: it would be made of cancellation.
 const BLIND: f64 = 1e-6;
 
@@ -380,7 +383,7 @@ impl FitTargets {
         };
         let weights = correction.weights.for_targets(&self.targets, self.reference.lab_white);
         let training = Training { samples, targets: &self.targets, weights: &weights };
-        Refit::new(training, self.reference.lab_white, correction.keeps_white, objective, *matrix)
+        Refit::new(training, self.reference.lab_white, correction.keeps_white, (objective, REFIT_ROUNDS), *matrix)
     }
 }
 

@@ -1,6 +1,7 @@
 //! ACES input device transforms (IDT) as rawtoaces defines them.
 
 use super::minimize::{Objective, minimize};
+use super::neutral::Neutral;
 use super::{RgbTransform, Training};
 use crate::colorimetry::adaptation::cat02;
 use crate::colorimetry::{Lab, Xyz, delta_e_2000, lab::lab_from_xyz};
@@ -72,7 +73,8 @@ pub struct Idt {
 /// ```text
 /// min Σ |Lab(CAT02 · XYZ) − Lab(M · B · b ∘ rgb)|²,   each row of B sums to 1: 6 parameters
 /// ```
-/// Sums at 380–780 nm every 5 nm over the training reflectances; XYZ adapted from the light's white to that of ACES by CAT02;
+/// A `neutral` replaces the table's own ratio between the channels: balance and brightness are then those of camera RGB that is the
+/// neutral for a perfect diffuser. Sums at 380–780 nm every 5 nm over the training reflectances; XYZ adapted from the light's white to that of ACES by CAT02;
 /// L\*a\*b\* relative to the ACES white; M is [`XYZ_FROM_ACES`] (rawtoaces 1.0, AMPAS). Outside a camera's table its sensitivity is 0.
 ///
 /// # Errors
@@ -84,6 +86,7 @@ pub fn input_device_transform(
     observer: &Sensor,
     training: &PatchSet,
     exposure: IdtExposure,
+    neutral: Option<Neutral>,
 ) -> Result<Idt, IdtError> {
     if camera.primaries() != Primaries::Camera {
         return Err(IdtError::NotCamera);
@@ -100,10 +103,12 @@ pub fn input_device_transform(
         return Err(IdtError::BlindToLight { channel });
     }
     let peaks: DVec3 = places().fold(DVec3::ZERO, |peak, i| peak.max(DVec3::from_array(camera.at_index(i))));
+    let raw_white = neutral.map_or(white_sums, Neutral::to_vector);
+    let peaks = peaks * (raw_white / white_sums);
     // The first of equal peaks: a table whose channels are each scaled to 1 counts as red.
     let highest = (0..3).rev().max_by(|&a, &b| peaks[a].total_cmp(&peaks[b])).unwrap_or(0);
     let white_signal = match exposure {
-        IdtExposure::Rawtoaces => white_sums.max_element() / white_sums[highest],
+        IdtExposure::Rawtoaces => raw_white.max_element() / raw_white[highest],
         IdtExposure::WhiteAtOne => 1.0,
     };
     let xyz_white = sum(observer, &|_| 1.0);
@@ -120,7 +125,7 @@ pub fn input_device_transform(
     let weights = vec![1.0; samples.len()];
     let training = Training { samples: &samples, targets: &targets, weights: &weights };
     let xyz_from_rgb = minimize(training, aces_white, true, Objective::LabSquares)?;
-    let balance = white_sums.max_element() / white_sums;
+    let balance = raw_white.max_element() / raw_white;
     let errors = errors(&RgbTransform::Matrix(xyz_from_rgb), &balanced, &targets, aces_white);
     Ok(Idt { balance: balance.to_array(), matrix: XYZ_FROM_ACES.inverse() * xyz_from_rgb, white_signal, errors })
 }

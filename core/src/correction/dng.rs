@@ -37,6 +37,27 @@ impl DngMatrices {
         let finite = color.is_finite() && balance.iter().all(|v| v.is_finite() && *v > 0.0);
         finite.then_some(Self { color, forward, balance })
     }
+
+    /// Camera RGB of white, the largest 1: `AsShotNeutral` under the light.
+    pub fn neutral(&self) -> DVec3 {
+        DVec3::from_array(self.balance).recip()
+    }
+
+    /// Matrices of the same camera with each channel multiplied by a gain. `ForwardMatrix`, from balanced RGB, stays.
+    ///
+    /// ```text
+    /// ColorMatrix = k diag(gain) ColorMatrix,   k so that the largest component for D50 is 1
+    /// ```
+    /// None where a gain is not positive or a result not finite.
+    #[must_use]
+    pub fn with_gains(&self, gains: DVec3) -> Option<Self> {
+        let (d50, neutral) = (D50.with_unit_luminance()?, self.neutral() * gains);
+        let color = DMat3::from_diagonal(gains) * self.color;
+        let color = color * (color * d50.to_vector()).max_element().recip();
+        let balance = neutral.max_element() / neutral;
+        let finite = color.is_finite() && balance.is_finite() && balance.min_element() > 0.0;
+        finite.then_some(Self { color, forward: self.forward, balance: balance.to_array() })
+    }
 }
 
 /// Matrix from balanced RGB to a profile connection space.

@@ -254,9 +254,6 @@ impl LeastSquaresProblem<f64, Dyn, Dyn> for Problem<'_> {
     }
 }
 
-/// Rounds of reweighting of a [`Refit`].
-const REFIT_ROUNDS: usize = 4;
-
 /// Fits near one that was minimized, for samples that differ little: by reweighted least squares with L\*a\*b\* linearized there.
 #[derive(Clone, Debug)]
 pub struct Refit {
@@ -268,15 +265,17 @@ pub struct Refit {
     basis: DMat3,
     first: usize,
     squares: bool,
+    rounds: usize,
 }
 
 impl Refit {
     /// Prepares fits near `matrix`, which minimizes the objective over the training samples; none where a sample has no L\*a\*b\*.
+    /// `rounds` of reweighting follow a mean difference; squares need one.
     pub fn new(
         training: Training<'_>,
         white: Xyz,
         keeps_white: bool,
-        objective: Objective,
+        (objective, rounds): (Objective, usize),
         matrix: DMat3,
     ) -> Option<Self> {
         let linear = |(sample, target): (&DVec3, &DVec3)| {
@@ -287,7 +286,8 @@ impl Refit {
         let linear = training.samples.iter().zip(training.targets).map(linear).collect::<Option<_>>()?;
         let (basis, first) = (white_basis(), usize::from(keeps_white));
         let (samples, weights) = (training.samples.to_vec(), training.weights.to_vec());
-        Some(Self { samples, linear, weights, matrix, basis, first, squares: objective.squares() })
+        let (squares, rounds) = (objective.squares(), if objective.squares() { 1 } else { rounds });
+        Some(Self { samples, linear, weights, matrix, basis, first, squares, rounds })
     }
 
     /// The matrix for other samples in the same order; none where they do not determine one.
@@ -300,7 +300,7 @@ impl Refit {
             })
             .collect();
         let mut shift = DMat3::ZERO;
-        for _ in 0..if self.squares { 1 } else { REFIT_ROUNDS } {
+        for _ in 0..self.rounds {
             let step = self.step(&rows)?;
             shift += step;
             for (sample, vector, by_xyz) in &mut rows {

@@ -9,6 +9,7 @@ use crate::colorimetry::{Metric, Stimulus, UvPrime, Xy, Xyz};
 use crate::correction::aces::{Idt, IdtError, IdtExposure, input_device_transform};
 use crate::correction::classes::ColorClass;
 use crate::correction::dng::{D50, DngMatrices, first_weight, mixed};
+use crate::correction::neutral::Neutral;
 use crate::correction::{Correction, CorrectionMethod, RgbTransform, Training};
 use crate::light::{RadiationConstants, planckian::black_body, temperature::single::nearest_blackbody};
 use crate::math::quantile::quantile;
@@ -349,6 +350,8 @@ pub struct IdtQuery {
     pub training: Shared<PatchSet>,
     /// Brightness of the samples.
     pub exposure: IdtExposure,
+    /// Camera RGB of a neutral under the light, in place of the table's own.
+    pub neutral: Option<Neutral>,
 }
 
 impl Query for IdtQuery {
@@ -356,7 +359,8 @@ impl Query for IdtQuery {
     const NAME: &'static str = "input device transform";
 
     fn answer(&self, _: &impl Ask) -> Self::Answer {
-        input_device_transform(&self.camera, &self.light, &self.observer, &self.training, self.exposure)
+        let Self { camera, light, observer, training, exposure, neutral } = self;
+        input_device_transform(camera, light, observer, training, *exposure, *neutral)
     }
 }
 

@@ -18,7 +18,7 @@ pub use differences::{PatchDifferences, Statistic, WORST};
 pub use evidence::{LocusDeviationQuery, MetamerismIndexQuery, SpaceQualityQuery};
 pub use ranks::{Difference, rank_ranges};
 pub use table::{Better, CameraMetric, MetricGroup};
-pub use uncertainty::{Contributions, MetricUncertaintiesQuery, MetricUncertainty, RatioEvidence, UncertaintySource};
+pub use uncertainty::{Contributions, MetricUncertaintiesQuery, MetricUncertainty, UncertaintySource};
 pub use value::{MetricValue, WhyNot};
 
 /// All figures of merit of one camera, without their uncertainties, which take longer: see [`MetricUncertaintiesQuery`].

@@ -5,7 +5,6 @@ use std::path::Path;
 use std::sync::Arc;
 use std::time::Instant;
 
-use chromascope_core::correction::aces::IdtExposure;
 use chromascope_core::query::{Ask as _, RecordedSet, Shared};
 use chromascope_figure::FigureRoom;
 
@@ -17,11 +16,11 @@ use crate::cli::render::arguments::ViewpointArguments;
 use crate::cli::render::files::patiently;
 use crate::cli::render::setup::{mesh_choice, read_mesh, viewpoint};
 use crate::cli::request::{Request, display_path};
+use crate::document::Document;
 use crate::document::imported::ImportOverrides;
 use crate::document::render::{MeshChoice, RenderSettings};
-use crate::document::{Document, SetKind};
 use crate::export::Paper;
-use crate::export::profile::CorrectionFileQuery;
+use crate::export::profile::{CorrectionFileQuery, CorrectionRequest};
 use crate::figures::render::picture_width;
 use crate::figures::report_card;
 use crate::jobs::Job as _;
@@ -69,8 +68,8 @@ impl Made {
             }
             FigureKind::Correction => {
                 if let Some(camera) = report_card::camera(scene, view) {
-                    let query =
-                        CorrectionFileQuery::new(scene, (SetKind::Camera, &camera.name), None, IdtExposure::Rawtoaces)?;
+                    let request = CorrectionRequest { camera: &camera.name, ..CorrectionRequest::default() };
+                    let query = CorrectionFileQuery::new(scene, request)?;
                     view.correction.shown = Some((*scene.results.ask(&query)).clone()?);
                 }
             }

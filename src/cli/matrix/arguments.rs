@@ -4,6 +4,8 @@ use std::ffi::OsString;
 use std::path::PathBuf;
 
 use chromascope_core::correction::CorrectionMethod;
+use chromascope_core::correction::neutral::Neutral;
+use chromascope_profile::icc::IccVersion;
 use clap::{Args, ValueEnum};
 
 use crate::cli::fit::{FitArguments, method};
@@ -19,7 +21,8 @@ text: the matrix from balanced RGB to XYZ, its errors over the training reflecta
 all others), what it does to white and to narrow blue LEDs (20 nm wide), the DNG matrices and the ACES IDT. dng: ColorMatrix and
 ForwardMatrix as lines. dcp: DNG camera profile for raw developers, of one light or two. icc: matrix profile for linear RGB that is
 balanced for the light. clf: the ACES input transform that rawtoaces defines (its own fit: least squares in L*a*b*, six
-parameters, 190 training reflectances), for RGB balanced by the multipliers in its description.";
+parameters, 190 training reflectances), for RGB balanced by the multipliers in its description. dng, dcp and clf hold the ratio between
+the camera's channels: for a table that lost it they are refused without --neutral. icc does without.";
 
 /// Arguments of `matrix`.
 #[derive(Debug, Args)]
@@ -44,9 +47,17 @@ pub(in crate::cli) struct MatrixArguments {
     /// Unit of the sensitivities in a camera file, overriding the file: response per energy or per photon
     #[arg(long, value_enum, value_name = "UNIT")]
     pub(super) per: Option<Per>,
-    /// The camera model as its raw files state it, by which raw developers choose a DCP file [default: the camera's name]
+    /// The camera model as its raw files state it (UniqueCameraModel), by which raw developers choose a DCP file [default: by the
+    /// built-in table of names]
     #[arg(long, value_name = "MODEL")]
     pub(super) model: Option<String>,
+    /// `AsShotNeutral` of a raw file under the illuminant, in place of the table's own ratio between the channels; dng, dcp and clf need
+    /// it where that ratio is lost or implausible
+    #[arg(long, value_name = "R,G,B")]
+    pub(super) neutral: Option<Neutral>,
+    /// For icc: the version of the format; 2 for programs that read no version 4
+    #[arg(long, value_enum, value_name = "VERSION", default_value_t = Version::Four)]
+    pub(super) icc_version: Version,
     /// For clf: fit with white at 1 where rawtoaces' scaling puts it elsewhere
     #[arg(long)]
     pub(super) white_at_one: bool,
@@ -59,6 +70,26 @@ pub(in crate::cli) struct MatrixArguments {
     /// Overwrites the file named by --out
     #[arg(long)]
     pub(super) force: bool,
+}
+
+/// Version of ICC files.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum Version {
+    /// ICC.1:2001-04
+    #[value(name = "2")]
+    Two,
+    /// ICC.1:2022
+    #[value(name = "4")]
+    Four,
+}
+
+impl Version {
+    pub(super) fn version(self) -> IccVersion {
+        match self {
+            Self::Two => IccVersion::V2,
+            Self::Four => IccVersion::V4,
+        }
+    }
 }
 
 /// A form in which a correction is written.

@@ -2,30 +2,100 @@
 
 use chromascope_core::correction::CorrectionMethod;
 use chromascope_core::correction::classes::{ClassWeights, ColorClass};
-use egui::{DragValue, Ui};
+use egui::{DragValue, Label, Response, RichText, TextEdit, Ui};
 
 use crate::action::{Action, SceneAction};
+use crate::catalog::Entry;
+use crate::command::Command;
 use crate::document::SetKind;
 use crate::document::correction::CorrectionChoice;
+use crate::export::profile::{CorrectionForm, unique_camera_model};
 use crate::panes::context::PaneContext;
 use crate::panes::widgets::pick_list::{self, Line};
 
 /// Width of the names before lists, so that these stand below each other.
 const CAPTION: f32 = 78.0;
 
-/// The camera that is corrected; none where none is compared.
+/// The camera that is corrected, of the whole library; none where none is chosen or compared.
 pub(super) fn camera(ui: &mut Ui, context: &mut PaneContext<'_>) -> Option<String> {
-    let sources = context.scene.sources();
-    let cameras: Vec<&String> =
-        sources.iter().filter(|source| source.kind == SetKind::Camera).map(|source| &source.name).collect();
-    let chosen = context.view.correction.camera.clone().filter(|name| cameras.contains(&name));
-    let now = chosen.or_else(|| cameras.first().map(|name| (*name).clone()))?;
-    let lines = || cameras.iter().map(|name| Line::new(*name, **name == now)).collect();
-    let hint = "The camera that is corrected, of those compared";
-    if let Some(index) = list(ui, ("Camera", hint), &now, context, lines) {
-        context.view.correction.camera = Some(cameras[index].clone());
+    let now = context.correction_camera();
+    let mut names = Vec::new();
+    let hint = "The camera that is corrected, of the whole library";
+    let shown = now.clone().unwrap_or_else(|| "Choose a camera".to_owned());
+    let chosen = list(ui, ("Camera", hint), &shown, context, || {
+        let is_compared = |entry: &Entry| context.scene.document.compared(SetKind::Camera, &entry.name).is_some();
+        let mut entries: Vec<Entry> = context.scene.entries(SetKind::Camera).collect();
+        entries.sort_by_key(|entry| !is_compared(entry));
+        let mut lines = Vec::new();
+        for entry in entries {
+            let group = if is_compared(&entry) { "Compared" } else { "Library" };
+            if lines.iter().all(|line: &Line| !line.is_heading || line.words != group) {
+                lines.push(Line::heading(group));
+                names.push(String::new());
+            }
+            let Entry { name, short, also, .. } = entry;
+            let on = now.as_ref() == Some(&name);
+            lines.push(Line { also: format!("{short} {}", also.unwrap_or_default()), ..Line::new(&name, on) });
+            names.push(name);
+        }
+        lines
+    });
+    if let Some(name) = chosen.map(|index| names.swap_remove(index)) {
+        context.view.correction.camera = Some(name);
     }
-    Some(now)
+    now
+}
+
+/// Buttons that save the correction.
+pub(super) fn files(ui: &mut Ui, context: &mut PaneContext<'_>) {
+    ui.horizontal_wrapped(|ui| {
+        ui.label("Save as");
+        for form in CorrectionForm::ALL {
+            let (label, hint) = form.words();
+            if ui.button(label).on_hover_text(hint).clicked() {
+                context.push(Command::SaveCorrection(form));
+            }
+        }
+    });
+}
+
+/// What files state of the camera: model, and a neutral in place of the table's own ratio between the channels.
+pub(super) fn stated(ui: &mut Ui, camera: &str, context: &mut PaneContext<'_>) {
+    let theme = context.theme;
+    let ratio = context.scene.channel_ratio(camera).ok();
+    let key = (camera.to_owned(), context.scene.light_name());
+    let hint = format!("AsShotNeutral of a raw file under {}: R,G,B, as 0.5,1,0.7", key.1);
+    let view = &mut context.view.correction;
+    let neutral = view.neutrals.entry(key).or_default();
+    field(ui, ("Neutral", &hint), neutral, "the table's own");
+    let model = view.models.entry(camera.to_owned()).or_default();
+    let hint = "UniqueCameraModel, as raw files of the camera state it; raw developers choose a DCP file by it";
+    field(ui, ("Model", hint), model, &unique_camera_model(camera));
+    let (words, color) = match (context.view.correction.neutral(&context.scene, camera), ratio) {
+        (Err(error), _) => (format!("Neutral: {error}"), theme.error),
+        (Ok(None), Some(ratio)) if !ratio.is_credible() => {
+            (format!("Channel ratio {ratio}. DCP, CLF and DNG text need a neutral."), theme.warning)
+        }
+        _ => return,
+    };
+    ui.add(Label::new(RichText::new(words).small().color(color)).wrap());
+}
+
+/// A line of text with its name before it.
+fn field(ui: &mut Ui, (name, hint): (&str, &str), text: &mut String, empty: &str) {
+    ui.horizontal(|ui| {
+        let label = caption(ui, name);
+        let width = (ui.available_width() - 8.0).clamp(80.0, 300.0);
+        let field = TextEdit::singleline(text).hint_text(empty).desired_width(width);
+        ui.add(field).labelled_by(label.id).on_hover_text(hint);
+    });
+}
+
+/// A name before a control, so wide that controls stand below each other.
+fn caption(ui: &mut Ui, name: &str) -> Response {
+    let label = ui.label(name);
+    ui.add_space((CAPTION - label.rect.width()).max(0.0));
+    label
 }
 
 /// Method and white.
@@ -110,8 +180,7 @@ fn list(
     lines: impl FnOnce() -> Vec<Line>,
 ) -> Option<usize> {
     let row = ui.horizontal(|ui| {
-        let width = ui.label(name).rect.width();
-        ui.add_space((CAPTION - width).max(0.0));
+        caption(ui, name);
         let width = (ui.available_width() - 8.0).clamp(80.0, 300.0);
         pick_list::drop_down(ui, (name, hint), shown, width, &context.theme, lines)
     });

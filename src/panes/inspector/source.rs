@@ -37,6 +37,7 @@ pub(super) fn show(ui: &mut Ui, id: &SensorId, context: &mut PaneContext<'_>) {
             measured.push(("Measured", measured_words(&sensor)));
             let words = facts::resampling_words(&sensor.curves()[0], sensor.primaries().quantity());
             measured.push(("Resampled", words));
+            measured.extend(facts::channel_ratio(&scene, &entry));
         }
         Err(error) => failure(ui, &theme, &error.to_string()),
     }

@@ -147,6 +147,12 @@ pub fn show(ui: &mut Ui, theme: &Theme, facts: &[Fact]) {
     }
 }
 
+/// Credibility of a camera's channel ratio; none for an observer and for damaged tables.
+pub fn channel_ratio(scene: &Scene<'_>, entry: &Entry) -> Option<Fact> {
+    let ratio = (entry.kind == SetKind::Camera).then(|| scene.channel_ratio(&entry.name))?.ok()?;
+    Some(("Channel ratio", ratio.to_string()))
+}
+
 /// Source and terms of a data set, for the pointer on its name. Parses nothing.
 pub fn provenance(scene: &Scene<'_>, entry: &Entry) -> String {
     let facts =

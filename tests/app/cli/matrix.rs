@@ -4,6 +4,8 @@ use super::{column, file, number, refused, run, table};
 
 const D200: [&str; 4] = ["matrix", "Nikon D200", "--illuminant", "ISO 7589 studio tungsten"];
 
+const NEUTRAL: &str = "0.85,1,0.42";
+
 fn output(more: &[&str]) -> Vec<u8> {
     let output = run(&[&D200[..], more].concat());
     assert!(output.status.success(), "{more:?}: {}", String::from_utf8_lossy(&output.stderr));
@@ -17,7 +19,8 @@ fn text(more: &[&str]) -> String {
 /// The matrix of rawtoaces for its own D200 under studio tungsten.
 #[test]
 fn clf_holds_the_matrix_of_rawtoaces() {
-    let xml = text(&["--format", "clf"]);
+    // The neutral of the table itself: its channel ratio is implausible, so that one must be given.
+    let xml = text(&["--format", "clf", "--neutral", "0.877403482,1,0.430289752"]);
     let (_, rest) = xml.split_once("<Array dim=\"3 3\">").unwrap();
     let numbers: Vec<f64> = rest.split_once('<').unwrap().0.split_whitespace().map(number).collect();
     let known = [
@@ -47,12 +50,12 @@ fn text_says_errors_of_training_and_left_out_with_their_maxima() {
 
 #[test]
 fn dcp_and_icc_are_files_of_their_kinds() {
-    let dcp = output(&["--format", "dcp", "--second-illuminant", "D65", "--model", "NIKON D200"]);
+    let dcp = output(&["--format", "dcp", "--second-illuminant", "D65", "--model", "NIKON D200", "--neutral", NEUTRAL]);
     assert_eq!(&dcp[..4], b"IIRC");
     assert!(dcp.windows(11).any(|window| window == b"NIKON D200\0"));
     let icc = output(&["--format", "icc"]);
     assert_eq!(&icc[36..40], b"acsp");
-    let dng = text(&["--format", "dng", "--second-illuminant", "FL2"]);
+    let dng = text(&["--format", "dng", "--second-illuminant", "FL2", "--neutral", NEUTRAL]);
     assert!(dng.contains("CalibrationIlluminant1: 24") && dng.contains("CalibrationIlluminant2: 255"), "{dng}");
     assert!(dng.contains("IlluminantData2: 0.37"), "{dng}");
 }
@@ -73,6 +76,110 @@ fn what_means_nothing_is_refused_with_a_remedy() {
     let few = file("matrix_few.csv", "wavelength_nm,a,b\n400,0.1,0.5\n500,0.2,0.4\n700,0.9,0.1\n");
     let few = few.to_str().unwrap();
     refused(&with(&["--fit", "root-polynomial", "--training", few]), &["2 training samples", "larger training set"]);
+}
+
+/// Numbers behind a key of DNG's lines.
+fn numbers_of(dng: &str, key: &str) -> Vec<f64> {
+    let line = dng.lines().find_map(|line| line.strip_prefix(key)?.strip_prefix(": "));
+    line.unwrap_or_else(|| panic!("{key}: {dng}")).split_whitespace().map(number).collect()
+}
+
+#[test]
+fn a_table_without_channel_ratio_needs_a_neutral_for_what_holds_it() {
+    for (camera, reason) in [
+        ("Nikon D5100", "lost"),
+        ("Nikon D5100 (NPL)", "same maximum"),
+        ("Nikon D70 (UPenn 2011)", "implausible"),
+        ("Nikon D70 (2007 figure)", "printed figure"),
+        ("Canon EOS 10D (2007 figure)", "printed figure"),
+    ] {
+        let of = |more: &[&str]| run(&[&["matrix", camera, "--illuminant", "D65"], more].concat());
+        for format in ["dng", "dcp", "clf"] {
+            refused(
+                &["matrix", camera, "--illuminant", "D65", "--format", format],
+                &[reason, "--neutral R,G,B", "under D65"],
+            );
+            let given = of(&["--format", format, "--neutral", "0.47,1,0.72"]);
+            assert!(given.status.success(), "{camera} {format}: {}", String::from_utf8_lossy(&given.stderr));
+        }
+        let icc = of(&["--format", "icc"]);
+        assert!(icc.status.success(), "balanced RGB has no ratio");
+        let text = String::from_utf8(of(&[]).stdout).unwrap();
+        assert!(text.contains(reason) && text.contains("--neutral") && text.contains("ForwardMatrix"), "{text}");
+        assert!(!text.contains("ColorMatrix") && !text.contains("balance "), "{text}");
+    }
+    let whole = String::from_utf8(run(&["matrix", "Nikon D850", "--illuminant", "D65"]).stdout).unwrap();
+    assert!(whole.contains("Channel ratio plausible") && whole.contains("DNG ColorMatrix"), "{whole}");
+}
+
+#[test]
+fn with_a_neutral_the_files_white_is_that_neutral() {
+    let two = ["matrix", "Nikon D5100", "--illuminant", "D65", "--second-illuminant", "A"];
+    let of = |more: &[&str]| {
+        let output = run(&[&two[..], more].concat());
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        String::from_utf8(output.stdout).unwrap()
+    };
+    let dng = of(&["--format", "dng", "--neutral", "0.47,1,0.72"]);
+    assert_eq!(numbers_of(&dng, "AsShotNeutral (D65)"), [0.47, 1.0, 0.72]);
+    // Of two lights the warmer stands first; D65 is the second.
+    for (matrix, white, neutral) in [
+        ("ColorMatrix2", [0.950_43, 1.0, 1.088_80], [0.47, 1.0, 0.72]),
+        ("ColorMatrix1", [1.098_47, 1.0, 0.355_82], {
+            let neutral = numbers_of(&dng, "AsShotNeutral (A)");
+            [neutral[0], neutral[1], neutral[2]]
+        }),
+    ] {
+        let rows = numbers_of(&dng, matrix);
+        let rgb: Vec<f64> = rows.chunks(3).map(|row| row.iter().zip(white).map(|(a, b)| a * b).sum()).collect();
+        let largest = rgb.iter().copied().fold(0.0, f64::max);
+        for (got, known) in rgb.iter().zip(neutral) {
+            assert!((got / largest - known).abs() < 1e-4, "{matrix} {rgb:?} {neutral:?}");
+        }
+    }
+    // The second light is scaled by the gains of the first.
+    let again = of(&["--format", "dng", "--neutral", "0.94,1,0.36"]);
+    let (before, after) = (numbers_of(&dng, "AsShotNeutral (A)"), numbers_of(&again, "AsShotNeutral (A)"));
+    for (channel, gain) in [(0, 2.0), (2, 0.5)] {
+        let ratio = after[channel] / after[1] / (before[channel] / before[1]);
+        assert!((ratio - gain).abs() < 1e-4, "{before:?} {after:?}");
+    }
+    refused(&[&two[..], &["--neutral", "2,1,1.5"]].concat(), &["reciprocals"]);
+    refused(&[&two[..], &["--neutral", "1,1"]].concat(), &["R,G,B"]);
+}
+
+#[test]
+fn raw_files_name_the_model() {
+    for (camera, model) in [
+        ("Nikon D70 (A.M.P.A.S.)", "Nikon D70"),
+        ("Nikon D5100 (NPL)", "Nikon D5100"),
+        ("Canon Digital Rebel XTi", "Canon EOS 400D DIGITAL"),
+        ("Sony ILCE-7M3", "Sony ILCE-7M3"),
+        ("Kodak DCS200", "Kodak DCS200"),
+    ] {
+        let output = run(&["matrix", camera, "--illuminant", "D65", "--format", "dng", "--neutral", "0.5,1,0.7"]);
+        let dng = String::from_utf8(output.stdout).unwrap();
+        assert_eq!(dng.lines().next(), Some(&*format!("UniqueCameraModel: {model}")));
+    }
+}
+
+#[test]
+fn icc_is_written_in_two_versions_with_the_tables_terms() {
+    let [two, four] = ["2", "4"].map(|version| output(&["--format", "icc", "--icc-version", version]));
+    assert_eq!((two[8], four[8]), (2, 4));
+    assert_eq!(output(&["--format", "icc"]), four);
+    assert!(four[84..100].iter().any(|byte| *byte != 0) && two[84..100].iter().all(|byte| *byte == 0));
+    assert!(two.windows(10).any(|window| window == b"Apache-2.0"));
+}
+
+#[test]
+fn the_clf_has_an_accuracy_of_its_own() {
+    let text = text(&[]);
+    let (_, idt) = text.split_once("ACES IDT").unwrap();
+    assert!(idt.contains("Another fit than of DCP and ICC"), "{idt}");
+    let line = idt.lines().find(|line| line.starts_with("training")).unwrap();
+    let numbers: Vec<f64> = line.split_whitespace().skip(1).take(3).map(number).collect();
+    assert!(numbers[0] > 0.5 && numbers[0] < numbers[1] && numbers[1] < numbers[2], "{line}");
 }
 
 /// A correction reaches the tables: fitted over the chart itself it is nearer to the chart.

@@ -7,7 +7,7 @@ use crate::support::{CIE_1931, light, sensor, training};
 
 fn idt(camera: &str, illuminant: &str, exposure: IdtExposure) -> Idt {
     let (camera, observer) = (sensor(camera), sensor(CIE_1931));
-    input_device_transform(&camera, &light(illuminant), &observer, &training(), exposure).unwrap()
+    input_device_transform(&camera, &light(illuminant), &observer, &training(), exposure, None).unwrap()
 }
 
 /// D200 under studio tungsten: balance and matrix of rawtoaces' own data, fitted by Ceres and again by colour-science 0.4.7.
@@ -55,10 +55,35 @@ fn what_is_no_camera_is_refused() {
     let observer = sensor(CIE_1931);
     let light = light("illuminants/d55.csv");
     let exposure = IdtExposure::default();
-    assert_eq!(input_device_transform(&observer, &light, &observer, &training(), exposure), Err(IdtError::NotCamera));
+    assert_eq!(
+        input_device_transform(&observer, &light, &observer, &training(), exposure, None),
+        Err(IdtError::NotCamera)
+    );
     let camera = sensor("cameras/nikon_d200.csv");
-    assert_eq!(input_device_transform(&camera, &light, &camera, &training(), exposure), Err(IdtError::Reference));
+    assert_eq!(input_device_transform(&camera, &light, &camera, &training(), exposure, None), Err(IdtError::Reference));
     let dark = chromascope_core::spectral::GridSpectrum::constant(0.0);
-    let refused = input_device_transform(&camera, &dark, &observer, &training(), exposure);
+    let refused = input_device_transform(&camera, &dark, &observer, &training(), exposure, None);
     assert_eq!(refused, Err(IdtError::BlindToLight { channel: 0 }));
+}
+
+/// With the neutral of a raw file the multipliers are its reciprocals; of the table's own nothing changes.
+#[test]
+fn a_neutral_replaces_the_tables_ratio() {
+    let (camera, observer) = (sensor("cameras/nikon_d5100.csv"), sensor(CIE_1931));
+    let light = light("illuminants/d55.csv");
+    let of =
+        |neutral, exposure| input_device_transform(&camera, &light, &observer, &training(), exposure, neutral).unwrap();
+    let plain = of(None, IdtExposure::WhiteAtOne);
+    let given = of(Some("0.5,1,0.7".parse().unwrap()), IdtExposure::WhiteAtOne);
+    assert_eq!(given.matrix, plain.matrix, "it takes balanced RGB");
+    for (got, known) in given.balance.iter().zip([2.0, 1.0, 1.0 / 0.7]) {
+        assert!((got - known).abs() < 1e-15, "{:?}", given.balance);
+    }
+    let own: Vec<String> = plain.balance.iter().map(|v| v.recip().to_string()).collect();
+    let again = of(Some(own.join(",").parse().unwrap()), IdtExposure::Rawtoaces);
+    assert!(off(again.matrix, rows_of(of(None, IdtExposure::Rawtoaces).matrix)) < 1e-9);
+}
+
+fn rows_of(matrix: glam::DMat3) -> [[f64; 3]; 3] {
+    [0, 1, 2].map(|row| matrix.row(row).to_array())
 }

@@ -3,6 +3,7 @@
 use chromascope_core::camera::Rendering;
 use chromascope_core::colorimetry::Metric;
 use chromascope_core::correction::dng::{D50, DngMatrices, first_weight};
+use chromascope_core::correction::neutral::{Neutral, NeutralError};
 use chromascope_core::correction::root_polynomial::Degree;
 use chromascope_core::correction::{Correction, CorrectionMethod};
 use chromascope_core::query::correction::{CorrectionSheetQuery, dng_matrices};
@@ -43,6 +44,39 @@ fn dng_matrices_carry_white_to_d50_and_back_to_the_cameras_white() {
     let raw = rendering.white_integrals;
     assert!((neutral / neutral.y - raw / raw.y).abs().max_element() < 1e-12);
     assert!((DVec3::from_array(balance) * raw / raw.max_element() - DVec3::ONE).abs().max_element() < 1e-12);
+}
+
+/// `ColorMatrix` times white is the neutral that was given, and the other light's is scaled by the same gains.
+#[test]
+fn gains_bring_white_to_a_given_neutral_under_both_lights() {
+    let given: Neutral = "0.47 1 0.72".parse().unwrap();
+    let lights = ["illuminants/d65.csv", "illuminants/a.csv"];
+    let renderings = lights.map(|light| rendering(&query("cameras/nikon_d5100.csv", light, Correction::default())));
+    let [first, second] = renderings.each_ref().map(|rendering| dng_matrices(rendering).unwrap());
+    let gains = given.to_vector() / first.neutral();
+    let d50 = D50.with_unit_luminance().unwrap().to_vector();
+    let scaled = [first, second].map(|dng| dng.with_gains(gains).unwrap());
+    for ((rendering, plain), scaled) in renderings.iter().zip([first, second]).zip(scaled) {
+        assert_eq!(scaled.forward, plain.forward);
+        assert!(((scaled.color * d50).max_element() - 1.0).abs() < 1e-12);
+        let [before, white] = [plain, scaled].map(|dng| dng.color * rendering.lab_white.to_vector());
+        assert!((white / white.y - gains * before / (gains * before).y).abs().max_element() < 1e-12);
+        assert!((white / white.max_element() - scaled.neutral()).abs().max_element() < 1e-12);
+    }
+    assert!((scaled[0].neutral() - given.to_vector()).abs().max_element() < 1e-15);
+    assert_eq!(first.with_gains(DVec3::new(1.0, 0.0, 1.0)), None);
+}
+
+#[test]
+fn a_neutral_is_three_positive_numbers_and_no_multipliers() {
+    let of = |text: &str| text.parse::<Neutral>();
+    assert_eq!(of("1,2,1.5").unwrap().to_vector(), DVec3::new(0.5, 1.0, 0.75));
+    assert_eq!(of(" 0.5, 1 ,0.7 "), of("0.5 1 0.7"));
+    for wrong in ["", "1", "1,1", "1,1,1,1", "0,1,1", "-1,1,1", "nan,1,1", "inf,1,1", "1e-320,1,1", "a,b,c", "1;1;1"] {
+        assert_eq!(of(wrong), Err(NeutralError::Numbers), "{wrong}");
+    }
+    assert_eq!(of("2.1,1,1.5"), Err(NeutralError::Multipliers));
+    assert!(of("1.1,1,0.3").is_ok() && of("1,1,1").is_ok());
 }
 
 /// DNG specification 1.6.0.0, chapter 6: linear in the inverse of the temperature, clamped.

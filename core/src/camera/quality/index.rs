@@ -26,6 +26,9 @@ pub struct MetamerismIndex {
     pub min_delta_e: f64,
 }
 
+/// Rounds of reweighting of fits near one of minimum ΔE*ab.
+const REFIT_ROUNDS: usize = 4;
+
 /// Observer's colors of the patches: the part of an index that all sensors share.
 #[derive(Clone, Debug, PartialEq)]
 pub struct IndexSamples {
@@ -88,7 +91,13 @@ impl IndexSamples {
         let RgbTransform::Matrix(matrix) = self.fit(samples, CorrectionMethod::Minimize(objective)).ok()? else {
             return None;
         };
-        Refit::new(self.training(samples, &vec![1.0; samples.len()]), self.white, false, objective, matrix)
+        Refit::new(
+            self.training(samples, &vec![1.0; samples.len()]),
+            self.white,
+            false,
+            (objective, REFIT_ROUNDS),
+            matrix,
+        )
     }
 
     fn training<'a>(&'a self, samples: &'a [DVec3], weights: &'a [f64]) -> Training<'a> {

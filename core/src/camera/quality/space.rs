@@ -33,13 +33,17 @@ pub struct SpaceQuality {
 impl SpaceQuality {
     /// Agreement of a sensor with an observer; none where the curves of one of them are linearly dependent.
     pub fn new(sensor: &Sensor, observer: &Sensor) -> Option<Self> {
-        let [channels, matching] = [sensor, observer].map(curves);
-        let (own, seen) = (basis(&channels)?, basis(&matching)?);
+        Self::of(&curves(sensor), &curves(observer))
+    }
+
+    /// Agreement of two sets of curves on the grid, each set in one scale.
+    pub(crate) fn of(channels: &[Vec<f64>; 3], matching: &[Vec<f64>; 3]) -> Option<Self> {
+        let (own, seen) = (basis(channels)?, basis(matching)?);
         let vora = own.iter().map(|curve| inside(curve, &seen)).sum::<f64>() / 3.0;
         let power: f64 = matching.iter().map(|curve| dot(curve, curve)).sum();
         let left: f64 = matching.iter().map(|curve| outside(curve, &own)).sum();
         let factor = |curve: &Vec<f64>| inside(curve, &seen) / dot(curve, curve);
-        let [r, g, b] = &channels;
+        let [r, g, b] = channels;
         Some(Self { vora, luther: (left / power).sqrt(), factors: [factor(r), factor(g), factor(b)] })
     }
 }

@@ -3,6 +3,7 @@
 use super::conditions::{CameraMetricsQuery, IndexConditions};
 use super::differences::{DifferenceConditions, PatchDifferences, Statistic};
 use super::value::WhyNot;
+use crate::camera::channel_ratio::has_equal_maxima;
 use crate::camera::quality::{Electrons, IndexSamples, MetamerismIndex, NoiseAmplification, SpaceQuality, gray_snr_db};
 use crate::camera::{LocusDeviation, ReferenceLocus, Rendering, RenderingError};
 use crate::light::RadiationConstants;
@@ -197,14 +198,13 @@ fn patch_differences(of: &CameraMetricsQuery, ask: &impl Ask) -> Result<Vec<Patc
     Ok(reference.iter().zip(sample).map(|(reference, sample)| way.differences(reference, sample)).collect())
 }
 
-/// Checks that the ratio between a camera's channels is in the table: three maxima that agree to 1e-6 are no coincidence.
+/// Checks that the sensor is a camera whose table does not scale each channel on its own.
 pub(super) fn channel_scale(sensor: &Sensor) -> Result<(), WhyNot> {
-    if sensor.primaries() != Primaries::Camera {
-        return Err(WhyNot::NoChannels);
+    match sensor.primaries() {
+        Primaries::Camera if has_equal_maxima(sensor) => Err(WhyNot::ChannelScale),
+        Primaries::Camera => Ok(()),
+        _ => Err(WhyNot::NoChannels),
     }
-    let peaks = sensor.curves().each_ref().map(|curve| curve.values().iter().fold(0.0_f64, |m, v| m.max(*v)));
-    let alike = peaks.iter().all(|peak| (peak - peaks[0]).abs() <= 1e-6 * peaks[0]);
-    if alike { Err(WhyNot::ChannelScale) } else { Ok(()) }
 }
 
 /// Noise gains, and the signal-to-noise ratio of a gray.

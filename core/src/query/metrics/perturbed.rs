@@ -6,7 +6,7 @@ use super::evidence::{Evidence, IndexSamplesQuery, ReferenceLocusQuery, channel_
 use super::table::CameraMetric;
 use super::value::WhyNot;
 use crate::camera::curve_spread::{Deviation, SITE_RANGE, SITES, site_curve};
-use crate::camera::quality::space::{basis, curves};
+use crate::camera::quality::space::curves;
 use crate::camera::quality::{IndexSamples, MetamerismIndex, SpaceQuality};
 use crate::camera::{FitTargets, LocusDeviation, ReferenceLocus, Rendering, RenderingError};
 use crate::correction::minimize::Refit;
@@ -53,17 +53,8 @@ pub(super) struct Stimuli {
     index: Range<usize>,
     /// Curves of the deviations.
     sites: Vec<[f64; COUNT]>,
-    /// Their scalar products.
-    products: Vec<[f64; SITES]>,
-    observer: Option<ObserverSpace>,
-}
-
-/// An observer's space: orthonormal basis, its products with the deviations, the observer's curves in it and their power.
-struct ObserverSpace {
-    axes: Vec<Vec<f64>>,
-    of_sites: [[f64; PADDED]; 3],
-    matching: DMat3,
-    power: f64,
+    /// Curves of the observer.
+    matching: [Vec<f64>; 3],
 }
 
 impl StimuliQuery {
@@ -98,33 +89,21 @@ impl Query for StimuliQuery {
         let training = self.training.as_ref().map_or(SINGLE..SINGLE, |training| add(&self.light, training));
         let index = add(index_light, &self.index.patches);
         let sites: Vec<[f64; COUNT]> = (0..SITES).map(site_curve).collect();
-        let weighted: Vec<[f64; COUNT]> = sites.iter().map(|curve| trapezoid(*curve)).collect();
+        let weighted: Vec<[f64; COUNT]> = sites.iter().map(trapezoid).collect();
         let of_sites = |spectrum: &[f64]| padded(weighted.iter().map(|curve| dot(curve, spectrum)));
-        let products = sites.iter().map(|a| std::array::from_fn(|j| dot(a, &sites[j]))).collect();
-        let observer = ObserverSpace::new(&self.observer, &sites);
+        let matching = curves(&self.observer);
         let of_sites = spectra.iter().map(|spectrum| of_sites(spectrum)).collect();
-        Stimuli { spectra, of_sites, patches, training, index, sites, products, observer }
-    }
-}
-
-impl ObserverSpace {
-    fn new(observer: &Sensor, sites: &[[f64; COUNT]]) -> Option<Self> {
-        let matching = curves(observer);
-        let axes = basis(&matching)?;
-        let of_sites = [0, 1, 2].map(|axis: usize| padded(sites.iter().map(|curve| dot(curve, &axes[axis]))));
-        let in_axes = |curve: &[f64]| DVec3::from_array([0, 1, 2].map(|axis: usize| dot(curve, &axes[axis])));
-        let [a, b, c] = &matching;
-        let power = matching.iter().map(|curve| dot(curve, curve)).sum();
-        Some(Self { of_sites, matching: DMat3::from_cols(in_axes(a), in_axes(b), in_axes(c)), power, axes })
+        Stimuli { spectra, of_sites, patches, training, index, sites, matching }
     }
 }
 
 /// Half weights at the ends of 400–700 nm, as integrals of tables have them.
-fn trapezoid(mut curve: [f64; COUNT]) -> [f64; COUNT] {
+fn trapezoid(curve: &[f64; COUNT]) -> [f64; COUNT] {
+    let mut weighted = *curve;
     for end in SITE_RANGE {
-        curve[end] *= 0.5;
+        weighted[end] *= 0.5;
     }
-    curve
+    weighted
 }
 
 fn padded(values: impl Iterator<Item = f64>) -> [f64; PADDED] {
@@ -148,15 +127,9 @@ pub(super) struct Perturbed<'a> {
     reference: Arc<Result<Vec<PatchColor>, RenderingError>>,
     way: DifferenceConditions,
     locus: Arc<Result<ReferenceLocus<Shared<Sensor>>, RenderingError>>,
-    space: Option<CameraSpace>,
+    /// Curves, peaks at 1.
+    curves: [Vec<f64>; 3],
     scale: Result<(), WhyNot>,
-}
-
-/// A camera's curves, peaks at 1: their products with each other, the deviations and the observer's axes.
-struct CameraSpace {
-    gram: DMat3,
-    of_sites: [[f64; PADDED]; 3],
-    in_axes: DMat3,
 }
 
 impl<'a> Perturbed<'a> {
@@ -185,7 +158,7 @@ impl<'a> Perturbed<'a> {
             reference: ask.ask(&PatchColorsQuery { rendering: reference.clone(), patches }),
             way: DifferenceConditions::new(&of.rendering, &reference),
             locus: ask.ask(&ReferenceLocusQuery(reference)),
-            space: stimuli.observer.as_ref().map(|observer| CameraSpace::new(sensor, stimuli, observer, peaks)),
+            curves: [0, 1, 2].map(|c: usize| (0..COUNT).map(|i| sensor.at_index(i)[c] / peaks[c]).collect()),
             scale: channel_scale(sensor),
             peaks: DVec3::from_array(peaks),
             of,
@@ -233,14 +206,14 @@ impl<'a> Perturbed<'a> {
             Err(error) => (Err(error.into()), Err(error.into()), (Err(error.into()), Err(error.into()))),
         };
         let index = self.index(&raw).map_err(WhyNot::from);
-        let space = self.space(deviation, &moved).ok_or(WhyNot::Dependent);
+        let space = self.space(deviation).ok_or(WhyNot::Dependent);
         Evidence { patches, locus, space, index, noise, scale: self.scale, snr_db }
     }
 
     fn rendering(&self, raw: &[DVec3]) -> Result<Rendering, RenderingError> {
         let white = DVec3::from_array(self.of.rendering.white.0);
         let integrals = raw[LIGHT];
-        if !(integrals.min_element() > 0.0) {
+        if !integrals.cmpgt(DVec3::ZERO).all() {
             return Err(RenderingError::NoWhite);
         }
         let (Some((_, _, correction)), Some(targets)) = (self.of.rendering.transform.fit(), &self.targets) else {
@@ -279,15 +252,14 @@ impl<'a> Perturbed<'a> {
         })
     }
 
-    fn space(&self, deviation: &Deviation, moved: &[[f64; PADDED]; 3]) -> Option<SpaceQuality> {
-        let (camera, observer) = (self.space.as_ref()?, self.stimuli.observer.as_ref()?);
-        let product = |a: usize, b: usize| -> f64 {
-            let rows = deviation[a].iter().zip(&self.stimuli.products);
-            let both: f64 = rows.map(|(value, row)| value * dot(row, &deviation[b])).sum();
-            camera.gram.col(b)[a] + dot(&camera.of_sites[a], &moved[b]) + dot(&camera.of_sites[b], &moved[a]) + both
-        };
-        let along = |axis: usize, c: usize| camera.in_axes.col(c)[axis] + dot(&observer.of_sites[axis], &moved[c]);
-        space_quality(matrix(product), matrix(along), observer)
+    fn space(&self, deviation: &Deviation) -> Option<SpaceQuality> {
+        let mut curves = self.curves.clone();
+        for (curve, deviation) in curves.iter_mut().zip(deviation) {
+            for (site, by) in self.stimuli.sites.iter().zip(deviation) {
+                curve.iter_mut().zip(site).for_each(|(value, site)| *value += by * site);
+            }
+        }
+        SpaceQuality::of(&curves, &self.stimuli.matching)
     }
 
     /// What each metric may be off by because of the ratio of the channels, its relative standard uncertainty being the same for red and
@@ -312,40 +284,6 @@ impl<'a> Perturbed<'a> {
         };
         (0..CameraMetric::ALL.len()).map(part).collect()
     }
-}
-
-impl CameraSpace {
-    fn new(sensor: &Sensor, stimuli: &Stimuli, observer: &ObserverSpace, peaks: [f64; 3]) -> Self {
-        let curve = |c: usize| -> Vec<f64> { (0..COUNT).map(|i| sensor.at_index(i)[c] / peaks[c]).collect() };
-        let own = [curve(0), curve(1), curve(2)];
-        Self {
-            gram: matrix(|a, b| dot(&own[a], &own[b])),
-            of_sites: own.each_ref().map(|curve| padded(stimuli.sites.iter().map(|site| dot(site, curve)))),
-            in_axes: matrix(|axis, c| dot(&observer.axes[axis], &own[c])),
-        }
-    }
-}
-
-/// Agreement of spaces from the camera's products and its components along the observer's axes.
-///
-/// ```text
-/// tr(P_A P_C) = tr(X G⁻¹ Xᵀ),   ‖P_C A‖² = tr(R G⁻¹ Rᵀ),   G = Cᵀ C,   X = Qᵀ C,   R = Aᵀ C
-/// ```
-fn space_quality(gram: DMat3, in_axes: DMat3, observer: &ObserverSpace) -> Option<SpaceQuality> {
-    let inverse = gram.inverse();
-    let trace = |matrix: DMat3| {
-        let product = matrix * inverse * matrix.transpose();
-        product.x_axis.x + product.y_axis.y + product.z_axis.z
-    };
-    let left = 1.0 - trace(observer.matching.transpose() * in_axes) / observer.power;
-    let factors = [0, 1, 2].map(|c| in_axes.col(c).length_squared() / gram.col(c)[c]);
-    let found = SpaceQuality { vora: trace(in_axes) / 3.0, luther: left.max(0.0).sqrt(), factors };
-    found.vora.is_finite().then_some(found)
-}
-
-fn matrix(entry: impl Fn(usize, usize) -> f64) -> DMat3 {
-    let column = |b: usize| DVec3::new(entry(0, b), entry(1, b), entry(2, b));
-    DMat3::from_cols(column(0), column(1), column(2))
 }
 
 /// Responses over those to white.

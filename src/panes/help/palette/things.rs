@@ -8,10 +8,10 @@ use crate::command::{Command, REPORTS, TourMove, key_bindings, key_name};
 use crate::document::start::Start;
 use crate::document::{LOCUS_RANGE_K, Light, SetKind, WhiteBalanceChoice};
 use crate::export::FigureForm;
+use crate::export::profile::CorrectionForm;
 use crate::help;
 use crate::panes::PaneContext;
 use crate::plot_item::{PlotItem, SensorId};
-use crate::view::correction::CorrectionForm;
 use crate::view::import::ImportItem;
 use crate::workspaces::{PaneKind, Workspace};
 
@@ -117,10 +117,11 @@ pub(super) fn saves(context: &PaneContext<'_>) -> Vec<Found> {
         let words = format!("Report on the paper: {}", words.to_lowercase());
         found.push(Found::new("Save", words, Command::Report(on)).also("figures claims export pdf html"));
     }
-    for form in CorrectionForm::ALL.into_iter().filter(|_| context.view.correction.shown.is_some()) {
+    for form in context.correction_camera().map_or(&[][..], |_| &CorrectionForm::ALL) {
         let (words, hint) = form.words();
         let words = format!("Save the color correction as {words}");
-        found.push(Found::new("Save", words, Command::SaveCorrection(form)).also(hint));
+        let also = format!("{hint} export matrix camera profile DCP ICC CLF");
+        found.push(Found::new("Save", words, Command::SaveCorrection(*form)).also(also));
     }
     found
 }

@@ -1,0 +1,108 @@
+//! Query for a camera's color correction, with the names that its files need.
+
+use std::sync::Arc;
+
+use chromascope_core::camera::RenderingError;
+use chromascope_core::correction::aces::IdtExposure;
+use chromascope_core::correction::neutral::Neutral;
+use chromascope_core::patch_set::PatchSet;
+use chromascope_core::query::correction::{CorrectionSheetQuery, IdtQuery};
+use chromascope_core::query::{Ask, Query, Shared};
+
+use super::CorrectionFile;
+use super::model::unique_camera_model;
+use crate::catalog::Entry;
+use crate::document::SetKind;
+use crate::scene::channel_ratio::ChannelRatioQuery;
+use crate::scene::{Scene, SceneError};
+
+/// Camera whose correction is wanted, and what its files are to state.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct CorrectionRequest<'a> {
+    /// The camera in the catalog.
+    pub camera: &'a str,
+    /// Camera model as raw files call it; by [`unique_camera_model`] where none is given.
+    pub model: Option<&'a str>,
+    /// Camera RGB of a neutral under the light on the scene, in place of the table's own.
+    pub neutral: Option<Neutral>,
+    /// Brightness of the ACES input transform's samples.
+    pub exposure: IdtExposure,
+}
+
+/// Query for the color correction of a camera of the scene, with its ACES input transform.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct CorrectionFileQuery {
+    camera: String,
+    model: String,
+    correction: String,
+    lights: Vec<String>,
+    metric: &'static str,
+    training: Shared<PatchSet>,
+    sheet: CorrectionSheetQuery,
+    idt: IdtQuery,
+    ratio: ChannelRatioQuery,
+    terms: String,
+}
+
+impl CorrectionFileQuery {
+    /// Query for a camera.
+    ///
+    /// # Errors
+    ///
+    /// [`SceneError`] where the camera, a light or the training reflectances are not available, or colors are shown by Eq 13.
+    pub fn new(scene: &Scene<'_>, request: CorrectionRequest<'_>) -> Result<Self, SceneError> {
+        let CorrectionRequest { camera, model, neutral, exposure } = request;
+        if scene.document.transform.is_eq_13() {
+            return Err(SceneError::Rendering { name: camera.to_owned(), error: RenderingError::NotFitted });
+        }
+        let choice = &scene.document.correction;
+        let kind = SetKind::Camera;
+        Ok(Self {
+            camera: camera.to_owned(),
+            model: model.map_or_else(|| unique_camera_model(camera), str::to_owned),
+            correction: choice.describe(scene.fit_target()),
+            lights: std::iter::once(scene.light_name())
+                .chain(choice.second_light.clone().map(|light| scene.with_filters(light)))
+                .collect(),
+            metric: scene.correction_metric().symbol,
+            training: scene.patch_set(&choice.training, None)?,
+            sheet: scene.correction_sheet(kind, camera)?,
+            idt: IdtQuery { neutral, ..scene.input_device_transform(kind, camera, exposure)? },
+            ratio: scene.channel_ratio_query(camera)?,
+            terms: terms(&scene.entry(kind, camera)?),
+        })
+    }
+}
+
+/// Terms of a camera's table in a few words, as a copyright field states them.
+fn terms(entry: &Entry) -> String {
+    let license = entry.header.as_ref().map_or("the user's own", |header| &header.license);
+    let license = license.split_once(" (").map_or(license, |(license, _)| license);
+    format!("Computed from spectral sensitivities of {}; terms of the table: {license}", entry.name)
+}
+
+impl Query for CorrectionFileQuery {
+    type Answer = Result<Arc<CorrectionFile>, SceneError>;
+    const NAME: &'static str = "color correction with its names";
+
+    fn answer(&self, ask: &impl Ask) -> Self::Answer {
+        let name = || self.camera.clone();
+        let sheet = (*ask.ask(&self.sheet)).clone().map_err(|error| SceneError::Rendering { name: name(), error })?;
+        let ratio = (*ask.ask(&self.ratio)).clone().map_err(|error| SceneError::Load { name: name(), error })?;
+        let names = |patches: &PatchSet| patches.patches().iter().map(|patch| patch.name.clone()).collect();
+        Ok(Arc::new(CorrectionFile {
+            camera: self.camera.clone(),
+            model: self.model.clone(),
+            correction: self.correction.clone(),
+            lights: self.lights.clone(),
+            metric: self.metric,
+            training: names(&self.training),
+            sheet,
+            idt: (*ask.ask(&self.idt)).clone(),
+            idt_training: names(&self.idt.training),
+            ratio,
+            neutral: self.idt.neutral,
+            terms: self.terms.clone(),
+        }))
+    }
+}
