@@ -16,6 +16,7 @@ mod light;
 mod matrix;
 mod outputs;
 mod per;
+mod pixel;
 mod radiance;
 mod render;
 mod report;

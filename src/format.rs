@@ -39,8 +39,11 @@ pub(crate) fn decimals_by(uncertainty: f64) -> Option<i32> {
 
 /// A number rounded to a count of decimals; a negative count is of zeros before the point.
 pub(crate) fn rounded(value: f64, decimals: i32) -> String {
-    let unit = 10_f64.powi(-decimals.min(0));
-    fixed((value / unit).round() * unit, decimals.max(0) as usize)
+    let Ok(decimals) = usize::try_from(decimals) else {
+        let unit = 10_f64.powi(-decimals);
+        return fixed((value / unit).round() * unit, 0);
+    };
+    fixed(value, decimals)
 }
 
 /// A number with fewer decimals than others below it, padded so that decimal points stand below each other.

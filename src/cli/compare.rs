@@ -7,9 +7,10 @@ use chromascope_core::query::metrics::rank_ranges;
 use chromascope_core::query::{Ask as _, CameraMetric, CameraMetricsQuery, MetricValue};
 use clap::ArgMatches;
 
-use self::arguments::{ALL, CompareArguments, Format, LOCUS_K, NAME, USUAL};
+use self::arguments::{ALL, CompareArguments, Format, NAME, USUAL};
 use super::error::CliError;
 use super::outputs;
+use super::pixel::LOCUS_K;
 use super::request::Request;
 use super::tables;
 use crate::document::SetKind;

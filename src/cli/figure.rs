@@ -10,10 +10,10 @@ use chromascope_figure::{Figure, Page};
 use clap::ArgMatches;
 
 use self::arguments::{FigureArguments, FigureKind, Range};
-use super::compare::arguments::LOCUS_K;
 use super::error::CliError;
 use super::identify::recorded_table;
 use super::outputs::{self, Stop};
+use super::pixel::LOCUS_K;
 use super::request::Request;
 use crate::document::{Document, LOCUS_RANGE_K, session};
 use crate::export::{FigureForm, Paper};

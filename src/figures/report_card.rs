@@ -36,6 +36,8 @@ const PLOTS: f64 = 190.0;
 const BARS: f64 = 200.0;
 /// Height of a line of the list.
 const LINE: f64 = 15.0;
+/// Height of a line of the foot.
+const FOOT_LINE: f64 = 12.0;
 /// Height of a name over a bar, and the air beside it.
 const NAME_LINE: f64 = 14.0;
 const NAME_GAP: f64 = 3.0;
@@ -85,12 +87,12 @@ pub fn page(scene: &Scene<'_>, id: &SensorId, figures: &CameraFigures, width: f6
     let columns = list(if width < TWO_COLUMNS { 1 } else { ((width / LIST_COLUMN) as usize).max(2) });
     let rows = columns.iter().map(Vec::len).max().unwrap_or(0);
     let temperature_k = scene.document.temperature_k;
-    panels.push(values(figures, place(LINE * (rows as f64 + 1.0)), &columns, temperature_k));
+    panels.push(values(figures, place(LINE * (rows as f64 + 0.4)), &columns, temperature_k));
     let known: Vec<_> = figures.uncertainties.iter().flat_map(|all| all.iter().copied().flatten()).collect();
     let words = chromascope_figure::wrapped(&in_words(known), TextSize::Small, width - 16.0);
-    let mut foot = Panel::board("uncertainty", place(LINE * words.len() as f64), Ink::new(InkRole::Plot));
+    let mut foot = Panel::board("uncertainty", place(FOOT_LINE * words.len() as f64), Ink::new(InkRole::Plot));
     for (row, words) in words.into_iter().enumerate() {
-        let at = [8.0, LINE * (row as f64 + 0.5)];
+        let at = [8.0, FOOT_LINE * (row as f64 + 0.5)];
         foot.marks.push(Mark::text(words, at, Anchor::LEFT, TextSize::Small, InkRole::Weak));
     }
     panels.push(foot);

@@ -9,8 +9,7 @@ use clap::{Args, ValueEnum};
 use spectral_file::Values;
 
 use crate::cli::arguments::CommonArguments;
-use crate::cli::error::CliError;
-use crate::document::pixel::Pixel;
+use crate::cli::pixel::PixelArguments;
 
 /// Arguments of `compare`.
 #[derive(Debug, Args)]
@@ -40,33 +39,6 @@ pub(in crate::cli) struct CompareArguments {
     pub(in crate::cli) pixel: PixelArguments,
 }
 
-/// A pixel of the cameras.
-#[derive(Clone, Copy, Debug, Args)]
-pub(in crate::cli) struct PixelArguments {
-    /// Full-well capacity of a pixel in electrons, for gray-snr
-    #[arg(long, value_name = "ELECTRONS")]
-    full_well: Option<f64>,
-    /// Read noise of a pixel in electrons (RMS)
-    #[arg(long, value_name = "ELECTRONS", default_value_t = 0.0, requires = "full_well")]
-    read_noise: f64,
-}
-
-impl PixelArguments {
-    /// The pixel, if its full well is named.
-    ///
-    /// # Errors
-    ///
-    /// [`CliError::Argument`] for numbers that describe no pixel.
-    pub(in crate::cli) fn pixel(self) -> Result<Option<Pixel>, CliError> {
-        let pixel = self.full_well.map(|full_well| Pixel { full_well, read_noise: self.read_noise });
-        let valid = pixel.map_or(Ok(()), |pixel| pixel.electrons().map(drop));
-        valid.map_err(|error| CliError::Argument { argument: "--full-well", reason: error.to_string() })?;
-        Ok(pixel)
-    }
-}
-
-/// Temperature in kelvins of the locus metrics unless another is named.
-pub(in crate::cli) const LOCUS_K: f64 = 2856.0;
 /// Metrics of the table unless some are named.
 pub(super) const USUAL: [&str; 8] = [
     "delta-e2000-mean",

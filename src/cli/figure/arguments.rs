@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use chromascope_figure::{AxisRanges, AxisTitles, LegendPlace, Numbers};
 use clap::{Args, ValueEnum};
 
-use crate::cli::compare::arguments::PixelArguments;
+use crate::cli::pixel::PixelArguments;
 use crate::cli::render::arguments::ViewpointArguments;
 use crate::cli::sources::CommonArguments;
 use crate::export::paper::{Paper, PaperStyle};

@@ -11,7 +11,6 @@ mod order;
 use chromascope_figure::{Cell, Table};
 use egui::{Event, Id, Key, Modifiers, Rect, Ui, UiBuilder, Vec2};
 
-use crate::format::{behind, decimals_by};
 use crate::panes::context::PaneContext;
 use crate::plot_item::PlotItem;
 use crate::scene::conditions::CONDITIONS;
@@ -21,7 +20,7 @@ use crate::workspaces::PaneKind;
 use body::Body;
 use columns::Layout;
 
-pub use columns::Column;
+pub use columns::{CellNote, Column};
 
 /// Height of a row.
 const LINE: f32 = 20.0;
@@ -29,35 +28,6 @@ const LINE: f32 = 20.0;
 const COMPACT_LINE: f32 = 15.0;
 /// Height of a line of a head.
 const HEAD_LINE: f32 = 15.0;
-
-/// Appearance and tooltip of a cell.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct CellNote {
-    /// Standard uncertainty in the value's unit; the value ends where it ends.
-    pub uncertainty: Option<f64>,
-    /// The uncertainty is extrapolated: a dagger behind it.
-    pub is_extrapolated: bool,
-    /// Written in gray: a difference within the uncertainty.
-    pub is_gray: bool,
-    /// Decimals without an uncertainty, where the cell has others than its column.
-    pub decimals: Option<usize>,
-    /// Words in place of the number, such as a range of ranks.
-    pub words: Option<String>,
-    /// Tooltip, such as the reason for a missing value.
-    pub hint: String,
-}
-
-impl CellNote {
-    /// Decimals of the cell, where they are its own.
-    fn own_decimals(&self) -> Option<i32> {
-        self.uncertainty.and_then(decimals_by).or(self.decimals.map(|own| own as i32))
-    }
-
-    /// The uncertainty as it is written behind the number.
-    fn behind(&self) -> Option<String> {
-        behind(self.uncertainty?, self.is_extrapolated)
-    }
-}
 
 /// A table as it is shown.
 pub struct DataTable<'a> {

@@ -89,8 +89,10 @@ fn every_figure_of_a_scene_is_made_at_one_column() {
 fn compared(camera: &str, options: &[&str]) -> Vec<(String, [Option<f64>; 2])> {
     let named = ["compare", "--camera", camera, "--metrics", "all", "--format", "json"];
     let object: Value = serde_json::from_slice(&run(&[&named[..], options].concat()).stdout).expect("JSON");
-    let value =
-        |metric: &CameraMetric| (metric.column.to_owned(), object["cameras"][0]["values"][metric.id]["value"].as_f64());
+    let value = |metric: &CameraMetric| {
+        let told = &object["cameras"][0]["values"][metric.id];
+        (metric.column.to_owned(), ["value", "uncertainty"].map(|key| told[key].as_f64()))
+    };
     CameraMetric::ALL.iter().map(value).collect()
 }
 
@@ -148,7 +150,10 @@ fn figures_of_metrics_have_the_numbers_and_the_temperature_of_compare() {
                 .success()
         );
         let svg = fs::read_to_string(&path).expect("a file");
-        assert!(svg.contains(&format!("Locus metrics at {kelvin} K")), "{svg}");
+        // Lines of the caption are texts of their own.
+        let words: Vec<&str> = svg.split('<').filter_map(|tag| Some(tag.split_once('>')?.1.trim())).collect();
+        let words = words.join(" ").split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(words.contains(&format!("Locus metrics at {kelvin} K.")), "{words}");
     }
 }
 

@@ -2,8 +2,7 @@
 
 use chromascope_figure::{Cell, Table, TextSize, text_width};
 
-use super::CellNote;
-use crate::format::{aligned, number};
+use crate::format::{aligned, behind, decimals_by, number};
 use crate::theme::UNIT;
 
 /// Maximum width of a text column, in points; longer text is cut and shown under the pointer.
@@ -70,6 +69,35 @@ impl Column {
     /// Name with unit, for screen readers and the pointer.
     pub fn full_name(&self) -> String {
         if self.unit.is_empty() { self.name.clone() } else { format!("{} ({})", self.name, self.unit) }
+    }
+}
+
+/// Appearance and tooltip of a cell.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct CellNote {
+    /// Standard uncertainty in the value's unit; the value ends where it ends.
+    pub uncertainty: Option<f64>,
+    /// The uncertainty is extrapolated: a dagger behind it.
+    pub is_extrapolated: bool,
+    /// Written in gray: a difference within the uncertainty.
+    pub is_gray: bool,
+    /// Decimals without an uncertainty, where the cell has others than its column.
+    pub decimals: Option<usize>,
+    /// Words in place of the number, such as a range of ranks.
+    pub words: Option<String>,
+    /// Tooltip, such as the reason for a missing value.
+    pub hint: String,
+}
+
+impl CellNote {
+    /// Decimals of the cell, where they are its own.
+    pub(super) fn own_decimals(&self) -> Option<i32> {
+        self.uncertainty.and_then(decimals_by).or(self.decimals.map(|own| own as i32))
+    }
+
+    /// The uncertainty as it is written behind the number.
+    pub(super) fn behind(&self) -> Option<String> {
+        behind(self.uncertainty?, self.is_extrapolated)
     }
 }
 
