@@ -133,6 +133,11 @@ pub(super) fn names_light_scale(text: &str) -> bool {
     text.trim() == "a.u." || words(&text).any(|word| WORDS.contains(&word) || word.starts_with("erg/"))
 }
 
+/// Returns whether a header ends in the word for power: `Relative power`.
+pub(super) fn is_power(text: &str) -> bool {
+    words(&lower(crate::unit_text::without_unit(text))).last() == Some("power")
+}
+
 /// Returns whether a header names a response, which is neither a light nor a fraction of one.
 pub(super) fn names_response(text: &str) -> bool {
     words(&lower(text)).any(|word| matches!(word, "response" | "responses" | "quantum"))

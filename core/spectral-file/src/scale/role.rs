@@ -227,7 +227,9 @@ pub(super) fn suggested(grid: &Grid, evidence: &Evidence) -> Decided<Role> {
         return if evidence.high() > COUNTS {
             Decided::open(Role::Unknown, format!("“{}” may be of light or of counts", excerpt(label)))
         } else {
-            Decided::guess(Role::Illuminant, format!("“{}” names light", excerpt(label)))
+            let power = header_terms::is_power(label);
+            let why = format!("“{}” names light", excerpt(label));
+            if power { Decided::certain(Role::Illuminant, why) } else { Decided::guess(Role::Illuminant, why) }
         };
     }
     if labels().any(header_terms::says_au) {
