@@ -189,7 +189,7 @@ pub(super) fn quantity(text: &str) -> Option<Quantity> {
     // Light that something reflects or transmits is light.
     let passed = any("reflected|transmitted") && any("radian|irradian|spectral flux|power");
     let letter = percent_letter(&text).or_else(|| inverse_log(&text));
-    let found = if text.trim() == crate::heads::UNSPECIFIED {
+    let found = if text.trim() == crate::heads::UNSPECIFIED || any("chromaticity coord") {
         Quantity::Unknown
     } else if any("quantum eff") || word(&["qe"]) {
         Quantity::QuantumEfficiency
