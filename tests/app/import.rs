@@ -124,3 +124,29 @@ fn percent_that_was_chosen_holds_for_every_role() {
         assert_eq!(first(&set).1, [5.0, 50.0, 10.0], "{role:?}");
     }
 }
+
+#[test]
+fn values_that_no_reflectance_has_are_refused_with_the_line() {
+    let text = "nm,Reflectance\n400,0.1\n500,-7.2\n600,0.3\n";
+    let error = import("x.csv", text.as_bytes(), None).unwrap_err().to_string();
+    assert!(error.starts_with("line 3: ") && error.contains("-7.2") && error.contains("correct it"), "{error}");
+    assert!(import("x.csv", text.as_bytes(), Some(Role::Camera)).is_ok(), "sensitivities may be negative");
+}
+
+#[test]
+fn metadata_and_names_beside_a_file_say_what_it_is() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let lights = folder.path().join("illuminants");
+    std::fs::create_dir(&lights).expect("made");
+    let (bare, told) = (lights.join("a.csv"), folder.path().join("b.csv"));
+    let rows = b"400,0.1\n500,0.2\n600,0.3\n";
+    let cie = r#"{"datatableInfo": {"columnHeaders": [{"title": "lambda"}, {"title": "V(lambda)", "quantity": "spectral luminous efficiency"}]}}"#;
+    std::fs::write(folder.path().join("b.csv_metadata.json"), cie).expect("written");
+    for (path, role) in [(bare, Role::Illuminant), (told, Role::Camera)] {
+        let origin = chromascope::catalog::import::Origin::on_disk("x", &path, rows);
+        let wishes = chromascope::document::imported::ImportOverrides::default();
+        let read =
+            chromascope::catalog::import::import_as(&origin, rows, &wishes, spectral_file::Watch::none()).unwrap();
+        assert_eq!((read.set.role, read.guessed), (role, role == Role::Illuminant), "{}", read.message);
+    }
+}

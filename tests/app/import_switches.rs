@@ -339,6 +339,18 @@ fn what_numbers_alone_do_not_say_is_asked() {
 }
 
 #[test]
+fn numbers_below_one_are_asked_about_too() {
+    for (answer, role) in [("Reflectances", Kinds::Reflectance), ("Light", Kinds::Illuminant)] {
+        let mut window = window("numbers.csv", "400,0.12\n500,0.55\n600,0.91\n700,0.3\n");
+        assert_eq!(own(&window)[0].role, Kinds::Unknown);
+        assert!(says(&window, "nothing says whether they are reflectances, a light or something else"));
+        window.get_by_role_and_label(Role::Button, answer).click();
+        settle(&mut window);
+        assert_eq!((own(&window)[0].role, own(&window)[0].curves[0].values[0]), (role, 0.12), "{answer}");
+    }
+}
+
+#[test]
 fn reflectances_by_choice_are_asked_for_their_scale() {
     let mut window = window("numbers.csv", NAMELESS);
     choose(&mut window, "This is a", "Reflectance");

@@ -290,7 +290,10 @@ impl Header {
             if let Some(values) = header_terms::values(line).filter(|values| *values != Values::Plain) {
                 self.values = Some((number, values));
             }
-            self.role = header_terms::role(line).map(|role| (number, role)).or(self.role);
+            // Lights have other units: `radiance paint (%)` is a sample.
+            let sample = self.values.is_some_and(|(_, values)| values == Values::Percent);
+            let role = header_terms::role(line).filter(|role| !sample || *role != Role::Illuminant);
+            self.role = role.map(|role| (number, role)).or(self.role);
             self.quantity = header_terms::quantity(line).map(|quantity| (number, quantity)).or(self.quantity);
         }
     }

@@ -133,6 +133,11 @@ pub(super) fn names_light_scale(text: &str) -> bool {
     text.trim() == "a.u." || words(&text).any(|word| WORDS.contains(&word) || word.starts_with("erg/"))
 }
 
+/// Returns whether a header ends in the word for power: `Relative power`.
+pub(super) fn is_power(text: &str) -> bool {
+    words(&lower(crate::unit_text::without_unit(text))).last() == Some("power")
+}
+
 /// Returns whether a header names a response, which is neither a light nor a fraction of one.
 pub(super) fn names_response(text: &str) -> bool {
     words(&lower(text)).any(|word| matches!(word, "response" | "responses" | "quantum"))
@@ -184,7 +189,7 @@ pub(super) fn quantity(text: &str) -> Option<Quantity> {
     // Light that something reflects or transmits is light.
     let passed = any("reflected|transmitted") && any("radian|irradian|spectral flux|power");
     let letter = percent_letter(&text).or_else(|| inverse_log(&text));
-    let found = if text.trim() == crate::heads::UNSPECIFIED {
+    let found = if text.trim() == crate::heads::UNSPECIFIED || any("chromaticity coord") {
         Quantity::Unknown
     } else if any("quantum eff") || word(&["qe"]) {
         Quantity::QuantumEfficiency

@@ -22,7 +22,7 @@ pub(in crate::cli) const EXAMPLES: &str = "Examples:
 Reports the decisions made for each file, one line each: value, confidence (certain, a guess, chosen) and reason. An option of the
 same name overrides a decision. A folder stands for the files in it, `-` for standard input; named pipes are not supported.
 
---csv writes `wavelength_nm,<curve>,...`: nanometers, reflectances and transmittances as fractions, a cell left blank where a
+--csv writes `wavelength_nm,<curve> [<quantity> in <unit>],...`: nanometers, reflectances and transmittances as fractions, a cell left blank where a
 curve has no sample. With `--csv -` the table goes to standard output and the report to standard error. OUT is a
 folder where several files or a folder are named.
 

@@ -119,6 +119,24 @@ fn radiances_are_no_chart() {
 }
 
 #[test]
+fn a_file_of_another_quantity_is_refused_with_the_remedy() {
+    let lamp = file("power_lamp.csv", "nm,Relative power\n400,0.1\n500,0.5\n700,0.9\n");
+    let leaf = file("stated_leaf.csv", "nm,Reflectance\n400,0.1\n500,0.5\n700,0.9\n");
+    refused(&["patches", "--chart", text(&lamp)], &["power_lamp.csv", "Relative power", "--illuminant"]);
+    refused(&["compare", "--chart", text(&lamp)], &["power_lamp.csv", "--illuminant"]);
+    refused(&["patches", "--illuminant", text(&leaf)], &["stated_leaf.csv", "reflectance", "--chart"]);
+    refused(&["locus", "--camera", text(&leaf)], &["stated_leaf.csv", "reflectance", "--chart"]);
+    let bad = file("negative_leaf.csv", "nm,Reflectance\n400,0.1\n500,-7.2\n700,0.9\n");
+    refused(&["patches", "--chart", text(&bad)], &["negative_leaf.csv", "line 3", "-7.2", "correct it"]);
+    let bare = file("bare_leaf.csv", "400,0.1\n500,0.5\n700,0.9\n");
+    for (option, role) in [("--chart", "reflectances"), ("--illuminant", "illuminants")] {
+        let output = run(&["patches", option, text(&bare)]);
+        let said = String::from_utf8(output.stderr).unwrap();
+        assert!(output.status.success() && said.contains(&format!("used as {role} because of the option")), "{said}");
+    }
+}
+
+#[test]
 fn fields_with_commas_are_quoted() {
     let camera = format!("# title: Mine, \"the old one\"\n{}", figures("cameras/nikon_d70_2007_figure.csv"));
     let camera = file("quoted.csv", &camera);
@@ -132,7 +150,7 @@ fn files_that_do_not_fit_say_which_and_why() {
     refused(&["locus", "--camera", text(&one)], &["one.csv: 1 curve", "red, green and blue"]);
     refused(
         &["patches", "--illuminant", &asset("cameras/nikon_d70_2007_figure.csv")],
-        &["nikon_d70_2007_figure.csv: 3 curves", "exactly one curve"],
+        &["nikon_d70_2007_figure.csv: the file states", "--camera"],
     );
     refused(&["locus", "--camera", env!("CARGO_TARGET_TMPDIR")], &[env!("CARGO_TARGET_TMPDIR"), "directory"]);
     refused(&["locus", "--camera", "missing.csv"], &["chromascope: missing.csv: no such file or directory\n"]);

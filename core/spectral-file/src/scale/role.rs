@@ -2,7 +2,7 @@
 
 use crate::grid::{Grid, RawCurve};
 use crate::report::{Certainty, Decided};
-use crate::role::{Role, Values};
+use crate::role::{Quantity, Role, Values};
 use crate::scale::camera::{MOST_CHANNELS, bells, channels};
 use crate::scale::evidence::{Evidence, Looks};
 use crate::scale::values::LARGEST_PERCENT;
@@ -93,7 +93,9 @@ fn named(grid: &Grid) -> Option<Decided<Role>> {
         let only = grid.curves.len() == 1;
         // `Lamp radiance` states it; `radiance paint` may be the name of a sample.
         let last = name.rsplit([' ', '_']).next().unwrap_or(name);
-        let stated = only && (role != Role::Illuminant || header_terms::role(last) == Some(role));
+        let ends =
+            || header_terms::role(last) == Some(role) || header_terms::quantity(name) == Some(Quantity::SpectralPower);
+        let stated = only && (role != Role::Illuminant || ends());
         let said = if stated { Decided::certain(role, why) } else { Decided::guess(role, why) };
         return Some(said).filter(|_| !denied && (only || role.is_fraction()));
     }
@@ -227,7 +229,9 @@ pub(super) fn suggested(grid: &Grid, evidence: &Evidence) -> Decided<Role> {
         return if evidence.high() > COUNTS {
             Decided::open(Role::Unknown, format!("“{}” may be of light or of counts", excerpt(label)))
         } else {
-            Decided::guess(Role::Illuminant, format!("“{}” names light", excerpt(label)))
+            let power = header_terms::is_power(label);
+            let why = format!("“{}” names light", excerpt(label));
+            if power { Decided::certain(Role::Illuminant, why) } else { Decided::guess(Role::Illuminant, why) }
         };
     }
     if labels().any(header_terms::says_au) {
