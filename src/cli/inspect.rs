@@ -23,7 +23,7 @@ use super::outputs::{Stop, put, show, stream};
 use super::request::read;
 use crate::catalog::opened::files_of;
 use crate::format::{io_failure, io_reason};
-use crate::terminal::say;
+use crate::terminal::{JsonPieces, say, shown_json};
 
 /// Reason that a file could not be read or written.
 #[derive(Clone)]
@@ -119,14 +119,14 @@ fn answer(
         Ok(prepared) => prepared,
         Err(failure) => {
             if arguments.json {
-                put(&format!("{}{end}", json::failure(&name, &failure)), None)?;
+                put(&shown_json(&format!("{}{end}", json::failure(&name, &failure))), None)?;
             }
             return Ok(Err(CliError::File(failure.sentence(&told))));
         }
     };
     if arguments.json {
         stream(None, |out| {
-            json::write(out, &name, table, prepared.as_mut())?;
+            json::write(&mut JsonPieces(out), &name, table, prepared.as_mut())?;
             Ok(out.write_all(end.as_bytes())?)
         })?;
     } else {
