@@ -25,24 +25,6 @@ fn escaped(text: &str, escape: impl Fn(char) -> String) -> Cow<'_, str> {
     Cow::Owned(text.chars().map(plain).collect())
 }
 
-/// Where JSON is written piece by piece, each whole characters.
-pub struct JsonPieces<'a>(pub &'a mut dyn Write);
-
-impl Write for JsonPieces<'_> {
-    fn write(&mut self, piece: &[u8]) -> io::Result<usize> {
-        // Most pieces are numbers.
-        if piece.is_ascii() {
-            return self.0.write(piece);
-        }
-        self.0.write_all(shown_json(&String::from_utf8_lossy(piece)).as_bytes())?;
-        Ok(piece.len())
-    }
-
-    fn flush(&mut self) -> io::Result<()> {
-        self.0.flush()
-    }
-}
-
 /// Writes a message to standard error.
 pub fn say(text: &str) {
     // No message can be written once the terminal is closed.

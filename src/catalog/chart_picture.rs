@@ -125,7 +125,7 @@ impl ChartPicture {
     }
 }
 
-/// The first tag of a TIFF or BigTIFF's first picture that is text (type 2) though its number is below those of private tags and of
+/// The first tag of the first picture in a TIFF (of 32 or 64 bits) that is text (type 2) though its number is below those of private tags and of
 /// the texts that TIFF 6.0 knows.
 fn text_for_number(bytes: &[u8]) -> Option<u16> {
     const TEXTS: [u16; 11] = [269, 270, 271, 272, 285, 305, 306, 315, 316, 333, 337];

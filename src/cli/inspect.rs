@@ -23,7 +23,7 @@ use super::outputs::{Stop, put, show, stream};
 use super::request::read;
 use crate::catalog::opened::files_of;
 use crate::format::{io_failure, io_reason};
-use crate::terminal::{JsonPieces, say, shown_json};
+use crate::terminal::{say, shown_json};
 
 /// Reason that a file could not be read or written.
 #[derive(Clone)]
@@ -126,7 +126,7 @@ fn answer(
     };
     if arguments.json {
         stream(None, |out| {
-            json::write(&mut JsonPieces(out), &name, table, prepared.as_mut())?;
+            json::write(out, &name, table, prepared.as_mut())?;
             Ok(out.write_all(end.as_bytes())?)
         })?;
     } else {
