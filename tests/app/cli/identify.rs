@@ -148,7 +148,7 @@ fn what_is_missing_is_named_with_its_remedy() {
 const CORNERS: [&str; 5] = ["--corners", "0,0", "9,0", "9,9", "0,9"];
 
 #[test]
-fn a_tiff_with_text_for_a_number_is_refused_in_one_line() {
+fn a_tiff_with_text_for_a_number_is_refused_in_our_words() {
     // Its width is text of 4 GB.
     let entry = |tag: u16, kind: u16, count: u32, value: u32| {
         [&tag.to_le_bytes()[..], &kind.to_le_bytes(), &count.to_le_bytes(), &value.to_le_bytes()].concat()
@@ -159,7 +159,8 @@ fn a_tiff_with_text_for_a_number_is_refused_in_one_line() {
     std::fs::write(&path, bytes).unwrap();
     let arguments = [&["identify", "--image", path.to_str().unwrap()], &CORNERS[..], &CHART].concat();
     refused(&arguments, &["TIFF tag 256", "save the picture again"]);
-    assert_eq!(String::from_utf8_lossy(&run(&arguments).stderr).lines().count(), 1);
+    let message = String::from_utf8_lossy(&run(&arguments).stderr).into_owned();
+    assert!(!message.contains(".rs:"), "no line of a dependency: {message}");
 }
 
 /// Zeros, `1 + 258 matches` of them, as zlib packs them with fixed codes.
