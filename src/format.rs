@@ -99,7 +99,7 @@ pub(crate) fn io_failure(path: &Path, error: &std::io::Error) -> String {
 pub(crate) fn io_reason(error: &std::io::Error) -> String {
     let text = error.to_string();
     let end = text.find(" (os error").unwrap_or(text.len());
-    text[..end].to_lowercase()
+    spectral_file::lowered(&text[..end])
 }
 
 /// Rows of a file that are in no curve: a sentence for the merged and one for the omitted ones, each with the line numbers of at

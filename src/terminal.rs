@@ -1,7 +1,6 @@
 //! Text for display on a terminal: without control sequences.
 
 use std::borrow::Cow;
-use std::fmt::Write as _;
 use std::io::{self, IsTerminal as _, Write};
 
 use spectral_file::turns_text;
@@ -9,20 +8,21 @@ use spectral_file::turns_text;
 /// A text as it may go to a terminal. Names come from files, and control characters in them could change what the terminal does or
 /// shows: all but line feeds and tabs become escapes such as `\u{1b}`, and so do characters that turn the direction of text.
 pub fn shown(text: &str) -> Cow<'_, str> {
+    escaped(text, |c| c.escape_unicode().to_string())
+}
+
+/// JSON as it may go to a terminal: C1 control characters in its strings become escapes too, as C0 are by its rules.
+pub fn shown_json(text: &str) -> Cow<'_, str> {
+    escaped(text, |c| format!("\\u{:04x}", u32::from(c)))
+}
+
+fn escaped(text: &str, escape: impl Fn(char) -> String) -> Cow<'_, str> {
     let orders = |c: char| (c.is_control() && c != '\n' && c != '\t') || turns_text(c);
     if !text.contains(orders) {
         return Cow::Borrowed(text);
     }
-    let mut plain = String::with_capacity(text.len());
-    for c in text.chars() {
-        if orders(c) {
-            // Writing to a string cannot fail.
-            let _infallible = write!(plain, "{}", c.escape_unicode());
-        } else {
-            plain.push(c);
-        }
-    }
-    Cow::Owned(plain)
+    let plain = |c: char| if orders(c) { escape(c) } else { c.to_string() };
+    Cow::Owned(text.chars().map(plain).collect())
 }
 
 /// Writes a message to standard error.

@@ -1,6 +1,6 @@
 //! Opening the window, or saying why it cannot open.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use eframe::{NativeOptions, egui::ViewportBuilder};
@@ -53,7 +53,11 @@ pub fn run(paths: Vec<PathBuf>, start: Instant) -> Result<(), WindowError> {
     // The window's position is saved by the program itself and read by eframe.
     let mut options = NativeOptions { viewport, persist_window: false, ..NativeOptions::default() };
     prefer_x11(&mut options);
-    let mut kept = Files::new(eframe::storage_dir(APP_ID));
+    let folder = eframe::storage_dir(APP_ID);
+    if let Some(folder) = folder.as_ref().filter(|_| cfg!(unix)) {
+        say_homeless(folder);
+    }
+    let mut kept = Files::new(folder);
     let copy = kept.copy().map(|(_, file)| file);
     files::save_on_exit();
     if let Err(error) = files::save_on_signals() {
@@ -78,6 +82,17 @@ pub fn run(paths: Vec<PathBuf>, start: Instant) -> Result<(), WindowError> {
         crate::terminal::say(&format!("chromascope: this window's document is saved in {}\n", copy.display()));
     }
     Ok(())
+}
+
+/// Says where work is kept if the environment names no home: the system then gives that of the user's entry, or, where the name
+/// is relative, a folder below the current one.
+fn say_homeless(folder: &Path) {
+    let named = |name: &str| std::env::var_os(name).map(PathBuf::from);
+    let is_home = |home: &PathBuf| home.is_absolute();
+    if !named("HOME").as_ref().is_some_and(is_home) && !named("XDG_DATA_HOME").as_ref().is_some_and(is_home) {
+        let folder = folder.display();
+        crate::terminal::say(&format!("chromascope: HOME names no folder; work is kept in {folder}\n"));
+    }
 }
 
 /// The window's icon; a plain one if the file in the program were damaged.

@@ -65,8 +65,7 @@ pub fn open(path: &Path, wanted: Option<ImageQuantity>) -> Result<ImageOnDisk, O
         return image.map(SpectralImage::Exr).map_err(|error| OpenImageError::Image { path: path.to_owned(), error });
     }
     let header = if has_ending(path, "hdr") { path.to_owned() } else { header_of(path)? };
-    let length = fs::metadata(&header).map_err(|error| OpenImageError::Io { path: header.clone(), error })?.len();
-    if length > MAX_HEADER {
+    if length_of(&header)? > MAX_HEADER {
         return Err(OpenImageError::Image { path: header, error: ImageError::NotEnvi });
     }
     let bytes = fs::read(&header).map_err(|error| OpenImageError::Io { path: header.clone(), error })?;
@@ -98,7 +97,15 @@ fn has_ending(path: &Path, ending: &str) -> bool {
 }
 
 fn opened(path: &Path) -> Result<File, OpenImageError> {
+    length_of(path)?;
     File::open(path).map_err(|error| OpenImageError::Io { path: path.to_owned(), error })
+}
+
+/// Length of a file; an error for pipes, sockets and devices, which may never end.
+fn length_of(path: &Path) -> Result<u64, OpenImageError> {
+    let other = || io::Error::new(io::ErrorKind::InvalidInput, "not a file; copy what it delivers to one first");
+    let length = fs::metadata(path).and_then(|known| if known.is_file() { Ok(known.len()) } else { Err(other()) });
+    length.map_err(|error| OpenImageError::Io { path: path.to_owned(), error })
 }
 
 /// Header of some data: `cube.img.hdr` or `cube.hdr`.

@@ -18,6 +18,7 @@ use crate::results::Results;
 use crate::scene::conditions::CONDITIONS;
 use crate::scene::metrics::CameraFigures;
 use crate::scene::{Scene, SceneError};
+use crate::terminal::shown_json;
 
 /// A ranking: sensors in order, with their values.
 struct Comparison {
@@ -65,7 +66,7 @@ pub(super) fn run(arguments: &CompareArguments, matches: &ArgMatches) -> Result<
     let text = match arguments.format {
         Format::Table => output::table(&comparison),
         Format::Csv => output::csv(&comparison),
-        Format::Json => output::json(&comparison),
+        Format::Json => shown_json(&output::json(&comparison)).into_owned(),
     };
     tables::say_caution(&scene, &request)?;
     outputs::put(&text, arguments.common.out.as_deref())

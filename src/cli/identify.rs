@@ -20,6 +20,7 @@ use crate::document::imported::Role;
 use crate::document::start::Start;
 use crate::results::Results;
 use crate::scene::Scene;
+use crate::terminal::shown_json;
 
 /// Spectra by the names of their patches.
 type Spectra = Vec<(String, GridSpectrum)>;
@@ -46,7 +47,7 @@ pub(super) fn run(arguments: &IdentifyArguments) -> Result<(), CliError> {
     let text = match arguments.format {
         Format::Table => report::table(&recorded, &ranked),
         Format::Csv => report::csv(&recorded, &ranked),
-        Format::Json => report::json(&recorded, &ranked, freedom),
+        Format::Json => shown_json(&report::json(&recorded, &ranked, freedom)).into_owned(),
     };
     if let Some(path) = &arguments.residuals {
         put(&report::residuals(&recorded, &ranked), Some(path))?;

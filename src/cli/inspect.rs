@@ -24,7 +24,7 @@ use super::request::read;
 use crate::catalog::import::Origin;
 use crate::catalog::opened::files_of;
 use crate::format::{io_failure, io_reason};
-use crate::terminal::say;
+use crate::terminal::{say, shown_json};
 
 /// Reason that a file could not be read or written.
 #[derive(Clone)]
@@ -120,7 +120,7 @@ fn answer(
         Ok(prepared) => prepared,
         Err(failure) => {
             if arguments.json {
-                put(&format!("{}{end}", json::failure(&name, &failure)), None)?;
+                put(&shown_json(&format!("{}{end}", json::failure(&name, &failure))), None)?;
             }
             return Ok(Err(CliError::File(failure.sentence(&told))));
         }

@@ -30,7 +30,7 @@ use crate::figures::render::returned;
 use crate::profiler::plans;
 use crate::results::{Count, Results};
 use crate::scene::{ComparedSensor, Scene, SceneError};
-use crate::terminal::say;
+use crate::terminal::{say, shown_json};
 
 /// Renders the pictures, writes them and reports the result.
 pub(super) fn run(arguments: &RenderArguments, matches: &ArgMatches) -> Result<(), CliError> {
@@ -54,7 +54,7 @@ pub(super) fn run(arguments: &RenderArguments, matches: &ArgMatches) -> Result<(
         show(&lines)?;
     }
     match &arguments.stats {
-        Some(path) => put(&patiently("measuring", || stats::json(&made, &counts, &times)), Some(path)),
+        Some(path) => put(&shown_json(&patiently("measuring", || stats::json(&made, &counts, &times))), Some(path)),
         None => Ok(()),
     }
 }

@@ -9,7 +9,7 @@ use chromascope_core::correction::CorrectionMethod;
 use chromascope_core::query::Shared;
 use chromascope_core::units::Kelvin;
 use clap::ArgMatches;
-use spectral_file::{Certainty, MAX_BYTES, Values};
+use spectral_file::{Certainty, MAX_BYTES, ReadError, Values};
 
 use super::arguments::{CommonArguments, SourceArguments, Transform};
 use super::checks;
@@ -439,6 +439,10 @@ pub(super) fn read(path: &Path) -> io::Result<Vec<u8>> {
         let why = "named pipes, sockets and devices are not supported; redirect to standard input and use \
                    /dev/stdin, or `-` with inspect";
         return Err(io::Error::new(io::ErrorKind::InvalidInput, why));
+    }
+    if known.is_file() && known.len() > MAX_BYTES as u64 {
+        let megabytes = known.len().div_ceil(1 << 20) as usize;
+        return Err(io::Error::other(ReadError::TooLarge { megabytes, limit: MAX_BYTES >> 20 }));
     }
     let mut bytes = Vec::new();
     fs::File::open(path)?.take(MAX_BYTES as u64 + 1).read_to_end(&mut bytes)?;

@@ -24,7 +24,7 @@ pub(super) struct Clues {
 }
 
 /// Keys of settings that name what is measured.
-const MEASURED: [&str; 16] = [
+pub(super) const MEASURED: [&str; 16] = [
     "quantity",
     "spectral quantity",
     "measured quantity",
@@ -42,11 +42,6 @@ const MEASURED: [&str; 16] = [
     "yaxis",
     "y label",
 ];
-
-/// Returns whether a setting of such a name, in lower case, says what is measured.
-pub(super) fn is_measured(key: &str) -> bool {
-    MEASURED.contains(&key)
-}
 
 /// Programs that write reflectances and transmittances in percent whatever their values: what a line starts with.
 const IN_PERCENT: [(&str, &str); 8] = [
@@ -100,7 +95,7 @@ impl Clues {
             };
             self.ratio = said.map(|said| (line, said)).or(self.ratio);
         }
-        if is_measured(key) {
+        if MEASURED.contains(&key) {
             self.role = header_terms::role(value).map(|role| (line, role)).or(self.role);
             let values = header_terms::values(value).filter(|values| *values != Values::Plain);
             self.values = values.map(|values| (line, values)).or(self.values);

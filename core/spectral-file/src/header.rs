@@ -340,7 +340,7 @@ fn name_row<'a>(layout: &Layout, rows: impl Iterator<Item = &'a (usize, &'a str)
 /// Returns whether a comment with such a key tells what the values are, if it gives a quantity and a unit.
 fn says_values(key: &str) -> bool {
     let names = ["data", "data type", "value", "values", "y", "signal", "spectrum", "spectra", "column", "columns"];
-    clues::is_measured(key) || names.contains(&key)
+    clues::MEASURED.contains(&key) || names.contains(&key)
 }
 
 /// A line that is a title, without separators that fill it up.

@@ -13,7 +13,7 @@ pub(super) fn unit(text: &str) -> Option<String> {
     let bracketed =
         pairs.iter().find_map(|&(open, close)| last_bracket(text, open, close).filter(|inner| is_unit(inner)));
     // `R%` is a name with its sign.
-    let signed = || Some("%").filter(|_| text.contains('%') && percent_name(text).is_some());
+    let signed = || Some("%").filter(|_| percent_sign(text).is_some_and(|at| at > 0));
     let behind_slash = || slashed(text).map(|(_, unit)| unit).filter(|unit| is_quotient(unit));
     bracketed.or_else(signed).or_else(behind_slash).or_else(|| Some(text).filter(|text| is_unit(text))).map(repaired)
 }

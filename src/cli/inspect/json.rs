@@ -7,6 +7,7 @@ use spectral_file::write::Prepared;
 use spectral_file::{Certainty, Curve, ReadError, ReadReport, SpectralFile};
 
 use super::Failure;
+use crate::terminal::shown_json;
 
 /// One object: a file that could not be read or written, and why.
 pub(super) fn failure(name: &str, failure: &Failure) -> Value {
@@ -21,7 +22,7 @@ pub(super) fn write(
     table: &SpectralFile,
     prepared: Option<&mut Prepared<'_>>,
 ) -> io::Result<()> {
-    write!(out, "{{\"file\":{},\"kind\":{},\"curves\":[", json!(name), json!(table.role.value))?;
+    put(out, &format!("{{\"file\":{},\"kind\":{},\"curves\":[", json!(name), json!(table.role.value)))?;
     let notes = if let Some(prepared) = prepared {
         let (mut curves, mut done) = (table.curves.iter().enumerate(), Ok(()));
         prepared.each(|wavelengths, values| {
@@ -42,15 +43,19 @@ pub(super) fn write(
         json!({ "what": decision.what, "value": decision.value, "certainty": certainty, "why": decision.why })
     });
     let warnings = table.warnings.iter().map(|warning| json!({ "line": warning.line(), "text": warning.to_string() }));
-    write!(
-        out,
+    let end = format!(
         "],\"channels\":{},\"decisions\":{},\"warnings\":{},\"reading\":{},\"notes\":{}}}",
         json!(table.reading.camera_columns),
         decisions.collect::<Value>(),
         warnings.collect::<Value>(),
         reading(&table.reading),
         notes.iter().map(ToString::to_string).collect::<Value>(),
-    )
+    );
+    put(out, &end)
+}
+
+fn put(out: &mut dyn Write, json: &str) -> io::Result<()> {
+    out.write_all(shown_json(json).as_bytes())
 }
 
 fn curve(
@@ -60,14 +65,14 @@ fn curve(
     (wavelengths, values): (&[f64], &[f64]),
 ) -> io::Result<()> {
     let unit = if table.role.value.is_fraction() { Some("1") } else { curve.unit.as_deref() };
-    write!(
-        out,
+    let start = format!(
         "{}{{\"name\":{},\"unit\":{},\"quantity\":{},\"wavelengths_nm\":",
         if index > 0 { "," } else { "" },
         json!(curve.name),
         json!(unit),
         json!(table.reading.quantity.value.to_string()),
-    )?;
+    );
+    put(out, &start)?;
     serde_json::to_writer(&mut *out, wavelengths)?;
     out.write_all(b",\"values\":")?;
     serde_json::to_writer(&mut *out, values)?;

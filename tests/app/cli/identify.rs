@@ -170,3 +170,77 @@ fn what_is_missing_is_named_with_its_remedy() {
     refused(&[&["identify", good, "--clip", "0"], &CHART[..]].concat(), &["--clip"]);
     refused(&[&["identify", good, "--raw", good], &CHART[..]].concat(), &["leave out"]);
 }
+
+const CORNERS: [&str; 5] = ["--corners", "0,0", "9,0", "9,9", "0,9"];
+
+#[test]
+fn a_tiff_with_text_for_a_number_is_refused_in_our_words() {
+    // Its width is text of 4 GB.
+    let entry = |tag: u16, kind: u16, count: u32, value: u32| {
+        [&tag.to_le_bytes()[..], &kind.to_le_bytes(), &count.to_le_bytes(), &value.to_le_bytes()].concat()
+    };
+    let entries = [entry(256, 2, u32::MAX, 8), entry(257, 4, 1, 10), entry(258, 3, 1, 16)].concat();
+    let bytes = [&b"II*\0\x08\0\0\0\x03\0"[..], &entries, &[0; 64]].concat();
+    let path = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("identify_text_width.tif");
+    std::fs::write(&path, bytes).unwrap();
+    let arguments = [&["identify", "--image", path.to_str().unwrap()], &CORNERS[..], &CHART].concat();
+    refused(&arguments, &["TIFF tag 256", "save the picture again"]);
+    let message = String::from_utf8_lossy(&run(&arguments).stderr).into_owned();
+    assert!(!message.contains(".rs:"), "no line of a dependency: {message}");
+}
+
+/// Zeros, `1 + 258 matches` of them, as zlib packs them with fixed codes.
+fn packed_zeros(matches: u32) -> Vec<u8> {
+    let (mut bytes, mut last, mut used) = (vec![0x78, 0x01], 0_u8, 0);
+    let mut push = |code: u32, length: u32| {
+        for bit in (0..length).rev() {
+            last |= ((code >> bit & 1) as u8) << used;
+            used += 1;
+            if used == 8 {
+                bytes.push(last);
+                (last, used) = (0, 0);
+            }
+        }
+    };
+    // The last block, of fixed codes; a zero; runs of 258; the end.
+    push(0b110, 3);
+    push(0x30, 8);
+    (0..matches).for_each(|_| push(0b1_1000_1010_0000, 13));
+    push(0, 14);
+    let sum = (1 + 258 * u64::from(matches)) % 65521;
+    bytes.extend(((sum as u32) << 16 | 1).to_be_bytes());
+    bytes
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn the_profile_of_a_picture_takes_no_memory_of_note() {
+    let path = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("identify_profile.png");
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, 10, 10);
+    encoder.set_color(png::ColorType::Rgb);
+    encoder.set_depth(png::BitDepth::Sixteen);
+    let mut writer = encoder.write_header().unwrap();
+    // 900 MB.
+    writer.write_chunk(png::chunk::iCCP, &[&b"profile\0\0"[..], &packed_zeros(3_500_000)].concat()).unwrap();
+    writer.write_image_data(&[7; 600]).unwrap();
+    drop(writer);
+    std::fs::write(&path, bytes).unwrap();
+    let mut child = std::process::Command::new(env!("CARGO_BIN_EXE_chromascope"))
+        .args(["identify", "--image", path.to_str().unwrap()])
+        .args(CORNERS)
+        .args(CHART)
+        .stderr(std::process::Stdio::piped())
+        .stdout(std::process::Stdio::null())
+        .spawn()
+        .unwrap();
+    let status = format!("/proc/{}/status", child.id());
+    let mut most = 0_u64;
+    while child.try_wait().unwrap().is_none() {
+        let text = std::fs::read_to_string(&status).unwrap_or_default();
+        let peak = text.lines().find_map(|line| line.strip_prefix("VmHWM:")?.trim().strip_suffix(" kB")?.parse().ok());
+        most = most.max(peak.unwrap_or(0));
+        std::thread::yield_now();
+    }
+    assert!(most > 0 && most < 500 << 10, "{most} kB");
+}

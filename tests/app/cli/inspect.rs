@@ -249,6 +249,21 @@ fn what_is_read_is_not_written_over() {
 }
 
 #[test]
+fn infinite_values_are_no_answer_in_any_form() {
+    let folder = folder("infinite");
+    let head =
+        "##TITLE=moss\n##JCAMP-DX=4.24\n##DATA TYPE=UV/VIS SPECTRUM\n##XUNITS=NANOMETERS\n##YUNITS=REFLECTANCE\n";
+    let rows = "##XFACTOR=1\n##YFACTOR=1e307\n##FIRSTX=410\n##LASTX=440\n##NPOINTS=4\n##XYDATA=(X++(Y..Y))\n410 12 34 56 78\n##END=\n";
+    let file = put(&folder, "moss.jdx", &format!("{head}{rows}"));
+    for arguments in [&[file.as_str()][..], &["--json", &file], &["--csv", "-", &file]] {
+        let output = inspect(arguments);
+        let (out, err) = said(&output);
+        assert!(!output.status.success() && !out.contains("null,null"), "{arguments:?}: {out}");
+        assert!(err.contains("line 12") && err.contains("beyond the largest number"), "{arguments:?}: {err}");
+    }
+}
+
+#[test]
 fn wrong_arguments_are_told_from_wrong_files() {
     let folder = folder("wrong");
     let leaf = put(&folder, "leaf.txt", LEAF);

@@ -42,6 +42,8 @@ fn no_name_gives_orders_to_a_terminal() {
         &["inspect", broken],
         &["inspect", names, broken, sound],
         &["inspect", names, "--csv", "-"],
+        &["inspect", "--json", names, broken, sound],
+        &["compare", "--camera", names, "--format", "json"],
         &["patches", "--chart", names],
         &["patches", "--chart", broken],
         &["patches", "--camera", sound],
@@ -57,6 +59,24 @@ fn no_name_gives_orders_to_a_terminal() {
     let output = run(&["inspect", sound]);
     let first = String::from_utf8(output.stdout).unwrap().lines().next().unwrap().to_owned();
     assert!(first.contains(".csv"), "a name is one line: {first:?}");
+}
+
+#[test]
+fn json_says_what_no_terminal_may_be_told() {
+    let folder = folder("json_orders");
+    let names = put(&folder, "c1.csv", "# note: a\u{9b}2Jb\nnm,\u{e9}\n400,0.1\n500,0.2\n600,0.3\n");
+    let output = run(&["inspect", "--json", names.to_str().unwrap()]);
+    let text = String::from_utf8(output.stdout).unwrap();
+    assert!(is_plain(&text) && text.contains("a\\u009b2Jb") && text.contains('\u{e9}'), "{text}");
+    let value: serde_json::Value = serde_json::from_str(&text).unwrap();
+    assert_eq!(value["reading"]["comments"][0]["value"], "a\u{9b}2Jb");
+}
+
+#[test]
+fn a_file_too_large_states_its_true_size_and_is_not_read() {
+    let path = folder("sizes").join("large.csv");
+    std::fs::File::create(&path).unwrap().set_len(300 << 20).unwrap();
+    refused(&["inspect", path.to_str().unwrap()], &["large.csv", "300 MB, the limit is 64 MB"]);
 }
 
 #[test]
@@ -107,6 +127,11 @@ fn pipes_sockets_and_devices_are_refused_wherever_a_file_is_named() {
             refused(arguments, &[place, "not supported"]);
         }
         refused(&["render", "--mesh", place], &["not a file"]);
+    }
+    for name in ["pipe.hdr", "pipe.exr"] {
+        let pipe = folder.join(name);
+        assert!(Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+        refused(&["render", "--image", pipe.to_str().unwrap()], &[name, "not a file"]);
     }
     // What a shell opens for a command is read.
     let script = format!(
