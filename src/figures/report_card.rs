@@ -262,13 +262,13 @@ fn values(figures: &CameraFigures, area: Rect, columns: &[Vec<Line>], temperatur
         let number = format!("{} {}", number(*metric, value), unit(metric));
         panel.marks.push(Mark::text(
             number.trim_end(),
-            [left + 150.0, y],
+            [left + 142.0, y],
             Anchor::RIGHT,
             TextSize::Small,
             InkRole::Text,
         ));
         if let Some(by) = uncertainty(value) {
-            panel.marks.push(Mark::text(by, [left + 158.0, y], Anchor::LEFT, TextSize::Small, InkRole::Weak));
+            panel.marks.push(Mark::text(by, [left + 147.0, y], Anchor::LEFT, TextSize::Small, InkRole::Weak));
         }
     }
     panel
