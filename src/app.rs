@@ -41,7 +41,7 @@ use crate::results::Results;
 use crate::theme;
 use crate::view::import::{ImportItem, ImportView};
 use crate::view::{SavedView, View};
-use crate::workspaces::{Arrangement, PaneKind};
+use crate::workspaces::Arrangement;
 
 pub use startup::{WindowError, run};
 
@@ -255,7 +255,7 @@ impl ChromascopeApp {
         focus::leave_offer(ctx);
         focus::enter_pane(ctx, &mut self.view);
         let typing = ctx.text_edit_focused();
-        let focused = self.view.page.open.or(self.view.focused).unwrap_or(PaneKind::CHROMATICITY);
+        let focused = self.view.keyed();
         // All keys belong to an open list or menu, which Escape closes.
         let is_free = !egui::Popup::is_any_open(ctx);
         for binding in key_bindings(focused).into_iter().filter(|_| is_free) {

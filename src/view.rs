@@ -367,6 +367,12 @@ impl View {
         }
     }
 
+    /// The pane that keys and menus mean: the one with the keyboard, else the first of the workspace.
+    pub fn keyed(&self) -> PaneKind {
+        let first = self.saved.layout.places(self.saved.workspace).iter().flatten().next().copied();
+        self.page.open.or(self.focused).or(first).unwrap_or(PaneKind::CHROMATICITY)
+    }
+
     /// The pane whose figure a key or menu means: the wanted one if it has figures, else the first in the workspace that has.
     pub fn pictured(&self, wanted: PaneKind, has_figures: impl Fn(PaneKind) -> bool) -> PaneKind {
         let places = self.saved.layout.places(self.saved.workspace).iter().flatten().copied();

@@ -26,7 +26,7 @@ pub enum NameError {
 
 fn suggest(name: &str, nearest: &[String]) -> String {
     match nearest {
-        [] if is_for_phone(name) => "; no phone is among the built-in cameras: name a file with a table of your own \
+        _ if is_for_phone(name) => "; no phone is among the built-in cameras: name a file with a table of your own \
                                      (wavelength, R, G, B)"
             .to_owned(),
         [] => String::new(),
@@ -80,8 +80,9 @@ pub fn typed_words(text: &str) -> Vec<String> {
 /// How typed words fit a name, if they do: the ranking of every search. Words of the gloss find the name and leave the rank to the
 /// others, so that "illuminant A" is as exact as "A".
 pub fn fit(typed: &[String], name: &str, gloss: &str) -> Option<Fit> {
-    let gloss = words(gloss);
-    let telling: Vec<String> = typed.iter().filter(|word| !gloss.contains(word)).cloned().collect();
+    let (gloss, known) = (words(gloss), words(name));
+    let tells = |word: &&String| known.contains(word) || !gloss.contains(word);
+    let telling: Vec<String> = typed.iter().filter(tells).cloned().collect();
     let by_name = fit_of_name(typed, name, &gloss);
     match telling.as_slice() {
         [] => by_name.or(Some(Fit::Gloss)),
@@ -144,8 +145,7 @@ pub fn ranked<T, G: PartialEq>(
 }
 
 /// What lists say to a search for a phone.
-pub const NO_PHONES: &str =
-    "No phone is among the built-in cameras. Open a table of your own (Ctrl+O): wavelength, R, G, B.";
+pub const NO_PHONES: &str = "No phone is among the built-in cameras";
 
 /// True if a search is for a phone.
 pub fn is_for_phone(text: &str) -> bool {
@@ -156,7 +156,8 @@ pub fn is_for_phone(text: &str) -> bool {
 
 /// What a list says that has nothing for a search.
 pub fn no_match(text: &str) -> String {
-    if is_for_phone(text) { format!("No match. {NO_PHONES}") } else { "No match.".to_owned() }
+    let phones = format!("No match. {NO_PHONES}. Open a table of your own (Ctrl+O): wavelength, R, G, B.");
+    if is_for_phone(text) { phones } else { "No match.".to_owned() }
 }
 
 /// The entry that a typed name matches.

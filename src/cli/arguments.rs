@@ -46,7 +46,7 @@ const EXAMPLES: &str = "Examples:
   chromascope list cameras
 
 Names are those of `chromascope list`. Case, punctuation and words such as CIE, illuminant, standard and observer are ignored; whole
-words, or any unambiguous substring, match. A match that is not exact is reported on standard error.
+words, or any unambiguous part of one, match. A match that is not exact is reported on standard error.
 No command overwrites a file that it reads, or any other file without --force.";
 
 const LOCUS_EXAMPLES: &str = "\

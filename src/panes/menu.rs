@@ -101,7 +101,7 @@ fn enabled_item(ui: &mut Ui, enabled: bool, words: &str, command: Command, conte
 }
 
 fn focused(context: &PaneContext<'_>) -> PaneKind {
-    context.view.page.open.or(context.view.focused).unwrap_or(PaneKind::CHROMATICITY)
+    context.view.keyed()
 }
 
 /// The pane whose figure is meant.

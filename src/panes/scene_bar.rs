@@ -438,7 +438,11 @@ fn difference(ui: &mut Ui, context: &mut PaneContext<'_>) {
     actions(ui, ("Difference", hint), now.name(transform.is_eq_13()), context, |_| {
         let offer = |metric: Metric| {
             let line = Line::new(metric.name(transform.is_eq_13()), now == metric);
-            (Line { note: metric.label.to_owned(), ..line }, Some(Action::Scene(SceneAction::SetDifference(metric))))
+            let also = format!("delta E {} {}", metric.id, metric.label);
+            (
+                Line { note: metric.label.to_owned(), also, ..line },
+                Some(Action::Scene(SceneAction::SetDifference(metric))),
+            )
         };
         transform.metrics().into_iter().map(offer).collect()
     });

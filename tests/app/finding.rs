@@ -160,7 +160,6 @@ fn exact_names_win_in_lists_and_in_the_palette() {
         ("A", A),
         ("illuminant a", A),
         ("light A", A),
-        ("incandescent", A),
         ("a, inc", A),
         ("fl2", "FL2, CIE fluorescent lamps"),
         ("fl", "FL1, CIE fluorescent lamps"),

@@ -169,10 +169,11 @@ fn short_lists_are_filtered_as_one_types() {
     };
     choose(&mut window, "Mesh: ", "fern");
     assert_eq!(window.state().history().document().render.mesh, MeshChoice::Fern);
-    choose(&mut window, "Quality: ", "prev");
-    let quality = window.state().history().document().render.quality;
-    assert_eq!(quality, chromascope_core::render::QualityLevel::Preview);
     assert_eq!(window.state().view().maximized, None);
+    window.state_mut().push(Command::FigurePage(PaneKind::CHROMATICITY));
+    window.run_steps(3);
+    choose(&mut window, "Size: ", "two");
+    assert_eq!(window.state().view().saved.page.paper.width_mm, Some(174.0));
 }
 
 #[test]
@@ -199,6 +200,8 @@ fn ctrl_e_prints_a_pane_that_has_a_figure() {
         window.run_steps(2);
         assert_eq!(window.state().view().focused, Some(PaneKind::LIBRARY));
         window.state_mut().push(Command::Show(workspace));
+        window.run_steps(3);
+        window.state().render_service().wait();
         window.run_steps(3);
         window.key_press_modifiers(Modifiers::COMMAND, Key::E);
         window.run_steps(3);

@@ -2,7 +2,7 @@
 
 use egui::containers::menu::{MenuButton, MenuConfig};
 use egui::{
-    ComboBox, Id, Key, Modifiers, PopupCloseBehavior, Rect, Response, Role, ScrollArea, Sense, Stroke, TextEdit,
+    Align, ComboBox, Id, Key, Modifiers, PopupCloseBehavior, Rect, Response, Role, ScrollArea, Sense, Stroke, TextEdit,
     TextStyle, Ui, Vec2, WidgetInfo,
 };
 
@@ -105,8 +105,9 @@ impl PickList<'_> {
         if !ui.memory(|memory| memory.has_focus(self.id)) {
             ui.memory_mut(|memory| memory.request_focus(self.id));
         }
-        let field = TextEdit::singleline(&mut state.text).id(self.id).hint_text(self.hint).desired_width(f32::INFINITY);
-        let field = ui.add(field);
+        // In a menu the field is higher than its text.
+        let field = TextEdit::singleline(&mut state.text).id(self.id).vertical_align(Align::Center);
+        let field = ui.add(field.hint_text(self.hint).desired_width(f32::INFINITY));
         field.widget_info(|| WidgetInfo::labeled(Role::TextInput, true, self.name));
         if field.changed() {
             state.picked = None;

@@ -191,7 +191,7 @@ fn set(kind: SetKind, entry: Entry, context: &PaneContext<'_>) -> Found {
 /// To a search for a phone: that there is none, and how one is brought in.
 pub(super) fn phones(text: &str) -> Option<Found> {
     let help = Command::Help("own-spectra", 0);
-    is_for_phone(text).then(|| Found::new("Cameras", NO_PHONES, help).note("how").also(text))
+    is_for_phone(text).then(|| Found::new("Cameras", NO_PHONES, help).note("how to add one").also(text))
 }
 
 /// Help pages by title.
