@@ -50,26 +50,25 @@ fn of_path(path: &str) -> Option<Decided<Role>> {
     let file = names.next()?;
     let stem = file.rsplit_once('.').map_or(file, |(stem, _)| stem);
     let folders = names.filter(|name| !name.is_empty()).take(2).map(|name| ("folder", name));
-    let (what, name, role) =
+    let (what, name, (role, agree)) =
         std::iter::once(("file", stem)).chain(folders).find_map(|(what, name)| Some((what, name, of_name(name)?)))?;
-    Some(match role {
-        Some(role) => Decided::guess(role, format!("The {what} is named “{}”", excerpt(name))),
-        None => Decided::open(
-            Role::Unknown,
-            format!("The name of the {what}, “{}”, may mean several things", excerpt(name)),
-        ),
+    let name = excerpt(name);
+    Some(if agree {
+        Decided::guess(role, format!("The {what} is named “{name}”"))
+    } else {
+        Decided::open(Role::Unknown, format!("The name of the {what}, “{name}”, may mean several things"))
     })
 }
 
-/// The role that the words of a name suggest; `Some(None)` if they contradict each other.
-fn of_name(name: &str) -> Option<Option<Role>> {
+/// The role that the words of a name suggest; and whether they agree.
+fn of_name(name: &str) -> Option<(Role, bool)> {
     const LONGEST: usize = 200;
     if name.len() > LONGEST {
         return None;
     }
     let mut roles = words(name).into_iter().filter_map(|word| role_of_word(&word));
     let first = roles.next()?;
-    Some(Some(first).filter(|first| roles.all(|role| role == *first)))
+    Some((first, roles.all(|role| role == first)))
 }
 
 /// The words of a name in lower case, those joined by capitals or digits apart: `CanonSSF_2` is canon and ssf.
@@ -101,7 +100,7 @@ fn role_of_word(word: &str) -> Option<Role> {
         ("camera", Role::Camera),
     ];
     let starts = STARTS.iter().find(|(start, _)| word.starts_with(start)).map(|(_, role)| *role);
-    starts.or_else(|| match word {
+    starts.or(match word {
         "illum" | "irrad" | "spd" | "spds" | "lamp" | "lamps" | "led" | "leds" | "lights" | "bulb" | "bulbs"
         | "daylight" | "sunlight" | "skylight" | "halogen" | "xenon" | "tungsten" | "incandescent" | "fluorescent"
         | "emission" => Some(Role::Illuminant),
@@ -147,7 +146,7 @@ mod metadata {
             }
             for (curve, column) in grid.curves.iter_mut().zip(columns) {
                 if let Some(name) = text(column, &["title", "titles", "name"]).filter(|_| !curve.named) {
-                    curve.name = name.trim_end_matches("(lambda)").trim_end().to_owned();
+                    name.trim_end_matches("(lambda)").trim_end().clone_into(&mut curve.name);
                     curve.named = true;
                 }
                 let unit = text(column, &["unit"]).filter(|unit| unit != "dimensionless" && unit != "1");

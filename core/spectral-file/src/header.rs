@@ -172,7 +172,10 @@ impl Header {
         if let Some(values) = header_terms::values(text).filter(|values| !plain_after_other(values)) {
             self.values = Some((line, values));
         }
-        self.role = header_terms::role(text).map(|role| (line, role)).or(self.role);
+        // Lights have other units: `radiance paint (%)` is a sample.
+        let sample = self.values.is_some_and(|(_, values)| values == Values::Percent);
+        let role = header_terms::role(text).filter(|role| !sample || *role != Role::Illuminant);
+        self.role = role.map(|role| (line, role)).or(self.role);
         self.quantity = match (header_terms::quantity(text), self.quantity) {
             (Some(Quantity::Relative), Some(known)) => Some(known),
             (found, known) => found.map(|quantity| (line, quantity)).or(known),

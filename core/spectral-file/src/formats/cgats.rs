@@ -298,7 +298,7 @@ impl File {
         let samples = self.fields.iter().any(|field| matches!(field.as_str(), "SAMPLE_ID" | "SAMPLE_NAME"));
         let role = (samples && (fractions || header.values.is_some()))
             .then(|| Decided::guess(Role::Reflectance, "CGATS lists samples, mostly those of a chart"));
-        let grid = Grid { wavelengths, lines, curves, header, unit, parts, part, rows, role, ..Grid::default() };
+        let grid = Grid { wavelengths, lines, curves, header, unit, role, parts, part, rows, ..Grid::default() };
         let dialect = (Delimiter::Spaces, DecimalMark::Point);
         let layout = Layout::fixed(dialect, Orientation::Across, self.data_line + 1, "CGATS prescribes it");
         let why = format!("Line {} begins a data format", self.format_line);

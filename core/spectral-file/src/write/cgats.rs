@@ -50,7 +50,7 @@ fn push_keywords(out: &mut String, sheet: &Sheet<'_>, format: Format, common: &C
     }
     let unit = sheet.unit().filter(|unit| *unit != "1");
     // Keywords are a closed list in CGATS; what is not in it stands in comments.
-    for (key, value) in [("quantity", sheet.quantity()), ("unit", unit), ("response", sheet.energy_response())] {
+    for (key, value) in [("quantity", Some(sheet.quantity())), ("unit", unit), ("response", sheet.energy_response())] {
         if let Some(value) = value {
             push_comment(out, key, value);
         }

@@ -178,9 +178,7 @@ fn push_comments(out: &mut String, sheet: &Sheet<'_>, resampling: Option<&str>) 
     if !title.is_empty() {
         push("title", &title);
     }
-    if let Some(quantity) = sheet.quantity() {
-        push("quantity", quantity);
-    }
+    push("quantity", sheet.quantity());
     if let Some(unit) = sheet.unit() {
         push("unit", &crate::write::text::one_line(unit));
     }

@@ -92,20 +92,20 @@ impl<'a> Sheet<'a> {
     }
 
     /// Quantity of the values, as the program's own files name it.
-    pub(super) fn quantity(&self) -> Option<&'static str> {
+    pub(super) fn quantity(&self) -> &'static str {
         let relative = self.unit().is_none_or(|unit| unit.trim() == "1");
         match self.content {
-            Content::Camera { .. } if relative => Some("relative spectral sensitivity"),
-            Content::Camera { .. } => Some("spectral sensitivity"),
-            Content::Observer => Some("color matching functions"),
-            Content::Reflectance => Some("reflectance factor"),
-            Content::Transmittance => Some("transmittance"),
-            Content::Illuminant if relative => Some("relative spectral power"),
+            Content::Camera { .. } if relative => "relative spectral sensitivity",
+            Content::Camera { .. } => "spectral sensitivity",
+            Content::Observer => "color matching functions",
+            Content::Reflectance => "reflectance factor",
+            Content::Transmittance => "transmittance",
+            Content::Illuminant if relative => "relative spectral power",
             Content::Illuminant => {
                 let quantity = self.unit().and_then(quantity::of_unit).unwrap_or(Quantity::SpectralPower);
-                Some(heads::of_light(quantity))
+                heads::of_light(quantity)
             }
-            Content::Other => Some(heads::UNSPECIFIED),
+            Content::Other => heads::UNSPECIFIED,
         }
     }
 
@@ -113,7 +113,7 @@ impl<'a> Sheet<'a> {
     pub(super) fn head(&self) -> String {
         let per_photon = if let Content::Camera { per_photon, .. } = self.content { per_photon } else { None };
         let unit = self.unit().map(text::one_line);
-        self.quantity().map_or_else(String::new, |quantity| heads::tail(quantity, per_photon, unit.as_deref()))
+        heads::tail(self.quantity(), per_photon, unit.as_deref())
     }
 
     /// The comments on one line each, without those that repeat the rest of the sheet.
@@ -133,7 +133,7 @@ impl<'a> Sheet<'a> {
 
     /// All that formats with few members of their own have no other place for, each as `key: value`, licenses aside.
     pub(super) fn remarks(&self) -> Vec<String> {
-        let own = [("quantity", self.quantity()), ("unit", self.unit().filter(|unit| *unit != "1"))];
+        let own = [("quantity", Some(self.quantity())), ("unit", self.unit().filter(|unit| *unit != "1"))];
         let own = own.iter().filter_map(|(key, value)| Some(format!("{key}: {}", text::one_line((*value)?))));
         let rest = self.comments().filter(|(key, _)| !is_license(key)).map(|(key, value)| format!("{key}: {value}"));
         let response = self.energy_response().map(|response| format!("response: {response}"));
