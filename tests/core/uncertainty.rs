@@ -2,7 +2,7 @@
 
 use std::any::{Any, TypeId};
 use std::cell::RefCell;
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use chromascope_core::camera::curve_spread::{Deviation, SITES, at_sites};
@@ -24,14 +24,15 @@ const D70: &str = "Nikon D70 (A.M.P.A.S.)";
 
 /// An evaluator that keeps all answers.
 #[derive(Default)]
-struct Kept(RefCell<HashMap<TypeId, Box<dyn Any>>>);
+struct Kept(RefCell<BTreeMap<TypeId, Box<dyn Any>>>);
 
 impl Ask for Kept {
     fn ask<Q: Query>(&self, query: &Q) -> Arc<Q::Answer> {
-        type Answers<Q> = HashMap<Q, Arc<<Q as Query>::Answer>>;
+        type Answers<Q> = Vec<(Q, Arc<<Q as Query>::Answer>)>;
         let id = TypeId::of::<Q>();
-        let known = |kinds: &HashMap<TypeId, Box<dyn Any>>| {
-            kinds.get(&id).and_then(|kind| kind.downcast_ref::<Answers<Q>>()?.get(query).cloned())
+        let known = |kinds: &BTreeMap<TypeId, Box<dyn Any>>| {
+            let answers = kinds.get(&id)?.downcast_ref::<Answers<Q>>()?;
+            answers.iter().find(|(known, _)| known == query).map(|(_, answer)| Arc::clone(answer))
         };
         if let Some(found) = known(&self.0.borrow()) {
             return found;
@@ -39,7 +40,7 @@ impl Ask for Kept {
         let answer = Arc::new(query.answer(self));
         let mut kinds = self.0.borrow_mut();
         let kind = kinds.entry(id).or_insert_with(|| Box::new(Answers::<Q>::new()));
-        kind.downcast_mut::<Answers<Q>>().unwrap().insert(query.clone(), Arc::clone(&answer));
+        kind.downcast_mut::<Answers<Q>>().unwrap().push((query.clone(), Arc::clone(&answer)));
         answer
     }
 }

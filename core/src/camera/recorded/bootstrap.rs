@@ -62,7 +62,7 @@ fn resampled_rms(fit: &RecordedFit, drawn: &[usize], freedom: Freedom) -> f64 {
     super::rms(effects.residuals.into_iter().flatten().flatten()).unwrap_or(f64::INFINITY)
 }
 
-/// Next number below `count` by SplitMix64 (Steele, Lea and Flood 2014).
+/// Next number below `count` by `SplitMix64` (Steele, Lea and Flood 2014).
 fn next(state: &mut u64, count: usize) -> usize {
     *state = state.wrapping_add(0x9E37_79B9_7F4A_7C15);
     let mixed = (*state ^ (*state >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
