@@ -70,8 +70,10 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     });
     let shown = DataTable::new(PaneKind::HEAD_TO_HEAD, "Head to head", &table).with_columns(columns.into());
     // The table reaches to the pane's edge: a narrow pane shows the first three columns whole.
-    let place =
-        Rect::from_min_max(egui::pos2(body.left(), top.min(body.bottom())), body.max + Vec2::new(2.0 * UNIT, 0.0));
+    let place = Rect::from_min_max(
+        egui::pos2(body.left() - 1.5 * UNIT, top.min(body.bottom())),
+        body.max + Vec2::new(2.0 * UNIT, 0.0),
+    );
     let shown = shown.with_notes(&note).show(ui, place, context);
     if let Some(metric) = shown.activated.and_then(|row| CameraMetric::ALL.get(row)) {
         let sorting = Sorting { column: metric.symbol.to_owned(), descending: metric.better == Better::Higher };

@@ -12,10 +12,10 @@ mod links;
 mod two_way;
 
 use crate::spectral::{GridSpectrum, Sensor};
-pub use bootstrap::{RESAMPLES, RankRange, rank_ranges};
+pub use bootstrap::{RESAMPLES, RankRange};
 pub use links::{Link, LinkKind};
 pub use two_way::Freedom;
-use two_way::Grid;
+use two_way::{Grid, rms};
 
 /// Reason that a value takes no part in a fit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, thiserror::Error)]
@@ -159,10 +159,13 @@ impl RecordedFit {
     }
 }
 
-/// Root mean square; none of nothing.
-fn rms(residuals: impl Iterator<Item = f64>) -> Option<f64> {
-    let (count, squares) = residuals.fold((0_usize, 0.0), |(n, sum), value| (n + 1, sum + value * value));
-    (count > 0).then(|| (squares / count as f64).sqrt())
+/// Rank range of each of several fits to the same patches, with the parameters of the fits.
+///
+/// Each resample draws as many patches as there are, with replacement, the same ones for all fits; gains and brightnesses are fitted
+/// again, and the fits are ranked by RMS. Fits that tie share the better rank. One patch tells nothing: all ranks are then possible.
+pub fn rank_ranges(fits: &[&RecordedFit], freedom: Freedom) -> Vec<RankRange> {
+    let residuals = |fit: &&RecordedFit| fit.residuals.iter().map(|row| row.map(Result::ok)).collect();
+    bootstrap::rank_ranges(&fits.iter().map(residuals).collect::<Vec<_>>(), freedom)
 }
 
 /// `ln m_pc − ln ∫ C_c S_p L dλ`.

@@ -1,7 +1,6 @@
 //! Ranks of fits as ranges, by a paired bootstrap over the patches (Efron and Tibshirani 1993, *An Introduction to the Bootstrap*).
 
-use super::RecordedFit;
-use super::two_way::{Freedom, Grid};
+use super::two_way::{Freedom, Grid, rms};
 
 /// Resamples of the patches.
 pub const RESAMPLES: usize = 1000;
@@ -17,13 +16,10 @@ pub struct RankRange {
     pub first: f64,
 }
 
-/// Rank range of each of several fits to the same patches.
-///
-/// Each resample draws as many patches as there are, with replacement, the same ones for all fits; gains and brightnesses are fitted
-/// again, and the fits are ranked by RMS. Fits that tie share the better rank. One patch tells nothing: all ranks are then possible.
-pub fn rank_ranges(fits: &[&RecordedFit], freedom: Freedom) -> Vec<RankRange> {
+/// Rank range of each fit by its residuals of the patches.
+pub(super) fn rank_ranges(fits: &[Vec<[Option<f64>; 3]>], freedom: Freedom) -> Vec<RankRange> {
     let count = fits.len();
-    let patches = fits.iter().map(|fit| fit.residuals.len()).min().unwrap_or(0);
+    let patches = fits.iter().map(Vec::len).min().unwrap_or(0);
     if patches < 2 {
         return vec![RankRange { range: [1, count], first: 1.0 }; count];
     }
@@ -37,7 +33,7 @@ pub fn rank_ranges(fits: &[&RecordedFit], freedom: Freedom) -> Vec<RankRange> {
             ranks.push(rank);
         }
     }
-    let all: Vec<f64> = fits.iter().map(|fit| fit.rms()).collect();
+    let all: Vec<f64> = fits.iter().map(|fit| rms(fit.iter().flatten().flatten().copied()).unwrap_or(0.0)).collect();
     let range = |(mut seen, rank): (Vec<usize>, usize)| {
         seen.sort_unstable();
         let at = |share: f64| seen[(share * (RESAMPLES - 1) as f64).round() as usize];
@@ -56,10 +52,9 @@ fn ranks(values: &[f64]) -> Vec<usize> {
 
 /// RMS of a fit to drawn patches; infinite where none of them has a usable value. A fit of the residuals leaves what a fit of the
 /// values leaves, because the model is linear.
-fn resampled_rms(fit: &RecordedFit, drawn: &[usize], freedom: Freedom) -> f64 {
-    let grid = Grid::new(drawn.iter().map(|&patch| fit.residuals[patch].map(Result::ok)).collect(), freedom);
-    let effects = grid.fit();
-    super::rms(effects.residuals.into_iter().flatten().flatten()).unwrap_or(f64::INFINITY)
+fn resampled_rms(fit: &[[Option<f64>; 3]], drawn: &[usize], freedom: Freedom) -> f64 {
+    let grid = Grid::new(drawn.iter().map(|&patch| fit[patch]).collect(), freedom);
+    rms(grid.fit().residuals.into_iter().flatten().flatten()).unwrap_or(f64::INFINITY)
 }
 
 /// Next number below `count` by `SplitMix64` (Steele, Lea and Flood 2014).
