@@ -143,9 +143,6 @@ fn a_camera_of_the_library_is_corrected_without_being_compared() {
     shows(&mut harness, "UniqueCameraModel: Nikon D850");
     harness.get_by_label("Camera: Nikon D850").click();
     harness.run_steps(3);
-    for name in ["Compared", "Library"] {
-        assert!(harness.query_all_by_label(name).next().is_some(), "{name}");
-    }
     harness.get_by_role_and_label(Role::TextInput, "Filter Camera").type_text("rebel");
     harness.run_steps(2);
     harness.key_press(egui::Key::Enter);

@@ -106,7 +106,7 @@ fn a_sensor_says_what_its_table_leaves_in_doubt() {
         ("Nikon D70 (2007 figure)", "unknown, assumed per energy: The plot does not say"),
         ("Nikon D70 (2007 figure)", "digitized from a figure"),
         ("Nikon D70 (2007 figure)", "lost: read off a printed figure"),
-        ("Nikon D70 (UPenn 2011)", "implausible: neutral under D65 +154 % in R/G"),
+        ("Nikon D70 (UPenn 2011)", "implausible: neutral under D65 +153 % in R/G"),
         ("Nikon D70 (2007 figure)", "misses the raw values of a real D70 by 4.5 %"),
         ("Nikon D70 (2007 figure)", "to 1 nm by Sprague's interpolation; zero outside 400–700 nm"),
         ("Nikon D70 (2007 figure)", "its locus below 2500 K (dotted) depends on data beyond 700 nm"),
