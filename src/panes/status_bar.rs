@@ -167,7 +167,7 @@ fn offered(offer: &Offer, is_alone: bool) -> String {
     match offer {
         Offer::Open(path) => format!("Open {}", file_name(path)),
         Offer::Use(kind, _) if is_alone => {
-            kind.used_as().map_or_else(|| "Compare".to_owned(), |used| format!("Use as {used}"))
+            kind.used_as().map_or_else(|| "Compare camera".to_owned(), |used| format!("Use as {used}"))
         }
         Offer::Use(kind, name) => ImportedAction::Use(*kind, name.clone()).name(),
     }
@@ -243,7 +243,9 @@ fn line(
         let left = (rect.left() + galley.size().x).min(rect.right()) + UNIT;
         let place = Rect::from_min_size(egui::pos2(left, rect.top() + 1.0), Vec2::new(width, rect.height() - 2.0));
         let layout = Layout::left_to_right(Align::Center);
-        let mut child = ui.new_child(UiBuilder::new().id_salt("buttons").max_rect(place).layout(layout));
+        // The keyboard stays on a button when another workspace is shown.
+        let id = egui::Id::unique("buttons of the message");
+        let mut child = ui.new_child(UiBuilder::new().scope_id(id).max_rect(place).layout(layout));
         child.spacing_mut().item_spacing.x = UNIT;
         child.spacing_mut().button_padding.y = 0.0;
         child.spacing_mut().interact_size.y = place.height();

@@ -174,7 +174,7 @@ fn a_file_that_comes_back_as_something_else_is_offered_and_the_last_reading_stay
     for (first, second, used, offered) in [
         (LAMP, LEAF, "Lamp", "Use as chart"),
         (CAMERA, LEAF, "measured", "Use as chart"),
-        (LEAF, CAMERA, "measured", "Compare"),
+        (LEAF, CAMERA, "measured", "Compare camera"),
     ] {
         let path = folder.path().join("measured.csv");
         fs::write(&path, first).unwrap();
