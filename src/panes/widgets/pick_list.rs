@@ -2,8 +2,8 @@
 
 use egui::containers::menu::{MenuButton, MenuConfig};
 use egui::{
-    Align, ComboBox, Id, Key, Modifiers, PopupCloseBehavior, Rect, Response, Role, ScrollArea, Sense, Stroke, TextEdit,
-    TextStyle, Ui, Vec2, WidgetInfo,
+    Align2, ComboBox, Id, Key, Modifiers, PopupCloseBehavior, Rect, Response, Role, ScrollArea, Sense, Stroke,
+    TextEdit, TextStyle, Ui, Vec2, WidgetInfo,
 };
 
 use super::lines;
@@ -106,7 +106,7 @@ impl PickList<'_> {
             ui.memory_mut(|memory| memory.request_focus(self.id));
         }
         // In a menu the field is higher than its text.
-        let field = TextEdit::singleline(&mut state.text).id(self.id).vertical_align(Align::Center);
+        let field = TextEdit::singleline(&mut state.text).id(self.id).align(Align2::LEFT_CENTER);
         let field = ui.add(field.hint_text(self.hint).desired_width(f32::INFINITY));
         field.widget_info(|| WidgetInfo::labeled(Role::TextInput, true, self.name));
         if field.changed() {
