@@ -16,7 +16,7 @@ pub(in crate::cli) const EXAMPLES: &str = "Examples:
   chromascope matrix \"Nikon D850\" --illuminant D55
   chromascope matrix \"Nikon D850\" --illuminant A --second-illuminant D65 --format dcp --out d850.dcp
   chromascope matrix mine.csv --illuminant D50 --fit min-delta-e --weights skin=4,neutrals=2 --format icc --out mine.icc
-  chromascope matrix \"Nikon D200\" --illuminant \"ISO 7589 studio tungsten\" --format clf --out d200.clf
+  chromascope matrix \"Nikon D850\" --illuminant \"ISO 7589 studio tungsten\" --format clf --out d850.clf
 
 text: the matrix from balanced RGB to XYZ, its errors over the training reflectances and by leave-one-out (each reflectance by a fit to
 all others; optimistic where the set has near copies, as the 190 reflectances have), what it does to white and to narrow blue LEDs

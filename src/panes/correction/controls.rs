@@ -67,7 +67,8 @@ pub(super) fn stated(ui: &mut Ui, camera: &str, context: &mut PaneContext<'_>) {
     let hint = format!("AsShotNeutral of a raw file under {}: R,G,B, as 0.5,1,0.7", key.1);
     let view = &mut context.view.correction;
     let neutral = view.neutrals.entry(key).or_default();
-    field(ui, ("Neutral", &hint), neutral, "the table's own");
+    let own = if ratio.is_some_and(|ratio| !ratio.is_credible()) { "not given" } else { "the table's own" };
+    field(ui, ("Neutral", &hint), neutral, own);
     let model = view.models.entry(camera.to_owned()).or_default();
     let hint = "UniqueCameraModel, as raw files of the camera state it; raw developers choose a DCP file by it";
     field(ui, ("Model", hint), model, &unique_camera_model(camera));
