@@ -17,13 +17,15 @@ pub const NEAR: f64 = 5.4e-3;
 const BAND_NM: usize = 20;
 const BAND_SHARE: f64 = 0.8;
 
-/// Band of a mainly monochromatic light, from its luminance at steps of 1 nm: index of the band's middle, and the share of the
+/// Band of a mainly monochromatic light, from its luminance at steps of 1 nm: index of the band's peak, and the share of the
 /// luminance in it; none where no 20 nm hold four fifths.
 pub fn monochromatic_band(luminance: &[f64]) -> Option<(usize, f64)> {
     let sum: f64 = luminance.iter().sum();
     let bands = luminance.windows(BAND_NM + 1).map(|band| band.iter().sum::<f64>() / sum);
     let (first, share) = bands.enumerate().max_by(|a, b| a.1.total_cmp(&b.1))?;
-    (share >= BAND_SHARE).then_some((first + BAND_NM / 2, share))
+    let band = luminance.get(first..=first + BAND_NM)?;
+    let peak = (0..band.len()).max_by(|&a, &b| band[a].total_cmp(&band[b]))?;
+    (share >= BAND_SHARE).then_some((first + peak, share))
 }
 
 /// Color rendering indices of a light.

@@ -20,7 +20,7 @@ pub enum RenditionError {
         "four fifths of the luminance lie within 20 nm of {nm} nm, and CIE 13.3 excludes lamps that are mainly monochromatic"
     )]
     Monochromatic {
-        /// Middle of the band in nanometers.
+        /// Peak of the band in nanometers.
         nm: u16,
     },
     /// There is no temperature to take the reference illuminant at.
