@@ -164,8 +164,11 @@ fn several_files_at_once_leave_light_and_patches() {
     undo(&mut window);
     assert_eq!(*window.state().history().document(), Document::paper());
     assert_eq!(status(&window).0, "Undone: Open 3 sets.", "what was taken back is no longer said");
-    // One alone is put to use.
+    // One alone waits for the user's word.
     open_path(&mut window, &folder.path().join("b.csv"));
+    assert_eq!(window.state().history().document().light, Document::paper().light);
+    window.key_press(egui::Key::Enter);
+    settle(&mut window);
     assert_eq!(window.state().history().document().light, Light::Set("Lamp".to_owned()));
 }
 
