@@ -180,13 +180,13 @@ fn exact_names_win_in_lists_and_in_the_palette() {
         press_like_keyboard(&mut window, typed);
         assert_eq!(picked(&window), first, "{typed} in the palette");
     }
-    for typed in ["D200", "camera d200", "d 200"] {
+    for typed in ["D200", "camera d200"] {
         let mut window = window();
         window.state_mut().push(Command::FindAnything);
         window.run_steps(3);
         press_like_keyboard(&mut window, typed);
         assert_eq!(picked(&window), "Nikon D200", "{typed}");
-        assert!(!says(&window, "Canon EOS 10D"), "{typed}");
+        assert!(!lines(&window).iter().any(|line| line.contains("10D")), "{typed}: {:?}", lines(&window));
     }
 }
 

@@ -204,6 +204,7 @@ fn the_temperature_keeps_the_keyboard_while_the_start_is_still_loading() {
         } else {
             window.drag_at(at);
             window.drop_at(at);
+            window.step();
         }
         for letter in ["4", "3", "2", "1"] {
             press_like_keyboard(&mut window, letter);
