@@ -18,8 +18,8 @@ pub use differences::{PatchDifferences, Statistic, WORST};
 pub use evidence::{LocusDeviationQuery, MetamerismIndexQuery, ReferenceLocusQuery, SpaceQualityQuery};
 pub use ranks::{Difference, rank_ranges};
 pub use table::{Better, CameraMetric, MetricGroup};
-pub use uncertainty::{Contributions, MetricUncertaintiesQuery, MetricUncertainty, UncertaintySource};
-pub use value::{MetricValue, WhyNot};
+pub use uncertainty::MetricUncertaintiesQuery;
+pub use value::{Contributions, MetricUncertainty, MetricValue, UncertaintySource, WhyNot};
 
 /// All figures of merit of one camera, without their uncertainties, which take longer: see [`MetricUncertaintiesQuery`].
 #[derive(Clone, Debug, PartialEq)]

@@ -1,8 +1,7 @@
 //! Differences and ranks of metrics that respect the uncertainty.
 
 use super::table::Better;
-use super::uncertainty::MetricUncertainty;
-use super::value::MetricValue;
+use super::value::{MetricUncertainty, MetricValue};
 
 /// Difference of two values of one metric under the same conditions, with its uncertainty.
 ///

@@ -3,7 +3,7 @@
 use super::conditions::CameraMetricsQuery;
 use super::perturbed::{Perturbed, StimuliQuery};
 use super::table::{CameraMetric, MetricGroup};
-use super::value::WhyNot;
+use super::value::{Contributions, MetricUncertainty, UncertaintySource, WhyNot};
 use crate::camera::curve_spread::{Deviation, at_sites};
 use crate::camera::{ChannelRatio, CurveSpread};
 use crate::light::{RadiationConstants, planckian::black_body};
@@ -32,67 +32,6 @@ const UNKNOWN_WRONG: f64 = 0.5;
 
 /// Share of a channel's response outside 400–700 nm above which a metric is extrapolated.
 const OUTSIDE: f64 = 0.01;
-
-/// Origin of an uncertainty.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum UncertaintySource {
-    /// Stated in the camera's own file.
-    Own,
-    /// The spread of other models' tables between laboratories.
-    Prior,
-}
-
-impl UncertaintySource {
-    /// Word in tables.
-    pub const fn word(self) -> &'static str {
-        match self {
-            Self::Own => "own",
-            Self::Prior => "prior",
-        }
-    }
-}
-
-/// Parts of a standard uncertainty, as standard uncertainties themselves; 0 for a part that does not apply.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Contributions {
-    /// The curves' shapes.
-    pub curves: f64,
-    /// Whether the table is per energy or per photon, where its source does not state it.
-    pub response: f64,
-    /// The ratio between the channels.
-    pub channel_ratio: f64,
-}
-
-/// Uncertainty of a metric's value, in the metric's unit.
-///
-/// ```text
-/// u² = u²(curves) + u²(response) + u²(channel ratio),   95 %: x ± k u,   k = 1.15 t₀.₉₇₅(14) = 2.47
-/// ```
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct MetricUncertainty {
-    /// Combined standard uncertainty.
-    pub standard: f64,
-    /// Its parts.
-    pub contributions: Contributions,
-    /// Degrees of freedom of the curves' part; those of the whole are not fewer.
-    pub freedom: f64,
-    /// Coverage factor k for 95 %.
-    pub coverage: f64,
-    /// Origin.
-    pub source: UncertaintySource,
-    /// True where the prior is stretched: the sensor is unlike the models of the prior, or what the metric uses reaches beyond 400–700 nm.
-    pub is_extrapolated: bool,
-    /// Mean of the metric over perturbed curves, less its value: how much errors of curves move the metric on average. Not corrected for,
-    /// not part of [`Self::standard`].
-    pub bias: f64,
-}
-
-impl MetricUncertainty {
-    /// Half the 95 % interval: `k u`.
-    pub fn expanded(&self) -> f64 {
-        self.coverage * self.standard
-    }
-}
 
 /// Relative standard uncertainty of the gains of red and of blue to green.
 ///
