@@ -2,7 +2,7 @@
 
 use chromascope_core::camera::WhiteBalanceTarget;
 use chromascope_core::camera::quality::{Electrons, ElectronsError};
-use chromascope_core::colorimetry::Metric;
+use chromascope_core::colorimetry::{Metric, UvPrime};
 use chromascope_core::light::RadiationConstants;
 use chromascope_core::patch_set::{COLOR_CHECKER_CHROMATIC, PatchSet};
 use chromascope_core::query::metrics::{
@@ -13,6 +13,7 @@ use chromascope_core::query::{
     LocusQuery, MetricUncertainty, MetricValue, RenderingQuery, Shared, Temperatures, WhyNot,
 };
 use chromascope_core::spectral::{Primaries, Response, Sensor};
+use chromascope_core::units::Kelvin;
 
 use crate::support::{
     CANON_10D, CIE_1931, DCS200, NIKON_D70, REFERENCE, assert_near, chart, kelvin, reference, sensor, training,
@@ -190,7 +191,8 @@ fn published_figures_of_the_paper_s_sensors() {
 
 #[test]
 fn cameras_misread_the_temperature_of_illuminant_a() {
-    // Eq 13 and Stiles & Burch 1955 under equal energy, nearest in CIE 1960 u, v: a search over 20,000 points, 1.4 K apart at 5500 K.
+    // Eq 13 and Stiles & Burch 1955 under equal energy, nearest in CIE 1960 u, v: a search over 20,000 points, 1.4 K apart at 5500 K;
+    // and one around it, 0.01 K apart.
     for (path, expected) in [(DCS200, 1589.4), (CANON_10D, 73.3), (NIKON_D70, 95.1)] {
         let asked = query_under("illuminants/e.csv", sensor(path), &ColorTransformSpec::Paper, sensor(REFERENCE));
         let deviation = Direct.ask(&LocusDeviationQuery {
@@ -200,12 +202,17 @@ fn cameras_misread_the_temperature_of_illuminant_a() {
         });
         let deviation = (*deviation).unwrap();
         assert_near(path, deviation.cct_error_k.unwrap(), expected, 0.7);
-        let colors = [&asked.rendering, &asked.reference].map(|rendering| {
-            let temperatures = Temperatures::List(vec![asked.temperature]);
-            let constants = RadiationConstants::Paper;
+        let locus = |rendering: &RenderingQuery, list: Vec<Kelvin>| {
+            let (temperatures, constants) = (Temperatures::List(list), RadiationConstants::Paper);
             let locus = Direct.ask(&LocusQuery { rendering: rendering.clone(), temperatures, constants });
-            (*locus).as_ref().unwrap().points[0].uv.unwrap()
-        });
+            (*locus).as_ref().unwrap().points.iter().map(|point| point.uv.unwrap()).collect::<Vec<_>>()
+        };
+        let colors = [&asked.rendering, &asked.reference].map(|rendering| locus(rendering, vec![asked.temperature])[0]);
+        let errors = || (-100..=100).map(|i| expected + 0.01 * f64::from(i));
+        let near = locus(&asked.reference, errors().map(|k| kelvin(2856.0 + k)).collect());
+        let distance = |place: UvPrime| (place.u - colors[0].u).hypot((place.v - colors[0].v) / 1.5);
+        let nearest = near.into_iter().zip(errors()).min_by(|a, b| distance(a.0).total_cmp(&distance(b.0))).unwrap();
+        assert_near(path, deviation.cct_error_k.unwrap(), nearest.1, 0.02);
         let parts = deviation.along.hypot(deviation.off);
         assert_near("both parts", parts, colors[0].distance(colors[1]), 1e-12);
     }

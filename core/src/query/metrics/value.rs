@@ -1,6 +1,5 @@
 //! Values of metrics with their uncertainties, and reasons for none.
 
-use super::uncertainty::MetricUncertainty;
 use crate::camera::RenderingError;
 use crate::query::compare::DifferenceError;
 
