@@ -91,7 +91,7 @@ fn say_homeless(folder: &Path) {
     let is_home = |home: &PathBuf| home.is_absolute();
     if !named("HOME").as_ref().is_some_and(is_home) && !named("XDG_DATA_HOME").as_ref().is_some_and(is_home) {
         let folder = folder.display();
-        crate::terminal::say(&format!("chromascope: HOME names no folder; work is kept in {folder}\n"));
+        crate::terminal::say(&format!("chromascope: HOME names no folder; work is saved in {folder}\n"));
     }
 }
 

@@ -155,20 +155,6 @@ impl ImportedSet {
         used.into_iter().map(|curve| Ok((curve.name.clone(), self.spectrum(curve)?))).collect()
     }
 
-    /// Least and greatest visible value, if the role's quantity cannot have them: below −5 % of the greatest or, of reflectances and
-    /// transmittances, above 2.
-    pub fn out_of_range(&self) -> Option<[f64; 2]> {
-        let is_fraction = matches!(self.role, Role::Reflectance | Role::Transmittance);
-        let curves = self.curves_in_nm().ok()?;
-        let range_of = |curve: &SpectralDistribution| {
-            let points = curve.wavelengths_nm().iter().zip(curve.values());
-            let visible = points.filter(|(nm, _)| (380.0..=780.0).contains(*nm)).map(|(_, value)| *value);
-            visible.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| [low.min(value), high.max(value)])
-        };
-        let is_out = |[low, high]: &[f64; 2]| *low < -0.05 * high.max(0.0) || (is_fraction && *high > 2.0);
-        curves.iter().map(|(_, curve)| range_of(curve)).find(is_out).filter(|_| self.role != Role::Unknown)
-    }
-
     /// All but the curves, which may be millions of numbers.
     #[must_use]
     pub fn without_curves(&self) -> Self {

@@ -31,10 +31,12 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
         ui.spacing_mut().item_spacing = Vec2::new(2.0 * UNIT, UNIT);
         let Some(camera) = controls::camera(ui, context) else { return };
         controls::files(ui, context);
-        controls::stated(ui, &camera, context);
+        let answer = refreshed(&camera, context);
+        let ratio = answer.as_ref().ok().and_then(|file| file.as_ref()).filter(|file| file.camera == camera);
+        controls::stated(ui, &camera, ratio.map(|file| file.ratio), context);
         controls::method(ui, context);
         controls::training(ui, context);
-        match refreshed(&camera, context) {
+        match answer {
             Err(error) => {
                 ui.add(Label::new(RichText::new(error).color(context.theme.error)).wrap());
             }

@@ -2,11 +2,11 @@
 
 use std::sync::Arc;
 
-use chromascope::action::{Action, CompareAction, RenderAction, SceneAction};
+use chromascope::action::{Action, CompareAction, RenderAction};
 
 use chromascope::command::Command;
+use chromascope::document::SetKind;
 use chromascope::document::render::{ReadingChoice, RenderSettings};
-use chromascope::document::{Light, SetKind};
 use chromascope::panes;
 use chromascope::profiler::{SceneRun, Subject};
 use chromascope::scene::Scene;
@@ -85,9 +85,10 @@ fn a_run_has_times_errors_and_figures() {
         assert!(csv.contains(part), "{part}");
     }
     assert!(csv.contains("largest error (of the peak J(κ, 0))") && csv.contains(" (reference)"), "{csv}");
-    window.state_mut().push(Action::Scene(SceneAction::SetLight(Light::BlackBody)));
+    let to = RenderSettings { sky: 0.3, ..window.state().history().document().render.clone() };
+    window.state_mut().push(Action::Render(RenderAction::Set { what: "Sky", to: Box::new(to) }));
     window.run_steps(3);
-    assert!(!window.state().profiler().measured.is_current, "the scene has another light than the run");
+    assert!(!window.state().profiler().measured.is_current, "the scene has another sky than the run");
     let scene = Scene { document: window.state().history().document(), catalog: &catalog, results: &results };
     let figure = panes::figure(PaneKind::METHODS, &window.state().figure_input(&scene)).expect("measured");
     assert!(!figure.title.contains("on show") && !figure.caption.contains("on show"), "{}", figure.caption);

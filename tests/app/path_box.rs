@@ -291,7 +291,7 @@ fn a_wrong_path_stays_to_be_mended_and_tilde_is_home() {
     window.run_steps(2);
     assert_eq!(text(&window), "~/leaf.csv");
     enter(&mut window);
-    until(&mut window, "leaf", |app| app.history().document().chart == "leaf");
+    until(&mut window, "leaf", |app| app.history().document().own.iter().any(|set| set.name == "leaf"));
     assert!(!has_box(&window));
 }
 
@@ -319,7 +319,7 @@ fn tab_completes_a_path() {
     window.run_steps(3);
     assert_eq!(text(&window), "~/spectra/leaf two.csv");
     enter(&mut window);
-    until(&mut window, "leaf two", |app| app.history().document().chart == "leaf two");
+    until(&mut window, "leaf two", |app| app.history().document().own.iter().any(|set| set.name == "leaf two"));
 }
 
 #[test]

@@ -1,10 +1,10 @@
 //! Tests of measurements: their scene, their results and their descriptions.
 
-use chromascope::action::{Action, RenderAction, SceneAction};
+use chromascope::action::{Action, RenderAction};
 use chromascope::catalog::Catalog;
 use chromascope::command::Command;
+use chromascope::document::Document;
 use chromascope::document::render::{MeshChoice, ReadingChoice, RenderSettings};
-use chromascope::document::{Document, Light};
 use chromascope::jobs::{Executor, Job as _};
 use chromascope::profiler::{Profiler, SceneRunJob};
 use chromascope::results::Results;
@@ -81,7 +81,8 @@ fn what_is_measured_is_of_the_scene_that_it_was_measured_on() {
         window.state().profiler().measured.is_current
     };
     assert!(is_current(&window));
-    window.state_mut().push(Action::Scene(SceneAction::SetLight(Light::BlackBody)));
+    let to = RenderSettings { sky: 0.3, ..window.state().history().document().render.clone() };
+    window.state_mut().push(Action::Render(RenderAction::Set { what: "Sky", to: Box::new(to) }));
     window.run_steps(2);
     window.state_mut().push(Command::SpectralWeights);
     window.run_steps(1);
@@ -90,7 +91,7 @@ fn what_is_measured_is_of_the_scene_that_it_was_measured_on() {
     window.run_steps(1);
     executor.run_all();
     window.run_steps(2);
-    assert!(!is_current(&window), "of another light than the one on show, though that was asked for");
+    assert!(!is_current(&window), "of another sky than the one on show, though that was asked for");
     window.state_mut().push(Command::Undo);
     window.run_steps(3);
     assert!(is_current(&window), "the scene is again the one that was measured");

@@ -8,6 +8,9 @@ use crate::role::{Quantity, Role, Values};
 use crate::text::{begins, lower, spaced, words};
 use crate::unit_text::percent_sign;
 
+/// Quantity of curves that state none, in the heads of the program's own tables.
+pub(super) const UNSPECIFIED: &str = "unspecified quantity";
+
 /// Returns whether a column's header names a scale of the spectrum, which is no curve: wavelengths, wave numbers, energies of photons.
 pub(super) fn names_axis(text: &str) -> bool {
     let energies = x_unit(text) == Some(XUnit::Other);
@@ -189,7 +192,7 @@ pub(super) fn quantity(text: &str) -> Option<Quantity> {
     // Light that something reflects or transmits is light.
     let passed = any("reflected|transmitted") && any("radian|irradian|spectral flux|power");
     let letter = percent_letter(&text).or_else(|| inverse_log(&text));
-    let found = if text.trim() == crate::heads::UNSPECIFIED || any("chromaticity coord") {
+    let found = if text.trim() == UNSPECIFIED || any("chromaticity coord") {
         Quantity::Unknown
     } else if any("quantum eff") || word(&["qe"]) {
         Quantity::QuantumEfficiency

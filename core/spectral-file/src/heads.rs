@@ -4,10 +4,8 @@
 use std::fmt::Write as _;
 
 use crate::header::Header;
+use crate::header_terms::UNSPECIFIED;
 use crate::role::{Quantity, Role, Values};
-
-/// Quantity of curves that state none.
-pub(super) const UNSPECIFIED: &str = "unspecified quantity";
 
 /// The quantities that heads name.
 const QUANTITIES: [(&str, Quantity); 13] = [

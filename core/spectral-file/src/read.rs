@@ -4,6 +4,7 @@ use crate::beside::Source;
 use crate::error::ReadError;
 use crate::file::SpectralFile;
 use crate::formats::found::Found;
+use crate::grid::Grid;
 use crate::limits::MAX_DROPPED;
 use crate::options::ReadOptions;
 use crate::places::Places;
@@ -129,6 +130,16 @@ fn read_text(
     finish(found, encoding, options, log)
 }
 
+/// Refuses fewer than two samples, and numbers beyond all that 64 bits hold.
+fn check(grid: &Grid, first_line: usize) -> Result<(), ReadError> {
+    if grid.wavelengths.len() < 2 {
+        return Err(ReadError::TooFewSamples(grid.line(0).max(first_line)));
+    }
+    let infinite = |values: &[f64]| values.iter().position(|value| value.is_infinite());
+    let at = grid.curves.iter().find_map(|curve| infinite(&curve.values));
+    at.map_or(Ok(()), |at| Err(ReadError::TooGreat(grid.line(at))))
+}
+
 /// Stages that all readers share: units, order, role, scale, curves.
 fn finish(
     found: Found,
@@ -137,13 +148,7 @@ fn finish(
     mut warnings: Log<'_>,
 ) -> Result<(SpectralFile, Option<Marker>), ReadError> {
     let Found { mut grid, layout, reader, mut notes } = found;
-    if grid.wavelengths.len() < 2 {
-        return Err(ReadError::TooFewSamples(grid.line(0).max(layout.first_line)));
-    }
-    let infinite = |values: &[f64]| values.iter().position(|value| value.is_infinite());
-    if let Some(at) = grid.curves.iter().find_map(|curve| infinite(&curve.values)) {
-        return Err(ReadError::TooGreat(grid.line(at)));
-    }
+    check(&grid, layout.first_line)?;
     let (parts, part) = grid.settle_parts(options.part, layout.first_line)?;
     let wavelength_unit = wavelengths::unit(&grid, options)?;
     wavelengths::to_nanometers(&mut grid, wavelength_unit.value)?;
@@ -174,9 +179,8 @@ fn finish(
         decimal_mark.certainty = Certainty::Certain;
     }
     warnings.look(usize::MAX)?;
-    if let Some((line, medium)) = grid.header.medium {
-        notes.push(Decision::new("Medium", &Decided::certain(medium, format!("Line {line} says so"))));
-    }
+    let medium = |(line, medium)| Decision::new("Medium", &Decided::certain(medium, format!("Line {line} says so")));
+    notes.extend(grid.header.medium.map(medium));
     let (rows, wavelength_column) = (grid.rows, grid.wavelength_column);
     let (header, mut dropped_rows) = (std::mem::take(&mut grid.header), std::mem::take(&mut grid.dropped));
     dropped_rows.truncate(MAX_DROPPED);

@@ -222,3 +222,10 @@ pub(super) fn listed(all: &[String]) -> String {
     let first = all[..all.len().min(MOST)].join(", ");
     if all.len() > MOST { format!("{first} and {} more", all.len() - MOST) } else { first }
 }
+
+/// A name and the unit behind a slash, as ISO 80000 has it: `Frequency/THz`, `λ / nm`. What stands before is letters alone.
+pub(super) fn slashed(text: &str) -> Option<(&str, &str)> {
+    let (name, unit) = text.split_once('/').map(|(name, unit)| (name.trim(), unit.trim()))?;
+    let letters = name.starts_with(char::is_alphabetic) && !name.contains(|c: char| c.is_ascii_digit() || c == '(');
+    Some((name, unit)).filter(|(_, unit)| letters && !unit.is_empty())
+}

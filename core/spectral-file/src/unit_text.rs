@@ -1,5 +1,6 @@
 //! Units, and mentions of photons, in the words of a header.
 
+use crate::text::slashed;
 use crate::{header_terms, units};
 
 /// The unit in a piece of a header, if it holds one: in brackets, or alone.
@@ -33,13 +34,6 @@ pub(super) fn percent_name(text: &str) -> Option<&str> {
     let name = text.trim().strip_suffix('%')?;
     let signed = percent_sign(text.trim()) == Some(name.len());
     Some(name.trim_end_matches([' ', '/', '_'])).filter(|name| signed && name.ends_with(char::is_alphanumeric))
-}
-
-/// A name and the unit behind a slash, as ISO 80000 has it: `Frequency/THz`, `λ / nm`. What stands before is letters alone.
-pub(super) fn slashed(text: &str) -> Option<(&str, &str)> {
-    let (name, unit) = text.split_once('/').map(|(name, unit)| (name.trim(), unit.trim()))?;
-    let letters = name.starts_with(char::is_alphabetic) && !name.contains(|c: char| c.is_ascii_digit() || c == '(');
-    Some((name, unit)).filter(|(_, unit)| letters && !unit.is_empty())
 }
 
 /// Returns whether a text is a whole unit of light, such as `W m-2 nm-1`, and no part of one, such as `m2/nm`.

@@ -18,6 +18,8 @@ const FARTHEST_UV: f64 = 0.05;
 const STEP: f64 = 1e-4;
 /// Interval in mired that the nearest point is searched down to.
 const SEARCH: f64 = 1e-8;
+/// Distance of the points of the parabola through it, in mired.
+const PARABOLA: f64 = 0.01;
 
 /// Deviation of a blackbody's color through a sensor from the reference's.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -84,6 +86,10 @@ impl<S: Deref<Target = Sensor>> ReferenceLocus<S> {
         let (low, high) = (self.points[nearest - 1].0, self.points[nearest + 1].0);
         let at = |mired: f64| self.at(mired).map_or(f64::INFINITY, |place| away(place.uv60()));
         let mired = minimum(low, high, SEARCH, at);
+        // Golden sections end where the distance is flat to rounding; the parabola through three points about there does not.
+        let [before, here, after] = [mired - PARABOLA, mired, mired + PARABOLA].map(|place| at(place).powi(2));
+        let vertex = mired - 0.5 * PARABOLA * (after - before) / (after - 2.0 * here + before);
+        let mired = if (vertex - mired).abs() < PARABOLA { vertex } else { mired };
         (at(mired) <= FARTHEST_UV).then(|| 1e6 / mired)
     }
 }

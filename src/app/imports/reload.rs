@@ -9,7 +9,6 @@ use crate::action::{Action, ImportedAction};
 use crate::catalog::import::Imported;
 use crate::catalog::opened::{Request, Why};
 use crate::document::imported::ImportedSet;
-use crate::format::fixed;
 use crate::view::import::ImportItem;
 use crate::view::{Offer, Weight};
 
@@ -24,8 +23,6 @@ struct Reread {
     again: Vec<ImportedSet>,
     /// Reasons why others stay as they were.
     failures: Vec<String>,
-    /// Files that were not taken for a reason the user may overrule.
-    refused: Vec<PathBuf>,
     /// Sentences about the readings in another role.
     told: Vec<String>,
 }
@@ -51,15 +48,7 @@ impl Reread {
             }
             return;
         }
-        match (set.out_of_range(), fresh.out_of_range()) {
-            (None, Some(range)) => {
-                let [low, high] = range.map(|value| fixed(value, 2));
-                let role = fresh.role;
-                self.failures.push(format!("{}: values from {low} to {high} are out of range for {role}", set.file));
-                self.refused.extend(fresh.path);
-            }
-            _ => self.with.push((set.name.clone(), ImportedSet { name: set.name.clone(), ..fresh })),
-        }
+        self.with.push((set.name.clone(), ImportedSet { name: set.name.clone(), ..fresh }));
     }
 }
 
@@ -85,7 +74,7 @@ impl ChromascopeApp {
                 self.view.import.unseen.insert(ImportItem::Set(name));
             }
         }
-        let Reread { with, beside, again, failures, refused, told } = reread;
+        let Reread { with, beside, again, failures, told } = reread;
         if !again.is_empty() {
             self.opened.reread(again, why);
         }
@@ -124,7 +113,7 @@ impl ChromascopeApp {
         let document = self.history.document();
         let added: Vec<_> =
             beside.iter().filter_map(|set| document.own.get(document.same_set(set)?)).cloned().collect();
-        let offers: Vec<Offer> = self.offers(&added).into_iter().chain(refused.into_iter().map(Offer::Open)).collect();
+        let offers: Vec<Offer> = self.offers(&added);
         if !offers.is_empty() {
             // The user may be at something else: nothing takes the keyboard.
             self.view.offer(offers, false);

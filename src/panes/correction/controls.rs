@@ -1,5 +1,6 @@
 //! The choices of a correction: camera, method, training, weights, second light.
 
+use chromascope_core::camera::ChannelRatio;
 use chromascope_core::correction::CorrectionMethod;
 use chromascope_core::correction::classes::{ClassWeights, ColorClass};
 use egui::{DragValue, Label, Response, RichText, TextEdit, Ui};
@@ -60,9 +61,8 @@ pub(super) fn files(ui: &mut Ui, context: &mut PaneContext<'_>) {
 }
 
 /// What files state of the camera: model, and a neutral in place of the table's own ratio between the channels.
-pub(super) fn stated(ui: &mut Ui, camera: &str, context: &mut PaneContext<'_>) {
+pub(super) fn stated(ui: &mut Ui, camera: &str, ratio: Option<ChannelRatio>, context: &mut PaneContext<'_>) {
     let theme = context.theme;
-    let ratio = context.scene.channel_ratio(camera).ok();
     let key = (camera.to_owned(), context.scene.light_name());
     let hint = format!("AsShotNeutral of a raw file under {}: R,G,B, as 0.5,1,0.7", key.1);
     let view = &mut context.view.correction;

@@ -131,7 +131,7 @@ mod tests {
         let lines: Vec<String> = matching(all, "fit").into_iter().map(|found| found.line.words).collect();
         assert_eq!(
             lines,
-            ["Settings", "Diagram: fit to data", "Color transform: fitted to CIE 1931", "Patches shown", "outfit"]
+            ["Settings", "Color transform: fitted to CIE 1931", "Diagram: fit to data", "Patches shown", "outfit"]
         );
     }
 }

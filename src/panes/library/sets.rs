@@ -93,7 +93,8 @@ pub(super) fn list(ui: &mut Ui, rows: &[Row<'_>], context: &mut PaneContext<'_>)
         return;
     }
     ui.spacing_mut().item_spacing.y = 0.0;
-    let area = ScrollArea::vertical().id_salt("sets").auto_shrink(false);
+    // Each search begins at its best match, and without one the list is where it was.
+    let area = ScrollArea::vertical().id_salt(("sets", &context.view.search)).auto_shrink(false);
     area.show_rows(ui, ROW, rows.len(), |ui, range| {
         for row in &rows[range] {
             if let Row::Group { kind, count, open } = row {

@@ -210,7 +210,8 @@ fn several_files_go_into_a_folder_and_one_that_fails_keeps_none_back() {
     std::fs::create_dir(&within).unwrap();
     let other = put(&within, "a.dat", "400 0.3\n500 0.4\n");
     let out = folder.join("out");
-    let output = inspect(&[&a, &b, &c, within.to_str().unwrap(), "--csv", out.to_str().unwrap()]);
+    let output =
+        inspect(&[&a, &b, &c, within.to_str().unwrap(), "--role", "reflectance", "--csv", out.to_str().unwrap()]);
     let (report, errors) = said(&output);
     assert_eq!(output.status.code(), Some(1));
     assert!(errors.starts_with(&format!("chromascope: {b}, line 2: no number in column 2")), "{errors}");

@@ -203,11 +203,11 @@ fn corrections_reach_the_tables() {
 
 #[test]
 fn a_second_light_may_be_a_formula_and_filters_stand_before_both() {
-    let dng = text(&["--format", "dng", "--second-illuminant", "blackbody:5000"]);
+    let dng = text(&["--format", "dng", "--second-illuminant", "blackbody:5000", "--neutral", NEUTRAL]);
     assert!(dng.contains("CalibrationIlluminant2: 255") && dng.contains("AsShotNeutral (blackbody 5000 K)"), "{dng}");
-    let filtered = text(&["--format", "dng", "--filter", "Cooling 131 mired"]);
+    let filtered = text(&["--format", "dng", "--filter", "Cooling 131 mired", "--neutral", NEUTRAL]);
     assert!(filtered.contains("studio tungsten \u{d7} Cooling 131 mired"), "{filtered}");
-    assert_ne!(filtered, text(&["--format", "dng"]));
+    assert_ne!(filtered, text(&["--format", "dng", "--neutral", NEUTRAL]));
     refused(&with(&["--second-illuminant", "blackbody:warm"]), &["--second-illuminant", "blackbody:5500"]);
 }
 

@@ -51,7 +51,7 @@ fn loci_by_the_paper() {
     for (row, (source, places)) in rows[1..].iter().zip(expected) {
         assert_eq!(row[0], source);
         assert_close(&row[2..6], &places);
-        assert_eq!(row[10..], PAPER);
+        assert_eq!(row[11..], PAPER);
     }
 }
 

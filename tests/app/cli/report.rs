@@ -20,6 +20,6 @@ fn a_report_is_made_in_a_folder_with_any_cameras() {
     let page = std::fs::read_to_string(format!("{out}/report.html")).unwrap();
     assert!(page.contains("Nikon D5100 (NPL)") && page.contains("Not judged") && !page.contains("Kodak DCS200"));
     let claims = std::fs::read_to_string(format!("{out}/claims.csv")).unwrap();
-    assert!(claims.contains("not judged,length in xy,Nikon D5100 (NPL)"), "{claims}");
+    assert!(claims.contains("not judged,,length in xy,Nikon D5100 (NPL)"), "{claims}");
     refused(&arguments, &["figure1.pdf", "--force"]);
 }

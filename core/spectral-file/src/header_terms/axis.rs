@@ -1,8 +1,7 @@
 //! Names and units of wavelengths in the words of a header.
 
 use crate::report::Medium;
-use crate::text::{lower, words};
-use crate::unit_text::slashed;
+use crate::text::{lower, slashed, words};
 use crate::wavelength_unit::WavelengthUnit;
 
 /// Quantity on the x axis, as a header may name it.

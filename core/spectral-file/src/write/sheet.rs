@@ -7,7 +7,7 @@ use crate::limits::{MAX_CURVES, MAX_SAMPLES};
 use crate::role::Quantity;
 use crate::write::note::{Note, WriteError};
 use crate::write::text;
-use crate::{heads, quantity};
+use crate::{header_terms, heads, quantity};
 
 /// A curve to be written: values over wavelength.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -105,7 +105,7 @@ impl<'a> Sheet<'a> {
                 let quantity = self.unit().and_then(quantity::of_unit).unwrap_or(Quantity::SpectralPower);
                 heads::of_light(quantity)
             }
-            Content::Other => heads::UNSPECIFIED,
+            Content::Other => header_terms::UNSPECIFIED,
         }
     }
 
