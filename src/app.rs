@@ -262,7 +262,7 @@ impl ChromascopeApp {
             if binding.rests_while_typing && (typing || ctx.egui_wants_keyboard_input()) {
                 continue;
             }
-            if ctx.input_mut(|input| take_key(input, &binding.shortcut)) {
+            if ctx.input_mut(|input| take_key(input, binding.shortcut)) {
                 // What is typed next belongs to the field that opens.
                 let opens_field = matches!(binding.command, Command::FindAnything | Command::FocusTemperature);
                 self.commands.push(binding.command);
@@ -313,7 +313,7 @@ impl ChromascopeApp {
 }
 
 /// Takes a key out of the input, with the text that a keyboard types by it: a field that it opens must not receive its letter.
-fn take_key(input: &mut egui::InputState, shortcut: &egui::KeyboardShortcut) -> bool {
+fn take_key(input: &mut egui::InputState, shortcut: egui::KeyboardShortcut) -> bool {
     let is_pressed = |event: &Event| match event {
         Event::Key { key, pressed: true, modifiers, .. } => {
             *key == shortcut.logical_key && modifiers.matches_logically(shortcut.modifiers)

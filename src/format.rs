@@ -37,6 +37,11 @@ pub(crate) fn decimals_by(uncertainty: f64) -> Option<i32> {
     (uncertainty > 0.0).then_some((1 - exponent).min(MOST_DECIMALS))
 }
 
+/// A count of decimals beside those that may be negative.
+pub(crate) fn whole(decimals: usize) -> i32 {
+    i32::try_from(decimals).unwrap_or(MOST_DECIMALS)
+}
+
 /// A number rounded to a count of decimals; a negative count is of zeros before the point.
 pub(crate) fn rounded(value: f64, decimals: i32) -> String {
     let Ok(decimals) = usize::try_from(decimals) else {

@@ -131,13 +131,7 @@ impl ChromascopeApp {
             Command::SaveCard(pane) => self.save_card(pane),
             Command::CopyNumbers(pane) => self.copy_numbers(ctx, self.pictured(pane)),
             Command::Show(workspace) => self.show_workspace(workspace),
-            Command::Maximize(pane) if pane.is_controls() => {
-                self.view
-                    .say(format!("{} keeps its size: click a pane with pictures, then press F.", panes::title(pane)));
-            }
-            Command::Maximize(pane) => {
-                self.view.maximized = if self.view.maximized == Some(pane) { None } else { Some(pane) };
-            }
+            Command::Maximize(pane) => self.maximize(pane),
             Command::TogglePane(PaneKind::LIBRARY) if self.library_left_out() => self.view.inspector_over ^= true,
             Command::TogglePane(pane) => self.toggle_pane(pane),
             Command::ToggleInspector => self.toggle_inspector(),
@@ -172,6 +166,14 @@ impl ChromascopeApp {
             Command::Seek(pane, control) => self.seek(ctx, pane, control),
             Command::Quit => ctx.send_viewport_cmd(ViewportCommand::Close),
         }
+    }
+
+    fn maximize(&mut self, pane: PaneKind) {
+        if pane.is_controls() {
+            let words = format!("{} keeps its size: click a pane with pictures, then press F.", panes::title(pane));
+            return self.view.say(words);
+        }
+        self.view.maximized = if self.view.maximized == Some(pane) { None } else { Some(pane) };
     }
 
     /// A choice of light or white balance; where pictures of their own light are visible, it is for them too.

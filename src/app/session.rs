@@ -199,7 +199,7 @@ impl ChromascopeApp {
                 1 => format!("{} differs", crate::format::file_name(first)),
                 count => format!("{count} files differ"),
             };
-            self.view.status.text += &format!(" {which} here: the session's own curves are used.");
+            self.view.status.text += &[" ", &which, " here: the session's own curves are used."].concat();
             self.view.offer(other.into_iter().map(Offer::Open).collect(), true);
         }
         if let DocumentSource::New(name, _) = source

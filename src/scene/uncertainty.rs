@@ -4,7 +4,7 @@ use chromascope_core::query::metrics::UncertaintySource;
 use chromascope_core::query::{CameraMetric, MetricUncertainty, MetricValue};
 
 use super::Scene;
-use crate::format::{behind, decimals_by, rounded};
+use crate::format::{behind, decimals_by, rounded, whole};
 
 /// Heads of the columns that tell what uncertainties are.
 pub const UNCERTAINTY_HEADS: [&str; 4] =
@@ -21,7 +21,7 @@ pub fn nature(of: impl IntoIterator<Item = MetricUncertainty>) -> Option<(Uncert
 
 /// Decimals of a value: those of its uncertainty, else the metric's.
 pub fn decimals(metric: CameraMetric, value: MetricValue) -> i32 {
-    value.uncertainty.and_then(|by| decimals_by(by.standard)).unwrap_or(metric.decimals as i32)
+    value.uncertainty.and_then(|by| decimals_by(by.standard)).unwrap_or(whole(metric.decimals))
 }
 
 /// A value as it is written; a dash for none.

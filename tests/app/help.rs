@@ -181,7 +181,7 @@ fn a_hit_on_another_page_is_scrolled_to() {
     window.run();
     assert_eq!(window.state().view().help.page, Some(hit.page));
     assert!(hit.block > 0 && hit.page != FIRST, "elsewhere than at the top of the page that is open");
-    let place = window.query_all_by_role_and_label(Role::Label, query).map(|node| node.rect()).last();
+    let place = window.query_all_by_role_and_label(Role::Label, query).map(|node| node.rect()).next_back();
     let top = place.expect("drawn").top();
     assert!((50.0..200.0).contains(&top), "{top}");
 }

@@ -125,7 +125,7 @@ fn a_table_is_opened_ranked_and_drawn() {
     let shown = figure(&window);
     assert!(shown.title.contains("Nikon D70 (A.M.P.A.S.)"));
     assert_eq!(shown.table.rows.len(), 72);
-    assert!(shown.caption.contains("rank 1 in 95 %") && shown.table.to_csv().lines().all(|line| !line.ends_with(",")));
+    assert!(shown.caption.contains("rank 1 in 95 %") && shown.table.to_csv().lines().all(|line| !line.ends_with(',')));
     // Another camera's residuals at a click on its row.
     window.get_all_by_label("Nikon D70 (UPenn 2011)").last().unwrap().click();
     window.run_steps(3);

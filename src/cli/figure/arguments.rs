@@ -107,7 +107,7 @@ impl FigureKind {
     pub(super) const fn pane(self) -> Option<PaneKind> {
         Some(match self {
             Self::Chromaticity => PaneKind::CHROMATICITY,
-            Self::Strip => return None,
+            Self::Strip | Self::WorkSaved => return None,
             Self::Spectra => PaneKind::SPECTRA,
             Self::Swatches => PaneKind::SWATCHES,
             Self::Light => PaneKind::LIGHT,
@@ -119,7 +119,6 @@ impl FigureKind {
             Self::Curves => PaneKind::CURVES,
             Self::Recorded => PaneKind::RECORDED,
             Self::Methods => PaneKind::METHODS,
-            Self::WorkSaved => return None,
         })
     }
 }

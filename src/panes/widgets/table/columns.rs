@@ -2,7 +2,7 @@
 
 use chromascope_figure::{Cell, Table, TextSize, text_width};
 
-use crate::format::{aligned, behind, decimals_by, number};
+use crate::format::{aligned, behind, decimals_by, number, whole};
 use crate::theme::UNIT;
 
 /// Maximum width of a text column, in points; longer text is cut and shown under the pointer.
@@ -92,7 +92,7 @@ pub struct CellNote {
 impl CellNote {
     /// Decimals of the cell, where they are its own.
     pub(super) fn own_decimals(&self) -> Option<i32> {
-        self.uncertainty.and_then(decimals_by).or(self.decimals.map(|own| own as i32))
+        self.uncertainty.and_then(decimals_by).or(self.decimals.map(whole))
     }
 
     /// The uncertainty as it is written behind the number.
@@ -145,7 +145,7 @@ impl Layout {
         let size = if compact { TextSize::Small } else { TextSize::Body };
         let cells = || table.rows.iter().filter_map(|row| row.get(index));
         let numbers = || cells().filter_map(|cell| if let Cell::Number(value) = cell { Some(*value) } else { None });
-        let own = rows().filter_map(|(row, cell)| matches!(cell, Cell::Number(_)).then(|| note(row).own_decimals()));
+        let own = rows().filter(|(_, cell)| matches!(cell, Cell::Number(_))).map(|(row, _)| note(row).own_decimals());
         let own: Vec<Option<i32>> = own.collect();
         let form = match form(column, numbers(), cells().any(|cell| matches!(cell, Cell::Text(_)))) {
             Form::Fixed(decimals) => {
@@ -218,7 +218,7 @@ fn form(column: &Column, numbers: impl Iterator<Item = f64> + Clone, has_text: b
 /// A number in its column's format, or with its own decimals: then padded, so that decimal points line up.
 pub(super) fn words(value: f64, form: Form, decimals: Option<i32>) -> String {
     match (form, decimals) {
-        (Form::Fixed(column), own) => aligned(value, own.unwrap_or(column as i32), column),
+        (Form::Fixed(column), own) => aligned(value, own.unwrap_or(whole(column)), column),
         (Form::Scientific, _) if value == 0.0 => "0".to_owned(),
         (Form::Scientific, _) => format!("{value:.3e}").replace('-', "−"),
         (Form::Text, _) => number(value),
