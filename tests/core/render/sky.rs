@@ -252,17 +252,18 @@ fn a_leaf_lit_from_behind_shines_in_its_transmittance() {
     let theta = f64::from(-made.angles.angles()[0].cos_i).acos();
     let scattered = directional_hemispherical(&service.surface(), service.reading, theta).diffuse;
     assert!((0.3..0.6).contains(&scattered), "{scattered}");
-    let check = |made: &Pictures, transmitted: f64| {
+    let check = |made: &Pictures, transmitted: f64, bound: f64| {
         let (image, angles) = (made.images[0].as_ref().unwrap(), Arc::clone(&made.angles));
         for (signal, angles) in image.signals().iter().zip(angles.angles()) {
             let expected = transmitted * f64::from(-angles.cos_i * angles.falloff);
-            assert!(signal.iter().all(|s| (f64::from(*s) - expected).abs() < 1e-4), "{signal:?} for {expected}");
+            assert!(signal.iter().all(|s| (f64::from(*s) - expected).abs() < bound), "{signal:?} for {expected}");
         }
     };
     let transmitted = LeafModel::new().transmittance(gray);
-    check(&made, transmitted * scattered);
+    // The share scattered is interpolated in a table; without a model nothing is.
+    check(&made, transmitted * scattered, 1e-4);
     let even = RenderService { reading: Normalization::Lambertian, ..service }.take(&Direct);
-    check(&even, transmitted);
+    check(&even, transmitted, 1e-5);
 }
 
 #[test]
