@@ -123,7 +123,7 @@ impl ChromascopeApp {
             opened,
             recorded: RecordedStore::on(executor, repaint()),
             radiators: Background::on(executor, "blackbodies", repaint()),
-            render_service: RenderService::on(executor, ctx),
+            render_service: RenderService::on(executor, repaint()),
             profiler: Profiler::on(executor, repaint()),
             ranking: Ranking::on(executor, repaint()),
             curves: None,

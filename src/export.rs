@@ -21,7 +21,7 @@ use resvg::{tiny_skia, usvg};
 use tiff::encoder::{Compression, DeflateLevel, Rational, TiffEncoder, colortype::RGB8};
 use tiff::tags::ResolutionUnit;
 
-use crate::theme::{self, Theme};
+use crate::palette::{Colors, FONT, FONT_FAMILY, MONO_FAMILY, MONO_FONT};
 pub use form::FigureForm;
 pub use paper::Paper;
 
@@ -75,16 +75,16 @@ pub fn json(title: &str, table: &Table) -> String {
     format!("{value:#}\n")
 }
 
-/// The figure as SVG. Figures for paper take [`Theme::LIGHT`].
-pub fn svg(figure: &Figure, theme: &Theme, paper: Paper) -> String {
-    let style = svg::SvgStyle::new(theme::FONT_FAMILY, theme::MONO_FAMILY, &data_uri);
-    svg::write(figure, theme, &style, &paper.page_style())
+/// The figure as SVG. Figures for paper take [`Colors::LIGHT`].
+pub fn svg(figure: &Figure, colors: &Colors, paper: Paper) -> String {
+    let style = svg::SvgStyle::new(FONT_FAMILY, MONO_FAMILY, &data_uri);
+    svg::write(figure, colors, &style, &paper.page_style())
 }
 
 /// The figure as PDF, with its fonts in it.
-pub fn pdf(figure: &Figure, theme: &Theme, paper: Paper) -> Result<Vec<u8>, ExportError> {
-    let fonts = pdf::PdfFonts { text: theme::FONT, mono: theme::MONO_FONT };
-    Ok(pdf::write(figure, theme, fonts, &paper.page_style())?)
+pub fn pdf(figure: &Figure, colors: &Colors, paper: Paper) -> Result<Vec<u8>, ExportError> {
+    let fonts = pdf::PdfFonts { text: FONT, mono: MONO_FONT };
+    Ok(pdf::write(figure, colors, fonts, &paper.page_style())?)
 }
 
 /// The SVG as a picture with `scale` pixels per point (1/72 inch).
@@ -164,13 +164,13 @@ fn encoded(rgba: &[u8], width: u32, height: u32, compression: CompressionType) -
 fn options() -> usvg::Options<'static> {
     static FONTS: LazyLock<Arc<usvg::fontdb::Database>> = LazyLock::new(|| {
         let mut fonts = usvg::fontdb::Database::new();
-        fonts.load_font_data(theme::FONT.to_vec());
-        fonts.load_font_data(theme::MONO_FONT.to_vec());
+        fonts.load_font_data(FONT.to_vec());
+        fonts.load_font_data(MONO_FONT.to_vec());
         Arc::new(fonts)
     });
     usvg::Options {
         dpi: 72.0,
-        font_family: theme::FONT_FAMILY.to_owned(),
+        font_family: FONT_FAMILY.to_owned(),
         fontdb: Arc::clone(&FONTS),
         image_href_resolver: usvg::ImageHrefResolver {
             resolve_string: Box::new(|_, _| None),

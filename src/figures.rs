@@ -1,4 +1,31 @@
 //! The scene as figures: the same value is drawn on screen, saved as SVG and PNG, and written as numbers.
+//!
+//! A new kind of figure is one file and its line in [`FIGURES`] (with its `mod` line):
+//!
+//! ```diff
+//! --- /dev/null
+//! +++ b/src/figures/gamut.rs
+//! +//! Gamut of each sensor.
+//! +
+//! +use chromascope_figure::{Figure, FigureRoom};
+//! +
+//! +use super::kind::FigureKind;
+//! +use super::look::FigureLook;
+//! +use crate::scene::Scene;
+//! +
+//! +pub static KIND: FigureKind = FigureKind::new("gamut", "Gamut of each sensor", figure);
+//! +
+//! +fn figure(scene: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Option<Figure> {
+//! +    …
+//! +}
+//! --- a/src/figures.rs
+//! +++ b/src/figures.rs
+//! +pub mod gamut;
+//!      &accuracy::KIND,
+//! +    &gamut::KIND,
+//! ```
+//!
+//! `chromascope figure gamut` then draws it, and its help lists it. A pane whose figure it is names its `KIND`.
 
 pub mod accuracy;
 pub mod chromaticity;
@@ -6,8 +33,10 @@ pub mod correction;
 pub mod curves;
 pub mod data_set;
 pub mod head_to_head;
+pub mod kind;
 mod labels;
 pub mod light;
+pub mod look;
 pub mod metrics;
 pub mod portrait;
 pub mod recorded;
@@ -18,44 +47,22 @@ pub mod strip;
 pub mod swatches;
 pub mod thumbnail;
 
-use std::sync::Arc;
+use kind::FigureKind;
 
-use crate::catalog::opened::{FilePreview, Opened};
-use crate::profiler::{Measured, Profiler};
-use crate::render_service::{RenderService, RenderedFrame};
-use crate::scene::Scene;
-use crate::view::View;
-
-/// Input of an exported figure: the scene, the view and the latest background results.
-#[derive(Clone)]
-pub struct FigureInput<'a> {
-    /// The scene.
-    pub scene: &'a Scene<'a>,
-    /// View settings.
-    pub view: &'a View,
-    /// The current pictures.
-    pub pictures: Option<&'a RenderedFrame>,
-    /// Latest measurements.
-    pub measured: &'a Measured,
-    /// Latest preview of the file selected in Import.
-    pub preview: Option<Arc<FilePreview>>,
-}
-
-impl<'a> FigureInput<'a> {
-    /// Input of a scene with its latest background results.
-    pub fn of(
-        (scene, view): (&'a Scene<'a>, &'a View),
-        render_service: &'a RenderService,
-        profiler: &'a Profiler,
-        opened: &Opened,
-    ) -> Self {
-        let pictures = render_service.frame().map(AsRef::as_ref);
-        Self { scene, view, pictures, measured: &profiler.measured, preview: opened.preview() }
-    }
-
-    /// A scene of which nothing was made in the background.
-    pub fn new(scene: &'a Scene<'a>, view: &'a View) -> Self {
-        static NOTHING: Measured = Measured::NOTHING;
-        Self { scene, view, pictures: None, measured: &NOTHING, preview: None }
-    }
-}
+/// All kinds, in the order in which the command line lists them.
+pub static FIGURES: &[&FigureKind] = &[
+    &chromaticity::KIND,
+    &strip::KIND,
+    &spectra::KIND,
+    &swatches::KIND,
+    &light::KIND,
+    &render::KIND,
+    &render::DIFFERENCE,
+    &metrics::KIND,
+    &head_to_head::KIND,
+    &report_card::KIND,
+    &correction::KIND,
+    &curves::KIND,
+    &recorded::KIND,
+    &accuracy::KIND,
+];

@@ -1,17 +1,20 @@
 //! Chromascope's window and command line, as a library for its tests.
 //!
 //! ```text
-//! format  terminal  theme      text for display, standard error, colors and sizes
+//! format  terminal  palette    text for display, standard error, colors of figures
+//! atomic                       files written whole or not at all
 //! document ─► action           the comparison and its conditions; its changes, and undo
 //! results ─► jobs              answers, the only cache; computations in the background
 //! catalog ─► scene             data sets; names become data, choices become queries
 //! files  export                the document and the user's files; pictures and tables out
-//! plot_item  paint  workspaces items of marks; figures on screen; arrangement of panes
-//! render_service  bench  profiler   pictures of meshes; run time against error
-//! view ─► command              the view state; requests of keys, menus and panes
+//! plot_item                    items of marks
+//! render_service  profiler     pictures of meshes; run time against error
 //! ranking                      figures of merit of many cameras
 //! figures ─► report            answers become figures; the paper's figures and claims
-//! panes  cli                   show them, and request changes
+//! cli                          the command line
+//! theme  paint  workspaces     colors and sizes; figures on screen; arrangement of panes
+//! view ─► command              the view state; requests of keys, menus and panes
+//! panes                        show them, and request changes
 //! app                          the window
 //! ```
 //!
@@ -26,6 +29,7 @@
 
 pub mod action;
 pub mod app;
+pub mod atomic;
 pub mod catalog;
 pub mod cli;
 pub mod command;
@@ -37,6 +41,7 @@ mod format;
 pub mod help;
 pub mod jobs;
 pub mod paint;
+pub mod palette;
 pub mod panes;
 pub mod plot_item;
 pub mod profiler;

@@ -142,7 +142,7 @@ impl Job for BenchJob {
 }
 
 /// Latest measurements.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Measured {
     /// The last run on the scene.
     pub run: Option<Arc<SceneRun>>,
@@ -150,11 +150,6 @@ pub struct Measured {
     pub is_current: bool,
     /// The last reports of the bench, or why there is none.
     pub reports: BTreeMap<Workload, Arc<Result<Report, String>>>,
-}
-
-impl Measured {
-    /// Before anything was measured.
-    pub const NOTHING: Self = Self { run: None, is_current: false, reports: BTreeMap::new() };
 }
 
 /// Background measurements and their latest results.
@@ -176,7 +171,7 @@ impl Profiler {
     pub fn on(executor: &Executor, wake: impl Fn() + Send + Sync + Clone + 'static) -> Self {
         let (also, third) = (wake.clone(), wake.clone());
         Self {
-            measured: Measured::NOTHING,
+            measured: Measured::default(),
             worker: Background::on(executor, "scene runs", wake),
             bench: Background::on(executor, "bench", third),
             plans: Background::on(executor, "plans", also),

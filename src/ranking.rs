@@ -8,6 +8,7 @@ use std::time::Duration;
 
 use chromascope_core::metamers::Confusion;
 use chromascope_core::query::{Ask, Query, Shared};
+use serde::{Deserialize, Serialize};
 
 use crate::catalog::Entry;
 use crate::catalog::load::LoadError;
@@ -19,10 +20,21 @@ use crate::scene::light::LightSheetQuery;
 use crate::scene::metrics::{CameraFigures, CatalogMetamersQuery, CatalogMetricsQuery, FoundMetamers};
 use crate::scene::recorded::RecordedRankingQuery;
 use crate::scene::{Scene, SceneError};
-use crate::view::metrics::RankedCameras;
 
 /// Cameras between two reports of progress.
 const STEP: usize = 4;
+
+/// A choice of cameras.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum RankedCameras {
+    /// All of the library, the user's too.
+    #[default]
+    Library,
+    /// Those that are compared.
+    Compared,
+    /// The user's.
+    Yours,
+}
 
 /// A camera to be ranked.
 #[derive(Clone, Debug, PartialEq)]

@@ -108,17 +108,11 @@ pub struct RenderService {
 }
 
 impl RenderService {
-    /// Starts the worker, which wakes the window when it has made something.
-    pub fn new(ctx: &egui::Context) -> Self {
-        Self::on(&Executor::default(), ctx)
-    }
-
-    /// Makes pictures on an executor.
-    pub fn on(executor: &Executor, ctx: &egui::Context) -> Self {
-        let [window, also] = [(); 2].map(|()| ctx.clone());
+    /// Makes pictures on an executor; `wake` is called when something is made.
+    pub fn on(executor: &Executor, wake: impl Fn() + Send + Sync + Clone + 'static) -> Self {
         Self {
-            spectrum: Background::on(executor, "spectrum of a pixel", move || also.request_repaint()),
-            worker: Background::on(executor, "pictures", move || window.request_repaint()),
+            spectrum: Background::on(executor, "spectrum of a pixel", wake.clone()),
+            worker: Background::on(executor, "pictures", wake),
             frame: None,
             is_hidden: false,
             wanted: None,

@@ -20,11 +20,11 @@ use chromascope_figure::{Cell, Table};
 pub use claim::{Claim, FURTHER, Finding, Subject, Value, Verdict};
 pub use figures::{FIGURES, PaperFigure};
 
+use crate::atomic::write_atomically;
 use crate::catalog::Catalog;
 use crate::document::start::Start;
 use crate::document::{Document, SetKind};
 use crate::export::{FigureForm, Paper};
-use crate::files::write_atomically;
 use crate::format::io_reason;
 use crate::jobs::Job;
 use crate::results::Results;

@@ -3,7 +3,7 @@
 use std::cmp::Ordering;
 use std::sync::Arc;
 
-use chromascope_figure::{Figure, Table};
+use chromascope_figure::{Figure, FigureRoom, Table};
 use egui::ViewportCommand;
 
 use super::ChromascopeApp;
@@ -14,7 +14,7 @@ use crate::catalog::opened::{CLIPBOARD, Request};
 use crate::command::Command;
 use crate::document::SetKind;
 use crate::export::{self, FigureForm};
-use crate::figures::FigureInput;
+use crate::figures::look::FigureLook;
 use crate::files::{DocumentSource, FileEvent, FileForm, SaveRequest};
 use crate::panes;
 use crate::profiler::SceneRunJob;
@@ -411,9 +411,9 @@ impl ChromascopeApp {
         ctx.memory_mut(|memory| memory.focused().map(|id| memory.surrender_focus(id)));
     }
 
-    /// Input for a pane's figure of a scene.
-    pub fn figure_input<'a>(&'a self, scene: &'a Scene<'a>) -> FigureInput<'a> {
-        FigureInput::of((scene, &self.view), &self.render_service, &self.profiler, &self.opened)
+    /// What a pane's figure of a scene takes from the window.
+    pub fn look(&self, pane: PaneKind, scene: &Scene<'_>) -> FigureLook {
+        panes::context::look(pane, (scene, &self.view), &self.render_service, &self.profiler, &self.opened)
     }
 
     /// The pane whose figure is meant by a key in a pane.
@@ -433,15 +433,16 @@ impl ChromascopeApp {
     /// The pane's figure as on screen, or a message that it has none.
     pub(super) fn figure(&mut self, pane: PaneKind) -> Option<Figure> {
         let scene = Scene { document: self.history.document(), catalog: &self.catalog, results: &self.results };
-        let figure = panes::figure(pane, &self.figure_input(&scene));
+        let figure = panes::figure(pane, &scene, &self.look(pane, &scene), FigureRoom::default());
         self.checked(pane, figure)
     }
 
     /// The pane's figure on paper, or a message that it has none.
     fn printed(&mut self, pane: PaneKind) -> Option<Figure> {
         let scene = Scene { document: self.history.document(), catalog: &self.catalog, results: &self.results };
-        let view = &mut self.view;
-        let figure = panes::figure_on_paper(pane, (&scene, view), &self.render_service, &self.profiler, &self.opened);
+        let kind = panes::by_kind(pane).and_then(|pane| pane.figure);
+        let paper = &self.view.saved.page.paper;
+        let figure = kind.and_then(|kind| kind.on_paper(paper, &scene, &self.look(pane, &scene)));
         self.checked(pane, figure)
     }
 
@@ -481,7 +482,7 @@ impl ChromascopeApp {
     fn copy_picture(&mut self, ctx: &egui::Context, pane: PaneKind) {
         let Some(figure) = self.printed(pane) else { return };
         let paper = self.view.saved.page.paper;
-        match export::png(&export::svg(&figure, &paper.theme(), paper), paper.pixels_per_point()) {
+        match export::png(&export::svg(&figure, &paper.colors(), paper), paper.pixels_per_point()) {
             Ok(picture) => {
                 let size = [picture.width() as usize, picture.height() as usize];
                 ctx.copy_image(egui::ColorImage::from_rgba_unmultiplied(size, picture.as_raw()));

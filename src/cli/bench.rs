@@ -12,9 +12,9 @@ use clap::Args;
 use super::error::CliError;
 use super::outputs::{show, write_to};
 use crate::export::{Paper, png, png_file, svg};
+use crate::palette::Colors;
 use crate::profiler::bench::bench;
 use crate::terminal::say;
-use crate::theme::Theme;
 
 pub(super) const EXAMPLES: &str = "Examples:
   chromascope bench --quick --out measured
@@ -163,7 +163,7 @@ fn files(report: &Report, folder: &Path) -> Result<Vec<(PathBuf, Vec<u8>)>, CliE
 }
 
 fn pictures(stem: &Path, figure: &Figure) -> Result<[(PathBuf, Vec<u8>); 2], CliError> {
-    let text = svg(figure, &Theme::LIGHT, Paper::default());
+    let text = svg(figure, &Colors::LIGHT, Paper::default());
     let picture = png_file(&png(&text, 2.0)?)?;
     Ok([(stem.with_extension("svg"), text.into_bytes()), (stem.with_extension("png"), picture)])
 }

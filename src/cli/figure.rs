@@ -9,7 +9,7 @@ use chromascope_core::query::RecordedSet;
 use chromascope_figure::{Figure, Page};
 use clap::ArgMatches;
 
-use self::arguments::{FigureArguments, FigureKind, Range};
+use self::arguments::{FigureArguments, Range};
 use super::error::CliError;
 use super::identify::recorded_table;
 use super::outputs::{self, Stop};
@@ -17,12 +17,10 @@ use super::pixel::LOCUS_K;
 use super::request::Request;
 use crate::document::{Document, LOCUS_RANGE_K, session};
 use crate::export::{FigureForm, Paper};
-use crate::figures::{FigureInput, strip};
-use crate::panes;
+use crate::figures::kind::Need;
 use crate::results::Results;
 use crate::scene::Scene;
 use crate::scene::conditions::CONDITIONS;
-use crate::view::View;
 
 /// Draws a figure and writes it.
 pub(super) fn run(arguments: &FigureArguments, matches: &ArgMatches) -> Result<(), CliError> {
@@ -37,24 +35,15 @@ pub(super) fn run(arguments: &FigureArguments, matches: &ArgMatches) -> Result<(
     let results = Results::default();
     let scene = Scene { document: &request.document, catalog: &request.catalog, results: &results };
     let paper = arguments.paper.paper();
-    let mut view = View::default();
+    let kind = arguments.kind.0.ok_or_else(|| {
+        let reason = "skipped work is a table: `chromascope render --stats -`, or Statistics in Numerics".to_owned();
+        CliError::Argument { argument: "KIND", reason }
+    })?;
+    let mut look = made::look((kind, arguments.viewpoint), &scene, (&paper, recorded))?;
     if let Range::Of(ranges) = arguments.paper.range {
-        view.diagram.zoomed = Some(ranges);
+        look.diagram.zoomed = Some(ranges);
     }
-    let made = made::Made::new((arguments.kind, arguments.viewpoint), &scene, &mut view, (&paper, recorded))?;
-    let figure = paper.laid_out(|room| {
-        view.room = room;
-        let input = FigureInput {
-            pictures: made.pictures.as_ref(),
-            measured: &made.measured,
-            ..FigureInput::new(&scene, &view)
-        };
-        match arguments.kind.pane() {
-            Some(pane) => panes::figure(pane, &input),
-            None => strip::figure(&scene, &view),
-        }
-    });
-    let figure = figure.ok_or_else(|| {
+    let figure = kind.on_paper(&paper, &scene, &look).ok_or_else(|| {
         let reason = "there is nothing to draw: no camera is compared, or it cannot be computed".to_owned();
         CliError::Argument { argument: "KIND", reason }
     })?;
@@ -85,10 +74,10 @@ fn prepare(request: &mut Request, arguments: &FigureArguments) -> Result<Option<
     if let Some(mesh) = &arguments.mesh {
         made::set_mesh(&mut request.document, mesh)?;
     }
-    match (&arguments.file, arguments.kind) {
+    match (&arguments.file, arguments.kind.0.map(|kind| kind.needs)) {
         (None, _) => Ok(None),
-        (Some(path), FigureKind::Recorded) => recorded_table(request, path).map(Some),
-        (Some(path), FigureKind::Curves) => made::open_curves(request, path).map(|()| None),
+        (Some(path), Some(Need::Recorded)) => recorded_table(request, path).map(Some),
+        (Some(path), Some(Need::Curves)) => made::open_curves(request, path).map(|()| None),
         (Some(_), _) => {
             let reason = "only `curves` and `recorded` are of a file".to_owned();
             Err(CliError::Argument { argument: "FILE", reason })
@@ -111,7 +100,7 @@ fn set_temperature(document: &mut Document, arguments: &FigureArguments) -> Resu
             document.temperature_k = wanted;
             Ok(())
         }
-        (None, None) if arguments.session.is_none() && arguments.kind.is_of_metrics() => {
+        (None, None) if arguments.session.is_none() && arguments.kind.0.is_some_and(|kind| kind.is_of_metrics) => {
             document.temperature_k = LOCUS_K;
             Ok(())
         }

@@ -8,7 +8,7 @@ use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
 
 use super::error::CliError;
-use crate::files::write_atomically_with;
+use crate::atomic::write_atomically_with;
 use crate::scene::SceneError;
 use crate::terminal;
 

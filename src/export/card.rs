@@ -4,7 +4,7 @@ use chromascope_figure::{Anchor, Figure, Ink, InkRole, Mark, Panel, Rect, TextSi
 use image::{RgbaImage, imageops};
 
 use super::{ExportError, Paper, png, png_within, svg};
-use crate::theme::Theme;
+use crate::palette::Colors;
 
 /// Size of a card in pixels.
 pub const SIZE: [u32; 2] = [1600, 900];
@@ -79,14 +79,14 @@ impl Card {
         }
         let mut whole = Figure::new("card", size);
         whole.panels.push(panel);
-        png(&svg(&whole, &Theme::LIGHT, Paper::default()), SCALE as f32)
+        png(&svg(&whole, &Colors::LIGHT, Paper::default()), SCALE as f32)
     }
 }
 
 /// Draws a figure without its caption at the upper left of a place, as large as fits.
 fn place(picture: &mut RgbaImage, figure: &Figure, at: [f64; 2], room: [f64; 2]) -> Result<(), ExportError> {
     let bare = Figure { caption: String::new(), ..figure.clone() };
-    let drawn = png_within(&svg(&bare, &Theme::LIGHT, Paper::default()), room.map(|side| side * SCALE))?;
+    let drawn = png_within(&svg(&bare, &Colors::LIGHT, Paper::default()), room.map(|side| side * SCALE))?;
     let [x, y] = at.map(|at| (at * SCALE).round() as i64);
     imageops::overlay(picture, &drawn, x, y);
     Ok(())

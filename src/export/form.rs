@@ -69,12 +69,12 @@ impl FigureForm {
     ///
     /// [`ExportError`] where the figure cannot be drawn.
     pub fn bytes(self, figure: &Figure, numbers: &Table, paper: &Paper) -> Result<Vec<u8>, ExportError> {
-        let theme = paper.theme();
+        let colors = paper.colors();
         match self {
-            Self::Pdf => pdf(figure, &theme, *paper),
-            Self::Svg => Ok(svg(figure, &theme, *paper).into_bytes()),
+            Self::Pdf => pdf(figure, &colors, *paper),
+            Self::Svg => Ok(svg(figure, &colors, *paper).into_bytes()),
             Self::Png | Self::Tiff => {
-                let picture = png(&svg(figure, &theme, *paper), paper.pixels_per_point())?;
+                let picture = png(&svg(figure, &colors, *paper), paper.pixels_per_point())?;
                 let file = if self == Self::Png { png_file_at } else { tiff_file_at };
                 file(&picture, paper.dpi)
             }

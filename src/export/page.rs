@@ -11,8 +11,8 @@ use glam::DVec3;
 
 use super::{ExportError, Paper, png, svg};
 use crate::jobs::Job;
+use crate::palette::Colors;
 use crate::results::Results;
-use crate::theme::Theme;
 
 /// A page to be drawn as pixels.
 #[derive(Clone)]
@@ -36,7 +36,7 @@ impl Job for PageJob {
     type Answer = Result<Image, ExportError>;
 
     fn run(&self, _: &Results) -> Arc<Self::Answer> {
-        let picture = png(&svg(&self.figure, &self.paper.theme(), self.paper), self.scale);
+        let picture = png(&svg(&self.figure, &self.paper.colors(), self.paper), self.scale);
         Arc::new(picture.map(|picture| {
             let [width, height] = [picture.width(), picture.height()].map(|side| side as usize);
             Image { width, height, rgba: Arc::from(picture.into_raw()) }
@@ -88,7 +88,7 @@ impl PageFacts {
             size_pt: [page.area.width(), page.area.height()].map(|side| side * scale),
             smallest_text_pt: texts.reduce(f64::min).map(|points| points * scale),
             thinnest_line_pt: lines.reduce(f64::min).map(|points| points * scale * paper.line_scale),
-            lightness_apart: lightness_apart(figure, &paper.theme()),
+            lightness_apart: lightness_apart(figure, &paper.colors()),
             has_legend: !figure.legend.is_empty(),
             has_titles: figure.panels.iter().any(|panel| !panel.x.label.is_empty() || !panel.y.label.is_empty()),
         }
@@ -101,10 +101,10 @@ impl PageFacts {
 }
 
 /// Least difference in L* between the inks of a legend.
-fn lightness_apart(figure: &Figure, theme: &Theme) -> Option<f64> {
+fn lightness_apart(figure: &Figure, colors: &Colors) -> Option<f64> {
     let inks = figure.legend.iter().filter_map(|entry| Some(entry.stroke.map(|line| line.ink).or(entry.fill)?.role));
     let roles: HashSet<InkRole> = inks.filter(|role| matches!(role, InkRole::Sensor(_))).collect();
-    let mut lightness: Vec<f64> = roles.iter().map(|role| lightness_of(theme.rgb(*role))).collect();
+    let mut lightness: Vec<f64> = roles.iter().map(|role| lightness_of(colors.rgb(*role))).collect();
     lightness.sort_by(f64::total_cmp);
     lightness.windows(2).map(|pair| pair[1] - pair[0]).reduce(f64::min)
 }

@@ -3,7 +3,7 @@
 use chromascope_figure::{AxisRanges, AxisTitles, Figure, FigureRoom, LegendPlace, Numbers, Page, PageStyle, TextSize};
 use serde::{Deserialize, Serialize};
 
-use crate::theme::{SourceInks, Theme};
+use crate::palette::{Colors, SourceInks};
 
 /// Colors of a figure apart from those of its sources.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -97,13 +97,13 @@ impl Paper {
     }
 
     /// The colors.
-    pub fn theme(&self) -> Theme {
-        let theme = match self.style {
-            PaperStyle::Light => Theme::LIGHT,
-            PaperStyle::Print => Theme::PRINT,
-            PaperStyle::Dark => Theme::DARK,
+    pub fn colors(&self) -> Colors {
+        let colors = match self.style {
+            PaperStyle::Light => Colors::LIGHT,
+            PaperStyle::Print => Colors::PRINT,
+            PaperStyle::Dark => Colors::DARK,
         };
-        theme.with_inks(self.inks)
+        colors.with_inks(self.inks)
     }
 
     /// Points on paper for each point of a figure laid out.

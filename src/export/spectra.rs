@@ -5,11 +5,11 @@ use chromascope_core::spectral::{Header, Response, SpectralDistribution};
 use chromascope_figure::{Cell, Table};
 use spectral_file::write::{Content, Format, Grid, Note, Sheet, Trace, WriteError, write};
 
+use crate::atomic::fitting;
 use crate::catalog::load::{self, LoadError};
 use crate::catalog::{Entry, Place};
 use crate::document::SetKind;
 use crate::document::imported::{ImportedSet, Role};
-use crate::files::fitting;
 
 /// A format, and the wavelengths that curves are brought to.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,14 +1,17 @@
 //! Run time against error for the visible scene, as measured.
 
-use chromascope_figure::{Cell, Figure, InkRole, LegendEntry, LegendPlace, Marker, Panel, Rect, Stroke, Table, Tag};
+use chromascope_figure::{
+    Cell, Figure, FigureRoom, InkRole, LegendEntry, LegendPlace, Marker, Panel, Rect, Stroke, Table, Tag,
+};
 use chromascope_measure::Measurement;
 use chromascope_measure::method::{Family, Point};
 use chromascope_measure::pareto::{self, Place, duration};
 
-use super::FigureInput;
+use super::kind::{FigureKind, Need};
+use super::look::{FigureLook, Shows};
 use crate::format::number;
 use crate::profiler::{Conditions, SceneRun, Subject, Trial};
-use crate::view::accuracy::Shows;
+use crate::scene::Scene;
 
 /// The size of a saved figure in points.
 const SIZE: [f64; 2] = [640.0, 420.0];
@@ -85,23 +88,27 @@ fn ratio(value: f64) -> String {
     if value >= 10.0 { format!("{value:.0}") } else { format!("{value:.1}") }
 }
 
+pub static KIND: FigureKind =
+    FigureKind::new("methods", "Run time of each method against its error, measured now", figure)
+        .needing(Need::Measured);
+
 /// The figure as it is saved; none before anything was measured.
-pub fn figure(input: &FigureInput<'_>) -> Option<Figure> {
-    let subject = match input.view.accuracy.shows {
+fn figure(_: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Option<Figure> {
+    let subject = match look.shows {
         Shows::Scene(subject) => subject,
         Shows::Bench(workload) => {
-            let report = input.measured.reports.get(&workload)?.as_ref().as_ref().ok()?;
-            return match input.view.room.width {
+            let report = look.measured.reports.get(&workload)?.as_ref().as_ref().ok()?;
+            return match room.width {
                 Some(width) => report.figure_within(workload, width),
                 None => report.figure(workload),
             };
         }
     };
-    let run = input.measured.run.as_ref()?;
+    let run = look.measured.run.as_ref()?;
     let trial = trial(run, subject)?;
-    let size = input.view.room.size(SIZE, 0.0);
+    let size = room.size(SIZE, 0.0);
     let mut figure = Figure::new(title(subject), size);
-    figure.panels.push(panel(trial, input.measured.is_current, size));
+    figure.panels.push(panel(trial, look.measured.is_current, size));
     figure.legend = legend(trial);
     figure.legend_place = LegendPlace::Outside;
     figure.caption = format!(

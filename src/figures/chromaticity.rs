@@ -10,6 +10,7 @@ mod labels;
 mod loci;
 mod pixel;
 mod points;
+pub mod shown;
 mod whites;
 
 use std::collections::BTreeSet;
@@ -17,21 +18,21 @@ use std::collections::BTreeSet;
 use chromascope_core::colorimetry::{UvPrime, Xy, Xyz};
 use chromascope_core::light::Cct;
 use chromascope_figure::{
-    Axis, AxisRanges, Cell, Figure, InkRole, LegendEntry, LegendPlace, Mark, Numbers, Panel, Projection, Rect, Shape,
-    Stroke, Table, Ticks, auto_ticks,
+    Axis, AxisRanges, Cell, Figure, FigureRoom, InkRole, LegendEntry, LegendPlace, Mark, Numbers, Panel, Projection,
+    Rect, Shape, Stroke, Table, Ticks, auto_ticks,
 };
 
 use chromascope_core::spectral::sensor::TAIL_BELOW_K;
 
+use super::kind::FigureKind;
+use super::look::FigureLook;
 use crate::document::{Diagram, TransformChoice};
 use crate::plot_item::PickIndex;
-use crate::render_service::RenderedFrame;
 use crate::scene::{ComparedSensor, Scene};
-use crate::view::diagram::Ranges;
-use crate::view::{DiagramFit, View};
 use drawing::Drawing;
 pub(crate) use drawing::id;
 use frame::Frame;
+use shown::{DiagramFit, Ranges};
 
 pub use fit::{fit_key, fitted};
 pub use points::{blackbody_distance, brief, describe, distance_symbol};
@@ -59,17 +60,17 @@ pub const fn coordinates(diagram: Diagram) -> [&'static str; 2] {
     }
 }
 
-/// Builds the diagram for an area of the given size, with the pinned pixel of these pictures. Shows what the view holds, else a fit.
-pub fn build(scene: &Scene<'_>, view: &View, pictures: Option<&RenderedFrame>, size: [f64; 2]) -> Built {
-    let fit = view.saved.diagram_fit;
-    let held = view.diagram.fit().unwrap_or_else(|| fit::fitted(scene, &fit::fit_key(scene, fit)));
+/// Builds the diagram for an area of the given size. Shows what the look holds, else a fit.
+pub fn build(scene: &Scene<'_>, look: &FigureLook, size: [f64; 2]) -> Built {
+    let fit = look.fit;
+    let held = look.diagram.fit().unwrap_or_else(|| fit::fitted(scene, &fit::fit_key(scene, fit)));
     let area = Rect::from_min_size([0.0, 0.0], size);
     let frame = Frame::around(held.shown, size);
-    let has_lens = fit == DiagramFit::Whole && view.diagram.zoomed.is_none();
+    let has_lens = fit == DiagramFit::Whole && look.diagram.zoomed.is_none();
     let place = lens_area(scene.document.diagram, &frame, held.data).filter(|_| has_lens);
-    let drawn = view.diagram.zoomed.map_or(frame, |ranges| Frame { ranges, ..frame });
-    let mut drawing = draw(scene, view, pictures, drawn, place.is_some());
-    if view.diagram.zoomed.is_none() {
+    let drawn = look.diagram.zoomed.map_or(frame, |ranges| Frame { ranges, ..frame });
+    let mut drawing = draw(scene, look, drawn, place.is_some());
+    if look.diagram.zoomed.is_none() {
         edges::add(&mut drawing);
     }
     let lens = place.map(|area| {
@@ -77,7 +78,7 @@ pub fn build(scene: &Scene<'_>, view: &View, pictures: Option<&RenderedFrame>, s
         let [x, y] = frame.ranges;
         let part = Shape::Rect { min: [x[0], y[0]], max: [x[1], y[1]] };
         drawing.marks.push(Mark::new(PickIndex::NONE, "part in the lens", part).with_stroke(InkRole::Weak, 1.0));
-        Box::new(finish(draw(scene, view, pictures, frame, false), "Data, enlarged", area, frame))
+        Box::new(finish(draw(scene, look, frame, false), "Data, enlarged", area, frame))
     });
     let mut built = Built { lens, ..finish(drawing, "Chromaticity", area, frame) };
     if let Some(lens) = &built.lens {
@@ -86,14 +87,8 @@ pub fn build(scene: &Scene<'_>, view: &View, pictures: Option<&RenderedFrame>, s
     built
 }
 
-fn draw<'a>(
-    scene: &'a Scene<'a>,
-    view: &'a View,
-    pictures: Option<&RenderedFrame>,
-    frame: Frame,
-    sketch: bool,
-) -> Drawing<'a> {
-    let mut drawing = Drawing::new(scene, view, frame, sketch);
+fn draw<'a>(scene: &'a Scene<'a>, look: &'a FigureLook, frame: Frame, sketch: bool) -> Drawing<'a> {
+    let mut drawing = Drawing::new(scene, look, frame, sketch);
     ground::add(&mut drawing);
     if !sketch {
         whites::add(&mut drawing);
@@ -109,7 +104,7 @@ fn draw<'a>(
     if scene.document.overlays.patches {
         points::add(&mut drawing, &sources);
     }
-    if let Some(pictures) = pictures.filter(|_| !sketch) {
+    if let Some(pictures) = look.pictures.as_deref().filter(|_| !sketch) {
         pixel::add(&mut drawing, pictures, &sources);
     }
     drawing
@@ -156,9 +151,9 @@ fn clear_for_lens(panel: &mut Panel, area: Rect, frame: &Frame) {
 /// Overview of the whole diagram with the visible range: `[x, y]` ranges.
 pub fn overview(scene: &Scene<'_>, shown: [[f64; 2]; 2], size: [f64; 2]) -> Panel {
     let diagram = scene.document.diagram;
-    let view = View::default();
+    let look = FigureLook::default();
     let ranges = fit::full_extent(diagram).map(|end| [0.0, end]);
-    let mut drawing = Drawing::new(scene, &view, Frame { ranges, size }, true);
+    let mut drawing = Drawing::new(scene, &look, Frame { ranges, size }, true);
     ground::add_area(&mut drawing);
     let [x, y] = shown;
     let frame = Shape::Rect { min: [x[0], y[0]], max: [x[1], y[1]] };
@@ -175,24 +170,29 @@ const SIZE: [f64; 2] = [640.0, 480.0];
 /// Height in points of the strip below it.
 pub const STRIP: f64 = 136.0;
 
+pub static KIND: FigureKind =
+    FigureKind::new("chromaticity", "The chromaticity diagram with loci and patches", |scene, look, room| {
+        Some(figure(scene, look, room))
+    });
+
 /// The figure as it is saved: diagram, strip, legend, caption, and the numbers of all points.
-pub fn figure(scene: &Scene<'_>, view: &View) -> Figure {
-    let strip = view.room.strip && super::strip::build(scene, [SIZE[0], STRIP]).is_some();
-    figure_sized(scene, view, view.room.size(SIZE, if strip { STRIP } else { 0.0 }))
+pub fn figure(scene: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Figure {
+    let strip = room.strip && super::strip::build(scene, [SIZE[0], STRIP]).is_some();
+    figure_sized(scene, look, room, room.size(SIZE, if strip { STRIP } else { 0.0 }))
 }
 
 /// The figure with a diagram of a size in points.
-pub fn figure_sized(scene: &Scene<'_>, view: &View, size: [f64; 2]) -> Figure {
-    // Hovering is not shown on paper.
-    let mut paper = View { saved: view.saved.clone(), ..View::default() };
-    match view.room.ranges {
-        AxisRanges::Full => paper.saved.diagram_fit = DiagramFit::Whole,
+pub fn figure_sized(scene: &Scene<'_>, look: &FigureLook, room: FigureRoom, size: [f64; 2]) -> Figure {
+    // Neither hovering nor a pinned pixel is shown on paper.
+    let mut paper = FigureLook { fit: look.fit, ..FigureLook::default() };
+    match room.ranges {
+        AxisRanges::Full => paper.fit = DiagramFit::Whole,
         AxisRanges::Screen => {
-            paper.diagram = view.diagram.for_paper(&fit_key(scene, view.saved.diagram_fit));
+            paper.diagram = look.diagram.for_paper(&fit_key(scene, look.fit));
             paper.diagram.zoomed = paper.diagram.zoomed.map(|part| Frame::centered(part, size).ranges);
         }
     }
-    let mut built = build(scene, &paper, None, size);
+    let mut built = build(scene, &paper, size);
     if let Some([x, y]) = paper.diagram.zoomed {
         (built.panel.x.range, built.panel.y.range) = (x, y);
     }
@@ -200,7 +200,7 @@ pub fn figure_sized(scene: &Scene<'_>, view: &View, size: [f64; 2]) -> Figure {
     let shown = Projection::new(&built.panel, 1.0);
     figure.panels.push(built.panel);
     figure.panels.extend(built.lens.map(|lens| lens.panel));
-    if let Some(mut strip) = super::strip::build(scene, [size[0], STRIP]).filter(|_| view.room.strip) {
+    if let Some(mut strip) = super::strip::build(scene, [size[0], STRIP]).filter(|_| room.strip) {
         strip.panel.area = Rect::from_min_size([0.0, size[1]], [size[0], STRIP]);
         figure.size[1] += STRIP;
         figure.panels.push(strip.panel);
@@ -209,7 +209,7 @@ pub fn figure_sized(scene: &Scene<'_>, view: &View, size: [f64; 2]) -> Figure {
     figure.legend_place = LegendPlace::Outside;
     figure.caption = caption(scene);
     figure.table = table(scene);
-    if view.room.numbers == Numbers::Visible {
+    if room.numbers == Numbers::Visible {
         keep_inside(&mut figure.table, scene.document.diagram, [shown.x, shown.y]);
     }
     figure

@@ -1,12 +1,16 @@
 //! Errors of a two-light correction between its lights.
 
 use chromascope_figure::{
-    Axis, Cell, Dash, Figure, InkRole, LegendEntry, LegendPlace, Mark, Panel, Rect, Shape, Stroke, Table, Tag, Ticks,
+    Axis, Cell, Dash, Figure, FigureRoom, InkRole, LegendEntry, LegendPlace, Mark, Panel, Rect, Shape, Stroke, Table,
+    Tag, Ticks,
 };
 
-use crate::export::profile::CorrectionFile;
-use crate::view::View;
 use chromascope_core::query::TwoLightPoint;
+
+use super::kind::{FigureKind, Need};
+use super::look::FigureLook;
+use crate::export::profile::CorrectionFile;
+use crate::scene::Scene;
 
 /// Size of the figure in points.
 const SIZE: [f64; 2] = [460.0, 240.0];
@@ -21,10 +25,14 @@ const CURVES: [Curve; 4] = [
     ("mixed as DNG readers do", |point| point.mixed, InkRole::Text, Dash::Solid),
 ];
 
-/// The figure of the Correction pane; `None` without two lights.
-pub fn figure(view: &View) -> Option<Figure> {
-    let file = view.correction.shown.as_ref()?;
-    let mut figure = Figure::new(title(file), view.room.size(SIZE, 0.0));
+pub static KIND: FigureKind =
+    FigureKind::new("correction", "Error of a correction between its two lights; needs a second light", figure)
+        .needing(Need::Correction);
+
+/// Errors over the temperature; `None` without two lights.
+fn figure(_: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Option<Figure> {
+    let file = look.correction.as_ref()?;
+    let mut figure = Figure::new(title(file), room.size(SIZE, 0.0));
     figure.panels.push(panel(file, figure.size)?);
     figure.legend = CURVES
         .map(|(name, _, role, dash)| LegendEntry {

@@ -2,21 +2,23 @@
 
 mod cache;
 mod drawn;
-mod import_selection;
+pub mod import_selection;
 
 use chromascope_core::spectral::grid::{FIRST_NM, LAST_NM};
 use chromascope_figure::{
-    Anchor, Axis, Cell, Figure, Ink, InkRole, LegendEntry, LegendPlace, Mark, Numbers, Panel, Projection, Rect, Shape,
-    Stroke, Table, Tag, TextSize, finite_runs,
+    Anchor, Axis, Cell, Figure, FigureRoom, Ink, InkRole, LegendEntry, LegendPlace, Mark, Numbers, Panel, Projection,
+    Rect, Shape, Stroke, Table, Tag, TextSize, finite_runs,
 };
 
 pub use cache::CurveCache;
 pub use drawn::{Curve, Curves, DRAWN};
-pub use import_selection::{ImportSelection, places};
+pub use import_selection::{ImportItem, ImportSelection, places};
 
-use super::FigureInput;
+use super::kind::{FigureKind, Need};
+use super::look::FigureLook;
 use crate::format::number;
 use crate::plot_item::PickIndex;
+use crate::scene::Scene;
 
 /// The size of a saved figure in points.
 const SIZE: [f64; 2] = [640.0, 360.0];
@@ -133,13 +135,14 @@ pub fn describe(curves: &Curves, place: usize, nm: f64) -> Vec<String> {
     lines
 }
 
+pub static KIND: FigureKind = FigureKind::new("curves", "Curves of a file", figure).needing(Need::Curves);
+
 /// The figure as it is saved, with the values of all curves that are taken.
-pub fn figure(input: &FigureInput<'_>) -> Option<Figure> {
-    let shown = ImportSelection::of(input.scene, input.view, input.preview.clone())?;
-    let curves = Curves::of(&shown, usize::MAX).ok()?;
+fn figure(_: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Option<Figure> {
+    let curves = Curves::of(look.curves.as_ref()?, usize::MAX).ok()?;
     let mut drawn = curves.clone();
     drawn.cut(DRAWN);
-    let size = input.view.room.size(SIZE, 0.0);
+    let size = room.size(SIZE, 0.0);
     let mut figure = Figure::new(title(&curves), size);
     let mut panel = panel(&drawn, size, None);
     panel.name.clone_from(&curves.title);
@@ -155,7 +158,7 @@ pub fn figure(input: &FigureInput<'_>) -> Option<Figure> {
         figure.legend_place = LegendPlace::Outside;
     }
     figure.caption = format!("{}: {}.", curves.title, curves.quantity);
-    figure.table = numbers(if input.view.room.numbers == Numbers::Visible { &drawn } else { &curves });
+    figure.table = numbers(if room.numbers == Numbers::Visible { &drawn } else { &curves });
     Some(figure)
 }
 

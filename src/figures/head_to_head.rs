@@ -2,18 +2,18 @@
 
 use chromascope_core::query::{CameraMetric, MetricValue};
 use chromascope_figure::{
-    Anchor, Cell, Figure, Ink, InkRole, Mark, Panel, Rect, Shape, Table, Tag, TextSize, text_width,
+    Anchor, Cell, Figure, FigureRoom, Ink, InkRole, Mark, Panel, Rect, Shape, Table, Tag, TextSize, text_width,
 };
 
-use super::FigureInput;
 use super::chromaticity::conditions;
+use super::kind::FigureKind;
+use super::look::FigureLook;
 use super::metrics::{difference, head_to_head, nature_cells, uncertainties, value};
 use crate::document::SetKind;
 use crate::plot_item::{PlotItem, SensorId};
 use crate::ranking::{Ranked, ranked};
 use crate::scene::Scene;
 use crate::scene::uncertainty::{UNCERTAINTY_HEADS, number, uncertainty};
-use crate::view::View;
 
 /// Width of a saved figure in points, and height of a row.
 const WIDTH: f64 = 640.0;
@@ -23,10 +23,10 @@ const COLUMNS: usize = 5;
 const GAP: f64 = 14.0;
 
 /// The two cameras, as indices in the ranking: chosen, else the selected one and the first compared one.
-pub fn pair(ranked: &Ranked, scene: &Scene<'_>, view: &View) -> [Option<usize>; 2] {
+pub fn pair(ranked: &Ranked, scene: &Scene<'_>, look: &FigureLook) -> [Option<usize>; 2] {
     let place = |id: &SensorId| ranked.cameras.iter().position(|camera| camera.id == *id);
-    let [a, b] = view.saved.metrics.pair.each_ref().map(|id| id.as_ref().and_then(place));
-    let selected = view.selected.as_ref().and_then(PlotItem::source).and_then(place);
+    let [a, b] = look.pair.each_ref().map(|id| id.as_ref().and_then(place));
+    let selected = look.selected.as_ref().and_then(PlotItem::source).and_then(place);
     let compared: Vec<usize> = scene
         .document
         .compared
@@ -40,17 +40,19 @@ pub fn pair(ranked: &Ranked, scene: &Scene<'_>, view: &View) -> [Option<usize>; 
     [a, b]
 }
 
+pub static KIND: FigureKind =
+    FigureKind::new("head-to-head", "All figures of merit of two cameras", figure).of_metrics();
+
 /// The table of two cameras; none where there are fewer than two.
-pub fn figure(input: &FigureInput<'_>) -> Option<Figure> {
-    let (scene, view) = (input.scene, input.view);
-    let ranked = ranked(scene, view.saved.metrics.cameras);
-    let [Some(a), Some(b)] = pair(&ranked, scene, view) else { return None };
+fn figure(scene: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Option<Figure> {
+    let ranked = ranked(scene, look.cameras);
+    let [Some(a), Some(b)] = pair(&ranked, scene, look) else { return None };
     let table = head_to_head(&ranked, [a, b]);
     let rows = rows(&ranked, [a, b], &table);
     let width_of = |words: &str| text_width(words, TextSize::Small);
     let widest = |column: usize| rows.iter().map(|row| width_of(&row[column])).fold(30.0, f64::max) + GAP;
     let least: f64 = 12.0 + (0..COLUMNS).map(widest).sum::<f64>();
-    let width = view.room.width.unwrap_or(WIDTH).max(least);
+    let width = room.width.unwrap_or(WIDTH).max(least);
     let [name_a, name_b] = [a, b].map(|camera| ranked.cameras[camera].id.name.as_str());
     let mut figure = Figure::new(format!("{name_a} and {name_b}"), [width, ROW * (rows.len() as f64 + 3.0)]);
     let mut panel = Panel::board("Head to head", Rect::from_min_size([0.0, 0.0], figure.size), Ink::new(InkRole::Plot));

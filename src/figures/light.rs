@@ -7,14 +7,15 @@ use chromascope_core::colorimetry::rgb::{encode_srgb, srgb_from_xyz, srgb_white}
 use chromascope_core::query::{Consistency, Rendition};
 use chromascope_core::rendition::{ColorFidelity, HueBin};
 use chromascope_figure::{
-    Anchor, Axis, Cell, Dash, Figure, Ink, InkRole, Mark, Panel, Projection, Rect, Shape, Table, Tag, TextSize, Ticks,
-    text_width,
+    Anchor, Axis, Cell, Dash, Figure, FigureRoom, Ink, InkRole, Mark, Panel, Projection, Rect, Shape, Table, Tag,
+    TextSize, Ticks, text_width,
 };
 
+use super::kind::FigureKind;
+use super::look::FigureLook;
 use crate::document::SetKind;
 use crate::format::fixed;
 use crate::scene::Scene;
-use crate::view::View;
 
 /// The size of the saved figure in points: bars left, vectors right.
 const SIZE: [f64; 2] = [640.0, 300.0];
@@ -124,12 +125,14 @@ fn hue(bin: usize) -> [u8; 3] {
     encode_srgb(linear.to_array()).bytes
 }
 
+pub static KIND: FigureKind = FigureKind::new("light", "Color rendering of the light", figure);
+
 /// The figure as it is saved; none while there is nothing to show.
-pub fn figure(scene: &Scene<'_>, view: &View) -> Option<Figure> {
+fn figure(scene: &Scene<'_>, _: &FigureLook, room: FigureRoom) -> Option<Figure> {
     let rendition = scene.rendition().ok()?;
-    let [width, mut height] = view.room.size(SIZE, 0.0);
+    let [width, mut height] = room.size(SIZE, 0.0);
     let is_narrow = width < NARROW;
-    if is_narrow && view.room.height.is_none() {
+    if is_narrow && room.height.is_none() {
         height = 1.1 * width;
     }
     // Bars beside the vectors, or above them.

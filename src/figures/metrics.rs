@@ -3,16 +3,16 @@
 use chromascope_core::query::metrics::{Better, Difference, rank_ranges};
 use chromascope_core::query::{CameraMetric, MetricUncertainty, MetricValue, WhyNot};
 use chromascope_figure::{
-    Anchor, Cell, Figure, Ink, InkRole, Mark, Panel, Rect, Shape, Table, Tag, TextSize, text_width,
+    Anchor, Cell, Figure, FigureRoom, Ink, InkRole, Mark, Panel, Rect, Shape, Table, Tag, TextSize, text_width,
 };
 
-use super::FigureInput;
 use super::chromaticity::conditions;
+use super::kind::FigureKind;
+use super::look::{FigureLook, Sorting};
 use crate::ranking::{Ranked, ranked};
 use crate::scene::Scene;
 use crate::scene::metrics::CameraFigures;
 use crate::scene::uncertainty::{UNCERTAINTY_HEADS, nature, number, uncertainty};
-use crate::view::table::Sorting;
 
 /// Id of the table of cameras in what is saved between runs.
 pub const TABLE: &str = "Metrics";
@@ -147,12 +147,13 @@ const WIDTH: f64 = 640.0;
 /// Height of a row.
 const ROW: f64 = 16.0;
 
+pub static KIND: FigureKind =
+    FigureKind::new("metrics", "Cameras ranked by their first figure of merit", figure).of_metrics();
+
 /// Cameras in order of the metric by which the table is sorted, with uncertainties, and the table of all numbers.
-pub fn figure(input: &FigureInput<'_>) -> Option<Figure> {
-    let (scene, view) = (input.scene, input.view);
-    let ranked = ranked(scene, view.saved.metrics.cameras);
-    let sorting = view.saved.looks.get(TABLE).and_then(|look| look.sorting.as_ref());
-    let metric = sorted_by(scene, sorting).or_else(|| first(scene))?;
+fn figure(scene: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Option<Figure> {
+    let ranked = ranked(scene, look.cameras);
+    let metric = sorted_by(scene, look.sorting.as_ref()).or_else(|| first(scene))?;
     let mut rows: Vec<(usize, MetricValue, f64)> = (0..ranked.cameras.len())
         .filter_map(|camera| value(&ranked, camera, metric).and_then(|v| Some((camera, v, v.value.ok()?))))
         .collect();
@@ -161,7 +162,7 @@ pub fn figure(input: &FigureInput<'_>) -> Option<Figure> {
     let unit = if unit(&metric).is_empty() { String::new() } else { format!(" in {}", unit(&metric)) };
     let name = |camera: usize| ranked.cameras[camera].id.name.as_str();
     let names = rows.iter().map(|row| text_width(name(row.0), TextSize::Small)).fold(40.0, f64::max) + 20.0;
-    let width = view.room.width.unwrap_or(WIDTH).max(names + 180.0);
+    let width = room.width.unwrap_or(WIDTH).max(names + 180.0);
     let mut figure = Figure::new(format!("{}{unit}", metric.label), [width, 24.0 + ROW * rows.len() as f64]);
     let mut panel = Panel::board("Metrics", Rect::from_min_size([0.0; 2], figure.size), Ink::new(InkRole::Plot));
     let text =

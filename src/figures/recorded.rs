@@ -2,13 +2,15 @@
 
 use chromascope_core::camera::recorded::{RankRange, RecordedFit};
 use chromascope_figure::{
-    Anchor, Axis, Cell, Figure, Ink, InkRole, LegendEntry, LegendPlace, Mark, Marker, Panel, Rect, Shape, Table, Tag,
-    TextSize, Ticks,
+    Anchor, Axis, Cell, Figure, FigureRoom, Ink, InkRole, LegendEntry, LegendPlace, Mark, Marker, Panel, Rect, Shape,
+    Table, Tag, TextSize, Ticks,
 };
 
+use super::kind::{FigureKind, Need};
+use super::look::FigureLook;
 use crate::format::fixed;
+use crate::scene::Scene;
 use crate::scene::recorded::{CHANNELS, RankedCamera, range_in_words};
-use crate::view::View;
 
 /// Markers and colors of the three channels.
 const MARKS: [(Marker, [u8; 3]); 3] =
@@ -17,18 +19,25 @@ const MARKS: [(Marker, [u8; 3]); 3] =
 const SIZE: [f64; 2] = [720.0, 320.0];
 
 /// The camera whose residuals are shown: the one chosen, or the best.
-pub fn chosen<'a>(ranked: &'a [RankedCamera], view: &View) -> Option<(&'a str, &'a RecordedFit, RankRange)> {
-    let named = |camera: &&RankedCamera| view.recorded.camera.as_ref().is_none_or(|name| *name == camera.name);
+pub fn chosen<'a>(
+    ranked: &'a [RankedCamera],
+    choice: Option<&String>,
+) -> Option<(&'a str, &'a RecordedFit, RankRange)> {
+    let named = |camera: &&RankedCamera| choice.is_none_or(|name| *name == camera.name);
     let camera = ranked.iter().find(named).or(ranked.first())?;
     Some((&camera.name, camera.fit.as_ref().ok()?, camera.rank?))
 }
 
+pub static KIND: FigureKind =
+    FigureKind::new("recorded", "Residuals of the camera nearest to recorded raw values", figure)
+        .needing(Need::Recorded);
+
 /// Residual per patch and channel of the selected camera, with the numbers.
-pub fn figure(view: &View) -> Option<Figure> {
-    let (set, ranked) = view.recorded.ranked.as_ref()?;
-    let (name, fit, rank) = chosen(ranked, view)?;
+fn figure(_: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Option<Figure> {
+    let (set, ranked) = look.recorded.as_ref()?;
+    let (name, fit, rank) = chosen(ranked, look.residuals_of.as_ref())?;
     let names: Vec<String> = set.iter().map(|patch| patch.name.clone()).collect();
-    let mut figure = Figure::new(title(name), view.room.size(SIZE, 0.0));
+    let mut figure = Figure::new(title(name), room.size(SIZE, 0.0));
     figure.panels.push(panel(fit, &names, figure.size));
     figure.legend = legend();
     figure.legend_place = LegendPlace::Outside;

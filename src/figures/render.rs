@@ -11,8 +11,9 @@ use chromascope_figure::{
 use spectral_image::ImageQuantity;
 
 use self::headline::{Detail, Measure};
-use super::FigureInput;
 use super::chromaticity::viewing_conditions;
+use super::kind::{FigureKind, Need};
+use super::look::{FigureLook, PixelPlace, RenderMode};
 use crate::document::render::RoughnessChoice;
 use crate::format::fixed;
 use crate::plot_item::{PickIndex, SensorId};
@@ -21,7 +22,6 @@ use crate::render_service::made::MadePictures;
 use crate::render_service::pixel::{self, LitPixel, PixelReading, PixelShows};
 use crate::scene::spectral_image::ImagePictures;
 use crate::scene::{ComparedSensor, Scene};
-use crate::view::render::{PixelPlace, RenderMode};
 
 /// The width of a saved picture in points, where the figure may be as wide as it likes.
 const WIDTH: f64 = 340.0;
@@ -53,21 +53,27 @@ fn shown(shot: &RenderedFrame, mode: RenderMode) -> std::ops::Range<usize> {
     usize::from(only_sources && shot.sources.len() > 1)..shot.sources.len()
 }
 
+pub static KIND: FigureKind =
+    FigureKind::new("render", "Pictures of a mesh or spectral image through each sensor", figure)
+        .needing(Need::Pictures(RenderMode::Grid));
+
+/// The same with differences in place of the pictures, as the pane has them in that arrangement.
+pub static DIFFERENCE: FigureKind =
+    FigureKind::new("difference", "Maps of the pictures' differences from the reference", figure)
+        .needing(Need::Pictures(RenderMode::Difference));
+
 /// The current pictures, with captions and numbers; `None` before there are any.
-pub fn figure(input: &FigureInput<'_>) -> Option<Figure> {
-    let (scene, view, shot) = (input.scene, input.view, input.pictures?);
+fn figure(scene: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Option<Figure> {
+    let shot = look.pictures.as_deref()?;
     let made = shot.made()?;
     let measure = Measure::of_frame(shot);
-    let maps = (view.saved.render.mode == RenderMode::Difference).then(|| difference::Scale::of(shot));
+    let maps = (look.mode == RenderMode::Difference).then(|| difference::Scale::of(shot));
     // The gray that the pictures were made on, whatever paper they go to.
-    let [ground, ink] = [view.saved.surround.color(), view.saved.surround.label()].map(|color| {
-        let [r, g, b, _] = color.to_array();
-        Ink::rgb([r, g, b])
-    });
-    let shown = shown(shot, view.saved.render.mode);
+    let [ground, ink] = [look.surround.color(), look.surround.label()].map(Ink::rgb);
+    let shown = shown(shot, look.mode);
     let columns = columns(shown.len());
     let shape = made.pictures.iter().flatten().next().map_or([1, 1], |picture| [picture.width, picture.height]);
-    let width = picture_width(view.room, shown.len());
+    let width = picture_width(room, shown.len());
     let size = [width, width * shape[1] as f64 / shape[0].max(1) as f64];
     let cells: Vec<PictureCell<'_>> = shown.map(|at| PictureCell::new(shot, at, maps.is_some(), width)).collect();
     let above = LINE * cells.iter().map(|cell| cell.lines.len()).max().unwrap_or(0) as f64;

@@ -6,12 +6,13 @@ use chromascope_core::query::{CameraMetric, CameraMetrics};
 use chromascope_core::spectral::SpectralDistribution;
 use chromascope_core::spectral::grid::{FIRST_NM, LAST_NM};
 use chromascope_figure::{
-    Anchor, Axis, Cell, Figure, Ink, InkRole, Mark, Panel, Projection, Rect, Shape, Table, Tag, TextSize, Ticks,
-    text_width,
+    Anchor, Axis, Cell, Figure, FigureRoom, Ink, InkRole, Mark, Panel, Projection, Rect, Shape, Table, Tag, TextSize,
+    Ticks, text_width,
 };
 
-use super::FigureInput;
 use super::chromaticity::{conditions, distance_symbol};
+use super::kind::FigureKind;
+use super::look::FigureLook;
 use super::metrics::{nature_cells, unit};
 use crate::document::{LOCUS_RANGE_K, SetKind};
 use crate::format::fixed;
@@ -20,7 +21,6 @@ use crate::scene::Scene;
 use crate::scene::locus::distance;
 use crate::scene::metrics::CameraFigures;
 use crate::scene::uncertainty::{UNCERTAINTY_HEADS, in_words, number, uncertainty};
-use crate::view::View;
 
 /// Width of the saved page in points.
 const WIDTH: f64 = 560.0;
@@ -43,22 +43,24 @@ const NAME_LINE: f64 = 14.0;
 const NAME_GAP: f64 = 3.0;
 
 /// The camera of the card: the chosen one, else the selected one, else the first that is compared.
-pub fn camera(scene: &Scene<'_>, view: &View) -> Option<SensorId> {
+pub fn camera(scene: &Scene<'_>, look: &FigureLook) -> Option<SensorId> {
     let is_camera = |id: &&SensorId| id.kind == SetKind::Camera && scene.entry(id.kind, &id.name).is_ok();
-    let selected = view.selected.as_ref().and_then(PlotItem::source);
-    let chosen = view.saved.metrics.card.as_ref().filter(is_camera).or(selected.filter(is_camera)).cloned();
+    let selected = look.selected.as_ref().and_then(PlotItem::source);
+    let chosen = look.card.as_ref().filter(is_camera).or(selected.filter(is_camera)).cloned();
     chosen.or_else(|| {
         let first = scene.document.compared.iter().find(|c| c.kind == SetKind::Camera)?;
         Some(SensorId { kind: first.kind, name: first.name.clone() })
     })
 }
 
+pub static KIND: FigureKind = FigureKind::new("report-card", "All figures of merit of one camera", figure).of_metrics();
+
 /// The page of the camera of the card as it is saved; none without a camera that can be shown.
-pub fn figure(input: &FigureInput<'_>) -> Option<Figure> {
-    let id = camera(input.scene, input.view)?;
-    let figures = input.scene.camera_figures(id.kind, &id.name).ok()?;
-    let width = input.view.room.width.unwrap_or(WIDTH).max(LIST_COLUMN);
-    Some(page(input.scene, &id, &figures, width))
+fn figure(scene: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Option<Figure> {
+    let id = camera(scene, look)?;
+    let figures = scene.camera_figures(id.kind, &id.name).ok()?;
+    let width = room.width.unwrap_or(WIDTH).max(LIST_COLUMN);
+    Some(page(scene, &id, &figures, width))
 }
 
 /// The page of a camera with its figures of merit in a width; a narrow one has one column.

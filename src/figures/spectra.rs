@@ -8,17 +8,18 @@ use chromascope_core::colorimetry::diagram::wavelength_color;
 use chromascope_core::spectral::SpectralDistribution;
 use chromascope_core::spectral::grid::{COUNT, FIRST_NM, LAST_NM, wavelength_nm};
 use chromascope_figure::{
-    Axis, Cell, Figure, Image, InkRole, LegendEntry, LegendPlace, Mark, Panel, Projection, Rect, Shape, Stroke, Table,
-    TextSize, Ticks, text_width,
+    Axis, Cell, Figure, FigureRoom, Image, InkRole, LegendEntry, LegendPlace, Mark, Panel, Projection, Rect, Shape,
+    Stroke, Table, TextSize, Ticks, text_width,
 };
 
 use self::content::Content;
 use super::chromaticity::caption;
+use super::kind::FigureKind;
 use super::labels::{Name, Room};
+use super::look::{FigureLook, SpectraLayout};
 use crate::document::{FIT_TARGET, SetKind};
 use crate::plot_item::{PickIndex, PlotItem};
 use crate::scene::{ComparedSensor, Scene};
-use crate::view::{SpectraLayout, View};
 
 /// The panels with the items of their curves.
 #[derive(Clone, Debug)]
@@ -35,12 +36,12 @@ pub struct Built {
 const FOOT: f64 = 4.0 + Projection::BOTTOM + Projection::TITLE;
 
 /// Builds the panels for an area of the given size.
-pub fn build(scene: &Scene<'_>, view: &View, size: [f64; 2]) -> Built {
+pub fn build(scene: &Scene<'_>, look: &FigureLook, size: [f64; 2]) -> Built {
     let mut built = Built { panels: Vec::new(), things: PickIndex::default(), refused: Vec::new() };
     let sources: Vec<ComparedSensor> = scene.sources().into_iter().filter(|source| source.visible).collect();
     let mut contents: Vec<Content> = content::light(scene, &mut built).into_iter().collect();
     contents.extend(content::patches(scene, &mut built));
-    if view.saved.spectra_layout == SpectraLayout::Each {
+    if look.spectra_layout == SpectraLayout::Each {
         let reference = sources.iter().find(|source| source.is_reference);
         for source in &sources {
             let ghost = reference.filter(|_| !source.is_reference);
@@ -151,10 +152,15 @@ fn foot(scene: &Scene<'_>, area: Rect, large: bool) -> Panel {
 /// The size of a saved figure in points.
 const SIZE: [f64; 2] = [640.0, 560.0];
 
+pub static KIND: FigureKind =
+    FigureKind::new("spectra", "Light, patches and sensitivities over wavelength", |scene, look, room| {
+        Some(figure(scene, look, room))
+    });
+
 /// The figure as it is saved, with all values on the 1 nm grid.
-pub fn figure(scene: &Scene<'_>, view: &View) -> Figure {
-    let size = view.room.size(SIZE, 0.0);
-    let built = build(scene, view, size);
+pub fn figure(scene: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Figure {
+    let size = room.size(SIZE, 0.0);
+    let built = build(scene, look, size);
     let mut figure = Figure::new("Spectra", size);
     figure.panels = built.panels;
     figure.legend = scene

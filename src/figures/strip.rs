@@ -3,18 +3,19 @@
 use chromascope_core::colorimetry::Xy;
 use chromascope_core::query::Locus;
 use chromascope_figure::{
-    Anchor, Axis, Cell, Dash, Figure, Ink, InkRole, Mark, Marker, Panel, Projection, Rect, Shape, Table, TextSize,
-    Ticks, wrapped,
+    Anchor, Axis, Cell, Dash, Figure, FigureRoom, Ink, InkRole, Mark, Marker, Panel, Projection, Rect, Shape, Table,
+    TextSize, Ticks, wrapped,
 };
 
 use super::chromaticity::{self, distance_symbol, id};
+use super::kind::FigureKind;
 use super::labels::{Place, Room};
+use super::look::FigureLook;
 use crate::document::{Diagram, LOCUS_RANGE_K, SetKind};
 use crate::format::number;
 use crate::plot_item::{PickIndex, PlotItem};
 use crate::scene::locus::{distance, split};
 use crate::scene::{ComparedSensor, Scene};
-use crate::view::View;
 
 /// The strip with the items of its lines.
 #[derive(Clone, Debug)]
@@ -88,10 +89,13 @@ pub fn build(scene: &Scene<'_>, size: [f64; 2]) -> Option<Strip> {
 /// Size of a saved figure in points.
 const SIZE: [f64; 2] = [640.0, 170.0];
 
+pub static KIND: FigureKind =
+    FigureKind::new("strip", "Distance of each locus to the reference's over temperature", figure);
+
 /// The strip as a figure of its own, with its numbers; none where no sensor can be compared with the reference.
-pub fn figure(scene: &Scene<'_>, view: &View) -> Option<Figure> {
-    let size = view.room.size(SIZE, 0.0);
-    let whole = chromaticity::figure(scene, view);
+fn figure(scene: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Option<Figure> {
+    let size = room.size(SIZE, 0.0);
+    let whole = chromaticity::figure(scene, look, room);
     let mut figure = Figure::new("Distance to the reference over temperature", size);
     figure.panels.push(build(scene, size)?.panel);
     let is_locus = |row: &Vec<Cell>| row.get(1) == Some(&Cell::from("locus"));

@@ -4,15 +4,16 @@ mod board;
 
 use chromascope_core::colorimetry::Metric;
 use chromascope_core::query::PatchColor;
-use chromascope_figure::{Anchor, Cell, Figure, Ink, InkRole, Panel, Rect, Table};
+use chromascope_figure::{Anchor, Cell, Figure, FigureRoom, Ink, InkRole, Panel, Rect, Table};
 
 use self::board::Board;
 use super::chromaticity::{caption, id};
+use super::kind::FigureKind;
+use super::look::{FigureLook, SwatchLayout, SwatchStyle};
 use crate::document::{SetKind, TransformChoice};
 use crate::format::{fixed, number};
 use crate::plot_item::{PickIndex, PlotItem};
 use crate::scene::{ComparedSensor, Scene};
-use crate::view::{SwatchLayout, SwatchStyle, View};
 
 /// The swatches with the items of their marks.
 #[derive(Clone, Debug)]
@@ -47,10 +48,10 @@ fn patch_names(scene: &Scene<'_>) -> Vec<String> {
 }
 
 /// Builds the board for an area; it may want to be higher.
-pub fn build(scene: &Scene<'_>, view: &View, size: [f64; 2]) -> Built {
+pub fn build(scene: &Scene<'_>, look: &FigureLook, size: [f64; 2]) -> Built {
     let rows = rows(scene);
-    let mut board = Board::new(scene, view, patch_names(scene));
-    let height = if in_rows(view.saved.swatch_layout, board.names.len()) {
+    let mut board = Board::new(scene, look, patch_names(scene));
+    let height = if in_rows(look.swatch_layout, board.names.len()) {
         board.rows(&rows, size)
     } else {
         board.charts(&rows, size)
@@ -117,27 +118,31 @@ const NARROW: f64 = 500.0;
 /// Height of the line below it that says how long bars are.
 const KEY: f64 = 18.0;
 
+pub static KIND: FigureKind =
+    FigureKind::new("swatches", "Patches as each sensor renders them", |scene, look, room| {
+        Some(figure(scene, look, room))
+    });
+
 /// The figure as it is saved (in rows with the five patches, the paper's Figure 5), with all numbers.
-pub fn figure(scene: &Scene<'_>, view: &View) -> Figure {
-    let [width, height] = view.room.size(SIZE, KEY);
+pub fn figure(scene: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Figure {
+    let [width, height] = room.size(SIZE, KEY);
     // On a narrow page charts stand below each other.
-    let least = if view.room.height.is_none() && width < NARROW { 0.8 * width } else { 0.0 };
-    figure_sized(scene, view, [width, height.max(least)])
+    let least = if room.height.is_none() && width < NARROW { 0.8 * width } else { 0.0 };
+    figure_sized(scene, look, [width, height.max(least)])
 }
 
 /// The figure in a width, and at least a height, in points.
-pub fn figure_sized(scene: &Scene<'_>, view: &View, size: [f64; 2]) -> Figure {
-    let paper = View { saved: view.saved.clone(), ..View::default() };
-    let built = build(scene, &paper, size);
+pub fn figure_sized(scene: &Scene<'_>, look: &FigureLook, size: [f64; 2]) -> Figure {
+    let built = build(scene, &FigureLook { blink: false, ..look.clone() }, size);
     let mut figure = Figure::new("Swatches", [size[0], built.height.max(120.0) + KEY]);
     let area = Rect::from_min_size([0.0, 0.0], figure.size);
     let mut panel = Panel { marks: built.panel.marks, ..Panel::board("Swatches", area, built.panel.background) };
-    if view.saved.difference_bars {
+    if !look.without_bars {
         let at = [size[0] - 6.0, figure.size[1] - 0.5 * KEY - 2.0];
         panel.marks.push(board::small(&bar_scale(scene), at, Anchor::RIGHT));
     }
     figure.panels.push(panel);
-    let how = match view.saved.swatch_style {
+    let how = match look.swatch_style {
         SwatchStyle::Split => "Left half: reference; right half: sensor.",
         SwatchStyle::Inset => "Inside: reference; outside: sensor.",
         SwatchStyle::Whole => "",

@@ -3,7 +3,7 @@
 use chromascope_core::colorimetry::{UvPrime, Xy};
 use chromascope_core::light::{CctError, RadiationConstants};
 use chromascope_core::query::NearestBlackBodyQuery;
-use chromascope_figure::{Shape, TextSize, text_width};
+use chromascope_figure::{FigureRoom, Shape, TextSize, text_width};
 use egui::{Align2, Id, Pos2, Rect, RectAlign, Tooltip, Ui, Vec2};
 
 use super::context::{Pane, PaneContext};
@@ -32,7 +32,7 @@ pub const PANE: Pane = Pane {
     kind: PaneKind::CHROMATICITY,
     title: "Chromaticity",
     show,
-    figure: Some(|input| Some(crate::figures::chromaticity::figure(input.scene, input.view))),
+    figure: Some(&chromaticity::KIND),
     under_conditions: true,
     table: true,
 };
@@ -42,7 +42,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let body = widgets::pane(ui, &PANE, rect, context, switches);
     let body = body.shrink2(Vec2::new(2.0 * UNIT, 0.0));
     if context.view.saved.tables.contains(&PaneKind::CHROMATICITY) {
-        let figure = chromaticity::figure(&context.scene, context.view);
+        let figure = chromaticity::figure(&context.scene, &context.view.look(PANE.kind), FigureRoom::default());
         widgets::table::show_numbers(ui, body, PaneKind::CHROMATICITY, &figure.table, context);
         return;
     }
@@ -91,8 +91,7 @@ fn overlays(ui: &mut Ui, context: &mut PaneContext<'_>) {
 fn diagram(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let size = [f64::from(rect.width()), f64::from(rect.height())];
     hold_fit(ui, context);
-    let built =
-        chromaticity::build(&context.scene, context.view, context.render_service.frame().map(AsRef::as_ref), size);
+    let built = chromaticity::build(&context.scene, &context.look(PANE.kind), size);
     let id = Id::unique(("chromaticity", context.scene.document.diagram));
     let shown = plot(ui, id, &built, rect, true, context);
     note_zoom(ui, &built, &shown, context);

@@ -4,7 +4,6 @@ use chromascope_core::accuracy::RelTolerance;
 use chromascope_core::query::NearestBlackBodyQuery;
 use chromascope_core::query::render::picture::PicturesQuery;
 use chromascope_core::render::{Quality, Shadows};
-use chromascope_figure::Figure;
 use egui::{Rect, Ui};
 
 use crate::action::{Action, RenderAction};
@@ -15,8 +14,9 @@ use crate::catalog::spectral_images::ImageStore;
 use crate::command::Command;
 use crate::document::render::RenderSettings;
 use crate::export::page::PageJob;
-use crate::figures::FigureInput;
-use crate::figures::curves::CurveCache;
+use crate::figures::curves::{CurveCache, ImportSelection};
+use crate::figures::kind::FigureKind;
+use crate::figures::look::FigureLook;
 use crate::jobs::Background;
 use crate::profiler::plans::PlanAnswer;
 use crate::profiler::{Profiler, SceneRunJob};
@@ -37,8 +37,8 @@ pub struct Pane {
     pub title: &'static str,
     /// Draws the pane in exactly its rectangle.
     pub show: fn(&mut Ui, Rect, &mut PaneContext<'_>),
-    /// Figure as on screen, with its numbers, for exports; none while there is nothing to show. None for a pane without figures.
-    pub figure: Option<fn(&FigureInput<'_>) -> Option<Figure>>,
+    /// Its figure as it is saved; `None` for a pane without one.
+    pub figure: Option<&'static FigureKind>,
     /// The figure's numbers depend on the document's conditions, and are written with them.
     pub under_conditions: bool,
     /// The pane can show its numbers as a table instead.
@@ -102,9 +102,14 @@ impl PaneContext<'_> {
         self.view.correction.camera(&self.scene)
     }
 
-    /// Input for a figure.
-    pub fn figure_input(&self) -> FigureInput<'_> {
-        FigureInput::of((&self.scene, self.view), self.render_service, self.profiler, self.opened)
+    /// What the pane's figure takes from the window.
+    pub fn look(&self, pane: PaneKind) -> FigureLook {
+        look(pane, (&self.scene, self.view), self.render_service, self.profiler, self.opened)
+    }
+
+    /// The item selected in Import; requests its preview if that is not available yet.
+    pub fn import_selection(&self) -> Option<ImportSelection> {
+        self.view.import.selection(&self.scene, self.opened)?.refreshed(self.opened)
     }
 
     /// Has something done when the frame is over.
@@ -150,6 +155,22 @@ impl PaneContext<'_> {
     /// Hits, misses and times of each kind of query, the window's and the pictures'.
     pub fn counts(&self) -> Vec<(&'static str, Count)> {
         self.scene.results.counts().into_iter().collect()
+    }
+}
+
+/// What a pane's figure takes from the view, with the latest answers.
+pub fn look(
+    pane: PaneKind,
+    (scene, view): (&Scene<'_>, &View),
+    render_service: &RenderService,
+    profiler: &Profiler,
+    opened: &Opened,
+) -> FigureLook {
+    FigureLook {
+        pictures: render_service.frame().cloned(),
+        measured: profiler.measured.clone(),
+        curves: view.import.selection(scene, opened),
+        ..view.look(pane)
     }
 }
 

@@ -20,7 +20,7 @@ pub const PANE: Pane = Pane {
     kind: PaneKind::CORRECTION,
     title: "Correction",
     show,
-    figure: Some(|input| figure::figure(input.view)),
+    figure: Some(&figure::KIND),
     under_conditions: true,
     table: false,
 };

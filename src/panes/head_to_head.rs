@@ -27,7 +27,7 @@ pub const PANE: Pane = Pane {
     kind: PaneKind::HEAD_TO_HEAD,
     title: "Head to head",
     show,
-    figure: Some(figure::figure),
+    figure: Some(&figure::KIND),
     under_conditions: true,
     table: false,
 };
@@ -38,7 +38,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let body = Rect::from_min_max(body.min + Vec2::new(2.0 * UNIT, 0.0), body.max - Vec2::new(2.0 * UNIT, UNIT));
     // All cameras, or those of the table: one request serves both panes.
     let ranked = context.ranking.ask(&context.scene, context.view.saved.metrics.cameras);
-    let pair = figure::pair(&ranked, &context.scene, context.view);
+    let pair = figure::pair(&ranked, &context.scene, &context.view.look(PANE.kind));
     let mut child = ui.new_child(egui::UiBuilder::new().id_salt("pair").max_rect(body));
     child.set_clip_rect(body.intersect(ui.clip_rect()));
     let chosen = [choose(&mut child, 0, &ranked, pair[0], context), choose(&mut child, 1, &ranked, pair[1], context)];

@@ -12,7 +12,6 @@ use egui::{ProgressBar, Rect, RichText, Ui, UiBuilder, Vec2};
 
 use super::context::{Pane, PaneContext};
 use crate::command::Command;
-use crate::figures::curves::ImportSelection;
 use crate::panes::widgets;
 use crate::theme::UNIT;
 use crate::workspaces::PaneKind;
@@ -59,7 +58,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
         files::column(ui, column, &entries, context);
         Rect::from_min_max(egui::pos2(cut + 2.0 * UNIT, body.top()), body.max)
     };
-    match ImportSelection::refresh(&context.scene, context.view, context.opened) {
+    match context.import_selection() {
         Some(shown) => {
             let text = question::show(ui, text, &shown, context);
             text::show(ui, text, &shown, context);

@@ -42,7 +42,7 @@ pub const PANE: Pane = Pane {
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let body = widgets::pane(ui, &PANE, rect, context, notes::button);
     let inner = Rect::from_min_max(body.min + Vec2::new(2.0 * UNIT, 0.0), body.max - Vec2::new(2.0 * UNIT, 0.0));
-    let Some(shown) = ImportSelection::refresh(&context.scene, context.view, context.opened) else {
+    let Some(shown) = context.import_selection() else {
         let mut child = ui.new_child(UiBuilder::new().id_salt("nothing recognized").max_rect(inner));
         note(&mut child, &context.theme, "Drop files here.");
         return;

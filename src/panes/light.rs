@@ -27,7 +27,7 @@ pub const PANE: Pane = Pane {
     kind: PaneKind::LIGHT,
     title: "Light",
     show,
-    figure: Some(|input| light::figure(input.scene, input.view)),
+    figure: Some(&light::KIND),
     under_conditions: true,
     table: true,
 };

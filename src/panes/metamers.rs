@@ -32,7 +32,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let body = Rect::from_min_max(body.min + Vec2::new(2.0 * UNIT, 0.0), body.max - Vec2::new(2.0 * UNIT, UNIT));
     let mut child = ui.new_child(UiBuilder::new().id_salt("metamers").max_rect(body));
     child.set_clip_rect(body.intersect(ui.clip_rect()));
-    let Some(camera) = report_card::camera(&context.scene, context.view) else {
+    let Some(camera) = report_card::camera(&context.scene, &context.view.look(PANE.kind)) else {
         child.label(RichText::new("Tick a camera in the Library.").color(context.theme.weak));
         return;
     };

@@ -34,7 +34,7 @@ pub const PANE: Pane = Pane {
     kind: PaneKind::METHODS,
     title: "Methods",
     show,
-    figure: Some(accuracy::figure),
+    figure: Some(&accuracy::KIND),
     under_conditions: false,
     table: true,
 };

@@ -33,7 +33,7 @@ pub const PANE: Pane = Pane {
     kind: PaneKind::METRICS,
     title: "Metrics",
     show,
-    figure: Some(metrics::figure),
+    figure: Some(&metrics::KIND),
     under_conditions: true,
     table: false,
 };

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use chromascope_core::camera::recorded::{RankRange, RecordedFit, RecordedPatch};
 use chromascope_core::query::{RecordedSet, Shared};
-use chromascope_figure::{Axis, Cell, Image, InkRole, Mark, Marker, Panel, Shape, Table, Tag};
+use chromascope_figure::{Axis, Cell, FigureRoom, Image, InkRole, Mark, Marker, Panel, Shape, Table, Tag};
 use egui::{DragValue, Id, Label, Rect, RichText, Sense, Ui, UiBuilder, Vec2};
 
 use super::context::{Pane, PaneContext};
@@ -39,7 +39,7 @@ pub const PANE: Pane = Pane {
     kind: PaneKind::RECORDED,
     title: "Recorded",
     show,
-    figure: Some(|input| recorded::figure(input.view)),
+    figure: Some(&recorded::KIND),
     under_conditions: true,
     table: true,
 };
@@ -67,7 +67,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let Some((set, ranked)) = context.view.recorded.ranked.clone() else {
         return sentence(ui, body, "Fitting the cameras…", false, context);
     };
-    if let Some(camera) = recorded::chosen(&ranked, context.view) {
+    if let Some(camera) = recorded::chosen(&ranked, context.view.recorded.camera.as_ref()) {
         return ranking_and_residuals(ui, body, &file, (&set, &ranked), camera, context);
     }
     let why = ranked.first().and_then(|camera| camera.fit.as_ref().err());
@@ -192,7 +192,9 @@ fn ranking_and_residuals(
     let body = Rect::from_min_max(egui::pos2(body.left(), top), body.max);
     let (plot, list) = body.split_top_bottom_at_fraction(0.55);
     if context.view.saved.tables.contains(&PaneKind::RECORDED) {
-        if let Some(figure) = recorded::figure(context.view) {
+        if let Some(figure) =
+            recorded::KIND.figure(&context.scene, &context.view.look(PANE.kind), FigureRoom::default())
+        {
             widgets::table::show_numbers(ui, plot, PaneKind::RECORDED, &figure.table, context);
         }
     } else {

@@ -25,7 +25,7 @@ pub const PANE: Pane = Pane {
     kind: PaneKind::REPORT_CARD,
     title: "Report card",
     show,
-    figure: Some(report_card::figure),
+    figure: Some(&report_card::KIND),
     under_conditions: true,
     table: true,
 };
@@ -39,7 +39,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
         let font = FontId::proportional(crate::theme::TEXT);
         ui.painter().text(body.center(), Align2::CENTER_CENTER, words, font, ink);
     };
-    let Some(camera) = report_card::camera(&context.scene, context.view) else {
+    let Some(camera) = report_card::camera(&context.scene, &context.view.look(PANE.kind)) else {
         say("Tick a camera in the Library.", context.theme.weak);
         return;
     };
@@ -92,7 +92,7 @@ fn draw(ui: &mut Ui, page: &Figure, follow: bool, context: &PaneContext<'_>) {
 
 /// A list of cameras; the first entry follows the selection.
 fn choose(ui: &mut Ui, context: &mut PaneContext<'_>) {
-    let now = report_card::camera(&context.scene, context.view);
+    let now = report_card::camera(&context.scene, &context.view.look(PANE.kind));
     let words = now.as_ref().map_or("", |id| id.name.as_str());
     let width = (ui.available_width() - UNIT).max(60.0);
     let card = context.view.saved.metrics.card.as_ref();

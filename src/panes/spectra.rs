@@ -1,5 +1,6 @@
 //! Light, patches and sensitivities over one axis.
 
+use chromascope_figure::FigureRoom;
 use egui::{Align2, Id, Rect, ScrollArea, Ui, UiBuilder, Vec2};
 
 use super::context::{Pane, PaneContext};
@@ -20,7 +21,7 @@ pub const PANE: Pane = Pane {
     kind: PaneKind::SPECTRA,
     title: "Spectra",
     show,
-    figure: Some(|input| Some(crate::figures::spectra::figure(input.scene, input.view))),
+    figure: Some(&spectra::KIND),
     under_conditions: false,
     table: true,
 };
@@ -39,7 +40,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     });
     let body = Rect::from_min_max(body.min + Vec2::new(2.0 * UNIT, 0.0), body.max - Vec2::new(2.0 * UNIT, 0.0));
     if context.view.saved.tables.contains(&PaneKind::SPECTRA) {
-        let figure = spectra::figure(&context.scene, context.view);
+        let figure = spectra::figure(&context.scene, &context.view.look(PANE.kind), FigureRoom::default());
         widgets::table::show_numbers(ui, body, PaneKind::SPECTRA, &figure.table, context);
         return;
     }
@@ -69,7 +70,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
 
 fn panels_in(ui: &mut Ui, area: Rect, context: &mut PaneContext<'_>) {
     let size = [f64::from(area.width()), f64::from(area.height())];
-    let built = spectra::build(&context.scene, context.view, size);
+    let built = spectra::build(&context.scene, &context.view.look(PANE.kind), size);
     widgets::walk::along(ui, PaneKind::SPECTRA, context, widgets::walk::curves);
     let mut cursor = None;
     let mut plots = Vec::new();

@@ -1,6 +1,6 @@
 //! Patches as colors.
 
-use chromascope_figure::Shape;
+use chromascope_figure::{FigureRoom, Shape};
 use egui::{Id, Rect, ScrollArea, Ui, UiBuilder, Vec2};
 
 use super::context::{Pane, PaneContext};
@@ -21,7 +21,7 @@ pub const PANE: Pane = Pane {
     kind: PaneKind::SWATCHES,
     title: "Swatches",
     show,
-    figure: Some(|input| Some(crate::figures::swatches::figure(input.scene, input.view))),
+    figure: Some(&swatches::KIND),
     under_conditions: true,
     table: true,
 };
@@ -31,15 +31,15 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let body = widgets::pane(ui, &PANE, rect, context, switches);
     let body = Rect::from_min_max(body.min + Vec2::new(2.0 * UNIT, 0.0), body.max - Vec2::new(2.0 * UNIT, UNIT));
     if context.view.saved.tables.contains(&PaneKind::SWATCHES) {
-        let figure = swatches::figure(&context.scene, context.view);
+        let figure = swatches::figure(&context.scene, &context.view.look(PANE.kind), FigureRoom::default());
         widgets::table::show_numbers(ui, body, PaneKind::SWATCHES, &figure.table, context);
         return;
     }
     let body = widgets::caution::show(ui, body, context);
-    ui.painter().rect_filled(body, 0.0, context.theme.surround.color());
+    ui.painter().rect_filled(body, 0.0, context.theme.surround);
     let (body, slot) = footer(ui, body, context);
     let size = [f64::from(body.width()), f64::from(body.height())];
-    let built = swatches::build(&context.scene, context.view, size);
+    let built = swatches::build(&context.scene, &context.view.look(PANE.kind), size);
     let mut child = ui.new_child(UiBuilder::new().id_salt("swatches").max_rect(body));
     child.set_clip_rect(body.intersect(ui.clip_rect()));
     let height = (built.height as f32).max(body.height());
@@ -48,7 +48,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
         board(ui, area, &built, context);
     });
     if height - shown.state.clamped_offset().y > body.height() + 1.0 {
-        widgets::scroll::more_below(ui, slot, context.theme.surround.label());
+        widgets::scroll::more_below(ui, slot, context.theme.on_surround);
     }
 }
 
@@ -58,7 +58,7 @@ fn footer(ui: &mut Ui, body: Rect, context: &mut PaneContext<'_>) -> (Rect, Rect
     let Some((words, thing)) = swatches::worst(&context.scene) else {
         return (body, body.with_min_y(body.bottom() - FOOTER));
     };
-    let color = context.theme.surround.label();
+    let color = context.theme.on_surround;
     let font = egui::FontId::proportional(crate::theme::SMALL);
     let scale = context.view.saved.difference_bars.then(|| swatches::bar_scale(&context.scene));
     let scale = scale.map(|words| ui.painter().layout_no_wrap(words, font.clone(), color));

@@ -1,5 +1,7 @@
 //! The paper's figures, made with the report's cameras, patches and light.
 
+use std::sync::Arc;
+
 use chromascope_core::query::Ask as _;
 use chromascope_figure::{Cell, Figure, FigureRoom, LegendPlace, Panel, Table};
 
@@ -9,11 +11,11 @@ use crate::action::{Action, RenderAction};
 use crate::document::render::{LEAF, MeshChoice, ReadingChoice, SKIN};
 use crate::document::{Document, Overlays, SetKind};
 use crate::export::Paper;
-use crate::figures::{FigureInput, chromaticity, render, spectra, swatches};
+use crate::figures::look::{FigureLook, SpectraLayout};
+use crate::figures::{chromaticity, render, spectra, swatches};
 use crate::render_service::RenderedFrame;
 use crate::scene::Scene;
 use crate::scene::orbit::Orbit;
-use crate::view::{SpectraLayout, View};
 
 /// A figure of the paper.
 pub struct PaperFigure {
@@ -66,15 +68,10 @@ impl PaperFigure {
     }
 }
 
-fn view(room: FigureRoom) -> View {
-    View { room, ..View::default() }
-}
-
 fn sensitivities(subject: &Subject<'_>, room: FigureRoom) -> Figure {
     let scene = subject.scene(subject.document);
-    let mut view = view(room);
-    view.saved.spectra_layout = SpectraLayout::Each;
-    let figure = spectra::figure(&scene, &view);
+    let look = FigureLook { spectra_layout: SpectraLayout::Each, ..FigureLook::default() };
+    let figure = spectra::figure(&scene, &look, room);
     let table = without(&figure.table, &spectra_but_sensitivities(&scene));
     // The light and the patches come first.
     let panels = figure.panels.iter().skip(2).cloned().collect();
@@ -112,7 +109,7 @@ fn stacked(figure: Figure, panels: Vec<Panel>) -> Figure {
 }
 
 fn diagram(subject: &Subject<'_>, room: FigureRoom, document: &Document) -> Figure {
-    chromaticity::figure(&subject.scene(document), &view(room))
+    chromaticity::figure(&subject.scene(document), &FigureLook::default(), room)
 }
 
 /// A table's rows of a kind.
@@ -139,7 +136,7 @@ fn points(subject: &Subject<'_>, room: FigureRoom) -> Figure {
 }
 
 fn patches(subject: &Subject<'_>, room: FigureRoom) -> Figure {
-    swatches::figure(&subject.scene(subject.document), &view(room))
+    swatches::figure(&subject.scene(subject.document), &FigureLook::default(), room)
 }
 
 fn materials(subject: &Subject<'_>, room: FigureRoom, _: Pixels) -> Option<Figure> {
@@ -148,7 +145,7 @@ fn materials(subject: &Subject<'_>, room: FigureRoom, _: Pixels) -> Option<Figur
     let room = FigureRoom { height: room.width.map(|width| SHAPE * width), ..room };
     let [skin, leaf] = [SKIN, LEAF].map(|material| {
         let document = Document { compared: Vec::new(), ..subject.in_sun(material) };
-        spectra::figure(&subject.scene(&document), &view(room))
+        spectra::figure(&subject.scene(&document), &FigureLook::default(), room)
     });
     // Light, skin; leaf, wavelengths.
     let panels = skin.panels.iter().take(2).chain(leaf.panels.iter().skip(1)).cloned().collect();
@@ -167,8 +164,8 @@ fn pictures(scene: &Scene<'_>, room: FigureRoom, pixels: Pixels) -> Option<Figur
     let orbit = Orbit::of(&scene.document.render.mesh);
     // Times of this run, which it has none of, are no part of a figure.
     let frame = RenderedFrame::of_mesh(scene, scene.mesh_of(None)?, orbit.viewpoint(1.0)?, pixels).ok()?;
-    let view = view(room);
-    let figure = render::figure(&FigureInput { pictures: Some(&frame), ..FigureInput::new(scene, &view) })?;
+    let look = FigureLook { pictures: Some(Arc::new(frame)), ..FigureLook::default() };
+    let figure = render::KIND.figure(scene, &look, room)?;
     let time = figure.table.columns.iter().position(|column| column == "time_ms")?;
     Some(Figure { table: without(&figure.table, &(time..time + 1)), ..figure })
 }

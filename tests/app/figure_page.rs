@@ -48,7 +48,7 @@ fn the_page_shows_the_picture_that_is_saved() {
     let shown = app.pages().shown().expect("a page");
     let job = &shown.job;
     assert!(shown.current && job.paper == app.view().saved.page.paper);
-    let svg = export::svg(&job.figure, &job.paper.theme(), job.paper);
+    let svg = export::svg(&job.figure, &job.paper.colors(), job.paper);
     assert!(svg.contains("width=\"85mm\""), "one column");
     let picture = export::png(&svg, job.scale).expect("a picture");
     let image = shown.answer.as_ref().as_ref().expect("pixels");

@@ -7,19 +7,20 @@ use chromascope::command::Command;
 use chromascope::document::pixel::Pixel;
 use chromascope::document::{Document, Light, SetKind, session};
 use chromascope::export;
-use chromascope::figures::{FigureInput, metrics, report_card};
+use chromascope::figures::look::FigureLook;
+use chromascope::figures::{metrics, report_card};
 use chromascope::jobs::Executor;
+use chromascope::palette::Colors;
 use chromascope::panes;
 use chromascope::plot_item::PlotItem;
 use chromascope::results::Results;
 use chromascope::scene::Scene;
-use chromascope::theme::Theme;
 use chromascope::view::View;
 use chromascope::view::metrics::RankedCameras;
 use chromascope::workspaces::{Layout, PaneKind, Workspace};
 use chromascope_core::query::metrics::{Contributions, UncertaintySource};
 use chromascope_core::query::{Ask, CameraMetric, MetricUncertainty, MetricValue};
-use chromascope_figure::{Figure, Projection, Rect, Shape, text_width};
+use chromascope_figure::{Figure, FigureRoom, Projection, Rect, Shape, text_width};
 use egui::accesskit::Role;
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT as _, Queryable};
@@ -301,10 +302,11 @@ fn a_report_card_is_a_figure_like_others() {
     let scene = Scene { document: &document, catalog: &catalog, results: &results };
     let mut view = View::default();
     view.saved.metrics.card = Some(camera("Kodak DCS200"));
-    let figure = panes::figure(PaneKind::REPORT_CARD, &FigureInput::new(&scene, &view)).expect("a page");
+    let figure = panes::figure(PaneKind::REPORT_CARD, &scene, &view.look(PaneKind::REPORT_CARD), FigureRoom::default())
+        .expect("a page");
     assert_eq!(figure.title, "Report card: Kodak DCS200");
     assert_eq!(figure.table.rows.len(), CameraMetric::ALL.len());
-    let svg = export::svg(&figure, &Theme::LIGHT, export::Paper::default());
+    let svg = export::svg(&figure, &Colors::LIGHT, export::Paper::default());
     let query = scene.camera_metrics_query(SetKind::Camera, "Kodak DCS200").unwrap();
     let metrics = results.ask(&query);
     let at = chromascope_core::colorimetry::Metric::ALL.iter().position(|m| *m == document.difference).unwrap();
@@ -317,7 +319,8 @@ fn a_report_card_is_a_figure_like_others() {
     assert!(svg.contains("ΔE*00 mean") && export::png(&svg, 1.0).is_ok());
     view.selected = Some(PlotItem::Sensor(camera("Canon EOS 5D")));
     view.saved.metrics.card = None;
-    let figure = panes::figure(PaneKind::REPORT_CARD, &FigureInput::new(&scene, &view)).expect("a page");
+    let figure = panes::figure(PaneKind::REPORT_CARD, &scene, &view.look(PaneKind::REPORT_CARD), FigureRoom::default())
+        .expect("a page");
     assert_eq!(figure.title, "Report card: Canon EOS 5D", "follows the selection");
 }
 
@@ -382,7 +385,8 @@ fn a_report_card_is_made_beside_the_window() {
 fn all_numbers_go_out_as_csv_and_json() {
     let (catalog, results, document) = (Catalog::built_in(), Results::default(), Document::colorimetry());
     let scene = Scene { document: &document, catalog: &catalog, results: &results };
-    let figure = panes::figure(PaneKind::METRICS, &FigureInput::new(&scene, &View::default())).expect("a figure");
+    let figure =
+        panes::figure(PaneKind::METRICS, &scene, &FigureLook::default(), FigureRoom::default()).expect("a figure");
     let cameras = catalog.of_kind(SetKind::Camera).count();
     assert_eq!(figure.table.rows.len(), cameras);
     let (conditions, metrics) = (2, CameraMetric::ALL.len());

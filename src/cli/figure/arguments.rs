@@ -4,15 +4,17 @@ use std::ffi::OsString;
 use std::path::PathBuf;
 
 use chromascope_figure::{AxisRanges, AxisTitles, LegendPlace, Numbers};
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
 
 use crate::cli::pixel::PixelArguments;
 use crate::cli::render::arguments::ViewpointArguments;
 use crate::cli::sources::CommonArguments;
 use crate::export::paper::{Paper, PaperStyle};
-use crate::theme::SourceInks;
-use crate::view::diagram::Ranges;
-use crate::workspaces::PaneKind;
+use crate::figures::FIGURES;
+use crate::figures::chromaticity::shown::Ranges;
+use crate::figures::kind::FigureKind;
+use crate::palette::SourceInks;
 
 pub(in crate::cli) const EXAMPLES: &str = "Examples:
   chromascope figure chromaticity --preset paper --width 85mm --font-size 8 --out figure3.pdf
@@ -29,8 +31,8 @@ keeps its size whatever the width: the figure is laid out for it. In a PDF text 
 #[derive(Debug, Args)]
 pub(in crate::cli) struct FigureArguments {
     /// The figure
-    #[arg(value_enum)]
-    pub(super) kind: FigureKind,
+    #[arg(value_parser = kind())]
+    pub(super) kind: Kind,
     /// A file with curves for `curves`, or with raw values of patches for `recorded`
     pub(super) file: Option<PathBuf>,
     #[command(flatten)]
@@ -61,66 +63,17 @@ pub(in crate::cli) struct FigureArguments {
     pub(super) paper: PaperArguments,
 }
 
-/// Figures: those of the window's panes, and parts of them.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(super) enum FigureKind {
-    /// The chromaticity diagram with loci and patches
-    Chromaticity,
-    /// Distance of each locus to the reference's over temperature
-    Strip,
-    /// Light, patches and sensitivities over wavelength
-    Spectra,
-    /// Patches as each sensor renders them
-    Swatches,
-    /// Color rendering of the light
-    Light,
-    /// Pictures of a mesh or spectral image through each sensor
-    Render,
-    /// Maps of the pictures' differences from the reference
-    Difference,
-    /// Cameras ranked by their first figure of merit
-    Metrics,
-    /// All figures of merit of two cameras
-    HeadToHead,
-    /// All figures of merit of one camera
-    ReportCard,
-    /// Error of a correction between its two lights; needs a second light
-    Correction,
-    /// Curves of a file
-    Curves,
-    /// Residuals of the camera nearest to recorded raw values
-    Recorded,
-    /// Run time of each method against its error, measured now
-    Methods,
-    /// Skipped work is a table: `render --stats`
-    #[value(hide = true)]
-    WorkSaved,
-}
+/// A kind of figure; none for skipped work, which is a table: `render --stats`.
+#[derive(Clone, Debug)]
+pub(super) struct Kind(pub(super) Option<&'static FigureKind>);
 
-impl FigureKind {
-    /// True if it shows what `compare` computes.
-    pub(super) const fn is_of_metrics(self) -> bool {
-        matches!(self, Self::Metrics | Self::HeadToHead | Self::ReportCard)
-    }
+/// The word of skipped work.
+const WORK_SAVED: &str = "work-saved";
 
-    /// The pane whose figure it is; none for a part of one.
-    pub(super) const fn pane(self) -> Option<PaneKind> {
-        Some(match self {
-            Self::Chromaticity => PaneKind::CHROMATICITY,
-            Self::Strip | Self::WorkSaved => return None,
-            Self::Spectra => PaneKind::SPECTRA,
-            Self::Swatches => PaneKind::SWATCHES,
-            Self::Light => PaneKind::LIGHT,
-            Self::Render | Self::Difference => PaneKind::RENDER,
-            Self::Metrics => PaneKind::METRICS,
-            Self::HeadToHead => PaneKind::HEAD_TO_HEAD,
-            Self::ReportCard => PaneKind::REPORT_CARD,
-            Self::Correction => PaneKind::CORRECTION,
-            Self::Curves => PaneKind::CURVES,
-            Self::Recorded => PaneKind::RECORDED,
-            Self::Methods => PaneKind::METHODS,
-        })
-    }
+fn kind() -> impl TypedValueParser<Value = Kind> {
+    let words = FIGURES.iter().map(|kind| PossibleValue::new(kind.key).help(kind.help));
+    PossibleValuesParser::new(words.chain([PossibleValue::new(WORK_SAVED).hide(true)]))
+        .map(|key| Kind(FIGURES.iter().copied().find(|kind| kind.key == key)))
 }
 
 const PAPER: &str = "Paper";

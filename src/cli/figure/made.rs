@@ -1,15 +1,15 @@
-//! What the window makes in the background for its figures: pictures, corrections, rankings, measurements.
+//! The answers that figures need as values: pictures, corrections, rankings, measurements.
 
 use std::ffi::OsStr;
 use std::path::Path;
 use std::sync::Arc;
 use std::time::Instant;
 
+use chromascope_core::camera::recorded::Freedom;
 use chromascope_core::query::{Ask as _, RecordedSet, Shared};
 use chromascope_figure::FigureRoom;
 use spectral_file::SpectralFile;
 
-use super::arguments::FigureKind;
 use crate::catalog::import::{Origin, imported};
 use crate::catalog::spectral_images;
 use crate::cli::error::CliError;
@@ -22,82 +22,66 @@ use crate::document::imported::ImportOverrides;
 use crate::document::render::{MeshChoice, RenderSettings};
 use crate::export::Paper;
 use crate::export::profile::{CorrectionFileQuery, CorrectionRequest};
+use crate::figures::curves::{ImportItem, ImportSelection};
+use crate::figures::kind::{FigureKind, Need};
+use crate::figures::look::{FigureLook, RenderMode};
 use crate::figures::render::picture_width;
 use crate::figures::report_card;
 use crate::jobs::Job as _;
-use crate::profiler::{Measured, SceneRunJob};
+use crate::profiler::SceneRunJob;
 use crate::render_service::RenderedFrame;
 use crate::render_service::made::{PicturesAnswer, PicturesOf};
 use crate::scene::Scene;
 use crate::scene::orbit::Orbit;
-use crate::view::View;
-use crate::view::import::ImportItem;
-use crate::view::render::RenderMode;
 
 /// Longest side of a picture in pixels.
 const MOST_PIXELS: f64 = 2048.0;
 
-/// Background results of a figure.
-pub(super) struct Made {
-    pub(super) pictures: Option<RenderedFrame>,
-    /// Measurements of the scene.
-    pub(super) measured: Measured,
-}
-
-impl Made {
-    /// Makes what a figure of a kind needs; settings of panes go to the view.
-    pub(super) fn new(
-        (kind, wanted): (FigureKind, ViewpointArguments),
-        scene: &Scene<'_>,
-        view: &mut View,
-        (paper, recorded): (&Paper, Option<RecordedSet>),
-    ) -> Result<Self, CliError> {
-        let is_picture = matches!(kind, FigureKind::Render | FigureKind::Difference);
-        let is_of_mesh = is_picture && !matches!(scene.document.render.mesh, MeshChoice::Image(_));
-        if !is_of_mesh && (wanted.orbit.is_some() || wanted.fov.is_some()) {
-            let reason = "only pictures of a mesh have a viewpoint".to_owned();
-            let argument = if wanted.orbit.is_some() { "--orbit" } else { "--fov" };
-            return Err(CliError::Argument { argument, reason });
-        }
-        let mut made = Self { pictures: None, measured: Measured::NOTHING };
-        match kind {
-            FigureKind::Render | FigureKind::Difference => {
-                if kind == FigureKind::Difference {
-                    view.saved.render.mode = RenderMode::Difference;
-                }
-                made.pictures = Some(patiently("rendering", || pictures(scene, view, paper, wanted))?);
-            }
-            FigureKind::Correction => {
-                if let Some(camera) = report_card::camera(scene, view) {
-                    let request = CorrectionRequest { camera: &camera.name, ..CorrectionRequest::default() };
-                    let query = CorrectionFileQuery::new(scene, request)?;
-                    view.correction.shown = Some((*scene.results.ask(&query)).clone()?);
-                }
-            }
-            FigureKind::Recorded => {
-                let Some(set) = recorded else { return Err(missing("name the file with the raw values")) };
-                let ranking = scene.recorded_ranking(&set, view.recorded.freedom, &[])?;
-                let ranked = patiently("fitting", || (*scene.results.ask(&ranking)).clone())?;
-                view.recorded.ranked = Some((set, ranked));
-            }
-            FigureKind::Curves => {
-                let Some(set) = scene.document.own.last() else { return Err(missing("name the file")) };
-                view.import.selected = Some(ImportItem::Set(set.name.clone()));
-            }
-            FigureKind::WorkSaved => {
-                let reason = "skipped work is a table: `chromascope render --stats -`, or Statistics in Numerics";
-                return Err(CliError::Argument { argument: "KIND", reason: reason.to_owned() });
-            }
-            FigureKind::Methods => {
-                let own = own_mesh(scene.document)?;
-                let job = SceneRunJob::of(scene, own.as_ref(), None);
-                made.measured.run = Some(patiently("measuring", || job.run(scene.results)));
-                made.measured.is_current = true;
-            }
-            _ => {}
-        }
-        Ok(made)
+/// What a figure takes without a window: the answer that its kind needs.
+pub(super) fn look(
+    (kind, wanted): (&FigureKind, ViewpointArguments),
+    scene: &Scene<'_>,
+    (paper, recorded): (&Paper, Option<RecordedSet>),
+) -> Result<FigureLook, CliError> {
+    let is_picture = matches!(kind.needs, Need::Pictures(_));
+    let is_of_mesh = is_picture && !matches!(scene.document.render.mesh, MeshChoice::Image(_));
+    if !is_of_mesh && (wanted.orbit.is_some() || wanted.fov.is_some()) {
+        let reason = "only pictures of a mesh have a viewpoint".to_owned();
+        let argument = if wanted.orbit.is_some() { "--orbit" } else { "--fov" };
+        return Err(CliError::Argument { argument, reason });
     }
+    let mut look = FigureLook::default();
+    match kind.needs {
+        Need::Nothing => {}
+        Need::Pictures(mode) => {
+            let made = patiently("rendering", || pictures(scene, mode, paper, wanted))?;
+            (look.mode, look.pictures) = (mode, Some(Arc::new(made)));
+        }
+        Need::Correction => {
+            if let Some(camera) = report_card::camera(scene, &look) {
+                let request = CorrectionRequest { camera: &camera.name, ..CorrectionRequest::default() };
+                let query = CorrectionFileQuery::new(scene, request)?;
+                look.correction = Some((*scene.results.ask(&query)).clone()?);
+            }
+        }
+        Need::Recorded => {
+            let set = recorded.ok_or_else(|| missing("name the file with the raw values"))?;
+            let ranking = scene.recorded_ranking(&set, Freedom::default(), &[])?;
+            let ranked = patiently("fitting", || (*scene.results.ask(&ranking)).clone())?;
+            look.recorded = Some((set, ranked));
+        }
+        Need::Curves => {
+            let set = scene.document.own.last().ok_or_else(|| missing("name the file"))?;
+            look.curves = ImportSelection::of(scene, ImportItem::Set(set.name.clone()), None, None);
+        }
+        Need::Measured => {
+            let own = own_mesh(scene.document)?;
+            let job = SceneRunJob::of(scene, own.as_ref(), None);
+            look.measured.run = Some(patiently("measuring", || job.run(scene.results)));
+            look.measured.is_current = true;
+        }
+    }
+    Ok(look)
 }
 
 fn missing(reason: &str) -> CliError {
@@ -115,13 +99,13 @@ fn own_mesh(document: &Document) -> Result<Option<Shared<chromascope_mesh::Mesh>
 /// Pictures with as many pixels as the paper has where they stand.
 fn pictures(
     scene: &Scene<'_>,
-    view: &View,
+    mode: RenderMode,
     paper: &Paper,
     wanted: ViewpointArguments,
 ) -> Result<RenderedFrame, CliError> {
     let start = Instant::now();
     let sources = scene.rendered_sources();
-    let count = sources.len() - usize::from(view.saved.render.mode == RenderMode::Difference && sources.len() > 1);
+    let count = sources.len() - usize::from(mode == RenderMode::Difference && sources.len() > 1);
     let width = paper.width_mm.map(|mm| mm / 25.4 * 72.0 / paper.scale());
     let points = picture_width(FigureRoom { width, ..FigureRoom::default() }, count) * paper.scale();
     let side = (points / 72.0 * paper.dpi).round().clamp(16.0, MOST_PIXELS) as u32;

@@ -6,9 +6,9 @@ use std::path::{Path, PathBuf};
 
 use super::arguments::InspectArguments;
 use super::is_standard_input;
+use crate::atomic::fitting;
 use crate::cli::error::CliError;
 use crate::cli::outputs::{self, is_standard_output};
-use crate::files::fitting;
 
 /// Destination of the files' tables.
 pub(super) enum Out {

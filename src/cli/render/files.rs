@@ -8,8 +8,8 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use super::arguments::RenderArguments;
+use crate::atomic::fitting;
 use crate::cli::error::CliError;
-use crate::files::fitting;
 use crate::format::slug;
 use crate::scene::ComparedSensor;
 use crate::terminal::say;

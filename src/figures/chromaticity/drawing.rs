@@ -8,14 +8,14 @@ use chromascope_figure::Mark;
 use super::frame::{self, Frame};
 use super::labels::Label;
 use crate::document::Diagram;
+use crate::figures::look::FigureLook;
 use crate::plot_item::{PickIndex, SensorId};
 use crate::scene::{ComparedSensor, Scene};
-use crate::view::View;
 
 /// The diagram while it is drawn.
 pub(super) struct Drawing<'a> {
     pub(super) scene: &'a Scene<'a>,
-    pub(super) view: &'a View,
+    pub(super) look: &'a FigureLook,
     pub(super) diagram: Diagram,
     /// Position of the marks in the plot.
     pub(super) frame: Frame,
@@ -38,10 +38,10 @@ pub(super) struct Drawing<'a> {
 }
 
 impl<'a> Drawing<'a> {
-    pub(super) fn new(scene: &'a Scene<'a>, view: &'a View, frame: Frame, sketch: bool) -> Self {
+    pub(super) fn new(scene: &'a Scene<'a>, look: &'a FigureLook, frame: Frame, sketch: bool) -> Self {
         Self {
             scene,
-            view,
+            look,
             diagram: scene.document.diagram,
             frame,
             sketch,

@@ -2,9 +2,9 @@
 
 use super::drawing::id;
 use super::frame::{LEAST, place};
+use super::shown::{DiagramFit, Fit, FitKey};
 use crate::document::{Diagram, SetKind};
 use crate::scene::{ComparedSensor, Scene};
-use crate::view::diagram::{DiagramFit, Fit, FitKey};
 
 /// Coordinates that the data's fit takes in; real colors lie between 0 and 0.85.
 const NEAR: std::ops::RangeInclusive<f64> = LEAST..=1.1;

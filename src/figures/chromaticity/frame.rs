@@ -3,8 +3,8 @@
 use chromascope_core::colorimetry::{UvPrime, Xy};
 use chromascope_figure::{Projection, fit_equal};
 
+use super::shown::Ranges;
 use crate::document::Diagram;
-use crate::view::diagram::Ranges;
 
 /// Least coordinate that is shown: no color has less than 0.
 pub(super) const LEAST: f64 = -0.02;

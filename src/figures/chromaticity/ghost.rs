@@ -25,7 +25,7 @@ pub(super) fn add(drawing: &mut Drawing<'_>) {
 
 /// The sensor under the pointer, else the selected one, if it is not compared.
 fn looked_at(drawing: &Drawing<'_>) -> Option<SensorId> {
-    let items = [&drawing.view.hovered, &drawing.view.selected].into_iter().flatten();
+    let items = [&drawing.look.hovered, &drawing.look.selected].into_iter().flatten();
     let mut sensors = items.filter_map(|item| if let PlotItem::Sensor(id) = item { Some(id) } else { None });
     let document = drawing.scene.document;
     sensors.find(|id| document.compared(id.kind, &id.name).is_none()).cloned()

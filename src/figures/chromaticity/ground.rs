@@ -122,7 +122,7 @@ fn paint(diagram: Diagram, outline: &[SpectralPoint]) -> Image {
                 Diagram::UvPrime => UvPrime { u, v }.xy(),
             };
             let [r, g, b] = xy.filter(|_| covered > 0.0).map_or([0; 3], area_color);
-            rgba.extend([r, g, b, (255.0 * crate::theme::DIAGRAM_FILL * covered).round() as u8]);
+            rgba.extend([r, g, b, (255.0 * crate::palette::DIAGRAM_FILL * covered).round() as u8]);
         }
     }
     Image { width: PIXELS, height: PIXELS, rgba: Arc::from(rgba) }

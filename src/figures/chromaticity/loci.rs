@@ -26,7 +26,7 @@ const FAR: f64 = 3.0;
 pub(super) fn add(drawing: &mut Drawing<'_>, sources: &[ComparedSensor]) {
     for source in sources.iter().rev() {
         // While B is held, the reference replaces every camera.
-        if drawing.view.blink && !source.is_reference {
+        if drawing.look.blink && !source.is_reference {
             continue;
         }
         match drawing.scene.locus(source.kind, &source.name) {
@@ -48,7 +48,7 @@ fn add_one(drawing: &mut Drawing<'_>, source: &ComparedSensor, locus: &[LocusPoi
         drawing.refused.push(format!("{}: chromaticity undefined (X + Y + Z = 0)", source.label));
     }
     let below = drawing.scene.extrapolated_below(source.kind, &source.name).map(|(below, _)| below);
-    let drawn = drawing.view.locus_share.map_or(points.len(), |share| (share * points.len() as f64) as usize);
+    let drawn = drawing.look.locus_share.map_or(points.len(), |share| (share * points.len() as f64) as usize);
     let points: Vec<[f64; 2]> =
         points.into_iter().enumerate().map(|(index, point)| if index < drawn { point } else { GAP }).collect();
     let [measured, beyond] = split(&points, |index| locus[index].temperature.get(), below);
@@ -62,7 +62,7 @@ fn add_one(drawing: &mut Drawing<'_>, source: &ComparedSensor, locus: &[LocusPoi
         drawing.loci.insert(drawing.marks.len());
         drawing.marks.push(line(beyond).with_dash(Dash::Dotted));
     }
-    if drawing.sketch || drawing.view.locus_share.is_some() {
+    if drawing.sketch || drawing.look.locus_share.is_some() {
         return;
     }
     let marker = if source.is_reference {

@@ -3,19 +3,19 @@
 use chromascope_figure::{InkRole, Mark, Marker, Shape};
 
 use super::drawing::{Drawing, id};
+use crate::figures::look::PixelPlace;
 use crate::figures::render::pixel_of;
 use crate::plot_item::PlotItem;
 use crate::render_service::RenderedFrame;
 use crate::render_service::pixel::PixelShows;
 use crate::scene::ComparedSensor;
-use crate::view::render::PixelPlace;
 
 /// The radius of its mark.
 const RADIUS: f64 = 4.5;
 
 /// Adds a diamond for each sensor that has a picture, in whatever workspace that is.
 pub(super) fn add(drawing: &mut Drawing<'_>, pictures: &RenderedFrame, sources: &[ComparedSensor]) {
-    let Some(pinned) = drawing.view.render.pinned.clone() else { return };
+    let Some(pinned) = drawing.look.pinned_pixel.clone() else { return };
     for source in sources.iter().rev() {
         let place = PixelPlace { source: id(source), ..pinned.clone() };
         let Some(PixelShows::Lit(lit)) = pixel_of(drawing.scene, pictures, &place).map(|reading| reading.shows) else {

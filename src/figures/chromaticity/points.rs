@@ -10,9 +10,9 @@ use super::edges;
 use super::labels::{Label, Place, Rank};
 use crate::document::{Diagram, SetKind};
 use crate::format::number;
+use crate::palette::LINE_TAIL;
 use crate::plot_item::{PlotItem, SensorId};
 use crate::scene::{ComparedSensor, Scene};
-use crate::theme::LINE_TAIL;
 
 /// Up to this many patches points are markers with names, of more they are dots.
 const FEW: usize = 12;
@@ -45,7 +45,7 @@ pub(super) fn add(drawing: &mut Drawing<'_>, sources: &[ComparedSensor]) {
     for source in sources.iter().rev() {
         let step = if source.is_reference { 0.0 } else { below / cameras.saturating_sub(1).max(1) as f64 };
         below += 1.0;
-        if drawing.view.blink && !source.is_reference {
+        if drawing.look.blink && !source.is_reference {
             continue;
         }
         let Ok(colors) = drawing.scene.patch_colors(source.kind, &source.name) else { continue };
@@ -109,13 +109,13 @@ fn add_names(drawing: &mut Drawing<'_>, names: &[&str], reference: &[PatchColor]
     let count = known.len().max(1) as f64;
     let center = known.iter().fold([0.0, 0.0], |sum, p| [sum[0] + p[0] / count, sum[1] + p[1] / count]);
     let pointed = |name: &str| {
-        [&drawing.view.hovered, &drawing.view.selected].into_iter().flatten().any(|thing| thing.patch() == Some(name))
+        [&drawing.look.hovered, &drawing.look.selected].into_iter().flatten().any(|thing| thing.patch() == Some(name))
     };
     let mut labels = Vec::new();
     for (name, at) in names.iter().zip(places) {
         let rank = if pointed(name) { Rank::Pointed } else { Rank::Patch };
         let Some(at) = at.filter(|_| few || rank == Rank::Pointed) else { continue };
-        let is_fitted = drawing.view.diagram.zoomed.is_none();
+        let is_fitted = drawing.look.diagram.zoomed.is_none();
         let at = if is_fitted { edges::held_inside(at, &drawing.frame) } else { at };
         // Away from the middle, where the others are.
         let up = if at[1] >= center[1] { -1.0 } else { 1.0 };

@@ -3,14 +3,22 @@
 use std::sync::Arc;
 
 use chromascope_core::query::Shared;
+use serde::{Deserialize, Serialize};
 use spectral_file::{ReadError, SpectralFile};
 
 use crate::catalog::import::taken;
 use crate::catalog::opened::{FilePreview, OpenFile, Opened};
-use crate::document::imported::{ImportOverrides, ImportedSet};
+use crate::document::imported::{Fingerprint, ImportOverrides, ImportedSet};
 use crate::scene::Scene;
-use crate::view::View;
-use crate::view::import::ImportItem;
+
+/// Something in the list of files.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+pub enum ImportItem {
+    /// A set of the document, by name.
+    Set(String),
+    /// A file that no set is made of.
+    File(Fingerprint),
+}
 
 /// Contents of the Import pane.
 #[derive(Clone, Debug)]
@@ -30,32 +38,36 @@ pub struct ImportSelection {
 }
 
 impl ImportSelection {
-    /// The selected item; requests its preview if that is not available yet.
-    pub fn refresh(scene: &Scene<'_>, view: &View, opened: &Opened) -> Option<Self> {
-        let mut shown = Self::of(scene, view, opened.preview())?;
-        let fingerprint = match &shown.item {
+    /// With the file's contents; requests their preview if that is not available yet.
+    #[must_use]
+    pub fn refreshed(mut self, opened: &Opened) -> Option<Self> {
+        let fingerprint = match &self.item {
             ImportItem::File(fingerprint) => Some(*fingerprint),
-            ImportItem::Set(_) => shown.set.as_ref().and_then(|set| set.fingerprint),
+            ImportItem::Set(_) => self.set.as_ref().and_then(|set| set.fingerprint),
         };
-        shown.file = fingerprint.and_then(|fingerprint| opened.file(fingerprint));
-        match (&shown.file, &shown.set) {
+        self.file = fingerprint.and_then(|fingerprint| opened.file(fingerprint));
+        match (&self.file, &self.set) {
             (Some(file), _) => {
-                if let Some(look) = opened.look(file, &shown.wishes.options) {
-                    shown.look = Some(look);
+                if let Some(look) = opened.look(file, &self.wishes.options) {
+                    self.look = Some(look);
                 }
             }
             (None, Some(set)) => {
-                shown.look = None;
+                self.look = None;
                 opened.fetch(set);
             }
             (None, None) => return None,
         }
-        Some(shown)
+        Some(self)
     }
 
-    /// Contents of the Import pane, as far as they are known; `last` is the last preview of a file.
-    pub fn of(scene: &Scene<'_>, view: &View, last: Option<Arc<FilePreview>>) -> Option<Self> {
-        let item = view.import.selected.clone()?;
+    /// An item with the settings tried on it, as far as it is known; `last` is the last preview of a file.
+    pub fn of(
+        scene: &Scene<'_>,
+        item: ImportItem,
+        tried: Option<ImportOverrides>,
+        last: Option<Arc<FilePreview>>,
+    ) -> Option<Self> {
         let (set, fingerprint) = match &item {
             ImportItem::Set(name) => {
                 let set = scene.document.own.iter().find(|set| set.name == *name)?;
@@ -63,7 +75,6 @@ impl ImportSelection {
             }
             ImportItem::File(fingerprint) => (None, Some(*fingerprint)),
         };
-        let tried = view.import.pending(&item).cloned();
         let pending = tried.is_some();
         let wishes = tried.or_else(|| set.as_ref().map(|set| set.wishes.clone())).unwrap_or_default();
         let look = last.filter(|look| Some(look.fingerprint) == fingerprint);

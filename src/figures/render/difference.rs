@@ -4,9 +4,9 @@ use chromascope_core::colorimetry::Metric;
 use chromascope_figure::{Anchor, Image, Ink, Mark, Shape, TextSize};
 
 use crate::format::number;
+use crate::palette::difference_ramp;
 use crate::plot_item::PickIndex;
 use crate::render_service::RenderedFrame;
-use crate::theme::difference_ramp;
 
 /// Scale of the maps: from 0 to a round end, with ticks at round values.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -6,9 +6,9 @@ use chromascope_figure::{Anchor, Ink, InkRole, Mark, Shape, Tag, TextSize, text_
 use super::{Row, short};
 use crate::document::SetKind;
 use crate::figures::chromaticity::id;
+use crate::figures::look::{FigureLook, SwatchStyle};
 use crate::plot_item::{PickIndex, PlotItem};
 use crate::scene::{ComparedSensor, Scene};
-use crate::view::{SwatchStyle, View};
 
 const GAP: f64 = 4.0;
 const MARGIN: f64 = 6.0;
@@ -30,7 +30,7 @@ const LEAST_COLUMN: f64 = 68.0;
 /// Layout of the swatches.
 pub(super) struct Board<'a> {
     scene: &'a Scene<'a>,
-    view: &'a View,
+    look: &'a FigureLook,
     pub(super) names: Vec<String>,
     reference: Vec<PatchColor>,
     pub(super) marks: Vec<Mark>,
@@ -61,14 +61,14 @@ impl Note {
 }
 
 impl<'a> Board<'a> {
-    pub(super) fn new(scene: &'a Scene<'a>, view: &'a View, names: Vec<String>) -> Self {
+    pub(super) fn new(scene: &'a Scene<'a>, look: &'a FigureLook, names: Vec<String>) -> Self {
         let reference = scene.patch_colors(SetKind::Observer, &scene.document.reference).unwrap_or_default();
-        Self { scene, view, names, reference, marks: Vec::new(), things: PickIndex::default() }
+        Self { scene, look, names, reference, marks: Vec::new(), things: PickIndex::default() }
     }
 
     /// What fits below a swatch of a width.
     fn note(&self, rows: &[Row], width: f64) -> Note {
-        if !self.view.saved.difference_bars {
+        if self.look.without_bars {
             return Note::None;
         }
         let widest = self.widest_number(rows);
@@ -147,10 +147,10 @@ impl<'a> Board<'a> {
     pub(super) fn charts(&mut self, rows: &[Row], size: [f64; 2]) -> f64 {
         let columns = chart_columns(self.names.len());
         let lines = self.names.len().div_ceil(columns).max(1);
-        let least = match (self.view.saved.difference_bars, columns * lines) {
+        let least = match (self.look.without_bars, columns * lines) {
             (_, count) if count > 60 => [8.0; 2],
-            (true, _) => [self.widest_number(rows).max(12.0), Note::Above.height() + LEAST_COLOR],
-            (false, _) => [12.0; 2],
+            (false, _) => [self.widest_number(rows).max(12.0), Note::Above.height() + LEAST_COLOR],
+            (true, _) => [12.0; 2],
         };
         let (across, cell) = chart_cell(rows.len(), columns, lines, size, least);
         let note = match self.note(rows, cell[0]) {
@@ -210,12 +210,12 @@ impl<'a> Board<'a> {
         let tag = self.things.tag(PlotItem::Patch { source: Some(id(source)), patch: name.clone() });
         let bottom = if y1 - y0 > 3.0 * BAR { y1 - note.height() } else { y1 };
         let reference = self.reference.get(index).copied();
-        let shown = if self.view.blink { reference.unwrap_or(*color) } else { *color };
+        let shown = if self.look.blink { reference.unwrap_or(*color) } else { *color };
         let title = format!("{} {name}", source.label);
         self.area(&title, [[x0, y0], [x1, bottom]], &shown);
-        if let Some(reference) = reference.filter(|_| !source.is_reference && !self.view.blink) {
+        if let Some(reference) = reference.filter(|_| !source.is_reference && !self.look.blink) {
             let (w, h) = (x1 - x0, bottom - y0);
-            match self.view.saved.swatch_style {
+            match self.look.swatch_style {
                 SwatchStyle::Split => self.area("reference", [[x0, y0], [x0 + w / 2.0, bottom]], &reference),
                 SwatchStyle::Inset => {
                     let inner = [[x0 + w * 0.3, y0 + h * 0.25], [x1 - w * 0.3, bottom - h * 0.25]];

@@ -9,7 +9,7 @@ use crate::export::page::{PageFacts, PageJob};
 use crate::paint;
 use crate::panes::context::PaneContext;
 use crate::panes::widgets;
-use crate::theme::UNIT;
+use crate::theme::{self, UNIT};
 use crate::view::page::PageZoom;
 use crate::workspaces::PaneKind;
 
@@ -27,12 +27,12 @@ pub(super) fn show(
 ) {
     let ground = rect.with_min_y(rect.top() + widgets::HEADER);
     let head = rect.with_max_y(ground.top());
-    ui.painter().rect_filled(ground, 0.0, context.theme.surround.color());
+    ui.painter().rect_filled(ground, 0.0, context.theme.surround);
     let Some(figure) = figure else {
         self::head(ui, head, kind, None, context);
         let words = format!("{} has no figure now.", context.title(kind));
         let font = egui::TextStyle::Body.resolve(ui.style());
-        let color = context.theme.surround.label();
+        let color = context.theme.on_surround;
         ui.painter().text(ground.center(), egui::Align2::CENTER_CENTER, words, font, color);
         return;
     };
@@ -65,10 +65,10 @@ pub(super) fn show(
         match shown.as_ref().map(|shown| shown.answer.as_ref()) {
             Some(Ok(image)) => paint::picture(ui.painter(), page, image),
             Some(Err(error)) => {
-                ui.put(page, egui::Label::new(RichText::new(error.to_string()).color(context.theme.surround.label())));
+                ui.put(page, egui::Label::new(RichText::new(error.to_string()).color(context.theme.on_surround)));
             }
             None => {
-                ui.painter().rect_filled(page, 0.0, paper.theme().plot);
+                ui.painter().rect_filled(page, 0.0, theme::rgb(paper.colors().plot));
             }
         }
     });

@@ -40,7 +40,7 @@ fn head(ui: &mut Ui, context: &PaneContext<'_>) {
     let (rect, response) = ui.allocate_exact_size(PICTURE, Sense::hover());
     let name = format!("A head: left through the reference, right through the {}", portrait::CAMERA);
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, &name));
-    ui.painter().rect_filled(rect, 3.0, context.theme.surround.color());
+    ui.painter().rect_filled(rect, 3.0, context.theme.surround);
     if let Some(query) = portrait::query(context.scene.catalog, context.scene.results) {
         context.portrait.ask(vec![query]);
     }

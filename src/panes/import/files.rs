@@ -6,7 +6,6 @@ use egui::{TextStyle, Ui, UiBuilder, Vec2};
 use super::entries::{Entry, State};
 use crate::action::{Action, ImportedAction};
 use crate::command::Command;
-use crate::figures::curves::ImportSelection;
 use crate::panes::context::PaneContext;
 use crate::panes::widgets::{focus_rim, lines};
 use crate::theme::{ROW, Theme, UNIT};
@@ -142,7 +141,7 @@ fn select(ui: &Ui, entries: &[Entry], index: usize, context: &mut PaneContext<'_
 
 /// Makes a set of the selected file, if it is none and can be read with the settings.
 fn take(context: &mut PaneContext<'_>) {
-    let Some(shown) = ImportSelection::of(&context.scene, context.view, context.opened.preview()) else { return };
+    let Some(shown) = context.view.import.selection(&context.scene, context.opened) else { return };
     match shown.item {
         ImportItem::File(file) if shown.is_fresh() && !shown.taken().is_empty() => {
             context.push(Command::UseFile(file, Box::new(shown.wishes)));

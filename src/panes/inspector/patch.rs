@@ -45,7 +45,7 @@ fn pair(ui: &mut Ui, theme: &Theme, left: &PatchColor, right: Option<&PatchColor
     response.widget_info(|| {
         egui::WidgetInfo::labeled(egui::Role::Image, true, "Swatches: left the reference, right the sensor")
     });
-    ui.painter().rect_filled(rect, 0.0, theme.surround.color());
+    ui.painter().rect_filled(rect, 0.0, theme.surround);
     let inner = rect.shrink(if height > 30.0 { 1.5 * UNIT } else { 3.0 });
     let middle = inner.center().x;
     let halves = [
@@ -57,7 +57,7 @@ fn pair(ui: &mut Ui, theme: &Theme, left: &PatchColor, right: Option<&PatchColor
         if color.srgb.clipped {
             let corner = half.right_top();
             let notch = vec![corner, corner - Vec2::new(7.0, 0.0), corner + Vec2::new(0.0, 7.0)];
-            ui.painter().add(egui::Shape::convex_polygon(notch, theme.surround.color(), egui::Stroke::NONE));
+            ui.painter().add(egui::Shape::convex_polygon(notch, theme.surround, egui::Stroke::NONE));
         }
     }
 }

@@ -122,14 +122,14 @@ fn entry(ui: &mut Ui, words: &str, draw: impl FnOnce(&Ui, Rect)) {
 fn swatch(ui: &Ui, rect: Rect, theme: &Theme) {
     let frame = Rect::from_center_size(rect.center(), Vec2::new(22.0, 16.0));
     let painter = ui.painter();
-    painter.rect_filled(frame, 0.0, theme.surround.color());
+    painter.rect_filled(frame, 0.0, theme.surround);
     let [left, right] = [[226, 190, 76], [214, 199, 164]].map(|rgb| theme.role(InkRole::Rgb(rgb)));
     let half = Vec2::new(9.0, 10.0);
     let min = frame.min + Vec2::new(2.0, 2.0);
     painter.rect_filled(Rect::from_min_size(min, half), 0.0, left);
     painter.rect_filled(Rect::from_min_size(min + Vec2::new(9.0, 0.0), half), 0.0, right);
     let bar = Rect::from_min_size(min + Vec2::new(0.0, 11.0), Vec2::new(11.0, 2.0));
-    painter.rect_filled(bar, 0.0, theme.surround.label());
+    painter.rect_filled(bar, 0.0, theme.on_surround);
 }
 
 /// Caveat about settings that make the picture misleading.

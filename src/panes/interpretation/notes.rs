@@ -20,7 +20,7 @@ fn led_to() -> Id {
 
 /// Number of notes with a link to them, in the pane's header, which does not scroll.
 pub(super) fn button(ui: &mut Ui, context: &mut PaneContext<'_>) {
-    let Some(shown) = ImportSelection::of(&context.scene, context.view, context.opened.preview()) else { return };
+    let Some(shown) = context.view.import.selection(&context.scene, context.opened) else { return };
     let Some(count) = shown.table().map(|table| table.warnings.len()).filter(|count| *count > 0) else { return };
     ui.add_space(UNIT);
     let words = RichText::new(counted(count)).color(context.theme.warning);

@@ -9,7 +9,7 @@ use std::time::{Duration, SystemTime};
 use tempfile::NamedTempFile;
 
 /// The beginning of names of files that are being written.
-pub(super) const TEMPORARY: &str = ".chromascope-";
+pub const TEMPORARY: &str = ".chromascope-";
 /// Number of random letters and digits that follow it.
 const RANDOM: usize = 6;
 
@@ -87,7 +87,7 @@ fn again(error: tempfile::PersistError, folder: &Path, target: &Path) -> io::Res
 }
 
 /// Removes temporary files of killed processes from a folder of the program. Files being written are locked, or about to be.
-pub(super) fn sweep(folder: &Path) {
+pub fn sweep(folder: &Path) {
     let entries = fs::read_dir(folder).into_iter().flatten().flatten();
     for entry in entries.filter(|entry| is_temporary(&entry.file_name())) {
         let path = entry.path();
@@ -104,7 +104,7 @@ pub(super) fn sweep(folder: &Path) {
 }
 
 /// True if a file was last written longer ago than this.
-pub(super) fn is_older(path: &Path, age: Duration, now: SystemTime) -> bool {
+pub fn is_older(path: &Path, age: Duration, now: SystemTime) -> bool {
     let modified = fs::symlink_metadata(path).and_then(|facts| facts.modified()).ok();
     modified.and_then(|modified| now.duration_since(modified).ok()).is_some_and(|past| past > age)
 }
@@ -113,4 +113,11 @@ pub(super) fn is_older(path: &Path, age: Duration, now: SystemTime) -> bool {
 fn is_temporary(name: &OsStr) -> bool {
     let random = name.to_str().and_then(|name| name.strip_prefix(TEMPORARY));
     random.is_some_and(|random| random.len() == RANDOM && random.bytes().all(|byte| byte.is_ascii_alphanumeric()))
+}
+
+/// A file's name of a stem and an ending, the stem cut where both together are longer than file systems take: 255 bytes.
+pub fn fitting(stem: &str, ending: &str) -> String {
+    const LONGEST: usize = 255;
+    let room = LONGEST.saturating_sub(ending.len());
+    format!("{}{ending}", &stem[..stem.floor_char_boundary(room)])
 }

@@ -45,7 +45,7 @@ pub struct Fit {
 }
 
 /// The part of the diagram that is shown.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub struct DiagramView {
     held: Option<Held>,
     /// Ranges that the user zoomed or panned to, if any.
