@@ -9,7 +9,6 @@
 //! plot_item  paint  workspaces items of marks; figures on screen; arrangement of panes
 //! render_service  bench  profiler   pictures of meshes; run time against error
 //! view ─► command              the view state; requests of keys, menus and panes
-//! ranking                      figures of merit of many cameras
 //! figures ─► report            answers become figures; the paper's figures and claims
 //! panes  cli                   show them, and request changes
 //! app                          the window
@@ -40,7 +39,6 @@ pub mod paint;
 pub mod panes;
 pub mod plot_item;
 pub mod profiler;
-pub mod ranking;
 pub mod render_service;
 pub mod report;
 pub mod results;

@@ -10,8 +10,8 @@ use super::chromaticity::conditions;
 use super::metrics::{difference, head_to_head, nature_cells, uncertainties, value};
 use crate::document::SetKind;
 use crate::plot_item::{PlotItem, SensorId};
-use crate::ranking::{Ranked, ranked};
 use crate::scene::Scene;
+use crate::scene::metrics::Ranked;
 use crate::scene::uncertainty::{UNCERTAINTY_HEADS, number, uncertainty};
 use crate::view::View;
 
@@ -43,7 +43,7 @@ pub fn pair(ranked: &Ranked, scene: &Scene<'_>, view: &View) -> [Option<usize>; 
 /// The table of two cameras; none where there are fewer than two.
 pub fn figure(input: &FigureInput<'_>) -> Option<Figure> {
     let (scene, view) = (input.scene, input.view);
-    let ranked = ranked(scene, view.saved.metrics.cameras);
+    let ranked = scene.ranked(view.saved.metrics.cameras);
     let [Some(a), Some(b)] = pair(&ranked, scene, view) else { return None };
     let table = head_to_head(&ranked, [a, b]);
     let rows = rows(&ranked, [a, b], &table);

@@ -8,9 +8,8 @@ use chromascope_figure::{
 
 use super::FigureInput;
 use super::chromaticity::conditions;
-use crate::ranking::{Ranked, ranked};
 use crate::scene::Scene;
-use crate::scene::metrics::CameraFigures;
+use crate::scene::metrics::{CameraFigures, Ranked};
 use crate::scene::uncertainty::{UNCERTAINTY_HEADS, nature, number, uncertainty};
 use crate::view::table::Sorting;
 
@@ -150,7 +149,7 @@ const ROW: f64 = 16.0;
 /// Cameras in order of the metric by which the table is sorted, with uncertainties, and the table of all numbers.
 pub fn figure(input: &FigureInput<'_>) -> Option<Figure> {
     let (scene, view) = (input.scene, input.view);
-    let ranked = ranked(scene, view.saved.metrics.cameras);
+    let ranked = scene.ranked(view.saved.metrics.cameras);
     let sorting = view.saved.looks.get(TABLE).and_then(|look| look.sorting.as_ref());
     let metric = sorted_by(scene, sorting).or_else(|| first(scene))?;
     let mut rows: Vec<(usize, MetricValue, f64)> = (0..ranked.cameras.len())

@@ -215,8 +215,8 @@ fn tooltip(built: &Built, shown: &paint::PlotOutput, pointer: Pos2, lines: &[Str
 /// while it is being computed, and for colors without one.
 fn nearest_black_body(color: UvPrime, context: &PaneContext<'_>) -> Option<String> {
     let observer = context.scene.sensor(SetKind::Observer, FIT_TARGET).ok()?;
-    context.radiators.ask(vec![NearestBlackBodyQuery { observer, constants: RadiationConstants::Paper }]);
-    let shown = context.radiators.shown()?;
+    let query = NearestBlackBodyQuery { observer, constants: RadiationConstants::Paper };
+    let shown = context.later.ask(PANE.kind, vec![query]).shown?;
     let cct = (*shown.answer).as_ref().ok()?.cct(color.uv60());
     Some(match cct {
         Ok(cct) => {

@@ -8,7 +8,7 @@ use chromascope_core::query::correction::CorrectionUnder;
 use egui::{Id, Label, Rect, RichText, ScrollArea, Sense, Ui, Vec2};
 
 use super::context::{Pane, PaneContext};
-use crate::export::profile::{CorrectionFile, CorrectionFileError, aligned, check_lines};
+use crate::export::profile::{CorrectionFile, CorrectionFileError, CorrectionFileQuery, aligned, check_lines};
 use crate::figures::correction as figure;
 use crate::paint::{self, PlotOptions};
 use crate::panes::widgets;
@@ -48,13 +48,16 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     });
 }
 
-/// The correction of a camera, requested in the background; the last one while it is made.
+/// The correction of a camera; the last one while it is made.
 fn refreshed(camera: &str, context: &mut PaneContext<'_>) -> Result<Option<Arc<CorrectionFile>>, String> {
     let view = &mut context.view.correction;
-    let made = context.ranking.correction(&context.scene, view.request(&context.scene, camera));
+    let query = CorrectionFileQuery::new(&context.scene, view.request(&context.scene, camera));
+    let made = query.map_err(|error| error.to_string()).and_then(|query| {
+        let made = context.later.ask(PANE.kind, vec![query]).current()?;
+        made.map(|made| (*made).clone()).transpose().map_err(|error| error.to_string())
+    });
     match made {
-        Ok(Some(file)) => view.shown = Some(file),
-        Ok(None) => {}
+        Ok(made) => view.shown = made.or(view.shown.take()),
         Err(error) => {
             view.shown = None;
             return Err(error);

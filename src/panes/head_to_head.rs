@@ -10,9 +10,8 @@ use crate::panes::widgets;
 use crate::panes::widgets::pick_list::{self, Line};
 use crate::panes::widgets::table::{CellNote, Column, DataTable};
 use crate::plot_item::SensorId;
-use crate::ranking::Ranked;
+use crate::scene::metrics::{Ranked, RankedCameras, Ranking};
 use crate::theme::UNIT;
-use crate::view::metrics::RankedCameras;
 use crate::view::table::Sorting;
 use crate::workspaces::PaneKind;
 
@@ -37,7 +36,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let body = widgets::pane(ui, &PANE, rect, context, |_, _| {});
     let body = Rect::from_min_max(body.min + Vec2::new(2.0 * UNIT, 0.0), body.max - Vec2::new(2.0 * UNIT, UNIT));
     // All cameras, or those of the table: one request serves both panes.
-    let ranked = context.ranking.ask(&context.scene, context.view.saved.metrics.cameras);
+    let ranked = context.states.of::<Ranking>().ask(context.later, &context.scene, context.view.saved.metrics.cameras);
     let pair = figure::pair(&ranked, &context.scene, context.view);
     let mut child = ui.new_child(egui::UiBuilder::new().id_salt("pair").max_rect(body));
     child.set_clip_rect(body.intersect(ui.clip_rect()));

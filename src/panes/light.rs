@@ -48,7 +48,8 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let failed = |ui: &mut Ui, why: &str| {
         ui.colored_label(context.theme.warning, sentence(why));
     };
-    let shown = match context.ranking.light(&scene) {
+    let query = scene.light_sheet_query().map_err(|error| error.to_string());
+    let shown = match query.and_then(|query| context.later.ask(PANE.kind, vec![query]).last()) {
         Ok(Some(shown)) => shown,
         Ok(None) => {
             child.label(RichText::new("computing…").color(context.theme.weak));

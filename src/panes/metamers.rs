@@ -37,7 +37,8 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
         return;
     };
     let confusion = context.view.saved.metrics.confusion.confusion();
-    let found = match context.ranking.metamers(&context.scene, &camera, confusion) {
+    let query = context.scene.metamers_query(camera.kind, &camera.name, confusion).map_err(|error| error.to_string());
+    let found = match query.and_then(|query| context.later.ask(PANE.kind, vec![query]).current()) {
         Ok(found) => found,
         Err(why) => {
             child.label(RichText::new(why).color(context.theme.error));

@@ -12,7 +12,7 @@ use crate::figures::accuracy;
 use crate::paint::{self, PlotOptions};
 use crate::panes::widgets;
 use crate::panes::widgets::pick_list::{self, Line};
-use crate::profiler::Subject;
+use crate::profiler::{Profiler, SceneRunJob, Subject};
 use crate::profiler::bench::{BUILD, bench};
 use crate::theme::UNIT;
 use crate::view::accuracy::Shows;
@@ -41,10 +41,10 @@ pub const PANE: Pane = Pane {
 
 /// Shows the pane in its rectangle.
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
-    context.refresh_run();
+    refresh(context);
     let body = widgets::pane(ui, &PANE, rect, context, switches);
     let body = Rect::from_min_max(body.min + Vec2::new(2.0 * UNIT, 0.0), body.max - Vec2::new(2.0 * UNIT, UNIT));
-    if let Some(why) = context.profiler.failure() {
+    if let Some(why) = Profiler::failure(context.later) {
         failed(ui, body, &why, context);
         return;
     }
@@ -52,6 +52,13 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
         Shows::Scene(subject) => scene(ui, body, subject, context),
         Shows::Bench(workload) => benchmark(ui, body, workload, context),
     }
+}
+
+/// Applies the measurements finished since the last frame.
+fn refresh(context: &mut PaneContext<'_>) {
+    let own = context.meshes.chosen(&context.scene.document.render.mesh);
+    let scene = SceneRunJob::of(&context.scene, own.as_ref(), context.view.saved.render.orbit);
+    context.profiler.refresh(context.later, &scene);
 }
 
 /// The methods of the visible scene.
@@ -204,7 +211,7 @@ fn switches(ui: &mut Ui, context: &mut PaneContext<'_>) {
 
 /// A button that measures the visible scene, or stops the measurement.
 fn run(ui: &mut Ui, now: Shows, context: &mut PaneContext<'_>) {
-    if let Some(busy) = context.profiler.busy() {
+    if let Some(busy) = Profiler::busy(context.later) {
         if ui.button("Stop").on_hover_text("Stop measuring (Esc). Earlier results are unchanged.").clicked() {
             context.push(Command::StopMeasuring);
         }
@@ -239,7 +246,7 @@ fn nothing(ui: &mut Ui, body: Rect, words: &str, context: &PaneContext<'_>) {
     let layout = egui::Layout::top_down(egui::Align::Center);
     let mut child = ui.new_child(UiBuilder::new().id_salt("nothing measured").max_rect(place).layout(layout));
     child.label(words);
-    child.label(if context.profiler.busy().is_some() { "Measuring…" } else { "Run, above, takes a few seconds." });
+    child.label(if Profiler::busy(context.later).is_some() { "Measuring…" } else { "Run, above, takes a few seconds." });
 }
 
 /// Instructions for a build that includes the benchmark.

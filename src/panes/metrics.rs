@@ -15,9 +15,8 @@ use crate::figures::metrics::{self, TABLE};
 use crate::panes::widgets;
 use crate::panes::widgets::table::{CellNote, Column, DataTable};
 use crate::plot_item::{PlotItem, SensorId};
-use crate::ranking::Ranked;
+use crate::scene::metrics::{Ranked, RankedCameras, Ranking};
 use crate::theme::UNIT;
-use crate::view::metrics::RankedCameras;
 use crate::view::table::Sorting;
 use crate::workspaces::PaneKind;
 
@@ -44,8 +43,8 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let body = Rect::from_min_max(body.min + Vec2::new(2.0 * UNIT, 0.0), body.max - Vec2::new(2.0 * UNIT, UNIT));
     let body = widgets::caution::show(ui, body, context);
     let which = context.view.saved.metrics.cameras;
-    let ranked = context.ranking.ask(&context.scene, which);
-    if let Some(why) = context.ranking.failure() {
+    let ranked = context.states.of::<Ranking>().ask(context.later, &context.scene, which);
+    if let Some(why) = Ranking::seen(context.later).failure {
         let font = FontId::proportional(crate::theme::TEXT);
         let words = format!("Cameras could not be ranked: {why}.");
         ui.painter().text(body.center(), Align2::CENTER_CENTER, words, font, context.theme.error);
@@ -103,11 +102,12 @@ fn switches(ui: &mut Ui, context: &mut PaneContext<'_>) {
             context.push(Command::Maximize(PaneKind::REPORT_CARD));
         }
     }
-    let slow = context.ranking.busy().is_some_and(|busy| busy >= PATIENCE);
-    if let Some((done, all)) = context.ranking.progress().filter(|_| slow) {
+    let waiting = Ranking::seen(context.later);
+    let slow = waiting.busy.is_some_and(|busy| busy >= PATIENCE);
+    if let Some((done, all)) = waiting.progress().filter(|_| slow) {
         ui.label(RichText::new(format!("Computing: {done} of {all}")).small().color(context.theme.weak));
     }
-    if context.ranking.busy().is_some() {
+    if waiting.busy.is_some() {
         ui.ctx().request_repaint_after(PATIENCE);
     }
 }

@@ -98,8 +98,8 @@ fn refresh(file: &Arc<RecordedFile>, context: &mut PaneContext<'_>) -> Result<()
     }
     view.set = Some((inputs, set.clone()));
     let query = scene.recorded_ranking(&set, view.freedom, &[]).map_err(|error| error.to_string())?;
-    if let Some(made) = context.ranking.recorded(query)?.filter(|made| made.current) {
-        let ranked = made.answer.as_ref().as_ref().map_err(ToString::to_string)?;
+    if let Some(made) = context.later.ask(PANE.kind, vec![query]).current()? {
+        let ranked = made.as_ref().as_ref().map_err(ToString::to_string)?;
         view.ranked = Some((set, Arc::clone(ranked)));
     }
     Ok(())

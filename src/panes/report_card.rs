@@ -11,6 +11,7 @@ use crate::paint::{self, PlotOptions};
 use crate::panes::widgets;
 use crate::panes::widgets::pick_list::{self, Line};
 use crate::plot_item::{PlotItem, SensorId};
+use crate::scene::metrics::{CameraFigures, unloaded};
 use crate::theme::UNIT;
 use crate::workspaces::PaneKind;
 
@@ -43,7 +44,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
         say("Tick a camera in the Library.", context.theme.weak);
         return;
     };
-    let mut page = match context.ranking.card(&context.scene, &camera) {
+    let mut page = match made(&camera, context) {
         Ok(Some(metrics)) => report_card::page(&context.scene, &camera, &metrics, width),
         Ok(None) => return,
         Err(why) => {
@@ -71,6 +72,14 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     widgets::scroll::show(ui, (PANE.kind, "report card"), body, context, |ui, context| {
         ScrollArea::horizontal().auto_shrink([false, true]).show(ui, |ui| draw(ui, &page, moved, context));
     });
+}
+
+/// Figures of merit of the camera, their uncertainties a little later; the last ones while those of other conditions are made.
+fn made(camera: &SensorId, context: &PaneContext<'_>) -> Result<Option<CameraFigures>, String> {
+    let query = context.scene.card_query(camera).map_err(|error| error.to_string())?;
+    let shown = context.later.ask(PANE.kind, vec![query.clone(), query.with_uncertainties()]).last()?;
+    let shown = shown.filter(|shown| shown.job.is_of_same_camera(&query));
+    shown.map(|shown| (*shown.answer).clone().map_err(|error| unloaded(&camera.name, error))).transpose()
 }
 
 /// Draws the page; `follow` brings the bars into sight.

@@ -56,7 +56,6 @@ const APP_LAYERS: &[&str] = &[
     "profiler",
     "view",
     "command",
-    "ranking",
     "figures",
     "report",
     "panes",

@@ -6,6 +6,7 @@ use chromascope_figure::Figure;
 use egui::{Align, Layout, Rect, RichText, ScrollArea, Sense, Ui, UiBuilder, Vec2};
 
 use crate::export::page::{PageFacts, PageJob};
+use crate::jobs::Job as _;
 use crate::paint;
 use crate::panes::context::PaneContext;
 use crate::panes::widgets;
@@ -44,9 +45,10 @@ pub(super) fn show(
     };
     let size = PageFacts::of(&figure, &paper).size_pt;
     let fine = (scale(size, context) * pixels).min(MOST_PIXELS / size[0].max(size[1]));
-    context.pages.ask(vec![PageJob { figure: Arc::clone(&figure), paper, scale: fine as f32 }]);
+    let job = PageJob { figure: Arc::clone(&figure), paper, scale: fine as f32 };
+    let page = context.later.ask(PageJob::NAME, vec![job]);
     // Until the page is drawn, the last one of the pane stays.
-    let shown = context.pages.shown().filter(|shown| shown.job.figure.title == figure.title);
+    let shown = page.shown.filter(|shown| shown.job.figure.title == figure.title);
     let size = shown.as_ref().map_or(size, |shown| PageFacts::of(&shown.job.figure, &shown.job.paper).size_pt);
     let scale = scale(size, context);
     self::head(ui, head, kind, Some(scale), context);
@@ -72,7 +74,7 @@ pub(super) fn show(
             }
         }
     });
-    widgets::busy_line(ui, ground, context.pages.busy(), context.theme.text);
+    widgets::busy_line(ui, ground, page.busy, context.theme.text);
 }
 
 /// The pane's title, the page's size on screen, and its zoom.
