@@ -34,7 +34,8 @@ impl ChromascopeApp {
             match event {
                 FileEvent::Open(paths) if std::mem::take(&mut self.view.recorded.opening) => {
                     self.view.recorded.corners.clear();
-                    paths.first().into_iter().for_each(|path| self.recorded.open(path));
+                    paths.first().into_iter().for_each(|path| self.recorded.read_again(path));
+                    self.view.recorded.path = paths.into_iter().next().or(self.view.recorded.path.take());
                 }
                 FileEvent::Open(paths) if self.view.report_on.is_some() => self.begin_report(&paths),
                 FileEvent::Open(paths) => self.open(paths.into_iter().map(Request::Path).collect()),

@@ -4,7 +4,7 @@ use std::any::{Any, TypeId};
 use std::collections::HashMap;
 
 use chromascope_figure::Figure;
-use egui::{Rect, Ui};
+use egui::{Rect, Response, Ui};
 
 use crate::action::{Action, RenderAction};
 use crate::catalog::meshes::MeshStore;
@@ -105,6 +105,21 @@ impl PaneContext<'_> {
         FigureInput::of((&self.scene, self.view), self.render_service, self.profiler, self.opened)
     }
 
+    /// A button that has something done.
+    pub fn button(&mut self, ui: &mut Ui, words: &str, hint: &str, command: impl Into<Command>) {
+        if hinted(ui.button(words), hint).clicked() {
+            self.push(command);
+        }
+    }
+
+    /// A line of a menu that has something done.
+    pub fn item(&mut self, ui: &mut Ui, words: &str, hint: &str, command: impl Into<Command>) {
+        if hinted(ui.button(words), hint).clicked() {
+            self.push(command);
+            ui.close();
+        }
+    }
+
     /// Has something done when the frame is over.
     pub fn push(&mut self, command: impl Into<Command>) {
         self.commands.push(command.into());
@@ -114,6 +129,10 @@ impl PaneContext<'_> {
     pub fn counts(&self) -> Vec<(&'static str, Count)> {
         self.scene.results.counts().into_iter().collect()
     }
+}
+
+fn hinted(response: Response, hint: &str) -> Response {
+    if hint.is_empty() { response } else { response.on_hover_text(hint) }
 }
 
 /// Changes the settings of pictures; changes of the same name during one drag are one step.

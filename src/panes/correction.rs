@@ -15,7 +15,6 @@ use crate::panes::widgets;
 use crate::theme::UNIT;
 use crate::workspaces::PaneKind;
 
-/// The pane.
 pub const PANE: Pane = Pane {
     kind: PaneKind::CORRECTION,
     title: "Correction",
@@ -25,7 +24,6 @@ pub const PANE: Pane = Pane {
     table: false,
 };
 
-/// Shows the pane in its rectangle.
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     widgets::scrolling_pane(ui, &PANE, rect, context, |ui, context| {
         ui.spacing_mut().item_spacing = Vec2::new(2.0 * UNIT, UNIT);
@@ -41,7 +39,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
                 ui.add(Label::new(RichText::new(error).color(context.theme.error)).wrap());
             }
             Ok(None) => {
-                ui.label(RichText::new("computing…").color(context.theme.weak));
+                ui.weak("computing…");
             }
             Ok(Some(file)) => sheet(ui, &file, context),
         }
@@ -116,7 +114,7 @@ fn under_light(ui: &mut Ui, file: &CorrectionFile, name: &str, under: &Correctio
 fn section(ui: &mut Ui, caption: &str, copied: Option<&str>, hint: &str) {
     ui.add_space(UNIT);
     ui.horizontal_wrapped(|ui| {
-        ui.label(RichText::new(caption).strong());
+        ui.strong(caption);
         if let Some(text) = copied
             && ui.small_button("Copy").on_hover_text(hint).clicked()
         {

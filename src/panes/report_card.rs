@@ -1,7 +1,7 @@
 //! One camera on one page, as it is exported.
 
 use chromascope_figure::{Figure, InkRole, Shape, Stroke};
-use egui::{Align2, FontId, Id, Rect, ScrollArea, Ui, Vec2};
+use egui::{Id, Rect, ScrollArea, Ui, Vec2};
 
 use super::context::{Pane, PaneContext};
 use crate::document::SetKind;
@@ -21,7 +21,6 @@ const NARROWEST: f32 = 300.0;
 /// Panel of the patches.
 const BARS: &str = "patches";
 
-/// The pane.
 pub const PANE: Pane = Pane {
     kind: PaneKind::REPORT_CARD,
     title: "Report card",
@@ -31,29 +30,22 @@ pub const PANE: Pane = Pane {
     table: true,
 };
 
-/// Shows the pane in its rectangle.
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
-    let body = widgets::pane(ui, &PANE, rect, context, choose);
-    let body = Rect::from_min_max(body.min + Vec2::new(2.0 * UNIT, 0.0), body.max - Vec2::new(2.0 * UNIT, UNIT));
+    let body = widgets::body(ui, &PANE, rect, context, choose);
     let width = f64::from(body.width().max(NARROWEST));
-    let say = |words: &str, ink| {
-        let font = FontId::proportional(crate::theme::TEXT);
-        ui.painter().text(body.center(), Align2::CENTER_CENTER, words, font, ink);
-    };
     let Some(camera) = report_card::camera(&context.scene, context.view) else {
-        say("Tick a camera in the Library.", context.theme.weak);
+        widgets::say(ui, body, "Tick a camera in the Library.", context.theme.weak);
         return;
     };
     let mut page = match made(&camera, context) {
         Ok(Some(metrics)) => report_card::page(&context.scene, &camera, &metrics, width),
         Ok(None) => return,
         Err(why) => {
-            say(&sentence(&why), context.theme.error);
+            widgets::say(ui, body, sentence(&why), context.theme.error);
             return;
         }
     };
-    if context.view.saved.tables.contains(&PaneKind::REPORT_CARD) {
-        widgets::table::show_numbers(ui, body, PaneKind::REPORT_CARD, &page.table, context);
+    if widgets::numbers(ui, &PANE, body, context, |_| Some(page.table.clone())) {
         return;
     }
     let moved = widgets::walk::along(ui, PANE.kind, context, |context| {

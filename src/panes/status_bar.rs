@@ -47,7 +47,6 @@ const FACTS: &str = "Computation time of the last change; largest error of the v
 const RENDER_FACTS: &str = "Time of the last rendering stage; error of integrals over wavelength, relative to the \
                             brightest pixel; number of cameras rendered. What is not visible is not computed.";
 
-/// Shows the bar in its rectangle.
 pub fn show(ui: &mut Ui, rect: Rect, arrangement: &Arrangement, context: &mut PaneContext<'_>) {
     let inner = rect.shrink2(Vec2::new(2.0 * UNIT, 0.0));
     let half = READINGS * inner.width();

@@ -15,11 +15,9 @@ use crate::scene::ComparedSensor;
 use crate::theme::UNIT;
 use crate::workspaces::PaneKind;
 
-/// The pane.
 pub const PANE: Pane =
     Pane { kind: PaneKind::TOLERANCE, title: "Tolerance", show, figure: None, under_conditions: false, table: false };
 
-/// Shows the pane in its rectangle.
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     widgets::scrolling_pane(ui, &PANE, rect, context, |ui, context| {
         choice(ui, context);
@@ -54,7 +52,7 @@ fn choice(ui: &mut Ui, context: &mut PaneContext<'_>) {
     } else {
         format!("Current quality: {}. Below: the methods that the tolerance would use.", settings.quality.label())
     };
-    ui.label(RichText::new(words).small().color(context.theme.weak));
+    widgets::note(ui, words);
 }
 
 /// Reason that there are no plans.
@@ -132,7 +130,7 @@ fn not_rendered(ui: &mut Ui, context: &PaneContext<'_>) {
             widgets::source_key(ui, source, &context.theme);
             ui.strong(&source.label);
         });
-        ui.label(RichText::new(why).small().color(context.theme.weak));
+        widgets::note(ui, why);
         ui.add_space(UNIT);
     }
 }

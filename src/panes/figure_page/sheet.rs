@@ -53,8 +53,7 @@ pub(super) fn show(
     let scale = scale(size, context);
     self::head(ui, head, kind, Some(scale), context);
     let size = Vec2::new((size[0] * scale) as f32, (size[1] * scale) as f32);
-    let mut child = ui.new_child(UiBuilder::new().id_salt("page").max_rect(ground));
-    child.set_clip_rect(ground.intersect(ui.clip_rect()));
+    let mut child = widgets::clipped(ui, "page", ground);
     let area =
         ScrollArea::both().id_salt("page").auto_shrink(false).scroll_source(egui::scroll_area::ScrollSource::ALL);
     area.show(&mut child, |ui| {
@@ -97,9 +96,9 @@ fn head(ui: &mut Ui, rect: Rect, kind: PaneKind, scale: Option<f64>, context: &m
     let layout = Layout::left_to_right(Align::Center);
     let mut left = ui.new_child(UiBuilder::new().id_salt("page title").max_rect(free).layout(layout));
     left.set_clip_rect(free.intersect(ui.clip_rect()));
-    left.label(RichText::new(context.title(kind)).strong());
+    left.strong(context.title(kind));
     if let Some(scale) = scale {
         let words = format!("as it prints, {:.0} %", 100.0 * scale / PageZoom::TRUE);
-        left.label(RichText::new(words).color(context.theme.weak));
+        left.weak(words);
     }
 }
