@@ -22,7 +22,7 @@ use correction::CorrectionChoice;
 pub use correction::TRAINING;
 use imported::ImportedSet;
 pub use imported::SessionFile;
-pub use kind::SetKind;
+pub use kind::{SensorId, SetKind};
 use pixel::Pixel;
 use render::RenderSettings;
 use serde::{Deserialize, Serialize};

@@ -1,4 +1,4 @@
-//! Background work: a named thread for each view that waits for long computations.
+//! Background work: a thread for each question that somebody waits for, through one door ([`Later`]).
 //!
 //! The latest request stops the one before it; the last answer stays visible meanwhile; a panic fails its own request only. A
 //! request is one query in stages from coarse to fine, or a list of queries ([`Background::progress`] counts the finished ones,
@@ -7,9 +7,11 @@
 //! the same work on a [driven](Executor::driven) executor: on their own thread and clock.
 
 mod executor;
+mod later;
 mod monitor;
 
 pub use executor::{Clock, Executor};
+pub use later::{Later, Waiting};
 pub use monitor::Monitor;
 
 use std::cell::Cell;
@@ -28,6 +30,8 @@ use crate::results::Results;
 pub trait Job: Clone + PartialEq + Send + Sync + 'static {
     /// Its outcome.
     type Answer: Send + Sync + 'static;
+    /// Name of its thread, and of its place in the queue of a driven executor.
+    const NAME: &'static str;
 
     /// Runs the job with the shared cache. The result is discarded if [`Results::stop`](chromascope_core::query::Ask::stop) was
     /// set meanwhile.
@@ -36,6 +40,7 @@ pub trait Job: Clone + PartialEq + Send + Sync + 'static {
 
 impl<Q: Query> Job for Q {
     type Answer = <Q as Query>::Answer;
+    const NAME: &'static str = <Q as Query>::NAME;
 
     fn run(&self, results: &Results) -> Arc<Self::Answer> {
         results.ask(self)
@@ -45,7 +50,6 @@ impl<Q: Query> Job for Q {
 /// Runs one kind of job on a thread of its own and holds its latest answer.
 pub struct Background<J: Job> {
     monitor: Arc<Monitor<State<J>>>,
-    name: String,
     executor: Executor,
     /// True if a driven executor has the work in its queue.
     is_queued: Rc<Cell<bool>>,
@@ -85,13 +89,8 @@ impl<J: Job> Clone for Shown<J> {
 }
 
 impl<J: Job> Background<J> {
-    /// Starts the worker. `wake` is called after each answer, from the worker's thread.
-    pub fn new(name: &str, wake: impl Fn() + Send + Sync + 'static) -> Self {
-        Self::on(&Executor::default(), name, wake)
-    }
-
-    /// Starts the worker on an executor.
-    pub fn on(executor: &Executor, name: &str, wake: impl Fn() + Send + Sync + 'static) -> Self {
+    /// Starts the worker on an executor. `wake` is called after each answer, from the worker's thread.
+    pub fn on(executor: &Executor, wake: impl Fn() + Send + Sync + 'static) -> Self {
         let state = State {
             stages: Arc::from(Vec::new()),
             next: 0,
@@ -110,11 +109,11 @@ impl<J: Job> Background<J> {
                     step(&theirs, &results);
                 }
             };
-            if let Err(error) = executor.spawn(name, work) {
+            if let Err(error) = executor.spawn(J::NAME, work) {
                 monitor.lock().failure = Some(format!("no thread could be started: {error}"));
             }
         }
-        Self { monitor, name: name.to_owned(), executor: executor.clone(), is_queued: Rc::default() }
+        Self { monitor, executor: executor.clone(), is_queued: Rc::default() }
     }
 
     /// Requests stages from coarse to fine. The same request again changes nothing; another stops the one before it.
@@ -148,7 +147,7 @@ impl<J: Job> Background<J> {
         }
         let (monitor, results) = (Arc::clone(&self.monitor), self.executor.results());
         let is_queued = Rc::clone(&self.is_queued);
-        self.executor.queue(&self.name, move || {
+        self.executor.queue(J::NAME, move || {
             step(&monitor, &results);
             is_queued.set(monitor.lock().has_work());
             is_queued.get()
@@ -267,7 +266,7 @@ mod tests {
 
     fn doubling() -> (Executor, Background<Doubled>) {
         let executor = Executor::driven();
-        let worker = Background::on(&executor, "doubling", || ());
+        let worker = Background::on(&executor, || ());
         (executor, worker)
     }
 
@@ -281,7 +280,7 @@ mod tests {
         let (executor, worker) = doubling();
         worker.ask(vec![Doubled(1), Doubled(2)]);
         assert_eq!((shown(&worker), worker.busy()), (None, Some(Duration::ZERO)));
-        assert!(executor.run_one("doubling"));
+        assert!(executor.run_one("doubled"));
         assert_eq!(shown(&worker), Some((2, true, 1)));
         executor.advance(Duration::from_secs(3));
         assert_eq!(worker.busy(), Some(Duration::from_secs(3)));
@@ -297,8 +296,8 @@ mod tests {
         let (executor, worker) = doubling();
         let all: Vec<Doubled> = (1..=3).map(Doubled).collect();
         worker.ask(all.clone());
-        executor.run_one("doubling");
-        executor.run_one("doubling");
+        executor.run_one("doubled");
+        executor.run_one("doubled");
         let known: Vec<_> = all.iter().map(|query| executor.results().known(query).as_deref().copied()).collect();
         assert_eq!((known, worker.progress().1), (vec![Some(2), Some(4), None], 2));
     }
@@ -325,7 +324,7 @@ mod tests {
 
     #[test]
     fn a_thread_answers_too() {
-        let worker = Background::new("doubling", || ());
+        let worker = Background::on(&Executor::default(), || ());
         worker.ask(vec![Doubled(1), Doubled(2)]);
         worker.wait();
         assert_eq!(shown(&worker), Some((4, true, 2)));

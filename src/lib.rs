@@ -9,7 +9,6 @@
 //! files  export                the document and the user's files; pictures and tables out
 //! plot_item                    items of marks
 //! render_service  profiler     pictures of meshes; run time against error
-//! ranking                      figures of merit of many cameras
 //! figures ─► report            answers become figures; the paper's figures and claims
 //! cli                          the command line
 //! theme  paint  workspaces     colors and sizes; figures on screen; arrangement of panes
@@ -45,7 +44,6 @@ pub mod palette;
 pub mod panes;
 pub mod plot_item;
 pub mod profiler;
-pub mod ranking;
 pub mod render_service;
 pub mod report;
 pub mod results;

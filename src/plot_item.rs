@@ -5,16 +5,8 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 
 use chromascope_figure::Tag;
 
+pub use crate::document::SensorId;
 use crate::document::SetKind;
-
-/// A sensor by kind and name.
-#[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub struct SensorId {
-    /// Camera or observer.
-    pub kind: SetKind,
-    /// Its name in the catalog.
-    pub name: String,
-}
 
 /// Something on screen that can be hovered, selected or pinned.
 #[derive(Clone, Debug, PartialEq)]

@@ -22,10 +22,9 @@ use chromascope_measure::method::Point;
 use chromascope_measure::{Effort, Report, Workload};
 use serde::{Deserialize, Serialize};
 
-use crate::jobs::{Background, Executor, Job};
+use crate::jobs::{Job, Later};
 use crate::results::Results;
 pub use conditions::Conditions;
-use plans::{PlanAnswer, PlansQuery};
 
 /// Measures the cost of each method for a scene.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -113,6 +112,7 @@ impl Subject {
 
 impl Job for SceneRunJob {
     type Answer = SceneRun;
+    const NAME: &'static str = "scene runs";
 
     fn run(&self, results: &Results) -> Arc<SceneRun> {
         let (conditions, ask) = (Conditions::now(self), &fresh(results));
@@ -133,6 +133,7 @@ struct BenchJob(Workload);
 
 impl Job for BenchJob {
     type Answer = Result<Report, String>;
+    const NAME: &'static str = "bench";
 
     fn run(&self, results: &Results) -> Arc<Self::Answer> {
         let Some(bench) = bench::bench() else { return Arc::new(Err("this build has no benchmark".to_owned())) };
@@ -152,85 +153,49 @@ pub struct Measured {
     pub reports: BTreeMap<Workload, Arc<Result<Report, String>>>,
 }
 
-/// Background measurements and their latest results.
+/// Measures on request, and holds the latest measurements.
 pub struct Profiler {
-    /// Latest measurements.
     pub measured: Measured,
-    worker: Background<SceneRunJob>,
-    bench: Background<BenchJob>,
-    plans: Background<PlansQuery>,
 }
 
 impl Profiler {
-    /// Starts the worker, which wakes the window when it has measured.
-    pub fn new(wake: impl Fn() + Send + Sync + Clone + 'static) -> Self {
-        Self::on(&Executor::default(), wake)
-    }
-
-    /// Measures on an executor.
-    pub fn on(executor: &Executor, wake: impl Fn() + Send + Sync + Clone + 'static) -> Self {
-        let (also, third) = (wake.clone(), wake.clone());
-        Self {
-            measured: Measured::default(),
-            worker: Background::on(executor, "scene runs", wake),
-            bench: Background::on(executor, "bench", third),
-            plans: Background::on(executor, "plans", also),
-        }
-    }
-
-    /// Begins to make the plans of these pictures' sources.
-    pub fn plan(&self, pictures: &PicturesQuery) {
-        self.plans.ask(vec![PlansQuery(pictures.clone())]);
-    }
-
-    /// The plan of each of these pictures' sources, in their order. Until it is made, the last one that was made for the same
-    /// camera, light and material; none while there is a source without one.
-    pub fn plans(&self, pictures: &PicturesQuery) -> Option<Vec<PlanAnswer>> {
-        let plans = self.plans.shown()?;
-        plans.job.plans_for(pictures, &plans.answer)
-    }
+    /// Measurements are made under one name.
+    const PANE: &'static str = "Methods";
 
     /// Measures a scene, again even if it is unchanged.
-    pub fn run(&self, scene: SceneRunJob) {
-        self.worker.ask_anew(vec![scene]);
+    pub fn run(later: &Later, scene: SceneRunJob) {
+        later.begin(Self::PANE, vec![scene]);
     }
 
     /// Measures a workload of the bench.
-    pub fn run_bench(&self, workload: Workload) {
-        self.bench.ask_anew(vec![BenchJob(workload)]);
+    pub fn run_bench(later: &Later, workload: Workload) {
+        later.begin(Self::PANE, vec![BenchJob(workload)]);
     }
 
     /// Stops the measurement.
-    pub fn stop(&self) {
-        self.worker.rest();
-        self.bench.rest();
+    pub fn stop(later: &Later) {
+        later.stop::<SceneRunJob>(Self::PANE);
+        later.stop::<BenchJob>(Self::PANE);
     }
 
     /// Updates the latest measurements; a run is current if it is of this scene. A report that was stopped is
     /// discarded.
-    pub fn refresh(&mut self, scene: &SceneRunJob) {
-        if let Some(shown) = self.worker.shown() {
+    pub fn refresh(&mut self, later: &Later, scene: &SceneRunJob) {
+        if let Some(shown) = later.seen::<SceneRunJob>(Self::PANE).shown {
             (self.measured.run, self.measured.is_current) = (Some(shown.answer), shown.job == *scene);
         }
-        if let Some(shown) = self.bench.shown() {
+        if let Some(shown) = later.seen::<BenchJob>(Self::PANE).shown {
             self.measured.reports.insert(shown.job.0, shown.answer);
         }
     }
 
     /// Running time of the measurement, if it is still running.
-    pub fn busy(&self) -> Option<Duration> {
-        self.worker.busy().or_else(|| self.bench.busy())
+    pub fn busy(later: &Later) -> Option<Duration> {
+        later.seen::<SceneRunJob>(Self::PANE).busy.or_else(|| later.seen::<BenchJob>(Self::PANE).busy)
     }
 
     /// Reason that there is nothing, if measuring failed.
-    pub fn failure(&self) -> Option<String> {
-        self.worker.failure().or_else(|| self.bench.failure())
-    }
-
-    /// Waits for the run. For tests.
-    pub fn wait(&self) {
-        self.worker.wait();
-        self.bench.wait();
-        self.plans.wait();
+    pub fn failure(later: &Later) -> Option<String> {
+        later.seen::<SceneRunJob>(Self::PANE).failure.or_else(|| later.seen::<BenchJob>(Self::PANE).failure)
     }
 }

@@ -14,7 +14,6 @@ use chromascope_core::scene::Viewpoint;
 use crate::jobs::{Background, Executor, Job};
 use crate::results::Results;
 use crate::scene::render::Finish;
-use crate::scene::spectral_image::PixelSpectrumQuery;
 use crate::scene::{ComparedSensor, Scene, SceneError};
 use made::{MadePictures, NoPictures, PicturesAnswer, PicturesOf};
 
@@ -86,6 +85,7 @@ impl PartialEq for PicturesJob {
 
 impl Job for PicturesJob {
     type Answer = PicturesAnswer;
+    const NAME: &'static str = "pictures";
 
     fn run(&self, results: &Results) -> Arc<Self::Answer> {
         Arc::new(match &self.query {
@@ -98,7 +98,6 @@ impl Job for PicturesJob {
 /// The worker and its last answer.
 pub struct RenderService {
     worker: Background<PicturesJob>,
-    spectrum: Background<PixelSpectrumQuery>,
     frame: Option<Arc<RenderedFrame>>,
     is_hidden: bool,
     wanted: Option<PicturesOf>,
@@ -109,10 +108,9 @@ pub struct RenderService {
 
 impl RenderService {
     /// Makes pictures on an executor; `wake` is called when something is made.
-    pub fn on(executor: &Executor, wake: impl Fn() + Send + Sync + Clone + 'static) -> Self {
+    pub fn on(executor: &Executor, wake: impl Fn() + Send + Sync + 'static) -> Self {
         Self {
-            spectrum: Background::on(executor, "spectrum of a pixel", wake.clone()),
-            worker: Background::on(executor, "pictures", wake),
+            worker: Background::on(executor, wake),
             frame: None,
             is_hidden: false,
             wanted: None,
@@ -220,13 +218,6 @@ impl RenderService {
         self.frame.as_ref().is_some_and(|frame| self.wanted.as_ref() == Some(&frame.query))
     }
 
-    /// Wavelengths in nanometers and samples of a pixel of an image, or why there are none; none until they are read.
-    pub fn spectrum(&self, query: PixelSpectrumQuery) -> Option<Result<Vec<[f64; 2]>, String>> {
-        self.spectrum.ask(vec![query]);
-        let shown = self.spectrum.shown().filter(|shown| shown.current)?;
-        Some((*shown.answer).as_ref().map(Vec::clone).map_err(ToString::to_string))
-    }
-
     /// Running time of the latest request, if it is still running.
     pub fn busy(&self) -> Option<Duration> {
         self.worker.busy()
@@ -240,6 +231,5 @@ impl RenderService {
     /// Waits until the latest request has finished. For tests.
     pub fn wait(&self) {
         self.worker.wait();
-        self.spectrum.wait();
     }
 }

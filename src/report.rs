@@ -76,6 +76,8 @@ pub struct Report {
 }
 
 impl Report {
+    /// Name of the work that makes it.
+    pub const NAME: &'static str = "report";
     /// Number of steps.
     pub const STEPS: usize = FIGURES.len() + 1;
 
@@ -210,6 +212,7 @@ impl PartialEq for ReportJob {
 
 impl Job for ReportJob {
     type Answer = Result<(), String>;
+    const NAME: &'static str = Report::NAME;
 
     fn run(&self, results: &Results) -> Arc<Self::Answer> {
         let written = self.report.make(self.step, results).and_then(|files| {

@@ -17,7 +17,7 @@ use crate::export::{self, FigureForm};
 use crate::figures::look::FigureLook;
 use crate::files::{DocumentSource, FileEvent, FileForm, SaveRequest};
 use crate::panes;
-use crate::profiler::SceneRunJob;
+use crate::profiler::{Profiler, SceneRunJob};
 use crate::scene::Scene;
 use crate::scene::conditions::CONDITIONS;
 use crate::view::SavedView;
@@ -34,7 +34,8 @@ impl ChromascopeApp {
             match event {
                 FileEvent::Open(paths) if std::mem::take(&mut self.view.recorded.opening) => {
                     self.view.recorded.corners.clear();
-                    paths.first().into_iter().for_each(|path| self.recorded.open(path));
+                    paths.first().into_iter().for_each(|path| self.recorded.read_again(path));
+                    self.view.recorded.path = paths.into_iter().next().or(self.view.recorded.path.take());
                 }
                 FileEvent::Open(paths) if self.view.report_on.is_some() => self.begin_report(&paths),
                 FileEvent::Open(paths) => self.open(paths.into_iter().map(Request::Path).collect()),
@@ -118,8 +119,8 @@ impl ChromascopeApp {
                 self.stop_reading();
             }
             Command::SpectralWeights => self.measure(),
-            Command::MeasureWorkload(workload) => self.profiler.run_bench(workload),
-            Command::StopMeasuring => self.profiler.stop(),
+            Command::MeasureWorkload(workload) => Profiler::run_bench(&self.later, workload),
+            Command::StopMeasuring => Profiler::stop(&self.later),
             Command::FigurePage(pane) => self.figure_page(ctx, self.pictured(pane)),
             Command::Export(pane, format) => self.export(pane, format),
             Command::ExportExr(source) => self.export_exr(&source),
@@ -297,8 +298,8 @@ impl ChromascopeApp {
         {
             return;
         }
-        if self.profiler.busy().is_some() {
-            self.profiler.stop();
+        if Profiler::busy(&self.later).is_some() {
+            Profiler::stop(&self.later);
             self.view.say("Measuring stopped. Earlier results are unchanged.");
             return;
         }
@@ -342,7 +343,7 @@ impl ChromascopeApp {
         let document = self.history.document();
         let scene = Scene { document, catalog: &self.catalog, results: &self.results };
         let own = self.meshes.chosen(&document.render.mesh);
-        self.profiler.run(SceneRunJob::of(&scene, own.as_ref(), self.view.saved.render.orbit));
+        Profiler::run(&self.later, SceneRunJob::of(&scene, own.as_ref(), self.view.saved.render.orbit));
         self.view.saved.workspace = Workspace::Numerics;
         if matches!(self.view.accuracy.shows, Shows::Bench(_)) {
             self.view.accuracy.shows = Shows::default();

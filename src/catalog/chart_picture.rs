@@ -35,6 +35,7 @@ pub enum ChartPictureError {
 }
 
 /// A picture of 16-bit RGB.
+#[derive(Debug)]
 pub struct ChartPicture {
     picture: DynamicImage,
 }

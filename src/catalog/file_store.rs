@@ -1,4 +1,4 @@
-//! The user's meshes and spectral images: read in the background, remembered by path, reloaded when they changed.
+//! The user's meshes, spectral images and recorded values: read in the background, remembered by path, reloaded when they changed.
 //!
 //! A document holds only the path of a file. [`FileStore::get`] is called for pictures: it starts reading on the first call and
 //! never waits. [`FileStore::open`] is called when the user opens a file: the file is read before anything changes, and the
@@ -174,6 +174,12 @@ impl<T: FromFile> FileStore<T> {
         if known.reading.is_none() {
             self.begin(&mut state, path, unless);
         }
+    }
+
+    /// Forgets a file, which is read again when it is needed, and stops reading others.
+    pub fn read_again(&self, path: &Path) {
+        self.keep(None);
+        self.monitor.lock().known.remove(path);
     }
 
     /// Takes the results of finished open requests, one for each file that was not canceled.

@@ -149,7 +149,7 @@ impl Opened {
     pub fn on(executor: &Executor, wake: impl Fn() + Send + Sync + 'static) -> Self {
         let wake: Arc<dyn Fn() + Send + Sync> = Arc::new(wake);
         let theirs = Arc::clone(&wake);
-        let look = Background::on(executor, "import", move || theirs());
+        let look = Background::on(executor, move || theirs());
         let monitor = Monitor::new(executor, State::default(), move || wake());
         Self { monitor: Arc::new(monitor), look, executor: executor.clone() }
     }

@@ -1,10 +1,8 @@
-//! Selected file of recorded raw values, read in the background.
+//! Files of recorded raw values.
 
-use std::fmt;
 use std::fs::File;
-use std::io::Read as _;
-use std::path::{Path, PathBuf};
-use std::sync::Arc;
+use std::io::{self, Read as _};
+use std::path::Path;
 
 use chromascope_core::camera::chart_grid::ChartGrid;
 use chromascope_core::camera::recorded::RecordedPatch;
@@ -13,9 +11,9 @@ use chromascope_figure::Image;
 use spectral_file::{Certainty, ReadOptions, Role};
 
 use super::chart_picture::ChartPicture;
+use super::file_store::{FileFailure, FileStore, FromFile};
 use super::recorded::{self, Levels, RawRow};
 use crate::format::{file_name, io_reason};
-use crate::jobs::{Executor, Monitor};
 
 /// Endings of pictures of charts.
 pub const PICTURES: [&str; 3] = ["tif", "tiff", "png"];
@@ -34,6 +32,7 @@ pub struct TableSpectra {
 }
 
 /// Contents of a file of recorded values.
+#[derive(Debug)]
 pub enum RecordedContent {
     /// A table, with spectra or without.
     Table(Vec<RawRow>, Option<TableSpectra>),
@@ -42,75 +41,65 @@ pub enum RecordedContent {
 }
 
 /// A file of recorded values.
+#[derive(Debug)]
 pub struct RecordedFile {
     pub name: String,
     pub content: RecordedContent,
 }
 
-impl fmt::Debug for RecordedFile {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_tuple("RecordedFile").field(&self.name).finish()
-    }
-}
+/// The files of recorded values that were requested.
+pub type RecordedStore = FileStore<RecordedFile>;
 
-/// State of the selected file.
-#[derive(Clone, Default)]
-pub enum RecordedState {
-    /// None was opened.
-    #[default]
-    None,
-    /// It is being read.
-    Loading(String),
-    /// It was read.
-    Ready(Arc<RecordedFile>),
-    /// It contains no values: the reason.
-    Failed(String),
-}
+impl FromFile for RecordedFile {
+    type Failure = RecordedFailure;
+    type Version = ();
+    const THREAD: &'static str = "recorded";
 
-/// Reads the file of recorded values on a thread.
-pub struct RecordedStore {
-    /// With the number of files opened so far.
-    monitor: Arc<Monitor<(u64, RecordedState)>>,
-    executor: Executor,
-}
-
-impl RecordedStore {
-    /// Creates an empty store. `wake` is called when a file was read, from the thread that read it.
-    pub fn on(executor: &Executor, wake: impl Fn() + Send + Sync + 'static) -> Self {
-        Self { monitor: Arc::new(Monitor::new(executor, (0, RecordedState::None), wake)), executor: executor.clone() }
+    fn read_unless(path: &Path, _: Option<()>, _: &dyn Fn() -> bool) -> Result<Option<(Self, ())>, RecordedFailure> {
+        read(path).map(|file| Some((file, ()))).map_err(RecordedFailure)
     }
 
-    /// State of the selected file.
-    pub fn state(&self) -> RecordedState {
-        self.monitor.lock().1.clone()
-    }
-
-    /// Starts reading a file in place of the selected one.
-    pub fn open(&self, path: &Path) {
-        let ticket = {
-            let mut state = self.monitor.lock();
-            *state = (state.0 + 1, RecordedState::Loading(file_name(path)));
-            state.0
-        };
-        let (monitor, file) = (Arc::clone(&self.monitor), path.to_owned());
-        let work = move || {
-            let read = read(&file);
-            let mut state = monitor.lock();
-            // Another file may have been opened meanwhile.
-            if state.0 == ticket {
-                state.1 = read.map_or_else(RecordedState::Failed, |file| RecordedState::Ready(Arc::new(file)));
-            }
-            drop(state);
-            monitor.tell();
-        };
-        if let Err(error) = self.executor.spawn("recorded", work) {
-            self.monitor.lock().1 = RecordedState::Failed(format!("{}: {}", file_name(path), io_reason(&error)));
+    fn bytes(&self) -> usize {
+        match &self.content {
+            RecordedContent::Table(rows, _) => size_of_val(rows.as_slice()),
+            RecordedContent::Picture(picture, _) => picture.size().iter().product::<usize>() * size_of::<[f32; 3]>(),
         }
+    }
+
+    fn summary(&self) -> &str {
+        &self.name
+    }
+}
+
+/// Reason that a file contains no values, with its name.
+#[derive(Debug, thiserror::Error)]
+#[error("{0}")]
+pub struct RecordedFailure(String);
+
+impl FileFailure for RecordedFailure {
+    fn io(file: String, error: io::Error) -> Self {
+        Self(format!("{file}: {}", io_reason(&error)))
+    }
+
+    fn broken(file: String) -> Self {
+        Self(format!("{file} could not be read because of an error in this program; please report it with the file"))
+    }
+
+    fn stopped(file: String) -> Self {
+        Self(format!("Reading {file} stopped"))
+    }
+
+    fn on_opening(&self) -> String {
+        self.0.clone()
+    }
+
+    fn picture_message(&self) -> String {
+        self.0.clone()
     }
 }
 
 /// Reads a table or a picture; the error is a message with the file's name.
-fn read(path: &PathBuf) -> Result<RecordedFile, String> {
+fn read(path: &Path) -> Result<RecordedFile, String> {
     let name = file_name(path);
     let failed = |why: String| format!("{name}: {why}");
     let mut bytes = Vec::new();

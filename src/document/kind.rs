@@ -23,6 +23,13 @@ pub enum SetKind {
     Unsorted,
 }
 
+/// A sensor by kind and name.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct SensorId {
+    pub kind: SetKind,
+    pub name: String,
+}
+
 impl SetKind {
     /// All kinds in the order they are listed.
     pub const ALL: [Self; 7] =

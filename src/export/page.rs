@@ -34,6 +34,7 @@ impl PartialEq for PageJob {
 
 impl Job for PageJob {
     type Answer = Result<Image, ExportError>;
+    const NAME: &'static str = "page";
 
     fn run(&self, _: &Results) -> Arc<Self::Answer> {
         let picture = png(&svg(&self.figure, &self.paper.colors(), self.paper), self.scale);

@@ -11,8 +11,8 @@ use super::look::FigureLook;
 use super::metrics::{difference, head_to_head, nature_cells, uncertainties, value};
 use crate::document::SetKind;
 use crate::plot_item::{PlotItem, SensorId};
-use crate::ranking::{Ranked, ranked};
 use crate::scene::Scene;
+use crate::scene::metrics::Ranked;
 use crate::scene::uncertainty::{UNCERTAINTY_HEADS, number, uncertainty};
 
 /// Width of a saved figure in points, and height of a row.
@@ -45,7 +45,7 @@ pub static KIND: FigureKind =
 
 /// The table of two cameras; none where there are fewer than two.
 fn figure(scene: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Option<Figure> {
-    let ranked = ranked(scene, look.cameras);
+    let ranked = scene.ranked(look.cameras);
     let [Some(a), Some(b)] = pair(&ranked, scene, look) else { return None };
     let table = head_to_head(&ranked, [a, b]);
     let rows = rows(&ranked, [a, b], &table);

@@ -12,8 +12,8 @@ use crate::export::profile::CorrectionFile;
 use crate::palette::Surround;
 use crate::plot_item::{PlotItem, SensorId};
 use crate::profiler::{Measured, Subject};
-use crate::ranking::RankedCameras;
 use crate::render_service::RenderedFrame;
+use crate::scene::metrics::RankedCameras;
 use crate::scene::recorded::RankedCamera;
 
 /// Choices that the document does not hold, and answers that were made already.

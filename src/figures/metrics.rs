@@ -9,9 +9,8 @@ use chromascope_figure::{
 use super::chromaticity::conditions;
 use super::kind::FigureKind;
 use super::look::{FigureLook, Sorting};
-use crate::ranking::{Ranked, ranked};
 use crate::scene::Scene;
-use crate::scene::metrics::CameraFigures;
+use crate::scene::metrics::{CameraFigures, Ranked};
 use crate::scene::uncertainty::{UNCERTAINTY_HEADS, nature, number, uncertainty};
 
 /// Id of the table of cameras in what is saved between runs.
@@ -152,7 +151,7 @@ pub static KIND: FigureKind =
 
 /// Cameras in order of the metric by which the table is sorted, with uncertainties, and the table of all numbers.
 fn figure(scene: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Option<Figure> {
-    let ranked = ranked(scene, look.cameras);
+    let ranked = scene.ranked(look.cameras);
     let metric = sorted_by(scene, look.sorting.as_ref()).or_else(|| first(scene))?;
     let mut rows: Vec<(usize, MetricValue, f64)> = (0..ranked.cameras.len())
         .filter_map(|camera| value(&ranked, camera, metric).and_then(|v| Some((camera, v, v.value.ok()?))))

@@ -3,7 +3,7 @@
 use chromascope_core::colorimetry::{UvPrime, Xy};
 use chromascope_core::light::{CctError, RadiationConstants};
 use chromascope_core::query::NearestBlackBodyQuery;
-use chromascope_figure::{FigureRoom, Shape, TextSize, text_width};
+use chromascope_figure::{Shape, TextSize, text_width};
 use egui::{Align2, Id, Pos2, Rect, RectAlign, Tooltip, Ui, Vec2};
 
 use super::context::{Pane, PaneContext};
@@ -27,7 +27,6 @@ const WITH_STRIP: f32 = 350.0;
 /// The overview's size in points.
 const OVERVIEW: Vec2 = Vec2::new(96.0, 104.0);
 
-/// The pane.
 pub const PANE: Pane = Pane {
     kind: PaneKind::CHROMATICITY,
     title: "Chromaticity",
@@ -37,13 +36,10 @@ pub const PANE: Pane = Pane {
     table: true,
 };
 
-/// Shows the pane in its rectangle.
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let body = widgets::pane(ui, &PANE, rect, context, switches);
     let body = body.shrink2(Vec2::new(2.0 * UNIT, 0.0));
-    if context.view.saved.tables.contains(&PaneKind::CHROMATICITY) {
-        let figure = chromaticity::figure(&context.scene, &context.view.look(PANE.kind), FigureRoom::default());
-        widgets::table::show_numbers(ui, body, PaneKind::CHROMATICITY, &figure.table, context);
+    if widgets::figure_numbers(ui, &PANE, body, context) {
         return;
     }
     let body = widgets::caution::show(ui, body, context);
@@ -214,8 +210,8 @@ fn tooltip(built: &Built, shown: &paint::PlotOutput, pointer: Pos2, lines: &[Str
 /// while it is being computed, and for colors without one.
 fn nearest_black_body(color: UvPrime, context: &PaneContext<'_>) -> Option<String> {
     let observer = context.scene.sensor(SetKind::Observer, FIT_TARGET).ok()?;
-    context.radiators.ask(vec![NearestBlackBodyQuery { observer, constants: RadiationConstants::Paper }]);
-    let shown = context.radiators.shown()?;
+    let query = NearestBlackBodyQuery { observer, constants: RadiationConstants::Paper };
+    let shown = context.later.ask(PANE.kind, vec![query]).shown?;
     let cct = (*shown.answer).as_ref().ok()?.cct(color.uv60());
     Some(match cct {
         Ok(cct) => {

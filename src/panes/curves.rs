@@ -1,6 +1,6 @@
 //! The curves that a file gives.
 
-use egui::{Align2, Id, Rect, Ui, Vec2};
+use egui::{Align2, Id, Rect, Ui};
 
 use super::context::{Pane, PaneContext};
 use crate::figures::curves::{self, CurveCache, Curves};
@@ -13,7 +13,6 @@ use crate::workspaces::PaneKind;
 /// Reach of the pointer, in points.
 const REACH: f32 = 8.0;
 
-/// The pane.
 pub const PANE: Pane = Pane {
     kind: PaneKind::CURVES,
     title: "Curves",
@@ -23,10 +22,8 @@ pub const PANE: Pane = Pane {
     table: true,
 };
 
-/// Shows the pane in its rectangle.
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
-    let body = widgets::pane(ui, &PANE, rect, context, |_, _| {});
-    let body = Rect::from_min_max(body.min + Vec2::new(2.0 * UNIT, 0.0), body.max - Vec2::new(2.0 * UNIT, UNIT));
+    let body = widgets::body(ui, &PANE, rect, context, |_, _| {});
     let Some(shown) = context.import_selection() else {
         sentence(ui, body, "Drop files here.", context.theme.weak);
         return;

@@ -9,20 +9,18 @@ mod switches;
 
 use std::time::Duration;
 
-use chromascope_figure::FigureRoom;
-use egui::{Align2, FontId, Rect, Sense, Ui, Vec2};
+use egui::{Align2, FontId, Rect, Sense, Ui};
 
 use super::context::{Pane, PaneContext};
 use crate::document::render::SUN;
 use crate::figures;
 use crate::panes::widgets;
 use crate::render_service::REST_AFTER;
-use crate::theme::{HEADING, UNIT};
+use crate::theme::HEADING;
 use crate::view::render::{PixelPlace, RenderMode};
 use crate::workspaces::PaneKind;
 use cells::PictureLayout;
 
-/// The pane.
 pub const PANE: Pane = Pane {
     kind: PaneKind::RENDER,
     title: "Render",
@@ -32,10 +30,8 @@ pub const PANE: Pane = Pane {
     table: true,
 };
 
-/// Shows the pane in its rectangle.
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
-    let body = widgets::pane(ui, &PANE, rect, context, switches::show);
-    let body = Rect::from_min_max(body.min + Vec2::new(2.0 * UNIT, 0.0), body.max - Vec2::new(2.0 * UNIT, UNIT));
+    let body = widgets::body(ui, &PANE, rect, context, switches::show);
     context.view.render.hovered = None;
     if context.view.reset_plots {
         context.view.saved.render.orbit = None;
@@ -45,11 +41,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let asked = request::ask(ui, &layout, context);
     let busy = context.render_service.busy();
     context.view.render.busy = busy;
-    if context.view.saved.tables.contains(&PaneKind::RENDER) {
-        let look = context.look(PANE.kind);
-        if let Some(figure) = figures::render::KIND.figure(&context.scene, &look, FigureRoom::default()) {
-            widgets::table::show_numbers(ui, body, PaneKind::RENDER, &figure.table, context);
-        }
+    if widgets::figure_numbers(ui, &PANE, body, context) {
         widgets::busy_line(ui, body, busy, context.theme.on_surround);
         return;
     }

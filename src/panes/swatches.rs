@@ -1,7 +1,7 @@
 //! Patches as colors.
 
-use chromascope_figure::{FigureRoom, Shape};
-use egui::{Id, Rect, ScrollArea, Ui, UiBuilder, Vec2};
+use chromascope_figure::Shape;
+use egui::{Id, Rect, ScrollArea, Ui, Vec2};
 
 use super::context::{Pane, PaneContext};
 use crate::action::{Action, SceneAction};
@@ -16,7 +16,6 @@ use crate::workspaces::PaneKind;
 /// Height of the line below the swatches.
 const FOOTER: f32 = 24.0;
 
-/// The pane.
 pub const PANE: Pane = Pane {
     kind: PaneKind::SWATCHES,
     title: "Swatches",
@@ -26,13 +25,9 @@ pub const PANE: Pane = Pane {
     table: true,
 };
 
-/// Shows the pane in its rectangle.
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
-    let body = widgets::pane(ui, &PANE, rect, context, switches);
-    let body = Rect::from_min_max(body.min + Vec2::new(2.0 * UNIT, 0.0), body.max - Vec2::new(2.0 * UNIT, UNIT));
-    if context.view.saved.tables.contains(&PaneKind::SWATCHES) {
-        let figure = swatches::figure(&context.scene, &context.view.look(PANE.kind), FigureRoom::default());
-        widgets::table::show_numbers(ui, body, PaneKind::SWATCHES, &figure.table, context);
+    let body = widgets::body(ui, &PANE, rect, context, switches);
+    if widgets::figure_numbers(ui, &PANE, body, context) {
         return;
     }
     let body = widgets::caution::show(ui, body, context);
@@ -40,8 +35,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let (body, slot) = footer(ui, body, context);
     let size = [f64::from(body.width()), f64::from(body.height())];
     let built = swatches::build(&context.scene, &context.view.look(PANE.kind), size);
-    let mut child = ui.new_child(UiBuilder::new().id_salt("swatches").max_rect(body));
-    child.set_clip_rect(body.intersect(ui.clip_rect()));
+    let mut child = widgets::clipped(ui, "swatches", body);
     let height = (built.height as f32).max(body.height());
     let shown = ScrollArea::vertical().id_salt("swatches scroll").auto_shrink(false).show(&mut child, |ui| {
         let (area, _) = ui.allocate_exact_size(Vec2::new(body.width(), height), egui::Sense::hover());
@@ -138,8 +132,5 @@ fn switches(ui: &mut Ui, context: &mut PaneContext<'_>) {
         (SwatchStyle::Inset, "Inset", "The reference inside"),
         (SwatchStyle::Whole, "Sensor only", "The sensor without the reference"),
     ];
-    if let Some(style) = widgets::segmented(ui, &choices, context.view.saved.swatch_style) {
-        context.view.saved.swatch_style = style;
-        ui.ctx().request_repaint();
-    }
+    widgets::switch(ui, &choices, &mut context.view.saved.swatch_style);
 }

@@ -8,6 +8,8 @@ use chromascope_core::query::{Ask, Query};
 use chromascope_core::render::Against;
 use chromascope_core::render::plan::Explanation;
 
+use crate::jobs::Later;
+
 /// Integration plan of each sensor of a set of pictures; `None` if stopped.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct PlansQuery(pub PicturesQuery);
@@ -16,9 +18,30 @@ pub struct PlansQuery(pub PicturesQuery);
 pub type PlanAnswer = Result<Option<Planned>, RenderingError>;
 
 impl PlansQuery {
+    /// Who waits for plans.
+    const PANE: &'static str = "Tolerance";
+
+    /// Asks for the plans of these pictures' sources or, if `now` is false, once more for those asked last; returns what
+    /// [`Self::seen`] does.
+    pub fn ask(later: &Later, pictures: &PicturesQuery, now: bool) -> Option<Vec<PlanAnswer>> {
+        if now {
+            later.ask(Self::PANE, vec![Self(pictures.clone())]);
+        } else {
+            later.again::<Self>(Self::PANE);
+        }
+        Self::seen(later, pictures)
+    }
+
+    /// The plan of each of these pictures' sources, in their order. Until it is made, the last one that was made for the same
+    /// camera, light and material; none while there is a source without one.
+    pub fn seen(later: &Later, pictures: &PicturesQuery) -> Option<Vec<PlanAnswer>> {
+        let plans = later.seen::<Self>(Self::PANE).shown?;
+        plans.job.plans_for(pictures, &plans.answer)
+    }
+
     /// Plans for other pictures' sources, in their order, as far as they are among `plans`; `None` if one is missing. A plan
     /// holds for its camera under a light with a material.
-    pub(super) fn plans_for(&self, pictures: &PicturesQuery, plans: &[PlanAnswer]) -> Option<Vec<PlanAnswer>> {
+    fn plans_for(&self, pictures: &PicturesQuery, plans: &[PlanAnswer]) -> Option<Vec<PlanAnswer>> {
         let known: Vec<_> = self.0.sources.iter().map(|source| self.0.image(&source.rendering).measure).collect();
         let plan = |source: &SourceOf| {
             let measure = pictures.image(&source.rendering).measure;

@@ -12,17 +12,21 @@ use chromascope_core::query::{
 };
 use chromascope_core::spectral::Sensor;
 use chromascope_core::units::Kelvin;
+use serde::{Deserialize, Serialize};
 
 use super::channel_ratio::ChannelRatioQuery;
 use super::{Scene, SceneError};
 use crate::catalog::load::{CurveSpreadQuery, LightQuery, LoadError, PatchesQuery, SensorQuery, response_evidence};
 use crate::catalog::{Entry, Place};
-use crate::document::{CHART, CIE_1931, SetKind};
+use crate::document::{CHART, CIE_1931, Document, SensorId, SetKind};
+use crate::jobs::{Later, Waiting};
 
 /// The light of the sensitivity metamerism index (ISO 17321-1).
 const INDEX_LIGHT: &str = "D55";
 /// Maximum number of metameric pairs listed.
 const MOST_METAMERS: usize = 100;
+/// Cameras between two answers of a ranking.
+const STEP: usize = 4;
 
 /// Conditions of figures of merit, the same for all sensors.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
@@ -76,11 +80,6 @@ pub struct CatalogMetricsQuery {
 }
 
 impl CatalogMetricsQuery {
-    /// The question for a camera under conditions, without uncertainties.
-    pub fn new(camera: &Entry, conditions: Shared<MetricsConditions>, ratio: Option<ChannelRatioQuery>) -> Self {
-        Self { place: camera.place.clone(), conditions, ratio, with_uncertainties: false }
-    }
-
     /// The same with uncertainties, which take longer.
     #[must_use]
     pub fn with_uncertainties(&self) -> Self {
@@ -122,6 +121,133 @@ fn uncertainties_query(
         response: response_evidence(place, ask),
         ratio: ratio.map_or(Ok(ChannelRatio::Unchecked), |ratio| (*ask.ask(ratio)).clone())?,
     })
+}
+
+/// A choice of cameras.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum RankedCameras {
+    /// All of the library, the user's too.
+    #[default]
+    Library,
+    Compared,
+    Yours,
+}
+
+/// A camera to be ranked.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct RankedCamera {
+    pub id: SensorId,
+    /// Query for its figures of merit, or the reason that there is none.
+    query: Result<CatalogMetricsQuery, String>,
+}
+
+/// Cameras with their figures of merit.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Ranked {
+    pub cameras: Vec<RankedCamera>,
+    /// Their figures of merit: reason for none, or none while they are being made.
+    pub metrics: Vec<Option<Result<CameraFigures, String>>>,
+}
+
+impl Ranked {
+    /// Cameras with the figures of merit of the first of those that have a query.
+    fn new(cameras: &[RankedCamera], made: impl IntoIterator<Item = Arc<Result<CameraFigures, LoadError>>>) -> Self {
+        let mut made = made.into_iter();
+        let metrics = |camera: &RankedCamera| match &camera.query {
+            Ok(_) => made.next().map(|figures| (*figures).clone().map_err(|error| unloaded(&camera.id.name, error))),
+            Err(why) => Some(Err(why.clone())),
+        };
+        Self { metrics: cameras.iter().map(metrics).collect(), cameras: cameras.to_vec() }
+    }
+}
+
+/// Sentence for a camera whose table is damaged.
+pub fn unloaded(name: &str, error: LoadError) -> String {
+    SceneError::Load { name: name.to_owned(), error }.to_string()
+}
+
+/// Question for the figures of merit of the first so many of some cameras.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct RankingQuery {
+    cameras: Shared<Vec<RankedCamera>>,
+    count: usize,
+    with_uncertainties: bool,
+}
+
+impl Query for RankingQuery {
+    type Answer = Ranked;
+    const NAME: &'static str = "ranking";
+    const CAPACITY: usize = 2;
+
+    fn answer(&self, ask: &impl Ask) -> Ranked {
+        let queries = self.cameras.iter().filter_map(|camera| camera.query.as_ref().ok()).take(self.count);
+        let queries: Vec<_> = if self.with_uncertainties {
+            queries.map(CatalogMetricsQuery::with_uncertainties).collect()
+        } else {
+            queries.cloned().collect()
+        };
+        Ranked::new(&self.cameras, ask.ask_all(&queries))
+    }
+}
+
+impl RankingQuery {
+    /// A few cameras more at each stage, then the uncertainties of all, for which values do not wait.
+    fn stages(cameras: Vec<RankedCamera>) -> Vec<Self> {
+        let all = cameras.iter().filter(|camera| camera.query.is_ok()).count();
+        let cameras = Shared::new(cameras);
+        let counts = (1..=all.div_ceil(STEP)).map(|step| ((step * STEP).min(all), false));
+        let stages = counts.chain((all > 0).then_some((all, true)));
+        stages.map(|(count, with_uncertainties)| Self { cameras: cameras.clone(), count, with_uncertainties }).collect()
+    }
+}
+
+impl Waiting<RankingQuery> {
+    /// Number of cameras done and of all, while some are not.
+    pub fn progress(&self) -> Option<(usize, usize)> {
+        let all = self.stages.last()?.count;
+        let done = self.shown.as_ref().filter(|shown| shown.current).map_or(0, |shown| shown.job.count);
+        (done < all).then_some((done, all))
+    }
+}
+
+/// The ranking that several panes show: until all cameras are done, the last complete one stays.
+#[derive(Default)]
+pub struct Ranking {
+    /// Document and choice of cameras of the request, its cameras and its stages.
+    asked: Option<(Document, RankedCameras, Vec<RankedCamera>, Vec<RankingQuery>)>,
+    complete: Option<Arc<Ranked>>,
+}
+
+impl Ranking {
+    /// The panes that show it wait for one answer.
+    const PANE: &'static str = "Metrics";
+
+    /// The ranking as far as somebody asked for it in the last frame.
+    pub fn seen(later: &Later) -> Waiting<RankingQuery> {
+        later.seen(Self::PANE)
+    }
+
+    /// Asks for the cameras of a scene.
+    pub fn ask(&mut self, later: &Later, scene: &Scene<'_>, which: RankedCameras) -> Arc<Ranked> {
+        let asked = match self.asked.take() {
+            Some(asked) if asked.0 == *scene.document && asked.1 == which => asked,
+            former => {
+                let cameras = scene.cameras_to_rank(which);
+                let stages = former.filter(|former| former.2 == cameras).map(|former| former.3);
+                let stages = stages.unwrap_or_else(|| RankingQuery::stages(cameras.clone()));
+                (scene.document.clone(), which, cameras, stages)
+            }
+        };
+        let (_, _, cameras, stages) = self.asked.insert(asked);
+        let waiting = later.ask(Self::PANE, stages.clone());
+        let is_complete = waiting.progress().is_none();
+        let made = waiting.shown.filter(|shown| shown.current).map(|shown| shown.answer);
+        let none_yet = || Arc::new(Ranked::new(cameras, []));
+        if is_complete && (made.is_some() || stages.is_empty()) {
+            return Arc::clone(self.complete.insert(made.unwrap_or_else(none_yet)));
+        }
+        self.complete.clone().or(made).unwrap_or_else(none_yet)
+    }
 }
 
 /// A set of the catalog or the user's, without its header.
@@ -243,6 +369,40 @@ impl Scene<'_> {
         let metrics = self.results.ask(&query);
         let uncertainties = Some(self.results.ask(&self.metric_uncertainties_query(kind, name, query)?));
         Ok(CameraFigures { metrics, uncertainties })
+    }
+
+    /// The cameras of a choice, each with its query. Loads none of them.
+    fn cameras_to_rank(&self, which: RankedCameras) -> Vec<RankedCamera> {
+        let is_chosen = |entry: &Entry| match which {
+            RankedCameras::Library => true,
+            RankedCameras::Compared => self.document.compared(SetKind::Camera, &entry.name).is_some(),
+            RankedCameras::Yours => entry.is_own(),
+        };
+        let conditions = self.metrics_conditions(self.document.temperature_k);
+        let conditions = conditions.map(Shared::new).map_err(|error| error.to_string());
+        let camera = |entry: Entry| RankedCamera {
+            query: conditions.clone().map(|conditions| self.metrics_query_of(&entry, conditions)),
+            id: SensorId { kind: SetKind::Camera, name: entry.name },
+        };
+        self.entries(SetKind::Camera).filter(is_chosen).map(camera).collect()
+    }
+
+    /// Figures of merit of a choice of cameras with uncertainties, without delay.
+    pub fn ranked(&self, which: RankedCameras) -> Ranked {
+        let cameras = self.cameras_to_rank(which);
+        let queries = cameras.iter().filter_map(|camera| camera.query.as_ref().ok());
+        Ranked::new(&cameras, queries.map(|query| self.results.ask(&query.with_uncertainties())))
+    }
+
+    /// Query for the figures of merit of a camera, which is loaded where it is answered.
+    pub fn card_query(&self, camera: &SensorId) -> Result<CatalogMetricsQuery, SceneError> {
+        let conditions = Shared::new(self.metrics_conditions(self.document.temperature_k)?);
+        Ok(self.metrics_query_of(&self.entry(camera.kind, &camera.name)?, conditions))
+    }
+
+    fn metrics_query_of(&self, camera: &Entry, conditions: Shared<MetricsConditions>) -> CatalogMetricsQuery {
+        let ratio = self.channel_ratio_query(&camera.name).ok();
+        CatalogMetricsQuery { place: camera.place.clone(), conditions, ratio, with_uncertainties: false }
     }
 
     /// Conditions of figures of merit, the locus at a temperature in kelvins. Loads no camera.

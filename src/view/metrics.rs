@@ -4,7 +4,7 @@ use chromascope_core::metamers::Confusion;
 use serde::{Deserialize, Serialize};
 
 use crate::plot_item::SensorId;
-pub use crate::ranking::RankedCameras;
+pub use crate::scene::metrics::RankedCameras;
 
 /// View settings of the Metrics pane.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]

@@ -8,7 +8,7 @@ use chromascope::command::Command;
 use chromascope::document::SetKind;
 use chromascope::document::render::{ReadingChoice, RenderSettings};
 use chromascope::panes;
-use chromascope::profiler::{SceneRun, Subject};
+use chromascope::profiler::{Profiler, SceneRun, Subject};
 use chromascope::scene::Scene;
 use chromascope::view::accuracy::Shows;
 use chromascope::workspaces::{PaneKind, Workspace};
@@ -36,7 +36,7 @@ fn measured() -> Window {
 }
 
 fn take_in(window: &mut Window) {
-    window.state().profiler().wait();
+    window.state().later().wait();
     window.run_steps(3);
 }
 
@@ -49,7 +49,7 @@ fn nothing_is_measured_unasked() {
     let mut window = open([1280.0, 800.0], egui::Theme::Light);
     window.state_mut().push(Command::Show(Workspace::Numerics));
     window.run_steps(3);
-    assert!(window.state().profiler().busy().is_none());
+    assert!(Profiler::busy(window.state().later()).is_none());
     assert!(window.state().profiler().measured.run.is_none());
     assert!(window.query_by_label("Nothing measured yet.").is_some());
 }
@@ -260,10 +260,10 @@ fn escape_stops_measuring() {
     let (executor, mut window) = driven([1280.0, 800.0], egui::Theme::Dark);
     window.state_mut().push(Command::SpectralWeights);
     window.run_steps(1);
-    assert!(window.state().profiler().busy().is_some());
+    assert!(Profiler::busy(window.state().later()).is_some());
     window.key_press(egui::Key::Escape);
     window.run_steps(2);
-    assert!(window.state().profiler().busy().is_none());
+    assert!(Profiler::busy(window.state().later()).is_none());
     executor.run_all();
     window.run_steps(2);
     assert!(window.state().profiler().measured.run.is_none());

@@ -53,7 +53,6 @@ const APP_LAYERS: &[&str] = &[
     "plot_item",
     "render_service",
     "profiler",
-    "ranking",
     "figures",
     "report",
     "cli",

@@ -69,7 +69,7 @@ fn open(window: &mut Window) {
 /// Waits until the cameras are fitted, if there is something to fit.
 fn fitted(window: &mut Window) {
     window.run_steps(2);
-    window.state().ranking().wait();
+    window.state().later().wait();
     window.run_steps(2);
 }
 

@@ -478,7 +478,7 @@ fn made_for_a_mesh(beside: PaneKind) -> [u64; 4] {
     render(&mut window, |settings| settings.mesh = MeshChoice::Sphere);
     for _ in 0..3 {
         settle(&mut window);
-        window.state().profiler().wait();
+        window.state().later().wait();
     }
     assert_eq!(made(&window, "shading") > shadings + 3, beside == PaneKind::TOLERANCE, "plans are of shaded samples");
     std::array::from_fn(|stage| made(&window, STAGES[stage]) - before[stage])

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use chromascope_core::spectral::Primaries;
 use chromascope_figure::{InkRole, LegendEntry, Marker, Panel, Stroke};
-use egui::{Rect, RichText, Ui, Vec2};
+use egui::{Rect, Ui, Vec2};
 
 use crate::action::Action;
 use crate::command::{Command, TourMove};
@@ -13,7 +13,7 @@ use crate::document::{TransformChoice, WhiteBalanceChoice};
 use crate::figures::thumbnail;
 use crate::paint;
 use crate::panes::context::PaneContext;
-use crate::panes::widgets::{WHAT_YOU_SEE, focus_rim, lines};
+use crate::panes::widgets::{self, WHAT_YOU_SEE, focus_rim, lines};
 use crate::scene::Scene;
 use crate::theme::{ROW, Theme, UNIT};
 
@@ -25,7 +25,7 @@ const KEY: f32 = 26.0;
 pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let theme = context.theme;
     starts(ui, context);
-    ui.label(RichText::new("What you see").strong());
+    ui.strong("What you see");
     ui.label(WHAT_YOU_SEE);
     ui.add_space(UNIT);
     let line = |role: InkRole, marker: Marker, width: f64| LegendEntry {
@@ -53,10 +53,10 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
     });
     if let Some(words) = caveat(context) {
         ui.add_space(UNIT);
-        ui.label(RichText::new(words).small().color(theme.weak));
+        widgets::note(ui, words);
     }
     ui.separator();
-    ui.label(RichText::new("Hover to read, click to select, Esc to deselect.").color(theme.weak));
+    ui.weak("Hover to read, click to select, Esc to deselect.");
 }
 
 /// The two starts as cards with their pictures, one click apart.

@@ -3,11 +3,11 @@
 use egui::{Align, CollapsingHeader, Id, RichText, Ui};
 use spectral_file::{Decision, SpectralFile};
 
-use super::note;
 use crate::figures::curves::ImportSelection;
 use crate::format;
 use crate::format::{number, sentence};
 use crate::panes::context::PaneContext;
+use crate::panes::widgets;
 use crate::panes::widgets::facts::range_words;
 use crate::theme::{Theme, UNIT};
 
@@ -84,7 +84,7 @@ pub(super) fn show(ui: &mut Ui, shown: &ImportSelection, context: &mut PaneConte
     });
     folded(ui, "Origin", |ui| {
         for fact in facts(shown, table) {
-            note(ui, &theme, fact);
+            widgets::note(ui, fact);
         }
     });
 }
