@@ -4,7 +4,7 @@
 //!
 //! ```diff
 //! --- /dev/null
-//! +++ b/src/figures/gamut.rs
+//! +++ b/src/workbench/src/figures/gamut.rs
 //! +//! Gamut of each sensor.
 //! +
 //! +use chromascope_figure::{Figure, FigureRoom};
@@ -18,8 +18,8 @@
 //! +fn figure(scene: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Option<Figure> {
 //! +    …
 //! +}
-//! --- a/src/figures.rs
-//! +++ b/src/figures.rs
+//! --- a/src/workbench/src/figures.rs
+//! +++ b/src/workbench/src/figures.rs
 //! +pub mod gamut;
 //!      &accuracy::KIND,
 //! +    &gamut::KIND,

@@ -5,7 +5,7 @@ use std::path::Path;
 use spectral_file::{Dropped, DroppedRow};
 
 /// A number for reading: six significant digits at most, a true minus sign.
-pub(crate) fn number(value: f64) -> String {
+pub fn number(value: f64) -> String {
     let magnitude = value.abs();
     let text = if value == 0.0 || (1e-4..1e6).contains(&magnitude) {
         let decimals = if magnitude >= 1.0 { 5_usize.saturating_sub(magnitude.log10() as usize) } else { 5 };
@@ -18,7 +18,7 @@ pub(crate) fn number(value: f64) -> String {
 }
 
 /// A number with a fixed count of decimals and a true minus sign; no minus before nothing but zeros.
-pub(crate) fn fixed(value: f64, decimals: usize) -> String {
+pub fn fixed(value: f64, decimals: usize) -> String {
     let text = format!("{value:.decimals$}");
     let is_zero = !text.bytes().any(|b| b.is_ascii_digit() && b != b'0');
     if is_zero { text.trim_start_matches('-').to_owned() } else { text.replace('-', "−") }
@@ -31,19 +31,19 @@ const EXTRAPOLATED: &str = "†";
 
 /// Decimals at which a value with a standard uncertainty ends: where two significant digits of the uncertainty do, the most that the GUM
 /// finds useful (JCGM 100:2008, 7.2.6). Negative for tens and hundreds; none for an uncertainty of zero.
-pub(crate) fn decimals_by(uncertainty: f64) -> Option<i32> {
+pub fn decimals_by(uncertainty: f64) -> Option<i32> {
     // Rounded before it is counted: 0.0996 is 0.10.
     let exponent: i32 = format!("{uncertainty:.1e}").split_once('e')?.1.parse().ok()?;
     (uncertainty > 0.0).then_some((1 - exponent).min(MOST_DECIMALS))
 }
 
 /// A count of decimals beside those that may be negative.
-pub(crate) fn whole(decimals: usize) -> i32 {
+pub fn whole(decimals: usize) -> i32 {
     i32::try_from(decimals).unwrap_or(MOST_DECIMALS)
 }
 
 /// A number rounded to a count of decimals; a negative count is of zeros before the point.
-pub(crate) fn rounded(value: f64, decimals: i32) -> String {
+pub fn rounded(value: f64, decimals: i32) -> String {
     let Ok(decimals) = usize::try_from(decimals) else {
         let unit = 10_f64.powi(-decimals);
         return fixed((value / unit).round() * unit, 0);
@@ -52,26 +52,26 @@ pub(crate) fn rounded(value: f64, decimals: i32) -> String {
 }
 
 /// A number with fewer decimals than others below it, padded so that decimal points stand below each other.
-pub(crate) fn aligned(value: f64, decimals: i32, column: usize) -> String {
+pub fn aligned(value: f64, decimals: i32, column: usize) -> String {
     let own = decimals.max(0) as usize;
     let point = usize::from(own == 0 && column > 0);
     format!("{}{}", rounded(value, decimals), " ".repeat(column.saturating_sub(own) + point))
 }
 
 /// A standard uncertainty as it is written behind its value; none for one of zero.
-pub(crate) fn behind(uncertainty: f64, is_extrapolated: bool) -> Option<String> {
+pub fn behind(uncertainty: f64, is_extrapolated: bool) -> Option<String> {
     let mark = if is_extrapolated { EXTRAPOLATED } else { "" };
     Some(format!("± {}{mark}", rounded(uncertainty, decimals_by(uncertainty)?)))
 }
 
 /// Duv and other signed numbers with four decimals: `+0.0032`.
-pub(crate) fn signed(value: f64) -> String {
+pub fn signed(value: f64) -> String {
     let text = fixed(value, 4);
     if text.starts_with('−') { text } else { format!("+{text}") }
 }
 
 /// A rank as `3`, or as `1–3` where it is not certain.
-pub(crate) fn rank_in_words(rank: Option<[usize; 2]>) -> String {
+pub fn rank_in_words(rank: Option<[usize; 2]>) -> String {
     match rank {
         Some([first, last]) if first == last => first.to_string(),
         Some([first, last]) => format!("{first}–{last}"),
@@ -80,28 +80,28 @@ pub(crate) fn rank_in_words(rank: Option<[usize; 2]>) -> String {
 }
 
 /// A text with a capital at its start.
-pub(crate) fn capitalized(words: &str) -> String {
+pub fn capitalized(words: &str) -> String {
     let mut letters = words.chars();
     letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }
 
 /// A library's message as a sentence: with a capital at its start and a full stop.
-pub(crate) fn sentence(words: &str) -> String {
+pub fn sentence(words: &str) -> String {
     format!("{}.", capitalized(words))
 }
 
 /// The last part of a path; the whole path if it has none.
-pub(crate) fn file_name(path: &Path) -> String {
+pub fn file_name(path: &Path) -> String {
     path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
 }
 
 /// The system's reason for a failure at a path, after the path.
-pub(crate) fn io_failure(path: &Path, error: &std::io::Error) -> String {
+pub fn io_failure(path: &Path, error: &std::io::Error) -> String {
     format!("{}: {}", path.display(), io_reason(error))
 }
 
 /// The system's reason for a failure, without its error number.
-pub(crate) fn io_reason(error: &std::io::Error) -> String {
+pub fn io_reason(error: &std::io::Error) -> String {
     let text = error.to_string();
     let end = text.find(" (os error").unwrap_or(text.len());
     spectral_file::lowered(&text[..end])
@@ -109,7 +109,7 @@ pub(crate) fn io_reason(error: &std::io::Error) -> String {
 
 /// Rows of a file that are in no curve: a sentence for the merged and one for the omitted ones, each with the line numbers of at
 /// most `most` rows.
-pub(crate) fn dropped_rows(rows: &[DroppedRow], most: usize) -> Vec<String> {
+pub fn dropped_rows(rows: &[DroppedRow], most: usize) -> Vec<String> {
     let (merged, left): (Vec<&DroppedRow>, Vec<&DroppedRow>) =
         rows.iter().partition(|row| row.why == Dropped::Averaged);
     let mut sentences = Vec::new();
@@ -138,7 +138,7 @@ fn listed(rows: &[&DroppedRow], most: usize, one: impl Fn(&DroppedRow) -> String
 }
 
 /// A name that any file system takes: letters and digits, small, other signs as single hyphens.
-pub(crate) fn slug(name: &str) -> String {
+pub fn slug(name: &str) -> String {
     let words = name.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty());
     let slug = words.map(str::to_lowercase).collect::<Vec<_>>().join("-");
     if slug.is_empty() { "unnamed".to_owned() } else { slug }

@@ -13,9 +13,9 @@ pub const FONT_FAMILY: &str = "DejaVu Sans";
 /// Family of numbers in figures.
 pub const MONO_FAMILY: &str = "DejaVu Sans Mono";
 /// The text font.
-pub const FONT: &[u8] = include_bytes!("../assets/fonts/DejaVuSans.ttf");
+pub const FONT: &[u8] = include_bytes!("../../../assets/fonts/DejaVuSans.ttf");
 /// The font of numbers.
-pub const MONO_FONT: &[u8] = include_bytes!("../assets/fonts/DejaVuSansMono.ttf");
+pub const MONO_FONT: &[u8] = include_bytes!("../../../assets/fonts/DejaVuSansMono.ttf");
 
 /// The gray around swatches and renders.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]

@@ -26,11 +26,11 @@ use chromascope_core::spectral::sensor::TAIL_BELOW_K;
 
 use super::kind::FigureKind;
 use super::look::FigureLook;
-use crate::document::{Diagram, TransformChoice};
+use crate::document::{Diagram, SetKind, TransformChoice};
 use crate::plot_item::PickIndex;
 use crate::scene::{ComparedSensor, Scene};
 use drawing::Drawing;
-pub(crate) use drawing::id;
+pub use drawing::id;
 use frame::Frame;
 use shown::{DiagramFit, Ranges};
 
@@ -265,55 +265,50 @@ pub fn viewing_conditions(scene: &Scene<'_>) -> String {
     format!("Reference: {}. Light: {}. White balance: {white}.", scene.document.reference, scene.light_name())
 }
 
+/// Coordinates in both diagrams.
+type Places = (Option<Xy>, Option<UvPrime>);
+
 /// All points as numbers.
 fn table(scene: &Scene<'_>) -> Table {
-    let mut table = Table::new([
-        "sensor",
-        "kind",
-        "temperature_k",
-        "patch",
-        "x",
-        "y",
-        "u_prime",
-        "v_prime",
-        "distance_xy",
-        "distance_uv_prime",
-        "extrapolated",
-        "cct_k",
-        "duv",
-    ]);
-    let reference_locus = scene.locus(crate::document::SetKind::Observer, &scene.document.reference).ok();
+    let heads =
+        "sensor kind temperature_k patch x y u_prime v_prime distance_xy distance_uv_prime extrapolated cct_k duv";
+    let mut table = Table::new(heads.split(' '));
+    let reference = &scene.document.reference;
+    let reference_locus = scene.locus(SetKind::Observer, reference).ok();
+    let reference_colors = scene.patch_colors(SetKind::Observer, reference).unwrap_or_default();
     for source in scene.sources().iter().filter(|source| source.visible) {
         let comparable = matches!(scene.comparable(source.kind, &source.name), Ok(Ok(())));
-        let near = |xy: Option<Xy>, uv: Option<UvPrime>, txy: Option<Xy>, tuv: Option<UvPrime>| {
-            let xy = xy.zip(txy).filter(|_| comparable).map(|(a, b)| a.distance(b));
-            let uv = uv.zip(tuv).filter(|_| comparable).map(|(a, b)| a.distance(b));
-            [Cell::from(xy), Cell::from(uv)]
-        };
+        let mut push =
+            |kind: &str, [kelvin, patch]: [Cell; 2], (xy, uv): Places, of: Option<Places>, rest: [Cell; 3]| {
+                let (reference_xy, reference_uv) = of.filter(|_| comparable).unwrap_or_default();
+                let places = [xy.map(|p| p.x), xy.map(|p| p.y), uv.map(|p| p.u), uv.map(|p| p.v)];
+                let distances = [
+                    xy.zip(reference_xy).map(|(a, b)| a.distance(b)),
+                    uv.zip(reference_uv).map(|(a, b)| a.distance(b)),
+                ];
+                let numbers = places.into_iter().chain(distances).map(Cell::from);
+                table.push(
+                    [source.label.as_str().into(), kind.into(), kelvin, patch].into_iter().chain(numbers).chain(rest),
+                );
+            };
         let below = scene.extrapolated_below(source.kind, &source.name).map_or(0.0, |(below, _)| below);
         if let Ok(locus) = scene.locus(source.kind, &source.name) {
             let ccts = temperatures(scene, locus.points.iter().map(|point| point.xyz));
-            for ((index, point), cct) in locus.points.iter().enumerate().zip(ccts) {
-                let reference = reference_locus.as_ref().and_then(|reference| reference.points.get(index));
-                let [dxy, duv] = near(point.xy, point.uv, reference.and_then(|t| t.xy), reference.and_then(|t| t.uv));
-                let temperature = Cell::from(point.temperature.get());
-                let extrapolated = if point.temperature.get() < below { "true" } else { "false" };
-                let places = row(&source.label, "locus", temperature, Cell::Empty, point.xy, point.uv, dxy, duv);
-                table.push(places.into_iter().chain([Cell::from(extrapolated)]).chain(cct));
+            for ((index, point), [cct, duv]) in locus.points.iter().enumerate().zip(ccts) {
+                let of = reference_locus.as_ref().and_then(|locus| locus.points.get(index)).map(|p| (p.xy, p.uv));
+                let kelvin = point.temperature.get();
+                let extrapolated = if kelvin < below { "true" } else { "false" };
+                push("locus", [kelvin.into(), Cell::Empty], (point.xy, point.uv), of, [extrapolated.into(), cct, duv]);
             }
         }
-        let reference =
-            scene.patch_colors(crate::document::SetKind::Observer, &scene.document.reference).unwrap_or_default();
         let (Ok(colors), Ok(patches)) = (scene.patch_colors(source.kind, &source.name), scene.patches()) else {
             continue;
         };
         let ccts = temperatures(scene, colors.iter().map(|color| color.xyz));
-        for ((index, (color, patch)), cct) in colors.iter().zip(patches.patches()).enumerate().zip(ccts) {
-            let reference = reference.get(index);
-            let [dxy, duv] = near(color.xy, color.uv, reference.and_then(|t| t.xy), reference.and_then(|t| t.uv));
-            let places =
-                row(&source.label, "patch", Cell::Empty, Cell::from(patch.name.as_str()), color.xy, color.uv, dxy, duv);
-            table.push(places.into_iter().chain([Cell::Empty]).chain(cct));
+        for ((index, (color, patch)), [cct, duv]) in colors.iter().zip(patches.patches()).enumerate().zip(ccts) {
+            let of = reference_colors.get(index).map(|color| (color.xy, color.uv));
+            let patch = patch.name.as_str().into();
+            push("patch", [Cell::Empty, patch], (color.xy, color.uv), of, [Cell::Empty, cct, duv]);
         }
     }
     table
@@ -327,29 +322,4 @@ fn temperatures(scene: &Scene<'_>, colors: impl Iterator<Item = Xyz>) -> Vec<[Ce
         Ok(found) => found.into_iter().map(|cct| cells(cct.ok())).collect(),
         Err(_) => colors.iter().map(|_| cells(None)).collect(),
     }
-}
-
-#[expect(clippy::too_many_arguments, reason = "a row has these columns")]
-fn row(
-    source: &str,
-    kind: &str,
-    temperature: Cell,
-    patch: Cell,
-    xy: Option<Xy>,
-    uv: Option<UvPrime>,
-    dxy: Cell,
-    duv: Cell,
-) -> [Cell; 10] {
-    [
-        Cell::from(source),
-        Cell::from(kind),
-        temperature,
-        patch,
-        Cell::from(xy.map(|p| p.x)),
-        Cell::from(xy.map(|p| p.y)),
-        Cell::from(uv.map(|p| p.u)),
-        Cell::from(uv.map(|p| p.v)),
-        dxy,
-        duv,
-    ]
 }

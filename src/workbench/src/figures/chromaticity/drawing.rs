@@ -68,6 +68,6 @@ impl<'a> Drawing<'a> {
 }
 
 /// A sensor's identity.
-pub(crate) fn id(source: &ComparedSensor) -> SensorId {
+pub fn id(source: &ComparedSensor) -> SensorId {
     SensorId { kind: source.kind, name: source.name.clone() }
 }
