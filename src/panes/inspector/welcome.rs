@@ -10,7 +10,7 @@ use crate::action::Action;
 use crate::command::{Command, TourMove};
 use crate::document::start::Start;
 use crate::document::{TransformChoice, WhiteBalanceChoice};
-use crate::figures::thumbnail;
+use crate::figures::chromaticity;
 use crate::paint;
 use crate::panes::context::PaneContext;
 use crate::panes::widgets::{self, WHAT_YOU_SEE, focus_rim, lines};
@@ -100,7 +100,7 @@ fn picture_of(ui: &Ui, start: Start, size: Vec2, context: &PaneContext<'_>) -> A
     if let Some(known) = ui.data(|data| data.get_temp::<Arc<Panel>>(id)) {
         return known;
     }
-    let made = Arc::new(thumbnail::diagram(
+    let made = Arc::new(chromaticity::thumbnail(
         &Scene { document: &start.document(), ..context.scene },
         [f64::from(size.x), f64::from(size.y)],
     ));

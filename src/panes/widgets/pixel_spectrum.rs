@@ -2,7 +2,7 @@
 
 use egui::{Id, RichText, Sense, Ui, Vec2};
 
-use crate::figures::render::spectrum;
+use crate::figures::render::spectrum_panel;
 use crate::paint::{self, PlotOptions};
 use crate::panes::context::PaneContext;
 use crate::panes::widgets;
@@ -28,7 +28,7 @@ pub fn show(ui: &mut Ui, id: &'static str, shot: &RenderedFrame, at: [usize; 2],
         None => &[],
     };
     let (area, _) = ui.allocate_exact_size(Vec2::new(ui.available_width(), HEIGHT), Sense::hover());
-    let panel = spectrum::panel(points, image.image.quantity, [area.width(), area.height()].map(f64::from));
+    let panel = spectrum_panel(points, image.image.quantity, [area.width(), area.height()].map(f64::from));
     let options = PlotOptions { zoomable: false, ..PlotOptions::default() };
     let shown = paint::plot(ui, Id::unique(id), &panel, &context.theme, area, options);
     let near =

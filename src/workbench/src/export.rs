@@ -36,12 +36,7 @@ pub enum ExportError {
     Svg(#[from] usvg::Error),
     /// The picture would be too large, or have no pixel.
     #[error("a picture of {width} × {height} pixels cannot be made; the longest side is {MAX_SIDE}")]
-    Size {
-        /// Its width in pixels.
-        width: u32,
-        /// Its height in pixels.
-        height: u32,
-    },
+    Size { width: u32, height: u32 },
     /// The picture could not be encoded.
     #[error("the picture could not be encoded: {0}")]
     Encode(#[from] image::ImageError),

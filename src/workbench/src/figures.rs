@@ -45,7 +45,6 @@ pub mod report_card;
 pub mod spectra;
 pub mod strip;
 pub mod swatches;
-pub mod thumbnail;
 
 use kind::FigureKind;
 

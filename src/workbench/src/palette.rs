@@ -30,7 +30,6 @@ pub enum Surround {
 }
 
 impl Surround {
-    /// All of them.
     pub const ALL: [Self; 3] = [Self::Middle, Self::Dark, Self::Light];
 
     /// The name on screen.
@@ -42,7 +41,6 @@ impl Surround {
         }
     }
 
-    /// The gray.
     pub const fn color(self) -> [u8; 3] {
         match self {
             Self::Middle => [0x77; 3],

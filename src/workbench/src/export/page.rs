@@ -17,9 +17,7 @@ use crate::results::Results;
 /// A page to be drawn as pixels.
 #[derive(Clone)]
 pub struct PageJob {
-    /// Figure laid out for the paper.
     pub figure: Arc<Figure>,
-    /// Paper.
     pub paper: Paper,
     /// Pixels per point on paper.
     pub scale: f32,
@@ -95,7 +93,6 @@ impl PageFacts {
         }
     }
 
-    /// Width and height in millimeters.
     pub fn size_mm(&self) -> [f64; 2] {
         self.size_pt.map(|points| points / 72.0 * 25.4)
     }

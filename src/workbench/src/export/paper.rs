@@ -96,7 +96,6 @@ impl Paper {
         (self.dpi / 72.0) as f32
     }
 
-    /// The colors.
     pub fn colors(&self) -> Colors {
         let colors = match self.style {
             PaperStyle::Light => Colors::LIGHT,

@@ -125,7 +125,6 @@ fn figure(_: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Option<Figure> 
     Some(figure)
 }
 
-/// Title of the methods' figure.
 pub fn title(subject: Subject) -> String {
     format!("Run time against error: {}", subject.what())
 }
@@ -141,7 +140,6 @@ fn with_conditions(mut table: Table, trial: &Trial, conditions: &Conditions) -> 
     table
 }
 
-/// Legend of the marks.
 pub fn legend(trial: &Trial) -> Vec<LegendEntry> {
     let families: std::collections::BTreeSet<Family> = trial.points.iter().map(|point| point.family).collect();
     families.into_iter().map(entry).collect()
@@ -156,7 +154,6 @@ fn entry(family: Family) -> LegendEntry {
     }
 }
 
-/// The numbers.
 pub fn table(trial: &Trial) -> Table {
     let mut table = Table::new([
         "method".to_owned(),

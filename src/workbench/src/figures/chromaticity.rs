@@ -4,11 +4,9 @@ mod drawing;
 mod edges;
 mod fit;
 mod frame;
-mod ghost;
 mod ground;
 mod labels;
 mod loci;
-mod pixel;
 mod points;
 pub mod shown;
 mod whites;
@@ -18,16 +16,19 @@ use std::collections::BTreeSet;
 use chromascope_core::colorimetry::{UvPrime, Xy, Xyz};
 use chromascope_core::light::Cct;
 use chromascope_figure::{
-    Axis, AxisRanges, Cell, Figure, FigureRoom, InkRole, LegendEntry, LegendPlace, Mark, Numbers, Panel, Projection,
-    Rect, Shape, Stroke, Table, Ticks, auto_ticks,
+    Axis, AxisRanges, Cell, Figure, FigureRoom, InkRole, LegendEntry, LegendPlace, Mark, Marker, Numbers, Panel,
+    Projection, Rect, Shape, Stroke, Table, Ticks, auto_ticks,
 };
 
 use chromascope_core::spectral::sensor::TAIL_BELOW_K;
 
 use super::kind::FigureKind;
-use super::look::FigureLook;
+use super::look::{FigureLook, PixelPlace};
+use super::render::pixel_of;
 use crate::document::{Diagram, SetKind, TransformChoice};
-use crate::plot_item::PickIndex;
+use crate::plot_item::{PickIndex, PlotItem};
+use crate::render_service::RenderedFrame;
+use crate::render_service::pixel::PixelShows;
 use crate::scene::{ComparedSensor, Scene};
 use drawing::Drawing;
 pub use drawing::id;
@@ -40,9 +41,7 @@ pub use points::{blackbody_distance, brief, describe, distance_symbol};
 /// The diagram with the items of its marks.
 #[derive(Clone, Debug)]
 pub struct Built {
-    /// The panel.
     pub panel: Panel,
-    /// Items of the marks.
     pub things: PickIndex,
     /// Sensors that could not be drawn, with why.
     pub refused: Vec<String>,
@@ -52,7 +51,6 @@ pub struct Built {
     pub lens: Option<Box<Built>>,
 }
 
-/// The names of the coordinates.
 pub const fn coordinates(diagram: Diagram) -> [&'static str; 2] {
     match diagram {
         Diagram::Xy => ["x", "y"],
@@ -99,15 +97,34 @@ fn draw<'a>(scene: &'a Scene<'a>, look: &'a FigureLook, frame: Frame, sketch: bo
     }
     if scene.document.overlays.loci {
         loci::add(&mut drawing, &sources);
-        ghost::add(&mut drawing);
+        loci::add_ghost(&mut drawing);
     }
     if scene.document.overlays.patches {
         points::add(&mut drawing, &sources);
     }
     if let Some(pictures) = look.pictures.as_deref().filter(|_| !sketch) {
-        pixel::add(&mut drawing, pictures, &sources);
+        add_pixel(&mut drawing, pictures, &sources);
     }
     drawing
+}
+
+/// Radius of the mark of a pixel in points.
+const PIXEL_RADIUS: f64 = 4.5;
+
+/// Adds a diamond for each sensor that has a picture, in whatever workspace that is.
+fn add_pixel(drawing: &mut Drawing<'_>, pictures: &RenderedFrame, sources: &[ComparedSensor]) {
+    let Some(pinned) = drawing.look.pinned_pixel.clone() else { return };
+    for source in sources.iter().rev() {
+        let place = PixelPlace { source: id(source), ..pinned.clone() };
+        let Some(PixelShows::Lit(lit)) = pixel_of(drawing.scene, pictures, &place).map(|reading| reading.shows) else {
+            continue;
+        };
+        let Some(at) = lit.xy.and_then(|xy| drawing.place(xy)) else { continue };
+        let tag = drawing.things.tag(PlotItem::Sensor(id(source)));
+        let shape = Shape::Points { points: vec![at], marker: Marker::Diamond, radius: PIXEL_RADIUS };
+        let mark = Mark::new(tag, format!("{}, pixel", source.label), shape).with_stroke(source.role, 1.5);
+        drawing.small.push(mark.with_fill(source.role).with_halo(InkRole::Plot));
+    }
 }
 
 fn finish(drawing: Drawing<'_>, name: &str, area: Rect, frame: Frame) -> Built {
@@ -162,6 +179,26 @@ pub fn overview(scene: &Scene<'_>, shown: [[f64; 2]; 2], size: [f64; 2]) -> Pane
     let mut panel = Panel::new("Overview", Rect::from_min_size([0.0, 0.0], size), x, y);
     panel.equal_aspect = true;
     panel.marks = drawing.marks;
+    panel
+}
+
+/// Factor on lines and markers.
+const SMALLER: f64 = 0.5;
+
+/// The diagram of a scene, fitted to its data, in small: tint, loci and patches.
+pub fn thumbnail(scene: &Scene<'_>, size: [f64; 2]) -> Panel {
+    let mut panel = build(scene, &FigureLook::default(), size).panel;
+    (panel.x, panel.y) = (Axis::hidden(panel.x.range), Axis::hidden(panel.y.range));
+    panel.marks.retain(|mark| !matches!(mark.shape, Shape::Text { .. }));
+    for mark in &mut panel.marks {
+        mark.halo = None;
+        if let Some(stroke) = &mut mark.stroke {
+            stroke.width *= SMALLER;
+        }
+        if let Shape::Points { radius, .. } = &mut mark.shape {
+            *radius *= SMALLER;
+        }
+    }
     panel
 }
 
@@ -226,8 +263,13 @@ fn keep_inside(table: &mut Table, diagram: Diagram, ranges: Ranges) {
 }
 
 fn legend_entry(source: &ComparedSensor) -> LegendEntry {
+    key(source, if source.is_reference { format!("{} (reference)", source.label) } else { source.label.clone() })
+}
+
+/// A sensor's line and marker with a name.
+pub fn key(source: &ComparedSensor, name: String) -> LegendEntry {
     LegendEntry {
-        name: if source.is_reference { format!("{} (reference)", source.label) } else { source.label.clone() },
+        name,
         stroke: Some(Stroke::solid(source.role, source.width)),
         marker: Some(source.marker),
         fill: source.marker.has_inside().then(|| source.role.into()),
@@ -268,7 +310,6 @@ pub fn viewing_conditions(scene: &Scene<'_>) -> String {
 /// Coordinates in both diagrams.
 type Places = (Option<Xy>, Option<UvPrime>);
 
-/// All points as numbers.
 fn table(scene: &Scene<'_>) -> Table {
     let heads =
         "sensor kind temperature_k patch x y u_prime v_prime distance_xy distance_uv_prime extrapolated cct_k duv";

@@ -1,8 +1,9 @@
 //! Curves of a file, as interpreted.
 
-mod cache;
 mod drawn;
 pub mod import_selection;
+
+use std::sync::Arc;
 
 use chromascope_core::spectral::grid::{FIRST_NM, LAST_NM};
 use chromascope_figure::{
@@ -10,7 +11,6 @@ use chromascope_figure::{
     Rect, Shape, Stroke, Table, Tag, TextSize, finite_runs,
 };
 
-pub use cache::CurveCache;
 pub use drawn::{Curve, Curves, DRAWN};
 pub use import_selection::{ImportItem, ImportSelection, places};
 
@@ -162,7 +162,6 @@ fn figure(_: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Option<Figure> 
     Some(figure)
 }
 
-/// Title of the figure.
 pub fn title(curves: &Curves) -> String {
     format!("Curves of {}", curves.title)
 }
@@ -194,4 +193,47 @@ pub fn numbers(curves: &Curves) -> Table {
         }
     }
     table
+}
+
+/// Maximum total number of points drawn on screen.
+const POINTS: usize = 80_000;
+
+/// The curves of the last selected item.
+#[derive(Clone, Debug)]
+pub struct CurveCache {
+    of: ImportSelection,
+    curves: Result<Arc<Pair>, String>,
+}
+
+/// Curves, and the same with no more points than can be seen.
+#[derive(Debug)]
+struct Pair {
+    all: Curves,
+    seen: Curves,
+}
+
+impl CurveCache {
+    /// The curves of the selected item: the cached ones, if still valid.
+    pub fn of(shown: &ImportSelection, before: Option<Self>) -> Self {
+        if let Some(before) = before.filter(|before| before.of.is_same(shown)) {
+            return before;
+        }
+        let curves = Curves::of(shown, DRAWN).map(|all| {
+            let most = (POINTS / all.drawn.len().max(1)).clamp(64, 4096);
+            let mut seen = all.clone();
+            seen.drawn.iter_mut().for_each(|curve| curve.points = drawn::thinned(&curve.points, most));
+            Arc::new(Pair { all, seen })
+        });
+        Self { of: shown.clone(), curves }
+    }
+
+    /// The curves with all their points; or why there are none.
+    pub fn all(&self) -> Result<&Curves, &str> {
+        self.curves.as_ref().map(|pair| &pair.all).map_err(String::as_str)
+    }
+
+    /// The curves with the points that can be seen.
+    pub fn seen(&self) -> Option<&Curves> {
+        self.curves.as_ref().ok().map(|pair| &pair.seen)
+    }
 }

@@ -52,12 +52,10 @@ fn figure(_: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Option<Figure> 
     Some(figure)
 }
 
-/// Title of a camera's figure.
 pub fn title(name: &str) -> String {
     format!("Residuals of {name}")
 }
 
-/// Keys of the channels.
 pub fn legend() -> Vec<LegendEntry> {
     let entry = |(name, (marker, rgb)): (&str, (Marker, [u8; 3]))| LegendEntry {
         name: name.to_owned(),
@@ -100,7 +98,6 @@ pub fn panel(fit: &RecordedFit, names: &[String], size: [f64; 2]) -> Panel {
     panel
 }
 
-/// Residuals as numbers.
 fn table(name: &str, fit: &RecordedFit, rank: RankRange, names: &[String]) -> Table {
     let heads = ["camera", "patch", "channel", "residual_percent", "excluded", "brightness", "rank_first", "rank_last"];
     let mut table = Table::new(heads);

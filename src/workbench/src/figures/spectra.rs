@@ -8,12 +8,12 @@ use chromascope_core::colorimetry::diagram::wavelength_color;
 use chromascope_core::spectral::SpectralDistribution;
 use chromascope_core::spectral::grid::{COUNT, FIRST_NM, LAST_NM, wavelength_nm};
 use chromascope_figure::{
-    Axis, Cell, Figure, FigureRoom, Image, InkRole, LegendEntry, LegendPlace, Mark, Panel, Projection, Rect, Shape,
-    Stroke, Table, TextSize, Ticks, text_width,
+    Axis, Cell, Figure, FigureRoom, Image, InkRole, LegendPlace, Mark, Panel, Projection, Rect, Shape, Stroke, Table,
+    TextSize, Ticks, text_width,
 };
 
 use self::content::Content;
-use super::chromaticity::caption;
+use super::chromaticity::{caption, key};
 use super::kind::FigureKind;
 use super::labels::{Name, Room};
 use super::look::{FigureLook, SpectraLayout};
@@ -26,7 +26,6 @@ use crate::scene::{ComparedSensor, Scene};
 pub struct Built {
     /// The panels, from the light down, the wavelengths written under the last.
     pub panels: Vec<Panel>,
-    /// Items of the curves.
     pub things: PickIndex,
     /// Items that could not be drawn, with the reasons.
     pub refused: Vec<String>,
@@ -163,17 +162,9 @@ pub fn figure(scene: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Figure 
     let built = build(scene, look, size);
     let mut figure = Figure::new("Spectra", size);
     figure.panels = built.panels;
-    figure.legend = scene
-        .sources()
-        .iter()
-        .filter(|source| source.visible)
-        .map(|source| LegendEntry {
-            name: source.label.clone(),
-            stroke: Some(Stroke::solid(source.role, source.width)),
-            marker: Some(source.marker),
-            fill: source.marker.has_inside().then(|| source.role.into()),
-        })
-        .collect();
+    let sources = scene.sources();
+    let shown = sources.iter().filter(|source| source.visible);
+    figure.legend = shown.map(|source| key(source, source.label.clone())).collect();
     figure.legend_place = LegendPlace::Outside;
     figure.caption = format!("Dotted: beyond the data, the end value is held. {}", caption(scene));
     figure.table = table(scene);

@@ -22,7 +22,6 @@ use crate::scene::{ComparedSensor, Scene};
 pub struct Strip {
     /// The panel; its axes are in mired and in square roots of distances.
     pub panel: Panel,
-    /// Items of the lines.
     pub things: PickIndex,
 }
 

@@ -18,11 +18,8 @@ use crate::scene::{ComparedSensor, Scene};
 /// The swatches with the items of their marks.
 #[derive(Clone, Debug)]
 pub struct Built {
-    /// The panel, in points.
     pub panel: Panel,
-    /// Items of the marks.
     pub things: PickIndex,
-    /// Natural height.
     pub height: f64,
 }
 
@@ -42,7 +39,6 @@ pub fn in_rows(layout: SwatchLayout, count: usize) -> bool {
     }
 }
 
-/// Names of the patches.
 fn patch_names(scene: &Scene<'_>) -> Vec<String> {
     scene.patches().map(|set| set.patches().iter().map(|p| p.name.clone()).collect()).unwrap_or_default()
 }

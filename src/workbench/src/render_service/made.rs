@@ -38,7 +38,6 @@ impl PicturesOf {
         }
     }
 
-    /// The reference.
     pub fn reference(&self) -> &RenderingQuery {
         match self {
             Self::Mesh(query) => &query.reference,

@@ -76,7 +76,6 @@ pub struct Value {
 /// Numbers found for a claim, with the verdict.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Finding {
-    /// The numbers.
     pub values: Vec<Value>,
     /// Verdict on the claim.
     pub verdict: Verdict,

@@ -12,12 +12,10 @@ use crate::figures::look::FigureLook;
 use crate::plot_item::{PickIndex, SensorId};
 use crate::scene::{ComparedSensor, Scene};
 
-/// The diagram while it is drawn.
 pub(super) struct Drawing<'a> {
     pub(super) scene: &'a Scene<'a>,
     pub(super) look: &'a FigureLook,
     pub(super) diagram: Diagram,
-    /// Position of the marks in the plot.
     pub(super) frame: Frame,
     /// True if a lens shows the data: they are only hinted at here.
     pub(super) sketch: bool,
@@ -67,7 +65,6 @@ impl<'a> Drawing<'a> {
     }
 }
 
-/// A sensor's identity.
 pub fn id(source: &ComparedSensor) -> SensorId {
     SensorId { kind: source.kind, name: source.name.clone() }
 }

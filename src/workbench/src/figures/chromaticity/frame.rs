@@ -20,7 +20,6 @@ pub(super) fn place(diagram: Diagram, xy: Option<Xy>, uv: Option<UvPrime>) -> Op
 /// Map from coordinates to points of the plot, y downward.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Frame {
-    /// Shown ranges.
     pub(super) ranges: Ranges,
     /// Width and height of the plot.
     pub(super) size: [f64; 2],

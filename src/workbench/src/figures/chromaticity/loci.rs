@@ -2,11 +2,11 @@
 
 use chromascope_core::query::{LocusPoint, Temperatures};
 use chromascope_core::units::Kelvin;
-use chromascope_figure::{Dash, InkRole, Mark, Marker, Shape};
+use chromascope_figure::{Anchor, Dash, Ink, InkRole, Mark, Marker, Shape, TextSize};
 
 use super::drawing::{Drawing, id};
 use super::labels::{Label, Place, Rank};
-use crate::plot_item::PlotItem;
+use crate::plot_item::{PickIndex, PlotItem, SensorId};
 use crate::scene::locus::split;
 use crate::scene::{ComparedSensor, Scene};
 
@@ -220,4 +220,27 @@ pub(super) fn add_monochromatic(drawing: &mut Drawing<'_>, sources: &[ComparedSe
         let line = Mark::new(tag, name, Shape::Line { points, closed: false });
         drawing.marks.push(line.with_stroke(source.role, 1.2).with_dash(Dash::Solid));
     }
+}
+
+/// Adds the locus with its name, dashed. The diagram's ranges do not take it in: nothing moves while the pointer is on a list.
+pub(super) fn add_ghost(drawing: &mut Drawing<'_>) {
+    let Some(id) = looked_at(drawing) else { return };
+    let Ok(locus) = drawing.scene.locus(id.kind, &id.name) else { return };
+    let near = |at: &[f64; 2]| at.iter().all(|value| value.abs() < FAR);
+    let points: Vec<[f64; 2]> =
+        locus.points.iter().map(|p| drawing.place_of(p.xy, p.uv).filter(near).unwrap_or([f64::NAN; 2])).collect();
+    let Some(at) = points.iter().copied().find(|point| point[0].is_finite()) else { return };
+    let ink = Ink::new(InkRole::Text).faded(0.7);
+    let line = Mark::new(PickIndex::NONE, format!("{} (not compared)", id.name), Shape::Line { points, closed: false });
+    drawing.marks.push(line.with_stroke(ink, 2.0).with_dash(Dash::Dashed).with_halo(InkRole::Plot));
+    let text = Mark::text(id.name, at, Anchor::TOP, TextSize::Small, InkRole::Text);
+    drawing.marks.push(text.with_offset([0.0, 6.0]).with_halo(InkRole::Plot));
+}
+
+/// The sensor under the pointer, else the selected one, if it is not compared.
+fn looked_at(drawing: &Drawing<'_>) -> Option<SensorId> {
+    let items = [&drawing.look.hovered, &drawing.look.selected].into_iter().flatten();
+    let mut sensors = items.filter_map(|item| if let PlotItem::Sensor(id) = item { Some(id) } else { None });
+    let document = drawing.scene.document;
+    sensors.find(|id| document.compared(id.kind, &id.name).is_none()).cloned()
 }

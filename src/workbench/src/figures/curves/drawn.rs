@@ -19,7 +19,6 @@ pub struct Curve {
     pub place: usize,
     /// Its place among those taken.
     pub order: usize,
-    /// Its name.
     pub name: String,
     /// Of a camera: 0 for red, 1 for green, 2 for blue.
     pub channel: Option<usize>,
@@ -30,9 +29,7 @@ pub struct Curve {
 /// The curves of a file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Curves {
-    /// Common title.
     pub title: String,
-    /// The curves to draw.
     pub drawn: Vec<Curve>,
     /// Quantity of the values, with its unit.
     pub quantity: String,

@@ -23,9 +23,7 @@ pub enum ImportItem {
 /// Contents of the Import pane.
 #[derive(Clone, Debug)]
 pub struct ImportSelection {
-    /// Selected item.
     pub item: ImportItem,
-    /// The document's set.
     pub set: Option<Shared<ImportedSet>>,
     /// Overrides with which it is, or is to be, read.
     pub wishes: ImportOverrides,

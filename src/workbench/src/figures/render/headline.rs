@@ -56,7 +56,6 @@ impl Measure {
         if self.of_image { IMAGE_MEANING } else { MEANING }
     }
 
-    /// Name of the metric.
     pub const fn name(self) -> &'static str {
         self.metric.name(self.by_eq_13)
     }

@@ -12,7 +12,6 @@ use crate::scene::Scene;
 /// A sentence on the share of light returned.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Words {
-    /// The sentence.
     pub text: String,
     /// More light is returned than comes.
     pub is_warning: bool,

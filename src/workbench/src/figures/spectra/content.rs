@@ -14,7 +14,6 @@ use crate::scene::{ComparedSensor, Scene};
 /// Largest number of patches whose curves are named in the plot.
 const NAMED: usize = 8;
 
-/// Content of a panel.
 pub(super) struct Content {
     /// Quantity of the vertical axis.
     pub(super) quantity: &'static str,
@@ -24,7 +23,6 @@ pub(super) struct Content {
     pub(super) names: Vec<Name>,
     /// Names that stand for several curves each, where those have no room.
     pub(super) common: Vec<Name>,
-    /// Vertical range.
     pub(super) range: [f64; 2],
     /// Height relative to other panels.
     pub(super) weight: f64,

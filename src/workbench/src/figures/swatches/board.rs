@@ -27,7 +27,6 @@ const HEAD: f64 = 20.0;
 /// The least width of a column with a name.
 const LEAST_COLUMN: f64 = 68.0;
 
-/// Layout of the swatches.
 pub(super) struct Board<'a> {
     scene: &'a Scene<'a>,
     look: &'a FigureLook,
@@ -41,7 +40,6 @@ pub(super) struct Board<'a> {
 #[derive(Clone, Copy, PartialEq)]
 enum Note {
     None,
-    /// Only the bar.
     Bar,
     /// The number, and the bar below.
     Above,
