@@ -16,8 +16,6 @@ mod session;
 mod startup;
 mod tour;
 
-use chromascope_core::query::NearestBlackBodyQuery;
-use chromascope_core::query::render::picture::PicturesQuery;
 use egui::{Event, Ui};
 
 use crate::action::history::History;
@@ -27,16 +25,14 @@ use crate::catalog::opened::Opened;
 use crate::catalog::recorded_store::RecordedStore;
 use crate::catalog::spectral_images::ImageStore;
 use crate::command::{Command, key_bindings};
-use crate::export::page::PageJob;
 use crate::figures::curves::CurveCache;
 use crate::files::Files;
-use crate::jobs::{Background, Executor};
+use crate::jobs::{Executor, Later};
 use crate::panes;
+use crate::panes::context::PaneStates;
 use crate::plot_item::PlotItem;
-use crate::profiler::Profiler;
-use crate::ranking::Ranking;
+use crate::profiler::{Measured, Profiler};
 use crate::render_service::RenderService;
-use crate::report::ReportJob;
 use crate::results::Results;
 use crate::theme;
 use crate::view::import::{ImportItem, ImportView};
@@ -59,10 +55,10 @@ pub struct ChromascopeApp {
     images: ImageStore,
     opened: Opened,
     recorded: RecordedStore,
-    radiators: Background<NearestBlackBodyQuery>,
+    later: Later,
+    states: PaneStates,
     render_service: RenderService,
     profiler: Profiler,
-    ranking: Ranking,
     curves: Option<CurveCache>,
     commands: Vec<Command>,
     /// Files named at the start that are not read yet: a single one is put to use.
@@ -77,12 +73,6 @@ pub struct ChromascopeApp {
     session: session::SessionState,
     /// What the user had before the tour.
     interrupted: Option<tour::Interrupted>,
-    /// The report that is being made.
-    report: Background<ReportJob>,
-    /// Picture of the window about the program.
-    portrait: Background<PicturesQuery>,
-    /// Pixels of the Figure page.
-    pages: Background<PageJob>,
     place: layout::WindowPlace,
     ctx: egui::Context,
 }
@@ -122,10 +112,10 @@ impl ChromascopeApp {
             images: ImageStore::on(executor, repaint()),
             opened,
             recorded: RecordedStore::on(executor, repaint()),
-            radiators: Background::on(executor, "blackbodies", repaint()),
-            render_service: RenderService::on(executor, ctx),
-            profiler: Profiler::on(executor, repaint()),
-            ranking: Ranking::on(executor, repaint()),
+            later: Later::on(executor, repaint()),
+            states: PaneStates::default(),
+            render_service: RenderService::on(executor, repaint()),
+            profiler: Profiler { measured: Measured::default() },
             curves: None,
             commands: Vec::new(),
             at_start: std::collections::BTreeSet::new(),
@@ -136,9 +126,6 @@ impl ChromascopeApp {
             closing: closing::Closing::default(),
             session: session::SessionState::default(),
             interrupted: None,
-            report: Background::on(executor, "report", repaint()),
-            portrait: Background::on(executor, "portrait", repaint()),
-            pages: Background::on(executor, "page", repaint()),
             place: layout::WindowPlace::default(),
             ctx: ctx.clone(),
         };
@@ -219,14 +206,9 @@ impl ChromascopeApp {
         &self.profiler
     }
 
-    /// Pixels of the Figure page.
-    pub fn pages(&self) -> &Background<PageJob> {
-        &self.pages
-    }
-
-    /// Camera ranking service.
-    pub fn ranking(&self) -> &Ranking {
-        &self.ranking
+    /// Slow answers.
+    pub fn later(&self) -> &Later {
+        &self.later
     }
 
     /// Mutable access to the profiler, for tests.

@@ -3,7 +3,6 @@
 //! Dialogs, reads and writes run on their own threads and return through [`Files::poll`]; the window never waits.
 
 mod asking;
-mod atomic;
 mod dialogs;
 mod event;
 mod keep;
@@ -24,10 +23,10 @@ use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread;
 
+use crate::atomic::{self, fitting};
 use crate::jobs::Executor;
 use event::Note;
 
-pub use atomic::{write_atomically, write_atomically_with};
 pub use dialogs::{Answer, DialogLog, Dialogs, Question};
 pub use event::{DocumentSource, FileEvent, OpenedDocument, SavedFile};
 pub use last::{install_panic_hook, save_last, save_on_exit, save_on_signals};
@@ -189,13 +188,6 @@ pub fn new_folder(parent: &std::path::Path, name: &str) -> std::io::Result<PathB
         }
     }
     unreachable!("numbers do not end")
-}
-
-/// A file's name of a stem and an ending, the stem cut where both together are longer than file systems take: 255 bytes.
-pub fn fitting(stem: &str, ending: &str) -> String {
-    const LONGEST: usize = 255;
-    let room = LONGEST.saturating_sub(ending.len());
-    format!("{}{ending}", &stem[..stem.floor_char_boundary(room)])
 }
 
 /// Name of a template as its file has it, for a name that was typed.

@@ -2,7 +2,6 @@
 
 pub mod accuracy;
 pub mod correction;
-pub mod diagram;
 pub mod help;
 pub mod import;
 pub mod metrics;
@@ -21,6 +20,11 @@ use std::path::PathBuf;
 use serde::{Deserialize, Serialize};
 
 use crate::document::{Compared, SetKind};
+use crate::figures::chromaticity::shown::DiagramView;
+pub use crate::figures::chromaticity::shown::{DiagramFit, Ranges};
+use crate::figures::look::FigureLook;
+pub use crate::figures::look::{SpectraLayout, SwatchLayout, SwatchStyle};
+use crate::figures::metrics::TABLE;
 use crate::paint::Emphasis;
 use crate::plot_item::{PickIndex, PlotItem, Relation, SensorId};
 use crate::theme::Surround;
@@ -28,8 +32,6 @@ use crate::workspaces::{Layout, PaneKind, Workspace};
 use accuracy::AccuracyView;
 use chromascope_figure::Tag;
 use correction::CorrectionView;
-pub use diagram::DiagramFit;
-use diagram::{DiagramView, Ranges};
 use help::HelpView;
 use import::{ImportItem, ImportMemory, ImportView};
 use metrics::MetricsLook;
@@ -45,8 +47,6 @@ use table::TableLook;
 pub struct View {
     /// State saved between runs.
     pub saved: SavedView,
-    /// Room for figures that are saved.
-    pub room: chromascope_figure::FigureRoom,
     /// Under the pointer now, in any pane.
     pub hovered: Option<PlotItem>,
     /// Under the pointer in the frame that is being made; becomes `hovered` at its end.
@@ -260,40 +260,6 @@ impl SavedView {
     }
 }
 
-/// Arrangement of swatches.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub enum SwatchLayout {
-    /// Five patches in rows, more as charts.
-    #[default]
-    Auto,
-    /// A row for each sensor.
-    Rows,
-    /// A chart for each sensor.
-    Charts,
-}
-
-/// Arrangement of camera and reference within a swatch.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub enum SwatchStyle {
-    /// Left half reference, right half sensor.
-    #[default]
-    Split,
-    /// The reference inside the sensor's swatch.
-    Inset,
-    /// The sensor alone.
-    Whole,
-}
-
-/// Arrangement of spectra.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub enum SpectraLayout {
-    /// All sensors in one plot.
-    #[default]
-    Overlay,
-    /// A plot for each sensor.
-    Each,
-}
-
 /// A message at the foot of the window.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Status {
@@ -350,6 +316,36 @@ impl View {
     pub fn offer(&mut self, offers: Vec<Offer>, takes_keyboard: bool) {
         self.status.takes_keyboard = takes_keyboard && !offers.is_empty();
         self.status.offers = offers;
+    }
+
+    /// What a pane's figure takes from the view.
+    pub fn look(&self, pane: PaneKind) -> FigureLook {
+        let saved = &self.saved;
+        FigureLook {
+            hovered: self.hovered.clone(),
+            selected: self.selected.clone(),
+            blink: self.blink,
+            fit: saved.diagram_fit,
+            diagram: self.diagram.clone(),
+            zoom: self.zoomed.get(&pane).cloned(),
+            locus_share: self.locus_share,
+            pinned_pixel: self.render.pinned.clone(),
+            swatch_layout: saved.swatch_layout,
+            swatch_style: saved.swatch_style,
+            without_bars: !saved.difference_bars,
+            spectra_layout: saved.spectra_layout,
+            mode: saved.render.mode,
+            surround: saved.surround,
+            cameras: saved.metrics.cameras,
+            sorting: saved.looks.get(TABLE).and_then(|look| look.sorting.clone()),
+            pair: saved.metrics.pair.clone(),
+            card: saved.metrics.card.clone(),
+            residuals_of: self.recorded.camera.clone(),
+            shows: self.accuracy.shows,
+            correction: self.correction.shown.clone(),
+            recorded: self.recorded.ranked.clone(),
+            ..FigureLook::default()
+        }
     }
 
     /// Makes a choice of how plots and pictures stand.

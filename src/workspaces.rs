@@ -37,7 +37,6 @@ impl PaneKind {
     pub const INTERPRETATION: Self = Self::new("Understood");
     /// Run time against error by method.
     pub const METHODS: Self = Self::new("Accuracy");
-    /// Skipped work, and the time it saved.
     /// Counts of samples and methods of the pictures.
     pub const STATISTICS: Self = Self::new("Statistics");
     /// Cameras by figures of merit.
@@ -68,6 +67,12 @@ impl PaneKind {
     /// A pane of this id. Ids stay: layouts of earlier runs name them.
     pub const fn new(id: &'static str) -> Self {
         Self(id)
+    }
+}
+
+impl From<PaneKind> for &'static str {
+    fn from(kind: PaneKind) -> Self {
+        kind.0
     }
 }
 

@@ -3,7 +3,7 @@
 use std::cmp::Ordering;
 use std::sync::Arc;
 
-use chromascope_figure::{Figure, Table};
+use chromascope_figure::{Figure, FigureRoom, Table};
 use egui::ViewportCommand;
 
 use super::ChromascopeApp;
@@ -14,10 +14,10 @@ use crate::catalog::opened::{CLIPBOARD, Request};
 use crate::command::Command;
 use crate::document::SetKind;
 use crate::export::{self, FigureForm};
-use crate::figures::FigureInput;
+use crate::figures::look::FigureLook;
 use crate::files::{DocumentSource, FileEvent, FileForm, SaveRequest};
 use crate::panes;
-use crate::profiler::SceneRunJob;
+use crate::profiler::{Profiler, SceneRunJob};
 use crate::scene::Scene;
 use crate::scene::conditions::CONDITIONS;
 use crate::view::SavedView;
@@ -34,7 +34,8 @@ impl ChromascopeApp {
             match event {
                 FileEvent::Open(paths) if std::mem::take(&mut self.view.recorded.opening) => {
                     self.view.recorded.corners.clear();
-                    paths.first().into_iter().for_each(|path| self.recorded.open(path));
+                    paths.first().into_iter().for_each(|path| self.recorded.read_again(path));
+                    self.view.recorded.path = paths.into_iter().next().or(self.view.recorded.path.take());
                 }
                 FileEvent::Open(paths) if self.view.report_on.is_some() => self.begin_report(&paths),
                 FileEvent::Open(paths) => self.open(paths.into_iter().map(Request::Path).collect()),
@@ -118,8 +119,8 @@ impl ChromascopeApp {
                 self.stop_reading();
             }
             Command::SpectralWeights => self.measure(),
-            Command::MeasureWorkload(workload) => self.profiler.run_bench(workload),
-            Command::StopMeasuring => self.profiler.stop(),
+            Command::MeasureWorkload(workload) => Profiler::run_bench(&self.later, workload),
+            Command::StopMeasuring => Profiler::stop(&self.later),
             Command::FigurePage(pane) => self.figure_page(ctx, self.pictured(pane)),
             Command::Export(pane, format) => self.export(pane, format),
             Command::ExportExr(source) => self.export_exr(&source),
@@ -297,8 +298,8 @@ impl ChromascopeApp {
         {
             return;
         }
-        if self.profiler.busy().is_some() {
-            self.profiler.stop();
+        if Profiler::busy(&self.later).is_some() {
+            Profiler::stop(&self.later);
             self.view.say("Measuring stopped. Earlier results are unchanged.");
             return;
         }
@@ -342,7 +343,7 @@ impl ChromascopeApp {
         let document = self.history.document();
         let scene = Scene { document, catalog: &self.catalog, results: &self.results };
         let own = self.meshes.chosen(&document.render.mesh);
-        self.profiler.run(SceneRunJob::of(&scene, own.as_ref(), self.view.saved.render.orbit));
+        Profiler::run(&self.later, SceneRunJob::of(&scene, own.as_ref(), self.view.saved.render.orbit));
         self.view.saved.workspace = Workspace::Numerics;
         if matches!(self.view.accuracy.shows, Shows::Bench(_)) {
             self.view.accuracy.shows = Shows::default();
@@ -411,9 +412,9 @@ impl ChromascopeApp {
         ctx.memory_mut(|memory| memory.focused().map(|id| memory.surrender_focus(id)));
     }
 
-    /// Input for a pane's figure of a scene.
-    pub fn figure_input<'a>(&'a self, scene: &'a Scene<'a>) -> FigureInput<'a> {
-        FigureInput::of((scene, &self.view), &self.render_service, &self.profiler, &self.opened)
+    /// What a pane's figure of a scene takes from the window.
+    pub fn look(&self, pane: PaneKind, scene: &Scene<'_>) -> FigureLook {
+        panes::context::look(pane, (scene, &self.view), &self.render_service, &self.profiler, &self.opened)
     }
 
     /// The pane whose figure is meant by a key in a pane.
@@ -433,15 +434,16 @@ impl ChromascopeApp {
     /// The pane's figure as on screen, or a message that it has none.
     pub(super) fn figure(&mut self, pane: PaneKind) -> Option<Figure> {
         let scene = Scene { document: self.history.document(), catalog: &self.catalog, results: &self.results };
-        let figure = panes::figure(pane, &self.figure_input(&scene));
+        let figure = panes::figure(pane, &scene, &self.look(pane, &scene), FigureRoom::default());
         self.checked(pane, figure)
     }
 
     /// The pane's figure on paper, or a message that it has none.
     fn printed(&mut self, pane: PaneKind) -> Option<Figure> {
         let scene = Scene { document: self.history.document(), catalog: &self.catalog, results: &self.results };
-        let view = &mut self.view;
-        let figure = panes::figure_on_paper(pane, (&scene, view), &self.render_service, &self.profiler, &self.opened);
+        let kind = panes::by_kind(pane).and_then(|pane| pane.figure);
+        let paper = &self.view.saved.page.paper;
+        let figure = kind.and_then(|kind| kind.on_paper(paper, &scene, &self.look(pane, &scene)));
         self.checked(pane, figure)
     }
 
@@ -481,7 +483,7 @@ impl ChromascopeApp {
     fn copy_picture(&mut self, ctx: &egui::Context, pane: PaneKind) {
         let Some(figure) = self.printed(pane) else { return };
         let paper = self.view.saved.page.paper;
-        match export::png(&export::svg(&figure, &paper.theme(), paper), paper.pixels_per_point()) {
+        match export::png(&export::svg(&figure, &paper.colors(), paper), paper.pixels_per_point()) {
             Ok(picture) => {
                 let size = [picture.width() as usize, picture.height() as usize];
                 ctx.copy_image(egui::ColorImage::from_rgba_unmultiplied(size, picture.as_raw()));

@@ -23,13 +23,10 @@ impl ChromascopeApp {
             images: &self.images,
             opened: &self.opened,
             recorded: &self.recorded,
-            radiators: &self.radiators,
-            portrait: &self.portrait,
-            report: &self.report,
-            pages: &self.pages,
+            later: &self.later,
+            states: &mut self.states,
             render_service: &mut self.render_service,
             profiler: &mut self.profiler,
-            ranking: &mut self.ranking,
             curves: &mut self.curves,
             commands: &mut self.commands,
         };
@@ -81,9 +78,6 @@ impl ChromascopeApp {
                 panes::show(ui, pane, rect, &mut context);
             }
         }
-        if page.is_none() {
-            context.pages.rest();
-        }
         for (splitter, rect) in self.arrangement.splitters.clone() {
             drag_border(ui, splitter, rect, area, &mut context);
         }
@@ -105,7 +99,7 @@ impl ChromascopeApp {
         panes::help::show(ui, &self.history, &mut context);
         path_prompt::show(ui, &theme, &mut self.files);
         context.render_service.end_frame();
-        context.ranking.end_frame();
+        context.later.end_frame();
         self.ask_about_closing(ui, &theme);
         self.ask_about_session(ui, &theme);
         focus::ring(ui.ctx(), &theme);

@@ -1,7 +1,7 @@
 //! Cards and rendered pictures out of the window.
 
 use chromascope_core::query::Ask as _;
-use chromascope_figure::{Figure, LegendPlace};
+use chromascope_figure::{Figure, FigureRoom, LegendPlace};
 
 use super::ChromascopeApp;
 use crate::export;
@@ -21,10 +21,12 @@ impl ChromascopeApp {
         let shown = self.figure(pane)?;
         let scene = Scene { document: self.history.document(), catalog: &self.catalog, results: &self.results };
         let beside = pane != PaneKind::SWATCHES && pane != PaneKind::METRICS;
-        let swatches = beside.then(|| swatches::figure_sized(&scene, &self.view, card::swatches_size()));
+        let look = self.view.look(pane);
+        let swatches = beside.then(|| swatches::figure_sized(&scene, &look, card::swatches_size()));
         let figure = if pane == PaneKind::CHROMATICITY {
             let [width, height] = card::figure_size();
-            let figure = chromaticity::figure_sized(&scene, &self.view, [width, height - chromaticity::STRIP]);
+            let size = [width, height - chromaticity::STRIP];
+            let figure = chromaticity::figure_sized(&scene, &look, FigureRoom::default(), size);
             Figure { legend_place: LegendPlace::LowerRight, ..figure }
         } else {
             shown

@@ -28,36 +28,30 @@ impl ChromascopeApp {
             ReportOn::Paper => Report::new(Start::Paper.document(), false, PIXELS),
             ReportOn::Document => Report::of_document(self.history.document()),
         };
-        self.report.ask(ReportJob::all(&Arc::new(report), &folder));
+        self.later.begin(Report::NAME, ReportJob::all(&Arc::new(report), &folder));
     }
 
     /// Says when a report is finished, or why it is not.
     pub(super) fn take_report(&mut self) {
-        let (steps, done) = self.report.progress();
-        let Some(folder) = steps.first().map(|job| job.folder.clone()) else { return };
-        let failure = self.report.failure().or_else(|| {
-            let shown = self.report.shown().filter(|shown| shown.current)?;
-            (*shown.answer).clone().err()
-        });
-        if let Some(why) = failure {
-            self.report.rest();
+        let report = self.later.seen::<ReportJob>(Report::NAME);
+        let Some(folder) = report.stages.first().map(|job| job.folder.clone()) else { return };
+        let is_finished = report.done == report.stages.len();
+        if let Err(why) = report.current().and_then(|made| made.map_or(Ok(()), |made| (*made).clone())) {
+            self.later.stop::<ReportJob>(Report::NAME);
             self.view.fail(format!("The report is not finished. {why}"));
-        } else if done == steps.len() {
-            self.report.rest();
+        } else if is_finished {
+            self.later.stop::<ReportJob>(Report::NAME);
             self.view.say(format!("Report saved: {}.", folder.join(PAGE).display()));
         }
     }
 
     /// Stops the report that is being made, if there is one.
     pub(super) fn stop_report(&mut self) -> bool {
-        let (steps, done) = self.report.progress();
-        let Some(job) = steps.first() else { return false };
-        self.report.rest();
-        self.view.say(format!(
-            "Report stopped after {done} of {} steps; these are in {}.",
-            steps.len(),
-            job.folder.display()
-        ));
+        let report = self.later.seen::<ReportJob>(Report::NAME);
+        let Some(job) = report.stages.first() else { return false };
+        self.later.stop::<ReportJob>(Report::NAME);
+        let (done, all, folder) = (report.done, report.stages.len(), job.folder.display());
+        self.view.say(format!("Report stopped after {done} of {all} steps; these are in {folder}."));
         true
     }
 }

@@ -1,9 +1,9 @@
 //! The curves that a file gives.
 
-use egui::{Align2, Id, Rect, Ui, Vec2};
+use egui::{Align2, Id, Rect, Ui};
 
 use super::context::{Pane, PaneContext};
-use crate::figures::curves::{self, CurveCache, Curves, ImportSelection};
+use crate::figures::curves::{self, CurveCache, Curves};
 use crate::paint::{self, PlotOptions};
 use crate::panes::widgets;
 use crate::theme::UNIT;
@@ -13,21 +13,18 @@ use crate::workspaces::PaneKind;
 /// Reach of the pointer, in points.
 const REACH: f32 = 8.0;
 
-/// The pane.
 pub const PANE: Pane = Pane {
     kind: PaneKind::CURVES,
     title: "Curves",
     show,
-    figure: Some(curves::figure),
+    figure: Some(&curves::KIND),
     under_conditions: false,
     table: true,
 };
 
-/// Shows the pane in its rectangle.
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
-    let body = widgets::pane(ui, &PANE, rect, context, |_, _| {});
-    let body = Rect::from_min_max(body.min + Vec2::new(2.0 * UNIT, 0.0), body.max - Vec2::new(2.0 * UNIT, UNIT));
-    let Some(shown) = ImportSelection::refresh(&context.scene, context.view, context.opened) else {
+    let body = widgets::body(ui, &PANE, rect, context, |_, _| {});
+    let Some(shown) = context.import_selection() else {
         sentence(ui, body, "Drop files here.", context.theme.weak);
         return;
     };

@@ -9,7 +9,7 @@ use chromascope_figure::Figure;
 use egui::{Rect, RichText, Ui, UiBuilder, Vec2};
 
 use super::context::PaneContext;
-use super::{figure_on_paper, show as show_pane};
+use super::{by_kind, show as show_pane};
 use crate::export::page::PageFacts;
 use crate::theme::UNIT;
 use crate::workspaces::PaneKind;
@@ -61,9 +61,8 @@ fn made(ui: &Ui, kind: PaneKind, context: &mut PaneContext<'_>) -> Option<Arc<Fi
         ui.ctx().request_repaint_after(rest);
         return figure;
     }
-    let scene = context.scene;
-    let figure =
-        figure_on_paper(kind, (&scene, context.view), context.render_service, context.profiler, context.opened);
+    let shown = by_kind(kind).and_then(|pane| pane.figure);
+    let figure = shown.and_then(|shown| shown.on_paper(&of.1, &context.scene, &context.look(kind)));
     context.view.page.keep(of, now, figure)
 }
 

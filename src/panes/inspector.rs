@@ -26,11 +26,9 @@ use crate::scene::{ComparedSensor, Scene};
 use crate::theme::{Theme, UNIT};
 use crate::workspaces::{PaneKind, Workspace};
 
-/// The pane.
 pub const PANE: Pane =
     Pane { kind: PaneKind::INSPECTOR, title: "Inspector", show, figure: None, under_conditions: false, table: false };
 
-/// Shows the pane in its rectangle.
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     widgets::scrolling_pane(ui, &PANE, rect, context, |ui, context| {
         ui.spacing_mut().item_spacing.y = 0.5 * UNIT;
@@ -81,11 +79,6 @@ fn head(ui: &mut Ui, id: &SensorId, context: &PaneContext<'_>) {
     }
 }
 
-/// A small line of less weight.
-fn note(ui: &mut Ui, theme: &Theme, words: impl Into<String>) {
-    ui.label(RichText::new(words).small().color(theme.weak));
-}
-
 /// A failure, in its place.
 fn failure(ui: &mut Ui, theme: &Theme, words: &str) {
     ui.label(RichText::new(words).color(theme.error));
@@ -109,9 +102,7 @@ fn buttons(ui: &mut Ui, context: &mut PaneContext<'_>) -> bool {
     ui.horizontal_wrapped(|ui| {
         let pinned = context.view.pinned.contains(&selected);
         let words = if pinned { "Unpin" } else { "Pin" };
-        if ui.button(words).on_hover_text("Pin for comparison (P)").clicked() {
-            context.push(Command::Pin);
-        }
+        context.button(ui, words, "Pin for comparison (P)", Command::Pin);
         copy = ui.button("Copy numbers").on_hover_text("For a spreadsheet, in full precision").clicked();
         let there = context.view.saved.workspace == Workspace::Spectra;
         if !there && ui.button("Show in Spectra").clicked() {
@@ -179,12 +170,12 @@ fn assumptions(scene: &Scene<'_>, id: &SensorId, label: &str) -> Vec<String> {
 }
 
 /// Lists the assumptions.
-fn show_assumptions(ui: &mut Ui, theme: &Theme, words: Vec<String>) {
+fn show_assumptions(ui: &mut Ui, words: Vec<String>) {
     if words.is_empty() {
         return;
     }
     ui.add_space(UNIT);
     for words in words {
-        note(ui, theme, words);
+        widgets::note(ui, words);
     }
 }

@@ -28,7 +28,6 @@ const CONTENT: &str = "Decided by content";
 /// First entry where room is short.
 const CONTENT_SHORT: &str = "By content";
 
-/// The pane.
 pub const PANE: Pane = Pane {
     kind: PaneKind::INTERPRETATION,
     title: "Interpretation",
@@ -38,13 +37,12 @@ pub const PANE: Pane = Pane {
     table: false,
 };
 
-/// Shows the pane in its rectangle.
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let body = widgets::pane(ui, &PANE, rect, context, notes::button);
     let inner = Rect::from_min_max(body.min + Vec2::new(2.0 * UNIT, 0.0), body.max - Vec2::new(2.0 * UNIT, 0.0));
-    let Some(shown) = ImportSelection::refresh(&context.scene, context.view, context.opened) else {
+    let Some(shown) = context.import_selection() else {
         let mut child = ui.new_child(UiBuilder::new().id_salt("nothing recognized").max_rect(inner));
-        note(&mut child, &context.theme, "Drop files here.");
+        widgets::note(&mut child, "Drop files here.");
         return;
     };
     context.view.import.unseen.remove(&shown.item);
@@ -121,18 +119,13 @@ fn trouble(ui: &mut Ui, words: &str, line: Option<usize>, shown: &ImportSelectio
         }
     });
     if shown.set.is_some() && shown.pending {
-        note(ui, &context.theme, "The data set is unchanged until the file can be read with these settings.");
+        widgets::note(ui, "The data set is unchanged until the file can be read with these settings.");
     }
-}
-
-/// A small line of less weight.
-fn note(ui: &mut Ui, theme: &Theme, words: impl Into<String>) {
-    ui.label(RichText::new(words).small().color(theme.weak));
 }
 
 /// Label above a control; a dot marks a guess.
 fn caption(ui: &mut Ui, theme: &Theme, words: &str, guess: bool) {
-    let response = ui.label(RichText::new(words).small().color(theme.weak));
+    let response = ui.label(RichText::new(words).small().weak());
     if guess {
         let at = response.rect.right_center() + Vec2::new(8.0, 0.5);
         ui.painter().circle_filled(at, 3.0, theme.warning);

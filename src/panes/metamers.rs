@@ -1,7 +1,7 @@
 //! Pairs of measured reflectances that a camera confuses and the reference does not, and the reverse.
 
 use chromascope_figure::{Cell, Table};
-use egui::{Rect, RichText, Ui, UiBuilder, Vec2};
+use egui::{Rect, RichText, Ui};
 
 use super::context::{Pane, PaneContext};
 use crate::action::{Action, RenderAction, SceneAction};
@@ -16,7 +16,6 @@ use crate::theme::UNIT;
 use crate::view::metrics::Confuses;
 use crate::workspaces::PaneKind;
 
-/// The pane.
 pub const PANE: Pane = Pane {
     kind: PaneKind::new("Metamers"),
     title: "Metamers",
@@ -26,18 +25,16 @@ pub const PANE: Pane = Pane {
     table: false,
 };
 
-/// Shows the pane in its rectangle.
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
-    let body = widgets::pane(ui, &PANE, rect, context, switches);
-    let body = Rect::from_min_max(body.min + Vec2::new(2.0 * UNIT, 0.0), body.max - Vec2::new(2.0 * UNIT, UNIT));
-    let mut child = ui.new_child(UiBuilder::new().id_salt("metamers").max_rect(body));
-    child.set_clip_rect(body.intersect(ui.clip_rect()));
-    let Some(camera) = report_card::camera(&context.scene, context.view) else {
-        child.label(RichText::new("Tick a camera in the Library.").color(context.theme.weak));
+    let body = widgets::body(ui, &PANE, rect, context, switches);
+    let mut child = widgets::clipped(ui, "metamers", body);
+    let Some(camera) = report_card::camera(&context.scene, &context.view.look(PANE.kind)) else {
+        child.weak("Tick a camera in the Library.");
         return;
     };
     let confusion = context.view.saved.metrics.confusion.confusion();
-    let found = match context.ranking.metamers(&context.scene, &camera, confusion) {
+    let query = context.scene.metamers_query(camera.kind, &camera.name, confusion).map_err(|error| error.to_string());
+    let found = match query.and_then(|query| context.later.ask(PANE.kind, vec![query]).current()) {
         Ok(found) => found,
         Err(why) => {
             child.label(RichText::new(why).color(context.theme.error));
@@ -45,18 +42,18 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
         }
     };
     let Some(found) = found else {
-        child.label(RichText::new("Searching…").color(context.theme.weak));
+        child.weak("Searching…");
         return;
     };
     let found = match found.as_ref() {
         Ok(found) => found,
         Err(why) => {
-            child.label(RichText::new(format!("{}: {why}.", camera.name)).color(context.theme.weak));
+            child.weak(format!("{}: {why}.", camera.name));
             return;
         }
     };
     let words = format!("{}: {} of {} reflectances", camera.name, count(found.rows.len()), found.searched);
-    child.label(RichText::new(words).small().color(context.theme.weak));
+    widgets::note(&mut child, words);
     let chosen = context.view.metamers.filter(|row| *row < found.rows.len());
     if let Some(row) = chosen {
         buttons(&mut child, &found.rows[row], context);

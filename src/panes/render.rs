@@ -9,31 +9,29 @@ mod switches;
 
 use std::time::Duration;
 
-use egui::{Align2, FontId, Rect, Sense, Ui, Vec2};
+use egui::{Align2, FontId, Rect, Sense, Ui};
 
 use super::context::{Pane, PaneContext};
 use crate::document::render::SUN;
+use crate::figures;
 use crate::panes::widgets;
 use crate::render_service::REST_AFTER;
-use crate::theme::{HEADING, UNIT};
+use crate::theme::HEADING;
 use crate::view::render::{PixelPlace, RenderMode};
 use crate::workspaces::PaneKind;
 use cells::PictureLayout;
 
-/// The pane.
 pub const PANE: Pane = Pane {
     kind: PaneKind::RENDER,
     title: "Render",
     show,
-    figure: Some(crate::figures::render::figure),
+    figure: Some(&figures::render::KIND),
     under_conditions: true,
     table: true,
 };
 
-/// Shows the pane in its rectangle.
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
-    let body = widgets::pane(ui, &PANE, rect, context, switches::show);
-    let body = Rect::from_min_max(body.min + Vec2::new(2.0 * UNIT, 0.0), body.max - Vec2::new(2.0 * UNIT, UNIT));
+    let body = widgets::body(ui, &PANE, rect, context, switches::show);
     context.view.render.hovered = None;
     if context.view.reset_plots {
         context.view.saved.render.orbit = None;
@@ -43,15 +41,12 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let asked = request::ask(ui, &layout, context);
     let busy = context.render_service.busy();
     context.view.render.busy = busy;
-    if context.view.saved.tables.contains(&PaneKind::RENDER) {
-        if let Some(figure) = crate::figures::render::figure(&context.figure_input()) {
-            widgets::table::show_numbers(ui, body, PaneKind::RENDER, &figure.table, context);
-        }
-        widgets::busy_line(ui, body, busy, context.theme.surround.label());
+    if widgets::figure_numbers(ui, &PANE, body, context) {
+        widgets::busy_line(ui, body, busy, context.theme.on_surround);
         return;
     }
     let painter = ui.painter().with_clip_rect(body.intersect(ui.clip_rect()));
-    painter.rect_filled(body, 0.0, context.theme.surround.color());
+    painter.rect_filled(body, 0.0, context.theme.surround);
     let id = ui.scope_id().with("render orbit");
     let response = ui.interact(body, id, Sense::click_and_drag());
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Canvas, true, "Rendered pictures"));
@@ -69,9 +64,9 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
         draw::divider(ui, &layout, context);
         draw::choosers(ui, &layout, &sources, context);
     }
-    widgets::busy_line(ui, body, busy, context.theme.surround.label());
+    widgets::busy_line(ui, body, busy, context.theme.on_surround);
     if response.has_focus() {
-        let stroke = egui::Stroke::new(1.0, context.theme.surround.label());
+        let stroke = egui::Stroke::new(1.0, context.theme.on_surround);
         ui.painter().rect_stroke(body, 0.0, stroke, egui::StrokeKind::Inside);
     }
 }
@@ -91,7 +86,7 @@ fn mark_old(ui: &Ui, painter: &egui::Painter, response: &egui::Response, context
     }
     let light = if context.scene.is_sunlit() { SUN.to_owned() } else { context.scene.light_name() };
     let words = format!("Rendering {}, {light}…", context.scene.document.render.mesh.name());
-    painter.rect_filled(response.rect, 0.0, context.theme.surround.color().gamma_multiply(0.6));
+    painter.rect_filled(response.rect, 0.0, context.theme.surround.gamma_multiply(0.6));
     say(painter, response.rect, &words, context);
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Canvas, true, &words));
 }
@@ -101,18 +96,18 @@ fn say(painter: &egui::Painter, body: Rect, words: &str, context: &PaneContext<'
     let galley = painter.layout(
         words.to_owned(),
         FontId::proportional(HEADING),
-        context.theme.surround.label(),
+        context.theme.on_surround,
         (body.width() - 40.0).max(80.0),
     );
     let at = Align2::CENTER_CENTER.align_size_within_rect(galley.size(), body).min;
-    painter.galley(at, galley, context.theme.surround.label());
+    painter.galley(at, galley, context.theme.on_surround);
 }
 
 /// Shows values of the pixel under the pointer; a click pins it, a double click shows its sensor alone or all again.
 fn point_at(ui: &Ui, response: &egui::Response, layout: &PictureLayout, context: &mut PaneContext<'_>) {
     let Some(pointer) = response.hover_pos() else { return };
     let Some((cell, at)) = layout.place_at(pointer) else { return };
-    let Some(source) = layout.sources.get(cell).map(crate::figures::chromaticity::id) else { return };
+    let Some(source) = layout.sources.get(cell).map(figures::chromaticity::id) else { return };
     let place = PixelPlace { at, source: source.clone() };
     if response.double_clicked() {
         let look = &mut context.view.saved.render;
@@ -128,7 +123,7 @@ fn point_at(ui: &Ui, response: &egui::Response, layout: &PictureLayout, context:
     }
     if !response.dragged() {
         let pictures = context.render_service.frame();
-        context.view.point = pictures.and_then(|shot| crate::figures::render::pixel_line(&context.scene, shot, &place));
+        context.view.point = pictures.and_then(|shot| figures::render::pixel_line(&context.scene, shot, &place));
         context.view.hover(Some(&crate::plot_item::PlotItem::Sensor(source)));
         context.view.render.hovered = Some(place);
     }

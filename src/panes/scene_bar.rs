@@ -2,7 +2,7 @@
 
 use chromascope_core::colorimetry::Metric;
 use chromascope_core::correction::CorrectionMethod;
-use egui::{Align, Layout, Rect, RichText, Sense, Slider, Ui, UiBuilder, Vec2};
+use egui::{Align, Layout, Rect, Sense, Slider, Ui, UiBuilder, Vec2};
 
 use super::context::PaneContext;
 use crate::action::{Action, CompareAction, SceneAction};
@@ -25,7 +25,6 @@ const DIM: f32 = 0.45;
 const WITH_DIFFERENCE: f32 = 1100.0;
 const BUTTON: f32 = 20.0;
 
-/// Shows the bar in its rectangle.
 pub fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let wide = rect.width() >= WITH_DIFFERENCE;
     let slider = if wide { 166.0 } else { 84.0 };
@@ -133,7 +132,7 @@ fn field(
     if !matters {
         head.set_opacity(DIM);
     }
-    head.label(RichText::new(caption).small().color(context.theme.weak));
+    widgets::note(&mut head, caption);
     let below = Rect::from_min_size(rect.min + Vec2::new(0.0, 18.0), Vec2::new(width, ROW));
     let layout = Layout::left_to_right(Align::Center);
     let mut body = ui.new_child(UiBuilder::new().id_salt(&id).max_rect(below).layout(layout));

@@ -14,10 +14,12 @@ use crate::document::SetKind;
 use crate::figures::chromaticity;
 use crate::figures::render::image_words;
 use crate::format::{file_name, fixed};
+use crate::jobs::Waiting;
 use crate::panes::widgets::{lines, pick_list};
 use crate::plot_item::{PlotItem, SensorId};
 use crate::render_service::made::MadePictures;
-use crate::report::Report;
+use crate::report::{Report, ReportJob};
+use crate::scene::metrics::Ranking;
 use crate::theme::UNIT;
 use crate::view::{Offer, Status, Weight};
 use crate::workspaces::{Arrangement, PaneKind};
@@ -45,7 +47,6 @@ const FACTS: &str = "Computation time of the last change; largest error of the v
 const RENDER_FACTS: &str = "Time of the last rendering stage; error of integrals over wavelength, relative to the \
                             brightest pixel; number of cameras rendered. What is not visible is not computed.";
 
-/// Shows the bar in its rectangle.
 pub fn show(ui: &mut Ui, rect: Rect, arrangement: &Arrangement, context: &mut PaneContext<'_>) {
     let inner = rect.shrink2(Vec2::new(2.0 * UNIT, 0.0));
     let half = READINGS * inner.width();
@@ -109,8 +110,9 @@ fn message(ui: &mut Ui, mut rect: Rect, context: &mut PaneContext<'_>) -> bool {
         }
         ui.ctx().request_repaint_after(PATIENCE);
     }
-    if context.report.busy().is_some() {
-        report_progress(ui, rect, context);
+    let report = context.later.seen::<ReportJob>(Report::NAME);
+    if report.busy.is_some() {
+        report_progress(ui, rect, &report, context);
         return true;
     }
     let opacity = remaining(ui, rect, context);
@@ -298,9 +300,8 @@ fn file_progress(ui: &mut Ui, rect: Rect, progress: &Progress, context: &mut Pan
 }
 
 /// The message while a report is made.
-fn report_progress(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
-    let (steps, done) = context.report.progress();
-    let words = format!("Report: {}, {} of {}", Report::name(done), done + 1, steps.len());
+fn report_progress(ui: &mut Ui, rect: Rect, report: &Waiting<ReportJob>, context: &mut PaneContext<'_>) {
+    let words = format!("Report: {}, {} of {}", Report::name(report.done), report.done + 1, report.stages.len());
     let hint = "Stop the report; the files so far stay (Esc)".to_owned();
     line(ui, rect, &words, context.theme.text, &[("Stop".to_owned(), hint, Press::Run(Command::StopReport))], context);
 }
@@ -372,7 +373,7 @@ fn facts(arrangement: &Arrangement, context: &PaneContext<'_>) -> Vec<String> {
         facts.push(format!("updated in {} ms", fixed(milliseconds, usize::from(milliseconds < 100.0))));
     }
     if arrangement.panes.iter().any(|(pane, _)| *pane == PaneKind::METRICS)
-        && let Some((done, all)) = context.ranking.progress()
+        && let Some((done, all)) = Ranking::seen(context.later).progress()
     {
         facts.push(format!("Computing: {done} of {all}"));
         return facts;

@@ -1,23 +1,23 @@
 //! Tolerance, and the method that satisfies it for each camera.
 
+use chromascope_core::accuracy::RelTolerance;
 use chromascope_core::render::plan::{Candidate, Verdict};
+use chromascope_core::render::{Quality, QualityLevel, Shadows};
 use chromascope_measure::pareto::duration;
 use egui::{CollapsingHeader, Rect, RichText, Ui};
 
-use super::context::{NothingRendered, Pane, PaneContext, set_render as set};
+use super::context::{Pane, PaneContext, set_render as set};
 use crate::format::capitalized;
 use crate::panes::widgets;
-use crate::profiler::plans::Planned;
+use crate::profiler::SceneRunJob;
+use crate::profiler::plans::{PlanAnswer, Planned, PlansQuery};
 use crate::scene::ComparedSensor;
 use crate::theme::UNIT;
 use crate::workspaces::PaneKind;
-use chromascope_core::render::QualityLevel;
 
-/// The pane.
 pub const PANE: Pane =
     Pane { kind: PaneKind::TOLERANCE, title: "Tolerance", show, figure: None, under_conditions: false, table: false };
 
-/// Shows the pane in its rectangle.
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     widgets::scrolling_pane(ui, &PANE, rect, context, |ui, context| {
         choice(ui, context);
@@ -52,13 +52,41 @@ fn choice(ui: &mut Ui, context: &mut PaneContext<'_>) {
     } else {
         format!("Current quality: {}. Below: the methods that the tolerance would use.", settings.quality.label())
     };
-    ui.label(RichText::new(words).small().color(context.theme.weak));
+    widgets::note(ui, words);
+}
+
+/// Reason that there are no plans.
+struct NothingRendered;
+
+/// The plan of each rendered sensor, as pictures within the document's tolerance would take it; `Ok(None)` until one is
+/// made. An error where nothing is rendered.
+fn plans(context: &PaneContext<'_>) -> Result<Option<Vec<PlanAnswer>>, NothingRendered> {
+    let own = context.meshes.chosen(&context.scene.document.render.mesh);
+    let quality = RelTolerance::new(context.scene.document.render.tolerance).ok().map(Quality::Within);
+    let orbit = context.view.saved.render.orbit;
+    let pictures = quality.and_then(|quality| SceneRunJob::pictures_of(&context.scene, own.as_ref(), orbit, quality));
+    let mut pictures = pictures.ok_or(NothingRendered)?;
+    let geometry = &mut pictures.shading.geometry;
+    let frame = context.render_service.frame();
+    let visible = frame.and_then(|frame| Some(&frame.query.mesh()?.shading.geometry)).filter(|visible| {
+        visible.visibility.mesh == geometry.visibility.mesh
+            && visible.lighting == geometry.lighting
+            && (visible.shadows == Shadows::Off) == (geometry.shadows == Shadows::Off)
+    });
+    // All angles of the current pictures are cached; those of the next pictures soon will be.
+    let soon = context.render_service.is_looked_at()
+        && context.render_service.failure().is_none()
+        && !context.view.render.cancelled;
+    if let Some(visible) = visible {
+        geometry.clone_from(visible);
+    }
+    Ok(PlansQuery::ask(context.later, &pictures, visible.is_some() || !soon))
 }
 
 /// Each sensor with its plan.
 fn sources(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let weak = context.theme.weak;
-    let plans = match context.plans() {
+    let plans = match plans(context) {
         Ok(Some(plans)) => plans,
         Ok(None) => {
             ui.label(RichText::new("Choosing methods…").color(weak));
@@ -102,7 +130,7 @@ fn not_rendered(ui: &mut Ui, context: &PaneContext<'_>) {
             widgets::source_key(ui, source, &context.theme);
             ui.strong(&source.label);
         });
-        ui.label(RichText::new(why).small().color(context.theme.weak));
+        widgets::note(ui, why);
         ui.add_space(UNIT);
     }
 }

@@ -16,8 +16,8 @@ pub use lines::focus_rim;
 
 use std::time::Duration;
 
-use chromascope_figure::{Ink, LegendEntry, Stroke};
-use egui::{Align, Button, Layout, Rect, Response, Sense, Ui, UiBuilder, Vec2};
+use chromascope_figure::{FigureRoom, Ink, LegendEntry, Stroke, Table};
+use egui::{Align, Align2, Button, FontId, Layout, Rect, Response, RichText, Sense, Ui, UiBuilder, Vec2};
 
 use crate::command::Command;
 use crate::export::FigureForm;
@@ -26,7 +26,7 @@ use crate::paint;
 use crate::panes::context::{Pane, PaneContext};
 use crate::plot_item::SensorId;
 use crate::scene::ComparedSensor;
-use crate::theme::{ROW, Theme, UNIT};
+use crate::theme::{self, ROW, Theme, UNIT};
 use crate::view::render::RenderView;
 use crate::workspaces::{PaneKind, Workspace};
 use pick_list::Line;
@@ -70,6 +70,65 @@ pub fn pane(
     let mut buttons = ui.new_child(UiBuilder::new().id_salt(("buttons", pane.kind)).max_rect(right).layout(to_left));
     header_buttons(&mut buttons, pane, context);
     Rect::from_min_max(egui::pos2(rect.left(), rect.top() + HEADER), rect.max)
+}
+
+/// A pane's frame and header as [`pane`] draws them. Returns the rectangle below within the usual margins.
+pub fn body(
+    ui: &mut Ui,
+    pane: &Pane,
+    rect: Rect,
+    context: &mut PaneContext<'_>,
+    switches: impl FnOnce(&mut Ui, &mut PaneContext<'_>),
+) -> Rect {
+    let body = self::pane(ui, pane, rect, context, switches);
+    Rect::from_min_max(body.min + Vec2::new(2.0 * UNIT, 0.0), body.max - Vec2::new(2.0 * UNIT, UNIT))
+}
+
+/// A part of a pane, beyond whose rectangle nothing is drawn.
+pub fn clipped(ui: &mut Ui, salt: impl egui::AsIdSalt, rect: Rect) -> Ui {
+    let mut child = ui.new_child(UiBuilder::new().id_salt(salt).max_rect(rect));
+    child.set_clip_rect(rect.intersect(ui.clip_rect()));
+    child
+}
+
+/// A place in the middle of a rectangle, whose lines are centered.
+pub fn middle(ui: &mut Ui, salt: impl egui::AsIdSalt, body: Rect, size: Vec2) -> Ui {
+    let place = Rect::from_center_size(body.center(), Vec2::new(body.width().min(size.x), size.y)).intersect(body);
+    let layout = Layout::top_down(Align::Center);
+    ui.new_child(UiBuilder::new().id_salt(salt).max_rect(place).layout(layout))
+}
+
+/// Draws a sentence in the middle of a rectangle.
+pub fn say(ui: &Ui, body: Rect, words: impl ToString, color: egui::Color32) {
+    let font = FontId::proportional(theme::TEXT);
+    ui.painter().text(body.center(), Align2::CENTER_CENTER, words, font, color);
+}
+
+/// A small line of less weight.
+pub fn note(ui: &mut Ui, words: impl Into<String>) {
+    ui.label(RichText::new(words).small().weak());
+}
+
+/// Shows a pane's numbers instead of its picture, if that is chosen. Returns whether it is.
+pub fn numbers(
+    ui: &mut Ui,
+    pane: &Pane,
+    body: Rect,
+    context: &mut PaneContext<'_>,
+    table: impl FnOnce(&PaneContext<'_>) -> Option<Table>,
+) -> bool {
+    let is_chosen = context.view.saved.tables.contains(&pane.kind);
+    if let Some(numbers) = is_chosen.then(|| table(context)).flatten() {
+        table::show_numbers(ui, body, pane.kind, &numbers, context);
+    }
+    is_chosen
+}
+
+/// The same with the numbers of the pane's figure.
+pub fn figure_numbers(ui: &mut Ui, pane: &Pane, body: Rect, context: &mut PaneContext<'_>) -> bool {
+    numbers(ui, pane, body, context, |context| {
+        Some(pane.figure?.figure(&context.scene, &context.look(pane.kind), FigureRoom::default())?.table)
+    })
 }
 
 /// Has the control of a name take the keyboard as soon as it is drawn.
@@ -293,7 +352,15 @@ pub fn segmented<T: Copy + PartialEq>(ui: &mut Ui, choices: &[(T, &str, &str)], 
     pressed(ui, choices, current).filter(|choice| *choice != current)
 }
 
-/// The same, for choices that do something when pressed again.
+/// A switch that sets a value.
+pub fn switch<T: Copy + PartialEq>(ui: &mut Ui, choices: &[(T, &str, &str)], value: &mut T) {
+    if let Some(to) = segmented(ui, choices, *value) {
+        *value = to;
+        ui.ctx().request_repaint();
+    }
+}
+
+/// The same as [`segmented`], for choices that do something when pressed again.
 pub fn pressed<T: Copy + PartialEq>(ui: &mut Ui, choices: &[(T, &str, &str)], current: T) -> Option<T> {
     let mut clicked = None;
     for &(choice, words, hint) in choices {

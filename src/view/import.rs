@@ -6,20 +6,14 @@ use chromascope_core::query::Shared;
 use serde::{Deserialize, Serialize};
 
 use crate::catalog::likeness::Likeness;
-use crate::catalog::opened::Failing;
-use crate::document::imported::{Fingerprint, ImportOverrides, ImportedSet};
+use crate::catalog::opened::{Failing, Opened};
+use crate::document::imported::{ImportOverrides, ImportedSet};
+pub use crate::figures::curves::ImportItem;
+use crate::figures::curves::ImportSelection;
+use crate::scene::Scene;
 
 /// Maximum number of remembered kinds of files.
 const REMEMBERED: usize = 100;
-
-/// Something in the list of files.
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
-pub enum ImportItem {
-    /// A set of the document, by name.
-    Set(String),
-    /// A file that no set is made of.
-    File(Fingerprint),
-}
 
 /// View state of the Import pane.
 #[derive(Debug, Default)]
@@ -73,6 +67,13 @@ impl ImportView {
             self.focus = None;
         }
         takes
+    }
+
+    /// The selected item, as far as it is known.
+    pub fn selection(&self, scene: &Scene<'_>, opened: &Opened) -> Option<ImportSelection> {
+        let item = self.selected.clone()?;
+        let tried = self.pending(&item).cloned();
+        ImportSelection::of(scene, item, tried, opened.preview())
     }
 
     /// Settings tried for an item.

@@ -4,6 +4,7 @@ use chromascope_core::metamers::Confusion;
 use serde::{Deserialize, Serialize};
 
 use crate::plot_item::SensorId;
+pub use crate::scene::metrics::RankedCameras;
 
 /// View settings of the Metrics pane.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -19,18 +20,6 @@ pub struct MetricsLook {
     /// The camera of the report card; none for the selected one.
     #[serde(skip)]
     pub card: Option<SensorId>,
-}
-
-/// A choice of cameras.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub enum RankedCameras {
-    /// All of the library, the user's too.
-    #[default]
-    Library,
-    /// Those that are compared.
-    Compared,
-    /// The user's.
-    Yours,
 }
 
 /// The one that takes two reflectances for one.

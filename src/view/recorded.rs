@@ -1,5 +1,6 @@
 //! View state of the Recorded pane.
 
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use chromascope_core::camera::recorded::Freedom;
@@ -15,6 +16,8 @@ use crate::scene::recorded::RankedCamera;
 pub struct RecordedView {
     /// True while the open file dialog is for recorded values.
     pub opening: bool,
+    /// The file that was opened.
+    pub path: Option<PathBuf>,
     /// Parameters that are fitted.
     pub freedom: Freedom,
     /// Corners of the chart in the picture that were clicked, in its pixels.

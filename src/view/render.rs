@@ -4,6 +4,7 @@ use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
 
+pub use crate::figures::look::{PixelPlace, RenderMode};
 use crate::paint::PictureTextures;
 use crate::plot_item::SensorId;
 pub use crate::scene::orbit::Orbit;
@@ -37,29 +38,6 @@ impl RenderLook {
         }
         self.orbit = self.orbit.filter(|orbit| orbit.viewpoint(1.0).is_some());
     }
-}
-
-/// Arrangement of pictures.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub enum RenderMode {
-    /// One for each sensor.
-    #[default]
-    Grid,
-    /// The reference and a sensor in one.
-    Split,
-    /// One sensor, large.
-    One,
-    /// Difference of each sensor from the reference.
-    Difference,
-}
-
-/// A place in every picture, with the sensor that was pointed at.
-#[derive(Clone, Debug, PartialEq)]
-pub struct PixelPlace {
-    /// Right and down, from 0 to 1.
-    pub at: [f64; 2],
-    /// The sensor whose picture it was.
-    pub source: SensorId,
 }
 
 /// View state of the Render pane.

@@ -103,7 +103,7 @@ fn metrics() {
     let mut harness = open_with(Document::colorimetry(), [1280.0, 800.0], egui::Theme::Light);
     harness.state_mut().view_mut().saved.workspace = Workspace::Metrics;
     harness.run_steps(3);
-    harness.state().ranking().wait();
+    harness.state().later().wait();
     check(harness, "metrics.png");
 }
 
@@ -242,7 +242,7 @@ impl Measured {
             let mut harness = open([1280.0, 800.0], egui::Theme::Dark);
             harness.state_mut().push(Command::SpectralWeights);
             harness.run_steps(2);
-            harness.state().profiler().wait();
+            harness.state().later().wait();
             harness.run_steps(3);
             let measured = &harness.state().profiler().measured;
             let run = SceneRun::clone(measured.run.as_ref().expect("measured"));
@@ -265,7 +265,7 @@ pub(crate) fn accuracy(size: [f32; 2], theme: egui::Theme) -> Harness<'static, C
     measured.is_current = true;
     for _ in 0..3 {
         harness.run_steps(2);
-        harness.state().profiler().wait();
+        harness.state().later().wait();
     }
     harness
 }

@@ -8,12 +8,14 @@ use chromascope::document::start::Start;
 use chromascope::document::{
     CIE_1931, Diagram, Document, Light, PAPER_REFERENCE, SetKind, Subset, TransformChoice, WhiteBalanceChoice, session,
 };
+use chromascope::figures::look::FigureLook;
 use chromascope::results::Results;
 use chromascope::scene::{Caution, Scene};
 use chromascope::workspaces::PaneKind;
 use chromascope_core::colorimetry::lab::lab_from_xyz;
 use chromascope_core::colorimetry::{Lab, Metric, Xyz, delta_e_2000};
 use chromascope_core::query::PatchColor;
+use chromascope_figure::FigureRoom;
 use egui::accesskit::Role;
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
@@ -164,7 +166,7 @@ fn under_eq_13_no_figure_says_delta_e_00() {
     document.difference = Metric::DELTA_E_2000;
     let (catalog, results) = (Catalog::built_in(), Results::default());
     let scene = Scene { document: &document, catalog: &catalog, results: &results };
-    let figure = chromascope::figures::swatches::figure(&scene, &chromascope::view::View::default());
+    let figure = chromascope::figures::swatches::figure(&scene, &FigureLook::default(), FigureRoom::default());
     assert!(figure.caption.contains("Δ of Eq 13 colors") && !figure.caption.contains("ΔE"), "{}", figure.caption);
     let mut window = open_with(document, SIZE, egui::Theme::Light);
     window.run();

@@ -53,9 +53,7 @@ pub(super) fn files(ui: &mut Ui, context: &mut PaneContext<'_>) {
         ui.label("Save as");
         for form in CorrectionForm::ALL {
             let (label, hint) = form.words();
-            if ui.button(label).on_hover_text(hint).clicked() {
-                context.push(Command::SaveCorrection(form));
-            }
+            context.button(ui, label, hint, Command::SaveCorrection(form));
         }
     });
 }

@@ -40,11 +40,9 @@ fn head(ui: &mut Ui, context: &PaneContext<'_>) {
     let (rect, response) = ui.allocate_exact_size(PICTURE, Sense::hover());
     let name = format!("A head: left through the reference, right through the {}", portrait::CAMERA);
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, &name));
-    ui.painter().rect_filled(rect, 3.0, context.theme.surround.color());
-    if let Some(query) = portrait::query(context.scene.catalog, context.scene.results) {
-        context.portrait.ask(vec![query]);
-    }
-    let Some(shown) = context.portrait.shown() else { return };
+    ui.painter().rect_filled(rect, 3.0, context.theme.surround);
+    let query = portrait::query(context.scene.catalog, context.scene.results);
+    let Some(shown) = context.later.ask("About", query.into_iter().collect()).shown else { return };
     let size = [f64::from(PICTURE.x), f64::from(PICTURE.y)];
     let pictures = (*shown.answer).as_ref().ok().and_then(Option::as_ref);
     if let Some(panel) = pictures.and_then(|pictures| portrait::panel(pictures, size)) {

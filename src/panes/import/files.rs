@@ -6,9 +6,8 @@ use egui::{TextStyle, Ui, UiBuilder, Vec2};
 use super::entries::{Entry, State};
 use crate::action::{Action, ImportedAction};
 use crate::command::Command;
-use crate::figures::curves::ImportSelection;
 use crate::panes::context::PaneContext;
-use crate::panes::widgets::{focus_rim, lines};
+use crate::panes::widgets::{self, focus_rim, lines};
 use crate::theme::{ROW, Theme, UNIT};
 use crate::view::import::{ImportItem, Stop};
 use crate::workspaces::PaneKind;
@@ -39,8 +38,7 @@ pub(super) fn column(ui: &mut Ui, rect: Rect, entries: &[Entry], context: &mut P
         ui.memory_mut(|memory| memory.request_focus(id(index)));
         moved = Some(index);
     }
-    let mut child = ui.new_child(UiBuilder::new().id_salt("files").max_rect(list));
-    child.set_clip_rect(list.intersect(ui.clip_rect()));
+    let mut child = widgets::clipped(ui, "files", list);
     child.spacing_mut().item_spacing.y = 0.0;
     let mut area = ScrollArea::vertical().id_salt("files scroll").auto_shrink(false);
     let tops = tops(entries);
@@ -142,7 +140,7 @@ fn select(ui: &Ui, entries: &[Entry], index: usize, context: &mut PaneContext<'_
 
 /// Makes a set of the selected file, if it is none and can be read with the settings.
 fn take(context: &mut PaneContext<'_>) {
-    let Some(shown) = ImportSelection::of(&context.scene, context.view, context.opened.preview()) else { return };
+    let Some(shown) = context.view.import.selection(&context.scene, context.opened) else { return };
     match shown.item {
         ImportItem::File(file) if shown.is_fresh() && !shown.taken().is_empty() => {
             context.push(Command::UseFile(file, Box::new(shown.wishes)));
@@ -230,7 +228,7 @@ fn row(ui: &mut Ui, rect: Rect, index: usize, entries: &[Entry], context: &mut P
     response.on_hover_ui(|ui| {
         ui.label(&entry.name);
         let small = |ui: &mut Ui, words: String| {
-            ui.label(egui::RichText::new(words).small().color(theme.weak));
+            widgets::note(ui, words);
         };
         small(ui, format!("{}; {}", entry.note, entry.state.words()));
         if let Some(path) = &entry.path {

@@ -1,13 +1,13 @@
 //! Question about an open decision of a file: values are not scaled before an answer is chosen.
 
-use egui::{Rect, RichText, Sense, Ui, UiBuilder, Vec2};
+use egui::{Rect, RichText, Sense, Ui, Vec2};
 use spectral_file::{Certainty, Role, SpectralFile, Values};
 
 use crate::command::Command;
 use crate::figures::curves::ImportSelection;
 use crate::format::sentence;
 use crate::panes::context::PaneContext;
-use crate::panes::widgets::lines;
+use crate::panes::widgets::{self, lines};
 use crate::theme::UNIT;
 
 /// An answer: its text, a hint, and its effect.
@@ -76,8 +76,7 @@ fn question(table: &SpectralFile) -> Option<(&str, &'static [Answer])> {
 pub(super) fn show(ui: &mut Ui, rect: Rect, shown: &ImportSelection, context: &mut PaneContext<'_>) -> Rect {
     let Some((why, answers)) = shown.table().filter(|_| shown.is_fresh()).and_then(question) else { return rect };
     let color = context.theme.warning;
-    let mut child = ui.new_child(UiBuilder::new().id_salt("question").max_rect(rect));
-    child.set_clip_rect(rect.intersect(ui.clip_rect()));
+    let mut child = widgets::clipped(ui, "question", rect);
     child.spacing_mut().item_spacing = Vec2::splat(UNIT);
     child.horizontal_wrapped(|ui| {
         let (mark, _) = ui.allocate_exact_size(Vec2::splat(16.0), Sense::hover());

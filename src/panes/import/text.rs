@@ -12,7 +12,7 @@ use crate::document::imported::{Fingerprint, ImportedSet};
 use crate::figures::curves::ImportSelection;
 use crate::format::sentence;
 use crate::panes::context::PaneContext;
-use crate::panes::widgets::lines;
+use crate::panes::widgets::{self, lines};
 use crate::theme::{MONO, ROW, UNIT};
 
 const LINE: f32 = 18.0;
@@ -110,9 +110,7 @@ fn away(ui: &mut Ui, rect: Rect, set: &ImportedSet, context: &mut PaneContext<'_
     let text_state = if set.curves.len() == 1 { "Its curve is" } else { "Its curves are" };
     child.label(format!("{} is not available{place}. {text_state} stored in the session.", set.file));
     child.add_space(UNIT);
-    if child.button("Open…").on_hover_text("Locate the file").clicked() {
-        context.push(Command::Open);
-    }
+    context.button(&mut child, "Open…", "Locate the file", Command::Open);
 }
 
 /// State of the text view between frames.
@@ -152,8 +150,7 @@ fn lines_of(
     let target = target(ui, shown, look, error.as_ref(), context);
     let columns = preview.longest().min(WIDEST) + 2;
     let content = Vec2::new(gutter + UNIT + columns as f32 * letter, preview.line_count() as f32 * LINE + UNIT);
-    let mut child = ui.new_child(UiBuilder::new().id_salt("text").max_rect(rect));
-    child.set_clip_rect(rect.intersect(ui.clip_rect()));
+    let mut child = widgets::clipped(ui, "text", rect);
     let mut area = ScrollArea::both().id_salt(("text of", look.fingerprint)).auto_shrink(false);
     if let Some((line, column)) = target {
         let [y, x] = [line.saturating_sub(1) as f32 * LINE, column as f32 * letter];

@@ -1,13 +1,13 @@
 //! Pinned items, as columns of one table.
 
-use egui::{RichText, Ui};
+use egui::Ui;
 
 use super::numbers::Point;
 use super::points::{letter, point_of, points_of};
-use super::{label_of, note, numbers, reference_id};
+use super::{label_of, numbers, reference_id};
 use crate::format::fixed;
 use crate::panes::context::PaneContext;
-use crate::panes::widgets::{Icon, icon_button};
+use crate::panes::widgets::{self, Icon, icon_button};
 use crate::plot_item::PlotItem;
 use crate::scene::Scene;
 
@@ -16,16 +16,15 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
     if context.view.pinned.is_empty() {
         return;
     }
-    let theme = context.theme;
     ui.separator();
-    ui.label(RichText::new("Pinned").strong());
+    ui.strong("Pinned");
     let mut unpin = None;
     for (index, thing) in context.view.pinned.clone().iter().enumerate() {
         ui.horizontal(|ui| {
             if icon_button(ui, Icon::Close, &format!("Unpin {}", letter(index))).clicked() {
                 unpin = Some(index);
             }
-            ui.label(RichText::new(letter(index)).strong());
+            ui.strong(letter(index));
             ui.add(egui::Label::new(name(&context.scene, thing)).truncate());
         });
     }
@@ -42,7 +41,7 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
         }
     }
     if pinned.iter().any(|thing| point_of(&context.scene, thing).is_none()) {
-        note(ui, &theme, "Only points and swatches have values to compare.");
+        widgets::note(ui, "Only points and swatches have values to compare.");
     }
 }
 

@@ -1,15 +1,15 @@
 //! A set of the library: its curves, source and terms.
 
 use chromascope_figure::InkRole;
-use egui::{Rect, RichText, Sense, Ui, Vec2};
+use egui::{Rect, Sense, Ui, Vec2};
 
-use super::{buttons, copy_text, failure, note};
+use super::{buttons, copy_text, failure};
 use crate::catalog::Entry;
 use crate::document::SetKind;
 use crate::figures::data_set;
 use crate::paint;
 use crate::panes::context::PaneContext;
-use crate::panes::widgets::facts;
+use crate::panes::widgets::{self, facts};
 use crate::theme::UNIT;
 
 /// Height of the drawn curves.
@@ -22,9 +22,9 @@ pub(super) fn show(ui: &mut Ui, kind: SetKind, name: &str, context: &mut PaneCon
         Ok(entry) => entry,
         Err(error) => return failure(ui, &theme, &error.to_string()),
     };
-    ui.label(RichText::new(&entry.name).strong());
+    ui.strong(&entry.name);
     let also = entry.also.as_ref().map_or_else(String::new, |also| format!(", {also}"));
-    note(ui, &theme, format!("{}{also}", kind.singular()));
+    widgets::note(ui, format!("{}{also}", kind.singular()));
     curves(ui, &entry, InkRole::Text, context);
     let known = facts::of(&scene, &entry, true);
     facts::show(ui, &theme, &known);

@@ -2,17 +2,18 @@
 
 use chromascope_core::spectral::{Primaries, Quantity};
 use chromascope_figure::InkRole;
-use egui::{RichText, Ui};
+use egui::Ui;
 
 use super::{
     assumptions, buttons, copy_text, difference_words, failure, head, held_words, label_of, measured_words,
-    no_difference, note, reference_id, set, show_assumptions, source_of,
+    no_difference, reference_id, set, show_assumptions, source_of,
 };
 use crate::catalog::Place;
 use crate::command::Command;
 use crate::document::{Diagram, FIT_TARGET, Light, SetKind};
 use crate::format::{fixed, signed};
 use crate::panes::context::PaneContext;
+use crate::panes::widgets;
 use crate::panes::widgets::facts::{self, Fact, range_words};
 use crate::plot_item::SensorId;
 use crate::scene::Scene;
@@ -28,7 +29,7 @@ pub(super) fn show(ui: &mut Ui, id: &SensorId, context: &mut PaneContext<'_>) {
         Err(error) => return failure(ui, &theme, &error.to_string()),
     };
     let also = entry.also.as_ref().map_or_else(String::new, |also| format!(", {also}"));
-    note(ui, &theme, format!("{}: {}{also}", id.kind.singular(), entry.name));
+    widgets::note(ui, format!("{}: {}{also}", id.kind.singular(), entry.name));
     let role = source_of(&scene, id).map_or(InkRole::Observer, |source| source.role);
     set::curves(ui, &entry, role, context);
     let mut measured = measures(&scene, id);
@@ -52,7 +53,7 @@ pub(super) fn show(ui: &mut Ui, id: &SensorId, context: &mut PaneContext<'_>) {
         copy_text(ui, all.collect(), context);
     }
     let label = label_of(&scene, id);
-    show_assumptions(ui, &theme, assumptions(&scene, id, &label));
+    show_assumptions(ui, assumptions(&scene, id, &label));
     if matches!(entry.place, Place::Own(_))
         && ui.button("Reading…").on_hover_text("Check and correct how its file was read").clicked()
     {
@@ -109,7 +110,7 @@ fn temperature_words(scene: &Scene<'_>) -> String {
 /// The light on the scene.
 pub(super) fn light(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let (scene, theme) = (context.scene, context.theme);
-    ui.label(RichText::new(format!("Light {}", scene.light_name())).strong());
+    ui.strong(format!("Light {}", scene.light_name()));
     let light = match scene.light() {
         Ok(light) => light,
         Err(error) => return failure(ui, &theme, &error.to_string()),
@@ -160,5 +161,5 @@ pub(super) fn light(ui: &mut Ui, context: &mut PaneContext<'_>) {
         copy_text(ui, format!("wavelength_nm\tpower\n{}\n", lines.join("\n")), context);
     }
     let words = held_words(&format!("Light {}", scene.light_name()), light.grid.assumed());
-    show_assumptions(ui, &theme, words.into_iter().collect());
+    show_assumptions(ui, words.into_iter().collect());
 }

@@ -64,9 +64,12 @@ pub(super) fn show(ui: &mut Ui, shown: &ImportSelection, context: &mut PaneConte
             if on_disk(shown) && ui.button("Reload").on_hover_text("Reload the file from disk").clicked() {
                 context.push(Command::ReadAgain(name.clone()));
             }
-            if ui.button("Remove").on_hover_text("Remove the data set; can be undone").clicked() {
-                context.push(Action::Imported(ImportedAction::Remove(name.clone())));
-            }
+            context.button(
+                ui,
+                "Remove",
+                "Remove the data set; can be undone",
+                Action::Imported(ImportedAction::Remove(name.clone())),
+            );
         }
     });
     ui.horizontal(|ui| {

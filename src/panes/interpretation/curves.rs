@@ -6,6 +6,7 @@ use crate::catalog::import::TAKEN_AT_FIRST;
 use crate::document::imported::ImportOverrides;
 use crate::figures::curves::ImportSelection;
 use crate::panes::context::PaneContext;
+use crate::panes::widgets;
 use crate::theme::{ROW, UNIT};
 use crate::view::import::Stop;
 
@@ -46,7 +47,7 @@ pub(super) fn show(ui: &mut Ui, shown: &ImportSelection, wishes: &mut ImportOver
     buttons(ui, &found, &mut taken);
     let mut under = None;
     if found.is_empty() {
-        ui.label(RichText::new("No curve of this name.").small().color(context.theme.weak));
+        widgets::note(ui, "No curve of this name.");
     }
     let pitch = ROW + ui.spacing().item_spacing.y;
     let height = pitch * found.len().min(ROWS) as f32;

@@ -5,10 +5,10 @@ use std::collections::BTreeSet;
 use egui::{Checkbox, ScrollArea, Ui};
 use spectral_file::Part;
 
-use super::note;
 use crate::command::Command;
 use crate::figures::curves::ImportSelection;
 use crate::panes::context::PaneContext;
+use crate::panes::widgets;
 use crate::theme::{ROW, UNIT};
 
 /// Number of visible rows.
@@ -33,7 +33,7 @@ pub(super) fn show(ui: &mut Ui, shown: &ImportSelection, context: &mut PaneConte
     let fingerprint = file.origin.fingerprint;
     let own = context.scene.document.own.iter().filter(|set| set.fingerprint == Some(fingerprint));
     let used: BTreeSet<usize> = own.filter_map(|set| set.wishes.options.part).collect();
-    note(ui, &context.theme, "Parts, each as a separate data set");
+    widgets::note(ui, "Parts, each as a separate data set");
     let mut ticked = std::mem::take(&mut context.view.import.parts);
     ticked.retain(|part| *part <= parts.len() && !used.contains(part));
     let free = (1..=parts.len()).filter(|part| !used.contains(part));

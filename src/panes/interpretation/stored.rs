@@ -4,13 +4,13 @@ use egui::{RichText, Ui};
 use spectral_file::Values;
 
 use super::camera::RESPONSES;
-use super::{Closed, caption, list, name, note, switches};
+use super::{Closed, caption, list, name, switches};
 use crate::action::{Action, ImportedAction};
 use crate::document::SetKind;
 use crate::document::imported::{ImportedSet, Role};
 use crate::figures::curves::places;
 use crate::panes::context::PaneContext;
-use crate::panes::widgets::segmented;
+use crate::panes::widgets::{self, segmented};
 use crate::theme::{Theme, UNIT};
 
 /// Shows the set with controls; every change is one step of undo.
@@ -21,7 +21,7 @@ pub(super) fn show(ui: &mut Ui, set: &ImportedSet, context: &mut PaneContext<'_>
         1 => "curve is".to_owned(),
         count => format!("{count} curves are"),
     };
-    note(ui, &theme, format!("{} is not available. Its {curves} stored in the session.", set.file));
+    widgets::note(ui, format!("{} is not available. Its {curves} stored in the session.", set.file));
     let mut changed = set.clone();
     choices(ui, &mut changed, &theme);
     if changed.role == Role::Camera {

@@ -3,12 +3,13 @@
 use egui::{Align2, FontId, Painter, Pos2, Rect, Sense, Ui, Vec2};
 
 use crate::figures::render::difference::Scale;
+use crate::palette::difference_ramp;
 use crate::panes::context::PaneContext;
-use crate::theme::{SMALL, difference_ramp};
+use crate::theme::SMALL;
 
 /// The color scale of differences.
 pub(super) fn scale(ui: &mut Ui, painter: &Painter, rect: Rect, scale: Scale, name: &str, context: &PaneContext<'_>) {
-    let color = context.theme.surround.label();
+    let color = context.theme.on_surround;
     let font = FontId::proportional(SMALL);
     let words = format!("{name} from the reference");
     let title = painter.text(rect.left_center() + Vec2::new(8.0, 0.0), Align2::LEFT_CENTER, words, font.clone(), color);

@@ -96,8 +96,8 @@ fn picture(
         }
     };
     let area = rect.shrink(8.0);
-    let galley = ui.painter().layout(why, FontId::proportional(TEXT), context.theme.surround.label(), area.width());
-    painter.galley(area.min, galley, context.theme.surround.label());
+    let galley = ui.painter().layout(why, FontId::proportional(TEXT), context.theme.on_surround, area.width());
+    painter.galley(area.min, galley, context.theme.on_surround);
 }
 
 /// The difference at the right of a caption, as far as there is room, and in full.
@@ -136,7 +136,7 @@ fn caption(
     note: Option<&Note>,
     context: &PaneContext<'_>,
 ) {
-    let color = context.theme.surround.label();
+    let color = context.theme.on_surround;
     let rect = cell.caption.shrink2(Vec2::new(8.0, 0.0));
     marker(painter, Rect::from_min_size(rect.min, Vec2::new(16.0, CAPTION)), source, context);
     let right = note
@@ -184,7 +184,7 @@ pub(super) fn divider(ui: &mut Ui, layout: &PictureLayout, context: &mut PaneCon
     let response = ui.interact(line, ui.scope_id().with("divider"), Sense::click_and_drag());
     let share = f64::from(context.view.saved.render.split);
     response.widget_info(|| egui::WidgetInfo::slider(true, 100.0 * share, "Divider between reference and sensor"));
-    let color = context.theme.surround.label();
+    let color = context.theme.on_surround;
     let held = response.hovered() || response.dragged() || response.has_focus();
     let width = if held { 2.0 } else { 1.0 };
     // No rule at rest across the edge that the eye compares: the seam itself runs through the mesh.
@@ -265,7 +265,7 @@ pub(super) fn choosers(ui: &mut Ui, layout: &PictureLayout, sources: &[ComparedS
             Align2::RIGHT_CENTER,
             note,
             FontId::proportional(crate::theme::SMALL),
-            context.theme.surround.label(),
+            context.theme.on_surround,
         );
     }
 }

@@ -182,9 +182,9 @@ impl Wish<'_, '_> {
         let orbit = look.orbit.unwrap_or_else(|| Orbit::of(&self.context.scene.document.render.mesh));
         let [width, height] = self.layout.pixels;
         let viewpoint = orbit.viewpoint(f64::from(width) / f64::from(height.max(1))).ok_or("No such view.")?;
-        let surround = self.context.theme.surround.color().to_array();
+        let surround = self.context.theme.colors.surround.color();
         let linear = |channel: u8| srgb_inverse_transfer(f64::from(channel) / 255.0) as f32;
-        let background = Some([surround[0], surround[1], surround[2]].map(linear));
+        let background = Some(surround.map(linear));
         let scene = &self.context.scene;
         let pictures = scene.pictures_of(&self.layout.sources, self.mesh.clone(), viewpoint, finish, background);
         pictures.map_err(|error| error.to_string())

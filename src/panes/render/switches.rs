@@ -16,10 +16,7 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
         (RenderMode::One, "One", "One sensor, large (double-click a picture)"),
         (RenderMode::Difference, "Difference", "Difference of each sensor from the reference, pixel by pixel"),
     ];
-    if let Some(mode) = widgets::segmented(ui, &modes, context.view.saved.render.mode) {
-        context.view.saved.render.mode = mode;
-        ui.ctx().request_repaint();
-    }
+    widgets::switch(ui, &modes, &mut context.view.saved.render.mode);
     ui.add_space(UNIT);
     let figures = [
         (RenderAction::Figure8, "Figure 8", "The paper's head"),
