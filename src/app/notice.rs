@@ -7,7 +7,6 @@ use crate::panes::widgets::lines;
 use crate::theme::{Theme, UNIT};
 
 pub(super) const HEIGHT: f32 = 24.0;
-/// Width of the button that takes a line away.
 const DISMISS: f32 = 72.0;
 
 /// Shows a line; under the pointer, all of it and the file it is about. Returns whether it was dismissed.

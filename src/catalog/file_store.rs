@@ -26,12 +26,10 @@ pub struct Stamp {
 }
 
 impl Stamp {
-    /// Stamp of a file.
     pub fn of(file: &fs::Metadata) -> Self {
         Self { modified: file.modified().ok(), bytes: file.len() }
     }
 
-    /// Length of the file.
     pub fn bytes(self) -> u64 {
         self.bytes
     }
@@ -43,7 +41,6 @@ pub trait FromFile: Sized + Send + Sync + 'static {
     type Failure: FileFailure;
     /// State of a file by which it is known to have changed.
     type Version: Copy + Send + 'static;
-    /// Name of the threads that read.
     const THREAD: &'static str;
 
     /// Reads a file unless it is still in this state. `stop` is polled.
@@ -57,7 +54,6 @@ pub trait FromFile: Sized + Send + Sync + 'static {
         stop: &dyn Fn() -> bool,
     ) -> Result<Option<(Self, Self::Version)>, Self::Failure>;
 
-    /// Approximate size in memory.
     fn bytes(&self) -> usize;
 
     /// The file's name and counts.
@@ -78,12 +74,9 @@ pub trait FileFailure: std::fmt::Display + Send {
     fn picture_message(&self) -> String;
 }
 
-/// State of a file.
 #[derive(Debug)]
 pub enum FileState<T> {
-    /// It is being read.
     Loading,
-    /// It was read.
     Ready(Arc<T>),
     /// It gives no content: why, and what to do.
     Failed(String),
@@ -97,7 +90,6 @@ pub struct Opened<T> {
     pub result: Result<Arc<T>, String>,
 }
 
-/// The files that were requested.
 pub struct FileStore<T: FromFile> {
     monitor: Arc<Monitor<State<T>>>,
     executor: Executor,
@@ -187,7 +179,6 @@ impl<T: FromFile> FileStore<T> {
         std::mem::take(&mut self.monitor.lock().opened)
     }
 
-    /// The file that is being opened.
     pub fn opening(&self) -> Option<PathBuf> {
         self.monitor.lock().opening.clone()
     }

@@ -17,7 +17,6 @@ use crate::format::{file_name, io_reason};
 
 /// Endings of pictures of charts.
 pub const PICTURES: [&str; 3] = ["tif", "tiff", "png"];
-/// Most bytes of a file.
 const MAX_BYTES: u64 = 1 << 30;
 /// Longest side of a picture as it is shown.
 const SHOWN: usize = 1024;
@@ -31,7 +30,6 @@ pub struct TableSpectra {
     pub are_radiances: bool,
 }
 
-/// Contents of a file of recorded values.
 #[derive(Debug)]
 pub enum RecordedContent {
     /// A table, with spectra or without.
@@ -40,14 +38,12 @@ pub enum RecordedContent {
     Picture(ChartPicture, Image),
 }
 
-/// A file of recorded values.
 #[derive(Debug)]
 pub struct RecordedFile {
     pub name: String,
     pub content: RecordedContent,
 }
 
-/// The files of recorded values that were requested.
 pub type RecordedStore = FileStore<RecordedFile>;
 
 impl FromFile for RecordedFile {
@@ -121,7 +117,6 @@ fn read(path: &Path) -> Result<RecordedFile, String> {
     Ok(RecordedFile { name, content })
 }
 
-/// Spectra in the file of the raw values.
 fn spectra(text: &str) -> Result<TableSpectra, String> {
     let read = |role: Option<Role>| {
         let options = ReadOptions { role, ..ReadOptions::default() };

@@ -14,7 +14,6 @@ use crate::catalog::spectral_images::ImageStore;
 use crate::command::Command;
 use crate::document::render::RenderSettings;
 use crate::figures::FigureInput;
-use crate::figures::curves::CurveCache;
 use crate::jobs::Later;
 use crate::profiler::Profiler;
 use crate::render_service::RenderService;
@@ -30,7 +29,6 @@ pub struct Pane {
     pub kind: PaneKind,
     /// Title; its file has the same name.
     pub title: &'static str,
-    /// Draws the pane in exactly its rectangle.
     pub show: fn(&mut Ui, Rect, &mut PaneContext<'_>),
     /// Figure as on screen, with its numbers, for exports; none while there is nothing to show. None for a pane without figures.
     pub figure: Option<fn(&FigureInput<'_>) -> Option<Figure>>,
@@ -52,45 +50,28 @@ impl PaneStates {
     }
 }
 
-/// Everything a pane is given for a frame.
 pub struct PaneContext<'a> {
-    /// All panes.
     pub panes: &'static [&'static Pane],
-    /// The document, the data sets and the answers.
     pub scene: Scene<'a>,
-    /// The colors.
     pub theme: Theme,
-    /// View state: selection, zoom, layout.
     pub view: &'a mut View,
-    /// The user's mesh files.
     pub meshes: &'a MeshStore,
-    /// The user's spectral images.
     pub images: &'a ImageStore,
     /// The spectral files that were opened.
     pub opened: &'a Opened,
-    /// The file of recorded raw values.
     pub recorded: &'a RecordedStore,
-    /// Slow answers.
     pub later: &'a Later,
-    /// What panes keep from frame to frame.
     pub states: &'a mut PaneStates,
-    /// Renderer of the pictures.
     pub render_service: &'a mut RenderService,
-    /// Profiler of the scene.
     pub profiler: &'a mut Profiler,
-    /// The curves that Import drew last.
-    pub curves: &'a mut Option<CurveCache>,
-    /// Commands carried out after the frame.
     pub commands: &'a mut Vec<Command>,
 }
 
 impl PaneContext<'_> {
-    /// A pane, if there is one of this id.
     pub fn pane(&self, kind: PaneKind) -> Option<&'static Pane> {
         self.panes.iter().copied().find(|pane| pane.kind == kind)
     }
 
-    /// Title of a pane.
     pub fn title(&self, kind: PaneKind) -> &'static str {
         self.pane(kind).map_or("", |pane| pane.title)
     }
@@ -100,7 +81,6 @@ impl PaneContext<'_> {
         self.view.correction.camera(&self.scene)
     }
 
-    /// Input for a figure.
     pub fn figure_input(&self) -> FigureInput<'_> {
         FigureInput::of((&self.scene, self.view), self.render_service, self.profiler, self.opened)
     }

@@ -10,7 +10,6 @@ use crate::theme::UNIT;
 use crate::view::import::ImportItem;
 use crate::workspaces::PaneKind;
 
-/// Reach of the pointer, in points.
 const REACH: f32 = 8.0;
 
 pub const PANE: Pane = Pane {
@@ -22,6 +21,10 @@ pub const PANE: Pane = Pane {
     table: true,
 };
 
+/// The curves that were drawn last.
+#[derive(Default)]
+struct LastDrawn(Option<CurveCache>);
+
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let body = widgets::body(ui, &PANE, rect, context, |_, _| {});
     let Some(shown) = ImportSelection::refresh(&context.scene, context.view, context.opened) else {
@@ -31,7 +34,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     if shown.file.is_some() && !shown.is_fresh() {
         widgets::busy_line(ui, body, context.opened.looking(), context.theme.text);
     }
-    let kept = CurveCache::of(&shown, context.curves.take());
+    let kept = CurveCache::of(&shown, context.states.of::<LastDrawn>().0.take());
     match kept.all() {
         Err(words) => {
             let saved = &context.view.saved;
@@ -46,7 +49,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
         }
         Ok(curves) => plot(ui, body, &shown.item, [curves, kept.seen().unwrap_or(curves)], context),
     }
-    *context.curves = Some(kept);
+    context.states.of::<LastDrawn>().0 = Some(kept);
 }
 
 fn plot(ui: &mut Ui, body: Rect, item: &ImportItem, [curves, seen]: [&Curves; 2], context: &mut PaneContext<'_>) {
@@ -80,7 +83,6 @@ fn hover(ui: &Ui, inside: bool, place: Option<usize>, context: &mut PaneContext<
     }
 }
 
-/// A wrapped message in the center.
 fn sentence(ui: &Ui, body: Rect, words: &str, color: egui::Color32) {
     let font = egui::FontId::proportional(crate::theme::TEXT);
     let width = (body.width() - 8.0 * UNIT).max(40.0);

@@ -9,7 +9,6 @@ use chromascope_core::render::{ColorimetricScale, Development, LitSamples};
 use super::RenderedFrame;
 use crate::results::Results;
 
-/// A pixel in numbers.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PixelReading {
     /// Right and down, in pixels.
@@ -17,7 +16,6 @@ pub struct PixelReading {
     pub shows: PixelShows,
 }
 
-/// Contents of a pixel.
 #[derive(Clone, Debug, PartialEq)]
 pub enum PixelShows {
     /// Background, outside the mesh.
@@ -30,7 +28,6 @@ pub enum PixelShows {
     Lit(LitPixel),
 }
 
-/// A lit pixel.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LitPixel {
     /// Linear sRGB at the picture's exposure, before clipping.

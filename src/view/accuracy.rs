@@ -4,7 +4,6 @@ use chromascope_measure::Workload;
 
 use crate::profiler::Subject;
 
-/// View state of the Numerics workspace.
 #[derive(Clone, Debug, Default)]
 pub struct AccuracyView {
     /// Selected measurement.

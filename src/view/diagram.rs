@@ -25,7 +25,6 @@ const EASE: f64 = 0.15;
 /// Choices that a fit belongs to: other sensors and patches are fitted anew, another light is not.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FitKey {
-    /// The coordinates.
     pub diagram: Diagram,
     /// The data or the whole diagram.
     pub fit: DiagramFit,

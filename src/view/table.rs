@@ -6,7 +6,6 @@ use serde::{Deserialize, Serialize};
 
 use crate::plot_item::PlotItem;
 
-/// View settings of one table.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct TableLook {
@@ -28,7 +27,6 @@ pub struct TableLook {
 /// Order of a table's rows.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Sorting {
-    /// Name of the column.
     pub column: String,
     /// Largest first.
     pub descending: bool,

@@ -12,12 +12,10 @@ use crate::view::import::Stop;
 
 use super::keys;
 
-/// Number of visible rows.
 const ROWS: usize = 6;
 /// Number of curves above which there is a search.
 const SEARCHED: usize = 8;
 
-/// Shows the list, if there is more than one curve.
 pub(super) fn show(ui: &mut Ui, shown: &ImportSelection, wishes: &mut ImportOverrides, context: &mut PaneContext<'_>) {
     let Some(table) = shown.table().filter(|table| table.curves.len() > 1) else {
         hover(ui, None, false, context);
@@ -105,7 +103,6 @@ fn row_with_keyboard() -> Id {
     Id::unique("curve with the keyboard")
 }
 
-/// Remembers the row that has the keyboard.
 fn keep_row(ui: &Ui, row: Option<usize>) {
     ui.data_mut(|data| data.insert_temp(row_with_keyboard(), row));
 }
@@ -120,7 +117,6 @@ fn wanted_row(ui: &Ui, count: usize, context: &mut PaneContext<'_>) -> Option<us
     row.checked_add_signed(step).filter(|row| step != 0 && *row < count)
 }
 
-/// All, none, the first of those found.
 fn buttons(ui: &mut Ui, found: &[usize], taken: &mut [bool]) {
     ui.horizontal(|ui| {
         if ui.button("All").on_hover_text("Select all that are listed").clicked() {

@@ -7,7 +7,6 @@ use crate::panes::context::PaneContext;
 use crate::theme::UNIT;
 use crate::workspaces::PaneKind;
 
-/// Height of the line below content that does not fit.
 const LINE: f32 = 18.0;
 /// Share of the visible height that Page Up and Page Down move by.
 const PAGE: f32 = 0.9;
