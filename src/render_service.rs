@@ -105,11 +105,6 @@ pub struct RenderService {
 
 impl RenderService {
     /// Starts the worker, which wakes the window when it has made something.
-    pub fn new(ctx: &egui::Context) -> Self {
-        Self::on(&Executor::default(), ctx)
-    }
-
-    /// Makes pictures on an executor.
     pub fn on(executor: &Executor, ctx: &egui::Context) -> Self {
         let window = ctx.clone();
         Self {

@@ -14,16 +14,12 @@ pub const UNIT: f32 = 4.0;
 pub const ROW: f32 = 24.0;
 /// Font sizes.
 pub const TEXT: f32 = TextSize::Body.points();
-/// Font size of headings.
 pub const HEADING: f32 = TextSize::Heading.points();
-/// Font size of captions and notes.
 pub const SMALL: f32 = TextSize::Small.points();
-/// Font size of numbers.
 pub const MONO: f32 = TextSize::Mono.points();
 
 /// Width of the tail from a point to the reference.
 pub const LINE_TAIL: f64 = 1.2;
-/// Width of grid lines.
 pub const LINE_GRID: f64 = 1.0;
 /// Opacity of the colors in a chromaticity diagram.
 pub const DIAGRAM_FILL: f32 = 0.1;
@@ -40,9 +36,7 @@ const CORNER: u8 = 3;
 pub const FONT_FAMILY: &str = "DejaVu Sans";
 /// Family of numbers in figures.
 pub const MONO_FAMILY: &str = "DejaVu Sans Mono";
-/// The text font.
 pub const FONT: &[u8] = include_bytes!("../assets/fonts/DejaVuSans.ttf");
-/// The font of numbers.
 pub const MONO_FONT: &[u8] = include_bytes!("../assets/fonts/DejaVuSansMono.ttf");
 
 /// The gray around swatches and renders.
@@ -70,7 +64,6 @@ impl Surround {
         }
     }
 
-    /// The gray.
     pub const fn color(self) -> Color32 {
         match self {
             Self::Middle => Color32::from_gray(0x77),
@@ -79,7 +72,6 @@ impl Surround {
         }
     }
 
-    /// Labels on it.
     pub const fn label(self) -> Color32 {
         match self {
             Self::Dark => Color32::WHITE,
@@ -98,7 +90,6 @@ pub enum SourceInks {
     Gray,
 }
 
-/// The colors of one theme.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Theme {
     /// True if text is light on dark.
@@ -115,9 +106,7 @@ pub struct Theme {
     pub chosen: Color32,
     /// Frames and separators.
     pub line: Color32,
-    /// Grid lines.
     pub grid: Color32,
-    /// Text.
     pub text: Color32,
     /// Text of less weight.
     pub weak: Color32,
@@ -125,7 +114,6 @@ pub struct Theme {
     pub focus: Color32,
     /// Something to look after.
     pub warning: Color32,
-    /// Something failed.
     pub error: Color32,
     /// The gray around swatches and renders.
     pub surround: Surround,
@@ -264,7 +252,6 @@ impl Theme {
         self.panel.lerp_to_gamma(self.chosen, share.clamp(0.0, 1.0))
     }
 
-    /// The color of an ink.
     pub fn ink(&self, ink: Ink) -> Color32 {
         self.role(ink.role).gamma_multiply(ink.alpha.clamp(0.0, 1.0))
     }
@@ -366,7 +353,6 @@ pub fn difference_ramp(share: f32) -> [u8; 3] {
     [mix(0), mix(1), mix(2)]
 }
 
-/// The font of a text size.
 pub fn font(size: TextSize) -> FontId {
     match size {
         TextSize::Mono => FontId::monospace(size.points()),

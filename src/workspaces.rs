@@ -234,17 +234,10 @@ impl Default for Layout {
 
 impl Layout {
     pub fn places(&self, workspace: Workspace) -> &[Option<PaneKind>; 4] {
-        match workspace {
-            Workspace::Compare => &self.compare,
-            Workspace::Spectra => &self.spectra,
-            Workspace::Render => &self.render,
-            Workspace::Metrics => &self.metrics,
-            Workspace::Import => &self.import,
-            Workspace::Numerics => &self.numerics,
-        }
+        let Self { compare, spectra, render, metrics, import, numerics, .. } = self;
+        [compare, spectra, render, metrics, import, numerics][workspace as usize]
     }
 
-    /// The panes of a workspace's four places, mutable.
     pub fn places_mut(&mut self, workspace: Workspace) -> &mut [Option<PaneKind>; 4] {
         match workspace {
             Workspace::Compare => &mut self.compare,

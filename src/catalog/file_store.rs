@@ -12,7 +12,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::SystemTime;
 use std::{fs, io};
 
-use crate::format::file_name;
+use crate::format::{file_name, io_reason};
 use crate::jobs::{Executor, Monitor};
 
 /// Maximum bytes of unused files that stay cached, so that undo need not read them again.
@@ -60,14 +60,20 @@ pub trait FromFile: Sized + Send + Sync + 'static {
     fn summary(&self) -> &str;
 }
 
+/// Reason that a file was not read to its end, whatever it holds.
+#[derive(Debug, thiserror::Error)]
+pub enum Unread {
+    #[error("{file}: {}", io_reason(.error))]
+    Io { file: String, error: io::Error },
+    /// A panic while it was read.
+    #[error("{0} could not be read because of an error in this program; please report it with the file")]
+    Broken(String),
+    #[error("Reading {0} stopped")]
+    Stopped(String),
+}
+
 /// Reason that a file gives no content, in sentences.
-pub trait FileFailure: std::fmt::Display + Send {
-    /// The system refuses a thread or the file.
-    fn io(file: String, error: io::Error) -> Self;
-    /// A panic while the file was read.
-    fn broken(file: String) -> Self;
-    /// The read was canceled.
-    fn stopped(file: String) -> Self;
+pub trait FileFailure: std::fmt::Display + Send + From<Unread> {
     /// Message for the user who opened the file.
     fn on_opening(&self) -> String;
     /// Message for a picture that needs the file.
@@ -126,12 +132,7 @@ impl<T: FromFile> Known<T> {
 }
 
 impl<T: FromFile> FileStore<T> {
-    /// Creates an empty store. `wake` is called when a file was read, from the thread that read it.
-    pub fn new(wake: impl Fn() + Send + Sync + 'static) -> Self {
-        Self::on(&Executor::default(), wake)
-    }
-
-    /// Reads files on an executor.
+    /// Creates an empty store. `wake` is called when something was read, from the thread that read it.
     pub fn on(executor: &Executor, wake: impl Fn() + Send + Sync + 'static) -> Self {
         let state = State { known: HashMap::new(), opening: None, opened: Vec::new(), clock: 0 };
         Self { monitor: Arc::new(Monitor::new(executor, state, wake)), executor: executor.clone() }
@@ -222,7 +223,7 @@ impl<T: FromFile> FileStore<T> {
             monitor.tell();
         };
         if let Err(error) = self.executor.spawn(T::THREAD, work) {
-            let failure = T::Failure::io(file_name(path), error);
+            let failure = Unread::Io { file: file_name(path), error }.into();
             let stop = state.known_at(path).reading.clone().unwrap_or_default();
             state.take(path, &stop, Err(failure));
         }
@@ -277,7 +278,7 @@ impl<T: FromFile> State<T> {
         let path = self.opening.take()?;
         let known = self.known_at(&path);
         known.stop();
-        known.failure = Some(T::Failure::stopped(file_name(&path)).picture_message());
+        known.failure = Some(T::Failure::from(Unread::Stopped(file_name(&path))).picture_message());
         Some(path)
     }
 }
@@ -289,5 +290,5 @@ fn read_once<T: FromFile>(
     stop: &dyn Fn() -> bool,
 ) -> Result<Option<(T, T::Version)>, T::Failure> {
     let read = catch_unwind(AssertUnwindSafe(|| T::read_unless(path, unless, stop)));
-    read.unwrap_or_else(|_| Err(T::Failure::broken(file_name(path))))
+    read.unwrap_or_else(|_| Err(Unread::Broken(file_name(path)).into()))
 }

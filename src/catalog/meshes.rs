@@ -9,7 +9,7 @@ use chromascope_core::query::Shared;
 use chromascope_mesh::Mesh;
 use chromascope_mesh::reading::{MeshReadError, Note, ReadMesh, read_mesh};
 
-use super::file_store::{FileFailure, FileState, FileStore, FromFile, Stamp};
+use super::file_store::{FileFailure, FileState, FileStore, FromFile, Stamp, Unread};
 use crate::document::render::MeshChoice;
 use crate::format::{capitalized, file_name, io_reason};
 
@@ -102,19 +102,17 @@ pub enum MeshFailure {
     Stopped(String),
 }
 
+impl From<Unread> for MeshFailure {
+    fn from(why: Unread) -> Self {
+        match why {
+            Unread::Io { file, error } => Self::Io { file, error },
+            Unread::Broken(file) => Self::Broken(file),
+            Unread::Stopped(file) => Self::Stopped(file),
+        }
+    }
+}
+
 impl FileFailure for MeshFailure {
-    fn io(file: String, error: io::Error) -> Self {
-        Self::Io { file, error }
-    }
-
-    fn broken(file: String) -> Self {
-        Self::Broken(file)
-    }
-
-    fn stopped(file: String) -> Self {
-        Self::Stopped(file)
-    }
-
     fn on_opening(&self) -> String {
         format!("{}. Nothing was changed.", self.beginning())
     }

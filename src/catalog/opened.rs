@@ -130,10 +130,6 @@ struct Job {
 
 impl Opened {
     /// Creates an empty store. `wake` is called when something was read, from the thread that read it.
-    pub fn new(wake: impl Fn() + Send + Sync + 'static) -> Self {
-        Self::on(&Executor::default(), wake)
-    }
-
     pub fn on(executor: &Executor, wake: impl Fn() + Send + Sync + 'static) -> Self {
         let wake: Arc<dyn Fn() + Send + Sync> = Arc::new(wake);
         let theirs = Arc::clone(&wake);

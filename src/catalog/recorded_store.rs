@@ -1,7 +1,7 @@
 //! Files of recorded raw values.
 
 use std::fs::File;
-use std::io::{self, Read as _};
+use std::io::Read as _;
 use std::path::Path;
 
 use chromascope_core::camera::chart_grid::ChartGrid;
@@ -11,7 +11,7 @@ use chromascope_figure::Image;
 use spectral_file::{Certainty, ReadOptions, Role};
 
 use super::chart_picture::ChartPicture;
-use super::file_store::{FileFailure, FileStore, FromFile};
+use super::file_store::{FileFailure, FileStore, FromFile, Unread};
 use super::recorded::{self, Levels, RawRow};
 use crate::format::{file_name, io_reason};
 
@@ -72,19 +72,13 @@ impl FromFile for RecordedFile {
 #[error("{0}")]
 pub struct RecordedFailure(String);
 
+impl From<Unread> for RecordedFailure {
+    fn from(why: Unread) -> Self {
+        Self(why.to_string())
+    }
+}
+
 impl FileFailure for RecordedFailure {
-    fn io(file: String, error: io::Error) -> Self {
-        Self(format!("{file}: {}", io_reason(&error)))
-    }
-
-    fn broken(file: String) -> Self {
-        Self(format!("{file} could not be read because of an error in this program; please report it with the file"))
-    }
-
-    fn stopped(file: String) -> Self {
-        Self(format!("Reading {file} stopped"))
-    }
-
     fn on_opening(&self) -> String {
         self.0.clone()
     }

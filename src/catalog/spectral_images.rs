@@ -10,7 +10,7 @@ use std::sync::atomic::{AtomicU32, Ordering};
 use chromascope_core::render::{BandWeights, LitSamples, SpectralImageError, SpectralImageSignals, Stop};
 use spectral_image::{EnviHeader, EnviImage, ExrImage, ImageError, ImageInfo, ImageQuantity, SpectralImage};
 
-use super::file_store::{FileFailure, FileState, FileStore, FromFile, Stamp};
+use super::file_store::{FileFailure, FileState, FileStore, FromFile, Stamp, Unread};
 use crate::document::render::MeshChoice;
 use crate::format::{file_name, io_reason};
 
@@ -274,19 +274,13 @@ impl ImageFailure {
     }
 }
 
+impl From<Unread> for ImageFailure {
+    fn from(why: Unread) -> Self {
+        Self(why.to_string())
+    }
+}
+
 impl FileFailure for ImageFailure {
-    fn io(file: String, error: io::Error) -> Self {
-        Self(format!("{file}: {}", io_reason(&error)))
-    }
-
-    fn broken(file: String) -> Self {
-        Self(format!("{file} could not be read because of an error in this program; please report it with the file"))
-    }
-
-    fn stopped(file: String) -> Self {
-        Self(format!("Reading {file} stopped"))
-    }
-
     fn on_opening(&self) -> String {
         format!("{self}. Nothing was changed.")
     }

@@ -16,7 +16,7 @@ use crate::figures::chromaticity;
 use crate::figures::render::image_words;
 use crate::format::{file_name, fixed};
 use crate::jobs::{PATIENCE, Waiting};
-use crate::panes::widgets::{lines, pick_list};
+use crate::panes::widgets::{self, lines, pick_list};
 use crate::plot_item::{PlotItem, SensorId};
 use crate::render_service::made::MadePictures;
 use crate::report::{Report, ReportJob};
@@ -65,8 +65,7 @@ fn reading(ui: &mut Ui, rect: Rect, context: &PaneContext<'_>) {
     let words = view.point.clone().or_else(hovered).or_else(|| fits.then_some(idle));
     let Some(words) = words else { return };
     let cut = lines::elided(ui, rect, &words, TextStyle::Body, context.theme.text);
-    let response = ui.interact(rect, ui.scope_id().with("reading"), egui::Sense::hover());
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, &words));
+    let response = widgets::named(ui, rect, ui.scope_id().with("reading"), egui::Role::Label, &words);
     if cut {
         response.on_hover_text(words);
     }
@@ -81,9 +80,13 @@ fn selection(context: &PaneContext<'_>) -> Option<String> {
 fn show_facts(ui: &mut Ui, rect: Rect, arrangement: &Arrangement, context: &PaneContext<'_>) {
     let words = facts(arrangement, context).join("   ");
     let width = lines::right_aligned(ui, rect, &words, TextStyle::Small, context.theme.weak);
-    let response =
-        ui.interact(rect.with_min_x(rect.right() - width), ui.scope_id().with("facts"), egui::Sense::hover());
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, &words));
+    let response = widgets::named(
+        ui,
+        rect.with_min_x(rect.right() - width),
+        ui.scope_id().with("facts"),
+        egui::Role::Label,
+        &words,
+    );
     response.on_hover_text(
         if context.render_service.frame().is_some()
             && arrangement.panes.iter().any(|(pane, _)| *pane == PaneKind::RENDER)
@@ -249,8 +252,7 @@ fn line(
         }
     }
     let cut = lines::elided(ui, rect, words, TextStyle::Body, color);
-    let response = ui.interact(rect, ui.scope_id().with("message"), egui::Sense::hover());
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Status, true, words));
+    let response = widgets::named(ui, rect, ui.scope_id().with("message"), egui::Role::Status, words);
     if cut {
         response.on_hover_text(words);
     }

@@ -122,6 +122,23 @@ pub fn numbers(
     is_chosen
 }
 
+/// Takes a curve as the one under the pointer, and lets it go when the pointer leaves.
+pub fn hover_curve(ui: &Ui, salt: &'static str, inside: bool, place: Option<usize>, context: &mut PaneContext<'_>) {
+    let id = egui::Id::unique(salt);
+    let was = ui.data_mut(|data| std::mem::replace(data.get_temp_mut_or_default::<bool>(id), inside));
+    if (inside || was) && context.view.import.hovered_curve != place {
+        context.view.import.hovered_curve = place;
+        ui.ctx().request_repaint();
+    }
+}
+
+/// A drawn part that shows nothing else under the pointer, with its name for screen readers.
+pub fn named(ui: &Ui, rect: Rect, id: egui::Id, role: egui::Role, words: &str) -> Response {
+    let response = ui.interact(rect, id, Sense::hover());
+    response.widget_info(|| egui::WidgetInfo::labeled(role, true, words));
+    response
+}
+
 /// Has the control of a name take the keyboard as soon as it is drawn.
 pub fn seek(ctx: &egui::Context, name: &'static str) {
     let until = ctx.cumulative_pass_nr() + SOUGHT;

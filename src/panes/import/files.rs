@@ -25,8 +25,7 @@ pub(super) fn column(ui: &mut Ui, rect: Rect, entries: &[Entry], context: &mut P
     let caption = Rect::from_min_size(rect.min, Vec2::new(rect.width(), ROW));
     let count = if entries.len() == 1 { "1 file".to_owned() } else { format!("{} files", entries.len()) };
     lines::elided(ui, caption, &count, TextStyle::Small, context.theme.weak);
-    let response = ui.interact(caption, Id::unique("legend of files"), Sense::hover());
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, &count));
+    let response = widgets::named(ui, caption, Id::unique("legend of files"), egui::Role::Label, &count);
     let theme = context.theme;
     response.on_hover_ui(|ui| legend(ui, &theme));
     let list = Rect::from_min_max(egui::pos2(rect.left(), caption.bottom()), rect.max);

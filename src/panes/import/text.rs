@@ -240,7 +240,7 @@ impl View<'_> {
             ui.set_clip_rect(clip);
         }
         ui.painter().vline(gutter.right(), place.rect.y_range(), egui::Stroke::new(1.0, theme.line));
-        hover(ui, pointer.is_some(), curve, context);
+        widgets::hover_curve(ui, "pointer over text of import", pointer.is_some(), curve, context);
     }
 
     /// Draws one line. Returns the curve that the pointer is on.
@@ -274,8 +274,13 @@ impl View<'_> {
         let at = egui::pos2(x, (band.center().y - line.height() / 2.0).round());
         let error = self.error.filter(|(line, _)| *line == number).map(|(_, range)| range);
         line.paint(ui, at, error, &context.theme);
-        let response = ui.interact(band, Id::unique(("line of text", number)), Sense::hover());
-        response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, format!("{number}: {said}")));
+        let response = widgets::named(
+            ui,
+            band,
+            Id::unique(("line of text", number)),
+            egui::Role::Label,
+            &format!("{number}: {said}"),
+        );
         let pointer = pointer?;
         if let (Some(_), Some(error)) = (error, self.shown.error()) {
             response.on_hover_text_at_pointer(sentence(&error.to_string()));
@@ -287,18 +292,5 @@ impl View<'_> {
         context.view.point = Some(words.clone());
         response.on_hover_text_at_pointer(words);
         mark.what.curve()
-    }
-}
-
-/// Takes a curve as the one under the pointer, and lets it go when the pointer leaves.
-fn hover(ui: &Ui, inside: bool, curve: Option<usize>, context: &mut PaneContext<'_>) {
-    let id = Id::unique("pointer over text of import");
-    let was = ui.data(|data| data.get_temp(id).unwrap_or(false));
-    if inside != was {
-        ui.data_mut(|data| data.insert_temp(id, inside));
-    }
-    if (inside || was) && context.view.import.hovered_curve != curve {
-        context.view.import.hovered_curve = curve;
-        ui.ctx().request_repaint();
     }
 }

@@ -12,13 +12,14 @@ use crate::view::import::Stop;
 
 use super::keys;
 
+const POINTER: &str = "pointer over curves taken";
 const ROWS: usize = 6;
 /// Number of curves above which there is a search.
 const SEARCHED: usize = 8;
 
 pub(super) fn show(ui: &mut Ui, shown: &ImportSelection, wishes: &mut ImportOverrides, context: &mut PaneContext<'_>) {
     let Some(table) = shown.table().filter(|table| table.curves.len() > 1) else {
-        hover(ui, None, false, context);
+        widgets::hover_curve(ui, POINTER, false, None, context);
         return;
     };
     let count = table.curves.len();
@@ -89,7 +90,7 @@ pub(super) fn show(ui: &mut Ui, shown: &ImportSelection, wishes: &mut ImportOver
     });
     keep_row(ui, focused);
     let inside = focused.is_some() || ui.rect_contains_pointer(output.inner_rect);
-    hover(ui, under, inside, context);
+    widgets::hover_curve(ui, POINTER, inside, under, context);
     if !taken.contains(&true) {
         let stays = if shown.set.is_some() { " The data set is unchanged until one is." } else { "" };
         ui.label(RichText::new(format!("No curve is selected.{stays}")).small().color(context.theme.warning));
@@ -140,16 +141,5 @@ fn buttons(ui: &mut Ui, found: &[usize], taken: &mut [bool]) {
 fn set(taken: &mut [bool], places: &[usize], to: bool) {
     for place in places {
         taken[*place] = to;
-    }
-}
-
-/// Takes a curve as the one under the pointer, and lets it go when the pointer leaves.
-fn hover(ui: &Ui, place: Option<usize>, inside: bool, context: &mut PaneContext<'_>) {
-    let id = Id::unique("pointer over curves taken");
-    let was = ui.data(|data| data.get_temp(id).unwrap_or(false));
-    ui.data_mut(|data| data.insert_temp(id, inside));
-    if (inside || was) && context.view.import.hovered_curve != place {
-        context.view.import.hovered_curve = place;
-        ui.ctx().request_repaint();
     }
 }

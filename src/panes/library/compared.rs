@@ -6,7 +6,7 @@ use crate::action::{Action, CompareAction};
 use crate::command::Command;
 use crate::document::SetKind;
 use crate::panes::context::PaneContext;
-use crate::panes::widgets::{focus_rim, lines};
+use crate::panes::widgets::{self, focus_rim, lines};
 use crate::plot_item::PlotItem;
 use crate::scene::ComparedSensor;
 use crate::theme::{FADED, ROW, UNIT};
@@ -49,8 +49,8 @@ pub(super) fn row(ui: &mut Ui, source: &ComparedSensor, context: &mut PaneContex
             words.max.x -= 18.0;
             let mark = Rect::from_center_size(egui::pos2(words.right() + 9.0, rect.center().y), Vec2::splat(16.0));
             lines::warning_mark(ui.painter(), mark.center(), context.theme.warning);
-            let response = ui.interact(mark, id.with("trouble"), Sense::hover());
-            response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, format!("Warning: {error}")));
+            let response =
+                widgets::named(ui, mark, id.with("trouble"), egui::Role::Image, &format!("Warning: {error}"));
             response.on_hover_text(error);
         }
         let frame = Rect::from_min_max(rect.min - Vec2::new(UNIT, 0.0), egui::pos2(dots.left() - 2.0, rect.bottom()));

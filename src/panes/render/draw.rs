@@ -9,8 +9,8 @@ use crate::figures::render::headline::{Detail, Measure};
 use crate::figures::render::{difference as maps, index_of};
 use crate::paint::{self, PictureQuery};
 use crate::panes::context::PaneContext;
-use crate::panes::widgets::lines;
 use crate::panes::widgets::pick_list::{self, Line};
+use crate::panes::widgets::{self, lines};
 use crate::plot_item::PickIndex;
 use crate::render_service::RenderedFrame;
 use crate::scene::ComparedSensor;
@@ -138,8 +138,13 @@ fn caption(
     let left = Rect::from_min_max(rect.min + Vec2::new(20.0, 0.0), rect.max - Vec2::new(right, 0.0));
     let cut = lines::elided(ui, left, &words, TextStyle::Body, color);
     let said = note.map_or_else(|| words.clone(), |note| format!("{words}, {}", note.full));
-    let response = ui.interact(cell.caption, ui.scope_id().with(("caption", &words)), Sense::hover());
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, format!("Picture: {said}")));
+    let response = widgets::named(
+        ui,
+        cell.caption,
+        ui.scope_id().with(("caption", &words)),
+        egui::Role::Label,
+        &format!("Picture: {said}"),
+    );
     if let Some(note) = note {
         response.on_hover_text(format!("{said}. {}", note.meaning));
     } else if cut {
@@ -288,9 +293,8 @@ fn scale_of_differences(
     let is_image = context.scene.document.render.mesh.is_image();
     let words = if is_image { "dark: no value" } else { "hatched: no light" };
     painter.text(dark, Align2::RIGHT_CENTER, words, font, color);
-    let response = ui.interact(rect, ui.scope_id().with("difference scale"), Sense::hover());
     let said = format!("Scale of {name} from the reference, from 0 to {}", scale.end);
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, &said));
+    let response = widgets::named(ui, rect, ui.scope_id().with("difference scale"), egui::Role::Label, &said);
     response.on_hover_text(if is_image {
         "Of each pixel; a reflectance of 1, or the white of radiances, has Y = 1."
     } else {
