@@ -25,7 +25,6 @@ use crate::catalog::opened::Opened;
 use crate::catalog::recorded_store::RecordedStore;
 use crate::catalog::spectral_images::ImageStore;
 use crate::command::{Command, key_bindings};
-use crate::figures::curves::CurveCache;
 use crate::files::Files;
 use crate::jobs::{Executor, Later};
 use crate::panes;
@@ -36,15 +35,13 @@ use crate::render_service::RenderService;
 use crate::results::Results;
 use crate::theme;
 use crate::view::import::{ImportItem, ImportView};
-use crate::view::{SavedView, View};
+use crate::view::{ReportOn, SavedView, View};
 use crate::workspaces::Arrangement;
 
 pub use startup::{WindowError, run};
 
-/// Key of the layout in the window's own storage.
 const LAYOUT_KEY: &str = "layout";
 
-/// The program's state.
 pub struct ChromascopeApp {
     history: History,
     catalog: Catalog,
@@ -56,10 +53,11 @@ pub struct ChromascopeApp {
     opened: Opened,
     recorded: RecordedStore,
     later: Later,
+    /// Subject of the report whose folder is asked for.
+    report_on: Option<ReportOn>,
     states: PaneStates,
     render_service: RenderService,
     profiler: Profiler,
-    curves: Option<CurveCache>,
     commands: Vec<Command>,
     /// Files named at the start that are not read yet: a single one is put to use.
     at_start: std::collections::BTreeSet<std::path::PathBuf>,
@@ -114,9 +112,9 @@ impl ChromascopeApp {
             recorded: RecordedStore::on(executor, repaint()),
             later: Later::on(executor, repaint()),
             states: PaneStates::default(),
+            report_on: None,
             render_service: RenderService::on(executor, repaint()),
             profiler: Profiler { measured: Measured::default() },
-            curves: None,
             commands: Vec::new(),
             at_start: std::collections::BTreeSet::new(),
             last_read: std::collections::HashMap::new(),
@@ -138,7 +136,6 @@ impl ChromascopeApp {
         self.place = layout::WindowPlace::restored(storage);
     }
 
-    /// The document and its steps.
     pub fn history(&self) -> &History {
         &self.history
     }
@@ -151,6 +148,11 @@ impl ChromascopeApp {
     /// State of the view: selection, zoom, hover and the like.
     pub fn view(&self) -> &View {
         &self.view
+    }
+
+    /// What panes keep from frame to frame.
+    pub fn states_mut(&mut self) -> &mut PaneStates {
+        &mut self.states
     }
 
     /// Mutable state of the view, for tests to set up.
@@ -171,47 +173,38 @@ impl ChromascopeApp {
         saved
     }
 
-    /// The answers known, with their counters.
     pub fn results(&self) -> &Results {
         &self.results
     }
 
-    /// The user's mesh files.
     pub fn meshes(&self) -> &MeshStore {
         &self.meshes
     }
 
-    /// The user's spectral images.
     pub fn images(&self) -> &ImageStore {
         &self.images
     }
 
-    /// The spectral files that were opened.
     pub fn opened(&self) -> &Opened {
         &self.opened
     }
 
-    /// True if a path is being requested.
     pub fn is_asking(&self) -> bool {
         self.files.is_asking()
     }
 
-    /// Service that renders the pictures.
     pub fn render_service(&self) -> &RenderService {
         &self.render_service
     }
 
-    /// Profiler that measures the scene's cost.
     pub fn profiler(&self) -> &Profiler {
         &self.profiler
     }
 
-    /// Slow answers.
     pub fn later(&self) -> &Later {
         &self.later
     }
 
-    /// Mutable access to the profiler, for tests.
     pub fn profiler_mut(&mut self) -> &mut Profiler {
         &mut self.profiler
     }

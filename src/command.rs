@@ -20,9 +20,7 @@ use crate::workspaces::{PaneKind, Workspace};
 pub enum Command {
     /// Change the document.
     Do(Action),
-    /// Take the last step back.
     Undo,
-    /// Bring it again.
     Redo,
     /// Begin or save a session.
     Session(SessionCommand),
@@ -34,7 +32,6 @@ pub enum Command {
     OpenFolder,
     /// Show the dialog for the folder of a report.
     Report(ReportOn),
-    /// Stop the report that is being made.
     StopReport,
     /// Open a session or document in place of this one, which is saved first.
     OpenDocument(std::path::PathBuf),
@@ -60,13 +57,10 @@ pub enum Command {
     ForgetFile(Fingerprint),
     /// Read a set's file from disk again.
     ReadAgain(String),
-    /// Stop reading files.
     StopReading,
     /// Measure the cost of the scene.
     SpectralWeights,
-    /// Measure a workload of the bench.
     MeasureWorkload(Workload),
-    /// Stop measuring.
     StopMeasuring,
     /// Read text as if it were a file.
     Paste(String),
@@ -82,19 +76,15 @@ pub enum Command {
     SaveSet(SetKind, String, Form),
     /// Save the current color correction.
     SaveCorrection(CorrectionForm),
-    /// Put a pane's picture on the clipboard.
     CopyPicture(PaneKind),
     /// Put a pane's figure, the swatches and the conditions on the clipboard as one picture.
     CopyCard(PaneKind),
     /// Save that picture.
     SaveCard(PaneKind),
-    /// Put a pane's numbers on the clipboard.
     CopyNumbers(PaneKind),
-    /// Show another workspace.
     Show(Workspace),
     /// Let a pane fill the window, or no longer.
     Maximize(PaneKind),
-    /// Show a pane, or hide it.
     TogglePane(PaneKind),
     /// Show the inspector, in its column or over the center.
     ToggleInspector,
@@ -108,15 +98,12 @@ pub enum Command {
     SetSurround(Surround),
     /// How plots and pictures stand.
     Look(ViewChoice),
-    /// Select a thing.
     Select(PlotItem),
     /// Open the help page of this name at a block.
     Help(&'static str, usize),
     /// Go through the tour.
     Tour(TourMove),
-    /// Show or hide the window about the program.
     ToggleAbout,
-    /// Search the library.
     FocusSearch,
     /// Open the palette of commands.
     FindAnything,
@@ -130,13 +117,11 @@ pub enum Command {
     ToggleDifference,
     /// Clear the selection and similar states, one at a time.
     Escape,
-    /// Go to the next pane.
     NextPane,
     /// Show a pane and give it the keyboard.
     GoTo(PaneKind),
     /// Go to the control of this name in a pane.
     Seek(PaneKind, &'static str),
-    /// End the program.
     Quit,
 }
 
@@ -147,11 +132,8 @@ pub enum SessionCommand {
     New(Option<&'static str>),
     /// Begin a new session from a template of the user's.
     NewFrom(std::path::PathBuf),
-    /// Save the session in its file.
     Save,
-    /// Save the session under a name.
     SaveAs,
-    /// Save the session as a template.
     SaveTemplate,
     /// Delete a template of the user's.
     RemoveTemplate(std::path::PathBuf),
@@ -166,9 +148,7 @@ impl From<SessionCommand> for Command {
 /// A step through the tour.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TourMove {
-    /// To its first step.
     Begin,
-    /// To the step before.
     Back,
     /// To the next step; from the last one, to the end.
     Next,
@@ -203,9 +183,7 @@ impl From<Action> for Command {
 
 /// A key and its command. One table serves the keys, the menus' hints and the help page.
 pub struct KeyBinding {
-    /// The key.
     pub shortcut: KeyboardShortcut,
-    /// Command that the shortcut runs.
     pub command: Command,
     /// In words.
     pub words: &'static str,
@@ -273,14 +251,12 @@ pub fn key_bindings(focused: PaneKind) -> Vec<KeyBinding> {
     keys
 }
 
-/// Themes with their names.
 pub const THEMES: [(egui::ThemePreference, &str); 3] = [
     (egui::ThemePreference::System, "System"),
     (egui::ThemePreference::Dark, "Dark"),
     (egui::ThemePreference::Light, "Light"),
 ];
 
-/// Subjects of reports as menus name them.
 pub const REPORTS: [(ReportOn, &str); 2] = [
     (ReportOn::Paper, "With the paper's cameras and patches…"),
     (ReportOn::Document, "With these cameras and patches…"),

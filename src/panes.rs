@@ -13,6 +13,9 @@
 //! +use crate::panes::widgets;
 //! +use crate::workspaces::PaneKind;
 //! +
+//! +#[derive(Default)]
+//! +struct Chosen(Option<usize>);
+//! +
 //! +pub const PANE: Pane = Pane {
 //! +    kind: PaneKind::new("Gamut"),
 //! +    title: "Gamut",
@@ -23,7 +26,9 @@
 //! +};
 //! +
 //! +fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
-//! +    let body = widgets::pane(ui, &PANE, rect, context, |_, _| {});
+//! +    let body = widgets::body(ui, &PANE, rect, context, |_, _| {});
+//! +    let chosen = context.states.of::<Chosen>().0;
+//! +    let volumes = context.later.ask(PANE.kind, vec![VolumesQuery { … }]).current();
 //! +    …
 //! +}
 //! --- a/src/panes.rs
@@ -33,8 +38,9 @@
 //! +    &gamut::PANE,
 //! ```
 //!
-//! It is then in View, Panes, in the title menu of every other pane, in saved layouts and in exports. A place that a workspace
-//! starts with is a choice of `workspaces::Layout`.
+//! What it keeps from frame to frame is a struct in its file, and a slow answer is asked for in each frame: nothing is to be
+//! registered, ended or waited for (`tests/app/panes.rs` has a whole one). It is then in View, Panes, in the title menu of every
+//! other pane, in saved layouts and in exports. A place that a workspace starts with is a choice of `workspaces::Layout`.
 
 pub mod chromaticity;
 pub mod context;

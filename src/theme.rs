@@ -17,14 +17,10 @@ pub const UNIT: f32 = 4.0;
 pub const ROW: f32 = 24.0;
 /// Font sizes.
 pub const TEXT: f32 = TextSize::Body.points();
-/// Font size of headings.
 pub const HEADING: f32 = TextSize::Heading.points();
-/// Font size of captions and notes.
 pub const SMALL: f32 = TextSize::Small.points();
-/// Font size of numbers.
 pub const MONO: f32 = TextSize::Mono.points();
 
-/// Width of grid lines.
 pub const LINE_GRID: f64 = 1.0;
 /// Opacity of unselected items while something is selected.
 pub const FADED: f32 = 0.35;
@@ -35,7 +31,6 @@ pub const FOCUS: f32 = 2.0;
 /// Corner radius of controls.
 const CORNER: u8 = 3;
 
-/// The colors of one theme.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Theme {
     /// Those of figures.
@@ -54,9 +49,7 @@ pub struct Theme {
     pub chosen: Color32,
     /// Frames and separators.
     pub line: Color32,
-    /// Grid lines.
     pub grid: Color32,
-    /// Text.
     pub text: Color32,
     /// Text of less weight.
     pub weak: Color32,
@@ -64,7 +57,6 @@ pub struct Theme {
     pub focus: Color32,
     /// Something to look after.
     pub warning: Color32,
-    /// Something failed.
     pub error: Color32,
     /// The gray around swatches and renders, and labels on it.
     pub surround: Color32,
@@ -126,7 +118,6 @@ impl Theme {
         self.panel.lerp_to_gamma(self.chosen, share.clamp(0.0, 1.0))
     }
 
-    /// The color of an ink.
     pub fn ink(&self, ink: Ink) -> Color32 {
         self.role(ink.role).gamma_multiply(ink.alpha.clamp(0.0, 1.0))
     }
@@ -194,7 +185,6 @@ impl Theme {
     }
 }
 
-/// The font of a text size.
 pub fn font(size: TextSize) -> FontId {
     match size {
         TextSize::Mono => FontId::monospace(size.points()),

@@ -45,7 +45,6 @@ use table::TableLook;
 #[derive(Debug, Default)]
 #[expect(clippy::struct_excessive_bools, reason = "independent one-frame requests and switches")]
 pub struct View {
-    /// State saved between runs.
     pub saved: SavedView,
     /// Under the pointer now, in any pane.
     pub hovered: Option<PlotItem>,
@@ -57,8 +56,6 @@ pub struct View {
     pub selected: Option<PlotItem>,
     /// True if the selection belongs to a sensor that is not compared: nothing drawn is dimmed for it.
     pub selected_elsewhere: bool,
-    /// Pair of metamers that was clicked, as a row.
-    pub metamers: Option<usize>,
     /// Pinned items, labeled A, B, …
     pub pinned: Vec<PlotItem>,
     /// Search text of the library.
@@ -69,23 +66,14 @@ pub struct View {
     pub focused: Option<PaneKind>,
     /// True if the column that a narrow window omits lies over the center.
     pub inspector_over: bool,
-    /// Shown part of the diagram.
     pub diagram: DiagramView,
     /// Other plots that are zoomed, by pane: the title of the figure, and its ranges.
     pub zoomed: HashMap<PaneKind, (String, Ranges)>,
-    /// State of the Import pane.
     pub import: ImportView,
-    /// State of the Render pane.
     pub render: RenderView,
-    /// State of the Correction pane.
     pub correction: CorrectionView,
-    /// State of the Numerics workspace.
     pub accuracy: AccuracyView,
-    /// Subject of the report whose folder is asked for.
-    pub report_on: Option<ReportOn>,
-    /// State of the Recorded pane.
     pub recorded: RecordedView,
-    /// The Figure page.
     pub page: PageView,
     /// Plots show their own ranges again in this frame.
     pub reset_plots: bool,
@@ -99,7 +87,6 @@ pub struct View {
     pub table_copies: bool,
     /// The temperature field takes the keyboard in this frame.
     pub focus_temperature: bool,
-    /// The help window.
     pub help: HelpView,
     /// Step of the tour, while it is played.
     pub tour: Option<usize>,
@@ -109,8 +96,6 @@ pub struct View {
     pub locus_share: Option<f64>,
     /// Time of egui in seconds at which the loci began to draw in.
     pub draws_since: Option<f64>,
-    /// Illuminant that the spectral similarity of the light is taken to.
-    pub similar_to: Option<String>,
     /// The palette that finds anything, while open.
     pub palette: Option<PickState>,
     /// The keyboard walks through panes: the pane that has it is framed.
@@ -144,15 +129,12 @@ pub enum ReportOn {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct SavedView {
-    /// The workspace.
     pub workspace: Workspace,
-    /// Sizes and places of panes.
     pub layout: Layout,
     /// Panes that show their numbers instead of their picture.
     pub tables: BTreeSet<PaneKind>,
     /// Order and columns of tables, by table.
     pub looks: BTreeMap<String, TableLook>,
-    /// Settings of the Metrics pane.
     pub metrics: MetricsLook,
     /// The gray around swatches.
     pub surround: Surround,
@@ -179,7 +161,6 @@ pub struct SavedView {
     pub render: RenderLook,
     /// Remembered import settings by kind of file.
     pub import: ImportMemory,
-    /// Settings of figures on paper.
     pub page: PageLook,
 }
 
@@ -265,7 +246,6 @@ impl SavedView {
 pub struct Status {
     /// Message text; empty for the default hint.
     pub text: String,
-    /// Severity.
     pub weight: Weight,
     /// Import item and line that `[Change]` or `[Show line]` opens.
     pub change: Option<(ImportItem, Option<usize>)>,
@@ -280,9 +260,7 @@ pub struct Status {
 /// Something that is done only at the user's word, by a button of a message.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Offer {
-    /// Uses a set.
     Use(SetKind, String),
-    /// Opens a file.
     Open(PathBuf),
 }
 
@@ -299,10 +277,8 @@ impl Status {
     }
 }
 
-/// Severity of a message.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Weight {
-    /// Information.
     #[default]
     Note,
     /// Warning that the user should check.
@@ -395,7 +371,6 @@ impl View {
 
     /// Lets the loci draw in, once; `now` is egui's time in seconds.
     pub fn draw_in(&mut self, now: f64) {
-        /// Duration in seconds.
         const DURATION: f64 = 1.2;
         if std::mem::take(&mut self.saved.draws_in) && !self.saved.reduced_motion {
             self.draws_since = Some(now);
@@ -417,7 +392,6 @@ impl View {
         recent.truncate(10);
     }
 
-    /// Hovers an item.
     pub fn hover(&mut self, thing: Option<&PlotItem>) {
         if let Some(thing) = thing {
             self.next_hovered = Some(thing.clone());

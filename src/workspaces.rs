@@ -17,7 +17,6 @@ pub struct PaneKind(&'static str);
 impl PaneKind {
     /// Sensors compared, and all data sets.
     pub const LIBRARY: Self = Self::new("Library");
-    /// Chromaticity diagram.
     pub const CHROMATICITY: Self = Self::new("Chromaticity");
     /// Patches as colors.
     pub const SWATCHES: Self = Self::new("Swatches");
@@ -31,7 +30,6 @@ impl PaneKind {
     pub const RENDER_SETTINGS: Self = Self::new("RenderSetup");
     /// The user's files, and the text of one with the marks of how it was read.
     pub const IMPORT: Self = Self::new("Import");
-    /// Curves that a file gives.
     pub const CURVES: Self = Self::new("Curves");
     /// Decisions made in reading a file, with switches.
     pub const INTERPRETATION: Self = Self::new("Understood");
@@ -39,15 +37,12 @@ impl PaneKind {
     pub const METHODS: Self = Self::new("Accuracy");
     /// Counts of samples and methods of the pictures.
     pub const STATISTICS: Self = Self::new("Statistics");
-    /// Cameras by figures of merit.
     pub const METRICS: Self = Self::new("Metrics");
     /// Two cameras side by side.
     pub const HEAD_TO_HEAD: Self = Self::new("HeadToHead");
-    /// One camera on one page.
     pub const REPORT_CARD: Self = Self::new("ReportCard");
     /// The light judged.
     pub const LIGHT: Self = Self::new("Light");
-    /// The color correction of a camera.
     pub const CORRECTION: Self = Self::new("Correction");
     /// Raw values of a real camera against the library.
     pub const RECORDED: Self = Self::new("Recorded");
@@ -128,7 +123,6 @@ fn interned(id: String) -> PaneKind {
     }))
 }
 
-/// A fixed arrangement of panes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 pub enum Workspace {
     /// The diagram over swatches, inspector over spectra.
@@ -152,7 +146,6 @@ impl Workspace {
     pub const ALL: [Self; 6] =
         [Self::Compare, Self::Spectra, Self::Render, Self::Metrics, Self::Import, Self::Numerics];
 
-    /// The tab's title.
     pub const fn title(self) -> &'static str {
         match self {
             Self::Compare => "Compare",
@@ -170,7 +163,6 @@ impl Workspace {
     }
 }
 
-/// A border that can be dragged.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Splitter {
     /// Right of the library.
@@ -241,19 +233,11 @@ impl Default for Layout {
 }
 
 impl Layout {
-    /// The panes of a workspace's four places.
     pub fn places(&self, workspace: Workspace) -> &[Option<PaneKind>; 4] {
-        match workspace {
-            Workspace::Compare => &self.compare,
-            Workspace::Spectra => &self.spectra,
-            Workspace::Render => &self.render,
-            Workspace::Metrics => &self.metrics,
-            Workspace::Import => &self.import,
-            Workspace::Numerics => &self.numerics,
-        }
+        let Self { compare, spectra, render, metrics, import, numerics, .. } = self;
+        [compare, spectra, render, metrics, import, numerics][workspace as usize]
     }
 
-    /// The panes of a workspace's four places, mutable.
     pub fn places_mut(&mut self, workspace: Workspace) -> &mut [Option<PaneKind>; 4] {
         match workspace {
             Workspace::Compare => &mut self.compare,
@@ -280,7 +264,6 @@ impl Layout {
         Workspace::ALL.into_iter().find(|workspace| start.places(*workspace).contains(&Some(pane)))
     }
 
-    /// True if a workspace shows a pane.
     pub fn shows(&self, workspace: Workspace, pane: PaneKind) -> bool {
         if pane == PaneKind::LIBRARY { self.library } else { self.places(workspace).contains(&Some(pane)) }
     }
@@ -319,7 +302,6 @@ impl Layout {
 /// Rectangles of the panes and borders of a window.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Arrangement {
-    /// Panes with their rectangles.
     pub panes: Vec<(PaneKind, Rect)>,
     /// Borders with theirs.
     pub splitters: Vec<(Splitter, Rect)>,

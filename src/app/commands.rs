@@ -37,7 +37,7 @@ impl ChromascopeApp {
                     paths.first().into_iter().for_each(|path| self.recorded.read_again(path));
                     self.view.recorded.path = paths.into_iter().next().or(self.view.recorded.path.take());
                 }
-                FileEvent::Open(paths) if self.view.report_on.is_some() => self.begin_report(&paths),
+                FileEvent::Open(paths) if self.report_on.is_some() => self.begin_report(&paths),
                 FileEvent::Open(paths) => self.open(paths.into_iter().map(Request::Path).collect()),
                 FileEvent::Changed(paths) => self.read_changed(&paths),
                 FileEvent::Said(message) => self.view.say(message),
@@ -58,7 +58,6 @@ impl ChromascopeApp {
         }
     }
 
-    /// Runs the commands of keys, menus and panes.
     pub(super) fn carry_out(&mut self, ctx: &egui::Context) {
         for command in std::mem::take(&mut self.commands) {
             self.end_tour_before(&command);
@@ -201,10 +200,10 @@ impl ChromascopeApp {
     /// Asks for files to open, or for a folder: that of files, or of a report.
     fn ask_for_files(&mut self, command: &Command) {
         self.view.recorded.opening = *command == Command::OpenRecorded;
-        self.view.report_on = None;
+        self.report_on = None;
         match command {
             Command::Report(on) => {
-                self.view.report_on = Some(*on);
+                self.report_on = Some(*on);
                 self.files.ask_for_folder("Folder in which the report's own folder is made");
             }
             Command::OpenFolder => self.files.ask_for_folder("Open all spectra of a folder"),
@@ -311,7 +310,7 @@ impl ChromascopeApp {
         if view.page.open.take().is_some() || std::mem::take(&mut view.inspector_over) {
             return;
         }
-        if rendering && view.render.is_waiting() && !view.render.cancelled {
+        if rendering && self.render_service.is_waiting() && !view.render.cancelled {
             view.render.cancelled = true;
             view.say("Rendering stopped; the pictures so far are unchanged.");
             return;
@@ -338,7 +337,6 @@ impl ChromascopeApp {
         self.end_tour();
     }
 
-    /// Measures the cost of the scene.
     fn measure(&mut self) {
         let document = self.history.document();
         let scene = Scene { document, catalog: &self.catalog, results: &self.results };
@@ -412,12 +410,10 @@ impl ChromascopeApp {
         ctx.memory_mut(|memory| memory.focused().map(|id| memory.surrender_focus(id)));
     }
 
-    /// What a pane's figure of a scene takes from the window.
     pub fn look(&self, pane: PaneKind, scene: &Scene<'_>) -> FigureLook {
         panes::context::look(pane, (scene, &self.view), &self.render_service, &self.profiler, &self.opened)
     }
 
-    /// The pane whose figure is meant by a key in a pane.
     fn pictured(&self, pane: PaneKind) -> PaneKind {
         self.view.pictured(pane, |kind| panes::by_kind(kind).is_some_and(|pane| pane.figure.is_some()))
     }

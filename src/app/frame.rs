@@ -11,7 +11,6 @@ use crate::theme::{self, Theme};
 use crate::workspaces::{Splitter, arrange, arrange_page};
 
 impl ChromascopeApp {
-    /// The bars and panes of one frame.
     pub(super) fn show(&mut self, ui: &mut Ui) {
         let theme = Theme::of(ui.visuals()).with_surround(self.view.saved.surround);
         let mut context = PaneContext {
@@ -27,7 +26,6 @@ impl ChromascopeApp {
             states: &mut self.states,
             render_service: &mut self.render_service,
             profiler: &mut self.profiler,
-            curves: &mut self.curves,
             commands: &mut self.commands,
         };
         let bar = |ui: &mut Ui, id, height, top| bar(ui, &theme, (id, height), top);
@@ -107,7 +105,6 @@ impl ChromascopeApp {
     }
 }
 
-/// Rectangle of a bar across the window, at its top or bottom.
 fn bar(ui: &mut Ui, theme: &Theme, (id, height): (&'static str, f32), top: bool) -> Rect {
     let panel = if top { Panel::top(id) } else { Panel::bottom(id) };
     let panel = panel.exact_size(height).resizable(false).frame(Frame::NONE.fill(theme.panel));

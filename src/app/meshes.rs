@@ -34,7 +34,6 @@ impl ChromascopeApp {
         self.images.keep(wanted);
     }
 
-    /// Shows a file that was read in the Render workspace.
     fn show_scene(&mut self, action: RenderAction, path: PathBuf, message: String) {
         self.view.remember_file(path);
         self.history.apply(&Action::Render(action));

@@ -1,13 +1,12 @@
 //! Lines below the conditions that stay: another window has the profile, the document is not saved, one could not be read.
 
-use egui::{Button, Rect, Sense, TextStyle, Ui, Vec2};
+use egui::{Button, Rect, TextStyle, Ui, Vec2};
 
 use crate::files::{PersistentMessage, PersistentMessageKind};
-use crate::panes::widgets::lines;
+use crate::panes::widgets::{self, lines};
 use crate::theme::{Theme, UNIT};
 
 pub(super) const HEIGHT: f32 = 24.0;
-/// Width of the button that takes a line away.
 const DISMISS: f32 = 72.0;
 
 /// Shows a line; under the pointer, all of it and the file it is about. Returns whether it was dismissed.
@@ -32,8 +31,8 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, standing: &PersistentMessage, theme:
     }
     let text = Rect::from_min_max(egui::pos2(left, inner.top()), egui::pos2(right, inner.bottom()));
     lines::elided(ui, text, &standing.words, TextStyle::Body, color);
-    let response = ui.interact(text, ui.scope_id().with(("standing", standing.kind)), Sense::hover());
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Status, true, &standing.words));
+    let response =
+        widgets::named(ui, text, ui.scope_id().with(("standing", standing.kind)), egui::Role::Status, &standing.words);
     let file = standing.file.as_ref().map_or_else(String::new, |file| format!("\n{}", file.display()));
     response.on_hover_text(format!("{}{file}", standing.words));
     dismissed

@@ -16,7 +16,7 @@ const FOLDER: &str = "Chromascope report";
 impl ChromascopeApp {
     /// Begins a report in a folder of its own within the chosen one, so that nothing is overwritten.
     pub(super) fn begin_report(&mut self, chosen: &[PathBuf]) {
-        let Some((on, parent)) = self.view.report_on.take().zip(chosen.first()) else { return };
+        let Some((on, parent)) = self.report_on.take().zip(chosen.first()) else { return };
         let folder = match new_folder(parent, FOLDER) {
             Ok(folder) => folder,
             Err(error) => {

@@ -8,7 +8,6 @@ use super::View;
 /// A mark near the pointer.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Hit {
-    /// Tag of the mark.
     pub tag: Tag,
     /// Its place among the panel's marks.
     pub mark: usize,

@@ -2,7 +2,6 @@
 
 use egui::{Color32, Mesh, Painter, Pos2, Shape, Stroke};
 
-/// Fills the inside of a simple polygon.
 pub(super) fn fill(painter: &Painter, corners: &[Pos2], color: Color32) {
     let mut corners = corners.to_vec();
     corners.dedup();

@@ -18,13 +18,10 @@ use crate::theme::UNIT;
 use crate::view::DiagramFit;
 use crate::workspaces::PaneKind;
 
-/// Pick radius, in points.
 const REACH: f32 = 10.0;
-/// The strip's height in points.
 const STRIP: f32 = 124.0;
 /// Below this height of the diagram there is no strip.
 const WITH_STRIP: f32 = 350.0;
-/// The overview's size in points.
 const OVERVIEW: Vec2 = Vec2::new(96.0, 104.0);
 
 pub const PANE: Pane = Pane {
@@ -142,7 +139,6 @@ fn note_zoom(ui: &Ui, built: &Built, shown: &paint::PlotOutput, context: &mut Pa
     }
 }
 
-/// Hovers the item nearest to the pointer; a click selects it.
 fn point_at(built: &Built, shown: &paint::PlotOutput, context: &mut PaneContext<'_>) {
     let pointer = shown.response.hover_pos().filter(|at| shown.view.rect.contains(*at));
     let hit = pointer.and_then(|at| paint::nearest(&built.panel, &shown.view, at, REACH));
@@ -249,7 +245,6 @@ fn say_refusals(ui: &Ui, rect: Rect, built: &Built, context: &PaneContext<'_>) {
     }
 }
 
-/// The strip: reads distances, and sets the temperature.
 fn show_strip(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let size = [f64::from(rect.width()), f64::from(rect.height())];
     let Some(built) = strip::build(&context.scene, size) else {

@@ -12,7 +12,7 @@ use crate::catalog::recorded_store::RecordedStore;
 use crate::catalog::spectral_images::ImageStore;
 use crate::command::Command;
 use crate::document::render::RenderSettings;
-use crate::figures::curves::{CurveCache, ImportSelection};
+use crate::figures::curves::ImportSelection;
 use crate::figures::kind::FigureKind;
 use crate::figures::look::FigureLook;
 use crate::jobs::Later;
@@ -30,7 +30,6 @@ pub struct Pane {
     pub kind: PaneKind,
     /// Title; its file has the same name.
     pub title: &'static str,
-    /// Draws the pane in exactly its rectangle.
     pub show: fn(&mut Ui, Rect, &mut PaneContext<'_>),
     /// Its figure as it is saved; `None` for a pane without one.
     pub figure: Option<&'static FigureKind>,
@@ -52,45 +51,28 @@ impl PaneStates {
     }
 }
 
-/// Everything a pane is given for a frame.
 pub struct PaneContext<'a> {
-    /// All panes.
     pub panes: &'static [&'static Pane],
-    /// The document, the data sets and the answers.
     pub scene: Scene<'a>,
-    /// The colors.
     pub theme: Theme,
-    /// View state: selection, zoom, layout.
     pub view: &'a mut View,
-    /// The user's mesh files.
     pub meshes: &'a MeshStore,
-    /// The user's spectral images.
     pub images: &'a ImageStore,
     /// The spectral files that were opened.
     pub opened: &'a Opened,
-    /// The file of recorded raw values.
     pub recorded: &'a RecordedStore,
-    /// Slow answers.
     pub later: &'a Later,
-    /// What panes keep from frame to frame.
     pub states: &'a mut PaneStates,
-    /// Renderer of the pictures.
     pub render_service: &'a mut RenderService,
-    /// Profiler of the scene.
     pub profiler: &'a mut Profiler,
-    /// The curves that Import drew last.
-    pub curves: &'a mut Option<CurveCache>,
-    /// Commands carried out after the frame.
     pub commands: &'a mut Vec<Command>,
 }
 
 impl PaneContext<'_> {
-    /// A pane, if there is one of this id.
     pub fn pane(&self, kind: PaneKind) -> Option<&'static Pane> {
         self.panes.iter().copied().find(|pane| pane.kind == kind)
     }
 
-    /// Title of a pane.
     pub fn title(&self, kind: PaneKind) -> &'static str {
         self.pane(kind).map_or("", |pane| pane.title)
     }
@@ -100,12 +82,10 @@ impl PaneContext<'_> {
         self.view.correction.camera(&self.scene)
     }
 
-    /// What the pane's figure takes from the window.
     pub fn look(&self, pane: PaneKind) -> FigureLook {
         look(pane, (&self.scene, self.view), self.render_service, self.profiler, self.opened)
     }
 
-    /// The item selected in Import; requests its preview if that is not available yet.
     pub fn import_selection(&self) -> Option<ImportSelection> {
         self.view.import.selection(&self.scene, self.opened)?.refreshed(self.opened)
     }

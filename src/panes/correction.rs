@@ -64,7 +64,6 @@ fn refreshed(camera: &str, context: &mut PaneContext<'_>) -> Result<Option<Arc<C
     Ok(view.shown.clone())
 }
 
-/// Numbers, checks, figure and files of a correction.
 fn sheet(ui: &mut Ui, file: &CorrectionFile, context: &mut PaneContext<'_>) {
     let theme = context.theme;
     for (index, (name, under)) in file.unders().enumerate() {
@@ -92,7 +91,6 @@ fn sheet(ui: &mut Ui, file: &CorrectionFile, context: &mut PaneContext<'_>) {
     ui.add_space(2.0 * UNIT);
 }
 
-/// Matrix, errors and checks under a light.
 fn under_light(ui: &mut Ui, file: &CorrectionFile, name: &str, under: &CorrectionUnder, context: &PaneContext<'_>) {
     let theme = context.theme;
     let kelvin = under.temperature.map_or(String::new(), |kelvin| format!(", {:.0} K", kelvin.get()));
@@ -130,7 +128,6 @@ fn mono(ui: &mut Ui, text: &str) {
     });
 }
 
-/// The figure of what lies between two lights.
 fn between(ui: &mut Ui, file: &CorrectionFile, context: &mut PaneContext<'_>) {
     let width = ui.available_width();
     let size = Vec2::new(width, (0.5 * width).clamp(120.0, 220.0));
@@ -151,7 +148,6 @@ fn between(ui: &mut Ui, file: &CorrectionFile, context: &mut PaneContext<'_>) {
     }
 }
 
-/// The ACES input transform.
 fn aces(ui: &mut Ui, file: &CorrectionFile, context: &PaneContext<'_>) {
     match &file.idt {
         Ok(idt) => {

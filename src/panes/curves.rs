@@ -10,7 +10,6 @@ use crate::theme::UNIT;
 use crate::view::import::ImportItem;
 use crate::workspaces::PaneKind;
 
-/// Reach of the pointer, in points.
 const REACH: f32 = 8.0;
 
 pub const PANE: Pane = Pane {
@@ -22,6 +21,10 @@ pub const PANE: Pane = Pane {
     table: true,
 };
 
+/// The curves that were drawn last.
+#[derive(Default)]
+struct LastDrawn(Option<CurveCache>);
+
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let body = widgets::body(ui, &PANE, rect, context, |_, _| {});
     let Some(shown) = context.import_selection() else {
@@ -31,7 +34,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     if shown.file.is_some() && !shown.is_fresh() {
         widgets::busy_line(ui, body, context.opened.looking(), context.theme.text);
     }
-    let kept = CurveCache::of(&shown, context.curves.take());
+    let kept = CurveCache::of(&shown, context.states.of::<LastDrawn>().0.take());
     match kept.all() {
         Err(words) => {
             let saved = &context.view.saved;
@@ -46,7 +49,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
         }
         Ok(curves) => plot(ui, body, &shown.item, [curves, kept.seen().unwrap_or(curves)], context),
     }
-    *context.curves = Some(kept);
+    context.states.of::<LastDrawn>().0 = Some(kept);
 }
 
 fn plot(ui: &mut Ui, body: Rect, item: &ImportItem, [curves, seen]: [&Curves; 2], context: &mut PaneContext<'_>) {
@@ -58,7 +61,7 @@ fn plot(ui: &mut Ui, body: Rect, item: &ImportItem, [curves, seen]: [&Curves; 2]
     context.view.note_zoom(PaneKind::CURVES, curves::title(seen), shown.zoomed(&panel));
     let hit = shown.response.hover_pos().and_then(|at| paint::nearest(&panel, &shown.view, at, REACH));
     let place = hit.and_then(|hit| curves::place(hit.tag));
-    hover(ui, shown.response.hovered(), place, context);
+    widgets::hover_curve(ui, "pointer over result", shown.response.hovered(), place, context);
     let Some([nm, value]) = shown.hovered else { return };
     if let Some(place) = place {
         let lines = curves::describe(curves, place, nm);
@@ -69,24 +72,11 @@ fn plot(ui: &mut Ui, body: Rect, item: &ImportItem, [curves, seen]: [&Curves; 2]
     }
 }
 
-/// Takes a curve as the one under the pointer, and lets it go when the pointer leaves.
-fn hover(ui: &Ui, inside: bool, place: Option<usize>, context: &mut PaneContext<'_>) {
-    let id = Id::unique("pointer over result");
-    let was = ui.data(|data| data.get_temp(id).unwrap_or(false));
-    ui.data_mut(|data| data.insert_temp(id, inside));
-    if (inside || was) && context.view.import.hovered_curve != place {
-        context.view.import.hovered_curve = place.filter(|_| inside);
-        ui.ctx().request_repaint();
-    }
-}
-
-/// A wrapped message in the center.
 fn sentence(ui: &Ui, body: Rect, words: &str, color: egui::Color32) {
     let font = egui::FontId::proportional(crate::theme::TEXT);
     let width = (body.width() - 8.0 * UNIT).max(40.0);
     let galley = ui.painter().layout(words.to_owned(), font, color, width);
     let rect = Align2::CENTER_CENTER.align_size_within_rect(galley.size(), body);
     ui.painter().with_clip_rect(body).galley(rect.min, galley, color);
-    let response = ui.interact(rect, ui.scope_id().with("no curves"), egui::Sense::hover());
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, words));
+    widgets::named(ui, rect, ui.scope_id().with("no curves"), egui::Role::Label, words);
 }

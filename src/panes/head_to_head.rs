@@ -79,7 +79,6 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
 /// Explanation of the last column.
 const BETTER_HINT: &str = "The better camera at 95 %: where the difference exceeds k times its standard uncertainty; neither where it does not.";
 
-/// A list of cameras. Returns the one that was chosen.
 fn choose(
     ui: &mut Ui,
     place: usize,

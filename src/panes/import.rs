@@ -6,24 +6,20 @@ mod line;
 mod question;
 mod text;
 
-use std::time::Duration;
-
 use egui::{ProgressBar, Rect, RichText, Ui, Vec2};
 
 use super::context::{Pane, PaneContext};
 use crate::command::Command;
+use crate::jobs::PATIENCE;
 use crate::panes::widgets;
 use crate::theme::UNIT;
 use crate::workspaces::PaneKind;
 
 use entries::Entry;
 
-/// Width of the column of files.
 const FILES: f32 = 184.0;
 /// In a narrower pane the files are a list that drops down.
 const NARROW: f32 = 480.0;
-/// Delay after which a progress message appears.
-const PATIENCE: Duration = Duration::from_millis(100);
 
 pub const PANE: Pane =
     Pane { kind: PaneKind::IMPORT, title: "Import", show, figure: None, under_conditions: false, table: true };
@@ -75,7 +71,6 @@ fn keep_selected(ui: &Ui, entries: &[Entry], context: &mut PaneContext<'_>) {
     }
 }
 
-/// Progress of the current reading, with a button to stop it.
 fn switches(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let Some(progress) = context.opened.progress() else { return };
     // A worker says only when it is done.
@@ -98,7 +93,6 @@ fn switches(ui: &mut Ui, context: &mut PaneContext<'_>) {
     ui.add(egui::Label::new(RichText::new(words).small().color(context.theme.weak)).truncate());
 }
 
-/// Draws the available actions while there is no file.
 fn nothing(ui: &mut Ui, body: Rect, context: &mut PaneContext<'_>) {
     let size = Vec2::new(280.0_f32.min(body.width()), 96.0);
     let ui = &mut widgets::middle(ui, "no file", body, size);
@@ -114,7 +108,6 @@ fn nothing(ui: &mut Ui, body: Rect, context: &mut PaneContext<'_>) {
     widgets::note(ui, hint);
 }
 
-/// Two buttons side by side in the middle of a width.
 fn open_buttons(ui: &mut Ui, width: f32, context: &mut PaneContext<'_>) {
     const TOGETHER: f32 = 172.0;
     ui.horizontal(|ui| {

@@ -23,7 +23,6 @@ use crate::theme::{ROW, SMALL, TEXT, Theme, UNIT};
 use crate::view::import::Stop;
 use crate::workspaces::PaneKind;
 
-/// First entry of each list.
 const CONTENT: &str = "Decided by content";
 /// First entry where room is short.
 const CONTENT_SHORT: &str = "By content";
@@ -89,7 +88,6 @@ fn content(ui: &mut Ui, shown: &ImportSelection, context: &mut PaneContext<'_>) 
     notes::show(ui, shown, context);
 }
 
-/// Has the file read otherwise.
 fn wish(shown: &ImportSelection, wishes: ImportOverrides, context: &mut PaneContext<'_>) {
     context.push(Command::Wish(shown.item.clone(), Box::new(wishes)));
 }
@@ -132,7 +130,6 @@ fn caption(ui: &mut Ui, theme: &Theme, words: &str, guess: bool) {
     }
 }
 
-/// Text of a closed list: a value, and how it was decided.
 struct Closed {
     value: String,
     how: String,

@@ -39,6 +39,10 @@ const WIDE: f32 = 520.0;
 const BARS: f32 = 150.0;
 const VECTORS: f32 = 250.0;
 
+/// Illuminant that the spectral similarity of the light is taken to.
+#[derive(Default)]
+struct SimilarTo(Option<String>);
+
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let body = widgets::pane(ui, &PANE, rect, context, |_, _| {});
     let scene = context.scene;
@@ -116,7 +120,7 @@ fn summary(ui: &mut Ui, scene: &Scene<'_>, rendition: &Rendition, context: &Pane
 
 /// Spectral similarity to a light that is chosen.
 fn similarity(ui: &mut Ui, scene: &Scene<'_>, context: &mut PaneContext<'_>) {
-    let now = context.view.similar_to.clone();
+    let now = context.states.of::<SimilarTo>().0.clone();
     ui.horizontal(|ui| {
         ui.label("SSI to");
         let hint = (
@@ -130,7 +134,7 @@ fn similarity(ui: &mut Ui, scene: &Scene<'_>, context: &mut PaneContext<'_>) {
         };
         let shown = now.as_deref().unwrap_or("None");
         if let Some(index) = pick_list::drop_down(ui, hint, shown, LIST, &context.theme, lines) {
-            context.view.similar_to = names.swap_remove(index);
+            context.states.of::<SimilarTo>().0 = names.swap_remove(index);
         }
         let Some(name) = &now else { return };
         match scene.similarity_to(name) {
@@ -141,7 +145,6 @@ fn similarity(ui: &mut Ui, scene: &Scene<'_>, context: &mut PaneContext<'_>) {
     });
 }
 
-/// Bars and vectors, side by side or stacked.
 fn pictures(ui: &mut Ui, rendition: &Rendition, context: &PaneContext<'_>) {
     let width = ui.available_width();
     let wide = width >= WIDE;

@@ -14,7 +14,6 @@ use crate::theme::{Surround, UNIT};
 use crate::view::template::TEMPLATES;
 use crate::workspaces::{Layout as PaneLayout, PaneKind, Workspace};
 
-/// Room for a tick before a line of a menu.
 const GUTTER: Vec2 = Vec2::new(14.0, 12.0);
 
 pub fn show(ui: &mut Ui, rect: Rect, history: &History, context: &mut PaneContext<'_>) {
@@ -39,7 +38,6 @@ pub fn show(ui: &mut Ui, rect: Rect, history: &History, context: &mut PaneContex
     step_button(&mut right, false, history.undo_name(), context);
 }
 
-/// The tabs, the shown one marked by a line above it.
 fn tabs(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let theme = context.theme;
     for workspace in Workspace::ALL {
@@ -59,7 +57,6 @@ fn tabs(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     }
 }
 
-/// A dot on the tab while files wait for review.
 fn unseen_dot(ui: &Ui, tab: &egui::Response, context: &PaneContext<'_>) {
     let count = context.view.import.unseen.len();
     if count == 0 {
@@ -83,7 +80,6 @@ fn step_button(ui: &mut Ui, forward: bool, step: Option<&str>, context: &mut Pan
     }
 }
 
-/// A line of a menu with its key.
 fn item(ui: &mut Ui, words: &str, command: Command, context: &mut PaneContext<'_>) {
     enabled_item(ui, true, words, command, context);
 }
@@ -177,7 +173,6 @@ fn file(ui: &mut Ui, context: &mut PaneContext<'_>) {
     }
 }
 
-/// The templates, and the user's own.
 fn templates(ui: &mut Ui, context: &mut PaneContext<'_>) {
     for template in &TEMPLATES {
         let response = ui.button(template.name);
@@ -239,7 +234,6 @@ fn gutter(on: bool) -> Atom<'static> {
     })
 }
 
-/// A line behind a gutter.
 fn ticked(ui: &mut Ui, on: bool, words: &str, hint: &str, command: impl Into<Command>, context: &mut PaneContext<'_>) {
     let command = command.into();
     let mut button = Button::new((gutter(on), words));
@@ -257,7 +251,6 @@ fn ticked(ui: &mut Ui, on: bool, words: &str, hint: &str, command: impl Into<Com
     }
 }
 
-/// A small heading of a group, behind the gutter.
 fn heading(ui: &mut Ui, words: &str) {
     ui.horizontal(|ui| {
         ui.add_space(GUTTER.x + 2.0 * UNIT);

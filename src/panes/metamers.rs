@@ -25,6 +25,10 @@ pub const PANE: Pane = Pane {
     table: false,
 };
 
+/// The pair that was clicked, as a row.
+#[derive(Default)]
+pub struct ClickedPair(pub Option<usize>);
+
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let body = widgets::body(ui, &PANE, rect, context, switches);
     let mut child = widgets::clipped(ui, "metamers", body);
@@ -54,7 +58,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     };
     let words = format!("{}: {} of {} reflectances", camera.name, count(found.rows.len()), found.searched);
     widgets::note(&mut child, words);
-    let chosen = context.view.metamers.filter(|row| *row < found.rows.len());
+    let chosen = context.states.of::<ClickedPair>().0.filter(|row| *row < found.rows.len());
     if let Some(row) = chosen {
         buttons(&mut child, &found.rows[row], context);
     }
@@ -75,12 +79,11 @@ fn switches(ui: &mut Ui, context: &mut PaneContext<'_>) {
     ];
     if let Some(confusion) = widgets::segmented(ui, &choices, context.view.saved.metrics.confusion) {
         context.view.saved.metrics.confusion = confusion;
-        context.view.metamers = None;
+        context.states.of::<ClickedPair>().0 = None;
         ui.ctx().request_repaint();
     }
 }
 
-/// The table of pairs; a click marks both of a pair in all panes.
 fn pairs(ui: &mut Ui, place: Rect, camera: &SensorId, found: &FoundMetamers, context: &mut PaneContext<'_>) {
     let mut table = Table::new(["reflectance", "its metamer", "ΔE*00 reference", "ΔL* camera"]);
     for row in &found.rows {
@@ -109,13 +112,12 @@ fn pairs(ui: &mut Ui, place: Rect, camera: &SensorId, found: &FoundMetamers, con
     let note = |_: usize, _: usize| CellNote::default();
     let shown = DataTable::new(PANE.kind, "Metamers", &table).with_columns(columns.collect());
     if let Some(row) = shown.with_items(&item).with_notes(&note).show(ui, place, context).clicked {
-        context.view.metamers = Some(row);
+        context.states.of::<ClickedPair>().0 = Some(row);
         let patch = |name: &str| PlotItem::Patch { source: Some(camera.clone()), patch: name.to_owned() };
         context.view.pinned = found.rows[row].names.iter().map(|[_, name]| patch(name)).collect();
     }
 }
 
-/// Buttons that act on the selected pair.
 fn buttons(ui: &mut Ui, row: &MetamerRow, context: &mut PaneContext<'_>) {
     ui.horizontal_wrapped(|ui| {
         for ([set, patch], kind) in row.names.iter().zip(row.kinds) {

@@ -18,12 +18,10 @@ use crate::theme::UNIT;
 use crate::view::accuracy::Shows;
 use crate::workspaces::PaneKind;
 
-/// Reach of the pointer, in points.
 const REACH: f32 = 10.0;
 /// A panel of the bench is at least so large; a wider pane has two side by side.
 const PANEL: Vec2 = Vec2::new(420.0, 280.0);
 
-/// A key of the legend.
 const KEY: Vec2 = Vec2::new(16.0, 18.0);
 const MARKS: &str = "Filled markers, joined by the dashed line: no other method is both faster and more accurate.";
 const BENCH: &str = "The program's methods on standard inputs, independent of the scene, against reference values \
@@ -58,7 +56,6 @@ fn refresh(context: &mut PaneContext<'_>) {
     context.profiler.refresh(context.later, &scene);
 }
 
-/// The methods of the visible scene.
 fn scene(ui: &mut Ui, body: Rect, subject: Subject, context: &mut PaneContext<'_>) {
     let Some(run) = context.profiler.measured.run.clone() else {
         nothing(ui, body, "Nothing measured yet.", context);
@@ -98,7 +95,6 @@ fn scene(ui: &mut Ui, body: Rect, subject: Subject, context: &mut PaneContext<'_
     }
 }
 
-/// The methods of the program on a workload, a panel for each case.
 fn benchmark(ui: &mut Ui, body: Rect, workload: Workload, context: &mut PaneContext<'_>) {
     let report = match context.profiler.measured.reports.get(&workload).map(AsRef::as_ref) {
         None if bench().is_none() => {
@@ -182,7 +178,6 @@ fn above(
     Rect::from_min_max(egui::pos2(body.left(), top), body.max)
 }
 
-/// Choice of the subject, and buttons that measure it.
 fn switches(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let now = context.view.accuracy.shows;
     run(ui, now, context);
@@ -204,7 +199,6 @@ fn switches(ui: &mut Ui, context: &mut PaneContext<'_>) {
     }
 }
 
-/// A button that measures the visible scene, or stops the measurement.
 fn run(ui: &mut Ui, now: Shows, context: &mut PaneContext<'_>) {
     if let Some(busy) = Profiler::busy(context.later) {
         context.button(ui, "Stop", "Stop measuring (Esc). Earlier results are unchanged.", Command::StopMeasuring);

@@ -1,7 +1,5 @@
 //! Cameras by figures of merit: ranked, with uncertainties, linked with all panes.
 
-use std::time::Duration;
-
 use chromascope_core::query::metrics::Better;
 use chromascope_core::query::{CameraMetric, MetricValue};
 use chromascope_figure::{Cell, Table};
@@ -12,6 +10,7 @@ use crate::action::{Action, CompareAction};
 use crate::command::Command;
 use crate::document::SetKind;
 use crate::figures::metrics::{self, TABLE};
+use crate::jobs::PATIENCE;
 use crate::panes::widgets;
 use crate::panes::widgets::table::{CellNote, Column, DataTable};
 use crate::plot_item::{PlotItem, SensorId};
@@ -24,8 +23,6 @@ use crate::workspaces::PaneKind;
 const BEFORE: usize = 3;
 /// Columns of differences that the table starts with; all other groups are shown whole.
 const SHOWN: [&str; 5] = ["delta-e2000-mean", "delta-e2000-p95", "delta-e2000-max", "uv-prime-mean", "xy-mean"];
-/// Delay before progress is shown.
-const PATIENCE: Duration = Duration::from_millis(100);
 
 pub const PANE: Pane = Pane {
     kind: PaneKind::METRICS,
@@ -72,7 +69,6 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     }
 }
 
-/// Cameras of the table, progress, and actions on the selected one.
 fn switches(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let choices = [
         (RankedCameras::Library, "Library", "All cameras of the library and yours"),
@@ -109,12 +105,10 @@ fn switches(ui: &mut Ui, context: &mut PaneContext<'_>) {
     }
 }
 
-/// The selected camera.
 fn selected(context: &PaneContext<'_>) -> Option<SensorId> {
     context.view.selected.as_ref()?.source().filter(|id| id.kind == SetKind::Camera).cloned()
 }
 
-/// Compares a camera, or no longer.
 fn compare(id: &SensorId, context: &mut PaneContext<'_>) {
     let (kind, name) = (id.kind, id.name.clone());
     let compared = context.scene.document.compared(kind, &name).is_some();
@@ -122,7 +116,6 @@ fn compare(id: &SensorId, context: &mut PaneContext<'_>) {
     context.push(Action::Compare(action));
 }
 
-/// Columns of the table, with their descriptions.
 fn columns() -> Vec<Column> {
     let before = [
         ("camera", ""),
@@ -156,7 +149,6 @@ fn columns() -> Vec<Column> {
 struct Rows<'a> {
     ranked: &'a Ranked,
     ranks: Vec<Option<[usize; 2]>>,
-    /// Values of the selected camera.
     selected: Option<usize>,
 }
 

@@ -25,7 +25,6 @@ use crate::theme::{ROW, UNIT};
 use crate::view::recorded::RecordedInputs;
 use crate::workspaces::PaneKind;
 
-/// Reach of the pointer, in points.
 const REACH: f32 = 10.0;
 /// Share of the squares below which a cause is not named.
 const NOTABLE: f64 = 0.25;
@@ -105,7 +104,6 @@ fn refresh(file: &Arc<RecordedFile>, context: &mut PaneContext<'_>) -> Result<()
     Ok(())
 }
 
-/// Patches with spectra and raw values.
 fn patches(scene: &Scene<'_>, inputs: &RecordedInputs) -> Result<Vec<RecordedPatch>, String> {
     let chart =
         if inputs.chart.is_some() { scene.patch_radiances().map_err(|error| error.to_string())? } else { Vec::new() };
@@ -114,7 +112,6 @@ fn patches(scene: &Scene<'_>, inputs: &RecordedInputs) -> Result<Vec<RecordedPat
     inputs.file.patches(&chart, &inputs.light, corners, Levels { black: 0.0, clip })
 }
 
-/// Buttons to open a file, and the fit's settings.
 fn switches(ui: &mut Ui, context: &mut PaneContext<'_>) {
     context.button(
         ui,
@@ -149,7 +146,6 @@ fn sentence(ui: &mut Ui, body: Rect, words: &str, open: bool, context: &mut Pane
     }
 }
 
-/// The picture, whose corners are clicked.
 fn corners(ui: &mut Ui, body: Rect, size: [usize; 2], shown: &Image, context: &mut PaneContext<'_>) {
     let clicked = context.view.recorded.corners.clone();
     let words =

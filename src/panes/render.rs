@@ -1,22 +1,22 @@
 //! A mesh through each camera, side by side, from one orbit.
 
 mod cells;
-mod difference;
 mod draw;
 mod orbit;
 mod request;
-mod switches;
 
 use std::time::Duration;
 
 use egui::{Align2, FontId, Rect, Sense, Ui};
 
 use super::context::{Pane, PaneContext};
+use crate::action::{Action, RenderAction};
 use crate::document::render::SUN;
 use crate::figures;
+use crate::paint::PictureTextures;
 use crate::panes::widgets;
 use crate::render_service::REST_AFTER;
-use crate::theme::HEADING;
+use crate::theme::{HEADING, UNIT};
 use crate::view::render::{PixelPlace, RenderMode};
 use crate::workspaces::PaneKind;
 use cells::PictureLayout;
@@ -30,8 +30,15 @@ pub const PANE: Pane = Pane {
     table: true,
 };
 
+#[derive(Default)]
+struct RenderPane {
+    /// Time of egui in seconds since which the pictures are of something else than what is chosen.
+    old_since: Option<f64>,
+    textures: PictureTextures,
+}
+
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
-    let body = widgets::body(ui, &PANE, rect, context, switches::show);
+    let body = widgets::body(ui, &PANE, rect, context, switches);
     context.view.render.hovered = None;
     if context.view.reset_plots {
         context.view.saved.render.orbit = None;
@@ -40,7 +47,6 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let layout = PictureLayout::new(&sources, body, ui.ctx().pixels_per_point(), context);
     let asked = request::ask(ui, &layout, context);
     let busy = context.render_service.busy();
-    context.view.render.busy = busy;
     if widgets::figure_numbers(ui, &PANE, body, context) {
         widgets::busy_line(ui, body, busy, context.theme.on_surround);
         return;
@@ -74,12 +80,12 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
 /// Dims pictures of something else than what is chosen, and says what is being rendered, unless the new ones come at once.
 fn mark_old(ui: &Ui, painter: &egui::Painter, response: &egui::Response, context: &mut PaneContext<'_>) {
     let now = ui.input(|input| input.time);
-    let view = &mut context.view.render;
-    if view.cancelled || !context.render_service.is_of_another() {
-        view.old_since = None;
+    let old_since = &mut context.states.of::<RenderPane>().old_since;
+    if context.view.render.cancelled || !context.render_service.is_of_another() {
+        *old_since = None;
         return;
     }
-    let left = *view.old_since.get_or_insert(now) + REST_AFTER - now;
+    let left = *old_since.get_or_insert(now) + REST_AFTER - now;
     if left > 0.0 {
         ui.ctx().request_repaint_after(Duration::from_secs_f64(left));
         return;
@@ -91,7 +97,6 @@ fn mark_old(ui: &Ui, painter: &egui::Painter, response: &egui::Response, context
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Canvas, true, &words));
 }
 
-/// Draws a message in place of pictures.
 fn say(painter: &egui::Painter, body: Rect, words: &str, context: &PaneContext<'_>) {
     let galley = painter.layout(
         words.to_owned(),
@@ -127,4 +132,49 @@ fn point_at(ui: &Ui, response: &egui::Response, layout: &PictureLayout, context:
         context.view.hover(Some(&crate::plot_item::PlotItem::Sensor(source)));
         context.view.render.hovered = Some(place);
     }
+}
+
+fn switches(ui: &mut Ui, context: &mut PaneContext<'_>) {
+    let modes = [
+        (RenderMode::Grid, "Grid", "All sensors side by side"),
+        (RenderMode::Split, "Split", "The reference at the left, a sensor at the right, with a divider to drag"),
+        (RenderMode::One, "One", "One sensor, large (double-click a picture)"),
+        (RenderMode::Difference, "Difference", "Difference of each sensor from the reference, pixel by pixel"),
+    ];
+    widgets::switch(ui, &modes, &mut context.view.saved.render.mode);
+    ui.add_space(UNIT);
+    let figures = [
+        (RenderAction::Figure8, "Figure 8", "The paper's head"),
+        (RenderAction::Figure9, "Figure 9", "The paper's fern"),
+    ];
+    // All of them have room in a narrow pane.
+    ui.spacing_mut().button_padding.x = 0.5 * UNIT;
+    ui.spacing_mut().item_spacing.x = 0.75 * UNIT;
+    for (action, words, mesh) in figures {
+        let hint = format!(
+            "{mesh} in parallel sunlight without sky, balanced to D55, with the reflectance model chosen under Surface \
+             (initially radiometric). Also sets light and white balance; the compared sensors stay."
+        );
+        if ui.button(words).on_hover_text(hint).clicked() {
+            set_up(action, context);
+        }
+    }
+    let menu = ui.menu_button("⋯", |ui| {
+        for action in [RenderAction::PaperFigure8, RenderAction::PaperFigure9] {
+            let words = Action::Render(action.clone()).name();
+            let hint = "The paper's setup: a point light, and Eq 12 with P as printed: no Fresnel factor, A = XY. \
+                        The paper does not give σ and τ; they are this program's.";
+            if ui.button(words).on_hover_text(hint).clicked() {
+                set_up(action, context);
+                ui.close();
+            }
+        }
+    });
+    menu.response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, "Figures as in the paper"));
+    menu.response.on_hover_text("Figures 8 and 9 as in the paper: point light, the paper's normalization");
+}
+
+fn set_up(action: RenderAction, context: &mut PaneContext<'_>) {
+    context.view.saved.render.orbit = None;
+    context.push(Action::Render(action));
 }

@@ -74,7 +74,6 @@ fn made(camera: &SensorId, context: &PaneContext<'_>) -> Result<Option<CameraFig
     shown.map(|shown| (*shown.answer).clone().map_err(|error| unloaded(&camera.name, error))).transpose()
 }
 
-/// Draws the page; `follow` brings the bars into sight.
 fn draw(ui: &mut Ui, page: &Figure, follow: bool, context: &PaneContext<'_>) {
     let size = Vec2::new(page.size[0] as f32, page.size[1] as f32);
     let (area, _) = ui.allocate_exact_size(size, egui::Sense::hover());
@@ -91,7 +90,6 @@ fn draw(ui: &mut Ui, page: &Figure, follow: bool, context: &PaneContext<'_>) {
     }
 }
 
-/// A list of cameras; the first entry follows the selection.
 fn choose(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let now = report_card::camera(&context.scene, &context.view.look(PANE.kind));
     let words = now.as_ref().map_or("", |id| id.name.as_str());

@@ -49,7 +49,6 @@ pub fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     field(&mut bar, (Condition::Difference, caption), width, context, difference);
 }
 
-/// A condition of the scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 enum Condition {
     Reference,
@@ -198,7 +197,6 @@ fn reference(ui: &mut Ui, context: &mut PaneContext<'_>) {
     });
 }
 
-/// The light's temperature, and that there are filters in front of it.
 fn light_caption(context: &PaneContext<'_>) -> String {
     if shows_sunlight(context) {
         return "Render's own light".to_owned();

@@ -12,7 +12,6 @@ use crate::workspaces::PaneKind;
 
 /// The least height of a panel before the pane scrolls.
 const LEAST: f32 = 64.0;
-/// Largest distance of the pointer, in points.
 const REACH: f32 = 8.0;
 
 pub const PANE: Pane = Pane {

@@ -72,7 +72,6 @@ fn pictures(ui: &mut Ui, context: &mut PaneContext<'_>) {
     }
 }
 
-/// Stages as counted since the start, with the time of each computation.
 fn stages(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let counts = context.counts();
     let mut table = Table::new(["since the start", "computed", "reused", "each (ms)"]);

@@ -13,7 +13,6 @@ use crate::theme::UNIT;
 use crate::view::{SwatchLayout, SwatchStyle};
 use crate::workspaces::PaneKind;
 
-/// Height of the line below the swatches.
 const FOOTER: f32 = 24.0;
 
 pub const PANE: Pane = Pane {

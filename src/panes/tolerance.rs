@@ -26,7 +26,6 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     });
 }
 
-/// The tolerance, and whether pictures keep it.
 fn choice(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let settings = context.scene.document.render.clone();
     let on = settings.quality == QualityLevel::Tolerance;
@@ -83,7 +82,6 @@ fn plans(context: &PaneContext<'_>) -> Result<Option<Vec<PlanAnswer>>, NothingRe
     Ok(PlansQuery::ask(context.later, &pictures, visible.is_some() || !soon))
 }
 
-/// Each sensor with its plan.
 fn sources(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let weak = context.theme.weak;
     let plans = match plans(context) {
@@ -175,7 +173,6 @@ const BOUNDS: &str = "Diffuse component: the largest error found against the sum
 const ESTIMATED: &str = "Times are from a cost model, not measured here; Methods measures them. The method with the \
                          least total time, preparation included, is used.";
 
-/// Cost of a method by the model.
 fn cost(candidate: &Candidate) -> String {
     let [sample, making] = [candidate.sample_ns, candidate.making_ns].map(|ns| duration(ns * 1e-9));
     if candidate.making_ns > 0.0 {
@@ -185,7 +182,6 @@ fn cost(candidate: &Candidate) -> String {
     }
 }
 
-/// A rejected method, and the reason.
 fn rejected(candidate: &Candidate) -> String {
     let error = candidate.error_bound.map_or_else(|| "not checked".to_owned(), |e| format!("error {e:.0e}"));
     let why = match candidate.verdict {

@@ -22,23 +22,21 @@ use egui::{Align, Align2, Button, FontId, Layout, Rect, Response, RichText, Sens
 use crate::command::Command;
 use crate::export::FigureForm;
 use crate::export::profile::CorrectionForm;
+use crate::jobs::PATIENCE;
 use crate::paint;
 use crate::panes::context::{Pane, PaneContext};
 use crate::plot_item::SensorId;
 use crate::scene::ComparedSensor;
 use crate::theme::{self, ROW, Theme, UNIT};
-use crate::view::render::RenderView;
 use crate::workspaces::{PaneKind, Workspace};
 use pick_list::Line;
 
-/// The sentence that summarizes the window's contents.
 pub const WHAT_YOU_SEE: &str = "A camera's spectral sensitivities differ from the eye's, so it records other colors \
                                 than a person sees. Chromascope shows how far off each camera is.";
 
 /// Passes after which a control that is not drawn is no longer sought.
 const SOUGHT: u64 = 4;
 
-/// The height of a pane's header.
 pub const HEADER: f32 = 32.0;
 
 /// Draws a pane's frame and header and returns the rectangle below it. `switches` adds the pane's own controls.
@@ -129,6 +127,23 @@ pub fn figure_numbers(ui: &mut Ui, pane: &Pane, body: Rect, context: &mut PaneCo
     numbers(ui, pane, body, context, |context| {
         Some(pane.figure?.figure(&context.scene, &context.look(pane.kind), FigureRoom::default())?.table)
     })
+}
+
+/// Takes a curve as the one under the pointer, and lets it go when the pointer leaves.
+pub fn hover_curve(ui: &Ui, salt: &'static str, inside: bool, place: Option<usize>, context: &mut PaneContext<'_>) {
+    let id = egui::Id::unique(salt);
+    let was = ui.data_mut(|data| std::mem::replace(data.get_temp_mut_or_default::<bool>(id), inside));
+    if (inside || was) && context.view.import.hovered_curve != place {
+        context.view.import.hovered_curve = place;
+        ui.ctx().request_repaint();
+    }
+}
+
+/// A drawn part that shows nothing else under the pointer, with its name for screen readers.
+pub fn named(ui: &Ui, rect: Rect, id: egui::Id, role: egui::Role, words: &str) -> Response {
+    let response = ui.interact(rect, id, Sense::hover());
+    response.widget_info(|| egui::WidgetInfo::labeled(role, true, words));
+    response
 }
 
 /// Has the control of a name take the keyboard as soon as it is drawn.
@@ -255,7 +270,7 @@ fn export_menu(ui: &mut Ui, &Pane { kind, title, .. }: &Pane, context: &mut Pane
 /// A thin progress line along the top while a computation lasts long; its description is in the status bar.
 pub fn busy_line(ui: &Ui, body: Rect, busy: Option<Duration>, color: egui::Color32) {
     let Some(busy) = busy else { return };
-    if let Some(wait) = RenderView::PATIENCE.checked_sub(busy) {
+    if let Some(wait) = PATIENCE.checked_sub(busy) {
         ui.ctx().request_repaint_after(wait);
         return;
     }
@@ -268,24 +283,17 @@ pub fn busy_line(ui: &Ui, body: Rect, busy: Option<Duration>, color: egui::Color
 /// Small pictures drawn with lines, so that no font needs them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Icon {
-    /// A grid.
     Table {
         /// Numbers are visible.
         on: bool,
     },
-    /// An arrow out of a tray.
     Export,
-    /// Two arrows apart.
     Maximize,
-    /// A cross.
     Close,
-    /// An arrow that bends back to the left.
     Undo,
-    /// An arrow that bends back to the right.
     Redo,
 }
 
-/// An icon button with an accessible name.
 pub fn icon_button(ui: &mut Ui, icon: Icon, name: &str) -> Response {
     let (rect, response) = ui.allocate_exact_size(Vec2::splat(ROW), Sense::click());
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, ui.is_enabled(), name));
@@ -385,7 +393,6 @@ pub fn legend_entry(source: &ComparedSensor) -> LegendEntry {
     }
 }
 
-/// Draws a source's key in a small rectangle.
 pub fn source_key(ui: &mut Ui, source: &ComparedSensor, theme: &Theme) -> Response {
     let (rect, response) = ui.allocate_exact_size(Vec2::new(26.0, ROW), Sense::hover());
     paint::key(ui.painter(), rect, &legend_entry(source), theme);

@@ -2,7 +2,6 @@
 
 pub use crate::figures::look::Shows;
 
-/// View state of the Numerics workspace.
 #[derive(Clone, Debug, Default)]
 pub struct AccuracyView {
     /// Selected measurement.

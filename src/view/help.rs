@@ -7,7 +7,6 @@ pub struct HelpView {
     pub page: Option<&'static str>,
     /// Pages visited before, the latest last.
     pub visited: Vec<&'static str>,
-    /// The text in the search field.
     pub query: String,
     /// The result that Enter opens.
     pub picked: usize,

@@ -15,10 +15,8 @@ use crate::scene::Scene;
 /// Maximum number of remembered kinds of files.
 const REMEMBERED: usize = 100;
 
-/// View state of the Import pane.
 #[derive(Debug, Default)]
 pub struct ImportView {
-    /// The selected item.
     pub selected: Option<ImportItem>,
     /// Import settings tried for each item but not yet applied to the document.
     pub tried: BTreeMap<ImportItem, ImportOverrides>,
@@ -41,11 +39,9 @@ pub struct ImportView {
 /// Control of Import that takes the keyboard focus between panes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stop {
-    /// The list of files.
     Files,
     /// The first of the switches.
     Switches,
-    /// The list of curves.
     Picker,
 }
 
@@ -115,9 +111,7 @@ impl ImportView {
 /// Import settings that the user chose for a kind of file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Remembered {
-    /// The kind.
     pub likeness: Likeness,
-    /// The settings.
     pub wishes: ImportOverrides,
 }
 

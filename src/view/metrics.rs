@@ -6,7 +6,6 @@ use serde::{Deserialize, Serialize};
 use crate::plot_item::SensorId;
 pub use crate::scene::metrics::RankedCameras;
 
-/// View settings of the Metrics pane.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct MetricsLook {
@@ -25,10 +24,8 @@ pub struct MetricsLook {
 /// The one that takes two reflectances for one.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Confuses {
-    /// The camera.
     #[default]
     Camera,
-    /// The reference observer.
     Reference,
 }
 

@@ -11,12 +11,10 @@ use chromascope_core::spectral::GridSpectrum;
 use crate::catalog::recorded_store::RecordedFile;
 use crate::scene::recorded::RankedCamera;
 
-/// View state of the Recorded pane.
 #[derive(Clone, Debug, Default)]
 pub struct RecordedView {
     /// True while the open file dialog is for recorded values.
     pub opening: bool,
-    /// The file that was opened.
     pub path: Option<PathBuf>,
     /// Parameters that are fitted.
     pub freedom: Freedom,
@@ -35,11 +33,9 @@ pub struct RecordedView {
 /// What patches with recorded values are made of.
 #[derive(Clone, Debug)]
 pub struct RecordedInputs {
-    /// The file.
     pub file: Arc<RecordedFile>,
     /// Its chart, if the file has no spectra of its own.
     pub chart: Option<Shared<PatchSet>>,
-    /// The light.
     pub light: Shared<GridSpectrum>,
     /// Corners of the chart in the picture.
     pub corners: Vec<[f64; 2]>,

@@ -7,7 +7,6 @@ use serde::{Deserialize, Serialize};
 pub use crate::figures::look::Sorting;
 use crate::plot_item::PlotItem;
 
-/// View settings of one table.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct TableLook {

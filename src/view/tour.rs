@@ -10,7 +10,6 @@ use crate::plot_item::PlotItem;
 use crate::workspaces::{PaneKind, Workspace};
 use chromascope_core::query::Shared;
 
-/// A scene of the tour.
 pub struct TourStep {
     /// Finding in a few words.
     pub title: &'static str,
@@ -40,7 +39,6 @@ pub enum TourNumbers {
     RenderedDifferences,
 }
 
-/// The steps, in order.
 pub const STEPS: [TourStep; 5] = [
     TourStep {
         title: "Each camera has its own locus of blackbodies",
@@ -112,7 +110,6 @@ impl TourStep {
         document
     }
 
-    /// The selected item.
     pub fn selected(&self) -> Option<PlotItem> {
         self.patch.map(|patch| PlotItem::Patch { source: None, patch: patch.to_owned() })
     }

@@ -131,7 +131,7 @@ fn a_mesh_whose_path_is_not_utf_8_is_shown() {
     let (_around, folder) = profile();
     let path = folder.join(OsString::from_vec(b"caf\xe9.obj".to_vec()));
     fs::write(&path, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").unwrap();
-    let store = MeshStore::new(|| {});
+    let store = MeshStore::on(&Executor::default(), || {});
     until("the mesh", || match store.get(&path) {
         MeshState::Ready(_) => Ok(()),
         other => Err(format!("{other:?}")),

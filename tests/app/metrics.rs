@@ -11,7 +11,7 @@ use chromascope::figures::look::FigureLook;
 use chromascope::figures::{metrics, report_card};
 use chromascope::jobs::Executor;
 use chromascope::palette::Colors;
-use chromascope::panes;
+use chromascope::panes::{self, metamers::ClickedPair};
 use chromascope::plot_item::PlotItem;
 use chromascope::results::Results;
 use chromascope::scene::Scene;
@@ -470,8 +470,9 @@ fn metamers_are_found_marked_and_put_on_the_mesh() {
     assert!(row.accesskit_node().label().unwrap_or_default().starts_with(&first), "{first}");
     row.click();
     window.run_steps(3);
+    let clicked = window.state_mut().states_mut().of::<ClickedPair>().0;
     let view = window.state().view();
-    assert_eq!((view.metamers, view.pinned.len()), (Some(0), 2), "both are marked");
+    assert_eq!((clicked, view.pinned.len()), (Some(0), 2), "both are marked");
     assert_eq!(view.selected.as_ref().and_then(PlotItem::patch), Some(first.as_str()));
     let is_material = |place: usize| {
         let set = query.at(place).unwrap()[0];

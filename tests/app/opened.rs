@@ -11,6 +11,7 @@ use chromascope::catalog::opened::{Opened, OpenedEvent, Request};
 use chromascope::command::Command;
 use chromascope::document::imported::{Fingerprint, ImportOverrides};
 use chromascope::document::{Document, session};
+use chromascope::jobs::Executor;
 use chromascope::view::Weight;
 use chromascope::view::import::{ImportItem, ImportMemory};
 use egui_kittest::Harness;
@@ -197,7 +198,7 @@ fn of_very_many_curves_the_first_are_taken() {
 fn reading_a_large_file_can_be_stopped() {
     let row = |nm: usize| format!("{nm}{}\n", ",0.123456".repeat(3000));
     let text = (380..1380).map(row).collect::<Vec<_>>().concat();
-    let opened = Opened::new(|| {});
+    let opened = Opened::on(&Executor::default(), || {});
     // The reading waits at its beginning until it was stopped.
     let ((at_it, begun), (go_on, told)) = (mpsc::channel(), mpsc::channel::<()>());
     opened.open(vec![Request::Bytes { name: "large.csv".to_owned(), bytes: text.into_bytes().into() }], move |_| {

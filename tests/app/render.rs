@@ -446,10 +446,10 @@ fn escape_stops_what_takes_long_and_keeps_what_was_made() {
     window.run_steps(1);
     let shot = window.state().render_service().frame().cloned().unwrap();
     assert!(!shot.is_last, "the first of several stages");
-    assert!(!window.state().view().render.is_waiting(), "nobody has waited yet");
+    assert!(!window.state().render_service().is_waiting(), "nobody has waited yet");
     executor.advance(Duration::from_secs(1));
     window.run_steps(1);
-    assert!(window.state().view().render.is_waiting());
+    assert!(window.state().render_service().is_waiting());
     window.key_press(egui::Key::Escape);
     // What was made before the key is still taken in with it.
     window.run_steps(2);

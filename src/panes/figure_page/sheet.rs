@@ -14,12 +14,9 @@ use crate::theme::{self, UNIT};
 use crate::view::page::PageZoom;
 use crate::workspaces::PaneKind;
 
-/// Empty space around a page that fits.
 const AROUND: f32 = 16.0;
-/// Longest side of a page in pixels.
 const MOST_PIXELS: f64 = 4096.0;
 
-/// Shows the page in a rectangle, below its head.
 pub(super) fn show(
     ui: &mut Ui,
     rect: Rect,
@@ -76,7 +73,6 @@ pub(super) fn show(
     widgets::busy_line(ui, ground, page.busy, context.theme.text);
 }
 
-/// The pane's title, the page's size on screen, and its zoom.
 fn head(ui: &mut Ui, rect: Rect, kind: PaneKind, scale: Option<f64>, context: &mut PaneContext<'_>) {
     let inner = rect.shrink2(Vec2::new(2.0 * UNIT, UNIT));
     let zooms = [

@@ -16,18 +16,15 @@ use crate::workspaces::PaneKind;
 const HEIGHT: f32 = 38.0;
 /// Height of one more line, for the reason why a file was not read.
 const LINE: f32 = 14.0;
-/// Width of the mark before a name.
 const MARK: f32 = 16.0;
 /// Width that a scroll bar overlaps.
 const SCROLL_BAR: f32 = 8.0;
 
-/// Shows the files one below the other.
 pub(super) fn column(ui: &mut Ui, rect: Rect, entries: &[Entry], context: &mut PaneContext<'_>) {
     let caption = Rect::from_min_size(rect.min, Vec2::new(rect.width(), ROW));
     let count = if entries.len() == 1 { "1 file".to_owned() } else { format!("{} files", entries.len()) };
     lines::elided(ui, caption, &count, TextStyle::Small, context.theme.weak);
-    let response = ui.interact(caption, Id::unique("legend of files"), Sense::hover());
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, &count));
+    let response = widgets::named(ui, caption, Id::unique("legend of files"), egui::Role::Label, &count);
     let theme = context.theme;
     response.on_hover_ui(|ui| legend(ui, &theme));
     let list = Rect::from_min_max(egui::pos2(rect.left(), caption.bottom()), rect.max);
@@ -67,7 +64,6 @@ fn tops(entries: &[Entry]) -> Vec<f32> {
     tops
 }
 
-/// Legend of the marks before the files.
 fn legend(ui: &mut Ui, theme: &Theme) {
     for state in State::ALL {
         ui.horizontal(|ui| {
@@ -189,7 +185,6 @@ fn keys(ui: &Ui, entries: &[Entry], context: &mut PaneContext<'_>) -> Option<usi
     Some(next)
 }
 
-/// One file.
 fn row(ui: &mut Ui, rect: Rect, index: usize, entries: &[Entry], context: &mut PaneContext<'_>) {
     let entry = &entries[index];
     let theme = context.theme;
@@ -275,7 +270,6 @@ fn draw_mark(painter: &Painter, at: Pos2, state: State, on: bool, theme: &Theme)
     }
 }
 
-/// Context menu of a file.
 fn menu(ui: &Ui, rect: Rect, index: usize, entries: &[Entry], context: &mut PaneContext<'_>) {
     let entry = &entries[index];
     let button = lines::dots(ui, rect, id(index).with("dots"), &format!("Menu of {}", entry.name));

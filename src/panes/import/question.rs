@@ -10,7 +10,6 @@ use crate::panes::context::PaneContext;
 use crate::panes::widgets::{self, lines};
 use crate::theme::UNIT;
 
-/// An answer: its text, a hint, and its effect.
 type Answer = (&'static str, &'static str, Option<Role>, Option<Values>);
 
 /// Answers where nothing indicates the quantity.

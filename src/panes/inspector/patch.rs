@@ -17,10 +17,8 @@ use crate::plot_item::{PlotItem, SensorId};
 use crate::scene::{ComparedSensor, Scene};
 use crate::theme::{HEADING, ROW, TEXT, Theme, UNIT};
 
-/// Height of the pair of swatches with its surround.
 const PAIR: f32 = 40.0;
 
-/// Assumption about a patch beyond its samples.
 fn held_of(scene: &Scene<'_>, patch: &str) -> Option<String> {
     let set = scene.patches().ok()?;
     let found = set.patches().iter().find(|p| p.name == patch)?;
@@ -62,7 +60,6 @@ fn pair(ui: &mut Ui, theme: &Theme, left: &PatchColor, right: Option<&PatchColor
     }
 }
 
-/// A patch through one sensor.
 pub(super) fn one(ui: &mut Ui, id: &SensorId, patch: &str, context: &mut PaneContext<'_>) {
     let (scene, theme) = (context.scene, context.theme);
     head(ui, id, context);
@@ -141,7 +138,6 @@ pub(super) fn rank(value: f64, all: &[Result<f64, DifferenceError>]) -> Option<S
     })
 }
 
-/// A patch through all visible sensors.
 pub(super) fn across(ui: &mut Ui, patch: &str, context: &mut PaneContext<'_>) {
     let (scene, theme) = (context.scene, context.theme);
     ui.strong(title(&scene, patch));

@@ -15,7 +15,6 @@ const SET: f32 = 290.0;
 /// Below these widths the four buttons of a file that is no set take one and two more.
 const FILE: [f32; 2] = [380.0, 270.0];
 
-/// The height that the buttons take.
 pub(super) fn height(shown: &ImportSelection, width: f32) -> f32 {
     let more = match shown.item {
         ImportItem::Set(_) => usize::from(width < SET),
@@ -33,7 +32,6 @@ fn on_disk(shown: &ImportSelection) -> bool {
     }
 }
 
-/// Shows the buttons.
 pub(super) fn show(ui: &mut Ui, shown: &ImportSelection, context: &mut PaneContext<'_>) {
     ui.spacing_mut().item_spacing.x = UNIT;
     ui.horizontal_wrapped(|ui| match &shown.item {

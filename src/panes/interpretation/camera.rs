@@ -18,7 +18,6 @@ pub(super) const RESPONSES: [(bool, &str, &str); 2] = [
     (true, "per photon", "To equal numbers of photons, as quantum efficiencies are given"),
 ];
 
-/// Shows the switches, if the file is a camera's.
 pub(super) fn show(ui: &mut Ui, shown: &ImportSelection, wishes: &mut ImportOverrides, theme: &Theme) {
     let Some(table) = shown.table().filter(|table| table.role.value == Role::Camera) else { return };
     let found = table.reading.camera_columns;

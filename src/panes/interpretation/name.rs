@@ -10,7 +10,6 @@ use crate::document::uses::Holder;
 use crate::panes::context::PaneContext;
 use crate::plot_item::PlotItem;
 
-/// Shows the field.
 pub(super) fn show(ui: &mut Ui, set: &ImportedSet, context: &mut PaneContext<'_>) {
     let theme = context.theme;
     let id = Id::unique("name of the set that is read");

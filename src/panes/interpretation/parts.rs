@@ -11,7 +11,6 @@ use crate::panes::context::PaneContext;
 use crate::panes::widgets;
 use crate::theme::{ROW, UNIT};
 
-/// Number of visible rows.
 const ROWS: usize = 5;
 
 /// Name of a part; parts count from 1.
@@ -23,7 +22,6 @@ pub(super) fn name(part: usize, known: Option<&Part>) -> String {
     }
 }
 
-/// Shows the list, if there is more than one part.
 pub(super) fn show(ui: &mut Ui, shown: &ImportSelection, context: &mut PaneContext<'_>) {
     let (Some(table), Some(file)) = (shown.table(), &shown.file) else { return };
     let parts = &table.reading.parts;

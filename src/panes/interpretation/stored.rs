@@ -69,7 +69,6 @@ fn plain(value: &str) -> Closed {
     Closed { value: value.to_owned(), how: String::new(), guess: false, why: String::new() }
 }
 
-/// A list of which one is on.
 fn choice<T: Copy + PartialEq>(ui: &mut Ui, theme: &Theme, words: &str, choices: &[(T, &str)], value: &mut T) {
     let width = ui.available_width() - 2.0;
     let shown = choices.iter().find(|(choice, _)| choice == value).map_or("", |(_, words)| words);
@@ -81,14 +80,12 @@ fn choice<T: Copy + PartialEq>(ui: &mut Ui, theme: &Theme, words: &str, choices:
     }
 }
 
-/// Role, unit and percent.
 fn choices(ui: &mut Ui, set: &mut ImportedSet, theme: &Theme) {
     choice(ui, theme, "This is a", &switches::ROLES, &mut set.role);
     choice(ui, theme, "Wavelengths in", &switches::UNITS, &mut set.unit);
     ui.checkbox(&mut set.percent, "Values are percent");
 }
 
-/// Channels, and their response basis.
 fn camera(ui: &mut Ui, set: &mut ImportedSet, theme: &Theme) {
     let width = ui.available_width() - 2.0;
     for (channel, color) in ["Red", "Green", "Blue"].into_iter().enumerate() {

@@ -65,9 +65,7 @@ const READERS: [(Reader, &str); 11] = [
 /// Head of the switches of a file's format where none of them is in doubt.
 const SETTLED: &str = "File format: all certain";
 
-/// Maximum number of columns to choose from.
 const COLUMNS: usize = 60;
-/// Maximum number of parts to choose from.
 const PARTS: usize = 1000;
 
 /// A setting: the user's choice, the automatic decision, and the options.
@@ -118,12 +116,10 @@ fn closed<T: Copy>(
     Closed { value: name(decided.value), how: sure.to_owned(), guess, why: decided.why.clone() }
 }
 
-/// A choice without what its caption says anyway.
 fn short(words: &str) -> &str {
     ["Down", "Across", "Table"].into_iter().find(|short| words.starts_with(short)).unwrap_or(words)
 }
 
-/// The switches that matter for the file.
 pub(super) fn show(ui: &mut Ui, shown: &ImportSelection, wishes: &mut ImportOverrides, theme: &Theme) {
     // The result of the last preview is shown as long as no newer one is available.
     let table = shown.table();
@@ -158,7 +154,6 @@ fn is_certain(reading: &ReadReport, options: &ReadOptions) -> bool {
     certainties.iter().all(|certainty| *certainty == Certainty::Certain) && *options == asked && reading.parts.len() < 2
 }
 
-/// The switches of the file's format.
 fn format(ui: &mut Ui, shown: &ImportSelection, options: &mut ReadOptions, theme: &Theme, whole: f32) {
     let gap = 2.0 * UNIT;
     let half = ((whole - gap) / 2.0).floor();
@@ -217,7 +212,6 @@ fn columns(table: Option<&SpectralFile>, wish: Option<Reader>) -> bool {
     wish.or(known).is_none_or(|reader| reader == Reader::Table)
 }
 
-/// The column of the wavelengths, by number and, where it has one, name.
 fn column(ui: &mut Ui, shown: &ImportSelection, wish: &mut Option<usize>, theme: &Theme, width: f32) {
     let table = shown.table();
     let decided = table.and_then(|table| table.reading.wavelength_column);
@@ -263,7 +257,6 @@ fn header(shown: &ImportSelection) -> Vec<String> {
     cells.iter().map(tidy).collect()
 }
 
-/// Choice of one of several tables in a file.
 fn part(ui: &mut Ui, table: Option<&SpectralFile>, wish: &mut Option<usize>, theme: &Theme, width: f32) {
     let known = table.map_or(&[][..], |table| &table.reading.parts);
     if known.len() < 2 && wish.is_none() {

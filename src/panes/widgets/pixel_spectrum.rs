@@ -10,7 +10,6 @@ use crate::render_service::RenderedFrame;
 use crate::render_service::made::MadePictures;
 use crate::scene::spectral_image::PixelSpectrumQuery;
 
-/// Height of the plot.
 pub const HEIGHT: f32 = 110.0;
 
 /// Shows the samples of a pixel, right and down in the file, if an image is on show.

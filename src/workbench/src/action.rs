@@ -22,11 +22,8 @@ use crate::document::{
 /// A change of the document.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Action {
-    /// To the list of compared sensors.
     Compare(CompareAction),
-    /// To the conditions of the scene.
     Scene(SceneAction),
-    /// To the rendered scene.
     Render(RenderAction),
     /// To the user's own sets.
     Imported(ImportedAction),
@@ -38,12 +35,9 @@ pub enum Action {
     Reset,
 }
 
-/// Changes to the list of compared sensors.
 #[derive(Clone, Debug, PartialEq)]
 pub enum CompareAction {
-    /// Adds a sensor to the comparison.
     Add(SetKind, String),
-    /// Takes a sensor off; the reference stays.
     Remove(SetKind, String),
     /// Shows or hides a sensor's curves.
     SetVisible(SetKind, String, bool),
@@ -52,7 +46,6 @@ pub enum CompareAction {
     /// Compares with another observer, adding it where it is not compared. A fitted color transform follows to an observer that
     /// has XYZ color matching functions.
     SetReference {
-        /// The observer.
         name: String,
         /// True if its color matching functions are XYZ, so that it can be fitted to.
         counts_in_xyz: bool,
@@ -62,31 +55,22 @@ pub enum CompareAction {
 /// Changes to the conditions.
 #[derive(Clone, Debug, PartialEq)]
 pub enum SceneAction {
-    /// Another light.
     SetLight(Light),
     /// Puts a filter in front of the light, or takes it away.
     SetFilter(String, bool),
-    /// Takes all filters away.
     ClearFilters,
     /// Another temperature, in kelvins.
     SetTemperature(f64),
     /// Another full well and read noise, or none.
     SetPixel(Option<Pixel>),
-    /// Another chart.
     SetChart(String),
-    /// Five patches or all.
     SetSubset(Subset),
-    /// Another white.
     SetWhite(WhiteBalanceChoice),
-    /// Another color transform.
     SetWay(TransformChoice),
     /// Another color correction; where Eq 13 was chosen, a transform is fitted to the default observer.
     SetCorrection(CorrectionChoice),
-    /// Another measure of difference.
     SetDifference(Metric),
-    /// Other coordinates.
     SetDiagram(Diagram),
-    /// Other marks on the diagram.
     SetOverlays(Overlays),
 }
 
@@ -94,7 +78,6 @@ pub enum SceneAction {
 /// name of the changed one.
 #[derive(Clone, Debug, PartialEq)]
 pub enum RenderAction {
-    /// Other settings.
     Set {
         /// Name of the changed setting, as shown in the menu.
         what: &'static str,
@@ -145,7 +128,6 @@ pub enum ImportedAction {
         /// Names that they may not have.
         built_in: BuiltInNames,
     },
-    /// Takes a set out, and off the list.
     Remove(String),
 }
 

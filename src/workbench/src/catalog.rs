@@ -37,7 +37,6 @@ pub enum Place {
     Own(Shared<ImportedSet>),
 }
 
-/// A data file that is part of the program.
 #[derive(Clone, Copy, Debug, Eq)]
 pub struct BuiltInFile {
     /// Its path below `assets`.
@@ -58,7 +57,6 @@ impl Hash for BuiltInFile {
     }
 }
 
-/// One data set in the index.
 #[derive(Clone, Debug)]
 pub struct Entry {
     pub kind: SetKind,
@@ -68,14 +66,12 @@ pub struct Entry {
     pub short: String,
     /// A gloss shown after the name.
     pub also: Option<String>,
-    /// Location of its figures.
     pub place: Place,
     /// The facts about a built-in set.
     pub header: Option<Header>,
 }
 
 impl Entry {
-    /// True if the user brought it.
     pub fn is_own(&self) -> bool {
         matches!(self.place, Place::Own(_))
     }
@@ -115,7 +111,6 @@ impl Entry {
     }
 }
 
-/// The built-in sets.
 #[derive(Clone, Debug)]
 pub struct Catalog {
     entries: Vec<Entry>,
@@ -149,7 +144,6 @@ impl Catalog {
         Self { entries, names }
     }
 
-    /// Names of the sets.
     pub fn names(&self) -> &BuiltInNames {
         &self.names
     }

@@ -43,9 +43,7 @@ pub struct Document {
     pub start: Start,
     /// The compared cameras and observers, in the order of the list. The reference is among them.
     pub compared: Vec<Compared>,
-    /// The observer that the others are compared to.
     pub reference: String,
-    /// The light on the scene.
     pub light: Light,
     /// The filters in front of the light, in the order they were added; the order changes no number.
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -55,7 +53,6 @@ pub struct Document {
     /// Full well and read noise of the cameras, where they are given: for their signal-to-noise ratio.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pixel: Option<Pixel>,
-    /// The patches.
     pub chart: String,
     /// Subset of the chart's patches.
     pub subset: Subset,
@@ -69,7 +66,6 @@ pub struct Document {
     /// Metric of the differences from the reference.
     #[serde(with = "metric_id")]
     pub difference: Metric,
-    /// The diagram's coordinates.
     pub diagram: Diagram,
     /// Optional overlays of the chromaticity diagram.
     pub overlays: Overlays,
@@ -86,12 +82,9 @@ pub struct Document {
     pub unknown: serde_json::Map<String, serde_json::Value>,
 }
 
-/// A compared camera or observer.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Compared {
-    /// Its name in the catalog.
     pub name: String,
-    /// Camera or observer.
     pub kind: SetKind,
     /// Its place in the palette, constant while it is compared.
     pub slot: u8,
@@ -107,7 +100,6 @@ fn yes() -> bool {
     true
 }
 
-/// The light on the scene.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Light {
@@ -147,7 +139,6 @@ pub enum WhiteBalanceChoice {
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum TransformChoice {
-    /// Eq 13.
     #[default]
     Paper,
     /// A matrix fitted to this observer.
@@ -215,7 +206,6 @@ pub enum Diagram {
 #[serde(default)]
 #[expect(clippy::struct_excessive_bools, reason = "independent switches of one menu")]
 pub struct Overlays {
-    /// Planckian loci.
     pub loci: bool,
     /// Patches with their tails.
     pub patches: bool,
@@ -227,11 +217,8 @@ pub struct Overlays {
     pub whites: bool,
     /// Lines of equal correlated color temperature.
     pub isotherms: bool,
-    /// The outline of sRGB.
     pub srgb: bool,
-    /// The outline of DCI-P3.
     pub dci_p3: bool,
-    /// The outline of Rec. 2020.
     pub rec2020: bool,
 }
 
@@ -339,7 +326,6 @@ impl Document {
         self.compared.push(Compared { name: name.to_owned(), kind, slot, visible: true, label: None });
     }
 
-    /// The compared sensor of this name.
     pub fn compared(&self, kind: SetKind, name: &str) -> Option<&Compared> {
         self.compared.iter().find(|c| c.kind == kind && c.name == name)
     }

@@ -26,6 +26,9 @@ use chromascope_core::render::Stop;
 
 use crate::results::Results;
 
+/// After this long a computation is shown to be going on.
+pub const PATIENCE: Duration = Duration::from_millis(100);
+
 /// Work to be done in the background. Every [`Query`] is a job; so is a measurement, which is repeated at each request.
 pub trait Job: Clone + PartialEq + Send + Sync + 'static {
     /// Its outcome.

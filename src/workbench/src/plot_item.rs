@@ -15,25 +15,18 @@ pub enum PlotItem {
     Sensor(SensorId),
     /// A patch, through one sensor or (a column head, a reflectance curve) through none.
     Patch {
-        /// The sensor, if any.
         source: Option<SensorId>,
-        /// The patch's name.
         patch: String,
     },
     /// A blackbody through a sensor.
     Radiator {
-        /// The sensor.
         source: SensorId,
-        /// The temperature in kelvins.
         kelvin: f64,
     },
-    /// The light on the scene.
     Light,
     /// A set of the library that is no sensor: a chart, a light, a filter, a material.
     DataSet {
-        /// Its kind.
         kind: SetKind,
-        /// Its name in the catalog.
         name: String,
     },
 }
@@ -45,12 +38,10 @@ pub enum Relation {
     Same,
     /// The item's reference: the reference's patch for a camera's.
     Reference,
-    /// Neither.
     Other,
 }
 
 impl PlotItem {
-    /// A set of the library.
     pub fn of_set(kind: SetKind, name: &str) -> Self {
         let name = name.to_owned();
         match kind {
@@ -138,7 +129,6 @@ impl PickIndex {
         Tag(u32::try_from(index + 1).unwrap_or(0))
     }
 
-    /// Returns the item of a tag.
     pub fn get(&self, tag: Tag) -> Option<&PlotItem> {
         self.all.get((tag.0 as usize).checked_sub(1)?)
     }

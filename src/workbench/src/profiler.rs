@@ -3,7 +3,6 @@
 //! A run starts with an empty cache, so that cached answers do not distort its times. It is a [`Job`], not a `Query`: each
 //! request measures again.
 
-mod asked;
 pub mod bench;
 mod conditions;
 mod integral;
@@ -16,15 +15,24 @@ use std::time::Duration;
 
 use chromascope_core::query::render::picture::PicturesQuery;
 use chromascope_core::query::{Ask, Shared};
+use chromascope_core::render::{Quality, RasterSize, Shadows};
 use chromascope_core::spectral::Sensor;
 use chromascope_measure::harness::timed;
 use chromascope_measure::method::Point;
 use chromascope_measure::{Effort, Report, Workload};
+use chromascope_mesh::Mesh;
 use serde::{Deserialize, Serialize};
 
 use crate::jobs::{Job, Later};
 use crate::results::Results;
+use crate::scene::Scene;
+use crate::scene::orbit::Orbit;
+use crate::scene::render::Finish;
 pub use conditions::Conditions;
+
+/// The pictures that are measured on: as large as a pane's, whatever the window's size.
+const WIDTH: u32 = 480;
+const HEIGHT: u32 = 360;
 
 /// Measures the cost of each method for a scene.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -33,26 +41,59 @@ pub struct SceneRunJob {
     pub scene: String,
     /// The pictures; none where there is nothing to render.
     pub pictures: Option<PicturesQuery>,
-    /// The visible sensors.
     pub sensors: Vec<Shared<Sensor>>,
+}
+
+impl SceneRunJob {
+    /// The measurement job of a scene; `own` is a file's mesh, once it was read.
+    pub fn of(scene: &Scene<'_>, own: Option<&Shared<Mesh>>, orbit: Option<Orbit>) -> Self {
+        let sources = scene.sources();
+        let sources = sources.iter().filter(|source| source.visible);
+        Self {
+            scene: conditions::words(scene, scene.rendered_sources().len()),
+            pictures: Self::pictures_of(scene, own, orbit, scene.document.render.quality()),
+            sensors: sources.filter_map(|source| scene.sensor(source.kind, &source.name).ok()).collect(),
+        }
+    }
+
+    /// The pictures that are measured on, at a quality; none where there is nothing to render.
+    pub fn pictures_of(
+        scene: &Scene<'_>,
+        own: Option<&Shared<Mesh>>,
+        orbit: Option<Orbit>,
+        quality: Quality,
+    ) -> Option<PicturesQuery> {
+        let sources = scene.rendered_sources();
+        let settings = &scene.document.render;
+        let orbit = orbit.unwrap_or_else(|| Orbit::of(&settings.mesh));
+        let viewpoint = orbit.viewpoint(f64::from(WIDTH) / f64::from(HEIGHT))?;
+        let finish = Finish {
+            size: RasterSize { width: WIDTH, height: HEIGHT, samples: 1 }.clamped(),
+            quality,
+            shadows: Shadows::Full,
+            compared_samples: None,
+            open_sky: false,
+        };
+        if sources.is_empty() {
+            return None;
+        }
+        scene.pictures_of(&sources, scene.mesh_of(own)?, viewpoint, finish, None).ok()
+    }
 }
 
 /// Measurements of a scene.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct SceneRun {
-    /// Conditions of the measurement.
     #[serde(default)]
     pub conditions: Conditions,
     /// Of each kind of work its methods.
     pub trials: Vec<Trial>,
-    /// Total time of the measurement.
     pub time: Duration,
 }
 
 /// The methods of one kind of work, side by side.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Trial {
-    /// Kind of work.
     pub subject: Subject,
     /// Number of inputs measured on.
     pub inputs: usize,
@@ -74,10 +115,8 @@ pub enum Subject {
 }
 
 impl Subject {
-    /// All of them.
     pub const ALL: [Self; 2] = [Self::Integral, Self::Loci];
 
-    /// In words.
     pub const fn title(self) -> &'static str {
         match self {
             Self::Integral => "Integral",
@@ -85,7 +124,6 @@ impl Subject {
         }
     }
 
-    /// Long title.
     pub const fn words(self) -> &'static str {
         match self {
             Self::Integral => "The diffuse spectral integral of the samples that the visible scene renders",
@@ -142,7 +180,6 @@ impl Job for BenchJob {
     }
 }
 
-/// Latest measurements.
 #[derive(Clone, Debug, Default)]
 pub struct Measured {
     /// The last run on the scene.
@@ -172,7 +209,6 @@ impl Profiler {
         later.begin(Self::PANE, vec![BenchJob(workload)]);
     }
 
-    /// Stops the measurement.
     pub fn stop(later: &Later) {
         later.stop::<SceneRunJob>(Self::PANE);
         later.stop::<BenchJob>(Self::PANE);

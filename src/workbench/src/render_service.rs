@@ -11,7 +11,7 @@ use chromascope_core::query::render::MeshQuery;
 use chromascope_core::render::{Quality, RasterSize, Shadows};
 use chromascope_core::scene::Viewpoint;
 
-use crate::jobs::{Background, Executor, Job};
+use crate::jobs::{Background, Executor, Job, PATIENCE};
 use crate::results::Results;
 use crate::scene::render::Finish;
 use crate::scene::{ComparedSensor, Scene, SceneError};
@@ -27,7 +27,6 @@ pub struct RenderedFrame {
     /// The sensors, in the query's order.
     pub sources: Arc<[ComparedSensor]>,
     pub answer: Arc<PicturesAnswer>,
-    /// Time taken.
     pub time: Duration,
     /// True if nothing finer is to come.
     pub is_last: bool,
@@ -61,7 +60,6 @@ impl RenderedFrame {
         self.answer.pictures()
     }
 
-    /// The pictures, if there are any.
     pub fn made(&self) -> Option<MadePictures<'_>> {
         self.pictures().ok()
     }
@@ -95,7 +93,6 @@ impl Job for PicturesJob {
     }
 }
 
-/// The worker and its last answer.
 pub struct RenderService {
     worker: Background<PicturesJob>,
     frame: Option<Arc<RenderedFrame>>,
@@ -197,7 +194,6 @@ impl RenderService {
         self.is_looked_at
     }
 
-    /// The latest pictures.
     pub fn frame(&self) -> Option<&Arc<RenderedFrame>> {
         self.frame.as_ref().filter(|_| !self.is_hidden)
     }
@@ -221,6 +217,11 @@ impl RenderService {
     /// Running time of the latest request, if it is still running.
     pub fn busy(&self) -> Option<Duration> {
         self.worker.busy()
+    }
+
+    /// True if the latest request has lasted long enough for progress to be shown.
+    pub fn is_waiting(&self) -> bool {
+        self.busy().is_some_and(|busy| busy >= PATIENCE)
     }
 
     /// Reason that the latest request has no answer, if it failed.

@@ -22,7 +22,6 @@ use answers::{Answers, Asked, Kind};
 /// Counters of one kind of query.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Count {
-    /// Cache hits.
     pub hits: u64,
     /// Cache misses: answers that were computed.
     pub misses: u64,
@@ -49,7 +48,6 @@ pub struct Results {
 #[derive(Default)]
 struct Store {
     kinds: RwLock<HashMap<TypeId, Arc<dyn Kind>>>,
-    /// Number of lookups.
     clock: AtomicU64,
 }
 

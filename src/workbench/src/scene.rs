@@ -80,11 +80,8 @@ pub enum SceneError {
 /// Name and appearance of a compared sensor, the same in all panes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ComparedSensor {
-    /// Camera or observer.
     pub kind: SetKind,
-    /// Its name in the catalog.
     pub name: String,
-    /// Label on screen.
     pub label: String,
     /// Its color's role.
     pub role: InkRole,
@@ -92,9 +89,7 @@ pub struct ComparedSensor {
     /// The width of its lines in points.
     pub width: f64,
     pub is_reference: bool,
-    /// True if the user brought it.
     pub is_own: bool,
-    /// True if its curves are drawn.
     pub visible: bool,
 }
 
@@ -141,11 +136,8 @@ impl Caution {
 /// The document, the data sets and the answers, read together.
 #[derive(Clone, Copy)]
 pub struct Scene<'a> {
-    /// Ground state.
     pub document: &'a Document,
-    /// The built-in sets.
     pub catalog: &'a Catalog,
-    /// The answers known.
     pub results: &'a Results,
 }
 
@@ -186,17 +178,14 @@ impl<'a> Scene<'a> {
         self.find(SetKind::Chart, name).or_else(other(SetKind::Material)).or_else(other(SetKind::Filter))
     }
 
-    /// A camera's or observer's sensitivities.
     pub fn sensor(&self, kind: SetKind, name: &str) -> Result<Shared<Sensor>, SceneError> {
         self.loaded(&SensorQuery(self.find(kind, name)?.place.clone()), name)
     }
 
-    /// The temperature that marks the loci.
     pub fn temperature(&self) -> Result<Kelvin, SceneError> {
         Ok(Kelvin::new(self.document.temperature_k)?)
     }
 
-    /// The light on the scene.
     pub fn light(&self) -> Result<LoadedLight, SceneError> {
         let (light, name) = match &self.document.light {
             Light::Set(name) => (LightQuery::Set(self.find(SetKind::Illuminant, name)?.place.clone()), name.as_str()),
@@ -232,7 +221,6 @@ impl<'a> Scene<'a> {
         self.loaded(&FilteredLightQuery { light, filters }, &self.with_filters(name.to_owned()))
     }
 
-    /// Transmittance of a filter.
     pub fn filter(&self, name: &str) -> Result<Shared<GridSpectrum>, SceneError> {
         self.loaded(&FilterQuery(self.entry(SetKind::Filter, name)?.place), name)
     }
@@ -266,7 +254,6 @@ impl<'a> Scene<'a> {
         self.document.filters.iter().fold(light, |name, filter| format!("{name} × {filter}"))
     }
 
-    /// The current patches.
     pub fn patches(&self) -> Result<Shared<PatchSet>, SceneError> {
         let five = self.document.subset == Subset::Five && self.has_five();
         self.patch_set(&self.document.chart, five.then_some(PAPER_FIVE.as_slice()))
@@ -295,7 +282,6 @@ impl<'a> Scene<'a> {
         self.white_target(&self.document.white)
     }
 
-    /// A light of the library.
     fn built_in_light(&self, name: &str) -> Result<LoadedLight, SceneError> {
         self.loaded(&LightQuery::Set(self.find(SetKind::Illuminant, name)?.place.clone()), name)
     }
@@ -359,7 +345,6 @@ impl<'a> Scene<'a> {
         self.rendered(&query, name).map(Arc::new)
     }
 
-    /// A sensor's Planckian locus over the visible range.
     pub fn locus(&self, kind: SetKind, name: &str) -> Result<Arc<Locus>, SceneError> {
         self.locus_at(kind, name, Self::locus_temperatures()?)
     }
@@ -375,7 +360,6 @@ impl<'a> Scene<'a> {
         self.rendered(&query, name)
     }
 
-    /// A sensor's response to monochromatic light.
     pub fn monochromatic(&self, kind: SetKind, name: &str) -> Result<Vec<SpectralPoint>, SceneError> {
         self.rendered(&MonochromaticQuery { rendering: self.rendering_of(kind, name)? }, name)
     }

@@ -38,7 +38,6 @@ pub struct History {
 }
 
 impl History {
-    /// Starts from a document.
     pub fn new(document: Document) -> Self {
         Self { document, ..Self::default() }
     }
@@ -50,7 +49,6 @@ impl History {
         self
     }
 
-    /// The document now.
     pub fn document(&self) -> &Document {
         &self.document
     }

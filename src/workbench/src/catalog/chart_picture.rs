@@ -17,7 +17,6 @@ const MAX_METADATA: u64 = 64 << 20;
 /// Value from which on sixteen bits are clipped.
 const CLIP: f64 = 65535.0;
 
-/// Reason that a picture gives no raw values.
 #[derive(Debug, thiserror::Error)]
 pub enum ChartPictureError {
     /// The file is no picture that can be read.
@@ -34,7 +33,6 @@ pub enum ChartPictureError {
     Grid(#[from] ChartGridError),
 }
 
-/// A picture of 16-bit RGB.
 #[derive(Debug)]
 pub struct ChartPicture {
     picture: DynamicImage,
@@ -74,12 +72,10 @@ impl ChartPicture {
         }
     }
 
-    /// Pixels across and down.
     pub fn size(&self) -> [usize; 2] {
         [self.picture.width() as usize, self.picture.height() as usize]
     }
 
-    /// Linear RGB of a pixel.
     pub fn pixel(&self, x: usize, y: usize) -> [f64; 3] {
         let (x, y) = (x as u32, y as u32);
         match &self.picture {

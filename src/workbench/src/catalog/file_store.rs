@@ -12,7 +12,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::SystemTime;
 use std::{fs, io};
 
-use crate::format::file_name;
+use crate::format::{file_name, io_reason};
 use crate::jobs::{Executor, Monitor};
 
 /// Maximum bytes of unused files that stay cached, so that undo need not read them again.
@@ -26,12 +26,10 @@ pub struct Stamp {
 }
 
 impl Stamp {
-    /// Stamp of a file.
     pub fn of(file: &fs::Metadata) -> Self {
         Self { modified: file.modified().ok(), bytes: file.len() }
     }
 
-    /// Length of the file.
     pub fn bytes(self) -> u64 {
         self.bytes
     }
@@ -43,7 +41,6 @@ pub trait FromFile: Sized + Send + Sync + 'static {
     type Failure: FileFailure;
     /// State of a file by which it is known to have changed.
     type Version: Copy + Send + 'static;
-    /// Name of the threads that read.
     const THREAD: &'static str;
 
     /// Reads a file unless it is still in this state. `stop` is polled.
@@ -57,33 +54,35 @@ pub trait FromFile: Sized + Send + Sync + 'static {
         stop: &dyn Fn() -> bool,
     ) -> Result<Option<(Self, Self::Version)>, Self::Failure>;
 
-    /// Approximate size in memory.
     fn bytes(&self) -> usize;
 
     /// The file's name and counts.
     fn summary(&self) -> &str;
 }
 
+/// Reason that a file was not read to its end, whatever it holds.
+#[derive(Debug, thiserror::Error)]
+pub enum Unread {
+    #[error("{file}: {}", io_reason(.error))]
+    Io { file: String, error: io::Error },
+    /// A panic while it was read.
+    #[error("{0} could not be read because of an error in this program; please report it with the file")]
+    Broken(String),
+    #[error("Reading {0} stopped")]
+    Stopped(String),
+}
+
 /// Reason that a file gives no content, in sentences.
-pub trait FileFailure: std::fmt::Display + Send {
-    /// The system refuses a thread or the file.
-    fn io(file: String, error: io::Error) -> Self;
-    /// A panic while the file was read.
-    fn broken(file: String) -> Self;
-    /// The read was canceled.
-    fn stopped(file: String) -> Self;
+pub trait FileFailure: std::fmt::Display + Send + From<Unread> {
     /// Message for the user who opened the file.
     fn on_opening(&self) -> String;
     /// Message for a picture that needs the file.
     fn picture_message(&self) -> String;
 }
 
-/// State of a file.
 #[derive(Debug)]
 pub enum FileState<T> {
-    /// It is being read.
     Loading,
-    /// It was read.
     Ready(Arc<T>),
     /// It gives no content: why, and what to do.
     Failed(String),
@@ -97,7 +96,6 @@ pub struct Opened<T> {
     pub result: Result<Arc<T>, String>,
 }
 
-/// The files that were requested.
 pub struct FileStore<T: FromFile> {
     monitor: Arc<Monitor<State<T>>>,
     executor: Executor,
@@ -134,12 +132,7 @@ impl<T: FromFile> Known<T> {
 }
 
 impl<T: FromFile> FileStore<T> {
-    /// Creates an empty store. `wake` is called when a file was read, from the thread that read it.
-    pub fn new(wake: impl Fn() + Send + Sync + 'static) -> Self {
-        Self::on(&Executor::default(), wake)
-    }
-
-    /// Reads files on an executor.
+    /// Creates an empty store. `wake` is called when something was read, from the thread that read it.
     pub fn on(executor: &Executor, wake: impl Fn() + Send + Sync + 'static) -> Self {
         let state = State { known: HashMap::new(), opening: None, opened: Vec::new(), clock: 0 };
         Self { monitor: Arc::new(Monitor::new(executor, state, wake)), executor: executor.clone() }
@@ -187,7 +180,6 @@ impl<T: FromFile> FileStore<T> {
         std::mem::take(&mut self.monitor.lock().opened)
     }
 
-    /// The file that is being opened.
     pub fn opening(&self) -> Option<PathBuf> {
         self.monitor.lock().opening.clone()
     }
@@ -231,7 +223,7 @@ impl<T: FromFile> FileStore<T> {
             monitor.tell();
         };
         if let Err(error) = self.executor.spawn(T::THREAD, work) {
-            let failure = T::Failure::io(file_name(path), error);
+            let failure = Unread::Io { file: file_name(path), error }.into();
             let stop = state.known_at(path).reading.clone().unwrap_or_default();
             state.take(path, &stop, Err(failure));
         }
@@ -286,7 +278,7 @@ impl<T: FromFile> State<T> {
         let path = self.opening.take()?;
         let known = self.known_at(&path);
         known.stop();
-        known.failure = Some(T::Failure::stopped(file_name(&path)).picture_message());
+        known.failure = Some(T::Failure::from(Unread::Stopped(file_name(&path))).picture_message());
         Some(path)
     }
 }
@@ -298,5 +290,5 @@ fn read_once<T: FromFile>(
     stop: &dyn Fn() -> bool,
 ) -> Result<Option<(T, T::Version)>, T::Failure> {
     let read = catch_unwind(AssertUnwindSafe(|| T::read_unless(path, unless, stop)));
-    read.unwrap_or_else(|_| Err(T::Failure::broken(file_name(path))))
+    read.unwrap_or_else(|_| Err(Unread::Broken(file_name(path)).into()))
 }

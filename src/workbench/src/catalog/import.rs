@@ -21,10 +21,8 @@ pub struct Imported {
     pub guessed: bool,
 }
 
-/// Origin of bytes.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Origin {
-    /// Name: a file's name, or `clipboard`.
     pub name: String,
     /// Path on disk, if there is one.
     pub path: Option<PathBuf>,

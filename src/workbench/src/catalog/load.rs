@@ -28,11 +28,7 @@ pub enum LoadError {
     Missing(&'static str),
     /// A built-in file is damaged.
     #[error("{path}: {error}")]
-    Damaged {
-        path: &'static str,
-        /// Cause.
-        error: DatasetError,
-    },
+    Damaged { path: &'static str, error: DatasetError },
     /// A light needs a curve.
     #[error("no curve found")]
     NoCurve,
@@ -50,7 +46,6 @@ pub enum LoadError {
     Daylight(#[from] DaylightError),
 }
 
-/// A built-in file, parsed.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct FileQuery(pub BuiltInFile);
 
@@ -63,7 +58,6 @@ impl Query for FileQuery {
     }
 }
 
-/// A file of the program by its path.
 fn asset(path: &'static str, ask: &impl Ask) -> Result<Dataset, LoadError> {
     let text = chromascope_data::text(path).ok_or(LoadError::Missing(path))?;
     (*ask.ask(&FileQuery(BuiltInFile { path, text }))).clone()
@@ -248,7 +242,6 @@ impl Query for StandardsQuery {
 /// A chart, or single reflectances; with names, only those patches in that order.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct PatchesQuery {
-    /// The set.
     pub place: Place,
     /// The selected patches; `None` for all.
     pub names: Option<&'static [&'static str]>,

@@ -9,23 +9,19 @@ use chromascope_core::query::Shared;
 use chromascope_mesh::Mesh;
 use chromascope_mesh::reading::{MeshReadError, Note, ReadMesh, read_mesh};
 
-use super::file_store::{FileFailure, FileState, FileStore, FromFile, Stamp};
+use super::file_store::{FileFailure, FileState, FileStore, FromFile, Stamp, Unread};
 use crate::document::render::MeshChoice;
 use crate::format::{capitalized, file_name, io_reason};
 
-/// The mesh files that were requested.
 pub type MeshStore = FileStore<LoadedMesh>;
-/// State of a mesh file.
 pub type MeshState = FileState<LoadedMesh>;
 
 /// The largest mesh file that is read, in bytes.
 pub const MAX_FILE_BYTES: u64 = 1_000_000_000;
 /// Number of bytes read between two checks of the stop signal.
 const CHUNK_BYTES: u64 = 4 << 20;
-/// Endings of mesh files.
 pub const ENDINGS: [&str; 3] = ["obj", "ply", "stl"];
 
-/// A mesh from a file.
 #[derive(Clone, Debug)]
 pub struct LoadedMesh {
     pub mesh: Shared<Mesh>,
@@ -70,48 +66,31 @@ impl MeshStore {
     }
 }
 
-/// Reason that a file gives no mesh.
 #[derive(Debug, thiserror::Error)]
 pub enum MeshFailure {
-    /// There is no such file.
     #[error("{file} is not in {folder}")]
     Missing {
-        /// The file's name.
         file: String,
         /// Folder that was searched.
         folder: String,
     },
     /// The system does not give it out.
     #[error("{file}: {}", io_reason(.error))]
-    Io {
-        /// The file's name.
-        file: String,
-        error: io::Error,
-    },
+    Io { file: String, error: io::Error },
     /// A folder or a device.
     #[error("{0} is not a file")]
     NoFile(String),
-    /// It exceeds the size limit.
     #[error(
         "{file}: {} MB, but the limit is {} MB; simplify the mesh or export a part of it",
         .bytes / 1_000_000,
         MAX_FILE_BYTES / 1_000_000
     )]
-    TooLarge {
-        /// The file's name.
-        file: String,
-        bytes: u64,
-    },
+    TooLarge { file: String, bytes: u64 },
     #[error("{file}: not enough memory for its {} MB; close other programs or simplify the mesh", .bytes / 1_000_000)]
-    NoMemory {
-        /// The file's name.
-        file: String,
-        bytes: u64,
-    },
+    NoMemory { file: String, bytes: u64 },
     /// Its contents make no mesh.
     #[error("{file}{}{error}", joint(.error))]
     Mesh {
-        /// The file's name.
         file: String,
         /// Cause, with its position.
         error: MeshReadError,
@@ -119,24 +98,21 @@ pub enum MeshFailure {
     /// The program broke on it.
     #[error("{0} could not be read because of an error in this program; please report it with the file")]
     Broken(String),
-    /// The read was canceled.
     #[error("reading {0} stopped")]
     Stopped(String),
 }
 
+impl From<Unread> for MeshFailure {
+    fn from(why: Unread) -> Self {
+        match why {
+            Unread::Io { file, error } => Self::Io { file, error },
+            Unread::Broken(file) => Self::Broken(file),
+            Unread::Stopped(file) => Self::Stopped(file),
+        }
+    }
+}
+
 impl FileFailure for MeshFailure {
-    fn io(file: String, error: io::Error) -> Self {
-        Self::Io { file, error }
-    }
-
-    fn broken(file: String) -> Self {
-        Self::Broken(file)
-    }
-
-    fn stopped(file: String) -> Self {
-        Self::Stopped(file)
-    }
-
     fn on_opening(&self) -> String {
         format!("{}. Nothing was changed.", self.beginning())
     }

@@ -4,12 +4,10 @@
 //! could be read or not, so that the user can see its text and its interpretation ([`Opened::look`]), change a setting, and see
 //! the effect.
 
-mod file;
 mod look;
 mod reading;
 
-pub use file::OpenFile;
-pub use look::{FilePreview, FilePreviewQuery};
+pub use look::{FilePreview, FilePreviewQuery, OpenFile};
 pub use reading::{Request, files_of};
 
 use std::collections::HashMap;
@@ -44,10 +42,8 @@ pub struct Failing {
     pub why: String,
 }
 
-/// Outcome of reading.
 #[derive(Debug)]
 pub enum OpenedEvent {
-    /// Sets were read.
     Read {
         /// The sets, each with its guesses.
         sets: Vec<Imported>,
@@ -74,7 +70,6 @@ pub enum OpenedEvent {
         old: Fingerprint,
         /// Fingerprint of the present contents.
         new: Fingerprint,
-        /// Path on disk.
         path: PathBuf,
     },
     /// A mesh is to be opened, which is not read yet.
@@ -87,7 +82,6 @@ pub enum OpenedEvent {
     Failed(String, Vec<Fingerprint>),
 }
 
-/// Reason that a set is read again.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Why {
     /// Its file changed on disk.
@@ -96,20 +90,16 @@ pub enum Why {
     Alike,
 }
 
-/// A reading that is going on.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Progress {
-    /// The file that is being read.
     pub name: String,
     /// Fraction done, 0 to 1.
     pub share: f32,
     /// Number of the file, from 1, and the count of files.
     pub file: [usize; 2],
-    /// Running time.
     pub time: Duration,
 }
 
-/// The files that were opened.
 pub struct Opened {
     monitor: Arc<Monitor>,
     look: Background<FilePreviewQuery>,
@@ -130,7 +120,6 @@ struct State {
     lost: Vec<Fingerprint>,
 }
 
-/// A thread that reads.
 struct Job {
     name: Mutex<String>,
     share: AtomicU32,
@@ -141,11 +130,6 @@ struct Job {
 
 impl Opened {
     /// Creates an empty store. `wake` is called when something was read, from the thread that read it.
-    pub fn new(wake: impl Fn() + Send + Sync + 'static) -> Self {
-        Self::on(&Executor::default(), wake)
-    }
-
-    /// Reads files on an executor.
     pub fn on(executor: &Executor, wake: impl Fn() + Send + Sync + 'static) -> Self {
         let wake: Arc<dyn Fn() + Send + Sync> = Arc::new(wake);
         let theirs = Arc::clone(&wake);
@@ -198,7 +182,6 @@ impl Opened {
         }
     }
 
-    /// The files on disk that could not be read.
     pub fn failing(&self) -> Vec<Failing> {
         let state = self.monitor.lock();
         let failing = state.files.iter().filter_map(|file| {
@@ -245,7 +228,6 @@ impl Opened {
         self.monitor.lock().file(fingerprint).cloned()
     }
 
-    /// Forgets a file.
     pub fn forget(&self, fingerprint: Fingerprint) {
         self.monitor.lock().files.retain(|file| file.origin.fingerprint != fingerprint);
     }
@@ -284,7 +266,6 @@ impl Opened {
         self.look.shown().map(|shown| shown.answer)
     }
 
-    /// Running time of [`look`](Self::look).
     pub fn looking(&self) -> Option<Duration> {
         self.look.busy()
     }

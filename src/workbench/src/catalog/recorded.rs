@@ -58,27 +58,16 @@ pub enum RawTableError {
     Empty,
     /// The heads do not name the three channels.
     #[error("line {line}: no columns R, G and B; head the columns of raw values so")]
-    Heads {
-        /// The line, from 1.
-        line: usize,
-    },
+    Heads { line: usize },
     /// A row that is shorter than its heads.
     #[error("line {line}: {found} cells for {expected} heads")]
-    Cells {
-        /// The line, from 1.
-        line: usize,
-        found: usize,
-        /// Number of heads.
-        expected: usize,
-    },
+    Cells { line: usize, found: usize, expected: usize },
     /// A cell that is not a number.
     #[error("line {line}, column {column}: \"{text}\" is not a number; leave a missing value empty")]
     Number {
-        /// The line, from 1.
         line: usize,
         /// The column, from 1.
         column: usize,
-        /// The cell, shortened.
         text: String,
     },
     /// Too many rows.
@@ -100,21 +89,12 @@ pub enum JoinError {
     },
     /// A name that occurs twice.
     #[error("line {line}: \"{name}\" was named before; name each patch once")]
-    Twice {
-        /// The line, from 1.
-        line: usize,
-        name: String,
-    },
+    Twice { line: usize, name: String },
     /// Rows without names, and another number of spectra.
     #[error(
         "{rows} rows of raw values for {spectra} spectra; name the patches in a first column, or give one row for each spectrum"
     )]
-    Count {
-        /// Number of rows.
-        rows: usize,
-        /// Number of spectra.
-        spectra: usize,
-    },
+    Count { rows: usize, spectra: usize },
 }
 
 /// `S L`.
@@ -126,12 +106,10 @@ pub fn lit(reflectance: &GridSpectrum, light: &GridSpectrum) -> GridSpectrum {
     })
 }
 
-/// Separator of cells.
 fn delimiter(line: &str) -> char {
     [',', ';', '\t'].into_iter().max_by_key(|c| line.matches(*c).count()).unwrap_or(',')
 }
 
-/// Cells of a line, quotes taken away.
 fn cells(line: &str, delimiter: char) -> Vec<String> {
     let mut cells = vec![String::new()];
     let mut quoted = false;

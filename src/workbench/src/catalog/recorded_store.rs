@@ -1,7 +1,7 @@
 //! Files of recorded raw values.
 
 use std::fs::File;
-use std::io::{self, Read as _};
+use std::io::Read as _;
 use std::path::Path;
 
 use chromascope_core::camera::chart_grid::ChartGrid;
@@ -11,13 +11,12 @@ use chromascope_figure::Image;
 use spectral_file::{Certainty, ReadOptions, Role};
 
 use super::chart_picture::ChartPicture;
-use super::file_store::{FileFailure, FileStore, FromFile};
+use super::file_store::{FileFailure, FileStore, FromFile, Unread};
 use super::recorded::{self, Levels, RawRow};
 use crate::format::{file_name, io_reason};
 
 /// Endings of pictures of charts.
 pub const PICTURES: [&str; 3] = ["tif", "tiff", "png"];
-/// Most bytes of a file.
 const MAX_BYTES: u64 = 1 << 30;
 /// Longest side of a picture as it is shown.
 const SHOWN: usize = 1024;
@@ -31,7 +30,6 @@ pub struct TableSpectra {
     pub are_radiances: bool,
 }
 
-/// Contents of a file of recorded values.
 #[derive(Debug)]
 pub enum RecordedContent {
     /// A table, with spectra or without.
@@ -40,14 +38,12 @@ pub enum RecordedContent {
     Picture(ChartPicture, Image),
 }
 
-/// A file of recorded values.
 #[derive(Debug)]
 pub struct RecordedFile {
     pub name: String,
     pub content: RecordedContent,
 }
 
-/// The files of recorded values that were requested.
 pub type RecordedStore = FileStore<RecordedFile>;
 
 impl FromFile for RecordedFile {
@@ -76,19 +72,13 @@ impl FromFile for RecordedFile {
 #[error("{0}")]
 pub struct RecordedFailure(String);
 
+impl From<Unread> for RecordedFailure {
+    fn from(why: Unread) -> Self {
+        Self(why.to_string())
+    }
+}
+
 impl FileFailure for RecordedFailure {
-    fn io(file: String, error: io::Error) -> Self {
-        Self(format!("{file}: {}", io_reason(&error)))
-    }
-
-    fn broken(file: String) -> Self {
-        Self(format!("{file} could not be read because of an error in this program; please report it with the file"))
-    }
-
-    fn stopped(file: String) -> Self {
-        Self(format!("Reading {file} stopped"))
-    }
-
     fn on_opening(&self) -> String {
         self.0.clone()
     }
@@ -121,7 +111,6 @@ fn read(path: &Path) -> Result<RecordedFile, String> {
     Ok(RecordedFile { name, content })
 }
 
-/// Spectra in the file of the raw values.
 fn spectra(text: &str) -> Result<TableSpectra, String> {
     let read = |role: Option<Role>| {
         let options = ReadOptions { role, ..ReadOptions::default() };

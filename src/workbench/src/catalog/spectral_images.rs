@@ -10,7 +10,7 @@ use std::sync::atomic::{AtomicU32, Ordering};
 use chromascope_core::render::{BandWeights, LitSamples, SpectralImageError, SpectralImageSignals, Stop};
 use spectral_image::{EnviHeader, EnviImage, ExrImage, ImageError, ImageInfo, ImageQuantity, SpectralImage};
 
-use super::file_store::{FileFailure, FileState, FileStore, FromFile, Stamp};
+use super::file_store::{FileFailure, FileState, FileStore, FromFile, Stamp, Unread};
 use crate::document::render::MeshChoice;
 use crate::format::{file_name, io_reason};
 
@@ -29,23 +29,14 @@ const DATA: [&str; 9] = ["img", "dat", "raw", "bil", "bip", "bsq", "bin", "cube"
 /// Reason that a spectral image cannot be opened, with its file.
 #[derive(Debug, thiserror::Error)]
 pub enum OpenImageError {
-    /// The file cannot be read.
     #[error("{}: {}", path.display(), crate::format::io_reason(error))]
     Io { path: PathBuf, error: io::Error },
     /// A header without its data file.
     #[error("{}: no data beside this header; expected {} or that name with .img, .dat, .bil, .bip or .bsq", header.display(), data.display())]
-    NoData {
-        header: PathBuf,
-        /// The data's name.
-        data: PathBuf,
-    },
+    NoData { header: PathBuf, data: PathBuf },
     /// Data without its header file.
     #[error("{}: no header beside these data; expected {}", data.display(), header.display())]
-    NoHeader {
-        data: PathBuf,
-        /// The header's name.
-        header: PathBuf,
-    },
+    NoHeader { data: PathBuf, header: PathBuf },
     /// The file is no spectral image.
     #[error("{}: {error}", path.display())]
     Image { path: PathBuf, error: ImageError },
@@ -134,7 +125,6 @@ fn data_of(header: &Path) -> Result<PathBuf, OpenImageError> {
 pub struct RowsRead(Arc<AtomicU32>);
 
 impl RowsRead {
-    /// Share, from 0 to 1.
     pub fn share(&self) -> f32 {
         f32::from_bits(self.0.load(Ordering::Relaxed))
     }
@@ -170,7 +160,6 @@ pub struct ImageSource {
 /// Header of a spectral image; its samples stay on disk.
 #[derive(Clone, Debug)]
 pub struct LoadedImage {
-    /// The files.
     pub source: ImageSource,
     /// Size, bands, quantity.
     pub info: ImageInfo,
@@ -186,9 +175,7 @@ impl LoadedImage {
     }
 }
 
-/// The spectral images that were requested.
 pub type ImageStore = FileStore<LoadedImage>;
-/// State of a spectral image.
 pub type ImageState = FileState<LoadedImage>;
 
 /// Reads header and state of an image.
@@ -213,7 +200,6 @@ pub fn load(path: &Path) -> Result<LoadedImage, OpenImageError> {
     Ok(LoadedImage { source: ImageSource { path: path.to_owned(), version, rows: RowsRead::default() }, info, summary })
 }
 
-/// States of header and data.
 fn version(path: &Path) -> Result<[Stamp; 2], OpenImageError> {
     let stamp = |path: &Path| {
         let file = fs::metadata(path).map_err(|error| OpenImageError::Io { path: path.to_owned(), error })?;
@@ -288,19 +274,13 @@ impl ImageFailure {
     }
 }
 
+impl From<Unread> for ImageFailure {
+    fn from(why: Unread) -> Self {
+        Self(why.to_string())
+    }
+}
+
 impl FileFailure for ImageFailure {
-    fn io(file: String, error: io::Error) -> Self {
-        Self(format!("{file}: {}", io_reason(&error)))
-    }
-
-    fn broken(file: String) -> Self {
-        Self(format!("{file} could not be read because of an error in this program; please report it with the file"))
-    }
-
-    fn stopped(file: String) -> Self {
-        Self(format!("Reading {file} stopped"))
-    }
-
     fn on_opening(&self) -> String {
         format!("{self}. Nothing was changed.")
     }
@@ -313,16 +293,13 @@ impl FileFailure for ImageFailure {
 /// Reason that an image has no signals.
 #[derive(Debug, thiserror::Error)]
 pub enum ReadSignalsError {
-    /// The image cannot be opened.
     #[error(transparent)]
     Open(#[from] OpenImageError),
-    /// The image cannot be read.
     #[error(transparent)]
     Read(#[from] ImageError),
     /// The image cannot be put through cameras.
     #[error(transparent)]
     Image(#[from] SpectralImageError),
-    /// Too many pixels.
     #[error("{0} million pixels; the limit is {limit} million, so cut or bin the image", limit = MOST_PIXELS / 1_000_000)]
     Pixels(usize),
     /// No pixel has a value.
@@ -331,7 +308,6 @@ pub enum ReadSignalsError {
     /// The image is another now.
     #[error("the file changed while it was visible; open it again")]
     Changed,
-    /// Interrupted.
     #[error("stopped")]
     Stopped,
 }
@@ -339,9 +315,7 @@ pub enum ReadSignalsError {
 /// Signals of sensors at the pixels of an image that have values.
 #[derive(Clone, Debug)]
 pub struct ReadSignals {
-    /// Pixels with values.
     pub placed: Arc<LitSamples>,
-    /// Signals of each sensor there.
     pub signals: Vec<Vec<[f32; 3]>>,
     /// Maximum bytes of samples in memory.
     pub tile_bytes: usize,

@@ -12,7 +12,6 @@ pub use spectral_file::{ReadOptions, Role, WavelengthUnit};
 /// One curve, as it was read: in the units that [`ImportedSet::read_as`] says.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ImportedCurve {
-    /// Its column's name.
     pub name: String,
     /// Wavelengths, ascending, in nanometers if the unit was decided right.
     #[serde(deserialize_with = "numbers")]
@@ -62,7 +61,6 @@ pub struct ReadAs {
     pub percent: bool,
 }
 
-/// One of the user's sets.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ImportedSet {
     /// Its name, unique among sets of its kind.

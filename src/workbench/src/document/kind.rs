@@ -23,7 +23,6 @@ pub enum SetKind {
     Unsorted,
 }
 
-/// A sensor by kind and name.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct SensorId {
     pub kind: SetKind,
@@ -69,7 +68,6 @@ impl SetKind {
         }
     }
 
-    /// One of them.
     pub const fn singular(self) -> &'static str {
         match self {
             Self::Camera => "camera",

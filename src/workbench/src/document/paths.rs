@@ -6,7 +6,6 @@ use std::path::{Path, PathBuf};
 use serde::de::{Deserialize, Deserializer, Error, SeqAccess, Visitor};
 use serde::ser::{Serialize, Serializer};
 
-/// A path for writing.
 struct Written<'a>(&'a Path);
 
 /// A path as it was read.
@@ -71,41 +70,33 @@ fn of_bytes(bytes: Vec<u8>) -> PathBuf {
     String::from_utf8_lossy(&bytes).into_owned().into()
 }
 
-/// Saves a path.
 pub fn serialize<S: Serializer>(path: &Path, serializer: S) -> Result<S::Ok, S::Error> {
     Written(path).serialize(serializer)
 }
 
-/// Reads a path.
 pub fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<PathBuf, D::Error> {
     Ok(Read::deserialize(from)?.0)
 }
 
-/// Optional paths.
 pub mod option {
     use super::{Deserialize, Deserializer, PathBuf, Read, Serialize, Serializer, Written};
 
-    /// Saves a path, if there is one.
     pub fn serialize<S: Serializer>(path: &Option<PathBuf>, serializer: S) -> Result<S::Ok, S::Error> {
         path.as_deref().map(Written).serialize(serializer)
     }
 
-    /// Reads a path, if there is one.
     pub fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<Option<PathBuf>, D::Error> {
         Ok(Option::<Read>::deserialize(from)?.map(|read| read.0))
     }
 }
 
-/// Lists of paths.
 pub mod list {
     use super::{Deserialize, Deserializer, PathBuf, Read, Serializer, Written};
 
-    /// Saves paths.
     pub fn serialize<S: Serializer>(paths: &[PathBuf], serializer: S) -> Result<S::Ok, S::Error> {
         serializer.collect_seq(paths.iter().map(|path| Written(path)))
     }
 
-    /// Reads paths.
     pub fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<PathBuf>, D::Error> {
         Ok(Vec::<Read>::deserialize(from)?.into_iter().map(|read| read.0).collect())
     }

@@ -17,7 +17,6 @@ pub const ENDING: &str = "chromascope";
 /// Key of the view in a session file.
 const VIEW: &str = "view";
 
-/// Reason that a saved document cannot be opened.
 #[derive(Debug, thiserror::Error)]
 pub enum SessionError {
     /// It is no JSON, or JSON of another shape.
@@ -241,7 +240,6 @@ fn renew(value: &mut Value, own: &[ImportedSet]) -> Result<(), SessionError> {
     Ok(())
 }
 
-/// The name that a record has.
 fn name(record: &Value) -> Option<String> {
     record.get("name")?.as_str().map(str::to_owned)
 }

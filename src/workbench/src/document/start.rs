@@ -5,7 +5,6 @@ use super::render::{GARMENT, model::SpecularChoice};
 use super::{CHART, CIE_1931, Document, Light, PAPER_REFERENCE, Subset, TransformChoice};
 use serde::{Deserialize, Serialize};
 
-/// A named start.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize, clap::ValueEnum)]
 #[serde(rename_all = "kebab-case")]
 pub enum Start {

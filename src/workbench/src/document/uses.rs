@@ -14,7 +14,6 @@ pub const PLACES: usize = 8;
 /// Holder of a name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Holder {
-    /// Another own set.
     Own,
     /// A built-in set of the same kind.
     BuiltIn,

@@ -90,12 +90,10 @@ impl Executor {
         self.run_first(|_| true)
     }
 
-    /// Runs until nothing is queued.
     pub fn run_all(&self) {
         while self.run_next() {}
     }
 
-    /// Moves the clock on.
     pub fn advance(&self, by: Duration) {
         if let Some(driven) = &self.driven {
             driven.clock.fetch_add(u64::try_from(by.as_nanos()).unwrap_or(u64::MAX), Ordering::Relaxed);

@@ -9,7 +9,6 @@ pub type Bench = fn(&[Workload], Effort, &Stop, &mut dyn FnMut(Progress<'_>)) ->
 /// The command that runs the program with the benchmark.
 pub const BUILD: &str = "cargo run --release --features bench";
 
-/// Returns the benchmark.
 #[cfg(feature = "bench")]
 pub fn bench() -> Option<Bench> {
     Some(chromascope_measure::run)

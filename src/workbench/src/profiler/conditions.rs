@@ -19,7 +19,6 @@ pub struct Conditions {
     pub sensors: usize,
     /// The processor, its threads, its instruction set.
     pub machine: String,
-    /// The program and its version.
     pub program: String,
     /// Start time in UTC, as `2026-11-21T18:05:11Z`.
     pub began: String,
@@ -114,7 +113,6 @@ impl Subject {
     }
 }
 
-/// Description of the rendered scene.
 pub(super) fn words(scene: &Scene<'_>, sources: usize) -> String {
     let settings = &scene.document.render;
     let sigma = match settings.roughness.roughness() {

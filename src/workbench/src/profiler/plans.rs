@@ -66,7 +66,6 @@ impl Query for PlansQuery {
 pub struct Planned {
     /// The plan of the diffuse integral; none where no sample takes one.
     pub explanation: Option<Explanation>,
-    /// Estimated error bounds of the samples.
     pub bounds: ErrorBounds,
 }
 

@@ -11,26 +11,21 @@ use chromascope_core::render::{LitSamples, Picture};
 
 use crate::scene::spectral_image::{ImagePictures, ImagePicturesError, ImagePicturesQuery};
 
-/// Query for pictures side by side.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub enum PicturesOf {
     Mesh(PicturesQuery),
-    /// Of a spectral image.
     Image(ImagePicturesQuery),
 }
 
 impl PicturesOf {
-    /// The query, if it is of a mesh.
     pub fn mesh(&self) -> Option<&PicturesQuery> {
         if let Self::Mesh(query) = self { Some(query) } else { None }
     }
 
-    /// The query, if it is of a spectral image.
     pub fn image(&self) -> Option<&ImagePicturesQuery> {
         if let Self::Image(query) = self { Some(query) } else { None }
     }
 
-    /// Metric of the differences.
     pub fn metric(&self) -> Metric {
         match self {
             Self::Mesh(query) => query.metric,
@@ -58,7 +53,6 @@ impl PicturesOf {
         (0..).map_while(|index| self.rendering(index)).position(|rendering| rendering == self.reference())
     }
 
-    /// Exposure in EV.
     pub fn ev(&self) -> f64 {
         f64::from_bits(match self {
             Self::Mesh(query) => query.ev,
@@ -91,10 +85,8 @@ impl PicturesOf {
     }
 }
 
-/// Reason that there are no pictures.
 #[derive(Clone, Debug, thiserror::Error)]
 pub enum NoPictures {
-    /// Making them was stopped.
     #[error("rendering was stopped")]
     Stopped,
     /// A color cannot be computed.
@@ -155,12 +147,10 @@ enum Made<'a> {
 }
 
 impl<'a> MadePictures<'a> {
-    /// The pictures, if they are of a mesh.
     pub fn mesh(self) -> Option<&'a Pictures> {
         if let Made::Mesh(made) = self.of { Some(made) } else { None }
     }
 
-    /// The pictures, if they are of a spectral image.
     pub fn image(self) -> Option<&'a ImagePictures> {
         if let Made::Image(made) = self.of { Some(made) } else { None }
     }

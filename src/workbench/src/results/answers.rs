@@ -17,7 +17,6 @@ const GLANCE: Duration = Duration::from_millis(5);
 
 /// Type-erased answers of one kind of query.
 pub(super) trait Kind: Any + Send + Sync {
-    /// The kind's name and counters.
     fn count(&self) -> (&'static str, Count);
 }
 

@@ -47,7 +47,6 @@ pub struct LightSheetQuery {
 
 /// Indices of a light, and the consistency of cameras under it.
 pub struct LightSheet {
-    /// The indices.
     pub rendition: Result<Arc<Rendition>, SceneError>,
     /// Consistency of each camera of the question.
     pub cameras: Vec<Result<Consistency, NoConsistency>>,

@@ -133,7 +133,6 @@ pub enum RankedCameras {
     Yours,
 }
 
-/// A camera to be ranked.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct RankedCamera {
     pub id: SensorId,
@@ -141,7 +140,6 @@ pub struct RankedCamera {
     query: Result<CatalogMetricsQuery, String>,
 }
 
-/// Cameras with their figures of merit.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Ranked {
     pub cameras: Vec<RankedCamera>,
@@ -262,13 +260,9 @@ pub struct SetPlace {
 /// Question for metamers among sets of the catalog, which are loaded where it is answered.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct CatalogMetamersQuery {
-    /// The camera.
     pub rendering: RenderingQuery,
-    /// The reference observer.
     pub reference: RenderingQuery,
-    /// The sets that are searched.
     pub sets: Vec<SetPlace>,
-    /// The one that confuses.
     pub confusion: Confusion,
 }
 
@@ -440,7 +434,6 @@ impl Scene<'_> {
         own.chain(built_in).map(move |(name, place)| SetPlace { kind, name, place })
     }
 
-    /// Observer, light and patches of the sensitivity metamerism index.
     fn index_conditions(&self) -> Result<IndexConditions, SceneError> {
         let light = self.entry(SetKind::Illuminant, INDEX_LIGHT)?;
         Ok(IndexConditions {

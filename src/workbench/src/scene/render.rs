@@ -18,7 +18,6 @@ use crate::document::{SetKind, WhiteBalanceChoice};
 pub struct Finish {
     /// Pixels and samples.
     pub size: RasterSize,
-    /// Quality of the spectral integration.
     pub quality: Quality,
     /// Sampling of shadows, where there are any.
     pub shadows: Shadows,

@@ -37,12 +37,10 @@ pub enum ImagePicturesError {
     /// The image cannot be read.
     #[error(transparent)]
     Read(#[from] ReadSignalsError),
-    /// The file does not state what its samples are.
     #[error("the file does not state whether its samples are reflectances or radiances")]
     Quantity,
 }
 
-/// Use of a spectral image.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ImageUse {
     /// Quantity of the samples, overriding the file's.
@@ -69,12 +67,10 @@ pub struct ImageSignalsQuery {
     sensors: Vec<(Shared<Sensor>, [u64; 3])>,
 }
 
-/// Signals of an image.
 #[derive(Clone, Debug)]
 pub struct ImageSignals {
     /// Signals of each sensor at the pixels with values.
     pub read: ReadSignals,
-    /// Quantity of the samples.
     pub quantity: ImageQuantity,
     pub info: ImageInfo,
 }
@@ -124,13 +120,11 @@ pub struct ImagePicturesQuery {
     pub reference: RenderingQuery,
     /// The sensors, and whether each is compared with the reference.
     pub sources: Vec<(RenderingQuery, bool)>,
-    /// Metric of the differences.
     pub metric: Metric,
     /// Exposure in EV, as bits.
     pub ev: u64,
 }
 
-/// A spectral image through several sensors.
 #[derive(Clone, Debug)]
 pub struct ImagePictures {
     /// Pictures, or the reasons that there are none.

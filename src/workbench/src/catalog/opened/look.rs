@@ -1,4 +1,4 @@
-//! Preview of a file: curves and annotated text.
+//! A file's contents, and their preview: curves and annotated text.
 
 use std::hash::{Hash, Hasher};
 use std::sync::Arc;
@@ -6,7 +6,6 @@ use std::sync::Arc;
 use chromascope_core::query::{Ask, Query};
 use spectral_file::{Marker, Preview, ReadError, ReadOptions, SpectralFile, Watch};
 
-use super::file::OpenFile;
 use crate::catalog::import::Origin;
 use crate::document::imported::Fingerprint;
 
@@ -31,6 +30,14 @@ impl Hash for Contents {
     }
 }
 
+#[derive(Clone, Debug)]
+pub struct OpenFile {
+    pub origin: Origin,
+    pub bytes: Arc<[u8]>,
+    /// Reason that it could not be read, as a message with its name.
+    pub failure: Option<String>,
+}
+
 /// Query for the curves, the text and the marks of a file that is read with these switches.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct FilePreviewQuery {
@@ -39,7 +46,6 @@ pub struct FilePreviewQuery {
 }
 
 impl FilePreviewQuery {
-    /// Of a file, read with switches.
     pub fn new(file: &OpenFile, options: &ReadOptions) -> Self {
         let contents = Contents { origin: file.origin.clone(), bytes: Arc::clone(&file.bytes) };
         Self { contents, options: options.clone() }
@@ -54,7 +60,6 @@ pub struct FilePreview {
     pub options: ReadOptions,
     /// Its text, where it is text.
     pub preview: Result<Arc<Preview>, ReadError>,
-    /// The curves.
     pub table: Result<Arc<SpectralFile>, ReadError>,
     /// Their places in the text.
     pub marker: Option<Marker>,
@@ -85,7 +90,6 @@ impl Query for FilePreviewQuery {
     }
 }
 
-/// Query for the lines of a file.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 struct PreviewQuery {
     contents: Contents,

@@ -36,7 +36,6 @@ pub enum Request {
     Known(Fingerprint, Box<ImportOverrides>),
 }
 
-/// Outcome for several files.
 #[derive(Default)]
 struct Harvest {
     sets: Vec<Imported>,
@@ -145,11 +144,9 @@ pub fn files_of(folder: &Path) -> io::Result<Vec<PathBuf>> {
 /// Reason for missing bytes.
 enum Unread {
     Mesh(PathBuf),
-    /// It is a spectral image.
     Image(PathBuf),
     /// It is a document of this program.
     Document(PathBuf),
-    /// A sentence.
     Because(String),
 }
 
