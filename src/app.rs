@@ -1,15 +1,13 @@
 //! The window: handles events, runs commands and shows panes.
 
-mod closing;
+mod changes;
 mod commands;
 mod focus;
 mod frame;
-mod imports;
 mod layout;
 mod meshes;
-mod notice;
+mod opening;
 mod path_prompt;
-mod pictures;
 mod report;
 mod saving;
 mod session;
@@ -73,7 +71,7 @@ pub struct ChromascopeApp {
     first_frame: Option<std::time::Instant>,
     /// The control that had the keyboard in the last frame.
     focus: Option<egui::Id>,
-    closing: closing::Closing,
+    closing: session::Closing,
     session: session::SessionState,
     /// What the user had before the tour.
     interrupted: Option<tour::Interrupted>,
@@ -133,7 +131,7 @@ impl ChromascopeApp {
             arrangement: Arrangement::default(),
             first_frame: None,
             focus: None,
-            closing: closing::Closing::default(),
+            closing: session::Closing::default(),
             session: session::SessionState::default(),
             interrupted: None,
             report: Background::on(executor, "report", repaint()),

@@ -8,14 +8,11 @@ pub mod imported;
 pub mod kind;
 pub mod names;
 pub mod paths;
-pub mod pixel;
 pub mod render;
-pub mod saved;
 pub mod session;
 pub mod start;
-pub mod unknown;
-pub mod uses;
 
+use chromascope_core::camera::quality::{Electrons, ElectronsError};
 use chromascope_core::colorimetry::Metric;
 use chromascope_core::query::Shared;
 use correction::CorrectionChoice;
@@ -23,7 +20,6 @@ pub use correction::TRAINING;
 use imported::ImportedSet;
 pub use imported::SessionFile;
 pub use kind::SetKind;
-use pixel::Pixel;
 use render::RenderSettings;
 use serde::{Deserialize, Serialize};
 use start::Start;
@@ -35,9 +31,7 @@ pub const VERSION: u32 = 4;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Document {
-    /// Name of the program that wrote the document: `chromascope`.
     pub format: String,
-    /// The version of this form.
     pub version: u32,
     /// The start configuration that it was made from, to which a reset returns.
     pub start: Start,
@@ -45,7 +39,6 @@ pub struct Document {
     pub compared: Vec<Compared>,
     /// The observer that the others are compared to.
     pub reference: String,
-    /// The light on the scene.
     pub light: Light,
     /// The filters in front of the light, in the order they were added; the order changes no number.
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -55,9 +48,7 @@ pub struct Document {
     /// Full well and read noise of the cameras, where they are given: for their signal-to-noise ratio.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pixel: Option<Pixel>,
-    /// The patches.
     pub chart: String,
-    /// Subset of the chart's patches.
     pub subset: Subset,
     /// The color a perfect white is to take.
     pub white: WhiteBalanceChoice,
@@ -69,9 +60,7 @@ pub struct Document {
     /// Metric of the differences from the reference.
     #[serde(with = "metric_id")]
     pub difference: Metric,
-    /// The diagram's coordinates.
     pub diagram: Diagram,
-    /// Optional overlays of the chromaticity diagram.
     pub overlays: Overlays,
     /// Mesh, material and view of the Render pane.
     pub render: RenderSettings,
@@ -86,12 +75,9 @@ pub struct Document {
     pub unknown: serde_json::Map<String, serde_json::Value>,
 }
 
-/// A compared camera or observer.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Compared {
-    /// Its name in the catalog.
     pub name: String,
-    /// Camera or observer.
     pub kind: SetKind,
     /// Its place in the palette, constant while it is compared.
     pub slot: u8,
@@ -107,7 +93,6 @@ fn yes() -> bool {
     true
 }
 
-/// The light on the scene.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Light {
@@ -118,7 +103,6 @@ pub enum Light {
     Daylight,
 }
 
-/// Number of patches of a chart.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Subset {
@@ -184,7 +168,6 @@ impl TransformChoice {
     }
 }
 
-/// A metric by its id.
 mod metric_id {
     use chromascope_core::colorimetry::Metric;
     use serde::{Deserialize as _, Deserializer, Serializer, de::Error as _};
@@ -199,7 +182,6 @@ mod metric_id {
     }
 }
 
-/// The diagram's coordinates.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Diagram {
@@ -215,23 +197,17 @@ pub enum Diagram {
 #[serde(default)]
 #[expect(clippy::struct_excessive_bools, reason = "independent switches of one menu")]
 pub struct Overlays {
-    /// Planckian loci.
     pub loci: bool,
     /// Patches with their tails.
     pub patches: bool,
     /// Each camera's response to monochromatic light.
     pub camera_spectral_loci: bool,
-    /// The daylight locus.
     pub daylight: bool,
     /// Standard whites and the light.
     pub whites: bool,
-    /// Lines of equal correlated color temperature.
     pub isotherms: bool,
-    /// The outline of sRGB.
     pub srgb: bool,
-    /// The outline of DCI-P3.
     pub dci_p3: bool,
-    /// The outline of Rec. 2020.
     pub rec2020: bool,
 }
 
@@ -268,13 +244,38 @@ impl Default for Overlays {
     }
 }
 
-/// The name of the paper's reference observer.
+/// A pixel's full-well capacity and read noise: with them a camera's signal-to-noise ratio has a value.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub struct Pixel {
+    /// In electrons.
+    pub full_well: f64,
+    /// RMS, in electrons.
+    #[serde(default)]
+    pub read_noise: f64,
+}
+
+impl Pixel {
+    pub const LARGEST: f64 = 1e9;
+
+    /// The pixel as the core takes it.
+    ///
+    /// # Errors
+    ///
+    /// [`ElectronsError`] for numbers that describe no pixel.
+    pub fn electrons(self) -> Result<Electrons, ElectronsError> {
+        Electrons::new(self.full_well, self.read_noise)
+    }
+
+    pub fn describe(self) -> String {
+        format!("full well {} electrons, read noise {} electrons", self.full_well, self.read_noise)
+    }
+}
+
 pub const PAPER_REFERENCE: &str = "Stiles & Burch 1955 2°";
 /// The observer that matrices are fitted to unless the user says otherwise.
 pub const FIT_TARGET: &str = CIE_1931;
-/// The CIE 1931 2° standard observer.
 pub const CIE_1931: &str = "CIE 1931 2°";
-/// Default chart.
 pub const CHART: &str = "ColorChecker 24 (Ohta 1997)";
 /// Name of the paper's five patches of the default chart, on the command line and in files.
 pub const FIVE: &str = "ColorChecker five";
@@ -339,7 +340,6 @@ impl Document {
         self.compared.push(Compared { name: name.to_owned(), kind, slot, visible: true, label: None });
     }
 
-    /// The compared sensor of this name.
     pub fn compared(&self, kind: SetKind, name: &str) -> Option<&Compared> {
         self.compared.iter().find(|c| c.kind == kind && c.name == name)
     }
@@ -379,7 +379,6 @@ impl Document {
         (!matches!(self.light, Light::Set(_))).then_some(self.temperature_k)
     }
 
-    /// True if a sensor is the reference.
     pub fn is_reference(&self, compared: &Compared) -> bool {
         compared.kind == SetKind::Observer && compared.name == self.reference
     }

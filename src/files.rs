@@ -1,22 +1,18 @@
-//! File input and output: dialogs, reading, atomic writing, the document saved between runs.
+//! All that lies on disk: dialogs, reading, atomic writing, sessions, the document saved between runs.
 //!
 //! Dialogs, reads and writes run on their own threads and return through [`Files::poll`]; the window never waits.
 
 mod asking;
 mod atomic;
+mod autosave;
+mod between_runs;
 mod dialogs;
+mod document_file;
 mod event;
-mod keep;
-mod last;
+mod folder;
 mod motion;
-mod persistent;
-mod profile;
-mod prompt;
-mod save;
-mod saved;
-mod sessions;
-mod shared_state;
-mod store;
+mod request;
+mod session_file;
 mod watch;
 
 use std::path::PathBuf;
@@ -28,20 +24,18 @@ use crate::jobs::Executor;
 use event::Note;
 
 pub use atomic::{write_atomically, write_atomically_with};
+pub use autosave::{install_panic_hook, save_on_exit, save_on_signals};
+pub use between_runs::{PersistentMessage, PersistentMessageKind};
 pub use dialogs::{Answer, DialogLog, Dialogs, Question};
 pub use event::{DocumentSource, FileEvent, OpenedDocument, SavedFile};
-pub use last::{install_panic_hook, save_last, save_on_exit, save_on_signals};
 pub use motion::reduces_motion;
-pub use persistent::{PersistentMessage, PersistentMessageKind};
-pub use profile::Copy;
-pub use prompt::PathPrompt;
-pub use save::{FileForm, MakeText, SaveRequest};
+pub use request::{FileForm, MakeBytes, PathPrompt, SaveRequest};
 
 /// The only part of the window that touches the disk.
 pub struct Files {
     sender: Sender<Note>,
     receiver: Receiver<Note>,
-    keeper: keep::Keeper,
+    autosave: autosave::Autosave,
     prompt: Option<PathPrompt>,
     /// The system's dialogs; none where paths are requested in the window alone.
     dialogs: Option<Arc<dyn Dialogs>>,
@@ -54,7 +48,7 @@ pub struct Files {
     home: Option<PathBuf>,
     wake: Option<egui::Context>,
     watch: watch::Watch,
-    standing: persistent::Notices,
+    standing: between_runs::Notices,
     /// The layout as it was written last.
     layout: Option<String>,
 }
@@ -72,7 +66,7 @@ impl Files {
         Self {
             sender,
             receiver,
-            keeper: keep::Keeper::new(executor, folder),
+            autosave: autosave::Autosave::new(executor, folder),
             prompt: None,
             dialogs: Some(Arc::new(dialogs::System)),
             waiting: None,
@@ -82,7 +76,7 @@ impl Files {
             home: std::env::home_dir(),
             wake: None,
             watch: watch::Watch::new(None),
-            standing: persistent::Notices::default(),
+            standing: between_runs::Notices::default(),
             layout: None,
         }
     }

@@ -9,10 +9,8 @@ use super::{ChromascopeApp, LAYOUT_KEY};
 
 /// eframe's key of the window's place and size.
 pub(super) const WINDOW_KEY: &str = "window";
-/// eframe's key of egui's memory.
 const MEMORY_KEY: &str = "egui";
 
-/// Values to be written.
 #[derive(Default)]
 struct Values(BTreeMap<String, String>);
 
@@ -39,7 +37,6 @@ struct Seen {
     fills: [Option<bool>; 2],
 }
 
-/// Position and size of the window.
 #[derive(Default)]
 pub(super) struct WindowPlace {
     settings: Option<WindowSettings>,

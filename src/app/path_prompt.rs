@@ -14,7 +14,6 @@ const ROWS: f32 = 5.0;
 enum Step {
     /// The path is taken.
     Take,
-    /// The path is completed.
     Complete,
 }
 

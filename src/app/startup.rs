@@ -10,14 +10,11 @@ use crate::action::history::History;
 use crate::files::{self, Files};
 use crate::view::SavedView;
 
-/// The program's name in the system: folders, window class.
 const APP_ID: &str = "chromascope";
 
-/// What there is without a window.
 const WITHOUT: &str = "Without a window, `chromascope locus`, `patches`, `compare`, `light`, `matrix`, `figure`, `report`, `render`, \
                        `identify`, `inspect`, `bench` and `list` do the same.";
 
-/// Reason that the window did not open.
 #[derive(Debug, thiserror::Error)]
 pub enum WindowError {
     /// There is no screen to open it on.
@@ -27,7 +24,6 @@ pub enum WindowError {
         WITHOUT
     )]
     NoDisplay,
-    /// The system refused.
     #[error(
         "the window could not be opened: {0}.\n\
          It needs X11 (Debian packages libx11-6 libx11-xcb1 libxcursor1 libxi6 libxkbcommon-x11-0 libgl1) or Wayland \

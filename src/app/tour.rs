@@ -20,7 +20,6 @@ pub(super) struct Interrupted {
 }
 
 impl ChromascopeApp {
-    /// Goes through the tour.
     pub(super) fn tour(&mut self, to: TourMove) {
         let now = self.view.tour;
         match (to, now) {
@@ -102,7 +101,6 @@ impl ChromascopeApp {
         }
     }
 
-    /// The user's own settings of the view.
     pub(super) fn own_view(&self) -> &SavedView {
         self.interrupted.as_ref().map_or(&self.view.saved, |interrupted| &interrupted.saved)
     }

@@ -75,7 +75,6 @@ impl CorrectionChoice {
     }
 }
 
-/// A method by its id.
 mod method_id {
     use chromascope_core::correction::CorrectionMethod;
     use serde::{Deserialize as _, Deserializer, Serializer, de::Error as _};

@@ -10,10 +10,8 @@ use crate::theme::UNIT;
 use crate::view::import::ImportItem;
 use crate::workspaces::PaneKind;
 
-/// Reach of the pointer, in points.
 const REACH: f32 = 8.0;
 
-/// The pane.
 pub const PANE: Pane = Pane {
     kind: PaneKind::CURVES,
     title: "Curves",
@@ -23,7 +21,6 @@ pub const PANE: Pane = Pane {
     table: true,
 };
 
-/// Shows the pane in its rectangle.
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let body = widgets::pane(ui, &PANE, rect, context, |_, _| {});
     let body = Rect::from_min_max(body.min + Vec2::new(2.0 * UNIT, 0.0), body.max - Vec2::new(2.0 * UNIT, UNIT));
@@ -83,7 +80,6 @@ fn hover(ui: &Ui, inside: bool, place: Option<usize>, context: &mut PaneContext<
     }
 }
 
-/// A wrapped message in the center.
 fn sentence(ui: &Ui, body: Rect, words: &str, color: egui::Color32) {
     let font = egui::FontId::proportional(crate::theme::TEXT);
     let width = (body.width() - 8.0 * UNIT).max(40.0);

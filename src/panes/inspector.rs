@@ -26,11 +26,9 @@ use crate::scene::{ComparedSensor, Scene};
 use crate::theme::{Theme, UNIT};
 use crate::workspaces::{PaneKind, Workspace};
 
-/// The pane.
 pub const PANE: Pane =
     Pane { kind: PaneKind::INSPECTOR, title: "Inspector", show, figure: None, under_conditions: false, table: false };
 
-/// Shows the pane in its rectangle.
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     widgets::scrolling_pane(ui, &PANE, rect, context, |ui, context| {
         ui.spacing_mut().item_spacing.y = 0.5 * UNIT;
@@ -81,12 +79,10 @@ fn head(ui: &mut Ui, id: &SensorId, context: &PaneContext<'_>) {
     }
 }
 
-/// A small line of less weight.
 fn note(ui: &mut Ui, theme: &Theme, words: impl Into<String>) {
     ui.label(RichText::new(words).small().color(theme.weak));
 }
 
-/// A failure, in its place.
 fn failure(ui: &mut Ui, theme: &Theme, words: &str) {
     ui.label(RichText::new(words).color(theme.error));
 }
@@ -121,7 +117,6 @@ fn buttons(ui: &mut Ui, context: &mut PaneContext<'_>) -> bool {
     copy
 }
 
-/// Puts numbers on the clipboard.
 fn copy_text(ui: &Ui, text: String, context: &mut PaneContext<'_>) {
     ui.ctx().copy_text(text);
     context.view.say("Inspector: numbers copied.");
@@ -151,7 +146,6 @@ fn measured_words(sensor: &Sensor) -> String {
     parts.collect::<Vec<_>>().join(", ")
 }
 
-/// Assumptions about a sensor and the light.
 fn assumptions(scene: &Scene<'_>, id: &SensorId, label: &str) -> Vec<String> {
     let mut words = Vec::new();
     if let Ok(sensor) = scene.sensor(id.kind, &id.name) {
@@ -178,7 +172,6 @@ fn assumptions(scene: &Scene<'_>, id: &SensorId, label: &str) -> Vec<String> {
     words
 }
 
-/// Lists the assumptions.
 fn show_assumptions(ui: &mut Ui, theme: &Theme, words: Vec<String>) {
     if words.is_empty() {
         return;

@@ -28,7 +28,6 @@ const CONTENT: &str = "Decided by content";
 /// First entry where room is short.
 const CONTENT_SHORT: &str = "By content";
 
-/// The pane.
 pub const PANE: Pane = Pane {
     kind: PaneKind::INTERPRETATION,
     title: "Interpretation",
@@ -38,7 +37,6 @@ pub const PANE: Pane = Pane {
     table: false,
 };
 
-/// Shows the pane in its rectangle.
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let body = widgets::pane(ui, &PANE, rect, context, notes::button);
     let inner = Rect::from_min_max(body.min + Vec2::new(2.0 * UNIT, 0.0), body.max - Vec2::new(2.0 * UNIT, 0.0));
@@ -76,24 +74,24 @@ fn content(ui: &mut Ui, shown: &ImportSelection, context: &mut PaneContext<'_>) 
     if let Some(set) = &shown.set {
         name::show(ui, set, context);
     }
-    let mut wishes = shown.wishes.clone();
-    switches::show(ui, shown, &mut wishes, &context.theme);
+    let mut overrides = shown.overrides.clone();
+    switches::show(ui, shown, &mut overrides, &context.theme);
     parts::show(ui, shown, context);
     // Below the switches, so that they stay where they are.
     if let Some(error) = shown.error() {
         trouble(ui, &error.to_string(), error.line(), shown, context);
     }
-    camera::show(ui, shown, &mut wishes, &context.theme);
-    curves::show(ui, shown, &mut wishes, context);
-    if wishes != shown.wishes {
-        wish(shown, wishes, context);
+    camera::show(ui, shown, &mut overrides, &context.theme);
+    curves::show(ui, shown, &mut overrides, context);
+    if overrides != shown.overrides {
+        set_overrides(shown, overrides, context);
     }
     notes::show(ui, shown, context);
 }
 
 /// Has the file read otherwise.
-fn wish(shown: &ImportSelection, wishes: ImportOverrides, context: &mut PaneContext<'_>) {
-    context.push(Command::Wish(shown.item.clone(), Box::new(wishes)));
+fn set_overrides(shown: &ImportSelection, overrides: ImportOverrides, context: &mut PaneContext<'_>) {
+    context.push(Command::SetOverrides(shown.item.clone(), Box::new(overrides)));
 }
 
 /// Reason that the file cannot be read with the settings, with a way to reset them.
@@ -111,7 +109,7 @@ fn trouble(ui: &mut Ui, words: &str, line: Option<usize>, shown: &ImportSelectio
     }
     ui.horizontal_wrapped(|ui| {
         if shown.pending && ui.button("Back").on_hover_text("Discard the attempted settings").clicked() {
-            context.push(Command::TakeWishBack);
+            context.push(Command::DiscardOverrides);
         }
         if let Some(line) = line
             && ui.button("Show line").on_hover_text("Show where in the text").clicked()
@@ -125,7 +123,6 @@ fn trouble(ui: &mut Ui, words: &str, line: Option<usize>, shown: &ImportSelectio
     }
 }
 
-/// A small line of less weight.
 fn note(ui: &mut Ui, theme: &Theme, words: impl Into<String>) {
     ui.label(RichText::new(words).small().color(theme.weak));
 }

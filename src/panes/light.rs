@@ -22,7 +22,6 @@ use crate::scene::light::LightSheetQuery;
 use crate::theme::UNIT;
 use crate::workspaces::PaneKind;
 
-/// The pane.
 pub const PANE: Pane = Pane {
     kind: PaneKind::LIGHT,
     title: "Light",
@@ -40,7 +39,6 @@ const WIDE: f32 = 520.0;
 const BARS: f32 = 150.0;
 const VECTORS: f32 = 250.0;
 
-/// Shows the pane in its rectangle.
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let body = widgets::pane(ui, &PANE, rect, context, |_, _| {});
     let scene = context.scene;

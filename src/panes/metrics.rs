@@ -28,7 +28,6 @@ const SHOWN: [&str; 5] = ["delta-e2000-mean", "delta-e2000-p95", "delta-e2000-ma
 /// Delay before progress is shown.
 const PATIENCE: Duration = Duration::from_millis(100);
 
-/// The pane.
 pub const PANE: Pane = Pane {
     kind: PaneKind::METRICS,
     title: "Metrics",
@@ -38,7 +37,6 @@ pub const PANE: Pane = Pane {
     table: false,
 };
 
-/// Shows the pane in its rectangle.
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let body = widgets::pane(ui, &PANE, rect, context, switches);
     let body = Rect::from_min_max(body.min + Vec2::new(2.0 * UNIT, 0.0), body.max - Vec2::new(2.0 * UNIT, UNIT));

@@ -18,7 +18,6 @@ pub struct HelpView {
 }
 
 impl HelpView {
-    /// Opens a page at a block.
     pub fn open(&mut self, page: &'static str, block: usize) {
         if let Some(last) = self.page.replace(page).filter(|last| *last != page) {
             self.visited.push(last);

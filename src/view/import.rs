@@ -24,7 +24,6 @@ pub enum ImportItem {
 /// View state of the Import pane.
 #[derive(Debug, Default)]
 pub struct ImportView {
-    /// The selected item.
     pub selected: Option<ImportItem>,
     /// Import settings tried for each item but not yet applied to the document.
     pub tried: BTreeMap<ImportItem, ImportOverrides>,
@@ -88,8 +87,8 @@ impl ImportView {
         if self.selected.as_ref() == Some(old) {
             self.selected = Some(new.clone());
         }
-        if let Some(wishes) = self.tried.remove(old) {
-            self.tried.insert(new.clone(), wishes);
+        if let Some(overrides) = self.tried.remove(old) {
+            self.tried.insert(new.clone(), overrides);
         }
         if self.unseen.remove(old) {
             self.unseen.insert(new.clone());
@@ -116,8 +115,8 @@ impl ImportView {
 pub struct Remembered {
     /// The kind.
     pub likeness: Likeness,
-    /// The settings.
-    pub wishes: ImportOverrides,
+    #[serde(rename = "wishes")]
+    pub overrides: ImportOverrides,
 }
 
 /// Import settings saved between runs.
@@ -142,14 +141,14 @@ impl Default for ImportMemory {
 
 impl ImportMemory {
     /// Remembers the settings for a file, to be applied to others like it; default settings remove the entry.
-    pub fn remember(&mut self, likeness: Likeness, wishes: &ImportOverrides) {
+    pub fn remember(&mut self, likeness: Likeness, overrides: &ImportOverrides) {
         if !likeness.is_telling() {
             return;
         }
         self.remembered.retain(|known| !known.likeness.is_like(&likeness));
-        let wishes = of_a_kind(wishes);
-        if wishes != ImportOverrides::default() {
-            self.remembered.push(Remembered { likeness, wishes });
+        let overrides = of_a_kind(overrides);
+        if overrides != ImportOverrides::default() {
+            self.remembered.push(Remembered { likeness, overrides });
         }
         let spare = self.remembered.len().saturating_sub(REMEMBERED);
         self.remembered.drain(..spare);
@@ -161,15 +160,15 @@ impl ImportMemory {
     }
 
     /// Returns the remembered settings for a file.
-    pub fn wishes(&self, likeness: &Likeness) -> ImportOverrides {
+    pub fn overrides(&self, likeness: &Likeness) -> ImportOverrides {
         let known = self.remembered.iter().rev().find(|known| known.likeness.is_like(likeness));
-        known.map(|known| known.wishes.clone()).unwrap_or_default()
+        known.map(|known| known.overrides.clone()).unwrap_or_default()
     }
 }
 
 /// The settings that apply to other files of a kind, too: not the choice of curves, part and column.
-pub fn of_a_kind(wishes: &ImportOverrides) -> ImportOverrides {
-    let mut kind = ImportOverrides { taken: None, ..wishes.clone() };
+pub fn of_a_kind(overrides: &ImportOverrides) -> ImportOverrides {
+    let mut kind = ImportOverrides { taken: None, ..overrides.clone() };
     (kind.options.part, kind.options.wavelength_column) = (None, None);
     kind
 }

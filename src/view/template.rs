@@ -11,7 +11,6 @@ use crate::workspaces::PaneKind;
 /// A document to begin a new session with.
 #[derive(Debug)]
 pub struct Template {
-    /// Its name.
     pub name: &'static str,
     /// The question that it answers, and the conditions.
     pub summary: &'static str,
@@ -105,7 +104,6 @@ fn skin() -> Option<ImportedSet> {
 }
 
 impl Template {
-    /// The document.
     pub fn document(&self) -> Document {
         let mut document = self.start.document();
         for action in (self.actions)(&document) {

@@ -18,7 +18,6 @@ pub struct TourStep {
     pub text: &'static str,
     /// Numbers of the scene that are written below the text.
     pub numbers: TourNumbers,
-    /// Workspace that shows it.
     pub workspace: Workspace,
     /// Pane that fills the window.
     pub maximized: Option<PaneKind>,
@@ -83,7 +82,7 @@ pub const STEPS: [TourStep; 5] = [
         actions: || {
             let name = CIE_1931.to_owned();
             vec![
-                Action::Scene(SceneAction::SetWay(TransformChoice::Observer(name.clone()))),
+                Action::Scene(SceneAction::SetTransform(TransformChoice::Observer(name.clone()))),
                 Action::Compare(CompareAction::SetReference { name, counts_in_xyz: true }),
                 Action::Scene(SceneAction::SetLight(Light::Set("D65".to_owned()))),
                 Action::Scene(SceneAction::SetDifference(Metric::DELTA_E_2000)),
@@ -112,7 +111,6 @@ impl TourStep {
         document
     }
 
-    /// The selected item.
     pub fn selected(&self) -> Option<PlotItem> {
         self.patch.map(|patch| PlotItem::Patch { source: None, patch: patch.to_owned() })
     }

@@ -5,7 +5,7 @@ use chromascope::action::{Action, CompareAction, ImportedAction, SceneAction};
 use chromascope::catalog::Catalog;
 use chromascope::document::imported::{ImportOverrides, ImportedCurve, ImportedSet, ReadAs, Role, WavelengthUnit};
 use chromascope::document::names::BuiltInNames;
-use chromascope::document::uses::PLACES;
+use chromascope::document::names::PLACES;
 use chromascope::document::{CHART, Document, Light, PAPER_REFERENCE, SetKind, Subset, WhiteBalanceChoice, session};
 use chromascope::results::Results;
 use chromascope::scene::Scene;
@@ -32,7 +32,7 @@ fn own(name: &str, role: Role) -> ImportedSet {
         file: "file.csv".to_owned(),
         path: None,
         fingerprint: None,
-        wishes: ImportOverrides::default(),
+        overrides: ImportOverrides::default(),
         role,
         read_as: ReadAs { unit: WavelengthUnit::Nanometer, percent: false },
         unit: WavelengthUnit::Nanometer,

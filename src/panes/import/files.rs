@@ -13,16 +13,12 @@ use crate::theme::{ROW, Theme, UNIT};
 use crate::view::import::{ImportItem, Stop};
 use crate::workspaces::PaneKind;
 
-/// Height of a file's two lines.
 const HEIGHT: f32 = 38.0;
 /// Height of one more line, for the reason why a file was not read.
 const LINE: f32 = 14.0;
-/// Width of the mark before a name.
 const MARK: f32 = 16.0;
-/// Width that a scroll bar overlaps.
 const SCROLL_BAR: f32 = 8.0;
 
-/// Shows the files one below the other.
 pub(super) fn column(ui: &mut Ui, rect: Rect, entries: &[Entry], context: &mut PaneContext<'_>) {
     let caption = Rect::from_min_size(rect.min, Vec2::new(rect.width(), ROW));
     let count = if entries.len() == 1 { "1 file".to_owned() } else { format!("{} files", entries.len()) };
@@ -69,7 +65,6 @@ fn tops(entries: &[Entry]) -> Vec<f32> {
     tops
 }
 
-/// Legend of the marks before the files.
 fn legend(ui: &mut Ui, theme: &Theme) {
     for state in State::ALL {
         ui.horizontal(|ui| {
@@ -145,7 +140,7 @@ fn take(context: &mut PaneContext<'_>) {
     let Some(shown) = ImportSelection::of(&context.scene, context.view, context.opened.preview()) else { return };
     match shown.item {
         ImportItem::File(file) if shown.is_fresh() && !shown.taken().is_empty() => {
-            context.push(Command::UseFile(file, Box::new(shown.wishes)));
+            context.push(Command::UseFile(file, Box::new(shown.overrides)));
         }
         ImportItem::File(_) => context.view.say("It cannot be read with these settings; see Interpretation (F6)."),
         ImportItem::Set(name) => context.view.say(format!("{name} is already imported.")),
@@ -191,7 +186,6 @@ fn keys(ui: &Ui, entries: &[Entry], context: &mut PaneContext<'_>) -> Option<usi
     Some(next)
 }
 
-/// One file.
 fn row(ui: &mut Ui, rect: Rect, index: usize, entries: &[Entry], context: &mut PaneContext<'_>) {
     let entry = &entries[index];
     let theme = context.theme;
@@ -277,7 +271,6 @@ fn draw_mark(painter: &Painter, at: Pos2, state: State, on: bool, theme: &Theme)
     }
 }
 
-/// Context menu of a file.
 fn menu(ui: &Ui, rect: Rect, index: usize, entries: &[Entry], context: &mut PaneContext<'_>) {
     let entry = &entries[index];
     let button = lines::dots(ui, rect, id(index).with("dots"), &format!("Menu of {}", entry.name));

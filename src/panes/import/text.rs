@@ -16,7 +16,6 @@ use crate::panes::widgets::lines;
 use crate::theme::{MONO, ROW, UNIT};
 
 const LINE: f32 = 18.0;
-/// Height of the legend.
 const LEGEND: f32 = 20.0;
 /// Length up to which a long line can be scrolled: later parts have to be skipped letter by letter.
 const WIDEST: usize = 50_000;
@@ -24,7 +23,6 @@ const _: () = assert!(WIDEST < LONGEST_LINE, "a line is counted so far");
 /// Number of letters of a line exposed to screen readers.
 const SAID: usize = 200;
 
-/// Shows the text and interpretation of the selected file.
 pub(super) fn show(ui: &mut Ui, rect: Rect, shown: &ImportSelection, context: &mut PaneContext<'_>) {
     let Some(file) = &shown.file else {
         if let Some(set) = &shown.set {
@@ -74,7 +72,6 @@ fn wrong(ui: &Ui, body: Rect, shown: &ImportSelection, context: &mut PaneContext
     body.with_max_y(place.top())
 }
 
-/// Legend of the marks' styles.
 fn forms(ui: &Ui, rect: Rect, context: &PaneContext<'_>) {
     const GAPS: [f32; 3] = [12.0, 8.0, 4.0];
     let galleys = GAPS.map(|gap| ui.painter().layout_job(legend(&context.theme, gap)));
@@ -85,7 +82,6 @@ fn forms(ui: &Ui, rect: Rect, context: &PaneContext<'_>) {
     painter.galley(at, std::sync::Arc::clone(galley), context.theme.text);
 }
 
-/// A number of bytes for display.
 fn size(bytes: usize) -> String {
     match bytes {
         0..1000 => format!("{bytes} bytes"),
@@ -115,7 +111,6 @@ fn away(ui: &mut Ui, rect: Rect, set: &ImportedSet, context: &mut PaneContext<'_
     }
 }
 
-/// State of the text view between frames.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct TextState {
     /// The error that was brought into view last, by its line.
@@ -124,10 +119,8 @@ struct TextState {
     line: Option<(Fingerprint, usize)>,
 }
 
-/// Layout of the view.
 struct Place {
     rect: Rect,
-    /// Left edge of the letters.
     left: f32,
     letter: f32,
     gutter: f32,
@@ -206,7 +199,6 @@ fn target(
     target
 }
 
-/// Contents of the text view.
 struct View<'a> {
     preview: &'a Preview,
     look: &'a FilePreview,
@@ -214,12 +206,10 @@ struct View<'a> {
     /// Flags for the imported curves, by index in the file.
     taken: Vec<bool>,
     error: Option<&'a (usize, Range<usize>)>,
-    /// The visible part.
     viewport: Rect,
 }
 
 impl View<'_> {
-    /// Draws the visible lines.
     fn lines(&self, ui: &mut Ui, place: &Place, context: &mut PaneContext<'_>) {
         let theme = context.theme;
         let first = (self.viewport.top() / LINE).floor().max(0.0) as usize;

@@ -21,7 +21,6 @@ pub(super) fn pinned_pixel<'a>(context: &'a PaneContext<'_>) -> Option<&'a Pixel
     render.pinned.as_ref().filter(|_| saved.layout.shows(saved.workspace, PaneKind::RENDER))
 }
 
-/// Shows the pinned pixel, if pictures are visible.
 pub(super) fn show(ui: &mut Ui, context: &PaneContext<'_>) {
     let Some((pinned, shot)) = pinned_pixel(context).zip(context.render_service.frame()) else { return };
     ui.add_space(UNIT);

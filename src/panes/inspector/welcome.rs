@@ -17,9 +17,7 @@ use crate::panes::widgets::{WHAT_YOU_SEE, focus_rim, lines};
 use crate::scene::Scene;
 use crate::theme::{ROW, Theme, UNIT};
 
-/// Size of a start's card.
 const CARD: Vec2 = Vec2::new(200.0, 92.0);
-/// Width of the drawn keys.
 const KEY: f32 = 26.0;
 
 pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
@@ -118,7 +116,6 @@ fn entry(ui: &mut Ui, words: &str, draw: impl FnOnce(&Ui, Rect)) {
     });
 }
 
-/// Two halves over a bar.
 fn swatch(ui: &Ui, rect: Rect, theme: &Theme) {
     let frame = Rect::from_center_size(rect.center(), Vec2::new(22.0, 16.0));
     let painter = ui.painter();

@@ -11,13 +11,16 @@ use crate::view::import::Stop;
 
 use super::keys;
 
-/// Number of visible rows.
 const ROWS: usize = 6;
 /// Number of curves above which there is a search.
 const SEARCHED: usize = 8;
 
-/// Shows the list, if there is more than one curve.
-pub(super) fn show(ui: &mut Ui, shown: &ImportSelection, wishes: &mut ImportOverrides, context: &mut PaneContext<'_>) {
+pub(super) fn show(
+    ui: &mut Ui,
+    shown: &ImportSelection,
+    overrides: &mut ImportOverrides,
+    context: &mut PaneContext<'_>,
+) {
     let Some(table) = shown.table().filter(|table| table.curves.len() > 1) else {
         hover(ui, None, false, context);
         return;
@@ -96,7 +99,7 @@ pub(super) fn show(ui: &mut Ui, shown: &ImportSelection, wishes: &mut ImportOver
         ui.label(RichText::new(format!("No curve is selected.{stays}")).small().color(context.theme.warning));
     }
     if taken != before {
-        wishes.taken = Some((0..count).filter(|place| taken[*place]).collect());
+        overrides.taken = Some((0..count).filter(|place| taken[*place]).collect());
     }
 }
 
@@ -104,7 +107,6 @@ fn row_with_keyboard() -> Id {
     Id::unique("curve with the keyboard")
 }
 
-/// Remembers the row that has the keyboard.
 fn keep_row(ui: &Ui, row: Option<usize>) {
     ui.data_mut(|data| data.insert_temp(row_with_keyboard(), row));
 }

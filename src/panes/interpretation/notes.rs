@@ -38,7 +38,6 @@ fn counted(count: usize) -> String {
     }
 }
 
-/// Shows the notes.
 pub(super) fn show(ui: &mut Ui, shown: &ImportSelection, context: &mut PaneContext<'_>) {
     let theme = context.theme;
     let Some(table) = shown.table() else { return };

@@ -11,7 +11,6 @@ use crate::document::imported::ImportOverrides;
 use crate::figures::curves::ImportSelection;
 use crate::theme::{Theme, UNIT};
 
-/// The kinds, as the user calls them.
 pub(super) const ROLES: [(Role, &str); 5] = [
     (Role::Camera, "Camera sensitivities"),
     (Role::Reflectance, "Reflectance"),
@@ -65,15 +64,13 @@ const READERS: [(Reader, &str); 11] = [
 /// Head of the switches of a file's format where none of them is in doubt.
 const SETTLED: &str = "File format: all certain";
 
-/// Maximum number of columns to choose from.
 const COLUMNS: usize = 60;
-/// Maximum number of parts to choose from.
 const PARTS: usize = 1000;
 
 /// A setting: the user's choice, the automatic decision, and the options.
 struct Switch<'a, T> {
     words: &'a str,
-    wish: &'a mut Option<T>,
+    wanted: &'a mut Option<T>,
     decided: Option<&'a Decided<T>>,
     choices: &'a [(T, &'a str)],
 }
@@ -86,23 +83,23 @@ impl<T: Copy + PartialEq> Switch<'_, T> {
         };
         // In a narrow pane, the first word or two distinguish the choices.
         let name = |value: T| if wordy { name(value) } else { short(&name(value)).to_owned() };
-        let closed = closed(self.wish.map(name), self.decided, name, wordy);
-        let mut entries = vec![(CONTENT.to_owned(), self.wish.is_none())];
-        entries.extend(self.choices.iter().map(|(choice, words)| ((*words).to_owned(), *self.wish == Some(*choice))));
+        let closed = closed(self.wanted.map(name), self.decided, name, wordy);
+        let mut entries = vec![(CONTENT.to_owned(), self.wanted.is_none())];
+        entries.extend(self.choices.iter().map(|(choice, words)| ((*words).to_owned(), *self.wanted == Some(*choice))));
         if let Some(index) = list(ui, theme, self.words, &closed, &entries, width) {
-            *self.wish = index.checked_sub(1).and_then(|index| self.choices.get(index)).map(|(choice, _)| *choice);
+            *self.wanted = index.checked_sub(1).and_then(|index| self.choices.get(index)).map(|(choice, _)| *choice);
         }
     }
 }
 
 /// The closed list: the choice, else the automatic decision, if known.
 fn closed<T: Copy>(
-    wish: Option<String>,
+    wanted: Option<String>,
     decided: Option<&Decided<T>>,
     name: impl Fn(T) -> String,
     wordy: bool,
 ) -> Closed {
-    if let Some(value) = wish {
+    if let Some(value) = wanted {
         return Closed { value, how: "chosen".to_owned(), guess: false, why: "Chosen by hand".to_owned() };
     }
     let Some(decided) = decided.filter(|decided| decided.certainty != Certainty::Chosen) else {
@@ -124,16 +121,16 @@ fn short(words: &str) -> &str {
 }
 
 /// The switches that matter for the file.
-pub(super) fn show(ui: &mut Ui, shown: &ImportSelection, wishes: &mut ImportOverrides, theme: &Theme) {
+pub(super) fn show(ui: &mut Ui, shown: &ImportSelection, overrides: &mut ImportOverrides, theme: &Theme) {
     // The result of the last preview is shown as long as no newer one is available.
     let table = shown.table();
     let reading = table.map(|table| &table.reading);
-    let options = &mut wishes.options;
+    let options = &mut overrides.options;
     let whole = ui.available_width() - 2.0;
-    Switch { words: "This is a", wish: &mut options.role, decided: table.map(|table| &table.role), choices: &ROLES }
+    Switch { words: "This is a", wanted: &mut options.role, decided: table.map(|table| &table.role), choices: &ROLES }
         .show(ui, theme, whole, true);
     let decided = reading.map(|reading| &reading.values);
-    Switch { words: "Values are", wish: &mut options.values, decided, choices: &VALUES }.show(ui, theme, whole, true);
+    Switch { words: "Values are", wanted: &mut options.values, decided, choices: &VALUES }.show(ui, theme, whole, true);
     let is_settled = shown.error().is_none() && reading.is_some_and(|reading| is_certain(reading, options));
     if is_settled {
         let head = RichText::new(SETTLED).small();
@@ -158,7 +155,6 @@ fn is_certain(reading: &ReadReport, options: &ReadOptions) -> bool {
     certainties.iter().all(|certainty| *certainty == Certainty::Certain) && *options == asked && reading.parts.len() < 2
 }
 
-/// The switches of the file's format.
 fn format(ui: &mut Ui, shown: &ImportSelection, options: &mut ReadOptions, theme: &Theme, whole: f32) {
     let gap = 2.0 * UNIT;
     let half = ((whole - gap) / 2.0).floor();
@@ -167,23 +163,24 @@ fn format(ui: &mut Ui, shown: &ImportSelection, options: &mut ReadOptions, theme
     let unit = reading.map(|reading| &reading.wavelength_unit);
     let columns = columns(table, options.reader);
     pair(ui, gap, |ui| {
-        Switch { words: "Wavelengths in", wish: &mut options.wavelength_unit, decided: unit, choices: &UNITS }
+        Switch { words: "Wavelengths in", wanted: &mut options.wavelength_unit, decided: unit, choices: &UNITS }
             .show(ui, theme, half, false);
         let decided = reading.map(|reading| &reading.reader);
-        Switch { words: "Read by", wish: &mut options.reader, decided, choices: &READERS }.show(ui, theme, half, false);
+        Switch { words: "Read by", wanted: &mut options.reader, decided, choices: &READERS }
+            .show(ui, theme, half, false);
     });
     if columns {
         pair(ui, gap, |ui| {
             let decided = reading.map(|reading| &reading.decimal_mark);
-            Switch { words: "Decimal mark", wish: &mut options.decimal_mark, decided, choices: &MARKS }
+            Switch { words: "Decimal mark", wanted: &mut options.decimal_mark, decided, choices: &MARKS }
                 .show(ui, theme, half, false);
             let decided = reading.map(|reading| &reading.delimiter);
-            Switch { words: "Columns split by", wish: &mut options.delimiter, decided, choices: &DELIMITERS }
+            Switch { words: "Columns split by", wanted: &mut options.delimiter, decided, choices: &DELIMITERS }
                 .show(ui, theme, half, false);
         });
         pair(ui, gap, |ui| {
             let decided = reading.map(|reading| &reading.orientation);
-            Switch { words: "Wavelengths run", wish: &mut options.orientation, decided, choices: &ORIENTATIONS }
+            Switch { words: "Wavelengths run", wanted: &mut options.orientation, decided, choices: &ORIENTATIONS }
                 .show(ui, theme, half, false);
             let across = options.orientation == Some(Orientation::Across)
                 || (options.orientation.is_none() && decided.is_some_and(|d| d.value == Orientation::Across));
@@ -212,38 +209,37 @@ fn pair(ui: &mut Ui, gap: f32, add: impl FnOnce(&mut Ui)) {
 }
 
 /// True if the file is, or is to be read as, numbers in columns.
-fn columns(table: Option<&SpectralFile>, wish: Option<Reader>) -> bool {
+fn columns(table: Option<&SpectralFile>, wanted: Option<Reader>) -> bool {
     let known = table.map(|table| table.reading.reader.value);
-    wish.or(known).is_none_or(|reader| reader == Reader::Table)
+    wanted.or(known).is_none_or(|reader| reader == Reader::Table)
 }
 
 /// The column of the wavelengths, by number and, where it has one, name.
-fn column(ui: &mut Ui, shown: &ImportSelection, wish: &mut Option<usize>, theme: &Theme, width: f32) {
+fn column(ui: &mut Ui, shown: &ImportSelection, wanted: &mut Option<usize>, theme: &Theme, width: f32) {
     let table = shown.table();
     let decided = table.and_then(|table| table.reading.wavelength_column);
     let curves = table.map_or(0, |table| table.curves.len());
     let names = header(shown);
-    let known = names.len().max(curves + 1).max(decided.unwrap_or(1)).max(wish.unwrap_or(1));
+    let known = names.len().max(curves + 1).max(decided.unwrap_or(1)).max(wanted.unwrap_or(1));
     let last = known.clamp(2, COLUMNS);
     let name = |column: usize| match names.get(column - 1) {
         Some(name) if !name.is_empty() => format!("{column}: {name}"),
         _ => format!("Column {column}"),
     };
-    let value = wish.or(decided);
+    let value = wanted.or(decided);
     let closed = Closed {
         value: value.map_or_else(|| CONTENT_SHORT.to_owned(), name),
-        how: if wish.is_some() { "chosen".to_owned() } else { String::new() },
+        how: if wanted.is_some() { "chosen".to_owned() } else { String::new() },
         guess: false,
         why: String::new(),
     };
-    let mut entries = vec![(CONTENT.to_owned(), wish.is_none())];
-    entries.extend((1..=last).map(|column| (name(column), *wish == Some(column))));
+    let mut entries = vec![(CONTENT.to_owned(), wanted.is_none())];
+    entries.extend((1..=last).map(|column| (name(column), *wanted == Some(column))));
     if let Some(index) = list(ui, theme, "Wavelength column", &closed, &entries, width) {
-        *wish = (index > 0).then_some(index);
+        *wanted = (index > 0).then_some(index);
     }
 }
 
-/// The names of the columns, as their line writes them.
 fn header(shown: &ImportSelection) -> Vec<String> {
     let line = || {
         let reading = &shown.table()?.reading;
@@ -263,10 +259,9 @@ fn header(shown: &ImportSelection) -> Vec<String> {
     cells.iter().map(tidy).collect()
 }
 
-/// Choice of one of several tables in a file.
-fn part(ui: &mut Ui, table: Option<&SpectralFile>, wish: &mut Option<usize>, theme: &Theme, width: f32) {
+fn part(ui: &mut Ui, table: Option<&SpectralFile>, wanted: &mut Option<usize>, theme: &Theme, width: f32) {
     let known = table.map_or(&[][..], |table| &table.reading.parts);
-    if known.len() < 2 && wish.is_none() {
+    if known.len() < 2 && wanted.is_none() {
         return;
     }
     let name = |part: usize| match part.checked_sub(1) {
@@ -277,12 +272,12 @@ fn part(ui: &mut Ui, table: Option<&SpectralFile>, wish: &mut Option<usize>, the
         let one = part.checked_sub(1).and_then(|place| known.get(place));
         one.map_or_else(String::new, |p| format!(", {} of {} rows", count(p.curves, "curve"), p.rows))
     };
-    let closed = closed(wish.map(name), table.map(|table| &table.reading.part), name, true);
-    let mut entries = vec![(CONTENT.to_owned(), wish.is_none())];
-    let last = known.len().max(wish.unwrap_or(1)).min(PARTS);
-    entries.extend((1..=last).map(|part| (format!("{}{}", name(part), told(part)), *wish == Some(part))));
+    let closed = closed(wanted.map(name), table.map(|table| &table.reading.part), name, true);
+    let mut entries = vec![(CONTENT.to_owned(), wanted.is_none())];
+    let last = known.len().max(wanted.unwrap_or(1)).min(PARTS);
+    entries.extend((1..=last).map(|part| (format!("{}{}", name(part), told(part)), *wanted == Some(part))));
     if let Some(index) = list(ui, theme, "Part", &closed, &entries, width) {
-        *wish = (index > 0).then_some(index);
+        *wanted = (index > 0).then_some(index);
     }
 }
 

@@ -12,7 +12,6 @@ use crate::scene::ComparedSensor;
 use crate::theme::{FADED, ROW, UNIT};
 use crate::view::import::ImportItem;
 
-/// A label that is being written.
 #[derive(Clone, Default)]
 struct Renaming {
     kind: Option<SetKind>,
@@ -33,7 +32,6 @@ pub(super) fn focus(ui: &Ui, source: &ComparedSensor) {
     ui.memory_mut(|memory| memory.request_focus(id(source).with("label")));
 }
 
-/// One sensor: key, label, tag, menu.
 pub(super) fn row(ui: &mut Ui, source: &ComparedSensor, context: &mut PaneContext<'_>) {
     let (rect, _) = ui.allocate_exact_size(Vec2::new(ui.available_width(), ROW), Sense::hover());
     let id = id(source);

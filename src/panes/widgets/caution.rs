@@ -19,7 +19,7 @@ pub fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) -> Rect {
         let words = format!("Fit 3×3 to {observer}");
         let hint = "Color transform: a 3×3 matrix for each camera, fitted to this observer";
         if row.button(words).on_hover_text(hint).clicked() {
-            context.push(Action::Scene(SceneAction::SetWay(TransformChoice::Observer(observer.to_owned()))));
+            context.push(Action::Scene(SceneAction::SetTransform(TransformChoice::Observer(observer.to_owned()))));
         }
     }
     let sentence = caution.sentence();

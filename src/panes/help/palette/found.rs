@@ -202,6 +202,6 @@ pub(super) fn pages() -> Vec<Found> {
 
 /// Places in the help that contain what was typed.
 pub(super) fn help_text(text: &str) -> Vec<Found> {
-    let hits = help::search::search(help::pages(), text).into_iter().take(MOST_HITS);
+    let hits = help::search(help::pages(), text).into_iter().take(MOST_HITS);
     hits.map(|hit| Found::new("", hit.excerpt, Command::Help(hit.page, hit.block)).note(hit.heading)).collect()
 }
