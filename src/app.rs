@@ -4,11 +4,9 @@ mod changes;
 mod commands;
 mod focus;
 mod frame;
-mod layout;
 mod meshes;
 mod opening;
 mod path_prompt;
-mod report;
 mod saving;
 mod session;
 mod startup;
@@ -81,7 +79,7 @@ pub struct ChromascopeApp {
     portrait: Background<PicturesQuery>,
     /// Pixels of the Figure page.
     pages: Background<PageJob>,
-    place: layout::WindowPlace,
+    place: startup::WindowPlace,
     ctx: egui::Context,
 }
 
@@ -137,7 +135,7 @@ impl ChromascopeApp {
             report: Background::on(executor, "report", repaint()),
             portrait: Background::on(executor, "portrait", repaint()),
             pages: Background::on(executor, "page", repaint()),
-            place: layout::WindowPlace::default(),
+            place: startup::WindowPlace::default(),
             ctx: ctx.clone(),
         };
         app.begin_session();
@@ -146,7 +144,7 @@ impl ChromascopeApp {
 
     /// Restores the window's position and size from the last run.
     pub fn restore_place(&mut self, storage: Option<&dyn eframe::Storage>) {
-        self.place = layout::WindowPlace::restored(storage);
+        self.place = startup::WindowPlace::restored(storage);
     }
 
     /// The document and its steps.

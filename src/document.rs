@@ -5,7 +5,6 @@
 
 pub mod correction;
 pub mod imported;
-pub mod kind;
 pub mod names;
 pub mod paths;
 pub mod render;
@@ -19,7 +18,7 @@ use correction::CorrectionChoice;
 pub use correction::TRAINING;
 use imported::ImportedSet;
 pub use imported::SessionFile;
-pub use kind::SetKind;
+pub use names::SetKind;
 use render::RenderSettings;
 use serde::{Deserialize, Serialize};
 use start::Start;

@@ -1,23 +1,29 @@
-//! Sets of the library, cards, rendered pictures and color corrections as files and on the clipboard.
+//! Sets of the library, cards, rendered pictures, color corrections and reports as files and on the clipboard.
+
+use std::path::PathBuf;
+use std::sync::Arc;
 
 use chromascope_core::query::Ask as _;
 use chromascope_figure::{Figure, LegendPlace};
 
 use super::ChromascopeApp;
 use crate::document::SetKind;
-use crate::export;
+use crate::document::start::Start;
 use crate::export::card::{self, Card};
 use crate::export::profile::{self, CorrectionFileQuery, CorrectionForm};
 use crate::export::render::{ImageProvenance, Provenance, exr_bytes, image_exr_bytes};
 use crate::export::spectra::{self, Form};
 use crate::figures::render::index_of;
 use crate::figures::{chromaticity, swatches};
-use crate::files::{FileForm, SaveRequest};
-use crate::panes;
+use crate::files::{FileForm, SaveRequest, new_folder};
+use crate::format::io_reason;
 use crate::plot_item::SensorId;
+use crate::report::{PAGE, PIXELS, Report, ReportJob};
 use crate::results::Results;
 use crate::scene::Scene;
+use crate::view::ReportOn;
 use crate::workspaces::PaneKind;
+use crate::{export, panes};
 
 impl ChromascopeApp {
     /// Writes a set in the background and asks where to save it; differences from the set are reported when it is
@@ -160,5 +166,57 @@ impl ChromascopeApp {
             thin: document.render.thin,
         };
         Some(exr_bytes(image, rendering, &provenance).map_err(|error| error.to_string()))
+    }
+}
+
+/// Name of a report's own folder.
+const FOLDER: &str = "Chromascope report";
+
+impl ChromascopeApp {
+    /// Begins a report in a folder of its own within the chosen one, so that nothing is overwritten.
+    pub(super) fn begin_report(&mut self, chosen: &[PathBuf]) {
+        let Some((on, parent)) = self.view.report_on.take().zip(chosen.first()) else { return };
+        let folder = match new_folder(parent, FOLDER) {
+            Ok(folder) => folder,
+            Err(error) => {
+                let why = io_reason(&error);
+                return self.view.fail(format!("Cannot make a folder in {}: {why}.", parent.display()));
+            }
+        };
+        let report = match on {
+            ReportOn::Paper => Report::new(Start::Paper.document(), false, PIXELS),
+            ReportOn::Document => Report::of_document(self.history.document()),
+        };
+        self.report.ask(ReportJob::all(&Arc::new(report), &folder));
+    }
+
+    /// Says when a report is finished, or why it is not.
+    pub(super) fn take_report(&mut self) {
+        let (steps, done) = self.report.progress();
+        let Some(folder) = steps.first().map(|job| job.folder.clone()) else { return };
+        let failure = self.report.failure().or_else(|| {
+            let shown = self.report.shown().filter(|shown| shown.current)?;
+            (*shown.answer).clone().err()
+        });
+        if let Some(why) = failure {
+            self.report.rest();
+            self.view.fail(format!("The report is not finished. {why}"));
+        } else if done == steps.len() {
+            self.report.rest();
+            self.view.say(format!("Report saved: {}.", folder.join(PAGE).display()));
+        }
+    }
+
+    /// Stops the report that is being made, if there is one.
+    pub(super) fn stop_report(&mut self) -> bool {
+        let (steps, done) = self.report.progress();
+        let Some(job) = steps.first() else { return false };
+        self.report.rest();
+        self.view.say(format!(
+            "Report stopped after {done} of {} steps; these are in {}.",
+            steps.len(),
+            job.folder.display()
+        ));
+        true
     }
 }

@@ -10,8 +10,8 @@ use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
+use super::SetKind;
 use super::imported::{ImportedCurve, ImportedSet, Role, same_but_folders};
-use super::kind::SetKind;
 use super::names::BuiltInNames;
 use super::start::Start;
 use super::{Document, MOST_COMPARED, VERSION};

@@ -1,6 +1,6 @@
 //! Named starts: the comparison and its conditions on the first screen and after a reset.
 
-use super::kind::SetKind;
+use super::SetKind;
 use super::render::{GARMENT, model::SpecularChoice};
 use super::{CHART, CIE_1931, Document, Light, PAPER_REFERENCE, Subset, TransformChoice};
 use serde::{Deserialize, Serialize};

@@ -58,7 +58,7 @@ fn plot(ui: &mut Ui, body: Rect, item: &ImportItem, [curves, seen]: [&Curves; 2]
     context.view.note_zoom(PaneKind::CURVES, curves::title(seen), shown.zoomed(&panel));
     let hit = shown.response.hover_pos().and_then(|at| paint::nearest(&panel, &shown.view, at, REACH));
     let place = hit.and_then(|hit| curves::place(hit.tag));
-    hover(ui, shown.response.hovered(), place, context);
+    widgets::hover_curve(ui, "pane", shown.response.hovered(), place, context);
     let Some([nm, value]) = shown.hovered else { return };
     if let Some(place) = place {
         let lines = curves::describe(curves, place, nm);
@@ -66,17 +66,6 @@ fn plot(ui: &mut Ui, body: Rect, item: &ImportItem, [curves, seen]: [&Curves; 2]
         widgets::read_at_pointer(&shown.response, &lines);
     } else {
         context.view.point = Some(format!("{nm:.0} nm  {}", crate::format::number(value)));
-    }
-}
-
-/// Takes a curve as the one under the pointer, and lets it go when the pointer leaves.
-fn hover(ui: &Ui, inside: bool, place: Option<usize>, context: &mut PaneContext<'_>) {
-    let id = Id::unique("pointer over result");
-    let was = ui.data(|data| data.get_temp(id).unwrap_or(false));
-    ui.data_mut(|data| data.insert_temp(id, inside));
-    if (inside || was) && context.view.import.hovered_curve != place {
-        context.view.import.hovered_curve = place.filter(|_| inside);
-        ui.ctx().request_repaint();
     }
 }
 

@@ -2,11 +2,7 @@
 
 mod numbers;
 mod patch;
-mod pinned;
-mod pixel;
 mod points;
-mod radiator;
-mod set;
 mod source;
 mod welcome;
 
@@ -39,17 +35,17 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
 
 fn content(ui: &mut Ui, context: &mut PaneContext<'_>) {
     match context.view.selected.clone().or_else(|| context.view.hovered.clone()) {
-        None if pixel::pinned_pixel(context).is_some() || !context.view.pinned.is_empty() => {}
+        None if points::pinned_pixel(context).is_some() || !context.view.pinned.is_empty() => {}
         None => welcome::show(ui, context),
         Some(PlotItem::Patch { source: Some(id), patch }) => patch::one(ui, &id, &patch, context),
         Some(PlotItem::Patch { source: None, patch }) => patch::across(ui, &patch, context),
-        Some(PlotItem::Radiator { source, kelvin }) => radiator::show(ui, &source, kelvin, context),
+        Some(PlotItem::Radiator { source, kelvin }) => patch::blackbody(ui, &source, kelvin, context),
         Some(PlotItem::Sensor(id)) => source::show(ui, &id, context),
         Some(PlotItem::Light) => source::light(ui, context),
-        Some(PlotItem::DataSet { kind, name }) => set::show(ui, kind, &name, context),
+        Some(PlotItem::DataSet { kind, name }) => source::set(ui, kind, &name, context),
     }
-    pixel::show(ui, context);
-    pinned::show(ui, context);
+    points::show_pixel(ui, context);
+    points::show_pinned(ui, context);
 }
 
 /// A visible sensor, by kind and name.

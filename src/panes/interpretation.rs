@@ -1,12 +1,9 @@
 //! Decisions made in reading a file, with switches to correct them.
 
 mod buttons;
-mod camera;
 mod curves;
 mod keys;
-mod name;
 mod notes;
-mod parts;
 mod stored;
 mod switches;
 
@@ -72,16 +69,16 @@ fn content(ui: &mut Ui, shown: &ImportSelection, context: &mut PaneContext<'_>) 
         return;
     }
     if let Some(set) = &shown.set {
-        name::show(ui, set, context);
+        stored::name(ui, set, context);
     }
     let mut overrides = shown.overrides.clone();
     switches::show(ui, shown, &mut overrides, &context.theme);
-    parts::show(ui, shown, context);
+    curves::parts(ui, shown, context);
     // Below the switches, so that they stay where they are.
     if let Some(error) = shown.error() {
         trouble(ui, &error.to_string(), error.line(), shown, context);
     }
-    camera::show(ui, shown, &mut overrides, &context.theme);
+    switches::camera(ui, shown, &mut overrides, &context.theme);
     curves::show(ui, shown, &mut overrides, context);
     if overrides != shown.overrides {
         set_overrides(shown, overrides, context);

@@ -346,3 +346,15 @@ pub fn mark_all(ui: &Ui, id: egui::Id, text: &str) {
     state.cursor.set_char_range(Some(all));
     state.store(ui.ctx(), id);
 }
+
+/// Takes a curve of the imported file as the one under the pointer, and lets it go when the pointer leaves the part `of` the window.
+pub fn hover_curve(ui: &Ui, of: &'static str, inside: bool, curve: Option<usize>, context: &mut PaneContext<'_>) {
+    let id = egui::Id::unique(("pointer over curves", of));
+    let was = ui.data(|data| data.get_temp(id).unwrap_or(false));
+    ui.data_mut(|data| data.insert_temp(id, inside));
+    let curve = curve.filter(|_| inside);
+    if (inside || was) && context.view.import.hovered_curve != curve {
+        context.view.import.hovered_curve = curve;
+        ui.ctx().request_repaint();
+    }
+}

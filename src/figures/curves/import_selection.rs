@@ -106,6 +106,17 @@ impl ImportSelection {
             (None, None) => Vec::new(),
         }
     }
+
+    /// True for each curve of the file that is taken.
+    pub fn are_taken(&self) -> Vec<bool> {
+        let mut are = vec![false; self.table().map_or(0, |table| table.curves.len())];
+        for place in self.taken() {
+            if let Some(taken) = are.get_mut(place) {
+                *taken = true;
+            }
+        }
+        are
+    }
 }
 
 /// The places in its file of a set's curves.

@@ -12,7 +12,7 @@ use crate::document::imported::{Fingerprint, ImportedSet};
 use crate::figures::curves::ImportSelection;
 use crate::format::sentence;
 use crate::panes::context::PaneContext;
-use crate::panes::widgets::lines;
+use crate::panes::widgets::{hover_curve, lines};
 use crate::theme::{MONO, ROW, UNIT};
 
 const LINE: f32 = 18.0;
@@ -156,13 +156,7 @@ fn lines_of(
     }
     area.show_viewport(&mut child, |ui, viewport| {
         ui.set_min_size(content);
-        let mut taken = vec![false; shown.table().map_or(0, |table| table.curves.len())];
-        for place in shown.taken() {
-            if let Some(taken) = taken.get_mut(place) {
-                *taken = true;
-            }
-        }
-        let view = View { preview, look, shown, taken, error: error.as_ref(), viewport };
+        let view = View { preview, look, shown, taken: shown.are_taken(), error: error.as_ref(), viewport };
         view.lines(ui, &place, context);
     });
 }
@@ -243,7 +237,7 @@ impl View<'_> {
             ui.set_clip_rect(clip);
         }
         ui.painter().vline(gutter.right(), place.rect.y_range(), egui::Stroke::new(1.0, theme.line));
-        hover(ui, pointer.is_some(), curve, context);
+        hover_curve(ui, "text", pointer.is_some(), curve, context);
     }
 
     /// Draws one line. Returns the curve that the pointer is on.
@@ -290,18 +284,5 @@ impl View<'_> {
         context.view.point = Some(words.clone());
         response.on_hover_text_at_pointer(words);
         mark.what.curve()
-    }
-}
-
-/// Takes a curve as the one under the pointer, and lets it go when the pointer leaves.
-fn hover(ui: &Ui, inside: bool, curve: Option<usize>, context: &mut PaneContext<'_>) {
-    let id = Id::unique("pointer over text of import");
-    let was = ui.data(|data| data.get_temp(id).unwrap_or(false));
-    if inside != was {
-        ui.data_mut(|data| data.insert_temp(id, inside));
-    }
-    if (inside || was) && context.view.import.hovered_curve != curve {
-        context.view.import.hovered_curve = curve;
-        ui.ctx().request_repaint();
     }
 }

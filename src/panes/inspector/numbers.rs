@@ -12,11 +12,11 @@ use crate::scene::Scene;
 use crate::workspaces::PaneKind;
 
 /// A row: its name, its decimals, and a number for each column.
-pub(super) struct Row {
-    pub(super) name: &'static str,
-    pub(super) decimals: usize,
+struct Row {
+    name: &'static str,
+    decimals: usize,
     /// The numbers; none where there is none.
-    pub(super) cells: Vec<Option<f64>>,
+    cells: Vec<Option<f64>>,
 }
 
 /// Color of a patch or a blackbody through one sensor, under its head.
@@ -53,12 +53,8 @@ impl Point {
     }
 }
 
-pub(super) fn heads(points: &[Point]) -> Vec<String> {
-    points.iter().map(|point| point.head.clone()).collect()
-}
-
 /// The rows that points have: difference, RGB, both diagrams, L*a*b*, CCT and Duv; rows that no point has are omitted.
-pub(super) fn rows_of(scene: &Scene<'_>, points: &[Point]) -> Vec<Row> {
+fn rows_of(scene: &Scene<'_>, points: &[Point]) -> Vec<Row> {
     let row = |name, decimals, take: &dyn Fn(&Point) -> Option<f64>| Row {
         name,
         decimals,
@@ -93,12 +89,14 @@ fn temperatures(scene: &Scene<'_>, colors: impl Iterator<Item = Option<Xyz>>) ->
     [row("CCT", 0, |cct| cct.temperature.get()), row("Duv", 4, |cct| cct.duv)]
 }
 
-/// Writes rows below the columns' headers; `id` distinguishes tables of one pane.
-pub(super) fn show(ui: &mut Ui, id: &str, heads: &[String], rows: &[Row], context: &PaneContext<'_>) {
-    let table = table(heads, rows);
+/// Writes the numbers of points below their heads; `id` distinguishes tables of one pane.
+pub(super) fn show(ui: &mut Ui, id: &str, points: &[Point], context: &PaneContext<'_>) {
+    let rows = rows_of(&context.scene, points);
+    let table = table(points, &rows);
     let names = std::iter::once(Column::default());
     let decimals = rows.iter().map(|row| row.decimals).max();
-    let columns = names.chain(heads.iter().map(|head| Column { name: head.clone(), decimals, ..Column::default() }));
+    let columns =
+        names.chain(points.iter().map(|point| Column { name: point.head.clone(), decimals, ..Column::default() }));
     let note = |row: usize, _| CellNote { decimals: Some(rows[row].decimals), ..CellNote::default() };
     let shown = DataTable::new(PaneKind::INSPECTOR, id, &table).with_columns(columns.collect()).with_notes(&note);
     ScrollArea::horizontal().id_salt(id).auto_shrink([false, true]).show(ui, |ui| {
@@ -106,13 +104,13 @@ pub(super) fn show(ui: &mut Ui, id: &str, heads: &[String], rows: &[Row], contex
     });
 }
 
-/// Rows for a spreadsheet, in full precision.
-pub(super) fn to_tsv(heads: &[String], rows: &[Row]) -> String {
-    table(heads, rows).to_tsv()
+/// Numbers for a spreadsheet, in full precision.
+pub(super) fn to_tsv(scene: &Scene<'_>, points: &[Point]) -> String {
+    table(points, &rows_of(scene, points)).to_tsv()
 }
 
-fn table(heads: &[String], rows: &[Row]) -> Table {
-    let mut table = Table::new(std::iter::once("quantity").chain(heads.iter().map(String::as_str)));
+fn table(points: &[Point], rows: &[Row]) -> Table {
+    let mut table = Table::new(std::iter::once("quantity").chain(points.iter().map(|point| point.head.as_str())));
     for row in rows {
         table.push(std::iter::once(Cell::from(row.name)).chain(row.cells.iter().map(|cell| Cell::from(*cell))));
     }

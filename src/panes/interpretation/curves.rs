@@ -1,15 +1,19 @@
-//! Choice of the file's curves.
+//! Choice of the file's curves, and of its tables where it contains several: each ticked one is imported as a set of its own.
 
-use egui::{Id, RichText, ScrollArea, TextEdit, Ui};
+use std::collections::BTreeSet;
 
+use egui::{Checkbox, Id, RichText, ScrollArea, TextEdit, Ui};
+use spectral_file::Part;
+
+use super::{keys, note};
 use crate::catalog::import::TAKEN_AT_FIRST;
+use crate::command::Command;
 use crate::document::imported::ImportOverrides;
 use crate::figures::curves::ImportSelection;
 use crate::panes::context::PaneContext;
+use crate::panes::widgets::hover_curve;
 use crate::theme::{ROW, UNIT};
 use crate::view::import::Stop;
-
-use super::keys;
 
 const ROWS: usize = 6;
 /// Number of curves above which there is a search.
@@ -22,16 +26,11 @@ pub(super) fn show(
     context: &mut PaneContext<'_>,
 ) {
     let Some(table) = shown.table().filter(|table| table.curves.len() > 1) else {
-        hover(ui, None, false, context);
+        hover_curve(ui, "list", false, None, context);
         return;
     };
     let count = table.curves.len();
-    let mut taken = vec![false; count];
-    for place in shown.taken() {
-        if let Some(taken) = taken.get_mut(place) {
-            *taken = true;
-        }
-    }
+    let mut taken = shown.are_taken();
     let before = taken.clone();
     ui.add_space(UNIT);
     ui.label(format!("{} of {count} imported", before.iter().filter(|taken| **taken).count()));
@@ -93,7 +92,7 @@ pub(super) fn show(
     });
     keep_row(ui, focused);
     let inside = focused.is_some() || ui.rect_contains_pointer(output.inner_rect);
-    hover(ui, under, inside, context);
+    hover_curve(ui, "list", inside, under, context);
     if !taken.contains(&true) {
         let stays = if shown.set.is_some() { " The data set is unchanged until one is." } else { "" };
         ui.label(RichText::new(format!("No curve is selected.{stays}")).small().color(context.theme.warning));
@@ -148,13 +147,61 @@ fn set(taken: &mut [bool], places: &[usize], to: bool) {
     }
 }
 
-/// Takes a curve as the one under the pointer, and lets it go when the pointer leaves.
-fn hover(ui: &Ui, place: Option<usize>, inside: bool, context: &mut PaneContext<'_>) {
-    let id = Id::unique("pointer over curves taken");
-    let was = ui.data(|data| data.get_temp(id).unwrap_or(false));
-    ui.data_mut(|data| data.insert_temp(id, inside));
-    if (inside || was) && context.view.import.hovered_curve != place {
-        context.view.import.hovered_curve = place;
-        ui.ctx().request_repaint();
+const PART_ROWS: usize = 5;
+
+/// Name of a part; parts count from 1.
+pub(super) fn part_name(part: usize, known: Option<&Part>) -> String {
+    match known {
+        Some(known) if !known.name.is_empty() => format!("{part}: {}", known.name),
+        Some(known) => format!("{part}: line {}", known.line),
+        None => format!("Part {part}"),
     }
+}
+
+pub(super) fn parts(ui: &mut Ui, shown: &ImportSelection, context: &mut PaneContext<'_>) {
+    let (Some(table), Some(file)) = (shown.table(), &shown.file) else { return };
+    let parts = &table.reading.parts;
+    if parts.len() < 2 {
+        return;
+    }
+    let fingerprint = file.origin.fingerprint;
+    let own = context.scene.document.own.iter().filter(|set| set.fingerprint == Some(fingerprint));
+    let used: BTreeSet<usize> = own.filter_map(|set| set.overrides.options.part).collect();
+    note(ui, &context.theme, "Parts, each as a separate data set");
+    let mut ticked = std::mem::take(&mut context.view.import.parts);
+    ticked.retain(|part| *part <= parts.len() && !used.contains(part));
+    let free = (1..=parts.len()).filter(|part| !used.contains(part));
+    let height = (ROW + ui.spacing().item_spacing.y) * parts.len().min(PART_ROWS) as f32;
+    let area = ScrollArea::vertical().id_salt("parts").max_height(height).auto_shrink([false, true]);
+    ui.spacing_mut().interact_size.y = ROW;
+    let free: Vec<usize> = free.collect();
+    area.show_rows(ui, ROW, parts.len(), |ui, rows| {
+        for row in rows {
+            let part = row + 1;
+            let mut on = used.contains(&part) || ticked.contains(&part);
+            let words = part_name(part, parts.get(row));
+            let response = ui.add_enabled(!used.contains(&part), Checkbox::new(&mut on, words));
+            if response.changed() && !ticked.remove(&part) {
+                ticked.insert(part);
+            }
+            response.on_disabled_hover_text("Already imported");
+        }
+    });
+    ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = UNIT;
+        if ui.button("All parts").on_hover_text("Tick all parts that are not imported yet").clicked() {
+            ticked.extend(&free);
+        }
+        let words = match ticked.len() {
+            1 => "Import 1 part".to_owned(),
+            count => format!("Import {count} parts"),
+        };
+        let hint = "Import each ticked part; can be undone";
+        let button = ui.add_enabled(!ticked.is_empty(), egui::Button::new(words)).on_hover_text(hint);
+        if button.on_disabled_hover_text("No part is ticked").clicked() {
+            let taken: Vec<usize> = std::mem::take(&mut ticked).into_iter().collect();
+            context.push(Command::UseParts(fingerprint, taken, Box::new(shown.overrides.clone())));
+        }
+    });
+    context.view.import.parts = ticked;
 }
