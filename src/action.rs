@@ -120,7 +120,6 @@ pub enum ImportedAction {
 }
 
 impl Action {
-    /// Returns the name of the undo step, as shown in the menu.
     pub fn name(&self) -> String {
         match self {
             Self::Compare(action) => action.name(),
@@ -327,7 +326,6 @@ impl RenderAction {
 }
 
 impl ImportedAction {
-    /// Returns the name of the undo step, as shown in the menu.
     pub fn name(&self) -> String {
         match self {
             Self::Import { sets, .. } => match sets.as_slice() {

@@ -37,10 +37,8 @@ pub enum Place {
     Own(Shared<ImportedSet>),
 }
 
-/// A data file that is part of the program.
 #[derive(Clone, Copy, Debug, Eq)]
 pub struct BuiltInFile {
-    /// Its path below `assets`.
     pub path: &'static str,
     pub text: &'static str,
 }
@@ -58,24 +56,20 @@ impl Hash for BuiltInFile {
     }
 }
 
-/// One data set in the index.
 #[derive(Clone, Debug)]
 pub struct Entry {
     pub kind: SetKind,
-    /// Its name, unique within its kind.
     pub name: String,
     /// A shorter name for narrow places; the name itself if there is none.
     pub short: String,
     /// A gloss shown after the name.
     pub also: Option<String>,
-    /// Location of its figures.
     pub place: Place,
     /// The facts about a built-in set.
     pub header: Option<Header>,
 }
 
 impl Entry {
-    /// True if the user brought it.
     pub fn is_own(&self) -> bool {
         matches!(self.place, Place::Own(_))
     }
@@ -101,7 +95,6 @@ impl Entry {
         format!("{} {} {kind} {}", self.short, self.also.as_deref().unwrap_or_default(), self.kind.plural())
     }
 
-    /// An entry for one of the user's sets.
     pub fn from_own(set: &Shared<ImportedSet>) -> Self {
         let name = set.name.clone();
         Self {
@@ -115,7 +108,6 @@ impl Entry {
     }
 }
 
-/// The built-in sets.
 #[derive(Clone, Debug)]
 pub struct Catalog {
     entries: Vec<Entry>,
@@ -149,7 +141,6 @@ impl Catalog {
         Self { entries, names }
     }
 
-    /// Names of the sets.
     pub fn names(&self) -> &BuiltInNames {
         &self.names
     }
@@ -159,7 +150,6 @@ impl Catalog {
         &self.entries
     }
 
-    /// The sets of one kind, by name.
     pub fn of_kind(&self, kind: SetKind) -> impl Iterator<Item = &Entry> {
         self.entries.iter().filter(move |entry| entry.kind == kind)
     }
@@ -174,7 +164,6 @@ impl Catalog {
     }
 }
 
-/// File name and text of each license and notice.
 pub fn licenses() -> impl Iterator<Item = (&'static str, &'static str)> {
     chromascope_data::files("licenses").map(|(path, text)| (path.rsplit('/').next().unwrap_or(path), text))
 }

@@ -53,7 +53,6 @@ pub enum Command {
     FigurePage(PaneKind),
     Export(PaneKind, FigureForm),
     ExportExr(SensorId),
-    /// Put the curves of a set of the library on the clipboard as text.
     CopySet(SetKind, String),
     SaveSet(SetKind, String, Form),
     SaveCorrection(CorrectionForm),
@@ -63,7 +62,6 @@ pub enum Command {
     SaveCard(PaneKind),
     CopyNumbers(PaneKind),
     Show(Workspace),
-    /// Let a pane fill the window, or no longer.
     Maximize(PaneKind),
     TogglePane(PaneKind),
     /// Show the inspector, in its column or over the center.
@@ -85,7 +83,6 @@ pub enum Command {
     ToggleSource(usize),
     /// Keep the selection, or let it go.
     Pin,
-    /// Show or hide the bars of differences.
     ToggleDifference,
     /// Clear the selection and similar states, one at a time.
     Escape,

@@ -26,7 +26,6 @@ use start::Start;
 /// The version of the saved form that this program writes.
 pub const VERSION: u32 = 4;
 
-/// Complete description of a comparison: sensors, light, chart and settings.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Document {
@@ -36,7 +35,6 @@ pub struct Document {
     pub start: Start,
     /// The compared cameras and observers, in the order of the list. The reference is among them.
     pub compared: Vec<Compared>,
-    /// The observer that the others are compared to.
     pub reference: String,
     pub light: Light,
     /// The filters in front of the light, in the order they were added; the order changes no number.
@@ -51,19 +49,15 @@ pub struct Document {
     pub subset: Subset,
     /// The color a perfect white is to take.
     pub white: WhiteBalanceChoice,
-    /// Color transform from sensor signals to XYZ.
     pub transform: TransformChoice,
-    /// Method by which color transforms are fitted.
     #[serde(skip_serializing_if = "CorrectionChoice::is_default")]
     pub correction: CorrectionChoice,
-    /// Metric of the differences from the reference.
     #[serde(with = "metric_id")]
     pub difference: Metric,
     pub diagram: Diagram,
     pub overlays: Overlays,
     /// Mesh, material and view of the Render pane.
     pub render: RenderSettings,
-    /// The user's own sets, by value.
     #[serde(with = "imported::list")]
     pub own: Vec<Shared<ImportedSet>>,
     /// File that it is saved in as a session, where it is.
@@ -80,7 +74,6 @@ pub struct Compared {
     pub kind: SetKind,
     /// Its place in the palette, constant while it is compared.
     pub slot: u8,
-    /// True if its curves are drawn.
     #[serde(default = "yes")]
     pub visible: bool,
     /// Display label, if different from the name.
@@ -96,9 +89,7 @@ fn yes() -> bool {
 #[serde(rename_all = "kebab-case")]
 pub enum Light {
     Set(String),
-    /// A blackbody of the document's temperature.
     BlackBody,
-    /// CIE daylight of the document's temperature.
     Daylight,
 }
 
@@ -118,7 +109,6 @@ pub enum WhiteBalanceChoice {
     /// 1 : 1 : 1, the paper's experiments 1 and 2.
     #[default]
     Unity,
-    /// The color of a light in the catalog.
     Light(String),
     /// CIE daylight of a temperature in kelvins.
     Daylight(f64),
@@ -126,19 +116,16 @@ pub enum WhiteBalanceChoice {
     BlackBody(f64),
 }
 
-/// Color transform from sensor signals to XYZ.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum TransformChoice {
     /// Eq 13.
     #[default]
     Paper,
-    /// A matrix fitted to this observer.
     Observer(String),
 }
 
 impl TransformChoice {
-    /// True if colors go through Eq 13.
     pub const fn is_eq_13(&self) -> bool {
         matches!(self, Self::Paper)
     }
@@ -157,7 +144,6 @@ impl TransformChoice {
         }
     }
 
-    /// Metric that the transform starts with.
     pub const fn preferred_metric(&self, diagram: Diagram) -> Metric {
         match (self, diagram) {
             (Self::Observer(_), _) => Metric::DELTA_E_2000,
@@ -199,10 +185,8 @@ pub struct Overlays {
     pub loci: bool,
     /// Patches with their tails.
     pub patches: bool,
-    /// Each camera's response to monochromatic light.
     pub camera_spectral_loci: bool,
     pub daylight: bool,
-    /// Standard whites and the light.
     pub whites: bool,
     pub isotherms: bool,
     pub srgb: bool,
@@ -319,12 +303,10 @@ impl Document {
         }
     }
 
-    /// The start *Colorimetry*.
     pub fn colorimetry() -> Self {
         Start::Colorimetry.document()
     }
 
-    /// The start *The 2007 paper*.
     pub fn paper() -> Self {
         Start::Paper.document()
     }

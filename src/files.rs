@@ -49,7 +49,6 @@ pub struct Files {
     wake: Option<egui::Context>,
     watch: watch::Watch,
     standing: between_runs::Notices,
-    /// The layout as it was written last.
     layout: Option<String>,
 }
 
@@ -81,19 +80,16 @@ impl Files {
         }
     }
 
-    /// Uses path prompts in the window only, as where the system has no dialogs.
     #[must_use]
     pub fn without_dialogs(self) -> Self {
         Self { dialogs: None, ..self }
     }
 
-    /// Uses other dialogs than the system's.
     #[must_use]
     pub fn with_dialogs(self, dialogs: Arc<dyn Dialogs>) -> Self {
         Self { dialogs: Some(dialogs), ..self }
     }
 
-    /// Takes another folder for `~`.
     #[must_use]
     pub fn with_home(self, home: PathBuf) -> Self {
         Self { home: Some(home), ..self }
@@ -105,7 +101,6 @@ impl Files {
         self.watch = watch::Watch::new(Some(ctx.clone()));
     }
 
-    /// Events since the last query.
     pub fn poll(&mut self) -> Vec<FileEvent> {
         let notes: Vec<Note> = self.receiver.try_iter().collect();
         let mut events = Vec::new();
@@ -140,7 +135,6 @@ impl Files {
         events
     }
 
-    /// Watches these files on disk and no others.
     pub fn watch(&mut self, files: std::collections::BTreeSet<PathBuf>) {
         self.watch.files(files);
     }

@@ -40,7 +40,6 @@ const CONTEXT: usize = 40;
 pub struct Page {
     pub name: &'static str,
     pub title: String,
-    /// The content, the first heading included.
     pub blocks: Vec<Block>,
 }
 
@@ -178,7 +177,6 @@ fn on_page(page: &Page, terms: &[String]) -> Vec<(bool, Hit)> {
     hits
 }
 
-/// The first match of a term with its context, in one line.
 fn excerpt(words: &str, term: &str) -> String {
     let letters: Vec<char> = words.chars().map(|c| if c == '\n' { ' ' } else { c }).collect();
     let term: Vec<char> = term.chars().collect();

@@ -8,22 +8,16 @@ use egui::{
     Vec2, Visuals, style::WidgetVisuals,
 };
 
-/// Unit of all distances.
 pub const UNIT: f32 = 4.0;
 /// Height of a row, smallest side of what can be clicked.
 pub const ROW: f32 = 24.0;
-/// Font sizes.
 pub const TEXT: f32 = TextSize::Body.points();
-/// Font size of headings.
 pub const HEADING: f32 = TextSize::Heading.points();
-/// Font size of captions and notes.
 pub const SMALL: f32 = TextSize::Small.points();
-/// Font size of numbers.
 pub const MONO: f32 = TextSize::Mono.points();
 
 /// Width of the tail from a point to the reference.
 pub const LINE_TAIL: f64 = 1.2;
-/// Width of grid lines.
 pub const LINE_GRID: f64 = 1.0;
 /// Opacity of the colors in a chromaticity diagram.
 pub const DIAGRAM_FILL: f32 = 0.1;
@@ -33,19 +27,13 @@ pub const FADED: f32 = 0.35;
 /// Width of the ring around the control that has the keyboard.
 pub const FOCUS: f32 = 2.0;
 
-/// Corner radius of controls.
 const CORNER: u8 = 3;
 
-/// Family of text in figures.
 pub const FONT_FAMILY: &str = "DejaVu Sans";
-/// Family of numbers in figures.
 pub const MONO_FAMILY: &str = "DejaVu Sans Mono";
-/// The text font.
 pub const FONT: &[u8] = include_bytes!("../assets/fonts/DejaVuSans.ttf");
-/// The font of numbers.
 pub const MONO_FONT: &[u8] = include_bytes!("../assets/fonts/DejaVuSansMono.ttf");
 
-/// The gray around swatches and renders.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, serde::Serialize, serde::Deserialize)]
 pub enum Surround {
     /// 777777, L* 50.
@@ -58,7 +46,6 @@ pub enum Surround {
 }
 
 impl Surround {
-    /// All of them.
     pub const ALL: [Self; 3] = [Self::Middle, Self::Dark, Self::Light];
 
     /// The name on screen.
@@ -70,7 +57,6 @@ impl Surround {
         }
     }
 
-    /// The gray.
     pub const fn color(self) -> Color32 {
         match self {
             Self::Middle => Color32::from_gray(0x77),
@@ -98,40 +84,25 @@ pub enum SourceInks {
     Gray,
 }
 
-/// The colors of one theme.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Theme {
     /// True if text is light on dark.
     pub dark: bool,
-    /// Ground of panes and bars.
     pub panel: Color32,
-    /// Ground of plots, fields and lists.
     pub plot: Color32,
-    /// Controls at rest.
     pub control: Color32,
-    /// Controls under the pointer.
     pub hover: Color32,
-    /// Chosen controls, selected text.
     pub chosen: Color32,
-    /// Frames and separators.
     pub line: Color32,
-    /// Grid lines.
     pub grid: Color32,
-    /// Text.
     pub text: Color32,
-    /// Text of less weight.
     pub weak: Color32,
     /// The ring around the control that has the keyboard.
     pub focus: Color32,
-    /// Something to look after.
     pub warning: Color32,
-    /// Something failed.
     pub error: Color32,
-    /// The gray around swatches and renders.
     pub surround: Surround,
-    /// The reference.
     pub reference: Color32,
-    /// Observers other than the reference.
     pub observer: Color32,
     /// Compared sources by slot.
     pub sources: [Color32; 8],
@@ -142,7 +113,6 @@ const fn hex(rgb: u32) -> Color32 {
 }
 
 impl Theme {
-    /// Light on dark.
     pub const DARK: Self = Self {
         dark: true,
         panel: hex(0x0026_2626),
@@ -214,7 +184,6 @@ impl Theme {
         ..Self::LIGHT
     };
 
-    /// Theme with other colors of compared sources.
     #[must_use]
     pub fn with_inks(self, inks: SourceInks) -> Self {
         // Equal steps of L*, 18 to 77.5 on white and 42 to 96 on dark, neighbors in the list far apart.
@@ -234,13 +203,11 @@ impl Theme {
         if visuals.dark_mode { Self::DARK } else { Self::LIGHT }
     }
 
-    /// Theme with another gray around swatches and renders.
     #[must_use]
     pub const fn with_surround(self, surround: Surround) -> Self {
         Self { surround, ..self }
     }
 
-    /// The color of a role.
     pub fn role(&self, role: InkRole) -> Color32 {
         match role {
             InkRole::Reference => self.reference,
@@ -264,7 +231,6 @@ impl Theme {
         self.panel.lerp_to_gamma(self.chosen, share.clamp(0.0, 1.0))
     }
 
-    /// The color of an ink.
     pub fn ink(&self, ink: Ink) -> Color32 {
         self.role(ink.role).gamma_multiply(ink.alpha.clamp(0.0, 1.0))
     }
@@ -366,7 +332,6 @@ pub fn difference_ramp(share: f32) -> [u8; 3] {
     [mix(0), mix(1), mix(2)]
 }
 
-/// The font of a text size.
 pub fn font(size: TextSize) -> FontId {
     match size {
         TextSize::Mono => FontId::monospace(size.points()),

@@ -189,7 +189,6 @@ impl ChromascopeApp {
         action
     }
 
-    /// Asks for files to open, or for a folder: that of files, or of a report.
     fn ask_for_files(&mut self, command: &Command) {
         self.view.recorded.opening = *command == Command::OpenRecorded;
         self.view.report_on = None;
@@ -457,7 +456,6 @@ impl ChromascopeApp {
         self.files.ask_to_save(SaveRequest::new(what, name, forms.collect()));
     }
 
-    /// File name for a pane's export, without extension.
     fn file_stem(&self, pane: PaneKind) -> String {
         let title = panes::title(pane).to_lowercase();
         match (pane, self.view.accuracy.shows) {

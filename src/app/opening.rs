@@ -22,13 +22,11 @@ use crate::workspaces::{PaneKind, Workspace};
 /// What came of reading sets again.
 #[derive(Default)]
 struct Reread {
-    /// Sets to replace, by the names they had.
     with: Vec<(String, ImportedSet)>,
     /// Readings in another role, which are offered.
     beside: Vec<ImportedSet>,
     /// Sets whose settings changed meanwhile.
     again: Vec<ImportedSet>,
-    /// Reasons why others stay as they were.
     failures: Vec<String>,
     /// Sentences about the readings in another role.
     told: Vec<String>,
@@ -211,7 +209,6 @@ impl ChromascopeApp {
         }
     }
 
-    /// True while settings are tried on the selected file, which then stays selected.
     fn is_trying(&self) -> bool {
         self.view.import.selected.as_ref().is_some_and(|item| self.view.import.pending(item).is_some())
     }

@@ -44,7 +44,6 @@ impl ChromascopeApp {
         });
     }
 
-    /// Puts the curves of a set on the clipboard as text.
     pub(super) fn copy_set(&mut self, ctx: &egui::Context, kind: SetKind, name: &str) {
         let scene = Scene { document: self.history.document(), catalog: &self.catalog, results: &self.results };
         let table = scene.entry(kind, name).map_err(|error| error.to_string()).and_then(|entry| {
@@ -169,7 +168,6 @@ impl ChromascopeApp {
     }
 }
 
-/// Name of a report's own folder.
 const FOLDER: &str = "Chromascope report";
 
 impl ChromascopeApp {
@@ -190,7 +188,6 @@ impl ChromascopeApp {
         self.report.ask(ReportJob::all(&Arc::new(report), &folder));
     }
 
-    /// Says when a report is finished, or why it is not.
     pub(super) fn take_report(&mut self) {
         let (steps, done) = self.report.progress();
         let Some(folder) = steps.first().map(|job| job.folder.clone()) else { return };
@@ -207,7 +204,6 @@ impl ChromascopeApp {
         }
     }
 
-    /// Stops the report that is being made, if there is one.
     pub(super) fn stop_report(&mut self) -> bool {
         let (steps, done) = self.report.progress();
         let Some(job) = steps.first() else { return false };

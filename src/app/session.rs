@@ -25,7 +25,6 @@ const SESSION: &str = "the session";
 const DOCUMENT: &str = "the document";
 const WIDTH: f32 = 420.0;
 
-/// State of the session's file.
 #[derive(Default)]
 pub(super) struct SessionState {
     /// Files as this window last read or wrote them, with their documents.

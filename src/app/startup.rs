@@ -21,7 +21,6 @@ const WITHOUT: &str = "Without a window, `chromascope locus`, `patches`, `compar
 
 #[derive(Debug, thiserror::Error)]
 pub enum WindowError {
-    /// There is no screen to open it on.
     #[error(
         "no display: neither DISPLAY nor WAYLAND_DISPLAY is set.\n{}\n\
          For a window without a screen, install the Debian package xvfb and run `xvfb-run chromascope`.",
@@ -37,7 +36,6 @@ pub enum WindowError {
     Refused(#[from] eframe::Error),
 }
 
-/// Opens the window with these files. Returns when it is closed.
 pub fn run(paths: Vec<PathBuf>, start: Instant) -> Result<(), WindowError> {
     let set = |name: &str| std::env::var_os(name).is_some_and(|value| !value.is_empty());
     if cfg!(target_os = "linux") && !set("DISPLAY") && !set("WAYLAND_DISPLAY") {
@@ -153,14 +151,12 @@ pub(super) struct WindowPlace {
 }
 
 impl WindowPlace {
-    /// Begins with the place that the window was restored to.
     pub(super) fn restored(storage: Option<&dyn eframe::Storage>) -> Self {
         let settings: Option<WindowSettings> = storage.and_then(|storage| eframe::get_value(storage, WINDOW_KEY));
         let normal = settings.as_ref().map(WindowSettings::normal_geometry);
         Self { settings, normal, seen: Seen::default() }
     }
 
-    /// Records the window's position, if it changed.
     pub(super) fn follow(&mut self, ctx: &egui::Context, frame: &eframe::Frame) {
         let now = ctx.input(|input| {
             let viewport = input.viewport();

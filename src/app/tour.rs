@@ -9,7 +9,6 @@ use crate::view::tour::STEPS;
 use crate::view::{DiagramFit, SavedView};
 use crate::workspaces::{Layout, PaneKind};
 
-/// The user's document and view while the tour is played.
 pub(super) struct Interrupted {
     pub(super) history: History,
     saved: SavedView,

@@ -11,7 +11,6 @@ use crate::document::imported::{Fingerprint, ImportOverrides, ImportedCurve, Imp
 /// Default maximum number of curves taken from a file.
 pub const TAKEN_AT_FIRST: usize = 200;
 
-/// A set as it was read.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Imported {
     pub set: ImportedSet,
@@ -21,7 +20,6 @@ pub struct Imported {
     pub guessed: bool,
 }
 
-/// Origin of bytes.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Origin {
     /// Name: a file's name, or `clipboard`.

@@ -23,34 +23,25 @@ pub const CURVE_SPREAD: &str = "uncertainty/curve_spread.csv";
 /// Reason that a set's figures cannot be computed with.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum LoadError {
-    /// A built-in file is missing from the program.
     #[error("{0} is missing from this build")]
     Missing(&'static str),
-    /// A built-in file is damaged.
     #[error("{path}: {error}")]
     Damaged {
         path: &'static str,
-        /// Cause.
         error: DatasetError,
     },
-    /// A light needs a curve.
     #[error("no curve found")]
     NoCurve,
-    /// The curves make no sensor.
     #[error(transparent)]
     Sensor(#[from] SensorError),
-    /// The file of the spread is damaged.
     #[error(transparent)]
     Spread(#[from] CurveSpreadError),
-    /// The user's settings make a spectrum that cannot be.
     #[error(transparent)]
     Spectrum(#[from] DistributionError),
-    /// There is no daylight of that temperature.
     #[error(transparent)]
     Daylight(#[from] DaylightError),
 }
 
-/// A built-in file, parsed.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct FileQuery(pub BuiltInFile);
 
@@ -63,7 +54,6 @@ impl Query for FileQuery {
     }
 }
 
-/// A file of the program by its path.
 fn asset(path: &'static str, ask: &impl Ask) -> Result<Dataset, LoadError> {
     let text = chromascope_data::text(path).ok_or(LoadError::Missing(path))?;
     (*ask.ask(&FileQuery(BuiltInFile { path, text }))).clone()
@@ -89,7 +79,6 @@ pub fn curves(place: &Place, ask: &impl Ask) -> Result<Vec<(String, SpectralDist
     }
 }
 
-/// A camera or an observer.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct SensorQuery(pub Place);
 
@@ -162,7 +151,6 @@ impl LoadedLight {
 pub enum LightQuery {
     Set(Place),
     BlackBody(Kelvin),
-    /// CIE daylight.
     Daylight(Kelvin),
 }
 
@@ -203,7 +191,6 @@ impl Query for FilterQuery {
     }
 }
 
-/// A light behind filters.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct FilteredLightQuery {
     pub light: LightQuery,
@@ -248,7 +235,6 @@ impl Query for StandardsQuery {
 /// A chart, or single reflectances; with names, only those patches in that order.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct PatchesQuery {
-    /// The set.
     pub place: Place,
     /// The selected patches; `None` for all.
     pub names: Option<&'static [&'static str]>,

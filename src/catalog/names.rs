@@ -2,22 +2,16 @@
 
 use super::Entry;
 
-/// Reason that a name means no set.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum NameError {
-    /// Nothing of that name.
     #[error("no {kind} is named \"{name}\"{}", suggest(.name, .nearest))]
     Unknown {
-        /// Kind of data set searched for.
         kind: &'static str,
-        /// Name as typed.
         name: String,
         nearest: Vec<String>,
     },
-    /// Several names contain it.
     #[error("\"{name}\" could be {}; type more of the name", .candidates.join(", "))]
     Ambiguous {
-        /// Name as typed.
         name: String,
         /// The names that contain it, the first few.
         candidates: Vec<String>,
@@ -147,7 +141,6 @@ pub fn ranked<T, G: PartialEq>(
 /// What lists say to a search for a phone.
 pub const NO_PHONES: &str = "No phone is among the built-in cameras";
 
-/// True if a search is for a phone.
 pub fn is_for_phone(text: &str) -> bool {
     const MAKES: [&str; 8] = ["nokia", "samsung", "pixel", "galaxy", "huawei", "xiaomi", "oneplus", "smartphone"];
     let is_phone = |word: &String| word.contains("phone") || MAKES.iter().any(|make| word.starts_with(make));
@@ -313,7 +306,6 @@ fn ambiguous(name: &str, candidates: &[&Entry]) -> NameError {
     NameError::Ambiguous { name: name.to_owned(), candidates: named }
 }
 
-/// Up to three names similar to the typed one.
 fn nearest(entries: &[&Entry], wanted: &str) -> Vec<String> {
     let alike = |name: &str| strsim::jaro_winkler(&folded(name), wanted);
     let score = |name: &str| alike(name).max(alike(&without_remarks(name)));

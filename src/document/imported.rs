@@ -19,7 +19,6 @@ pub struct ImportedCurve {
     /// Values; percent already divided if that was decided.
     #[serde(deserialize_with = "numbers")]
     pub values: Vec<f64>,
-    /// The unit of the values as the file names it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub unit: Option<String>,
     /// Fields that this version does not know, kept as they are.

@@ -25,19 +25,14 @@ const CURVES_IN: &str = "curves_in";
 /// Reason that a saved document cannot be opened.
 #[derive(Debug, thiserror::Error)]
 pub enum SessionError {
-    /// It is no JSON, or JSON of another shape.
     #[error("{0}")]
     Json(#[from] serde_json::Error),
-    /// It is JSON of another program.
     #[error("this is not a Chromascope session (its format is \"{0}\")")]
     Format(String),
-    /// More sensors than have a place in the palette.
     #[error("{0} sensors are compared, but at most {MOST_COMPARED} can be shown; remove some from \"compared\"")]
     Compared(usize),
-    /// A newer program wrote it.
     #[error("{0} Update to open it")]
     Newer(String),
-    /// One of its imported sets cannot be read.
     #[error("{0}")]
     Set(String),
 }

@@ -17,7 +17,6 @@ pub(super) struct Waiting {
 }
 
 impl Files {
-    /// Shows the dialog for files to open.
     pub fn ask_to_open(&mut self) {
         self.in_dialog(Question::Files, None);
     }
@@ -146,7 +145,6 @@ impl Files {
         }
     }
 
-    /// Saves to a path, or requests another one.
     fn save_to(&mut self, path: &Path, prompt: PathPrompt) {
         let Some(request) = prompt.save.clone() else { return };
         if path.is_dir() {
@@ -194,7 +192,6 @@ impl Files {
         }
     }
 
-    /// Asks for a path in the window. Text typed into an open prompt is preserved.
     fn ask_for_path(&mut self, save: Option<SaveRequest>, ticket: u64) {
         match (&mut self.prompt, save) {
             (Some(PathPrompt { save: Some(_), .. }), Some(request)) => self.ask_to_save(request),

@@ -19,10 +19,8 @@ const RETRY: Duration = Duration::from_secs(2);
 /// Maximum time to wait for a disk at exit.
 const WAIT: Duration = Duration::from_secs(3);
 
-/// The window's document.
 static LAST: Mutex<Weak<Shared>> = Mutex::new(Weak::new());
 
-/// Writes the document to the program's folder.
 pub(super) struct Autosave {
     folder: Folder,
     shared: Arc<Shared>,
@@ -50,9 +48,7 @@ struct State {
     /// True while a thread writes, or waits to write again.
     running: bool,
     closed: bool,
-    /// Time at which the last write ended.
     ended: Option<Duration>,
-    /// The reason why the last writing did not save all.
     failure: Option<String>,
     /// The file that the document was moved to, because another program wrote to the one before.
     moved: Option<PathBuf>,
@@ -84,7 +80,6 @@ impl Autosave {
         self.moved().as_deref() == Some(path) || self.folder.is_in_use(path)
     }
 
-    /// Documents saved by other windows that are closed.
     pub(super) fn copies(&self) -> Vec<Copy> {
         self.folder.copies(self.moved().as_deref())
     }

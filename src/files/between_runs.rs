@@ -26,9 +26,7 @@ pub struct PersistentMessage {
 pub enum PersistentMessageKind {
     OtherWindow,
     NotSaved,
-    /// The document of the last session could not be read.
     SetAside,
-    /// Another program wrote to the document's file.
     Moved,
     Copies,
 }
@@ -112,7 +110,6 @@ impl Files {
         Some((words, file.to_owned()))
     }
 
-    /// Documents that other windows saved, with their ages.
     pub fn other_documents(&self) -> Vec<(PathBuf, String)> {
         let now = SystemTime::now();
         let age = |modified: Option<SystemTime>| now.duration_since(modified?).ok().map(|age| age.as_secs() / 60);
@@ -126,7 +123,6 @@ impl Files {
         self.autosave.copies().into_iter().map(|copy| (copy.path, words(copy.modified))).collect()
     }
 
-    /// Removes a document that another window saved.
     pub fn remove_document(&self, path: &Path) {
         let event = if self.autosave.is_in_use(path) {
             FileEvent::Failed(format!("{} is open in another window and was not deleted.", path.display()))

@@ -32,16 +32,13 @@ pub enum Question {
 
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Answer {
-    /// Paths, at least one.
     Chosen(Vec<PathBuf>),
-    /// Nothing, because the user says so.
     Cancelled,
     Missing,
 }
 
 /// File dialogs. They run on their own thread and may take any time.
 pub trait Dialogs: Send + Sync {
-    /// Shows the dialog and waits for the answer.
     fn ask(&self, question: &Question) -> Answer;
 }
 

@@ -21,7 +21,6 @@ use crate::format::{io_failure, io_reason};
 /// Files of curves kept that the document of this run named before.
 const SUPERSEDED: usize = 16;
 
-/// Reason that a document was not written, or not all of it.
 pub(super) struct Unwritten {
     pub(super) why: String,
     /// True if only imported sets are missing in the file.
@@ -34,7 +33,6 @@ impl From<String> for Unwritten {
     }
 }
 
-/// Reason that a saved document could not be read.
 #[derive(Debug)]
 pub(super) enum Unread {
     Missing,
@@ -61,7 +59,6 @@ pub(super) struct DocumentFile {
     is_present: bool,
     /// The file in which the document is saved because another program wrote to the one before.
     moved: Option<PathBuf>,
-    /// The lock of that file, or of another one that this window went on in.
     lock: Option<Lock>,
 }
 
@@ -248,7 +245,6 @@ fn keep_earlier(file: &Path, bytes: &[u8]) -> Result<(), String> {
     write_atomically(&beside, bytes).map_err(|error| io_failure(&beside, &error))
 }
 
-/// Reads a document with the curves it names.
 pub(super) fn read(file: &Path) -> Result<(LoadedDocument, Fingerprint), Unread> {
     let because = Unread::Because;
     let bytes = fs::read(file).map_err(|error| match error.kind() {

@@ -8,7 +8,6 @@ use super::request::{Completed, PathPrompt, SaveRequest};
 use crate::document::{Document, SessionFile};
 use crate::format::file_name;
 
-/// Outcome of a dialog, a read or a write.
 #[derive(Debug)]
 pub enum FileEvent {
     Open(Vec<PathBuf>),
@@ -77,6 +76,5 @@ pub struct OpenedDocument {
     pub lost: Vec<String>,
     /// Files on this computer whose contents are not those that its sets of these names were made of.
     pub other: Vec<PathBuf>,
-    /// The document being replaced.
     pub before: Document,
 }

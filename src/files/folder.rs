@@ -29,7 +29,6 @@ pub(super) struct Folder {
     pub(super) other: Option<OtherWindow>,
     /// The reason why nothing can be written, as found at the start.
     pub(super) closed: Option<String>,
-    /// Held as long as the window is open.
     lock: Option<Lock>,
 }
 
@@ -42,10 +41,8 @@ pub(super) struct Lock {
     gone: Option<PathBuf>,
 }
 
-/// Another window of the program on the same folder.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct OtherWindow {
-    /// Its process, if it could be read.
     pub(super) process: Option<u32>,
 }
 

@@ -180,7 +180,6 @@ impl SaveRequest {
         }
     }
 
-    /// The supported extensions, in words.
     pub fn endings(&self) -> String {
         let endings: Vec<String> = self.forms.iter().map(|form| format!(".{}", form.extension)).collect();
         match endings.split_last() {

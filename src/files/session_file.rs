@@ -52,7 +52,6 @@ impl Files {
         });
     }
 
-    /// The user's templates: their names and files.
     pub fn templates(&self) -> Vec<(String, PathBuf)> {
         let entries =
             self.template_folder().and_then(|folder| fs::read_dir(folder).ok()).into_iter().flatten().flatten();
@@ -62,7 +61,6 @@ impl Files {
         named
     }
 
-    /// Writes a template of the user's. The error says why it is not saved.
     pub fn save_template(&self, name: &str, bytes: &[u8]) -> Result<(), String> {
         let folder = self.template_folder().ok_or("there is no folder for templates")?;
         let path = folder.join(format!("{}.{}", template_name(name), session::ENDING));
@@ -70,7 +68,6 @@ impl Files {
         write_atomically(&path, bytes).map_err(|error| io_failure(&path, &error))
     }
 
-    /// Deletes a template of the user's.
     pub fn remove_template(&self, path: &Path) {
         let removed = fs::remove_file(path).map_err(|error| format!("{}.", io_failure(path, &error)));
         self.note(Note::Event(

@@ -52,19 +52,14 @@ pub enum SymbolKind {
     Function,
     /// A binary operator or relation: space on both sides.
     Relation,
-    /// Punctuation: space after it.
     Punctuation,
-    /// A sum, product or integral.
     Large,
 }
 
-/// Reason why a formula cannot be typeset.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
 pub enum FormulaError {
-    /// A command outside the subset.
     #[error("unknown command \\{0}")]
     Command(String),
-    /// A brace, delimiter or argument is missing.
     #[error("missing {0}")]
     Missing(&'static str),
 }
@@ -365,7 +360,6 @@ const SYMBOLS: [(SymbolKind, &str); 5] = [
     (SymbolKind::Function, "sin sin cos cos tan tan exp exp ln ln log log min min max max arcsin arcsin"),
 ];
 
-/// Symbol of a command, if it is in the subset.
 fn symbol(name: &str) -> Option<Node> {
     SYMBOLS.into_iter().find_map(|(kind, pairs)| {
         let mut words = pairs.split(' ');

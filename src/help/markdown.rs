@@ -43,13 +43,10 @@ pub struct Style {
     pub code: bool,
 }
 
-/// Reason why a page cannot be shown completely.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum MarkdownError {
-    /// A construct that the viewer does not draw.
     #[error("unknown construct: {0}")]
     Unknown(String),
-    /// A formula that cannot be typeset.
     #[error("formula {0}: {1}")]
     Formula(String, FormulaError),
 }
@@ -189,7 +186,6 @@ fn content(events: &mut Events<'_>, end: TagEnd) -> Result<Vec<Inline>, Markdown
     Ok(content.parts)
 }
 
-/// Words that are being collected, and their style.
 #[derive(Default)]
 struct Content {
     parts: Vec<Inline>,

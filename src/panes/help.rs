@@ -20,7 +20,6 @@ const LIST: f32 = 224.0;
 const TEXT_WIDTH: f32 = 720.0;
 const MOST_HITS: usize = 100;
 
-/// Shows the help window, the palette and the window about the program while they are open.
 pub fn show(ui: &mut Ui, history: &History, context: &mut PaneContext<'_>) {
     if let Some(page) = context.view.help.page.and_then(find) {
         window(ui, page, context);

@@ -129,20 +129,15 @@ fn uncertainties_query(
 pub struct SetPlace {
     pub kind: SetKind,
     pub name: String,
-    /// Location of its figures.
     pub place: Place,
 }
 
 /// Question for metamers among sets of the catalog, which are loaded where it is answered.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct CatalogMetamersQuery {
-    /// The camera.
     pub rendering: RenderingQuery,
-    /// The reference observer.
     pub reference: RenderingQuery,
-    /// The sets that are searched.
     pub sets: Vec<SetPlace>,
-    /// The one that confuses.
     pub confusion: Confusion,
 }
 
@@ -155,12 +150,9 @@ pub struct MetamerRow {
     pub kinds: [SetKind; 2],
 }
 
-/// Metamers by name.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FoundMetamers {
-    /// The pairs, worst first.
     pub rows: Vec<MetamerRow>,
-    /// Number of reflectances that were searched.
     pub searched: usize,
 }
 

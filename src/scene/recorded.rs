@@ -15,10 +15,8 @@ use crate::catalog::recorded::lit;
 use crate::document::SetKind;
 use crate::format::{fixed, rank_in_words};
 
-/// A camera and its fit to recorded values.
 #[derive(Clone, Debug)]
 pub struct RankedCamera {
-    /// Name in the catalog.
     pub name: String,
     /// Its fit, or the reason that there is none.
     pub fit: Result<RecordedFit, RecordedError>,

@@ -28,21 +28,16 @@ const SCREEN_SIDE: usize = 4096;
 /// Pixels of the picture that comes first.
 const FIRST_PIXELS: usize = 60_000;
 
-/// Reason that a spectral image has no pictures.
 #[derive(Debug, thiserror::Error)]
 pub enum ImagePicturesError {
-    /// The reference has no colors.
     #[error(transparent)]
     Reference(RenderingError),
-    /// The image cannot be read.
     #[error(transparent)]
     Read(#[from] ReadSignalsError),
-    /// The file does not state what its samples are.
     #[error("the file does not state whether its samples are reflectances or radiances")]
     Quantity,
 }
 
-/// Use of a spectral image.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ImageUse {
     /// Quantity of the samples, overriding the file's.
@@ -69,12 +64,10 @@ pub struct ImageSignalsQuery {
     sensors: Vec<(Shared<Sensor>, [u64; 3])>,
 }
 
-/// Signals of an image.
 #[derive(Clone, Debug)]
 pub struct ImageSignals {
     /// Signals of each sensor at the pixels with values.
     pub read: ReadSignals,
-    /// Quantity of the samples.
     pub quantity: ImageQuantity,
     pub info: ImageInfo,
 }
@@ -124,20 +117,17 @@ pub struct ImagePicturesQuery {
     pub reference: RenderingQuery,
     /// The sensors, and whether each is compared with the reference.
     pub sources: Vec<(RenderingQuery, bool)>,
-    /// Metric of the differences.
     pub metric: Metric,
     /// Exposure in EV, as bits.
     pub ev: u64,
 }
 
-/// A spectral image through several sensors.
 #[derive(Clone, Debug)]
 pub struct ImagePictures {
     /// Pictures, or the reasons that there are none.
     pub pictures: Vec<Result<Arc<Picture>, RenderingError>>,
     /// Differences from the reference over all pixels with values; none for the reference, and where colors cannot be compared.
     pub differences: Vec<Option<Arc<Difference>>>,
-    /// What was read.
     pub image: Arc<ImageSignals>,
     /// Y of the white: 1 for reflectances, the 99.5 % quantile of the reference's Y for radiances.
     pub white: f64,
@@ -146,7 +136,6 @@ pub struct ImagePictures {
 }
 
 impl ImagePictures {
-    /// Pixels with values.
     pub fn placed(&self) -> &LitSamples {
         &self.image.read.placed
     }

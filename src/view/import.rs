@@ -12,7 +12,6 @@ use crate::document::imported::{Fingerprint, ImportOverrides, ImportedSet};
 /// Maximum number of remembered kinds of files.
 const REMEMBERED: usize = 100;
 
-/// Something in the list of files.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub enum ImportItem {
     /// A set of the document, by name.
@@ -21,7 +20,6 @@ pub enum ImportItem {
     File(Fingerprint),
 }
 
-/// View state of the Import pane.
 #[derive(Debug, Default)]
 pub struct ImportView {
     pub selected: Option<ImportItem>,
@@ -37,7 +35,6 @@ pub struct ImportView {
     pub focus: Option<Stop>,
     /// The line of the text to bring into view in this frame.
     pub line: Option<usize>,
-    /// Search text of the curve list.
     pub search: String,
     /// Curves under the pointer, by place in the file.
     pub hovered_curve: Option<usize>,
@@ -46,11 +43,8 @@ pub struct ImportView {
 /// Control of Import that takes the keyboard focus between panes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stop {
-    /// The list of files.
     Files,
-    /// The first of the switches.
     Switches,
-    /// The list of curves.
     Picker,
 }
 
@@ -74,7 +68,6 @@ impl ImportView {
         takes
     }
 
-    /// Settings tried for an item.
     pub fn pending(&self, item: &ImportItem) -> Option<&ImportOverrides> {
         self.tried.get(item)
     }
@@ -113,13 +106,11 @@ impl ImportView {
 /// Import settings that the user chose for a kind of file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Remembered {
-    /// The kind.
     pub likeness: Likeness,
     #[serde(rename = "wishes")]
     pub overrides: ImportOverrides,
 }
 
-/// Import settings saved between runs.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct ImportMemory {
@@ -127,7 +118,6 @@ pub struct ImportMemory {
     pub remembered: Vec<Remembered>,
     /// True if files are read again when they change on disk.
     pub watch: bool,
-    /// Files on disk that could not be read.
     pub failing: Vec<Failing>,
     /// Files with a guess or an error that the user has not reviewed.
     pub unseen: BTreeSet<ImportItem>,
@@ -154,12 +144,10 @@ impl ImportMemory {
         self.remembered.drain(..spare);
     }
 
-    /// Forgets the settings for files like one.
     pub fn forget(&mut self, likeness: &Likeness) {
         self.remembered.retain(|known| !known.likeness.is_like(likeness));
     }
 
-    /// Returns the remembered settings for a file.
     pub fn overrides(&self, likeness: &Likeness) -> ImportOverrides {
         let known = self.remembered.iter().rev().find(|known| known.likeness.is_like(likeness));
         known.map(|known| known.overrides.clone()).unwrap_or_default()

@@ -8,7 +8,6 @@ use crate::document::start::Start;
 use crate::document::{Document, Light, Overlays, SetKind, WhiteBalanceChoice};
 use crate::workspaces::PaneKind;
 
-/// A document to begin a new session with.
 #[derive(Debug)]
 pub struct Template {
     pub name: &'static str,
@@ -20,7 +19,6 @@ pub struct Template {
     actions: fn(&Document) -> Vec<Action>,
 }
 
-/// The templates, in the order they are offered.
 pub const TEMPLATES: [Template; 7] = [
     Template {
         name: "The paper, experiment 1",

@@ -32,7 +32,6 @@ impl Found {
         Self { group, line: Line::heading(group), command: None }
     }
 
-    /// Further words that find it.
     fn also(mut self, words: impl Into<String>) -> Self {
         self.line.also = words.into();
         self

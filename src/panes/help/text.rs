@@ -13,7 +13,6 @@ const CODE: f32 = 0.93;
 const LEADING: f32 = 0.28;
 const SPACE: f32 = 0.32;
 
-/// Colors, and the words to highlight.
 pub(super) struct Ink<'a> {
     pub(super) theme: Theme,
     pub(super) terms: &'a [String],

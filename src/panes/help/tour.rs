@@ -44,7 +44,6 @@ pub fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     }
 }
 
-/// The step's numbers, computed from the scene on screen.
 fn numbers(step: &TourStep, context: &PaneContext<'_>) -> String {
     let scene = &context.scene;
     let sources = scene.sources();
