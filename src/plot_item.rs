@@ -7,12 +7,9 @@ use chromascope_figure::Tag;
 
 use crate::document::SetKind;
 
-/// A sensor by kind and name.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct SensorId {
-    /// Camera or observer.
     pub kind: SetKind,
-    /// Its name in the catalog.
     pub name: String,
 }
 
@@ -23,25 +20,18 @@ pub enum PlotItem {
     Sensor(SensorId),
     /// A patch, through one sensor or (a column head, a reflectance curve) through none.
     Patch {
-        /// The sensor, if any.
         source: Option<SensorId>,
-        /// The patch's name.
         patch: String,
     },
     /// A blackbody through a sensor.
     Radiator {
-        /// The sensor.
         source: SensorId,
-        /// The temperature in kelvins.
         kelvin: f64,
     },
-    /// The light on the scene.
     Light,
     /// A set of the library that is no sensor: a chart, a light, a filter, a material.
     DataSet {
-        /// Its kind.
         kind: SetKind,
-        /// Its name in the catalog.
         name: String,
     },
 }
@@ -53,12 +43,10 @@ pub enum Relation {
     Same,
     /// The item's reference: the reference's patch for a camera's.
     Reference,
-    /// Neither.
     Other,
 }
 
 impl PlotItem {
-    /// A set of the library.
     pub fn of_set(kind: SetKind, name: &str) -> Self {
         let name = name.to_owned();
         match kind {
@@ -67,7 +55,6 @@ impl PlotItem {
         }
     }
 
-    /// The sensor it belongs to, if any.
     pub fn source(&self) -> Option<&SensorId> {
         match self {
             Self::Sensor(source) | Self::Radiator { source, .. } => Some(source),
@@ -84,7 +71,6 @@ impl PlotItem {
         hasher.finish()
     }
 
-    /// The patch it is, if any.
     pub fn patch(&self) -> Option<&str> {
         match self {
             Self::Patch { patch, .. } => Some(patch),
@@ -146,7 +132,6 @@ impl PickIndex {
         Tag(u32::try_from(index + 1).unwrap_or(0))
     }
 
-    /// Returns the item of a tag.
     pub fn get(&self, tag: Tag) -> Option<&PlotItem> {
         self.all.get((tag.0 as usize).checked_sub(1)?)
     }

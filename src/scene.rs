@@ -71,11 +71,8 @@ pub enum SceneError {
 /// Name and appearance of a compared sensor, the same in all panes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ComparedSensor {
-    /// Camera or observer.
     pub kind: SetKind,
-    /// Its name in the catalog.
     pub name: String,
-    /// Label on screen.
     pub label: String,
     /// Its color's role.
     pub role: InkRole,
@@ -97,7 +94,6 @@ pub enum Caution {
     },
     /// Cameras are fitted to another observer than they are compared with.
     FitDiffers {
-        /// The observer that is fitted to.
         target: String,
         reference: String,
         /// True if the reference is an XYZ observer, so that it can be fitted to.
@@ -106,7 +102,6 @@ pub enum Caution {
 }
 
 impl Caution {
-    /// The condition in one sentence.
     pub fn sentence(&self) -> String {
         match self {
             Self::NotComparable { reference } => {
@@ -130,7 +125,6 @@ impl Caution {
 /// The document, the data sets and the answers, read together.
 #[derive(Clone, Copy)]
 pub struct Scene<'a> {
-    /// Ground state.
     pub document: &'a Document,
     pub catalog: &'a Catalog,
     /// The answers known.
@@ -174,7 +168,6 @@ impl<'a> Scene<'a> {
         self.find(SetKind::Chart, name).or_else(other(SetKind::Material)).or_else(other(SetKind::Filter))
     }
 
-    /// A camera's or observer's sensitivities.
     pub fn sensor(&self, kind: SetKind, name: &str) -> Result<Shared<Sensor>, SceneError> {
         self.loaded(&SensorQuery(self.find(kind, name)?.place.clone()), name)
     }
@@ -184,7 +177,6 @@ impl<'a> Scene<'a> {
         Ok(Kelvin::new(self.document.temperature_k)?)
     }
 
-    /// The light on the scene.
     pub fn light(&self) -> Result<LoadedLight, SceneError> {
         let (light, name) = match &self.document.light {
             Light::Set(name) => (LightQuery::Set(self.find(SetKind::Illuminant, name)?.place.clone()), name.as_str()),
@@ -220,7 +212,6 @@ impl<'a> Scene<'a> {
         self.loaded(&FilteredLightQuery { light, filters }, &self.with_filters(name.to_owned()))
     }
 
-    /// Transmittance of a filter.
     pub fn filter(&self, name: &str) -> Result<Shared<GridSpectrum>, SceneError> {
         self.loaded(&FilterQuery(self.entry(SetKind::Filter, name)?.place), name)
     }
@@ -254,7 +245,6 @@ impl<'a> Scene<'a> {
         self.document.filters.iter().fold(light, |name, filter| format!("{name} × {filter}"))
     }
 
-    /// The current patches.
     pub fn patches(&self) -> Result<Shared<PatchSet>, SceneError> {
         let five = self.document.subset == Subset::Five && self.has_five();
         self.patch_set(&self.document.chart, five.then_some(PAPER_FIVE.as_slice()))
@@ -283,7 +273,6 @@ impl<'a> Scene<'a> {
         self.white_target(&self.document.white)
     }
 
-    /// A light of the library.
     fn built_in_light(&self, name: &str) -> Result<LoadedLight, SceneError> {
         self.loaded(&LightQuery::Set(self.find(SetKind::Illuminant, name)?.place.clone()), name)
     }
@@ -310,7 +299,6 @@ impl<'a> Scene<'a> {
             .ok_or_else(|| SceneError::WhiteBalanceTarget(name.to_owned()))
     }
 
-    /// The color transform with its data.
     pub fn transform(&self) -> Result<ColorTransformSpec, SceneError> {
         match &self.document.transform {
             TransformChoice::Paper => Ok(ColorTransformSpec::Paper),
@@ -333,7 +321,6 @@ impl<'a> Scene<'a> {
         })
     }
 
-    /// The temperatures of the visible loci.
     pub fn locus_temperatures() -> Result<Temperatures, SceneError> {
         let [from, to] = LOCUS_RANGE_K;
         Ok(Temperatures::Range { from: Kelvin::new(from)?, to: Kelvin::new(to)?, count: LOCUS_POINTS })
@@ -357,13 +344,11 @@ impl<'a> Scene<'a> {
         self.locus_at(kind, name, Temperatures::List(vec![self.temperature()?]))
     }
 
-    /// The current patches through a sensor.
     pub fn patch_colors(&self, kind: SetKind, name: &str) -> Result<Vec<PatchColor>, SceneError> {
         let query = PatchColorsQuery { rendering: self.rendering_of(kind, name)?, patches: self.patches()? };
         self.rendered(&query, name)
     }
 
-    /// A sensor's response to monochromatic light.
     pub fn monochromatic(&self, kind: SetKind, name: &str) -> Result<Vec<SpectralPoint>, SceneError> {
         self.rendered(&MonochromaticQuery { rendering: self.rendering_of(kind, name)? }, name)
     }

@@ -17,7 +17,6 @@ pub struct PaneKind(&'static str);
 impl PaneKind {
     /// Sensors compared, and all data sets.
     pub const LIBRARY: Self = Self::new("Library");
-    /// Chromaticity diagram.
     pub const CHROMATICITY: Self = Self::new("Chromaticity");
     /// Patches as colors.
     pub const SWATCHES: Self = Self::new("Swatches");
@@ -40,7 +39,6 @@ impl PaneKind {
     /// Skipped work, and the time it saved.
     /// Counts of samples and methods of the pictures.
     pub const STATISTICS: Self = Self::new("Statistics");
-    /// Cameras by figures of merit.
     pub const METRICS: Self = Self::new("Metrics");
     /// Two cameras side by side.
     pub const HEAD_TO_HEAD: Self = Self::new("HeadToHead");
@@ -48,7 +46,6 @@ impl PaneKind {
     pub const REPORT_CARD: Self = Self::new("ReportCard");
     /// The light judged.
     pub const LIGHT: Self = Self::new("Light");
-    /// The color correction of a camera.
     pub const CORRECTION: Self = Self::new("Correction");
     /// Raw values of a real camera against the library.
     pub const RECORDED: Self = Self::new("Recorded");
@@ -123,17 +120,14 @@ fn interned(id: String) -> PaneKind {
     }))
 }
 
-/// A fixed arrangement of panes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 pub enum Workspace {
     /// The diagram over swatches, inspector over spectra.
     #[default]
     Compare,
-    /// Large spectra.
     Spectra,
     /// Rendered mesh through each camera, beside its components.
     Render,
-    /// Cameras by figures of merit.
     Metrics,
     /// The user's files and their interpretation.
     Import,
@@ -147,7 +141,6 @@ impl Workspace {
     pub const ALL: [Self; 6] =
         [Self::Compare, Self::Spectra, Self::Render, Self::Metrics, Self::Import, Self::Numerics];
 
-    /// The tab's title.
     pub const fn title(self) -> &'static str {
         match self {
             Self::Compare => "Compare",
@@ -165,7 +158,6 @@ impl Workspace {
     }
 }
 
-/// A border that can be dragged.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Splitter {
     /// Right of the library.
@@ -190,7 +182,6 @@ pub struct Layout {
     pub lower_share: f32,
     /// Height of the right column's lower pane as a share.
     pub right_lower_share: f32,
-    /// Library visible.
     pub library: bool,
     /// Compare: center upper, center lower, right upper, right lower.
     pub compare: [Option<PaneKind>; 4],
@@ -275,7 +266,6 @@ impl Layout {
         Workspace::ALL.into_iter().find(|workspace| start.places(*workspace).contains(&Some(pane)))
     }
 
-    /// True if a workspace shows a pane.
     pub fn shows(&self, workspace: Workspace, pane: PaneKind) -> bool {
         if pane == PaneKind::LIBRARY { self.library } else { self.places(workspace).contains(&Some(pane)) }
     }
@@ -311,12 +301,9 @@ impl Layout {
     }
 }
 
-/// Rectangles of the panes and borders of a window.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Arrangement {
-    /// Panes with their rectangles.
     pub panes: Vec<(PaneKind, Rect)>,
-    /// Borders with theirs.
     pub splitters: Vec<(Splitter, Rect)>,
     /// A pane that overlaps the others.
     pub over: Option<(PaneKind, Rect)>,
@@ -330,7 +317,6 @@ const NARROW: f32 = 1100.0;
 const HYSTERESIS: f32 = 40.0;
 /// Above this width the columns grow.
 const LARGE: f32 = 1800.0;
-/// Width of a border.
 const GAP: f32 = 4.0;
 
 /// Arranges a workspace in an area. `was_narrow` prevents a window at the limit from flickering; `column_over` lays the omitted
@@ -415,7 +401,6 @@ fn cut_x(area: Rect, width: f32) -> (Rect, Rect, Rect) {
 }
 
 impl Layout {
-    /// Moves a border to the pointer.
     pub fn drag(&mut self, splitter: Splitter, pointer: Pos2, area: Rect) {
         match splitter {
             Splitter::Library => self.library_width = Some((pointer.x - area.left()).clamp(160.0, 360.0)),

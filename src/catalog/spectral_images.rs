@@ -29,24 +29,18 @@ const DATA: [&str; 9] = ["img", "dat", "raw", "bil", "bip", "bsq", "bin", "cube"
 /// Reason that a spectral image cannot be opened, with its file.
 #[derive(Debug, thiserror::Error)]
 pub enum OpenImageError {
-    /// The file cannot be read.
     #[error("{}: {}", path.display(), crate::format::io_reason(error))]
     Io { path: PathBuf, error: io::Error },
-    /// A header without its data file.
     #[error("{}: no data beside this header; expected {} or that name with .img, .dat, .bil, .bip or .bsq", header.display(), data.display())]
     NoData {
         header: PathBuf,
-        /// The data's name.
         data: PathBuf,
     },
-    /// Data without its header file.
     #[error("{}: no header beside these data; expected {}", data.display(), header.display())]
     NoHeader {
         data: PathBuf,
-        /// The header's name.
         header: PathBuf,
     },
-    /// The file is no spectral image.
     #[error("{}: {error}", path.display())]
     Image { path: PathBuf, error: ImageError },
 }
@@ -134,7 +128,6 @@ fn data_of(header: &Path) -> Result<PathBuf, OpenImageError> {
 pub struct RowsRead(Arc<AtomicU32>);
 
 impl RowsRead {
-    /// Share, from 0 to 1.
     pub fn share(&self) -> f32 {
         f32::from_bits(self.0.load(Ordering::Relaxed))
     }
@@ -162,7 +155,6 @@ impl Hash for RowsRead {
 pub struct ImageSource {
     /// Header, data or OpenEXR file.
     pub path: PathBuf,
-    /// State of the header and of the data.
     pub version: [Stamp; 2],
     pub rows: RowsRead,
 }
@@ -170,9 +162,7 @@ pub struct ImageSource {
 /// Header of a spectral image; its samples stay on disk.
 #[derive(Clone, Debug)]
 pub struct LoadedImage {
-    /// The files.
     pub source: ImageSource,
-    /// Size, bands, quantity.
     pub info: ImageInfo,
     /// The file's name, size and bands.
     pub summary: String,
@@ -186,9 +176,7 @@ impl LoadedImage {
     }
 }
 
-/// The spectral images that were requested.
 pub type ImageStore = FileStore<LoadedImage>;
-/// State of a spectral image.
 pub type ImageState = FileState<LoadedImage>;
 
 /// Reads header and state of an image.
@@ -213,7 +201,6 @@ pub fn load(path: &Path) -> Result<LoadedImage, OpenImageError> {
     Ok(LoadedImage { source: ImageSource { path: path.to_owned(), version, rows: RowsRead::default() }, info, summary })
 }
 
-/// States of header and data.
 fn version(path: &Path) -> Result<[Stamp; 2], OpenImageError> {
     let stamp = |path: &Path| {
         let file = fs::metadata(path).map_err(|error| OpenImageError::Io { path: path.to_owned(), error })?;
@@ -310,28 +297,20 @@ impl FileFailure for ImageFailure {
     }
 }
 
-/// Reason that an image has no signals.
 #[derive(Debug, thiserror::Error)]
 pub enum ReadSignalsError {
-    /// The image cannot be opened.
     #[error(transparent)]
     Open(#[from] OpenImageError),
-    /// The image cannot be read.
     #[error(transparent)]
     Read(#[from] ImageError),
-    /// The image cannot be put through cameras.
     #[error(transparent)]
     Image(#[from] SpectralImageError),
-    /// Too many pixels.
     #[error("{0} million pixels; the limit is {limit} million, so cut or bin the image", limit = MOST_PIXELS / 1_000_000)]
     Pixels(usize),
-    /// No pixel has a value.
     #[error("no pixel has a value in every band")]
     Empty,
-    /// The image is another now.
     #[error("the file changed while it was visible; open it again")]
     Changed,
-    /// Interrupted.
     #[error("stopped")]
     Stopped,
 }
@@ -339,9 +318,7 @@ pub enum ReadSignalsError {
 /// Signals of sensors at the pixels of an image that have values.
 #[derive(Clone, Debug)]
 pub struct ReadSignals {
-    /// Pixels with values.
     pub placed: Arc<LitSamples>,
-    /// Signals of each sensor there.
     pub signals: Vec<Vec<[f32; 3]>>,
     /// Maximum bytes of samples in memory.
     pub tile_bytes: usize,
