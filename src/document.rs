@@ -5,6 +5,7 @@
 
 pub mod correction;
 pub mod imported;
+mod kind;
 pub mod names;
 pub mod paths;
 pub mod render;
@@ -18,7 +19,7 @@ use correction::CorrectionChoice;
 pub use correction::TRAINING;
 use imported::ImportedSet;
 pub use imported::SessionFile;
-pub use names::SetKind;
+pub use kind::SetKind;
 use render::RenderSettings;
 use serde::{Deserialize, Serialize};
 use start::Start;

@@ -26,10 +26,7 @@ pub enum LoadError {
     #[error("{0} is missing from this build")]
     Missing(&'static str),
     #[error("{path}: {error}")]
-    Damaged {
-        path: &'static str,
-        error: DatasetError,
-    },
+    Damaged { path: &'static str, error: DatasetError },
     #[error("no curve found")]
     NoCurve,
     #[error(transparent)]

@@ -5,11 +5,7 @@ use super::Entry;
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum NameError {
     #[error("no {kind} is named \"{name}\"{}", suggest(.name, .nearest))]
-    Unknown {
-        kind: &'static str,
-        name: String,
-        nearest: Vec<String>,
-    },
+    Unknown { kind: &'static str, name: String, nearest: Vec<String> },
     #[error("\"{name}\" could be {}; type more of the name", .candidates.join(", "))]
     Ambiguous {
         name: String,

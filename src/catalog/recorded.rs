@@ -52,15 +52,9 @@ pub enum RawTableError {
     #[error("no rows; expected columns patch,R,G,B")]
     Empty,
     #[error("line {line}: no columns R, G and B; head the columns of raw values so")]
-    Heads {
-        line: usize,
-    },
+    Heads { line: usize },
     #[error("line {line}: {found} cells for {expected} heads")]
-    Cells {
-        line: usize,
-        found: usize,
-        expected: usize,
-    },
+    Cells { line: usize, found: usize, expected: usize },
     #[error("line {line}, column {column}: \"{text}\" is not a number; leave a missing value empty")]
     Number {
         line: usize,
@@ -82,17 +76,11 @@ pub enum JoinError {
         known: String,
     },
     #[error("line {line}: \"{name}\" was named before; name each patch once")]
-    Twice {
-        line: usize,
-        name: String,
-    },
+    Twice { line: usize, name: String },
     #[error(
         "{rows} rows of raw values for {spectra} spectra; name the patches in a first column, or give one row for each spectrum"
     )]
-    Count {
-        rows: usize,
-        spectra: usize,
-    },
+    Count { rows: usize, spectra: usize },
 }
 
 /// `S L`.

@@ -32,15 +32,9 @@ pub enum OpenImageError {
     #[error("{}: {}", path.display(), crate::format::io_reason(error))]
     Io { path: PathBuf, error: io::Error },
     #[error("{}: no data beside this header; expected {} or that name with .img, .dat, .bil, .bip or .bsq", header.display(), data.display())]
-    NoData {
-        header: PathBuf,
-        data: PathBuf,
-    },
+    NoData { header: PathBuf, data: PathBuf },
     #[error("{}: no header beside these data; expected {}", data.display(), header.display())]
-    NoHeader {
-        data: PathBuf,
-        header: PathBuf,
-    },
+    NoHeader { data: PathBuf, header: PathBuf },
     #[error("{}: {error}", path.display())]
     Image { path: PathBuf, error: ImageError },
 }

@@ -1,88 +1,16 @@
-//! Kinds and names of data sets: when two names are one, which are taken, and every reference of the document to a set.
+//! Names of data sets: when two are one, which are taken, and every reference of the document to a set.
 
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
 use chromascope_core::query::Shared;
-use serde::{Deserialize, Serialize};
 
-use super::imported::{ImportedSet, Role};
+use super::imported::ImportedSet;
 use super::render::{GARMENT, RenderSettings};
 use super::{
-    CHART, Document, FIT_TARGET, LIGHT, Light, PAPER_REFERENCE, Subset, TRAINING, TransformChoice, WhiteBalanceChoice,
+    CHART, Document, FIT_TARGET, LIGHT, Light, PAPER_REFERENCE, SetKind, Subset, TRAINING, TransformChoice,
+    WhiteBalanceChoice,
 };
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum SetKind {
-    /// A camera's spectral sensitivities.
-    Camera,
-    /// An observer's color matching functions or cone fundamentals.
-    Observer,
-    Chart,
-    Illuminant,
-    /// Transmittance of a filter in front of the light.
-    Filter,
-    Material,
-    /// The user's spectra of unknown quantity.
-    Unsorted,
-}
-
-impl SetKind {
-    pub const ALL: [Self; 7] =
-        [Self::Camera, Self::Observer, Self::Chart, Self::Illuminant, Self::Filter, Self::Material, Self::Unsorted];
-
-    /// The plural, as shown and as the command line takes it.
-    pub const fn plural(self) -> &'static str {
-        match self {
-            Self::Camera => "cameras",
-            Self::Observer => "observers",
-            Self::Chart => "charts",
-            Self::Illuminant => "illuminants",
-            Self::Filter => "filters",
-            Self::Material => "materials",
-            Self::Unsorted => "unsorted spectra",
-        }
-    }
-
-    pub const fn of_own(set: &ImportedSet) -> Self {
-        match set.role {
-            Role::Camera => Self::Camera,
-            Role::Reflectance => Self::Chart,
-            Role::Transmittance => Self::Filter,
-            Role::Illuminant => Self::Illuminant,
-            Role::Unknown => Self::Unsorted,
-        }
-    }
-
-    /// True if no two sets of these kinds have one name: patches are chosen from charts and materials alike.
-    pub fn shares_names_with(self, other: Self) -> bool {
-        let of_patches = |kind| matches!(kind, Self::Chart | Self::Material);
-        self == other || (of_patches(self) && of_patches(other))
-    }
-
-    /// Use of one of the user's sets under the conditions, as buttons name it; none for sensors, which are compared.
-    pub const fn used_as(self) -> Option<&'static str> {
-        match self {
-            Self::Illuminant => Some("light"),
-            Self::Chart | Self::Material => Some("chart"),
-            Self::Filter => Some("filter"),
-            Self::Camera | Self::Observer | Self::Unsorted => None,
-        }
-    }
-
-    pub const fn singular(self) -> &'static str {
-        match self {
-            Self::Camera => "camera",
-            Self::Observer => "observer",
-            Self::Chart => "chart",
-            Self::Illuminant => "illuminant",
-            Self::Filter => "filter",
-            Self::Material => "material",
-            Self::Unsorted => "unsorted spectrum",
-        }
-    }
-}
 
 /// A name without case (after full case mapping, so that `STRASSE` is `Straße`): two names with one such form are one name.
 pub fn caseless(name: &str) -> String {
