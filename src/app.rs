@@ -1,16 +1,12 @@
 //! The window: handles events, runs commands and shows panes.
 
-mod closing;
+mod changes;
 mod commands;
 mod focus;
 mod frame;
-mod imports;
-mod layout;
 mod meshes;
-mod notice;
+mod opening;
 mod path_prompt;
-mod pictures;
-mod report;
 mod saving;
 mod session;
 mod startup;
@@ -67,11 +63,11 @@ pub struct ChromascopeApp {
     first_frame: Option<std::time::Instant>,
     /// The control that had the keyboard in the last frame.
     focus: Option<egui::Id>,
-    closing: closing::Closing,
+    closing: session::Closing,
     session: session::SessionState,
     /// What the user had before the tour.
     interrupted: Option<tour::Interrupted>,
-    place: layout::WindowPlace,
+    place: startup::WindowPlace,
     ctx: egui::Context,
 }
 
@@ -121,10 +117,10 @@ impl ChromascopeApp {
             arrangement: Arrangement::default(),
             first_frame: None,
             focus: None,
-            closing: closing::Closing::default(),
+            closing: session::Closing::default(),
             session: session::SessionState::default(),
             interrupted: None,
-            place: layout::WindowPlace::default(),
+            place: startup::WindowPlace::default(),
             ctx: ctx.clone(),
         };
         app.begin_session();
@@ -133,7 +129,7 @@ impl ChromascopeApp {
 
     /// Restores the window's position and size from the last run.
     pub fn restore_place(&mut self, storage: Option<&dyn eframe::Storage>) {
-        self.place = layout::WindowPlace::restored(storage);
+        self.place = startup::WindowPlace::restored(storage);
     }
 
     pub fn history(&self) -> &History {

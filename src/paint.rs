@@ -36,7 +36,6 @@ pub enum Emphasis {
 /// Emphasis of each mark, by its tag.
 pub type EmphasisOf<'a> = &'a dyn Fn(Tag) -> Emphasis;
 
-/// Interaction with a panel.
 #[derive(Clone, Copy)]
 pub struct PlotOptions<'a> {
     /// True if the user can zoom (wheel, pinch) and pan (drag). A double click shows the panel's ranges again.

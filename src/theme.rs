@@ -11,11 +11,9 @@ use egui::{
 use crate::palette::{Colors, FONT, FONT_FAMILY, MONO_FAMILY, MONO_FONT};
 pub use crate::palette::{LINE_TAIL, SourceInks, Surround};
 
-/// Unit of all distances.
 pub const UNIT: f32 = 4.0;
 /// Height of a row, smallest side of what can be clicked.
 pub const ROW: f32 = 24.0;
-/// Font sizes.
 pub const TEXT: f32 = TextSize::Body.points();
 pub const HEADING: f32 = TextSize::Heading.points();
 pub const SMALL: f32 = TextSize::Small.points();
@@ -28,7 +26,6 @@ pub const FADED: f32 = 0.35;
 /// Width of the ring around the control that has the keyboard.
 pub const FOCUS: f32 = 2.0;
 
-/// Corner radius of controls.
 const CORNER: u8 = 3;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -37,25 +34,17 @@ pub struct Theme {
     pub colors: Colors,
     /// True if text is light on dark.
     pub dark: bool,
-    /// Ground of panes and bars.
     pub panel: Color32,
-    /// Ground of plots, fields and lists.
     pub plot: Color32,
-    /// Controls at rest.
     pub control: Color32,
-    /// Controls under the pointer.
     pub hover: Color32,
-    /// Chosen controls, selected text.
     pub chosen: Color32,
-    /// Frames and separators.
     pub line: Color32,
     pub grid: Color32,
     pub text: Color32,
-    /// Text of less weight.
     pub weak: Color32,
     /// The ring around the control that has the keyboard.
     pub focus: Color32,
-    /// Something to look after.
     pub warning: Color32,
     pub error: Color32,
     /// The gray around swatches and renders, and labels on it.
@@ -69,12 +58,9 @@ pub const fn rgb([r, g, b]: [u8; 3]) -> Color32 {
 }
 
 impl Theme {
-    /// Light on dark.
     pub const DARK: Self = Self::new(Colors::DARK, [0x38, 0x48, 0x58, 0xFF], [0xFF, 0x7B, 0x72]);
-    /// Dark on light.
     pub const LIGHT: Self = Self::new(Colors::LIGHT, [0xDA, 0xCC, 0xBC, 0x00], [0xB3, 0x26, 0x1E]);
 
-    /// The figures' colors, with the grays of controls at rest, under the pointer, chosen, and with the keyboard.
     const fn new(colors: Colors, [control, hover, chosen, focus]: [u8; 4], error: [u8; 3]) -> Self {
         Self {
             colors,
@@ -101,14 +87,12 @@ impl Theme {
         if visuals.dark_mode { Self::DARK } else { Self::LIGHT }
     }
 
-    /// Theme with another gray around swatches and renders.
     #[must_use]
     pub const fn with_surround(self, surround: Surround) -> Self {
         let colors = Colors { surround, ..self.colors };
         Self { colors, surround: rgb(surround.color()), on_surround: rgb(surround.label()), ..self }
     }
 
-    /// The color of a role.
     pub fn role(&self, role: InkRole) -> Color32 {
         rgb(self.colors.rgb(role))
     }

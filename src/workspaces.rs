@@ -128,11 +128,9 @@ pub enum Workspace {
     /// The diagram over swatches, inspector over spectra.
     #[default]
     Compare,
-    /// Large spectra.
     Spectra,
     /// Rendered mesh through each camera, beside its components.
     Render,
-    /// Cameras by figures of merit.
     Metrics,
     /// The user's files and their interpretation.
     Import,
@@ -187,7 +185,6 @@ pub struct Layout {
     pub lower_share: f32,
     /// Height of the right column's lower pane as a share.
     pub right_lower_share: f32,
-    /// Library visible.
     pub library: bool,
     /// Compare: center upper, center lower, right upper, right lower.
     pub compare: [Option<PaneKind>; 4],
@@ -299,11 +296,9 @@ impl Layout {
     }
 }
 
-/// Rectangles of the panes and borders of a window.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Arrangement {
     pub panes: Vec<(PaneKind, Rect)>,
-    /// Borders with theirs.
     pub splitters: Vec<(Splitter, Rect)>,
     /// A pane that overlaps the others.
     pub over: Option<(PaneKind, Rect)>,
@@ -317,7 +312,6 @@ const NARROW: f32 = 1100.0;
 const HYSTERESIS: f32 = 40.0;
 /// Above this width the columns grow.
 const LARGE: f32 = 1800.0;
-/// Width of a border.
 const GAP: f32 = 4.0;
 
 /// Arranges a workspace in an area. `was_narrow` prevents a window at the limit from flickering; `column_over` lays the omitted
@@ -402,7 +396,6 @@ fn cut_x(area: Rect, width: f32) -> (Rect, Rect, Rect) {
 }
 
 impl Layout {
-    /// Moves a border to the pointer.
     pub fn drag(&mut self, splitter: Splitter, pointer: Pos2, area: Rect) {
         match splitter {
             Splitter::Library => self.library_width = Some((pointer.x - area.left()).clamp(160.0, 360.0)),

@@ -7,7 +7,6 @@ use chromascope_figure::{Figure, FigureRoom, Table};
 use egui::ViewportCommand;
 
 use super::ChromascopeApp;
-use super::session::SESSION;
 use crate::action::history::History;
 use crate::action::{Action, CompareAction};
 use crate::catalog::opened::{CLIPBOARD, Request};
@@ -41,13 +40,7 @@ impl ChromascopeApp {
                 FileEvent::Open(paths) => self.open(paths.into_iter().map(Request::Path).collect()),
                 FileEvent::Changed(paths) => self.read_changed(&paths),
                 FileEvent::Said(message) => self.view.say(message),
-                FileEvent::Saved(saved) => {
-                    self.view.say(saved.message.clone());
-                    self.saved(ctx, &saved.what);
-                    if saved.what == SESSION {
-                        self.named(saved);
-                    }
-                }
+                FileEvent::Saved(saved) => self.saved(ctx, saved),
                 FileEvent::SessionSaved(file, document) => self.wrote_session(file, document),
                 FileEvent::SessionChanged(path) => self.did_not_write_session(Ok(path)),
                 FileEvent::SessionFailed(why) => self.did_not_write_session(Err(why)),
@@ -101,23 +94,23 @@ impl ChromascopeApp {
                 self.open(vec![Request::Bytes { name: CLIPBOARD.to_owned(), bytes }]);
             }
             Command::ShowImport(item, line) => self.show_import(item, line),
-            Command::Wish(item, wishes) => {
-                self.view.import.tried.insert(item, *wishes);
+            Command::SetOverrides(item, overrides) => {
+                self.view.import.tried.insert(item, *overrides);
             }
-            Command::TakeWishBack => {
+            Command::DiscardOverrides => {
                 let shown = self.view.import.selected.clone();
                 shown.map(|item| self.view.import.tried.remove(&item));
             }
             Command::ForgetChoices(item) => self.forget_choices(&item),
-            Command::UseFile(fingerprint, wishes) => self.open(vec![Request::Known(fingerprint, wishes)]),
-            Command::UseParts(fingerprint, parts, wishes) => self.use_parts(fingerprint, &parts, &wishes),
+            Command::UseFile(fingerprint, overrides) => self.open(vec![Request::Known(fingerprint, overrides)]),
+            Command::UseParts(fingerprint, parts, overrides) => self.use_parts(fingerprint, &parts, &overrides),
             Command::UseForAlike(item) => self.use_for_alike(&item),
             Command::ForgetFile(fingerprint) => self.opened.forget(fingerprint),
             Command::ReadAgain(name) => self.read_again(&name),
             Command::StopReading => {
                 self.stop_reading();
             }
-            Command::SpectralWeights => self.measure(),
+            Command::MeasureScene => self.measure(),
             Command::MeasureWorkload(workload) => Profiler::run_bench(&self.later, workload),
             Command::StopMeasuring => Profiler::stop(&self.later),
             Command::FigurePage(pane) => self.figure_page(ctx, self.pictured(pane)),
@@ -197,7 +190,6 @@ impl ChromascopeApp {
         action
     }
 
-    /// Asks for files to open, or for a folder: that of files, or of a report.
     fn ask_for_files(&mut self, command: &Command) {
         self.view.recorded.opening = *command == Command::OpenRecorded;
         self.report_on = None;
@@ -388,13 +380,11 @@ impl ChromascopeApp {
         self.give_keyboard(ctx, pane);
     }
 
-    /// Goes to the control of a name in a pane.
     fn seek(&mut self, ctx: &egui::Context, pane: PaneKind, control: &'static str) {
         self.go_to(ctx, pane);
         panes::widgets::seek(ctx, control);
     }
 
-    /// Gives a pane the keyboard.
     fn give_keyboard(&mut self, ctx: &egui::Context, pane: PaneKind) {
         let import = &mut self.view.import;
         (self.view.focused, self.view.by_keyboard, self.view.cursor) = (Some(pane), true, None);
@@ -463,10 +453,9 @@ impl ChromascopeApp {
         });
         let name = format!("{}.{}", self.file_stem(pane), form.ending());
         let what = format!("{} as {}", panes::title(pane), form.name());
-        self.files.ask_to_save(SaveRequest { what, name, forms: forms.collect(), note: String::new() });
+        self.files.ask_to_save(SaveRequest::new(what, name, forms.collect()));
     }
 
-    /// File name for a pane's export, without extension.
     fn file_stem(&self, pane: PaneKind) -> String {
         let title = panes::title(pane).to_lowercase();
         match (pane, self.view.accuracy.shows) {
@@ -507,13 +496,11 @@ impl ChromascopeApp {
         figure.table.clone().with_constants(&cells)
     }
 
-    /// Saves the document as soon as it changes.
     pub(super) fn autosave(&mut self, ctx: &egui::Context) {
         let document = self.interrupted.as_ref().map_or(&self.history, |own| &own.history).document();
         self.files.autosave(document, ctx);
     }
 
-    /// True if a set of this kind and name is on the list.
     pub fn compares(&self, kind: SetKind, name: &str) -> bool {
         self.history.document().compared(kind, name).is_some()
     }

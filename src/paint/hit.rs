@@ -5,7 +5,6 @@ use egui::Pos2;
 
 use super::View;
 
-/// A mark near the pointer.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Hit {
     pub tag: Tag,

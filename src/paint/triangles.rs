@@ -22,7 +22,6 @@ pub(super) fn fill(painter: &Painter, corners: &[Pos2], color: Color32) {
     painter.add(mesh);
 }
 
-/// Twice the signed area of a triangle.
 fn cross(a: Pos2, b: Pos2, c: Pos2) -> f32 {
     (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x)
 }

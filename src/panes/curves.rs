@@ -21,7 +21,6 @@ pub const PANE: Pane = Pane {
     table: true,
 };
 
-/// The curves that were drawn last.
 #[derive(Default)]
 struct LastDrawn(Option<CurveCache>);
 

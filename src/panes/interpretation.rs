@@ -73,23 +73,23 @@ fn content(ui: &mut Ui, shown: &ImportSelection, context: &mut PaneContext<'_>) 
     if let Some(set) = &shown.set {
         name::show(ui, set, context);
     }
-    let mut wishes = shown.wishes.clone();
-    switches::show(ui, shown, &mut wishes, &context.theme);
+    let mut overrides = shown.overrides.clone();
+    switches::show(ui, shown, &mut overrides, &context.theme);
     parts::show(ui, shown, context);
     // Below the switches, so that they stay where they are.
     if let Some(error) = shown.error() {
         trouble(ui, &error.to_string(), error.line(), shown, context);
     }
-    camera::show(ui, shown, &mut wishes, &context.theme);
-    curves::show(ui, shown, &mut wishes, context);
-    if wishes != shown.wishes {
-        wish(shown, wishes, context);
+    camera::show(ui, shown, &mut overrides, &context.theme);
+    curves::show(ui, shown, &mut overrides, context);
+    if overrides != shown.overrides {
+        wish(shown, overrides, context);
     }
     notes::show(ui, shown, context);
 }
 
-fn wish(shown: &ImportSelection, wishes: ImportOverrides, context: &mut PaneContext<'_>) {
-    context.push(Command::Wish(shown.item.clone(), Box::new(wishes)));
+fn wish(shown: &ImportSelection, overrides: ImportOverrides, context: &mut PaneContext<'_>) {
+    context.push(Command::SetOverrides(shown.item.clone(), Box::new(overrides)));
 }
 
 /// Reason that the file cannot be read with the settings, with a way to reset them.
@@ -107,7 +107,7 @@ fn trouble(ui: &mut Ui, words: &str, line: Option<usize>, shown: &ImportSelectio
     }
     ui.horizontal_wrapped(|ui| {
         if shown.pending && ui.button("Back").on_hover_text("Discard the attempted settings").clicked() {
-            context.push(Command::TakeWishBack);
+            context.push(Command::DiscardOverrides);
         }
         if let Some(line) = line
             && ui.button("Show line").on_hover_text("Show where in the text").clicked()

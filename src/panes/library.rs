@@ -8,8 +8,8 @@ use std::collections::HashSet;
 
 use egui::{Id, Key, Rect, ScrollArea, TextEdit, Ui, UiBuilder, Vec2};
 
-use super::context::{Pane, PaneContext};
 use crate::document::SetKind;
+use crate::panes::context::{Pane, PaneContext};
 use crate::panes::widgets::{self, mark_all};
 use crate::theme::{ROW, UNIT};
 use crate::workspaces::PaneKind;

@@ -39,7 +39,6 @@ const WIDE: f32 = 520.0;
 const BARS: f32 = 150.0;
 const VECTORS: f32 = 250.0;
 
-/// Illuminant that the spectral similarity of the light is taken to.
 #[derive(Default)]
 struct SimilarTo(Option<String>);
 

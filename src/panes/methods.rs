@@ -220,7 +220,7 @@ fn run(ui: &mut Ui, now: Shows, context: &mut PaneContext<'_>) {
 
 fn measure(shows: Shows) -> Command {
     match shows {
-        Shows::Scene(_) => Command::SpectralWeights,
+        Shows::Scene(_) => Command::MeasureScene,
         Shows::Bench(workload) => Command::MeasureWorkload(workload),
     }
 }

@@ -405,12 +405,12 @@ fn transform(ui: &mut Ui, context: &mut PaneContext<'_>) {
     actions(ui, ("Color transform", hint), &shown, context, |context| {
         let set = |action: SceneAction| Some(Action::Scene(action));
         let paper = Line::new("Paper matrix (Eq 13)", now == TransformChoice::Paper);
-        let mut all = vec![(paper, set(SceneAction::SetWay(TransformChoice::Paper)))];
+        let mut all = vec![(paper, set(SceneAction::SetTransform(TransformChoice::Paper)))];
         all.push((Line::heading("Fitted to an observer"), None));
         for entry in context.scene.entries(SetKind::Observer).filter(crate::catalog::Entry::counts_in_xyz) {
             let transform = TransformChoice::Observer(entry.name.clone());
             let line = Line::new(format!("Fitted to {}", entry.name), now == transform);
-            all.push((line, set(SceneAction::SetWay(transform))));
+            all.push((line, set(SceneAction::SetTransform(transform))));
         }
         all.push((Line::heading("Method of the fit"), None));
         for method in CorrectionMethod::ALL {

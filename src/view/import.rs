@@ -30,7 +30,6 @@ pub struct ImportView {
     pub focus: Option<Stop>,
     /// The line of the text to bring into view in this frame.
     pub line: Option<usize>,
-    /// Search text of the curve list.
     pub search: String,
     /// Curves under the pointer, by place in the file.
     pub hovered_curve: Option<usize>,
@@ -40,7 +39,6 @@ pub struct ImportView {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stop {
     Files,
-    /// The first of the switches.
     Switches,
     Picker,
 }
@@ -65,14 +63,12 @@ impl ImportView {
         takes
     }
 
-    /// The selected item, as far as it is known.
     pub fn selection(&self, scene: &Scene<'_>, opened: &Opened) -> Option<ImportSelection> {
         let item = self.selected.clone()?;
         let tried = self.pending(&item).cloned();
         ImportSelection::of(scene, item, tried, opened.preview())
     }
 
-    /// Settings tried for an item.
     pub fn pending(&self, item: &ImportItem) -> Option<&ImportOverrides> {
         self.tried.get(item)
     }
@@ -85,8 +81,8 @@ impl ImportView {
         if self.selected.as_ref() == Some(old) {
             self.selected = Some(new.clone());
         }
-        if let Some(wishes) = self.tried.remove(old) {
-            self.tried.insert(new.clone(), wishes);
+        if let Some(overrides) = self.tried.remove(old) {
+            self.tried.insert(new.clone(), overrides);
         }
         if self.unseen.remove(old) {
             self.unseen.insert(new.clone());
@@ -112,10 +108,10 @@ impl ImportView {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Remembered {
     pub likeness: Likeness,
-    pub wishes: ImportOverrides,
+    #[serde(rename = "wishes")]
+    pub overrides: ImportOverrides,
 }
 
-/// Import settings saved between runs.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct ImportMemory {
@@ -123,7 +119,6 @@ pub struct ImportMemory {
     pub remembered: Vec<Remembered>,
     /// True if files are read again when they change on disk.
     pub watch: bool,
-    /// Files on disk that could not be read.
     pub failing: Vec<Failing>,
     /// Files with a guess or an error that the user has not reviewed.
     pub unseen: BTreeSet<ImportItem>,
@@ -137,34 +132,32 @@ impl Default for ImportMemory {
 
 impl ImportMemory {
     /// Remembers the settings for a file, to be applied to others like it; default settings remove the entry.
-    pub fn remember(&mut self, likeness: Likeness, wishes: &ImportOverrides) {
+    pub fn remember(&mut self, likeness: Likeness, overrides: &ImportOverrides) {
         if !likeness.is_telling() {
             return;
         }
         self.remembered.retain(|known| !known.likeness.is_like(&likeness));
-        let wishes = of_a_kind(wishes);
-        if wishes != ImportOverrides::default() {
-            self.remembered.push(Remembered { likeness, wishes });
+        let overrides = of_a_kind(overrides);
+        if overrides != ImportOverrides::default() {
+            self.remembered.push(Remembered { likeness, overrides });
         }
         let spare = self.remembered.len().saturating_sub(REMEMBERED);
         self.remembered.drain(..spare);
     }
 
-    /// Forgets the settings for files like one.
     pub fn forget(&mut self, likeness: &Likeness) {
         self.remembered.retain(|known| !known.likeness.is_like(likeness));
     }
 
-    /// Returns the remembered settings for a file.
-    pub fn wishes(&self, likeness: &Likeness) -> ImportOverrides {
+    pub fn overrides(&self, likeness: &Likeness) -> ImportOverrides {
         let known = self.remembered.iter().rev().find(|known| known.likeness.is_like(likeness));
-        known.map(|known| known.wishes.clone()).unwrap_or_default()
+        known.map(|known| known.overrides.clone()).unwrap_or_default()
     }
 }
 
 /// The settings that apply to other files of a kind, too: not the choice of curves, part and column.
-pub fn of_a_kind(wishes: &ImportOverrides) -> ImportOverrides {
-    let mut kind = ImportOverrides { taken: None, ..wishes.clone() };
+pub fn of_a_kind(overrides: &ImportOverrides) -> ImportOverrides {
+    let mut kind = ImportOverrides { taken: None, ..overrides.clone() };
     (kind.options.part, kind.options.wavelength_column) = (None, None);
     kind
 }

@@ -8,7 +8,6 @@ use crate::document::start::Start;
 use crate::document::{Document, Light, Overlays, SetKind, WhiteBalanceChoice};
 use crate::workspaces::PaneKind;
 
-/// A document to begin a new session with.
 #[derive(Debug)]
 pub struct Template {
     pub name: &'static str,

@@ -138,7 +138,7 @@ fn a_hidden_camera_is_told_of() {
     let hide = CompareAction::SetVisible(SetKind::Camera, "Nikon D70 (2007 figure)".to_owned(), false);
     window.state_mut().push(Action::Compare(hide));
     window.run_steps(2);
-    window.state_mut().push(Command::SpectralWeights);
+    window.state_mut().push(Command::MeasureScene);
     window.run_steps(2);
     assert_eq!(window.state().view().saved.workspace, Workspace::Numerics, "what is measured is shown");
     take_in(&mut window);
@@ -258,7 +258,7 @@ fn a_tolerance_that_cannot_be_is_refused_beside_its_field() {
 #[test]
 fn escape_stops_measuring() {
     let (executor, mut window) = driven([1280.0, 800.0], egui::Theme::Dark);
-    window.state_mut().push(Command::SpectralWeights);
+    window.state_mut().push(Command::MeasureScene);
     window.run_steps(1);
     assert!(Profiler::busy(window.state().later()).is_some());
     window.key_press(egui::Key::Escape);

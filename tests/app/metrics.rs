@@ -4,7 +4,7 @@ use chromascope::action::{Action, CompareAction, SceneAction};
 use chromascope::app::ChromascopeApp;
 use chromascope::catalog::Catalog;
 use chromascope::command::Command;
-use chromascope::document::pixel::Pixel;
+use chromascope::document::Pixel;
 use chromascope::document::{Document, Light, SetKind, session};
 use chromascope::export;
 use chromascope::figures::look::FigureLook;

@@ -70,7 +70,7 @@ fn what_is_measured_is_of_the_scene_that_it_was_measured_on() {
     let flat = |settings: &RenderSettings| RenderSettings { reading: ReadingChoice::Lambertian, ..settings.clone() };
     let to = Box::new(flat(&window.state().history().document().render));
     window.state_mut().push(Action::Render(RenderAction::Set { what: "Normalization", to }));
-    window.state_mut().push(Command::SpectralWeights);
+    window.state_mut().push(Command::MeasureScene);
     window.run_steps(2);
     window.state().later().wait();
     window.run_steps(3);
@@ -82,7 +82,7 @@ fn what_is_measured_is_of_the_scene_that_it_was_measured_on() {
     let to = RenderSettings { sky: 0.3, ..window.state().history().document().render.clone() };
     window.state_mut().push(Action::Render(RenderAction::Set { what: "Sky", to: Box::new(to) }));
     window.run_steps(2);
-    window.state_mut().push(Command::SpectralWeights);
+    window.state_mut().push(Command::MeasureScene);
     window.run_steps(1);
     assert!(Profiler::busy(window.state().later()).is_some());
     window.state_mut().push(Command::StopMeasuring);

@@ -33,7 +33,7 @@ fn refer_to(name: &str, counts_in_xyz: bool) -> Action {
 }
 
 fn fit_to(name: &str) -> Action {
-    Action::Scene(SceneAction::SetWay(TransformChoice::Observer(name.to_owned())))
+    Action::Scene(SceneAction::SetTransform(TransformChoice::Observer(name.to_owned())))
 }
 
 #[test]
@@ -124,7 +124,7 @@ fn eq_13_has_no_delta_e() {
     assert_eq!(document.difference, Metric::UV_PRIME, "a choice under one fit holds under the next");
     document.diagram = Diagram::UvPrime;
     document.difference = Metric::by_id("delta-e1976").unwrap();
-    Action::Scene(SceneAction::SetWay(TransformChoice::Paper)).apply(&mut document);
+    Action::Scene(SceneAction::SetTransform(TransformChoice::Paper)).apply(&mut document);
     assert_eq!(document.difference, Metric::UV_PRIME, "the distance in the diagram that is shown");
 }
 
@@ -132,7 +132,7 @@ fn eq_13_has_no_delta_e() {
 fn a_measure_that_was_chosen_stays_and_a_distance_follows_the_diagram() {
     let mut document = Document::colorimetry();
     Action::Scene(SceneAction::SetDifference(Metric::UV_PRIME)).apply(&mut document);
-    Action::Scene(SceneAction::SetWay(TransformChoice::Paper)).apply(&mut document);
+    Action::Scene(SceneAction::SetTransform(TransformChoice::Paper)).apply(&mut document);
     assert_eq!(document.difference, Metric::UV_PRIME);
     fit_to(CIE_1931).apply(&mut document);
     assert_eq!(document.difference, Metric::UV_PRIME);

@@ -9,12 +9,9 @@ use crate::panes::context::PaneContext;
 use crate::panes::widgets::WHAT_YOU_SEE;
 use crate::theme::UNIT;
 
-/// Size of the picture.
 const PICTURE: Vec2 = Vec2::new(220.0, 240.0);
-/// Width of the text beside it.
 const TEXT: f32 = 320.0;
 
-/// Shows the window while it is open.
 pub(super) fn show(ui: &Ui, context: &mut PaneContext<'_>) {
     if !context.view.about {
         return;

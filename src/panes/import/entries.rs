@@ -48,7 +48,6 @@ pub(super) struct Entry {
     /// Contents, or the reason why it was not read.
     pub(super) note: String,
     pub(super) path: Option<PathBuf>,
-    /// True if its contents are available.
     pub(super) at_hand: bool,
 }
 

@@ -12,12 +12,10 @@ use crate::theme::{ROW, Theme, UNIT};
 use crate::view::import::{ImportItem, Stop};
 use crate::workspaces::PaneKind;
 
-/// Height of a file's two lines.
 const HEIGHT: f32 = 38.0;
 /// Height of one more line, for the reason why a file was not read.
 const LINE: f32 = 14.0;
 const MARK: f32 = 16.0;
-/// Width that a scroll bar overlaps.
 const SCROLL_BAR: f32 = 8.0;
 
 pub(super) fn column(ui: &mut Ui, rect: Rect, entries: &[Entry], context: &mut PaneContext<'_>) {
@@ -139,7 +137,7 @@ fn take(context: &mut PaneContext<'_>) {
     let Some(shown) = context.view.import.selection(&context.scene, context.opened) else { return };
     match shown.item {
         ImportItem::File(file) if shown.is_fresh() && !shown.taken().is_empty() => {
-            context.push(Command::UseFile(file, Box::new(shown.wishes)));
+            context.push(Command::UseFile(file, Box::new(shown.overrides)));
         }
         ImportItem::File(_) => context.view.say("It cannot be read with these settings; see Interpretation (F6)."),
         ImportItem::Set(name) => context.view.say(format!("{name} is already imported.")),

@@ -11,7 +11,6 @@ use crate::theme::{MONO, Theme};
 
 pub(super) struct Line {
     shown: Shown,
-    /// Marks of the interpreted parts.
     marks: Vec<Mark>,
     galley: Arc<Galley>,
 }

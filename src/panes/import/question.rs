@@ -49,7 +49,6 @@ const AS_WRITTEN: Answer = (
     None,
 );
 
-/// Answers where only the scale is open.
 const SCALES: [Answer; 2] = [
     ("In percent", "Divide the numbers by 100", None, Some(Values::Percent)),
     ("As written", "Use the numbers as fractions of one", None, Some(Values::Plain)),
@@ -85,10 +84,10 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, shown: &ImportSelection, context: &m
     child.horizontal_wrapped(|ui| {
         for (words, hint, role, values) in answers {
             if ui.button(*words).on_hover_text(*hint).clicked() {
-                let mut wishes = shown.wishes.clone();
-                wishes.options.role = role.or(wishes.options.role);
-                wishes.options.values = values.or(wishes.options.values);
-                context.push(Command::Wish(shown.item.clone(), Box::new(wishes)));
+                let mut overrides = shown.overrides.clone();
+                overrides.options.role = role.or(overrides.options.role);
+                overrides.options.values = values.or(overrides.options.values);
+                context.push(Command::SetOverrides(shown.item.clone(), Box::new(overrides)));
             }
         }
     });

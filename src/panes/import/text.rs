@@ -153,13 +153,7 @@ fn lines_of(
     }
     area.show_viewport(&mut child, |ui, viewport| {
         ui.set_min_size(content);
-        let mut taken = vec![false; shown.table().map_or(0, |table| table.curves.len())];
-        for place in shown.taken() {
-            if let Some(taken) = taken.get_mut(place) {
-                *taken = true;
-            }
-        }
-        let view = View { preview, look, shown, taken, error: error.as_ref(), viewport };
+        let view = View { preview, look, shown, taken: shown.are_taken(), error: error.as_ref(), viewport };
         view.lines(ui, &place, context);
     });
 }

@@ -42,7 +42,7 @@ pub(super) fn show(ui: &mut Ui, shown: &ImportSelection, context: &mut PaneConte
             let hint = "Import it and use it; can be undone";
             let why = if reads { "No curve is selected" } else { "Not readable with these settings" };
             if button.on_hover_text(hint).on_disabled_hover_text(why).clicked() {
-                context.push(Command::UseFile(*fingerprint, Box::new(shown.wishes.clone())));
+                context.push(Command::UseFile(*fingerprint, Box::new(shown.overrides.clone())));
             }
             alike(ui, shown, context);
             if let Some(path) = shown.file.as_ref().and_then(|file| file.origin.path.clone())
@@ -71,7 +71,7 @@ pub(super) fn show(ui: &mut Ui, shown: &ImportSelection, context: &mut PaneConte
         }
     });
     ui.horizontal(|ui| {
-        let chosen = shown.wishes != ImportOverrides::default();
+        let chosen = shown.overrides != ImportOverrides::default();
         let hint = "Decide by content again, for this file and others like it; can be undone";
         let button = ui.add_enabled(chosen, egui::Button::new("Forget choices")).on_hover_text(hint);
         if button.on_disabled_hover_text("Nothing was chosen for it").clicked() {

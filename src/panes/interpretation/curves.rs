@@ -17,7 +17,12 @@ const ROWS: usize = 6;
 /// Number of curves above which there is a search.
 const SEARCHED: usize = 8;
 
-pub(super) fn show(ui: &mut Ui, shown: &ImportSelection, wishes: &mut ImportOverrides, context: &mut PaneContext<'_>) {
+pub(super) fn show(
+    ui: &mut Ui,
+    shown: &ImportSelection,
+    overrides: &mut ImportOverrides,
+    context: &mut PaneContext<'_>,
+) {
     let Some(table) = shown.table().filter(|table| table.curves.len() > 1) else {
         widgets::hover_curve(ui, POINTER, false, None, context);
         return;
@@ -96,7 +101,7 @@ pub(super) fn show(ui: &mut Ui, shown: &ImportSelection, wishes: &mut ImportOver
         ui.label(RichText::new(format!("No curve is selected.{stays}")).small().color(context.theme.warning));
     }
     if taken != before {
-        wishes.taken = Some((0..count).filter(|place| taken[*place]).collect());
+        overrides.taken = Some((0..count).filter(|place| taken[*place]).collect());
     }
 }
 

@@ -6,7 +6,7 @@ use super::caption;
 use crate::action::{Action, ImportedAction};
 use crate::document::SetKind;
 use crate::document::imported::ImportedSet;
-use crate::document::uses::Holder;
+use crate::document::names::Holder;
 use crate::panes::context::PaneContext;
 use crate::plot_item::PlotItem;
 

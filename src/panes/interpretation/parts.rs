@@ -30,7 +30,7 @@ pub(super) fn show(ui: &mut Ui, shown: &ImportSelection, context: &mut PaneConte
     }
     let fingerprint = file.origin.fingerprint;
     let own = context.scene.document.own.iter().filter(|set| set.fingerprint == Some(fingerprint));
-    let used: BTreeSet<usize> = own.filter_map(|set| set.wishes.options.part).collect();
+    let used: BTreeSet<usize> = own.filter_map(|set| set.overrides.options.part).collect();
     widgets::note(ui, "Parts, each as a separate data set");
     let mut ticked = std::mem::take(&mut context.view.import.parts);
     ticked.retain(|part| *part <= parts.len() && !used.contains(part));
@@ -64,7 +64,7 @@ pub(super) fn show(ui: &mut Ui, shown: &ImportSelection, context: &mut PaneConte
         let button = ui.add_enabled(!ticked.is_empty(), egui::Button::new(words)).on_hover_text(hint);
         if button.on_disabled_hover_text("No part is ticked").clicked() {
             let taken: Vec<usize> = std::mem::take(&mut ticked).into_iter().collect();
-            context.push(Command::UseParts(fingerprint, taken, Box::new(shown.wishes.clone())));
+            context.push(Command::UseParts(fingerprint, taken, Box::new(shown.overrides.clone())));
         }
     });
     context.view.import.parts = ticked;

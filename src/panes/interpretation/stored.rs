@@ -47,7 +47,7 @@ pub(super) fn show(ui: &mut Ui, set: &ImportedSet, context: &mut PaneContext<'_>
 /// Has the file, when it comes back, read as the set was changed.
 fn follow(before: &ImportedSet, changed: &mut ImportedSet) {
     let places = places(before);
-    let options = &mut changed.wishes.options;
+    let options = &mut changed.overrides.options;
     if changed.role != before.role {
         options.role = Some(changed.role);
     }
@@ -58,10 +58,10 @@ fn follow(before: &ImportedSet, changed: &mut ImportedSet) {
         options.values = Some(if changed.percent { Values::Percent } else { Values::Plain });
     }
     if changed.per_photon != before.per_photon {
-        changed.wishes.per_photon = Some(changed.per_photon);
+        changed.overrides.per_photon = Some(changed.per_photon);
     }
     if changed.channels != before.channels {
-        changed.wishes.channels = Some(changed.channels.map(|index| places.get(index).copied().unwrap_or(index)));
+        changed.overrides.channels = Some(changed.channels.map(|index| places.get(index).copied().unwrap_or(index)));
     }
 }
 

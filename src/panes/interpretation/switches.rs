@@ -120,11 +120,11 @@ fn short(words: &str) -> &str {
     ["Down", "Across", "Table"].into_iter().find(|short| words.starts_with(short)).unwrap_or(words)
 }
 
-pub(super) fn show(ui: &mut Ui, shown: &ImportSelection, wishes: &mut ImportOverrides, theme: &Theme) {
+pub(super) fn show(ui: &mut Ui, shown: &ImportSelection, overrides: &mut ImportOverrides, theme: &Theme) {
     // The result of the last preview is shown as long as no newer one is available.
     let table = shown.table();
     let reading = table.map(|table| &table.reading);
-    let options = &mut wishes.options;
+    let options = &mut overrides.options;
     let whole = ui.available_width() - 2.0;
     Switch { words: "This is a", wish: &mut options.role, decided: table.map(|table| &table.role), choices: &ROLES }
         .show(ui, theme, whole, true);

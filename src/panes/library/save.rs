@@ -47,7 +47,6 @@ pub(super) fn menu_of(ui: &Ui, rect: Rect, row: &Response, entry: &Entry, contex
     shown
 }
 
-/// Context menu of a set.
 fn menu(ui: &mut Ui, entry: &Entry, context: &mut PaneContext<'_>) {
     if ui.button("Source").on_hover_text("Source, terms and curve in the Inspector").clicked() {
         context.view.selected = Some(PlotItem::of_set(entry.kind, &entry.name));

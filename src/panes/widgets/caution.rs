@@ -19,7 +19,7 @@ pub fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) -> Rect {
         let words = format!("Fit 3×3 to {observer}");
         let hint = "Color transform: a 3×3 matrix for each camera, fitted to this observer";
         let transform = TransformChoice::Observer(observer.to_owned());
-        context.button(&mut row, &words, hint, Action::Scene(SceneAction::SetWay(transform)));
+        context.button(&mut row, &words, hint, Action::Scene(SceneAction::SetTransform(transform)));
     }
     let sentence = caution.sentence();
     let mut rest = Rect::from_min_max(line.min, egui::pos2(row.min_rect().left() - 2.0 * UNIT, line.bottom()));

@@ -5,7 +5,7 @@ use egui::{DragValue, PopupCloseBehavior, Ui};
 
 use super::take_sought;
 use crate::action::{Action, SceneAction};
-use crate::document::pixel::Pixel;
+use crate::document::Pixel;
 use crate::panes::context::PaneContext;
 
 pub const PIXEL: &str = "Pixel";

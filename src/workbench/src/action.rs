@@ -7,25 +7,23 @@ use std::path::PathBuf;
 use chromascope_core::colorimetry::Metric;
 use chromascope_core::query::Shared;
 
+use crate::document::Pixel;
 use crate::document::correction::CorrectionChoice;
 use crate::document::imported::ImportedSet;
 use crate::document::names::BuiltInNames;
-use crate::document::pixel::Pixel;
+use crate::document::names::PLACES;
 use crate::document::render::{BALANCE, MeshChoice, RenderSettings, SUN};
 use crate::document::start::Start;
-use crate::document::uses::PLACES;
 use crate::document::{
     Diagram, Document, FIT_TARGET, LOCUS_RANGE_K, Light, MOST_COMPARED, Overlays, SetKind, Subset, TransformChoice,
     WhiteBalanceChoice,
 };
 
-/// A change of the document.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Action {
     Compare(CompareAction),
     Scene(SceneAction),
     Render(RenderAction),
-    /// To the user's own sets.
     Imported(ImportedAction),
     /// A choice of light or white balance made where pictures of their own light are visible: they take it too.
     ForPictures(Box<Action>),
@@ -39,7 +37,6 @@ pub enum Action {
 pub enum CompareAction {
     Add(SetKind, String),
     Remove(SetKind, String),
-    /// Shows or hides a sensor's curves.
     SetVisible(SetKind, String, bool),
     /// Gives a sensor another label; an empty one takes it back.
     Rename(SetKind, String, String),
@@ -52,21 +49,19 @@ pub enum CompareAction {
     },
 }
 
-/// Changes to the conditions.
 #[derive(Clone, Debug, PartialEq)]
 pub enum SceneAction {
     SetLight(Light),
     /// Puts a filter in front of the light, or takes it away.
     SetFilter(String, bool),
     ClearFilters,
-    /// Another temperature, in kelvins.
     SetTemperature(f64),
     /// Another full well and read noise, or none.
     SetPixel(Option<Pixel>),
     SetChart(String),
     SetSubset(Subset),
     SetWhite(WhiteBalanceChoice),
-    SetWay(TransformChoice),
+    SetTransform(TransformChoice),
     /// Another color correction; where Eq 13 was chosen, a transform is fitted to the default observer.
     SetCorrection(CorrectionChoice),
     SetDifference(Metric),
@@ -85,11 +80,9 @@ pub enum RenderAction {
     },
     /// Selects the user's mesh file, which was read.
     Open(PathBuf),
-    /// Shows a spectral image.
     OpenImage(PathBuf),
     /// The paper's Figure 8: the head under sunlight, balanced to D55.
     Figure8,
-    /// The paper's Figure 9: the fern under sunlight, balanced to D55.
     Figure9,
     /// Figure 8 in the paper's own setup: point light, Eq 12 in the paper's normalization.
     PaperFigure8,
@@ -97,42 +90,35 @@ pub enum RenderAction {
     PaperFigure9,
 }
 
-/// Changes to the user's own sets.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ImportedAction {
     /// Adds imported sets. Cameras are added to the comparison, of several while the palette has room; light, filters and chart
     /// stay. A name in use is replaced by a free one.
     Import {
         sets: Vec<ImportedSet>,
-        /// Names that they may not have.
         built_in: BuiltInNames,
     },
     /// Puts another version of a set in its place: another unit, role or name.
     Replace {
-        /// The name it had.
         name: String,
         with: Box<ImportedSet>,
-        /// Names that it may not have.
         built_in: BuiltInNames,
     },
     /// Uses a set: as the light, as the chart, as a filter, in the comparison.
     Use(SetKind, String),
     /// Replaces some sets by other versions, as a step of the given name.
     ReplaceAll {
-        /// Name of the undo step.
         what: String,
         /// The names they had, and the sets as they are to be.
         with: Vec<(String, ImportedSet)>,
         /// Sets that are added and not used: a file came back in another role.
         beside: Vec<ImportedSet>,
-        /// Names that they may not have.
         built_in: BuiltInNames,
     },
     Remove(String),
 }
 
 impl Action {
-    /// Returns the name of the undo step, as shown in the menu.
     pub fn name(&self) -> String {
         match self {
             Self::Compare(action) => action.name(),
@@ -254,8 +240,8 @@ impl SceneAction {
             Self::SetSubset(Subset::Five) => "Patches: five".to_owned(),
             Self::SetSubset(Subset::All) => "Patches: all".to_owned(),
             Self::SetWhite(white) => format!("White balance: {}", white.name()),
-            Self::SetWay(TransformChoice::Paper) => "Color transform: paper matrix".to_owned(),
-            Self::SetWay(TransformChoice::Observer(name)) => format!("Color transform: fitted to {name}"),
+            Self::SetTransform(TransformChoice::Paper) => "Color transform: paper matrix".to_owned(),
+            Self::SetTransform(TransformChoice::Observer(name)) => format!("Color transform: fitted to {name}"),
             Self::SetCorrection(correction) => format!("Color correction: {}", correction.method.label()),
             Self::SetDifference(metric) => format!("Difference: {}", metric.symbol),
             Self::SetDiagram(Diagram::Xy) => "Diagram: xy".to_owned(),
@@ -284,7 +270,7 @@ impl SceneAction {
             Self::SetChart(chart) => document.chart.clone_from(chart),
             Self::SetSubset(subset) => document.subset = *subset,
             Self::SetWhite(white) => document.white = white.clone(),
-            Self::SetWay(transform) => document.set_transform(transform.clone()),
+            Self::SetTransform(transform) => document.set_transform(transform.clone()),
             Self::SetCorrection(correction) => {
                 document.correction.clone_from(correction);
                 if document.transform.is_eq_13() {
@@ -339,7 +325,6 @@ impl RenderAction {
 }
 
 impl ImportedAction {
-    /// Returns the name of the undo step, as shown in the menu.
     pub fn name(&self) -> String {
         match self {
             Self::Import { sets, .. } => match sets.as_slice() {

@@ -39,7 +39,6 @@ pub enum Place {
 
 #[derive(Clone, Copy, Debug, Eq)]
 pub struct BuiltInFile {
-    /// Its path below `assets`.
     pub path: &'static str,
     pub text: &'static str,
 }
@@ -60,7 +59,6 @@ impl Hash for BuiltInFile {
 #[derive(Clone, Debug)]
 pub struct Entry {
     pub kind: SetKind,
-    /// Its name, unique within its kind.
     pub name: String,
     /// A shorter name for narrow places; the name itself if there is none.
     pub short: String,
@@ -97,7 +95,6 @@ impl Entry {
         format!("{} {} {kind} {}", self.short, self.also.as_deref().unwrap_or_default(), self.kind.plural())
     }
 
-    /// An entry for one of the user's sets.
     pub fn from_own(set: &Shared<ImportedSet>) -> Self {
         let name = set.name.clone();
         Self {
@@ -153,7 +150,6 @@ impl Catalog {
         &self.entries
     }
 
-    /// The sets of one kind, by name.
     pub fn of_kind(&self, kind: SetKind) -> impl Iterator<Item = &Entry> {
         self.entries.iter().filter(move |entry| entry.kind == kind)
     }
@@ -168,7 +164,6 @@ impl Catalog {
     }
 }
 
-/// File name and text of each license and notice.
 pub fn licenses() -> impl Iterator<Item = (&'static str, &'static str)> {
     chromascope_data::files("licenses").map(|(path, text)| (path.rsplit('/').next().unwrap_or(path), text))
 }

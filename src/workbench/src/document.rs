@@ -5,17 +5,14 @@
 
 pub mod correction;
 pub mod imported;
-pub mod kind;
+mod kind;
 pub mod names;
 pub mod paths;
-pub mod pixel;
 pub mod render;
-pub mod saved;
 pub mod session;
 pub mod start;
-pub mod unknown;
-pub mod uses;
 
+use chromascope_core::camera::quality::{Electrons, ElectronsError};
 use chromascope_core::colorimetry::Metric;
 use chromascope_core::query::Shared;
 use correction::CorrectionChoice;
@@ -23,7 +20,6 @@ pub use correction::TRAINING;
 use imported::ImportedSet;
 pub use imported::SessionFile;
 pub use kind::{SensorId, SetKind};
-use pixel::Pixel;
 use render::RenderSettings;
 use serde::{Deserialize, Serialize};
 use start::Start;
@@ -31,13 +27,10 @@ use start::Start;
 /// The version of the saved form that this program writes.
 pub const VERSION: u32 = 4;
 
-/// Complete description of a comparison: sensors, light, chart and settings.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Document {
-    /// Name of the program that wrote the document: `chromascope`.
     pub format: String,
-    /// The version of this form.
     pub version: u32,
     /// The start configuration that it was made from, to which a reset returns.
     pub start: Start,
@@ -54,24 +47,18 @@ pub struct Document {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pixel: Option<Pixel>,
     pub chart: String,
-    /// Subset of the chart's patches.
     pub subset: Subset,
     /// The color a perfect white is to take.
     pub white: WhiteBalanceChoice,
-    /// Color transform from sensor signals to XYZ.
     pub transform: TransformChoice,
-    /// Method by which color transforms are fitted.
     #[serde(skip_serializing_if = "CorrectionChoice::is_default")]
     pub correction: CorrectionChoice,
-    /// Metric of the differences from the reference.
     #[serde(with = "metric_id")]
     pub difference: Metric,
     pub diagram: Diagram,
-    /// Optional overlays of the chromaticity diagram.
     pub overlays: Overlays,
     /// Mesh, material and view of the Render pane.
     pub render: RenderSettings,
-    /// The user's own sets, by value.
     #[serde(with = "imported::list")]
     pub own: Vec<Shared<ImportedSet>>,
     /// File that it is saved in as a session, where it is.
@@ -88,7 +75,6 @@ pub struct Compared {
     pub kind: SetKind,
     /// Its place in the palette, constant while it is compared.
     pub slot: u8,
-    /// True if its curves are drawn.
     #[serde(default = "yes")]
     pub visible: bool,
     /// Display label, if different from the name.
@@ -104,13 +90,10 @@ fn yes() -> bool {
 #[serde(rename_all = "kebab-case")]
 pub enum Light {
     Set(String),
-    /// A blackbody of the document's temperature.
     BlackBody,
-    /// CIE daylight of the document's temperature.
     Daylight,
 }
 
-/// Number of patches of a chart.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Subset {
@@ -127,7 +110,6 @@ pub enum WhiteBalanceChoice {
     /// 1 : 1 : 1, the paper's experiments 1 and 2.
     #[default]
     Unity,
-    /// The color of a light in the catalog.
     Light(String),
     /// CIE daylight of a temperature in kelvins.
     Daylight(f64),
@@ -135,18 +117,15 @@ pub enum WhiteBalanceChoice {
     BlackBody(f64),
 }
 
-/// Color transform from sensor signals to XYZ.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum TransformChoice {
     #[default]
     Paper,
-    /// A matrix fitted to this observer.
     Observer(String),
 }
 
 impl TransformChoice {
-    /// True if colors go through Eq 13.
     pub const fn is_eq_13(&self) -> bool {
         matches!(self, Self::Paper)
     }
@@ -165,7 +144,6 @@ impl TransformChoice {
         }
     }
 
-    /// Metric that the transform starts with.
     pub const fn preferred_metric(&self, diagram: Diagram) -> Metric {
         match (self, diagram) {
             (Self::Observer(_), _) => Metric::DELTA_E_2000,
@@ -175,7 +153,6 @@ impl TransformChoice {
     }
 }
 
-/// A metric by its id.
 mod metric_id {
     use chromascope_core::colorimetry::Metric;
     use serde::{Deserialize as _, Deserializer, Serializer, de::Error as _};
@@ -190,7 +167,6 @@ mod metric_id {
     }
 }
 
-/// The diagram's coordinates.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Diagram {
@@ -209,13 +185,9 @@ pub struct Overlays {
     pub loci: bool,
     /// Patches with their tails.
     pub patches: bool,
-    /// Each camera's response to monochromatic light.
     pub camera_spectral_loci: bool,
-    /// The daylight locus.
     pub daylight: bool,
-    /// Standard whites and the light.
     pub whites: bool,
-    /// Lines of equal correlated color temperature.
     pub isotherms: bool,
     pub srgb: bool,
     pub dci_p3: bool,
@@ -255,13 +227,38 @@ impl Default for Overlays {
     }
 }
 
-/// The name of the paper's reference observer.
+/// A pixel's full-well capacity and read noise: with them a camera's signal-to-noise ratio has a value.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub struct Pixel {
+    /// In electrons.
+    pub full_well: f64,
+    /// RMS, in electrons.
+    #[serde(default)]
+    pub read_noise: f64,
+}
+
+impl Pixel {
+    pub const LARGEST: f64 = 1e9;
+
+    /// The pixel as the core takes it.
+    ///
+    /// # Errors
+    ///
+    /// [`ElectronsError`] for numbers that describe no pixel.
+    pub fn electrons(self) -> Result<Electrons, ElectronsError> {
+        Electrons::new(self.full_well, self.read_noise)
+    }
+
+    pub fn describe(self) -> String {
+        format!("full well {} electrons, read noise {} electrons", self.full_well, self.read_noise)
+    }
+}
+
 pub const PAPER_REFERENCE: &str = "Stiles & Burch 1955 2°";
 /// The observer that matrices are fitted to unless the user says otherwise.
 pub const FIT_TARGET: &str = CIE_1931;
-/// The CIE 1931 2° standard observer.
 pub const CIE_1931: &str = "CIE 1931 2°";
-/// Default chart.
 pub const CHART: &str = "ColorChecker 24 (Ohta 1997)";
 /// Name of the paper's five patches of the default chart, on the command line and in files.
 pub const FIVE: &str = "ColorChecker five";
@@ -306,12 +303,10 @@ impl Document {
         }
     }
 
-    /// The start *Colorimetry*.
     pub fn colorimetry() -> Self {
         Start::Colorimetry.document()
     }
 
-    /// The start *The 2007 paper*.
     pub fn paper() -> Self {
         Start::Paper.document()
     }
@@ -365,7 +360,6 @@ impl Document {
         (!matches!(self.light, Light::Set(_))).then_some(self.temperature_k)
     }
 
-    /// True if a sensor is the reference.
     pub fn is_reference(&self, compared: &Compared) -> bool {
         compared.kind == SetKind::Observer && compared.name == self.reference
     }

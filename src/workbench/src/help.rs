@@ -2,7 +2,6 @@
 
 pub mod formula;
 pub mod markdown;
-pub mod search;
 
 use std::collections::BTreeSet;
 use std::sync::LazyLock;
@@ -32,17 +31,15 @@ const ORDER: [&str; 14] = [
 /// Pages for developers.
 const LAST: [&str; 2] = ["benchmark", "architecture"];
 
-/// The page that opens first.
 pub const FIRST: &str = ORDER[0];
 
-/// One page.
+/// Characters of context on each side of a match.
+const CONTEXT: usize = 40;
+
 #[derive(Debug)]
 pub struct Page {
-    /// File name without its ending.
     pub name: &'static str,
-    /// The first heading.
     pub title: String,
-    /// The content, the first heading included.
     pub blocks: Vec<Block>,
 }
 
@@ -59,22 +56,18 @@ pub fn pages() -> &'static [Page] {
     &PAGES
 }
 
-/// The Markdown text of a page that is a file.
 pub fn source(name: &str) -> Option<&'static str> {
     chromascope_data::text(&format!("help/{name}.md"))
 }
 
-/// The page of this name.
 pub fn find(name: &str) -> Option<&'static Page> {
     pages().iter().find(|page| page.name == name)
 }
 
-/// Target of a link on a help page.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Target<'a> {
     /// A page, and a heading's anchor on it.
     Page(&'static str, Option<&'a str>),
-    /// An address for the browser.
     Web(&'a str),
 }
 
@@ -105,7 +98,6 @@ fn paragraph(words: impl Into<String>) -> Block {
     Block::Paragraph(vec![Inline::text(words)])
 }
 
-/// Every built-in table with its source and terms.
 fn data_sets(catalog: &Catalog) -> Vec<Block> {
     let mut blocks = vec![
         heading(1, "Built-in data sets"),
@@ -142,4 +134,60 @@ fn license_texts() -> Vec<Block> {
         blocks.extend([heading(2, name), Block::Code(text.to_owned())]);
     }
     blocks
+}
+
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Hit {
+    pub page: &'static str,
+    pub block: usize,
+    pub heading: String,
+    pub excerpt: String,
+}
+
+pub fn terms(query: &str) -> Vec<String> {
+    query.split_whitespace().map(str::to_lowercase).collect()
+}
+
+/// Blocks that contain every word of the query: headings first, then text in the order of the pages.
+pub fn search(pages: &[Page], query: &str) -> Vec<Hit> {
+    let terms = terms(query);
+    if terms.is_empty() {
+        return Vec::new();
+    }
+    let mut hits: Vec<(bool, Hit)> = pages.iter().flat_map(|page| on_page(page, &terms)).collect();
+    hits.sort_by_key(|(heading, _)| !heading);
+    hits.into_iter().map(|(_, hit)| hit).collect()
+}
+
+fn on_page(page: &Page, terms: &[String]) -> Vec<(bool, Hit)> {
+    let mut hits = Vec::new();
+    let mut heading = page.title.clone();
+    for (block, content) in page.blocks.iter().enumerate() {
+        let words = content.words();
+        let is_heading = matches!(content, Block::Heading { .. });
+        if is_heading {
+            heading.clone_from(&words);
+        }
+        let folded = words.to_lowercase();
+        if terms.iter().all(|term| folded.contains(term)) {
+            let excerpt = excerpt(&words, &terms[0]);
+            hits.push((is_heading, Hit { page: page.name, block, heading: heading.clone(), excerpt }));
+        }
+    }
+    hits
+}
+
+fn excerpt(words: &str, term: &str) -> String {
+    let letters: Vec<char> = words.chars().map(|c| if c == '\n' { ' ' } else { c }).collect();
+    let term: Vec<char> = term.chars().collect();
+    let same = |part: &[char]| part.iter().zip(&term).all(|(a, b)| a.to_lowercase().eq(b.to_lowercase()));
+    let at = letters.windows(term.len()).position(same).unwrap_or(0);
+    let mut start = at.saturating_sub(CONTEXT);
+    // From a word's beginning on.
+    while start > 0 && start < at && letters[start - 1] != ' ' {
+        start += 1;
+    }
+    let end = (at + term.len() + CONTEXT).min(letters.len());
+    let text: String = letters[start..end].iter().collect();
+    format!("{}{}{}", if start > 0 { "…" } else { "" }, text.trim(), if end < letters.len() { "…" } else { "" })
 }

@@ -50,7 +50,6 @@ impl PlotItem {
         }
     }
 
-    /// The sensor it belongs to, if any.
     pub fn source(&self) -> Option<&SensorId> {
         match self {
             Self::Sensor(source) | Self::Radiator { source, .. } => Some(source),
@@ -67,7 +66,6 @@ impl PlotItem {
         hasher.finish()
     }
 
-    /// The patch it is, if any.
     pub fn patch(&self) -> Option<&str> {
         match self {
             Self::Patch { patch, .. } => Some(patch),

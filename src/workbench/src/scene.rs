@@ -48,31 +48,22 @@ pub const LOCUS_POINTS: usize = 200;
 /// Reason that something of the scene cannot be shown.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum SceneError {
-    /// A name that no set has, as in a session from elsewhere.
     #[error("no {kind} is named \"{name}\" here; open its file, or choose another", kind = kind.singular())]
     NoSet { kind: SetKind, name: String },
-    /// A set that cannot be computed with.
     #[error("{name}: {error}")]
     Load { name: String, error: LoadError },
-    /// A camera without an ACES input transform under this light.
     #[error("{name}: {error}")]
     Idt { name: String, error: IdtError },
-    /// A sensor that cannot be shown under this light.
     #[error("{name}: {error}")]
     Rendering { name: String, error: RenderingError },
-    /// A white that has no color.
     #[error("the white-balance target \"{0}\" has no color; choose another")]
     WhiteBalanceTarget(String),
-    /// A daylight that is not defined.
     #[error(transparent)]
     Daylight(#[from] DaylightError),
-    /// A temperature that is none.
     #[error(transparent)]
     Temperature(#[from] NotPositive),
-    /// A surface that the model says nothing about.
     #[error(transparent)]
     Surface(#[from] SurfaceError),
-    /// A light without a place.
     #[error(transparent)]
     Lighting(#[from] LightingError),
 }
@@ -103,7 +94,6 @@ pub enum Caution {
     },
     /// Cameras are fitted to another observer than they are compared with.
     FitDiffers {
-        /// The observer that is fitted to.
         target: String,
         reference: String,
         /// True if the reference is an XYZ observer, so that it can be fitted to.
@@ -112,7 +102,6 @@ pub enum Caution {
 }
 
 impl Caution {
-    /// The condition in one sentence.
     pub fn sentence(&self) -> String {
         match self {
             Self::NotComparable { reference } => {
@@ -308,7 +297,6 @@ impl<'a> Scene<'a> {
             .ok_or_else(|| SceneError::WhiteBalanceTarget(name.to_owned()))
     }
 
-    /// The color transform with its data.
     pub fn transform(&self) -> Result<ColorTransformSpec, SceneError> {
         match &self.document.transform {
             TransformChoice::Paper => Ok(ColorTransformSpec::Paper),
@@ -331,7 +319,6 @@ impl<'a> Scene<'a> {
         })
     }
 
-    /// The temperatures of the visible loci.
     pub fn locus_temperatures() -> Result<Temperatures, SceneError> {
         let [from, to] = LOCUS_RANGE_K;
         Ok(Temperatures::Range { from: Kelvin::new(from)?, to: Kelvin::new(to)?, count: LOCUS_POINTS })
@@ -354,7 +341,6 @@ impl<'a> Scene<'a> {
         self.locus_at(kind, name, Temperatures::List(vec![self.temperature()?]))
     }
 
-    /// The current patches through a sensor.
     pub fn patch_colors(&self, kind: SetKind, name: &str) -> Result<Vec<PatchColor>, SceneError> {
         let query = PatchColorsQuery { rendering: self.rendering_of(kind, name)?, patches: self.patches()? };
         self.rendered(&query, name)

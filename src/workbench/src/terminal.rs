@@ -25,7 +25,6 @@ fn escaped(text: &str, escape: impl Fn(char) -> String) -> Cow<'_, str> {
     Cow::Owned(text.chars().map(plain).collect())
 }
 
-/// Writes a message to standard error.
 pub fn say(text: &str) {
     // No message can be written once the terminal is closed.
     let _gone = io::stderr().lock().write_all(shown(text).as_bytes());

@@ -27,7 +27,6 @@ struct Step {
     reloads: bool,
 }
 
-/// The document with its undo history.
 #[derive(Clone, Debug, Default)]
 pub struct History {
     document: Document,
@@ -145,17 +144,14 @@ impl History {
         self.gesture = false;
     }
 
-    /// The step that undo would take back.
     pub fn undo_name(&self) -> Option<&str> {
         self.undo.back().map(|step| step.name.as_str())
     }
 
-    /// The step that redo would bring back.
     pub fn redo_name(&self) -> Option<&str> {
         self.redo.last().map(|step| step.name.as_str())
     }
 
-    /// Takes the last step back.
     pub fn undo(&mut self) {
         if let Some(step) = self.undo.pop_back() {
             let after = std::mem::replace(&mut self.document, step.document);
@@ -164,7 +160,6 @@ impl History {
         self.gesture = false;
     }
 
-    /// Brings the last step taken back again.
     pub fn redo(&mut self) {
         if let Some(step) = self.redo.pop() {
             let before = std::mem::replace(&mut self.document, step.document);

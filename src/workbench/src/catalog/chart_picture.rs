@@ -10,7 +10,6 @@ use image::{DynamicImage, ImageDecoder as _, ImageFormat, ImageReader, Limits};
 
 use super::recorded::{Levels, RawRow};
 
-/// Maximum number of bytes of a picture in memory.
 const MAX_BYTES: u64 = 1 << 30;
 /// Maximum number of bytes of what stands beside its pixels, such as a color profile.
 const MAX_METADATA: u64 = 64 << 20;
@@ -19,16 +18,12 @@ const CLIP: f64 = 65535.0;
 
 #[derive(Debug, thiserror::Error)]
 pub enum ChartPictureError {
-    /// The file is no picture that can be read.
     #[error("{0}; expected a 16-bit TIFF or PNG")]
     Format(#[from] image::ImageError),
-    /// A number in the header of a TIFF is written as text, whose length the decoder would print on standard error.
     #[error("TIFF tag {0} is text where a number is expected; save the picture again")]
     Tag(u16),
-    /// The picture has eight bits, or no color.
     #[error("the picture is {0}; save it as linear 16-bit RGB, without a tone curve")]
     Depth(&'static str),
-    /// The corners mark no patches.
     #[error(transparent)]
     Grid(#[from] ChartGridError),
 }

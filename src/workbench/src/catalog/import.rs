@@ -11,7 +11,6 @@ use crate::document::imported::{Fingerprint, ImportOverrides, ImportedCurve, Imp
 /// Default maximum number of curves taken from a file.
 pub const TAKEN_AT_FIRST: usize = 200;
 
-/// A set as it was read.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Imported {
     pub set: ImportedSet,
@@ -24,7 +23,6 @@ pub struct Imported {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Origin {
     pub name: String,
-    /// Path on disk, if there is one.
     pub path: Option<PathBuf>,
     pub fingerprint: Fingerprint,
     /// Contents of the metadata file beside it; may be empty.
@@ -70,19 +68,19 @@ pub fn import(file: &str, bytes: &[u8], role: Option<Role>) -> Result<Imported, 
 pub fn import_as(
     origin: &Origin,
     bytes: &[u8],
-    wishes: &ImportOverrides,
+    overrides: &ImportOverrides,
     watch: Watch<'_>,
 ) -> Result<Imported, ReadError> {
-    let table = spectral_file::read_watched(origin.source(bytes), &wishes.options, watch)?.usable()?;
-    Ok(imported(origin, &table, wishes))
+    let table = spectral_file::read_watched(origin.source(bytes), &overrides.options, watch)?.usable()?;
+    Ok(imported(origin, &table, overrides))
 }
 
 /// Import of a table that was read with the options of these overrides.
-pub fn imported(origin: &Origin, table: &SpectralFile, wishes: &ImportOverrides) -> Imported {
+pub fn imported(origin: &Origin, table: &SpectralFile, overrides: &ImportOverrides) -> Imported {
     let guesses: Vec<_> = weighty_guesses(table);
     let file = &origin.name;
     let mut message = format!("{file}: {}", summary(table));
-    let taken = taken(table, wishes);
+    let taken = taken(table, overrides);
     if taken.len() < table.curves.len() {
         message = format!("{message} {} of them are imported; choose in Import.", taken.len());
     }
@@ -96,7 +94,7 @@ pub fn imported(origin: &Origin, table: &SpectralFile, wishes: &ImportOverrides)
     if let Some(warning) = table.warnings.first() {
         message = format!("{message} {warning}");
     }
-    Imported { message, guessed: !guesses.is_empty(), set: own_set(origin, table, wishes, &taken) }
+    Imported { message, guessed: !guesses.is_empty(), set: own_set(origin, table, overrides, &taken) }
 }
 
 /// Guesses and open decisions that change values or the use of a set.
@@ -106,12 +104,12 @@ pub fn weighty_guesses(table: &SpectralFile) -> Vec<spectral_file::Decision> {
 }
 
 /// Indices of the curves to import: those chosen, which may be none, else the first of the table.
-pub fn taken(table: &SpectralFile, wishes: &ImportOverrides) -> Vec<usize> {
+pub fn taken(table: &SpectralFile, overrides: &ImportOverrides) -> Vec<usize> {
     let count = table.curves.len();
-    if let Some(wished) = &wishes.taken {
-        let taken: Vec<usize> = wished.iter().copied().filter(|index| *index < count).collect();
+    if let Some(chosen) = &overrides.taken {
+        let taken: Vec<usize> = chosen.iter().copied().filter(|index| *index < count).collect();
         // If none of the chosen curves exists any more, the choice is void.
-        if !taken.is_empty() || wished.is_empty() {
+        if !taken.is_empty() || chosen.is_empty() {
             return taken;
         }
     }
@@ -126,11 +124,11 @@ fn summary(table: &SpectralFile) -> String {
     format!("{curves}, {}, {first}–{last} nm.", table.role.value)
 }
 
-fn own_set(origin: &Origin, table: &SpectralFile, wishes: &ImportOverrides, taken: &[usize]) -> ImportedSet {
+fn own_set(origin: &Origin, table: &SpectralFile, overrides: &ImportOverrides, taken: &[usize]) -> ImportedSet {
     let title = table.reading.comment("title").map(str::trim).filter(|title| !title.is_empty());
     let stem = || Path::new(&origin.name).file_stem().map_or(origin.name.clone(), |s| s.to_string_lossy().into_owned());
     let mut name = spectral_file::on_one_line(&title.map_or_else(stem, str::to_owned)).into_owned();
-    if let Some(part) = part_name(table, wishes) {
+    if let Some(part) = part_name(table, overrides) {
         name = format!("{name}, {part}");
     }
     let alone = table.curves.len() == 1;
@@ -154,27 +152,27 @@ fn own_set(origin: &Origin, table: &SpectralFile, wishes: &ImportOverrides, take
         file: origin.name.clone(),
         path: origin.path.clone(),
         fingerprint: Some(origin.fingerprint),
-        wishes: wishes.clone(),
+        overrides: overrides.clone(),
         role: table.role.value,
         read_as: ReadAs { unit, percent },
         unit,
         percent,
-        per_photon: wishes.per_photon.unwrap_or_else(per_photon),
-        channels: channels(table, wishes, taken),
+        per_photon: overrides.per_photon.unwrap_or_else(per_photon),
+        channels: channels(table, overrides, taken),
         decisions,
     }
 }
 
 /// Name of the part of a file that the user chose of several.
-fn part_name(table: &SpectralFile, wishes: &ImportOverrides) -> Option<String> {
-    let part = wishes.options.part.filter(|_| table.reading.parts.len() > 1)?;
+fn part_name(table: &SpectralFile, overrides: &ImportOverrides) -> Option<String> {
+    let part = overrides.options.part.filter(|_| table.reading.parts.len() > 1)?;
     let known = table.reading.parts.get(part.checked_sub(1)?)?;
     Some(if known.name.is_empty() { format!("part {part}") } else { known.name.clone() })
 }
 
 /// Indices of red, green and blue among the chosen curves.
-fn channels(table: &SpectralFile, wishes: &ImportOverrides, taken: &[usize]) -> [usize; 3] {
-    let wanted = wishes.channels.or(table.reading.camera_columns).unwrap_or([0, 1, 2]);
+fn channels(table: &SpectralFile, overrides: &ImportOverrides, taken: &[usize]) -> [usize; 3] {
+    let wanted = overrides.channels.or(table.reading.camera_columns).unwrap_or([0, 1, 2]);
     let place = |index: usize| taken.iter().position(|taken| *taken == index);
     match wanted.map(place) {
         [Some(red), Some(green), Some(blue)] => [red, green, blue],

@@ -12,9 +12,7 @@ pub struct Likeness {
     words: bool,
 }
 
-/// Number of bytes examined.
 const LOOK: usize = 1 << 14;
-/// Maximum number of non-empty lines compared.
 const LINES: usize = 24;
 /// A longer line is no header; its beginning suffices.
 const WIDTH: usize = 120;
@@ -22,7 +20,6 @@ const WIDTH: usize = 120;
 const ALIKE: f64 = 0.7;
 
 impl Likeness {
-    /// Of a file's bytes.
     pub fn of(bytes: &[u8]) -> Self {
         let text = String::from_utf8_lossy(&bytes[..bytes.len().min(LOOK)]);
         let lines = text.split(['\n', '\r']).map(|line| line.trim_matches(['\0', ' ', '\u{feff}']));
@@ -39,7 +36,6 @@ impl Likeness {
         self.words
     }
 
-    /// True if two files are of one kind.
     pub fn is_like(&self, other: &Self) -> bool {
         let common = self.shapes.iter().filter(|shape| other.shapes.binary_search(shape).is_ok()).count();
         let all = self.shapes.len() + other.shapes.len() - common;

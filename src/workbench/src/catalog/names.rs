@@ -5,13 +5,7 @@ use super::Entry;
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum NameError {
     #[error("no {kind} is named \"{name}\"{}", suggest(.name, .nearest))]
-    Unknown {
-        /// Kind of data set searched for.
-        kind: &'static str,
-        name: String,
-        nearest: Vec<String>,
-    },
-    /// Several names contain it.
+    Unknown { kind: &'static str, name: String, nearest: Vec<String> },
     #[error("\"{name}\" could be {}; type more of the name", .candidates.join(", "))]
     Ambiguous {
         name: String,
@@ -308,7 +302,6 @@ fn ambiguous(name: &str, candidates: &[&Entry]) -> NameError {
     NameError::Ambiguous { name: name.to_owned(), candidates: named }
 }
 
-/// Up to three names similar to the typed one.
 fn nearest(entries: &[&Entry], wanted: &str) -> Vec<String> {
     let alike = |name: &str| strsim::jaro_winkler(&folded(name), wanted);
     let score = |name: &str| alike(name).max(alike(&without_remarks(name)));

@@ -31,13 +31,10 @@ const DATA: [&str; 9] = ["img", "dat", "raw", "bil", "bip", "bsq", "bin", "cube"
 pub enum OpenImageError {
     #[error("{}: {}", path.display(), crate::format::io_reason(error))]
     Io { path: PathBuf, error: io::Error },
-    /// A header without its data file.
     #[error("{}: no data beside this header; expected {} or that name with .img, .dat, .bil, .bip or .bsq", header.display(), data.display())]
     NoData { header: PathBuf, data: PathBuf },
-    /// Data without its header file.
     #[error("{}: no header beside these data; expected {}", data.display(), header.display())]
     NoHeader { data: PathBuf, header: PathBuf },
-    /// The file is no spectral image.
     #[error("{}: {error}", path.display())]
     Image { path: PathBuf, error: ImageError },
 }
@@ -152,7 +149,6 @@ impl Hash for RowsRead {
 pub struct ImageSource {
     /// Header, data or OpenEXR file.
     pub path: PathBuf,
-    /// State of the header and of the data.
     pub version: [Stamp; 2],
     pub rows: RowsRead,
 }
@@ -161,7 +157,6 @@ pub struct ImageSource {
 #[derive(Clone, Debug)]
 pub struct LoadedImage {
     pub source: ImageSource,
-    /// Size, bands, quantity.
     pub info: ImageInfo,
     /// The file's name, size and bands.
     pub summary: String,
@@ -290,22 +285,18 @@ impl FileFailure for ImageFailure {
     }
 }
 
-/// Reason that an image has no signals.
 #[derive(Debug, thiserror::Error)]
 pub enum ReadSignalsError {
     #[error(transparent)]
     Open(#[from] OpenImageError),
     #[error(transparent)]
     Read(#[from] ImageError),
-    /// The image cannot be put through cameras.
     #[error(transparent)]
     Image(#[from] SpectralImageError),
     #[error("{0} million pixels; the limit is {limit} million, so cut or bin the image", limit = MOST_PIXELS / 1_000_000)]
     Pixels(usize),
-    /// No pixel has a value.
     #[error("no pixel has a value in every band")]
     Empty,
-    /// The image is another now.
     #[error("the file changed while it was visible; open it again")]
     Changed,
     #[error("stopped")]

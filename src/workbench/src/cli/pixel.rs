@@ -3,7 +3,7 @@
 use clap::Args;
 
 use super::error::CliError;
-use crate::document::pixel::Pixel;
+use crate::document::Pixel;
 
 /// Temperature in kelvins of the locus metrics unless another is named.
 pub(super) const LOCUS_K: f64 = 2856.0;

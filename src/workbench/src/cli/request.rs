@@ -392,19 +392,19 @@ impl Request {
     /// Reads bytes of a file with all its curves; says what had to be guessed.
     pub(super) fn read_bytes(&mut self, path: &Path, bytes: &[u8], role: Role) -> Result<ImportedSet, CliError> {
         let file = display_path(path);
-        let mut wishes = ImportOverrides::for_role(Some(role));
-        wishes.options.values = self.values.filter(|_| role.is_fraction());
+        let mut overrides = ImportOverrides::for_role(Some(role));
+        overrides.options.values = self.values.filter(|_| role.is_fraction());
         let origin = Origin::on_disk(&file, path, bytes);
-        let table = spectral_file::read(origin.source(bytes), &wishes.options)
+        let table = spectral_file::read(origin.source(bytes), &overrides.options)
             .map_err(|error| CliError::File(format!("{file}: {error}")))?;
         checks::quantity(&file, role, &table)?;
         let table = table.usable().map_err(|error| CliError::File(format!("{file}: {error}")))?;
         checks::channels(&file, role, &table)?;
-        wishes.taken = Some((0..table.curves.len()).collect());
+        overrides.taken = Some((0..table.curves.len()).collect());
         if role == Role::Camera {
-            wishes.per_photon = self.per.map(|per| per == Per::Photon);
+            overrides.per_photon = self.per.map(|per| per == Per::Photon);
         }
-        let imported = imported(&origin, &table, &wishes);
+        let imported = imported(&origin, &table, &overrides);
         if imported.guessed || !table.warnings.is_empty() {
             say(&format!("chromascope: {}\n", imported.message));
         }

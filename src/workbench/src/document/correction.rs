@@ -8,7 +8,6 @@ use std::fmt::Write as _;
 /// The reflectances that transforms are fitted over unless the user says otherwise.
 pub const TRAINING: &str = "Training reflectances (190)";
 
-/// Method and conditions of fitted color transforms.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, rename_all = "kebab-case")]
 pub struct CorrectionChoice {
@@ -16,7 +15,6 @@ pub struct CorrectionChoice {
     pub method: CorrectionMethod,
     /// True if a perfect diffuser's color is preserved.
     pub keeps_white: bool,
-    /// Chart or material whose reflectances are fitted over.
     pub training: String,
     /// Weights of neutrals, skin, foliage and sky.
     pub weights: [f64; 4],
@@ -43,7 +41,6 @@ impl CorrectionChoice {
         Self { second_light: None, ..self.clone() }.is_default()
     }
 
-    /// The correction, without its training reflectances.
     pub fn correction(&self) -> Correction {
         Correction { method: self.method, keeps_white: self.keeps_white, weights: ClassWeights::new(self.weights) }
     }
@@ -54,7 +51,6 @@ impl CorrectionChoice {
         self.weights = ColorClass::ALL.map(|class| weights.of(class));
     }
 
-    /// Method and conditions in words, fitted to `target`.
     pub fn describe(&self, target: &str) -> String {
         let mut words = match self.method {
             CorrectionMethod::LeastSquares => format!("3x3 fitted to {target}"),
@@ -75,7 +71,6 @@ impl CorrectionChoice {
     }
 }
 
-/// A method by its id.
 mod method_id {
     use chromascope_core::correction::CorrectionMethod;
     use serde::{Deserialize as _, Deserializer, Serializer, de::Error as _};

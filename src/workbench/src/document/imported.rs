@@ -19,7 +19,6 @@ pub struct ImportedCurve {
     /// Values; percent already divided if that was decided.
     #[serde(deserialize_with = "numbers")]
     pub values: Vec<f64>,
-    /// The unit of the values as the file names it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub unit: Option<String>,
     /// Fields that this version does not know, kept as they are.
@@ -37,7 +36,6 @@ fn numbers<'de, D: serde::Deserializer<'de>>(from: D) -> Result<Vec<f64>, D::Err
 #[derive(Clone, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(default)]
 pub struct ImportOverrides {
-    /// The switches of the reader.
     pub options: ReadOptions,
     /// Indices of the file's curves to import, from 0.
     pub taken: Option<Vec<usize>>,
@@ -67,16 +65,12 @@ pub struct ImportedSet {
     pub name: String,
     /// The file it came from, or `clipboard`.
     pub file: String,
-    /// Path of that file, if it was on disk.
     #[serde(default, skip_serializing_if = "Option::is_none", with = "super::paths::option")]
     pub path: Option<PathBuf>,
-    /// Fingerprint of that file's contents.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fingerprint: Option<Fingerprint>,
-    /// The user's overrides for reading it.
-    #[serde(default)]
-    pub wishes: ImportOverrides,
-    /// Role it is used in.
+    #[serde(default, rename = "wishes")]
+    pub overrides: ImportOverrides,
     pub role: Role,
     /// The units that the curves were converted from on reading.
     pub read_as: ReadAs,
@@ -90,7 +84,6 @@ pub struct ImportedSet {
     /// For a camera: which curves are red, green and blue.
     #[serde(default = "first_three")]
     pub channels: [usize; 3],
-    /// The curves, as read.
     pub curves: Vec<ImportedCurve>,
     /// Decisions made on reading, one line each, for display.
     #[serde(default)]
@@ -107,7 +100,6 @@ fn first_three() -> [usize; 3] {
 pub struct Fingerprint(u64);
 
 impl Fingerprint {
-    /// Of a file's bytes (FNV-1a, 64 bits).
     pub fn of(bytes: &[u8]) -> Self {
         const OFFSET: u64 = 0xCBF2_9CE4_8422_2325;
         const PRIME: u64 = 0x0100_0000_01B3;
@@ -135,7 +127,7 @@ impl Hash for ImportedSet {
     fn hash<H: Hasher>(&self, state: &mut H) {
         (&self.name, &self.file, self.role, self.read_as, self.unit, self.percent, self.per_photon, self.channels)
             .hash(state);
-        self.wishes.hash(state);
+        self.overrides.hash(state);
         for curve in &self.curves {
             curve.name.hash(state);
             curve.wavelengths.iter().chain(&curve.values).for_each(|v| v.to_bits().hash(state));
@@ -161,7 +153,7 @@ impl ImportedSet {
             file: self.file.clone(),
             path: self.path.clone(),
             fingerprint: self.fingerprint,
-            wishes: self.wishes.clone(),
+            overrides: self.overrides.clone(),
             role: self.role,
             read_as: self.read_as,
             unit: self.unit,
@@ -179,7 +171,6 @@ impl ImportedSet {
         head(self) == head(other) && self.curves == other.curves
     }
 
-    /// Quantity that its sensitivities respond to.
     pub fn response(&self) -> Response {
         if self.per_photon { Response::PerPhoton } else { Response::PerEnergy }
     }

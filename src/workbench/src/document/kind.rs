@@ -4,7 +4,6 @@ use serde::{Deserialize, Serialize};
 
 use super::imported::{ImportedSet, Role};
 
-/// Kind of a data set.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum SetKind {
@@ -12,12 +11,10 @@ pub enum SetKind {
     Camera,
     /// An observer's color matching functions or cone fundamentals.
     Observer,
-    /// A set of patches.
     Chart,
     Illuminant,
     /// Transmittance of a filter in front of the light.
     Filter,
-    /// Single reflectances.
     Material,
     /// The user's spectra of unknown quantity.
     Unsorted,
@@ -30,7 +27,6 @@ pub struct SensorId {
 }
 
 impl SetKind {
-    /// All kinds in the order they are listed.
     pub const ALL: [Self; 7] =
         [Self::Camera, Self::Observer, Self::Chart, Self::Illuminant, Self::Filter, Self::Material, Self::Unsorted];
 
@@ -47,7 +43,6 @@ impl SetKind {
         }
     }
 
-    /// Kind of one of the user's sets.
     pub const fn of_own(set: &ImportedSet) -> Self {
         match set.role {
             Role::Camera => Self::Camera,
@@ -56,6 +51,12 @@ impl SetKind {
             Role::Illuminant => Self::Illuminant,
             Role::Unknown => Self::Unsorted,
         }
+    }
+
+    /// True if no two sets of these kinds have one name: patches are chosen from charts and materials alike.
+    pub fn shares_names_with(self, other: Self) -> bool {
+        let of_patches = |kind| matches!(kind, Self::Chart | Self::Material);
+        self == other || (of_patches(self) && of_patches(other))
     }
 
     /// Use of one of the user's sets under the conditions, as buttons name it; none for sensors, which are compared.

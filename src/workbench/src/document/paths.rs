@@ -1,103 +1,80 @@
 //! Paths in saved files: a string where a path is UTF-8, else its bytes, so that each path is read back as it was.
 
-use std::fmt;
 use std::path::{Path, PathBuf};
 
-use serde::de::{Deserialize, Deserializer, Error, SeqAccess, Visitor};
-use serde::ser::{Serialize, Serializer};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-struct Written<'a>(&'a Path);
+#[derive(Serialize, Deserialize)]
+#[serde(untagged, expecting = "expected a path, or its bytes")]
+enum Written {
+    Text(String),
+    Bytes(Vec<u8>),
+}
 
-/// A path as it was read.
-struct Read(PathBuf);
-
-impl Serialize for Written<'_> {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        match self.0.to_str() {
-            Some(text) => serializer.serialize_str(text),
-            None => bytes(self.0, serializer),
-        }
+impl From<&Path> for Written {
+    fn from(path: &Path) -> Self {
+        path.to_str().map_or_else(|| Self::not_text(path), |text| Self::Text(text.to_owned()))
     }
 }
 
 #[cfg(unix)]
-fn bytes<S: Serializer>(path: &Path, serializer: S) -> Result<S::Ok, S::Error> {
-    use std::os::unix::ffi::OsStrExt as _;
-    serializer.collect_seq(path.as_os_str().as_bytes())
+impl Written {
+    fn not_text(path: &Path) -> Self {
+        Self::Bytes(std::os::unix::ffi::OsStrExt::as_bytes(path.as_os_str()).to_vec())
+    }
+
+    fn path(self) -> PathBuf {
+        match self {
+            Self::Text(text) => text.into(),
+            Self::Bytes(bytes) => <std::ffi::OsString as std::os::unix::ffi::OsStringExt>::from_vec(bytes).into(),
+        }
+    }
 }
 
 /// Such a path from another system contains an incomplete character: a lossy conversion is better than losing the
 /// document.
 #[cfg(not(unix))]
-fn bytes<S: Serializer>(path: &Path, serializer: S) -> Result<S::Ok, S::Error> {
-    serializer.serialize_str(&path.to_string_lossy())
-}
-
-impl<'de> Deserialize<'de> for Read {
-    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-        struct Either;
-        impl<'de> Visitor<'de> for Either {
-            type Value = Read;
-
-            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                f.write_str("a path, or its bytes")
-            }
-
-            fn visit_str<E: Error>(self, text: &str) -> Result<Read, E> {
-                Ok(Read(PathBuf::from(text)))
-            }
-
-            fn visit_seq<A: SeqAccess<'de>>(self, mut seq: A) -> Result<Read, A::Error> {
-                let mut bytes = Vec::new();
-                while let Some(byte) = seq.next_element::<u8>()? {
-                    bytes.push(byte);
-                }
-                Ok(Read(of_bytes(bytes)))
-            }
-        }
-        from.deserialize_any(Either)
+impl Written {
+    fn not_text(path: &Path) -> Self {
+        Self::Text(path.to_string_lossy().into_owned())
     }
-}
 
-#[cfg(unix)]
-fn of_bytes(bytes: Vec<u8>) -> PathBuf {
-    use std::os::unix::ffi::OsStringExt as _;
-    std::ffi::OsString::from_vec(bytes).into()
-}
-
-#[cfg(not(unix))]
-fn of_bytes(bytes: Vec<u8>) -> PathBuf {
-    String::from_utf8_lossy(&bytes).into_owned().into()
+    fn path(self) -> PathBuf {
+        match self {
+            Self::Text(text) => text.into(),
+            Self::Bytes(bytes) => String::from_utf8_lossy(&bytes).into_owned().into(),
+        }
+    }
 }
 
 pub fn serialize<S: Serializer>(path: &Path, serializer: S) -> Result<S::Ok, S::Error> {
-    Written(path).serialize(serializer)
+    Written::from(path).serialize(serializer)
 }
 
 pub fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<PathBuf, D::Error> {
-    Ok(Read::deserialize(from)?.0)
+    Ok(Written::deserialize(from)?.path())
 }
 
 pub mod option {
-    use super::{Deserialize, Deserializer, PathBuf, Read, Serialize, Serializer, Written};
+    use super::{Deserialize, Deserializer, PathBuf, Serialize, Serializer, Written};
 
     pub fn serialize<S: Serializer>(path: &Option<PathBuf>, serializer: S) -> Result<S::Ok, S::Error> {
-        path.as_deref().map(Written).serialize(serializer)
+        path.as_deref().map(Written::from).serialize(serializer)
     }
 
     pub fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<Option<PathBuf>, D::Error> {
-        Ok(Option::<Read>::deserialize(from)?.map(|read| read.0))
+        Ok(Option::<Written>::deserialize(from)?.map(Written::path))
     }
 }
 
 pub mod list {
-    use super::{Deserialize, Deserializer, PathBuf, Read, Serializer, Written};
+    use super::{Deserialize, Deserializer, PathBuf, Serializer, Written};
 
     pub fn serialize<S: Serializer>(paths: &[PathBuf], serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.collect_seq(paths.iter().map(|path| Written(path)))
+        serializer.collect_seq(paths.iter().map(|path| Written::from(path.as_path())))
     }
 
     pub fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<PathBuf>, D::Error> {
-        Ok(Vec::<Read>::deserialize(from)?.into_iter().map(|read| read.0).collect())
+        Ok(Vec::<Written>::deserialize(from)?.into_iter().map(Written::path).collect())
     }
 }

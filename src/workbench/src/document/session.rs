@@ -1,39 +1,54 @@
-//! Document as JSON, as saved between runs and in session files.
+//! Document as JSON. A session file has its imported sets by value. Between runs it is saved small, as it is written with every
+//! change: the curves are in files of their own, each written once; the document names the file and the place in it. Fields that
+//! this version does not know are kept, and written back where they were.
+
+use std::collections::{HashMap, HashSet};
 
 use chromascope_core::colorimetry::Metric;
 use chromascope_core::query::Shared;
 use serde::de::DeserializeOwned;
-use serde::{Deserialize as _, Serialize};
+use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
-use super::imported::{ImportedSet, Role, same_but_folders};
-use super::kind::SetKind;
+use super::SetKind;
+use super::imported::{ImportedCurve, ImportedSet, Role, same_but_folders};
 use super::names::BuiltInNames;
 use super::start::Start;
-use super::{Document, MOST_COMPARED, VERSION, saved, unknown};
+use super::{Document, MOST_COMPARED, VERSION};
 
-/// Ending of the names of session files.
 pub const ENDING: &str = "chromascope";
 /// Key of the view in a session file.
 const VIEW: &str = "view";
+/// Key of a set whose curves are in another file.
+const CURVES_IN: &str = "curves_in";
 
 #[derive(Debug, thiserror::Error)]
 pub enum SessionError {
-    /// It is no JSON, or JSON of another shape.
     #[error("{0}")]
     Json(#[from] serde_json::Error),
-    /// It is JSON of another program.
     #[error("this is not a Chromascope session (its format is \"{0}\")")]
     Format(String),
-    /// More sensors than have a place in the palette.
     #[error("{0} sensors are compared, but at most {MOST_COMPARED} can be shown; remove some from \"compared\"")]
     Compared(usize),
-    /// A newer program wrote it.
     #[error("{0} Update to open it")]
     Newer(String),
-    /// One of its imported sets cannot be read.
     #[error("{0}")]
     Set(String),
+}
+
+/// The file that holds a set's curves, by name, and their place in its list.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Place(pub String, pub usize);
+
+#[derive(Debug)]
+pub struct LoadedDocument {
+    pub document: Document,
+    /// Places of the curves of its sets, in their order; none for a set that the document holds itself.
+    pub places: Vec<Option<Place>>,
+    /// Sets that could not be read: each with the reason.
+    pub lost: Vec<String>,
+    /// Parts of a document of a newer version that are not understood here, in a sentence.
+    pub newer: Option<String>,
 }
 
 /// The document as JSON, indented, with a final newline.
@@ -51,7 +66,7 @@ pub fn to_session(document: &Document, view: &impl Serialize) -> Result<String, 
     value["render"]["mesh"] = serde_json::to_value(document.render.mesh.without_folder())?;
     let mut view = serde_json::to_value(view)?;
     if let Some(Value::Object(rest)) = document.unknown.get(VIEW) {
-        unknown::put_back(&mut view, rest);
+        put_back(&mut view, rest);
     }
     value[VIEW] = view;
     Ok(text(&value))
@@ -59,7 +74,7 @@ pub fn to_session(document: &Document, view: &impl Serialize) -> Result<String, 
 
 fn value_of(document: &Document) -> Result<Value, serde_json::Error> {
     let mut value = serde_json::to_value(document)?;
-    unknown::put_back(&mut value, &document.unknown);
+    put_back(&mut value, &document.unknown);
     Ok(value)
 }
 
@@ -102,7 +117,7 @@ pub fn take_view<V: DeserializeOwned + Serialize>(document: &mut Document) -> Op
     let mut value = document.unknown.remove(VIEW)?;
     let refused = value.as_object_mut().map(take_unreadable::<V>)?;
     let view: V = serde_json::from_value(value.clone()).ok()?;
-    if let Some(rest) = unknown::of(&value, &serde_json::to_value(&view).ok()?) {
+    if let Some(rest) = unknown_fields(&value, &serde_json::to_value(&view).ok()?) {
         document.unknown.insert(VIEW.to_owned(), rest);
     }
     Some((view, refused))
@@ -133,8 +148,8 @@ pub fn is_session(beginning: &[u8]) -> bool {
 
 /// A document from JSON. Unknown fields are preserved; missing fields have their defaults.
 pub fn from_json(json: &str) -> Result<Document, SessionError> {
-    let mut elsewhere = |_: &saved::Place| Err("its curves are in another file".to_owned());
-    let read = saved::from_json(json, &mut elsewhere)?;
+    let mut elsewhere = |_: &Place| Err("its curves are in another file".to_owned());
+    let read = from_json_with_places(json, &mut elsewhere)?;
     match (read.lost.into_iter().next(), read.newer) {
         (Some(lost), _) => Err(SessionError::Set(lost)),
         (None, Some(newer)) => Err(SessionError::Newer(newer)),
@@ -142,8 +157,75 @@ pub fn from_json(json: &str) -> Result<Document, SessionError> {
     }
 }
 
+/// The JSON of a document whose sets have their curves at these places, indented, with a final newline.
+pub fn to_json_with_places(document: &Document, places: &[(&ImportedSet, &Place)]) -> Result<String, SessionError> {
+    let mut rest = document.clone();
+    rest.own.clear();
+    let mut value = serde_json::to_value(rest)?;
+    let sets = places.iter().map(|(set, place)| {
+        let mut head = serde_json::to_value(set.without_curves())?;
+        if let Some(head) = head.as_object_mut() {
+            head.remove("curves");
+            head.insert(CURVES_IN.to_owned(), serde_json::to_value(place)?);
+        }
+        Ok(head)
+    });
+    value["own"] = sets.collect::<Result<Vec<Value>, serde_json::Error>>()?.into();
+    put_back(&mut value, &document.unknown);
+    Ok(serde_json::to_string_pretty(&value)? + "\n")
+}
+
+/// A document from JSON, with curves from their places: `curves` reads a file's list. A set that cannot be read is omitted.
+pub fn from_json_with_places(
+    json: &str,
+    curves: &mut dyn FnMut(&Place) -> Result<Vec<ImportedCurve>, String>,
+) -> Result<LoadedDocument, SessionError> {
+    let mut value: Value = serde_json::from_str(json)?;
+    let sets = value.get_mut("own").and_then(Value::as_array_mut).map(std::mem::take).unwrap_or_default();
+    let (mut own, mut places, mut lost) = (Vec::new(), Vec::new(), Vec::new());
+    let mut foreign = Map::new();
+    for set in sets {
+        let name = set.get("name").and_then(Value::as_str).unwrap_or("a set").to_owned();
+        match with_curves(set, curves) {
+            Ok((set, place, unknown)) => {
+                foreign.extend(unknown.map(|unknown| (name, unknown)));
+                own.push(set);
+                places.push(place);
+            }
+            Err(why) => lost.push(format!("{name}: {why}")),
+        }
+    }
+    let (mut document, newer) = from_value(value, own)?;
+    if !foreign.is_empty() {
+        document.unknown.insert("own".to_owned(), foreign.into());
+    }
+    Ok(LoadedDocument { document, places, lost, newer })
+}
+
+type SetParts = (ImportedSet, Option<Place>, Option<Value>);
+
+/// A set, the place of its curves, and its unknown fields.
+fn with_curves(
+    mut set: Value,
+    curves: &mut dyn FnMut(&Place) -> Result<Vec<ImportedCurve>, String>,
+) -> Result<SetParts, String> {
+    let words = |error: serde_json::Error| error.to_string();
+    let mut take = |key: &str| set.as_object_mut().and_then(|set| set.remove(key));
+    let (place, by_value) = (take(CURVES_IN), take("curves"));
+    set["curves"] = Value::Array(Vec::new());
+    let place: Option<Place> = place.map(serde_json::from_value).transpose().map_err(words)?;
+    let head = ImportedSet::deserialize(&set).map_err(words)?;
+    let curves = match (&place, by_value) {
+        (Some(place), _) => curves(place)?,
+        (None, Some(curves)) => serde_json::from_value(curves).map_err(words)?,
+        (None, None) => return Err("it has no curves".to_owned()),
+    };
+    let unknown = unknown_fields(&set, &serde_json::to_value(&head).map_err(words)?);
+    Ok((ImportedSet { curves, ..head }, place, unknown))
+}
+
 /// A document from JSON without its sets, and these; of a newer version, what is understood, with a sentence about the rest.
-pub(super) fn from_value(mut value: Value, own: Vec<ImportedSet>) -> Result<(Document, Option<String>), SessionError> {
+fn from_value(mut value: Value, own: Vec<ImportedSet>) -> Result<(Document, Option<String>), SessionError> {
     rename_fields(&mut value);
     let version = value.get("version").and_then(Value::as_u64);
     if version == Some(1) {
@@ -161,7 +243,7 @@ pub(super) fn from_value(mut value: Value, own: Vec<ImportedSet>) -> Result<(Doc
     if document.format != "chromascope" {
         return Err(SessionError::Format(document.format));
     }
-    if let Some(Value::Object(rest)) = unknown::of(&value, &serde_json::to_value(&document)?) {
+    if let Some(Value::Object(rest)) = unknown_fields(&value, &serde_json::to_value(&document)?) {
         document.unknown = rest;
     }
     let newer = newer.map(|version| sentence_of_newer(version, &document.unknown, &refused));
@@ -214,9 +296,9 @@ const RENAMED: [(&str, &str); 2] =
 /// paper's start, which was the only one.
 fn renew(value: &mut Value, own: &[ImportedSet]) -> Result<(), SessionError> {
     let Some(old) = value.as_object_mut() else { return Ok(()) };
-    let is_own = |name: &String| own.iter().any(|set| set.role == Role::Camera && set.name == *name);
+    let is_own = |name: &str| own.iter().any(|set| set.role == Role::Camera && set.name == *name);
     for compared in old.get_mut("compared").and_then(|list| list.as_array_mut()).into_iter().flatten() {
-        let Some(known) = name(compared).filter(|name| !is_own(name)) else { continue };
+        let Some(known) = name(compared).filter(|name| !is_own(name)).map(str::to_owned) else { continue };
         if compared.get("kind").and_then(|kind| kind.as_str()) != Some("camera") {
             continue;
         }
@@ -240,8 +322,58 @@ fn renew(value: &mut Value, own: &[ImportedSet]) -> Result<(), SessionError> {
     Ok(())
 }
 
-fn name(record: &Value) -> Option<String> {
-    record.get("name")?.as_str().map(str::to_owned)
+/// Fields of a value that its known form lacks, in the same nesting; items of lists are told apart by `name`.
+fn unknown_fields(value: &Value, known: &Value) -> Option<Value> {
+    let mut rest = Map::new();
+    match (value, known) {
+        (Value::Object(fields), Value::Object(known)) => {
+            for (key, field) in fields {
+                let unknown = known.get(key).map_or_else(|| Some(field.clone()), |known| unknown_fields(field, known));
+                rest.extend(unknown.map(|unknown| (key.clone(), unknown)));
+            }
+        }
+        (Value::Array(items), Value::Array(known)) => {
+            let by_name: HashMap<&str, &Value> =
+                known.iter().rev().filter_map(|known| name(known).map(|name| (name, known))).collect();
+            for item in items {
+                let Some(name) = name(item) else { continue };
+                let known = by_name.get(name);
+                rest.extend(
+                    known.and_then(|known| unknown_fields(item, known)).map(|unknown| (name.to_owned(), unknown)),
+                );
+            }
+        }
+        _ => {}
+    }
+    (!rest.is_empty()).then_some(Value::Object(rest))
+}
+
+/// Writes unknown fields back. Known ones stay as they are.
+fn put_back(value: &mut Value, unknown: &Map<String, Value>) {
+    match value {
+        Value::Object(fields) => {
+            for (key, rest) in unknown {
+                match (fields.get_mut(key), rest) {
+                    (None, _) => drop(fields.insert(key.clone(), rest.clone())),
+                    (Some(field), Value::Object(rest)) => put_back(field, rest),
+                    (Some(_), _) => {}
+                }
+            }
+        }
+        Value::Array(items) => {
+            for item in items {
+                let rest = name(item).and_then(|name| unknown.get(name)).and_then(Value::as_object);
+                if let Some(rest) = rest.cloned() {
+                    put_back(item, &rest);
+                }
+            }
+        }
+        _ => {}
+    }
+}
+
+fn name(record: &Value) -> Option<&str> {
+    record.get("name")?.as_str()
 }
 
 impl Document {
@@ -268,7 +400,7 @@ impl Document {
             self.difference = self.transform.preferred_metric(self.diagram);
         }
         self.part_names(&BuiltInNames::default());
-        let mut seen = std::collections::HashSet::new();
+        let mut seen = HashSet::new();
         self.compared.retain(|c| seen.insert((c.kind, c.name.clone())));
         self.render.mend();
         self.correction.mend();

@@ -1,6 +1,6 @@
 //! Named starts: the comparison and its conditions on the first screen and after a reset.
 
-use super::kind::SetKind;
+use super::SetKind;
 use super::render::{GARMENT, model::SpecularChoice};
 use super::{CHART, CIE_1931, Document, Light, PAPER_REFERENCE, Subset, TransformChoice};
 use serde::{Deserialize, Serialize};
@@ -16,10 +16,8 @@ pub enum Start {
 }
 
 impl Start {
-    /// All of them, in the order they are offered.
     pub const ALL: [Self; 2] = [Self::Colorimetry, Self::Paper];
 
-    /// The name on screen.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Colorimetry => "Colorimetry",
@@ -35,7 +33,6 @@ impl Start {
         }
     }
 
-    /// Summary of the setup in one sentence.
     pub const fn summary(self) -> &'static str {
         match self {
             Self::Colorimetry => "CIE 1931 2° under D65; cameras through 3×3 matrices fitted to it; ColorChecker 24.",
@@ -43,7 +40,6 @@ impl Start {
         }
     }
 
-    /// The sensors that are compared, the reference first.
     pub const fn sensors(self) -> &'static [(&'static str, SetKind)] {
         match self {
             Self::Colorimetry => &[
@@ -62,7 +58,6 @@ impl Start {
         }
     }
 
-    /// The specular component that it renders with.
     pub const fn specular(self) -> SpecularChoice {
         match self {
             Self::Colorimetry => SpecularChoice::Fresnel,
@@ -70,7 +65,6 @@ impl Start {
         }
     }
 
-    /// The document that it sets up.
     pub fn document(self) -> Document {
         let mut document = Document::blank(self);
         if self == Self::Colorimetry {

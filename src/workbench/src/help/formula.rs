@@ -3,15 +3,11 @@
 //! Greek letters, operators, sub- and superscripts, fractions, roots, accents, sums and integrals with limits, named functions,
 //! upright text, spaces, matrices in parentheses and aligned lines.
 
-mod symbols;
-
 use std::iter::Peekable;
 use std::vec::IntoIter;
 
-use symbols::{character, symbol};
 use thiserror::Error;
 
-/// A parsed formula.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Formula {
     root: Node,
@@ -19,69 +15,51 @@ pub struct Formula {
     display: bool,
 }
 
-/// Part of a formula.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Node {
-    /// Parts in a row.
     Row(Vec<Node>),
-    /// Characters.
     Symbol {
-        /// The characters.
         text: String,
-        /// Style of the symbols.
         kind: SymbolKind,
     },
-    /// Numerator over denominator.
     Fraction(Box<Node>, Box<Node>),
-    /// Square root.
     Root(Box<Node>),
     /// Base with sub- and superscript, placed below and above a large operator.
     Scripts {
         base: Box<Node>,
-        /// Subscript or lower limit.
         lower: Option<Box<Node>>,
-        /// Superscript or upper limit.
         upper: Option<Box<Node>>,
     },
-    /// Base under an accent.
     Accent(Box<Node>, char),
-    /// Horizontal space in em.
+    /// Horizontal, in em.
     Space(f32),
     /// Content between delimiters of its height.
     Fenced(char, Box<Node>, char),
     /// Cells in columns; `relations` if columns meet at a relation sign, else centered.
     Array {
-        /// Rows of cells.
         rows: Vec<Vec<Node>>,
         /// True if columns alternate between right and left alignment without a gap.
         aligned: bool,
     },
 }
 
-/// Setting of a symbol.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SymbolKind {
     /// A variable: slanted.
     Variable,
     /// Upright: digits, brackets, capital Greek, text.
     Upright,
-    /// A named function: upright, a thin space after it.
     Function,
     /// A binary operator or relation: space on both sides.
     Relation,
-    /// Punctuation: space after it.
     Punctuation,
-    /// A sum, product or integral.
     Large,
 }
 
-/// Reason why a formula cannot be typeset.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
 pub enum FormulaError {
-    /// A command outside the subset.
     #[error("unknown command \\{0}")]
     Command(String),
-    /// A brace, delimiter or argument is missing.
     #[error("missing {0}")]
     Missing(&'static str),
 }
@@ -99,7 +77,6 @@ impl Formula {
         Ok(Self { root, words, display })
     }
 
-    /// The tree.
     pub const fn root(&self) -> &Node {
         &self.root
     }
@@ -349,4 +326,44 @@ fn scripted(base: Node, mark: char, script: Node) -> Node {
         base if mark == '_' => Node::Scripts { base: Box::new(base), lower: script, upper: None },
         base => Node::Scripts { base: Box::new(base), lower: None, upper: script },
     }
+}
+
+fn character(letter: char) -> Node {
+    let (text, kind) = match letter {
+        '-' => ("−".to_owned(), SymbolKind::Relation),
+        '=' | '+' | '<' | '>' => (letter.to_string(), SymbolKind::Relation),
+        '*' => ("∗".to_owned(), SymbolKind::Upright),
+        ',' | ';' => (letter.to_string(), SymbolKind::Punctuation),
+        _ if letter.is_alphabetic() => (letter.to_string(), SymbolKind::Variable),
+        _ => (letter.to_string(), SymbolKind::Upright),
+    };
+    Node::Symbol { text, kind }
+}
+
+/// Commands and their symbols, by kind.
+const SYMBOLS: [(SymbolKind, &str); 5] = [
+    (
+        SymbolKind::Variable,
+        "alpha α beta β gamma γ delta δ varepsilon ε eta η theta θ kappa κ lambda λ mu μ nu ν xi ξ pi π rho ρ sigma σ tau τ \
+         varphi φ chi χ psi ψ omega ω",
+    ),
+    (
+        SymbolKind::Relation,
+        "cdot · times × pm ± le ≤ leq ≤ ge ≥ geq ≥ ne ≠ ll ≪ gg ≫ approx ≈ sim ∼ propto ∝ to → in ∈ lt < gt > mapsto ↦",
+    ),
+    (
+        SymbolKind::Upright,
+        "Gamma Γ Delta Δ Lambda Λ Sigma Σ Phi Φ Psi Ψ Omega Ω infty ∞ partial ∂ ldots … dots … ell ℓ circ ° prime ′ % % \
+         { { } } lvert | rvert | lVert ‖ rVert ‖ lbrace { rbrace }",
+    ),
+    (SymbolKind::Large, "sum ∑ prod ∏ int ∫"),
+    (SymbolKind::Function, "sin sin cos cos tan tan exp exp ln ln log log min min max max arcsin arcsin"),
+];
+
+fn symbol(name: &str) -> Option<Node> {
+    SYMBOLS.into_iter().find_map(|(kind, pairs)| {
+        let mut words = pairs.split(' ');
+        let text = std::iter::from_fn(|| words.next().zip(words.next())).find(|(command, _)| *command == name)?.1;
+        Some(Node::Symbol { text: text.to_owned(), kind })
+    })
 }

@@ -5,70 +5,48 @@ use thiserror::Error;
 
 use super::formula::{Formula, FormulaError};
 
-/// Part of a page.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Block {
     Heading {
         /// From 1, the page's title, to 3.
         level: u8,
-        /// The words.
         content: Vec<Inline>,
     },
     Paragraph(Vec<Inline>),
     /// A list; numbered from `start` if there is one.
     List {
-        /// The first number.
         start: Option<u64>,
         items: Vec<Vec<Block>>,
     },
     /// A table; the first row is its head.
     Table(Vec<Vec<Vec<Inline>>>),
-    /// Lines as they are.
     Code(String),
-    /// A display formula.
     Formula(Formula),
 }
 
-/// Part of a paragraph.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Inline {
-    /// Words in one style.
-    Text {
-        /// The words.
-        text: String,
-        style: Style,
-        /// Target of a click.
-        link: Option<String>,
-    },
-    /// A formula within a line.
+    Text { text: String, style: Style, link: Option<String> },
     Formula(Formula),
 }
 
 impl Inline {
-    /// Plain words.
     pub fn text(words: impl Into<String>) -> Self {
         Self::Text { text: words.into(), style: Style::default(), link: None }
     }
 }
 
-/// Style of words.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Style {
-    /// Bold.
     pub strong: bool,
-    /// Italic.
     pub emphasis: bool,
-    /// Fixed width.
     pub code: bool,
 }
 
-/// Reason why a page cannot be shown completely.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum MarkdownError {
-    /// A construct that the viewer does not draw.
     #[error("unknown construct: {0}")]
     Unknown(String),
-    /// A formula that cannot be typeset.
     #[error("formula {0}: {1}")]
     Formula(String, FormulaError),
 }
@@ -81,7 +59,6 @@ impl Block {
         Some(kept.chars().filter(|c| c.is_alphanumeric() || matches!(c, '-' | '_')).collect())
     }
 
-    /// Words of the block, without style.
     pub fn words(&self) -> String {
         match self {
             Self::Heading { content, .. } | Self::Paragraph(content) => plain(content),
@@ -99,7 +76,6 @@ impl Block {
     }
 }
 
-/// Words of a paragraph, without style.
 pub fn plain(content: &[Inline]) -> String {
     let words = content.iter().map(|part| match part {
         Inline::Text { text, .. } => text.as_str(),
@@ -169,7 +145,6 @@ fn list(events: &mut Events<'_>, start: Option<u64>) -> Result<Block, MarkdownEr
     Ok(Block::List { start, items })
 }
 
-/// Lines of a code block.
 fn lines(events: &mut Events<'_>) -> Result<String, MarkdownError> {
     let mut text = String::new();
     for event in events {
@@ -211,7 +186,6 @@ fn content(events: &mut Events<'_>, end: TagEnd) -> Result<Vec<Inline>, Markdown
     Ok(content.parts)
 }
 
-/// Words that are being collected, and their style.
 #[derive(Default)]
 struct Content {
     parts: Vec<Inline>,

@@ -7,7 +7,6 @@ use crate::document::{CHART, FIVE, Subset, TransformChoice, WhiteBalanceChoice};
 pub const CONDITIONS: [&str; 5] = ["reference", "illuminant", "white_balance", "transform", "preset"];
 
 impl WhiteBalanceChoice {
-    /// The white-balance target in words.
     pub fn name(&self) -> String {
         match self {
             Self::Unity => "unity".to_owned(),
@@ -55,7 +54,6 @@ impl Scene<'_> {
         format!("Locus metrics at {} K.{pixel}", self.document.temperature_k)
     }
 
-    /// The cells under [`CONDITIONS`].
     pub fn conditions(&self) -> [String; 5] {
         self.conditions_under(&self.light_name())
     }

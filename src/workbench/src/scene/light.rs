@@ -22,13 +22,10 @@ use crate::format::fixed;
 /// Reason that a camera has no consistency under the light.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum NoConsistency {
-    /// The light has no reference illuminant.
     #[error(transparent)]
     Light(#[from] RenditionError),
-    /// The camera cannot be corrected under it.
     #[error(transparent)]
     Camera(#[from] ConsistencyError),
-    /// Something of the scene is missing.
     #[error(transparent)]
     Scene(#[from] SceneError),
 }
@@ -110,7 +107,6 @@ impl Scene<'_> {
         self.loaded(&StandardsQuery, "test samples")
     }
 
-    /// Rendition indices of the light, filters included.
     pub fn rendition(&self) -> Result<Arc<Rendition>, SceneError> {
         let light = Shared::new(self.light()?.measured);
         Ok(self.results.ask(&RenditionQuery { light, standards: self.standards()? }))

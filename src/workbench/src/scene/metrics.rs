@@ -253,7 +253,6 @@ impl Ranking {
 pub struct SetPlace {
     pub kind: SetKind,
     pub name: String,
-    /// Location of its figures.
     pub place: Place,
 }
 
@@ -275,12 +274,9 @@ pub struct MetamerRow {
     pub kinds: [SetKind; 2],
 }
 
-/// Metamers by name.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FoundMetamers {
-    /// The pairs, worst first.
     pub rows: Vec<MetamerRow>,
-    /// Number of reflectances that were searched.
     pub searched: usize,
 }
 

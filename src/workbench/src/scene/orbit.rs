@@ -11,7 +11,6 @@ pub const FRAMED: f64 = 3.6;
 /// The initial field of view in degrees.
 const FIELD_DEG: f64 = 30.0;
 
-/// A viewpoint on a sphere around the mesh.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Orbit {
@@ -32,7 +31,6 @@ impl Default for Orbit {
 }
 
 impl Orbit {
-    /// Initial view of a mesh.
     pub fn of(mesh: &MeshChoice) -> Self {
         match mesh {
             MeshChoice::Fern => Self { pitch_deg: 15.0, ..Self::default() },

@@ -15,7 +15,6 @@ use crate::catalog::recorded::lit;
 use crate::document::SetKind;
 use crate::format::{fixed, rank_in_words};
 
-/// A camera and its fit to recorded values.
 #[derive(Clone, Debug)]
 pub struct RankedCamera {
     pub name: String,

@@ -28,13 +28,10 @@ const SCREEN_SIDE: usize = 4096;
 /// Pixels of the picture that comes first.
 const FIRST_PIXELS: usize = 60_000;
 
-/// Reason that a spectral image has no pictures.
 #[derive(Debug, thiserror::Error)]
 pub enum ImagePicturesError {
-    /// The reference has no colors.
     #[error(transparent)]
     Reference(RenderingError),
-    /// The image cannot be read.
     #[error(transparent)]
     Read(#[from] ReadSignalsError),
     #[error("the file does not state whether its samples are reflectances or radiances")]
@@ -131,7 +128,6 @@ pub struct ImagePictures {
     pub pictures: Vec<Result<Arc<Picture>, RenderingError>>,
     /// Differences from the reference over all pixels with values; none for the reference, and where colors cannot be compared.
     pub differences: Vec<Option<Arc<Difference>>>,
-    /// What was read.
     pub image: Arc<ImageSignals>,
     /// Y of the white: 1 for reflectances, the 99.5 % quantile of the reference's Y for radiances.
     pub white: f64,
@@ -140,7 +136,6 @@ pub struct ImagePictures {
 }
 
 impl ImagePictures {
-    /// Pixels with values.
     pub fn placed(&self) -> &LitSamples {
         &self.image.read.placed
     }

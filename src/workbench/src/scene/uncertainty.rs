@@ -24,7 +24,6 @@ pub fn decimals(metric: CameraMetric, value: MetricValue) -> i32 {
     value.uncertainty.and_then(|by| decimals_by(by.standard)).unwrap_or(whole(metric.decimals))
 }
 
-/// A value as it is written; a dash for none.
 pub fn number(metric: CameraMetric, value: MetricValue) -> String {
     value.value.map_or_else(|_| "–".to_owned(), |number| rounded(number, decimals(metric, value)))
 }

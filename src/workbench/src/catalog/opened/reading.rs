@@ -67,7 +67,7 @@ pub(super) fn open(
         if !job.go_on(0.0) {
             break;
         }
-        let (origin, bytes, wishes) = match contents(request, monitor, job, (index + 1, count)) {
+        let (origin, bytes, overrides) = match contents(request, monitor, job, (index + 1, count)) {
             Ok(Some(contents)) => contents,
             Ok(None) => continue,
             Err(Unread::Mesh(path)) => {
@@ -90,10 +90,10 @@ pub(super) fn open(
                 continue;
             }
         };
-        harvest.from_memory |= wishes.is_some();
-        let from_memory = wishes.is_none();
-        let wishes = wishes.unwrap_or_else(|| remembered(&bytes));
-        take(origin, bytes, (&wishes, from_memory), monitor, job, &mut harvest);
+        harvest.from_memory |= overrides.is_some();
+        let from_memory = overrides.is_none();
+        let overrides = overrides.unwrap_or_else(|| remembered(&bytes));
+        take(origin, bytes, (&overrides, from_memory), monitor, job, &mut harvest);
     }
     // The canceled request needs no result.
     if job.go_on(0.0) { harvest.into_events() } else { Vec::new() }
@@ -159,9 +159,9 @@ fn contents(
     (file, count): (usize, usize),
 ) -> Result<Option<Contents>, Unread> {
     match request {
-        Request::Known(fingerprint, wishes) => {
+        Request::Known(fingerprint, overrides) => {
             let known = monitor.lock().file(fingerprint).cloned();
-            Ok(known.map(|file| (file.origin, file.bytes, Some(*wishes))))
+            Ok(known.map(|file| (file.origin, file.bytes, Some(*overrides))))
         }
         Request::Bytes { name, bytes } => {
             job.at(Path::new(&name), file, count);
@@ -207,17 +207,17 @@ fn origin(path: &Path, bytes: &[u8]) -> Origin {
 fn take(
     origin: Origin,
     bytes: Arc<[u8]>,
-    (wishes, from_memory): (&ImportOverrides, bool),
+    (overrides, from_memory): (&ImportOverrides, bool),
     monitor: &Monitor,
     job: &Job,
     harvest: &mut Harvest,
 ) {
     let fingerprint = origin.fingerprint;
-    let mut read = read_once(&origin, &bytes, wishes, job);
+    let mut read = read_once(&origin, &bytes, overrides, job);
     if !job.go_on(0.0) {
         return;
     }
-    if from_memory && *wishes != ImportOverrides::default() {
+    if from_memory && *overrides != ImportOverrides::default() {
         match &mut read {
             Ok(imported) => {
                 imported.message.push_str(" Read with your settings for files of this kind.");
@@ -244,9 +244,9 @@ fn take(
 }
 
 /// Reads; a panic comes out as a failure of this file alone.
-fn read_once(origin: &Origin, bytes: &[u8], wishes: &ImportOverrides, job: &Job) -> Result<Imported, String> {
+fn read_once(origin: &Origin, bytes: &[u8], overrides: &ImportOverrides, job: &Job) -> Result<Imported, String> {
     let go_on = |share: f32| job.go_on(share);
-    let read = catch_unwind(AssertUnwindSafe(|| import_as(origin, bytes, wishes, Watch::new(&go_on))));
+    let read = catch_unwind(AssertUnwindSafe(|| import_as(origin, bytes, overrides, Watch::new(&go_on))));
     let broken = |_| {
         let name = &origin.name;
         Err(format!("{name} could not be read because of an error in this program; please report it with the file"))
@@ -321,7 +321,7 @@ pub(super) fn reread(
     let name = set.name.clone();
     let known = set.fingerprint.and_then(|fingerprint| monitor.lock().file(fingerprint).cloned());
     let result = match (why, known, &set.path) {
-        (Why::Alike, Some(file), _) => read_once(&file.origin, &file.bytes, &set.wishes, job),
+        (Why::Alike, Some(file), _) => read_once(&file.origin, &file.bytes, &set.overrides, job),
         (_, _, Some(path)) => {
             job.at(path, 1, 1);
             let bytes = read_bytes(path);
@@ -332,7 +332,7 @@ pub(super) fn reread(
                         monitor.lock().know(OpenFile { origin, bytes, failure: None });
                         return Ok(None);
                     }
-                    let read = read_once(&origin, &bytes, &set.wishes, job);
+                    let read = read_once(&origin, &bytes, &set.overrides, job);
                     let file = OpenFile { origin, bytes, failure: read.as_ref().err().cloned() };
                     monitor.lock().know(file);
                     read.map(Some)

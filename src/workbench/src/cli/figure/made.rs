@@ -140,11 +140,11 @@ pub(super) fn set_mesh(document: &mut Document, mesh: &OsStr) -> Result<(), CliE
 /// Adds the curves of a file to the document's sets.
 pub(super) fn open_curves(request: &mut Request, path: &Path) -> Result<(), CliError> {
     let bytes = request.bytes(path)?;
-    let mut wishes = ImportOverrides::default();
+    let mut overrides = ImportOverrides::default();
     let origin = Origin::on_disk(&display_path(path), path, &bytes);
-    let table = spectral_file::read(origin.source(&bytes), &wishes.options).and_then(SpectralFile::usable);
+    let table = spectral_file::read(origin.source(&bytes), &overrides.options).and_then(SpectralFile::usable);
     let table = table.map_err(|error| CliError::File(format!("{}: {error}", display_path(path))))?;
-    wishes.taken = Some((0..table.curves.len()).collect());
-    request.document.own.push(Shared::new(imported(&origin, &table, &wishes).set));
+    overrides.taken = Some((0..table.curves.len()).collect());
+    request.document.own.push(Shared::new(imported(&origin, &table, &overrides).set));
     Ok(())
 }

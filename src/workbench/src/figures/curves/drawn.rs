@@ -59,9 +59,9 @@ impl Curves {
     }
 
     fn of_table(shown: &ImportSelection, table: &SpectralFile, most: usize) -> Self {
-        let all = taken(table, &shown.wishes);
+        let all = taken(table, &shown.overrides);
         let role = table.role.value;
-        let channels = shown.wishes.channels.or(table.reading.camera_columns).unwrap_or([0, 1, 2]);
+        let channels = shown.overrides.channels.or(table.reading.camera_columns).unwrap_or([0, 1, 2]);
         let kept: Vec<usize> = all.iter().copied().filter(|place| *place < table.curves.len()).collect();
         let grid = Grid::of(&kept.iter().take(most).map(|&p| &table.curves[p].wavelengths_nm[..]).collect::<Vec<_>>());
         let drawn = kept.iter().take(most).enumerate().map(|(order, &place)| {
@@ -84,7 +84,7 @@ impl Curves {
             role,
             curves: set.curves[..count].to_vec(),
             decisions: Vec::new(),
-            wishes: crate::document::imported::ImportOverrides::default(),
+            overrides: crate::document::imported::ImportOverrides::default(),
             ..set.clone()
         };
         let curves = head.curves_in_nm().map_err(|error| format!("{}: {error}", set.name))?;

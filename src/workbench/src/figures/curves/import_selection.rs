@@ -26,7 +26,7 @@ pub struct ImportSelection {
     pub item: ImportItem,
     pub set: Option<Shared<ImportedSet>>,
     /// Overrides with which it is, or is to be, read.
-    pub wishes: ImportOverrides,
+    pub overrides: ImportOverrides,
     /// True if the document does not contain this yet.
     pub pending: bool,
     /// The file's contents, if they are available.
@@ -46,7 +46,7 @@ impl ImportSelection {
         self.file = fingerprint.and_then(|fingerprint| opened.file(fingerprint));
         match (&self.file, &self.set) {
             (Some(file), _) => {
-                if let Some(look) = opened.look(file, &self.wishes.options) {
+                if let Some(look) = opened.look(file, &self.overrides.options) {
                     self.look = Some(look);
                 }
             }
@@ -74,9 +74,9 @@ impl ImportSelection {
             ImportItem::File(fingerprint) => (None, Some(*fingerprint)),
         };
         let pending = tried.is_some();
-        let wishes = tried.or_else(|| set.as_ref().map(|set| set.wishes.clone())).unwrap_or_default();
+        let overrides = tried.or_else(|| set.as_ref().map(|set| set.overrides.clone())).unwrap_or_default();
         let look = last.filter(|look| Some(look.fingerprint) == fingerprint);
-        Some(Self { item, set, wishes, pending, file: None, look })
+        Some(Self { item, set, overrides, pending, file: None, look })
     }
 
     /// True if the curves of another are the same: nothing that they depend on differs.
@@ -88,13 +88,13 @@ impl ImportSelection {
         };
         look && self.item == other.item
             && self.pending == other.pending
-            && self.wishes == other.wishes
+            && self.overrides == other.overrides
             && self.set == other.set
     }
 
     /// True if the preview is of the current settings, not of earlier ones.
     pub fn is_fresh(&self) -> bool {
-        self.look.as_ref().is_some_and(|look| look.options == self.wishes.options)
+        self.look.as_ref().is_some_and(|look| look.options == self.overrides.options)
     }
 
     /// Table read from the contents.
@@ -110,15 +110,26 @@ impl ImportSelection {
     /// The curves taken, by place in the file.
     pub fn taken(&self) -> Vec<usize> {
         match (self.table(), &self.set) {
-            (Some(table), _) => taken(table, &self.wishes),
+            (Some(table), _) => taken(table, &self.overrides),
             (None, Some(set)) => places(set),
             (None, None) => Vec::new(),
         }
+    }
+
+    /// True for each curve of the file that is taken.
+    pub fn are_taken(&self) -> Vec<bool> {
+        let mut are = vec![false; self.table().map_or(0, |table| table.curves.len())];
+        for place in self.taken() {
+            if let Some(taken) = are.get_mut(place) {
+                *taken = true;
+            }
+        }
+        are
     }
 }
 
 /// The places in its file of a set's curves.
 pub fn places(set: &ImportedSet) -> Vec<usize> {
-    let wished = set.wishes.taken.clone().filter(|taken| taken.len() == set.curves.len());
-    wished.unwrap_or_else(|| (0..set.curves.len()).collect())
+    let chosen = set.overrides.taken.clone().filter(|taken| taken.len() == set.curves.len());
+    chosen.unwrap_or_else(|| (0..set.curves.len()).collect())
 }

@@ -85,7 +85,6 @@ pub(super) fn commands(history: &History, context: &PaneContext<'_>) -> Vec<Foun
     found
 }
 
-/// Workspaces and panes.
 pub(super) fn panes(context: &PaneContext<'_>) -> Vec<Found> {
     let now = context.view.saved.workspace;
     let keys = key_bindings(PaneKind::CHROMATICITY);
@@ -105,7 +104,6 @@ pub(super) fn panes(context: &PaneContext<'_>) -> Vec<Found> {
     found
 }
 
-/// Everything that can be saved.
 pub(super) fn saves(context: &PaneContext<'_>) -> Vec<Found> {
     let mut found = Vec::new();
     for pane in context.panes.iter().filter(|pane| pane.figure.is_some()) {
@@ -130,7 +128,6 @@ pub(super) fn saves(context: &PaneContext<'_>) -> Vec<Found> {
     found
 }
 
-/// Patches in sight, which are selected.
 pub(super) fn patches(context: &PaneContext<'_>) -> Vec<Found> {
     let patches = context.scene.patches();
     let names = patches.iter().flat_map(|set| set.patches()).take(MOST_PATCHES).map(|patch| patch.name.clone());
@@ -194,14 +191,12 @@ pub(super) fn phones(text: &str) -> Option<Found> {
     is_for_phone(text).then(|| Found::new("Cameras", NO_PHONES, help).note("how to add one").also(text))
 }
 
-/// Help pages by title.
 pub(super) fn pages() -> Vec<Found> {
     let pages = help::pages().iter();
     pages.map(|page| Found::new("Help", &page.title, Command::Help(page.name, 0)).note("page")).collect()
 }
 
-/// Places in the help that contain what was typed.
 pub(super) fn help_text(text: &str) -> Vec<Found> {
-    let hits = help::search::search(help::pages(), text).into_iter().take(MOST_HITS);
+    let hits = help::search(help::pages(), text).into_iter().take(MOST_HITS);
     hits.map(|hit| Found::new("", hit.excerpt, Command::Help(hit.page, hit.block)).note(hit.heading)).collect()
 }

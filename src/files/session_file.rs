@@ -8,10 +8,10 @@ use std::sync::Arc;
 use chromascope_core::query::Shared;
 
 use super::atomic::{sweep, write_atomically};
+use super::document_file::{DocumentFile, Unread, Unwritten, read};
 use super::event::{DocumentSource, FileEvent, Note, OpenedDocument};
-use super::keep::Aside;
-use super::save::MakeText;
-use super::store::{Unread, read};
+use super::folder::free_copy;
+use super::request::MakeBytes;
 use super::{Files, template_name};
 use crate::document::imported::{Fingerprint, ImportedSet};
 use crate::document::{Document, SessionFile, session};
@@ -23,9 +23,8 @@ const TEMPLATES: &str = "templates";
 impl Files {
     /// Reads a document to replace this one, which is saved in a file of its own before unless it `is_safe`. `recent` are the files opened lately, among which those that it names are looked for.
     pub fn open_document(&self, source: DocumentSource, before: Document, is_safe: bool, recent: Vec<PathBuf>) {
-        let (aside, folder) = (self.keeper.aside(), self.keeper.folder().map(Path::to_owned));
-        let places = (folder, recent);
-        self.in_background(move || [Note::Event(opened(source, before, is_safe, &aside, &places))]);
+        let folder = self.autosave.folder().map(Path::to_owned);
+        self.in_background(move || [Note::Event(opened(source, before, is_safe, folder.as_deref(), &recent))]);
     }
 
     /// Reads the file of the session that the program begins with, to know whether it holds the same.
@@ -43,17 +42,16 @@ impl Files {
     }
 
     /// Writes a session to its file, unless the file is not as this window knows it; `replaces` writes in any case.
-    pub fn save_session(&self, file: SessionFile, document: Arc<Document>, make: MakeText, replaces: bool) {
+    pub fn save_session(&self, file: SessionFile, document: Arc<Document>, make: MakeBytes, replaces: bool) {
         self.in_background(move || {
             let event = match make() {
-                Ok(text) => saved(file, document, text.as_bytes(), replaces),
+                Ok(bytes) => saved(file, document, &bytes, replaces),
                 Err(why) => FileEvent::SessionFailed(why),
             };
             [Note::Event(event)]
         });
     }
 
-    /// The user's templates: their names and files.
     pub fn templates(&self) -> Vec<(String, PathBuf)> {
         let entries =
             self.template_folder().and_then(|folder| fs::read_dir(folder).ok()).into_iter().flatten().flatten();
@@ -63,15 +61,13 @@ impl Files {
         named
     }
 
-    /// Writes a template of the user's. The error says why it is not saved.
-    pub fn save_template(&self, name: &str, text: &str) -> Result<(), String> {
+    pub fn save_template(&self, name: &str, bytes: &[u8]) -> Result<(), String> {
         let folder = self.template_folder().ok_or("there is no folder for templates")?;
         let path = folder.join(format!("{}.{}", template_name(name), session::ENDING));
         fs::create_dir_all(&folder).map_err(|error| io_failure(&folder, &error))?;
-        write_atomically(&path, text.as_bytes()).map_err(|error| io_failure(&path, &error))
+        write_atomically(&path, bytes).map_err(|error| io_failure(&path, &error))
     }
 
-    /// Deletes a template of the user's.
     pub fn remove_template(&self, path: &Path) {
         let removed = fs::remove_file(path).map_err(|error| format!("{}.", io_failure(path, &error)));
         self.note(Note::Event(
@@ -80,11 +76,10 @@ impl Files {
     }
 
     fn template_folder(&self) -> Option<PathBuf> {
-        Some(self.keeper.folder()?.join(TEMPLATES))
+        Some(self.autosave.folder()?.join(TEMPLATES))
     }
 }
 
-/// True if a file is a session by its name.
 pub(super) fn is_session_name(path: &Path) -> bool {
     path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case(session::ENDING))
 }
@@ -93,8 +88,8 @@ fn opened(
     source: DocumentSource,
     before: Document,
     is_safe: bool,
-    aside: &Aside,
-    (own, recent): &(Option<PathBuf>, Vec<PathBuf>),
+    folder: Option<&Path>,
+    recent: &[PathBuf],
 ) -> FileEvent {
     let name = source.name();
     let mut other = Vec::new();
@@ -103,7 +98,7 @@ fn opened(
         DocumentSource::File(path) | DocumentSource::Template(path) => match read(path) {
             Ok((mut kept, fingerprint)) => {
                 // A document of this program's folder belongs to the session that it names itself.
-                if own.as_deref().is_none_or(|own| path.parent() != Some(own)) {
+                if folder.is_none_or(|own| path.parent() != Some(own)) {
                     let path = std::path::absolute(path).unwrap_or_else(|_| path.clone());
                     other = connect(&mut kept.document, path.parent().unwrap_or(&path), recent);
                     // A file of a newer version is not written over.
@@ -126,13 +121,11 @@ fn opened(
         document.session = None;
     }
     let is_untouched = before == before.start.document();
-    let put_aside = !is_safe && !is_untouched;
-    match if put_aside { aside.put_aside(&before) } else { Ok(()) } {
-        Ok(()) => {
-            let aside = put_aside;
-            FileEvent::Document(Box::new(OpenedDocument { source, document, newer, aside, lost, other, before }))
-        }
-        Err(why) => {
+    let aside = !is_safe && !is_untouched;
+    let copy = folder.filter(|_| aside).map(|folder| DocumentFile::new(free_copy(folder)).write(&before));
+    match copy.unwrap_or(Ok(())) {
+        Ok(()) => FileEvent::Document(Box::new(OpenedDocument { source, document, newer, aside, lost, other, before })),
+        Err(Unwritten { why, .. }) => {
             FileEvent::Failed(format!("{name} was not opened because the current document could not be saved: {why}."))
         }
     }

@@ -1,5 +1,5 @@
-//! Ownership of the profile folder: the first window holds a lock, another one saves a copy under a lock of its own. The system
-//! releases the locks of a process when it ends.
+//! Ownership of the program's folder: the first window holds a lock, another one saves a copy under a lock of its own. The
+//! system releases the locks of a process when it ends.
 
 use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io::{self, Write as _};
@@ -15,21 +15,20 @@ const DOCUMENT: &str = "document.json";
 const LOCK: &str = "window.lock";
 /// Time for which a curve file that no document names is retained, in case a document was moved out of the folder.
 const UNNAMED: Duration = Duration::from_hours(30 * 24);
-/// The folder of the curves of imported sets, which all documents of the profile share.
+/// The folder of the curves of imported sets, which all documents of the folder share.
 pub(super) const CURVES: &str = "curves";
 
-/// A window's part of the profile folder.
+/// A window's part of the program's folder.
 #[derive(Debug, Default)]
-pub(super) struct Profile {
+pub(super) struct Folder {
     /// The file in which this window's document is saved.
     pub(super) file: Option<PathBuf>,
     /// The file of the first window's document; for the first window, its own.
     pub(super) first: Option<PathBuf>,
-    /// The window that has the profile, where it is not this one.
+    /// The window that has the folder, where it is not this one.
     pub(super) other: Option<OtherWindow>,
     /// The reason why nothing can be written, as found at the start.
     pub(super) closed: Option<String>,
-    /// Held as long as the window is open.
     lock: Option<Lock>,
 }
 
@@ -42,24 +41,20 @@ pub(super) struct Lock {
     gone: Option<PathBuf>,
 }
 
-/// Another window of the program on the same profile.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct OtherWindow {
-    /// Its process, if it could be read.
     pub(super) process: Option<u32>,
 }
 
-/// A document in the profile that is not this window's.
+/// A document in the folder that is not this window's.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Copy {
-    /// Its file.
-    pub path: PathBuf,
-    /// Time of the last write.
-    pub modified: Option<SystemTime>,
+pub(super) struct Copy {
+    pub(super) path: PathBuf,
+    pub(super) modified: Option<SystemTime>,
 }
 
-impl Profile {
-    /// Locks the profile, or determines its owner.
+impl Folder {
+    /// Locks the folder, or determines its owner.
     pub(super) fn claim(folder: Option<PathBuf>) -> Self {
         let Some(folder) = folder else { return Self::default() };
         let first = Some(folder.join(DOCUMENT));
@@ -120,7 +115,7 @@ impl Profile {
         [&self.file, &self.first].into_iter().flatten().any(|own| own == path) || is_held(path)
     }
 
-    /// Removes locks that ended windows left, and old files of curves that no document of the profile names. Only the first
+    /// Removes locks that ended windows left, and old files of curves that no document of the folder names. Only the first
     /// window does, and only while it is alone.
     pub(super) fn tidy(&self, now: SystemTime) {
         let (Some(folder), None, Some(_)) = (self.first.as_ref().and_then(|f| f.parent()), self.other, &self.lock)
@@ -164,7 +159,7 @@ impl Drop for Lock {
     }
 }
 
-/// Texts of all documents of a profile; none if one cannot be read, whose references are unknown.
+/// Texts of all documents of a folder; none if one cannot be read, whose references are unknown.
 pub(super) fn texts_of_documents(folder: &Path) -> Option<Vec<String>> {
     let documents = entries(folder).filter(|path| path.extension().is_some_and(|ending| ending == "json"));
     documents.map(|path| fs::read(path).ok().map(|bytes| String::from_utf8_lossy(&bytes).into_owned())).collect()
@@ -237,7 +232,7 @@ mod tests {
     #[test]
     fn the_lock_of_a_window_that_ended_is_taken_over() {
         let folder = tempfile::tempdir().expect("a folder");
-        let claim = || Profile::claim(Some(folder.path().to_owned()));
+        let claim = || Folder::claim(Some(folder.path().to_owned()));
         // Remains of a killed process: a file without a lock.
         fs::write(folder.path().join(LOCK), "4711").expect("written");
         let first = claim();
@@ -254,7 +249,7 @@ mod tests {
     #[test]
     fn only_documents_of_windows_that_ended_are_copies() {
         let folder = tempfile::tempdir().expect("a folder");
-        let claim = || Profile::claim(Some(folder.path().to_owned()));
+        let claim = || Folder::claim(Some(folder.path().to_owned()));
         let first = claim();
         let second = claim();
         let copy = second.file.clone().expect("it has a copy");
@@ -276,7 +271,7 @@ mod tests {
             fs::write(folder.path().join(document), names).expect("written");
         }
         let left = || entries(&curves).map(|path| name_of(&path).to_owned()).collect::<std::collections::BTreeSet<_>>();
-        let claim = || Profile::claim(Some(folder.path().to_owned()));
+        let claim = || Folder::claim(Some(folder.path().to_owned()));
         let (first, second) = (claim(), claim());
         let written = SystemTime::UNIX_EPOCH + Duration::from_hours(1_000_000);
         for name in ["a.json", "b.json", "c.json"] {

@@ -12,36 +12,37 @@ use std::ptr::from_ref;
 use chromascope_core::query::Shared;
 
 use super::atomic::write_atomically;
-use super::profile::{CURVES, Lock, free_copy, texts_of_documents};
+use super::folder::{CURVES, Lock, free_copy, texts_of_documents};
 use crate::document::imported::{Fingerprint, ImportedCurve, ImportedSet};
-use crate::document::saved::{self, LoadedDocument, Place};
-use crate::document::session::SessionError;
+use crate::document::session::{self, LoadedDocument, Place};
 use crate::document::{Document, VERSION};
 use crate::format::{io_failure, io_reason};
 
 /// Files of curves kept that the document of this run named before.
 const SUPERSEDED: usize = 16;
 
-/// Result of writing a document.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub(super) struct Written {
-    /// Omitted sets, in one sentence; may be empty.
-    pub(super) skipped_work: String,
+pub(super) struct Unwritten {
+    pub(super) why: String,
+    /// True if only imported sets are missing in the file.
+    pub(super) is_rest_written: bool,
 }
 
-/// Reason that a saved document could not be read.
+impl From<String> for Unwritten {
+    fn from(why: String) -> Self {
+        Self { why, is_rest_written: false }
+    }
+}
+
 #[derive(Debug)]
 pub(super) enum Unread {
-    /// There is none.
     Missing,
-    /// A reason in words.
     Because(String),
 }
 
 /// Writes one document, again and again.
 #[derive(Debug, Default)]
-pub(super) struct Store {
-    file: PathBuf,
+pub(super) struct DocumentFile {
+    path: PathBuf,
     /// Contents of that file as this window read or wrote them. Others are another program's.
     seen: Option<Fingerprint>,
     /// Contents that this window tried to write, which may be there although that failed.
@@ -58,24 +59,22 @@ pub(super) struct Store {
     is_present: bool,
     /// The file in which the document is saved because another program wrote to the one before.
     moved: Option<PathBuf>,
-    /// The lock of that file, or of another one that this window went on in.
     lock: Option<Lock>,
 }
 
-impl Store {
-    /// Saves a document in a file.
-    pub(super) fn new(file: PathBuf) -> Self {
-        Self { file, ..Self::default() }
+impl DocumentFile {
+    pub(super) fn new(path: PathBuf) -> Self {
+        Self { path, ..Self::default() }
     }
 
-    pub(super) fn file(&self) -> &Path {
-        &self.file
+    pub(super) fn path(&self) -> &Path {
+        &self.path
     }
 
     /// Continues in another file, which is this window's.
-    pub(super) fn move_to(&mut self, file: PathBuf) {
-        self.lock = Some(Lock::of_copy(&file));
-        (self.file, self.seen, self.tried) = (file, None, None);
+    pub(super) fn move_to(&mut self, path: PathBuf) {
+        self.lock = Some(Lock::of_copy(&path));
+        (self.path, self.seen, self.tried) = (path, None, None);
     }
 
     /// The file in which the document is saved because another program wrote to the one before.
@@ -96,7 +95,7 @@ impl Store {
                 self.known.insert(address(set), (set.clone(), place.clone()));
             }
         }
-        if file == self.file {
+        if file == self.path {
             self.seen = Some(fingerprint);
             self.by_value = loaded.places.iter().any(Option::is_none);
         }
@@ -104,8 +103,8 @@ impl Store {
     }
 
     /// Writes the document. A set that cannot be written does not stop the rest.
-    pub(super) fn write(&mut self, document: &Document) -> Result<Written, String> {
-        let folder = self.file.parent().map(Path::to_owned).unwrap_or_default();
+    pub(super) fn write(&mut self, document: &Document) -> Result<(), Unwritten> {
+        let folder = self.path.parent().map(Path::to_owned).unwrap_or_default();
         fs::create_dir_all(&folder).map_err(|error| io_failure(&folder, &error))?;
         if self.is_foreign()? {
             let copy = free_copy(&folder);
@@ -115,7 +114,7 @@ impl Store {
         self.forget_missing(&folder.join(CURVES));
         let unwritten = self.write_new(&folder, &document.own).err();
         if let Some(why) = unwritten.as_ref().filter(|_| self.by_value) {
-            return Err(why.clone());
+            return Err(why.clone().into());
         }
         // A set that cannot be written is replaced by its earlier version on disk.
         let place = |set: &Shared<ImportedSet>| {
@@ -126,32 +125,30 @@ impl Store {
         let missing: Vec<&str> = missing.map(|set| set.name.as_str()).collect();
         let sets: Vec<(&ImportedSet, &Place)> =
             document.own.iter().filter_map(place).map(|(set, place)| (&**set, place)).collect();
-        let json = saved::to_json(document, &sets).map_err(|error| error.to_string())?;
-        let skipped_work = match (unwritten, missing.as_slice()) {
-            (Some(why), [one]) => format!("{one} could not be saved ({why}); the rest is"),
-            (Some(why), many) => format!("{} imported sets could not be saved ({why}); the rest is", many.len()),
-            (None, _) => String::new(),
-        };
+        let json = session::to_json_with_places(document, &sets).map_err(|error| error.to_string())?;
+        let skipped = unwritten.map(|why| match missing.as_slice() {
+            [one] => format!("{one} could not be saved ({why}); the rest is"),
+            many => format!("{} imported sets could not be saved ({why}); the rest is", many.len()),
+        });
         self.tried = Some(Fingerprint::of(json.as_bytes()));
-        write_atomically(&self.file, json.as_bytes()).map_err(|error| io_failure(&self.file, &error))?;
+        write_atomically(&self.path, json.as_bytes()).map_err(|error| io_failure(&self.path, &error))?;
         (self.seen, self.by_value) = (self.tried, false);
+        if let Some(why) = skipped {
+            return Err(Unwritten { why, is_rest_written: true });
+        }
         let present: HashSet<usize> = document.own.iter().map(address).collect();
-        if skipped_work.is_empty() && self.known.len() > present.len() {
-            self.known.retain(|address, _| present.contains(address));
-        }
-        if skipped_work.is_empty() {
-            self.remove_superseded(&folder);
-        }
-        Ok(Written { skipped_work })
+        self.known.retain(|address, _| present.contains(address));
+        self.remove_superseded(&folder);
+        Ok(())
     }
 
     /// True if the file holds data that this window neither read nor wrote. A file of an earlier format that it read is
     /// backed up before it is overwritten.
     fn is_foreign(&mut self) -> Result<bool, String> {
-        let bytes = match fs::read(&self.file) {
+        let bytes = match fs::read(&self.path) {
             Ok(bytes) => bytes,
             Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(false),
-            Err(error) => return Err(io_failure(&self.file, &error)),
+            Err(error) => return Err(io_failure(&self.path, &error)),
         };
         let there = Some(Fingerprint::of(&bytes));
         if there == self.tried {
@@ -159,7 +156,7 @@ impl Store {
         }
         let is_foreign = there != self.seen;
         if !is_foreign && !self.is_present {
-            keep_earlier(&self.file, &bytes)?;
+            keep_earlier(&self.path, &bytes)?;
             self.is_present = true;
         }
         Ok(is_foreign)
@@ -248,9 +245,8 @@ fn keep_earlier(file: &Path, bytes: &[u8]) -> Result<(), String> {
     write_atomically(&beside, bytes).map_err(|error| io_failure(&beside, &error))
 }
 
-/// Reads a document with the curves it names.
 pub(super) fn read(file: &Path) -> Result<(LoadedDocument, Fingerprint), Unread> {
-    let because = |words: String| Unread::Because(words);
+    let because = Unread::Because;
     let bytes = fs::read(file).map_err(|error| match error.kind() {
         io::ErrorKind::NotFound if fs::symlink_metadata(file).is_ok() => {
             because("it is a link to a file that is not there".to_owned())
@@ -266,7 +262,7 @@ pub(super) fn read(file: &Path) -> Result<(LoadedDocument, Fingerprint), Unread>
         let list = lists.map_err(Clone::clone)?.get(*index);
         list.cloned().ok_or_else(|| format!("{name} has no list {index}"))
     };
-    let loaded = saved::from_json(text, &mut curves).map_err(|error: SessionError| because(error.to_string()))?;
+    let loaded = session::from_json_with_places(text, &mut curves).map_err(|error| because(error.to_string()))?;
     Ok((loaded, Fingerprint::of(&bytes)))
 }
 

@@ -1,7 +1,5 @@
-//! Opening the user's spectra: read first, then put to use; and reading them otherwise, or again.
-
-mod reload;
-mod words;
+//! Opening the user's spectra: read first, then put to use; and reading them otherwise, or again because their files changed on
+//! disk.
 
 use std::collections::BTreeSet;
 use std::path::PathBuf;
@@ -9,19 +7,55 @@ use std::path::PathBuf;
 use chromascope_core::query::Shared;
 
 use super::ChromascopeApp;
-use crate::action::history::History;
 use crate::action::{Action, ImportedAction};
 use crate::catalog::import::{Imported, imported};
 use crate::catalog::likeness::Likeness;
 use crate::catalog::opened::{CLIPBOARD, OpenFile, OpenedEvent, Request, Why};
 use crate::command::Command;
-use crate::document::SetKind;
-use crate::document::imported::{Fingerprint, ImportOverrides, ImportedSet};
+use crate::document::imported::{Fingerprint, ImportOverrides, ImportedSet, Role};
+use crate::document::{Document, SetKind};
 use crate::panes::import;
 use crate::view::import::{ImportItem, of_a_kind};
 use crate::view::{Offer, Status, Weight};
 use crate::workspaces::{PaneKind, Workspace};
-use words::{opened_again, put_to_use, renamed};
+
+/// What came of reading sets again.
+#[derive(Default)]
+struct Reread {
+    with: Vec<(String, ImportedSet)>,
+    /// Readings in another role, which are offered.
+    beside: Vec<ImportedSet>,
+    /// Sets whose settings changed meanwhile.
+    again: Vec<ImportedSet>,
+    failures: Vec<String>,
+    /// Sentences about the readings in another role.
+    told: Vec<String>,
+}
+
+impl Reread {
+    /// Sorts a new reading of a set. What is in use is not replaced by something else, nor by what cannot be.
+    fn take(&mut self, set: &ImportedSet, fresh: ImportedSet, why: Why, own: &[Shared<ImportedSet>]) {
+        if why == Why::Alike {
+            return self.with.push((set.name.clone(), ImportedSet { name: set.name.clone(), ..fresh }));
+        }
+        if fresh.overrides != set.overrides {
+            return self.again.push(set.clone());
+        }
+        if fresh.role != set.role {
+            let part = fresh.overrides.options.part;
+            let is_it = |known: &ImportedSet| {
+                known.path == fresh.path && known.role == fresh.role && known.overrides.options.part == part
+            };
+            // Where the file was in this role before, that set is read again itself.
+            if !own.iter().any(|known| is_it(known)) && !self.beside.iter().any(is_it) {
+                self.told.push(format!("{} now holds {}; {} is unchanged.", set.file, fresh.role, set.name));
+                self.beside.push(fresh);
+            }
+            return;
+        }
+        self.with.push((set.name.clone(), ImportedSet { name: set.name.clone(), ..fresh }));
+    }
+}
 
 impl ChromascopeApp {
     /// Begins to read. The document stays as it is until that is done.
@@ -29,7 +63,11 @@ impl ChromascopeApp {
         self.end_tour();
         let memory = self.view.saved.import.clone();
         self.opened.open(requests, move |bytes| {
-            if memory.remembered.is_empty() { ImportOverrides::default() } else { memory.wishes(&Likeness::of(bytes)) }
+            if memory.remembered.is_empty() {
+                ImportOverrides::default()
+            } else {
+                memory.overrides(&Likeness::of(bytes))
+            }
         });
     }
 
@@ -102,7 +140,7 @@ impl ChromascopeApp {
                 }
             }
         }
-        self.settle_wishes();
+        self.settle_overrides();
         self.follow_files();
     }
 
@@ -149,7 +187,7 @@ impl ChromascopeApp {
             if let Some(fingerprint) = set.fingerprint {
                 self.view.import.follow(&ImportItem::File(fingerprint), item);
             }
-            if self.view.import.pending(item).is_some_and(|wishes| *wishes == set.wishes) {
+            if self.view.import.pending(item).is_some_and(|overrides| *overrides == set.overrides) {
                 self.view.import.tried.remove(item);
             }
             self.view.import.unseen.remove(item);
@@ -171,7 +209,6 @@ impl ChromascopeApp {
         }
     }
 
-    /// True while settings are tried on the selected file, which then stays selected.
     fn is_trying(&self) -> bool {
         self.view.import.selected.as_ref().is_some_and(|item| self.view.import.pending(item).is_some())
     }
@@ -188,23 +225,24 @@ impl ChromascopeApp {
 
     /// Applies the settings tried on the selected set once its file was read with them and yields a curve. Until then the
     /// document is unchanged.
-    fn settle_wishes(&mut self) {
+    fn settle_overrides(&mut self) {
         let Some(ImportItem::Set(name)) = self.view.import.selected.clone() else { return };
         let item = ImportItem::Set(name.clone());
-        let Some(wishes) = self.view.import.pending(&item).cloned() else { return };
+        let Some(overrides) = self.view.import.pending(&item).cloned() else { return };
         let Some(set) = self.history.document().own.iter().find(|set| set.name == name).cloned() else { return };
         let Some(file) = set.fingerprint.and_then(|fingerprint| self.opened.file(fingerprint)) else { return };
-        let Some(look) = self.opened.look(&file, &wishes.options).filter(|look| look.options == wishes.options) else {
+        let Some(look) = self.opened.look(&file, &overrides.options).filter(|look| look.options == overrides.options)
+        else {
             return;
         };
         let Ok(table) = &look.table else { return };
-        let fresh = imported(&file.origin, table, &wishes).set;
+        let fresh = imported(&file.origin, table, &overrides).set;
         if fresh.curves.is_empty() {
             return;
         }
         let with = ImportedSet { name: name.clone(), file: set.file.clone(), path: set.path.clone(), ..fresh };
         self.view.import.tried.remove(&item);
-        self.view.saved.import.remember(Likeness::of(&file.bytes), &wishes);
+        self.view.saved.import.remember(Likeness::of(&file.bytes), &overrides);
         let (built_in, role) = (self.catalog.names().clone(), with.role);
         let place = self.history.document().own.iter().position(|set| set.name == name);
         self.change(&Action::Imported(ImportedAction::Replace { name, with: Box::new(with), built_in }));
@@ -214,52 +252,6 @@ impl ChromascopeApp {
         if !offers.is_empty() {
             self.view.say(format!("{}: {role}, in the Library.", now[0].name));
             self.view.offer(offers, false);
-        }
-    }
-
-    /// Changes the document; the selection in Import follows sets to their new names.
-    pub(super) fn change(&mut self, action: &Action) {
-        self.step(|history| history.apply(action));
-    }
-
-    /// Goes to another state of the document; the selection in Import follows sets to their new names, and sensors that are
-    /// no longer compared are deselected.
-    pub(super) fn step(&mut self, go: impl FnOnce(&mut History)) {
-        let before = self.history.document();
-        let (own, compared) = (before.own.clone(), before.compared.clone());
-        go(&mut self.history);
-        self.view.let_go_of_removed(&compared, &self.history.document().compared);
-        self.view.import.follow_names(&own, &self.history.document().own);
-        self.follow_selection(&own);
-    }
-
-    /// Keeps the same contents visible when a step turned the selected file into a set, or removed that set.
-    fn follow_selection(&mut self, before: &[Shared<ImportedSet>]) {
-        let own = &self.history.document().own;
-        let now = match &self.view.import.selected {
-            Some(ImportItem::Set(name)) if !own.iter().any(|set| set.name == *name) => {
-                let gone = before.iter().find(|set| set.name == *name).and_then(|set| set.fingerprint);
-                gone.filter(|file| self.opened.file(*file).is_some()).map(ImportItem::File)
-            }
-            Some(ImportItem::File(file)) => {
-                let made = own.iter().find(|set| set.fingerprint == Some(*file));
-                made.map(|set| ImportItem::Set(set.name.clone()))
-            }
-            _ => None,
-        };
-        if let Some(now) = now {
-            self.view.import.select(now);
-        }
-    }
-
-    /// Undoes or redoes a step. Messages about a step that was undone are cleared.
-    pub(super) fn travel(&mut self, go: impl FnOnce(&mut History), words: Option<String>) {
-        let before = self.history.document().clone();
-        self.step(go);
-        if before != *self.history.document() {
-            // Earlier messages may refer to something that no longer exists.
-            self.view.status = Status::default();
-            self.view.say(words.unwrap_or_default());
         }
     }
 
@@ -277,7 +269,6 @@ impl ChromascopeApp {
         self.opened.keep(&wanted);
     }
 
-    /// Opens Import with a file selected.
     pub(super) fn show_import(&mut self, item: ImportItem, line: Option<usize>) {
         // What the message was about is on show from now on.
         self.view.status = std::mem::take(&mut self.view.status).without(&item);
@@ -289,30 +280,30 @@ impl ChromascopeApp {
     }
 
     /// Makes a set of each of these parts of a file; a choice of curves belongs to another part and is not applied.
-    pub(super) fn use_parts(&mut self, file: Fingerprint, parts: &[usize], wishes: &ImportOverrides) {
-        let wishes = |part: usize| {
-            let mut wishes = ImportOverrides { taken: None, channels: None, ..wishes.clone() };
-            wishes.options.part = Some(part);
-            wishes
+    pub(super) fn use_parts(&mut self, file: Fingerprint, parts: &[usize], overrides: &ImportOverrides) {
+        let overrides = |part: usize| {
+            let mut overrides = ImportOverrides { taken: None, channels: None, ..overrides.clone() };
+            overrides.options.part = Some(part);
+            overrides
         };
-        self.open(parts.iter().map(|part| Request::Known(file, Box::new(wishes(*part)))).collect());
+        self.open(parts.iter().map(|part| Request::Known(file, Box::new(overrides(*part)))).collect());
     }
 
     /// Reads every file of an item's kind as it is read, those that failed among them, and remembers.
     pub(super) fn use_for_alike(&mut self, item: &ImportItem) {
-        let Some((file, wishes)) = self.file_and_wishes(item) else { return };
+        let Some((file, overrides)) = self.file_and_overrides(item) else { return };
         let likeness = Likeness::of(&file.bytes);
-        let wishes = of_a_kind(&wishes);
-        self.view.saved.import.remember(likeness.clone(), &wishes);
+        let overrides = of_a_kind(&overrides);
+        self.view.saved.import.remember(likeness.clone(), &overrides);
         let alike = |file: &OpenFile| Likeness::of(&file.bytes).is_like(&likeness);
         let own = &self.history.document().own;
         let mut sets = Vec::new();
         for set in own {
             let known = set.fingerprint.and_then(|fingerprint| self.opened.file(fingerprint));
             let is_item = *item == ImportItem::Set(set.name.clone());
-            if !is_item && known.is_some_and(|file| alike(&file)) && of_a_kind(&set.wishes) != wishes {
-                let wishes = ImportOverrides { taken: set.wishes.taken.clone(), ..wishes.clone() };
-                sets.push(ImportedSet { wishes, ..(**set).clone() });
+            if !is_item && known.is_some_and(|file| alike(&file)) && of_a_kind(&set.overrides) != overrides {
+                let overrides = ImportOverrides { taken: set.overrides.taken.clone(), ..overrides.clone() };
+                sets.push(ImportedSet { overrides, ..(**set).clone() });
             }
         }
         let unused: Vec<Request> = self
@@ -323,7 +314,7 @@ impl ChromascopeApp {
                 let fingerprint = file.origin.fingerprint;
                 !own.iter().any(|set| set.fingerprint == Some(fingerprint)) && alike(file)
             })
-            .map(|file| Request::Known(file.origin.fingerprint, Box::new(wishes.clone())))
+            .map(|file| Request::Known(file.origin.fingerprint, Box::new(overrides.clone())))
             .collect();
         if sets.is_empty() && unused.is_empty() {
             self.view.say("No other open file is of this kind; the next one will be read with these settings.");
@@ -339,33 +330,167 @@ impl ChromascopeApp {
 
     /// Reads a file by its contents alone, and forgets the settings remembered for its kind.
     pub(super) fn forget_choices(&mut self, item: &ImportItem) {
-        if let Some((file, _)) = self.file_and_wishes(item) {
+        if let Some((file, _)) = self.file_and_overrides(item) {
             self.view.saved.import.forget(&Likeness::of(&file.bytes));
         }
         self.view.import.tried.remove(item);
         let own = &self.history.document().own;
-        let read = |name: &String| own.iter().any(|set| set.name == *name && set.wishes != ImportOverrides::default());
+        let read =
+            |name: &String| own.iter().any(|set| set.name == *name && set.overrides != ImportOverrides::default());
         if matches!(item, ImportItem::Set(name) if read(name)) {
             self.view.import.tried.insert(item.clone(), ImportOverrides::default());
         }
     }
 
     /// An item's file and how it is to be read.
-    fn file_and_wishes(&self, item: &ImportItem) -> Option<(OpenFile, ImportOverrides)> {
+    fn file_and_overrides(&self, item: &ImportItem) -> Option<(OpenFile, ImportOverrides)> {
         let pending = self.view.import.pending(item).cloned();
         match item {
             ImportItem::File(fingerprint) => Some((self.opened.file(*fingerprint)?, pending.unwrap_or_default())),
             ImportItem::Set(name) => {
                 let set = self.history.document().own.iter().find(|set| set.name == *name)?;
-                Some((self.opened.file(set.fingerprint?)?, pending.unwrap_or_else(|| set.wishes.clone())))
+                Some((self.opened.file(set.fingerprint?)?, pending.unwrap_or_else(|| set.overrides.clone())))
             }
         }
     }
 
-    /// Stops reading, if something is being read.
     pub(super) fn stop_reading(&mut self) -> bool {
         let Some(name) = self.opened.stop() else { return false };
         self.view.say(format!("Reading {name} stopped. Nothing was changed."));
         true
     }
+
+    /// Puts sets that were read again in their places, as one step.
+    fn put_in_place(&mut self, sets: Vec<(String, Result<Imported, String>)>, why: Why, ticket: u64) {
+        self.end_tour();
+        let mut reread = Reread::default();
+        for (name, result) in sets {
+            let own = &self.history.document().own;
+            // Items that were renamed, removed or reloaded meanwhile are no longer concerned.
+            let Some(set) = own.iter().find(|set| set.name == name) else { continue };
+            if self.last_read.get(&name).is_some_and(|last| *last > ticket) {
+                continue;
+            }
+            self.last_read.insert(name.clone(), ticket);
+            let failed = reread.failures.len();
+            match result {
+                Ok(imported) => reread.take(set, imported.set, why, own),
+                Err(sentence) => reread.failures.push(sentence),
+            }
+            if reread.failures.len() > failed {
+                self.view.import.unseen.insert(ImportItem::Set(name));
+            }
+        }
+        let Reread { with, beside, again, failures, told } = reread;
+        if !again.is_empty() {
+            self.opened.reread(again, why);
+        }
+        let names: Vec<String> = with.iter().map(|(name, _)| name.clone()).collect();
+        let which = match names.as_slice() {
+            [] => String::new(),
+            [one] => one.clone(),
+            many => format!("{} sets", many.len()),
+        };
+        if !with.is_empty() || !beside.is_empty() {
+            let from = beside.first().map_or(which.as_str(), |set| &set.file);
+            let what = match why {
+                Why::Changed => format!("Reload {}", if which.is_empty() { from } else { &which }),
+                Why::Alike => format!("Read {which} with the same settings"),
+            };
+            log::info!("read again {}", names.join(", "));
+            let built_in = self.catalog.names().clone();
+            let beside = beside.clone();
+            let action = Action::Imported(ImportedAction::ReplaceAll { what, with, beside, built_in });
+            self.step(|history| if why == Why::Changed { history.reload(&action) } else { history.apply(&action) });
+            self.history.end_gesture();
+        }
+        let done = match why {
+            _ if which.is_empty() => String::new(),
+            Why::Changed => format!("{which} changed on disk and was reloaded. Ctrl+Z undoes this."),
+            Why::Alike => format!("{which}: read with the same settings. Ctrl+Z undoes this."),
+        };
+        let told = told.join(" ");
+        let words = format!("{told} {done}").trim().to_owned();
+        if !failures.is_empty() {
+            let failures = failures.join(".  ");
+            self.view.fail(format!("{failures}. The earlier data are unchanged. {words}").trim_end().to_owned());
+        } else if !words.is_empty() {
+            self.view.say(words);
+        }
+        let document = self.history.document();
+        let added: Vec<_> =
+            beside.iter().filter_map(|set| document.own.get(document.same_set(set)?)).cloned().collect();
+        let offers: Vec<Offer> = self.offers(&added);
+        if !offers.is_empty() {
+            // The user may be at something else: nothing takes the keyboard.
+            self.view.offer(offers, false);
+            self.view.status.weight = self.view.status.weight.max(Weight::Warning);
+        }
+    }
+
+    /// Reads the sets of files that changed on disk again, and files that could not be read.
+    pub(super) fn read_changed(&mut self, paths: &[PathBuf]) {
+        let own = &self.history.document().own;
+        let changed = own.iter().filter(|set| set.path.as_ref().is_some_and(|path| paths.contains(path)));
+        let sets: Vec<ImportedSet> = changed.map(|set| (**set).clone()).collect();
+        let is_set = |path: &PathBuf| own.iter().any(|set| set.path.as_ref() == Some(path));
+        let failing = self.opened.failing().into_iter().map(|failing| failing.path);
+        let failing: Vec<Request> =
+            failing.filter(|path| paths.contains(path) && !is_set(path)).map(Request::Path).collect();
+        if !sets.is_empty() {
+            self.opened.reread(sets, Why::Changed);
+        }
+        if !failing.is_empty() {
+            self.open(failing);
+        }
+    }
+
+    pub(super) fn read_again(&mut self, name: &str) {
+        let Some(set) = self.history.document().own.iter().find(|set| set.name == name) else { return };
+        match &set.path {
+            Some(path) => {
+                let path = path.clone();
+                self.view.say(format!("{} is unchanged.", set.file));
+                self.read_changed(&[path]);
+            }
+            None => self.view.fail(format!("{} did not come from a file on disk.", set.file)),
+        }
+    }
+}
+
+/// Names the sets that were renamed because another set already had the name in their files.
+fn renamed(new: &[(&ImportedSet, &Shared<ImportedSet>)]) -> String {
+    let mut renamed = new.iter().filter(|(wanted, set)| wanted.name != set.name);
+    let Some((first, set)) = renamed.next() else { return String::new() };
+    let more = match renamed.count() {
+        0 => String::new(),
+        count => format!(" ({count} others renamed)"),
+    };
+    format!("A data set named {} already exists; imported as {}{more}.", first.name, set.name)
+}
+
+/// Names the files, of `count`, whose sets were already there.
+fn opened_again(again: &[(&ImportedSet, &Shared<ImportedSet>)], count: usize) -> String {
+    match again {
+        [] => String::new(),
+        [(_, set)] if count == 1 => format!("This data set is already open as {}.", set.name),
+        [(wanted, set)] => format!("{} is already open as {}.", wanted.file, set.name),
+        many => format!("{} of them were already open.", many.len()),
+    }
+}
+
+/// What becomes of sets that were opened: cameras are compared, all others wait in the library.
+fn put_to_use(before: &Document, after: &Document, brought: &[Shared<ImportedSet>]) -> String {
+    if let [one] = brought {
+        let waits = SetKind::of_own(one).used_as().is_some() && !after.uses(SetKind::of_own(one), &one.name);
+        return if waits { "In the Library; the conditions are unchanged.".to_owned() } else { String::new() };
+    }
+    let cameras = brought.iter().filter(|set| set.role == Role::Camera).count();
+    let shown = after.compared.len() - before.compared.len();
+    let shown = match (shown, cameras) {
+        (_, 0) => "None is a camera".to_owned(),
+        (shown, cameras) if shown == cameras => format!("{shown} added to the comparison"),
+        (shown, cameras) => format!("{shown} of {cameras} cameras added to the comparison"),
+    };
+    format!("{shown}; illuminant and patches are unchanged. Choose others in the Library.")
 }
