@@ -6,8 +6,8 @@ use chromascope_core::query::{CameraMetric, CameraMetrics};
 use chromascope_core::spectral::SpectralDistribution;
 use chromascope_core::spectral::grid::{FIRST_NM, LAST_NM};
 use chromascope_figure::{
-    Anchor, Axis, Cell, Figure, Ink, InkRole, Mark, Panel, Projection, Rect, Shape, Table, Tag, TextSize, Ticks,
-    text_width,
+    Anchor, Axis, Cell, Figure, Ink, InkRole, Label, Labels, Mark, Panel, Place, Projection, Rect, Shape, Table, Tag,
+    TextSize, Ticks, text_width,
 };
 
 use super::FigureInput;
@@ -38,9 +38,6 @@ const BARS: f64 = 200.0;
 const LINE: f64 = 15.0;
 /// Height of a line of the foot.
 const FOOT_LINE: f64 = 12.0;
-/// Height of a name over a bar, and the air beside it.
-const NAME_LINE: f64 = 14.0;
-const NAME_GAP: f64 = 3.0;
 
 /// The camera of the card: the chosen one, else the selected one, else the first that is compared.
 pub fn camera(scene: &Scene<'_>, view: &View) -> Option<SensorId> {
@@ -134,7 +131,7 @@ fn sensitivities(scene: &Scene<'_>, id: &SensorId, area: Rect) -> Panel {
         let points = samples.map(|(nm, value)| [*nm, value / peak]).filter(|p| (FIRST_NM..=LAST_NM).contains(&p[0]));
         panel.marks.push(line(name, points.collect(), ink, 1.5));
     }
-    panel
+    panel.with_headroom(2.0)
 }
 
 /// Distance from the reference's Planckian locus at equal temperature, over reciprocal temperature.
@@ -157,7 +154,7 @@ fn locus(scene: &Scene<'_>, id: &SensorId, area: Rect) -> Panel {
     let mut panel = Panel::new("locus error", area, x, Axis::new("", [0.0, 1.2 * top]));
     panel.note = format!("locus error {}", distance_symbol(diagram));
     panel.marks.push(line("locus error", points, InkRole::Text.into(), 1.5));
-    panel
+    panel.with_headroom(2.0)
 }
 
 /// A bar for each patch by the document's metric, the worst ones named.
@@ -184,34 +181,19 @@ fn patches(scene: &Scene<'_>, metrics: &CameraMetrics, area: Rect) -> Panel {
         panel.marks.push(Mark::new(Tag::default(), name(patch), shape).with_fill(ink).with_stroke(InkRole::Weak, 0.5));
     }
     let worst = metrics.worst.get(at).map_or(&[][..], Vec::as_slice);
-    let points = [(area.width() - Projection::LEFT) / count, area.height() / (1.3 * top)];
-    let mut taken: Vec<Rect> = Vec::new();
+    let mut panel = panel.with_headroom(14.0);
+    let mut labels = Labels::new(&panel);
     for (rank, &patch) in worst.iter().enumerate() {
         let Some(value) = values.get(patch).copied().flatten() else { continue };
         let number = fixed(value, scene.document.difference.decimals.saturating_sub(1));
         let words = format!("{}  {} {number}", rank + 1, name(patch));
-        // Names are to the left of bars in the right half, so that none is cut.
-        let (anchor, shift) =
-            if patch as f64 > count / 2.0 { (Anchor::RIGHT_BOTTOM, 4.0) } else { (Anchor::LEFT_BOTTOM, -4.0) };
-        let width = text_width(&words, TextSize::Small);
-        let left = patch as f64 * points[0] + shift - if anchor == Anchor::LEFT_BOTTOM { 0.0 } else { width };
-        let mut lift = 2.0;
-        let label = |lift: f64| {
-            Rect::from_min_size([left - NAME_GAP, -value * points[1] - lift], [width + 2.0 * NAME_GAP, NAME_LINE])
-        };
-        while taken.iter().any(|other| overlap(other, &label(lift))) {
-            lift += 1.0;
-        }
-        taken.push(label(lift));
-        let name = Mark::text(words, [patch as f64, value], anchor, TextSize::Small, InkRole::Text);
-        panel.marks.push(name.with_offset([shift, -lift]).with_halo(InkRole::Plot));
+        let at = [patch as f64, value];
+        let place = |(anchor, shift)| Place { at, anchor, offset: [shift, -2.0] };
+        let places = [(Anchor::BOTTOM, 0.0), (Anchor::LEFT_BOTTOM, -4.0), (Anchor::RIGHT_BOTTOM, 4.0)].map(place);
+        labels.place(&Label { starts: vec![at], ..Label::new(words, InkRole::Text, places.to_vec()) });
     }
+    panel.marks.extend(labels.into_marks());
     panel
-}
-
-/// True if two rectangles have points in common.
-fn overlap(a: &Rect, b: &Rect) -> bool {
-    (0..2).all(|axis| a.min[axis] < b.max[axis] && b.min[axis] < a.max[axis])
 }
 
 /// A line of the list.

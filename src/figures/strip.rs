@@ -3,12 +3,11 @@
 use chromascope_core::colorimetry::Xy;
 use chromascope_core::query::Locus;
 use chromascope_figure::{
-    Anchor, Axis, Cell, Dash, Figure, Ink, InkRole, Mark, Marker, Panel, Projection, Rect, Shape, Table, TextSize,
-    Ticks, wrapped,
+    Anchor, Axis, Cell, Dash, Figure, InkRole, Label, Labels, Mark, Marker, Panel, Place, Projection, Rect, Shape,
+    Table, TextSize, Ticks, wrapped,
 };
 
 use super::chromaticity::{self, distance_symbol, id};
-use super::labels::{Place, Room};
 use crate::document::{Diagram, LOCUS_RANGE_K, SetKind};
 use crate::format::number;
 use crate::plot_item::{PickIndex, PlotItem};
@@ -69,19 +68,19 @@ pub fn build(scene: &Scene<'_>, size: [f64; 2]) -> Option<Strip> {
     let mut panel =
         Panel::new("Distance to the reference over temperature", Rect::from_min_size([0.0, 0.0], size), x, y);
     panel.note = note;
-    let mut room = Room::of(&panel);
-    room.take(&content.lines);
-    room.take(&content.signs);
-    let line = cursor(scene.document.temperature_k, top * free);
-    room.keep_clear_of(&line);
-    panel.marks = just_visible_line(&reference, diagram, &mut room);
-    let mut texts: Vec<Mark> = cursor_text(&mut room, scene.document.temperature_k, top).into_iter().collect();
-    texts.extend(content.minima.iter().flat_map(|(source, at)| minimum_text(&mut room, source, *at)));
-    panel.marks.extend(content.lines);
+    let (line, just_visible) = just_visible_line(&reference, diagram);
     panel.marks.push(line);
+    panel.marks.extend(content.lines);
+    panel.marks.push(cursor(scene.document.temperature_k, top * free));
     panel.marks.extend(content.signs);
-    panel.marks.extend(cut(&panel.marks, top, room.height()));
-    panel.marks.extend(texts);
+    panel.marks.extend(cut(&panel.marks, top, Projection::new(&panel, 1.0).plot.height()));
+    let mut labels = Labels::new(&panel);
+    labels.place(&cursor_text(scene.document.temperature_k, top));
+    for (source, at) in &content.minima {
+        labels.place(&minimum_text(source, *at));
+    }
+    labels.place(&just_visible);
+    panel.marks.extend(labels.into_marks());
     Some(Strip { panel, things })
 }
 
@@ -149,14 +148,10 @@ fn minimum(scene: &Scene<'_>, source: &ComparedSensor) -> Option<[f64; 2]> {
     (!nearest.at_end).then(|| [1e6 / nearest.kelvin, nearest.distance.sqrt()])
 }
 
-/// The temperature of a minimum, in the sensor's ink: beside its ring, above, or farther at the end of a leader.
-fn minimum_text(room: &mut Room, source: &ComparedSensor, at: [f64; 2]) -> Vec<Mark> {
-    let away = |x: f64| (0..8).flat_map(move |row| [(x, row), (-x, row)]);
-    let places = [7.0, 24.0, 48.0, 80.0, 120.0, 170.0, 230.0].into_iter().flat_map(away).map(|(x, row)| {
-        let anchor = if x > 0.0 { Anchor::LEFT_BOTTOM } else { Anchor::RIGHT_BOTTOM };
-        (at, anchor, [x, 5.0 - 13.0 * f64::from(row)])
-    });
-    room.lead(&format!("{:.0} K", 1e6 / at[0]), source.role.into(), &places.collect::<Vec<Place>>())
+/// The temperature of a minimum, in the sensor's ink.
+fn minimum_text(source: &ComparedSensor, at: [f64; 2]) -> Label {
+    let places = Place::around(at, [1.0, -0.1], 7.0);
+    Label { starts: vec![at], ..Label::new(format!("{:.0} K", 1e6 / at[0]), source.role, places) }
 }
 
 /// Zero and two round distances with equal decimals, at the square roots where they lie.
@@ -168,19 +163,20 @@ fn height_ticks(top: f64) -> Vec<(f64, String)> {
     rounds.map(|value| (value.sqrt(), format!("{value:.decimals$}"))).to_vec()
 }
 
-/// The hairline of distances that are just visible, with its name where there is room.
-fn just_visible_line(reference: &Locus, diagram: Diagram, room: &mut Room) -> Vec<Mark> {
+/// The hairline of distances that are just visible, with its name.
+fn just_visible_line(reference: &Locus, diagram: Diagram) -> (Mark, Label) {
     let height = |at: Xy| just_visible(at, diagram).sqrt();
     let points = reference.points.iter().filter_map(|p| Some([p.temperature.mired(), height(p.xy?)]));
     let points: Vec<[f64; 2]> = points.collect();
     let sides = [(Anchor::BOTTOM, -2.0), (Anchor::TOP, 2.0)];
-    let away = [2.0, 18.0, 31.0].into_iter().flat_map(|far| sides.map(|(anchor, y)| (anchor, y / 2.0 * far)));
-    let places = away.flat_map(|(anchor, y)| points.iter().step_by(8).map(move |at| (*at, anchor, [0.0, y])));
+    let along = || points.iter().step_by(8).copied();
+    let places =
+        sides.into_iter().flat_map(|(anchor, y)| along().map(move |at| Place { at, anchor, offset: [0.0, y] }));
+    let starts = along().step_by(4).collect();
+    let label = Label { starts, ..Label::new("just visible", InkRole::Weak, places.collect()) };
     let name = format!("just visible to half of observers: Δu′v′ {JUST_VISIBLE}");
-    let line = Mark::new(PickIndex::NONE, name, Shape::Line { points: points.clone(), closed: false });
-    room.take(std::slice::from_ref(&line));
-    let text = room.lead("just visible", InkRole::Weak.into(), &places.collect::<Vec<Place>>());
-    std::iter::once(line.with_stroke(InkRole::Weak, 0.8)).chain(text).collect()
+    let line = Mark::new(PickIndex::NONE, name, Shape::Line { points, closed: false });
+    (line.with_stroke(InkRole::Weak, 0.8), label)
 }
 
 /// Distance in a diagram that is just visible near a chromaticity; in xy, that of a circle as large as the ellipse there.
@@ -216,10 +212,10 @@ fn cursor(kelvin: f64, top: f64) -> Mark {
 }
 
 /// Its number, on the side that has room.
-fn cursor_text(room: &mut Room, kelvin: f64, top: f64) -> Option<Mark> {
-    let at = |share: f64, (anchor, x)| ([1e6 / kelvin, share * top], anchor, [x, 0.0]);
+fn cursor_text(kelvin: f64, top: f64) -> Label {
+    let at = |share: f64, (anchor, x)| Place { at: [1e6 / kelvin, share * top], anchor, offset: [x, 0.0] };
     let sides = [(Anchor::RIGHT, -5.0), (Anchor::LEFT, 5.0)];
     let shares = [0.5, 0.62, 0.38, 0.74, 0.68, 0.56, 0.44, 0.32, 0.26];
-    let places: Vec<Place> = shares.into_iter().flat_map(|share| sides.map(|side| at(share, side))).collect();
-    room.place(&format!("{kelvin:.0} K"), Ink::new(InkRole::Text), false, &places)
+    let places = shares.into_iter().flat_map(|share| sides.map(|side| at(share, side))).collect();
+    Label::new(format!("{kelvin:.0} K"), InkRole::Text, places)
 }

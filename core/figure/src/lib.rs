@@ -9,8 +9,10 @@
 
 mod annotation;
 mod axis;
+mod clip;
 mod figure;
 mod ink;
+mod labels;
 mod mark;
 mod page;
 mod panel;
@@ -26,6 +28,7 @@ pub use annotation::{Annotation, annotations};
 pub use axis::{Axis, MIN_LABEL_SPACING, Tick, Ticks, auto_ticks};
 pub use figure::Figure;
 pub use ink::{Ink, InkRole, Palette};
+pub use labels::{Label, Labels, Place};
 pub use mark::{
     Anchor, Dash, Image, Mark, Marker, MarkerOutline, Rgb, Shape, Stroke, Tag, TextSize, color_runs, finite_runs,
 };
@@ -35,4 +38,4 @@ pub use projection::{Projection, fit_equal};
 pub use rect::Rect;
 pub use room::{AxisRanges, FigureRoom, Numbers};
 pub use table::{Cell, Table};
-pub use text::{text_width, wrapped};
+pub use text::{text_area, text_width, wrapped};

@@ -1,9 +1,12 @@
 //! The parts of a figure: panels with axes and marks, and the legend.
 
+use super::annotation::annotations;
 use super::axis::Axis;
 use super::ink::{Ink, InkRole};
-use super::mark::{Mark, Marker, Stroke};
+use super::mark::{Mark, Marker, Shape, Stroke, TextSize};
+use super::projection::Projection;
 use super::rect::Rect;
+use super::text::text_area;
 
 /// One rectangle of a figure with its own axes.
 #[derive(Debug, Clone, PartialEq)]
@@ -50,6 +53,46 @@ impl Panel {
         let y = Axis::hidden([area.height(), 0.0]);
         Self { background, framed: false, ..Self::new(name, area, x, y) }
     }
+
+    /// The panel with its vertical range, upward, raised until no mark lies under the texts in its upper corners, nor within
+    /// `above` points of those and of the upper edge, where labels have room. In a low panel most of the height stays the marks'.
+    #[must_use]
+    pub fn with_headroom(mut self, above: f64) -> Self {
+        let projection = Projection::new(&self, 1.0);
+        let (plot, [low, high]) = (projection.plot, projection.y);
+        let notes =
+            annotations(&self, plot, 1.0).into_iter().filter(|note| note.anchor.1 < 0.5 && note.at[1] < plot.max[1]);
+        let notes = notes.map(|note| text_area(&note.text, TextSize::Small, note.at, note.anchor));
+        let edge = Rect { min: plot.min, max: [plot.max[0], plot.min[1]] };
+        let kept: Vec<Rect> = notes.chain([edge]).collect();
+        let mut raised = high;
+        for ([a, b], reach) in self.marks.iter().flat_map(tops) {
+            let [a, b] = [a, b].map(|point| (projection.at(point)[0], point[1]));
+            let over = |area: &&Rect| a.0.max(b.0) >= area.min[0] - 4.0 && a.0.min(b.0) <= area.max[0] + 4.0;
+            let below = kept.iter().filter(over).map(|area| area.max[1] - plot.min[1]).fold(0.0, f64::max);
+            let share = ((below + above + reach) / plot.height()).min(0.6);
+            raised = f64::max(raised, low + (a.1.max(b.1) - low) / (1.0 - share));
+        }
+        self.y.range = [low, raised];
+        self
+    }
+}
+
+/// Upper ends of a mark as straight lines in data units, each with the points by which it reaches above them.
+fn tops(mark: &Mark) -> Vec<([[f64; 2]; 2], f64)> {
+    let half = mark.stroke.map_or(0.0, |stroke| 0.5 * stroke.width);
+    let mut tops = match &mark.shape {
+        Shape::Line { points, .. } => points.windows(2).map(|ends| ([ends[0], ends[1]], half)).collect(),
+        Shape::Segments { segments } => segments.iter().map(|ends| (*ends, half)).collect(),
+        Shape::Points { points, radius, .. } => points.iter().map(|at| ([*at; 2], 1.3 * radius + half)).collect(),
+        Shape::Rect { min, max } => {
+            let top = min[1].max(max[1]);
+            vec![([[min[0], top], [max[0], top]], half)]
+        }
+        _ => Vec::new(),
+    };
+    tops.retain(|(ends, _)| ends.as_flattened().iter().all(|v| v.is_finite()));
+    tops
 }
 
 /// One key of a legend: the line and marker of a source with its name.

@@ -1,11 +1,14 @@
 //! Run time against error, both in powers of ten: methods as points, those that no other beats joined by a line.
 
-mod names;
-
-use chromascope_figure::{Axis, Dash, InkRole, Mark, Marker, Panel, Rect, Shape, Tag, Ticks};
+use chromascope_figure::{
+    Anchor, Axis, Dash, InkRole, Label, Labels, Mark, Marker, Panel, Rect, Shape, Tag, TextSize, Ticks, text_width,
+};
 
 /// Errors below this are drawn at it: in doubles they are not distinguishable from zero.
 pub const LEAST_ERROR: f64 = 1e-18;
+
+/// Maximum number of columns of a list of names.
+const COLUMNS: usize = 3;
 
 /// A method's place.
 #[derive(Clone, Debug, PartialEq)]
@@ -52,9 +55,8 @@ pub fn panel(name: &str, [error_label, time_label]: [&str; 2], note: String, pla
     panel.note = note;
     let (mut front, rest): (Vec<&Place>, Vec<&Place>) = places.iter().partition(|place| !place.is_beaten(places));
     front.sort_by(|a, b| a.error.total_cmp(&b.error));
-    let line: Vec<[f64; 2]> = front.iter().map(|place| place.logarithms()).collect();
     if front.len() > 1 {
-        let points = line.clone();
+        let points = front.iter().map(|place| place.logarithms()).collect();
         let line = Mark::new(Tag::default(), "best methods", Shape::Line { points, closed: false });
         panel.marks.push(line.with_stroke(InkRole::Weak, 1.2).with_dash(Dash::Dashed));
     }
@@ -64,11 +66,58 @@ pub fn panel(name: &str, [error_label, time_label]: [&str; 2], note: String, pla
         let filled = on_front && place.marker.has_inside();
         panel.marks.push(if filled { mark.with_fill(place.role) } else { mark });
     }
+    let mut panel = panel.with_headroom(4.0);
     // What is on the front is named first: it is what one looks for.
     let order: Vec<&Place> = front.into_iter().chain(rest).collect();
-    let names = names::names(&panel, &order, &line);
-    panel.marks.extend(names);
+    panel.marks.extend(names(&panel, &order));
     panel
+}
+
+/// Names of points, in this order, each written once. Where points crowd a number stands for the name, which is then in a list;
+/// one without room for either is omitted, and shown under the pointer.
+fn names(panel: &Panel, places: &[&Place]) -> Vec<Mark> {
+    let mut labels = Labels::new(panel);
+    let label = |place: &Place, text: &str| {
+        let at = place.logarithms();
+        // Above to the right first: the line falls to the right, and passes below.
+        let places = chromascope_figure::Place::around(at, [1.0, -0.9], 9.0);
+        Label { tag: place.tag, starts: vec![at], ..Label::new(text, InkRole::Text, places) }
+    };
+    let (mut named, mut crowded): (Vec<&str>, Vec<&Place>) = (Vec::new(), Vec::new());
+    for place in places {
+        if !named.contains(&place.name.as_str()) {
+            named.push(&place.name);
+            if !labels.place(&label(place, &place.name)) {
+                crowded.push(place);
+            }
+        }
+    }
+    // Numbers first: each line of the list is of a point that has one.
+    let (mut numbered, mut list) = (labels.clone(), Vec::new());
+    for place in crowded {
+        let number = (list.len() + 1).to_string();
+        if numbered.place(&label(place, &number)) {
+            list.push((place.tag, format!("{number}: {}", place.name)));
+        }
+    }
+    let is_listed = (1..=COLUMNS).any(|columns| write_list(&mut numbered, &list, columns));
+    if is_listed { numbered.into_marks() } else { labels.into_marks() }
+}
+
+/// Writes lines of text in columns where nothing else is, the lower left corner first. Whether there was room.
+fn write_list(labels: &mut Labels, lines: &[(Tag, String)], columns: usize) -> bool {
+    const LINE: f64 = 14.0;
+    const GAP: f64 = 8.0;
+    let widest = lines.iter().map(|(_, line)| text_width(line, TextSize::Small)).fold(0.0, f64::max);
+    let (down, across) = (lines.len().div_ceil(columns), widest + GAP);
+    let Some([x, y]) = labels.corner([across * columns as f64, LINE * down as f64]) else { return false };
+    for (index, (tag, line)) in lines.iter().enumerate() {
+        let at = [x + 0.5 * GAP + across * (index / down) as f64, y + LINE * (index % down) as f64];
+        let place =
+            chromascope_figure::Place { at: labels.projection().value(at), anchor: Anchor::LEFT_TOP, offset: [0.0; 2] };
+        labels.place(&Label { tag: *tag, always: true, ..Label::new(line, InkRole::Text, vec![place]) });
+    }
+    true
 }
 
 fn error_of(error: f64) -> f64 {

@@ -1,8 +1,9 @@
 //! The Planckian locus of a sensor of the library that is looked at but not compared.
 
-use chromascope_figure::{Anchor, Dash, Ink, InkRole, Mark, Shape, TextSize};
+use chromascope_figure::{Dash, Ink, InkRole, Label, Mark, Place, Shape, TextSize};
 
 use super::drawing::Drawing;
+use super::labels::{Rank, label};
 use crate::plot_item::{PickIndex, PlotItem, SensorId};
 
 /// Coordinates beyond this are not drawn.
@@ -19,8 +20,8 @@ pub(super) fn add(drawing: &mut Drawing<'_>) {
     let ink = Ink::new(InkRole::Text).faded(0.7);
     let line = Mark::new(PickIndex::NONE, format!("{} (not compared)", id.name), Shape::Line { points, closed: false });
     drawing.marks.push(line.with_stroke(ink, 2.0).with_dash(Dash::Dashed).with_halo(InkRole::Plot));
-    let text = Mark::text(id.name, at, Anchor::TOP, TextSize::Small, InkRole::Text);
-    drawing.marks.push(text.with_offset([0.0, 6.0]).with_halo(InkRole::Plot));
+    let (rank, label) = label(Rank::Patch, id.name, InkRole::Text, Place::around(at, [0.0, 1.0], 6.0));
+    drawing.labels.push((rank, Label { size: TextSize::Small, starts: vec![at], ..label }));
 }
 
 /// The sensor under the pointer, else the selected one, if it is not compared.

@@ -2,10 +2,10 @@
 
 use chromascope_core::query::{LocusPoint, Temperatures};
 use chromascope_core::units::Kelvin;
-use chromascope_figure::{Dash, InkRole, Mark, Marker, Shape};
+use chromascope_figure::{Dash, InkRole, Label, Mark, Marker, Place, Shape};
 
 use super::drawing::{Drawing, id};
-use super::labels::{Label, Place, Rank};
+use super::labels::{Rank, label};
 use crate::plot_item::PlotItem;
 use crate::scene::locus::split;
 use crate::scene::{ComparedSensor, Scene};
@@ -112,9 +112,9 @@ fn add_ticks(drawing: &mut Drawing<'_>, source: &ComparedSensor, points: &[[f64;
             continue;
         }
         let beside = |distance| Place::beside(at, [normal[0], -normal[1]], distance);
-        let places = [0.0, 6.0, 12.0].map(|more| beside(TICK + 4.0 + more)).to_vec();
+        let places = [0.0, 3.0, 6.0, 12.0].map(|more| beside(TICK + 4.0 + more)).to_vec();
         let text = format!("{kelvin:.0} K");
-        drawing.labels.push(Label::new(text, Rank::Temperature, InkRole::Weak, places));
+        drawing.labels.push(label(Rank::Temperature, text, InkRole::Weak, places));
     }
 }
 
@@ -181,7 +181,8 @@ fn add_end(drawing: &mut Drawing<'_>, source: &ComparedSensor, points: &[[f64; 2
     }
     let tag = drawing.things.tag(PlotItem::Sensor(id(source)));
     let starts = marker.into_iter().chain(start.copied()).collect();
-    drawing.labels.push(Label { tag, starts, ..Label::new(&source.label, Rank::Sensor, source.role, places) });
+    let (rank, label) = label(Rank::Sensor, &source.label, source.role, places);
+    drawing.labels.push((rank, Label { tag, starts, ..label }));
 }
 
 /// The ring at the document's temperature.

@@ -1,8 +1,9 @@
 //! The legend: inside the largest plot, beside the figure, or below it.
 
-use super::{Brush, Label, marks};
+use super::{Brush, TextLine};
 use crate::figure::Figure;
 use crate::ink::{Ink, InkRole};
+use crate::labels::Labels;
 use crate::mark::{Anchor, Stroke, TextSize};
 use crate::panel::{LegendEntry, LegendPlace, Panel};
 use crate::projection::Projection;
@@ -110,21 +111,22 @@ pub(super) fn draw(
         let y = area.min[1] + 0.5 * PAD + ROW * ((i / columns.widths.len()) as f64 + 0.5);
         key(brush, entry, [x, y]);
         let at = [x + KEY + PAD, y];
-        brush.text(&Label::new(at, &entry.name, Anchor::LEFT, columns.size, InkRole::Text.into()));
+        brush.text(&TextLine::new(at, &entry.name, Anchor::LEFT, columns.size, InkRole::Text.into()));
     }
 }
 
-/// Place of the legend: [`LegendPlace::Inside`] is the corner where it covers no point, else it stands below.
+/// Place of the legend: [`LegendPlace::Inside`] is the corner where it covers nothing, else it stands below.
 pub(super) fn place(figure: &Figure) -> LegendPlace {
     if figure.legend_place != LegendPlace::Inside {
         return figure.legend_place;
     }
     let projections: Vec<Projection> = figure.panels.iter().map(|panel| Projection::new(panel, 1.0)).collect();
     let panels: Vec<_> = figure.panels.iter().zip(&projections).collect();
-    let Some((panel, projection)) = largest(&panels) else { return LegendPlace::Below };
+    let Some((panel, _)) = largest(&panels) else { return LegendPlace::Below };
+    let labels = Labels::new(panel);
     [LegendPlace::UpperRight, LegendPlace::UpperLeft, LegendPlace::LowerRight, LegendPlace::LowerLeft]
         .into_iter()
-        .find(|place| !marks::has_points_in(panel, projection, inside(figure, *place, &panels)))
+        .find(|place| labels.is_free(&inside(figure, *place, &panels), 0.0))
         .unwrap_or(LegendPlace::Below)
 }
 
