@@ -30,8 +30,9 @@ const TWO_COLUMNS: f64 = 480.0;
 const ONE_ROW: f64 = 840.0;
 /// Width of a column of figures of merit where there are more than two.
 const LIST_COLUMN: f64 = 216.0;
-/// Heights of title, plots and bars.
+/// Heights of title, plots and bars, and of a further line of the name.
 const TITLE: f64 = 44.0;
+const NAME_LINE: f64 = 20.0;
 const PLOTS: f64 = 190.0;
 const BARS: f64 = 200.0;
 /// Height of a line of the list.
@@ -65,7 +66,8 @@ pub fn page(scene: &Scene<'_>, id: &SensorId, figures: &CameraFigures, width: f6
         top += height;
         Rect::from_min_size([0.0, top - height], [width, height])
     };
-    let mut panels = vec![title(scene, id, place(TITLE))];
+    let name = chromascope_figure::wrapped(&id.name, TextSize::Heading, width - 16.0);
+    let mut panels = vec![title(scene, id, &name, place(TITLE + NAME_LINE * (name.len() as f64 - 1.0)))];
     let beside = |row: Rect, [from, to]: [f64; 2]| {
         Rect::from_min_size([from * width, row.min[1]], [(to - from) * width, row.height()])
     };
@@ -106,15 +108,18 @@ fn line(name: &str, points: Vec<[f64; 2]>, ink: Ink, width: f64) -> Mark {
 }
 
 /// Name, and where its figures are from.
-fn title(scene: &Scene<'_>, id: &SensorId, area: Rect) -> Panel {
+fn title(scene: &Scene<'_>, id: &SensorId, name: &[String], area: Rect) -> Panel {
     let mut panel = Panel::board("title", area, Ink::new(InkRole::Plot));
     let entry = scene.entry(id.kind, &id.name).ok();
     let source = entry.and_then(|entry| entry.header).map_or_else(|| "yours".to_owned(), |header| header.source);
-    panel.marks.push(Mark::text(id.name.as_str(), [8.0, 13.0], Anchor::LEFT, TextSize::Heading, InkRole::Text));
+    for (row, words) in name.iter().enumerate() {
+        let at = [8.0, 13.0 + NAME_LINE * row as f64];
+        panel.marks.push(Mark::text(words, at, Anchor::LEFT, TextSize::Heading, InkRole::Text));
+    }
     let source = chromascope_figure::wrapped(&source, TextSize::Small, area.width() - 24.0);
     let cut = if source.len() > 1 { "…" } else { "" };
     let source = format!("{}{cut}", source.first().map_or("", String::as_str));
-    panel.marks.push(Mark::text(source, [8.0, 33.0], Anchor::LEFT, TextSize::Small, InkRole::Weak));
+    panel.marks.push(Mark::text(source, [8.0, area.height() - 11.0], Anchor::LEFT, TextSize::Small, InkRole::Weak));
     panel
 }
 

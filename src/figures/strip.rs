@@ -4,7 +4,7 @@ use chromascope_core::colorimetry::Xy;
 use chromascope_core::query::Locus;
 use chromascope_figure::{
     Anchor, Axis, Cell, Dash, Figure, InkRole, Label, Labels, Mark, Marker, Panel, Place, Projection, Rect, Shape,
-    Table, TextSize, Ticks, wrapped,
+    Table, Ticks,
 };
 
 use super::chromaticity::{self, distance_symbol, id};
@@ -26,10 +26,6 @@ pub struct Strip {
 
 /// Temperatures that are written below, in kelvins.
 const TICKS: [f64; 7] = [1000.0, 1200.0, 1500.0, 2000.0, 3000.0, 5000.0, 20_000.0];
-/// Height of the line of text at the upper edge, in points.
-const NOTE: f64 = 18.0;
-/// Height of each further line.
-const NOTE_LINE: f64 = 15.0;
 /// Largest distance drawn: a locus that goes to infinity leaves the strip, the others stay readable.
 const LARGEST: f64 = 0.6;
 /// Δu′v′ of lights that half of observers just tell apart.
@@ -56,22 +52,24 @@ pub fn build(scene: &Scene<'_>, size: [f64; 2]) -> Option<Strip> {
         distance_symbol(diagram),
         scene.locus_balance()
     );
-    // The note at the upper edge is free of lines.
-    let lines = wrapped(&note, TextSize::Small, size[0] - Projection::LEFT - 10.0).len().max(1);
-    let above = NOTE + NOTE_LINE * (lines as f64 - 1.0);
-    let free = 1.0 - (above / (size[1] - Projection::BOTTOM - Projection::TITLE).max(1.0)).min(0.5);
-    let top = content.top.clamp(1e-6, LARGEST).sqrt() / free;
+    let highest = content.top.clamp(1e-6, LARGEST).sqrt();
     let ticks = TICKS.iter().map(|kelvin| (1e6 / kelvin, format!("{kelvin:.0}"))).collect();
     let [cold, hot] = LOCUS_RANGE_K.map(|kelvin| 1e6 / kelvin);
     let x = Axis::new("blackbody temperature (K)", [cold, hot]).with_ticks(Ticks::At(ticks)).with_grid(true);
-    let y = Axis::new("", [0.0, top]).with_ticks(Ticks::At(height_ticks((top * free).powi(2)))).with_grid(true);
+    let y = Axis::new("", [0.0, highest]).with_ticks(Ticks::At(height_ticks(highest * highest))).with_grid(true);
     let mut panel =
         Panel::new("Distance to the reference over temperature", Rect::from_min_size([0.0, 0.0], size), x, y);
     panel.note = note;
+    // Lines up to the highest pass below the note.
+    let ceiling = Shape::Line { points: vec![[cold, highest], [hot, highest]], closed: false };
+    panel.marks.push(Mark::new(PickIndex::NONE, "", ceiling));
+    panel = panel.with_headroom(2.0);
+    panel.marks.clear();
+    let top = panel.y.range[1];
     let (line, just_visible) = just_visible_line(&reference, diagram);
     panel.marks.push(line);
     panel.marks.extend(content.lines);
-    panel.marks.push(cursor(scene.document.temperature_k, top * free));
+    panel.marks.push(cursor(scene.document.temperature_k, highest));
     panel.marks.extend(content.signs);
     panel.marks.extend(cut(&panel.marks, top, Projection::new(&panel, 1.0).plot.height()));
     let mut labels = Labels::new(&panel);

@@ -31,7 +31,7 @@ struct Text {
 }
 
 /// Faults of an SVG that [`chromascope_figure::svg`] wrote with these colors of ground and grid lines.
-pub fn faults(svg: &str, ground: &str, grid: &str) -> Vec<String> {
+pub(crate) fn faults(svg: &str, ground: &str, grid: &str) -> Vec<String> {
     let (page, texts, marks) = read(svg, ground, grid);
     let mut found = Vec::new();
     for (index, text) in texts.iter().enumerate() {
@@ -119,8 +119,9 @@ fn read(svg: &str, ground: &str, grid: &str) -> (Rect, Vec<Text>, Vec<Drawn>) {
     for (order, line) in svg.lines().enumerate() {
         if line.starts_with("<clipPath") {
             clip_path = line.find("<rect").map(|start| box_of(&line[start..]));
+            continue;
         }
-        if line.starts_with("<g") || line.starts_with("<clipPath") {
+        if line.starts_with("<g") {
             let name = line.split("<title>").nth(1).and_then(|rest| rest.split("</title>").next()).unwrap_or_default();
             groups.push((clip_path.take().or(groups.last().and_then(|group| group.0)), name.to_owned()));
             continue;

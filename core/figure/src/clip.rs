@@ -9,8 +9,8 @@ pub(crate) fn rect(within: Rect, area: Rect) -> Option<Rect> {
     (min[0] <= max[0] && min[1] <= max[1]).then_some(Rect { min, max })
 }
 
-/// The part of a straight line inside (Liang and Barsky 1984).
-pub(crate) fn segment(rect: Rect, [a, b]: [[f64; 2]; 2]) -> Option<[[f64; 2]; 2]> {
+/// The part of a straight line inside a rectangle, its edges included (Liang and Barsky 1984).
+pub fn segment(rect: Rect, [a, b]: [[f64; 2]; 2]) -> Option<[[f64; 2]; 2]> {
     let mut share = [0.0_f64, 1.0];
     for axis in 0..2 {
         let step = b[axis] - a[axis];

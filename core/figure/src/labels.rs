@@ -115,9 +115,12 @@ enum Obstacle {
 /// Place, rectangle and leader of a text.
 type Found = (Place, Rect, Option<[[f64; 2]; 2]>);
 
-/// The texts of a plot among its marks. They are placed in the order of the calls. Each takes the first of its positions that is
-/// free of marks, texts, leaders and the plot's edge, with room for its halo; else it stands at the end of a leader, a gray hairline, the shortest
-/// that crosses no text, no leader and few marks; else its shorter texts are tried in the same way; else it is left out.
+/// The texts of a plot among its marks, placed in the order of the calls.
+///
+/// Each takes the first of its positions that is free of marks, texts, leaders and the plot's edge, with room for its halo;
+/// else it stands at the end of a leader, a gray hairline, the shortest that crosses no text, no leader and few marks; else
+/// its shorter texts are tried in the same way; else it is left out. Grid lines, pictures and pale areas are grounds, on
+/// which texts may stand.
 #[derive(Debug, Clone)]
 pub struct Labels {
     projection: Projection,
@@ -148,23 +151,18 @@ impl Labels {
             leaders: Vec::new(),
             placed: Default::default(),
         };
-        labels.take(&panel.marks);
-        labels
-    }
-
-    /// Takes the room of marks; grid lines, pictures and pale areas are grounds.
-    pub fn take(&mut self, marks: &[Mark]) {
-        for mark in marks {
+        for mark in &panel.marks {
             if let Shape::Text { at, text, anchor, offset, size, .. } = &mark.shape {
-                let [x, y] = self.projection.at(*at);
-                self.texts.push(text_area(text, *size, [x + offset[0], y + offset[1]], *anchor));
+                let [x, y] = labels.projection.at(*at);
+                labels.texts.push(text_area(text, *size, [x + offset[0], y + offset[1]], *anchor));
             }
-            for obstacle in obstacles(mark, &self.projection) {
-                for square in self.touched(&obstacle.extent()) {
-                    self.squares[square].push(obstacle);
+            for obstacle in obstacles(mark, &labels.projection) {
+                for square in labels.touched(&obstacle.extent()) {
+                    labels.squares[square].push(obstacle);
                 }
             }
         }
+        labels
     }
 
     /// Places a text; false where it is left out.
@@ -261,7 +259,7 @@ impl Labels {
                 let from = self.projection.at(*start);
                 let ends = [START, length - AIR].map(|reach| [from[0] + reach * x, from[1] + reach * y]);
                 if self.is_free(&area, label.clearance)
-                    && let Some(crossed) = self.crossed(ends)
+                    && let Some(crossed) = self.crossed(from, ends)
                     && best.as_ref().is_none_or(|(cost, _)| length + crossed < *cost)
                 {
                     best = Some((length + crossed, (place, area, Some(ends))));
@@ -272,14 +270,16 @@ impl Labels {
         best.map(|(_, found)| found)
     }
 
-    /// Length that the marks add which a leader crosses; none if it crosses a text or another leader.
-    fn crossed(&self, ends: [[f64; 2]; 2]) -> Option<f64> {
+    /// Length that the marks add which a leader from a point crosses; none if it crosses a text or another leader.
+    fn crossed(&self, from: [f64; 2], ends: [[f64; 2]; 2]) -> Option<f64> {
         let is_barred = self.leaders.iter().any(|other| intersect(ends, *other))
             || self.texts.iter().any(|text| clip::segment(*text, ends).is_some());
         let extent = Obstacle::Line(ends, 0.0).extent();
         let cost = |obstacle: &Obstacle| match obstacle {
             Obstacle::Line(other, _) if intersect(ends, *other) => CROSSED[1],
-            Obstacle::Bar(area) | Obstacle::Marker(area) if clip::segment(*area, ends).is_some() => CROSSED[0],
+            Obstacle::Bar(area) | Obstacle::Marker(area) if !area.contains(from) => {
+                clip::segment(*area, ends).map_or(0.0, |_| CROSSED[0])
+            }
             _ => 0.0,
         };
         (!is_barred).then(|| self.touched(&extent).flat_map(|square| &self.squares[square]).map(cost).sum())
@@ -317,10 +317,11 @@ fn obstacles(mark: &Mark, projection: &Projection) -> Vec<Obstacle> {
         pieces.map(|ends| Obstacle::Line(ends, half)).collect()
     };
     match &mark.shape {
+        Shape::Line { .. } if stroke.is_none() => Vec::new(),
         Shape::Line { points, closed: true } | Shape::Polygon { points } => {
             lines(&[&points[..], &points[..points.len().min(1)]].concat())
         }
-        Shape::Line { points, .. } if stroke.is_some() => lines(points),
+        Shape::Line { points, .. } => lines(points),
         Shape::Gradient { points } => lines(&points.iter().map(|(point, _)| *point).collect::<Vec<_>>()),
         Shape::Segments { segments } if stroke.is_some() => segments.iter().flat_map(|ends| lines(ends)).collect(),
         Shape::Rect { min, max } if mark.fill.is_some_and(|ink| ink.alpha >= GROUND) => {

@@ -26,6 +26,7 @@ mod text;
 
 pub use annotation::{Annotation, annotations};
 pub use axis::{Axis, MIN_LABEL_SPACING, Tick, Ticks, auto_ticks};
+pub use clip::segment as clip_segment;
 pub use figure::Figure;
 pub use ink::{Ink, InkRole, Palette};
 pub use labels::{Label, Labels, Place};

@@ -160,35 +160,3 @@ pub fn duration(seconds: f64) -> String {
     };
     format!("{value:.decimals$} {unit}")
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn what_has_no_error_has_a_place() {
-        let place = |error, seconds| Place {
-            name: "a method".to_owned(),
-            tag: Tag(1),
-            error,
-            seconds,
-            marker: Marker::Circle,
-            role: InkRole::Text,
-        };
-        let area = Rect::from_min_size([0.0, 0.0], [400.0, 300.0]);
-        let panel = panel("p", ["error", "time"], String::new(), &[place(0.0, 1e-6), place(1e-3, 0.0)], area);
-        let finite = |v: &[f64; 2]| v.iter().all(|v| v.is_finite());
-        for mark in &panel.marks {
-            if let Shape::Points { points, .. } | Shape::Line { points, .. } = &mark.shape {
-                assert!(points.iter().all(finite));
-            }
-        }
-        assert_eq!((panel.x.range, panel.y.range), ([-19.0, -2.0], [-16.0, -5.0]), "all is within the axes");
-    }
-
-    #[test]
-    fn times_have_units_that_suit() {
-        let all = [1e-9, 1.5e-8, 9.99e-7, 1e-6, 2.5e-6, 1.5e-3, 0.9999, 12.0].map(duration);
-        assert_eq!(all, ["1 ns", "15 ns", "999 ns", "1 µs", "2.50 µs", "1.50 ms", "1.00 s", "12 s"]);
-    }
-}
