@@ -2,11 +2,10 @@
 
 use std::f64::consts::{FRAC_1_SQRT_2, TAU};
 
-use super::annotation::annotations;
 use super::clip;
 use super::ink::{Ink, InkRole};
 use super::mark::{Anchor, Mark, MarkerOutline, Shape, Tag, TextSize, finite_runs};
-use super::panel::Panel;
+use super::panel::{Panel, annotations};
 use super::projection::Projection;
 use super::rect::Rect;
 use super::text::text_area;
@@ -16,13 +15,13 @@ const AIR: f64 = 2.0;
 /// Side of the squares by which marks are found, in points.
 const SQUARE: f64 = 24.0;
 /// Lengths of leaders in points: the first, the step, the last.
-const LEADER: [f64; 3] = [18.0, 6.0, 200.0];
+const LEADER: [f64; 3] = [18.0, 6.0, 240.0];
 /// Number of directions that a leader may take.
-const DIRECTIONS: u32 = 24;
+const DIRECTIONS: u32 = 72;
 /// Distance of a leader from the point where it starts, in points: outside of its marker.
 const START: f64 = 6.0;
 /// Points by which a leader may be longer if that saves crossing a marker or bar, or a line.
-const CROSSED: [f64; 2] = [60.0, 20.0];
+const CROSSED: [f64; 2] = [100.0, 20.0];
 /// Radius up to which a marker is a dot along a line.
 const DOT: f64 = 3.0;
 /// Opacity below which an area is a ground, on which texts may stand.
@@ -309,25 +308,26 @@ impl Obstacle {
 
 /// What a mark draws, in points.
 fn obstacles(mark: &Mark, projection: &Projection) -> Vec<Obstacle> {
-    let stroke = mark.stroke.filter(|stroke| stroke.ink.role != InkRole::Grid);
-    let half = 0.5 * stroke.map_or(0.0, |stroke| stroke.width);
+    let half = 0.5 * mark.stroke.map_or(0.0, |stroke| stroke.width);
     let lines = |points: &[[f64; 2]]| -> Vec<Obstacle> {
         let placed: Vec<[f64; 2]> = points.iter().map(|point| projection.at(*point)).collect();
         let pieces = placed.windows(2).flat_map(|ends| pieces([ends[0], ends[1]], projection.plot));
         pieces.map(|ends| Obstacle::Line(ends, half)).collect()
     };
     match &mark.shape {
-        Shape::Line { .. } if stroke.is_none() => Vec::new(),
+        _ if mark.stroke.is_some_and(|stroke| stroke.ink.role == InkRole::Grid) => Vec::new(),
         Shape::Line { points, closed: true } | Shape::Polygon { points } => {
             lines(&[&points[..], &points[..points.len().min(1)]].concat())
         }
         Shape::Line { points, .. } => lines(points),
         Shape::Gradient { points } => lines(&points.iter().map(|(point, _)| *point).collect::<Vec<_>>()),
-        Shape::Segments { segments } if stroke.is_some() => segments.iter().flat_map(|ends| lines(ends)).collect(),
+        Shape::Segments { segments } => segments.iter().flat_map(|ends| lines(ends)).collect(),
         Shape::Rect { min, max } if mark.fill.is_some_and(|ink| ink.alpha >= GROUND) => {
             vec![Obstacle::Bar(Rect::around([*min, *max].map(|corner| projection.at(corner))).enlarged(half))]
         }
-        Shape::Rect { min, max } if stroke.is_some() => lines(&[*min, [max[0], min[1]], *max, [min[0], max[1]], *min]),
+        Shape::Rect { min, max } if mark.stroke.is_some() => {
+            lines(&[*min, [max[0], min[1]], *max, [min[0], max[1]], *min])
+        }
         Shape::Points { points, marker, radius } => {
             let outline = match marker.outline() {
                 MarkerOutline::Disk(size) => vec![[-size; 2], [size; 2]],

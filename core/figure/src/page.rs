@@ -6,10 +6,9 @@ mod legend;
 mod marks;
 mod panels;
 
-use super::figure::Figure;
 use super::ink::{Ink, InkRole, Palette};
 use super::mark::{Anchor, Mark, Marker, MarkerOutline, Stroke, TextSize};
-use super::panel::LegendPlace;
+use super::panel::{Figure, LegendPlace};
 use super::projection::Projection;
 use super::rect::Rect;
 use super::text::wrapped;

@@ -17,10 +17,10 @@ use krilla::text::{Font, GlyphId, KrillaGlyph};
 use krilla::{Data, Document};
 use rustybuzz::{Direction, Face, UnicodeBuffer};
 
-use super::figure::Figure;
 use super::ink::{Ink, Palette};
 use super::mark::{Image, Stroke, TextSize};
 use super::page::{Canvas, Page, PageStyle, TextLine, draw};
+use super::panel::Figure;
 use super::rect::Rect;
 
 /// Reason that there is no PDF.

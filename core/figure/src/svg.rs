@@ -5,10 +5,10 @@
 
 use std::fmt::Write as _;
 
-use super::figure::Figure;
 use super::ink::{Ink, Palette};
 use super::mark::{Image, Stroke, TextSize};
 use super::page::{Canvas, Page, PageStyle, TextLine, draw};
+use super::panel::Figure;
 use super::rect::Rect;
 use super::text::text_width;
 

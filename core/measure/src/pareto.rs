@@ -77,12 +77,6 @@ pub fn panel(name: &str, [error_label, time_label]: [&str; 2], note: String, pla
 /// one without room for either is omitted, and shown under the pointer.
 fn names(panel: &Panel, places: &[&Place]) -> Vec<Mark> {
     let mut labels = Labels::new(panel);
-    let label = |place: &Place, text: &str| {
-        let at = place.logarithms();
-        // Above to the right first: the line falls to the right, and passes below.
-        let places = chromascope_figure::Place::around(at, [1.0, -0.9], 9.0);
-        Label { tag: place.tag, starts: vec![at], ..Label::new(text, InkRole::Text, places) }
-    };
     let (mut named, mut crowded): (Vec<&str>, Vec<&Place>) = (Vec::new(), Vec::new());
     for place in places {
         if !named.contains(&place.name.as_str()) {
@@ -92,16 +86,31 @@ fn names(panel: &Panel, places: &[&Place]) -> Vec<Mark> {
             }
         }
     }
-    // Numbers first: each line of the list is of a point that has one.
-    let (mut numbered, mut list) = (labels.clone(), Vec::new());
-    for place in crowded {
-        let number = (list.len() + 1).to_string();
-        if numbered.place(&label(place, &number)) {
-            list.push((place.tag, format!("{number}: {}", place.name)));
+    // As many in a list as it has room for.
+    let listed = (1..=crowded.len()).rev().find_map(|count| with_list(&labels, &crowded[..count]));
+    listed.unwrap_or(labels).into_marks()
+}
+
+fn label(place: &Place, text: &str) -> Label {
+    let at = place.logarithms();
+    // Above to the right first: the line falls to the right, and passes below.
+    let places = chromascope_figure::Place::around(at, [1.0, -0.9], 9.0);
+    Label { tag: place.tag, starts: vec![at], ..Label::new(text, InkRole::Text, places) }
+}
+
+/// Labels with a number beside each point, and a list of what they stand for; none where there is no room.
+fn with_list(labels: &Labels, crowded: &[&Place]) -> Option<Labels> {
+    (1..=COLUMNS).find_map(|columns| {
+        let (mut labels, mut list) = (labels.clone(), Vec::new());
+        // Numbers first: each line of the list is of a point that has one.
+        for place in crowded {
+            let number = (list.len() + 1).to_string();
+            if labels.place(&label(place, &number)) {
+                list.push((place.tag, format!("{number}: {}", place.name)));
+            }
         }
-    }
-    let is_listed = (1..=COLUMNS).any(|columns| write_list(&mut numbered, &list, columns));
-    if is_listed { numbered.into_marks() } else { labels.into_marks() }
+        (!list.is_empty() && write_list(&mut labels, &list, columns)).then_some(labels)
+    })
 }
 
 /// Writes lines of text in columns where nothing else is, the lower left corner first. Whether there was room.

@@ -74,8 +74,8 @@ fn add_labels(drawing: &mut Drawing<'_>) {
         let length = away[0].hypot(away[1]).max(1e-9);
         // Outside, or inside where the plot ends.
         let out = [away[0] / length, -away[1] / length];
-        let sides = [6.0, 9.0].into_iter().flat_map(|far| [far, -far]);
-        let places = sides.map(|far| Place::beside(at, out.map(|v| v * f64::signum(far)), f64::abs(far))).collect();
+        let sides = [1.0, -1.0].into_iter().flat_map(|side| [6.0, 9.0, 12.0].map(|far| (side, far)));
+        let places = sides.map(|(side, far)| Place::beside(at, out.map(|v| side * v), far)).collect();
         drawing.labels.push(label(Rank::Ground, format!("{nm:.0}"), InkRole::Weak, places));
         let dot = Shape::Points { points: vec![at], marker: chromascope_figure::Marker::Circle, radius: 1.8 };
         drawing.marks.push(Mark::new(PickIndex::NONE, "wavelength", dot).with_fill(InkRole::Weak));

@@ -1,11 +1,10 @@
 //! The legend: inside the largest plot, beside the figure, or below it.
 
 use super::{Brush, TextLine};
-use crate::figure::Figure;
 use crate::ink::{Ink, InkRole};
 use crate::labels::Labels;
 use crate::mark::{Anchor, Stroke, TextSize};
-use crate::panel::{LegendEntry, LegendPlace, Panel};
+use crate::panel::{Figure, LegendEntry, LegendPlace, Panel};
 use crate::projection::Projection;
 use crate::rect::Rect;
 use crate::text::{text_width, wrapped};

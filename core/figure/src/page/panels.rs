@@ -1,10 +1,9 @@
 //! Panels: ground, grid, marks, tick labels, and the titles of the axes.
 
 use super::{AxisTitles, Brush, TextLine, marks};
-use crate::annotation::annotations;
 use crate::ink::{Ink, InkRole};
 use crate::mark::{Anchor, Mark, Shape, Stroke, TextSize};
-use crate::panel::Panel;
+use crate::panel::{Panel, annotations};
 use crate::projection::Projection;
 use crate::rect::Rect;
 use crate::text::text_width;
