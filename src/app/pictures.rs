@@ -25,7 +25,7 @@ impl ChromascopeApp {
         let figure = if pane == PaneKind::CHROMATICITY {
             let [width, height] = card::figure_size();
             let figure = chromaticity::figure_sized(&scene, &self.view, [width, height - chromaticity::STRIP]);
-            Figure { legend_place: LegendPlace::LowerRight, ..figure }
+            Figure { legend_place: LegendPlace::Inside, ..figure }
         } else {
             shown
         };

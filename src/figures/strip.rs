@@ -73,10 +73,10 @@ pub fn build(scene: &Scene<'_>, size: [f64; 2]) -> Option<Strip> {
     panel.marks.extend(content.signs);
     panel.marks.extend(cut(&panel.marks, top, Projection::new(&panel, 1.0).plot.height()));
     let mut labels = Labels::new(&panel);
-    labels.place(&cursor_text(scene.document.temperature_k, top));
     for (source, at) in &content.minima {
         labels.place(&minimum_text(source, *at));
     }
+    labels.place(&cursor_text(scene.document.temperature_k, top));
     labels.place(&just_visible);
     panel.marks.extend(labels.into_marks());
     Some(Strip { panel, things })
@@ -148,7 +148,7 @@ fn minimum(scene: &Scene<'_>, source: &ComparedSensor) -> Option<[f64; 2]> {
 
 /// The temperature of a minimum, in the sensor's ink.
 fn minimum_text(source: &ComparedSensor, at: [f64; 2]) -> Label {
-    let places = Place::around(at, [1.0, -0.1], 7.0);
+    let places = [7.0, 11.0].into_iter().flat_map(|far| Place::around(at, [1.0, -0.1], far)).collect();
     Label { starts: vec![at], ..Label::new(format!("{:.0} K", 1e6 / at[0]), source.role, places) }
 }
 
@@ -215,5 +215,6 @@ fn cursor_text(kelvin: f64, top: f64) -> Label {
     let sides = [(Anchor::RIGHT, -5.0), (Anchor::LEFT, 5.0)];
     let shares = [0.5, 0.62, 0.38, 0.74, 0.68, 0.56, 0.44, 0.32, 0.26];
     let places = shares.into_iter().flat_map(|share| sides.map(|side| at(share, side))).collect();
-    Label::new(format!("{kelvin:.0} K"), InkRole::Text, places)
+    let starts = [0.3, 0.5, 0.7].map(|share| [1e6 / kelvin, share * top]).to_vec();
+    Label { starts, ..Label::new(format!("{kelvin:.0} K"), InkRole::Text, places) }
 }
