@@ -197,7 +197,7 @@ pub enum LegendPlace {
     LowerRight,
     /// Inside the largest panel, lower left.
     LowerLeft,
-    /// In a corner of the largest panel where it covers no point, else below.
+    /// In a corner of the largest panel where it covers nothing, else below.
     Inside,
     /// In a column right of the figure, which grows by it.
     Outside,
