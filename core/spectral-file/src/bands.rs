@@ -1,9 +1,10 @@
 //! Wavelengths across a header: `400`, `400nm`, or in the names of columns: `SCI 360nm`, `SPEC_380`, `R380`, `380 nm [%]`.
 
+use crate::decision::WavelengthUnit;
 use crate::dialect::{Cell, Dialect};
+use crate::error::MAX_CURVES;
 use crate::header_terms;
-use crate::limits::MAX_CURVES;
-use crate::wavelength_unit::{WavelengthUnit, plausible};
+use crate::units::plausible;
 
 /// The fewest bands that are taken for a spectrum.
 pub(super) const FEWEST: usize = 5;

@@ -2,22 +2,18 @@
 
 pub(super) mod axes;
 mod pairs;
-mod texts;
 
-use crate::columns::texts::Texts;
+use crate::decision::{Decision, Dropped, WavelengthUnit};
 use crate::dialect::{Cell, Dialect};
-use crate::error::ReadError;
+use crate::error::{MAX_CURVES, MAX_SAMPLES, ReadError};
 use crate::grid::{Grid, RawCurve};
-use crate::header::Header;
-use crate::limits::{MAX_CURVES, MAX_SAMPLES};
+use crate::header::{self, Header};
+use crate::layout::Layout;
 use crate::no_curve::is_empty;
-use crate::report::{Decision, Dropped};
-use crate::sniff::Layout;
 use crate::text::{Lines, Section, comment, excerpt};
 use crate::warning::{LineList, Warning};
 use crate::watch::Log;
-use crate::wavelength_unit::WavelengthUnit;
-use crate::{header, header_terms, unit_text, wavelengths};
+use crate::{header_terms, unit_text, wavelengths};
 
 /// First table of a section.
 pub(super) struct Read {
@@ -376,5 +372,70 @@ fn drop_without_wavelength(grid: &mut Grid, log: &mut Log<'_>) {
     if !list.is_empty() {
         grid.remove(&marked);
         log.push(Warning::NoWavelength(list));
+    }
+}
+
+/// The columns of text of a table.
+#[derive(Debug)]
+struct Texts {
+    mask: u128,
+    columns: Vec<Text>,
+}
+
+#[derive(Debug)]
+struct Text {
+    column: usize,
+    /// The unit of all cells until now.
+    unit: Option<String>,
+    /// True if a cell was not a number with that unit.
+    other: bool,
+}
+
+impl Texts {
+    /// Columns by their bits.
+    fn new(mask: u128) -> Self {
+        let columns = (0..128).filter(|column| mask >> column & 1 == 1);
+        Self { mask, columns: columns.map(|column| Text { column, unit: None, other: false }).collect() }
+    }
+
+    /// Returns whether a column holds text, or numbers with units.
+    #[inline]
+    fn contains(&self, column: usize) -> bool {
+        column < 128 && self.mask >> column & 1 == 1
+    }
+
+    /// Processes a cell of such a column: its number, or NaN.
+    fn take(&mut self, column: usize, dialect: Dialect, cell: &str) -> f64 {
+        let Some(text) = self.columns.iter_mut().find(|text| text.column == column) else { return f64::NAN };
+        if dialect.parse(cell) == Cell::Gap {
+            return f64::NAN;
+        }
+        let Some((value, unit)) = dialect.parse_united(cell).filter(|_| !text.other) else {
+            text.other = true;
+            return f64::NAN;
+        };
+        text.other = text.unit.get_or_insert_with(|| unit.to_owned()) != unit;
+        value
+    }
+
+    /// The unit of a column whose cells are numbers with one unit.
+    fn unit(&self, column: usize) -> Option<&str> {
+        let text = self.columns.iter().find(|text| text.column == column && !text.other)?;
+        text.unit.as_deref()
+    }
+
+    /// A curve with the unit that stands beside each of its values, where the header names none.
+    fn united(&self, mut curve: RawCurve, column: usize) -> RawCurve {
+        if let Some(unit) = self.unit(column).filter(|_| curve.unit.is_none()) {
+            let before = if curve.label.is_empty() { "" } else { " " };
+            curve.label = format!("{}{before}{unit}", curve.label);
+            curve.unit = Some(unit.to_owned());
+        }
+        curve
+    }
+
+    /// The omitted columns.
+    fn left_out(&self) -> impl Iterator<Item = usize> {
+        self.columns.iter().filter(|text| text.other || text.unit.is_none()).map(|text| text.column)
     }
 }

@@ -1,8 +1,7 @@
 //! Notation of a line of numbers: what separates cells, what marks fractions, what stands for a gap.
 
-use crate::separators::{DecimalMark, Delimiter};
+use crate::decision::{DecimalMark, Delimiter, WavelengthUnit};
 use crate::unit_text;
-use crate::wavelength_unit::WavelengthUnit;
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Cell {

@@ -1,11 +1,10 @@
 //! One way to split lines into cells, tried on the beginning of a file.
 
-use crate::bands;
-use crate::bands::Group;
+use crate::bands::{self, Group};
+use crate::decision::Orientation;
 use crate::dialect::{Cell, Dialect, may_be_thousands};
-use crate::limits::MAX_CURVES;
-use crate::report::Orientation;
-use crate::wavelength_unit::plausible;
+use crate::error::MAX_CURVES;
+use crate::units::plausible;
 
 /// Lines that may not fit below such a header before it is rejected: the reader then reports their errors.
 const MISSES: usize = 3;

@@ -2,14 +2,12 @@
 
 use chromascope_text::on_one_line;
 
+use crate::decision::{Decided, Dropped, Part, Quantity, Role, WavelengthUnit};
 use crate::error::ReadError;
-use crate::file::Curve;
 use crate::header::Header;
-use crate::report::{Decided, Dropped, DroppedRow, Part};
-use crate::role::{Quantity, Role};
+use crate::report::{Curve, DroppedRow};
 use crate::warning::{LineList, Sentinel, Warning};
 use crate::watch::Log;
-use crate::wavelength_unit::WavelengthUnit;
 
 /// Numbers as they stand in the file, before units, order and scale are settled.
 #[derive(Debug, Default)]

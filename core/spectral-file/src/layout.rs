@@ -1,9 +1,8 @@
 //! Layout of a text: separators, decimal mark, orientation, and the line where the numbers begin.
 
+use crate::decision::{Decided, DecimalMark, Delimiter, Orientation};
 use crate::dialect::Dialect;
 use crate::dialect_trial::Across;
-use crate::report::{Decided, Orientation};
-use crate::separators::{DecimalMark, Delimiter};
 use crate::warning::Warning;
 
 #[derive(Debug)]

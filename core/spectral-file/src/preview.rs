@@ -21,22 +21,18 @@
 mod across;
 mod cells;
 mod down;
-mod fault;
 mod mark;
 mod marker;
-mod shown;
 
-pub use mark::{LeftOut, Mark, What};
+pub use mark::{LeftOut, Mark, Shown, What};
 pub use marker::Marker;
-pub use shown::Shown;
 
 use std::ops::Range;
 
+use crate::decision::Encoding;
 use crate::error::ReadError;
-use crate::file::SpectralFile;
-use crate::report::Encoding;
-use crate::text;
-use crate::text::Lines;
+use crate::report::SpectralFile;
+use crate::text::{self, Lines};
 
 /// The most characters that [`Preview::longest`] counts of a line.
 pub const LONGEST_LINE: usize = 1_000_000;
@@ -127,7 +123,7 @@ impl Preview {
     /// `None` where the error is about the file as a whole.
     pub fn error_range(&self, error: &ReadError) -> Option<(usize, Range<usize>)> {
         let number = error.line()?;
-        Some((number, fault::range(self.line(number)?, error)))
+        Some((number, cells::of_error(self.line(number)?, error)))
     }
 
     /// The byte of the text at which a line begins.

@@ -1,13 +1,14 @@
 //! Wavelengths: their unit, their range, their order, and repeats.
 
+use crate::decision::{Decided, Dropped, WavelengthUnit};
 use crate::error::ReadError;
 use crate::grid::Grid;
 use crate::header_terms::XUnit;
 use crate::options::ReadOptions;
-use crate::report::{Decided, Dropped, Steps};
+use crate::report::Steps;
+use crate::units::RANGE_NM;
 use crate::warning::{LineList, Warning};
 use crate::watch::Log;
-use crate::wavelength_unit::{RANGE_NM, WavelengthUnit};
 
 /// The unit of the wavelengths: chosen, or given by a header, or guessed from their range.
 pub(super) fn unit(grid: &Grid, options: &ReadOptions) -> Result<Decided<WavelengthUnit>, ReadError> {

@@ -1,10 +1,10 @@
 //! Columns that are no curves: wavelengths again, in another unit, at the other edges of intervals, or counts and times of rows.
 
 use crate::header::Header;
-use crate::header_terms;
-use crate::header_terms::XUnit;
+use crate::header_terms::{self, XUnit};
 use crate::no_curve::{FEWEST_ROWS, counts, is_empty, is_other_scale, tells_rows_apart};
 use crate::text::listed;
+use crate::units;
 
 /// Roles of the columns beside the first wavelengths.
 #[derive(Debug, Default)]
@@ -120,7 +120,7 @@ fn runs_like_axis(header: &Header, [first, column]: [usize; 2], wavelengths: &[f
     };
     let (from, to) = (from.min(to), from.max(to));
     let known = own.or(shared).is_some();
-    let plausible = crate::wavelength_unit::plausible(from, to, !known);
+    let plausible = units::plausible(from, to, !known);
     let overlaps = || match (ends(wavelengths), shared) {
         (Some((a, b)), Some(XUnit::Wavelength(unit))) => {
             let (a, b) = (unit.nanometers(a), unit.nanometers(b));
@@ -148,7 +148,7 @@ fn guess_pairs(header: &Header, at: usize, first: &[f64], columns: &[Vec<f64>], 
     let sound = |values: &[f64]| -> Option<(f64, f64)> {
         let (low, high) = ends(values)?;
         let enough = values.iter().filter(|value| !value.is_nan()).nth(FEWEST_ROWS).is_some();
-        (enough && crate::wavelength_unit::plausible(low, high, named)).then_some((low, high))
+        (enough && units::plausible(low, high, named)).then_some((low, high))
     };
     let Some((low, high)) = sound(first).filter(|_| filled.len() >= FEWEST_ROWS && filled.len() % 2 == 1) else {
         return false;
@@ -175,5 +175,5 @@ pub(super) fn after_count(cells: &[Vec<f64>]) -> Option<usize> {
     let [count, wavelengths, _, ..] = cells else { return None };
     let from_start = count.len() > FEWEST_ROWS && counts(count) && matches!(count[0], 0.0 | 1.0);
     let (low, high) = ends(wavelengths).filter(|_| from_start)?;
-    crate::wavelength_unit::plausible(low, high, false).then_some(1)
+    units::plausible(low, high, false).then_some(1)
 }

@@ -1,18 +1,16 @@
 //! Columns in groups, each with wavelengths of its own before its values.
 
-use crate::columns::axes::Axes;
-use crate::columns::{axes, raw_curve};
+use crate::columns::axes::{self, Axes};
+use crate::columns::raw_curve;
+use crate::decision::{Decided, Decision, WavelengthUnit};
 use crate::error::ReadError;
-use crate::formats::spectra;
-use crate::formats::spectra::{Sample, Spectrum};
+use crate::formats::spectra::{self, Sample, Spectrum};
 use crate::grid::Grid;
 use crate::header::Header;
 use crate::header_terms::XUnit;
 use crate::no_curve::is_empty;
 use crate::places::PlaceId;
-use crate::report::{Decided, Decision};
 use crate::watch::Log;
-use crate::wavelength_unit::WavelengthUnit;
 
 /// The unit of a column of wavelengths and that of the first, where they differ.
 fn units(header: &Header, first: usize, column: usize) -> Option<(WavelengthUnit, WavelengthUnit)> {

@@ -1,12 +1,22 @@
-//! Spectra that each have wavelengths of their own, brought onto one grid.
+//! What readers of formats give, and spectra that each have wavelengths of their own, brought onto one grid.
 
-use crate::error::ReadError;
+use crate::decision::{Decided, Decision, Reader};
+use crate::error::{MAX_CURVES, MAX_SAMPLES, ReadError};
 use crate::grid::{Grid, RawCurve};
 use crate::header::Header;
-use crate::limits::{MAX_CURVES, MAX_SAMPLES};
+use crate::layout::Layout;
 use crate::places::{PlaceId, PlaceKind};
 use crate::warning::{LineList, Warning};
 use crate::watch::Log;
+
+/// Result of a reader, before units, order and scale are settled.
+pub(crate) struct Found {
+    pub(crate) grid: Grid,
+    pub(crate) layout: Layout,
+    pub(crate) reader: Decided<Reader>,
+    /// Decisions that only this family needs.
+    pub(crate) notes: Vec<Decision>,
+}
 
 /// One sample and the line it stands in.
 #[derive(Debug, Clone, Copy)]

@@ -3,13 +3,13 @@
 use std::collections::BTreeSet;
 use std::ops::Range;
 
+use crate::decision::WavelengthUnit;
 use crate::dialect::{Cell, Dialect};
-use crate::file::SpectralFile;
+use crate::layout::Layout;
 use crate::preview::cells;
 use crate::preview::down::{line_mark, value};
 use crate::preview::mark::{LeftOut, Mark, What};
-use crate::sniff::Layout;
-use crate::wavelength_unit::WavelengthUnit;
+use crate::report::SpectralFile;
 use crate::{dialect_trial, header_terms, wide};
 
 /// The columns and rows of a table that became curves.

@@ -2,14 +2,13 @@
 
 use std::ops::Range;
 
+use crate::decision::{Dropped, WavelengthUnit};
 use crate::dialect::{Cell, Dialect};
-use crate::file::SpectralFile;
 use crate::grid::Grid;
+use crate::layout::Layout;
 use crate::preview::cells;
 use crate::preview::mark::{LeftOut, Mark, What};
-use crate::report::Dropped;
-use crate::sniff::Layout;
-use crate::wavelength_unit::WavelengthUnit;
+use crate::report::SpectralFile;
 use crate::{header_terms, text};
 
 /// The columns and rows of a table that became curves.

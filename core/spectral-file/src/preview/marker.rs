@@ -2,16 +2,15 @@
 
 use std::ops::Range;
 
-use crate::file::SpectralFile;
+use crate::decision::{Orientation, Reader, WavelengthUnit};
 use crate::grid::Grid;
+use crate::layout::Layout;
 use crate::places::{Place, PlaceKind, Places};
 use crate::preview::across::Across;
-use crate::preview::down::Down;
+use crate::preview::cells;
+use crate::preview::down::{self, Down};
 use crate::preview::mark::{LeftOut, Mark, What};
-use crate::preview::{cells, down};
-use crate::report::{Orientation, Reader};
-use crate::sniff::Layout;
-use crate::wavelength_unit::WavelengthUnit;
+use crate::report::SpectralFile;
 
 /// Line, column or bytes of each sample, name and setting, recorded while a file was read. Made by
 /// [`read_marked`](crate::read_marked).
@@ -38,10 +37,10 @@ impl Marker {
     /// Takes over what was recorded; [`take_curves`](Self::take_curves) completes it.
     pub(crate) fn new(places: Places<'_>, grid: &Grid, layout: &Layout, reader: Reader, unit: WavelengthUnit) -> Self {
         let plan = match (&layout.across, reader, layout.orientation.value) {
-            (Some(across), Reader::Table, Orientation::Across) => {
+            (Some(across), Reader::TABLE, Orientation::Across) => {
                 Plan::Across(Across::new(layout, across, places.line(across.line), unit))
             }
-            (_, Reader::Table, _) => Plan::Down(Down::new(grid, layout, unit)),
+            (_, Reader::TABLE, _) => Plan::Down(Down::new(grid, layout, unit)),
             _ => Plan::Placed(places.used()),
         };
         let mut settings = grid.header.noted.clone();

@@ -1,10 +1,9 @@
 //! The channels of a camera: by their names, and by the shapes of their curves.
 
-use crate::file::Curve;
+use crate::decision::Role;
 use crate::grid::Grid;
-use crate::header_terms;
-use crate::header_terms::Channel;
-use crate::role::Role;
+use crate::header_terms::{self, Channel};
+use crate::report::Curve;
 
 /// Channels that a camera may have.
 pub(super) const MOST_CHANNELS: usize = 4;

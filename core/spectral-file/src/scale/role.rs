@@ -1,8 +1,7 @@
 //! Role of the curves: as stated in the file, as suggested by its settings, or by its numbers.
 
+use crate::decision::{Certainty, Decided, Quantity, Role, Values};
 use crate::grid::{Grid, RawCurve};
-use crate::report::{Certainty, Decided};
-use crate::role::{Quantity, Role, Values};
 use crate::scale::camera::{MOST_CHANNELS, bells, channels};
 use crate::scale::evidence::{Evidence, Looks};
 use crate::scale::values::LARGEST_PERCENT;

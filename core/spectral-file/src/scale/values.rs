@@ -1,11 +1,10 @@
 //! Scale of the values of each curve.
 
 use crate::decimal::short;
+use crate::decision::{Certainty, Decided, Role, Values};
 use crate::grid::{Grid, RawCurve};
 use crate::header_terms;
 use crate::options::ReadOptions;
-use crate::report::{Certainty, Decided};
-use crate::role::{Role, Values};
 use crate::scale::evidence::{Evidence, Looks, Span};
 use crate::warning::Warning;
 use crate::watch::Log;

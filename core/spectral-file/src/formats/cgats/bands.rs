@@ -1,7 +1,7 @@
 //! Spectral fields and their wavelengths.
 
 use crate::decimal::clean;
-use crate::report::{Decided, Decision};
+use crate::decision::{Decided, Decision};
 
 /// Bands that keywords declare, in nanometers.
 #[derive(Debug, Clone, Copy, Default)]

@@ -1,11 +1,10 @@
 //! Blocks of what a detector counted with a sample, with a reference, and in the dark.
 
+use crate::decision::{Decided, Decision, Quantity, Role, Values};
 use crate::formats::jcamp::block::Block;
 use crate::header_terms;
 use crate::options::ReadOptions;
 use crate::places::PlaceId;
-use crate::report::{Decided, Decision};
-use crate::role::{Quantity, Role, Values};
 use crate::warning::{LineList, Warning};
 use crate::watch::Log;
 
