@@ -70,7 +70,6 @@ kinds! {
     Unknown "a binary file of an unknown kind", EXPORT, [];
 }
 
-/// The kind of a binary file by its first bytes.
 pub(super) fn binary(bytes: &[u8]) -> Option<BinaryKind> {
     const LOOK: usize = 64;
     let control = bytes.iter().take(LOOK).any(|byte| *byte < b'\t');

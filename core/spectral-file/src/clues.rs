@@ -7,7 +7,6 @@ use crate::text::is_one;
 /// Longer lines are no settings.
 pub(super) const LONGEST: usize = 400;
 
-/// Statements of the settings, each with its line.
 #[derive(Debug, Default)]
 pub(super) struct Clues {
     /// True if the values are ratios to a reference measurement.
@@ -16,9 +15,7 @@ pub(super) struct Clues {
     pub(super) cosine_receptor: Option<usize>,
     /// The program writes ratios in percent.
     pub(super) ratios_in_percent: Option<(usize, &'static str)>,
-    /// Role that a setting such as `Technique` gives.
     pub(super) role: Option<(usize, Role)>,
-    /// Scale of the values that a setting gives.
     pub(super) values: Option<(usize, Values)>,
     /// A title or a name of data mentions absorbances.
     pub(super) absorbance: Option<usize>,
@@ -28,7 +25,6 @@ pub(super) struct Clues {
 pub(super) const MEASURED: &str = "quantity|spectral quantity|measured quantity|technique|mode|data mode|photometric mode|\
     measuring mode|measurement|measurement mode|measurement type|ordinate|ordinate mode|y axis|yaxis|y label";
 
-/// A program that writes tables.
 pub(super) struct Program {
     /// Beginning and end of a line that it writes.
     start: &'static str,
@@ -64,7 +60,6 @@ const PROGRAMS: [Program; 15] = [
     program_of(SVC, "Spectra Vista", false),
 ];
 
-/// The program that writes such a line.
 pub(super) fn program(line: &str) -> Option<&'static Program> {
     PROGRAMS.iter().find(|program| line.starts_with(program.start) && line.trim_end().ends_with(program.end))
 }

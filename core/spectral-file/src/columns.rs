@@ -1,7 +1,6 @@
 //! Reads tables whose wavelengths run down a column.
 
 pub(super) mod axes;
-mod pairs;
 
 use crate::decision::{Decision, Dropped, WavelengthUnit};
 use crate::dialect::{Cell, Dialect};
@@ -15,7 +14,6 @@ use crate::warning::{LineList, Warning};
 use crate::watch::Log;
 use crate::{header_terms, unit_text, wavelengths};
 
-/// First table of a section.
 pub(super) struct Read {
     pub(super) grid: Grid,
     /// The line after it, if another table follows.
@@ -71,7 +69,6 @@ pub(super) fn read(section: Section<'_>, layout: &Layout, log: &mut Log<'_>) -> 
     Ok(Read { bytes: read - section.byte, ..found })
 }
 
-/// The column that the header names as that of the wavelengths, if it names one.
 fn wavelength_column(header: &Header) -> Option<usize> {
     header_terms::axis(&header.names)
 }
@@ -88,7 +85,6 @@ struct Broken {
     error: ReadError,
 }
 
-/// The numbers of the rows so far, by column.
 struct Columns {
     dialect: Dialect,
     texts: Texts,
@@ -186,7 +182,6 @@ impl Columns {
         count == self.width && numbers > 0
     }
 
-    /// Ends the table, if another one was seen.
     fn end(&mut self, second: bool) {
         self.next = self.lines.last().filter(|_| second).map(|line| line + 1);
     }
@@ -314,7 +309,7 @@ impl Columns {
             let curves = all.into_iter().map(curve).collect();
             (Grid { wavelengths, lines: self.lines, curves, header, ..Grid::default() }, None)
         } else {
-            pairs::read(header, at, wavelengths, values, &axes, &self.lines, log)?
+            axes::read_pairs(header, at, wavelengths, values, &axes, &self.lines, log)?
         };
         grid.label_unit = label_unit;
         grid.rows = rows;
@@ -333,7 +328,6 @@ impl Columns {
     }
 }
 
-/// A column as a curve, with its header's information.
 fn raw_curve(header: &Header, column: usize, only: bool, values: Vec<f64>) -> RawCurve {
     let title = header.comment("title").filter(|_| only);
     // What is measured names no sample, where there is only one.
@@ -345,7 +339,6 @@ fn raw_curve(header: &Header, column: usize, only: bool, values: Vec<f64>) -> Ra
     RawCurve { name, named, column: Some(column + 1), origin: column, label, unit, values }
 }
 
-/// Names the columns of text, which are in no curve.
 fn warn_of_texts(header: &Header, texts: &[usize], log: &mut Log<'_>) {
     if let Some(&first) = texts.first() {
         let name = header.name(first).unwrap_or_default().to_owned();
@@ -375,7 +368,6 @@ fn drop_without_wavelength(grid: &mut Grid, log: &mut Log<'_>) {
     }
 }
 
-/// The columns of text of a table.
 #[derive(Debug)]
 struct Texts {
     mask: u128,
@@ -392,7 +384,6 @@ struct Text {
 }
 
 impl Texts {
-    /// Columns by their bits.
     fn new(mask: u128) -> Self {
         let columns = (0..128).filter(|column| mask >> column & 1 == 1);
         Self { mask, columns: columns.map(|column| Text { column, unit: None, other: false }).collect() }
@@ -418,7 +409,6 @@ impl Texts {
         value
     }
 
-    /// The unit of a column whose cells are numbers with one unit.
     fn unit(&self, column: usize) -> Option<&str> {
         let text = self.columns.iter().find(|text| text.column == column && !text.other)?;
         text.unit.as_deref()
@@ -434,7 +424,6 @@ impl Texts {
         curve
     }
 
-    /// The omitted columns.
     fn left_out(&self) -> impl Iterator<Item = usize> {
         self.columns.iter().filter(|text| text.other || text.unit.is_none()).map(|text| text.column)
     }

@@ -350,7 +350,6 @@ impl Decision {
         Self { what, value: value.to_string(), certainty: *certainty, why: why.clone(), effect: Effect::Report }
     }
 
-    /// The decision with an effect on the data.
     pub(super) fn affecting(self, effect: Effect) -> Self {
         Self { effect, ..self }
     }

@@ -6,7 +6,6 @@ use crate::binary::BinaryKind;
 use crate::decision::{Family, Reader};
 use crate::options::Switch;
 
-/// Most parts of a file that are listed and can be chosen.
 pub(super) const MAX_PARTS: usize = 1000;
 
 /// The most bytes a file may have: 64 MiB. Spectra of a whole session of measurements are far below.
@@ -15,7 +14,6 @@ pub const MAX_BYTES: usize = 64 << 20;
 /// The most curves one table may hold.
 pub const MAX_CURVES: usize = 100_000;
 
-/// Maximum number of dropped rows that are listed.
 pub(super) const MAX_DROPPED: usize = 1000;
 
 /// The most samples (curves times wavelengths) one table may hold.

@@ -107,7 +107,6 @@ pub(super) fn read(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Resu
     Ok(Found { reader: Decided::chosen(chosen), ..found })
 }
 
-/// The format that the content indicates.
 fn recognize(text: &str) -> Result<&'static Format, ReadError> {
     let head = Head::new(text, false);
     let found = FORMATS.iter().rev().find(|format| (format.fits)(&head));
@@ -125,7 +124,6 @@ const LOOK: usize = 64 << 10;
 /// The line that begins the names of fields in CGATS.
 const CGATS_FORMAT: &str = "BEGIN_DATA_FORMAT";
 
-/// The family of a text, from its beginning.
 fn family(text: &str) -> Option<Family> {
     let start = text.trim_start();
     if start.starts_with("<?xml") || (start.starts_with('<') && start.trim_end().ends_with('>')) {

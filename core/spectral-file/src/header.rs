@@ -13,13 +13,11 @@ use crate::layout::Layout;
 use crate::text::{Lines, Section, comment, is_one};
 use crate::{unit_text, units};
 
-/// Maximum number of stored comments; more are not a header.
 const MAX_COMMENTS: usize = 1000;
 
 /// Most lines with text between the names or units and the numbers.
 const NEAR: usize = 6;
 
-/// Header above the numbers.
 #[derive(Debug, Default)]
 pub(super) struct Header {
     pub(super) comments: Vec<(String, String)>,
@@ -27,7 +25,6 @@ pub(super) struct Header {
     pub(super) noted: Vec<u32>,
     /// The line that names the columns.
     pub(super) line: Option<usize>,
-    /// The cells of that line.
     pub(super) names: Vec<String>,
     /// The cells of a line of units below the names.
     pub(super) units: Vec<String>,
@@ -40,7 +37,6 @@ pub(super) struct Header {
     pub(super) values: Option<(usize, Values)>,
     /// The physical quantity of all values with the line that states it.
     pub(super) quantity: Option<(usize, Quantity)>,
-    /// The unit of all values.
     pub(super) unit: Option<String>,
     /// The line which states that all values are photons.
     pub(super) photons: Option<usize>,
@@ -54,12 +50,10 @@ pub(super) struct Header {
     pub(super) mentioned: Option<(usize, Role)>,
     /// The one mentioned before it.
     pub(super) earlier: Option<(usize, Role)>,
-    /// Clues in the settings of the instrument.
     pub(super) clues: Clues,
 }
 
 impl Header {
-    /// The name of a column, if the header gives one.
     pub(super) fn name(&self, column: usize) -> Option<&str> {
         // A line of units such as `nm,R%` or `nm,leaf %R` may be all there is.
         let unit = || self.units.get(column).filter(|unit| unit.contains('%') && !unit.starts_with('%'));
@@ -67,7 +61,6 @@ impl Header {
         name.map(String::as_str).filter(|name| !name.is_empty())
     }
 
-    /// The header's information about a column.
     pub(super) fn label(&self, column: usize) -> String {
         let unit = self.units.get(column).map_or("", String::as_str);
         let name = self.name(column).filter(|name| *name != unit).unwrap_or_default();
@@ -78,7 +71,6 @@ impl Header {
         format!("{name} {unit}").trim().to_owned()
     }
 
-    /// The unit that the header gives for a column of values.
     pub(super) fn unit(&self, column: usize) -> Option<String> {
         let whole = |cell: &&String| cell.starts_with(['[', '(']);
         let cell = self.units.get(column);
@@ -96,13 +88,11 @@ impl Header {
         }
     }
 
-    /// The value of a comment.
     pub(super) fn comment(&self, key: &str) -> Option<&str> {
         self.comments.iter().find(|(name, _)| name.eq_ignore_ascii_case(key)).map(|(_, value)| value.as_str())
     }
 }
 
-/// Reads what stands above the numbers of a layout.
 pub(super) fn read(section: Section<'_>, layout: &Layout) -> Header {
     let mut header = Header::default();
     let mut near: Vec<(usize, &str)> = Vec::with_capacity(NEAR + 1);
@@ -131,7 +121,6 @@ pub(super) fn read(section: Section<'_>, layout: &Layout) -> Header {
 }
 
 impl Header {
-    /// Takes the information of a comment `# key: value`.
     pub(super) fn take_comment(&mut self, line: usize, key: &str, value: &str) {
         let lower = key.to_ascii_lowercase();
         if is_one(&lower, "unit|units|y unit|y units|yunit|yunits") {
@@ -158,7 +147,6 @@ impl Header {
         }
     }
 
-    /// Takes the information of a title or free text on responses per photon.
     fn take_photons(&mut self, line: usize, text: &str) {
         self.per_photon = self.per_photon.or_else(|| unit_text::says_per_photon(text).then_some(line));
         self.photons = self.photons.or_else(|| unit_text::said_in_prose(text).then_some(line));
@@ -313,13 +301,11 @@ fn row_key(cell: &str) -> Option<RowKey> {
     }
 }
 
-/// Returns whether the next row above is one of names, numbers or times.
 fn is_keyed<'a>(layout: &Layout, mut rows: impl Iterator<Item = &'a (usize, &'a str)>) -> bool {
     let cells = rows.next().map(|(_, line)| split(layout.dialect(), line));
     cells.is_some_and(|cells| cells.first().is_some_and(|cell| row_key(cell).is_some()))
 }
 
-/// The row of names among rows of numbers and times.
 fn name_row<'a>(layout: &Layout, rows: impl Iterator<Item = &'a (usize, &'a str)>) -> Option<(usize, Vec<String>)> {
     let rows = rows.map(|(number, line)| (*number, split(layout.dialect(), line)));
     let mut keyed = rows.take_while(|(_, cells)| cells.first().is_some_and(|cell| row_key(cell).is_some()));
@@ -437,7 +423,6 @@ fn looks_like_unit(cell: &str) -> bool {
             || is_one(&cell.to_ascii_lowercase(), "a.u.|counts|1|-"))
 }
 
-/// The quantities that heads name.
 const QUANTITIES: [(&str, Quantity); 13] = [
     ("relative spectral sensitivity", Quantity::Sensitivity),
     ("spectral sensitivity", Quantity::Sensitivity),
@@ -460,7 +445,6 @@ pub(super) fn quantity_of_light(quantity: Quantity) -> &'static str {
     named.next().map_or("spectral power", |(name, _)| name)
 }
 
-/// The bracket after a name.
 pub(super) fn head_tail(quantity: &str, per_photon: Option<bool>, unit: Option<&str>) -> String {
     let mut tail = format!(" [{quantity}");
     tail.push_str(per_photon.map_or("", |photon| if photon { " per photon" } else { " per energy" }));

@@ -15,13 +15,11 @@ pub(super) fn names_axis(text: &str) -> bool {
     (names_wavelengths(text) || energies) && !of_values
 }
 
-/// Returns whether a header says percent.
 pub(super) fn says_percent(text: &str) -> bool {
     let text = lower(text);
     percent_sign(&text).is_some() || upper_end(&text) == Some(100) || has_word(&text, "percent|pct|percentage")
 }
 
-/// Returns whether a header says that values are fractions of one.
 pub(super) fn says_fraction(text: &str) -> bool {
     let text = lower(text);
     upper_end(&text) == Some(1) || has_word(&text, "fraction|0-1|1")
@@ -126,7 +124,6 @@ pub(super) fn names_light_scale(text: &str) -> bool {
     text.trim() == "a.u." || has_word(&text, WORDS) || words(&text).any(|word| word.starts_with("erg/"))
 }
 
-/// Returns whether a header ends in the word for power: `Relative power`.
 pub(super) fn is_power(text: &str) -> bool {
     words(&lower(crate::unit_text::without_unit(text))).last() == Some("power")
 }
@@ -142,7 +139,6 @@ pub(super) fn says_au(text: &str) -> bool {
     text.ends_with("(au)") || text.ends_with("[au]")
 }
 
-/// Scale of the values that a header gives.
 pub(super) fn values(text: &str) -> Option<Values> {
     let short = lower(text);
     if not_converted(text).is_some() {
@@ -160,12 +156,10 @@ pub(super) fn values(text: &str) -> Option<Values> {
     }
 }
 
-/// Returns whether a header says that values are what a detector counted.
 pub(super) fn says_counts(text: &str) -> bool {
     has_word(&lower(text), COUNTS)
 }
 
-/// Words for what a detector counts.
 const COUNTS: &str = "count|counts|adc|dn";
 
 /// Quantities by the beginnings of their names, in English, German, French, Spanish, Italian, Portuguese, Japanese and Chinese, and
@@ -197,7 +191,6 @@ const QUANTITIES: [(Quantity, &str, &str); 14] = [
     (Quantity::Relative, "", "relative"),
 ];
 
-/// The physical quantity that a header names, in whole words.
 pub(super) fn quantity(text: &str) -> Option<Quantity> {
     let text = spaced(text);
     if text.trim() == UNSPECIFIED {
@@ -217,7 +210,6 @@ pub(super) fn quantity(text: &str) -> Option<Quantity> {
     QUANTITIES.iter().find(is_named).map(|(quantity, ..)| *quantity)
 }
 
-/// Role that a header gives to the values.
 pub(super) fn role(text: &str) -> Option<Role> {
     let light = || {
         let text = lower(text);
@@ -308,7 +300,6 @@ pub(super) enum Channel {
     Word(usize),
 }
 
-/// The channel (0, 1, 2) that a name stands for.
 pub(super) fn channel(name: &str) -> Option<Channel> {
     let name = lower(name);
     let position = |word: &str, list: &str| list.split('|').position(|entry| entry == word);
@@ -383,7 +374,6 @@ fn bracketed_letter(lower: &str) -> Option<XUnit> {
     }
 }
 
-/// Medium of the wavelengths that a text names: air or vacuum.
 pub(super) fn medium(text: &str) -> Option<Medium> {
     let text = lower(text);
     if text.contains("nm_air") || text.contains("nm (air)") {

@@ -53,7 +53,6 @@ fn take_ratio(line: usize, grid: &mut Grid) {
     (grid.header.role, grid.header.unit, grid.curves[0].unit) = (None, None, None);
 }
 
-/// The name of a sample of a spectral library.
 fn library_name(line: &str) -> Option<&str> {
     line.strip_prefix("Name:").map(str::trim).filter(|name| !name.is_empty())
 }

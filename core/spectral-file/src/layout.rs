@@ -17,7 +17,6 @@ pub(super) struct Layout {
     pub(super) texts: u128,
     /// Columns, as far as seen.
     pub(super) width: usize,
-    /// The header of wavelengths, if they run across.
     pub(super) across: Option<Across>,
     /// The column of the wavelengths, from 1, if the caller chose one.
     pub(super) wavelength_column: Option<usize>,

@@ -60,7 +60,6 @@ mod instrument;
 mod layout;
 mod no_curve;
 mod options;
-mod places;
 mod preview;
 mod quantity;
 mod read;

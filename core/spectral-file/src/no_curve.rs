@@ -53,7 +53,6 @@ fn is_companion(curve: &RawCurve) -> bool {
     (named || bracketed || counts) && header_terms::role(&curve.label).is_none()
 }
 
-/// True for a column without numbers.
 pub(super) fn is_empty(column: &[f64]) -> bool {
     column.iter().all(|value| value.is_nan())
 }

@@ -18,11 +18,10 @@
 //! # Ok::<(), spectral_file::ReadError>(())
 //! ```
 
-mod across;
 mod cells;
-mod down;
 mod mark;
 mod marker;
+mod tables;
 
 pub use mark::{LeftOut, Mark, Shown, What};
 pub use marker::Marker;
@@ -43,7 +42,6 @@ pub const LONGEST_LINE: usize = 1_000_000;
 #[derive(Debug, Clone)]
 pub struct Preview {
     text: String,
-    /// The byte at which each line begins.
     starts: Vec<u32>,
     longest: usize,
     encoding: Encoding,
@@ -126,7 +124,6 @@ impl Preview {
         Some((number, cells::of_error(self.line(number)?, error)))
     }
 
-    /// The byte of the text at which a line begins.
     fn start(&self, number: usize) -> Option<usize> {
         self.starts.get(number.checked_sub(1)?).map(|start| *start as usize)
     }

@@ -37,23 +37,19 @@ const PLANCK_LIGHT_EV_NM: f64 = PLANCK_LIGHT_J_NM / 1.602_176_634e-19;
 /// The wavelength in nanometers where relative photons and relative energies have the same value.
 const SAME_AT_NM: f64 = 550.0;
 
-/// Conversion of the values of a curve.
 #[derive(Debug, Clone)]
 struct Conversion {
     /// Photons for each unit of the values; infinite for a relative scale of photons; none for energies.
     photons: Option<f64>,
     per: Per,
-    /// The power of ten that the unit begins with.
     ten: f64,
     /// The size of the energy in the unit of the result, as of an erg in joules.
     size: f64,
-    /// The unit of the result, if it has one.
     unit: Option<String>,
     why: String,
 }
 
 impl Conversion {
-    /// Conversion that a unit requires, if it requires one.
     fn of_unit(text: &str, why: String) -> Option<Self> {
         let unit = units::parse(text)?;
         let photons = match unit.amount {
@@ -65,7 +61,6 @@ impl Conversion {
         needed.then(|| Self { photons, per, ten: unit.ten, size: unit.size, unit: Some(unit.in_energy_per_nm()), why })
     }
 
-    /// Of photons on a relative scale.
     fn relative(why: String) -> Self {
         Self { photons: Some(f64::INFINITY), per: Per::None, ten: 1.0, size: 1.0, unit: None, why }
     }
@@ -78,7 +73,6 @@ impl Conversion {
         }
     }
 
-    /// The factor at a wavelength in nanometers.
     fn factor(&self, nm: f64) -> f64 {
         let energy = match self.photons {
             Some(count) if count.is_finite() => count * PLANCK_LIGHT_J_NM / nm,
@@ -95,7 +89,6 @@ impl Conversion {
         energy * density * self.ten * self.size
     }
 
-    /// The conversion in words, with its factor.
     fn description(&self) -> String {
         let amount = match self.photons {
             Some(count) if !count.is_finite() => Some(("photons on a relative scale", "550 nm/λ".to_owned())),
@@ -291,7 +284,6 @@ pub(super) fn decide(grid: &Grid, role: &Decided<Role>, log: &mut Log<'_>) -> De
     Decided { value: quantity, certainty: role.certainty, why: format!("The curves are {}", role.value) }
 }
 
-/// The quantity that the file names.
 fn said(grid: &Grid, role: &Decided<Role>) -> Option<Decided<Quantity>> {
     if let Some(quantity) = &grid.quantity {
         return Some(quantity.clone());
@@ -343,7 +335,6 @@ pub(super) fn per_photon(grid: &Grid, role: Role, quantity: &Decided<Quantity>) 
     })
 }
 
-/// The quantity that a unit belongs to.
 pub(super) fn of_unit(unit: &str) -> Option<Quantity> {
     const LONGEST: usize = 40;
     if unit.len() > LONGEST {

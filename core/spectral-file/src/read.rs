@@ -6,11 +6,10 @@ use crate::error::{MAX_DROPPED, ReadError};
 use crate::formats::spectra::Found;
 use crate::grid::Grid;
 use crate::options::ReadOptions;
-use crate::places::Places;
 use crate::preview::Marker;
 use crate::report::{ReadReport, SpectralFile, Steps};
 use crate::warning::Warning;
-use crate::watch::{Log, Watch};
+use crate::watch::{Log, Places, Watch};
 use crate::{formats, gaps, no_curve, quantity, scale, text, wavelengths};
 
 /// Files up to this size are read again to find what an error is due to.

@@ -5,24 +5,22 @@
 //! numbers, and `check` warns of invalid ones. If nothing decides between scales that differ by a factor, the decision is
 //! [`Certainty::Open`] and the numbers stay as written.
 
-mod camera;
-mod evidence;
 mod role;
 mod values;
 
-pub(super) use camera::camera_columns;
+pub(super) use role::camera_columns;
 
 use crate::decision::{Certainty, Decided, Role, Values};
 use crate::grid::{Grid, RawCurve};
 use crate::options::ReadOptions;
-use crate::scale::evidence::VISIBLE_NM;
+use crate::scale::values::VISIBLE_NM;
 use crate::warning::Warning;
 use crate::watch::Log;
 use crate::{decimal, header_terms, unit_text};
 
 /// Decides what the curves are and what the values of each stand for.
 pub(super) fn decide(grid: &Grid, options: &ReadOptions, log: &mut Log<'_>) -> Scale {
-    let evidence = evidence::Evidence::of(grid);
+    let evidence = values::Evidence::of(grid);
     let said = role::said(grid, options.values.filter(|_| options.role.is_none()));
     let from_file = said.is_some();
     let content = said.unwrap_or_else(|| role::suggested(grid, &evidence));
@@ -31,13 +29,11 @@ pub(super) fn decide(grid: &Grid, options: &ReadOptions, log: &mut Log<'_>) -> S
     Scale { role, content, values, columns }
 }
 
-/// The role, and the scale of each curve.
 #[derive(Debug)]
 pub(super) struct Scale {
     pub(super) role: Decided<Role>,
     /// The role by content and surroundings, where another was chosen.
     pub(super) content: Decided<Role>,
-    /// Scale of most curves.
     pub(super) values: Decided<Values>,
     columns: Vec<Values>,
 }
@@ -51,7 +47,6 @@ impl Scale {
     }
 }
 
-/// Makes plain numbers of what is written.
 pub(super) fn convert(grid: &mut Grid, scale: &Scale) {
     let plain_by_choice = scale.values.certainty == Certainty::Chosen && scale.values.value == Values::Plain;
     for (curve, &values) in grid.curves.iter_mut().zip(&scale.columns) {

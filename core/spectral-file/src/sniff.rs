@@ -141,7 +141,6 @@ fn try_all(
     Ok(trials)
 }
 
-/// The lines that are neither blank nor comments.
 fn content(section: Section<'_>) -> impl Iterator<Item = (usize, &str)> {
     Lines::of(section).filter(|(_, line)| !line.trim_ascii().is_empty() && comment(line).is_none())
 }

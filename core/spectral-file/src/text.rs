@@ -27,7 +27,6 @@ pub(super) fn decode(bytes: &[u8]) -> Result<(Cow<'_, str>, Encoding), ReadError
     Ok((text, encoding))
 }
 
-/// Decodes UTF-8 alone.
 #[cfg(not(feature = "encodings"))]
 fn decode_utf8(bytes: &[u8]) -> Result<(Cow<'_, str>, Encoding), ReadError> {
     let rest = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
@@ -107,9 +106,7 @@ fn bare_utf16(bytes: &[u8]) -> Option<Encoding> {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Section<'a> {
     pub(super) text: &'a str,
-    /// The number of its first line.
     pub(super) line: usize,
-    /// The byte where it begins.
     pub(super) byte: usize,
 }
 
@@ -118,7 +115,6 @@ impl<'a> Section<'a> {
         Self { text, line: 1, byte: 0 }
     }
 
-    /// Rest of the section from a line on.
     pub(super) fn after(self, line: usize) -> Self {
         let mut lines = Lines::of(self);
         for _ in self.line..line {

@@ -57,7 +57,6 @@ pub(super) fn without_unit(name: &str) -> &str {
         .unwrap_or(name)
 }
 
-/// Content of the last pair of brackets, which may hold others.
 fn last_bracket(text: &str, open: char, close: char) -> Option<&str> {
     let end = text.rfind(close)?;
     let mut depth = 1;

@@ -10,14 +10,12 @@ use crate::decision::WavelengthUnit;
 /// The Avogadro constant, exact (SI 2019).
 const AVOGADRO: f64 = 6.022_140_76e23;
 
-/// A unit of light.
 #[derive(Debug, Clone)]
 pub(super) struct Unit {
     pub(super) amount: Amount,
     /// The area, such as `m²`.
     pub(super) area: Option<&'static str>,
     pub(super) steradian: bool,
-    /// The time, such as `s`.
     time: Option<&'static str>,
     pub(super) per: Per,
     /// The power of ten before it.
@@ -28,7 +26,6 @@ pub(super) struct Unit {
     pub(super) start: usize,
 }
 
-/// Measured amount.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Amount {
     /// Energy or power, as its symbol.

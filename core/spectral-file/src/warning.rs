@@ -13,7 +13,6 @@ pub struct LineList {
 }
 
 impl LineList {
-    /// Maximum number of stored line numbers.
     const MAX_LISTED: usize = 6;
 
     /// Adds a line; a line added twice in a row counts once.
@@ -40,6 +39,14 @@ impl LineList {
     /// Returns whether there is no line.
     pub fn is_empty(&self) -> bool {
         self.count == 0
+    }
+}
+
+impl FromIterator<usize> for LineList {
+    fn from_iter<I: IntoIterator<Item = usize>>(lines: I) -> Self {
+        let mut list = Self::default();
+        lines.into_iter().for_each(|line| list.add(line));
+        list
     }
 }
 

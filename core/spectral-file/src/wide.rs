@@ -13,7 +13,6 @@ use crate::warning::{LineList, Warning};
 use crate::watch::Log;
 use crate::{header_terms, no_curve, unit_text};
 
-/// Reads the header row and the rows of a layout.
 pub(super) fn read(section: Section<'_>, layout: &Layout, log: &mut Log<'_>) -> Result<Grid, ReadError> {
     debug_assert_eq!(layout.orientation.value, Orientation::Across);
     let Some(across) = &layout.across else { return Err(ReadError::NoNumbers) };
@@ -115,7 +114,6 @@ fn suspects(dialect: Dialect, heads: &[&str], across: &Across) -> Vec<(usize, bo
     (from..until).filter(is_bad).map(|at| (at, false)).collect()
 }
 
-/// A column and what stands at its head.
 fn description(heads: &[&str], at: usize) -> String {
     if heads[at].is_empty() {
         format!("column {} (empty)", at + 1)
@@ -137,7 +135,6 @@ pub(super) fn other_names(parts: &[Part], but: usize) -> String {
     listed(&others.map(|(_, part)| format!("“{}”", part.name)).collect::<Vec<_>>())
 }
 
-/// The curves so far.
 struct Rows<'a> {
     dialect: Dialect,
     across: &'a Across,
@@ -270,7 +267,6 @@ impl<'a> Rows<'a> {
         Ok(Some(RawCurve { name, named, values, origin: number, ..RawCurve::default() }))
     }
 
-    /// Returns whether a line has as many cells as a row.
     fn is_long(&self, line: &str) -> bool {
         let width = self.across.group().end();
         self.dialect.cells(line).take(width).count() == width
@@ -303,7 +299,6 @@ impl<'a> Rows<'a> {
     }
 }
 
-/// Quantity of a row.
 #[derive(Debug, Clone, PartialEq)]
 struct Label {
     text: String,
@@ -329,7 +324,6 @@ impl Label {
         (self.quantity, self.absorbance) == (other.quantity, other.absorbance)
     }
 
-    /// Applies the label's information to all remaining rows.
     fn tell(&self, header: &mut Header) {
         header.mentioned = None;
         header.role = self.quantity.and_then(Quantity::role).map(|role| (self.line, role)).or(header.role);

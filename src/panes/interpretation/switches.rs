@@ -79,10 +79,16 @@ pub(super) fn show(ui: &mut Ui, shown: &ImportSelection, wishes: &mut ImportOver
     let reading = table.map(|table| &table.reading);
     let options = &mut wishes.options;
     let whole = ui.available_width() - 2.0;
-    Switch { words: "This is a", wish: &mut options.role, decided: table.map(|table| &table.role), choices: Role::CHOICES }
-        .show(ui, theme, whole, true);
+    Switch {
+        words: "This is a",
+        wish: &mut options.role,
+        decided: table.map(|table| &table.role),
+        choices: Role::CHOICES,
+    }
+    .show(ui, theme, whole, true);
     let decided = reading.map(|reading| &reading.values);
-    Switch { words: "Values are", wish: &mut options.values, decided, choices: Values::CHOICES }.show(ui, theme, whole, true);
+    Switch { words: "Values are", wish: &mut options.values, decided, choices: Values::CHOICES }
+        .show(ui, theme, whole, true);
     let is_settled = shown.error().is_none() && reading.is_some_and(|reading| is_certain(reading, options));
     if is_settled {
         let head = RichText::new(SETTLED).small();
@@ -116,10 +122,21 @@ fn format(ui: &mut Ui, shown: &ImportSelection, options: &mut ReadOptions, theme
     let unit = reading.map(|reading| &reading.wavelength_unit);
     let columns = columns(table, options.reader);
     pair(ui, gap, |ui| {
-        Switch { words: "Wavelengths in", wish: &mut options.wavelength_unit, decided: unit, choices: WavelengthUnit::CHOICES }
-            .show(ui, theme, half, false);
+        Switch {
+            words: "Wavelengths in",
+            wish: &mut options.wavelength_unit,
+            decided: unit,
+            choices: WavelengthUnit::CHOICES,
+        }
+        .show(ui, theme, half, false);
         let decided = reading.map(|reading| &reading.reader);
-        Switch { words: "Read by", wish: &mut options.reader, decided, choices: &Reader::ALL.map(|reader| (reader, reader.label())) }.show(ui, theme, half, false);
+        Switch {
+            words: "Read by",
+            wish: &mut options.reader,
+            decided,
+            choices: &Reader::ALL.map(|reader| (reader, reader.label())),
+        }
+        .show(ui, theme, half, false);
     });
     if columns {
         pair(ui, gap, |ui| {

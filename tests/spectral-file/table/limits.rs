@@ -55,8 +55,7 @@ fn sound() -> Vec<Vec<u8>> {
 #[test]
 fn every_format_is_recognized_and_has_words() {
     let table = "400,1\n410,2\n420,3\n";
-    let readers: Vec<Reader> =
-        FAMILIES.iter().chain(&[table]).map(|text| ok(text).reading.reader.value).collect();
+    let readers: Vec<Reader> = FAMILIES.iter().chain(&[table]).map(|text| ok(text).reading.reader.value).collect();
     for reader in Reader::ALL {
         let (key, label) = (reader.key(), reader.label());
         assert!(readers.contains(&reader), "no file is {reader}");

@@ -10,9 +10,8 @@ use crate::grid::{Grid, RawCurve};
 use crate::header::Header;
 use crate::layout::Layout;
 use crate::options::ReadOptions;
-use crate::places::PlaceKind;
 use crate::text::Lines;
-use crate::watch::Log;
+use crate::watch::{Log, PlaceKind};
 
 impl Reader {
     /// Cameras by name, each with three lines of 33 values.

@@ -6,7 +6,7 @@ mod tokens;
 use crate::decision::{
     Decided, DecimalMark, Decision, Delimiter, Family, Orientation, Part, Reader, Role, Values, WavelengthUnit,
 };
-use crate::dialect::{Cell, Dialect};
+use crate::dialect::Dialect;
 use crate::error::{MAX_CURVES, MAX_PARTS, MAX_SAMPLES, ReadError};
 use crate::formats::Format;
 use crate::formats::cgats::bands::{Bands, Declared};
@@ -16,10 +16,9 @@ use crate::grid::{Grid, RawCurve};
 use crate::header::Header;
 use crate::layout::Layout;
 use crate::options::ReadOptions;
-use crate::places::{PlaceId, PlaceKind};
 use crate::text::{Lines, comment, excerpt};
 use crate::warning::Warning;
-use crate::watch::Log;
+use crate::watch::{Log, PlaceId, PlaceKind};
 use crate::{decimal, header_terms};
 
 impl Reader {
@@ -367,19 +366,13 @@ fn warn_announced(announced: &[(&'static str, usize, f64)], wavelengths: &[f64],
 fn warn_gaps(curves: &[RawCurve], line: usize, log: &mut Log<'_>) {
     let cells = curves.iter().flat_map(|curve| &curve.values).filter(|value| value.is_nan()).count();
     if cells > 0 {
-        let mut lines = crate::warning::LineList::default();
-        lines.add(line);
-        log.push(Warning::Gaps { cells, lines, sentinel: None });
+        log.push(Warning::Gaps { cells, lines: [line].into_iter().collect(), sentinel: None });
     }
 }
 
 /// A value; NaN for a gap. A comma can only be a decimal mark here.
 fn number(token: &Token, line: usize, field: usize) -> Result<f64, ReadError> {
     let text = token.text();
-    let mark = if text.contains(',') { DecimalMark::Comma } else { DecimalMark::Point };
-    match Dialect::new(Delimiter::Spaces, mark).parse(&text) {
-        Cell::Number(value) => Ok(value),
-        Cell::Gap => Ok(f64::NAN),
-        Cell::Text => Err(ReadError::NotANumber { line, column: field + 1, text: excerpt(&text) }),
-    }
+    let value = Dialect::of_number(&text).value(&text);
+    value.ok_or_else(|| ReadError::NotANumber { line, column: field + 1, text: excerpt(&text) })
 }

@@ -3,13 +3,12 @@
 use std::borrow::Cow;
 
 use crate::decimal::clean;
-use crate::decision::{Decided, DecimalMark, Delimiter, Orientation, Reader, WavelengthUnit};
+use crate::decision::{Decided, DecimalMark, Delimiter, Reader, WavelengthUnit};
 use crate::error::{MAX_CURVES, MAX_SAMPLES, ReadError};
 use crate::formats::Format;
 use crate::formats::spectra::{self, Found, Sample, Spectrum};
 use crate::formats::xml::{self, Element, Step, Walk};
 use crate::header::Header;
-use crate::layout::Layout;
 use crate::options::ReadOptions;
 use crate::watch::Log;
 
@@ -39,9 +38,8 @@ fn read(text: &str, _: &ReadOptions, log: &mut Log<'_>) -> Result<Found, ReadErr
     let mut grid = spectra::grid(all, header, log)?;
     grid.unit = Some(Decided::certain(WavelengthUnit::Nanometer, "CxF prescribes it"));
     let dialect = (Delimiter::Elements, DecimalMark::Point);
-    let layout = Layout::fixed(dialect, Orientation::Down, first_line, "CxF prescribes it");
     let reader = Decided::certain(Reader::CXF, "The root element is “CxF”");
-    Ok(Found { grid, layout, reader, notes: Vec::new() })
+    Ok(Found::fixed(grid, reader, (dialect, first_line, "CxF prescribes it"), Vec::new()))
 }
 
 fn is_spectrum(name: &str) -> bool {

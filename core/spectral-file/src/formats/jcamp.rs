@@ -4,12 +4,11 @@ mod block;
 mod counts;
 mod ordinates;
 
-use crate::decision::{Decided, DecimalMark, Decision, Delimiter, Family, Orientation, Part, Reader};
+use crate::decision::{Decided, DecimalMark, Decision, Delimiter, Family, Part, Reader};
 use crate::error::{MAX_CURVES, MAX_PARTS, MAX_SAMPLES, ReadError};
 use crate::formats::Format;
 use crate::formats::jcamp::block::{Block, label};
 use crate::formats::spectra::{self, Found};
-use crate::layout::Layout;
 use crate::options::ReadOptions;
 use crate::text::{Lines, excerpt};
 use crate::unit_text;
@@ -53,10 +52,9 @@ fn read(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Result<Found, R
     }
     let dialect =
         if comma { (Delimiter::CommaSpace, DecimalMark::Comma) } else { (Delimiter::Comma, DecimalMark::Point) };
-    let layout = Layout::fixed(dialect, Orientation::Down, first_line, &form.1);
-    notes.insert(0, Decision::new("Form", &Decided::certain(form.0.description(), form.1)));
+    notes.insert(0, Decision::new("Form", &Decided::certain(form.0.description(), &*form.1)));
     let reader = Decided::certain(Reader::JCAMP, "The file begins with ## labels");
-    Ok(Found { grid, layout, reader, notes })
+    Ok(Found::fixed(grid, reader, (dialect, first_line, &form.1), notes))
 }
 
 /// Leaves the block that was chosen, else those that are not raw; 0 stands for several.

@@ -3,20 +3,16 @@
 mod document;
 
 use crate::decimal::{self, clean};
-use crate::decision::{
-    Decided, DecimalMark, Decision, Delimiter, Family, Orientation, Part, Reader, Role, Values, WavelengthUnit,
-};
+use crate::decision::{Decided, DecimalMark, Decision, Delimiter, Family, Part, Reader, Role, Values, WavelengthUnit};
 use crate::error::{MAX_CURVES, MAX_PARTS, MAX_SAMPLES, ReadError};
 use crate::formats::Format;
 use crate::formats::json::document::{Members, Value, without_comments};
 use crate::formats::spectra::{self, Found, Sample, Spectrum};
 use crate::grid::{Grid, RawCurve};
 use crate::header::Header;
-use crate::layout::Layout;
 use crate::options::ReadOptions;
-use crate::places::{PlaceId, PlaceKind, Places};
 use crate::text::excerpt;
-use crate::watch::Log;
+use crate::watch::{Log, PlaceId, PlaceKind, Places};
 use crate::{header_terms, unit_text};
 
 impl Reader {
@@ -65,8 +61,7 @@ fn read(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Result<Found, R
     let first_line =
         ["data", "ssf_bands", "bands", "processed"].iter().find_map(|name| line_of(text, name)).unwrap_or(1);
     let dialect = (Delimiter::Comma, DecimalMark::Point);
-    let layout = Layout::fixed(dialect, Orientation::Down, first_line, "JSON prescribes it");
-    Ok(Found { grid, layout, reader, notes })
+    Ok(Found::fixed(grid, reader, (dialect, first_line, "JSON prescribes it"), notes))
 }
 
 /// Reads the layout that the members are of.

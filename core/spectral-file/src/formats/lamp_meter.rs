@@ -1,12 +1,11 @@
 //! One sample a line, its wavelength at the end of a label in any language: `Spectral Data 380[nm],0.001`.
 
-use crate::decision::{Decided, DecimalMark, Decision, Delimiter, Orientation, Part, Reader, Role, WavelengthUnit};
+use crate::decision::{Decided, DecimalMark, Decision, Delimiter, Part, Reader, Role, WavelengthUnit};
 use crate::dialect::{Cell, Dialect};
 use crate::error::{MAX_PARTS, ReadError};
 use crate::formats::Format;
 use crate::formats::spectra::{self, Found, Sample, Spectrum};
 use crate::header::Header;
-use crate::layout::Layout;
 use crate::options::ReadOptions;
 use crate::text::{Lines, excerpt};
 use crate::watch::Log;
@@ -70,8 +69,8 @@ fn read(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Result<Found, R
     grid.unit = Some(Decided::certain(WavelengthUnit::Nanometer, "The unit stands in the labels"));
     grid.role = Some(Decided::guess(Role::Illuminant, "Meters that write such files measure light"));
     let why = format!("Labels such as the one in line {first_line} end with a wavelength");
-    let layout = Layout::fixed((delimiter, mark), Orientation::Down, first_line, &why);
-    Ok(Found { grid, layout, reader: Decided::certain(Reader::LABELS, why), notes })
+    let reader = Decided::certain(Reader::LABELS, &*why);
+    Ok(Found::fixed(grid, reader, ((delimiter, mark), first_line, &why), notes))
 }
 
 fn part(block: &[Sample]) -> Part {

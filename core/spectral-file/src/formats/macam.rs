@@ -1,12 +1,11 @@
 //! Wavelengths and values on alternate lines below `@date`, `@time` and `#title`, as Macam writes.
 
-use crate::decision::{Decided, DecimalMark, Delimiter, Orientation, Reader, Role};
-use crate::dialect::{Cell, Dialect};
+use crate::decision::{Decided, DecimalMark, Delimiter, Reader, Role};
+use crate::dialect::Dialect;
 use crate::error::ReadError;
 use crate::formats::Format;
 use crate::formats::spectra::{self, Found, Sample, Spectrum};
 use crate::header::Header;
-use crate::layout::Layout;
 use crate::options::ReadOptions;
 use crate::text::{Lines, excerpt};
 use crate::watch::Log;
@@ -34,12 +33,7 @@ fn recognize(text: &str) -> bool {
 }
 
 fn number(cell: &str) -> Option<f64> {
-    let mark = if cell.contains(',') { DecimalMark::Comma } else { DecimalMark::Point };
-    match Dialect::new(Delimiter::Spaces, mark).parse(cell) {
-        Cell::Number(value) => Some(value),
-        Cell::Gap => Some(f64::NAN),
-        Cell::Text => None,
-    }
+    Dialect::of_number(cell).value(cell)
 }
 
 fn read(text: &str, _: &ReadOptions, log: &mut Log<'_>) -> Result<Found, ReadError> {
@@ -79,6 +73,6 @@ fn read(text: &str, _: &ReadOptions, log: &mut Log<'_>) -> Result<Found, ReadErr
     grid.role = Some(Decided::guess(Role::Illuminant, "Meters that write such files measure light"));
     let mark = if comma { DecimalMark::Comma } else { DecimalMark::Point };
     let why = "The first line begins with @, and single numbers follow";
-    let layout = Layout::fixed((Delimiter::Elements, mark), Orientation::Down, first_line, why);
-    Ok(Found { grid, layout, reader: Decided::certain(Reader::ALTERNATE, why), notes: Vec::new() })
+    let (dialect, reader) = ((Delimiter::Elements, mark), Decided::certain(Reader::ALTERNATE, why));
+    Ok(Found::fixed(grid, reader, (dialect, first_line, why), Vec::new()))
 }

@@ -1,12 +1,11 @@
 //! IES TM-27: spectra of light sources in XML, one element for each sample.
 
-use crate::decision::{Decided, DecimalMark, Delimiter, Orientation, Part, Quantity, Reader, Role, WavelengthUnit};
+use crate::decision::{Decided, DecimalMark, Delimiter, Part, Quantity, Reader, Role, WavelengthUnit};
 use crate::error::{MAX_CURVES, MAX_PARTS, ReadError};
 use crate::formats::Format;
 use crate::formats::spectra::{self, Found, Sample, Spectrum};
 use crate::formats::xml::{self, Element, Step, Walk};
 use crate::header::Header;
-use crate::layout::Layout;
 use crate::options::ReadOptions;
 use crate::warning::Warning;
 use crate::watch::Log;
@@ -48,9 +47,8 @@ fn read(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Result<Found, R
     }
     grid.unit = Some(Decided::certain(WavelengthUnit::Nanometer, "TM-27 prescribes it"));
     let dialect = (Delimiter::Elements, DecimalMark::Point);
-    let layout = Layout::fixed(dialect, Orientation::Down, first_line, "TM-27 prescribes it");
-    let why = format!("The root element is “{}”", walk.root());
-    Ok(Found { grid, layout, reader: Decided::certain(Reader::TM27, why), notes: Vec::new() })
+    let reader = Decided::certain(Reader::TM27, format!("The root element is “{}”", walk.root()));
+    Ok(Found::fixed(grid, reader, (dialect, first_line, "TM-27 prescribes it"), Vec::new()))
 }
 
 #[derive(Default)]

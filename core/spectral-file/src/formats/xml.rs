@@ -11,12 +11,11 @@ use quick_xml::reader::Reader as Parser;
 use std::borrow::Cow;
 
 use crate::decision::{DecimalMark, Delimiter, Family};
-use crate::dialect::{Cell, Dialect};
+use crate::dialect::Dialect;
 use crate::error::ReadError;
 use crate::formats::{Head, recognize};
-use crate::places::PlaceId;
 use crate::text::excerpt;
-use crate::watch::Log;
+use crate::watch::{Log, PlaceId};
 
 /// The deepest nesting that is followed; files of spectra stay below ten.
 const DEEPEST: usize = 200;
@@ -126,11 +125,7 @@ fn number(text: &str, line: usize) -> Result<f64, ReadError> {
 }
 
 fn parse(text: &str) -> Option<f64> {
-    match Dialect::new(Delimiter::Elements, DecimalMark::Point).parse(text) {
-        Cell::Number(value) => Some(value),
-        Cell::Gap => Some(f64::NAN),
-        Cell::Text => None,
-    }
+    Dialect::new(Delimiter::Elements, DecimalMark::Point).value(text)
 }
 
 fn not_a_number(text: &str, line: usize) -> ReadError {

@@ -8,12 +8,10 @@ use crate::error::ReadError;
 use crate::report::Curve;
 use crate::text::{self, excerpt};
 
-/// Offset of a piece of a text in it.
 pub(super) fn offset(text: &str, piece: &str) -> usize {
     piece.as_ptr().addr().saturating_sub(text.as_ptr().addr()).min(text.len())
 }
 
-/// The bytes that a piece of a line takes.
 pub(super) fn range(line: &str, piece: &str) -> Range<usize> {
     let start = offset(line, piece);
     start..start + piece.len()
@@ -34,7 +32,6 @@ pub(super) fn touches(range: &Range<usize>, window: &Range<usize>) -> bool {
     range.start < window.end && range.end >= window.start
 }
 
-/// The cells of a line that touch a window, with their columns.
 pub(super) fn within<'a>(
     dialect: Dialect,
     line: &'a str,
@@ -44,7 +41,6 @@ pub(super) fn within<'a>(
     cells.take_while(|(_, range, _)| range.start < window.end).filter(|(_, range, _)| range.end >= window.start)
 }
 
-/// The wavelength that a cell holds, in nanometers.
 pub(super) fn wavelength(dialect: Dialect, unit: WavelengthUnit, cell: &str) -> Option<f64> {
     let written = match dialect.parse(cell) {
         Cell::Number(value) => value,
@@ -64,11 +60,7 @@ pub(super) fn parse(dialect: Dialect, cell: &str) -> Cell {
 
 /// A number as written, with either decimal mark.
 pub(super) fn number(text: &str) -> Option<f64> {
-    let mark = if text.contains(',') { DecimalMark::Comma } else { DecimalMark::Point };
-    match Dialect::new(Delimiter::Spaces, mark).parse(text) {
-        Cell::Number(value) => Some(value),
-        Cell::Gap | Cell::Text => None,
-    }
+    Dialect::of_number(text).value(text).filter(|value| !value.is_nan())
 }
 
 /// The wavelength and the value of the sample nearest to a wavelength, if it is at that wavelength but for rounding.

@@ -169,7 +169,6 @@ impl Shown {
     }
 }
 
-/// The byte at which a character begins, or the end.
 fn start(line: &str, character: usize) -> usize {
     line.char_indices().nth(character).map_or(line.len(), |(at, _)| at)
 }

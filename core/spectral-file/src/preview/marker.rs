@@ -5,12 +5,11 @@ use std::ops::Range;
 use crate::decision::{Orientation, Reader, WavelengthUnit};
 use crate::grid::Grid;
 use crate::layout::Layout;
-use crate::places::{Place, PlaceKind, Places};
-use crate::preview::across::Across;
 use crate::preview::cells;
-use crate::preview::down::{self, Down};
 use crate::preview::mark::{LeftOut, Mark, What};
+use crate::preview::tables::{self, Across, Down};
 use crate::report::SpectralFile;
+use crate::watch::{Place, PlaceKind, Places};
 
 /// Line, column or bytes of each sample, name and setting, recorded while a file was read. Made by
 /// [`read_marked`](crate::read_marked).
@@ -94,7 +93,6 @@ impl Marker {
     }
 }
 
-/// The recorded pieces of one line.
 fn placed(all: &[Place], start: usize, line: &str, window: &Range<usize>, file: &SpectralFile) -> Vec<Mark> {
     let first = all.partition_point(|piece| (piece.end as usize) < start.saturating_add(window.start));
     let last = start + line.len().min(window.end);
@@ -111,7 +109,7 @@ fn what(place: &Place, written: &str, file: &SpectralFile) -> Option<What> {
     let curve = place.origin as usize;
     Some(match place.kind {
         PlaceKind::Wavelength => What::Wavelength(place.wavelength),
-        PlaceKind::Value => down::value(cells::number(written)?, curve, place.wavelength, file),
+        PlaceKind::Value => tables::value(cells::number(written)?, curve, place.wavelength, file),
         PlaceKind::Block | PlaceKind::Check => What::Block(curve),
         PlaceKind::Repeated => What::LeftOut(LeftOut::Repeated),
         PlaceKind::Averaged => What::LeftOut(LeftOut::Averaged),

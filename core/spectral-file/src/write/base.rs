@@ -7,15 +7,12 @@ use crate::error::MAX_SAMPLES;
 use crate::write::format::{Format, Grid, Note, WriteError};
 use crate::write::sheet::{Content, Piece, Sheet, one_line};
 
-/// Curves on one grid, on their way into a format.
 pub(super) struct Draft<'a> {
     pub(super) sheet: &'a Sheet<'a>,
     pub(super) format: Format,
     pub(super) pieces: Vec<Piece<'a>>,
     pub(super) wavelengths: Vec<f64>,
-    /// The values of each curve at those wavelengths.
     pub(super) values: Vec<Vec<f64>>,
-    /// Resampling, if there was any.
     pub(super) resampling: Option<String>,
     pub(super) notes: Vec<Note>,
 }
@@ -23,7 +20,6 @@ pub(super) struct Draft<'a> {
 /// Limits of a format, or of the program that reads it.
 struct Limits {
     format: Format,
-    /// The wavelengths in nanometers.
     range_nm: [f64; 2],
     bands: usize,
     /// True if wavelengths are ones that the program reads.
@@ -114,7 +110,6 @@ impl<'a> Draft<'a> {
     }
 }
 
-/// The multiples of the requested step.
 fn asked(step: f64, range: [f64; 2], limits: &Limits) -> Result<Vec<f64>, WriteError> {
     let wavelengths = multiples(step, range)?;
     let (format, found, most) = (limits.format, wavelengths.len(), limits.bands);
@@ -159,7 +154,6 @@ pub(super) const SAME_NM: f64 = 1e-6;
 
 const SMALLEST_STEP_NM: f64 = 1e-3;
 
-/// Returns whether a grid is valid.
 pub(super) fn check(grid: Grid) -> Result<(), WriteError> {
     match grid {
         Grid::Step(step) | Grid::Average(step) if !(step.is_finite() && step >= SMALLEST_STEP_NM) => {
@@ -186,7 +180,6 @@ impl Sampling {
         }
     }
 
-    /// The range in which a curve has values of this kind.
     pub(super) fn within(self, [first, last]: [f64; 2]) -> [f64; 2] {
         match self {
             Self::Points => [first, last],
@@ -231,7 +224,6 @@ fn band_means(piece: &Piece<'_>, centers: &[f64], width: f64) -> Vec<f64> {
     centers.iter().map(mean).collect()
 }
 
-/// The whole multiples of a step within a range.
 pub(super) fn multiples(step: f64, [first, last]: [f64; 2]) -> Result<Vec<f64>, WriteError> {
     // Beyond, multiples have no room for nine decimals.
     const LARGEST: f64 = 1e12;
@@ -251,7 +243,6 @@ pub(super) fn even_step(wavelengths: &[f64]) -> Option<f64> {
     (wavelengths.len() > 1 && even).then_some(step)
 }
 
-/// The mean distance between neighbors.
 pub(super) fn mean_step(wavelengths: &[f64]) -> f64 {
     match wavelengths {
         [first, .., last] => (last - first) / (wavelengths.len() - 1) as f64,
@@ -259,7 +250,6 @@ pub(super) fn mean_step(wavelengths: &[f64]) -> f64 {
     }
 }
 
-/// A curve between its samples.
 pub(super) struct Between<'a> {
     wavelengths: &'a [f64],
     values: &'a [f64],
@@ -278,7 +268,6 @@ impl<'a> Between<'a> {
         Self { wavelengths, values, sprague, clamps: content != Content::Observer }
     }
 
-    /// Returns whether it is interpolated by polynomials.
     pub(super) fn is_smooth(&self) -> bool {
         self.sprague.is_some()
     }
@@ -328,7 +317,6 @@ impl Changes {
         Self { sampling: Some(sampling), ..Self::default() }
     }
 
-    /// The values of a curve at wavelengths within its range.
     pub(super) fn take(&mut self, piece: &Piece<'_>, content: Content<'_>, wavelengths: &[f64]) -> Vec<f64> {
         let [first, last] = piece.range();
         self.reach_nm = Some(self.reach_nm.map_or([first, last], |[a, b]| [a.min(first), b.max(last)]));

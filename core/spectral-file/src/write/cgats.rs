@@ -4,7 +4,6 @@ use crate::write::base::Draft;
 use crate::write::format::{Format, Note};
 use crate::write::sheet::{Content, one_line, push, push_quoted, push_real};
 
-/// Writes a table with one set for each curve.
 pub(super) fn write(draft: &mut Draft<'_>) -> String {
     let (format, cmf) = (draft.format, draft.format == Format::ArgyllCmf);
     // Argyll takes the three sets of an observer by their place, and the one of a spectrum for lack of others.

@@ -135,7 +135,6 @@ fn rows(pieces: &[Piece<'_>], step: Option<f64>, sampling: Sampling) -> Result<V
     Ok(rows)
 }
 
-/// The wavelengths that a curve of this range has a value at.
 fn within(rows: &[f64], [first, last]: [f64; 2]) -> &[f64] {
     let from = rows.partition_point(|&row| row < first - SAME_NM);
     let to = rows.partition_point(|&row| row <= last + SAME_NM);
@@ -198,7 +197,6 @@ fn push_comments(out: &mut String, sheet: &Sheet<'_>, resampling: Option<&str>) 
     }
 }
 
-/// A name, quoted only where it has to be.
 fn push_name(out: &mut String, name: &str) {
     let name = guarded(name);
     if name.contains([',', '"', ';', '\t']) {

@@ -63,7 +63,6 @@ fn push_header(out: &mut String, draft: &mut Draft<'_>) {
     push_last(out, 8, "license", &quoted(&sheet.license()));
 }
 
-/// Names of the curves that rawtoaces expects.
 fn push_index(out: &mut String, draft: &mut Draft<'_>) {
     let (content, pieces) = (draft.sheet.content, &draft.pieces);
     let fixed: &[&str] = match content {

@@ -55,7 +55,6 @@ pub enum Content<'a> {
 }
 
 impl Content<'_> {
-    /// The default unit of the values.
     pub(super) fn unit(self) -> Option<&'static str> {
         (!matches!(self, Self::Illuminant | Self::Other)).then_some("1")
     }
@@ -85,7 +84,6 @@ pub struct Sheet<'a> {
 }
 
 impl<'a> Sheet<'a> {
-    /// The unit as it is written.
     pub(super) fn unit(&self) -> Option<&'a str> {
         let said = self.unit.filter(|unit| !unit.trim().is_empty() && !self.content.is_fraction());
         said.or(self.content.unit())
@@ -109,7 +107,6 @@ impl<'a> Sheet<'a> {
         }
     }
 
-    /// The end of the head of every column: quantity and unit.
     pub(super) fn head(&self) -> String {
         let per_photon = if let Content::Camera { per_photon, .. } = self.content { per_photon } else { None };
         let unit = self.unit().map(one_line);

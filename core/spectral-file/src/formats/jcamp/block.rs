@@ -1,6 +1,6 @@
 //! Blocks of JCAMP-DX: records and data, and their values beside what the header announces.
 
-use crate::decimal::clean;
+use crate::decimal::{clean, extent};
 use crate::decision::{Part, Values};
 use crate::error::ReadError;
 use crate::formats::jcamp::counts::Source;
@@ -13,7 +13,6 @@ use crate::text::excerpt;
 use crate::warning::Warning;
 use crate::watch::Log;
 
-/// Form of the data of a block.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) enum Form {
     /// `x, y` pairs.
@@ -36,7 +35,6 @@ impl Form {
 #[derive(Debug, Default)]
 pub(super) struct Block {
     pub(super) title: String,
-    /// Each with its line.
     pub(super) records: Vec<(usize, String, String)>,
     pub(super) x_units: (usize, String),
     pub(super) y_units: (usize, String),
@@ -125,7 +123,6 @@ impl Block {
         Ok(())
     }
 
-    /// A number that the header announces, with its line.
     pub(super) fn number(&self, label: &str) -> Option<(usize, Written)> {
         self.announced.iter().find(|(other, ..)| *other == label).map(|&(_, line, number)| (line, number))
     }
@@ -230,8 +227,7 @@ impl Block {
         let (Some(first), Some(last)) = (self.samples.first(), self.samples.last()) else { return Ok(()) };
         let (first_x, last_x, first_y) = (first.wavelength, last.wavelength, first.value);
         let whole = self.points.1.is_none_or(|points| points == self.found);
-        let values = || self.samples.iter().map(|sample| sample.value);
-        let (min, max) = (values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max));
+        let (min, max) = extent(self.samples.iter().map(|sample| sample.value));
         let mut differing = Vec::new();
         // Missing lines at an end are detected by the number of values.
         let ends = [("FIRSTX", first_x), ("LASTX", last_x)];

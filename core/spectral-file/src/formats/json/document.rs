@@ -1,7 +1,7 @@
 //! Values of a document as they are written, each read when it is asked for, and their places in the text.
 
 use serde::Deserialize;
-use serde::de::{Deserializer, MapAccess, Visitor};
+use serde::de::{Deserializer, IgnoredAny, MapAccess, Visitor};
 use serde_json::value::RawValue;
 use std::borrow::Cow;
 use std::fmt;
@@ -36,6 +36,9 @@ impl<'a> Value<'a> {
     /// The value as a type; that it is of another breaks the rules of the layouts.
     pub(super) fn read<T: Deserialize<'a>>(self) -> Result<T, ReadError> {
         serde_json::from_str(self.written).map_err(|error| {
+            // A reader of bytes finds the very end of what is sound.
+            let broken = serde_json::from_reader::<_, IgnoredAny>(self.written.as_bytes());
+            let error = broken.err().unwrap_or(error);
             let lines = self.written.split_inclusive('\n').take(error.line().saturating_sub(1));
             let end = lines.map(str::len).sum::<usize>() + error.column();
             self.malformed(error.is_data(), self.offset(self.written) + end)
