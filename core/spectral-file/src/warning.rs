@@ -77,7 +77,7 @@ pub struct Sentinel {
 #[non_exhaustive]
 pub enum Warning {
     /// Cells without a value: omitted from their curves.
-    #[error(fmt = gaps)]
+    #[error("{}", gaps(*.cells, .lines, .sentinel.as_ref()))]
     Gaps {
         /// Number of cells.
         cells: usize,
@@ -87,7 +87,7 @@ pub enum Warning {
         sentinel: Option<Sentinel>,
     },
     /// Curves with fewer than two values: omitted.
-    #[error(fmt = empty_curves)]
+    #[error("{}", empty_curves(*.count, .first))]
     EmptyCurves {
         /// Number.
         count: usize,
@@ -98,7 +98,7 @@ pub enum Warning {
     #[error("Wavelengths stand in column {0}: the columns before it are left out")]
     SkippedColumns(usize),
     /// Columns that hold text: omitted.
-    #[error(fmt = text_columns)]
+    #[error("{}", text_columns(*.count, *.column, .name))]
     TextColumns {
         /// Number.
         count: usize,
@@ -166,7 +166,7 @@ pub enum Warning {
     #[error("line {0}: another table with spectra: left out")]
     MoreTables(usize),
     /// Other spectra of the same samples stand beside those that were read.
-    #[error(fmt = more_groups)]
+    #[error("“{second}”{}: left out", other_groups(*.count))]
     MoreGroups {
         /// Number of groups of columns.
         count: usize,
@@ -177,7 +177,7 @@ pub enum Warning {
     #[error("Nothing names the unit of wave numbers: if they are wavelengths, choose nanometers")]
     MaybeWavelengths,
     /// A reflectance or a sensitivity is far below zero.
-    #[error(fmt = below_zero)]
+    #[error("{}{}", at(*.line), below_zero(*.count, .first, *.min))]
     BelowZero {
         /// Number of such curves.
         count: usize,
@@ -257,7 +257,7 @@ pub enum Warning {
         found: usize,
     },
     /// Curves that reach values no quantity of their role has.
-    #[error(fmt = not_reflectances)]
+    #[error("{}", not_reflectances(*.count, .first, *.max))]
     NotReflectances {
         /// Number.
         count: usize,
@@ -267,7 +267,7 @@ pub enum Warning {
         max: f64,
     },
     /// Columns of quantities other than spectra, such as temperatures: omitted.
-    #[error(fmt = not_spectra)]
+    #[error("{}", not_spectra(*.count, .first))]
     NotSpectra {
         /// Number.
         count: usize,
@@ -336,37 +336,29 @@ impl Warning {
     }
 }
 
-fn gaps(cells: &usize, lines: &LineList, sentinel: &Option<Sentinel>, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-    write!(f, "{cells} missing value{}", if *cells == 1 { "" } else { "s" })?;
-    if !lines.is_empty() {
-        write!(f, ", {lines}")?;
-    }
-    f.write_str(": left out")?;
-    match sentinel {
-        Some(Sentinel { number, curve }) if number.abs() >= 1e9 => {
-            write!(f, " ({number:e} in {curve} stands for no value)")
-        }
-        Some(Sentinel { number, curve }) => write!(f, " ({number} in {curve} stands for no value)"),
-        None => Ok(()),
+fn gaps(cells: usize, lines: &LineList, sentinel: Option<&Sentinel>) -> String {
+    let plural = if cells == 1 { "" } else { "s" };
+    let lines = if lines.is_empty() { String::new() } else { format!(", {lines}") };
+    let number = sentinel.map_or_else(String::new, |Sentinel { number, curve }| {
+        let number = if number.abs() >= 1e9 { format!("{number:e}") } else { number.to_string() };
+        format!(" ({number} in {curve} stands for no value)")
+    });
+    format!("{cells} missing value{plural}{lines}: left out{number}")
+}
+
+fn empty_curves(count: usize, first: &str) -> String {
+    match count {
+        1 => format!("{first} has fewer than two values: left out"),
+        _ => format!("{count} curves with fewer than two values, the first {first}: left out"),
     }
 }
 
-fn empty_curves(count: &usize, first: &str, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+fn text_columns(count: usize, column: usize, name: &str) -> String {
+    let name = if name.is_empty() { String::new() } else { format!(" (“{name}”)") };
     match count {
-        1 => write!(f, "{first} has fewer than two values: left out"),
-        _ => write!(f, "{count} curves with fewer than two values, the first {first}: left out"),
-    }
-}
-
-fn text_columns(count: &usize, column: &usize, name: &str, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-    write!(f, "Column {column}")?;
-    if !name.is_empty() {
-        write!(f, " (“{name}”)")?;
-    }
-    match count {
-        1 => f.write_str(" holds text: left out"),
-        2 => f.write_str(" and another hold text: left out"),
-        _ => write!(f, " and {} others hold text: left out", count - 1),
+        1 => format!("Column {column}{name} holds text: left out"),
+        2 => format!("Column {column}{name} and another hold text: left out"),
+        _ => format!("Column {column}{name} and {} others hold text: left out", count - 1),
     }
 }
 
@@ -378,6 +370,10 @@ fn both(lines: Option<[usize; 2]>) -> String {
     lines.map_or_else(String::new, |[a, b]| format!("lines {a} and {b}: "))
 }
 
+fn at(line: Option<usize>) -> String {
+    line.map_or_else(String::new, |line| format!("line {line}: "))
+}
+
 fn in_column(column: Option<usize>) -> String {
     column.map_or_else(String::new, |column| format!(" in column {column}"))
 }
@@ -386,34 +382,32 @@ fn and_more(count: usize) -> String {
     if count == 1 { String::new() } else { format!(" and {} more", count - 1) }
 }
 
-fn more_groups(count: &usize, second: &str, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-    match count {
-        2 => write!(f, "“{second}”, another group of spectra: left out"),
-        _ => write!(f, "“{second}” and {} more groups of spectra: left out", count - 2),
+fn other_groups(count: usize) -> String {
+    if count == 2 {
+        ", another group of spectra".to_owned()
+    } else {
+        format!(" and {} more groups of spectra", count - 2)
     }
 }
 
-fn below_zero(count: &usize, first: &str, min: &f64, line: &Option<usize>, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-    if let Some(line) = line {
-        write!(f, "line {line}: ")?;
-    }
+fn below_zero(count: usize, first: &str, min: f64) -> String {
     match count {
-        1 => write!(f, "{first} falls to {min}, further below zero than noise"),
-        _ => write!(f, "{count} curves fall further below zero than noise, the first {first} to {min}"),
+        1 => format!("{first} falls to {min}, further below zero than noise"),
+        _ => format!("{count} curves fall further below zero than noise, the first {first} to {min}"),
     }
 }
 
-fn not_reflectances(count: &usize, first: &str, max: &f64, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+fn not_reflectances(count: usize, first: &str, max: f64) -> String {
     match count {
-        _ if *max > 1e30 => write!(f, "{first} reaches {max:e}, more than any quantity of light can"),
-        1 => write!(f, "{first} reaches {max}, more than a fraction of light can"),
-        _ => write!(f, "{count} curves reach more than a fraction of light can, the first {first} {max}"),
+        _ if max > 1e30 => format!("{first} reaches {max:e}, more than any quantity of light can"),
+        1 => format!("{first} reaches {max}, more than a fraction of light can"),
+        _ => format!("{count} curves reach more than a fraction of light can, the first {first} {max}"),
     }
 }
 
-fn not_spectra(count: &usize, first: &str, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+fn not_spectra(count: usize, first: &str) -> String {
     match count {
-        1 => write!(f, "{first} is no spectrum: left out"),
-        _ => write!(f, "{count} columns are no spectra, the first {first}: left out"),
+        1 => format!("{first} is no spectrum: left out"),
+        _ => format!("{count} columns are no spectra, the first {first}: left out"),
     }
 }

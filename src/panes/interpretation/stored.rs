@@ -1,7 +1,7 @@
 //! A set whose file is not available: what can be changed by its values alone.
 
 use egui::{RichText, Ui};
-use spectral_file::{Role, Values, WavelengthUnit};
+use spectral_file::{Values, WavelengthUnit};
 
 use super::camera::RESPONSES;
 use super::{Closed, caption, list, name, note};
