@@ -1,23 +1,17 @@
 //! The window: handles events, runs commands and shows panes.
 
-mod closing;
+mod changes;
 mod commands;
 mod focus;
 mod frame;
-mod imports;
-mod layout;
 mod meshes;
-mod notice;
+mod opening;
 mod path_prompt;
-mod pictures;
-mod report;
 mod saving;
 mod session;
 mod startup;
 mod tour;
 
-use chromascope_core::query::NearestBlackBodyQuery;
-use chromascope_core::query::render::picture::PicturesQuery;
 use egui::{Event, Ui};
 
 use crate::action::history::History;
@@ -27,28 +21,23 @@ use crate::catalog::opened::Opened;
 use crate::catalog::recorded_store::RecordedStore;
 use crate::catalog::spectral_images::ImageStore;
 use crate::command::{Command, key_bindings};
-use crate::export::page::PageJob;
-use crate::figures::curves::CurveCache;
 use crate::files::Files;
-use crate::jobs::{Background, Executor};
+use crate::jobs::{Executor, Later};
 use crate::panes;
+use crate::panes::context::PaneStates;
 use crate::plot_item::PlotItem;
-use crate::profiler::Profiler;
-use crate::ranking::Ranking;
+use crate::profiler::{Measured, Profiler};
 use crate::render_service::RenderService;
-use crate::report::ReportJob;
 use crate::results::Results;
 use crate::theme;
 use crate::view::import::{ImportItem, ImportView};
-use crate::view::{SavedView, View};
+use crate::view::{ReportOn, SavedView, View};
 use crate::workspaces::Arrangement;
 
 pub use startup::{WindowError, run};
 
-/// Key of the layout in the window's own storage.
 const LAYOUT_KEY: &str = "layout";
 
-/// The program's state.
 pub struct ChromascopeApp {
     history: History,
     catalog: Catalog,
@@ -59,11 +48,12 @@ pub struct ChromascopeApp {
     images: ImageStore,
     opened: Opened,
     recorded: RecordedStore,
-    radiators: Background<NearestBlackBodyQuery>,
+    later: Later,
+    /// Subject of the report whose folder is asked for.
+    report_on: Option<ReportOn>,
+    states: PaneStates,
     render_service: RenderService,
     profiler: Profiler,
-    ranking: Ranking,
-    curves: Option<CurveCache>,
     commands: Vec<Command>,
     /// Files named at the start that are not read yet: a single one is put to use.
     at_start: std::collections::BTreeSet<std::path::PathBuf>,
@@ -73,17 +63,11 @@ pub struct ChromascopeApp {
     first_frame: Option<std::time::Instant>,
     /// The control that had the keyboard in the last frame.
     focus: Option<egui::Id>,
-    closing: closing::Closing,
+    closing: session::Closing,
     session: session::SessionState,
     /// What the user had before the tour.
     interrupted: Option<tour::Interrupted>,
-    /// The report that is being made.
-    report: Background<ReportJob>,
-    /// Picture of the window about the program.
-    portrait: Background<PicturesQuery>,
-    /// Pixels of the Figure page.
-    pages: Background<PageJob>,
-    place: layout::WindowPlace,
+    place: startup::WindowPlace,
     ctx: egui::Context,
 }
 
@@ -122,24 +106,21 @@ impl ChromascopeApp {
             images: ImageStore::on(executor, repaint()),
             opened,
             recorded: RecordedStore::on(executor, repaint()),
-            radiators: Background::on(executor, "blackbodies", repaint()),
-            render_service: RenderService::on(executor, ctx),
-            profiler: Profiler::on(executor, repaint()),
-            ranking: Ranking::on(executor, repaint()),
-            curves: None,
+            later: Later::on(executor, repaint()),
+            states: PaneStates::default(),
+            report_on: None,
+            render_service: RenderService::on(executor, repaint()),
+            profiler: Profiler { measured: Measured::default() },
             commands: Vec::new(),
             at_start: std::collections::BTreeSet::new(),
             last_read: std::collections::HashMap::new(),
             arrangement: Arrangement::default(),
             first_frame: None,
             focus: None,
-            closing: closing::Closing::default(),
+            closing: session::Closing::default(),
             session: session::SessionState::default(),
             interrupted: None,
-            report: Background::on(executor, "report", repaint()),
-            portrait: Background::on(executor, "portrait", repaint()),
-            pages: Background::on(executor, "page", repaint()),
-            place: layout::WindowPlace::default(),
+            place: startup::WindowPlace::default(),
             ctx: ctx.clone(),
         };
         app.begin_session();
@@ -148,10 +129,9 @@ impl ChromascopeApp {
 
     /// Restores the window's position and size from the last run.
     pub fn restore_place(&mut self, storage: Option<&dyn eframe::Storage>) {
-        self.place = layout::WindowPlace::restored(storage);
+        self.place = startup::WindowPlace::restored(storage);
     }
 
-    /// The document and its steps.
     pub fn history(&self) -> &History {
         &self.history
     }
@@ -164,6 +144,11 @@ impl ChromascopeApp {
     /// State of the view: selection, zoom, hover and the like.
     pub fn view(&self) -> &View {
         &self.view
+    }
+
+    /// What panes keep from frame to frame.
+    pub fn states_mut(&mut self) -> &mut PaneStates {
+        &mut self.states
     }
 
     /// Mutable state of the view, for tests to set up.
@@ -184,52 +169,38 @@ impl ChromascopeApp {
         saved
     }
 
-    /// The answers known, with their counters.
     pub fn results(&self) -> &Results {
         &self.results
     }
 
-    /// The user's mesh files.
     pub fn meshes(&self) -> &MeshStore {
         &self.meshes
     }
 
-    /// The user's spectral images.
     pub fn images(&self) -> &ImageStore {
         &self.images
     }
 
-    /// The spectral files that were opened.
     pub fn opened(&self) -> &Opened {
         &self.opened
     }
 
-    /// True if a path is being requested.
     pub fn is_asking(&self) -> bool {
         self.files.is_asking()
     }
 
-    /// Service that renders the pictures.
     pub fn render_service(&self) -> &RenderService {
         &self.render_service
     }
 
-    /// Profiler that measures the scene's cost.
     pub fn profiler(&self) -> &Profiler {
         &self.profiler
     }
 
-    /// Pixels of the Figure page.
-    pub fn pages(&self) -> &Background<PageJob> {
-        &self.pages
+    pub fn later(&self) -> &Later {
+        &self.later
     }
 
-    /// Camera ranking service.
-    pub fn ranking(&self) -> &Ranking {
-        &self.ranking
-    }
-
-    /// Mutable access to the profiler, for tests.
     pub fn profiler_mut(&mut self) -> &mut Profiler {
         &mut self.profiler
     }

@@ -18,36 +18,22 @@ use crate::workspaces::{PaneKind, Workspace};
 /// Something to do at the start of the next frame.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Command {
-    /// Change the document.
     Do(Action),
-    /// Take the last step back.
     Undo,
-    /// Bring it again.
     Redo,
-    /// Begin or save a session.
     Session(SessionCommand),
-    /// Show the dialog for files to open.
     Open,
-    /// Show the dialog for a file of recorded raw values.
     OpenRecorded,
-    /// Show the dialog for a folder of files to open.
     OpenFolder,
-    /// Show the dialog for the folder of a report.
     Report(ReportOn),
-    /// Stop the report that is being made.
     StopReport,
     /// Open a session or document in place of this one, which is saved first.
     OpenDocument(std::path::PathBuf),
-    /// Delete a document that another window saved.
     RemoveDocument(std::path::PathBuf),
-    /// Open a file or folder of the given path.
     OpenPath(std::path::PathBuf),
-    /// Show a file in Import, at a line.
     ShowImport(ImportItem, Option<usize>),
-    /// Have a file read otherwise.
-    Wish(ImportItem, Box<ImportOverrides>),
-    /// Discard the settings tried on the selected file.
-    TakeWishBack,
+    SetOverrides(ImportItem, Box<ImportOverrides>),
+    DiscardOverrides,
     /// Leave all to the content again, for a file and those like it.
     ForgetChoices(ImportItem),
     /// Make a set of a file that is none yet.
@@ -56,104 +42,64 @@ pub enum Command {
     UseParts(Fingerprint, Vec<usize>, Box<ImportOverrides>),
     /// Read all files of this one's kind as this one.
     UseForAlike(ImportItem),
-    /// Take a file off the list.
     ForgetFile(Fingerprint),
-    /// Read a set's file from disk again.
     ReadAgain(String),
-    /// Stop reading files.
     StopReading,
-    /// Measure the cost of the scene.
-    SpectralWeights,
-    /// Measure a workload of the bench.
+    MeasureScene,
     MeasureWorkload(Workload),
-    /// Stop measuring.
     StopMeasuring,
-    /// Read text as if it were a file.
     Paste(String),
     /// Show a pane as the printed page, or go back.
     FigurePage(PaneKind),
-    /// Save a pane's figure or numbers.
     Export(PaneKind, FigureForm),
-    /// Save a source's rendered picture with its numbers.
     ExportExr(SensorId),
-    /// Put the curves of a set of the library on the clipboard as text.
     CopySet(SetKind, String),
-    /// Save the curves of a set of the library.
     SaveSet(SetKind, String, Form),
-    /// Save the current color correction.
     SaveCorrection(CorrectionForm),
-    /// Put a pane's picture on the clipboard.
     CopyPicture(PaneKind),
     /// Put a pane's figure, the swatches and the conditions on the clipboard as one picture.
     CopyCard(PaneKind),
-    /// Save that picture.
     SaveCard(PaneKind),
-    /// Put a pane's numbers on the clipboard.
     CopyNumbers(PaneKind),
-    /// Show another workspace.
     Show(Workspace),
-    /// Let a pane fill the window, or no longer.
     Maximize(PaneKind),
-    /// Show a pane, or hide it.
     TogglePane(PaneKind),
     /// Show the inspector, in its column or over the center.
     ToggleInspector,
     /// Let plots show their own ranges.
     ResetView,
-    /// All panes back to their places.
     ResetLayout,
-    /// Light or dark.
     SetTheme(egui::ThemePreference),
-    /// The gray around swatches.
     SetSurround(Surround),
-    /// How plots and pictures stand.
     Look(ViewChoice),
-    /// Select a thing.
     Select(PlotItem),
-    /// Open the help page of this name at a block.
     Help(&'static str, usize),
-    /// Go through the tour.
     Tour(TourMove),
-    /// Show or hide the window about the program.
     ToggleAbout,
-    /// Search the library.
     FocusSearch,
-    /// Open the palette of commands.
     FindAnything,
-    /// Type a temperature.
     FocusTemperature,
     /// Show or hide the source of this place in the list, from 0.
     ToggleSource(usize),
     /// Keep the selection, or let it go.
     Pin,
-    /// Show or hide the bars of differences.
     ToggleDifference,
     /// Clear the selection and similar states, one at a time.
     Escape,
-    /// Go to the next pane.
     NextPane,
-    /// Show a pane and give it the keyboard.
     GoTo(PaneKind),
-    /// Go to the control of this name in a pane.
     Seek(PaneKind, &'static str),
-    /// End the program.
     Quit,
 }
 
-/// What is done with sessions as files.
 #[derive(Clone, Debug, PartialEq)]
 pub enum SessionCommand {
     /// Begin a new session, from the template of a name or the default start.
     New(Option<&'static str>),
-    /// Begin a new session from a template of the user's.
     NewFrom(std::path::PathBuf),
-    /// Save the session in its file.
     Save,
-    /// Save the session under a name.
     SaveAs,
-    /// Save the session as a template.
     SaveTemplate,
-    /// Delete a template of the user's.
     RemoveTemplate(std::path::PathBuf),
 }
 
@@ -163,12 +109,9 @@ impl From<SessionCommand> for Command {
     }
 }
 
-/// A step through the tour.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TourMove {
-    /// To its first step.
     Begin,
-    /// To the step before.
     Back,
     /// To the next step; from the last one, to the end.
     Next,
@@ -188,7 +131,7 @@ impl Command {
             | Self::GoTo(_)
             | Self::Seek(..)
             | Self::ShowImport(..)
-            | Self::SpectralWeights
+            | Self::MeasureScene
             | Self::Tour(_) => true,
             _ => false,
         }
@@ -203,11 +146,8 @@ impl From<Action> for Command {
 
 /// A key and its command. One table serves the keys, the menus' hints and the help page.
 pub struct KeyBinding {
-    /// The key.
     pub shortcut: KeyboardShortcut,
-    /// Command that the shortcut runs.
     pub command: Command,
-    /// In words.
     pub words: &'static str,
     /// True if it rests while text is typed.
     pub rests_while_typing: bool,
@@ -273,25 +213,21 @@ pub fn key_bindings(focused: PaneKind) -> Vec<KeyBinding> {
     keys
 }
 
-/// Themes with their names.
 pub const THEMES: [(egui::ThemePreference, &str); 3] = [
     (egui::ThemePreference::System, "System"),
     (egui::ThemePreference::Dark, "Dark"),
     (egui::ThemePreference::Light, "Light"),
 ];
 
-/// Subjects of reports as menus name them.
 pub const REPORTS: [(ReportOn, &str); 2] = [
     (ReportOn::Paper, "With the paper's cameras and patches…"),
     (ReportOn::Document, "With these cameras and patches…"),
 ];
 
-/// A key as it is written here.
 pub fn key_name(shortcut: KeyboardShortcut) -> String {
     shortcut.format(&egui::ModifierNames::NAMES, cfg!(target_os = "macos"))
 }
 
-/// The key of a command, if it has one.
 pub fn shortcut_of(command: &Command, focused: PaneKind) -> Option<KeyboardShortcut> {
     key_bindings(focused).into_iter().find(|binding| binding.command == *command).map(|binding| binding.shortcut)
 }

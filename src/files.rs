@@ -1,22 +1,17 @@
-//! File input and output: dialogs, reading, atomic writing, the document saved between runs.
+//! All that lies on disk: dialogs, reading, atomic writing, sessions, the document saved between runs.
 //!
 //! Dialogs, reads and writes run on their own threads and return through [`Files::poll`]; the window never waits.
 
 mod asking;
-mod atomic;
+mod autosave;
+mod between_runs;
 mod dialogs;
+mod document_file;
 mod event;
-mod keep;
-mod last;
+mod folder;
 mod motion;
-mod persistent;
-mod profile;
-mod prompt;
-mod save;
-mod saved;
-mod sessions;
-mod shared_state;
-mod store;
+mod request;
+mod session_file;
 mod watch;
 
 use std::path::PathBuf;
@@ -24,24 +19,22 @@ use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread;
 
+use crate::atomic::{self, fitting};
 use crate::jobs::Executor;
 use event::Note;
 
-pub use atomic::{write_atomically, write_atomically_with};
+pub use autosave::{install_panic_hook, save_on_exit, save_on_signals};
+pub use between_runs::{PersistentMessage, PersistentMessageKind};
 pub use dialogs::{Answer, DialogLog, Dialogs, Question};
 pub use event::{DocumentSource, FileEvent, OpenedDocument, SavedFile};
-pub use last::{install_panic_hook, save_last, save_on_exit, save_on_signals};
 pub use motion::reduces_motion;
-pub use persistent::{PersistentMessage, PersistentMessageKind};
-pub use profile::Copy;
-pub use prompt::PathPrompt;
-pub use save::{FileForm, MakeText, SaveRequest};
+pub use request::{FileForm, MakeBytes, PathPrompt, SaveRequest};
 
 /// The only part of the window that touches the disk.
 pub struct Files {
     sender: Sender<Note>,
     receiver: Receiver<Note>,
-    keeper: keep::Keeper,
+    autosave: autosave::Autosave,
     prompt: Option<PathPrompt>,
     /// The system's dialogs; none where paths are requested in the window alone.
     dialogs: Option<Arc<dyn Dialogs>>,
@@ -54,8 +47,7 @@ pub struct Files {
     home: Option<PathBuf>,
     wake: Option<egui::Context>,
     watch: watch::Watch,
-    standing: persistent::Notices,
-    /// The layout as it was written last.
+    standing: between_runs::Notices,
     layout: Option<String>,
 }
 
@@ -72,7 +64,7 @@ impl Files {
         Self {
             sender,
             receiver,
-            keeper: keep::Keeper::new(executor, folder),
+            autosave: autosave::Autosave::new(executor, folder),
             prompt: None,
             dialogs: Some(Arc::new(dialogs::System)),
             waiting: None,
@@ -82,24 +74,21 @@ impl Files {
             home: std::env::home_dir(),
             wake: None,
             watch: watch::Watch::new(None),
-            standing: persistent::Notices::default(),
+            standing: between_runs::Notices::default(),
             layout: None,
         }
     }
 
-    /// Uses path prompts in the window only, as where the system has no dialogs.
     #[must_use]
     pub fn without_dialogs(self) -> Self {
         Self { dialogs: None, ..self }
     }
 
-    /// Uses other dialogs than the system's.
     #[must_use]
     pub fn with_dialogs(self, dialogs: Arc<dyn Dialogs>) -> Self {
         Self { dialogs: Some(dialogs), ..self }
     }
 
-    /// Takes another folder for `~`.
     #[must_use]
     pub fn with_home(self, home: PathBuf) -> Self {
         Self { home: Some(home), ..self }
@@ -111,7 +100,6 @@ impl Files {
         self.watch = watch::Watch::new(Some(ctx.clone()));
     }
 
-    /// Events since the last query.
     pub fn poll(&mut self) -> Vec<FileEvent> {
         let notes: Vec<Note> = self.receiver.try_iter().collect();
         let mut events = Vec::new();
@@ -146,7 +134,6 @@ impl Files {
         events
     }
 
-    /// Watches these files on disk and no others.
     pub fn watch(&mut self, files: std::collections::BTreeSet<PathBuf>) {
         self.watch.files(files);
     }
@@ -189,13 +176,6 @@ pub fn new_folder(parent: &std::path::Path, name: &str) -> std::io::Result<PathB
         }
     }
     unreachable!("numbers do not end")
-}
-
-/// A file's name of a stem and an ending, the stem cut where both together are longer than file systems take: 255 bytes.
-pub fn fitting(stem: &str, ending: &str) -> String {
-    const LONGEST: usize = 255;
-    let room = LONGEST.saturating_sub(ending.len());
-    format!("{}{ending}", &stem[..stem.floor_char_boundary(room)])
 }
 
 /// Name of a template as its file has it, for a name that was typed.

@@ -1,17 +1,10 @@
-//! Chromascope's window and command line, as a library for its tests.
+//! Chromascope's window, as a library for its tests, with the [workbench](chromascope_workbench) that it shows.
 //!
 //! ```text
-//! format  terminal  theme      text for display, standard error, colors and sizes
-//! document ─► action           the comparison and its conditions; its changes, and undo
-//! results ─► jobs              answers, the only cache; computations in the background
-//! catalog ─► scene             data sets; names become data, choices become queries
-//! files  export                the document and the user's files; pictures and tables out
-//! plot_item  paint  workspaces items of marks; figures on screen; arrangement of panes
-//! render_service  bench  profiler   pictures of meshes; run time against error
+//! files                        the document and the user's files
+//! theme  paint  workspaces     colors and sizes; figures on screen; arrangement of panes
 //! view ─► command              the view state; requests of keys, menus and panes
-//! ranking                      figures of merit of many cameras
-//! figures ─► report            answers become figures; the paper's figures and claims
-//! panes  cli                   show them, and request changes
+//! panes                        show answers, and request changes
 //! app                          the window
 //! ```
 //!
@@ -24,28 +17,18 @@
 )]
 #![allow(missing_docs, reason = "what the name and type of a field say is not said again")]
 
-pub mod action;
+pub use chromascope_workbench::{
+    action, atomic, catalog, cli, document, export, figures, help, jobs, palette, plot_item, profiler, render_service,
+    report, results, scene, terminal,
+};
+
+use chromascope_workbench::format;
+
 pub mod app;
-pub mod catalog;
-pub mod cli;
 pub mod command;
-pub mod document;
-pub mod export;
-pub mod figures;
 pub mod files;
-mod format;
-pub mod help;
-pub mod jobs;
 pub mod paint;
 pub mod panes;
-pub mod plot_item;
-pub mod profiler;
-pub mod ranking;
-pub mod render_service;
-pub mod report;
-pub mod results;
-pub mod scene;
-pub mod terminal;
 pub mod theme;
 pub mod view;
 pub mod workspaces;

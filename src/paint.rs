@@ -19,10 +19,8 @@ use crate::theme::Theme;
 pub use hit::{Hit, nearest};
 pub use pictures::{PictureQuery, PictureTextures};
 
-/// Emphasis of a mark.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Emphasis {
-    /// As it is.
     #[default]
     Normal,
     /// Under the pointer, in this pane or another: thicker rim, thin ring.
@@ -38,7 +36,6 @@ pub enum Emphasis {
 /// Emphasis of each mark, by its tag.
 pub type EmphasisOf<'a> = &'a dyn Fn(Tag) -> Emphasis;
 
-/// Interaction with a panel.
 #[derive(Clone, Copy)]
 pub struct PlotOptions<'a> {
     /// True if the user can zoom (wheel, pinch) and pan (drag). A double click shows the panel's ranges again.
@@ -47,7 +44,6 @@ pub struct PlotOptions<'a> {
     pub reset: bool,
     /// Plots with the same id share their horizontal range.
     pub link_x: Option<Id>,
-    /// The emphasis of each mark.
     pub emphasis: EmphasisOf<'a>,
 }
 
@@ -57,14 +53,11 @@ impl Default for PlotOptions<'_> {
     }
 }
 
-/// Result of showing a panel.
 #[derive(Debug, Clone)]
 pub struct PlotOutput {
-    /// Clicks, drags and the pointer inside the plot.
     pub response: Response,
     /// Map from data to the screen.
     pub view: View,
-    /// The pointer in data units.
     pub hovered: Option<[f64; 2]>,
 }
 
@@ -222,7 +215,6 @@ pub fn still(painter: &Painter, panel: &Panel, theme: &Theme, rect: Rect) -> Vie
     view
 }
 
-/// Draws a picture over a rectangle.
 pub fn picture(painter: &Painter, rect: Rect, image: &Image) {
     texture::draw(painter, rect, image);
 }

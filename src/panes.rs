@@ -13,6 +13,9 @@
 //! +use crate::panes::widgets;
 //! +use crate::workspaces::PaneKind;
 //! +
+//! +#[derive(Default)]
+//! +struct Chosen(Option<usize>);
+//! +
 //! +pub const PANE: Pane = Pane {
 //! +    kind: PaneKind::new("Gamut"),
 //! +    title: "Gamut",
@@ -23,7 +26,9 @@
 //! +};
 //! +
 //! +fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
-//! +    let body = widgets::pane(ui, &PANE, rect, context, |_, _| {});
+//! +    let body = widgets::body(ui, &PANE, rect, context, |_, _| {});
+//! +    let chosen = context.states.of::<Chosen>().0;
+//! +    let volumes = context.later.ask(PANE.kind, vec![VolumesQuery { … }]).current();
 //! +    …
 //! +}
 //! --- a/src/panes.rs
@@ -33,8 +38,9 @@
 //! +    &gamut::PANE,
 //! ```
 //!
-//! It is then in View, Panes, in the title menu of every other pane, in saved layouts and in exports. A place that a workspace
-//! starts with is a choice of `workspaces::Layout`.
+//! What it keeps from frame to frame is a struct in its file, and a slow answer is asked for in each frame: nothing is to be
+//! registered, ended or waited for (`tests/app/panes.rs` has a whole one). It is then in View, Panes, in the title menu of every
+//! other pane, in saved layouts and in exports. A place that a workspace starts with is a choice of `workspaces::Layout`.
 
 pub mod chromaticity;
 pub mod context;
@@ -64,17 +70,13 @@ pub mod swatches;
 pub mod tolerance;
 pub mod widgets;
 
-use chromascope_figure::{AxisRanges, Figure};
+use chromascope_figure::{Figure, FigureRoom};
 use egui::{Rect, Ui};
 
 use context::{Pane, PaneContext};
 
-use crate::catalog::opened::Opened;
-use crate::figures::FigureInput;
-use crate::profiler::Profiler;
-use crate::render_service::RenderService;
+use crate::figures::look::FigureLook;
 use crate::scene::Scene;
-use crate::view::View;
 use crate::workspaces::PaneKind;
 
 /// All panes, in the order they are listed.
@@ -118,32 +120,7 @@ pub fn show(ui: &mut Ui, kind: PaneKind, rect: Rect, context: &mut PaneContext<'
     }
 }
 
-/// A pane's figure as it would be saved: the same as on screen, with its numbers. None for panes without one.
-pub fn figure(kind: PaneKind, input: &FigureInput<'_>) -> Option<Figure> {
-    let mut figure = (by_kind(kind)?.figure?)(input)?;
-    let zoomed = input.view.zoomed.get(&kind).filter(|_| input.view.room.ranges == AxisRanges::Screen);
-    if let Some(((title, [x, y]), panel)) = zoomed.zip(figure.panels.first_mut())
-        && *title == figure.title
-    {
-        (panel.x.range, panel.y.range) = (*x, *y);
-    }
-    Some(figure)
-}
-
-/// A pane's figure laid out on the paper of the Figure page, as it is printed and saved.
-pub fn figure_on_paper(
-    kind: PaneKind,
-    (scene, view): (&Scene<'_>, &mut View),
-    render_service: &RenderService,
-    profiler: &Profiler,
-    opened: &Opened,
-) -> Option<Figure> {
-    let room = view.room;
-    let paper = view.saved.page.paper;
-    let figure = paper.laid_out(|room| {
-        view.room = room;
-        figure(kind, &FigureInput::of((scene, view), render_service, profiler, opened))
-    });
-    view.room = room;
-    figure
+/// A pane's figure in a room; none for panes without one, and while there is nothing to draw.
+pub fn figure(kind: PaneKind, scene: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Option<Figure> {
+    by_kind(kind)?.figure?.figure(scene, look, room)
 }

@@ -2,7 +2,6 @@
 
 pub mod accuracy;
 pub mod correction;
-pub mod diagram;
 pub mod help;
 pub mod import;
 pub mod metrics;
@@ -21,6 +20,11 @@ use std::path::PathBuf;
 use serde::{Deserialize, Serialize};
 
 use crate::document::{Compared, SetKind};
+use crate::figures::chromaticity::shown::DiagramView;
+pub use crate::figures::chromaticity::shown::{DiagramFit, Ranges};
+use crate::figures::look::FigureLook;
+pub use crate::figures::look::{SpectraLayout, SwatchLayout, SwatchStyle};
+use crate::figures::metrics::TABLE;
 use crate::paint::Emphasis;
 use crate::plot_item::{PickIndex, PlotItem, Relation, SensorId};
 use crate::theme::Surround;
@@ -28,8 +32,6 @@ use crate::workspaces::{Layout, PaneKind, Workspace};
 use accuracy::AccuracyView;
 use chromascope_figure::Tag;
 use correction::CorrectionView;
-pub use diagram::DiagramFit;
-use diagram::{DiagramView, Ranges};
 use help::HelpView;
 use import::{ImportItem, ImportMemory, ImportView};
 use metrics::MetricsLook;
@@ -43,10 +45,7 @@ use table::TableLook;
 #[derive(Debug, Default)]
 #[expect(clippy::struct_excessive_bools, reason = "independent one-frame requests and switches")]
 pub struct View {
-    /// State saved between runs.
     pub saved: SavedView,
-    /// Room for figures that are saved.
-    pub room: chromascope_figure::FigureRoom,
     /// Under the pointer now, in any pane.
     pub hovered: Option<PlotItem>,
     /// Under the pointer in the frame that is being made; becomes `hovered` at its end.
@@ -57,8 +56,6 @@ pub struct View {
     pub selected: Option<PlotItem>,
     /// True if the selection belongs to a sensor that is not compared: nothing drawn is dimmed for it.
     pub selected_elsewhere: bool,
-    /// Pair of metamers that was clicked, as a row.
-    pub metamers: Option<usize>,
     /// Pinned items, labeled A, B, …
     pub pinned: Vec<PlotItem>,
     /// Search text of the library.
@@ -69,23 +66,14 @@ pub struct View {
     pub focused: Option<PaneKind>,
     /// True if the column that a narrow window omits lies over the center.
     pub inspector_over: bool,
-    /// Shown part of the diagram.
     pub diagram: DiagramView,
     /// Other plots that are zoomed, by pane: the title of the figure, and its ranges.
     pub zoomed: HashMap<PaneKind, (String, Ranges)>,
-    /// State of the Import pane.
     pub import: ImportView,
-    /// State of the Render pane.
     pub render: RenderView,
-    /// State of the Correction pane.
     pub correction: CorrectionView,
-    /// State of the Numerics workspace.
     pub accuracy: AccuracyView,
-    /// Subject of the report whose folder is asked for.
-    pub report_on: Option<ReportOn>,
-    /// State of the Recorded pane.
     pub recorded: RecordedView,
-    /// The Figure page.
     pub page: PageView,
     /// Plots show their own ranges again in this frame.
     pub reset_plots: bool,
@@ -99,7 +87,6 @@ pub struct View {
     pub table_copies: bool,
     /// The temperature field takes the keyboard in this frame.
     pub focus_temperature: bool,
-    /// The help window.
     pub help: HelpView,
     /// Step of the tour, while it is played.
     pub tour: Option<usize>,
@@ -109,8 +96,6 @@ pub struct View {
     pub locus_share: Option<f64>,
     /// Time of egui in seconds at which the loci began to draw in.
     pub draws_since: Option<f64>,
-    /// Illuminant that the spectral similarity of the light is taken to.
-    pub similar_to: Option<String>,
     /// The palette that finds anything, while open.
     pub palette: Option<PickState>,
     /// The keyboard walks through panes: the pane that has it is framed.
@@ -144,15 +129,12 @@ pub enum ReportOn {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct SavedView {
-    /// The workspace.
     pub workspace: Workspace,
-    /// Sizes and places of panes.
     pub layout: Layout,
     /// Panes that show their numbers instead of their picture.
     pub tables: BTreeSet<PaneKind>,
     /// Order and columns of tables, by table.
     pub looks: BTreeMap<String, TableLook>,
-    /// Settings of the Metrics pane.
     pub metrics: MetricsLook,
     /// The gray around swatches.
     pub surround: Surround,
@@ -179,7 +161,6 @@ pub struct SavedView {
     pub render: RenderLook,
     /// Remembered import settings by kind of file.
     pub import: ImportMemory,
-    /// Settings of figures on paper.
     pub page: PageLook,
 }
 
@@ -260,46 +241,11 @@ impl SavedView {
     }
 }
 
-/// Arrangement of swatches.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub enum SwatchLayout {
-    /// Five patches in rows, more as charts.
-    #[default]
-    Auto,
-    /// A row for each sensor.
-    Rows,
-    /// A chart for each sensor.
-    Charts,
-}
-
-/// Arrangement of camera and reference within a swatch.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub enum SwatchStyle {
-    /// Left half reference, right half sensor.
-    #[default]
-    Split,
-    /// The reference inside the sensor's swatch.
-    Inset,
-    /// The sensor alone.
-    Whole,
-}
-
-/// Arrangement of spectra.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub enum SpectraLayout {
-    /// All sensors in one plot.
-    #[default]
-    Overlay,
-    /// A plot for each sensor.
-    Each,
-}
-
 /// A message at the foot of the window.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Status {
     /// Message text; empty for the default hint.
     pub text: String,
-    /// Severity.
     pub weight: Weight,
     /// Import item and line that `[Change]` or `[Show line]` opens.
     pub change: Option<(ImportItem, Option<usize>)>,
@@ -314,9 +260,7 @@ pub struct Status {
 /// Something that is done only at the user's word, by a button of a message.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Offer {
-    /// Uses a set.
     Use(SetKind, String),
-    /// Opens a file.
     Open(PathBuf),
 }
 
@@ -333,10 +277,8 @@ impl Status {
     }
 }
 
-/// Severity of a message.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Weight {
-    /// Information.
     #[default]
     Note,
     /// Warning that the user should check.
@@ -350,6 +292,36 @@ impl View {
     pub fn offer(&mut self, offers: Vec<Offer>, takes_keyboard: bool) {
         self.status.takes_keyboard = takes_keyboard && !offers.is_empty();
         self.status.offers = offers;
+    }
+
+    /// What a pane's figure takes from the view.
+    pub fn look(&self, pane: PaneKind) -> FigureLook {
+        let saved = &self.saved;
+        FigureLook {
+            hovered: self.hovered.clone(),
+            selected: self.selected.clone(),
+            blink: self.blink,
+            fit: saved.diagram_fit,
+            diagram: self.diagram.clone(),
+            zoom: self.zoomed.get(&pane).cloned(),
+            locus_share: self.locus_share,
+            pinned_pixel: self.render.pinned.clone(),
+            swatch_layout: saved.swatch_layout,
+            swatch_style: saved.swatch_style,
+            without_bars: !saved.difference_bars,
+            spectra_layout: saved.spectra_layout,
+            mode: saved.render.mode,
+            surround: saved.surround,
+            cameras: saved.metrics.cameras,
+            sorting: saved.looks.get(TABLE).and_then(|look| look.sorting.clone()),
+            pair: saved.metrics.pair.clone(),
+            card: saved.metrics.card.clone(),
+            residuals_of: self.recorded.camera.clone(),
+            shows: self.accuracy.shows,
+            correction: self.correction.shown.clone(),
+            recorded: self.recorded.ranked.clone(),
+            ..FigureLook::default()
+        }
     }
 
     /// Makes a choice of how plots and pictures stand.
@@ -399,7 +371,6 @@ impl View {
 
     /// Lets the loci draw in, once; `now` is egui's time in seconds.
     pub fn draw_in(&mut self, now: f64) {
-        /// Duration in seconds.
         const DURATION: f64 = 1.2;
         if std::mem::take(&mut self.saved.draws_in) && !self.saved.reduced_motion {
             self.draws_since = Some(now);
@@ -421,7 +392,6 @@ impl View {
         recent.truncate(10);
     }
 
-    /// Hovers an item.
     pub fn hover(&mut self, thing: Option<&PlotItem>) {
         if let Some(thing) = thing {
             self.next_hovered = Some(thing.clone());

@@ -17,7 +17,6 @@ pub struct PaneKind(&'static str);
 impl PaneKind {
     /// Sensors compared, and all data sets.
     pub const LIBRARY: Self = Self::new("Library");
-    /// Chromaticity diagram.
     pub const CHROMATICITY: Self = Self::new("Chromaticity");
     /// Patches as colors.
     pub const SWATCHES: Self = Self::new("Swatches");
@@ -31,24 +30,19 @@ impl PaneKind {
     pub const RENDER_SETTINGS: Self = Self::new("RenderSetup");
     /// The user's files, and the text of one with the marks of how it was read.
     pub const IMPORT: Self = Self::new("Import");
-    /// Curves that a file gives.
     pub const CURVES: Self = Self::new("Curves");
     /// Decisions made in reading a file, with switches.
     pub const INTERPRETATION: Self = Self::new("Understood");
     /// Run time against error by method.
     pub const METHODS: Self = Self::new("Accuracy");
-    /// Skipped work, and the time it saved.
     /// Counts of samples and methods of the pictures.
     pub const STATISTICS: Self = Self::new("Statistics");
-    /// Cameras by figures of merit.
     pub const METRICS: Self = Self::new("Metrics");
     /// Two cameras side by side.
     pub const HEAD_TO_HEAD: Self = Self::new("HeadToHead");
-    /// One camera on one page.
     pub const REPORT_CARD: Self = Self::new("ReportCard");
     /// The light judged.
     pub const LIGHT: Self = Self::new("Light");
-    /// The color correction of a camera.
     pub const CORRECTION: Self = Self::new("Correction");
     /// Raw values of a real camera against the library.
     pub const RECORDED: Self = Self::new("Recorded");
@@ -68,6 +62,12 @@ impl PaneKind {
     /// A pane of this id. Ids stay: layouts of earlier runs name them.
     pub const fn new(id: &'static str) -> Self {
         Self(id)
+    }
+}
+
+impl From<PaneKind> for &'static str {
+    fn from(kind: PaneKind) -> Self {
+        kind.0
     }
 }
 
@@ -123,17 +123,14 @@ fn interned(id: String) -> PaneKind {
     }))
 }
 
-/// A fixed arrangement of panes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 pub enum Workspace {
     /// The diagram over swatches, inspector over spectra.
     #[default]
     Compare,
-    /// Large spectra.
     Spectra,
     /// Rendered mesh through each camera, beside its components.
     Render,
-    /// Cameras by figures of merit.
     Metrics,
     /// The user's files and their interpretation.
     Import,
@@ -147,7 +144,6 @@ impl Workspace {
     pub const ALL: [Self; 6] =
         [Self::Compare, Self::Spectra, Self::Render, Self::Metrics, Self::Import, Self::Numerics];
 
-    /// The tab's title.
     pub const fn title(self) -> &'static str {
         match self {
             Self::Compare => "Compare",
@@ -165,7 +161,6 @@ impl Workspace {
     }
 }
 
-/// A border that can be dragged.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Splitter {
     /// Right of the library.
@@ -190,7 +185,6 @@ pub struct Layout {
     pub lower_share: f32,
     /// Height of the right column's lower pane as a share.
     pub right_lower_share: f32,
-    /// Library visible.
     pub library: bool,
     /// Compare: center upper, center lower, right upper, right lower.
     pub compare: [Option<PaneKind>; 4],
@@ -236,19 +230,11 @@ impl Default for Layout {
 }
 
 impl Layout {
-    /// The panes of a workspace's four places.
     pub fn places(&self, workspace: Workspace) -> &[Option<PaneKind>; 4] {
-        match workspace {
-            Workspace::Compare => &self.compare,
-            Workspace::Spectra => &self.spectra,
-            Workspace::Render => &self.render,
-            Workspace::Metrics => &self.metrics,
-            Workspace::Import => &self.import,
-            Workspace::Numerics => &self.numerics,
-        }
+        let Self { compare, spectra, render, metrics, import, numerics, .. } = self;
+        [compare, spectra, render, metrics, import, numerics][workspace as usize]
     }
 
-    /// The panes of a workspace's four places, mutable.
     pub fn places_mut(&mut self, workspace: Workspace) -> &mut [Option<PaneKind>; 4] {
         match workspace {
             Workspace::Compare => &mut self.compare,
@@ -275,7 +261,6 @@ impl Layout {
         Workspace::ALL.into_iter().find(|workspace| start.places(*workspace).contains(&Some(pane)))
     }
 
-    /// True if a workspace shows a pane.
     pub fn shows(&self, workspace: Workspace, pane: PaneKind) -> bool {
         if pane == PaneKind::LIBRARY { self.library } else { self.places(workspace).contains(&Some(pane)) }
     }
@@ -311,12 +296,9 @@ impl Layout {
     }
 }
 
-/// Rectangles of the panes and borders of a window.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Arrangement {
-    /// Panes with their rectangles.
     pub panes: Vec<(PaneKind, Rect)>,
-    /// Borders with theirs.
     pub splitters: Vec<(Splitter, Rect)>,
     /// A pane that overlaps the others.
     pub over: Option<(PaneKind, Rect)>,
@@ -330,7 +312,6 @@ const NARROW: f32 = 1100.0;
 const HYSTERESIS: f32 = 40.0;
 /// Above this width the columns grow.
 const LARGE: f32 = 1800.0;
-/// Width of a border.
 const GAP: f32 = 4.0;
 
 /// Arranges a workspace in an area. `was_narrow` prevents a window at the limit from flickering; `column_over` lays the omitted
@@ -415,7 +396,6 @@ fn cut_x(area: Rect, width: f32) -> (Rect, Rect, Rect) {
 }
 
 impl Layout {
-    /// Moves a border to the pointer.
     pub fn drag(&mut self, splitter: Splitter, pointer: Pos2, area: Rect) {
         match splitter {
             Splitter::Library => self.library_width = Some((pointer.x - area.left()).clamp(160.0, 360.0)),

@@ -3,21 +3,20 @@
 use std::cmp::Ordering;
 use std::sync::Arc;
 
-use chromascope_figure::{Figure, Table};
+use chromascope_figure::{Figure, FigureRoom, Table};
 use egui::ViewportCommand;
 
 use super::ChromascopeApp;
-use super::session::SESSION;
 use crate::action::history::History;
 use crate::action::{Action, CompareAction};
 use crate::catalog::opened::{CLIPBOARD, Request};
 use crate::command::Command;
 use crate::document::SetKind;
 use crate::export::{self, FigureForm};
-use crate::figures::FigureInput;
+use crate::figures::look::FigureLook;
 use crate::files::{DocumentSource, FileEvent, FileForm, SaveRequest};
 use crate::panes;
-use crate::profiler::SceneRunJob;
+use crate::profiler::{Profiler, SceneRunJob};
 use crate::scene::Scene;
 use crate::scene::conditions::CONDITIONS;
 use crate::view::SavedView;
@@ -34,19 +33,14 @@ impl ChromascopeApp {
             match event {
                 FileEvent::Open(paths) if std::mem::take(&mut self.view.recorded.opening) => {
                     self.view.recorded.corners.clear();
-                    paths.first().into_iter().for_each(|path| self.recorded.open(path));
+                    paths.first().into_iter().for_each(|path| self.recorded.read_again(path));
+                    self.view.recorded.path = paths.into_iter().next().or(self.view.recorded.path.take());
                 }
-                FileEvent::Open(paths) if self.view.report_on.is_some() => self.begin_report(&paths),
+                FileEvent::Open(paths) if self.report_on.is_some() => self.begin_report(&paths),
                 FileEvent::Open(paths) => self.open(paths.into_iter().map(Request::Path).collect()),
                 FileEvent::Changed(paths) => self.read_changed(&paths),
                 FileEvent::Said(message) => self.view.say(message),
-                FileEvent::Saved(saved) => {
-                    self.view.say(saved.message.clone());
-                    self.saved(ctx, &saved.what);
-                    if saved.what == SESSION {
-                        self.named(saved);
-                    }
-                }
+                FileEvent::Saved(saved) => self.saved(ctx, saved),
                 FileEvent::SessionSaved(file, document) => self.wrote_session(file, document),
                 FileEvent::SessionChanged(path) => self.did_not_write_session(Ok(path)),
                 FileEvent::SessionFailed(why) => self.did_not_write_session(Err(why)),
@@ -57,7 +51,6 @@ impl ChromascopeApp {
         }
     }
 
-    /// Runs the commands of keys, menus and panes.
     pub(super) fn carry_out(&mut self, ctx: &egui::Context) {
         for command in std::mem::take(&mut self.commands) {
             self.end_tour_before(&command);
@@ -101,25 +94,25 @@ impl ChromascopeApp {
                 self.open(vec![Request::Bytes { name: CLIPBOARD.to_owned(), bytes }]);
             }
             Command::ShowImport(item, line) => self.show_import(item, line),
-            Command::Wish(item, wishes) => {
-                self.view.import.tried.insert(item, *wishes);
+            Command::SetOverrides(item, overrides) => {
+                self.view.import.tried.insert(item, *overrides);
             }
-            Command::TakeWishBack => {
+            Command::DiscardOverrides => {
                 let shown = self.view.import.selected.clone();
                 shown.map(|item| self.view.import.tried.remove(&item));
             }
             Command::ForgetChoices(item) => self.forget_choices(&item),
-            Command::UseFile(fingerprint, wishes) => self.open(vec![Request::Known(fingerprint, wishes)]),
-            Command::UseParts(fingerprint, parts, wishes) => self.use_parts(fingerprint, &parts, &wishes),
+            Command::UseFile(fingerprint, overrides) => self.open(vec![Request::Known(fingerprint, overrides)]),
+            Command::UseParts(fingerprint, parts, overrides) => self.use_parts(fingerprint, &parts, &overrides),
             Command::UseForAlike(item) => self.use_for_alike(&item),
             Command::ForgetFile(fingerprint) => self.opened.forget(fingerprint),
             Command::ReadAgain(name) => self.read_again(&name),
             Command::StopReading => {
                 self.stop_reading();
             }
-            Command::SpectralWeights => self.measure(),
-            Command::MeasureWorkload(workload) => self.profiler.run_bench(workload),
-            Command::StopMeasuring => self.profiler.stop(),
+            Command::MeasureScene => self.measure(),
+            Command::MeasureWorkload(workload) => Profiler::run_bench(&self.later, workload),
+            Command::StopMeasuring => Profiler::stop(&self.later),
             Command::FigurePage(pane) => self.figure_page(ctx, self.pictured(pane)),
             Command::Export(pane, format) => self.export(pane, format),
             Command::ExportExr(source) => self.export_exr(&source),
@@ -197,13 +190,12 @@ impl ChromascopeApp {
         action
     }
 
-    /// Asks for files to open, or for a folder: that of files, or of a report.
     fn ask_for_files(&mut self, command: &Command) {
         self.view.recorded.opening = *command == Command::OpenRecorded;
-        self.view.report_on = None;
+        self.report_on = None;
         match command {
             Command::Report(on) => {
-                self.view.report_on = Some(*on);
+                self.report_on = Some(*on);
                 self.files.ask_for_folder("Folder in which the report's own folder is made");
             }
             Command::OpenFolder => self.files.ask_for_folder("Open all spectra of a folder"),
@@ -297,8 +289,8 @@ impl ChromascopeApp {
         {
             return;
         }
-        if self.profiler.busy().is_some() {
-            self.profiler.stop();
+        if Profiler::busy(&self.later).is_some() {
+            Profiler::stop(&self.later);
             self.view.say("Measuring stopped. Earlier results are unchanged.");
             return;
         }
@@ -310,7 +302,7 @@ impl ChromascopeApp {
         if view.page.open.take().is_some() || std::mem::take(&mut view.inspector_over) {
             return;
         }
-        if rendering && view.render.is_waiting() && !view.render.cancelled {
+        if rendering && self.render_service.is_waiting() && !view.render.cancelled {
             view.render.cancelled = true;
             view.say("Rendering stopped; the pictures so far are unchanged.");
             return;
@@ -337,12 +329,11 @@ impl ChromascopeApp {
         self.end_tour();
     }
 
-    /// Measures the cost of the scene.
     fn measure(&mut self) {
         let document = self.history.document();
         let scene = Scene { document, catalog: &self.catalog, results: &self.results };
         let own = self.meshes.chosen(&document.render.mesh);
-        self.profiler.run(SceneRunJob::of(&scene, own.as_ref(), self.view.saved.render.orbit));
+        Profiler::run(&self.later, SceneRunJob::of(&scene, own.as_ref(), self.view.saved.render.orbit));
         self.view.saved.workspace = Workspace::Numerics;
         if matches!(self.view.accuracy.shows, Shows::Bench(_)) {
             self.view.accuracy.shows = Shows::default();
@@ -389,13 +380,11 @@ impl ChromascopeApp {
         self.give_keyboard(ctx, pane);
     }
 
-    /// Goes to the control of a name in a pane.
     fn seek(&mut self, ctx: &egui::Context, pane: PaneKind, control: &'static str) {
         self.go_to(ctx, pane);
         panes::widgets::seek(ctx, control);
     }
 
-    /// Gives a pane the keyboard.
     fn give_keyboard(&mut self, ctx: &egui::Context, pane: PaneKind) {
         let import = &mut self.view.import;
         (self.view.focused, self.view.by_keyboard, self.view.cursor) = (Some(pane), true, None);
@@ -411,12 +400,10 @@ impl ChromascopeApp {
         ctx.memory_mut(|memory| memory.focused().map(|id| memory.surrender_focus(id)));
     }
 
-    /// Input for a pane's figure of a scene.
-    pub fn figure_input<'a>(&'a self, scene: &'a Scene<'a>) -> FigureInput<'a> {
-        FigureInput::of((scene, &self.view), &self.render_service, &self.profiler, &self.opened)
+    pub fn look(&self, pane: PaneKind, scene: &Scene<'_>) -> FigureLook {
+        panes::context::look(pane, (scene, &self.view), &self.render_service, &self.profiler, &self.opened)
     }
 
-    /// The pane whose figure is meant by a key in a pane.
     fn pictured(&self, pane: PaneKind) -> PaneKind {
         self.view.pictured(pane, |kind| panes::by_kind(kind).is_some_and(|pane| pane.figure.is_some()))
     }
@@ -433,15 +420,16 @@ impl ChromascopeApp {
     /// The pane's figure as on screen, or a message that it has none.
     pub(super) fn figure(&mut self, pane: PaneKind) -> Option<Figure> {
         let scene = Scene { document: self.history.document(), catalog: &self.catalog, results: &self.results };
-        let figure = panes::figure(pane, &self.figure_input(&scene));
+        let figure = panes::figure(pane, &scene, &self.look(pane, &scene), FigureRoom::default());
         self.checked(pane, figure)
     }
 
     /// The pane's figure on paper, or a message that it has none.
     fn printed(&mut self, pane: PaneKind) -> Option<Figure> {
         let scene = Scene { document: self.history.document(), catalog: &self.catalog, results: &self.results };
-        let view = &mut self.view;
-        let figure = panes::figure_on_paper(pane, (&scene, view), &self.render_service, &self.profiler, &self.opened);
+        let kind = panes::by_kind(pane).and_then(|pane| pane.figure);
+        let paper = &self.view.saved.page.paper;
+        let figure = kind.and_then(|kind| kind.on_paper(paper, &scene, &self.look(pane, &scene)));
         self.checked(pane, figure)
     }
 
@@ -465,10 +453,9 @@ impl ChromascopeApp {
         });
         let name = format!("{}.{}", self.file_stem(pane), form.ending());
         let what = format!("{} as {}", panes::title(pane), form.name());
-        self.files.ask_to_save(SaveRequest { what, name, forms: forms.collect(), note: String::new() });
+        self.files.ask_to_save(SaveRequest::new(what, name, forms.collect()));
     }
 
-    /// File name for a pane's export, without extension.
     fn file_stem(&self, pane: PaneKind) -> String {
         let title = panes::title(pane).to_lowercase();
         match (pane, self.view.accuracy.shows) {
@@ -481,7 +468,7 @@ impl ChromascopeApp {
     fn copy_picture(&mut self, ctx: &egui::Context, pane: PaneKind) {
         let Some(figure) = self.printed(pane) else { return };
         let paper = self.view.saved.page.paper;
-        match export::png(&export::svg(&figure, &paper.theme(), paper), paper.pixels_per_point()) {
+        match export::png(&export::svg(&figure, &paper.colors(), paper), paper.pixels_per_point()) {
             Ok(picture) => {
                 let size = [picture.width() as usize, picture.height() as usize];
                 ctx.copy_image(egui::ColorImage::from_rgba_unmultiplied(size, picture.as_raw()));
@@ -509,13 +496,11 @@ impl ChromascopeApp {
         figure.table.clone().with_constants(&cells)
     }
 
-    /// Saves the document as soon as it changes.
     pub(super) fn autosave(&mut self, ctx: &egui::Context) {
         let document = self.interrupted.as_ref().map_or(&self.history, |own| &own.history).document();
         self.files.autosave(document, ctx);
     }
 
-    /// True if a set of this kind and name is on the list.
     pub fn compares(&self, kind: SetKind, name: &str) -> bool {
         self.history.document().compared(kind, name).is_some()
     }

@@ -1,17 +1,21 @@
 //! One frame: bars, panes, the borders between them, and overlays.
 
-use egui::{Align2, CentralPanel, CursorIcon, Frame, Panel, Rect, Sense, Ui};
+use egui::{Align2, Button, CentralPanel, CursorIcon, Frame, Panel, Rect, Sense, TextStyle, Ui, Vec2};
 
-use super::{ChromascopeApp, focus, notice, path_prompt};
-use crate::files::PersistentMessage;
+use super::{ChromascopeApp, focus, path_prompt};
+use crate::files::{PersistentMessage, PersistentMessageKind};
 use crate::panes;
 use crate::panes::context::PaneContext;
+use crate::panes::widgets::lines;
 use crate::scene::Scene;
-use crate::theme::{self, Theme};
+use crate::theme::{self, Theme, UNIT};
 use crate::workspaces::{Splitter, arrange, arrange_page};
 
+/// Height of a notice, and width of the button that takes it away.
+const NOTICE: f32 = 24.0;
+const DISMISS: f32 = 72.0;
+
 impl ChromascopeApp {
-    /// The bars and panes of one frame.
     pub(super) fn show(&mut self, ui: &mut Ui) {
         let theme = Theme::of(ui.visuals()).with_surround(self.view.saved.surround);
         let mut context = PaneContext {
@@ -23,14 +27,10 @@ impl ChromascopeApp {
             images: &self.images,
             opened: &self.opened,
             recorded: &self.recorded,
-            radiators: &self.radiators,
-            portrait: &self.portrait,
-            report: &self.report,
-            pages: &self.pages,
+            later: &self.later,
+            states: &mut self.states,
             render_service: &mut self.render_service,
             profiler: &mut self.profiler,
-            ranking: &mut self.ranking,
-            curves: &mut self.curves,
             commands: &mut self.commands,
         };
         let bar = |ui: &mut Ui, id, height, top| bar(ui, &theme, (id, height), top);
@@ -42,7 +42,7 @@ impl ChromascopeApp {
             .standing()
             .into_iter()
             .zip(["first notice", "second notice", "third notice", "fourth notice", "fifth notice"])
-            .map(|(standing, id)| (standing, bar(ui, id, notice::HEIGHT, true)))
+            .map(|(standing, id)| (standing, bar(ui, id, NOTICE, true)))
             .collect();
         let status = bar(ui, "status", 24.0, false);
         let area = CentralPanel::default().frame(Frame::NONE.fill(theme.panel)).show(ui, |ui| ui.max_rect()).inner;
@@ -52,7 +52,7 @@ impl ChromascopeApp {
             panes::help::tour::show(ui, rect, &mut context);
         }
         for (standing, rect) in standing {
-            if notice::show(ui, rect, &standing, &theme) {
+            if notice(ui, rect, &standing, &theme) {
                 self.files.dismiss(standing.kind);
             }
         }
@@ -81,9 +81,6 @@ impl ChromascopeApp {
                 panes::show(ui, pane, rect, &mut context);
             }
         }
-        if page.is_none() {
-            context.pages.rest();
-        }
         for (splitter, rect) in self.arrangement.splitters.clone() {
             drag_border(ui, splitter, rect, area, &mut context);
         }
@@ -105,15 +102,13 @@ impl ChromascopeApp {
         panes::help::show(ui, &self.history, &mut context);
         path_prompt::show(ui, &theme, &mut self.files);
         context.render_service.end_frame();
-        context.ranking.end_frame();
-        self.ask_about_closing(ui, &theme);
+        context.later.end_frame();
         self.ask_about_session(ui, &theme);
         focus::ring(ui.ctx(), &theme);
         drop_veil(ui, theme);
     }
 }
 
-/// Rectangle of a bar across the window, at its top or bottom.
 fn bar(ui: &mut Ui, theme: &Theme, (id, height): (&'static str, f32), top: bool) -> Rect {
     let panel = if top { Panel::top(id) } else { Panel::bottom(id) };
     let panel = panel.exact_size(height).resizable(false).frame(Frame::NONE.fill(theme.panel));
@@ -161,4 +156,33 @@ fn drop_veil(ui: &Ui, theme: Theme) {
     painter.rect_stroke(screen.shrink(12.0), 4.0, egui::Stroke::new(2.0, theme.text), egui::StrokeKind::Inside);
     let font = egui::FontId::proportional(theme::HEADING);
     painter.text(screen.center(), Align2::CENTER_CENTER, "Drop to open", font, theme.text);
+}
+
+/// Shows a line below the conditions that stays, such as that the document is not saved; under the pointer, all of it and the file it is about. Returns whether it was dismissed.
+fn notice(ui: &mut Ui, rect: Rect, standing: &PersistentMessage, theme: &Theme) -> bool {
+    let inner = rect.shrink2(Vec2::new(2.0 * UNIT, 0.0));
+    let color = match standing.kind {
+        PersistentMessageKind::NotSaved => theme.error,
+        PersistentMessageKind::Copies => theme.text,
+        _ => theme.warning,
+    };
+    let mut left = inner.left();
+    if standing.kind != PersistentMessageKind::Copies {
+        lines::warning_mark(ui.painter(), egui::pos2(left + 7.0, inner.center().y), color);
+        left += 5.0 * UNIT;
+    }
+    let mut right = inner.right();
+    let mut dismissed = false;
+    if standing.kind.is_dismissible() {
+        let place = Rect::from_min_max(egui::pos2(right - DISMISS, inner.top() + 2.0), inner.max - Vec2::new(0.0, 2.0));
+        dismissed = ui.put(place, Button::new("Dismiss").small()).clicked();
+        right = place.left() - 2.0 * UNIT;
+    }
+    let text = Rect::from_min_max(egui::pos2(left, inner.top()), egui::pos2(right, inner.bottom()));
+    lines::elided(ui, text, &standing.words, TextStyle::Body, color);
+    let response = ui.interact(text, ui.scope_id().with(("standing", standing.kind)), Sense::hover());
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Status, true, &standing.words));
+    let file = standing.file.as_ref().map_or_else(String::new, |file| format!("\n{}", file.display()));
+    response.on_hover_text(format!("{}{file}", standing.words));
+    dismissed
 }

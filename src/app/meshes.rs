@@ -34,7 +34,6 @@ impl ChromascopeApp {
         self.images.keep(wanted);
     }
 
-    /// Shows a file that was read in the Render workspace.
     fn show_scene(&mut self, action: RenderAction, path: PathBuf, message: String) {
         self.view.remember_file(path);
         self.history.apply(&Action::Render(action));
@@ -71,7 +70,6 @@ impl ChromascopeApp {
         self.meshes.keep(wanted);
     }
 
-    /// Stops reading a mesh, if one is being opened.
     pub(super) fn stop_opening(&mut self) -> bool {
         let Some(path) = self.meshes.cancel().or_else(|| self.images.cancel()) else { return false };
         self.view.say(format!("Reading {} stopped. Nothing was changed.", file_name(&path)));

@@ -6,19 +6,14 @@ use crate::files::{Files, PathPrompt};
 use crate::theme::{ROW, Theme};
 
 const WIDTH: f32 = 420.0;
-/// Number of visible rows of completions.
 const ROWS: f32 = 5.0;
 
-/// The action chosen in the prompt.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Step {
-    /// The path is taken.
     Take,
-    /// The path is completed.
     Complete,
 }
 
-/// Shows the prompt, if it is open.
 pub(super) fn show(ui: &Ui, theme: &Theme, files: &mut Files) {
     let Some(prompt) = files.prompt_mut() else { return };
     let title = prompt.save.as_ref().map_or_else(|| "Open".to_owned(), |request| format!("Save {}", request.what));
@@ -113,7 +108,6 @@ fn candidates(ui: &mut Ui, prompt: &mut PathPrompt) {
     }
 }
 
-/// Places the cursor at the end of the text.
 fn cursor_to_end(ui: &Ui, id: egui::Id, text: &str) {
     use egui::text::{CCursor, CCursorRange};
     let mut state = TextEdit::load_state(ui.ctx(), id).unwrap_or_default();

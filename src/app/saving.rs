@@ -1,14 +1,29 @@
-//! Sets of the library as files.
+//! Sets of the library, cards, rendered pictures, color corrections and reports as files and on the clipboard.
+
+use std::path::PathBuf;
+use std::sync::Arc;
 
 use chromascope_core::query::Ask as _;
+use chromascope_figure::{Figure, FigureRoom, LegendPlace};
 
 use super::ChromascopeApp;
 use crate::document::SetKind;
+use crate::document::start::Start;
+use crate::export::card::{self, Card};
 use crate::export::profile::{self, CorrectionFileQuery, CorrectionForm};
+use crate::export::render::{ImageProvenance, Provenance, exr_bytes, image_exr_bytes};
 use crate::export::spectra::{self, Form};
-use crate::files::{FileForm, SaveRequest};
+use crate::figures::render::index_of;
+use crate::figures::{chromaticity, swatches};
+use crate::files::{FileForm, SaveRequest, new_folder};
+use crate::format::io_reason;
+use crate::plot_item::SensorId;
+use crate::report::{PAGE, PIXELS, Report, ReportJob};
 use crate::results::Results;
 use crate::scene::Scene;
+use crate::view::ReportOn;
+use crate::workspaces::PaneKind;
+use crate::{export, panes};
 
 impl ChromascopeApp {
     /// Writes a set in the background and asks where to save it; differences from the set are reported when it is
@@ -23,16 +38,12 @@ impl ChromascopeApp {
         self.files.make_to_save(move || {
             let refused = |error| format!("{} cannot be saved as {}: {error}.", entry.name, form.name());
             let file = spectra::file(&entry, form, &Results::default()).map_err(refused)?;
-            Ok(SaveRequest {
-                what,
-                name: file.name,
-                forms: vec![FileForm::of_bytes(form.format.ending(), file.text.into_bytes())],
-                note: spectra::notes_in_words(&file.notes),
-            })
+            let forms = vec![FileForm::of_bytes(form.format.ending(), file.text.into_bytes())];
+            let note = spectra::notes_in_words(&file.notes);
+            Ok(SaveRequest { note, ..SaveRequest::new(what, file.name, forms) })
         });
     }
 
-    /// Puts the curves of a set on the clipboard as text.
     pub(super) fn copy_set(&mut self, ctx: &egui::Context, kind: SetKind, name: &str) {
         let scene = Scene { document: self.history.document(), catalog: &self.catalog, results: &self.results };
         let table = scene.entry(kind, name).map_err(|error| error.to_string()).and_then(|entry| {
@@ -60,7 +71,144 @@ impl ChromascopeApp {
             let bytes = file.written(form).map_err(|error| error.to_string())?;
             let (what, name) = (format!("{}, color correction", file.camera), profile::file_name(&file, form));
             let forms = vec![FileForm::of_bytes(form.ending(), bytes)];
-            Ok(SaveRequest { what, name, forms, note: String::new() })
+            Ok(SaveRequest::new(what, name, forms))
         });
+    }
+
+    fn card(&mut self, pane: PaneKind) -> Option<Card> {
+        let shown = self.figure(pane)?;
+        let scene = Scene { document: self.history.document(), catalog: &self.catalog, results: &self.results };
+        let beside = pane != PaneKind::SWATCHES && pane != PaneKind::METRICS;
+        let look = self.view.look(pane);
+        let swatches = beside.then(|| swatches::figure_sized(&scene, &look, card::swatches_size()));
+        let figure = if pane == PaneKind::CHROMATICITY {
+            let [width, height] = card::figure_size();
+            let size = [width, height - chromaticity::STRIP];
+            let figure = chromaticity::figure_sized(&scene, &look, FigureRoom::default(), size);
+            Figure { legend_place: LegendPlace::LowerRight, ..figure }
+        } else {
+            shown
+        };
+        Some(Card { figure, swatches })
+    }
+
+    pub(super) fn copy_card(&mut self, ctx: &egui::Context, pane: PaneKind) {
+        let Some(card) = self.card(pane) else { return };
+        match card.picture() {
+            Ok(picture) => {
+                let size = [picture.width() as usize, picture.height() as usize];
+                ctx.copy_image(egui::ColorImage::from_rgba_unmultiplied(size, picture.as_raw()));
+                self.view.say(format!("{}: card copied, {} × {} pixels.", panes::title(pane), size[0], size[1]));
+            }
+            Err(error) => self.view.fail(error.to_string()),
+        }
+    }
+
+    pub(super) fn save_card(&mut self, pane: PaneKind) {
+        let Some(card) = self.card(pane) else { return };
+        let make = move || {
+            let file = card.picture().and_then(|picture| export::png_file(&picture));
+            file.map_err(|error| error.to_string())
+        };
+        let title = panes::title(pane);
+        let name = format!("{}-card.png", title.to_lowercase());
+        let forms = vec![FileForm::new("png", make)];
+        let what = format!("{title} as a card");
+        self.files.ask_to_save(SaveRequest::new(what, name, forms));
+    }
+
+    pub(super) fn export_exr(&mut self, source: &SensorId) {
+        match self.exr(source) {
+            Some(Ok(bytes)) => {
+                let name: String = source.name.chars().map(|c| if c.is_alphanumeric() { c } else { '_' }).collect();
+                let name = format!("{name}.exr");
+                let what = format!("the picture of {}", source.name);
+                let forms = vec![FileForm::of_bytes("exr", bytes)];
+                self.files.ask_to_save(SaveRequest::new(what, name, forms));
+            }
+            Some(Err(why)) => self.view.fail(why),
+            None => self.view.fail(format!("{}: no picture yet.", source.name)),
+        }
+    }
+
+    fn exr(&self, source: &SensorId) -> Option<Result<Vec<u8>, String>> {
+        let shot = self.render_service.frame()?;
+        if !self.render_service.is_settled() {
+            return Some(Err("The pictures are not finished yet; save again when rendering is complete.".to_owned()));
+        }
+        let index = index_of(shot, source)?;
+        let rendering = self.results.ask(shot.query.rendering(index)?);
+        let rendering = (*rendering).as_ref().ok()?;
+        let document = self.history.document();
+        let scene = Scene { document, catalog: &self.catalog, results: &self.results };
+        let [light, white] = scene.rendered_conditions();
+        let balance = if rendering.is_rgb { &white } else { "none" };
+        if let Some(made) = shot.made()?.image() {
+            let (image, illuminant) = (document.render.mesh.name(), light.clone());
+            let provenance = ImageProvenance { source: &source.name, balance, illuminant: &illuminant, image: &image };
+            let bytes = image_exr_bytes(made.placed(), made.signals(index)?, rendering, &provenance);
+            return Some(bytes.map_err(|error| error.to_string()));
+        }
+        let image = shot.made()?.mesh()?.images.get(index)?.as_ref()?;
+        let shading = &shot.query.mesh()?.shading;
+        let provenance = Provenance {
+            source: &source.name,
+            balance,
+            illuminant: &light,
+            material: &document.render.material,
+            garment: document.render.worn(),
+            mesh: &document.render.mesh.name(),
+            quality: shading.quality,
+            lighting: shading.geometry.lighting,
+            viewpoint: shading.geometry.visibility.viewpoint,
+            surface: shading.surface,
+            reading: shading.reading,
+            sky: document.render.sky,
+            thin: document.render.thin,
+        };
+        Some(exr_bytes(image, rendering, &provenance).map_err(|error| error.to_string()))
+    }
+}
+
+const FOLDER: &str = "Chromascope report";
+
+impl ChromascopeApp {
+    /// Begins a report in a folder of its own within the chosen one, so that nothing is overwritten.
+    pub(super) fn begin_report(&mut self, chosen: &[PathBuf]) {
+        let Some((on, parent)) = self.report_on.take().zip(chosen.first()) else { return };
+        let folder = match new_folder(parent, FOLDER) {
+            Ok(folder) => folder,
+            Err(error) => {
+                let why = io_reason(&error);
+                return self.view.fail(format!("Cannot make a folder in {}: {why}.", parent.display()));
+            }
+        };
+        let report = match on {
+            ReportOn::Paper => Report::new(Start::Paper.document(), false, PIXELS),
+            ReportOn::Document => Report::of_document(self.history.document()),
+        };
+        self.later.begin(Report::NAME, ReportJob::all(&Arc::new(report), &folder));
+    }
+
+    pub(super) fn take_report(&mut self) {
+        let report = self.later.seen::<ReportJob>(Report::NAME);
+        let Some(folder) = report.stages.first().map(|job| job.folder.clone()) else { return };
+        let is_finished = report.done == report.stages.len();
+        if let Err(why) = report.current().and_then(|made| made.map_or(Ok(()), |made| (*made).clone())) {
+            self.later.stop::<ReportJob>(Report::NAME);
+            self.view.fail(format!("The report is not finished. {why}"));
+        } else if is_finished {
+            self.later.stop::<ReportJob>(Report::NAME);
+            self.view.say(format!("Report saved: {}.", folder.join(PAGE).display()));
+        }
+    }
+
+    pub(super) fn stop_report(&mut self) -> bool {
+        let report = self.later.seen::<ReportJob>(Report::NAME);
+        let Some(job) = report.stages.first() else { return false };
+        self.later.stop::<ReportJob>(Report::NAME);
+        let (done, all, folder) = (report.done, report.stages.len(), job.folder.display());
+        self.view.say(format!("Report stopped after {done} of {all} steps; these are in {folder}."));
+        true
     }
 }

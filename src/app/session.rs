@@ -1,4 +1,5 @@
-//! The session as a file: its name and mark in the title, saving, changes by other programs, templates.
+//! The session as a file: its name and mark in the title, saving, changes by other programs, templates; and closing of the
+//! window, once everything is saved or the user decides otherwise.
 
 use std::collections::HashMap;
 use std::path::PathBuf;
@@ -11,7 +12,7 @@ use crate::action::history::History;
 use crate::command::{Command, SessionCommand};
 use crate::document::imported::Fingerprint;
 use crate::document::{Document, SessionFile, session};
-use crate::files::{DocumentSource, FileForm, MakeText, OpenedDocument, SaveRequest, SavedFile, template_name};
+use crate::files::{DocumentSource, FileForm, MakeBytes, OpenedDocument, SaveRequest, SavedFile, template_name};
 use crate::panes;
 use crate::theme::Theme;
 use crate::view::template::{TEMPLATES, Template};
@@ -19,10 +20,11 @@ use crate::view::{Offer, SavedView, Weight};
 use crate::workspaces::PaneKind;
 
 /// Description of the session where it is saved under a name.
-pub(super) const SESSION: &str = "the session";
+const SESSION: &str = "the session";
+/// Description of the document where it is saved elsewhere.
+const DOCUMENT: &str = "the document";
 const WIDTH: f32 = 420.0;
 
-/// State of the session's file.
 #[derive(Default)]
 pub(super) struct SessionState {
     /// Files as this window last read or wrote them, with their documents.
@@ -33,12 +35,22 @@ pub(super) struct SessionState {
     named: Option<Arc<Document>>,
     /// A file that another program wrote to, about which the user is asked.
     changed: Option<PathBuf>,
-    /// Name typed for a template.
     template: Option<String>,
-    /// The window's title.
     title: String,
     /// The document that was compared with its file last, and the result.
     compared: Option<(Document, bool)>,
+}
+
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) enum Closing {
+    #[default]
+    No,
+    /// The user is asked about changes that could not be saved.
+    Asked,
+    /// A path prompt is open, for the document as it was then.
+    Elsewhere(Arc<Document>),
+    /// Nothing holds it up.
+    Agreed,
 }
 
 impl SessionState {
@@ -93,7 +105,6 @@ impl ChromascopeApp {
         }
     }
 
-    /// Shows the session's name and mark in the title.
     pub(super) fn show_title(&mut self, ctx: &Context) {
         let unsaved = self.is_unsaved();
         let document = self.own_document();
@@ -111,7 +122,6 @@ impl ChromascopeApp {
         }
     }
 
-    /// The window's title.
     pub fn title(&self) -> &str {
         &self.session.title
     }
@@ -123,7 +133,6 @@ impl ChromascopeApp {
         self.files.open_document(source, self.history.document().clone(), is_safe, recent);
     }
 
-    /// Begins or saves a session.
     pub(super) fn session_command(&mut self, command: SessionCommand) {
         match command {
             SessionCommand::New(template) => self.new_session(template),
@@ -138,7 +147,6 @@ impl ChromascopeApp {
         }
     }
 
-    /// Begins a new session.
     fn new_session(&mut self, template: Option<&'static str>) {
         let known = template.and_then(|name| TEMPLATES.iter().find(|template| template.name == name));
         let document = known.map_or_else(Document::default, Template::document);
@@ -238,32 +246,43 @@ impl ChromascopeApp {
             file.fingerprint = *fingerprint;
         }
         self.session.writing = [true, false];
-        let (document, make) = self.text_to_save();
+        let (document, make) = self.file_to_save();
         self.files.save_session(file, document, make, replaces);
     }
 
-    /// Asks where to save the session.
     fn save_session_as(&mut self) {
-        let (document, make) = self.text_to_save();
+        let (document, make) = self.file_to_save();
         let name = document.session.as_ref().map(|file| crate::format::file_name(&file.path));
         self.session.named = Some(document);
-        self.files.ask_to_save(SaveRequest {
-            what: SESSION.to_owned(),
-            name: name.unwrap_or_else(|| format!("session.{}", session::ENDING)),
-            forms: vec![FileForm::new(session::ENDING, move || make().map(String::into_bytes))],
-            note: String::new(),
-        });
+        let name = name.unwrap_or_else(session_name);
+        let forms = vec![FileForm { extension: session::ENDING, make }];
+        self.files.ask_to_save(SaveRequest::new(SESSION, name, forms));
     }
 
-    /// The document with the making of its session's text.
-    fn text_to_save(&self) -> (Arc<Document>, MakeText) {
+    /// The document with the making of its session's file.
+    fn file_to_save(&self) -> (Arc<Document>, MakeBytes) {
         let document = Arc::new(self.own_document().clone());
         let (written, view) = (Arc::clone(&document), self.own_view().for_session());
-        (document, Arc::new(move || session::to_session(&written, &view).map_err(|error| error.to_string())))
+        let text = move || session::to_session(&written, &view).map_err(|error| error.to_string());
+        (document, Arc::new(move || text().map(String::into_bytes)))
     }
 
-    /// Handles a session that was saved under a name.
-    pub(super) fn named(&mut self, saved: SavedFile) {
+    /// Handles a file that was saved: a document saved elsewhere no longer holds the window open, and a session has a name.
+    pub(super) fn saved(&mut self, ctx: &Context, saved: SavedFile) {
+        self.view.say(saved.message);
+        if let Closing::Elsewhere(document) = &self.closing
+            && saved.what == DOCUMENT
+        {
+            // Later changes are not in that file.
+            if **document == *self.history.document() {
+                self.close(ctx);
+            } else {
+                self.closing = Closing::Asked;
+            }
+        }
+        if saved.what != SESSION {
+            return;
+        }
         self.view.remember_file(saved.file.path.clone());
         let Some(document) = self.session.named.take() else { return };
         self.own_history().set_session(&saved.file);
@@ -292,22 +311,23 @@ impl ChromascopeApp {
     }
 
     fn save_template(&mut self, name: &str) {
-        let (_, make) = self.text_to_save();
-        match make().and_then(|text| self.files.save_template(name, &text)) {
+        let (_, make) = self.file_to_save();
+        match make().and_then(|bytes| self.files.save_template(name, &bytes)) {
             Ok(()) => self.view.say(format!("Saved the template {name}: File, New from template.")),
             Err(why) => self.view.fail(format!("The template is not saved: {why}.")),
         }
         self.view.templates = self.files.templates();
     }
 
-    /// Shows the questions of saving, if one is open.
+    /// Shows the questions of closing and saving, if one is open.
     pub(super) fn ask_about_session(&mut self, ui: &Ui, theme: &Theme) {
+        self.ask_about_closing(ui, theme);
         if let Some(path) = self.session.changed.clone() {
             let words = format!(
                 "Another program, or another window, wrote to {} since it was read or written here.",
                 path.display()
             );
-            let answer = window(ui, "The file changed on disk", |ui| {
+            let answer = window(ui, "session", "The file changed on disk", |ui| {
                 ui.label(RichText::new(words).color(theme.warning));
                 ui.horizontal(|ui| {
                     let choices = ["Save as…", "Open that version", "Replace it", "Cancel"];
@@ -326,7 +346,7 @@ impl ChromascopeApp {
         }
         let Some(mut name) = self.session.template.take() else { return };
         let own: Vec<String> = self.view.templates.iter().map(|(name, _)| name.clone()).collect();
-        let answer = window(ui, "Save as a template", |ui| {
+        let answer = window(ui, "session", "Save as a template", |ui| {
             let field = ui.add(TextEdit::singleline(&mut name).hint_text("Name").desired_width(WIDTH));
             field.widget_info(|| egui::WidgetInfo::labeled(egui::Role::TextInput, true, "Name of the template"));
             let entered = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
@@ -354,12 +374,67 @@ impl ChromascopeApp {
             None => self.session.template = Some(name),
         }
     }
+
+    /// Holds the window open while its document cannot be saved.
+    pub(super) fn mind_closing(&mut self, ctx: &Context) {
+        if self.closing == Closing::Asked && self.files.is_saved() {
+            self.close(ctx);
+        }
+        if !ctx.input(|input| input.viewport().close_requested()) || self.closing == Closing::Agreed {
+            return;
+        }
+        self.end_tour();
+        if self.files.save_document(self.history.document()).is_err() {
+            ctx.send_viewport_cmd(ViewportCommand::CancelClose);
+            self.closing = Closing::Asked;
+        }
+    }
+
+    fn close(&mut self, ctx: &Context) {
+        self.closing = Closing::Agreed;
+        ctx.send_viewport_cmd(ViewportCommand::Close);
+    }
+
+    /// Asks about changes that are not saved while the window closes.
+    fn ask_about_closing(&mut self, ui: &Ui, theme: &Theme) {
+        if self.closing != Closing::Asked {
+            return;
+        }
+        let why = self.files.standing().into_iter().next().map(|standing| standing.words).unwrap_or_default();
+        let answer = window(ui, "closing", "Your changes are not saved", |ui| {
+            ui.label(RichText::new(why).color(theme.error));
+            ui.horizontal(|ui| {
+                let document = || Arc::new(self.history.document().clone());
+                let elsewhere = ui.button("Save elsewhere…").clicked().then(|| Closing::Elsewhere(document()));
+                let anyway = ui.button("Close without saving").clicked().then_some(Closing::Agreed);
+                let cancel = ui.button("Cancel").clicked().then_some(Closing::No);
+                elsewhere.or(anyway).or(cancel)
+            })
+            .inner
+        });
+        match answer {
+            Some(Closing::Agreed) => self.close(ui.ctx()),
+            Some(Closing::Elsewhere(document)) => {
+                self.closing = Closing::Elsewhere(Arc::clone(&document));
+                // With all of its sets in one file.
+                let make =
+                    move || session::to_json(&document).map(String::into_bytes).map_err(|error| error.to_string());
+                let forms = vec![FileForm::new(session::ENDING, make)];
+                self.files.ask_to_save(SaveRequest::new(DOCUMENT, session_name(), forms));
+            }
+            Some(next) => self.closing = next,
+            None => {}
+        }
+    }
 }
 
-/// Shows a question; returns the answer.
-fn window<R>(ui: &Ui, title: &str, content: impl FnOnce(&mut Ui) -> Option<R>) -> Option<R> {
+fn session_name() -> String {
+    format!("session.{}", session::ENDING)
+}
+
+fn window<R>(ui: &Ui, id: &'static str, title: &str, content: impl FnOnce(&mut Ui) -> Option<R>) -> Option<R> {
     let window = Window::new(title)
-        .id(egui::Id::unique("session"))
+        .id(egui::Id::unique(id))
         .collapsible(false)
         .resizable(false)
         .anchor(Align2::CENTER_TOP, Vec2::new(0.0, 96.0));

@@ -1,33 +1,32 @@
-//! Opening the window, or saying why it cannot open.
+//! Opening the window, or saying why it cannot open; its place and the layout between runs. eframe reads them at the start; they
+//! are written here, for eframe writes its file in place, and a kill would leave half of it.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use eframe::{NativeOptions, egui::ViewportBuilder};
+use eframe::NativeOptions;
+use eframe::egui::ViewportBuilder;
+use egui_winit::{WindowGeometry, WindowSettings};
 
 use super::{ChromascopeApp, LAYOUT_KEY};
 use crate::action::history::History;
 use crate::files::{self, Files};
 use crate::view::SavedView;
 
-/// The program's name in the system: folders, window class.
 const APP_ID: &str = "chromascope";
 
-/// What there is without a window.
 const WITHOUT: &str = "Without a window, `chromascope locus`, `patches`, `compare`, `light`, `matrix`, `figure`, `report`, `render`, \
                        `identify`, `inspect`, `bench` and `list` do the same.";
 
-/// Reason that the window did not open.
 #[derive(Debug, thiserror::Error)]
 pub enum WindowError {
-    /// There is no screen to open it on.
     #[error(
         "no display: neither DISPLAY nor WAYLAND_DISPLAY is set.\n{}\n\
          For a window without a screen, install the Debian package xvfb and run `xvfb-run chromascope`.",
         WITHOUT
     )]
     NoDisplay,
-    /// The system refused.
     #[error(
         "the window could not be opened: {0}.\n\
          It needs X11 (Debian packages libx11-6 libx11-xcb1 libxcursor1 libxi6 libxkbcommon-x11-0 libgl1) or Wayland \
@@ -37,7 +36,6 @@ pub enum WindowError {
     Refused(#[from] eframe::Error),
 }
 
-/// Opens the window with these files. Returns when it is closed.
 pub fn run(paths: Vec<PathBuf>, start: Instant) -> Result<(), WindowError> {
     let set = |name: &str| std::env::var_os(name).is_some_and(|value| !value.is_empty());
     if cfg!(target_os = "linux") && !set("DISPLAY") && !set("WAYLAND_DISPLAY") {
@@ -113,3 +111,77 @@ fn prefer_x11(options: &mut NativeOptions) {
 
 #[cfg(not(target_os = "linux"))]
 fn prefer_x11(_: &mut NativeOptions) {}
+
+/// eframe's key of the window's place and size.
+pub(super) const WINDOW_KEY: &str = "window";
+const MEMORY_KEY: &str = "egui";
+
+#[derive(Default)]
+struct Values(BTreeMap<String, String>);
+
+impl eframe::Storage for Values {
+    fn get_string(&self, key: &str) -> Option<String> {
+        self.0.get(key).cloned()
+    }
+
+    fn set_string(&mut self, key: &str, value: String) {
+        self.0.insert(key.to_owned(), value);
+    }
+
+    fn remove_string(&mut self, key: &str) {
+        self.0.remove(key);
+    }
+
+    fn flush(&mut self) {}
+}
+
+/// Window geometry as egui reports it, compared to detect a change.
+#[derive(Clone, Copy, Default, PartialEq)]
+struct Seen {
+    rects: [Option<egui::Rect>; 2],
+    fills: [Option<bool>; 2],
+}
+
+#[derive(Default)]
+pub(super) struct WindowPlace {
+    settings: Option<WindowSettings>,
+    /// Its place and size when it is neither maximized nor fills the screen.
+    normal: Option<WindowGeometry>,
+    seen: Seen,
+}
+
+impl WindowPlace {
+    pub(super) fn restored(storage: Option<&dyn eframe::Storage>) -> Self {
+        let settings: Option<WindowSettings> = storage.and_then(|storage| eframe::get_value(storage, WINDOW_KEY));
+        let normal = settings.as_ref().map(WindowSettings::normal_geometry);
+        Self { settings, normal, seen: Seen::default() }
+    }
+
+    pub(super) fn follow(&mut self, ctx: &egui::Context, frame: &eframe::Frame) {
+        let now = ctx.input(|input| {
+            let viewport = input.viewport();
+            Seen { rects: [viewport.outer_rect, viewport.inner_rect], fills: [viewport.maximized, viewport.fullscreen] }
+        });
+        if self.settings.is_some() && self.seen == now {
+            return;
+        }
+        if let Some(window) = frame.winit_window() {
+            let settings = WindowSettings::from_window(ctx.zoom_factor(), window, self.normal);
+            (self.normal, self.settings) = (Some(settings.normal_geometry()), Some(settings));
+            self.seen = now;
+        }
+    }
+}
+
+impl ChromascopeApp {
+    /// Saves the layout, in the background or, with `now`, before returning.
+    pub(super) fn save_layout(&mut self, now: bool) {
+        let mut values = Values::default();
+        if let Some(settings) = &self.place.settings {
+            eframe::set_value(&mut values, WINDOW_KEY, settings);
+        }
+        self.ctx.memory(|memory| eframe::set_value(&mut values, MEMORY_KEY, memory));
+        eframe::set_value(&mut values, LAYOUT_KEY, &self.saved_view());
+        self.files.save_layout(&values.0, now);
+    }
+}

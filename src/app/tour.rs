@@ -9,7 +9,6 @@ use crate::view::tour::STEPS;
 use crate::view::{DiagramFit, SavedView};
 use crate::workspaces::{Layout, PaneKind};
 
-/// The user's document and view while the tour is played.
 pub(super) struct Interrupted {
     pub(super) history: History,
     saved: SavedView,
@@ -20,7 +19,6 @@ pub(super) struct Interrupted {
 }
 
 impl ChromascopeApp {
-    /// Goes through the tour.
     pub(super) fn tour(&mut self, to: TourMove) {
         let now = self.view.tour;
         match (to, now) {
@@ -102,7 +100,6 @@ impl ChromascopeApp {
         }
     }
 
-    /// The user's own settings of the view.
     pub(super) fn own_view(&self) -> &SavedView {
         self.interrupted.as_ref().map_or(&self.view.saved, |interrupted| &interrupted.saved)
     }

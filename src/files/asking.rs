@@ -6,23 +6,21 @@ use super::Files;
 use super::atomic::write_atomically;
 use super::dialogs::{Answer, Question};
 use super::event::{FileEvent, Note, SavedFile};
-use super::prompt::{self, PathPrompt};
-use super::save::{self, FileForm, SaveRequest};
+use super::request::{self, FileForm, PathPrompt, SaveRequest};
+use crate::document::SessionFile;
+use crate::document::imported::Fingerprint;
 use crate::format::io_reason;
 
-/// A dialog that is open.
 pub(super) struct Waiting {
     ticket: u64,
     request: Option<SaveRequest>,
 }
 
 impl Files {
-    /// Shows the dialog for files to open.
     pub fn ask_to_open(&mut self) {
         self.in_dialog(Question::Files, None);
     }
 
-    /// Shows the dialog for a folder, with this title.
     pub fn ask_for_folder(&mut self, title: &'static str) {
         self.in_dialog(Question::Folder { title }, None);
     }
@@ -81,7 +79,6 @@ impl Files {
         }
     }
 
-    /// Handles the result of a dialog.
     pub(super) fn answered(&mut self, ticket: u64, answer: Answer, request: Option<SaveRequest>) {
         let waited = self.waiting.take_if(|waiting| waiting.ticket == ticket).is_some();
         match (answer, request) {
@@ -138,17 +135,16 @@ impl Files {
             self.prompt = Some(prompt.refused("Type a path."));
             return;
         }
-        let path = prompt::expanded(text, self.home.as_deref());
+        let path = request::expanded(text, self.home.as_deref());
         if prompt.save.is_some() {
             self.save_to(&path, prompt);
-        } else if let Some(why) = prompt::cannot_open(&path) {
+        } else if let Some(why) = request::cannot_open(&path) {
             self.prompt = Some(prompt.refused(why));
         } else {
             self.note(Note::Event(FileEvent::Open(vec![path])));
         }
     }
 
-    /// Saves to a path, or requests another one.
     fn save_to(&mut self, path: &Path, prompt: PathPrompt) {
         let Some(request) = prompt.save.clone() else { return };
         if path.is_dir() {
@@ -182,14 +178,13 @@ impl Files {
         }
     }
 
-    /// Completes the path typed, as far as names agree.
     pub fn complete_prompt(&self) {
         let Some(typed) = self.prompt.as_ref().map(|prompt| prompt.text.clone()) else { return };
         let home = self.home.clone();
-        self.in_background(move || [Note::Completed(prompt::complete(&typed, home.as_deref()))]);
+        self.in_background(move || [Note::Completed(request::complete(&typed, home.as_deref()))]);
     }
 
-    pub(super) fn completed(&mut self, done: prompt::Completed) {
+    pub(super) fn completed(&mut self, done: request::Completed) {
         // The completion applies only if the text is unchanged.
         if let Some(prompt) = self.prompt.as_mut().filter(|prompt| prompt.text == done.of) {
             prompt.typed();
@@ -197,7 +192,6 @@ impl Files {
         }
     }
 
-    /// Asks for a path in the window. Text typed into an open prompt is preserved.
     fn ask_for_path(&mut self, save: Option<SaveRequest>, ticket: u64) {
         match (&mut self.prompt, save) {
             (Some(PathPrompt { save: Some(_), .. }), Some(request)) => self.ask_to_save(request),
@@ -207,7 +201,6 @@ impl Files {
     }
 }
 
-/// Writes a format to a path and reports the result.
 fn write(path: &Path, form: &FileForm, SaveRequest { what, note, .. }: &SaveRequest) -> FileEvent {
     let bytes = match (form.make)() {
         Ok(bytes) => bytes,
@@ -216,7 +209,8 @@ fn write(path: &Path, form: &FileForm, SaveRequest { what, note, .. }: &SaveRequ
     match write_atomically(path, &bytes) {
         Ok(()) => {
             let note = if note.is_empty() { String::new() } else { format!(": {note}") };
-            let file = save::written(path, &bytes);
+            let absolute = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
+            let file = SessionFile { path: absolute, fingerprint: Fingerprint::of(&bytes) };
             let message = format!("Saved {}{note}.", file.path.display());
             FileEvent::Saved(SavedFile { message, what: what.clone(), file })
         }

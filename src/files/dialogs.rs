@@ -16,45 +16,32 @@ const ENDINGS: [&str; 30] = [
     "dta", "dpt", "sp", "cmf", "ccss", "ti3", "cgats", "jdx", "dx", "jcm", "spdx", "cxf", "xml", "json", "xls",
 ];
 
-/// A request for paths.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Question {
-    /// Files to open.
     Files,
-    /// A folder.
     Folder {
-        /// Title of the dialog.
         title: &'static str,
     },
-    /// A path to save to.
     Save {
-        /// Title of the dialog.
         title: String,
-        /// The name offered.
         name: String,
         /// The endings of the forms it can be saved in.
         endings: Vec<&'static str>,
     },
 }
 
-/// The outcome of a dialog.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Answer {
-    /// Paths, at least one.
     Chosen(Vec<PathBuf>),
-    /// Nothing, because the user says so.
     Cancelled,
-    /// No dialog could be shown.
     Missing,
 }
 
 /// File dialogs. They run on their own thread and may take any time.
 pub trait Dialogs: Send + Sync {
-    /// Shows the dialog and waits for the answer.
     fn ask(&self, question: &Question) -> Answer;
 }
 
-/// The system's dialogs.
 pub(super) struct System;
 
 impl Dialogs for System {
@@ -102,7 +89,6 @@ thread_local! {
 pub struct DialogLog<L>(L);
 
 impl<L: log::Log> DialogLog<L> {
-    /// Listens in front of another logger.
     pub fn new(logger: L) -> Self {
         Self(logger)
     }

@@ -4,21 +4,15 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use super::dialogs::Answer;
-use super::prompt::{Completed, PathPrompt};
-use super::save::SaveRequest;
+use super::request::{Completed, PathPrompt, SaveRequest};
 use crate::document::{Document, SessionFile};
 use crate::format::file_name;
 
-/// Outcome of a dialog, a read or a write.
 #[derive(Debug)]
 pub enum FileEvent {
-    /// Files or folders are to be opened.
     Open(Vec<PathBuf>),
-    /// Files changed on disk.
     Changed(Vec<PathBuf>),
-    /// Something to know.
     Said(String),
-    /// A file was written.
     Saved(SavedFile),
     /// A session was written to its file, with this document.
     SessionSaved(SessionFile, Arc<Document>),
@@ -30,7 +24,6 @@ pub enum FileEvent {
     SessionKnown(SessionFile, Arc<Document>),
     /// A document was read, and the one before it saved.
     Document(Box<OpenedDocument>),
-    /// Something failed; nothing was changed.
     Failed(String),
 }
 
@@ -43,14 +36,10 @@ pub(super) enum Note {
     Completed(Completed),
 }
 
-/// A file that was written.
 #[derive(Debug)]
 pub struct SavedFile {
-    /// A message.
     pub message: String,
-    /// Description of its contents.
     pub what: String,
-    /// The file.
     pub file: SessionFile,
 }
 
@@ -61,12 +50,10 @@ pub enum DocumentSource {
     File(PathBuf),
     /// A template of the user's: its file stays as it is.
     Template(PathBuf),
-    /// A document, and its name.
     New(&'static str, Box<Document>),
 }
 
 impl DocumentSource {
-    /// Its name.
     pub fn name(&self) -> String {
         match self {
             Self::File(path) => file_name(path),
@@ -79,9 +66,7 @@ impl DocumentSource {
 /// A document that was opened in place of another one.
 #[derive(Debug)]
 pub struct OpenedDocument {
-    /// Its source.
     pub source: DocumentSource,
-    /// The document.
     pub document: Document,
     /// Parts of a document of a newer version that are not understood, in a sentence.
     pub newer: Option<String>,
@@ -91,6 +76,5 @@ pub struct OpenedDocument {
     pub lost: Vec<String>,
     /// Files on this computer whose contents are not those that its sets of these names were made of.
     pub other: Vec<PathBuf>,
-    /// The document being replaced.
     pub before: Document,
 }

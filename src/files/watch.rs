@@ -84,7 +84,6 @@ impl Heard {
 }
 
 impl Watch {
-    /// Watches nothing yet.
     pub(super) fn new(wake: Option<egui::Context>) -> Self {
         let (heard, clock) = (Arc::<Mutex<Heard>>::default(), Clock::default());
         let (listener, times) = (Arc::clone(&heard), clock.clone());
@@ -99,7 +98,6 @@ impl Watch {
         Self { watcher, heard, clock, files, folders, lost, looked: None }
     }
 
-    /// Watches these files and no others.
     pub(super) fn files(&mut self, files: BTreeSet<PathBuf>) {
         if files == self.files {
             return;

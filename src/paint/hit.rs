@@ -5,10 +5,8 @@ use egui::Pos2;
 
 use super::View;
 
-/// A mark near the pointer.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Hit {
-    /// Tag of the mark.
     pub tag: Tag,
     /// Its place among the panel's marks.
     pub mark: usize,

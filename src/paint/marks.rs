@@ -186,7 +186,7 @@ impl Brush<'_> {
                 frame(1.5, Color32::WHITE);
             }
             Emphasis::Hovered => {
-                let stroke = Stroke::new(1.0, self.theme.surround.label());
+                let stroke = Stroke::new(1.0, self.theme.on_surround);
                 self.painter.rect_stroke(rect, 0.0, stroke, StrokeKind::Outside);
             }
             Emphasis::Normal | Emphasis::Faded => {}

@@ -22,13 +22,10 @@ struct Entry {
 /// Picture to be drawn, and its area.
 #[derive(Clone, Copy, Debug)]
 pub struct PictureQuery<'a> {
-    /// The picture's name: the same texture serves all its versions.
     pub name: &'a str,
     /// Its version: it is made and uploaded when this changed.
     pub version: u64,
-    /// Area of the whole picture.
     pub rect: Rect,
-    /// Visible part of it.
     pub clip: Rect,
     /// True if its pixels are those of the screen.
     pub sharp: bool,

@@ -19,7 +19,6 @@ struct Entry {
     used: u64,
 }
 
-/// Draws a picture into a rectangle.
 pub(super) fn draw(painter: &Painter, rect: Rect, image: &Image) {
     if !image.is_drawable() {
         return;

@@ -2,7 +2,6 @@
 
 use egui::{Color32, Mesh, Painter, Pos2, Shape, Stroke};
 
-/// Fills the inside of a simple polygon.
 pub(super) fn fill(painter: &Painter, corners: &[Pos2], color: Color32) {
     let mut corners = corners.to_vec();
     corners.dedup();
@@ -23,7 +22,6 @@ pub(super) fn fill(painter: &Painter, corners: &[Pos2], color: Color32) {
     painter.add(mesh);
 }
 
-/// Twice the signed area of a triangle.
 fn cross(a: Pos2, b: Pos2, c: Pos2) -> f32 {
     (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x)
 }

@@ -18,32 +18,25 @@ use crate::theme::UNIT;
 use crate::view::DiagramFit;
 use crate::workspaces::PaneKind;
 
-/// Pick radius, in points.
 const REACH: f32 = 10.0;
-/// The strip's height in points.
 const STRIP: f32 = 124.0;
 /// Below this height of the diagram there is no strip.
 const WITH_STRIP: f32 = 350.0;
-/// The overview's size in points.
 const OVERVIEW: Vec2 = Vec2::new(96.0, 104.0);
 
-/// The pane.
 pub const PANE: Pane = Pane {
     kind: PaneKind::CHROMATICITY,
     title: "Chromaticity",
     show,
-    figure: Some(|input| Some(crate::figures::chromaticity::figure(input.scene, input.view))),
+    figure: Some(&chromaticity::KIND),
     under_conditions: true,
     table: true,
 };
 
-/// Shows the pane in its rectangle.
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let body = widgets::pane(ui, &PANE, rect, context, switches);
     let body = body.shrink2(Vec2::new(2.0 * UNIT, 0.0));
-    if context.view.saved.tables.contains(&PaneKind::CHROMATICITY) {
-        let figure = chromaticity::figure(&context.scene, context.view);
-        widgets::table::show_numbers(ui, body, PaneKind::CHROMATICITY, &figure.table, context);
+    if widgets::figure_numbers(ui, &PANE, body, context) {
         return;
     }
     let body = widgets::caution::show(ui, body, context);
@@ -91,8 +84,7 @@ fn overlays(ui: &mut Ui, context: &mut PaneContext<'_>) {
 fn diagram(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let size = [f64::from(rect.width()), f64::from(rect.height())];
     hold_fit(ui, context);
-    let built =
-        chromaticity::build(&context.scene, context.view, context.render_service.frame().map(AsRef::as_ref), size);
+    let built = chromaticity::build(&context.scene, &context.look(PANE.kind), size);
     let id = Id::unique(("chromaticity", context.scene.document.diagram));
     let shown = plot(ui, id, &built, rect, true, context);
     note_zoom(ui, &built, &shown, context);
@@ -147,7 +139,6 @@ fn note_zoom(ui: &Ui, built: &Built, shown: &paint::PlotOutput, context: &mut Pa
     }
 }
 
-/// Hovers the item nearest to the pointer; a click selects it.
 fn point_at(built: &Built, shown: &paint::PlotOutput, context: &mut PaneContext<'_>) {
     let pointer = shown.response.hover_pos().filter(|at| shown.view.rect.contains(*at));
     let hit = pointer.and_then(|at| paint::nearest(&built.panel, &shown.view, at, REACH));
@@ -215,8 +206,8 @@ fn tooltip(built: &Built, shown: &paint::PlotOutput, pointer: Pos2, lines: &[Str
 /// while it is being computed, and for colors without one.
 fn nearest_black_body(color: UvPrime, context: &PaneContext<'_>) -> Option<String> {
     let observer = context.scene.sensor(SetKind::Observer, FIT_TARGET).ok()?;
-    context.radiators.ask(vec![NearestBlackBodyQuery { observer, constants: RadiationConstants::Paper }]);
-    let shown = context.radiators.shown()?;
+    let query = NearestBlackBodyQuery { observer, constants: RadiationConstants::Paper };
+    let shown = context.later.ask(PANE.kind, vec![query]).shown?;
     let cct = (*shown.answer).as_ref().ok()?.cct(color.uv60());
     Some(match cct {
         Ok(cct) => {
@@ -254,7 +245,6 @@ fn say_refusals(ui: &Ui, rect: Rect, built: &Built, context: &PaneContext<'_>) {
     }
 }
 
-/// The strip: reads distances, and sets the temperature.
 fn show_strip(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let size = [f64::from(rect.width()), f64::from(rect.height())];
     let Some(built) = strip::build(&context.scene, size) else {

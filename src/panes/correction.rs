@@ -8,24 +8,22 @@ use chromascope_core::query::correction::CorrectionUnder;
 use egui::{Id, Label, Rect, RichText, ScrollArea, Sense, Ui, Vec2};
 
 use super::context::{Pane, PaneContext};
-use crate::export::profile::{CorrectionFile, CorrectionFileError, aligned, check_lines};
+use crate::export::profile::{CorrectionFile, CorrectionFileError, CorrectionFileQuery, aligned, check_lines};
 use crate::figures::correction as figure;
 use crate::paint::{self, PlotOptions};
 use crate::panes::widgets;
 use crate::theme::UNIT;
 use crate::workspaces::PaneKind;
 
-/// The pane.
 pub const PANE: Pane = Pane {
     kind: PaneKind::CORRECTION,
     title: "Correction",
     show,
-    figure: Some(|input| figure::figure(input.view)),
+    figure: Some(&figure::KIND),
     under_conditions: true,
     table: false,
 };
 
-/// Shows the pane in its rectangle.
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     widgets::scrolling_pane(ui, &PANE, rect, context, |ui, context| {
         ui.spacing_mut().item_spacing = Vec2::new(2.0 * UNIT, UNIT);
@@ -41,20 +39,23 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
                 ui.add(Label::new(RichText::new(error).color(context.theme.error)).wrap());
             }
             Ok(None) => {
-                ui.label(RichText::new("computing…").color(context.theme.weak));
+                ui.weak("computing…");
             }
             Ok(Some(file)) => sheet(ui, &file, context),
         }
     });
 }
 
-/// The correction of a camera, requested in the background; the last one while it is made.
+/// The correction of a camera; the last one while it is made.
 fn refreshed(camera: &str, context: &mut PaneContext<'_>) -> Result<Option<Arc<CorrectionFile>>, String> {
     let view = &mut context.view.correction;
-    let made = context.ranking.correction(&context.scene, view.request(&context.scene, camera));
+    let query = CorrectionFileQuery::new(&context.scene, view.request(&context.scene, camera));
+    let made = query.map_err(|error| error.to_string()).and_then(|query| {
+        let made = context.later.ask(PANE.kind, vec![query]).current()?;
+        made.map(|made| (*made).clone()).transpose().map_err(|error| error.to_string())
+    });
     match made {
-        Ok(Some(file)) => view.shown = Some(file),
-        Ok(None) => {}
+        Ok(made) => view.shown = made.or(view.shown.take()),
         Err(error) => {
             view.shown = None;
             return Err(error);
@@ -63,7 +64,6 @@ fn refreshed(camera: &str, context: &mut PaneContext<'_>) -> Result<Option<Arc<C
     Ok(view.shown.clone())
 }
 
-/// Numbers, checks, figure and files of a correction.
 fn sheet(ui: &mut Ui, file: &CorrectionFile, context: &mut PaneContext<'_>) {
     let theme = context.theme;
     for (index, (name, under)) in file.unders().enumerate() {
@@ -91,7 +91,6 @@ fn sheet(ui: &mut Ui, file: &CorrectionFile, context: &mut PaneContext<'_>) {
     ui.add_space(2.0 * UNIT);
 }
 
-/// Matrix, errors and checks under a light.
 fn under_light(ui: &mut Ui, file: &CorrectionFile, name: &str, under: &CorrectionUnder, context: &PaneContext<'_>) {
     let theme = context.theme;
     let kelvin = under.temperature.map_or(String::new(), |kelvin| format!(", {:.0} K", kelvin.get()));
@@ -113,7 +112,7 @@ fn under_light(ui: &mut Ui, file: &CorrectionFile, name: &str, under: &Correctio
 fn section(ui: &mut Ui, caption: &str, copied: Option<&str>, hint: &str) {
     ui.add_space(UNIT);
     ui.horizontal_wrapped(|ui| {
-        ui.label(RichText::new(caption).strong());
+        ui.strong(caption);
         if let Some(text) = copied
             && ui.small_button("Copy").on_hover_text(hint).clicked()
         {
@@ -129,7 +128,6 @@ fn mono(ui: &mut Ui, text: &str) {
     });
 }
 
-/// The figure of what lies between two lights.
 fn between(ui: &mut Ui, file: &CorrectionFile, context: &mut PaneContext<'_>) {
     let width = ui.available_width();
     let size = Vec2::new(width, (0.5 * width).clamp(120.0, 220.0));
@@ -150,7 +148,6 @@ fn between(ui: &mut Ui, file: &CorrectionFile, context: &mut PaneContext<'_>) {
     }
 }
 
-/// The ACES input transform.
 fn aces(ui: &mut Ui, file: &CorrectionFile, context: &PaneContext<'_>) {
     match &file.idt {
         Ok(idt) => {

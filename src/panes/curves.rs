@@ -1,40 +1,39 @@
 //! The curves that a file gives.
 
-use egui::{Align2, Id, Rect, Ui, Vec2};
+use egui::{Align2, Id, Rect, Ui};
 
 use super::context::{Pane, PaneContext};
-use crate::figures::curves::{self, CurveCache, Curves, ImportSelection};
+use crate::figures::curves::{self, CurveCache, Curves};
 use crate::paint::{self, PlotOptions};
 use crate::panes::widgets;
 use crate::theme::UNIT;
 use crate::view::import::ImportItem;
 use crate::workspaces::PaneKind;
 
-/// Reach of the pointer, in points.
 const REACH: f32 = 8.0;
 
-/// The pane.
 pub const PANE: Pane = Pane {
     kind: PaneKind::CURVES,
     title: "Curves",
     show,
-    figure: Some(curves::figure),
+    figure: Some(&curves::KIND),
     under_conditions: false,
     table: true,
 };
 
-/// Shows the pane in its rectangle.
+#[derive(Default)]
+struct LastDrawn(Option<CurveCache>);
+
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
-    let body = widgets::pane(ui, &PANE, rect, context, |_, _| {});
-    let body = Rect::from_min_max(body.min + Vec2::new(2.0 * UNIT, 0.0), body.max - Vec2::new(2.0 * UNIT, UNIT));
-    let Some(shown) = ImportSelection::refresh(&context.scene, context.view, context.opened) else {
+    let body = widgets::body(ui, &PANE, rect, context, |_, _| {});
+    let Some(shown) = context.import_selection() else {
         sentence(ui, body, "Drop files here.", context.theme.weak);
         return;
     };
     if shown.file.is_some() && !shown.is_fresh() {
         widgets::busy_line(ui, body, context.opened.looking(), context.theme.text);
     }
-    let kept = CurveCache::of(&shown, context.curves.take());
+    let kept = CurveCache::of(&shown, context.states.of::<LastDrawn>().0.take());
     match kept.all() {
         Err(words) => {
             let saved = &context.view.saved;
@@ -49,7 +48,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
         }
         Ok(curves) => plot(ui, body, &shown.item, [curves, kept.seen().unwrap_or(curves)], context),
     }
-    *context.curves = Some(kept);
+    context.states.of::<LastDrawn>().0 = Some(kept);
 }
 
 fn plot(ui: &mut Ui, body: Rect, item: &ImportItem, [curves, seen]: [&Curves; 2], context: &mut PaneContext<'_>) {
@@ -61,7 +60,7 @@ fn plot(ui: &mut Ui, body: Rect, item: &ImportItem, [curves, seen]: [&Curves; 2]
     context.view.note_zoom(PaneKind::CURVES, curves::title(seen), shown.zoomed(&panel));
     let hit = shown.response.hover_pos().and_then(|at| paint::nearest(&panel, &shown.view, at, REACH));
     let place = hit.and_then(|hit| curves::place(hit.tag));
-    hover(ui, shown.response.hovered(), place, context);
+    widgets::hover_curve(ui, "pointer over result", shown.response.hovered(), place, context);
     let Some([nm, value]) = shown.hovered else { return };
     if let Some(place) = place {
         let lines = curves::describe(curves, place, nm);
@@ -72,24 +71,11 @@ fn plot(ui: &mut Ui, body: Rect, item: &ImportItem, [curves, seen]: [&Curves; 2]
     }
 }
 
-/// Takes a curve as the one under the pointer, and lets it go when the pointer leaves.
-fn hover(ui: &Ui, inside: bool, place: Option<usize>, context: &mut PaneContext<'_>) {
-    let id = Id::unique("pointer over result");
-    let was = ui.data(|data| data.get_temp(id).unwrap_or(false));
-    ui.data_mut(|data| data.insert_temp(id, inside));
-    if (inside || was) && context.view.import.hovered_curve != place {
-        context.view.import.hovered_curve = place.filter(|_| inside);
-        ui.ctx().request_repaint();
-    }
-}
-
-/// A wrapped message in the center.
 fn sentence(ui: &Ui, body: Rect, words: &str, color: egui::Color32) {
     let font = egui::FontId::proportional(crate::theme::TEXT);
     let width = (body.width() - 8.0 * UNIT).max(40.0);
     let galley = ui.painter().layout(words.to_owned(), font, color, width);
     let rect = Align2::CENTER_CENTER.align_size_within_rect(galley.size(), body);
     ui.painter().with_clip_rect(body).galley(rect.min, galley, color);
-    let response = ui.interact(rect, ui.scope_id().with("no curves"), egui::Sense::hover());
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, words));
+    widgets::named(ui, rect, ui.scope_id().with("no curves"), egui::Role::Label, words);
 }

@@ -4,17 +4,18 @@ mod settings;
 mod sheet;
 
 use std::sync::Arc;
+use std::time::Duration;
 
 use chromascope_figure::Figure;
 use egui::{Rect, RichText, Ui, UiBuilder, Vec2};
 
 use super::context::PaneContext;
-use super::{figure_on_paper, show as show_pane};
+use super::{by_kind, show as show_pane};
+use crate::export::Paper;
 use crate::export::page::PageFacts;
 use crate::theme::UNIT;
 use crate::workspaces::PaneKind;
 
-/// Width of the settings in points.
 const SETTINGS: f32 = 300.0;
 /// Panes whose figures follow from the document alone. The others ask for work in the background while they are shown.
 const OF_DOCUMENT: [PaneKind; 3] = [PaneKind::CHROMATICITY, PaneKind::SWATCHES, PaneKind::SPECTRA];
@@ -57,14 +58,13 @@ fn keep_working(ui: &mut Ui, rect: Rect, kind: PaneKind, context: &mut PaneConte
 /// The figure, made anew ten times a second at most while neither pane nor paper change.
 fn made(ui: &Ui, kind: PaneKind, context: &mut PaneContext<'_>) -> Option<Arc<Figure>> {
     let (of, now) = ((kind, context.view.saved.page.paper), ui.input(|input| input.time));
-    if let Some((figure, rest)) = context.view.page.fresh(of, now) {
+    if let Some((figure, rest)) = context.states.of::<LastPage>().fresh(of, now) {
         ui.ctx().request_repaint_after(rest);
         return figure;
     }
-    let scene = context.scene;
-    let figure =
-        figure_on_paper(kind, (&scene, context.view), context.render_service, context.profiler, context.opened);
-    context.view.page.keep(of, now, figure)
+    let shown = by_kind(kind).and_then(|pane| pane.figure);
+    let figure = shown.and_then(|shown| shown.on_paper(&of.1, &context.scene, &context.look(kind)));
+    context.states.of::<LastPage>().keep(of, now, figure)
 }
 
 /// A child of a rectangle with some space along its sides.
@@ -75,7 +75,61 @@ fn inside(ui: &mut Ui, salt: &'static str, rect: Rect) -> Ui {
     child
 }
 
-/// Small, weak text.
 fn small(words: impl Into<String>, context: &PaneContext<'_>) -> RichText {
     RichText::new(words).small().color(context.theme.weak)
+}
+
+/// The figure made last.
+#[derive(Default)]
+struct LastPage(Option<MadeFigure>);
+
+struct MadeFigure {
+    of: (PaneKind, Paper),
+    /// Time of egui in seconds.
+    at: f64,
+    figure: Option<Arc<Figure>>,
+}
+
+impl LastPage {
+    /// Seconds between two figures while neither pane nor paper change: moving the pointer makes none.
+    const PAUSE: f64 = 0.1;
+
+    /// The figure made last while it is fresh, and for how long it still is; after that, [`Self::keep`] takes another.
+    fn fresh(&self, of: (PaneKind, Paper), now: f64) -> Option<(Option<Arc<Figure>>, Duration)> {
+        let made = self.0.as_ref().filter(|made| made.of == of)?;
+        let age = now - made.at;
+        (0.0..Self::PAUSE).contains(&age).then(|| (made.figure.clone(), Duration::from_secs_f64(Self::PAUSE - age)))
+    }
+
+    /// Keeps a figure that was made. One equal to the last leaves that in place.
+    fn keep(&mut self, of: (PaneKind, Paper), now: f64, figure: Option<Figure>) -> Option<Arc<Figure>> {
+        let last = self.0.take().and_then(|made| made.figure);
+        let figure = match (last, figure) {
+            (Some(last), Some(figure)) if *last == figure => Some(last),
+            (_, figure) => figure.map(Arc::new),
+        };
+        self.0 = Some(MadeFigure { of, at: now, figure: figure.clone() });
+        figure
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_figure_is_fresh_for_a_while_and_an_equal_one_leaves_it_in_place() {
+        let mut view = LastPage::default();
+        let of = (PaneKind::SPECTRA, Paper::default());
+        assert!(view.fresh(of, 1.0).is_none());
+        let first = view.keep(of, 1.0, Some(Figure::new("Spectra", [1.0; 2]))).expect("a figure");
+        let (fresh, rest) = view.fresh(of, 1.04).expect("fresh");
+        assert!(Arc::ptr_eq(&fresh.expect("a figure"), &first) && (rest.as_secs_f64() - 0.06).abs() < 1e-9);
+        assert!(view.fresh((of.0, Paper { dpi: 600.0, ..of.1 }), 1.04).is_none(), "another paper");
+        assert!(view.fresh(of, 1.11).is_none(), "some time later");
+        let again = view.keep(of, 1.11, Some(Figure::new("Spectra", [1.0; 2]))).expect("a figure");
+        assert!(Arc::ptr_eq(&again, &first));
+        let other = view.keep(of, 1.3, Some(Figure::new("Spectra", [2.0; 2]))).expect("a figure");
+        assert!(!Arc::ptr_eq(&other, &first));
+    }
 }

@@ -2,7 +2,7 @@
 
 use chromascope_core::query::CameraMetric;
 use chromascope_core::query::metrics::Better;
-use egui::{Rect, RichText, Ui, Vec2};
+use egui::{Rect, Ui, Vec2};
 
 use super::context::{Pane, PaneContext};
 use crate::figures::{head_to_head as figure, metrics};
@@ -10,9 +10,8 @@ use crate::panes::widgets;
 use crate::panes::widgets::pick_list::{self, Line};
 use crate::panes::widgets::table::{CellNote, Column, DataTable};
 use crate::plot_item::SensorId;
-use crate::ranking::Ranked;
+use crate::scene::metrics::{Ranked, RankedCameras, Ranking};
 use crate::theme::UNIT;
-use crate::view::metrics::RankedCameras;
 use crate::view::table::Sorting;
 use crate::workspaces::PaneKind;
 
@@ -22,25 +21,21 @@ const BETTER: usize = 2;
 const FIRST: usize = 3;
 const SECOND: usize = 4;
 
-/// The pane.
 pub const PANE: Pane = Pane {
     kind: PaneKind::HEAD_TO_HEAD,
     title: "Head to head",
     show,
-    figure: Some(figure::figure),
+    figure: Some(&figure::KIND),
     under_conditions: true,
     table: false,
 };
 
-/// Shows the pane in its rectangle.
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
-    let body = widgets::pane(ui, &PANE, rect, context, |_, _| {});
-    let body = Rect::from_min_max(body.min + Vec2::new(2.0 * UNIT, 0.0), body.max - Vec2::new(2.0 * UNIT, UNIT));
+    let body = widgets::body(ui, &PANE, rect, context, |_, _| {});
     // All cameras, or those of the table: one request serves both panes.
-    let ranked = context.ranking.ask(&context.scene, context.view.saved.metrics.cameras);
-    let pair = figure::pair(&ranked, &context.scene, context.view);
-    let mut child = ui.new_child(egui::UiBuilder::new().id_salt("pair").max_rect(body));
-    child.set_clip_rect(body.intersect(ui.clip_rect()));
+    let ranked = context.states.of::<Ranking>().ask(context.later, &context.scene, context.view.saved.metrics.cameras);
+    let pair = figure::pair(&ranked, &context.scene, &context.view.look(PANE.kind));
+    let mut child = widgets::clipped(ui, "pair", body);
     let chosen = [choose(&mut child, 0, &ranked, pair[0], context), choose(&mut child, 1, &ranked, pair[1], context)];
     for (place, chosen) in chosen.into_iter().enumerate() {
         if let Some(id) = chosen {
@@ -54,7 +49,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
         } else {
             "Choose two cameras; Metrics shows fewer than two."
         };
-        child.label(RichText::new(words).color(context.theme.weak));
+        child.weak(words);
         return;
     };
     let top = child.min_rect().bottom() + UNIT;
@@ -84,7 +79,6 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
 /// Explanation of the last column.
 const BETTER_HINT: &str = "The better camera at 95 %: where the difference exceeds k times its standard uncertainty; neither where it does not.";
 
-/// A list of cameras. Returns the one that was chosen.
 fn choose(
     ui: &mut Ui,
     place: usize,
@@ -95,7 +89,7 @@ fn choose(
     let letter = ["A", "B"][place];
     let mut chosen = None;
     ui.horizontal(|ui| {
-        ui.label(RichText::new(letter).strong());
+        ui.strong(letter);
         let words = now.map_or("Choose a camera", |now| ranked.cameras[now].id.name.as_str());
         let name = format!("Camera {letter}");
         let follows = context.view.saved.metrics.pair[place].is_none();

@@ -11,19 +11,15 @@ use egui::{Align2, Event, Key, Modifiers, Rect, RichText, ScrollArea, TextEdit, 
 
 use super::context::PaneContext;
 use crate::action::history::History;
-use crate::help::search::{Hit, search, terms};
-use crate::help::{Page, Target, find, pages, resolve};
+use crate::help::{Hit, Page, Target, find, pages, resolve, search, terms};
 use crate::theme::{ROW, SMALL, UNIT};
 use crate::view::help::HelpView;
 use text::Ink;
 
-/// Width of the list of pages.
 const LIST: f32 = 224.0;
-/// Largest width of a page's text.
 const TEXT_WIDTH: f32 = 720.0;
 const MOST_HITS: usize = 100;
 
-/// Shows the help window, the palette and the window about the program while they are open.
 pub fn show(ui: &mut Ui, history: &History, context: &mut PaneContext<'_>) {
     if let Some(page) = context.view.help.page.and_then(find) {
         window(ui, page, context);
@@ -60,7 +56,6 @@ fn window(ui: &Ui, page: &'static Page, context: &mut PaneContext<'_>) {
     }
 }
 
-/// The search field, and the pages or the search's results.
 fn list(ui: &mut Ui, page: &'static Page, help: &mut HelpView) {
     let id = ui.scope_id().with("search");
     let slash = !ui.ctx().text_edit_focused() && ui.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Slash));
@@ -134,7 +129,6 @@ fn results(ui: &mut Ui, hits: &[Hit], help: &mut HelpView) {
     }
 }
 
-/// The page with its buttons.
 fn content(ui: &mut Ui, page: &'static Page, context: &mut PaneContext<'_>) {
     ui.horizontal(|ui| {
         let before = context.view.help.visited.last().and_then(|name| find(name));

@@ -6,27 +6,21 @@ mod line;
 mod question;
 mod text;
 
-use std::time::Duration;
-
-use egui::{ProgressBar, Rect, RichText, Ui, UiBuilder, Vec2};
+use egui::{ProgressBar, Rect, RichText, Ui, Vec2};
 
 use super::context::{Pane, PaneContext};
 use crate::command::Command;
-use crate::figures::curves::ImportSelection;
+use crate::jobs::PATIENCE;
 use crate::panes::widgets;
 use crate::theme::UNIT;
 use crate::workspaces::PaneKind;
 
 use entries::Entry;
 
-/// Width of the column of files.
 const FILES: f32 = 184.0;
 /// In a narrower pane the files are a list that drops down.
 const NARROW: f32 = 480.0;
-/// Delay after which a progress message appears.
-const PATIENCE: Duration = Duration::from_millis(100);
 
-/// The pane.
 pub const PANE: Pane =
     Pane { kind: PaneKind::IMPORT, title: "Import", show, figure: None, under_conditions: false, table: true };
 
@@ -35,17 +29,14 @@ pub fn lists_files(pane: Rect) -> bool {
     pane.width() - 4.0 * UNIT >= NARROW
 }
 
-/// Shows the pane in its rectangle.
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
-    let body = widgets::pane(ui, &PANE, rect, context, switches);
-    let body = Rect::from_min_max(body.min + Vec2::new(2.0 * UNIT, 0.0), body.max - Vec2::new(2.0 * UNIT, UNIT));
+    let body = widgets::body(ui, &PANE, rect, context, switches);
     let entries = entries::all(context);
     if entries.is_empty() {
         nothing(ui, body, context);
         return;
     }
-    if context.view.saved.tables.contains(&PaneKind::IMPORT) {
-        widgets::table::show_numbers(ui, body, PaneKind::IMPORT, &entries::table(&entries), context);
+    if widgets::numbers(ui, &PANE, body, context, |_| Some(entries::table(&entries))) {
         return;
     }
     keep_selected(ui, &entries, context);
@@ -59,7 +50,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
         files::column(ui, column, &entries, context);
         Rect::from_min_max(egui::pos2(cut + 2.0 * UNIT, body.top()), body.max)
     };
-    match ImportSelection::refresh(&context.scene, context.view, context.opened) {
+    match context.import_selection() {
         Some(shown) => {
             let text = question::show(ui, text, &shown, context);
             text::show(ui, text, &shown, context);
@@ -80,7 +71,6 @@ fn keep_selected(ui: &Ui, entries: &[Entry], context: &mut PaneContext<'_>) {
     }
 }
 
-/// Progress of the current reading, with a button to stop it.
 fn switches(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let Some(progress) = context.opened.progress() else { return };
     // A worker says only when it is done.
@@ -89,9 +79,7 @@ fn switches(ui: &mut Ui, context: &mut PaneContext<'_>) {
         return;
     }
     ui.add_space(UNIT);
-    if ui.button("Stop").on_hover_text("Stop reading (Esc). Nothing is changed.").clicked() {
-        context.push(Command::StopReading);
-    }
+    context.button(ui, "Stop", "Stop reading (Esc). Nothing is changed.", Command::StopReading);
     let [file, count] = progress.file;
     let percent = (progress.share * 100.0).floor();
     let bar = ProgressBar::new(progress.share).desired_width(64.0).desired_height(6.0).fill(context.theme.weak);
@@ -105,13 +93,9 @@ fn switches(ui: &mut Ui, context: &mut PaneContext<'_>) {
     ui.add(egui::Label::new(RichText::new(words).small().color(context.theme.weak)).truncate());
 }
 
-/// Draws the available actions while there is no file.
 fn nothing(ui: &mut Ui, body: Rect, context: &mut PaneContext<'_>) {
     let size = Vec2::new(280.0_f32.min(body.width()), 96.0);
-    let place = Rect::from_center_size(body.center(), size).intersect(body);
-    let layout = egui::Layout::top_down(egui::Align::Center);
-    let mut child = ui.new_child(UiBuilder::new().id_salt("no file").max_rect(place).layout(layout));
-    let ui = &mut child;
+    let ui = &mut widgets::middle(ui, "no file", body, size);
     if let Some(progress) = context.opened.progress() {
         ui.label(format!("Reading {}…", progress.name));
         return;
@@ -121,19 +105,14 @@ fn nothing(ui: &mut Ui, body: Rect, context: &mut PaneContext<'_>) {
     open_buttons(ui, size.x, context);
     ui.add_space(UNIT);
     let hint = "Or paste data with Ctrl+V. Check and correct here how a file was read.";
-    ui.label(RichText::new(hint).small().color(context.theme.weak));
+    widgets::note(ui, hint);
 }
 
-/// Two buttons side by side in the middle of a width.
 fn open_buttons(ui: &mut Ui, width: f32, context: &mut PaneContext<'_>) {
     const TOGETHER: f32 = 172.0;
     ui.horizontal(|ui| {
         ui.add_space(((width - TOGETHER) / 2.0).max(0.0));
-        if ui.button("Open…").on_hover_text("Spectral files of any kind (Ctrl+O)").clicked() {
-            context.push(Command::Open);
-        }
-        if ui.button("Open folder…").on_hover_text("All spectral files in a folder").clicked() {
-            context.push(Command::OpenFolder);
-        }
+        context.button(ui, "Open…", "Spectral files of any kind (Ctrl+O)", Command::Open);
+        context.button(ui, "Open folder…", "All spectral files in a folder", Command::OpenFolder);
     });
 }

@@ -3,10 +3,8 @@
 mod numbers;
 mod patch;
 mod pinned;
-mod pixel;
 mod points;
 mod radiator;
-mod set;
 mod source;
 mod welcome;
 
@@ -26,11 +24,9 @@ use crate::scene::{ComparedSensor, Scene};
 use crate::theme::{Theme, UNIT};
 use crate::workspaces::{PaneKind, Workspace};
 
-/// The pane.
 pub const PANE: Pane =
     Pane { kind: PaneKind::INSPECTOR, title: "Inspector", show, figure: None, under_conditions: false, table: false };
 
-/// Shows the pane in its rectangle.
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     widgets::scrolling_pane(ui, &PANE, rect, context, |ui, context| {
         ui.spacing_mut().item_spacing.y = 0.5 * UNIT;
@@ -41,20 +37,19 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
 
 fn content(ui: &mut Ui, context: &mut PaneContext<'_>) {
     match context.view.selected.clone().or_else(|| context.view.hovered.clone()) {
-        None if pixel::pinned_pixel(context).is_some() || !context.view.pinned.is_empty() => {}
+        None if pinned::pinned_pixel(context).is_some() || !context.view.pinned.is_empty() => {}
         None => welcome::show(ui, context),
         Some(PlotItem::Patch { source: Some(id), patch }) => patch::one(ui, &id, &patch, context),
         Some(PlotItem::Patch { source: None, patch }) => patch::across(ui, &patch, context),
         Some(PlotItem::Radiator { source, kelvin }) => radiator::show(ui, &source, kelvin, context),
         Some(PlotItem::Sensor(id)) => source::show(ui, &id, context),
         Some(PlotItem::Light) => source::light(ui, context),
-        Some(PlotItem::DataSet { kind, name }) => set::show(ui, kind, &name, context),
+        Some(PlotItem::DataSet { kind, name }) => source::set(ui, kind, &name, context),
     }
-    pixel::show(ui, context);
+    pinned::pixel(ui, context);
     pinned::show(ui, context);
 }
 
-/// A visible sensor, by kind and name.
 fn source_of(scene: &Scene<'_>, id: &SensorId) -> Option<ComparedSensor> {
     scene.sources().into_iter().find(|source| source.kind == id.kind && source.name == id.name)
 }
@@ -69,7 +64,6 @@ fn reference_id(scene: &Scene<'_>) -> SensorId {
     SensorId { kind: SetKind::Observer, name: scene.document.reference.clone() }
 }
 
-/// The key and label of a sensor, or its name alone if it is no longer visible.
 fn head(ui: &mut Ui, id: &SensorId, context: &PaneContext<'_>) {
     match source_of(&context.scene, id) {
         Some(source) => {
@@ -81,22 +75,14 @@ fn head(ui: &mut Ui, id: &SensorId, context: &PaneContext<'_>) {
     }
 }
 
-/// A small line of less weight.
-fn note(ui: &mut Ui, theme: &Theme, words: impl Into<String>) {
-    ui.label(RichText::new(words).small().color(theme.weak));
-}
-
-/// A failure, in its place.
 fn failure(ui: &mut Ui, theme: &Theme, words: &str) {
     ui.label(RichText::new(words).color(theme.error));
 }
 
-/// A difference with its metric's decimals.
 fn difference_words(metric: Metric, value: f64) -> String {
     fixed(value, metric.decimals)
 }
 
-/// Reason that there is no difference, as a message.
 fn no_difference(reason: DifferenceError) -> String {
     format!("No difference: {reason}.")
 }
@@ -109,9 +95,7 @@ fn buttons(ui: &mut Ui, context: &mut PaneContext<'_>) -> bool {
     ui.horizontal_wrapped(|ui| {
         let pinned = context.view.pinned.contains(&selected);
         let words = if pinned { "Unpin" } else { "Pin" };
-        if ui.button(words).on_hover_text("Pin for comparison (P)").clicked() {
-            context.push(Command::Pin);
-        }
+        context.button(ui, words, "Pin for comparison (P)", Command::Pin);
         copy = ui.button("Copy numbers").on_hover_text("For a spreadsheet, in full precision").clicked();
         let there = context.view.saved.workspace == Workspace::Spectra;
         if !there && ui.button("Show in Spectra").clicked() {
@@ -121,13 +105,11 @@ fn buttons(ui: &mut Ui, context: &mut PaneContext<'_>) -> bool {
     copy
 }
 
-/// Puts numbers on the clipboard.
 fn copy_text(ui: &Ui, text: String, context: &mut PaneContext<'_>) {
     ui.ctx().copy_text(text);
     context.view.say("Inspector: numbers copied.");
 }
 
-/// Assumption about a light or a reflectance beyond its samples.
 fn held_words(what: &str, assumed: Assumed) -> Option<String> {
     match (assumed.below_nm, assumed.above_nm) {
         (None, None) => None,
@@ -151,7 +133,6 @@ fn measured_words(sensor: &Sensor) -> String {
     parts.collect::<Vec<_>>().join(", ")
 }
 
-/// Assumptions about a sensor and the light.
 fn assumptions(scene: &Scene<'_>, id: &SensorId, label: &str) -> Vec<String> {
     let mut words = Vec::new();
     if let Ok(sensor) = scene.sensor(id.kind, &id.name) {
@@ -178,13 +159,12 @@ fn assumptions(scene: &Scene<'_>, id: &SensorId, label: &str) -> Vec<String> {
     words
 }
 
-/// Lists the assumptions.
-fn show_assumptions(ui: &mut Ui, theme: &Theme, words: Vec<String>) {
+fn show_assumptions(ui: &mut Ui, words: Vec<String>) {
     if words.is_empty() {
         return;
     }
     ui.add_space(UNIT);
     for words in words {
-        note(ui, theme, words);
+        widgets::note(ui, words);
     }
 }

@@ -23,12 +23,10 @@ use crate::theme::{ROW, SMALL, TEXT, Theme, UNIT};
 use crate::view::import::Stop;
 use crate::workspaces::PaneKind;
 
-/// First entry of each list.
 const CONTENT: &str = "Decided by content";
 /// First entry where room is short.
 const CONTENT_SHORT: &str = "By content";
 
-/// The pane.
 pub const PANE: Pane = Pane {
     kind: PaneKind::INTERPRETATION,
     title: "Interpretation",
@@ -38,13 +36,12 @@ pub const PANE: Pane = Pane {
     table: false,
 };
 
-/// Shows the pane in its rectangle.
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let body = widgets::pane(ui, &PANE, rect, context, notes::button);
     let inner = Rect::from_min_max(body.min + Vec2::new(2.0 * UNIT, 0.0), body.max - Vec2::new(2.0 * UNIT, 0.0));
-    let Some(shown) = ImportSelection::refresh(&context.scene, context.view, context.opened) else {
+    let Some(shown) = context.import_selection() else {
         let mut child = ui.new_child(UiBuilder::new().id_salt("nothing recognized").max_rect(inner));
-        note(&mut child, &context.theme, "Drop files here.");
+        widgets::note(&mut child, "Drop files here.");
         return;
     };
     context.view.import.unseen.remove(&shown.item);
@@ -76,24 +73,23 @@ fn content(ui: &mut Ui, shown: &ImportSelection, context: &mut PaneContext<'_>) 
     if let Some(set) = &shown.set {
         name::show(ui, set, context);
     }
-    let mut wishes = shown.wishes.clone();
-    switches::show(ui, shown, &mut wishes, &context.theme);
+    let mut overrides = shown.overrides.clone();
+    switches::show(ui, shown, &mut overrides, &context.theme);
     parts::show(ui, shown, context);
     // Below the switches, so that they stay where they are.
     if let Some(error) = shown.error() {
         trouble(ui, &error.to_string(), error.line(), shown, context);
     }
-    camera::show(ui, shown, &mut wishes, &context.theme);
-    curves::show(ui, shown, &mut wishes, context);
-    if wishes != shown.wishes {
-        wish(shown, wishes, context);
+    camera::show(ui, shown, &mut overrides, &context.theme);
+    curves::show(ui, shown, &mut overrides, context);
+    if overrides != shown.overrides {
+        wish(shown, overrides, context);
     }
     notes::show(ui, shown, context);
 }
 
-/// Has the file read otherwise.
-fn wish(shown: &ImportSelection, wishes: ImportOverrides, context: &mut PaneContext<'_>) {
-    context.push(Command::Wish(shown.item.clone(), Box::new(wishes)));
+fn wish(shown: &ImportSelection, overrides: ImportOverrides, context: &mut PaneContext<'_>) {
+    context.push(Command::SetOverrides(shown.item.clone(), Box::new(overrides)));
 }
 
 /// Reason that the file cannot be read with the settings, with a way to reset them.
@@ -111,7 +107,7 @@ fn trouble(ui: &mut Ui, words: &str, line: Option<usize>, shown: &ImportSelectio
     }
     ui.horizontal_wrapped(|ui| {
         if shown.pending && ui.button("Back").on_hover_text("Discard the attempted settings").clicked() {
-            context.push(Command::TakeWishBack);
+            context.push(Command::DiscardOverrides);
         }
         if let Some(line) = line
             && ui.button("Show line").on_hover_text("Show where in the text").clicked()
@@ -121,25 +117,19 @@ fn trouble(ui: &mut Ui, words: &str, line: Option<usize>, shown: &ImportSelectio
         }
     });
     if shown.set.is_some() && shown.pending {
-        note(ui, &context.theme, "The data set is unchanged until the file can be read with these settings.");
+        widgets::note(ui, "The data set is unchanged until the file can be read with these settings.");
     }
-}
-
-/// A small line of less weight.
-fn note(ui: &mut Ui, theme: &Theme, words: impl Into<String>) {
-    ui.label(RichText::new(words).small().color(theme.weak));
 }
 
 /// Label above a control; a dot marks a guess.
 fn caption(ui: &mut Ui, theme: &Theme, words: &str, guess: bool) {
-    let response = ui.label(RichText::new(words).small().color(theme.weak));
+    let response = ui.label(RichText::new(words).small().weak());
     if guess {
         let at = response.rect.right_center() + Vec2::new(8.0, 0.5);
         ui.painter().circle_filled(at, 3.0, theme.warning);
     }
 }
 
-/// Text of a closed list: a value, and how it was decided.
 struct Closed {
     value: String,
     how: String,

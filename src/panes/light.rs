@@ -5,7 +5,7 @@ use std::sync::Arc;
 use chromascope_core::light::temperature::MAX_DUV;
 use chromascope_core::query::Rendition;
 use chromascope_figure::{Cell, Rect as Area, Table};
-use egui::{Rect, RichText, Sense, Ui, UiBuilder, Vec2};
+use egui::{Rect, Sense, Ui, UiBuilder, Vec2};
 
 use super::context::{Pane, PaneContext};
 use crate::document::SetKind;
@@ -22,12 +22,11 @@ use crate::scene::light::LightSheetQuery;
 use crate::theme::UNIT;
 use crate::workspaces::PaneKind;
 
-/// The pane.
 pub const PANE: Pane = Pane {
     kind: PaneKind::LIGHT,
     title: "Light",
     show,
-    figure: Some(|input| light::figure(input.scene, input.view)),
+    figure: Some(&light::KIND),
     under_conditions: true,
     table: true,
 };
@@ -40,7 +39,9 @@ const WIDE: f32 = 520.0;
 const BARS: f32 = 150.0;
 const VECTORS: f32 = 250.0;
 
-/// Shows the pane in its rectangle.
+#[derive(Default)]
+struct SimilarTo(Option<String>);
+
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let body = widgets::pane(ui, &PANE, rect, context, |_, _| {});
     let scene = context.scene;
@@ -48,10 +49,11 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let failed = |ui: &mut Ui, why: &str| {
         ui.colored_label(context.theme.warning, sentence(why));
     };
-    let shown = match context.ranking.light(&scene) {
+    let query = scene.light_sheet_query().map_err(|error| error.to_string());
+    let shown = match query.and_then(|query| context.later.ask(PANE.kind, vec![query]).last()) {
         Ok(Some(shown)) => shown,
         Ok(None) => {
-            child.label(RichText::new("computing…").color(context.theme.weak));
+            child.weak("computing…");
             return;
         }
         Err(why) => return failed(&mut child, &why),
@@ -60,8 +62,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
         Ok(rendition) => Arc::clone(rendition),
         Err(error) => return failed(&mut child, &error.to_string()),
     };
-    if shown.current && context.view.saved.tables.contains(&PANE.kind) {
-        widgets::table::show_numbers(ui, body, PANE.kind, &light::table(&scene, &rendition), context);
+    if shown.current && widgets::numbers(ui, &PANE, body, context, |_| Some(light::table(&scene, &rendition))) {
         return;
     }
     widgets::scroll::show(ui, (PANE.kind, "light"), body, context, |ui, context| {
@@ -107,7 +108,7 @@ fn summary(ui: &mut Ui, scene: &Scene<'_>, rendition: &Rendition, context: &Pane
         ui.label(words.join("   ")).on_hover_text(hint);
     }
     for note in scene.rendition_cautions(rendition).unwrap_or_default() {
-        ui.label(RichText::new(sentence(&note)).small().color(context.theme.weak));
+        widgets::note(ui, sentence(&note));
     }
     reasons.dedup();
     for reason in reasons {
@@ -118,7 +119,7 @@ fn summary(ui: &mut Ui, scene: &Scene<'_>, rendition: &Rendition, context: &Pane
 
 /// Spectral similarity to a light that is chosen.
 fn similarity(ui: &mut Ui, scene: &Scene<'_>, context: &mut PaneContext<'_>) {
-    let now = context.view.similar_to.clone();
+    let now = context.states.of::<SimilarTo>().0.clone();
     ui.horizontal(|ui| {
         ui.label("SSI to");
         let hint = (
@@ -132,7 +133,7 @@ fn similarity(ui: &mut Ui, scene: &Scene<'_>, context: &mut PaneContext<'_>) {
         };
         let shown = now.as_deref().unwrap_or("None");
         if let Some(index) = pick_list::drop_down(ui, hint, shown, LIST, &context.theme, lines) {
-            context.view.similar_to = names.swap_remove(index);
+            context.states.of::<SimilarTo>().0 = names.swap_remove(index);
         }
         let Some(name) = &now else { return };
         match scene.similarity_to(name) {
@@ -143,7 +144,6 @@ fn similarity(ui: &mut Ui, scene: &Scene<'_>, context: &mut PaneContext<'_>) {
     });
 }
 
-/// Bars and vectors, side by side or stacked.
 fn pictures(ui: &mut Ui, rendition: &Rendition, context: &PaneContext<'_>) {
     let width = ui.available_width();
     let wide = width >= WIDE;

@@ -1,6 +1,6 @@
 //! Menus, tabs of the workspaces, undo and redo, the command palette.
 
-use egui::{Align, Atom, Button, Layout, Rect, RichText, Ui, UiBuilder, Vec2};
+use egui::{Align, Atom, Button, Layout, Rect, Ui, UiBuilder, Vec2};
 
 use super::context::{Pane, PaneContext};
 use crate::action::history::History;
@@ -9,15 +9,13 @@ use crate::command::{Command, REPORTS, SessionCommand, THEMES, TourMove, shortcu
 use crate::document::start::Start;
 use crate::export::FigureForm;
 use crate::export::profile::CorrectionForm;
-use crate::panes::widgets::{Icon, icon_button, pick_list};
+use crate::panes::widgets::{self, Icon, icon_button, pick_list};
 use crate::theme::{Surround, UNIT};
 use crate::view::template::TEMPLATES;
 use crate::workspaces::{Layout as PaneLayout, PaneKind, Workspace};
 
-/// Room for a tick before a line of a menu.
 const GUTTER: Vec2 = Vec2::new(14.0, 12.0);
 
-/// Shows the bar in its rectangle.
 pub fn show(ui: &mut Ui, rect: Rect, history: &History, context: &mut PaneContext<'_>) {
     let layout = Layout::left_to_right(Align::Center);
     let inner = rect.shrink2(Vec2::new(UNIT, 0.0));
@@ -40,7 +38,6 @@ pub fn show(ui: &mut Ui, rect: Rect, history: &History, context: &mut PaneContex
     step_button(&mut right, false, history.undo_name(), context);
 }
 
-/// The tabs, the shown one marked by a line above it.
 fn tabs(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let theme = context.theme;
     for workspace in Workspace::ALL {
@@ -60,7 +57,6 @@ fn tabs(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     }
 }
 
-/// A dot on the tab while files wait for review.
 fn unseen_dot(ui: &Ui, tab: &egui::Response, context: &PaneContext<'_>) {
     let count = context.view.import.unseen.len();
     if count == 0 {
@@ -84,7 +80,6 @@ fn step_button(ui: &mut Ui, forward: bool, step: Option<&str>, context: &mut Pan
     }
 }
 
-/// A line of a menu with its key.
 fn item(ui: &mut Ui, words: &str, command: Command, context: &mut PaneContext<'_>) {
     enabled_item(ui, true, words, command, context);
 }
@@ -120,10 +115,7 @@ fn file(ui: &mut Ui, context: &mut PaneContext<'_>) {
         ui.menu_button("Open recent", |ui| {
             for path in recent {
                 let name = path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
-                if ui.button(name).on_hover_text(path.display().to_string()).clicked() {
-                    context.push(Command::OpenPath(path));
-                    ui.close();
-                }
+                context.item(ui, &name, &path.display().to_string(), Command::OpenPath(path));
             }
         });
     }
@@ -133,14 +125,13 @@ fn file(ui: &mut Ui, context: &mut PaneContext<'_>) {
             for (path, age) in kept {
                 let words = format!("Document of another window, {age}");
                 let menu = ui.menu_button(words, |ui| {
-                    if ui.button("Open").on_hover_text("The current document is saved here first").clicked() {
-                        context.push(Command::OpenDocument(path.clone()));
-                        ui.close();
-                    }
-                    if ui.button("Delete").clicked() {
-                        context.push(Command::RemoveDocument(path.clone()));
-                        ui.close();
-                    }
+                    context.item(
+                        ui,
+                        "Open",
+                        "The current document is saved here first",
+                        Command::OpenDocument(path.clone()),
+                    );
+                    context.item(ui, "Delete", "", Command::RemoveDocument(path.clone()));
                 });
                 menu.response.on_hover_text(path.display().to_string());
             }
@@ -182,7 +173,6 @@ fn file(ui: &mut Ui, context: &mut PaneContext<'_>) {
     }
 }
 
-/// The templates, and the user's own.
 fn templates(ui: &mut Ui, context: &mut PaneContext<'_>) {
     for template in &TEMPLATES {
         let response = ui.button(template.name);
@@ -205,10 +195,7 @@ fn templates(ui: &mut Ui, context: &mut PaneContext<'_>) {
                 ("New", SessionCommand::NewFrom(path.clone())),
                 ("Delete", SessionCommand::RemoveTemplate(path.clone())),
             ] {
-                if ui.button(words).clicked() {
-                    context.push(command);
-                    ui.close();
-                }
+                context.item(ui, words, "", command);
             }
         });
         menu.response.on_hover_text(path.display().to_string());
@@ -247,7 +234,6 @@ fn gutter(on: bool) -> Atom<'static> {
     })
 }
 
-/// A line behind a gutter.
 fn ticked(ui: &mut Ui, on: bool, words: &str, hint: &str, command: impl Into<Command>, context: &mut PaneContext<'_>) {
     let command = command.into();
     let mut button = Button::new((gutter(on), words));
@@ -265,11 +251,10 @@ fn ticked(ui: &mut Ui, on: bool, words: &str, hint: &str, command: impl Into<Com
     }
 }
 
-/// A small heading of a group, behind the gutter.
-fn heading(ui: &mut Ui, words: &str, context: &PaneContext<'_>) {
+fn heading(ui: &mut Ui, words: &str) {
     ui.horizontal(|ui| {
         ui.add_space(GUTTER.x + 2.0 * UNIT);
-        ui.label(RichText::new(words).small().color(context.theme.weak));
+        widgets::note(ui, words);
     });
 }
 
@@ -285,7 +270,7 @@ fn panes(ui: &mut Ui, context: &mut PaneContext<'_>) {
             || PaneLayout::default().shows(workspace, pane.kind)
             || context.view.saved.layout.shows(workspace, pane.kind)
     };
-    heading(ui, &format!("Panes of {}", workspace.title()), context);
+    heading(ui, &format!("Panes of {}", workspace.title()));
     for pane in context.panes.iter().filter(|pane| is_here(pane, context)).collect::<Vec<_>>() {
         line(ui, pane, context);
     }
@@ -294,7 +279,7 @@ fn panes(ui: &mut Ui, context: &mut PaneContext<'_>) {
             let others = context.panes.iter().filter(|pane| pane.kind.group() == group && !is_here(pane, context));
             let others: Vec<_> = others.collect();
             if !others.is_empty() {
-                heading(ui, group.title(), context);
+                heading(ui, group.title());
             }
             for pane in others {
                 line(ui, pane, context);

@@ -1,7 +1,7 @@
 //! Pairs of measured reflectances that a camera confuses and the reference does not, and the reverse.
 
 use chromascope_figure::{Cell, Table};
-use egui::{Rect, RichText, Ui, UiBuilder, Vec2};
+use egui::{Rect, RichText, Ui};
 
 use super::context::{Pane, PaneContext};
 use crate::action::{Action, RenderAction, SceneAction};
@@ -16,7 +16,6 @@ use crate::theme::UNIT;
 use crate::view::metrics::Confuses;
 use crate::workspaces::PaneKind;
 
-/// The pane.
 pub const PANE: Pane = Pane {
     kind: PaneKind::new("Metamers"),
     title: "Metamers",
@@ -26,18 +25,20 @@ pub const PANE: Pane = Pane {
     table: false,
 };
 
-/// Shows the pane in its rectangle.
+/// The pair that was clicked, as a row.
+#[derive(Default)]
+pub struct ClickedPair(pub Option<usize>);
+
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
-    let body = widgets::pane(ui, &PANE, rect, context, switches);
-    let body = Rect::from_min_max(body.min + Vec2::new(2.0 * UNIT, 0.0), body.max - Vec2::new(2.0 * UNIT, UNIT));
-    let mut child = ui.new_child(UiBuilder::new().id_salt("metamers").max_rect(body));
-    child.set_clip_rect(body.intersect(ui.clip_rect()));
-    let Some(camera) = report_card::camera(&context.scene, context.view) else {
-        child.label(RichText::new("Tick a camera in the Library.").color(context.theme.weak));
+    let body = widgets::body(ui, &PANE, rect, context, switches);
+    let mut child = widgets::clipped(ui, "metamers", body);
+    let Some(camera) = report_card::camera(&context.scene, &context.view.look(PANE.kind)) else {
+        child.weak("Tick a camera in the Library.");
         return;
     };
     let confusion = context.view.saved.metrics.confusion.confusion();
-    let found = match context.ranking.metamers(&context.scene, &camera, confusion) {
+    let query = context.scene.metamers_query(camera.kind, &camera.name, confusion).map_err(|error| error.to_string());
+    let found = match query.and_then(|query| context.later.ask(PANE.kind, vec![query]).current()) {
         Ok(found) => found,
         Err(why) => {
             child.label(RichText::new(why).color(context.theme.error));
@@ -45,19 +46,19 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
         }
     };
     let Some(found) = found else {
-        child.label(RichText::new("Searching…").color(context.theme.weak));
+        child.weak("Searching…");
         return;
     };
     let found = match found.as_ref() {
         Ok(found) => found,
         Err(why) => {
-            child.label(RichText::new(format!("{}: {why}.", camera.name)).color(context.theme.weak));
+            child.weak(format!("{}: {why}.", camera.name));
             return;
         }
     };
     let words = format!("{}: {} of {} reflectances", camera.name, count(found.rows.len()), found.searched);
-    child.label(RichText::new(words).small().color(context.theme.weak));
-    let chosen = context.view.metamers.filter(|row| *row < found.rows.len());
+    widgets::note(&mut child, words);
+    let chosen = context.states.of::<ClickedPair>().0.filter(|row| *row < found.rows.len());
     if let Some(row) = chosen {
         buttons(&mut child, &found.rows[row], context);
     }
@@ -78,12 +79,11 @@ fn switches(ui: &mut Ui, context: &mut PaneContext<'_>) {
     ];
     if let Some(confusion) = widgets::segmented(ui, &choices, context.view.saved.metrics.confusion) {
         context.view.saved.metrics.confusion = confusion;
-        context.view.metamers = None;
+        context.states.of::<ClickedPair>().0 = None;
         ui.ctx().request_repaint();
     }
 }
 
-/// The table of pairs; a click marks both of a pair in all panes.
 fn pairs(ui: &mut Ui, place: Rect, camera: &SensorId, found: &FoundMetamers, context: &mut PaneContext<'_>) {
     let mut table = Table::new(["reflectance", "its metamer", "ΔE*00 reference", "ΔL* camera"]);
     for row in &found.rows {
@@ -112,13 +112,12 @@ fn pairs(ui: &mut Ui, place: Rect, camera: &SensorId, found: &FoundMetamers, con
     let note = |_: usize, _: usize| CellNote::default();
     let shown = DataTable::new(PANE.kind, "Metamers", &table).with_columns(columns.collect());
     if let Some(row) = shown.with_items(&item).with_notes(&note).show(ui, place, context).clicked {
-        context.view.metamers = Some(row);
+        context.states.of::<ClickedPair>().0 = Some(row);
         let patch = |name: &str| PlotItem::Patch { source: Some(camera.clone()), patch: name.to_owned() };
         context.view.pinned = found.rows[row].names.iter().map(|[_, name]| patch(name)).collect();
     }
 }
 
-/// Buttons that act on the selected pair.
 fn buttons(ui: &mut Ui, row: &MetamerRow, context: &mut PaneContext<'_>) {
     ui.horizontal_wrapped(|ui| {
         for ([set, patch], kind) in row.names.iter().zip(row.kinds) {

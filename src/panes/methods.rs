@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use chromascope_figure::LegendEntry;
 use chromascope_measure::Workload;
-use egui::{Align2, FontId, Id, Label, Rect, RichText, ScrollArea, Ui, UiBuilder, Vec2};
+use egui::{Id, Label, Rect, RichText, ScrollArea, Ui, Vec2};
 
 use super::context::{Pane, PaneContext};
 use crate::command::Command;
@@ -12,39 +12,34 @@ use crate::figures::accuracy;
 use crate::paint::{self, PlotOptions};
 use crate::panes::widgets;
 use crate::panes::widgets::pick_list::{self, Line};
-use crate::profiler::Subject;
 use crate::profiler::bench::{BUILD, bench};
+use crate::profiler::{Profiler, SceneRunJob, Subject};
 use crate::theme::UNIT;
 use crate::view::accuracy::Shows;
 use crate::workspaces::PaneKind;
 
-/// Reach of the pointer, in points.
 const REACH: f32 = 10.0;
 /// A panel of the bench is at least so large; a wider pane has two side by side.
 const PANEL: Vec2 = Vec2::new(420.0, 280.0);
 
-/// A key of the legend.
 const KEY: Vec2 = Vec2::new(16.0, 18.0);
 const MARKS: &str = "Filled markers, joined by the dashed line: no other method is both faster and more accurate.";
 const BENCH: &str = "The program's methods on standard inputs, independent of the scene, against reference values \
                      computed by another method or with twice the digits. Point at a marker for its values.";
 
-/// The pane.
 pub const PANE: Pane = Pane {
     kind: PaneKind::METHODS,
     title: "Methods",
     show,
-    figure: Some(accuracy::figure),
+    figure: Some(&accuracy::KIND),
     under_conditions: false,
     table: true,
 };
 
-/// Shows the pane in its rectangle.
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
-    context.refresh_run();
-    let body = widgets::pane(ui, &PANE, rect, context, switches);
-    let body = Rect::from_min_max(body.min + Vec2::new(2.0 * UNIT, 0.0), body.max - Vec2::new(2.0 * UNIT, UNIT));
-    if let Some(why) = context.profiler.failure() {
+    refresh(context);
+    let body = widgets::body(ui, &PANE, rect, context, switches);
+    if let Some(why) = Profiler::failure(context.later) {
         failed(ui, body, &why, context);
         return;
     }
@@ -54,7 +49,13 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     }
 }
 
-/// The methods of the visible scene.
+/// Applies the measurements finished since the last frame.
+fn refresh(context: &mut PaneContext<'_>) {
+    let own = context.meshes.chosen(&context.scene.document.render.mesh);
+    let scene = SceneRunJob::of(&context.scene, own.as_ref(), context.view.saved.render.orbit);
+    context.profiler.refresh(context.later, &scene);
+}
+
 fn scene(ui: &mut Ui, body: Rect, subject: Subject, context: &mut PaneContext<'_>) {
     let Some(run) = context.profiler.measured.run.clone() else {
         nothing(ui, body, "Nothing measured yet.", context);
@@ -71,8 +72,7 @@ fn scene(ui: &mut Ui, body: Rect, subject: Subject, context: &mut PaneContext<'_
         nothing(ui, body, words, context);
         return;
     };
-    if context.view.saved.tables.contains(&PaneKind::METHODS) {
-        widgets::table::show_numbers(ui, body, PaneKind::METHODS, &accuracy::table(trial), context);
+    if widgets::numbers(ui, &PANE, body, context, |_| Some(accuracy::table(trial))) {
         return;
     }
     let words = run.conditions.of(trial);
@@ -95,11 +95,12 @@ fn scene(ui: &mut Ui, body: Rect, subject: Subject, context: &mut PaneContext<'_
     }
 }
 
-/// The methods of the program on a workload, a panel for each case.
 fn benchmark(ui: &mut Ui, body: Rect, workload: Workload, context: &mut PaneContext<'_>) {
     let report = match context.profiler.measured.reports.get(&workload).map(AsRef::as_ref) {
         None if bench().is_none() => {
-            without_bench(ui, body);
+            let mut child = widgets::middle(ui, "no benchmark", body, Vec2::new(420.0, 96.0));
+            child.label("This build has no benchmark. To have it, build and run with:");
+            child.monospace(BUILD);
             return;
         }
         None => {
@@ -117,15 +118,13 @@ fn benchmark(ui: &mut Ui, body: Rect, workload: Workload, context: &mut PaneCont
         nothing(ui, body, "No measurement was completed.", context);
         return;
     };
-    if context.view.saved.tables.contains(&PaneKind::METHODS) {
-        widgets::table::show_numbers(ui, body, PaneKind::METHODS, &figure.table, context);
+    if widgets::numbers(ui, &PANE, body, context, |_| Some(figure.table.clone())) {
         return;
     }
     let words = format!("{}; {}", workload.title(), report.machine.identity());
     let about = format!("{BENCH} {MARKS} Measured on: {}; {}, {}.", report.machine, report.program, report.began);
     let body = above(ui, body, [&words, &about], &figure.legend, context);
-    let mut child = ui.new_child(UiBuilder::new().id_salt("bench").max_rect(body));
-    child.set_clip_rect(body.intersect(ui.clip_rect()));
+    let mut child = widgets::clipped(ui, "bench", body);
     ScrollArea::vertical().id_salt(workload.name()).auto_shrink(false).show(&mut child, |ui| {
         let across = ((body.width() / PANEL.x).floor() as usize).clamp(1, figure.panels.len());
         let down = figure.panels.len().div_ceil(across);
@@ -160,8 +159,7 @@ fn above(
     context: &PaneContext<'_>,
 ) -> Rect {
     let theme = context.theme;
-    let mut child = ui.new_child(UiBuilder::new().id_salt("what is measured").max_rect(body));
-    child.set_clip_rect(body.intersect(ui.clip_rect()));
+    let mut child = widgets::clipped(ui, "what is measured", body);
     child.spacing_mut().item_spacing.y = 0.0;
     child.spacing_mut().interact_size.y = KEY.y;
     child.add(Label::new(RichText::new(words).small().color(theme.weak)).wrap());
@@ -180,7 +178,6 @@ fn above(
     Rect::from_min_max(egui::pos2(body.left(), top), body.max)
 }
 
-/// Choice of the subject, and buttons that measure it.
 fn switches(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let now = context.view.accuracy.shows;
     run(ui, now, context);
@@ -202,14 +199,11 @@ fn switches(ui: &mut Ui, context: &mut PaneContext<'_>) {
     }
 }
 
-/// A button that measures the visible scene, or stops the measurement.
 fn run(ui: &mut Ui, now: Shows, context: &mut PaneContext<'_>) {
-    if let Some(busy) = context.profiler.busy() {
-        if ui.button("Stop").on_hover_text("Stop measuring (Esc). Earlier results are unchanged.").clicked() {
-            context.push(Command::StopMeasuring);
-        }
+    if let Some(busy) = Profiler::busy(context.later) {
+        context.button(ui, "Stop", "Stop measuring (Esc). Earlier results are unchanged.", Command::StopMeasuring);
         let words = format!("measuring, {:.0} s…", busy.as_secs_f64());
-        ui.label(RichText::new(words).small().color(context.theme.weak));
+        widgets::note(ui, words);
         ui.ctx().request_repaint_after(Duration::from_millis(100));
         return;
     }
@@ -221,38 +215,24 @@ fn run(ui: &mut Ui, now: Shows, context: &mut PaneContext<'_>) {
         Shows::Bench(workload) => context.profiler.measured.reports.contains_key(&workload),
     };
     let hint = "Measures the methods on this scene. Takes a few seconds.";
-    if ui.button(if again { "Run again" } else { "Run" }).on_hover_text(hint).clicked() {
-        context.push(measure(now));
-    }
+    context.button(ui, if again { "Run again" } else { "Run" }, hint, measure(now));
 }
 
 fn measure(shows: Shows) -> Command {
     match shows {
-        Shows::Scene(_) => Command::SpectralWeights,
+        Shows::Scene(_) => Command::MeasureScene,
         Shows::Bench(workload) => Command::MeasureWorkload(workload),
     }
 }
 
 /// A sentence in place of a picture.
 fn nothing(ui: &mut Ui, body: Rect, words: &str, context: &PaneContext<'_>) {
-    let place = Rect::from_center_size(body.center(), Vec2::new(body.width().min(420.0), 48.0)).intersect(body);
-    let layout = egui::Layout::top_down(egui::Align::Center);
-    let mut child = ui.new_child(UiBuilder::new().id_salt("nothing measured").max_rect(place).layout(layout));
+    let mut child = widgets::middle(ui, "nothing measured", body, Vec2::new(420.0, 48.0));
     child.label(words);
-    child.label(if context.profiler.busy().is_some() { "Measuring…" } else { "Run, above, takes a few seconds." });
-}
-
-/// Instructions for a build that includes the benchmark.
-fn without_bench(ui: &mut Ui, body: Rect) {
-    let place = Rect::from_center_size(body.center(), Vec2::new(body.width().min(420.0), 96.0)).intersect(body);
-    let layout = egui::Layout::top_down(egui::Align::Center);
-    let mut child = ui.new_child(UiBuilder::new().id_salt("no benchmark").max_rect(place).layout(layout));
-    child.label("This build has no benchmark. To have it, build and run with:");
-    child.monospace(BUILD);
+    let measures = Profiler::busy(context.later).is_some();
+    child.label(if measures { "Measuring…" } else { "Run, above, takes a few seconds." });
 }
 
 fn failed(ui: &Ui, body: Rect, why: &str, context: &PaneContext<'_>) {
-    let font = FontId::proportional(crate::theme::TEXT);
-    let words = format!("Nothing measured: {why}.");
-    ui.painter().text(body.center(), Align2::CENTER_CENTER, words, font, context.theme.error);
+    widgets::say(ui, body, format!("Nothing measured: {why}."), context.theme.error);
 }

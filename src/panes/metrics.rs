@@ -1,23 +1,21 @@
 //! Cameras by figures of merit: ranked, with uncertainties, linked with all panes.
 
-use std::time::Duration;
-
 use chromascope_core::query::metrics::Better;
 use chromascope_core::query::{CameraMetric, MetricValue};
 use chromascope_figure::{Cell, Table};
-use egui::{Align2, FontId, Rect, RichText, Ui, Vec2};
+use egui::{Rect, Ui};
 
 use super::context::{Pane, PaneContext};
 use crate::action::{Action, CompareAction};
 use crate::command::Command;
 use crate::document::SetKind;
 use crate::figures::metrics::{self, TABLE};
+use crate::jobs::PATIENCE;
 use crate::panes::widgets;
 use crate::panes::widgets::table::{CellNote, Column, DataTable};
 use crate::plot_item::{PlotItem, SensorId};
-use crate::ranking::Ranked;
+use crate::scene::metrics::{Ranked, RankedCameras, Ranking};
 use crate::theme::UNIT;
-use crate::view::metrics::RankedCameras;
 use crate::view::table::Sorting;
 use crate::workspaces::PaneKind;
 
@@ -25,35 +23,30 @@ use crate::workspaces::PaneKind;
 const BEFORE: usize = 3;
 /// Columns of differences that the table starts with; all other groups are shown whole.
 const SHOWN: [&str; 5] = ["delta-e2000-mean", "delta-e2000-p95", "delta-e2000-max", "uv-prime-mean", "xy-mean"];
-/// Delay before progress is shown.
-const PATIENCE: Duration = Duration::from_millis(100);
 
-/// The pane.
 pub const PANE: Pane = Pane {
     kind: PaneKind::METRICS,
     title: "Metrics",
     show,
-    figure: Some(metrics::figure),
+    figure: Some(&metrics::KIND),
     under_conditions: true,
     table: false,
 };
 
-/// Shows the pane in its rectangle.
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
-    let body = widgets::pane(ui, &PANE, rect, context, switches);
-    let body = Rect::from_min_max(body.min + Vec2::new(2.0 * UNIT, 0.0), body.max - Vec2::new(2.0 * UNIT, UNIT));
+    let body = widgets::body(ui, &PANE, rect, context, switches);
     let body = widgets::caution::show(ui, body, context);
     let which = context.view.saved.metrics.cameras;
-    let ranked = context.ranking.ask(&context.scene, which);
-    if let Some(why) = context.ranking.failure() {
-        let font = FontId::proportional(crate::theme::TEXT);
-        let words = format!("Cameras could not be ranked: {why}.");
-        ui.painter().text(body.center(), Align2::CENTER_CENTER, words, font, context.theme.error);
-        return;
+    let ranked = context.states.of::<Ranking>().ask(context.later, &context.scene, which);
+    if let Some(why) = Ranking::seen(context.later).failure {
+        return widgets::say(ui, body, format!("Cameras could not be ranked: {why}."), context.theme.error);
     }
     if ranked.cameras.is_empty() {
-        nothing(ui, body, which, context);
-        return;
+        let words = match which {
+            RankedCameras::Yours => "No camera of yours. Drop a file of sensitivities on the window.",
+            _ => "Tick a camera in the Library.",
+        };
+        return widgets::say(ui, body, words, context.theme.weak);
     }
     let sorting = context.view.saved.looks.get(TABLE).and_then(|look| look.sorting.clone());
     let metric = metrics::sorted_by(&context.scene, sorting.as_ref());
@@ -76,17 +69,13 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     }
 }
 
-/// Cameras of the table, progress, and actions on the selected one.
 fn switches(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let choices = [
         (RankedCameras::Library, "Library", "All cameras of the library and yours"),
         (RankedCameras::Compared, "Compared", "The cameras that are compared"),
         (RankedCameras::Yours, "Yours", "The cameras that you imported"),
     ];
-    if let Some(cameras) = widgets::segmented(ui, &choices, context.view.saved.metrics.cameras) {
-        context.view.saved.metrics.cameras = cameras;
-        ui.ctx().request_repaint();
-    }
+    widgets::switch(ui, &choices, &mut context.view.saved.metrics.cameras);
     ui.add_space(UNIT);
     widgets::pixel::show(ui, context);
     if let Some(PlotItem::Sensor(id)) = context.view.selected.clone().filter(|_| selected(context).is_some()) {
@@ -99,25 +88,27 @@ fn switches(ui: &mut Ui, context: &mut PaneContext<'_>) {
         if ui.button(words).on_hover_text(hint).clicked() {
             compare(&id, context);
         }
-        if ui.button("Report card").on_hover_text("The selected camera on one page (Esc returns)").clicked() {
-            context.push(Command::Maximize(PaneKind::REPORT_CARD));
-        }
+        context.button(
+            ui,
+            "Report card",
+            "The selected camera on one page (Esc returns)",
+            Command::Maximize(PaneKind::REPORT_CARD),
+        );
     }
-    let slow = context.ranking.busy().is_some_and(|busy| busy >= PATIENCE);
-    if let Some((done, all)) = context.ranking.progress().filter(|_| slow) {
-        ui.label(RichText::new(format!("Computing: {done} of {all}")).small().color(context.theme.weak));
+    let waiting = Ranking::seen(context.later);
+    let slow = waiting.busy.is_some_and(|busy| busy >= PATIENCE);
+    if let Some((done, all)) = waiting.progress().filter(|_| slow) {
+        widgets::note(ui, format!("Computing: {done} of {all}"));
     }
-    if context.ranking.busy().is_some() {
+    if waiting.busy.is_some() {
         ui.ctx().request_repaint_after(PATIENCE);
     }
 }
 
-/// The selected camera.
 fn selected(context: &PaneContext<'_>) -> Option<SensorId> {
     context.view.selected.as_ref()?.source().filter(|id| id.kind == SetKind::Camera).cloned()
 }
 
-/// Compares a camera, or no longer.
 fn compare(id: &SensorId, context: &mut PaneContext<'_>) {
     let (kind, name) = (id.kind, id.name.clone());
     let compared = context.scene.document.compared(kind, &name).is_some();
@@ -125,16 +116,6 @@ fn compare(id: &SensorId, context: &mut PaneContext<'_>) {
     context.push(Action::Compare(action));
 }
 
-fn nothing(ui: &mut Ui, body: Rect, which: RankedCameras, context: &PaneContext<'_>) {
-    let words = match which {
-        RankedCameras::Yours => "No camera of yours. Drop a file of sensitivities on the window.",
-        _ => "Tick a camera in the Library.",
-    };
-    let font = FontId::proportional(crate::theme::TEXT);
-    ui.painter().text(body.center(), Align2::CENTER_CENTER, words, font, context.theme.weak);
-}
-
-/// Columns of the table, with their descriptions.
 fn columns() -> Vec<Column> {
     let before = [
         ("camera", ""),
@@ -168,7 +149,6 @@ fn columns() -> Vec<Column> {
 struct Rows<'a> {
     ranked: &'a Ranked,
     ranks: Vec<Option<[usize; 2]>>,
-    /// Values of the selected camera.
     selected: Option<usize>,
 }
 

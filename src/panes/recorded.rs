@@ -5,15 +5,16 @@ use std::sync::Arc;
 use chromascope_core::camera::recorded::{RankRange, RecordedFit, RecordedPatch};
 use chromascope_core::query::{RecordedSet, Shared};
 use chromascope_figure::{Axis, Cell, Image, InkRole, Mark, Marker, Panel, Shape, Table, Tag};
-use egui::{DragValue, Id, Label, Rect, RichText, Sense, Ui, UiBuilder, Vec2};
+use egui::{DragValue, Id, Label, Rect, RichText, Sense, Ui, Vec2};
 
 use super::context::{Pane, PaneContext};
+use crate::catalog::file_store::FileState;
 use crate::catalog::recorded::Levels;
-use crate::catalog::recorded_store::{RecordedContent, RecordedFile, RecordedState};
+use crate::catalog::recorded_store::{RecordedContent, RecordedFile};
 use crate::command::Command;
 use crate::document::SetKind;
 use crate::figures::recorded;
-use crate::format::{fixed, rank_in_words};
+use crate::format::{file_name, fixed, rank_in_words};
 use crate::paint::{self, PlotOptions};
 use crate::panes::widgets;
 use crate::panes::widgets::table::{CellNote, Column, DataTable};
@@ -24,7 +25,6 @@ use crate::theme::{ROW, UNIT};
 use crate::view::recorded::RecordedInputs;
 use crate::workspaces::PaneKind;
 
-/// Reach of the pointer, in points.
 const REACH: f32 = 10.0;
 /// Share of the squares below which a cause is not named.
 const NOTABLE: f64 = 0.25;
@@ -34,25 +34,24 @@ const ABOUT: &str = "Raw RGB that a camera recorded of known patches, against th
     table with columns patch, R, G, B (of the chart and light chosen above, or with spectra in further columns), or a linear 16-bit TIFF \
     or PNG of a 6 × 4 chart.";
 
-/// The pane.
 pub const PANE: Pane = Pane {
     kind: PaneKind::RECORDED,
     title: "Recorded",
     show,
-    figure: Some(|input| recorded::figure(input.view)),
+    figure: Some(&recorded::KIND),
     under_conditions: true,
     table: true,
 };
 
-/// Shows the pane in its rectangle.
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
-    let body = widgets::pane(ui, &PANE, rect, context, switches);
-    let body = Rect::from_min_max(body.min + Vec2::new(2.0 * UNIT, 0.0), body.max - Vec2::new(2.0 * UNIT, UNIT));
-    let file = match context.recorded.state() {
-        RecordedState::Ready(file) => file,
-        RecordedState::None => return sentence(ui, body, ABOUT, true, context),
-        RecordedState::Loading(name) => return sentence(ui, body, &format!("Reading {name}…"), false, context),
-        RecordedState::Failed(why) => return sentence(ui, body, &format!("{why}."), true, context),
+    let body = widgets::body(ui, &PANE, rect, context, switches);
+    let Some(path) = context.view.recorded.path.clone() else { return sentence(ui, body, ABOUT, true, context) };
+    let file = match context.recorded.get(&path) {
+        FileState::Ready(file) => file,
+        FileState::Loading => {
+            return sentence(ui, body, &format!("Reading {}…", file_name(&path)), false, context);
+        }
+        FileState::Failed(why) => return sentence(ui, body, &format!("{why}."), true, context),
     };
     if let RecordedContent::Picture(picture, shown) = &file.content
         && context.view.recorded.corners.len() < CORNERS.len()
@@ -67,7 +66,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let Some((set, ranked)) = context.view.recorded.ranked.clone() else {
         return sentence(ui, body, "Fitting the cameras…", false, context);
     };
-    if let Some(camera) = recorded::chosen(&ranked, context.view) {
+    if let Some(camera) = recorded::chosen(&ranked, context.view.recorded.camera.as_ref()) {
         return ranking_and_residuals(ui, body, &file, (&set, &ranked), camera, context);
     }
     let why = ranked.first().and_then(|camera| camera.fit.as_ref().err());
@@ -98,14 +97,13 @@ fn refresh(file: &Arc<RecordedFile>, context: &mut PaneContext<'_>) -> Result<()
     }
     view.set = Some((inputs, set.clone()));
     let query = scene.recorded_ranking(&set, view.freedom, &[]).map_err(|error| error.to_string())?;
-    if let Some(made) = context.ranking.recorded(query)?.filter(|made| made.current) {
-        let ranked = made.answer.as_ref().as_ref().map_err(ToString::to_string)?;
+    if let Some(made) = context.later.ask(PANE.kind, vec![query]).current()? {
+        let ranked = made.as_ref().as_ref().map_err(ToString::to_string)?;
         view.ranked = Some((set, Arc::clone(ranked)));
     }
     Ok(())
 }
 
-/// Patches with spectra and raw values.
 fn patches(scene: &Scene<'_>, inputs: &RecordedInputs) -> Result<Vec<RecordedPatch>, String> {
     let chart =
         if inputs.chart.is_some() { scene.patch_radiances().map_err(|error| error.to_string())? } else { Vec::new() };
@@ -114,13 +112,16 @@ fn patches(scene: &Scene<'_>, inputs: &RecordedInputs) -> Result<Vec<RecordedPat
     inputs.file.patches(&chart, &inputs.light, corners, Levels { black: 0.0, clip })
 }
 
-/// Buttons to open a file, and the fit's settings.
 fn switches(ui: &mut Ui, context: &mut PaneContext<'_>) {
-    if ui.button("Open…").on_hover_text("Open raw values: a table, or a linear 16-bit picture of a chart").clicked() {
-        context.push(Command::OpenRecorded);
-    }
-    let RecordedState::Ready(file) = context.recorded.state() else { return };
+    context.button(
+        ui,
+        "Open…",
+        "Open raw values: a table, or a linear 16-bit picture of a chart",
+        Command::OpenRecorded,
+    );
     let view = &mut context.view.recorded;
+    let file = view.path.as_ref().map(|path| context.recorded.get(path));
+    let Some(FileState::Ready(file)) = file else { return };
     ui.checkbox(&mut view.freedom.gains, "Channel gains")
         .on_hover_text("Fit a gain for each channel; else one for all");
     ui.checkbox(&mut view.freedom.brightness, "Patch brightness")
@@ -137,9 +138,7 @@ fn switches(ui: &mut Ui, context: &mut PaneContext<'_>) {
 
 /// A message in the pane's center, with a button to open a file.
 fn sentence(ui: &mut Ui, body: Rect, words: &str, open: bool, context: &mut PaneContext<'_>) {
-    let place = Rect::from_center_size(body.center(), Vec2::new(body.width().min(460.0), 140.0)).intersect(body);
-    let layout = egui::Layout::top_down(egui::Align::Center);
-    let mut child = ui.new_child(UiBuilder::new().id_salt("recorded sentence").max_rect(place).layout(layout));
+    let mut child = widgets::middle(ui, "recorded sentence", body, Vec2::new(460.0, 140.0));
     child.add(Label::new(words).wrap());
     child.add_space(UNIT);
     if open && child.button("Open raw values…").clicked() {
@@ -147,7 +146,6 @@ fn sentence(ui: &mut Ui, body: Rect, words: &str, open: bool, context: &mut Pane
     }
 }
 
-/// The picture, whose corners are clicked.
 fn corners(ui: &mut Ui, body: Rect, size: [usize; 2], shown: &Image, context: &mut PaneContext<'_>) {
     let clicked = context.view.recorded.corners.clone();
     let words =
@@ -191,11 +189,7 @@ fn ranking_and_residuals(
     let top = words(ui, body, file, (name, fit, rank), &names, context);
     let body = Rect::from_min_max(egui::pos2(body.left(), top), body.max);
     let (plot, list) = body.split_top_bottom_at_fraction(0.55);
-    if context.view.saved.tables.contains(&PaneKind::RECORDED) {
-        if let Some(figure) = recorded::figure(context.view) {
-            widgets::table::show_numbers(ui, plot, PaneKind::RECORDED, &figure.table, context);
-        }
-    } else {
+    if !widgets::figure_numbers(ui, &PANE, plot, context) {
         let size = [plot.width(), plot.height()].map(f64::from);
         let panel = recorded::panel(fit, &names, size);
         let options = PlotOptions { zoomable: true, reset: context.view.reset_plots, ..PlotOptions::default() };
@@ -224,8 +218,7 @@ fn words(
     names: &[String],
     context: &PaneContext<'_>,
 ) -> f32 {
-    let mut child = ui.new_child(UiBuilder::new().id_salt("recorded words").max_rect(body));
-    child.set_clip_rect(body.intersect(ui.clip_rect()));
+    let mut child = widgets::clipped(ui, "recorded words", body);
     child.spacing_mut().item_spacing.y = 0.0;
     let percent = |log: f64| fixed(log * 100.0, 2);
     let left = names.len() * 3 - fit.values;

@@ -1,18 +1,19 @@
 //! A mesh through each camera, side by side, from one orbit.
 
 mod cells;
-mod difference;
 mod draw;
 mod orbit;
 mod request;
-mod switches;
 
 use std::time::Duration;
 
-use egui::{Align2, FontId, Rect, Sense, Ui, Vec2};
+use egui::{Align2, FontId, Rect, Sense, Ui};
 
 use super::context::{Pane, PaneContext};
+use crate::action::{Action, RenderAction};
 use crate::document::render::SUN;
+use crate::figures;
+use crate::paint::PictureTextures;
 use crate::panes::widgets;
 use crate::render_service::REST_AFTER;
 use crate::theme::{HEADING, UNIT};
@@ -20,20 +21,24 @@ use crate::view::render::{PixelPlace, RenderMode};
 use crate::workspaces::PaneKind;
 use cells::PictureLayout;
 
-/// The pane.
 pub const PANE: Pane = Pane {
     kind: PaneKind::RENDER,
     title: "Render",
     show,
-    figure: Some(crate::figures::render::figure),
+    figure: Some(&figures::render::KIND),
     under_conditions: true,
     table: true,
 };
 
-/// Shows the pane in its rectangle.
+#[derive(Default)]
+struct RenderPane {
+    /// Time of egui in seconds since which the pictures are of something else than what is chosen.
+    old_since: Option<f64>,
+    textures: PictureTextures,
+}
+
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
-    let body = widgets::pane(ui, &PANE, rect, context, switches::show);
-    let body = Rect::from_min_max(body.min + Vec2::new(2.0 * UNIT, 0.0), body.max - Vec2::new(2.0 * UNIT, UNIT));
+    let body = widgets::body(ui, &PANE, rect, context, switches);
     context.view.render.hovered = None;
     if context.view.reset_plots {
         context.view.saved.render.orbit = None;
@@ -42,16 +47,12 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let layout = PictureLayout::new(&sources, body, ui.ctx().pixels_per_point(), context);
     let asked = request::ask(ui, &layout, context);
     let busy = context.render_service.busy();
-    context.view.render.busy = busy;
-    if context.view.saved.tables.contains(&PaneKind::RENDER) {
-        if let Some(figure) = crate::figures::render::figure(&context.figure_input()) {
-            widgets::table::show_numbers(ui, body, PaneKind::RENDER, &figure.table, context);
-        }
-        widgets::busy_line(ui, body, busy, context.theme.surround.label());
+    if widgets::figure_numbers(ui, &PANE, body, context) {
+        widgets::busy_line(ui, body, busy, context.theme.on_surround);
         return;
     }
     let painter = ui.painter().with_clip_rect(body.intersect(ui.clip_rect()));
-    painter.rect_filled(body, 0.0, context.theme.surround.color());
+    painter.rect_filled(body, 0.0, context.theme.surround);
     let id = ui.scope_id().with("render orbit");
     let response = ui.interact(body, id, Sense::click_and_drag());
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Canvas, true, "Rendered pictures"));
@@ -69,9 +70,9 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
         draw::divider(ui, &layout, context);
         draw::choosers(ui, &layout, &sources, context);
     }
-    widgets::busy_line(ui, body, busy, context.theme.surround.label());
+    widgets::busy_line(ui, body, busy, context.theme.on_surround);
     if response.has_focus() {
-        let stroke = egui::Stroke::new(1.0, context.theme.surround.label());
+        let stroke = egui::Stroke::new(1.0, context.theme.on_surround);
         ui.painter().rect_stroke(body, 0.0, stroke, egui::StrokeKind::Inside);
     }
 }
@@ -79,40 +80,39 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
 /// Dims pictures of something else than what is chosen, and says what is being rendered, unless the new ones come at once.
 fn mark_old(ui: &Ui, painter: &egui::Painter, response: &egui::Response, context: &mut PaneContext<'_>) {
     let now = ui.input(|input| input.time);
-    let view = &mut context.view.render;
-    if view.cancelled || !context.render_service.is_of_another() {
-        view.old_since = None;
+    let old_since = &mut context.states.of::<RenderPane>().old_since;
+    if context.view.render.cancelled || !context.render_service.is_of_another() {
+        *old_since = None;
         return;
     }
-    let left = *view.old_since.get_or_insert(now) + REST_AFTER - now;
+    let left = *old_since.get_or_insert(now) + REST_AFTER - now;
     if left > 0.0 {
         ui.ctx().request_repaint_after(Duration::from_secs_f64(left));
         return;
     }
     let light = if context.scene.is_sunlit() { SUN.to_owned() } else { context.scene.light_name() };
     let words = format!("Rendering {}, {light}…", context.scene.document.render.mesh.name());
-    painter.rect_filled(response.rect, 0.0, context.theme.surround.color().gamma_multiply(0.6));
+    painter.rect_filled(response.rect, 0.0, context.theme.surround.gamma_multiply(0.6));
     say(painter, response.rect, &words, context);
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Canvas, true, &words));
 }
 
-/// Draws a message in place of pictures.
 fn say(painter: &egui::Painter, body: Rect, words: &str, context: &PaneContext<'_>) {
     let galley = painter.layout(
         words.to_owned(),
         FontId::proportional(HEADING),
-        context.theme.surround.label(),
+        context.theme.on_surround,
         (body.width() - 40.0).max(80.0),
     );
     let at = Align2::CENTER_CENTER.align_size_within_rect(galley.size(), body).min;
-    painter.galley(at, galley, context.theme.surround.label());
+    painter.galley(at, galley, context.theme.on_surround);
 }
 
 /// Shows values of the pixel under the pointer; a click pins it, a double click shows its sensor alone or all again.
 fn point_at(ui: &Ui, response: &egui::Response, layout: &PictureLayout, context: &mut PaneContext<'_>) {
     let Some(pointer) = response.hover_pos() else { return };
     let Some((cell, at)) = layout.place_at(pointer) else { return };
-    let Some(source) = layout.sources.get(cell).map(crate::figures::chromaticity::id) else { return };
+    let Some(source) = layout.sources.get(cell).map(figures::chromaticity::id) else { return };
     let place = PixelPlace { at, source: source.clone() };
     if response.double_clicked() {
         let look = &mut context.view.saved.render;
@@ -128,8 +128,53 @@ fn point_at(ui: &Ui, response: &egui::Response, layout: &PictureLayout, context:
     }
     if !response.dragged() {
         let pictures = context.render_service.frame();
-        context.view.point = pictures.and_then(|shot| crate::figures::render::pixel_line(&context.scene, shot, &place));
+        context.view.point = pictures.and_then(|shot| figures::render::pixel_line(&context.scene, shot, &place));
         context.view.hover(Some(&crate::plot_item::PlotItem::Sensor(source)));
         context.view.render.hovered = Some(place);
     }
+}
+
+fn switches(ui: &mut Ui, context: &mut PaneContext<'_>) {
+    let modes = [
+        (RenderMode::Grid, "Grid", "All sensors side by side"),
+        (RenderMode::Split, "Split", "The reference at the left, a sensor at the right, with a divider to drag"),
+        (RenderMode::One, "One", "One sensor, large (double-click a picture)"),
+        (RenderMode::Difference, "Difference", "Difference of each sensor from the reference, pixel by pixel"),
+    ];
+    widgets::switch(ui, &modes, &mut context.view.saved.render.mode);
+    ui.add_space(UNIT);
+    let figures = [
+        (RenderAction::Figure8, "Figure 8", "The paper's head"),
+        (RenderAction::Figure9, "Figure 9", "The paper's fern"),
+    ];
+    // All of them have room in a narrow pane.
+    ui.spacing_mut().button_padding.x = 0.5 * UNIT;
+    ui.spacing_mut().item_spacing.x = 0.75 * UNIT;
+    for (action, words, mesh) in figures {
+        let hint = format!(
+            "{mesh} in parallel sunlight without sky, balanced to D55, with the reflectance model chosen under Surface \
+             (initially radiometric). Also sets light and white balance; the compared sensors stay."
+        );
+        if ui.button(words).on_hover_text(hint).clicked() {
+            set_up(action, context);
+        }
+    }
+    let menu = ui.menu_button("⋯", |ui| {
+        for action in [RenderAction::PaperFigure8, RenderAction::PaperFigure9] {
+            let words = Action::Render(action.clone()).name();
+            let hint = "The paper's setup: a point light, and Eq 12 with P as printed: no Fresnel factor, A = XY. \
+                        The paper does not give σ and τ; they are this program's.";
+            if ui.button(words).on_hover_text(hint).clicked() {
+                set_up(action, context);
+                ui.close();
+            }
+        }
+    });
+    menu.response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, "Figures as in the paper"));
+    menu.response.on_hover_text("Figures 8 and 9 as in the paper: point light, the paper's normalization");
+}
+
+fn set_up(action: RenderAction, context: &mut PaneContext<'_>) {
+    context.view.saved.render.orbit = None;
+    context.push(Action::Render(action));
 }

@@ -1,7 +1,7 @@
 //! One camera on one page, as it is exported.
 
 use chromascope_figure::{Figure, InkRole, Shape, Stroke};
-use egui::{Align2, FontId, Id, Rect, ScrollArea, Ui, Vec2};
+use egui::{Id, Rect, ScrollArea, Ui, Vec2};
 
 use super::context::{Pane, PaneContext};
 use crate::document::SetKind;
@@ -11,6 +11,7 @@ use crate::paint::{self, PlotOptions};
 use crate::panes::widgets;
 use crate::panes::widgets::pick_list::{self, Line};
 use crate::plot_item::{PlotItem, SensorId};
+use crate::scene::metrics::{CameraFigures, unloaded};
 use crate::theme::UNIT;
 use crate::workspaces::PaneKind;
 
@@ -20,39 +21,31 @@ const NARROWEST: f32 = 300.0;
 /// Panel of the patches.
 const BARS: &str = "patches";
 
-/// The pane.
 pub const PANE: Pane = Pane {
     kind: PaneKind::REPORT_CARD,
     title: "Report card",
     show,
-    figure: Some(report_card::figure),
+    figure: Some(&report_card::KIND),
     under_conditions: true,
     table: true,
 };
 
-/// Shows the pane in its rectangle.
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
-    let body = widgets::pane(ui, &PANE, rect, context, choose);
-    let body = Rect::from_min_max(body.min + Vec2::new(2.0 * UNIT, 0.0), body.max - Vec2::new(2.0 * UNIT, UNIT));
+    let body = widgets::body(ui, &PANE, rect, context, choose);
     let width = f64::from(body.width().max(NARROWEST));
-    let say = |words: &str, ink| {
-        let font = FontId::proportional(crate::theme::TEXT);
-        ui.painter().text(body.center(), Align2::CENTER_CENTER, words, font, ink);
-    };
-    let Some(camera) = report_card::camera(&context.scene, context.view) else {
-        say("Tick a camera in the Library.", context.theme.weak);
+    let Some(camera) = report_card::camera(&context.scene, &context.view.look(PANE.kind)) else {
+        widgets::say(ui, body, "Tick a camera in the Library.", context.theme.weak);
         return;
     };
-    let mut page = match context.ranking.card(&context.scene, &camera) {
+    let mut page = match made(&camera, context) {
         Ok(Some(metrics)) => report_card::page(&context.scene, &camera, &metrics, width),
         Ok(None) => return,
         Err(why) => {
-            say(&sentence(&why), context.theme.error);
+            widgets::say(ui, body, sentence(&why), context.theme.error);
             return;
         }
     };
-    if context.view.saved.tables.contains(&PaneKind::REPORT_CARD) {
-        widgets::table::show_numbers(ui, body, PaneKind::REPORT_CARD, &page.table, context);
+    if widgets::numbers(ui, &PANE, body, context, |_| Some(page.table.clone())) {
         return;
     }
     let moved = widgets::walk::along(ui, PANE.kind, context, |context| {
@@ -73,7 +66,14 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     });
 }
 
-/// Draws the page; `follow` brings the bars into sight.
+/// Figures of merit of the camera, their uncertainties a little later; the last ones while those of other conditions are made.
+fn made(camera: &SensorId, context: &PaneContext<'_>) -> Result<Option<CameraFigures>, String> {
+    let query = context.scene.card_query(camera).map_err(|error| error.to_string())?;
+    let shown = context.later.ask(PANE.kind, vec![query.clone(), query.with_uncertainties()]).last()?;
+    let shown = shown.filter(|shown| shown.job.is_of_same_camera(&query));
+    shown.map(|shown| (*shown.answer).clone().map_err(|error| unloaded(&camera.name, error))).transpose()
+}
+
 fn draw(ui: &mut Ui, page: &Figure, follow: bool, context: &PaneContext<'_>) {
     let size = Vec2::new(page.size[0] as f32, page.size[1] as f32);
     let (area, _) = ui.allocate_exact_size(size, egui::Sense::hover());
@@ -90,9 +90,8 @@ fn draw(ui: &mut Ui, page: &Figure, follow: bool, context: &PaneContext<'_>) {
     }
 }
 
-/// A list of cameras; the first entry follows the selection.
 fn choose(ui: &mut Ui, context: &mut PaneContext<'_>) {
-    let now = report_card::camera(&context.scene, context.view);
+    let now = report_card::camera(&context.scene, &context.view.look(PANE.kind));
     let words = now.as_ref().map_or("", |id| id.name.as_str());
     let width = (ui.available_width() - UNIT).max(60.0);
     let card = context.view.saved.metrics.card.as_ref();

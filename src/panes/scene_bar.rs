@@ -2,7 +2,7 @@
 
 use chromascope_core::colorimetry::Metric;
 use chromascope_core::correction::CorrectionMethod;
-use egui::{Align, Layout, Rect, RichText, Sense, Slider, Ui, UiBuilder, Vec2};
+use egui::{Align, Layout, Rect, Sense, Slider, Ui, UiBuilder, Vec2};
 
 use super::context::PaneContext;
 use crate::action::{Action, CompareAction, SceneAction};
@@ -25,7 +25,6 @@ const DIM: f32 = 0.45;
 const WITH_DIFFERENCE: f32 = 1100.0;
 const BUTTON: f32 = 20.0;
 
-/// Shows the bar in its rectangle.
 pub fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let wide = rect.width() >= WITH_DIFFERENCE;
     let slider = if wide { 166.0 } else { 84.0 };
@@ -50,7 +49,6 @@ pub fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     field(&mut bar, (Condition::Difference, caption), width, context, difference);
 }
 
-/// A condition of the scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 enum Condition {
     Reference,
@@ -133,7 +131,7 @@ fn field(
     if !matters {
         head.set_opacity(DIM);
     }
-    head.label(RichText::new(caption).small().color(context.theme.weak));
+    widgets::note(&mut head, caption);
     let below = Rect::from_min_size(rect.min + Vec2::new(0.0, 18.0), Vec2::new(width, ROW));
     let layout = Layout::left_to_right(Align::Center);
     let mut body = ui.new_child(UiBuilder::new().id_salt(&id).max_rect(below).layout(layout));
@@ -199,7 +197,6 @@ fn reference(ui: &mut Ui, context: &mut PaneContext<'_>) {
     });
 }
 
-/// The light's temperature, and that there are filters in front of it.
 fn light_caption(context: &PaneContext<'_>) -> String {
     if shows_sunlight(context) {
         return "Render's own light".to_owned();
@@ -408,12 +405,12 @@ fn transform(ui: &mut Ui, context: &mut PaneContext<'_>) {
     actions(ui, ("Color transform", hint), &shown, context, |context| {
         let set = |action: SceneAction| Some(Action::Scene(action));
         let paper = Line::new("Paper matrix (Eq 13)", now == TransformChoice::Paper);
-        let mut all = vec![(paper, set(SceneAction::SetWay(TransformChoice::Paper)))];
+        let mut all = vec![(paper, set(SceneAction::SetTransform(TransformChoice::Paper)))];
         all.push((Line::heading("Fitted to an observer"), None));
         for entry in context.scene.entries(SetKind::Observer).filter(crate::catalog::Entry::counts_in_xyz) {
             let transform = TransformChoice::Observer(entry.name.clone());
             let line = Line::new(format!("Fitted to {}", entry.name), now == transform);
-            all.push((line, set(SceneAction::SetWay(transform))));
+            all.push((line, set(SceneAction::SetTransform(transform))));
         }
         all.push((Line::heading("Method of the fit"), None));
         for method in CorrectionMethod::ALL {

@@ -1,6 +1,6 @@
 //! Light, patches and sensitivities over one axis.
 
-use egui::{Align2, Id, Rect, ScrollArea, Ui, UiBuilder, Vec2};
+use egui::{Align2, Id, Rect, ScrollArea, Ui, Vec2};
 
 use super::context::{Pane, PaneContext};
 use crate::figures::spectra::{self, Built};
@@ -12,42 +12,31 @@ use crate::workspaces::PaneKind;
 
 /// The least height of a panel before the pane scrolls.
 const LEAST: f32 = 64.0;
-/// Largest distance of the pointer, in points.
 const REACH: f32 = 8.0;
 
-/// The pane.
 pub const PANE: Pane = Pane {
     kind: PaneKind::SPECTRA,
     title: "Spectra",
     show,
-    figure: Some(|input| Some(crate::figures::spectra::figure(input.scene, input.view))),
+    figure: Some(&spectra::KIND),
     under_conditions: false,
     table: true,
 };
 
-/// Shows the pane in its rectangle.
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let body = widgets::pane(ui, &PANE, rect, context, |ui, context| {
         let choices = [
             (SpectraLayout::Overlay, "Overlay", "All sensitivities in one plot"),
             (SpectraLayout::Each, "Each", "A plot for each sensor, where there is room for them"),
         ];
-        if let Some(layout) = widgets::segmented(ui, &choices, context.view.saved.spectra_layout) {
-            context.view.saved.spectra_layout = layout;
-            ui.ctx().request_repaint();
-        }
+        widgets::switch(ui, &choices, &mut context.view.saved.spectra_layout);
     });
     let body = Rect::from_min_max(body.min + Vec2::new(2.0 * UNIT, 0.0), body.max - Vec2::new(2.0 * UNIT, 0.0));
-    if context.view.saved.tables.contains(&PaneKind::SPECTRA) {
-        let figure = spectra::figure(&context.scene, context.view);
-        widgets::table::show_numbers(ui, body, PaneKind::SPECTRA, &figure.table, context);
+    if widgets::figure_numbers(ui, &PANE, body, context) {
         return;
     }
     if context.scene.sources().iter().all(|source| !source.visible) {
-        let font = egui::FontId::proportional(crate::theme::TEXT);
-        let words = "Nothing to draw. Tick a camera.";
-        ui.painter().text(body.center(), Align2::CENTER_CENTER, words, font, context.theme.weak);
-        return;
+        return widgets::say(ui, body, "Nothing to draw. Tick a camera.", context.theme.weak);
     }
     let each = 2 + context.scene.sources().iter().filter(|source| source.visible).count();
     let wanted = context.view.saved.spectra_layout;
@@ -58,8 +47,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     }
     let panels = if context.view.saved.spectra_layout == SpectraLayout::Each { each } else { 3 };
     let height = body.height().max(panels as f32 * LEAST);
-    let mut child = ui.new_child(UiBuilder::new().id_salt("spectra").max_rect(body));
-    child.set_clip_rect(body.intersect(ui.clip_rect()));
+    let mut child = widgets::clipped(ui, "spectra", body);
     ScrollArea::vertical().id_salt("spectra scroll").auto_shrink(false).show(&mut child, |ui| {
         let (area, _) = ui.allocate_exact_size(Vec2::new(body.width(), height), egui::Sense::hover());
         panels_in(ui, area, context);
@@ -69,7 +57,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
 
 fn panels_in(ui: &mut Ui, area: Rect, context: &mut PaneContext<'_>) {
     let size = [f64::from(area.width()), f64::from(area.height())];
-    let built = spectra::build(&context.scene, context.view, size);
+    let built = spectra::build(&context.scene, &context.view.look(PANE.kind), size);
     widgets::walk::along(ui, PaneKind::SPECTRA, context, widgets::walk::curves);
     let mut cursor = None;
     let mut plots = Vec::new();

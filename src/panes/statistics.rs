@@ -29,11 +29,9 @@ const STAGES: [(&str, &str); 14] = [
     ("patch colors", "patches"),
 ];
 
-/// The pane.
 pub const PANE: Pane =
     Pane { kind: PaneKind::STATISTICS, title: "Statistics", show, figure: None, under_conditions: false, table: false };
 
-/// Shows the pane in its rectangle.
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     widgets::scrolling_pane(ui, &PANE, rect, context, |ui, context| {
         ui.spacing_mut().item_spacing.y = 0.5 * UNIT;
@@ -46,9 +44,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
 fn pictures(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let Some(shot) = context.render_service.frame().cloned() else {
         ui.label("No picture was rendered yet.");
-        if ui.button("Show Render").clicked() {
-            context.push(Command::Show(Workspace::Render));
-        }
+        context.button(ui, "Show Render", "", Command::Show(Workspace::Render));
         return;
     };
     if let Some(image) = shot.made().and_then(MadePictures::image) {
@@ -66,9 +62,9 @@ fn pictures(ui: &mut Ui, context: &mut PaneContext<'_>) {
         ("Spectral integrals", shading.spectral.to_string()),
         ("Specular terms", format!("{}, {} skipped", shading.coherent_samples, shading.coherent_skipped)),
     ];
-    caption(ui, "Samples", context);
+    widgets::note(ui, "Samples");
     show_pairs(ui, PANE.kind, "samples", &samples, context);
-    caption(ui, "Integration methods", context);
+    widgets::note(ui, "Integration methods");
     for (source, image) in shot.sources.iter().zip(&made.images) {
         if let Some(image) = image {
             ui.label(RichText::new(format!("{}: {}", source.label, image.plan().explanation())).small());
@@ -76,7 +72,6 @@ fn pictures(ui: &mut Ui, context: &mut PaneContext<'_>) {
     }
 }
 
-/// Stages as counted since the start, with the time of each computation.
 fn stages(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let counts = context.counts();
     let mut table = Table::new(["since the start", "computed", "reused", "each (ms)"]);
@@ -94,8 +89,4 @@ fn stages(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let mut columns: Vec<Column> = table.columns.iter().map(|head| Column::from_head(head)).collect();
     columns[3].decimals = Some(1);
     DataTable::new(PANE.kind, "stages", &table).with_columns(columns).show_compact(ui, context);
-}
-
-fn caption(ui: &mut Ui, words: &str, context: &PaneContext<'_>) {
-    ui.label(RichText::new(words).small().color(context.theme.weak));
 }

@@ -4,6 +4,7 @@
 use std::time::Duration;
 
 use chromascope_core::camera::LocusMethod;
+use chromascope_core::render::QualityLevel;
 use egui::{Align, Button, Color32, Layout, Rect, TextStyle, Ui, UiBuilder, Vec2};
 
 use super::context::PaneContext;
@@ -14,20 +15,19 @@ use crate::document::SetKind;
 use crate::figures::chromaticity;
 use crate::figures::render::image_words;
 use crate::format::{file_name, fixed};
-use crate::panes::widgets::{lines, pick_list};
+use crate::jobs::{PATIENCE, Waiting};
+use crate::panes::widgets::{self, lines, pick_list};
 use crate::plot_item::{PlotItem, SensorId};
 use crate::render_service::made::MadePictures;
-use crate::report::Report;
+use crate::report::{Report, ReportJob};
+use crate::scene::metrics::Ranking;
 use crate::theme::UNIT;
 use crate::view::{Offer, Status, Weight};
 use crate::workspaces::{Arrangement, PaneKind};
 
-/// Text of the bar when there is nothing else.
 const READY: &str = "Ready. Drop a spectrum or camera file anywhere.";
 /// Rendering time above which progress is shown.
 const LONG: Duration = Duration::from_millis(500);
-/// Reading time above which progress is shown.
-const PATIENCE: Duration = Duration::from_millis(100);
 /// Share of the bar that readings have; messages and facts have the rest, so that neither moves the other. A longer message takes
 /// the room of readings while there is none.
 const READINGS: f32 = 0.62;
@@ -37,15 +37,12 @@ const MESSAGE: f64 = 6.0;
 const FADE: f64 = 0.5;
 /// Time between frames while it fades.
 const FRAME: Duration = Duration::from_millis(100);
-/// Tooltip of the facts at the right.
 const FACTS: &str = "Computation time of the last change; largest error of the visible loci, relative to the largest \
                      signal and checked against sums at 1 nm; number of cameras computed. What is not visible is not \
                      computed.";
-/// Tooltip of the facts while pictures are rendered.
 const RENDER_FACTS: &str = "Time of the last rendering stage; error of integrals over wavelength, relative to the \
                             brightest pixel; number of cameras rendered. What is not visible is not computed.";
 
-/// Shows the bar in its rectangle.
 pub fn show(ui: &mut Ui, rect: Rect, arrangement: &Arrangement, context: &mut PaneContext<'_>) {
     let inner = rect.shrink2(Vec2::new(2.0 * UNIT, 0.0));
     let half = READINGS * inner.width();
@@ -68,14 +65,12 @@ fn reading(ui: &mut Ui, rect: Rect, context: &PaneContext<'_>) {
     let words = view.point.clone().or_else(hovered).or_else(|| fits.then_some(idle));
     let Some(words) = words else { return };
     let cut = lines::elided(ui, rect, &words, TextStyle::Body, context.theme.text);
-    let response = ui.interact(rect, ui.scope_id().with("reading"), egui::Sense::hover());
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, &words));
+    let response = widgets::named(ui, rect, ui.scope_id().with("reading"), egui::Role::Label, &words);
     if cut {
         response.on_hover_text(words);
     }
 }
 
-/// Selection that dims the others, with how to end it.
 fn selection(context: &PaneContext<'_>) -> Option<String> {
     let selected = context.view.selected.as_ref().filter(|_| !context.view.selected_elsewhere)?;
     let name = chromaticity::brief(&context.scene, selected).into_iter().next()?;
@@ -85,9 +80,13 @@ fn selection(context: &PaneContext<'_>) -> Option<String> {
 fn show_facts(ui: &mut Ui, rect: Rect, arrangement: &Arrangement, context: &PaneContext<'_>) {
     let words = facts(arrangement, context).join("   ");
     let width = lines::right_aligned(ui, rect, &words, TextStyle::Small, context.theme.weak);
-    let response =
-        ui.interact(rect.with_min_x(rect.right() - width), ui.scope_id().with("facts"), egui::Sense::hover());
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, &words));
+    let response = widgets::named(
+        ui,
+        rect.with_min_x(rect.right() - width),
+        ui.scope_id().with("facts"),
+        egui::Role::Label,
+        &words,
+    );
     response.on_hover_text(
         if context.render_service.frame().is_some()
             && arrangement.panes.iter().any(|(pane, _)| *pane == PaneKind::RENDER)
@@ -109,8 +108,9 @@ fn message(ui: &mut Ui, mut rect: Rect, context: &mut PaneContext<'_>) -> bool {
         }
         ui.ctx().request_repaint_after(PATIENCE);
     }
-    if context.report.busy().is_some() {
-        report_progress(ui, rect, context);
+    let report = context.later.seen::<ReportJob>(Report::NAME);
+    if report.busy.is_some() {
+        report_progress(ui, rect, &report, context);
         return true;
     }
     let opacity = remaining(ui, rect, context);
@@ -134,7 +134,6 @@ fn message(ui: &mut Ui, mut rect: Rect, context: &mut PaneContext<'_>) -> bool {
 /// A button behind a message: its title, its tooltip, what it does.
 type LineButton = (String, String, Press);
 
-/// Effect of a button behind a message.
 enum Press {
     Run(Command),
     /// Takes one of the message's offers; the first has the keyboard.
@@ -162,7 +161,6 @@ fn buttons(status: &Status) -> Vec<LineButton> {
     offers.into_iter().chain(change).collect()
 }
 
-/// An offer on its button, or as one of several.
 fn offered(offer: &Offer, is_alone: bool) -> String {
     match offer {
         Offer::Open(path) => format!("Open {}", file_name(path)),
@@ -254,8 +252,7 @@ fn line(
         }
     }
     let cut = lines::elided(ui, rect, words, TextStyle::Body, color);
-    let response = ui.interact(rect, ui.scope_id().with("message"), egui::Sense::hover());
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Status, true, words));
+    let response = widgets::named(ui, rect, ui.scope_id().with("message"), egui::Role::Status, words);
     if cut {
         response.on_hover_text(words);
     }
@@ -288,7 +285,6 @@ fn button(ui: &mut Ui, (title, hint): (&str, &str), press: &Press, context: &mut
     }
 }
 
-/// The message while files are read.
 fn file_progress(ui: &mut Ui, rect: Rect, progress: &Progress, context: &mut PaneContext<'_>) {
     ui.ctx().request_repaint_after(Duration::from_millis(50));
     let words = progress_words(progress);
@@ -297,15 +293,12 @@ fn file_progress(ui: &mut Ui, rect: Rect, progress: &Progress, context: &mut Pan
     line(ui, rect, &words, context.theme.text, &[stop], context);
 }
 
-/// The message while a report is made.
-fn report_progress(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
-    let (steps, done) = context.report.progress();
-    let words = format!("Report: {}, {} of {}", Report::name(done), done + 1, steps.len());
+fn report_progress(ui: &mut Ui, rect: Rect, report: &Waiting<ReportJob>, context: &mut PaneContext<'_>) {
+    let words = format!("Report: {}, {} of {}", Report::name(report.done), report.done + 1, report.stages.len());
     let hint = "Stop the report; the files so far stay (Esc)".to_owned();
     line(ui, rect, &words, context.theme.text, &[("Stop".to_owned(), hint, Press::Run(Command::StopReport))], context);
 }
 
-/// File being read, and its progress.
 fn progress_words(progress: &Progress) -> String {
     let [file, count] = progress.file;
     let of = if count > 1 { format!(", {file} of {count}") } else { String::new() };
@@ -313,7 +306,6 @@ fn progress_words(progress: &Progress) -> String {
     format!("Reading {name}{of}, {:.0} %", 100.0 * progress.share.clamp(0.0, 1.0))
 }
 
-/// An item in one line.
 fn describe(thing: &PlotItem, context: &PaneContext<'_>) -> String {
     let scene = &context.scene;
     let label = |id: &SensorId| {
@@ -372,7 +364,7 @@ fn facts(arrangement: &Arrangement, context: &PaneContext<'_>) -> Vec<String> {
         facts.push(format!("updated in {} ms", fixed(milliseconds, usize::from(milliseconds < 100.0))));
     }
     if arrangement.panes.iter().any(|(pane, _)| *pane == PaneKind::METRICS)
-        && let Some((done, all)) = context.ranking.progress()
+        && let Some((done, all)) = Ranking::seen(context.later).progress()
     {
         facts.push(format!("Computing: {done} of {all}"));
         return facts;
@@ -392,14 +384,16 @@ fn facts(arrangement: &Arrangement, context: &PaneContext<'_>) -> Vec<String> {
     facts
 }
 
-/// Facts while pictures are rendered.
 fn render_facts(context: &PaneContext<'_>) -> Vec<String> {
     let Some(shot) = context.render_service.frame() else { return Vec::new() };
     let mut facts = Vec::new();
-    let long = context.view.render.busy.filter(|busy| *busy >= LONG);
+    let long = context.render_service.busy().filter(|busy| *busy >= LONG);
     if let Some(busy) = long {
-        let rows = context.view.render.rows_read.map_or_else(String::new, |share| format!(" {:.0} %", 100.0 * share));
-        facts.push(format!("{}{rows}: {:.0} s, Esc stops", context.view.render.making, busy.as_secs_f64()));
+        let settings = &context.scene.document.render;
+        let rows = context.images.chosen(&settings.mesh).map(|image| 100.0 * image.source.rows.share());
+        let rows = rows.map_or_else(String::new, |share| format!(" {share:.0} %"));
+        let making = if settings.quality == QualityLevel::Full { "Rendering" } else { settings.quality.label() };
+        facts.push(format!("{making}{rows}: {:.0} s, Esc stops", busy.as_secs_f64()));
     } else if !context.view.fixed_clock {
         let milliseconds = shot.time.as_secs_f64() * 1e3;
         facts.push(format!("updated in {} ms", fixed(milliseconds, usize::from(milliseconds < 100.0))));

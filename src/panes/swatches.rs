@@ -1,7 +1,7 @@
 //! Patches as colors.
 
 use chromascope_figure::Shape;
-use egui::{Id, Rect, ScrollArea, Ui, UiBuilder, Vec2};
+use egui::{Id, Rect, ScrollArea, Ui, Vec2};
 
 use super::context::{Pane, PaneContext};
 use crate::action::{Action, SceneAction};
@@ -13,42 +13,35 @@ use crate::theme::UNIT;
 use crate::view::{SwatchLayout, SwatchStyle};
 use crate::workspaces::PaneKind;
 
-/// Height of the line below the swatches.
 const FOOTER: f32 = 24.0;
 
-/// The pane.
 pub const PANE: Pane = Pane {
     kind: PaneKind::SWATCHES,
     title: "Swatches",
     show,
-    figure: Some(|input| Some(crate::figures::swatches::figure(input.scene, input.view))),
+    figure: Some(&swatches::KIND),
     under_conditions: true,
     table: true,
 };
 
-/// Shows the pane in its rectangle.
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
-    let body = widgets::pane(ui, &PANE, rect, context, switches);
-    let body = Rect::from_min_max(body.min + Vec2::new(2.0 * UNIT, 0.0), body.max - Vec2::new(2.0 * UNIT, UNIT));
-    if context.view.saved.tables.contains(&PaneKind::SWATCHES) {
-        let figure = swatches::figure(&context.scene, context.view);
-        widgets::table::show_numbers(ui, body, PaneKind::SWATCHES, &figure.table, context);
+    let body = widgets::body(ui, &PANE, rect, context, switches);
+    if widgets::figure_numbers(ui, &PANE, body, context) {
         return;
     }
     let body = widgets::caution::show(ui, body, context);
-    ui.painter().rect_filled(body, 0.0, context.theme.surround.color());
+    ui.painter().rect_filled(body, 0.0, context.theme.surround);
     let (body, slot) = footer(ui, body, context);
     let size = [f64::from(body.width()), f64::from(body.height())];
-    let built = swatches::build(&context.scene, context.view, size);
-    let mut child = ui.new_child(UiBuilder::new().id_salt("swatches").max_rect(body));
-    child.set_clip_rect(body.intersect(ui.clip_rect()));
+    let built = swatches::build(&context.scene, &context.view.look(PANE.kind), size);
+    let mut child = widgets::clipped(ui, "swatches", body);
     let height = (built.height as f32).max(body.height());
     let shown = ScrollArea::vertical().id_salt("swatches scroll").auto_shrink(false).show(&mut child, |ui| {
         let (area, _) = ui.allocate_exact_size(Vec2::new(body.width(), height), egui::Sense::hover());
         board(ui, area, &built, context);
     });
     if height - shown.state.clamped_offset().y > body.height() + 1.0 {
-        widgets::scroll::more_below(ui, slot, context.theme.surround.label());
+        widgets::scroll::more_below(ui, slot, context.theme.on_surround);
     }
 }
 
@@ -58,7 +51,7 @@ fn footer(ui: &mut Ui, body: Rect, context: &mut PaneContext<'_>) -> (Rect, Rect
     let Some((words, thing)) = swatches::worst(&context.scene) else {
         return (body, body.with_min_y(body.bottom() - FOOTER));
     };
-    let color = context.theme.surround.label();
+    let color = context.theme.on_surround;
     let font = egui::FontId::proportional(crate::theme::SMALL);
     let scale = context.view.saved.difference_bars.then(|| swatches::bar_scale(&context.scene));
     let scale = scale.map(|words| ui.painter().layout_no_wrap(words, font.clone(), color));
@@ -138,8 +131,5 @@ fn switches(ui: &mut Ui, context: &mut PaneContext<'_>) {
         (SwatchStyle::Inset, "Inset", "The reference inside"),
         (SwatchStyle::Whole, "Sensor only", "The sensor without the reference"),
     ];
-    if let Some(style) = widgets::segmented(ui, &choices, context.view.saved.swatch_style) {
-        context.view.saved.swatch_style = style;
-        ui.ctx().request_repaint();
-    }
+    widgets::switch(ui, &choices, &mut context.view.saved.swatch_style);
 }

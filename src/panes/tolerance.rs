@@ -1,23 +1,23 @@
 //! Tolerance, and the method that satisfies it for each camera.
 
+use chromascope_core::accuracy::RelTolerance;
 use chromascope_core::render::plan::{Candidate, Verdict};
+use chromascope_core::render::{Quality, QualityLevel, Shadows};
 use chromascope_measure::pareto::duration;
 use egui::{CollapsingHeader, Rect, RichText, Ui};
 
-use super::context::{NothingRendered, Pane, PaneContext, set_render as set};
+use super::context::{Pane, PaneContext, set_render as set};
 use crate::format::capitalized;
 use crate::panes::widgets;
-use crate::profiler::plans::Planned;
+use crate::profiler::SceneRunJob;
+use crate::profiler::plans::{PlanAnswer, Planned, PlansQuery};
 use crate::scene::ComparedSensor;
 use crate::theme::UNIT;
 use crate::workspaces::PaneKind;
-use chromascope_core::render::QualityLevel;
 
-/// The pane.
 pub const PANE: Pane =
     Pane { kind: PaneKind::TOLERANCE, title: "Tolerance", show, figure: None, under_conditions: false, table: false };
 
-/// Shows the pane in its rectangle.
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     widgets::scrolling_pane(ui, &PANE, rect, context, |ui, context| {
         choice(ui, context);
@@ -26,7 +26,6 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     });
 }
 
-/// The tolerance, and whether pictures keep it.
 fn choice(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let settings = context.scene.document.render.clone();
     let on = settings.quality == QualityLevel::Tolerance;
@@ -52,13 +51,40 @@ fn choice(ui: &mut Ui, context: &mut PaneContext<'_>) {
     } else {
         format!("Current quality: {}. Below: the methods that the tolerance would use.", settings.quality.label())
     };
-    ui.label(RichText::new(words).small().color(context.theme.weak));
+    widgets::note(ui, words);
 }
 
-/// Each sensor with its plan.
+/// Reason that there are no plans.
+struct NothingRendered;
+
+/// The plan of each rendered sensor, as pictures within the document's tolerance would take it; `Ok(None)` until one is
+/// made. An error where nothing is rendered.
+fn plans(context: &PaneContext<'_>) -> Result<Option<Vec<PlanAnswer>>, NothingRendered> {
+    let own = context.meshes.chosen(&context.scene.document.render.mesh);
+    let quality = RelTolerance::new(context.scene.document.render.tolerance).ok().map(Quality::Within);
+    let orbit = context.view.saved.render.orbit;
+    let pictures = quality.and_then(|quality| SceneRunJob::pictures_of(&context.scene, own.as_ref(), orbit, quality));
+    let mut pictures = pictures.ok_or(NothingRendered)?;
+    let geometry = &mut pictures.shading.geometry;
+    let frame = context.render_service.frame();
+    let visible = frame.and_then(|frame| Some(&frame.query.mesh()?.shading.geometry)).filter(|visible| {
+        visible.visibility.mesh == geometry.visibility.mesh
+            && visible.lighting == geometry.lighting
+            && (visible.shadows == Shadows::Off) == (geometry.shadows == Shadows::Off)
+    });
+    // All angles of the current pictures are cached; those of the next pictures soon will be.
+    let soon = context.render_service.is_looked_at()
+        && context.render_service.failure().is_none()
+        && !context.view.render.cancelled;
+    if let Some(visible) = visible {
+        geometry.clone_from(visible);
+    }
+    Ok(PlansQuery::ask(context.later, &pictures, visible.is_some() || !soon))
+}
+
 fn sources(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let weak = context.theme.weak;
-    let plans = match context.plans() {
+    let plans = match plans(context) {
         Ok(Some(plans)) => plans,
         Ok(None) => {
             ui.label(RichText::new("Choosing methods…").color(weak));
@@ -102,7 +128,7 @@ fn not_rendered(ui: &mut Ui, context: &PaneContext<'_>) {
             widgets::source_key(ui, source, &context.theme);
             ui.strong(&source.label);
         });
-        ui.label(RichText::new(why).small().color(context.theme.weak));
+        widgets::note(ui, why);
         ui.add_space(UNIT);
     }
 }
@@ -147,7 +173,6 @@ const BOUNDS: &str = "Diffuse component: the largest error found against the sum
 const ESTIMATED: &str = "Times are from a cost model, not measured here; Methods measures them. The method with the \
                          least total time, preparation included, is used.";
 
-/// Cost of a method by the model.
 fn cost(candidate: &Candidate) -> String {
     let [sample, making] = [candidate.sample_ns, candidate.making_ns].map(|ns| duration(ns * 1e-9));
     if candidate.making_ns > 0.0 {
@@ -157,7 +182,6 @@ fn cost(candidate: &Candidate) -> String {
     }
 }
 
-/// A rejected method, and the reason.
 fn rejected(candidate: &Candidate) -> String {
     let error = candidate.error_bound.map_or_else(|| "not checked".to_owned(), |e| format!("error {e:.0e}"));
     let why = match candidate.verdict {

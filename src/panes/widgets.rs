@@ -16,29 +16,27 @@ pub use lines::focus_rim;
 
 use std::time::Duration;
 
-use chromascope_figure::{Ink, LegendEntry, Stroke};
-use egui::{Align, Button, Layout, Rect, Response, Sense, Ui, UiBuilder, Vec2};
+use chromascope_figure::{FigureRoom, Ink, LegendEntry, Stroke, Table};
+use egui::{Align, Align2, Button, FontId, Layout, Rect, Response, RichText, Sense, Ui, UiBuilder, Vec2};
 
 use crate::command::Command;
 use crate::export::FigureForm;
 use crate::export::profile::CorrectionForm;
+use crate::jobs::PATIENCE;
 use crate::paint;
 use crate::panes::context::{Pane, PaneContext};
 use crate::plot_item::SensorId;
 use crate::scene::ComparedSensor;
-use crate::theme::{ROW, Theme, UNIT};
-use crate::view::render::RenderView;
+use crate::theme::{self, ROW, Theme, UNIT};
 use crate::workspaces::{PaneKind, Workspace};
 use pick_list::Line;
 
-/// The sentence that summarizes the window's contents.
 pub const WHAT_YOU_SEE: &str = "A camera's spectral sensitivities differ from the eye's, so it records other colors \
                                 than a person sees. Chromascope shows how far off each camera is.";
 
 /// Passes after which a control that is not drawn is no longer sought.
 const SOUGHT: u64 = 4;
 
-/// The height of a pane's header.
 pub const HEADER: f32 = 32.0;
 
 /// Draws a pane's frame and header and returns the rectangle below it. `switches` adds the pane's own controls.
@@ -70,6 +68,82 @@ pub fn pane(
     let mut buttons = ui.new_child(UiBuilder::new().id_salt(("buttons", pane.kind)).max_rect(right).layout(to_left));
     header_buttons(&mut buttons, pane, context);
     Rect::from_min_max(egui::pos2(rect.left(), rect.top() + HEADER), rect.max)
+}
+
+/// A pane's frame and header as [`pane`] draws them. Returns the rectangle below within the usual margins.
+pub fn body(
+    ui: &mut Ui,
+    pane: &Pane,
+    rect: Rect,
+    context: &mut PaneContext<'_>,
+    switches: impl FnOnce(&mut Ui, &mut PaneContext<'_>),
+) -> Rect {
+    let body = self::pane(ui, pane, rect, context, switches);
+    Rect::from_min_max(body.min + Vec2::new(2.0 * UNIT, 0.0), body.max - Vec2::new(2.0 * UNIT, UNIT))
+}
+
+/// A part of a pane, beyond whose rectangle nothing is drawn.
+pub fn clipped(ui: &mut Ui, salt: impl egui::AsIdSalt, rect: Rect) -> Ui {
+    let mut child = ui.new_child(UiBuilder::new().id_salt(salt).max_rect(rect));
+    child.set_clip_rect(rect.intersect(ui.clip_rect()));
+    child
+}
+
+/// A place in the middle of a rectangle, whose lines are centered.
+pub fn middle(ui: &mut Ui, salt: impl egui::AsIdSalt, body: Rect, size: Vec2) -> Ui {
+    let place = Rect::from_center_size(body.center(), Vec2::new(body.width().min(size.x), size.y)).intersect(body);
+    let layout = Layout::top_down(Align::Center);
+    ui.new_child(UiBuilder::new().id_salt(salt).max_rect(place).layout(layout))
+}
+
+/// Draws a sentence in the middle of a rectangle.
+pub fn say(ui: &Ui, body: Rect, words: impl ToString, color: egui::Color32) {
+    let font = FontId::proportional(theme::TEXT);
+    ui.painter().text(body.center(), Align2::CENTER_CENTER, words, font, color);
+}
+
+/// A small line of less weight.
+pub fn note(ui: &mut Ui, words: impl Into<String>) {
+    ui.label(RichText::new(words).small().weak());
+}
+
+/// Shows a pane's numbers instead of its picture, if that is chosen. Returns whether it is.
+pub fn numbers(
+    ui: &mut Ui,
+    pane: &Pane,
+    body: Rect,
+    context: &mut PaneContext<'_>,
+    table: impl FnOnce(&PaneContext<'_>) -> Option<Table>,
+) -> bool {
+    let is_chosen = context.view.saved.tables.contains(&pane.kind);
+    if let Some(numbers) = is_chosen.then(|| table(context)).flatten() {
+        table::show_numbers(ui, body, pane.kind, &numbers, context);
+    }
+    is_chosen
+}
+
+/// The same with the numbers of the pane's figure.
+pub fn figure_numbers(ui: &mut Ui, pane: &Pane, body: Rect, context: &mut PaneContext<'_>) -> bool {
+    numbers(ui, pane, body, context, |context| {
+        Some(pane.figure?.figure(&context.scene, &context.look(pane.kind), FigureRoom::default())?.table)
+    })
+}
+
+/// Takes a curve as the one under the pointer, and lets it go when the pointer leaves.
+pub fn hover_curve(ui: &Ui, salt: &'static str, inside: bool, place: Option<usize>, context: &mut PaneContext<'_>) {
+    let id = egui::Id::unique(salt);
+    let was = ui.data_mut(|data| std::mem::replace(data.get_temp_mut_or_default::<bool>(id), inside));
+    if (inside || was) && context.view.import.hovered_curve != place {
+        context.view.import.hovered_curve = place;
+        ui.ctx().request_repaint();
+    }
+}
+
+/// A drawn part that shows nothing else under the pointer, with its name for screen readers.
+pub fn named(ui: &Ui, rect: Rect, id: egui::Id, role: egui::Role, words: &str) -> Response {
+    let response = ui.interact(rect, id, Sense::hover());
+    response.widget_info(|| egui::WidgetInfo::labeled(role, true, words));
+    response
 }
 
 /// Has the control of a name take the keyboard as soon as it is drawn.
@@ -196,7 +270,7 @@ fn export_menu(ui: &mut Ui, &Pane { kind, title, .. }: &Pane, context: &mut Pane
 /// A thin progress line along the top while a computation lasts long; its description is in the status bar.
 pub fn busy_line(ui: &Ui, body: Rect, busy: Option<Duration>, color: egui::Color32) {
     let Some(busy) = busy else { return };
-    if let Some(wait) = RenderView::PATIENCE.checked_sub(busy) {
+    if let Some(wait) = PATIENCE.checked_sub(busy) {
         ui.ctx().request_repaint_after(wait);
         return;
     }
@@ -209,24 +283,17 @@ pub fn busy_line(ui: &Ui, body: Rect, busy: Option<Duration>, color: egui::Color
 /// Small pictures drawn with lines, so that no font needs them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Icon {
-    /// A grid.
     Table {
         /// Numbers are visible.
         on: bool,
     },
-    /// An arrow out of a tray.
     Export,
-    /// Two arrows apart.
     Maximize,
-    /// A cross.
     Close,
-    /// An arrow that bends back to the left.
     Undo,
-    /// An arrow that bends back to the right.
     Redo,
 }
 
-/// An icon button with an accessible name.
 pub fn icon_button(ui: &mut Ui, icon: Icon, name: &str) -> Response {
     let (rect, response) = ui.allocate_exact_size(Vec2::splat(ROW), Sense::click());
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, ui.is_enabled(), name));
@@ -293,7 +360,15 @@ pub fn segmented<T: Copy + PartialEq>(ui: &mut Ui, choices: &[(T, &str, &str)], 
     pressed(ui, choices, current).filter(|choice| *choice != current)
 }
 
-/// The same, for choices that do something when pressed again.
+/// A switch that sets a value.
+pub fn switch<T: Copy + PartialEq>(ui: &mut Ui, choices: &[(T, &str, &str)], value: &mut T) {
+    if let Some(to) = segmented(ui, choices, *value) {
+        *value = to;
+        ui.ctx().request_repaint();
+    }
+}
+
+/// The same as [`segmented`], for choices that do something when pressed again.
 pub fn pressed<T: Copy + PartialEq>(ui: &mut Ui, choices: &[(T, &str, &str)], current: T) -> Option<T> {
     let mut clicked = None;
     for &(choice, words, hint) in choices {
@@ -318,7 +393,6 @@ pub fn legend_entry(source: &ComparedSensor) -> LegendEntry {
     }
 }
 
-/// Draws a source's key in a small rectangle.
 pub fn source_key(ui: &mut Ui, source: &ComparedSensor, theme: &Theme) -> Response {
     let (rect, response) = ui.allocate_exact_size(Vec2::new(26.0, ROW), Sense::hover());
     paint::key(ui.painter(), rect, &legend_entry(source), theme);

@@ -1,27 +1,9 @@
 //! View state of the Numerics workspace.
 
-use chromascope_measure::Workload;
+pub use crate::figures::look::Shows;
 
-use crate::profiler::Subject;
-
-/// View state of the Numerics workspace.
 #[derive(Clone, Debug, Default)]
 pub struct AccuracyView {
     /// Selected measurement.
     pub shows: Shows,
-}
-
-/// Measurement whose methods are shown.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Shows {
-    /// Those of the scene.
-    Scene(Subject),
-    /// Those of the program, on a workload of the bench.
-    Bench(Workload),
-}
-
-impl Default for Shows {
-    fn default() -> Self {
-        Self::Scene(Subject::default())
-    }
 }

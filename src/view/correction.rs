@@ -9,7 +9,6 @@ use crate::document::SetKind;
 use crate::export::profile::{CorrectionFile, CorrectionRequest};
 use crate::scene::Scene;
 
-/// State of the Correction pane.
 #[derive(Debug, Default)]
 pub struct CorrectionView {
     /// The camera chosen there; the first that is compared otherwise.
@@ -18,7 +17,6 @@ pub struct CorrectionView {
     pub models: BTreeMap<String, String>,
     /// Neutrals as typed, by camera and light: one of another light would be wrong.
     pub neutrals: BTreeMap<(String, String), String>,
-    /// The current correction.
     pub shown: Option<Arc<CorrectionFile>>,
 }
 

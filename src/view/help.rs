@@ -1,24 +1,18 @@
 //! State of the help window.
 
-/// Open page, search and history of the help window.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct HelpView {
     /// Name of the open page; none while the window is closed.
     pub page: Option<&'static str>,
-    /// Pages visited before, the latest last.
     pub visited: Vec<&'static str>,
-    /// The text in the search field.
     pub query: String,
-    /// The result that Enter opens.
     pub picked: usize,
-    /// The block to scroll to in the next frame.
     pub scroll_to: Option<usize>,
     /// True if the search field takes the keyboard in the next frame.
     pub focus_search: bool,
 }
 
 impl HelpView {
-    /// Opens a page at a block.
     pub fn open(&mut self, page: &'static str, block: usize) {
         if let Some(last) = self.page.replace(page).filter(|last| *last != page) {
             self.visited.push(last);
@@ -26,7 +20,6 @@ impl HelpView {
         self.scroll_to = Some(block);
     }
 
-    /// Returns to the page visited before.
     pub fn back(&mut self) {
         if let Some(page) = self.visited.pop() {
             (self.page, self.scroll_to) = (Some(page), Some(0));

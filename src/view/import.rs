@@ -6,25 +6,17 @@ use chromascope_core::query::Shared;
 use serde::{Deserialize, Serialize};
 
 use crate::catalog::likeness::Likeness;
-use crate::catalog::opened::Failing;
-use crate::document::imported::{Fingerprint, ImportOverrides, ImportedSet};
+use crate::catalog::opened::{Failing, Opened};
+use crate::document::imported::{ImportOverrides, ImportedSet};
+pub use crate::figures::curves::ImportItem;
+use crate::figures::curves::ImportSelection;
+use crate::scene::Scene;
 
 /// Maximum number of remembered kinds of files.
 const REMEMBERED: usize = 100;
 
-/// Something in the list of files.
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
-pub enum ImportItem {
-    /// A set of the document, by name.
-    Set(String),
-    /// A file that no set is made of.
-    File(Fingerprint),
-}
-
-/// View state of the Import pane.
 #[derive(Debug, Default)]
 pub struct ImportView {
-    /// The selected item.
     pub selected: Option<ImportItem>,
     /// Import settings tried for each item but not yet applied to the document.
     pub tried: BTreeMap<ImportItem, ImportOverrides>,
@@ -38,7 +30,6 @@ pub struct ImportView {
     pub focus: Option<Stop>,
     /// The line of the text to bring into view in this frame.
     pub line: Option<usize>,
-    /// Search text of the curve list.
     pub search: String,
     /// Curves under the pointer, by place in the file.
     pub hovered_curve: Option<usize>,
@@ -47,11 +38,8 @@ pub struct ImportView {
 /// Control of Import that takes the keyboard focus between panes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stop {
-    /// The list of files.
     Files,
-    /// The first of the switches.
     Switches,
-    /// The list of curves.
     Picker,
 }
 
@@ -75,7 +63,12 @@ impl ImportView {
         takes
     }
 
-    /// Settings tried for an item.
+    pub fn selection(&self, scene: &Scene<'_>, opened: &Opened) -> Option<ImportSelection> {
+        let item = self.selected.clone()?;
+        let tried = self.pending(&item).cloned();
+        ImportSelection::of(scene, item, tried, opened.preview())
+    }
+
     pub fn pending(&self, item: &ImportItem) -> Option<&ImportOverrides> {
         self.tried.get(item)
     }
@@ -88,8 +81,8 @@ impl ImportView {
         if self.selected.as_ref() == Some(old) {
             self.selected = Some(new.clone());
         }
-        if let Some(wishes) = self.tried.remove(old) {
-            self.tried.insert(new.clone(), wishes);
+        if let Some(overrides) = self.tried.remove(old) {
+            self.tried.insert(new.clone(), overrides);
         }
         if self.unseen.remove(old) {
             self.unseen.insert(new.clone());
@@ -114,13 +107,11 @@ impl ImportView {
 /// Import settings that the user chose for a kind of file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Remembered {
-    /// The kind.
     pub likeness: Likeness,
-    /// The settings.
-    pub wishes: ImportOverrides,
+    #[serde(rename = "wishes")]
+    pub overrides: ImportOverrides,
 }
 
-/// Import settings saved between runs.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct ImportMemory {
@@ -128,7 +119,6 @@ pub struct ImportMemory {
     pub remembered: Vec<Remembered>,
     /// True if files are read again when they change on disk.
     pub watch: bool,
-    /// Files on disk that could not be read.
     pub failing: Vec<Failing>,
     /// Files with a guess or an error that the user has not reviewed.
     pub unseen: BTreeSet<ImportItem>,
@@ -142,34 +132,32 @@ impl Default for ImportMemory {
 
 impl ImportMemory {
     /// Remembers the settings for a file, to be applied to others like it; default settings remove the entry.
-    pub fn remember(&mut self, likeness: Likeness, wishes: &ImportOverrides) {
+    pub fn remember(&mut self, likeness: Likeness, overrides: &ImportOverrides) {
         if !likeness.is_telling() {
             return;
         }
         self.remembered.retain(|known| !known.likeness.is_like(&likeness));
-        let wishes = of_a_kind(wishes);
-        if wishes != ImportOverrides::default() {
-            self.remembered.push(Remembered { likeness, wishes });
+        let overrides = of_a_kind(overrides);
+        if overrides != ImportOverrides::default() {
+            self.remembered.push(Remembered { likeness, overrides });
         }
         let spare = self.remembered.len().saturating_sub(REMEMBERED);
         self.remembered.drain(..spare);
     }
 
-    /// Forgets the settings for files like one.
     pub fn forget(&mut self, likeness: &Likeness) {
         self.remembered.retain(|known| !known.likeness.is_like(likeness));
     }
 
-    /// Returns the remembered settings for a file.
-    pub fn wishes(&self, likeness: &Likeness) -> ImportOverrides {
+    pub fn overrides(&self, likeness: &Likeness) -> ImportOverrides {
         let known = self.remembered.iter().rev().find(|known| known.likeness.is_like(likeness));
-        known.map(|known| known.wishes.clone()).unwrap_or_default()
+        known.map(|known| known.overrides.clone()).unwrap_or_default()
     }
 }
 
 /// The settings that apply to other files of a kind, too: not the choice of curves, part and column.
-pub fn of_a_kind(wishes: &ImportOverrides) -> ImportOverrides {
-    let mut kind = ImportOverrides { taken: None, ..wishes.clone() };
+pub fn of_a_kind(overrides: &ImportOverrides) -> ImportOverrides {
+    let mut kind = ImportOverrides { taken: None, ..overrides.clone() };
     (kind.options.part, kind.options.wavelength_column) = (None, None);
     kind
 }

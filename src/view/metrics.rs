@@ -4,8 +4,8 @@ use chromascope_core::metamers::Confusion;
 use serde::{Deserialize, Serialize};
 
 use crate::plot_item::SensorId;
+pub use crate::scene::metrics::RankedCameras;
 
-/// View settings of the Metrics pane.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct MetricsLook {
@@ -21,25 +21,11 @@ pub struct MetricsLook {
     pub card: Option<SensorId>,
 }
 
-/// A choice of cameras.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub enum RankedCameras {
-    /// All of the library, the user's too.
-    #[default]
-    Library,
-    /// Those that are compared.
-    Compared,
-    /// The user's.
-    Yours,
-}
-
 /// The one that takes two reflectances for one.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Confuses {
-    /// The camera.
     #[default]
     Camera,
-    /// The reference observer.
     Reference,
 }
 

@@ -1,5 +1,6 @@
 //! View state of the Recorded pane.
 
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use chromascope_core::camera::recorded::Freedom;
@@ -10,11 +11,11 @@ use chromascope_core::spectral::GridSpectrum;
 use crate::catalog::recorded_store::RecordedFile;
 use crate::scene::recorded::RankedCamera;
 
-/// View state of the Recorded pane.
 #[derive(Clone, Debug, Default)]
 pub struct RecordedView {
     /// True while the open file dialog is for recorded values.
     pub opening: bool,
+    pub path: Option<PathBuf>,
     /// Parameters that are fitted.
     pub freedom: Freedom,
     /// Corners of the chart in the picture that were clicked, in its pixels.
@@ -32,11 +33,9 @@ pub struct RecordedView {
 /// What patches with recorded values are made of.
 #[derive(Clone, Debug)]
 pub struct RecordedInputs {
-    /// The file.
     pub file: Arc<RecordedFile>,
     /// Its chart, if the file has no spectra of its own.
     pub chart: Option<Shared<PatchSet>>,
-    /// The light.
     pub light: Shared<GridSpectrum>,
     /// Corners of the chart in the picture.
     pub corners: Vec<[f64; 2]>,

@@ -1,10 +1,8 @@
 //! View state of the Render pane: orbit, arrangement of pictures and pinned pixel.
 
-use std::time::Duration;
-
 use serde::{Deserialize, Serialize};
 
-use crate::paint::PictureTextures;
+pub use crate::figures::look::{PixelPlace, RenderMode};
 use crate::plot_item::SensorId;
 pub use crate::scene::orbit::Orbit;
 
@@ -39,58 +37,12 @@ impl RenderLook {
     }
 }
 
-/// Arrangement of pictures.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub enum RenderMode {
-    /// One for each sensor.
-    #[default]
-    Grid,
-    /// The reference and a sensor in one.
-    Split,
-    /// One sensor, large.
-    One,
-    /// Difference of each sensor from the reference.
-    Difference,
-}
-
-/// A place in every picture, with the sensor that was pointed at.
-#[derive(Clone, Debug, PartialEq)]
-pub struct PixelPlace {
-    /// Right and down, from 0 to 1.
-    pub at: [f64; 2],
-    /// The sensor whose picture it was.
-    pub source: SensorId,
-}
-
-/// View state of the Render pane.
 #[derive(Debug, Default)]
 pub struct RenderView {
-    /// The pinned pixel.
     pub pinned: Option<PixelPlace>,
-    /// The pixel under the pointer.
     pub hovered: Option<PixelPlace>,
     /// The sensor shown alone or with the reference; `None` for the first camera.
     pub chosen: Option<SensorId>,
-    /// Running time of the rendering.
-    pub busy: Option<Duration>,
-    /// Name of the computation in progress.
-    pub making: &'static str,
-    /// Share of the rows of a spectral image that were read; none for a mesh.
-    pub rows_read: Option<f32>,
     /// True if finer pictures than the current ones are not wanted.
     pub cancelled: bool,
-    /// Time of egui in seconds since which the pictures are of something else than what is chosen.
-    pub old_since: Option<f64>,
-    /// The pictures as textures.
-    pub textures: PictureTextures,
-}
-
-impl RenderView {
-    /// After this long a computation is shown to be going on, and Esc ends it.
-    pub const PATIENCE: Duration = Duration::from_millis(100);
-
-    /// True if a computation has lasted long enough for progress to be shown.
-    pub fn is_waiting(&self) -> bool {
-        self.busy.is_some_and(|busy| busy >= Self::PATIENCE)
-    }
 }

@@ -4,9 +4,9 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
+pub use crate::figures::look::Sorting;
 use crate::plot_item::PlotItem;
 
-/// View settings of one table.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct TableLook {
@@ -23,15 +23,6 @@ pub struct TableLook {
     /// Selection that the table was scrolled to.
     #[serde(skip)]
     pub seen: Option<PlotItem>,
-}
-
-/// Order of a table's rows.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Sorting {
-    /// Name of the column.
-    pub column: String,
-    /// Largest first.
-    pub descending: bool,
 }
 
 impl TableLook {

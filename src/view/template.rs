@@ -8,10 +8,8 @@ use crate::document::start::Start;
 use crate::document::{Document, Light, Overlays, SetKind, WhiteBalanceChoice};
 use crate::workspaces::PaneKind;
 
-/// A document to begin a new session with.
 #[derive(Debug)]
 pub struct Template {
-    /// Its name.
     pub name: &'static str,
     /// The question that it answers, and the conditions.
     pub summary: &'static str,
@@ -21,7 +19,6 @@ pub struct Template {
     actions: fn(&Document) -> Vec<Action>,
 }
 
-/// The templates, in the order they are offered.
 pub const TEMPLATES: [Template; 7] = [
     Template {
         name: "The paper, experiment 1",
@@ -105,7 +102,6 @@ fn skin() -> Option<ImportedSet> {
 }
 
 impl Template {
-    /// The document.
     pub fn document(&self) -> Document {
         let mut document = self.start.document();
         for action in (self.actions)(&document) {

@@ -10,37 +10,29 @@ use crate::plot_item::PlotItem;
 use crate::workspaces::{PaneKind, Workspace};
 use chromascope_core::query::Shared;
 
-/// A scene of the tour.
 pub struct TourStep {
-    /// Finding in a few words.
     pub title: &'static str,
     /// What to look at, and why it is so.
     pub text: &'static str,
     /// Numbers of the scene that are written below the text.
     pub numbers: TourNumbers,
-    /// Workspace that shows it.
     pub workspace: Workspace,
-    /// Pane that fills the window.
     pub maximized: Option<PaneKind>,
     /// Patch that is selected through all sensors.
     pub patch: Option<&'static str>,
     actions: fn() -> Vec<Action>,
 }
 
-/// Numbers that a step computes from its scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TourNumbers {
-    /// Length of each locus in xy.
     LocusLengths,
     /// Temperature at which each locus is nearest to the reference's.
     NearestTemperatures,
-    /// Difference of each patch, for each camera.
     PatchDifferences,
     /// Difference of the rendered material facing the light, for each camera.
     RenderedDifferences,
 }
 
-/// The steps, in order.
 pub const STEPS: [TourStep; 5] = [
     TourStep {
         title: "Each camera has its own locus of blackbodies",
@@ -83,7 +75,7 @@ pub const STEPS: [TourStep; 5] = [
         actions: || {
             let name = CIE_1931.to_owned();
             vec![
-                Action::Scene(SceneAction::SetWay(TransformChoice::Observer(name.clone()))),
+                Action::Scene(SceneAction::SetTransform(TransformChoice::Observer(name.clone()))),
                 Action::Compare(CompareAction::SetReference { name, counts_in_xyz: true }),
                 Action::Scene(SceneAction::SetLight(Light::Set("D65".to_owned()))),
                 Action::Scene(SceneAction::SetDifference(Metric::DELTA_E_2000)),
@@ -112,7 +104,6 @@ impl TourStep {
         document
     }
 
-    /// The selected item.
     pub fn selected(&self) -> Option<PlotItem> {
         self.patch.map(|patch| PlotItem::Patch { source: None, patch: patch.to_owned() })
     }

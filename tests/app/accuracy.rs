@@ -8,13 +8,13 @@ use chromascope::command::Command;
 use chromascope::document::SetKind;
 use chromascope::document::render::{ReadingChoice, RenderSettings};
 use chromascope::panes;
-use chromascope::profiler::{SceneRun, Subject};
+use chromascope::profiler::{Profiler, SceneRun, Subject};
 use chromascope::scene::Scene;
 use chromascope::view::accuracy::Shows;
 use chromascope::workspaces::{PaneKind, Workspace};
 use chromascope_core::accuracy::RelTolerance;
 use chromascope_core::render::QualityLevel;
-use chromascope_figure::{Ink, InkRole, Shape};
+use chromascope_figure::{FigureRoom, Ink, InkRole, Shape};
 use chromascope_measure::Workload;
 use egui::accesskit::Role;
 use egui_kittest::Harness;
@@ -36,7 +36,7 @@ fn measured() -> Window {
 }
 
 fn take_in(window: &mut Window) {
-    window.state().profiler().wait();
+    window.state().later().wait();
     window.run_steps(3);
 }
 
@@ -49,7 +49,7 @@ fn nothing_is_measured_unasked() {
     let mut window = open([1280.0, 800.0], egui::Theme::Light);
     window.state_mut().push(Command::Show(Workspace::Numerics));
     window.run_steps(3);
-    assert!(window.state().profiler().busy().is_none());
+    assert!(Profiler::busy(window.state().later()).is_none());
     assert!(window.state().profiler().measured.run.is_none());
     assert!(window.query_by_label("Nothing measured yet.").is_some());
 }
@@ -72,11 +72,17 @@ fn a_run_has_times_errors_and_figures() {
     assert!(window.state().profiler().measured.is_current);
     let (catalog, results) = (chromascope::catalog::Catalog::built_in(), chromascope::results::Results::default());
     let scene = Scene { document: window.state().history().document(), catalog: &catalog, results: &results };
-    let figure = panes::figure(PaneKind::METHODS, &window.state().figure_input(&scene)).expect("measured");
+    let figure = panes::figure(
+        PaneKind::METHODS,
+        &scene,
+        &window.state().look(PaneKind::METHODS, &scene),
+        FigureRoom::default(),
+    )
+    .expect("measured");
     let (conditions, csv) = (&measured.conditions, figure.table.to_csv());
     assert!(figure.table.rows.len() >= 6);
     let paper = chromascope::export::Paper::default();
-    let svg = chromascope::export::svg(&figure, &chromascope::theme::Theme::LIGHT, paper);
+    let svg = chromascope::export::svg(&figure, &chromascope::palette::Colors::LIGHT, paper);
     assert!(svg.contains("</svg>") && !svg.contains("NaN") && !csv.contains("NaN"));
     let scene = &conditions.scene;
     assert!(scene.starts_with("head, Skin Caucasian mean") && scene.contains("under Direct sun"), "{scene}");
@@ -90,7 +96,13 @@ fn a_run_has_times_errors_and_figures() {
     window.run_steps(3);
     assert!(!window.state().profiler().measured.is_current, "the scene has another sky than the run");
     let scene = Scene { document: window.state().history().document(), catalog: &catalog, results: &results };
-    let figure = panes::figure(PaneKind::METHODS, &window.state().figure_input(&scene)).expect("measured");
+    let figure = panes::figure(
+        PaneKind::METHODS,
+        &scene,
+        &window.state().look(PaneKind::METHODS, &scene),
+        FigureRoom::default(),
+    )
+    .expect("measured");
     assert!(!figure.title.contains("on show") && !figure.caption.contains("on show"), "{}", figure.caption);
     assert!(figure.caption.contains("under Direct sun"), "the light that it was measured under");
     assert!(window.state().profiler().measured.run.is_some());
@@ -126,7 +138,7 @@ fn a_hidden_camera_is_told_of() {
     let hide = CompareAction::SetVisible(SetKind::Camera, "Nikon D70 (2007 figure)".to_owned(), false);
     window.state_mut().push(Action::Compare(hide));
     window.run_steps(2);
-    window.state_mut().push(Command::SpectralWeights);
+    window.state_mut().push(Command::MeasureScene);
     window.run_steps(2);
     assert_eq!(window.state().view().saved.workspace, Workspace::Numerics, "what is measured is shown");
     take_in(&mut window);
@@ -246,12 +258,12 @@ fn a_tolerance_that_cannot_be_is_refused_beside_its_field() {
 #[test]
 fn escape_stops_measuring() {
     let (executor, mut window) = driven([1280.0, 800.0], egui::Theme::Dark);
-    window.state_mut().push(Command::SpectralWeights);
+    window.state_mut().push(Command::MeasureScene);
     window.run_steps(1);
-    assert!(window.state().profiler().busy().is_some());
+    assert!(Profiler::busy(window.state().later()).is_some());
     window.key_press(egui::Key::Escape);
     window.run_steps(2);
-    assert!(window.state().profiler().busy().is_none());
+    assert!(Profiler::busy(window.state().later()).is_none());
     executor.run_all();
     window.run_steps(2);
     assert!(window.state().profiler().measured.run.is_none());
@@ -271,7 +283,13 @@ fn a_report_of_the_bench_is_shown_and_exported() {
     assert_eq!(window.query_by_label("Run again").is_some(), cfg!(feature = "bench"));
     let (catalog, results) = (chromascope::catalog::Catalog::built_in(), chromascope::results::Results::default());
     let scene = Scene { document: window.state().history().document(), catalog: &catalog, results: &results };
-    let figure = panes::figure(PaneKind::METHODS, &window.state().figure_input(&scene)).expect("measured");
+    let figure = panes::figure(
+        PaneKind::METHODS,
+        &scene,
+        &window.state().look(PaneKind::METHODS, &scene),
+        FigureRoom::default(),
+    )
+    .expect("measured");
     assert_eq!(figure.table.rows.len(), report.measurements.len());
     // Each method's mark says which measurement it is.
     for panel in &figure.panels {

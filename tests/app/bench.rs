@@ -49,7 +49,7 @@ fn a_report_is_drawn_and_read_back() {
     let report = report();
     let figure = report.figure(Workload::Difference).unwrap();
     let paper = chromascope::export::Paper::default();
-    let svg = chromascope::export::svg(&figure, &chromascope::theme::Theme::LIGHT, paper);
+    let svg = chromascope::export::svg(&figure, &chromascope::palette::Colors::LIGHT, paper);
     assert!(svg.contains("side by side") && !svg.contains("NaN") && !svg.contains("inf\""));
     chromascope::export::png(&svg, 0.5).unwrap();
     assert_eq!(serde_json::from_str::<Report>(&report.to_json().unwrap()).unwrap(), report);

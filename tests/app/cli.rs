@@ -21,7 +21,7 @@ use std::process::{Command, Output};
 use chromascope_core::colorimetry::Metric;
 
 /// Runs the program without a display.
-fn run(arguments: &[&str]) -> Output {
+pub(crate) fn run(arguments: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_chromascope"))
         .args(arguments)
         .env_remove("DISPLAY")

@@ -9,6 +9,7 @@ use chromascope::plot_item::{PlotItem, SensorId};
 use chromascope::results::Results;
 use chromascope::scene::Scene;
 use chromascope::view::{DiagramFit, View};
+use chromascope::workspaces::PaneKind;
 use chromascope_figure::{Ink, InkRole, Mark, Marker, Panel, Rect, Shape, text_width};
 use egui_kittest::kittest::Queryable as _;
 
@@ -19,7 +20,7 @@ const SIZES: [[f64; 2]; 4] = [[440.0, 300.0], [680.0, 350.0], [640.0, 480.0], [1
 fn built(document: &Document, view: &View, size: [f64; 2]) -> Built {
     let (catalog, results) = (Catalog::built_in(), Results::default());
     let scene = Scene { document, catalog: &catalog, results: &results };
-    chromaticity::build(&scene, view, None, size)
+    chromaticity::build(&scene, &view.look(PaneKind::CHROMATICITY), size)
 }
 
 fn whole() -> View {

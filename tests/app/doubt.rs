@@ -2,12 +2,12 @@
 
 use chromascope::catalog::Catalog;
 use chromascope::document::{Diagram, Document, Light, SetKind};
+use chromascope::figures::look::FigureLook;
 use chromascope::figures::{chromaticity, strip};
 use chromascope::plot_item::{PlotItem, SensorId};
 use chromascope::results::Results;
 use chromascope::scene::Scene;
-use chromascope::view::View;
-use chromascope_figure::{Cell, Dash, Mark, Marker, Shape};
+use chromascope_figure::{Cell, Dash, FigureRoom, Mark, Marker, Shape};
 
 const D70: &str = "Nikon D70 (2007 figure)";
 
@@ -43,7 +43,7 @@ fn lines<'a>(marks: &'a [Mark], name: &str) -> Vec<(Dash, Vec<&'a [f64; 2]>)> {
 #[test]
 fn a_locus_is_dotted_where_its_table_ends_too_early() {
     with(&both(), |scene| {
-        let built = chromaticity::build(scene, &View::default(), None, [800.0, 600.0]);
+        let built = chromaticity::build(scene, &FigureLook::default(), [800.0, 600.0]);
         let figure = lines(&built.panel.marks, "Nikon D70 (2007)");
         let [(Dash::Solid, solid), (Dash::Dotted, dotted)] = figure.as_slice() else { panic!("{figure:?}") };
         // 200 points evenly in mired from 1000 to 20000 K: 126 of them below 2500 K, and the one where the two meet.
@@ -76,7 +76,7 @@ fn tooltip_caption_and_table_say_what_is_extrapolated() {
         assert!(told(D70, 1000.0).contains(words) && told(D70, 2499.0).contains(words));
         assert!(!told(D70, 2500.0).contains("extrapolated"));
         assert!(!told("Nikon D70 (A.M.P.A.S.)", 1000.0).contains("extrapolated"));
-        let figure = chromaticity::figure(scene, &View::default());
+        let figure = chromaticity::figure(scene, &FigureLook::default(), FigureRoom::default());
         let cut =
             "Dotted below 2500 K, where the sensitivity table ends too early: Canon 10D (2007), Nikon D70 (2007).";
         assert!(figure.caption.contains(cut), "{}", figure.caption);

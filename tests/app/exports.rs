@@ -3,14 +3,13 @@
 use chromascope::catalog::Catalog;
 use chromascope::document::{Document, Subset, TransformChoice};
 use chromascope::export::{Paper, pdf, png, png_file, png_file_at, svg};
-use chromascope::figures::FigureInput;
+use chromascope::figures::look::FigureLook;
+use chromascope::palette::Colors;
 use chromascope::panes;
 use chromascope::results::Results;
 use chromascope::scene::{LOCUS_POINTS, Scene};
-use chromascope::theme::Theme;
-use chromascope::view::View;
 use chromascope::workspaces::PaneKind;
-use chromascope_figure::{Page, TextSize};
+use chromascope_figure::{FigureRoom, Page, TextSize};
 
 const PICTURED: [PaneKind; 3] = [PaneKind::CHROMATICITY, PaneKind::SWATCHES, PaneKind::SPECTRA];
 
@@ -29,8 +28,9 @@ fn every_figure_becomes_svg_png_and_numbers() {
     for (index, document) in documents().iter().enumerate() {
         let scene = Scene { document, catalog: &catalog, results: &results };
         for pane in PICTURED {
-            let figure = panes::figure(pane, &FigureInput::new(&scene, &View::default())).expect("it has a figure");
-            let text = svg(&figure, &Theme::LIGHT, Paper::default());
+            let figure =
+                panes::figure(pane, &scene, &FigureLook::default(), FigureRoom::default()).expect("it has a figure");
+            let text = svg(&figure, &Colors::LIGHT, Paper::default());
             // Encoded pictures may hold any three letters.
             let attributes = text.split('"').filter(|part| !part.starts_with("data:"));
             assert!({ attributes }.all(|part| !part.contains("NaN") && !part.contains("inf")), "{pane:?}");
@@ -50,8 +50,8 @@ fn every_figure_becomes_svg_png_and_numbers() {
 fn numbers_are_those_of_the_scene() {
     let (catalog, results, document) = (Catalog::built_in(), Results::default(), Document::paper());
     let scene = Scene { document: &document, catalog: &catalog, results: &results };
-    let view = View::default();
-    let rows = |pane| panes::figure(pane, &FigureInput::new(&scene, &view)).unwrap().table.rows.len();
+    let figure = |pane| panes::figure(pane, &scene, &FigureLook::default(), FigureRoom::default());
+    let rows = |pane| figure(pane).unwrap().table.rows.len();
     assert_eq!(rows(PaneKind::CHROMATICITY), 5 * (LOCUS_POINTS + 5), "five sources, loci and patches");
     assert_eq!(rows(PaneKind::SWATCHES), 4 * 5, "CIE 1931 is left out by Paper");
     assert_eq!(rows(PaneKind::SPECTRA), 401);
@@ -61,7 +61,8 @@ fn numbers_are_those_of_the_scene() {
 fn panes_without_a_figure_have_none() {
     let (catalog, results, document) = (Catalog::built_in(), Results::default(), Document::paper());
     let scene = Scene { document: &document, catalog: &catalog, results: &results };
-    assert!(panes::figure(PaneKind::INSPECTOR, &FigureInput::new(&scene, &View::default())).is_none());
+    let look = FigureLook::default();
+    assert!(panes::figure(PaneKind::INSPECTOR, &scene, &look, FigureRoom::default()).is_none());
 }
 
 #[test]
@@ -71,13 +72,13 @@ fn text_has_its_size_on_paper_whatever_the_width() {
     for pane in PICTURED {
         for (mm, font_pt) in [(Paper::ONE_COLUMN_MM, 8.0), (Paper::TWO_COLUMNS_MM, 8.0), (Paper::ONE_COLUMN_MM, 6.0)] {
             let paper = Paper { width_mm: Some(mm), font_pt, ..Paper::default() };
-            let make = |room| panes::figure(pane, &FigureInput::new(&scene, &View { room, ..View::default() }));
+            let make = |room| panes::figure(pane, &scene, &FigureLook::default(), room);
             let figure = paper.laid_out(make).expect("it has a figure");
             let page = Page::new(&figure, &paper.page_style()).area;
             let body = f64::from(TextSize::Body.points()) * mm / 25.4 * 72.0 / page.width();
             assert!((body - font_pt).abs() < 0.01, "{pane:?} at {mm} mm: {body} pt instead of {font_pt} pt");
-            let file = pdf(&figure, &paper.theme(), paper).expect("a PDF");
-            assert_eq!(file, pdf(&figure, &paper.theme(), paper).unwrap(), "the same bytes each time");
+            let file = pdf(&figure, &paper.colors(), paper).expect("a PDF");
+            assert_eq!(file, pdf(&figure, &paper.colors(), paper).unwrap(), "the same bytes each time");
         }
     }
 }

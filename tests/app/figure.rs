@@ -218,7 +218,7 @@ fn view(shown: &Shown) -> View {
 #[test]
 fn a_figure_becomes_a_picture_in_both_themes() {
     for theme in [Theme::LIGHT, Theme::DARK] {
-        let svg = export::svg(&sample(), &theme, Paper::default());
+        let svg = export::svg(&sample(), &theme.colors, Paper::default());
         let picture = export::png(&svg, 1.0).expect("the SVG is well-formed");
         assert_eq!(picture.width(), 740 + 16);
         assert!(picture.height() > 780, "the caption stands below the figure");
@@ -233,7 +233,7 @@ fn a_figure_becomes_a_picture_in_both_themes() {
 #[test]
 fn a_figure_has_the_width_of_its_paper() {
     let paper = Paper { width_mm: Some(85.0), line_scale: 1.2, ..Paper::default() };
-    let svg = export::svg(&sample(), &Theme::LIGHT, paper);
+    let svg = export::svg(&sample(), &Theme::LIGHT.colors, paper);
     assert!(svg.contains("width=\"85mm\""));
     let picture = export::png(&svg, 300.0 / 72.0).expect("the SVG is well-formed");
     let expected = 85.0 / 25.4 * 300.0;

@@ -4,8 +4,9 @@ use chromascope::action::{Action, SceneAction};
 use chromascope::app::ChromascopeApp;
 use chromascope::command::Command;
 use chromascope::document::{Diagram, WhiteBalanceChoice};
+use chromascope::export::page::PageJob;
 use chromascope::export::{self, Paper};
-use chromascope::jobs::Executor;
+use chromascope::jobs::{Executor, Job as _};
 use chromascope::theme::SourceInks;
 use chromascope::view::page::{LengthUnit, PageLook, PageZoom};
 use chromascope::view::{SavedView, Weight};
@@ -45,10 +46,10 @@ fn the_page_shows_the_picture_that_is_saved() {
     let (_executor, window) = page_of(PaneKind::CHROMATICITY);
     let app = window.state();
     assert_eq!(open(&window), Some(PaneKind::CHROMATICITY));
-    let shown = app.pages().shown().expect("a page");
+    let shown = app.later().seen::<PageJob>(PageJob::NAME).shown.expect("a page");
     let job = &shown.job;
     assert!(shown.current && job.paper == app.view().saved.page.paper);
-    let svg = export::svg(&job.figure, &job.paper.theme(), job.paper);
+    let svg = export::svg(&job.figure, &job.paper.colors(), job.paper);
     assert!(svg.contains("width=\"85mm\""), "one column");
     let picture = export::png(&svg, job.scale).expect("a picture");
     let image = shown.answer.as_ref().as_ref().expect("pixels");
@@ -95,12 +96,12 @@ fn a_figure_that_cannot_be_made_now_says_so() {
 #[test]
 fn settings_change_the_page_and_are_remembered() {
     let (executor, mut window) = page_of(PaneKind::CHROMATICITY);
-    let first = window.state().pages().shown().expect("a page").job;
+    let first = window.state().later().seen::<PageJob>(PageJob::NAME).shown.expect("a page").job;
     for switch in ["Gray", "200 %", "in", "Caption with the conditions"] {
         window.get_by_label(switch).click();
         settle(&executor, &mut window);
     }
-    let job = window.state().pages().shown().expect("a page").job;
+    let job = window.state().later().seen::<PageJob>(PageJob::NAME).shown.expect("a page").job;
     assert_eq!((job.paper.inks, job.paper.caption), (SourceInks::Gray, false));
     assert!(!first.figure.caption.is_empty() && job.figure.caption.is_empty());
     let saved = window.state().saved_view();
@@ -115,7 +116,7 @@ fn settings_change_the_page_and_are_remembered() {
 #[test]
 fn an_idle_page_draws_nothing_and_the_document_changes_it() {
     let (executor, mut window) = page_of(PaneKind::CHROMATICITY);
-    let serial = |window: &Window| window.state().pages().shown().expect("a page").serial;
+    let serial = |window: &Window| window.state().later().seen::<PageJob>(PageJob::NAME).shown.expect("a page").serial;
     let before = serial(&window);
     for step in 0..8 {
         window.hover_at(egui::pos2(300.0 + 10.0 * step as f32, 300.0));
@@ -158,7 +159,7 @@ fn the_keyboard_reaches_the_settings_and_escape_leaves_a_field_first() {
 
 /// The figure of the page that is shown.
 fn figure(window: &Window) -> std::sync::Arc<chromascope_figure::Figure> {
-    std::sync::Arc::clone(&window.state().pages().shown().expect("a page").job.figure)
+    std::sync::Arc::clone(&window.state().later().seen::<PageJob>(PageJob::NAME).shown.expect("a page").job.figure)
 }
 
 /// Turns the wheel over a plot.

@@ -58,7 +58,7 @@ fn tab_through(workspace: Workspace, theme: egui::Theme, size: [f32; 2], least: 
     for _ in 0..4 {
         window.run_steps(2);
         window.state().render_service().wait();
-        window.state().profiler().wait();
+        window.state().later().wait();
     }
     let (mut seen, mut hidden) = (BTreeSet::new(), Vec::new());
     loop {

@@ -8,7 +8,7 @@ use chromascope::command::{Command, key_bindings};
 use chromascope::document::Document;
 use chromascope::help::formula::{Formula, FormulaError};
 use chromascope::help::markdown::{Block, Inline, MarkdownError, parse};
-use chromascope::help::search::search;
+use chromascope::help::search;
 use chromascope::help::{FIRST, Page, Target, find, pages, resolve, source};
 use chromascope::workspaces::PaneKind;
 use egui::accesskit::Role;

@@ -116,9 +116,9 @@ fn percent_that_was_chosen_holds_for_every_role() {
     let text = b"nm,r,g,b\n400,5,6,7\n500,50,60,70\n600,10,11,12\n";
     for role in [Role::Camera, Role::Illuminant, Role::Unknown, Role::Transmittance] {
         let options = ReadOptions { role: Some(role), values: Some(Values::Percent), ..ReadOptions::default() };
-        let wishes = ImportOverrides { options, ..ImportOverrides::default() };
+        let overrides = ImportOverrides { options, ..ImportOverrides::default() };
         let origin = Origin::named("x.csv", text);
-        let mut set = import_as(&origin, text, &wishes, Watch::none()).unwrap().set;
+        let mut set = import_as(&origin, text, &overrides, Watch::none()).unwrap().set;
         assert_eq!(first(&set).1, [0.05, 0.5, 0.1], "{role:?}");
         set.percent = false;
         assert_eq!(first(&set).1, [5.0, 50.0, 10.0], "{role:?}");
@@ -144,9 +144,9 @@ fn metadata_and_names_beside_a_file_say_what_it_is() {
     std::fs::write(folder.path().join("b.csv_metadata.json"), cie).expect("written");
     for (path, role) in [(bare, Role::Illuminant), (told, Role::Camera)] {
         let origin = chromascope::catalog::import::Origin::on_disk("x", &path, rows);
-        let wishes = chromascope::document::imported::ImportOverrides::default();
+        let overrides = chromascope::document::imported::ImportOverrides::default();
         let read =
-            chromascope::catalog::import::import_as(&origin, rows, &wishes, spectral_file::Watch::none()).unwrap();
+            chromascope::catalog::import::import_as(&origin, rows, &overrides, spectral_file::Watch::none()).unwrap();
         assert_eq!(read.set.role, role, "{}", read.message);
         assert!(role == Role::Camera || read.guessed, "a name suggests: {}", read.message);
     }

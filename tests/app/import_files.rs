@@ -208,7 +208,7 @@ fn what_is_tried_on_a_file_stays_with_it() {
     until(&mut window, "a role", |app| app.history().document().own[0].role == Kinds::Illuminant);
     window.get_by_role_and_label(Role::Button, "Forget choices").click();
     settle(&mut window);
-    assert_eq!(own(&window)[0].wishes, ImportOverrides::default());
+    assert_eq!(own(&window)[0].overrides, ImportOverrides::default());
     assert!(window.state().view().saved.import.remembered.is_empty());
     undo(&mut window);
     assert_eq!(own(&window)[0].role, Kinds::Illuminant);

@@ -2,12 +2,11 @@
 
 use chromascope::catalog::import::import;
 use chromascope::document::{Document, SetKind};
-use chromascope::figures::curves::{self, ImportSelection};
+use chromascope::figures::curves::{self, ImportItem, ImportSelection};
+use chromascope::figures::look::FigureLook;
 use chromascope::figures::{spectra, swatches};
 use chromascope::results::Results;
 use chromascope::scene::Scene;
-use chromascope::view::View;
-use chromascope::view::import::ImportItem;
 use chromascope_core::query::Shared;
 use chromascope_figure::{Panel, Shape, TextSize, text_width};
 use egui::accesskit::Role;
@@ -17,15 +16,14 @@ use crate::import_switches::{drop_file, says, settle};
 use crate::screenshots::open;
 
 /// A document with a set of the user's in it, and what shows that in Import.
-fn of(name: &str, text: &str) -> (Document, View) {
+fn of(name: &str, text: &str) -> (Document, ImportItem) {
     let set = import(name, text.as_bytes(), None).unwrap().set;
     let mut document = Document::paper();
-    let mut view = View::default();
-    view.import.selected = Some(ImportItem::Set(set.name.clone()));
+    let item = ImportItem::Set(set.name.clone());
     let set = Shared::new(set);
     document.put_to_use(&set);
     document.own.push(set);
-    (document, view)
+    (document, item)
 }
 
 /// The highest point of the lines from a wavelength on, as a share of the panel.
@@ -47,10 +45,10 @@ fn noisy() -> String {
 
 #[test]
 fn spikes_beyond_the_plot_are_said_and_not_drawn() {
-    let (document, view) = of("lamp.csv", &noisy());
+    let (document, item) = of("lamp.csv", &noisy());
     let (catalog, results) = (chromascope::catalog::Catalog::built_in(), Results::default());
     let scene = Scene { document: &document, catalog: &catalog, results: &results };
-    let shown = ImportSelection::of(&scene, &view, None).unwrap();
+    let shown = ImportSelection::of(&scene, item, None, None).unwrap();
     let curves = curves::Curves::of(&shown, 10).unwrap();
     for height in [90.0, 160.0, 600.0] {
         let panel = curves::panel(&curves, [600.0, height], None);
@@ -70,12 +68,11 @@ fn spikes_beyond_the_plot_are_said_and_not_drawn() {
 fn notes_of_plots_stand_above_the_curves() {
     let rows = (0..14).map(|i| format!(",leaf {i}")).collect::<Vec<_>>().concat();
     let row = |nm: u32| format!("{nm}{}\n", ",0.99".repeat(14));
-    let (document, view) =
-        of("a chart with a name.csv", &format!("nm{rows}\n{}", [400, 500, 600, 700].map(row).concat()));
+    let (document, _) = of("a chart with a name.csv", &format!("nm{rows}\n{}", [400, 500, 600, 700].map(row).concat()));
     let (catalog, results) = (chromascope::catalog::Catalog::built_in(), Results::default());
     let scene = Scene { document: &document, catalog: &catalog, results: &results };
     for size in [[300.0, 300.0], [680.0, 640.0]] {
-        for panel in &spectra::build(&scene, &view, size).panels {
+        for panel in &spectra::build(&scene, &FigureLook::default(), size).panels {
             if panel.note.is_empty() {
                 continue;
             }
@@ -91,18 +88,15 @@ fn notes_of_plots_stand_above_the_curves() {
 fn names_above_swatches_keep_to_their_columns() {
     let names = (0..5).map(|i| format!(",a leaf with a very long name {i}")).collect::<Vec<_>>().concat();
     let row = |nm: u32| format!("{nm},0.1,0.2,0.3,0.4,0.5\n");
-    let (mut document, view) = of("leaves.csv", &format!("nm{names}\n{}", [400, 500, 600, 700].map(row).concat()));
+    let (mut document, _) = of("leaves.csv", &format!("nm{names}\n{}", [400, 500, 600, 700].map(row).concat()));
     for entry in chromascope::catalog::Catalog::built_in().of_kind(SetKind::Camera).take(6) {
         document.compare(&entry.name, SetKind::Camera);
     }
     let (catalog, results) = (chromascope::catalog::Catalog::built_in(), Results::default());
     let scene = Scene { document: &document, catalog: &catalog, results: &results };
     for layout in [chromascope::view::SwatchLayout::Rows, chromascope::view::SwatchLayout::Charts] {
-        let view = View {
-            saved: chromascope::view::SavedView { swatch_layout: layout, ..view.saved.clone() },
-            ..View::default()
-        };
-        let panel = swatches::build(&scene, &view, [700.0, 200.0]).panel;
+        let look = FigureLook { swatch_layout: layout, ..FigureLook::default() };
+        let panel = swatches::build(&scene, &look, [700.0, 200.0]).panel;
         let mut words: Vec<[f64; 3]> = Vec::new();
         for mark in &panel.marks {
             if let Shape::Text { at, text, anchor, size, .. } = &mark.shape {

@@ -132,11 +132,11 @@ fn every_switch_flips_the_curves_and_undo_flips_them_back() {
         ("Wavelengths in", "Å", |set, _| set.unit == WavelengthUnit::Angstrom),
         ("This is a", "Illuminant", |set, _| set.role == Kinds::Illuminant),
         ("This is a", "Transmittance", |set, _| set.role == Kinds::Transmittance),
-        ("Decimal mark", "Comma", |set, _| set.wishes.options.decimal_mark.is_some()),
-        ("Columns split by", "Semicolon", |set, _| set.wishes.options.delimiter.is_some()),
-        ("Wavelengths run", "Down a column", |set, _| set.wishes.options.orientation.is_some()),
-        ("Wavelength column", "1: nm", |set, _| set.wishes.options.wavelength_column == Some(1)),
-        ("Read by", "Table of numbers", |set, _| set.wishes.options.reader.is_some()),
+        ("Decimal mark", "Comma", |set, _| set.overrides.options.decimal_mark.is_some()),
+        ("Columns split by", "Semicolon", |set, _| set.overrides.options.delimiter.is_some()),
+        ("Wavelengths run", "Down a column", |set, _| set.overrides.options.orientation.is_some()),
+        ("Wavelength column", "1: nm", |set, _| set.overrides.options.wavelength_column == Some(1)),
+        ("Read by", "Table of numbers", |set, _| set.overrides.options.reader.is_some()),
     ] {
         // In ångströms the leaf would be in the ultraviolet, where no instrument is: that is said, and nothing changes.
         choose(&mut window, caption, entry);
@@ -159,9 +159,9 @@ fn every_switch_flips_the_curves_and_undo_flips_them_back() {
 fn a_choice_is_given_back_to_the_content() {
     let mut window = window("leaf.csv", LEAF);
     choose(&mut window, "Values are", "Plain numbers");
-    assert_eq!(own(&window)[0].wishes.options.values, Some(Values::Plain));
+    assert_eq!(own(&window)[0].overrides.options.values, Some(Values::Plain));
     choose(&mut window, "Values are", "Decided by content");
-    assert_eq!((own(&window)[0].wishes.options.values, numbers(&window)[0].1[0]), (None, 0.055));
+    assert_eq!((own(&window)[0].overrides.options.values, numbers(&window)[0].1[0]), (None, 0.055));
 }
 
 #[test]
@@ -175,7 +175,7 @@ fn two_wrong_choices_are_mended_one_by_one() {
     choose(&mut window, "Columns split by", "Semicolon");
     assert_eq!(own(&window), before);
     choose(&mut window, "Decimal mark", "Comma");
-    let options = own(&window)[0].wishes.options.clone();
+    let options = own(&window)[0].overrides.options.clone();
     assert!(options.delimiter.is_some() && options.decimal_mark.is_some());
     assert_eq!(numbers(&window)[0].1, [0.055, 0.105, 0.205, 0.505]);
     undo(&mut window);
@@ -256,7 +256,7 @@ fn curves_are_picked() {
     assert_eq!(own(&window)[0].curves.len(), 29, "a set of nothing is none");
     window.get_by_role_and_label(Role::CheckBox, "leaf 1").click();
     settle(&mut window);
-    assert_eq!(own(&window)[0].wishes.taken, Some(vec![1]));
+    assert_eq!(own(&window)[0].overrides.taken, Some(vec![1]));
     assert_eq!(own(&window)[0].curves.len(), 1);
     window.get_by_role_and_label(Role::Button, "All").click();
     settle(&mut window);

@@ -9,13 +9,14 @@ use std::time::Duration;
 use chromascope::action::history::History;
 use chromascope::action::{Action, ImportedAction, SceneAction};
 use chromascope::app::ChromascopeApp;
+use chromascope::atomic::write_atomically;
 use chromascope::catalog::import::import;
 use chromascope::catalog::meshes::{MeshState, MeshStore};
 use chromascope::command::Command;
 use chromascope::document::imported::{Fingerprint, ImportedSet};
 use chromascope::document::render::MeshChoice;
 use chromascope::document::{Document, session};
-use chromascope::files::{Files, PersistentMessageKind, write_atomically};
+use chromascope::files::{Files, PersistentMessageKind};
 use chromascope::jobs::Executor;
 use chromascope::view::SavedView;
 use egui::ViewportCommand;
@@ -130,7 +131,7 @@ fn a_mesh_whose_path_is_not_utf_8_is_shown() {
     let (_around, folder) = profile();
     let path = folder.join(OsString::from_vec(b"caf\xe9.obj".to_vec()));
     fs::write(&path, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").unwrap();
-    let store = MeshStore::new(|| {});
+    let store = MeshStore::on(&Executor::default(), || {});
     until("the mesh", || match store.get(&path) {
         MeshState::Ready(_) => Ok(()),
         other => Err(format!("{other:?}")),

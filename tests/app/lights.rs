@@ -7,10 +7,11 @@ use chromascope::command::Command;
 use chromascope::document::imported::Role;
 use chromascope::document::{Document, Light, Overlays, SetKind, session};
 use chromascope::figures;
+use chromascope::figures::look::FigureLook;
 use chromascope::results::Results;
 use chromascope::scene::Scene;
-use chromascope::view::View;
 use chromascope::workspaces::PaneKind;
+use chromascope_figure::FigureRoom;
 use egui::accesskit::Role as Kind;
 use egui_kittest::kittest::Queryable as _;
 
@@ -121,7 +122,7 @@ fn filters_are_ticked_in_the_library_and_removed_beside_the_light() {
 fn whites_and_isotherms_are_drawn_where_they_belong() {
     let mut document = Document::colorimetry();
     let marks = |document: &Document| {
-        with(document, |scene| figures::chromaticity::build(scene, &View::default(), None, [600.0, 400.0]).panel.marks)
+        with(document, |scene| figures::chromaticity::build(scene, &FigureLook::default(), [600.0, 400.0]).panel.marks)
     };
     let names = |document: &Document| marks(document).iter().map(|mark| mark.name.clone()).collect::<Vec<_>>();
     assert!(!names(&document).iter().any(|name| name.starts_with("white") || name.starts_with("isotherm")));
@@ -151,7 +152,9 @@ fn the_pane_says_all_and_why_not() {
     // Independent values: see tests/core/rendition.rs.
     window.get_by_label("Ra 64.2   Rf 70.1   Rg 86.4   SSI 62");
     window.get_by_label("Color rendering indices as bars, and color vectors");
-    let figure = with(&document, |scene| figures::light::figure(scene, &chromascope::view::View::default()).unwrap());
+    let figure = with(&document, |scene| {
+        figures::light::KIND.figure(scene, &FigureLook::default(), FigureRoom::default()).unwrap()
+    });
     assert_eq!(figure.panels.len(), 2);
     assert!(figure.table.rows.len() > 60);
     // A light without temperature: reasons instead of numbers.

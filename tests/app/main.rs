@@ -21,6 +21,7 @@ mod finding;
 mod focus;
 #[cfg(target_os = "linux")]
 mod frames;
+mod golden;
 mod help;
 mod import;
 mod import_files;

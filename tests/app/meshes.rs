@@ -49,7 +49,7 @@ fn sheet(side: usize) -> String {
 }
 
 fn store() -> MeshStore {
-    MeshStore::new(|| {})
+    MeshStore::on(&Executor::default(), || {})
 }
 
 /// A store that reads when its driven executor runs.

@@ -4,22 +4,23 @@ use chromascope::action::{Action, CompareAction, SceneAction};
 use chromascope::app::ChromascopeApp;
 use chromascope::catalog::Catalog;
 use chromascope::command::Command;
-use chromascope::document::pixel::Pixel;
+use chromascope::document::Pixel;
 use chromascope::document::{Document, Light, SetKind, session};
 use chromascope::export;
-use chromascope::figures::{FigureInput, metrics, report_card};
+use chromascope::figures::look::FigureLook;
+use chromascope::figures::{metrics, report_card};
 use chromascope::jobs::Executor;
-use chromascope::panes;
+use chromascope::palette::Colors;
+use chromascope::panes::{self, metamers::ClickedPair};
 use chromascope::plot_item::PlotItem;
 use chromascope::results::Results;
 use chromascope::scene::Scene;
-use chromascope::theme::Theme;
+use chromascope::scene::metrics::{CatalogMetamersQuery, CatalogMetricsQuery, RankedCameras, Ranking};
 use chromascope::view::View;
-use chromascope::view::metrics::RankedCameras;
 use chromascope::workspaces::{Layout, PaneKind, Workspace};
 use chromascope_core::query::metrics::{Contributions, UncertaintySource};
-use chromascope_core::query::{Ask, CameraMetric, MetricUncertainty, MetricValue};
-use chromascope_figure::{Figure, Projection, Rect, Shape, text_width};
+use chromascope_core::query::{Ask, CameraMetric, MetricUncertainty, MetricValue, Query as _};
+use chromascope_figure::{Figure, FigureRoom, Projection, Rect, Shape, text_width};
 use egui::accesskit::Role;
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT as _, Queryable};
@@ -40,7 +41,7 @@ fn open() -> (Executor, Window) {
 /// The window with the Metrics workspace, all cameras ranked.
 fn ranked() -> (Executor, Window) {
     let (executor, mut window) = open();
-    window.state().ranking().wait();
+    window.state().later().wait();
     window.run_steps(3);
     (executor, window)
 }
@@ -76,15 +77,15 @@ fn number(row: &str, column: &str) -> Option<f64> {
 fn the_library_is_ranked_beside_the_window_with_progress() {
     let (executor, mut window) = open();
     let all = Catalog::built_in().of_kind(SetKind::Camera).count();
-    assert_eq!(window.state().ranking().progress(), Some((0, all)));
+    assert_eq!(Ranking::seen(window.state().later()).progress(), Some((0, all)));
     assert!(rows(&window).iter().all(|(row, _)| number(row, "ΔE*00 mean").is_none()), "{:?}", rows(&window));
     assert!(executor.run_one("ranking"));
     window.run_steps(3);
-    let (done, of) = window.state().ranking().progress().expect("not all");
+    let (done, of) = Ranking::seen(window.state().later()).progress().expect("not all");
     assert!(0 < done && done < of && of == all, "{done} of {of}");
-    window.state().ranking().wait();
+    window.state().later().wait();
     window.run_steps(3);
-    assert_eq!(window.state().ranking().progress(), None);
+    assert_eq!(Ranking::seen(window.state().later()).progress(), None);
     let shown = rows(&window);
     assert!(shown.len() > 30 && shown.iter().all(|(row, _)| number(row, "ΔE*00 mean").is_some()), "{shown:?}");
     let (catalog, results) = (Catalog::built_in(), Results::default());
@@ -101,7 +102,7 @@ fn the_library_is_ranked_beside_the_window_with_progress() {
 #[test]
 fn values_do_not_wait_for_their_uncertainties() {
     let (executor, mut window) = open();
-    while window.state().ranking().progress().is_some() {
+    while Ranking::seen(window.state().later()).progress().is_some() {
         assert!(executor.run_one("ranking"));
         window.run_steps(3);
     }
@@ -109,7 +110,7 @@ fn values_do_not_wait_for_their_uncertainties() {
     let row = first(&window);
     assert!(number(&row, "ΔE*00 mean").is_some() && !row.contains('±'), "{row}");
     assert!(!row.contains(": rank 1"), "no rank is claimed before: {row}");
-    window.state().ranking().wait();
+    window.state().later().wait();
     window.run_steps(3);
     let row = first(&window);
     assert!(row.contains('±') && row.contains(": rank 1"), "{row}");
@@ -128,13 +129,13 @@ fn the_library_is_parsed_beside_the_window() {
     window.run_steps(3);
     let (shown, all) = (parsed(&executor), Catalog::built_in().of_kind(SetKind::Camera).count() as u64);
     assert!(shown - before < 8, "the window parsed {} files before it drew", shown - before);
-    window.state().ranking().wait();
+    window.state().later().wait();
     let ranked = parsed(&executor);
     assert!(ranked - shown >= all - 8, "the worker parsed {} of {all} cameras", ranked - shown);
     window.state_mut().push(Command::Maximize(PaneKind::new("Metamers")));
     window.run_steps(3);
     assert_eq!(parsed(&executor), ranked, "no reflectances yet");
-    window.state().ranking().wait();
+    window.state().later().wait();
     assert!(parsed(&executor) > ranked);
 }
 
@@ -163,7 +164,7 @@ fn the_latest_conditions_win_and_the_last_answer_stays_meanwhile() {
     assert_eq!(rows(&window), before, "rows move only when all are done");
     window.state_mut().push(Action::Scene(SceneAction::SetLight(Light::Set("FL2".to_owned()))));
     window.run_steps(3);
-    window.state().ranking().wait();
+    window.state().later().wait();
     window.run_steps(3);
     let after = rows(&window);
     assert_ne!(after, before);
@@ -178,11 +179,11 @@ fn the_latest_conditions_win_and_the_last_answer_stays_meanwhile() {
 fn nothing_is_ranked_while_hidden() {
     let (executor, mut window) = driven_with(Document::colorimetry(), [1280.0, 800.0], egui::Theme::Dark);
     window.run_steps(3);
-    assert_eq!(window.state().ranking().progress(), None);
+    assert_eq!(Ranking::seen(window.state().later()).progress(), None);
     assert!(!executor.run_one("ranking"), "nobody looks");
     window.state_mut().push(Command::Show(Workspace::Metrics));
     window.run_steps(3);
-    assert!(window.state().ranking().progress().is_some());
+    assert!(Ranking::seen(window.state().later()).progress().is_some());
     window.state_mut().push(Command::Show(Workspace::Compare));
     window.run_steps(3);
     let computed =
@@ -232,7 +233,7 @@ fn the_compared_and_the_users_cameras_are_a_switch() {
         .collect();
     window.state_mut().view_mut().saved.metrics.cameras = RankedCameras::Compared;
     window.run_steps(3);
-    window.state().ranking().wait();
+    window.state().later().wait();
     window.run_steps(3);
     let mut shown: Vec<String> = rows(&window).iter().map(|(row, _)| name(row).to_owned()).collect();
     shown.sort();
@@ -241,12 +242,12 @@ fn the_compared_and_the_users_cameras_are_a_switch() {
     assert_eq!(shown, expected);
     window.state_mut().push(Action::Compare(CompareAction::Remove(SetKind::Camera, compared[0].clone())));
     window.run_steps(3);
-    window.state().ranking().wait();
+    window.state().later().wait();
     window.run_steps(3);
     assert_eq!(rows(&window).len(), compared.len() - 1);
     window.state_mut().view_mut().saved.metrics.cameras = RankedCameras::Yours;
     window.run_steps(3);
-    assert!(window.state().ranking().progress().is_none() && rows(&window).is_empty());
+    assert!(Ranking::seen(window.state().later()).progress().is_none() && rows(&window).is_empty());
 }
 
 #[test]
@@ -301,10 +302,11 @@ fn a_report_card_is_a_figure_like_others() {
     let scene = Scene { document: &document, catalog: &catalog, results: &results };
     let mut view = View::default();
     view.saved.metrics.card = Some(camera("Kodak DCS200"));
-    let figure = panes::figure(PaneKind::REPORT_CARD, &FigureInput::new(&scene, &view)).expect("a page");
+    let figure = panes::figure(PaneKind::REPORT_CARD, &scene, &view.look(PaneKind::REPORT_CARD), FigureRoom::default())
+        .expect("a page");
     assert_eq!(figure.title, "Report card: Kodak DCS200");
     assert_eq!(figure.table.rows.len(), CameraMetric::ALL.len());
-    let svg = export::svg(&figure, &Theme::LIGHT, export::Paper::default());
+    let svg = export::svg(&figure, &Colors::LIGHT, export::Paper::default());
     let query = scene.camera_metrics_query(SetKind::Camera, "Kodak DCS200").unwrap();
     let metrics = results.ask(&query);
     let at = chromascope_core::colorimetry::Metric::ALL.iter().position(|m| *m == document.difference).unwrap();
@@ -317,7 +319,8 @@ fn a_report_card_is_a_figure_like_others() {
     assert!(svg.contains("ΔE*00 mean") && export::png(&svg, 1.0).is_ok());
     view.selected = Some(PlotItem::Sensor(camera("Canon EOS 5D")));
     view.saved.metrics.card = None;
-    let figure = panes::figure(PaneKind::REPORT_CARD, &FigureInput::new(&scene, &view)).expect("a page");
+    let figure = panes::figure(PaneKind::REPORT_CARD, &scene, &view.look(PaneKind::REPORT_CARD), FigureRoom::default())
+        .expect("a page");
     assert_eq!(figure.title, "Report card: Canon EOS 5D", "follows the selection");
 }
 
@@ -370,7 +373,7 @@ fn a_report_card_is_made_beside_the_window() {
     window.run_steps(3);
     let page = "Report card: Kodak DCS200: patches";
     assert_eq!((made(), window.query_by_label(page).is_some()), (0, false));
-    assert!(executor.run_one("report card"));
+    assert!(executor.run_one(CatalogMetricsQuery::NAME));
     window.run_steps(3);
     assert_eq!((made(), window.query_by_label(page).is_some()), (1, true));
     window.state_mut().push(Action::Scene(SceneAction::SetLight(Light::Set("A".to_owned()))));
@@ -382,7 +385,8 @@ fn a_report_card_is_made_beside_the_window() {
 fn all_numbers_go_out_as_csv_and_json() {
     let (catalog, results, document) = (Catalog::built_in(), Results::default(), Document::colorimetry());
     let scene = Scene { document: &document, catalog: &catalog, results: &results };
-    let figure = panes::figure(PaneKind::METRICS, &FigureInput::new(&scene, &View::default())).expect("a figure");
+    let figure =
+        panes::figure(PaneKind::METRICS, &scene, &FigureLook::default(), FigureRoom::default()).expect("a figure");
     let cameras = catalog.of_kind(SetKind::Camera).count();
     assert_eq!(figure.table.rows.len(), cameras);
     let (conditions, metrics) = (2, CameraMetric::ALL.len());
@@ -416,7 +420,7 @@ fn full_well_and_read_noise_are_settings_that_give_the_snr() {
     type_in(&mut window, "Read noise (RMS)", "3");
     let pixel = Pixel { full_well: 40_000.0, read_noise: 3.0 };
     assert_eq!(window.state().history().document().pixel, Some(pixel));
-    window.state().ranking().wait();
+    window.state().later().wait();
     window.run_steps(3);
     assert!(snr(&window) > 30, "{:?}", rows(&window).first());
     let action = Action::Scene(SceneAction::SetPixel(Some(pixel)));
@@ -445,12 +449,12 @@ fn layouts_from_before_the_workspace_open_with_it() {
 #[test]
 fn metamers_are_found_marked_and_put_on_the_mesh() {
     let (executor, mut window) = open();
-    assert!(!executor.run_one("metamers"), "nobody looks");
+    assert!(!executor.run_one(CatalogMetamersQuery::NAME), "nobody looks");
     window.state_mut().view_mut().saved.metrics.card = Some(camera("Kodak DCS200"));
     window.state_mut().push(Command::Maximize(PaneKind::new("Metamers")));
     window.run_steps(3);
     assert!(window.query_by_label("Searching…").is_some());
-    window.state().ranking().wait();
+    window.state().later().wait();
     window.run_steps(3);
     let (catalog, results) = (Catalog::built_in(), Results::default());
     let document = window.state().history().document().clone();
@@ -466,8 +470,9 @@ fn metamers_are_found_marked_and_put_on_the_mesh() {
     assert!(row.accesskit_node().label().unwrap_or_default().starts_with(&first), "{first}");
     row.click();
     window.run_steps(3);
+    let clicked = window.state_mut().states_mut().of::<ClickedPair>().0;
     let view = window.state().view();
-    assert_eq!((view.metamers, view.pinned.len()), (Some(0), 2), "both are marked");
+    assert_eq!((clicked, view.pinned.len()), (Some(0), 2), "both are marked");
     assert_eq!(view.selected.as_ref().and_then(PlotItem::patch), Some(first.as_str()));
     let is_material = |place: usize| {
         let set = query.at(place).unwrap()[0];

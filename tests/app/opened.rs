@@ -11,6 +11,7 @@ use chromascope::catalog::opened::{Opened, OpenedEvent, Request};
 use chromascope::command::Command;
 use chromascope::document::imported::{Fingerprint, ImportOverrides};
 use chromascope::document::{Document, session};
+use chromascope::jobs::Executor;
 use chromascope::view::Weight;
 use chromascope::view::import::{ImportItem, ImportMemory};
 use egui_kittest::Harness;
@@ -29,9 +30,9 @@ fn window() -> Window {
 }
 
 fn wish(window: &mut Window, name: &str, options: ReadOptions) {
-    let wishes = ImportOverrides { options, ..ImportOverrides::default() };
+    let overrides = ImportOverrides { options, ..ImportOverrides::default() };
     let item = ImportItem::Set(name.to_owned());
-    window.state_mut().push(Command::Wish(item, Box::new(wishes)));
+    window.state_mut().push(Command::SetOverrides(item, Box::new(overrides)));
     window.run_steps(2);
 }
 
@@ -93,12 +94,12 @@ fn what_was_wished_is_done_as_one_step_and_remembered_for_the_kind() {
     let options =
         ReadOptions { role: Some(Role::Reflectance), values: Some(Values::Percent), ..ReadOptions::default() };
     wish(&mut window, "one", options.clone());
-    until(&mut window, "a wish", |app| app.history().document().own[0].wishes.options.role.is_some());
+    until(&mut window, "a wish", |app| app.history().document().own[0].overrides.options.role.is_some());
     assert_eq!(own(&window)[0].curves[0].values[1], 0.01);
     open_path(&mut window, &folder.path().join("two.csv"));
     until(&mut window, "another file", |app| app.history().document().own.len() == 2);
     let two = &own(&window)[1];
-    assert_eq!((two.wishes.options.clone(), two.role, two.curves[0].values[0]), (options, Role::Reflectance, 0.07));
+    assert_eq!((two.overrides.options.clone(), two.role, two.curves[0].values[0]), (options, Role::Reflectance, 0.07));
     for _ in 0..2 {
         window.state_mut().push(Command::Undo);
         window.run();
@@ -118,7 +119,7 @@ fn a_wish_that_cannot_be_met_changes_nothing() {
     window.run_steps(3);
     assert_eq!(own(&window), before);
     assert!(!window.state().view().import.tried.is_empty());
-    window.state_mut().push(Command::TakeWishBack);
+    window.state_mut().push(Command::DiscardOverrides);
     window.run_steps(2);
     assert_eq!((own(&window), window.state().view().import.tried.len()), (before, 0));
 }
@@ -197,7 +198,7 @@ fn of_very_many_curves_the_first_are_taken() {
 fn reading_a_large_file_can_be_stopped() {
     let row = |nm: usize| format!("{nm}{}\n", ",0.123456".repeat(3000));
     let text = (380..1380).map(row).collect::<Vec<_>>().concat();
-    let opened = Opened::new(|| {});
+    let opened = Opened::on(&Executor::default(), || {});
     // The reading waits at its beginning until it was stopped.
     let ((at_it, begun), (go_on, told)) = (mpsc::channel(), mpsc::channel::<()>());
     opened.open(vec![Request::Bytes { name: "large.csv".to_owned(), bytes: text.into_bytes().into() }], move |_| {
@@ -230,9 +231,9 @@ fn kinds_of_files_are_told_apart() {
     assert!(numbers("400 0.1\n500 0.2\n").is_like(&numbers("380.5 -1.5\n381 20\n")));
     assert!(!numbers("400 0.1\n500 0.2\n").is_like(&numbers("400,0.1\n500,0.2\n")));
     let mut memory = ImportMemory::default();
-    let wishes = ImportOverrides { taken: Some(vec![1]), ..ImportOverrides::for_role(Some(Role::Camera)) };
-    memory.remember(one.clone(), &wishes);
-    assert_eq!(memory.wishes(&one), ImportOverrides::for_role(Some(Role::Camera)));
+    let overrides = ImportOverrides { taken: Some(vec![1]), ..ImportOverrides::for_role(Some(Role::Camera)) };
+    memory.remember(one.clone(), &overrides);
+    assert_eq!(memory.overrides(&one), ImportOverrides::for_role(Some(Role::Camera)));
     memory.remember(one.clone(), &ImportOverrides::default());
     assert_eq!(memory.remembered, []);
     memory.remember(numbers("400 0.1\n500 0.2\n"), &ImportOverrides::for_role(Some(Role::Illuminant)));
@@ -262,7 +263,7 @@ fn what_was_remembered_is_told_and_given_up_where_it_does_not_fit() {
     assert!(status.text.contains("with your settings") && status.change.is_some(), "{}", status.text);
     open_path(&mut window, &folder.path().join("three.csv"));
     until(&mut window, "a third", |app| app.history().document().own.len() == 3);
-    assert_eq!(own(&window)[2].wishes, ImportOverrides::default());
+    assert_eq!(own(&window)[2].overrides, ImportOverrides::default());
 }
 
 #[test]

@@ -13,6 +13,7 @@ use chromascope::document::imported::{Fingerprint, ImportOverrides, ImportedSet}
 use chromascope::document::render::MeshChoice;
 use chromascope::document::{Document, Light, SetKind, session};
 use chromascope::files::Files;
+use chromascope::jobs::Executor;
 use chromascope::view::metrics::RankedCameras;
 use chromascope::view::{DiagramFit, Offer, SavedView, Weight};
 use chromascope::workspaces::Workspace;
@@ -285,7 +286,7 @@ fn a_file_rewritten_again_and_again_fills_neither_disk_nor_memory() {
     assert_eq!(Files::new(Some(folder.path().to_owned())).saved_document(), kept);
 
     let path = folder.path().join("leaf.csv");
-    let opened = Opened::new(|| {});
+    let opened = Opened::on(&Executor::default(), || {});
     let mut last = None;
     for index in 0..40 {
         let text = LEAF.replace("0.05", &format!("0.0{}", 1000 + index));

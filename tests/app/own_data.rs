@@ -4,9 +4,10 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use chromascope::app::ChromascopeApp;
+use chromascope::atomic::write_atomically;
 use chromascope::command::Command;
 use chromascope::document::Document;
-use chromascope::files::{FileEvent, Files, write_atomically};
+use chromascope::files::{FileEvent, Files};
 use chromascope::view::Weight;
 use egui_kittest::Harness;
 

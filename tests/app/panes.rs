@@ -4,8 +4,21 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
+use chromascope::catalog::Catalog;
+use chromascope::catalog::file_store::FileStore;
+use chromascope::catalog::opened::Opened;
+use chromascope::document::Document;
+use chromascope::jobs::{Executor, Later};
 use chromascope::panes;
+use chromascope::panes::context::{PaneContext, PaneStates};
+use chromascope::profiler::{Measured, Profiler};
+use chromascope::render_service::RenderService;
+use chromascope::scene::Scene;
+use chromascope::theme::Theme;
+use chromascope::view::View;
 use chromascope::workspaces::{Layout, PaneKind, Workspace};
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable as _;
 
 /// Files beside the panes: what panes are made of, and the bars and pages around them.
 const BESIDE_PANES: [&str; 7] = ["context", "widgets", "help", "menu", "scene_bar", "status_bar", "figure_page"];
@@ -55,4 +68,93 @@ fn a_pane_that_is_not_there_leaves_its_place_empty() {
     assert_eq!(layout.compare[3], None);
     assert_eq!(layout.library_width, Some(240.0));
     assert_eq!(layout.compare[0], Some(PaneKind::CHROMATICITY));
+}
+
+/// All of a pane with a slow answer and a state of its own.
+mod doubling {
+    use chromascope::panes::context::{Pane, PaneContext};
+    use chromascope::panes::widgets;
+    use chromascope::workspaces::PaneKind;
+    use chromascope_core::query::{Ask, Query};
+    use egui::{Rect, Ui};
+
+    pub(super) const PANE: Pane = Pane {
+        kind: PaneKind::new("Doubling"),
+        title: "Doubling",
+        show,
+        figure: None,
+        under_conditions: false,
+        table: false,
+    };
+
+    #[derive(Clone, PartialEq, Eq, Hash)]
+    struct Doubled(u32);
+
+    impl Query for Doubled {
+        type Answer = u32;
+        const NAME: &'static str = "doubled";
+
+        fn answer(&self, _: &impl Ask) -> u32 {
+            2 * self.0
+        }
+    }
+
+    #[derive(Default)]
+    struct Number(u32);
+
+    fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
+        let body = widgets::body(ui, &PANE, rect, context, |_, _| {});
+        let mut body = widgets::clipped(ui, "doubling", body);
+        let number = &mut context.states.of::<Number>().0;
+        if body.button("Next").clicked() {
+            *number += 1;
+        }
+        match context.later.ask(PANE.kind, vec![Doubled(*number)]).current() {
+            Ok(Some(twice)) => body.label(format!("Twice {number} is {twice}.")),
+            Ok(None) => body.weak("computing…"),
+            Err(why) => body.label(why),
+        };
+    }
+}
+
+#[test]
+fn a_pane_with_a_slow_answer_is_one_file() {
+    let executor = Executor::driven();
+    let (document, catalog, results) = (Document::colorimetry(), Catalog::built_in(), executor.results());
+    let (meshes, images, recorded) =
+        (FileStore::on(&executor, || {}), FileStore::on(&executor, || {}), FileStore::on(&executor, || {}));
+    let (opened, later) = (Opened::on(&executor, || {}), Later::on(&executor, || {}));
+    let (mut view, mut states, mut commands) = (View::default(), PaneStates::default(), Vec::new());
+    let mut render_service = RenderService::on(&executor, || {});
+    let mut profiler = Profiler { measured: Measured::default() };
+    let mut window = Harness::new_ui(|ui| {
+        let mut context = PaneContext {
+            panes: panes::ALL,
+            scene: Scene { document: &document, catalog: &catalog, results: &results },
+            theme: Theme::of(ui.visuals()),
+            view: &mut view,
+            meshes: &meshes,
+            images: &images,
+            opened: &opened,
+            recorded: &recorded,
+            later: &later,
+            states: &mut states,
+            render_service: &mut render_service,
+            profiler: &mut profiler,
+            commands: &mut commands,
+        };
+        (doubling::PANE.show)(ui, ui.max_rect(), &mut context);
+        later.end_frame();
+    });
+    window.run_steps(2);
+    window.get_by_label("computing…");
+    assert!(executor.run_one("doubled"));
+    window.run_steps(2);
+    window.get_by_label("Twice 0 is 0.");
+    window.get_by_label("Next").click();
+    window.run_steps(2);
+    assert!(window.query_by_label("computing…").is_some() && executor.run_one("doubled"));
+    window.run_steps(2);
+    window.get_by_label("Twice 1 is 2.");
+    assert!(executor.queued().is_empty(), "what is answered is not asked again");
 }

@@ -2,11 +2,11 @@
 
 use chromascope::catalog::Catalog;
 use chromascope::document::{Diagram, Document, Light, SetKind};
+use chromascope::figures::look::{FigureLook, SpectraLayout, SwatchLayout};
 use chromascope::figures::{chromaticity, data_set, spectra, strip, swatches};
 use chromascope::plot_item::PlotItem;
 use chromascope::results::Results;
 use chromascope::scene::Scene;
-use chromascope::view::{SpectraLayout, SwatchLayout, View};
 use chromascope_figure::{Dash, InkRole, Mark, Panel, Shape, TextSize, annotations, text_width};
 
 fn with<T>(document: &Document, read: impl FnOnce(&Scene<'_>) -> T) -> T {
@@ -109,9 +109,7 @@ fn a_line_that_leaves_the_strip_is_marked() {
 
 /// The board with all patches of the chart.
 fn board(scene: &Scene<'_>, layout: SwatchLayout, size: [f64; 2]) -> swatches::Built {
-    let mut view = View::default();
-    view.saved.swatch_layout = layout;
-    swatches::build(scene, &view, size)
+    swatches::build(scene, &FigureLook { swatch_layout: layout, ..FigureLook::default() }, size)
 }
 
 #[test]
@@ -247,9 +245,7 @@ fn channels_have_their_letters_in_a_small_pane() {
 }
 
 fn plots(scene: &Scene<'_>, layout: SpectraLayout, size: [f64; 2]) -> Vec<Panel> {
-    let mut view = View::default();
-    view.saved.spectra_layout = layout;
-    spectra::build(scene, &view, size).panels
+    spectra::build(scene, &FigureLook { spectra_layout: layout, ..FigureLook::default() }, size).panels
 }
 
 #[test]

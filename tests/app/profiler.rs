@@ -5,7 +5,8 @@ use chromascope::catalog::Catalog;
 use chromascope::command::Command;
 use chromascope::document::Document;
 use chromascope::document::render::{MeshChoice, ReadingChoice, RenderSettings};
-use chromascope::jobs::{Executor, Job as _};
+use chromascope::jobs::{Executor, Job as _, Later};
+use chromascope::profiler::plans::PlansQuery;
 use chromascope::profiler::{Profiler, SceneRunJob};
 use chromascope::results::Results;
 use chromascope::scene::Scene;
@@ -48,20 +49,17 @@ fn plans_are_of_the_sources_that_are_asked_for() {
         pictures
     };
     let (all, fewer, more) = (with(&[0, 1, 2]), with(&[2, 1]), with(&[2, 3]));
-    let profiler = Profiler::on(&Executor::driven(), || ());
-    let planned = |pictures: &PicturesQuery| {
-        profiler.plan(pictures);
-        profiler.plans(pictures)
-    };
+    let later = Later::on(&Executor::driven(), || ());
+    let planned = |pictures: &PicturesQuery| PlansQuery::ask(&later, pictures, true);
     assert!(planned(&all).is_none());
-    profiler.wait();
+    later.wait();
     let plans = planned(&all).expect("made");
     assert!(plans.iter().all(|plan| matches!(plan, Ok(Some(_)))), "{plans:?}");
     let two = planned(&fewer).expect("known from before");
     assert_eq!(two, [plans[2].clone(), plans[1].clone()]);
-    profiler.wait();
+    later.wait();
     assert!(planned(&more).is_none_or(|plans| plans.len() == 2), "none under a wrong name");
-    profiler.wait();
+    later.wait();
     assert_eq!(planned(&more).expect("made")[0], plans[2]);
 }
 
@@ -72,9 +70,9 @@ fn what_is_measured_is_of_the_scene_that_it_was_measured_on() {
     let flat = |settings: &RenderSettings| RenderSettings { reading: ReadingChoice::Lambertian, ..settings.clone() };
     let to = Box::new(flat(&window.state().history().document().render));
     window.state_mut().push(Action::Render(RenderAction::Set { what: "Normalization", to }));
-    window.state_mut().push(Command::SpectralWeights);
+    window.state_mut().push(Command::MeasureScene);
     window.run_steps(2);
-    window.state().profiler().wait();
+    window.state().later().wait();
     window.run_steps(3);
     let is_current = |window: &egui_kittest::Harness<'static, chromascope::app::ChromascopeApp>| {
         assert!(window.state().profiler().measured.run.is_some());
@@ -84,9 +82,9 @@ fn what_is_measured_is_of_the_scene_that_it_was_measured_on() {
     let to = RenderSettings { sky: 0.3, ..window.state().history().document().render.clone() };
     window.state_mut().push(Action::Render(RenderAction::Set { what: "Sky", to: Box::new(to) }));
     window.run_steps(2);
-    window.state_mut().push(Command::SpectralWeights);
+    window.state_mut().push(Command::MeasureScene);
     window.run_steps(1);
-    assert!(window.state().profiler().busy().is_some());
+    assert!(Profiler::busy(window.state().later()).is_some());
     window.state_mut().push(Command::StopMeasuring);
     window.run_steps(1);
     executor.run_all();

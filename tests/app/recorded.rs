@@ -15,6 +15,7 @@ use chromascope::panes;
 use chromascope::view::SavedView;
 use chromascope::workspaces::PaneKind;
 use chromascope_core::spectral::{Dataset, GridSpectrum, Sensor};
+use chromascope_figure::FigureRoom;
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
 use proptest::prelude::*;
@@ -68,7 +69,7 @@ fn open(window: &mut Window) {
 /// Waits until the cameras are fitted, if there is something to fit.
 fn fitted(window: &mut Window) {
     window.run_steps(2);
-    window.state().ranking().wait();
+    window.state().later().wait();
     window.run_steps(2);
 }
 
@@ -120,7 +121,7 @@ fn a_table_is_opened_ranked_and_drawn() {
         let catalog = chromascope::catalog::Catalog::built_in();
         let scene =
             chromascope::scene::Scene { document: app.history().document(), catalog: &catalog, results: app.results() };
-        panes::figure(PaneKind::RECORDED, &app.figure_input(&scene)).unwrap()
+        panes::figure(PaneKind::RECORDED, &scene, &app.look(PaneKind::RECORDED, &scene), FigureRoom::default()).unwrap()
     };
     let shown = figure(&window);
     assert!(shown.title.contains("Nikon D70 (A.M.P.A.S.)"));

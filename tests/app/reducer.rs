@@ -5,7 +5,7 @@ use chromascope::action::{Action, CompareAction, ImportedAction, SceneAction};
 use chromascope::catalog::Catalog;
 use chromascope::document::imported::{ImportOverrides, ImportedCurve, ImportedSet, ReadAs, Role, WavelengthUnit};
 use chromascope::document::names::BuiltInNames;
-use chromascope::document::uses::PLACES;
+use chromascope::document::names::PLACES;
 use chromascope::document::{CHART, Document, Light, PAPER_REFERENCE, SetKind, Subset, WhiteBalanceChoice, session};
 use chromascope::results::Results;
 use chromascope::scene::Scene;
@@ -32,7 +32,7 @@ fn own(name: &str, role: Role) -> ImportedSet {
         file: "file.csv".to_owned(),
         path: None,
         fingerprint: None,
-        wishes: ImportOverrides::default(),
+        overrides: ImportOverrides::default(),
         role,
         read_as: ReadAs { unit: WavelengthUnit::Nanometer, percent: false },
         unit: WavelengthUnit::Nanometer,
@@ -322,4 +322,58 @@ fn an_imported_set_of_another_kind_does_not_keep_a_camera_from_its_present_name(
     json["compared"] = serde_json::json!([{"name": "Nikon D70", "kind": "camera", "slot": 0}]);
     let document = session::from_json(&json.to_string()).unwrap();
     assert!(document.compared(SetKind::Camera, "Nikon D70 (2007 figure)").is_some(), "{:?}", document.compared);
+}
+
+/// Puts a name in the place of each name of a set in JSON, by kinds of sets that share names. Returns how many there were.
+fn replace_names(value: &mut serde_json::Value, of: &dyn Fn(&str) -> bool, with: &str) -> usize {
+    match value {
+        serde_json::Value::String(text) if of(text) => {
+            with.clone_into(text);
+            1
+        }
+        serde_json::Value::Array(items) => items.iter_mut().map(|item| replace_names(item, of, with)).sum(),
+        serde_json::Value::Object(fields) => fields.values_mut().map(|field| replace_names(field, of, with)).sum(),
+        _ => 0,
+    }
+}
+
+/// A document in which each reference to a set is there, in JSON.
+fn document_with_all_references() -> serde_json::Value {
+    let mut document = Document::colorimetry();
+    document.white = WhiteBalanceChoice::Light("D55".to_owned());
+    document.correction.second_light = Some("A".to_owned());
+    document.render.garment.get_or_insert_with(|| "Cotton".to_owned());
+    let filter = Catalog::built_in().of_kind(SetKind::Filter).next().map(|entry| entry.name.clone());
+    document.filters = filter.into_iter().collect();
+    serde_json::to_value(document).unwrap()
+}
+
+#[test]
+fn no_reference_to_a_set_is_forgotten_when_it_is_renamed_or_removed() {
+    let catalog = Catalog::built_in();
+    for (role, kinds, least) in [
+        (Role::Camera, &[SetKind::Camera][..], 3),
+        (Role::Illuminant, &[SetKind::Illuminant][..], 3),
+        (Role::Transmittance, &[SetKind::Filter][..], 1),
+        (Role::Reflectance, &[SetKind::Chart, SetKind::Material][..], 4),
+    ] {
+        // Every name of a set in the JSON is the own set's: of a field that is added and names sets, too.
+        let mut value = document_with_all_references();
+        let names: Vec<&str> =
+            kinds.iter().flat_map(|kind| catalog.of_kind(*kind)).map(|entry| entry.name.as_str()).collect();
+        let found = replace_names(&mut value, &|text| names.contains(&text), "before");
+        assert!(found >= least, "{role}: {found} references");
+        let mut document: Document = serde_json::from_value(value).unwrap();
+        document.own = vec![Shared::new(own("before", role))];
+        let json = |document: &Document| serde_json::to_string(document).unwrap();
+        let mut renamed = document.clone();
+        let (name, with) = ("before".to_owned(), Box::new(own("after", role)));
+        let built_in = BuiltInNames::default();
+        Action::Imported(ImportedAction::Replace { name: name.clone(), with, built_in }).apply(&mut renamed);
+        assert!(!json(&renamed).contains("\"before\""), "{role}: {}", json(&renamed));
+        assert_eq!(json(&renamed).matches("\"after\"").count(), found + 1, "each use and the set itself");
+        let mut removed = document;
+        Action::Imported(ImportedAction::Remove(name)).apply(&mut removed);
+        assert!(!json(&removed).contains("\"before\""), "{role}: {}", json(&removed));
+    }
 }

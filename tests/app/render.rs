@@ -16,6 +16,7 @@ use chromascope::scene::Scene;
 use chromascope::view::render::{PixelPlace, RenderMode};
 use chromascope::workspaces::{PaneKind, Workspace};
 use chromascope_core::render::QualityLevel;
+use chromascope_figure::FigureRoom;
 use egui::accesskit::Role;
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
@@ -425,10 +426,12 @@ fn the_pictures_are_a_figure_with_numbers() {
     let window = small();
     let (catalog, results) = (chromascope::catalog::Catalog::built_in(), chromascope::results::Results::default());
     let scene = Scene { document: document(&window), catalog: &catalog, results: &results };
-    let figure = panes::figure(PaneKind::RENDER, &window.state().figure_input(&scene)).expect("there are pictures");
+    let figure =
+        panes::figure(PaneKind::RENDER, &scene, &window.state().look(PaneKind::RENDER, &scene), FigureRoom::default())
+            .expect("there are pictures");
     assert_eq!(figure.table.rows.len(), 4);
     let svg =
-        chromascope::export::svg(&figure, &chromascope::theme::Theme::LIGHT, chromascope::export::Paper::default());
+        chromascope::export::svg(&figure, &chromascope::palette::Colors::LIGHT, chromascope::export::Paper::default());
     assert_eq!(svg.matches("data:image/png").count(), 4);
     assert!(!figure.table.to_csv().contains("NaN") && !figure.caption.contains("NaN"));
 }
@@ -443,10 +446,10 @@ fn escape_stops_what_takes_long_and_keeps_what_was_made() {
     window.run_steps(1);
     let shot = window.state().render_service().frame().cloned().unwrap();
     assert!(!shot.is_last, "the first of several stages");
-    assert!(!window.state().view().render.is_waiting(), "nobody has waited yet");
+    assert!(!window.state().render_service().is_waiting(), "nobody has waited yet");
     executor.advance(Duration::from_secs(1));
     window.run_steps(1);
-    assert!(window.state().view().render.is_waiting());
+    assert!(window.state().render_service().is_waiting());
     window.key_press(egui::Key::Escape);
     // What was made before the key is still taken in with it.
     window.run_steps(2);
@@ -475,7 +478,7 @@ fn made_for_a_mesh(beside: PaneKind) -> [u64; 4] {
     render(&mut window, |settings| settings.mesh = MeshChoice::Sphere);
     for _ in 0..3 {
         settle(&mut window);
-        window.state().profiler().wait();
+        window.state().later().wait();
     }
     assert_eq!(made(&window, "shading") > shadings + 3, beside == PaneKind::TOLERANCE, "plans are of shaded samples");
     std::array::from_fn(|stage| made(&window, STAGES[stage]) - before[stage])
@@ -498,8 +501,8 @@ fn a_pixel_is_marked_in_the_diagram_beside_the_pictures() {
     let document = document(&window).clone();
     let scene = Scene { document: &document, catalog: &catalog, results: &results };
     let diamonds = |app: &ChromascopeApp| {
-        let pictures = app.render_service().frame().map(AsRef::as_ref);
-        let built = chromascope::figures::chromaticity::build(&scene, app.view(), pictures, [600.0, 400.0]);
+        let look = app.look(PaneKind::CHROMATICITY, &scene);
+        let built = chromascope::figures::chromaticity::build(&scene, &look, [600.0, 400.0]);
         built.panel.marks.iter().filter(|mark| mark.name.ends_with(", pixel")).count()
     };
     assert_eq!(diamonds(window.state()), 0);

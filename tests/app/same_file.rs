@@ -65,7 +65,7 @@ fn a_file_with_other_contents_takes_the_place_of_what_it_was() {
     open(&mut document, &[set("leaf.csv", Some("/b/leaf.csv"), &LEAF.replace("50,0", "70,0"))]);
     assert_eq!(names(&document), ["leaf", "leaf (2)"]);
     let mut part = set("leaf.csv", Some("/a/leaf.csv"), LEAF);
-    part.wishes.options.part = Some(2);
+    part.overrides.options.part = Some(2);
     open(&mut document, &[part]);
     assert_eq!(names(&document), ["leaf", "leaf (2)", "leaf (3)"]);
 }

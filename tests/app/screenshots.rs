@@ -103,7 +103,7 @@ fn metrics() {
     let mut harness = open_with(Document::colorimetry(), [1280.0, 800.0], egui::Theme::Light);
     harness.state_mut().view_mut().saved.workspace = Workspace::Metrics;
     harness.run_steps(3);
-    harness.state().ranking().wait();
+    harness.state().later().wait();
     check(harness, "metrics.png");
 }
 
@@ -118,7 +118,7 @@ fn selected_patch() {
 fn all_patches_by_observer() {
     let mut harness = open([1600.0, 1000.0], egui::Theme::Dark);
     let observer = TransformChoice::Observer("CIE 1931 2°".to_owned());
-    for action in [SceneAction::SetSubset(Subset::All), SceneAction::SetWay(observer)] {
+    for action in [SceneAction::SetSubset(Subset::All), SceneAction::SetTransform(observer)] {
         harness.state_mut().push(Action::Scene(action));
     }
     harness.run();
@@ -240,9 +240,9 @@ impl Measured {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/app/measured.json");
         if std::env::var_os("RECORD_MEASUREMENTS").is_some() {
             let mut harness = open([1280.0, 800.0], egui::Theme::Dark);
-            harness.state_mut().push(Command::SpectralWeights);
+            harness.state_mut().push(Command::MeasureScene);
             harness.run_steps(2);
-            harness.state().profiler().wait();
+            harness.state().later().wait();
             harness.run_steps(3);
             let measured = &harness.state().profiler().measured;
             let run = SceneRun::clone(measured.run.as_ref().expect("measured"));
@@ -265,7 +265,7 @@ pub(crate) fn accuracy(size: [f32; 2], theme: egui::Theme) -> Harness<'static, C
     measured.is_current = true;
     for _ in 0..3 {
         harness.run_steps(2);
-        harness.state().profiler().wait();
+        harness.state().later().wait();
     }
     harness
 }

@@ -79,7 +79,8 @@ fn a_set_of_the_library_is_seen_before_it_is_ticked() {
         let (catalog, results) = (chromascope::catalog::Catalog::built_in(), chromascope::results::Results::default());
         let document = app.history().document();
         let scene = chromascope::scene::Scene { document, catalog: &catalog, results: &results };
-        let built = chromascope::figures::chromaticity::build(&scene, app.view(), None, [640.0, 480.0]);
+        let built =
+            chromascope::figures::chromaticity::build(&scene, &app.view().look(PaneKind::CHROMATICITY), [640.0, 480.0]);
         (built.panel.marks.iter().any(|mark| mark.name.contains("(not compared)")), built.panel.x.range)
     };
     let before = ghost(&window);

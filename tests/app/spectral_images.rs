@@ -19,7 +19,7 @@ use chromascope::view::render::{PixelPlace, RenderMode};
 use chromascope::workspaces::{PaneKind, Workspace};
 use chromascope_core::render::{BandWeights, ImageSensor, SampleQuantity, Stop};
 use chromascope_core::spectral::{Dataset, GridSpectrum, Sensor};
-use chromascope_figure::Cell;
+use chromascope_figure::{Cell, FigureRoom};
 use egui::accesskit::Role;
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
@@ -290,7 +290,8 @@ fn pictures_maps_and_spectra_of_an_image_look_right() {
     let app = window.state();
     let catalog = Catalog::built_in();
     let scene = Scene { document: app.history().document(), catalog: &catalog, results: app.results() };
-    let figure = panes::figure(PaneKind::RENDER, &app.figure_input(&scene)).expect("a figure");
+    let figure = panes::figure(PaneKind::RENDER, &scene, &app.look(PaneKind::RENDER, &scene), FigureRoom::default())
+        .expect("a figure");
     assert!(
         figure.caption.contains("Spectral image: chart.hdr, 24 × 2 pixels, 81 bands, reflectances"),
         "{}",

@@ -8,12 +8,14 @@ use chromascope::document::start::Start;
 use chromascope::document::{
     CIE_1931, Diagram, Document, Light, PAPER_REFERENCE, SetKind, Subset, TransformChoice, WhiteBalanceChoice, session,
 };
+use chromascope::figures::look::FigureLook;
 use chromascope::results::Results;
 use chromascope::scene::{Caution, Scene};
 use chromascope::workspaces::PaneKind;
 use chromascope_core::colorimetry::lab::lab_from_xyz;
 use chromascope_core::colorimetry::{Lab, Metric, Xyz, delta_e_2000};
 use chromascope_core::query::PatchColor;
+use chromascope_figure::FigureRoom;
 use egui::accesskit::Role;
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
@@ -31,7 +33,7 @@ fn refer_to(name: &str, counts_in_xyz: bool) -> Action {
 }
 
 fn fit_to(name: &str) -> Action {
-    Action::Scene(SceneAction::SetWay(TransformChoice::Observer(name.to_owned())))
+    Action::Scene(SceneAction::SetTransform(TransformChoice::Observer(name.to_owned())))
 }
 
 #[test]
@@ -122,7 +124,7 @@ fn eq_13_has_no_delta_e() {
     assert_eq!(document.difference, Metric::UV_PRIME, "a choice under one fit holds under the next");
     document.diagram = Diagram::UvPrime;
     document.difference = Metric::by_id("delta-e1976").unwrap();
-    Action::Scene(SceneAction::SetWay(TransformChoice::Paper)).apply(&mut document);
+    Action::Scene(SceneAction::SetTransform(TransformChoice::Paper)).apply(&mut document);
     assert_eq!(document.difference, Metric::UV_PRIME, "the distance in the diagram that is shown");
 }
 
@@ -130,7 +132,7 @@ fn eq_13_has_no_delta_e() {
 fn a_measure_that_was_chosen_stays_and_a_distance_follows_the_diagram() {
     let mut document = Document::colorimetry();
     Action::Scene(SceneAction::SetDifference(Metric::UV_PRIME)).apply(&mut document);
-    Action::Scene(SceneAction::SetWay(TransformChoice::Paper)).apply(&mut document);
+    Action::Scene(SceneAction::SetTransform(TransformChoice::Paper)).apply(&mut document);
     assert_eq!(document.difference, Metric::UV_PRIME);
     fit_to(CIE_1931).apply(&mut document);
     assert_eq!(document.difference, Metric::UV_PRIME);
@@ -164,7 +166,7 @@ fn under_eq_13_no_figure_says_delta_e_00() {
     document.difference = Metric::DELTA_E_2000;
     let (catalog, results) = (Catalog::built_in(), Results::default());
     let scene = Scene { document: &document, catalog: &catalog, results: &results };
-    let figure = chromascope::figures::swatches::figure(&scene, &chromascope::view::View::default());
+    let figure = chromascope::figures::swatches::figure(&scene, &FigureLook::default(), FigureRoom::default());
     assert!(figure.caption.contains("Δ of Eq 13 colors") && !figure.caption.contains("ΔE"), "{}", figure.caption);
     let mut window = open_with(document, SIZE, egui::Theme::Light);
     window.run();

@@ -38,7 +38,7 @@ fn settle(executor: &Executor, window: &mut Window) {
     for _ in 0..4 {
         window.run_steps(3);
         executor.run_all();
-        window.state().ranking().wait();
+        window.state().later().wait();
     }
     window.run_steps(3);
 }
@@ -153,7 +153,7 @@ fn progress_of_the_ranking_is_worded_as_such() {
     window.state_mut().push(Command::Show(Workspace::Metrics));
     window.run_steps(3);
     assert!(says(&window, "Computing: 0 of 5"));
-    window.state().ranking().wait();
+    window.state().later().wait();
     window.run_steps(3);
     assert!(!says(&window, "Computing: "));
 }

@@ -1,5 +1,6 @@
 //! Tests of the palette: visible against its background, and distinguishable, in any kind of color vision.
 
+use chromascope::palette::Colors;
 use chromascope::theme::{self, SourceInks, Surround, Theme};
 use chromascope_core::colorimetry::{
     Lab, Xyz, delta_e_2000,
@@ -54,7 +55,12 @@ fn closest(colors: &[Color32]) -> f64 {
 }
 
 fn keys(theme: &Theme, sources: usize) -> Vec<Color32> {
-    [theme.reference, theme.observer].into_iter().chain(theme.sources.into_iter().take(sources)).collect()
+    let colors = theme.colors;
+    [colors.reference, colors.observer]
+        .into_iter()
+        .chain(colors.sources.into_iter().take(sources))
+        .map(theme::rgb)
+        .collect()
 }
 
 #[test]
@@ -78,9 +84,10 @@ fn sources_are_told_apart_by_everyone() {
 
 #[test]
 fn gray_inks_differ_in_lightness() {
-    for theme in [Theme::PRINT, Theme::LIGHT, Theme::DARK].map(|theme| theme.with_inks(SourceInks::Gray)) {
-        let mut lightness: Vec<f64> = theme.sources.iter().map(|color| seen(*color, &SIGHTS[0]).l).collect();
-        lightness.push(seen(theme.plot, &SIGHTS[0]).l);
+    for colors in [Colors::PRINT, Colors::LIGHT, Colors::DARK].map(|colors| colors.with_inks(SourceInks::Gray)) {
+        let mut lightness: Vec<f64> =
+            colors.sources.iter().map(|color| seen(theme::rgb(*color), &SIGHTS[0]).l).collect();
+        lightness.push(seen(theme::rgb(colors.plot), &SIGHTS[0]).l);
         lightness.sort_by(f64::total_cmp);
         assert!(lightness.windows(2).all(|pair| pair[1] - pair[0] > 7.0), "{lightness:?}");
     }
@@ -99,7 +106,7 @@ fn text_is_legible_everywhere() {
         }
     }
     for surround in [Surround::Middle, Surround::Dark, Surround::Light] {
-        assert!(contrast(surround.color(), surround.label()) >= 4.5);
+        assert!(contrast(theme::rgb(surround.color()), theme::rgb(surround.label())) >= 4.5);
     }
 }
 
@@ -135,11 +142,11 @@ fn the_frame_is_gray() {
 #[test]
 fn roles_have_colors_and_data_keep_theirs() {
     let theme = Theme::LIGHT;
-    assert_eq!(theme.rgb(InkRole::Rgb([1, 2, 3])), [1, 2, 3]);
-    assert_eq!(theme.rgb(InkRole::Sensor(8)), theme.rgb(InkRole::Sensor(0)));
+    assert_eq!(theme.colors.rgb(InkRole::Rgb([1, 2, 3])), [1, 2, 3]);
+    assert_eq!(theme.colors.rgb(InkRole::Sensor(8)), theme.colors.rgb(InkRole::Sensor(0)));
     assert_eq!(theme.ink(Ink::new(InkRole::Reference).faded(0.0)), Color32::TRANSPARENT);
     let dark = theme.with_surround(Surround::Dark);
-    assert_eq!(dark.rgb(InkRole::OnSurround), [255; 3]);
+    assert_eq!(dark.colors.rgb(InkRole::OnSurround), [255; 3]);
 }
 
 #[test]

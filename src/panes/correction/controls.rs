@@ -47,15 +47,12 @@ pub(super) fn camera(ui: &mut Ui, context: &mut PaneContext<'_>) -> Option<Strin
     now
 }
 
-/// Buttons that save the correction.
 pub(super) fn files(ui: &mut Ui, context: &mut PaneContext<'_>) {
     ui.horizontal_wrapped(|ui| {
         ui.label("Save as");
         for form in CorrectionForm::ALL {
             let (label, hint) = form.words();
-            if ui.button(label).on_hover_text(hint).clicked() {
-                context.push(Command::SaveCorrection(form));
-            }
+            context.button(ui, label, hint, Command::SaveCorrection(form));
         }
     });
 }
@@ -82,7 +79,6 @@ pub(super) fn stated(ui: &mut Ui, camera: &str, ratio: Option<ChannelRatio>, con
     ui.add(Label::new(RichText::new(words).small().color(color)).wrap());
 }
 
-/// A line of text with its name before it.
 fn field(ui: &mut Ui, (name, hint): (&str, &str), text: &mut String, empty: &str) {
     ui.horizontal(|ui| {
         let label = caption(ui, name);
@@ -99,7 +95,6 @@ fn caption(ui: &mut Ui, name: &str) -> Response {
     label
 }
 
-/// Method and white.
 pub(super) fn method(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let choice = context.scene.document.correction.clone();
     let fitted = !context.scene.document.transform.is_eq_13();
@@ -117,7 +112,6 @@ pub(super) fn method(ui: &mut Ui, context: &mut PaneContext<'_>) {
     }
 }
 
-/// Training reflectances and weights.
 pub(super) fn training(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let choice = context.scene.document.correction.clone();
     let hint = "The reflectances that the transform is fitted over";
@@ -152,7 +146,6 @@ pub(super) fn training(ui: &mut Ui, context: &mut PaneContext<'_>) {
     });
 }
 
-/// The second calibration light.
 pub(super) fn second_light(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let choice = context.scene.document.correction.clone();
     let now = choice.second_light.clone();

@@ -6,19 +6,17 @@ use chromascope_figure::Figure;
 use egui::{Align, Layout, Rect, RichText, ScrollArea, Sense, Ui, UiBuilder, Vec2};
 
 use crate::export::page::{PageFacts, PageJob};
+use crate::jobs::Job as _;
 use crate::paint;
 use crate::panes::context::PaneContext;
 use crate::panes::widgets;
-use crate::theme::UNIT;
+use crate::theme::{self, UNIT};
 use crate::view::page::PageZoom;
 use crate::workspaces::PaneKind;
 
-/// Empty space around a page that fits.
 const AROUND: f32 = 16.0;
-/// Longest side of a page in pixels.
 const MOST_PIXELS: f64 = 4096.0;
 
-/// Shows the page in a rectangle, below its head.
 pub(super) fn show(
     ui: &mut Ui,
     rect: Rect,
@@ -27,12 +25,12 @@ pub(super) fn show(
 ) {
     let ground = rect.with_min_y(rect.top() + widgets::HEADER);
     let head = rect.with_max_y(ground.top());
-    ui.painter().rect_filled(ground, 0.0, context.theme.surround.color());
+    ui.painter().rect_filled(ground, 0.0, context.theme.surround);
     let Some(figure) = figure else {
         self::head(ui, head, kind, None, context);
         let words = format!("{} has no figure now.", context.title(kind));
         let font = egui::TextStyle::Body.resolve(ui.style());
-        let color = context.theme.surround.label();
+        let color = context.theme.on_surround;
         ui.painter().text(ground.center(), egui::Align2::CENTER_CENTER, words, font, color);
         return;
     };
@@ -44,15 +42,15 @@ pub(super) fn show(
     };
     let size = PageFacts::of(&figure, &paper).size_pt;
     let fine = (scale(size, context) * pixels).min(MOST_PIXELS / size[0].max(size[1]));
-    context.pages.ask(vec![PageJob { figure: Arc::clone(&figure), paper, scale: fine as f32 }]);
+    let job = PageJob { figure: Arc::clone(&figure), paper, scale: fine as f32 };
+    let page = context.later.ask(PageJob::NAME, vec![job]);
     // Until the page is drawn, the last one of the pane stays.
-    let shown = context.pages.shown().filter(|shown| shown.job.figure.title == figure.title);
+    let shown = page.shown.filter(|shown| shown.job.figure.title == figure.title);
     let size = shown.as_ref().map_or(size, |shown| PageFacts::of(&shown.job.figure, &shown.job.paper).size_pt);
     let scale = scale(size, context);
     self::head(ui, head, kind, Some(scale), context);
     let size = Vec2::new((size[0] * scale) as f32, (size[1] * scale) as f32);
-    let mut child = ui.new_child(UiBuilder::new().id_salt("page").max_rect(ground));
-    child.set_clip_rect(ground.intersect(ui.clip_rect()));
+    let mut child = widgets::clipped(ui, "page", ground);
     let area =
         ScrollArea::both().id_salt("page").auto_shrink(false).scroll_source(egui::scroll_area::ScrollSource::ALL);
     area.show(&mut child, |ui| {
@@ -65,17 +63,16 @@ pub(super) fn show(
         match shown.as_ref().map(|shown| shown.answer.as_ref()) {
             Some(Ok(image)) => paint::picture(ui.painter(), page, image),
             Some(Err(error)) => {
-                ui.put(page, egui::Label::new(RichText::new(error.to_string()).color(context.theme.surround.label())));
+                ui.put(page, egui::Label::new(RichText::new(error.to_string()).color(context.theme.on_surround)));
             }
             None => {
-                ui.painter().rect_filled(page, 0.0, paper.theme().plot);
+                ui.painter().rect_filled(page, 0.0, theme::rgb(paper.colors().plot));
             }
         }
     });
-    widgets::busy_line(ui, ground, context.pages.busy(), context.theme.text);
+    widgets::busy_line(ui, ground, page.busy, context.theme.text);
 }
 
-/// The pane's title, the page's size on screen, and its zoom.
 fn head(ui: &mut Ui, rect: Rect, kind: PaneKind, scale: Option<f64>, context: &mut PaneContext<'_>) {
     let inner = rect.shrink2(Vec2::new(2.0 * UNIT, UNIT));
     let zooms = [
@@ -95,9 +92,9 @@ fn head(ui: &mut Ui, rect: Rect, kind: PaneKind, scale: Option<f64>, context: &m
     let layout = Layout::left_to_right(Align::Center);
     let mut left = ui.new_child(UiBuilder::new().id_salt("page title").max_rect(free).layout(layout));
     left.set_clip_rect(free.intersect(ui.clip_rect()));
-    left.label(RichText::new(context.title(kind)).strong());
+    left.strong(context.title(kind));
     if let Some(scale) = scale {
         let words = format!("as it prints, {:.0} %", 100.0 * scale / PageZoom::TRUE);
-        left.label(RichText::new(words).color(context.theme.weak));
+        left.weak(words);
     }
 }

@@ -9,12 +9,9 @@ use crate::panes::context::PaneContext;
 use crate::panes::widgets::WHAT_YOU_SEE;
 use crate::theme::UNIT;
 
-/// Size of the picture.
 const PICTURE: Vec2 = Vec2::new(220.0, 240.0);
-/// Width of the text beside it.
 const TEXT: f32 = 320.0;
 
-/// Shows the window while it is open.
 pub(super) fn show(ui: &Ui, context: &mut PaneContext<'_>) {
     if !context.view.about {
         return;
@@ -40,11 +37,9 @@ fn head(ui: &mut Ui, context: &PaneContext<'_>) {
     let (rect, response) = ui.allocate_exact_size(PICTURE, Sense::hover());
     let name = format!("A head: left through the reference, right through the {}", portrait::CAMERA);
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, &name));
-    ui.painter().rect_filled(rect, 3.0, context.theme.surround.color());
-    if let Some(query) = portrait::query(context.scene.catalog, context.scene.results) {
-        context.portrait.ask(vec![query]);
-    }
-    let Some(shown) = context.portrait.shown() else { return };
+    ui.painter().rect_filled(rect, 3.0, context.theme.surround);
+    let query = portrait::query(context.scene.catalog, context.scene.results);
+    let Some(shown) = context.later.ask("About", query.into_iter().collect()).shown else { return };
     let size = [f64::from(PICTURE.x), f64::from(PICTURE.y)];
     let pictures = (*shown.answer).as_ref().ok().and_then(Option::as_ref);
     if let Some(panel) = pictures.and_then(|pictures| portrait::panel(pictures, size)) {

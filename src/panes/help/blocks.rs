@@ -8,10 +8,8 @@ use crate::help::formula::Formula;
 use crate::help::markdown::{Block, Inline};
 use crate::theme::{HEADING, MONO, TEXT, UNIT};
 
-/// Font size of a display formula.
 const FORMULA: f32 = 16.0;
 const INDENT: f32 = 5.0 * UNIT;
-/// Space between columns of a table.
 const COLUMN_GAP: f32 = 4.0 * UNIT;
 
 /// Draws a block and the space below it; returns a clicked link.

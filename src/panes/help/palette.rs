@@ -1,7 +1,7 @@
 //! The palette that finds anything: commands, settings, numbers, data sets, patches, panes and help.
 
+mod found;
 mod settings;
-mod things;
 
 use egui::{Align2, Id, Ui, Vec2, Window};
 
@@ -14,10 +14,8 @@ use crate::panes::widgets::pick_list::{Line, PickList};
 /// Group of places in the help, which stands last.
 const IN_HELP: &str = "In the help";
 
-/// Height of the lines.
 const HEIGHT: f32 = 380.0;
 
-/// Something that can be found, and what choosing it does.
 struct Found {
     group: &'static str,
     line: Line,
@@ -34,7 +32,6 @@ impl Found {
         Self { group, line: Line::heading(group), command: None }
     }
 
-    /// Further words that find it.
     fn also(mut self, words: impl Into<String>) -> Self {
         self.line.also = words.into();
         self
@@ -89,19 +86,19 @@ pub(super) fn show(ui: &Ui, history: &History, context: &mut PaneContext<'_>) {
 
 /// Everything that matches, by group, each below its heading; places in the help come last.
 fn find(text: &str, history: &History, context: &PaneContext<'_>) -> Vec<Found> {
-    let mut all = things::numbers(text, context);
-    all.extend(things::commands(history, context));
-    all.extend(things::panes(context));
-    all.extend(things::phones(text));
-    all.extend(things::sets(context));
+    let mut all = found::numbers(text, context);
+    all.extend(found::commands(history, context));
+    all.extend(found::panes(context));
+    all.extend(found::phones(text));
+    all.extend(found::sets(context));
     all.extend(settings::scene(context));
     all.extend(settings::view(context));
     all.extend(settings::render(context));
-    all.extend(things::saves(context));
-    all.extend(things::patches(context));
-    all.extend(things::pages());
+    all.extend(found::saves(context));
+    all.extend(found::patches(context));
+    all.extend(found::pages());
     let mut found = matching(all, text);
-    let hits = things::help_text(text);
+    let hits = found::help_text(text);
     if !hits.is_empty() {
         found.push(Found::heading(IN_HELP));
         found.extend(hits);

@@ -9,17 +9,12 @@ use super::typeset::{self, Typeset};
 use crate::help::markdown::{self, Inline, Style};
 use crate::theme::Theme;
 
-/// Size of code relative to the words around it.
 const CODE: f32 = 0.93;
-/// Extra space between lines, relative to the font size.
 const LEADING: f32 = 0.28;
-/// Width of a space, in em.
 const SPACE: f32 = 0.32;
 
-/// Colors, and the words to highlight.
 pub(super) struct Ink<'a> {
     pub(super) theme: Theme,
-    /// Folded words of the search.
     pub(super) terms: &'a [String],
 }
 
@@ -55,7 +50,6 @@ struct Placed {
 }
 
 impl Flow {
-    /// Lays out the pieces of a paragraph.
     pub(super) fn new(ui: &Ui, content: &[Inline], size: f32, strong: bool, ink: &Ink<'_>) -> Self {
         let mut flow = Self { pieces: Vec::new(), size, words: markdown::plain(content) };
         let mut after_space = true;
@@ -87,12 +81,10 @@ impl Flow {
         self.place(f32::INFINITY).2
     }
 
-    /// Width of the widest part that is not broken.
     pub(super) fn narrowest(&self) -> f32 {
         self.place(1.0).2
     }
 
-    /// Height when broken at a width.
     pub(super) fn height(&self, width: f32) -> f32 {
         self.place(width).1
     }

@@ -12,12 +12,9 @@ use crate::scene::{ComparedSensor, Scene};
 use crate::theme::{ROW, UNIT};
 use crate::view::tour::{STEPS, TourNumbers, TourStep};
 
-/// Height of the bar.
 pub const HEIGHT: f32 = 100.0;
-/// Width of the buttons.
 const BUTTONS: f32 = 216.0;
 
-/// Shows the bar in its rectangle.
 pub fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let Some((index, step)) = context.view.tour.and_then(|index| Some((index, STEPS.get(index)?))) else { return };
     let theme = context.theme;
@@ -47,7 +44,6 @@ pub fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     }
 }
 
-/// The step's numbers, computed from the scene on screen.
 fn numbers(step: &TourStep, context: &PaneContext<'_>) -> String {
     let scene = &context.scene;
     let sources = scene.sources();

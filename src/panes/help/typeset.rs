@@ -9,7 +9,6 @@ use crate::help::formula::{Node, SymbolKind};
 
 /// Height of the math axis, on which fractions and operators are centered, in em.
 const AXIS: f32 = 0.32;
-/// Size of scripts relative to their base.
 const SCRIPT: f32 = 0.74;
 const SMALLEST: f32 = 8.5;
 const RULE: f32 = 1.0;
@@ -17,11 +16,8 @@ const RULE: f32 = 1.0;
 /// A laid-out formula or part of one. The origin is the left end of the baseline; y points down.
 #[derive(Clone, Default)]
 pub(super) struct Typeset {
-    /// Advance.
     pub(super) width: f32,
-    /// Extent above the baseline.
     pub(super) ascent: f32,
-    /// Extent below the baseline.
     pub(super) descent: f32,
     items: Vec<(Vec2, Item)>,
 }
@@ -53,7 +49,6 @@ impl Typeset {
         self.items.extend(part.items.into_iter().map(|(offset, item)| (offset + at, item)));
     }
 
-    /// Adds a part to the right.
     fn append(&mut self, part: Self, gap: f32) {
         let width = part.width;
         self.place(part, Vec2::new(self.width + gap, 0.0));
@@ -69,7 +64,6 @@ pub(super) fn typeset(painter: &Painter, root: &Node, size: f32, display: bool) 
     Setter { painter }.set(root, size, display)
 }
 
-/// Offset of a galley's baseline from its top.
 pub(super) fn baseline(galley: &Galley) -> f32 {
     galley.rows.first().map_or(0.0, |row| row.pos.y + row.row.glyphs.first().map_or(0.0, |glyph| glyph.pos.y))
 }

@@ -9,7 +9,6 @@ use crate::document::imported::{ImportedSet, Role};
 use crate::panes::context::PaneContext;
 use crate::view::import::ImportItem;
 
-/// State of a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum State {
     /// Read without a doubt.
@@ -22,7 +21,6 @@ pub(super) enum State {
     Open,
     /// Not used, though it could be read.
     Unused,
-    /// Not read.
     Failed,
 }
 
@@ -43,20 +41,16 @@ impl State {
     }
 }
 
-/// One file of the list.
 pub(super) struct Entry {
     pub(super) item: ImportItem,
     pub(super) name: String,
     pub(super) state: State,
     /// Contents, or the reason why it was not read.
     pub(super) note: String,
-    /// Path on disk, if there is one.
     pub(super) path: Option<PathBuf>,
-    /// True if its contents are available.
     pub(super) at_hand: bool,
 }
 
-/// All files.
 pub(super) fn all(context: &PaneContext<'_>) -> Vec<Entry> {
     let files = context.opened.files();
     let own = &context.scene.document.own;
@@ -117,7 +111,6 @@ fn reason<'a>(failure: &'a str, name: &str) -> &'a str {
     failure.strip_prefix(name).map_or(failure, |rest| rest.trim_start_matches([',', ':', ' ']))
 }
 
-/// The list as numbers.
 pub(super) fn table(entries: &[Entry]) -> Table {
     let mut table = Table::new(["file", "state", "holds", "path"].map(str::to_owned));
     for entry in entries {

@@ -6,29 +6,23 @@ use egui::{TextStyle, Ui, UiBuilder, Vec2};
 use super::entries::{Entry, State};
 use crate::action::{Action, ImportedAction};
 use crate::command::Command;
-use crate::figures::curves::ImportSelection;
 use crate::panes::context::PaneContext;
-use crate::panes::widgets::{focus_rim, lines};
+use crate::panes::widgets::{self, focus_rim, lines};
 use crate::theme::{ROW, Theme, UNIT};
 use crate::view::import::{ImportItem, Stop};
 use crate::workspaces::PaneKind;
 
-/// Height of a file's two lines.
 const HEIGHT: f32 = 38.0;
 /// Height of one more line, for the reason why a file was not read.
 const LINE: f32 = 14.0;
-/// Width of the mark before a name.
 const MARK: f32 = 16.0;
-/// Width that a scroll bar overlaps.
 const SCROLL_BAR: f32 = 8.0;
 
-/// Shows the files one below the other.
 pub(super) fn column(ui: &mut Ui, rect: Rect, entries: &[Entry], context: &mut PaneContext<'_>) {
     let caption = Rect::from_min_size(rect.min, Vec2::new(rect.width(), ROW));
     let count = if entries.len() == 1 { "1 file".to_owned() } else { format!("{} files", entries.len()) };
     lines::elided(ui, caption, &count, TextStyle::Small, context.theme.weak);
-    let response = ui.interact(caption, Id::unique("legend of files"), Sense::hover());
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, &count));
+    let response = widgets::named(ui, caption, Id::unique("legend of files"), egui::Role::Label, &count);
     let theme = context.theme;
     response.on_hover_ui(|ui| legend(ui, &theme));
     let list = Rect::from_min_max(egui::pos2(rect.left(), caption.bottom()), rect.max);
@@ -39,8 +33,7 @@ pub(super) fn column(ui: &mut Ui, rect: Rect, entries: &[Entry], context: &mut P
         ui.memory_mut(|memory| memory.request_focus(id(index)));
         moved = Some(index);
     }
-    let mut child = ui.new_child(UiBuilder::new().id_salt("files").max_rect(list));
-    child.set_clip_rect(list.intersect(ui.clip_rect()));
+    let mut child = widgets::clipped(ui, "files", list);
     child.spacing_mut().item_spacing.y = 0.0;
     let mut area = ScrollArea::vertical().id_salt("files scroll").auto_shrink(false);
     let tops = tops(entries);
@@ -69,7 +62,6 @@ fn tops(entries: &[Entry]) -> Vec<f32> {
     tops
 }
 
-/// Legend of the marks before the files.
 fn legend(ui: &mut Ui, theme: &Theme) {
     for state in State::ALL {
         ui.horizontal(|ui| {
@@ -142,10 +134,10 @@ fn select(ui: &Ui, entries: &[Entry], index: usize, context: &mut PaneContext<'_
 
 /// Makes a set of the selected file, if it is none and can be read with the settings.
 fn take(context: &mut PaneContext<'_>) {
-    let Some(shown) = ImportSelection::of(&context.scene, context.view, context.opened.preview()) else { return };
+    let Some(shown) = context.view.import.selection(&context.scene, context.opened) else { return };
     match shown.item {
         ImportItem::File(file) if shown.is_fresh() && !shown.taken().is_empty() => {
-            context.push(Command::UseFile(file, Box::new(shown.wishes)));
+            context.push(Command::UseFile(file, Box::new(shown.overrides)));
         }
         ImportItem::File(_) => context.view.say("It cannot be read with these settings; see Interpretation (F6)."),
         ImportItem::Set(name) => context.view.say(format!("{name} is already imported.")),
@@ -191,7 +183,6 @@ fn keys(ui: &Ui, entries: &[Entry], context: &mut PaneContext<'_>) -> Option<usi
     Some(next)
 }
 
-/// One file.
 fn row(ui: &mut Ui, rect: Rect, index: usize, entries: &[Entry], context: &mut PaneContext<'_>) {
     let entry = &entries[index];
     let theme = context.theme;
@@ -230,7 +221,7 @@ fn row(ui: &mut Ui, rect: Rect, index: usize, entries: &[Entry], context: &mut P
     response.on_hover_ui(|ui| {
         ui.label(&entry.name);
         let small = |ui: &mut Ui, words: String| {
-            ui.label(egui::RichText::new(words).small().color(theme.weak));
+            widgets::note(ui, words);
         };
         small(ui, format!("{}; {}", entry.note, entry.state.words()));
         if let Some(path) = &entry.path {
@@ -277,7 +268,6 @@ fn draw_mark(painter: &Painter, at: Pos2, state: State, on: bool, theme: &Theme)
     }
 }
 
-/// Context menu of a file.
 fn menu(ui: &Ui, rect: Rect, index: usize, entries: &[Entry], context: &mut PaneContext<'_>) {
     let entry = &entries[index];
     let button = lines::dots(ui, rect, id(index).with("dots"), &format!("Menu of {}", entry.name));

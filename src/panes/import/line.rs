@@ -9,16 +9,12 @@ use spectral_file::{Mark, Shown, What};
 
 use crate::theme::{MONO, Theme};
 
-/// A line that was laid out.
 pub(super) struct Line {
-    /// Text as displayed.
     shown: Shown,
-    /// Marks of the interpreted parts.
     marks: Vec<Mark>,
     galley: Arc<Galley>,
 }
 
-/// Style for drawing a line.
 pub(super) struct Pen<'a> {
     pub(super) theme: &'a Theme,
     /// True if the interpretation is known, so that unmarked parts were not used.
@@ -29,7 +25,6 @@ pub(super) struct Pen<'a> {
 }
 
 impl Line {
-    /// Lays a line out.
     pub(super) fn new(ui: &Ui, shown: Shown, marks: Vec<Mark>, pen: &Pen<'_>) -> Self {
         let job = job(&shown, &marks, pen);
         let galley = ui.painter().layout_job(job);
@@ -77,7 +72,6 @@ impl Line {
         Rect::from_min_size(at, self.galley.size().max(Vec2::new(4.0, 4.0)))
     }
 
-    /// Rectangle of a part of the line, if it is drawn.
     fn place(&self, at: Pos2, range: &Range<usize>) -> Option<Rect> {
         /// Width for a part without letters.
         const EMPTY: f32 = 6.0;
@@ -95,7 +89,6 @@ impl Line {
     }
 }
 
-/// The text with its forms.
 fn job(shown: &Shown, marks: &[Mark], pen: &Pen<'_>) -> LayoutJob {
     let mut job = LayoutJob::default();
     job.wrap.max_width = f32::INFINITY;
@@ -122,7 +115,6 @@ fn job(shown: &Shown, marks: &[Mark], pen: &Pen<'_>) -> LayoutJob {
     job
 }
 
-/// The form of a kind of cell.
 fn form(what: Option<What>, pen: &Pen<'_>) -> TextFormat {
     let theme = pen.theme;
     let line = |color| Stroke::new(1.0, color);

@@ -1,16 +1,15 @@
 //! Question about an open decision of a file: values are not scaled before an answer is chosen.
 
-use egui::{Rect, RichText, Sense, Ui, UiBuilder, Vec2};
+use egui::{Rect, RichText, Sense, Ui, Vec2};
 use spectral_file::{Certainty, Role, SpectralFile, Values};
 
 use crate::command::Command;
 use crate::figures::curves::ImportSelection;
 use crate::format::sentence;
 use crate::panes::context::PaneContext;
-use crate::panes::widgets::lines;
+use crate::panes::widgets::{self, lines};
 use crate::theme::UNIT;
 
-/// An answer: its text, a hint, and its effect.
 type Answer = (&'static str, &'static str, Option<Role>, Option<Values>);
 
 /// Answers where nothing indicates the quantity.
@@ -50,7 +49,6 @@ const AS_WRITTEN: Answer = (
     None,
 );
 
-/// Answers where only the scale is open.
 const SCALES: [Answer; 2] = [
     ("In percent", "Divide the numbers by 100", None, Some(Values::Percent)),
     ("As written", "Use the numbers as fractions of one", None, Some(Values::Plain)),
@@ -76,8 +74,7 @@ fn question(table: &SpectralFile) -> Option<(&str, &'static [Answer])> {
 pub(super) fn show(ui: &mut Ui, rect: Rect, shown: &ImportSelection, context: &mut PaneContext<'_>) -> Rect {
     let Some((why, answers)) = shown.table().filter(|_| shown.is_fresh()).and_then(question) else { return rect };
     let color = context.theme.warning;
-    let mut child = ui.new_child(UiBuilder::new().id_salt("question").max_rect(rect));
-    child.set_clip_rect(rect.intersect(ui.clip_rect()));
+    let mut child = widgets::clipped(ui, "question", rect);
     child.spacing_mut().item_spacing = Vec2::splat(UNIT);
     child.horizontal_wrapped(|ui| {
         let (mark, _) = ui.allocate_exact_size(Vec2::splat(16.0), Sense::hover());
@@ -87,10 +84,10 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, shown: &ImportSelection, context: &m
     child.horizontal_wrapped(|ui| {
         for (words, hint, role, values) in answers {
             if ui.button(*words).on_hover_text(*hint).clicked() {
-                let mut wishes = shown.wishes.clone();
-                wishes.options.role = role.or(wishes.options.role);
-                wishes.options.values = values.or(wishes.options.values);
-                context.push(Command::Wish(shown.item.clone(), Box::new(wishes)));
+                let mut overrides = shown.overrides.clone();
+                overrides.options.role = role.or(overrides.options.role);
+                overrides.options.values = values.or(overrides.options.values);
+                context.push(Command::SetOverrides(shown.item.clone(), Box::new(overrides)));
             }
         }
     });

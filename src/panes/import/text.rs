@@ -12,11 +12,10 @@ use crate::document::imported::{Fingerprint, ImportedSet};
 use crate::figures::curves::ImportSelection;
 use crate::format::sentence;
 use crate::panes::context::PaneContext;
-use crate::panes::widgets::lines;
+use crate::panes::widgets::{self, lines};
 use crate::theme::{MONO, ROW, UNIT};
 
 const LINE: f32 = 18.0;
-/// Height of the legend.
 const LEGEND: f32 = 20.0;
 /// Length up to which a long line can be scrolled: later parts have to be skipped letter by letter.
 const WIDEST: usize = 50_000;
@@ -24,7 +23,6 @@ const _: () = assert!(WIDEST < LONGEST_LINE, "a line is counted so far");
 /// Number of letters of a line exposed to screen readers.
 const SAID: usize = 200;
 
-/// Shows the text and interpretation of the selected file.
 pub(super) fn show(ui: &mut Ui, rect: Rect, shown: &ImportSelection, context: &mut PaneContext<'_>) {
     let Some(file) = &shown.file else {
         if let Some(set) = &shown.set {
@@ -74,7 +72,6 @@ fn wrong(ui: &Ui, body: Rect, shown: &ImportSelection, context: &mut PaneContext
     body.with_max_y(place.top())
 }
 
-/// Legend of the marks' styles.
 fn forms(ui: &Ui, rect: Rect, context: &PaneContext<'_>) {
     const GAPS: [f32; 3] = [12.0, 8.0, 4.0];
     let galleys = GAPS.map(|gap| ui.painter().layout_job(legend(&context.theme, gap)));
@@ -85,7 +82,6 @@ fn forms(ui: &Ui, rect: Rect, context: &PaneContext<'_>) {
     painter.galley(at, std::sync::Arc::clone(galley), context.theme.text);
 }
 
-/// A number of bytes for display.
 fn size(bytes: usize) -> String {
     match bytes {
         0..1000 => format!("{bytes} bytes"),
@@ -110,12 +106,9 @@ fn away(ui: &mut Ui, rect: Rect, set: &ImportedSet, context: &mut PaneContext<'_
     let text_state = if set.curves.len() == 1 { "Its curve is" } else { "Its curves are" };
     child.label(format!("{} is not available{place}. {text_state} stored in the session.", set.file));
     child.add_space(UNIT);
-    if child.button("Open…").on_hover_text("Locate the file").clicked() {
-        context.push(Command::Open);
-    }
+    context.button(&mut child, "Open…", "Locate the file", Command::Open);
 }
 
-/// State of the text view between frames.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct TextState {
     /// The error that was brought into view last, by its line.
@@ -124,10 +117,8 @@ struct TextState {
     line: Option<(Fingerprint, usize)>,
 }
 
-/// Layout of the view.
 struct Place {
     rect: Rect,
-    /// Left edge of the letters.
     left: f32,
     letter: f32,
     gutter: f32,
@@ -152,8 +143,7 @@ fn lines_of(
     let target = target(ui, shown, look, error.as_ref(), context);
     let columns = preview.longest().min(WIDEST) + 2;
     let content = Vec2::new(gutter + UNIT + columns as f32 * letter, preview.line_count() as f32 * LINE + UNIT);
-    let mut child = ui.new_child(UiBuilder::new().id_salt("text").max_rect(rect));
-    child.set_clip_rect(rect.intersect(ui.clip_rect()));
+    let mut child = widgets::clipped(ui, "text", rect);
     let mut area = ScrollArea::both().id_salt(("text of", look.fingerprint)).auto_shrink(false);
     if let Some((line, column)) = target {
         let [y, x] = [line.saturating_sub(1) as f32 * LINE, column as f32 * letter];
@@ -163,13 +153,7 @@ fn lines_of(
     }
     area.show_viewport(&mut child, |ui, viewport| {
         ui.set_min_size(content);
-        let mut taken = vec![false; shown.table().map_or(0, |table| table.curves.len())];
-        for place in shown.taken() {
-            if let Some(taken) = taken.get_mut(place) {
-                *taken = true;
-            }
-        }
-        let view = View { preview, look, shown, taken, error: error.as_ref(), viewport };
+        let view = View { preview, look, shown, taken: shown.are_taken(), error: error.as_ref(), viewport };
         view.lines(ui, &place, context);
     });
 }
@@ -206,7 +190,6 @@ fn target(
     target
 }
 
-/// Contents of the text view.
 struct View<'a> {
     preview: &'a Preview,
     look: &'a FilePreview,
@@ -214,12 +197,10 @@ struct View<'a> {
     /// Flags for the imported curves, by index in the file.
     taken: Vec<bool>,
     error: Option<&'a (usize, Range<usize>)>,
-    /// The visible part.
     viewport: Rect,
 }
 
 impl View<'_> {
-    /// Draws the visible lines.
     fn lines(&self, ui: &mut Ui, place: &Place, context: &mut PaneContext<'_>) {
         let theme = context.theme;
         let first = (self.viewport.top() / LINE).floor().max(0.0) as usize;
@@ -253,7 +234,7 @@ impl View<'_> {
             ui.set_clip_rect(clip);
         }
         ui.painter().vline(gutter.right(), place.rect.y_range(), egui::Stroke::new(1.0, theme.line));
-        hover(ui, pointer.is_some(), curve, context);
+        widgets::hover_curve(ui, "pointer over text of import", pointer.is_some(), curve, context);
     }
 
     /// Draws one line. Returns the curve that the pointer is on.
@@ -287,8 +268,13 @@ impl View<'_> {
         let at = egui::pos2(x, (band.center().y - line.height() / 2.0).round());
         let error = self.error.filter(|(line, _)| *line == number).map(|(_, range)| range);
         line.paint(ui, at, error, &context.theme);
-        let response = ui.interact(band, Id::unique(("line of text", number)), Sense::hover());
-        response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, format!("{number}: {said}")));
+        let response = widgets::named(
+            ui,
+            band,
+            Id::unique(("line of text", number)),
+            egui::Role::Label,
+            &format!("{number}: {said}"),
+        );
         let pointer = pointer?;
         if let (Some(_), Some(error)) = (error, self.shown.error()) {
             response.on_hover_text_at_pointer(sentence(&error.to_string()));
@@ -300,18 +286,5 @@ impl View<'_> {
         context.view.point = Some(words.clone());
         response.on_hover_text_at_pointer(words);
         mark.what.curve()
-    }
-}
-
-/// Takes a curve as the one under the pointer, and lets it go when the pointer leaves.
-fn hover(ui: &Ui, inside: bool, curve: Option<usize>, context: &mut PaneContext<'_>) {
-    let id = Id::unique("pointer over text of import");
-    let was = ui.data(|data| data.get_temp(id).unwrap_or(false));
-    if inside != was {
-        ui.data_mut(|data| data.insert_temp(id, inside));
-    }
-    if (inside || was) && context.view.import.hovered_curve != curve {
-        context.view.import.hovered_curve = curve;
-        ui.ctx().request_repaint();
     }
 }

@@ -8,19 +8,17 @@ use egui::{FontId, Rect, Sense, TextFormat, TextStyle, Ui, Vec2};
 use super::numbers::Point;
 use super::points::{color_of, difference_of, index_of, points_table};
 use super::{
-    assumptions, buttons, copy_text, difference_words, failure, head, held_words, label_of, no_difference, note,
-    numbers, reference_id, show_assumptions,
+    assumptions, buttons, copy_text, difference_words, failure, head, held_words, label_of, no_difference, numbers,
+    reference_id, show_assumptions,
 };
 use crate::panes::context::PaneContext;
-use crate::panes::widgets::{focus_rim, lines};
+use crate::panes::widgets::{self, focus_rim, lines};
 use crate::plot_item::{PlotItem, SensorId};
 use crate::scene::{ComparedSensor, Scene};
 use crate::theme::{HEADING, ROW, TEXT, Theme, UNIT};
 
-/// Height of the pair of swatches with its surround.
 const PAIR: f32 = 40.0;
 
-/// Assumption about a patch beyond its samples.
 fn held_of(scene: &Scene<'_>, patch: &str) -> Option<String> {
     let set = scene.patches().ok()?;
     let found = set.patches().iter().find(|p| p.name == patch)?;
@@ -45,7 +43,7 @@ fn pair(ui: &mut Ui, theme: &Theme, left: &PatchColor, right: Option<&PatchColor
     response.widget_info(|| {
         egui::WidgetInfo::labeled(egui::Role::Image, true, "Swatches: left the reference, right the sensor")
     });
-    ui.painter().rect_filled(rect, 0.0, theme.surround.color());
+    ui.painter().rect_filled(rect, 0.0, theme.surround);
     let inner = rect.shrink(if height > 30.0 { 1.5 * UNIT } else { 3.0 });
     let middle = inner.center().x;
     let halves = [
@@ -57,29 +55,28 @@ fn pair(ui: &mut Ui, theme: &Theme, left: &PatchColor, right: Option<&PatchColor
         if color.srgb.clipped {
             let corner = half.right_top();
             let notch = vec![corner, corner - Vec2::new(7.0, 0.0), corner + Vec2::new(0.0, 7.0)];
-            ui.painter().add(egui::Shape::convex_polygon(notch, theme.surround.color(), egui::Stroke::NONE));
+            ui.painter().add(egui::Shape::convex_polygon(notch, theme.surround, egui::Stroke::NONE));
         }
     }
 }
 
-/// A patch through one sensor.
 pub(super) fn one(ui: &mut Ui, id: &SensorId, patch: &str, context: &mut PaneContext<'_>) {
     let (scene, theme) = (context.scene, context.theme);
     head(ui, id, context);
-    note(ui, &theme, format!("{}, light {}", title(&scene, patch), scene.light_name()));
+    widgets::note(ui, format!("{}, light {}", title(&scene, patch), scene.light_name()));
     let reference = reference_id(&scene);
     let is_reference = reference == *id;
     let colors = color_of(&scene, id, patch).and_then(|own| Ok((own, color_of(&scene, &reference, patch)?)));
     let (own, seen) = match colors {
         Ok((Some(own), Some(seen))) => (own, seen),
-        Ok(_) => return note(ui, &theme, "This patch is not visible."),
+        Ok(_) => return widgets::note(ui, "This patch is not visible."),
         Err(error) => return failure(ui, &theme, &error.to_string()),
     };
     let right = if context.view.blink || is_reference { None } else { Some(&own) };
     let width = ui.available_width();
     pair(ui, &theme, &seen, right, PAIR, width);
     if own.srgb.clipped {
-        note(ui, &theme, "Notched corner: outside the screen's gamut; the numbers are not clipped.");
+        widgets::note(ui, "Notched corner: outside the screen's gamut; the numbers are not clipped.");
     }
     if !is_reference {
         difference(ui, id, patch, context);
@@ -94,7 +91,7 @@ pub(super) fn one(ui: &mut Ui, id: &SensorId, patch: &str, context: &mut PaneCon
     let label = label_of(&scene, id);
     let mut words = assumptions(&scene, id, &label);
     words.extend(held_of(&scene, patch));
-    show_assumptions(ui, &theme, words);
+    show_assumptions(ui, words);
 }
 
 /// The difference in large type with its rank, or why there is none.
@@ -117,11 +114,11 @@ fn difference(ui: &mut Ui, id: &SensorId, patch: &str, context: &PaneContext<'_>
                 ui.label(job);
                 ui.add_space(UNIT);
                 if let Some(rank) = rank(value, &differences) {
-                    note(ui, &theme, rank);
+                    widgets::note(ui, rank);
                 }
             });
         }
-        Some(Err(reason)) => note(ui, &theme, no_difference(reason)),
+        Some(Err(reason)) => widgets::note(ui, no_difference(reason)),
         None => {}
     }
 }
@@ -141,17 +138,16 @@ pub(super) fn rank(value: f64, all: &[Result<f64, DifferenceError>]) -> Option<S
     })
 }
 
-/// A patch through all visible sensors.
 pub(super) fn across(ui: &mut Ui, patch: &str, context: &mut PaneContext<'_>) {
     let (scene, theme) = (context.scene, context.theme);
-    ui.label(egui::RichText::new(title(&scene, patch)).strong());
-    note(ui, &theme, format!("{}, light {}", scene.document.chart, scene.light_name()));
+    ui.strong(title(&scene, patch));
+    widgets::note(ui, format!("{}, light {}", scene.document.chart, scene.light_name()));
     let seen = match color_of(&scene, &reference_id(&scene), patch) {
         Ok(Some(seen)) => seen,
-        Ok(None) => return note(ui, &theme, "This patch is not visible."),
+        Ok(None) => return widgets::note(ui, "This patch is not visible."),
         Err(error) => return failure(ui, &theme, &error.to_string()),
     };
-    note(ui, &theme, format!("left: reference; right: sensor; {}", scene.difference_name()));
+    widgets::note(ui, format!("left: reference; right: sensor; {}", scene.difference_name()));
     for source in scene.sources().into_iter().filter(|source| source.visible) {
         source_row(ui, &source, patch, &seen, context);
     }
@@ -160,7 +156,7 @@ pub(super) fn across(ui: &mut Ui, patch: &str, context: &mut PaneContext<'_>) {
         words.extend(held_words(&format!("Light {}", scene.light_name()), light.grid.assumed()));
     }
     buttons_without_copy(ui, context);
-    show_assumptions(ui, &theme, words);
+    show_assumptions(ui, words);
 }
 
 fn buttons_without_copy(ui: &mut Ui, context: &mut PaneContext<'_>) {

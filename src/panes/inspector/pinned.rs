@@ -1,31 +1,39 @@
-//! Pinned items, as columns of one table.
+//! Pinned items, as columns of one table, and the pinned pixel of the rendered pictures, through every sensor.
 
-use egui::{RichText, Ui};
+use egui::Ui;
 
 use super::numbers::Point;
 use super::points::{letter, point_of, points_of};
-use super::{label_of, note, numbers, reference_id};
+use super::{label_of, numbers, reference_id};
+use crate::figures::chromaticity::id;
+use crate::figures::render::headline::{Detail, Measure};
+use crate::figures::render::{NO_VALUE, facts, index_of, pixel_of};
 use crate::format::fixed;
 use crate::panes::context::PaneContext;
-use crate::panes::widgets::{Icon, icon_button};
+use crate::panes::widgets::lines::key_and_label;
+use crate::panes::widgets::pixel_spectrum;
+use crate::panes::widgets::table::show_pairs;
+use crate::panes::widgets::{self, Icon, icon_button};
 use crate::plot_item::PlotItem;
+use crate::render_service::pixel::PixelShows;
 use crate::scene::Scene;
+use crate::theme::UNIT;
+use crate::view::render::PixelPlace;
+use crate::workspaces::PaneKind;
 
-/// Shows the pinned items and their numbers.
 pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
     if context.view.pinned.is_empty() {
         return;
     }
-    let theme = context.theme;
     ui.separator();
-    ui.label(RichText::new("Pinned").strong());
+    ui.strong("Pinned");
     let mut unpin = None;
     for (index, thing) in context.view.pinned.clone().iter().enumerate() {
         ui.horizontal(|ui| {
             if icon_button(ui, Icon::Close, &format!("Unpin {}", letter(index))).clicked() {
                 unpin = Some(index);
             }
-            ui.label(RichText::new(letter(index)).strong());
+            ui.strong(letter(index));
             ui.add(egui::Label::new(name(&context.scene, thing)).truncate());
         });
     }
@@ -42,7 +50,7 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
         }
     }
     if pinned.iter().any(|thing| point_of(&context.scene, thing).is_none()) {
-        note(ui, &theme, "Only points and swatches have values to compare.");
+        widgets::note(ui, "Only points and swatches have values to compare.");
     }
 }
 
@@ -75,5 +83,39 @@ fn name(scene: &Scene<'_>, thing: &PlotItem) -> String {
         PlotItem::Patch { source: None, patch } => format!("patch {patch}"),
         PlotItem::Patch { source: Some(id), patch } => format!("{}, {patch}", label_of(scene, id)),
         PlotItem::Radiator { source, kelvin } => format!("{}, {} K", label_of(scene, source), fixed(*kelvin, 0)),
+    }
+}
+
+/// Pinned pixel, if pictures are visible.
+pub(super) fn pinned_pixel<'a>(context: &'a PaneContext<'_>) -> Option<&'a PixelPlace> {
+    let (saved, render) = (&context.view.saved, &context.view.render);
+    render.pinned.as_ref().filter(|_| saved.layout.shows(saved.workspace, PaneKind::RENDER))
+}
+
+pub(super) fn pixel(ui: &mut Ui, context: &PaneContext<'_>) {
+    let Some((pinned, shot)) = pinned_pixel(context).zip(context.render_service.frame()) else { return };
+    ui.add_space(UNIT);
+    ui.strong("Pinned pixel");
+    let measure = Measure::of_frame(shot);
+    if let Some(reading) = pixel_of(&context.scene, shot, pinned) {
+        pixel_spectrum::show(ui, "spectrum in inspector", shot, reading.at, context);
+    }
+    for source in shot.sources.iter() {
+        let place = PixelPlace { source: id(source), ..pinned.clone() };
+        let Some(reading) = pixel_of(&context.scene, shot, &place) else { continue };
+        key_and_label(ui, source, &context.theme);
+        let made = shot.made().zip(index_of(shot, &place.source));
+        if let Some(difference) = made.and_then(|(made, at)| made.differences.get(at)?.as_ref()) {
+            widgets::note(ui, measure.words(difference, Detail::Quantiles));
+        }
+        match reading.shows {
+            PixelShows::Nothing => widgets::note(ui, "Beside the mesh."),
+            PixelShows::NoValue => widgets::note(ui, NO_VALUE),
+            PixelShows::Unlit => widgets::note(ui, "No light reaches it."),
+            PixelShows::Lit(lit) => {
+                let id = format!("pinned pixel {}", source.name);
+                show_pairs(ui, PaneKind::INSPECTOR, &id, &facts(&lit, measure), context);
+            }
+        }
     }
 }

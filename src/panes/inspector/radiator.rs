@@ -6,16 +6,17 @@ use egui::Ui;
 
 use super::numbers::Point;
 use super::points::{blackbody_of, points_table};
-use super::{assumptions, failure, head, label_of, no_difference, note, reference_id, show_assumptions};
+use super::{assumptions, failure, head, label_of, no_difference, reference_id, show_assumptions};
 use crate::document::Light;
 use crate::format::fixed;
 use crate::panes::context::PaneContext;
+use crate::panes::widgets;
 use crate::plot_item::{PlotItem, SensorId};
 
 pub(super) fn show(ui: &mut Ui, id: &SensorId, kelvin: f64, context: &mut PaneContext<'_>) {
     let (scene, theme) = (context.scene, context.theme);
     head(ui, id, context);
-    note(ui, &theme, format!("blackbody, {} K = {} mired", fixed(kelvin, 0), fixed(1e6 / kelvin, 1)));
+    widgets::note(ui, format!("blackbody, {} K = {} mired", fixed(kelvin, 0), fixed(1e6 / kelvin, 1)));
     let reference = reference_id(&scene);
     let is_reference = reference == *id;
     let points = blackbody_of(&scene, id, kelvin).and_then(|own| Ok((own, blackbody_of(&scene, &reference, kelvin)?)));
@@ -25,7 +26,7 @@ pub(super) fn show(ui: &mut Ui, id: &SensorId, kelvin: f64, context: &mut PaneCo
         Err(error) => return failure(ui, &theme, &error.to_string()),
     };
     if own.xy.is_none() {
-        note(ui, &theme, "Chromaticity undefined (X + Y + Z = 0).");
+        widgets::note(ui, "Chromaticity undefined (X + Y + Z = 0).");
     }
     let mut points = vec![Point::of_blackbody("reference", Some(seen))];
     if !is_reference {
@@ -33,11 +34,10 @@ pub(super) fn show(ui: &mut Ui, id: &SensorId, kelvin: f64, context: &mut PaneCo
         points.push(Point::of_blackbody(id.kind.singular(), Some(own)));
     }
     match scene.document.light {
-        Light::BlackBody => note(ui, &theme, "The light on the scene is a blackbody of the marked temperature."),
+        Light::BlackBody => widgets::note(ui, "The light on the scene is a blackbody of the marked temperature."),
         Light::Daylight => {
-            note(
+            widgets::note(
                 ui,
-                &theme,
                 "The light on the scene is daylight of the marked temperature; the locus is that of blackbodies.",
             );
         }
@@ -45,7 +45,7 @@ pub(super) fn show(ui: &mut Ui, id: &SensorId, kelvin: f64, context: &mut PaneCo
     }
     points_table(ui, points, &PlotItem::Radiator { source: id.clone(), kelvin }, context);
     let label = label_of(&scene, id);
-    show_assumptions(ui, &theme, assumptions(&scene, id, &label));
+    show_assumptions(ui, assumptions(&scene, id, &label));
 }
 
 fn distance(ui: &mut Ui, id: &SensorId, own: &LocusPoint, seen: &LocusPoint, context: &PaneContext<'_>) {
@@ -57,6 +57,6 @@ fn distance(ui: &mut Ui, id: &SensorId, own: &LocusPoint, seen: &LocusPoint, con
             ui.label(format!("Δxy {}   Δu′v′ {}", fixed(xy, 4), fixed(uv, 4)))
                 .on_hover_text("Distance from the reference at the same temperature");
         }
-        (Err(reason), _) | (_, Err(reason)) => note(ui, &context.theme, no_difference(reason)),
+        (Err(reason), _) | (_, Err(reason)) => widgets::note(ui, no_difference(reason)),
     }
 }

@@ -1,25 +1,27 @@
-//! All about a camera or an observer, and about the light.
+//! All about a camera, an observer, the light, or another set of the library.
 
 use chromascope_core::spectral::{Primaries, Quantity};
 use chromascope_figure::InkRole;
-use egui::{RichText, Ui};
+use egui::{Rect, Sense, Ui, Vec2};
 
 use super::{
     assumptions, buttons, copy_text, difference_words, failure, head, held_words, label_of, measured_words,
-    no_difference, note, reference_id, set, show_assumptions, source_of,
+    no_difference, reference_id, show_assumptions, source_of,
 };
-use crate::catalog::Place;
+use crate::catalog::{Entry, Place};
 use crate::command::Command;
 use crate::document::{Diagram, FIT_TARGET, Light, SetKind};
+use crate::figures::data_set;
 use crate::format::{fixed, signed};
+use crate::paint;
 use crate::panes::context::PaneContext;
+use crate::panes::widgets;
 use crate::panes::widgets::facts::{self, Fact, range_words};
 use crate::plot_item::SensorId;
 use crate::scene::Scene;
 use crate::theme::UNIT;
 use crate::view::import::ImportItem;
 
-/// A camera or an observer.
 pub(super) fn show(ui: &mut Ui, id: &SensorId, context: &mut PaneContext<'_>) {
     let (scene, theme) = (context.scene, context.theme);
     head(ui, id, context);
@@ -28,9 +30,9 @@ pub(super) fn show(ui: &mut Ui, id: &SensorId, context: &mut PaneContext<'_>) {
         Err(error) => return failure(ui, &theme, &error.to_string()),
     };
     let also = entry.also.as_ref().map_or_else(String::new, |also| format!(", {also}"));
-    note(ui, &theme, format!("{}: {}{also}", id.kind.singular(), entry.name));
+    widgets::note(ui, format!("{}: {}{also}", id.kind.singular(), entry.name));
     let role = source_of(&scene, id).map_or(InkRole::Observer, |source| source.role);
-    set::curves(ui, &entry, role, context);
+    curves(ui, &entry, role, context);
     let mut measured = measures(&scene, id);
     match scene.sensor(id.kind, &id.name) {
         Ok(sensor) => {
@@ -52,7 +54,7 @@ pub(super) fn show(ui: &mut Ui, id: &SensorId, context: &mut PaneContext<'_>) {
         copy_text(ui, all.collect(), context);
     }
     let label = label_of(&scene, id);
-    show_assumptions(ui, &theme, assumptions(&scene, id, &label));
+    show_assumptions(ui, assumptions(&scene, id, &label));
     if matches!(entry.place, Place::Own(_))
         && ui.button("Reading…").on_hover_text("Check and correct how its file was read").clicked()
     {
@@ -106,10 +108,9 @@ fn temperature_words(scene: &Scene<'_>) -> String {
     }
 }
 
-/// The light on the scene.
 pub(super) fn light(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let (scene, theme) = (context.scene, context.theme);
-    ui.label(RichText::new(format!("Light {}", scene.light_name())).strong());
+    ui.strong(format!("Light {}", scene.light_name()));
     let light = match scene.light() {
         Ok(light) => light,
         Err(error) => return failure(ui, &theme, &error.to_string()),
@@ -160,5 +161,38 @@ pub(super) fn light(ui: &mut Ui, context: &mut PaneContext<'_>) {
         copy_text(ui, format!("wavelength_nm\tpower\n{}\n", lines.join("\n")), context);
     }
     let words = held_words(&format!("Light {}", scene.light_name()), light.grid.assumed());
-    show_assumptions(ui, &theme, words.into_iter().collect());
+    show_assumptions(ui, words.into_iter().collect());
+}
+
+const CURVES: f32 = 104.0;
+
+pub(super) fn set(ui: &mut Ui, kind: SetKind, name: &str, context: &mut PaneContext<'_>) {
+    let (scene, theme) = (context.scene, context.theme);
+    let entry = match scene.entry(kind, name) {
+        Ok(entry) => entry,
+        Err(error) => return failure(ui, &theme, &error.to_string()),
+    };
+    ui.strong(&entry.name);
+    let also = entry.also.as_ref().map_or_else(String::new, |also| format!(", {also}"));
+    widgets::note(ui, format!("{}{also}", kind.singular()));
+    curves(ui, &entry, InkRole::Text, context);
+    let known = facts::of(&scene, &entry, true);
+    facts::show(ui, &theme, &known);
+    if buttons(ui, context) {
+        let lines: Vec<String> = known.iter().map(|(caption, words)| format!("{caption}\t{words}\n")).collect();
+        copy_text(ui, lines.concat(), context);
+    }
+}
+
+fn curves(ui: &mut Ui, entry: &Entry, role: InkRole, context: &PaneContext<'_>) {
+    let size = Vec2::new(ui.available_width(), CURVES);
+    let panel = match data_set::panel(context.scene.results, entry, role, [f64::from(size.x), f64::from(size.y)]) {
+        Ok(Some(panel)) => panel,
+        Ok(None) => return,
+        Err(error) => return failure(ui, &context.theme, &error.to_string()),
+    };
+    let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, format!("Curves of {}", entry.name)));
+    paint::still(ui.painter(), &panel, &context.theme, Rect::from_min_size(rect.min, size));
+    ui.add_space(UNIT);
 }

@@ -4,28 +4,26 @@ use std::sync::Arc;
 
 use chromascope_core::spectral::Primaries;
 use chromascope_figure::{InkRole, LegendEntry, Marker, Panel, Stroke};
-use egui::{Rect, RichText, Ui, Vec2};
+use egui::{Rect, Ui, Vec2};
 
 use crate::action::Action;
 use crate::command::{Command, TourMove};
 use crate::document::start::Start;
 use crate::document::{TransformChoice, WhiteBalanceChoice};
-use crate::figures::thumbnail;
+use crate::figures::chromaticity;
 use crate::paint;
 use crate::panes::context::PaneContext;
-use crate::panes::widgets::{WHAT_YOU_SEE, focus_rim, lines};
+use crate::panes::widgets::{self, WHAT_YOU_SEE, focus_rim, lines};
 use crate::scene::Scene;
 use crate::theme::{ROW, Theme, UNIT};
 
-/// Size of a start's card.
 const CARD: Vec2 = Vec2::new(200.0, 92.0);
-/// Width of the drawn keys.
 const KEY: f32 = 26.0;
 
 pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let theme = context.theme;
     starts(ui, context);
-    ui.label(RichText::new("What you see").strong());
+    ui.strong("What you see");
     ui.label(WHAT_YOU_SEE);
     ui.add_space(UNIT);
     let line = |role: InkRole, marker: Marker, width: f64| LegendEntry {
@@ -53,13 +51,12 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
     });
     if let Some(words) = caveat(context) {
         ui.add_space(UNIT);
-        ui.label(RichText::new(words).small().color(theme.weak));
+        widgets::note(ui, words);
     }
     ui.separator();
-    ui.label(RichText::new("Hover to read, click to select, Esc to deselect.").color(theme.weak));
+    ui.weak("Hover to read, click to select, Esc to deselect.");
 }
 
-/// The two starts as cards with their pictures, one click apart.
 fn starts(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let width = ((ui.available_width() - 2.0 * UNIT) / 2.0).min(CARD.x);
     ui.horizontal(|ui| {
@@ -100,7 +97,7 @@ fn picture_of(ui: &Ui, start: Start, size: Vec2, context: &PaneContext<'_>) -> A
     if let Some(known) = ui.data(|data| data.get_temp::<Arc<Panel>>(id)) {
         return known;
     }
-    let made = Arc::new(thumbnail::diagram(
+    let made = Arc::new(chromaticity::thumbnail(
         &Scene { document: &start.document(), ..context.scene },
         [f64::from(size.x), f64::from(size.y)],
     ));
@@ -118,18 +115,17 @@ fn entry(ui: &mut Ui, words: &str, draw: impl FnOnce(&Ui, Rect)) {
     });
 }
 
-/// Two halves over a bar.
 fn swatch(ui: &Ui, rect: Rect, theme: &Theme) {
     let frame = Rect::from_center_size(rect.center(), Vec2::new(22.0, 16.0));
     let painter = ui.painter();
-    painter.rect_filled(frame, 0.0, theme.surround.color());
+    painter.rect_filled(frame, 0.0, theme.surround);
     let [left, right] = [[226, 190, 76], [214, 199, 164]].map(|rgb| theme.role(InkRole::Rgb(rgb)));
     let half = Vec2::new(9.0, 10.0);
     let min = frame.min + Vec2::new(2.0, 2.0);
     painter.rect_filled(Rect::from_min_size(min, half), 0.0, left);
     painter.rect_filled(Rect::from_min_size(min + Vec2::new(9.0, 0.0), half), 0.0, right);
     let bar = Rect::from_min_size(min + Vec2::new(0.0, 11.0), Vec2::new(11.0, 2.0));
-    painter.rect_filled(bar, 0.0, theme.surround.label());
+    painter.rect_filled(bar, 0.0, theme.on_surround);
 }
 
 /// Caveat about settings that make the picture misleading.

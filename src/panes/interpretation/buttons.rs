@@ -15,7 +15,6 @@ const SET: f32 = 290.0;
 /// Below these widths the four buttons of a file that is no set take one and two more.
 const FILE: [f32; 2] = [380.0, 270.0];
 
-/// The height that the buttons take.
 pub(super) fn height(shown: &ImportSelection, width: f32) -> f32 {
     let more = match shown.item {
         ImportItem::Set(_) => usize::from(width < SET),
@@ -33,7 +32,6 @@ fn on_disk(shown: &ImportSelection) -> bool {
     }
 }
 
-/// Shows the buttons.
 pub(super) fn show(ui: &mut Ui, shown: &ImportSelection, context: &mut PaneContext<'_>) {
     ui.spacing_mut().item_spacing.x = UNIT;
     ui.horizontal_wrapped(|ui| match &shown.item {
@@ -44,7 +42,7 @@ pub(super) fn show(ui: &mut Ui, shown: &ImportSelection, context: &mut PaneConte
             let hint = "Import it and use it; can be undone";
             let why = if reads { "No curve is selected" } else { "Not readable with these settings" };
             if button.on_hover_text(hint).on_disabled_hover_text(why).clicked() {
-                context.push(Command::UseFile(*fingerprint, Box::new(shown.wishes.clone())));
+                context.push(Command::UseFile(*fingerprint, Box::new(shown.overrides.clone())));
             }
             alike(ui, shown, context);
             if let Some(path) = shown.file.as_ref().and_then(|file| file.origin.path.clone())
@@ -64,13 +62,16 @@ pub(super) fn show(ui: &mut Ui, shown: &ImportSelection, context: &mut PaneConte
             if on_disk(shown) && ui.button("Reload").on_hover_text("Reload the file from disk").clicked() {
                 context.push(Command::ReadAgain(name.clone()));
             }
-            if ui.button("Remove").on_hover_text("Remove the data set; can be undone").clicked() {
-                context.push(Action::Imported(ImportedAction::Remove(name.clone())));
-            }
+            context.button(
+                ui,
+                "Remove",
+                "Remove the data set; can be undone",
+                Action::Imported(ImportedAction::Remove(name.clone())),
+            );
         }
     });
     ui.horizontal(|ui| {
-        let chosen = shown.wishes != ImportOverrides::default();
+        let chosen = shown.overrides != ImportOverrides::default();
         let hint = "Decide by content again, for this file and others like it; can be undone";
         let button = ui.add_enabled(chosen, egui::Button::new("Forget choices")).on_hover_text(hint);
         if button.on_disabled_hover_text("Nothing was chosen for it").clicked() {

@@ -18,21 +18,23 @@ pub(super) const RESPONSES: [(bool, &str, &str); 2] = [
     (true, "per photon", "To equal numbers of photons, as quantum efficiencies are given"),
 ];
 
-/// Shows the switches, if the file is a camera's.
-pub(super) fn show(ui: &mut Ui, shown: &ImportSelection, wishes: &mut ImportOverrides, theme: &Theme) {
+pub(super) fn show(ui: &mut Ui, shown: &ImportSelection, overrides: &mut ImportOverrides, theme: &Theme) {
     let Some(table) = shown.table().filter(|table| table.role.value == Role::Camera) else { return };
     let found = table.reading.camera_columns;
-    let mut channels = wishes.channels.or(found).unwrap_or([0, 1, 2]);
+    let mut channels = overrides.channels.or(found).unwrap_or([0, 1, 2]);
     let width = ((ui.available_width() - 2.0 - 4.0 * UNIT) / 3.0).floor();
     let mut chosen = None;
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 2.0 * UNIT;
         for (channel, color) in ["Red", "Green", "Blue"].into_iter().enumerate() {
             let name = table.curves.get(channels[channel]).map_or("missing", |curve| curve.name.as_str());
-            let guess = wishes.channels.is_none() && found.is_none();
+            let guess = overrides.channels.is_none() && found.is_none();
             let how = if guess { "guess" } else { "" };
-            let why =
-                if wishes.channels.is_some() { "Chosen by hand" } else { "From the names or the peaks of the curves" };
+            let why = if overrides.channels.is_some() {
+                "Chosen by hand"
+            } else {
+                "From the names or the peaks of the curves"
+            };
             let closed = Closed { value: name.to_owned(), how: how.to_owned(), guess, why: why.to_owned() };
             let entries: Vec<(String, bool)> = table
                 .curves
@@ -52,23 +54,23 @@ pub(super) fn show(ui: &mut Ui, shown: &ImportSelection, wishes: &mut ImportOver
             channels[other] = channels[channel];
         }
         channels[channel] = place;
-        wishes.channels = Some(channels).filter(|channels| Some(*channels) != found);
+        overrides.channels = Some(channels).filter(|channels| Some(*channels) != found);
         let mut taken = shown.taken();
         if !taken.contains(&place) {
             taken.push(place);
             taken.sort_unstable();
-            wishes.taken = Some(taken);
+            overrides.taken = Some(taken);
         }
     }
     let said = table.reading.per_photon.as_ref();
     let before = || shown.set.as_ref().is_some_and(|set| set.per_photon);
-    let per_photon = wishes.per_photon.or(said.map(|said| said.value)).unwrap_or_else(before);
-    let guess = wishes.per_photon.is_none() && said.is_none_or(|said| said.certainty == Certainty::Guess);
+    let per_photon = overrides.per_photon.or(said.map(|said| said.value)).unwrap_or_else(before);
+    let guess = overrides.per_photon.is_none() && said.is_none_or(|said| said.certainty == Certainty::Guess);
     ui.horizontal(|ui| {
         caption(ui, theme, if guess { "Response (guess)" } else { "Response" }, guess);
         ui.add_space(3.0 * UNIT);
         if let Some(per_photon) = segmented(ui, &RESPONSES, per_photon) {
-            wishes.per_photon = Some(per_photon);
+            overrides.per_photon = Some(per_photon);
         }
     });
 }

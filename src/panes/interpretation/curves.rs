@@ -6,20 +6,25 @@ use crate::catalog::import::TAKEN_AT_FIRST;
 use crate::document::imported::ImportOverrides;
 use crate::figures::curves::ImportSelection;
 use crate::panes::context::PaneContext;
+use crate::panes::widgets;
 use crate::theme::{ROW, UNIT};
 use crate::view::import::Stop;
 
 use super::keys;
 
-/// Number of visible rows.
+const POINTER: &str = "pointer over curves taken";
 const ROWS: usize = 6;
 /// Number of curves above which there is a search.
 const SEARCHED: usize = 8;
 
-/// Shows the list, if there is more than one curve.
-pub(super) fn show(ui: &mut Ui, shown: &ImportSelection, wishes: &mut ImportOverrides, context: &mut PaneContext<'_>) {
+pub(super) fn show(
+    ui: &mut Ui,
+    shown: &ImportSelection,
+    overrides: &mut ImportOverrides,
+    context: &mut PaneContext<'_>,
+) {
     let Some(table) = shown.table().filter(|table| table.curves.len() > 1) else {
-        hover(ui, None, false, context);
+        widgets::hover_curve(ui, POINTER, false, None, context);
         return;
     };
     let count = table.curves.len();
@@ -46,7 +51,7 @@ pub(super) fn show(ui: &mut Ui, shown: &ImportSelection, wishes: &mut ImportOver
     buttons(ui, &found, &mut taken);
     let mut under = None;
     if found.is_empty() {
-        ui.label(RichText::new("No curve of this name.").small().color(context.theme.weak));
+        widgets::note(ui, "No curve of this name.");
     }
     let pitch = ROW + ui.spacing().item_spacing.y;
     let height = pitch * found.len().min(ROWS) as f32;
@@ -90,13 +95,13 @@ pub(super) fn show(ui: &mut Ui, shown: &ImportSelection, wishes: &mut ImportOver
     });
     keep_row(ui, focused);
     let inside = focused.is_some() || ui.rect_contains_pointer(output.inner_rect);
-    hover(ui, under, inside, context);
+    widgets::hover_curve(ui, POINTER, inside, under, context);
     if !taken.contains(&true) {
         let stays = if shown.set.is_some() { " The data set is unchanged until one is." } else { "" };
         ui.label(RichText::new(format!("No curve is selected.{stays}")).small().color(context.theme.warning));
     }
     if taken != before {
-        wishes.taken = Some((0..count).filter(|place| taken[*place]).collect());
+        overrides.taken = Some((0..count).filter(|place| taken[*place]).collect());
     }
 }
 
@@ -104,7 +109,6 @@ fn row_with_keyboard() -> Id {
     Id::unique("curve with the keyboard")
 }
 
-/// Remembers the row that has the keyboard.
 fn keep_row(ui: &Ui, row: Option<usize>) {
     ui.data_mut(|data| data.insert_temp(row_with_keyboard(), row));
 }
@@ -119,7 +123,6 @@ fn wanted_row(ui: &Ui, count: usize, context: &mut PaneContext<'_>) -> Option<us
     row.checked_add_signed(step).filter(|row| step != 0 && *row < count)
 }
 
-/// All, none, the first of those found.
 fn buttons(ui: &mut Ui, found: &[usize], taken: &mut [bool]) {
     ui.horizontal(|ui| {
         if ui.button("All").on_hover_text("Select all that are listed").clicked() {
@@ -143,16 +146,5 @@ fn buttons(ui: &mut Ui, found: &[usize], taken: &mut [bool]) {
 fn set(taken: &mut [bool], places: &[usize], to: bool) {
     for place in places {
         taken[*place] = to;
-    }
-}
-
-/// Takes a curve as the one under the pointer, and lets it go when the pointer leaves.
-fn hover(ui: &Ui, place: Option<usize>, inside: bool, context: &mut PaneContext<'_>) {
-    let id = Id::unique("pointer over curves taken");
-    let was = ui.data(|data| data.get_temp(id).unwrap_or(false));
-    ui.data_mut(|data| data.insert_temp(id, inside));
-    if (inside || was) && context.view.import.hovered_curve != place {
-        context.view.import.hovered_curve = place;
-        ui.ctx().request_repaint();
     }
 }

@@ -6,11 +6,10 @@ use super::caption;
 use crate::action::{Action, ImportedAction};
 use crate::document::SetKind;
 use crate::document::imported::ImportedSet;
-use crate::document::uses::Holder;
+use crate::document::names::Holder;
 use crate::panes::context::PaneContext;
 use crate::plot_item::PlotItem;
 
-/// Shows the field.
 pub(super) fn show(ui: &mut Ui, set: &ImportedSet, context: &mut PaneContext<'_>) {
     let theme = context.theme;
     let id = Id::unique("name of the set that is read");

@@ -3,11 +3,11 @@
 use egui::{Align, CollapsingHeader, Id, RichText, Ui};
 use spectral_file::{Decision, SpectralFile};
 
-use super::note;
 use crate::figures::curves::ImportSelection;
 use crate::format;
 use crate::format::{number, sentence};
 use crate::panes::context::PaneContext;
+use crate::panes::widgets;
 use crate::panes::widgets::facts::range_words;
 use crate::theme::{Theme, UNIT};
 
@@ -20,7 +20,7 @@ fn led_to() -> Id {
 
 /// Number of notes with a link to them, in the pane's header, which does not scroll.
 pub(super) fn button(ui: &mut Ui, context: &mut PaneContext<'_>) {
-    let Some(shown) = ImportSelection::of(&context.scene, context.view, context.opened.preview()) else { return };
+    let Some(shown) = context.view.import.selection(&context.scene, context.opened) else { return };
     let Some(count) = shown.table().map(|table| table.warnings.len()).filter(|count| *count > 0) else { return };
     ui.add_space(UNIT);
     let words = RichText::new(counted(count)).color(context.theme.warning);
@@ -38,7 +38,6 @@ fn counted(count: usize) -> String {
     }
 }
 
-/// Shows the notes.
 pub(super) fn show(ui: &mut Ui, shown: &ImportSelection, context: &mut PaneContext<'_>) {
     let theme = context.theme;
     let Some(table) = shown.table() else { return };
@@ -84,7 +83,7 @@ pub(super) fn show(ui: &mut Ui, shown: &ImportSelection, context: &mut PaneConte
     });
     folded(ui, "Origin", |ui| {
         for fact in facts(shown, table) {
-            note(ui, &theme, fact);
+            widgets::note(ui, fact);
         }
     });
 }

@@ -5,13 +5,12 @@ use std::collections::BTreeSet;
 use egui::{Checkbox, ScrollArea, Ui};
 use spectral_file::Part;
 
-use super::note;
 use crate::command::Command;
 use crate::figures::curves::ImportSelection;
 use crate::panes::context::PaneContext;
+use crate::panes::widgets;
 use crate::theme::{ROW, UNIT};
 
-/// Number of visible rows.
 const ROWS: usize = 5;
 
 /// Name of a part; parts count from 1.
@@ -23,7 +22,6 @@ pub(super) fn name(part: usize, known: Option<&Part>) -> String {
     }
 }
 
-/// Shows the list, if there is more than one part.
 pub(super) fn show(ui: &mut Ui, shown: &ImportSelection, context: &mut PaneContext<'_>) {
     let (Some(table), Some(file)) = (shown.table(), &shown.file) else { return };
     let parts = &table.reading.parts;
@@ -32,8 +30,8 @@ pub(super) fn show(ui: &mut Ui, shown: &ImportSelection, context: &mut PaneConte
     }
     let fingerprint = file.origin.fingerprint;
     let own = context.scene.document.own.iter().filter(|set| set.fingerprint == Some(fingerprint));
-    let used: BTreeSet<usize> = own.filter_map(|set| set.wishes.options.part).collect();
-    note(ui, &context.theme, "Parts, each as a separate data set");
+    let used: BTreeSet<usize> = own.filter_map(|set| set.overrides.options.part).collect();
+    widgets::note(ui, "Parts, each as a separate data set");
     let mut ticked = std::mem::take(&mut context.view.import.parts);
     ticked.retain(|part| *part <= parts.len() && !used.contains(part));
     let free = (1..=parts.len()).filter(|part| !used.contains(part));
@@ -66,7 +64,7 @@ pub(super) fn show(ui: &mut Ui, shown: &ImportSelection, context: &mut PaneConte
         let button = ui.add_enabled(!ticked.is_empty(), egui::Button::new(words)).on_hover_text(hint);
         if button.on_disabled_hover_text("No part is ticked").clicked() {
             let taken: Vec<usize> = std::mem::take(&mut ticked).into_iter().collect();
-            context.push(Command::UseParts(fingerprint, taken, Box::new(shown.wishes.clone())));
+            context.push(Command::UseParts(fingerprint, taken, Box::new(shown.overrides.clone())));
         }
     });
     context.view.import.parts = ticked;

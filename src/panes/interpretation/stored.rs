@@ -4,13 +4,13 @@ use egui::{RichText, Ui};
 use spectral_file::{Values, WavelengthUnit};
 
 use super::camera::RESPONSES;
-use super::{Closed, caption, list, name, note};
+use super::{Closed, caption, list, name};
 use crate::action::{Action, ImportedAction};
 use crate::document::SetKind;
 use crate::document::imported::{ImportedSet, Role};
 use crate::figures::curves::places;
 use crate::panes::context::PaneContext;
-use crate::panes::widgets::segmented;
+use crate::panes::widgets::{self, segmented};
 use crate::theme::{Theme, UNIT};
 
 /// Shows the set with controls; every change is one step of undo.
@@ -21,7 +21,7 @@ pub(super) fn show(ui: &mut Ui, set: &ImportedSet, context: &mut PaneContext<'_>
         1 => "curve is".to_owned(),
         count => format!("{count} curves are"),
     };
-    note(ui, &theme, format!("{} is not available. Its {curves} stored in the session.", set.file));
+    widgets::note(ui, format!("{} is not available. Its {curves} stored in the session.", set.file));
     let mut changed = set.clone();
     choices(ui, &mut changed, &theme);
     if changed.role == Role::Camera {
@@ -47,7 +47,7 @@ pub(super) fn show(ui: &mut Ui, set: &ImportedSet, context: &mut PaneContext<'_>
 /// Has the file, when it comes back, read as the set was changed.
 fn follow(before: &ImportedSet, changed: &mut ImportedSet) {
     let places = places(before);
-    let options = &mut changed.wishes.options;
+    let options = &mut changed.overrides.options;
     if changed.role != before.role {
         options.role = Some(changed.role);
     }
@@ -58,10 +58,10 @@ fn follow(before: &ImportedSet, changed: &mut ImportedSet) {
         options.values = Some(if changed.percent { Values::Percent } else { Values::Plain });
     }
     if changed.per_photon != before.per_photon {
-        changed.wishes.per_photon = Some(changed.per_photon);
+        changed.overrides.per_photon = Some(changed.per_photon);
     }
     if changed.channels != before.channels {
-        changed.wishes.channels = Some(changed.channels.map(|index| places.get(index).copied().unwrap_or(index)));
+        changed.overrides.channels = Some(changed.channels.map(|index| places.get(index).copied().unwrap_or(index)));
     }
 }
 
@@ -69,7 +69,6 @@ fn plain(value: &str) -> Closed {
     Closed { value: value.to_owned(), how: String::new(), guess: false, why: String::new() }
 }
 
-/// A list of which one is on.
 fn choice<T: Copy + PartialEq>(ui: &mut Ui, theme: &Theme, words: &str, choices: &[(T, &str)], value: &mut T) {
     let width = ui.available_width() - 2.0;
     let shown = choices.iter().find(|(choice, _)| choice == value).map_or("", |(_, words)| words);
@@ -81,14 +80,12 @@ fn choice<T: Copy + PartialEq>(ui: &mut Ui, theme: &Theme, words: &str, choices:
     }
 }
 
-/// Role, unit and percent.
 fn choices(ui: &mut Ui, set: &mut ImportedSet, theme: &Theme) {
     choice(ui, theme, "This is a", Role::CHOICES, &mut set.role);
     choice(ui, theme, "Wavelengths in", WavelengthUnit::CHOICES, &mut set.unit);
     ui.checkbox(&mut set.percent, "Values are percent");
 }
 
-/// Channels, and their response basis.
 fn camera(ui: &mut Ui, set: &mut ImportedSet, theme: &Theme) {
     let width = ui.available_width() - 2.0;
     for (channel, color) in ["Red", "Green", "Blue"].into_iter().enumerate() {

@@ -14,9 +14,7 @@ use crate::theme::{Theme, UNIT};
 /// Head of the switches of a file's format where none of them is in doubt.
 const SETTLED: &str = "File format: all certain";
 
-/// Maximum number of columns to choose from.
 const COLUMNS: usize = 60;
-/// Maximum number of parts to choose from.
 const PARTS: usize = 1000;
 
 /// A setting: the user's choice, the automatic decision, and the options.
@@ -67,17 +65,15 @@ fn closed<T: Copy>(
     Closed { value: name(decided.value), how: sure.to_owned(), guess, why: decided.why.clone() }
 }
 
-/// A choice without what its caption says anyway.
 fn short(words: &str) -> &str {
     ["Down", "Across", "Table"].into_iter().find(|short| words.starts_with(short)).unwrap_or(words)
 }
 
-/// The switches that matter for the file.
-pub(super) fn show(ui: &mut Ui, shown: &ImportSelection, wishes: &mut ImportOverrides, theme: &Theme) {
+pub(super) fn show(ui: &mut Ui, shown: &ImportSelection, overrides: &mut ImportOverrides, theme: &Theme) {
     // The result of the last preview is shown as long as no newer one is available.
     let table = shown.table();
     let reading = table.map(|table| &table.reading);
-    let options = &mut wishes.options;
+    let options = &mut overrides.options;
     let whole = ui.available_width() - 2.0;
     Switch {
         words: "This is a",
@@ -113,7 +109,6 @@ fn is_certain(reading: &ReadReport, options: &ReadOptions) -> bool {
     certainties.iter().all(|certainty| *certainty == Certainty::Certain) && *options == asked && reading.parts.len() < 2
 }
 
-/// The switches of the file's format.
 fn format(ui: &mut Ui, shown: &ImportSelection, options: &mut ReadOptions, theme: &Theme, whole: f32) {
     let gap = 2.0 * UNIT;
     let half = ((whole - gap) / 2.0).floor();
@@ -183,7 +178,6 @@ fn columns(table: Option<&SpectralFile>, wish: Option<Reader>) -> bool {
     wish.or(known).is_none_or(|reader| reader == Reader::TABLE)
 }
 
-/// The column of the wavelengths, by number and, where it has one, name.
 fn column(ui: &mut Ui, shown: &ImportSelection, wish: &mut Option<usize>, theme: &Theme, width: f32) {
     let table = shown.table();
     let decided = table.and_then(|table| table.reading.wavelength_column);
@@ -229,7 +223,6 @@ fn header(shown: &ImportSelection) -> Vec<String> {
     cells.iter().map(tidy).collect()
 }
 
-/// Choice of one of several tables in a file.
 fn part(ui: &mut Ui, table: Option<&SpectralFile>, wish: &mut Option<usize>, theme: &Theme, width: f32) {
     let known = table.map_or(&[][..], |table| &table.reading.parts);
     if known.len() < 2 && wish.is_none() {

@@ -6,13 +6,12 @@ use crate::action::{Action, CompareAction};
 use crate::command::Command;
 use crate::document::SetKind;
 use crate::panes::context::PaneContext;
-use crate::panes::widgets::{focus_rim, lines};
+use crate::panes::widgets::{self, focus_rim, lines};
 use crate::plot_item::PlotItem;
 use crate::scene::ComparedSensor;
 use crate::theme::{FADED, ROW, UNIT};
 use crate::view::import::ImportItem;
 
-/// A label that is being written.
 #[derive(Clone, Default)]
 struct Renaming {
     kind: Option<SetKind>,
@@ -28,12 +27,10 @@ fn id(source: &ComparedSensor) -> Id {
     Id::unique(("compared", source.kind, &source.name))
 }
 
-/// Gives the name of a sensor the keyboard.
 pub(super) fn focus(ui: &Ui, source: &ComparedSensor) {
     ui.memory_mut(|memory| memory.request_focus(id(source).with("label")));
 }
 
-/// One sensor: key, label, tag, menu.
 pub(super) fn row(ui: &mut Ui, source: &ComparedSensor, context: &mut PaneContext<'_>) {
     let (rect, _) = ui.allocate_exact_size(Vec2::new(ui.available_width(), ROW), Sense::hover());
     let id = id(source);
@@ -52,8 +49,8 @@ pub(super) fn row(ui: &mut Ui, source: &ComparedSensor, context: &mut PaneContex
             words.max.x -= 18.0;
             let mark = Rect::from_center_size(egui::pos2(words.right() + 9.0, rect.center().y), Vec2::splat(16.0));
             lines::warning_mark(ui.painter(), mark.center(), context.theme.warning);
-            let response = ui.interact(mark, id.with("trouble"), Sense::hover());
-            response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, format!("Warning: {error}")));
+            let response =
+                widgets::named(ui, mark, id.with("trouble"), egui::Role::Image, &format!("Warning: {error}"));
             response.on_hover_text(error);
         }
         let frame = Rect::from_min_max(rect.min - Vec2::new(UNIT, 0.0), egui::pos2(dots.left() - 2.0, rect.bottom()));
@@ -63,7 +60,6 @@ pub(super) fn row(ui: &mut Ui, source: &ComparedSensor, context: &mut PaneContex
     egui::Popup::menu(&menu_button).show(|ui| menu(ui, source, context));
 }
 
-/// The key; a click hides or shows.
 fn key(ui: &Ui, rect: Rect, id: Id, source: &ComparedSensor, context: &mut PaneContext<'_>) {
     let response = ui.interact(rect, id.with("key"), Sense::click());
     let verb = if source.visible { "Hide" } else { "Show" };
@@ -114,7 +110,6 @@ fn trouble(source: &ComparedSensor, context: &PaneContext<'_>) -> Option<String>
     }
 }
 
-/// The name; a click selects.
 fn label(ui: &Ui, rect: Rect, row: Rect, id: Id, source: &ComparedSensor, context: &mut PaneContext<'_>) {
     let thing = thing(source);
     let selected = context.view.selected.as_ref().is_some_and(|chosen| chosen.source() == thing.source());

@@ -47,7 +47,6 @@ pub(super) fn menu_of(ui: &Ui, rect: Rect, row: &Response, entry: &Entry, contex
     shown
 }
 
-/// Context menu of a set.
 fn menu(ui: &mut Ui, entry: &Entry, context: &mut PaneContext<'_>) {
     if ui.button("Source").on_hover_text("Source, terms and curve in the Inspector").clicked() {
         context.view.selected = Some(PlotItem::of_set(entry.kind, &entry.name));
@@ -58,10 +57,12 @@ fn menu(ui: &mut Ui, entry: &Entry, context: &mut PaneContext<'_>) {
         context.push(Command::ShowImport(ImportItem::Set(entry.name.clone()), None));
         ui.close();
     }
-    if ui.button("Copy curves").on_hover_text("Tab-separated text, for a spreadsheet or for Paste data").clicked() {
-        context.push(Command::CopySet(entry.kind, entry.name.clone()));
-        ui.close();
-    }
+    context.item(
+        ui,
+        "Copy curves",
+        "Tab-separated text, for a spreadsheet or for Paste data",
+        Command::CopySet(entry.kind, entry.name.clone()),
+    );
     save_as(ui, entry.kind, &entry.name, context);
     if entry.is_own() && ui.button("Remove").clicked() {
         context.push(Action::Imported(ImportedAction::Remove(entry.name.clone())));

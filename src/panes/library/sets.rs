@@ -17,26 +17,19 @@ use crate::plot_item::PlotItem;
 use crate::theme::{ROW, UNIT};
 use crate::view::import::ImportItem;
 
-/// Width that a scroll bar overlaps.
 pub(super) const SCROLL_BAR: f32 = 10.0;
 
 /// Width that the tag of a digitized table takes.
 const DIGITIZED: f32 = 64.0;
 
-/// One row of the list.
 pub(super) enum Row<'a> {
-    /// The head of a group.
     Group {
-        /// Kind of data.
         kind: SetKind,
         /// Number of sets; while searching, of matches.
         count: usize,
-        /// True if its sets follow.
         open: bool,
     },
-    /// A set of the program's.
     BuiltIn(&'a Entry),
-    /// A set of the user's.
     Own(&'a Shared<ImportedSet>),
 }
 
@@ -78,7 +71,6 @@ pub(super) fn rows<'a>(context: &PaneContext<'a>) -> Vec<Row<'a>> {
     rows
 }
 
-/// The first set of the list.
 pub(super) fn first_match<'a>(rows: &[Row<'a>]) -> Option<Cow<'a, Entry>> {
     rows.iter().find_map(Row::entry)
 }

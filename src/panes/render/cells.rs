@@ -7,27 +7,20 @@ use crate::plot_item::SensorId;
 use crate::scene::ComparedSensor;
 use crate::view::render::RenderMode;
 
-/// Height of the line above a picture.
 pub(super) const CAPTION: f32 = 24.0;
-/// Gap between pictures.
 const GAP: f32 = 8.0;
-/// Height of the scale below maps of differences.
 const SCALE: f32 = 40.0;
 
-/// A picture's place.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct PictureSlot {
     /// Its sensor's index among those requested.
     pub(super) source: usize,
-    /// The line above it.
     pub(super) caption: Rect,
     /// The picture, on whole pixels of the screen.
     pub(super) picture: Rect,
 }
 
-/// Layout of pictures, divider and color scale.
 pub(super) struct PictureLayout {
-    /// Arrangement of pictures.
     pub(super) mode: RenderMode,
     /// The sensors that are requested, the reference first.
     pub(super) sources: Vec<ComparedSensor>,

@@ -4,14 +4,13 @@ use chromascope_figure::{Ink, InkRole, Mark, Panel, Rect as Area, Shape};
 use egui::{Align2, CursorIcon, FontId, Key, Painter, Pos2, Rect, Sense, Stroke, TextStyle, Ui, UiBuilder, Vec2};
 
 use super::cells::{CAPTION, PictureLayout, PictureSlot, chosen};
-use super::difference;
 use crate::figures::chromaticity::id;
 use crate::figures::render::headline::{Detail, Measure};
 use crate::figures::render::{difference as maps, index_of};
 use crate::paint::{self, PictureQuery};
 use crate::panes::context::PaneContext;
-use crate::panes::widgets::lines;
 use crate::panes::widgets::pick_list::{self, Line};
+use crate::panes::widgets::{self, lines};
 use crate::plot_item::PickIndex;
 use crate::render_service::RenderedFrame;
 use crate::scene::ComparedSensor;
@@ -23,14 +22,11 @@ const WITH_NOTE: f32 = 150.0;
 const WITH_MEASURE: f32 = 270.0;
 const WITH_QUANTILES: f32 = 470.0;
 const WITH_LARGEST: f32 = 540.0;
-/// The radius of the divider's handle.
 const HANDLE: f32 = 8.0;
-/// The radius of the ring around the pixel that is kept.
 const RING: f32 = 7.0;
 /// Size of the list of sensors above a picture.
 const CHOOSER: Vec2 = Vec2::new(190.0, CAPTION - 2.0);
 
-/// Draws the pictures of the pane, as far as they are available.
 pub(super) fn pictures(ui: &mut Ui, painter: &Painter, layout: &PictureLayout, context: &mut PaneContext<'_>) {
     let shot = context.render_service.frame().cloned();
     let scale = shot.as_deref().filter(|_| layout.scale.is_some()).map(maps::Scale::of);
@@ -52,11 +48,10 @@ pub(super) fn pictures(ui: &mut Ui, painter: &Painter, layout: &PictureLayout, c
         ring(painter, layout, index, context);
     }
     if let (Some(rect), Some(scale), Some(shot)) = (layout.scale, scale, shot.as_deref()) {
-        difference::scale(ui, painter, rect, scale, Measure::of_frame(shot).name(), context);
+        scale_of_differences(ui, painter, rect, scale, Measure::of_frame(shot).name(), context);
     }
 }
 
-/// One picture, or why there is none.
 fn picture(
     ui: &Ui,
     painter: &Painter,
@@ -78,7 +73,7 @@ fn picture(
             let sharp = [made.width, made.height] == layout.pixels.map(|side| side as usize)
                 || (shot.query.image().is_some() && made.width < layout.pixels[0] as usize / 2);
             let name = format!("{} {}", source.kind.singular(), source.name);
-            let textures = &mut context.view.render.textures;
+            let textures = &mut context.states.of::<super::RenderPane>().textures;
             match scale {
                 None => {
                     let of = PictureQuery { name: &name, version: shot.serial, rect, clip, sharp };
@@ -96,8 +91,8 @@ fn picture(
         }
     };
     let area = rect.shrink(8.0);
-    let galley = ui.painter().layout(why, FontId::proportional(TEXT), context.theme.surround.label(), area.width());
-    painter.galley(area.min, galley, context.theme.surround.label());
+    let galley = ui.painter().layout(why, FontId::proportional(TEXT), context.theme.on_surround, area.width());
+    painter.galley(area.min, galley, context.theme.on_surround);
 }
 
 /// The difference at the right of a caption, as far as there is room, and in full.
@@ -107,7 +102,6 @@ struct Note {
     meaning: &'static str,
 }
 
-/// The note of a picture's caption.
 fn note(shot: &RenderedFrame, at: usize, width: f32) -> Option<Note> {
     let difference = shot.made()?.differences.get(at)?.as_ref()?;
     let measure = Measure::of_frame(shot);
@@ -122,12 +116,10 @@ fn note(shot: &RenderedFrame, at: usize, width: f32) -> Option<Note> {
     Some(Note { short, full: words(Detail::Largest), meaning: measure.meaning() })
 }
 
-/// Title above a sensor's picture.
 fn title(source: &ComparedSensor) -> String {
     if source.is_reference { format!("Reference, {}", source.label) } else { source.label.clone() }
 }
 
-/// A sensor's marker and name, and a note at the right.
 fn caption(
     ui: &mut Ui,
     painter: &Painter,
@@ -136,7 +128,7 @@ fn caption(
     note: Option<&Note>,
     context: &PaneContext<'_>,
 ) {
-    let color = context.theme.surround.label();
+    let color = context.theme.on_surround;
     let rect = cell.caption.shrink2(Vec2::new(8.0, 0.0));
     marker(painter, Rect::from_min_size(rect.min, Vec2::new(16.0, CAPTION)), source, context);
     let right = note
@@ -146,8 +138,13 @@ fn caption(
     let left = Rect::from_min_max(rect.min + Vec2::new(20.0, 0.0), rect.max - Vec2::new(right, 0.0));
     let cut = lines::elided(ui, left, &words, TextStyle::Body, color);
     let said = note.map_or_else(|| words.clone(), |note| format!("{words}, {}", note.full));
-    let response = ui.interact(cell.caption, ui.scope_id().with(("caption", &words)), Sense::hover());
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, format!("Picture: {said}")));
+    let response = widgets::named(
+        ui,
+        cell.caption,
+        ui.scope_id().with(("caption", &words)),
+        egui::Role::Label,
+        &format!("Picture: {said}"),
+    );
     if let Some(note) = note {
         response.on_hover_text(format!("{said}. {}", note.meaning));
     } else if cut {
@@ -184,7 +181,7 @@ pub(super) fn divider(ui: &mut Ui, layout: &PictureLayout, context: &mut PaneCon
     let response = ui.interact(line, ui.scope_id().with("divider"), Sense::click_and_drag());
     let share = f64::from(context.view.saved.render.split);
     response.widget_info(|| egui::WidgetInfo::slider(true, 100.0 * share, "Divider between reference and sensor"));
-    let color = context.theme.surround.label();
+    let color = context.theme.on_surround;
     let held = response.hovered() || response.dragged() || response.has_focus();
     let width = if held { 2.0 } else { 1.0 };
     // No rule at rest across the edge that the eye compares: the seam itself runs through the mesh.
@@ -265,7 +262,42 @@ pub(super) fn choosers(ui: &mut Ui, layout: &PictureLayout, sources: &[ComparedS
             Align2::RIGHT_CENTER,
             note,
             FontId::proportional(crate::theme::SMALL),
-            context.theme.surround.label(),
+            context.theme.on_surround,
         );
     }
+}
+
+fn scale_of_differences(
+    ui: &mut Ui,
+    painter: &Painter,
+    rect: Rect,
+    scale: maps::Scale,
+    name: &str,
+    context: &PaneContext<'_>,
+) {
+    let color = context.theme.on_surround;
+    let font = FontId::proportional(crate::theme::SMALL);
+    let words = format!("{name} from the reference");
+    let title = painter.text(rect.left_center() + Vec2::new(8.0, 0.0), Align2::LEFT_CENTER, words, font.clone(), color);
+    let left = title.right() + 16.0;
+    let bar = Rect::from_min_max(
+        Pos2::new(left, rect.top() + 6.0),
+        Pos2::new(left.max(rect.right() - 120.0), rect.top() + 18.0),
+    );
+    crate::paint::ramp(painter, bar, &crate::palette::difference_ramp);
+    for (share, value) in scale.ticks() {
+        let at = Pos2::new(bar.left() + share * bar.width(), bar.bottom() + 2.0);
+        painter.text(at, Align2::CENTER_TOP, value, font.clone(), color);
+    }
+    let dark = Pos2::new(rect.right() - 8.0, bar.center().y);
+    let is_image = context.scene.document.render.mesh.is_image();
+    let words = if is_image { "dark: no value" } else { "hatched: no light" };
+    painter.text(dark, Align2::RIGHT_CENTER, words, font, color);
+    let said = format!("Scale of {name} from the reference, from 0 to {}", scale.end);
+    let response = widgets::named(ui, rect, ui.scope_id().with("difference scale"), egui::Role::Label, &said);
+    response.on_hover_text(if is_image {
+        "Of each pixel; a reflectance of 1, or the white of radiances, has Y = 1."
+    } else {
+        "Of each lit sample; a white of the same roughness that faces the light has Y = 1."
+    });
 }

@@ -6,9 +6,7 @@ use crate::panes::context::PaneContext;
 use crate::scene::orbit::Orbit;
 use crate::workspaces::PaneKind;
 
-/// Degrees for a point of dragging.
 const DRAG: f64 = 0.4;
-/// Degrees for a press of an arrow.
 const STEP: f64 = 5.0;
 /// The factor of a press of + or −.
 const NEARER: f64 = 0.9;

@@ -38,7 +38,6 @@ pub(super) fn ask(ui: &Ui, layout: &PictureLayout, context: &mut PaneContext<'_>
     let none = || "Tick a camera in the Library.".to_owned();
     let stages = if let MeshChoice::Image(path) = &context.scene.document.render.mesh {
         let image = image(path, context)?;
-        context.view.render.rows_read = Some(image.source.rows.share());
         if layout.cells.is_empty() {
             return Err(none());
         }
@@ -48,7 +47,6 @@ pub(super) fn ask(ui: &Ui, layout: &PictureLayout, context: &mut PaneContext<'_>
         };
         screen_steps(&image.info).into_iter().map(query).collect::<Result<Vec<_>, _>>()?
     } else {
-        context.view.render.rows_read = None;
         let mesh = mesh(context)?;
         if layout.cells.is_empty() {
             return Err(none());
@@ -58,9 +56,6 @@ pub(super) fn ask(ui: &Ui, layout: &PictureLayout, context: &mut PaneContext<'_>
         stages.into_iter().map(|finish| wish.query(finish).map(PicturesOf::Mesh)).collect::<Result<Vec<_>, _>>()?
     };
     let (Some(first), Some(last)) = (stages.first().cloned(), stages.last().cloned()) else { return Err(none()) };
-    let making = context.scene.document.render.quality.label();
-    let settled = context.scene.document.render.quality != QualityLevel::Full;
-    context.view.render.making = if settled { making } else { "Rendering" };
     let render_service = &mut *context.render_service;
     let known = render_service.has_made();
     let rest = render_service.want(&last, ui.input(|input| input.time));
@@ -93,7 +88,6 @@ pub(super) fn ask(ui: &Ui, layout: &PictureLayout, context: &mut PaneContext<'_>
     render_service.failure().map_or(Ok(()), |why| Err(format!("No picture: {why}.")))
 }
 
-/// The image, or the message shown while there is none.
 fn image(path: &Path, context: &PaneContext<'_>) -> Result<Arc<LoadedImage>, String> {
     match context.images.get(path) {
         ImageState::Ready(image) => Ok(image),
@@ -102,7 +96,6 @@ fn image(path: &Path, context: &PaneContext<'_>) -> Result<Arc<LoadedImage>, Str
     }
 }
 
-/// The mesh, or the message shown while there is none.
 fn mesh(context: &PaneContext<'_>) -> Result<MeshQuery, String> {
     let own: Option<Shared<Mesh>> = match &context.scene.document.render.mesh {
         MeshChoice::File(path) => match context.meshes.get(path) {
@@ -182,9 +175,9 @@ impl Wish<'_, '_> {
         let orbit = look.orbit.unwrap_or_else(|| Orbit::of(&self.context.scene.document.render.mesh));
         let [width, height] = self.layout.pixels;
         let viewpoint = orbit.viewpoint(f64::from(width) / f64::from(height.max(1))).ok_or("No such view.")?;
-        let surround = self.context.theme.surround.color().to_array();
+        let surround = self.context.theme.colors.surround.color();
         let linear = |channel: u8| srgb_inverse_transfer(f64::from(channel) / 255.0) as f32;
-        let background = Some([surround[0], surround[1], surround[2]].map(linear));
+        let background = Some(surround.map(linear));
         let scene = &self.context.scene;
         let pictures = scene.pictures_of(&self.layout.sources, self.mesh.clone(), viewpoint, finish, background);
         pictures.map_err(|error| error.to_string())

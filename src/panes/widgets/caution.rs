@@ -18,9 +18,8 @@ pub fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) -> Rect {
     if let Some(observer) = caution.fit_to() {
         let words = format!("Fit 3×3 to {observer}");
         let hint = "Color transform: a 3×3 matrix for each camera, fitted to this observer";
-        if row.button(words).on_hover_text(hint).clicked() {
-            context.push(Action::Scene(SceneAction::SetWay(TransformChoice::Observer(observer.to_owned()))));
-        }
+        let transform = TransformChoice::Observer(observer.to_owned());
+        context.button(&mut row, &words, hint, Action::Scene(SceneAction::SetTransform(transform)));
     }
     let sentence = caution.sentence();
     let mut rest = Rect::from_min_max(line.min, egui::pos2(row.min_rect().left() - 2.0 * UNIT, line.bottom()));
@@ -30,8 +29,8 @@ pub fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) -> Rect {
     lines::warning_mark(ui.painter(), egui::pos2(rest.left() + 7.0, rest.center().y), context.theme.warning);
     rest.min.x += 5.0 * UNIT;
     lines::elided(ui, rest, &sentence, TextStyle::Small, context.theme.warning);
-    let response = ui.interact(rest, ui.scope_id().with(("caution", rect.min.x as i32)), egui::Sense::hover());
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Alert, true, &sentence));
+    let response =
+        super::named(ui, rest, ui.scope_id().with(("caution", rect.min.x as i32)), egui::Role::Alert, &sentence);
     response.on_hover_text(sentence);
     Rect::from_min_max(egui::pos2(rect.left(), line.bottom() + 0.5 * UNIT), rect.max)
 }
@@ -52,8 +51,7 @@ pub fn foot(ui: &Ui, rect: Rect, words: &str, context: &PaneContext<'_>) -> Rect
     } else {
         lines::elided(ui, place, words, TextStyle::Small, context.theme.weak);
     }
-    let response = ui.interact(place, ui.scope_id().with(("foot", rect.min.x as i32)), egui::Sense::hover());
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, words));
+    let response = super::named(ui, place, ui.scope_id().with(("foot", rect.min.x as i32)), egui::Role::Label, words);
     response.on_hover_text(words);
     Rect::from_min_max(rect.min, egui::pos2(rect.right(), place.top() - UNIT))
 }

@@ -13,7 +13,6 @@ use crate::document::SetKind;
 use crate::theme::{ROW, Theme, UNIT};
 use crate::view::pick::PickState;
 
-/// Width of the gutter that holds the tick before a line.
 const GUTTER: f32 = 18.0;
 /// Largest share of a line that its note takes.
 const NOTE: f32 = 0.45;
@@ -21,7 +20,6 @@ const NOTE: f32 = 0.45;
 const PAGE: usize = 10;
 /// Height of the list below a control before it scrolls.
 const DROPPED: f32 = 14.0 * ROW;
-/// Least width of the list below a control.
 const LEAST: f32 = 280.0;
 /// Greatest width of that list; longer names are told on hover.
 const MOST: f32 = 440.0;
@@ -29,7 +27,6 @@ const MOST: f32 = 440.0;
 /// A line of a list.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Line {
-    /// Its words.
     pub words: String,
     /// What stands at the right: what choosing it does, or its key.
     pub note: String,
@@ -44,17 +41,14 @@ pub struct Line {
 }
 
 impl Line {
-    /// A line that can be chosen.
     pub fn new(words: impl Into<String>, on: bool) -> Self {
         Self { words: words.into(), on, ..Self::default() }
     }
 
-    /// Head of a group.
     pub fn heading(words: impl Into<String>) -> Self {
         Self { words: words.into(), is_heading: true, ..Self::default() }
     }
 
-    /// The line of a data set.
     pub fn of_set(entry: &Entry, on: bool) -> Self {
         let words = if entry.kind == SetKind::Illuminant { entry.glossed_name() } else { entry.name.clone() };
         Self { also: entry.gloss(), ..Self::new(words, on) }
@@ -77,15 +71,10 @@ pub fn found(all: &[Line], text: &str) -> Vec<usize> {
         .collect()
 }
 
-/// A search field above the lines that match.
 pub struct PickList<'a> {
-    /// Identity of the search field.
     pub id: Id,
-    /// Name of the search field.
     pub name: &'a str,
-    /// Hint in the empty search field.
     pub hint: &'a str,
-    /// Height of the lines before they scroll.
     pub height: f32,
     /// The line that is set is highlighted first, not the uppermost.
     pub from_set: bool,
@@ -140,7 +129,6 @@ impl PickList<'_> {
         pressed(Key::ArrowDown) - pressed(Key::ArrowUp) + page * (pressed(Key::PageDown) - pressed(Key::PageUp))
     }
 
-    /// The lines. `follow` is the choice to bring into sight.
     fn lines(&self, ui: &mut Ui, all: &[Line], picked: usize, follow: Option<usize>, theme: &Theme) -> Option<usize> {
         let mut clicked = None;
         ui.spacing_mut().item_spacing.y = 0.0;

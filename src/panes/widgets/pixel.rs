@@ -5,15 +5,13 @@ use egui::{DragValue, PopupCloseBehavior, Ui};
 
 use super::take_sought;
 use crate::action::{Action, SceneAction};
-use crate::document::pixel::Pixel;
+use crate::document::Pixel;
 use crate::panes::context::PaneContext;
 
-/// Name of the menu.
 pub const PIXEL: &str = "Pixel";
 const HINT: &str =
     "Full-well capacity and read noise of a pixel: with them SNR, the signal-to-noise ratio of a gray, has values";
 
-/// Shows the button of the menu.
 pub fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let config = MenuConfig::new().close_behavior(PopupCloseBehavior::CloseOnClickOutside);
     let (response, _) = MenuButton::new(PIXEL).config(config).ui(ui, |ui| fields(ui, context));

@@ -2,7 +2,7 @@
 
 use egui::{Id, RichText, Sense, Ui, Vec2};
 
-use crate::figures::render::spectrum;
+use crate::figures::render::spectrum_panel;
 use crate::paint::{self, PlotOptions};
 use crate::panes::context::PaneContext;
 use crate::panes::widgets;
@@ -10,24 +10,24 @@ use crate::render_service::RenderedFrame;
 use crate::render_service::made::MadePictures;
 use crate::scene::spectral_image::PixelSpectrumQuery;
 
-/// Height of the plot.
 pub const HEIGHT: f32 = 110.0;
 
 /// Shows the samples of a pixel, right and down in the file, if an image is on show.
-pub fn show(ui: &mut Ui, id: &str, shot: &RenderedFrame, at: [usize; 2], context: &PaneContext<'_>) {
+pub fn show(ui: &mut Ui, id: &'static str, shot: &RenderedFrame, at: [usize; 2], context: &PaneContext<'_>) {
     let Some((query, image)) = shot.query.image().zip(shot.made().and_then(MadePictures::image)) else { return };
     let signals = &query.signals;
     let of = PixelSpectrumQuery { source: signals.source.clone(), wanted: signals.wanted, scale: signals.scale, at };
-    let points = match context.render_service.spectrum(of) {
-        Some(Ok(points)) => points,
+    let found = context.later.ask(id, vec![of]).current().ok().flatten();
+    let points = match found.as_deref() {
+        Some(Ok(points)) => points.as_slice(),
         Some(Err(why)) => {
-            ui.label(RichText::new(why).small().color(context.theme.error));
+            ui.label(RichText::new(why.to_string()).small().color(context.theme.error));
             return;
         }
-        None => Vec::new(),
+        None => &[],
     };
     let (area, _) = ui.allocate_exact_size(Vec2::new(ui.available_width(), HEIGHT), Sense::hover());
-    let panel = spectrum::panel(&points, image.image.quantity, [area.width(), area.height()].map(f64::from));
+    let panel = spectrum_panel(points, image.image.quantity, [area.width(), area.height()].map(f64::from));
     let options = PlotOptions { zoomable: false, ..PlotOptions::default() };
     let shown = paint::plot(ui, Id::unique(id), &panel, &context.theme, area, options);
     let near =

@@ -7,7 +7,6 @@ use crate::panes::context::PaneContext;
 use crate::theme::UNIT;
 use crate::workspaces::PaneKind;
 
-/// Height of the line below content that does not fit.
 const LINE: f32 = 18.0;
 /// Share of the visible height that Page Up and Page Down move by.
 const PAGE: f32 = 0.9;
@@ -58,7 +57,6 @@ pub fn more_below(ui: &Ui, slot: Rect, color: Color32) {
     let tip = slot.left_center() + Vec2::new(6.0, 3.0);
     ui.painter().galley(at, words, color);
     let corners = vec![tip, tip + Vec2::new(-4.0, -5.0), tip + Vec2::new(4.0, -5.0)];
-    let response = ui.interact(slot, ui.scope_id().with("more below"), egui::Sense::hover());
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, "more below"));
+    super::named(ui, slot, ui.scope_id().with("more below"), egui::Role::Label, "more below");
     ui.painter().add(Shape::convex_polygon(corners, color, egui::Stroke::NONE));
 }

@@ -7,7 +7,6 @@ use crate::panes::context::PaneContext;
 
 /// Description of valid input.
 const TAKES: &str = "From 1e−13 to 0.1, such as 5e-10; the slider moves in powers of ten";
-/// Width of the text.
 const TEXT: f32 = 72.0;
 
 /// Typed text that was rejected: it stays in the field until the tolerance changes or other text is typed.

@@ -2,6 +2,7 @@
 
 use std::fs;
 
+use chromascope::figures::FIGURES;
 use chromascope::panes;
 use chromascope_core::query::CameraMetric;
 use serde_json::Value;
@@ -48,11 +49,15 @@ fn skipped_work_says_where_its_table_is() {
 }
 
 #[test]
-fn every_figure_of_the_window_is_listed() {
+fn every_kind_of_figure_is_listed_and_panes_have_no_others() {
     let help = String::from_utf8(run(&["figure", "--help"]).stdout).expect("text");
-    for pane in panes::ALL.iter().filter(|pane| pane.figure.is_some()) {
-        let name = pane.title.to_lowercase().replace(' ', "-");
-        assert!(help.contains(&format!("- {name}:")), "{name} is not in\n{help}");
+    for kind in FIGURES {
+        assert_eq!(help.matches(&format!("- {}:", kind.key)).count(), 1, "{} is not in\n{help}", kind.key);
+        assert_eq!(FIGURES.iter().filter(|other| other.key == kind.key).count(), 1, "{}", kind.key);
+    }
+    for (pane, kind) in panes::ALL.iter().filter_map(|pane| Some((pane, pane.figure?))) {
+        assert!(FIGURES.iter().any(|listed| std::ptr::eq(*listed, kind)), "{}", pane.title);
+        assert_eq!(kind.key, pane.title.to_lowercase().replace(' ', "-"));
     }
 }
 

@@ -3,7 +3,7 @@
 use std::os::unix::fs::symlink;
 use std::time::SystemTime;
 
-use chromascope::files::write_atomically_with;
+use chromascope::atomic::write_atomically_with;
 
 use super::*;
 

@@ -90,7 +90,7 @@ fn white_and_transform(context: &PaneContext<'_>) -> Vec<Found> {
     let mut found = Vec::new();
     let transform = |words: String, to: TransformChoice| {
         let on = document.transform == to && document.correction.is_default_fit();
-        set(words, SceneAction::SetWay(to), on)
+        set(words, SceneAction::SetTransform(to), on)
     };
     found.push(transform("Color transform: paper matrix (Eq 13)".to_owned(), TransformChoice::Paper));
     for entry in context.scene.entries(SetKind::Observer) {

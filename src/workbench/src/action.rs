@@ -1,0 +1,410 @@
+//! Every change a user can make to the document. Undo is the previous document.
+
+pub mod history;
+
+use std::path::PathBuf;
+
+use chromascope_core::colorimetry::Metric;
+use chromascope_core::query::Shared;
+
+use crate::document::Pixel;
+use crate::document::correction::CorrectionChoice;
+use crate::document::imported::ImportedSet;
+use crate::document::names::BuiltInNames;
+use crate::document::names::PLACES;
+use crate::document::render::{BALANCE, MeshChoice, RenderSettings, SUN};
+use crate::document::start::Start;
+use crate::document::{
+    Diagram, Document, FIT_TARGET, LOCUS_RANGE_K, Light, MOST_COMPARED, Overlays, SetKind, Subset, TransformChoice,
+    WhiteBalanceChoice,
+};
+
+#[derive(Clone, Debug, PartialEq)]
+pub enum Action {
+    Compare(CompareAction),
+    Scene(SceneAction),
+    Render(RenderAction),
+    Imported(ImportedAction),
+    /// A choice of light or white balance made where pictures of their own light are visible: they take it too.
+    ForPictures(Box<Action>),
+    /// Begins again from a named start; imported sets stay.
+    Start(Start),
+    /// All back to the start that the document was made from; imported sets stay.
+    Reset,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+pub enum CompareAction {
+    Add(SetKind, String),
+    Remove(SetKind, String),
+    SetVisible(SetKind, String, bool),
+    /// Gives a sensor another label; an empty one takes it back.
+    Rename(SetKind, String, String),
+    /// Compares with another observer, adding it where it is not compared. A fitted color transform follows to an observer that
+    /// has XYZ color matching functions.
+    SetReference {
+        name: String,
+        /// True if its color matching functions are XYZ, so that it can be fitted to.
+        counts_in_xyz: bool,
+    },
+}
+
+#[derive(Clone, Debug, PartialEq)]
+pub enum SceneAction {
+    SetLight(Light),
+    /// Puts a filter in front of the light, or takes it away.
+    SetFilter(String, bool),
+    ClearFilters,
+    SetTemperature(f64),
+    /// Another full well and read noise, or none.
+    SetPixel(Option<Pixel>),
+    SetChart(String),
+    SetSubset(Subset),
+    SetWhite(WhiteBalanceChoice),
+    SetTransform(TransformChoice),
+    /// Another color correction; where Eq 13 was chosen, a transform is fitted to the default observer.
+    SetCorrection(CorrectionChoice),
+    SetDifference(Metric),
+    SetDiagram(Diagram),
+    SetOverlays(Overlays),
+}
+
+/// Changes to the rendered scene. The settings are independent numbers, so that a change consists of the new settings and the
+/// name of the changed one.
+#[derive(Clone, Debug, PartialEq)]
+pub enum RenderAction {
+    Set {
+        /// Name of the changed setting, as shown in the menu.
+        what: &'static str,
+        to: Box<RenderSettings>,
+    },
+    /// Selects the user's mesh file, which was read.
+    Open(PathBuf),
+    OpenImage(PathBuf),
+    /// The paper's Figure 8: the head under sunlight, balanced to D55.
+    Figure8,
+    Figure9,
+    /// Figure 8 in the paper's own setup: point light, Eq 12 in the paper's normalization.
+    PaperFigure8,
+    /// Figure 9 in the paper's own setup.
+    PaperFigure9,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+pub enum ImportedAction {
+    /// Adds imported sets. Cameras are added to the comparison, of several while the palette has room; light, filters and chart
+    /// stay. A name in use is replaced by a free one.
+    Import {
+        sets: Vec<ImportedSet>,
+        built_in: BuiltInNames,
+    },
+    /// Puts another version of a set in its place: another unit, role or name.
+    Replace {
+        name: String,
+        with: Box<ImportedSet>,
+        built_in: BuiltInNames,
+    },
+    /// Uses a set: as the light, as the chart, as a filter, in the comparison.
+    Use(SetKind, String),
+    /// Replaces some sets by other versions, as a step of the given name.
+    ReplaceAll {
+        what: String,
+        /// The names they had, and the sets as they are to be.
+        with: Vec<(String, ImportedSet)>,
+        /// Sets that are added and not used: a file came back in another role.
+        beside: Vec<ImportedSet>,
+        built_in: BuiltInNames,
+    },
+    Remove(String),
+}
+
+impl Action {
+    pub fn name(&self) -> String {
+        match self {
+            Self::Compare(action) => action.name(),
+            Self::Scene(action) => action.name(),
+            Self::Render(RenderAction::Open(path) | RenderAction::OpenImage(path)) => {
+                let name = path.file_name().unwrap_or(path.as_os_str());
+                format!("Open {}", name.to_string_lossy())
+            }
+            Self::Render(action) => action.name().to_owned(),
+            Self::Imported(action) => action.name(),
+            Self::ForPictures(action) => action.name(),
+            Self::Start(start) => format!("Start: {}", start.name()),
+            Self::Reset => "Reset to the first screen".to_owned(),
+        }
+    }
+
+    /// True if a change during the same drag belongs to the same step.
+    pub fn is_same_gesture(&self, next: &Self) -> bool {
+        if let (Self::Render(RenderAction::Set { what, .. }), Self::Render(RenderAction::Set { what: next, .. })) =
+            (self, next)
+        {
+            return what == next;
+        }
+        if let (Self::ForPictures(action), Self::ForPictures(next)) = (self, next) {
+            return action.is_same_gesture(next);
+        }
+        matches!(
+            (self, next),
+            (Self::Scene(SceneAction::SetTemperature(_)), Self::Scene(SceneAction::SetTemperature(_)))
+                | (Self::Scene(SceneAction::SetPixel(_)), Self::Scene(SceneAction::SetPixel(_)))
+                | (Self::Scene(SceneAction::SetWhite(_)), Self::Scene(SceneAction::SetWhite(_)))
+                | (Self::Scene(SceneAction::SetCorrection(_)), Self::Scene(SceneAction::SetCorrection(_)))
+        )
+    }
+
+    /// Changes the document. Pure: depends on the document and the action alone.
+    pub fn apply(&self, document: &mut Document) {
+        match self {
+            Self::Compare(action) => action.apply(document),
+            Self::Scene(action) => action.apply(document),
+            Self::Render(action) => action.apply(document),
+            Self::Imported(action) => action.apply(document),
+            Self::ForPictures(action) => {
+                document.render.sunlight = false;
+                action.apply(document);
+            }
+            Self::Start(start) => begin(document, *start),
+            Self::Reset => begin(document, document.start),
+        }
+    }
+}
+
+/// Begins again from a named start, with the imported sets available.
+fn begin(document: &mut Document, start: Start) {
+    let own = std::mem::take(&mut document.own);
+    let (session, unknown) = (document.session.take(), std::mem::take(&mut document.unknown));
+    *document = Document { own, session, unknown, ..start.document() };
+}
+
+impl CompareAction {
+    fn name(&self) -> String {
+        match self {
+            Self::Add(_, name) => format!("Compare {name}"),
+            Self::Remove(_, name) => format!("Remove {name} from comparison"),
+            Self::SetVisible(_, name, true) => format!("Show {name}"),
+            Self::SetVisible(_, name, false) => format!("Hide {name}"),
+            Self::Rename(_, name, _) => format!("Rename {name}"),
+            Self::SetReference { name, .. } => format!("Reference: {name}"),
+        }
+    }
+
+    fn apply(&self, document: &mut Document) {
+        match self {
+            Self::Add(kind, name) => document.compare(name, *kind),
+            Self::Remove(kind, name) => {
+                if *kind != SetKind::Observer || *name != document.reference {
+                    document.compared.retain(|c| c.kind != *kind || c.name != *name);
+                }
+            }
+            Self::SetVisible(kind, name, visible) => {
+                for compared in document.compared.iter_mut().filter(|c| c.kind == *kind && c.name == *name) {
+                    compared.visible = *visible;
+                }
+            }
+            Self::Rename(kind, name, label) => {
+                let label = label.trim();
+                for compared in document.compared.iter_mut().filter(|c| c.kind == *kind && c.name == *name) {
+                    compared.label = (!label.is_empty() && label != *name).then(|| label.to_owned());
+                }
+            }
+            Self::SetReference { name, counts_in_xyz } => {
+                document.compare(name, SetKind::Observer);
+                document.reference.clone_from(name);
+                if *counts_in_xyz && matches!(document.transform, TransformChoice::Observer(_)) {
+                    document.set_transform(TransformChoice::Observer(name.clone()));
+                }
+                for compared in document.compared.iter_mut().filter(|c| c.kind == SetKind::Observer && c.name == *name)
+                {
+                    compared.visible = true;
+                }
+            }
+        }
+    }
+}
+
+impl SceneAction {
+    fn name(&self) -> String {
+        match self {
+            Self::SetLight(Light::Set(name)) => format!("Illuminant: {name}"),
+            Self::SetLight(Light::BlackBody) => "Illuminant: blackbody".to_owned(),
+            Self::SetLight(Light::Daylight) => "Illuminant: daylight".to_owned(),
+            Self::SetFilter(name, true) => format!("Add filter {name}"),
+            Self::SetFilter(name, false) => format!("Remove filter {name}"),
+            Self::ClearFilters => "Remove all filters".to_owned(),
+            Self::SetTemperature(kelvin) => format!("Temperature: {kelvin:.0} K"),
+            Self::SetPixel(Some(pixel)) => format!("Pixel: {}", pixel.describe()),
+            Self::SetPixel(None) => "Pixel: not given".to_owned(),
+            Self::SetChart(name) => format!("Patches: {name}"),
+            Self::SetSubset(Subset::Five) => "Patches: five".to_owned(),
+            Self::SetSubset(Subset::All) => "Patches: all".to_owned(),
+            Self::SetWhite(white) => format!("White balance: {}", white.name()),
+            Self::SetTransform(TransformChoice::Paper) => "Color transform: paper matrix".to_owned(),
+            Self::SetTransform(TransformChoice::Observer(name)) => format!("Color transform: fitted to {name}"),
+            Self::SetCorrection(correction) => format!("Color correction: {}", correction.method.label()),
+            Self::SetDifference(metric) => format!("Difference: {}", metric.symbol),
+            Self::SetDiagram(Diagram::Xy) => "Diagram: xy".to_owned(),
+            Self::SetDiagram(Diagram::UvPrime) => "Diagram: u′v′".to_owned(),
+            Self::SetOverlays(_) => "Overlays of the diagram".to_owned(),
+        }
+    }
+
+    fn apply(&self, document: &mut Document) {
+        match self {
+            Self::SetLight(light) => {
+                document.light = light.clone();
+                // Daylight begins at 4000 K; a temperature from elsewhere would leave the scene without light.
+                if *light == Light::Daylight {
+                    document.temperature_k = document.temperature_k.max(4000.0);
+                }
+            }
+            Self::SetFilter(name, on) => document.set_filter(name, *on),
+            Self::ClearFilters => document.filters.clear(),
+            Self::SetTemperature(kelvin) if kelvin.is_finite() => {
+                let low = if document.light == Light::Daylight { 4000.0 } else { LOCUS_RANGE_K[0] };
+                document.temperature_k = kelvin.clamp(low, LOCUS_RANGE_K[1]);
+            }
+            Self::SetTemperature(_) => {}
+            Self::SetPixel(pixel) => document.pixel = pixel.filter(|pixel| pixel.electrons().is_ok()),
+            Self::SetChart(chart) => document.chart.clone_from(chart),
+            Self::SetSubset(subset) => document.subset = *subset,
+            Self::SetWhite(white) => document.white = white.clone(),
+            Self::SetTransform(transform) => document.set_transform(transform.clone()),
+            Self::SetCorrection(correction) => {
+                document.correction.clone_from(correction);
+                if document.transform.is_eq_13() {
+                    document.set_transform(TransformChoice::Observer(FIT_TARGET.to_owned()));
+                }
+            }
+            Self::SetDifference(difference) => document.difference = *difference,
+            Self::SetDiagram(diagram) => document.set_diagram(*diagram),
+            Self::SetOverlays(overlays) => document.overlays = *overlays,
+        }
+    }
+}
+
+impl RenderAction {
+    fn name(&self) -> &'static str {
+        match self {
+            Self::Set { what, .. } => what,
+            Self::Open(_) => "Open a mesh",
+            Self::OpenImage(_) => "Open a spectral image",
+            Self::Figure8 => "Figure 8",
+            Self::Figure9 => "Figure 9",
+            Self::PaperFigure8 => "Figure 8, as in the paper",
+            Self::PaperFigure9 => "Figure 9, as in the paper",
+        }
+    }
+
+    fn apply(&self, document: &mut Document) {
+        let figure = match self {
+            Self::Set { to, .. } => {
+                document.render.clone_from(to);
+                return;
+            }
+            Self::Open(path) => {
+                document.render.mesh = MeshChoice::File(path.clone());
+                return;
+            }
+            Self::OpenImage(path) => {
+                document.render.mesh = MeshChoice::Image(path.clone());
+                return;
+            }
+            Self::Figure8 => {
+                RenderSettings { specular: document.start.specular(), sky: 0.0, ..RenderSettings::default() }
+            }
+            Self::Figure9 => RenderSettings { specular: document.start.specular(), sky: 0.0, ..RenderSettings::fern() },
+            Self::PaperFigure8 => RenderSettings::default().as_in_the_paper(),
+            Self::PaperFigure9 => RenderSettings::fern().as_in_the_paper(),
+        };
+        document.render = RenderSettings { sunlight: false, ..figure };
+        document.light = Light::Set(SUN.to_owned());
+        document.white = WhiteBalanceChoice::Light(BALANCE.to_owned());
+    }
+}
+
+impl ImportedAction {
+    pub fn name(&self) -> String {
+        match self {
+            Self::Import { sets, .. } => match sets.as_slice() {
+                [one] => format!("Open {}", one.name),
+                many => format!("Open {} sets", many.len()),
+            },
+            Self::Replace { name, .. } => format!("Change {name}"),
+            Self::ReplaceAll { what, .. } => what.clone(),
+            Self::Use(kind, name) => match kind.used_as() {
+                Some(used) => format!("Use {name} as {used}"),
+                None => format!("Compare {name}"),
+            },
+            Self::Remove(name) => format!("Remove {name}"),
+        }
+    }
+
+    fn apply(&self, document: &mut Document) {
+        match self {
+            Self::Import { sets, built_in } => {
+                let most = if sets.len() == 1 { MOST_COMPARED } else { PLACES };
+                for set in sets {
+                    let set = add(document, set, built_in);
+                    document.compare_camera(&set, most);
+                }
+            }
+            Self::Use(kind, name) => {
+                let is_it = |set: &&Shared<ImportedSet>| SetKind::of_own(set) == *kind && set.name == *name;
+                if let Some(set) = document.own.iter().find(is_it).cloned() {
+                    document.put_to_use(&set);
+                }
+            }
+            Self::Replace { name, with, built_in } => replace(document, name, with, built_in),
+            Self::ReplaceAll { with, beside, built_in, .. } => {
+                for (name, with) in with {
+                    replace(document, name, with, built_in);
+                }
+                for set in beside {
+                    add(document, set, built_in);
+                }
+            }
+            Self::Remove(name) => {
+                let Some(index) = document.own.iter().position(|set| set.name == *name) else { return };
+                let set = document.own.remove(index);
+                document.forget_name(SetKind::of_own(&set), name);
+            }
+        }
+    }
+}
+
+/// Adds a set, or finds it: the file of a set that is opened again with the same contents leaves the set and the user's settings
+/// as they are; other contents in the same role replace the set's under its name.
+fn add(document: &mut Document, set: &ImportedSet, built_in: &BuiltInNames) -> Shared<ImportedSet> {
+    let Some(index) = document.same_set(set) else {
+        let name = document.free_name(SetKind::of_own(set), &set.name, None, built_in);
+        let set = Shared::new(ImportedSet { name, ..set.clone() });
+        document.own.push(set.clone());
+        return set;
+    };
+    let name = document.own[index].name.clone();
+    if set.fingerprint != document.own[index].fingerprint {
+        replace(document, &name, &ImportedSet { name: name.clone(), ..set.clone() }, built_in);
+    }
+    document.own[index].clone()
+}
+
+/// Replaces a set by another version. Its uses stay, unless its kind has changed.
+fn replace(document: &mut Document, name: &str, with: &ImportedSet, built_in: &BuiltInNames) {
+    let Some(index) = document.own.iter().position(|set| set.name == name) else { return };
+    let before = SetKind::of_own(&document.own[index]);
+    let mut set = Shared::new(with.clone());
+    let kind = SetKind::of_own(&set);
+    let free = document.free_name(kind, &set.name, Some(index), built_in);
+    if free != set.name {
+        set = Shared::new(ImportedSet { name: free, ..with.clone() });
+    }
+    document.own[index] = set.clone();
+    if kind != before {
+        document.forget_name(before, name);
+        document.compare_camera(&set, MOST_COMPARED);
+    } else if set.name != name {
+        document.follow_name(kind, name, &set.name);
+    }
+}

@@ -1,0 +1,307 @@
+//! Raw RGB recorded by a real camera, read from tables, with the spectra of its patches.
+//!
+//! ```text
+//! patch,R,G,B                    patch,R,G,B,400,410,…
+//! dark skin,812,655,410          dark skin,812,655,410,0.055,0.058,…
+//! ```
+//! One row per patch. Columns R, G and B (or red, green and blue) hold linear raw values, separated by commas, semicolons or tabs. An
+//! empty cell, `-` or NaN is a missing value. Lines that begin with `#` are comments. Without a header, three numbers per row are R, G
+//! and B. Further columns with wavelengths as headers form a spectral table, read as any other.
+
+use chromascope_core::camera::recorded::{RecordedPatch, Signal};
+use chromascope_core::spectral::GridSpectrum;
+
+use super::names::folded;
+
+/// Most rows of a table.
+const MAX_ROWS: usize = 100_000;
+
+#[derive(Clone, Debug, PartialEq)]
+pub struct RawRow {
+    /// Line of the file, from 1; patch of a picture, from 1.
+    pub line: usize,
+    pub name: Option<String>,
+    /// Red, green and blue; NaN where missing.
+    pub rgb: [f64; 3],
+}
+
+/// Raw values with their spectra.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RawTable {
+    pub rows: Vec<RawRow>,
+    /// The table's text without the columns R, G and B, if it contains spectra.
+    pub spectra: Option<String>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Levels {
+    /// Value of no light, subtracted.
+    pub black: f64,
+    /// Value from which on a channel is clipped, before black is subtracted.
+    pub clip: f64,
+}
+
+impl Default for Levels {
+    fn default() -> Self {
+        Self { black: 0.0, clip: f64::INFINITY }
+    }
+}
+
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum RawTableError {
+    #[error("no rows; expected columns patch,R,G,B")]
+    Empty,
+    #[error("line {line}: no columns R, G and B; head the columns of raw values so")]
+    Heads { line: usize },
+    #[error("line {line}: {found} cells for {expected} heads")]
+    Cells { line: usize, found: usize, expected: usize },
+    #[error("line {line}, column {column}: \"{text}\" is not a number; leave a missing value empty")]
+    Number { line: usize, column: usize, text: String },
+    #[error("more than {MAX_ROWS} rows")]
+    Long,
+}
+
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum JoinError {
+    #[error("line {line}: no spectrum is named \"{name}\"; there are {known}")]
+    Unknown {
+        line: usize,
+        name: String,
+        /// The first of the spectra's names.
+        known: String,
+    },
+    #[error("line {line}: \"{name}\" was named before; name each patch once")]
+    Twice { line: usize, name: String },
+    #[error(
+        "{rows} rows of raw values for {spectra} spectra; name the patches in a first column, or give one row for each spectrum"
+    )]
+    Count { rows: usize, spectra: usize },
+}
+
+/// `S L`.
+pub fn lit(reflectance: &GridSpectrum, light: &GridSpectrum) -> GridSpectrum {
+    let first = chromascope_core::spectral::grid::FIRST_NM;
+    GridSpectrum::from_fn(|nm| {
+        let index = (nm - first).round() as usize;
+        reflectance.values()[index] * light.values()[index]
+    })
+}
+
+fn delimiter(line: &str) -> char {
+    [',', ';', '\t'].into_iter().max_by_key(|c| line.matches(*c).count()).unwrap_or(',')
+}
+
+fn cells(line: &str, delimiter: char) -> Vec<String> {
+    let mut cells = vec![String::new()];
+    let mut quoted = false;
+    let mut signs = line.trim_end_matches('\r').chars().peekable();
+    while let Some(sign) = signs.next() {
+        let cell = cells.last_mut();
+        match (sign, cell) {
+            ('"', Some(cell)) if quoted && signs.peek() == Some(&'"') => {
+                cell.push('"');
+                signs.next();
+            }
+            ('"', _) => quoted = !quoted,
+            (sign, _) if sign == delimiter && !quoted => cells.push(String::new()),
+            (sign, Some(cell)) => cell.push(sign),
+            (_, None) => {}
+        }
+    }
+    cells.into_iter().map(|cell| cell.trim().to_owned()).collect()
+}
+
+/// A number of a cell, NaN for a missing one; none for text. A comma is a decimal mark where it does not separate.
+fn number(cell: &str, delimiter: char) -> Option<f64> {
+    if cell.is_empty() || cell == "-" || cell.eq_ignore_ascii_case("nan") {
+        return Some(f64::NAN);
+    }
+    let cell = if delimiter == ',' { cell.to_owned() } else { cell.replacen(',', ".", 1) };
+    cell.parse::<f64>().ok().filter(|value| value.is_finite())
+}
+
+/// Place of the three channels among the heads.
+fn channels(heads: &[String]) -> Option<[usize; 3]> {
+    let at = |names: [&str; 3]| heads.iter().position(|head| names.contains(&folded(head).as_str()));
+    Some([at(["r", "red", "rawr"])?, at(["g", "green", "rawg"])?, at(["b", "blue", "rawb"])?])
+}
+
+/// Column that names the patches: one headed so, or the first that is neither a channel nor a wavelength.
+fn name_column(heads: &[String], channels: [usize; 3], delimiter: char) -> Option<usize> {
+    let headed =
+        heads.iter().position(|head| ["patch", "name", "sample", "label", "id"].contains(&folded(head).as_str()));
+    let other = |at: &usize| !channels.contains(at) && number(&heads[*at], delimiter).is_none_or(f64::is_nan);
+    headed.or_else(|| (0..heads.len()).find(other))
+}
+
+/// Reads a table of raw values, with or without spectra.
+///
+/// # Errors
+///
+/// [`RawTableError`] with line and column.
+pub fn read_table(bytes: &[u8]) -> Result<RawTable, RawTableError> {
+    let text = String::from_utf8_lossy(bytes);
+    let text = text.trim_start_matches('\u{feff}');
+    let is_row = |line: &&str| !line.trim().is_empty() && !line.starts_with('#');
+    let (first, head) = text.lines().enumerate().find(|(_, line)| is_row(line)).ok_or(RawTableError::Empty)?;
+    let delimiter = delimiter(head);
+    let heads = cells(head, delimiter);
+    let headless = heads.len() == 3 && heads.iter().all(|cell| number(cell, delimiter).is_some_and(|v| !v.is_nan()));
+    let columns =
+        if headless { [0, 1, 2] } else { channels(&heads).ok_or(RawTableError::Heads { line: first + 1 })? };
+    let named = if headless { None } else { name_column(&heads, columns, delimiter) };
+    let has_spectra = (0..heads.len())
+        .filter(|at| !columns.contains(at) && Some(*at) != named)
+        .filter(|at| heads[*at].trim_end_matches("nm").trim().parse::<f64>().is_ok())
+        .count()
+        >= 2;
+    let mut rows = Vec::new();
+    let mut spectra = String::new();
+    for (index, line) in text.lines().enumerate() {
+        if index < first || !is_row(&line) {
+            spectra += line;
+            spectra.push('\n');
+            continue;
+        }
+        let cells = if index == first { heads.clone() } else { cells(line, delimiter) };
+        if has_spectra {
+            let kept = cells.iter().enumerate().filter(|(at, _)| !columns.contains(at));
+            let kept = kept.map(|(_, cell)| spectral_file::quoted(cell, delimiter));
+            spectra += &kept.collect::<Vec<_>>().join(&delimiter.to_string());
+            spectra.push('\n');
+        }
+        if index == first && !headless {
+            continue;
+        }
+        if rows.len() == MAX_ROWS {
+            return Err(RawTableError::Long);
+        }
+        rows.push(row(&cells, index + 1, heads.len(), columns, named, delimiter)?);
+    }
+    Ok(RawTable { rows, spectra: has_spectra.then_some(spectra) })
+}
+
+fn row(
+    cells: &[String],
+    line: usize,
+    expected: usize,
+    columns: [usize; 3],
+    named: Option<usize>,
+    delimiter: char,
+) -> Result<RawRow, RawTableError> {
+    if cells.len() != expected {
+        return Err(RawTableError::Cells { line, found: cells.len(), expected });
+    }
+    let mut rgb = [f64::NAN; 3];
+    for (value, column) in rgb.iter_mut().zip(columns) {
+        let cell = &cells[column];
+        *value = number(cell, delimiter).ok_or_else(|| {
+            let text = cell.chars().filter(|c| !c.is_control()).take(30).collect();
+            RawTableError::Number { line, column: column + 1, text }
+        })?;
+    }
+    let name = named.map(|at| cells[at].clone()).filter(|name| !name.is_empty());
+    Ok(RawRow { line, name, rgb })
+}
+
+/// Patches with spectrum and raw values: by name where every row has one, else in order. Spectra without a row are omitted.
+///
+/// # Errors
+///
+/// [`JoinError`] where a row has no spectrum.
+pub fn join(
+    spectra: &[(String, GridSpectrum)],
+    rows: &[RawRow],
+    levels: Levels,
+) -> Result<Vec<RecordedPatch>, JoinError> {
+    let patch = |(name, radiance): &(String, GridSpectrum), row: &RawRow| RecordedPatch {
+        name: name.clone(),
+        radiance: radiance.clone(),
+        rgb: row.rgb.map(|value| Signal::new(value - levels.black, levels.clip - levels.black)),
+    };
+    let same = |a: &str, b: &str| folded(a) == folded(b);
+    let in_order = rows.len() == spectra.len()
+        && spectra.iter().zip(rows).all(|((name, _), row)| row.name.as_deref().is_none_or(|own| same(own, name)));
+    if in_order || rows.iter().all(|row| row.name.is_none()) {
+        if rows.len() != spectra.len() {
+            return Err(JoinError::Count { rows: rows.len(), spectra: spectra.len() });
+        }
+        return Ok(spectra.iter().zip(rows).map(|(spectrum, row)| patch(spectrum, row)).collect());
+    }
+    let mut taken = vec![false; spectra.len()];
+    let mut patches = Vec::with_capacity(rows.len());
+    for row in rows {
+        let name = row.name.clone().unwrap_or_default();
+        let Some(at) = spectra.iter().position(|(known, _)| same(known, &name)) else {
+            let known: Vec<&str> = spectra.iter().take(5).map(|(name, _)| name.as_str()).collect();
+            let more = if spectra.len() > known.len() { ", …" } else { "" };
+            return Err(JoinError::Unknown { line: row.line, name, known: known.join(", ") + more });
+        };
+        if std::mem::replace(&mut taken[at], true) {
+            return Err(JoinError::Twice { line: row.line, name });
+        }
+        patches.push(patch(&spectra[at], row));
+    }
+    Ok(patches)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn rgb(table: &RawTable) -> Vec<[f64; 3]> {
+        table.rows.iter().map(|row| row.rgb).collect()
+    }
+
+    #[test]
+    fn tables_with_and_without_spectra() {
+        let table = read_table(b"# a comment\npatch;R;G;B\n\"a;b\";1,5;2;3\nc;;-;nan\n").expect("read");
+        assert_eq!(table.rows[0], RawRow { line: 3, name: Some("a;b".to_owned()), rgb: [1.5, 2.0, 3.0] });
+        assert!(table.rows[1].rgb.iter().all(|v| v.is_nan()) && table.spectra.is_none());
+        assert_eq!(rgb(&read_table(b"1\t2\t3\n4\t5\t6\n").expect("read")), [[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]]);
+        let table = read_table(b"name,400,blue,500,Red,green\nx,0.1,3,0.2,1,2\n").expect("read");
+        assert_eq!(rgb(&table), [[1.0, 2.0, 3.0]]);
+        assert_eq!(table.spectra.as_deref(), Some("name,400,500\nx,0.1,0.2\n"));
+    }
+
+    #[test]
+    fn broken_tables_name_line_and_column() {
+        let complaint = |text: &str| read_table(text.as_bytes()).expect_err("refused").to_string();
+        assert_eq!(complaint("# nothing\n"), "no rows; expected columns patch,R,G,B");
+        assert_eq!(complaint("patch,x,y\n"), "line 1: no columns R, G and B; head the columns of raw values so");
+        assert_eq!(complaint("patch,R,G,B\na,1,2\n"), "line 2: 3 cells for 4 heads");
+        let text = complaint("patch,R,G,B\na,1,two,3\n");
+        assert_eq!(text, "line 2, column 3: \"two\" is not a number; leave a missing value empty");
+        assert!(complaint("patch,R,G,B\na,inf,2,3\n").contains("\"inf\" is not a number"));
+    }
+
+    #[test]
+    fn rows_find_their_spectra_by_name_or_in_order() {
+        let spectra: Vec<(String, GridSpectrum)> =
+            ["Dark Skin", "b"].iter().map(|name| ((*name).to_owned(), GridSpectrum::constant(1.0))).collect();
+        let rows = |names: &[Option<&str>]| -> Vec<RawRow> {
+            let row = |(line, name): (usize, Option<&str>)| RawRow {
+                line: line + 1,
+                name: name.map(str::to_owned),
+                rgb: [line as f64 + 1.0; 3],
+            };
+            names.iter().copied().enumerate().map(row).collect()
+        };
+        let joined = |names: &[Option<&str>]| join(&spectra, &rows(names), Levels::default());
+        let values = |patches: Vec<RecordedPatch>| -> Vec<f64> {
+            patches.iter().map(|patch| patch.rgb[0].value().expect("read")).collect()
+        };
+        assert_eq!(values(joined(&[None, None]).expect("read")), [1.0, 2.0]);
+        let by_name = joined(&[Some("B"), Some("dark-skin")]).expect("read");
+        assert_eq!((by_name[0].name.as_str(), values(by_name.clone())), ("b", vec![1.0, 2.0]));
+        assert_eq!(joined(&[Some("b")]).expect("read").len(), 1);
+        assert_eq!(joined(&[None]), Err(JoinError::Count { rows: 1, spectra: 2 }));
+        assert!(joined(&[Some("c")]).expect_err("refused").to_string().contains("\"c\"; there are Dark Skin, b"));
+        assert!(matches!(joined(&[Some("b"), Some("b")]), Err(JoinError::Twice { line: 2, .. })));
+        let levels = Levels { black: 64.0, clip: 100.0 };
+        let row = RawRow { line: 1, name: Some("b".to_owned()), rgb: [65.0, 100.0, 64.0] };
+        let patch = &join(&spectra, &[row], levels).expect("read")[0];
+        let said = patch.rgb.map(|signal| signal.value().map_err(|why| why.to_string()));
+        assert_eq!(said, [Ok(1.0), Err("clipped".to_owned()), Err("zero or negative".to_owned())]);
+    }
+}

@@ -1,0 +1,174 @@
+//! Files of recorded raw values.
+
+use std::fs::File;
+use std::io::Read as _;
+use std::path::Path;
+
+use chromascope_core::camera::chart_grid::ChartGrid;
+use chromascope_core::camera::recorded::RecordedPatch;
+use chromascope_core::spectral::{GridSpectrum, Quantity, SpectralDistribution};
+use chromascope_figure::Image;
+use spectral_file::{Certainty, ReadOptions, Role};
+
+use super::chart_picture::ChartPicture;
+use super::file_store::{FileFailure, FileStore, FromFile, Unread};
+use super::recorded::{self, Levels, RawRow};
+use crate::format::{file_name, io_reason};
+
+/// Endings of pictures of charts.
+pub const PICTURES: [&str; 3] = ["tif", "tiff", "png"];
+const MAX_BYTES: u64 = 1 << 30;
+/// Longest side of a picture as it is shown.
+const SHOWN: usize = 1024;
+
+/// Spectra of the recorded patches.
+#[derive(Clone, Debug)]
+pub struct TableSpectra {
+    /// By the names of their patches.
+    pub curves: Vec<(String, SpectralDistribution)>,
+    /// True if they are radiances; false for reflectances.
+    pub are_radiances: bool,
+}
+
+#[derive(Debug)]
+pub enum RecordedContent {
+    /// A table, with spectra or without.
+    Table(Vec<RawRow>, Option<TableSpectra>),
+    /// A picture of a chart, and as it is shown.
+    Picture(ChartPicture, Image),
+}
+
+#[derive(Debug)]
+pub struct RecordedFile {
+    pub name: String,
+    pub content: RecordedContent,
+}
+
+pub type RecordedStore = FileStore<RecordedFile>;
+
+impl FromFile for RecordedFile {
+    type Failure = RecordedFailure;
+    type Version = ();
+    const THREAD: &'static str = "recorded";
+
+    fn read_unless(path: &Path, _: Option<()>, _: &dyn Fn() -> bool) -> Result<Option<(Self, ())>, RecordedFailure> {
+        read(path).map(|file| Some((file, ()))).map_err(RecordedFailure)
+    }
+
+    fn bytes(&self) -> usize {
+        match &self.content {
+            RecordedContent::Table(rows, _) => size_of_val(rows.as_slice()),
+            RecordedContent::Picture(picture, _) => picture.size().iter().product::<usize>() * size_of::<[f32; 3]>(),
+        }
+    }
+
+    fn summary(&self) -> &str {
+        &self.name
+    }
+}
+
+/// Reason that a file contains no values, with its name.
+#[derive(Debug, thiserror::Error)]
+#[error("{0}")]
+pub struct RecordedFailure(String);
+
+impl From<Unread> for RecordedFailure {
+    fn from(why: Unread) -> Self {
+        Self(why.to_string())
+    }
+}
+
+impl FileFailure for RecordedFailure {
+    fn on_opening(&self) -> String {
+        self.0.clone()
+    }
+
+    fn picture_message(&self) -> String {
+        self.0.clone()
+    }
+}
+
+/// Reads a table or a picture; the error is a message with the file's name.
+fn read(path: &Path) -> Result<RecordedFile, String> {
+    let name = file_name(path);
+    let failed = |why: String| format!("{name}: {why}");
+    let mut bytes = Vec::new();
+    let file = File::open(path).map_err(|error| failed(io_reason(&error)))?;
+    file.take(MAX_BYTES + 1).read_to_end(&mut bytes).map_err(|error| failed(io_reason(&error)))?;
+    if bytes.len() as u64 > MAX_BYTES {
+        return Err(failed(format!("larger than {} MB; cut or bin the picture", MAX_BYTES >> 20)));
+    }
+    let is_picture = path.extension().is_some_and(|own| PICTURES.iter().any(|ending| own.eq_ignore_ascii_case(ending)));
+    let content = if is_picture {
+        let picture = ChartPicture::decode(&bytes).map_err(|error| failed(error.to_string()))?;
+        let shown = picture.preview(SHOWN);
+        RecordedContent::Picture(picture, shown)
+    } else {
+        let table = recorded::read_table(&bytes).map_err(|error| failed(error.to_string()))?;
+        let spectra = table.spectra.as_deref().map(spectra).transpose().map_err(failed)?;
+        RecordedContent::Table(table.rows, spectra)
+    };
+    Ok(RecordedFile { name, content })
+}
+
+fn spectra(text: &str) -> Result<TableSpectra, String> {
+    let read = |role: Option<Role>| {
+        let options = ReadOptions { role, ..ReadOptions::default() };
+        spectral_file::read(text.as_bytes(), &options).map_err(|error| error.to_string())
+    };
+    let mut table = read(None)?;
+    // Beside the raw values of a chart, spectra that are no radiances are its reflectances.
+    if table.role.certainty == Certainty::Open {
+        table = read(Some(Role::Reflectance))?;
+    }
+    let are_radiances = table.role.value == Role::Illuminant;
+    let curve = |curve: &spectral_file::Curve| {
+        let spectrum = SpectralDistribution::new(curve.wavelengths_nm.clone(), curve.values.clone());
+        spectrum.map(|spectrum| (curve.name.clone(), spectrum)).map_err(|error| error.to_string())
+    };
+    Ok(TableSpectra { curves: table.curves.iter().map(curve).collect::<Result<_, _>>()?, are_radiances })
+}
+
+impl RecordedFile {
+    /// True if the chart and the light come from elsewhere.
+    pub fn needs_chart(&self) -> bool {
+        !matches!(&self.content, RecordedContent::Table(_, Some(_)))
+    }
+
+    /// Patches with spectra and raw values. `chart` is the current chart's radiances, `light` the current light, `corners` the chart's
+    /// corners in a picture.
+    ///
+    /// # Errors
+    ///
+    /// A message where values and spectra do not belong together.
+    pub fn patches(
+        &self,
+        chart: &[(String, GridSpectrum)],
+        light: &GridSpectrum,
+        corners: [[f64; 2]; 4],
+        levels: Levels,
+    ) -> Result<Vec<RecordedPatch>, String> {
+        let join = |spectra: &[(String, GridSpectrum)], rows: &[RawRow]| {
+            recorded::join(spectra, rows, levels).map_err(|error| error.to_string())
+        };
+        match &self.content {
+            RecordedContent::Table(rows, None) => join(chart, rows),
+            RecordedContent::Table(rows, Some(spectra)) => {
+                let radiance = |(name, curve): &(String, SpectralDistribution)| {
+                    let spectrum = if spectra.are_radiances {
+                        GridSpectrum::resample(curve, Quantity::Light)
+                    } else {
+                        recorded::lit(&GridSpectrum::resample(curve, Quantity::Reflectance), light)
+                    };
+                    (name.clone(), spectrum)
+                };
+                join(&spectra.curves.iter().map(radiance).collect::<Vec<_>>(), rows)
+            }
+            RecordedContent::Picture(picture, _) => {
+                let grid = ChartGrid::new(corners, 6, 4).map_err(|error| error.to_string())?;
+                let rows = picture.rows(&grid, levels).map_err(|error| error.to_string())?;
+                join(chart, &rows)
+            }
+        }
+    }
+}

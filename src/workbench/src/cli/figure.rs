@@ -1,0 +1,131 @@
+//! Figures for paper as PDF, SVG, PNG, TIFF, or the numbers behind them.
+
+pub(super) mod arguments;
+mod made;
+
+use std::path::Path;
+
+use chromascope_core::query::RecordedSet;
+use chromascope_figure::{Figure, Page};
+use clap::ArgMatches;
+
+use self::arguments::{FigureArguments, Range};
+use super::error::CliError;
+use super::identify::recorded_table;
+use super::outputs::{self, Stop};
+use super::pixel::LOCUS_K;
+use super::request::Request;
+use crate::document::{Document, LOCUS_RANGE_K, session};
+use crate::export::{FigureForm, Paper};
+use crate::figures::kind::Need;
+use crate::results::Results;
+use crate::scene::Scene;
+use crate::scene::conditions::CONDITIONS;
+
+/// Draws a figure and writes it.
+pub(super) fn run(arguments: &FigureArguments, matches: &ArgMatches) -> Result<(), CliError> {
+    let out = arguments.common.out.as_deref();
+    let form = out.and_then(FigureForm::of).ok_or_else(|| {
+        let reason = "a file that ends in .pdf, .svg, .png, .tif, .csv or .json is needed".to_owned();
+        CliError::Argument { argument: "--out", reason }
+    })?;
+    let mut request = Request::new(&arguments.common, matches)?;
+    let recorded = prepare(&mut request, arguments)?;
+    outputs::check(out, &request.inputs(), arguments.common.force)?;
+    let results = Results::default();
+    let scene = Scene { document: &request.document, catalog: &request.catalog, results: &results };
+    let paper = arguments.paper.paper();
+    let kind = arguments.kind.0.ok_or_else(|| {
+        let reason = "skipped work is a table: `chromascope render --stats -`, or Statistics in Numerics".to_owned();
+        CliError::Argument { argument: "KIND", reason }
+    })?;
+    let mut look = made::look((kind, arguments.viewpoint), &scene, (&paper, recorded))?;
+    if let Range::Of(ranges) = arguments.paper.range {
+        look.diagram.zoomed = Some(ranges);
+    }
+    let figure = kind.on_paper(&paper, &scene, &look).ok_or_else(|| {
+        let reason = "there is nothing to draw: no camera is compared, or it cannot be computed".to_owned();
+        CliError::Argument { argument: "KIND", reason }
+    })?;
+    check_height(&figure, &paper, form)?;
+    let cells: Vec<_> = CONDITIONS.into_iter().zip(scene.conditions()).collect();
+    let bytes = form.bytes(&figure, &figure.table.clone().with_constants(&cells), &paper)?;
+    outputs::stream(out, |out| out.write_all(&bytes).map_err(Stop::Output))
+}
+
+/// Completes the document: the session or the sensors compared, a file's content, the mesh. Returns recorded raw values.
+fn prepare(request: &mut Request, arguments: &FigureArguments) -> Result<Option<RecordedSet>, CliError> {
+    request.set_chart(arguments.chart.as_deref())?;
+    if let Some(light) = &arguments.second_light {
+        request.set_second_light(light)?;
+    }
+    if let Some(path) = &arguments.session {
+        request.document = opened(request, path)?;
+    } else {
+        let Request { document, sources, .. } = request;
+        for (kind, name) in sources.iter() {
+            document.compare(name, *kind);
+        }
+    }
+    set_temperature(&mut request.document, arguments)?;
+    if let Some(pixel) = arguments.pixel.pixel()? {
+        request.document.pixel = Some(pixel);
+    }
+    if let Some(mesh) = &arguments.mesh {
+        made::set_mesh(&mut request.document, mesh)?;
+    }
+    match (&arguments.file, arguments.kind.0.map(|kind| kind.needs)) {
+        (None, _) => Ok(None),
+        (Some(path), Some(Need::Recorded)) => recorded_table(request, path).map(Some),
+        (Some(path), Some(Need::Curves)) => made::open_curves(request, path).map(|()| None),
+        (Some(_), _) => {
+            let reason = "only `curves` and `recorded` are of a file".to_owned();
+            Err(CliError::Argument { argument: "FILE", reason })
+        }
+    }
+}
+
+/// Chooses the temperature that marks the loci and that locus metrics are of.
+fn set_temperature(document: &mut Document, arguments: &FigureArguments) -> Result<(), CliError> {
+    let refused = |reason: String| CliError::Argument { argument: "--temperature", reason };
+    let [low, high] = LOCUS_RANGE_K;
+    match (arguments.temperature, document.radiator_k()) {
+        (Some(wanted), _) if !(low..=high).contains(&wanted) => {
+            Err(refused(format!("{wanted} is out of range; use kelvins from {low} to {high}")))
+        }
+        (Some(wanted), Some(of_light)) if wanted != of_light => {
+            Err(refused(format!("the light's own temperature, {of_light} K, marks the loci; leave --temperature out")))
+        }
+        (Some(wanted), _) => {
+            document.temperature_k = wanted;
+            Ok(())
+        }
+        (None, None) if arguments.session.is_none() && arguments.kind.0.is_some_and(|kind| kind.is_of_metrics) => {
+            document.temperature_k = LOCUS_K;
+            Ok(())
+        }
+        (None, _) => Ok(()),
+    }
+}
+
+/// Refuses a height that a figure cannot take, because its rows or pictures have theirs.
+fn check_height(figure: &Figure, paper: &Paper, form: FigureForm) -> Result<(), CliError> {
+    let Some(wanted) = paper.height_mm.filter(|_| !form.is_numbers()) else { return Ok(()) };
+    let height = Page::new(figure, &paper.page_style()).area.height() * paper.scale() / 72.0 * 25.4;
+    if (height - wanted).abs() < 1.0 {
+        return Ok(());
+    }
+    let reason = format!("at this width and size of text the figure is {height:.0} mm high; leave --height out");
+    Err(CliError::Argument { argument: "--height", reason })
+}
+
+fn opened(request: &mut Request, path: &Path) -> Result<Document, CliError> {
+    let failed = |reason: String| CliError::File(format!("{}: {reason}", super::request::display_path(path)));
+    let text = String::from_utf8(request.bytes(path)?).map_err(|_| failed("it is not text".to_owned()))?;
+    let mut document = session::from_json(&text).map_err(|error| failed(error.to_string()))?;
+    // A session names a mesh without its folder: it is beside it.
+    if let (Some(mesh), Some(folder)) = (document.render.mesh.file_mut(), path.parent()) {
+        *mesh = folder.join(&*mesh);
+    }
+    Ok(document)
+}

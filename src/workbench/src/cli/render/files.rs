@@ -1,0 +1,59 @@
+//! Folder and names of pictures, and patience while they are made.
+
+use std::fs;
+use std::io::{self, IsTerminal as _};
+use std::path::{Path, PathBuf};
+use std::sync::mpsc::{RecvTimeoutError, channel};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use super::arguments::RenderArguments;
+use crate::atomic::fitting;
+use crate::cli::error::CliError;
+use crate::format::slug;
+use crate::scene::ComparedSensor;
+use crate::terminal::say;
+
+/// Runs work, with a message on a terminal every 3 s that it still runs.
+pub(in crate::cli) fn patiently<T>(what: &'static str, work: impl FnOnce() -> T) -> T {
+    const EVERY: Duration = Duration::from_secs(3);
+    let (done, end) = channel::<()>();
+    if io::stderr().is_terminal() {
+        let start = Instant::now();
+        let wait = move || {
+            while end.recv_timeout(EVERY) == Err(RecvTimeoutError::Timeout) {
+                say(&format!("chromascope: still {what} after {} s\n", start.elapsed().as_secs()));
+            }
+        };
+        // Without a thread there are no messages.
+        let _silent = thread::Builder::new().name("patience".to_owned()).spawn(wait);
+    }
+    let result = work();
+    drop(done);
+    result
+}
+
+/// Makes the folder of the pictures.
+pub(in crate::cli) fn make_folder(folder: &Path) -> Result<(), CliError> {
+    if folder.as_os_str().is_empty() || folder.is_dir() {
+        return Ok(());
+    }
+    if folder.exists() {
+        let reason = format!("{} is a file; name a folder (pictures are named automatically)", folder.display());
+        return Err(CliError::Argument { argument: "--out", reason });
+    }
+    fs::create_dir_all(folder).map_err(|error| CliError::Output { path: folder.to_owned(), error })
+}
+
+/// A file for each sensor, no two alike.
+pub(super) fn file_names(arguments: &RenderArguments, mesh: &str, sources: &[ComparedSensor]) -> Vec<PathBuf> {
+    let here = arguments.out == Path::new(".");
+    let mut taken: Vec<String> = Vec::new();
+    for source in sources {
+        let stem = format!("{}_{}", slug(mesh), slug(&source.label));
+        let numbered = |number: &str| fitting(&stem, &format!("{number}.{}", arguments.format.ending()));
+        let numbers = std::iter::once(String::new()).chain((2_u32..).map(|number| format!("-{number}")));
+        taken.extend(numbers.map(|number| numbered(&number)).find(|name| !taken.contains(name)));
+    }
+    taken.into_iter().map(|name| if here { PathBuf::from(name) } else { arguments.out.join(name) }).collect()
+}

@@ -1,0 +1,507 @@
+//! Conversion of arguments to a document: names and files become sensors and conditions.
+
+use std::ffi::{OsStr, OsString};
+use std::fs;
+use std::io::{self, Read as _};
+use std::path::{Path, PathBuf};
+
+use chromascope_core::correction::CorrectionMethod;
+use chromascope_core::query::Shared;
+use chromascope_core::units::Kelvin;
+use clap::ArgMatches;
+use spectral_file::{Certainty, MAX_BYTES, ReadError, Values};
+
+use super::arguments::{CommonArguments, SourceArguments, Transform};
+use super::checks;
+use super::error::CliError;
+use super::fit::FitArguments;
+use super::outputs::is_descriptor;
+use super::per::Per;
+use crate::catalog::import::{Origin, imported};
+use crate::catalog::names::{Found, find, telling_words};
+use crate::catalog::{Catalog, Entry};
+use crate::document::correction::CorrectionChoice;
+use crate::document::imported::{ImportOverrides, ImportedSet, Role};
+use crate::document::render::{LEAF, MeshChoice, SKIN};
+use crate::document::start::Start;
+use crate::document::{CHART, CIE_1931, Document, FIVE, Light, SetKind, Subset, TransformChoice, WhiteBalanceChoice};
+use crate::format::io_reason;
+use crate::terminal::say;
+
+/// Kinds of sets of reflectances.
+const REFLECTANCES: [SetKind; 2] = [SetKind::Chart, SetKind::Material];
+
+/// Document made from arguments, and the sensors in the order they were named.
+pub(super) struct Request {
+    /// Document made from the arguments.
+    pub(super) document: Document,
+    /// The built-in sets.
+    pub(super) catalog: Catalog,
+    /// The requested sensors.
+    pub(super) sources: Vec<(SetKind, String)>,
+    /// The start used where nothing was named.
+    pub(super) preset: Start,
+    /// Quantity of the values in reflectance files, if given.
+    pub(super) values: Option<Values>,
+    per: Option<Per>,
+    read: Vec<PathBuf>,
+}
+
+impl Request {
+    /// Reads the arguments that both tables take. `matches` knows in which order sensors were named.
+    pub(super) fn new(arguments: &CommonArguments, matches: &ArgMatches) -> Result<Self, CliError> {
+        let mut request = Self::of_sources(&arguments.sources, matches)?;
+        if let Some(illuminant) = &arguments.illuminant {
+            request.set_light(illuminant)?;
+        }
+        request.set_filters(&arguments.filter)?;
+        if let Some(white) = &arguments.white {
+            request.set_white(white)?;
+        }
+        Ok(request)
+    }
+
+    /// Reads sensors, reference and color transform; the rest is the preset's.
+    pub(super) fn of_sources(arguments: &SourceArguments, matches: &ArgMatches) -> Result<Self, CliError> {
+        let mut request = Self::of_preset(arguments.preset, arguments.per);
+        request.sources = request.named_sources(arguments, matches)?;
+        request.check_per("--camera")?;
+        request.set_transform(arguments)?;
+        if arguments.names_no_sensor() {
+            request.sources = request.presets_sources();
+        }
+        Ok(request)
+    }
+
+    /// Cameras alone, under a preset.
+    pub(super) fn of_cameras(
+        preset: Start,
+        argument: &'static str,
+        cameras: &[OsString],
+        per: Option<Per>,
+    ) -> Result<Self, CliError> {
+        let mut request = Self::of_preset(preset, per);
+        let camera = |name: &OsString| Ok((SetKind::Camera, request.camera(argument, name)?));
+        request.sources = cameras.iter().map(camera).collect::<Result<_, CliError>>()?;
+        request.check_per(argument)?;
+        Ok(request)
+    }
+
+    /// A preset's conditions, with nothing to compare.
+    fn of_preset(preset: Start, per: Option<Per>) -> Self {
+        let document = Document { compared: Vec::new(), ..preset.document() };
+        let (catalog, sources, read) = (Catalog::built_in(), Vec::new(), Vec::new());
+        Self { document, catalog, sources, preset, values: None, per, read }
+    }
+
+    /// Refuses a unit of sensitivities where none are from a file.
+    fn check_per(&self, cameras: &str) -> Result<(), CliError> {
+        if self.per.is_none() || !self.document.own.is_empty() {
+            return Ok(());
+        }
+        let reason = format!("only sensitivities from a file can be taken otherwise; give {cameras} a file");
+        Err(CliError::Argument { argument: "--per", reason })
+    }
+
+    /// The preset's sensors, with the reference that was named in the place of the preset's.
+    fn presets_sources(&self) -> Vec<(SetKind, String)> {
+        let mut sources = vec![(SetKind::Observer, self.document.reference.clone())];
+        for (name, kind) in self.preset.sensors().iter().skip(1) {
+            let sensor = (*kind, (*name).to_owned());
+            if !sources.contains(&sensor) {
+                sources.push(sensor);
+            }
+        }
+        sources
+    }
+
+    /// Files that were read or are going to be: none of them may be written over.
+    pub(super) fn inputs(&self) -> Vec<PathBuf> {
+        let mesh = match &self.document.render.mesh {
+            MeshChoice::File(path) => Some(path.clone()),
+            _ => None,
+        };
+        self.read.iter().cloned().chain(mesh).collect()
+    }
+
+    fn named_sources(
+        &mut self,
+        arguments: &SourceArguments,
+        matches: &ArgMatches,
+    ) -> Result<Vec<(SetKind, String)>, CliError> {
+        let places = |id: &str| matches.indices_of(id).into_iter().flatten().collect::<Vec<usize>>();
+        let observers = arguments.observer.iter().map(OsStr::new);
+        let observers = places("observer").into_iter().zip(observers).map(|(at, name)| (at, SetKind::Observer, name));
+        let cameras = arguments.camera.iter().map(OsString::as_os_str);
+        let cameras = places("camera").into_iter().zip(cameras).map(|(at, name)| (at, SetKind::Camera, name));
+        let mut named: Vec<_> = observers.chain(cameras).collect();
+        named.sort_by_key(|(at, ..)| *at);
+        named
+            .into_iter()
+            .map(|(_, kind, name)| {
+                let found = match kind {
+                    SetKind::Camera => self.camera("--camera", name)?,
+                    _ => self.name("--observer", &[kind], &name.to_string_lossy())?,
+                };
+                Ok((kind, found))
+            })
+            .collect()
+    }
+
+    fn set_transform(&mut self, arguments: &SourceArguments) -> Result<(), CliError> {
+        if let Some(reference) = &arguments.reference {
+            self.document.reference = self.name("--reference", &[SetKind::Observer], reference)?;
+        }
+        let names_fit = arguments.names_fit();
+        let fitted = match (arguments.transform, names_fit) {
+            (Some(Transform::Paper), Some(argument)) => {
+                let reason = "the paper's matrix is not fitted; add --transform fitted".to_owned();
+                return Err(CliError::Argument { argument, reason });
+            }
+            (Some(transform), _) => transform == Transform::Fitted,
+            (None, Some(_)) => true,
+            (None, None) => self.document.transform != TransformChoice::Paper,
+        };
+        self.set_correction(arguments.correction.unwrap_or_default(), &arguments.fit)?;
+        let reference = self.catalog.get(SetKind::Observer, &self.document.reference);
+        let transform = match &arguments.fit_to {
+            _ if !fitted => TransformChoice::Paper,
+            Some(target) => TransformChoice::Observer(self.name("--fit-to", &[SetKind::Observer], target)?),
+            None if reference.is_some_and(Entry::counts_in_xyz) => {
+                TransformChoice::Observer(self.document.reference.clone())
+            }
+            None => TransformChoice::Observer(CIE_1931.to_owned()),
+        };
+        self.document.set_transform(transform);
+        Ok(())
+    }
+
+    fn camera(&mut self, argument: &'static str, given: &OsStr) -> Result<String, CliError> {
+        self.set_or_file(argument, &[SetKind::Camera], Role::Camera, given)
+    }
+
+    /// The name of a set of these kinds, or of the file of one.
+    fn set_or_file(
+        &mut self,
+        argument: &'static str,
+        kinds: &[SetKind],
+        role: Role,
+        given: &OsStr,
+    ) -> Result<String, CliError> {
+        if self.means_file(argument, kinds, given) {
+            return Ok(self.open(Path::new(given), role)?.name.clone());
+        }
+        match kinds {
+            [SetKind::Illuminant] => self.illuminant(argument, &given.to_string_lossy()),
+            _ => self.name(argument, kinds, &given.to_string_lossy()),
+        }
+    }
+
+    /// Chooses the observer that color transforms are fitted to.
+    pub(super) fn set_fit_target(&mut self, target: &str) -> Result<(), CliError> {
+        let target = self.name("--fit-to", &[SetKind::Observer], target)?;
+        self.document.set_transform(TransformChoice::Observer(target));
+        Ok(())
+    }
+
+    /// Chooses how color transforms are fitted.
+    pub(super) fn set_correction(&mut self, method: CorrectionMethod, fit: &FitArguments) -> Result<(), CliError> {
+        let mut choice = CorrectionChoice { method, keeps_white: !fit.free_white, ..CorrectionChoice::default() };
+        for (class, weight) in &fit.weights {
+            choice.weights[*class as usize] = *weight;
+        }
+        if let Some(training) = &fit.training {
+            choice.training = self.set_or_file("--training", &REFLECTANCES, Role::Reflectance, training)?;
+        }
+        self.document.correction = choice;
+        Ok(())
+    }
+
+    /// Chooses the second calibration light.
+    pub(super) fn set_second_light(&mut self, given: &OsStr) -> Result<(), CliError> {
+        self.document.correction.second_light = Some(self.light_named("--second-illuminant", given)?);
+        Ok(())
+    }
+
+    /// The name of an illuminant, of the file of one, or of a formula with its temperature.
+    pub(super) fn light_named(&mut self, argument: &'static str, given: &OsStr) -> Result<String, CliError> {
+        match radiator(argument, &given.to_string_lossy())? {
+            Some((light, kelvin)) => Ok(format!("{} {kelvin} K", light.name())),
+            None => self.set_or_file(argument, &[SetKind::Illuminant], Role::Illuminant, given),
+        }
+    }
+
+    /// True if an argument is a file path. A built-in set's name refers to that set even if a file of that name exists.
+    fn means_file(&self, argument: &str, kinds: &[SetKind], given: &OsStr) -> bool {
+        let typed = given.to_string_lossy();
+        let built_in = kinds.iter().any(|kind| self.catalog.get(*kind, &typed).is_some());
+        if built_in && Path::new(given).is_file() {
+            say(&format!(
+                "chromascope: {argument} \"{typed}\": using the built-in data set; for the file, write ./{typed}\n"
+            ));
+        }
+        !built_in && is_file(given)
+    }
+
+    /// Chooses the light.
+    pub(super) fn set_light(&mut self, given: &OsStr) -> Result<(), CliError> {
+        if let Some((light, kelvin)) = radiator("--illuminant", &given.to_string_lossy())? {
+            self.document.light = if light == Radiator::Daylight { Light::Daylight } else { Light::BlackBody };
+            self.document.temperature_k = kelvin;
+            return Ok(());
+        }
+        let name = self.set_or_file("--illuminant", &[SetKind::Illuminant], Role::Illuminant, given)?;
+        self.document.light = Light::Set(name);
+        Ok(())
+    }
+
+    /// Puts filters in front of the light.
+    pub(super) fn set_filters(&mut self, filters: &[OsString]) -> Result<(), CliError> {
+        for given in filters {
+            let name = self.set_or_file("--filter", &[SetKind::Filter], Role::Transmittance, given)?;
+            if self.document.filters.contains(&name) {
+                let reason = format!("{name} is there already; a filter can be used once");
+                return Err(CliError::Argument { argument: "--filter", reason });
+            }
+            self.document.filters.push(name);
+        }
+        Ok(())
+    }
+
+    /// Chooses the patches.
+    pub(super) fn set_chart(&mut self, chart: Option<&OsStr>) -> Result<(), CliError> {
+        let Some(chart) = chart else { return Ok(()) };
+        if self.means_file("--chart", &REFLECTANCES, chart) {
+            self.document.subset = Subset::All;
+            let set = self.open(Path::new(chart), Role::Reflectance)?;
+            self.document.chart.clone_from(&set.name);
+            return Ok(());
+        }
+        let found = self.chart_name(&chart.to_string_lossy())?;
+        if found == FIVE {
+            self.document.subset = Subset::Five;
+            CHART.clone_into(&mut self.document.chart);
+        } else {
+            self.document.subset = Subset::All;
+            self.document.chart = found;
+        }
+        Ok(())
+    }
+
+    /// The name of a reflectance of what is rendered.
+    pub(super) fn material(&mut self, argument: &'static str, given: &OsStr) -> Result<String, CliError> {
+        let material = &*given.to_string_lossy();
+        Ok(match material.to_ascii_lowercase().as_str() {
+            "skin" => SKIN.to_owned(),
+            "leaf" => LEAF.to_owned(),
+            _ if self.means_file(argument, &[SetKind::Material, SetKind::Chart], given) => {
+                let set = self.open(Path::new(given), Role::Reflectance)?;
+                if let [first, _, ..] = set.curves.as_slice() {
+                    let count = set.curves.len();
+                    say(&format!("chromascope: {material}: {count} reflectances; using the first, {}\n", first.name));
+                }
+                set.name.clone()
+            }
+            _ => self.name(argument, &[SetKind::Material], material)?,
+        })
+    }
+
+    /// The name of a chart or a material, or [`FIVE`].
+    fn chart_name(&self, typed: &str) -> Result<String, CliError> {
+        let five = self.catalog.get(SetKind::Chart, CHART).map(|chart| Entry {
+            name: FIVE.to_owned(),
+            short: FIVE.to_owned(),
+            ..chart.clone()
+        });
+        let sets = REFLECTANCES.into_iter().flat_map(|kind| self.catalog.of_kind(kind));
+        let found = find(sets.chain(&five), "chart", typed)?;
+        tell("--chart", typed, &found);
+        Ok(found.entry.name.clone())
+    }
+
+    /// Chooses the white-balance target.
+    pub(super) fn set_white(&mut self, white: &str) -> Result<(), CliError> {
+        self.document.white = match radiator("--white-balance", white)? {
+            Some((Radiator::Daylight, kelvin)) => WhiteBalanceChoice::Daylight(kelvin),
+            Some((Radiator::BlackBody, kelvin)) => WhiteBalanceChoice::BlackBody(kelvin),
+            None if white.trim().eq_ignore_ascii_case("unity") => WhiteBalanceChoice::Unity,
+            None => WhiteBalanceChoice::Light(self.illuminant("--white-balance", white)?),
+        };
+        Ok(())
+    }
+
+    /// The catalog's name for an illuminant. A formula without its temperature is no name for a measured set.
+    fn illuminant(&self, argument: &'static str, typed: &str) -> Result<String, CliError> {
+        let number = typed.trim().trim_end_matches(['K', 'k']).trim_end();
+        if let Some(kelvin) = number.parse::<f64>().ok().filter(|kelvin| *kelvin >= 500.0) {
+            let reason = format!(
+                "\"{typed}\" is a temperature, which many lights have; write daylight:{kelvin} or blackbody:{kelvin}"
+            );
+            return Err(CliError::Argument { argument, reason });
+        }
+        let formula = match telling_words(typed).concat().as_str() {
+            "daylight" => "daylight",
+            "blackbody" | "planckian" | "planckianradiator" => "blackbody",
+            _ => return self.name(argument, &[SetKind::Illuminant], typed),
+        };
+        let sets = self.catalog.of_kind(SetKind::Illuminant).map(|entry| entry.name.as_str());
+        let sets: Vec<&str> = sets.filter(|name| name.to_lowercase().starts_with(formula)).collect();
+        let or =
+            if sets.is_empty() { String::new() } else { format!(", or the full name of a set: {}", sets.join(", ")) };
+        let reason = format!("\"{typed}\" needs a temperature; write {formula}:5500{or}");
+        Err(CliError::Argument { argument, reason })
+    }
+
+    /// The catalog's name for the typed one; a difference is reported.
+    fn name(&self, argument: &str, kinds: &[SetKind], typed: &str) -> Result<String, CliError> {
+        let sets = kinds.iter().flat_map(|kind| self.catalog.of_kind(*kind));
+        let found = find(sets, kinds.first().map_or("", |kind| kind.singular()), typed)?;
+        tell(argument, typed, &found);
+        Ok(found.entry.name.clone())
+    }
+
+    /// Reads a file as a set of the document's own, under a name that no other set has; says what had to be guessed.
+    fn open(&mut self, path: &Path, role: Role) -> Result<Shared<ImportedSet>, CliError> {
+        let known = self.document.own.iter().find(|own| own.path.as_deref() == Some(path) && own.role == role);
+        if let Some(known) = known {
+            return Ok(known.clone());
+        }
+        let mut set = self.read(path, role)?;
+        checks::curves(&set)?;
+        let kind = SetKind::of_own(&set);
+        if self.document.holder_of(kind, &set.name, None, self.catalog.names()).is_some() {
+            set.name = format!("{} ({})", set.name, display_path(path));
+        }
+        let set = Shared::new(set);
+        self.document.own.push(set.clone());
+        Ok(set)
+    }
+
+    /// Reads a file with all its curves; says what had to be guessed.
+    pub(super) fn read(&mut self, path: &Path, role: Role) -> Result<ImportedSet, CliError> {
+        let bytes = self.bytes(path)?;
+        self.read_bytes(path, &bytes, role)
+    }
+
+    /// The bytes of a file that is then an input.
+    pub(super) fn bytes(&mut self, path: &Path) -> Result<Vec<u8>, CliError> {
+        self.read.push(path.to_owned());
+        read(path).map_err(|error| CliError::File(format!("{}: {}", display_path(path), io_reason(&error))))
+    }
+
+    /// Reads bytes of a file with all its curves; says what had to be guessed.
+    pub(super) fn read_bytes(&mut self, path: &Path, bytes: &[u8], role: Role) -> Result<ImportedSet, CliError> {
+        let file = display_path(path);
+        let mut overrides = ImportOverrides::for_role(Some(role));
+        overrides.options.values = self.values.filter(|_| role.is_fraction());
+        let origin = Origin::on_disk(&file, path, bytes);
+        let table = spectral_file::read(origin.source(bytes), &overrides.options)
+            .map_err(|error| CliError::File(format!("{file}: {error}")))?;
+        checks::quantity(&file, role, &table)?;
+        let table = table.usable().map_err(|error| CliError::File(format!("{file}: {error}")))?;
+        checks::channels(&file, role, &table)?;
+        overrides.taken = Some((0..table.curves.len()).collect());
+        if role == Role::Camera {
+            overrides.per_photon = self.per.map(|per| per == Per::Photon);
+        }
+        let imported = imported(&origin, &table, &overrides);
+        if imported.guessed || !table.warnings.is_empty() {
+            say(&format!("chromascope: {}\n", imported.message));
+        }
+        let response = table.reading.per_photon.as_ref().filter(|_| role == Role::Camera && self.per.is_none());
+        if let Some(response) = response.filter(|response| response.certainty == Certainty::Guess) {
+            let what = if response.value { "photon" } else { "energy" };
+            say(&format!(
+                "chromascope: {file}: assumed to be responses per {what}; set --per energy or --per photon\n"
+            ));
+        }
+        Ok(imported.set)
+    }
+}
+
+/// A path for people, on one line.
+pub(super) fn display_path(path: &Path) -> String {
+    spectral_file::on_one_line(&path.to_string_lossy()).into_owned()
+}
+
+/// Reports the match of an inexact name.
+fn tell(argument: &str, typed: &str, found: &Found<'_>) {
+    if let Some(note) = found.note() {
+        say(&format!("chromascope: {argument} \"{typed}\": {note}\n"));
+    }
+}
+
+/// A file's bytes, truncated just beyond the limit if it is too large. Pipes, sockets and devices are rejected, as in a folder:
+/// they may never end. File descriptors opened by the shell (`<(...)`) are read.
+pub(super) fn read(path: &Path) -> io::Result<Vec<u8>> {
+    let known = fs::metadata(path)?;
+    if !(known.is_file() || known.is_dir() || is_shells(path, &known)) {
+        let why = "named pipes, sockets and devices are not supported; redirect to standard input and use \
+                   /dev/stdin, or `-` with inspect";
+        return Err(io::Error::new(io::ErrorKind::InvalidInput, why));
+    }
+    if known.is_file() && known.len() > MAX_BYTES as u64 {
+        let megabytes = known.len().div_ceil(1 << 20) as usize;
+        return Err(io::Error::other(ReadError::TooLarge { megabytes, limit: MAX_BYTES >> 20 }));
+    }
+    let mut bytes = Vec::new();
+    fs::File::open(path)?.take(MAX_BYTES as u64 + 1).read_to_end(&mut bytes)?;
+    Ok(bytes)
+}
+
+/// True if a path is a pipe that the shell holds open for this command.
+#[cfg(unix)]
+fn is_shells(path: &Path, known: &fs::Metadata) -> bool {
+    use std::os::unix::fs::FileTypeExt as _;
+    (is_descriptor(path) || path == Path::new("/dev/stdin")) && known.file_type().is_fifo()
+}
+
+#[cfg(not(unix))]
+fn is_shells(_: &Path, _: &fs::Metadata) -> bool {
+    false
+}
+
+/// A light that is a formula of temperature.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Radiator {
+    Daylight,
+    BlackBody,
+}
+
+impl Radiator {
+    /// Its name where it is named with its temperature.
+    const fn name(self) -> &'static str {
+        match self {
+            Self::Daylight => "daylight",
+            Self::BlackBody => "blackbody",
+        }
+    }
+}
+
+/// `daylight:K` and `blackbody:K`.
+fn radiator(argument: &'static str, text: &str) -> Result<Option<(Radiator, f64)>, CliError> {
+    let Some((name, kelvin)) = text.split_once(':') else { return Ok(None) };
+    let radiator = match name.trim().to_ascii_lowercase().as_str() {
+        "daylight" => Radiator::Daylight,
+        "blackbody" | "black-body" => Radiator::BlackBody,
+        _ => return Ok(None),
+    };
+    let number = kelvin.trim().trim_end_matches(['K', 'k']).trim();
+    match number.parse::<f64>().ok().and_then(|kelvin| Kelvin::new(kelvin).ok()) {
+        Some(kelvin) => Ok(Some((radiator, kelvin.get()))),
+        None => Err(CliError::Argument {
+            argument,
+            reason: format!("\"{kelvin}\" is not a temperature; write {name}:5500"),
+        }),
+    }
+}
+
+/// True if an argument means a file and not a name.
+fn is_file(argument: &OsStr) -> bool {
+    let path = Path::new(argument);
+    let ends_as_file = path
+        .extension()
+        .is_some_and(|ending| ["csv", "txt", "tsv", "dat"].iter().any(|known| ending.eq_ignore_ascii_case(known)));
+    // A name is text, so that other arguments are file paths.
+    path.is_file() || ends_as_file || argument.to_str().is_none_or(|typed| typed.contains(['/', '\\']))
+}

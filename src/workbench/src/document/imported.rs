@@ -1,0 +1,217 @@
+//! The user's own sets, by value: figures as read, with the decisions that can be flipped.
+
+use std::hash::{Hash, Hasher};
+use std::path::PathBuf;
+
+use chromascope_core::query::Shared;
+use chromascope_core::spectral::{DistributionError, Response, SpectralDistribution};
+use serde::{Deserialize, Serialize};
+use serde_json::{Map, Value};
+pub use spectral_file::{ReadOptions, Role, WavelengthUnit};
+
+/// One curve, as it was read: in the units that [`ImportedSet::read_as`] says.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ImportedCurve {
+    pub name: String,
+    /// Wavelengths, ascending, in nanometers if the unit was decided right.
+    #[serde(deserialize_with = "numbers")]
+    pub wavelengths: Vec<f64>,
+    /// Values; percent already divided if that was decided.
+    #[serde(deserialize_with = "numbers")]
+    pub values: Vec<f64>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub unit: Option<String>,
+    /// Fields that this version does not know, kept as they are.
+    #[serde(flatten)]
+    pub unknown: Map<String, Value>,
+}
+
+/// Numbers as JSON has them, where NaN and infinities are written as null: one of them must not cost the document.
+fn numbers<'de, D: serde::Deserializer<'de>>(from: D) -> Result<Vec<f64>, D::Error> {
+    let numbers = Vec::<Option<f64>>::deserialize(from)?;
+    Ok(numbers.into_iter().map(|number| number.unwrap_or(f64::NAN)).collect())
+}
+
+/// The user's overrides for reading a file. What is open is decided by its content.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(default)]
+pub struct ImportOverrides {
+    pub options: ReadOptions,
+    /// Indices of the file's curves to import, from 0.
+    pub taken: Option<Vec<usize>>,
+    /// For a camera: which of the file's curves are red, green and blue.
+    pub channels: Option<[usize; 3]>,
+    /// For a camera: whether it counts photons, not energy.
+    pub per_photon: Option<bool>,
+}
+
+impl ImportOverrides {
+    /// Leaves all but the role to the content.
+    pub fn for_role(role: Option<Role>) -> Self {
+        Self { options: ReadOptions { role, ..ReadOptions::default() }, ..Self::default() }
+    }
+}
+
+/// Units of the file as interpreted, before conversion.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub struct ReadAs {
+    pub unit: WavelengthUnit,
+    pub percent: bool,
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ImportedSet {
+    /// Its name, unique among sets of its kind.
+    pub name: String,
+    /// The file it came from, or `clipboard`.
+    pub file: String,
+    #[serde(default, skip_serializing_if = "Option::is_none", with = "super::paths::option")]
+    pub path: Option<PathBuf>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub fingerprint: Option<Fingerprint>,
+    #[serde(default, rename = "wishes")]
+    pub overrides: ImportOverrides,
+    pub role: Role,
+    /// The units that the curves were converted from on reading.
+    pub read_as: ReadAs,
+    /// The unit of the wavelengths in the file, as the user has it.
+    pub unit: WavelengthUnit,
+    /// True if the file's values are percent, as the user has it.
+    pub percent: bool,
+    /// For a camera: whether it counts photons, not energy.
+    #[serde(default)]
+    pub per_photon: bool,
+    /// For a camera: which curves are red, green and blue.
+    #[serde(default = "first_three")]
+    pub channels: [usize; 3],
+    pub curves: Vec<ImportedCurve>,
+    /// Decisions made on reading, one line each, for display.
+    #[serde(default)]
+    pub decisions: Vec<String>,
+}
+
+fn first_three() -> [usize; 3] {
+    [0, 1, 2]
+}
+
+/// A number that two contents of a file share only by a chance of 1 in 10^19; the same on every machine.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(transparent)]
+pub struct Fingerprint(u64);
+
+impl Fingerprint {
+    pub fn of(bytes: &[u8]) -> Self {
+        const OFFSET: u64 = 0xCBF2_9CE4_8422_2325;
+        const PRIME: u64 = 0x0100_0000_01B3;
+        Self(bytes.iter().fold(OFFSET, |hash, &byte| (hash ^ u64::from(byte)).wrapping_mul(PRIME)))
+    }
+}
+
+/// True if two lists of sets differ at most in the folders of their files.
+pub(super) fn same_but_folders(a: &[Shared<ImportedSet>], b: &[Shared<ImportedSet>]) -> bool {
+    a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a == b || a.is_same_but_folder(b))
+}
+
+/// A session's file as it was last read or written by this window.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct SessionFile {
+    #[serde(with = "super::paths")]
+    pub path: PathBuf,
+    /// Fingerprint of its contents; other contents were written by another program.
+    pub fingerprint: Fingerprint,
+}
+
+impl Eq for ImportedSet {}
+
+impl Hash for ImportedSet {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        (&self.name, &self.file, self.role, self.read_as, self.unit, self.percent, self.per_photon, self.channels)
+            .hash(state);
+        self.overrides.hash(state);
+        for curve in &self.curves {
+            curve.name.hash(state);
+            curve.wavelengths.iter().chain(&curve.values).for_each(|v| v.to_bits().hash(state));
+        }
+    }
+}
+
+impl ImportedSet {
+    /// The curves that its role uses, in nanometers and, for reflectances, as fractions.
+    pub fn curves_in_nm(&self) -> Result<Vec<(String, SpectralDistribution)>, DistributionError> {
+        let used: Vec<&ImportedCurve> = match self.role {
+            Role::Camera => self.channels.iter().filter_map(|&index| self.curves.get(index)).collect(),
+            _ => self.curves.iter().collect(),
+        };
+        used.into_iter().map(|curve| Ok((curve.name.clone(), self.spectrum(curve)?))).collect()
+    }
+
+    /// All but the curves, which may be millions of numbers.
+    #[must_use]
+    pub fn without_curves(&self) -> Self {
+        Self {
+            name: self.name.clone(),
+            file: self.file.clone(),
+            path: self.path.clone(),
+            fingerprint: self.fingerprint,
+            overrides: self.overrides.clone(),
+            role: self.role,
+            read_as: self.read_as,
+            unit: self.unit,
+            percent: self.percent,
+            per_photon: self.per_photon,
+            channels: self.channels,
+            curves: Vec::new(),
+            decisions: self.decisions.clone(),
+        }
+    }
+
+    /// True if another set differs at most in the folder of its file.
+    fn is_same_but_folder(&self, other: &Self) -> bool {
+        let head = |set: &Self| Self { path: None, ..set.without_curves() };
+        head(self) == head(other) && self.curves == other.curves
+    }
+
+    pub fn response(&self) -> Response {
+        if self.per_photon { Response::PerPhoton } else { Response::PerEnergy }
+    }
+
+    /// A curve with the units that the user has it in. Unchanged units change no bit.
+    fn spectrum(&self, curve: &ImportedCurve) -> Result<SpectralDistribution, DistributionError> {
+        let mut values: Vec<f64> = match (self.percent, self.read_as.percent) {
+            (true, false) => curve.values.iter().map(|v| v / 100.0).collect(),
+            (false, true) => curve.values.iter().map(|v| v * 100.0).collect(),
+            _ => curve.values.clone(),
+        };
+        let mut wavelengths = curve.wavelengths.clone();
+        if self.unit != self.read_as.unit {
+            for nm in &mut wavelengths {
+                *nm = self.unit.nanometers(self.read_as.unit.from_nanometers(*nm));
+            }
+            // Wave numbers and frequencies are in the opposite order.
+            if wavelengths.first() > wavelengths.last() {
+                wavelengths.reverse();
+                values.reverse();
+            }
+        }
+        SpectralDistribution::new(wavelengths, values)
+    }
+}
+
+/// Saves shared sets as plain values.
+pub(super) mod list {
+    use super::{ImportedSet, Shared};
+    use serde::{Deserialize, Deserializer, Serializer};
+
+    pub(in super::super) fn serialize<S: Serializer>(
+        sets: &[Shared<ImportedSet>],
+        serializer: S,
+    ) -> Result<S::Ok, S::Error> {
+        serializer.collect_seq(sets.iter().map(|set| &**set))
+    }
+
+    pub(in super::super) fn deserialize<'de, D: Deserializer<'de>>(
+        from: D,
+    ) -> Result<Vec<Shared<ImportedSet>>, D::Error> {
+        Ok(Vec::<ImportedSet>::deserialize(from)?.into_iter().map(Shared::new).collect())
+    }
+}

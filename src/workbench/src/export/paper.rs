@@ -1,0 +1,156 @@
+//! Figures laid out for paper: size, text, lines, inks, legend.
+
+use chromascope_figure::{AxisRanges, AxisTitles, Figure, FigureRoom, LegendPlace, Numbers, Page, PageStyle, TextSize};
+use serde::{Deserialize, Serialize};
+
+use crate::palette::{Colors, SourceInks};
+
+/// Colors of a figure apart from those of its sources.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum PaperStyle {
+    /// As on a light screen.
+    #[default]
+    Light,
+    /// Black on white, for print.
+    Print,
+    /// Light on dark, for slides.
+    Dark,
+}
+
+/// Layout of a figure on paper.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Paper {
+    /// Width in millimeters; `None` takes the figure's own points, and then text has its size on screen.
+    pub width_mm: Option<f64>,
+    /// Height in millimeters; `None` takes the figure's own proportions.
+    pub height_mm: Option<f64>,
+    /// Size of tick labels, names and legend in points; notes and caption are an eighth smaller.
+    pub font_pt: f64,
+    /// Factor on the widths of lines and on markers.
+    pub line_scale: f64,
+    /// Colors of ground, text and frames.
+    pub style: PaperStyle,
+    /// Colors of sources.
+    pub inks: SourceInks,
+    /// Position of the legend; `None` places it beside a wide figure and below a narrow one. Beside, it stands below
+    /// where it would take half of the width.
+    pub legend: Option<LegendPlace>,
+    /// Titles of the axes.
+    pub axis_titles: AxisTitles,
+    /// True if the conditions stand below the figure.
+    pub caption: bool,
+    /// True if the chromaticity diagram has its strip below.
+    pub strip: bool,
+    /// Ranges of the axes of plots that can be zoomed.
+    pub ranges: AxisRanges,
+    /// Extent of the numbers written as CSV.
+    pub numbers: Numbers,
+    /// Resolution of pixels.
+    pub dpi: f64,
+}
+
+impl Default for Paper {
+    fn default() -> Self {
+        Self {
+            width_mm: None,
+            height_mm: None,
+            font_pt: 8.0,
+            line_scale: 1.0,
+            style: PaperStyle::default(),
+            inks: SourceInks::default(),
+            legend: None,
+            axis_titles: AxisTitles::default(),
+            caption: true,
+            strip: true,
+            ranges: AxisRanges::default(),
+            numbers: Numbers::default(),
+            dpi: 300.0,
+        }
+    }
+}
+
+impl Paper {
+    /// Width of one column of a journal in millimeters.
+    pub const ONE_COLUMN_MM: f64 = 85.0;
+    /// Width of two columns of a journal in millimeters.
+    pub const TWO_COLUMNS_MM: f64 = 174.0;
+    /// Range of width and height in millimeters.
+    pub const SIDE_MM: [f64; 2] = [20.0, 2000.0];
+    /// Range of the size of text in points.
+    pub const FONT_PT: [f64; 2] = [3.0, 48.0];
+    /// Range of the factor on the widths of lines.
+    pub const LINE_SCALE: [f64; 2] = [0.1, 10.0];
+    /// Range of resolutions.
+    pub const DPI: [f64; 2] = [36.0, 2400.0];
+    /// Below this width in millimeters the legend stands below.
+    const NARROW_MM: f64 = 120.0;
+
+    /// Layout of the page.
+    pub fn page_style(&self) -> PageStyle {
+        PageStyle { width_mm: self.width_mm, line_scale: self.line_scale, axis_titles: self.axis_titles }
+    }
+
+    /// Pixels per point of pictures.
+    pub fn pixels_per_point(&self) -> f32 {
+        (self.dpi / 72.0) as f32
+    }
+
+    pub fn colors(&self) -> Colors {
+        let colors = match self.style {
+            PaperStyle::Light => Colors::LIGHT,
+            PaperStyle::Print => Colors::PRINT,
+            PaperStyle::Dark => Colors::DARK,
+        };
+        colors.with_inks(self.inks)
+    }
+
+    /// Points on paper for each point of a figure laid out.
+    pub fn scale(&self) -> f64 {
+        self.font_pt.max(0.1) / f64::from(TextSize::Body.points())
+    }
+
+    /// A figure laid out for this paper, so that its text has the size wanted there. `make` makes it for a room.
+    pub fn laid_out(&self, mut make: impl FnMut(FigureRoom) -> Option<Figure>) -> Option<Figure> {
+        // Text is laid out in its size on screen, and the page scaled.
+        let points = |mm: f64| mm / 25.4 * 72.0 / self.scale();
+        let mut make = |room| make(room).map(|figure| self.dressed(figure));
+        let mut room =
+            FigureRoom { strip: self.strip, ranges: self.ranges, numbers: self.numbers, ..FigureRoom::default() };
+        let Some(width) = self.width_mm.map(points) else { return make(room) };
+        room.width = Some(width);
+        let mut figure = make(room)?;
+        let beside = figure.legend_place == LegendPlace::Outside;
+        let is_cramped = beside && Page::new(&figure, &self.page_style()).surplus(&figure)[0] > 0.5 * width;
+        let mut make = |room| {
+            make(room).map(|figure| match figure.legend_place {
+                LegendPlace::Outside if is_cramped => Figure { legend_place: LegendPlace::Below, ..figure },
+                _ => figure,
+            })
+        };
+        if is_cramped {
+            figure = make(room)?;
+        }
+        // What stands around the panels depends on their width, and that on it.
+        for _ in 0..2 {
+            let surplus = Page::new(&figure, &self.page_style()).surplus(&figure);
+            room.width = Some(width - surplus[0]);
+            room.height = self.height_mm.map(|mm| points(mm) - surplus[1]);
+            figure = make(room)?;
+        }
+        Some(figure)
+    }
+
+    fn dressed(&self, mut figure: Figure) -> Figure {
+        let narrow = self.width_mm.is_some_and(|mm| mm < Self::NARROW_MM);
+        match self.legend {
+            Some(place) => figure.legend_place = place,
+            None if narrow => figure.legend_place = LegendPlace::Below,
+            None => {}
+        }
+        if !self.caption {
+            figure.caption.clear();
+        }
+        figure
+    }
+}

@@ -1,0 +1,247 @@
+//! A set's curves as a file that other programs open.
+
+use chromascope_core::query::Ask;
+use chromascope_core::spectral::{Header, Response, SpectralDistribution};
+use chromascope_figure::{Cell, Table};
+use spectral_file::write::{Content, Format, Grid, Note, Sheet, Trace, WriteError, write};
+
+use crate::atomic::fitting;
+use crate::catalog::load::{self, LoadError};
+use crate::catalog::{Entry, Place};
+use crate::document::SetKind;
+use crate::document::imported::{ImportedSet, Role};
+
+/// A format, and the wavelengths that curves are brought to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Form {
+    /// The format.
+    pub format: Format,
+    /// The wavelengths.
+    pub grid: Grid,
+}
+
+impl Form {
+    /// All that are offered, in the order of a menu.
+    pub const ALL: [Self; 11] = [
+        Self::new(Format::Csv, Grid::Native),
+        Self::new(Format::Csv, Grid::Step(1.0)),
+        Self::new(Format::Csv, Grid::Step(5.0)),
+        Self::new(Format::Csv, Grid::Step(10.0)),
+        Self::new(Format::Csv, Grid::Average(5.0)),
+        Self::new(Format::Csv, Grid::Average(10.0)),
+        Self::new(Format::RawtoacesJson, Grid::Native),
+        Self::new(Format::DcamprofJson, Grid::Native),
+        Self::new(Format::ArgyllSp, Grid::Native),
+        Self::new(Format::ArgyllCmf, Grid::Native),
+        Self::new(Format::Cgats, Grid::Native),
+    ];
+
+    const fn new(format: Format, grid: Grid) -> Self {
+        Self { format, grid }
+    }
+
+    /// The words of a menu.
+    pub fn name(self) -> String {
+        match (self.format, self.grid) {
+            (Format::Csv, Grid::Native) => "CSV, as measured".to_owned(),
+            (format, Grid::Native) => format.to_string(),
+            (format, Grid::Step(step)) => format!("{}, every {step} nm", format.name()),
+            (format, Grid::Average(step)) => format!("{}, averages over {step} nm", format.name()),
+        }
+    }
+}
+
+/// Reason that a set cannot be saved.
+#[derive(Debug, thiserror::Error)]
+pub enum SpectraError {
+    /// Its curves cannot be had.
+    #[error(transparent)]
+    Load(#[from] LoadError),
+    /// The format does not take them.
+    #[error(transparent)]
+    Write(#[from] WriteError),
+}
+
+/// A set as a file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SpectraFile {
+    /// The name offered for it.
+    pub name: String,
+    /// Contents.
+    pub text: String,
+    /// Differences from the set.
+    pub notes: Vec<Note>,
+}
+
+/// Curves, what they are, and what is known about them.
+struct Facts<'a> {
+    title: &'a str,
+    content: Content<'a>,
+    unit: Option<String>,
+    comments: Vec<(String, String)>,
+}
+
+/// True if a format suits such a set, by its kind and its number of curves.
+pub fn fits(entry: &Entry, form: Form) -> Result<(), WriteError> {
+    let count = match &entry.place {
+        Place::BuiltIn { column: Some(_), .. } => 1,
+        Place::BuiltIn { column: None, .. } => entry.header.as_ref().map_or(0, |header| header.columns.len()),
+        Place::Own(set) => set.curves.len(),
+    };
+    // The sample values are irrelevant; a menu calls this in every frame.
+    let curve = Trace { name: "", wavelengths_nm: &[400.0, 700.0], values: &[0.0, 0.0] };
+    let curves = vec![curve; count];
+    form.format.fits(&Sheet { content: content(entry), curves: &curves, ..Sheet::default() })
+}
+
+/// Writes a set in a form.
+pub fn file(entry: &Entry, form: Form, ask: &impl Ask) -> Result<SpectraFile, SpectraError> {
+    let curves = curves(&entry.place, ask)?;
+    let traces: Vec<Trace<'_>> = curves
+        .iter()
+        .map(|(name, curve)| Trace { name, wavelengths_nm: curve.wavelengths_nm(), values: curve.values() })
+        .collect();
+    let Facts { title, content, unit, comments } = facts(entry);
+    let sheet = Sheet { title, content, curves: &traces, unit: unit.as_deref(), created: None, comments: &comments };
+    let written = write(&sheet, form.format, form.grid)?;
+    let name = fitting(&file_name(&entry.name), &format!(".{}", form.format.ending()));
+    Ok(SpectraFile { name, text: written.text, notes: written.notes })
+}
+
+/// A set's curves as a table over all of their wavelengths, as measured: a cell is empty where a curve has no sample.
+pub fn table(entry: &Entry, ask: &impl Ask) -> Result<Table, LoadError> {
+    let curves = curves(&entry.place, ask)?;
+    let mut wavelengths: Vec<f64> = curves.iter().flat_map(|(_, curve)| curve.wavelengths_nm()).copied().collect();
+    wavelengths.sort_by(f64::total_cmp);
+    wavelengths.dedup();
+    let names = curves.iter().map(|(name, _)| name.as_str());
+    let mut table = Table::new(std::iter::once("wavelength_nm").chain(names));
+    for nm in wavelengths {
+        let at = |curve: &SpectralDistribution| {
+            let index = curve.wavelengths_nm().binary_search_by(|known| known.total_cmp(&nm)).ok()?;
+            curve.values().get(index).copied()
+        };
+        let cells = curves.iter().map(|(_, curve)| at(curve).map_or(Cell::Empty, Cell::Number));
+        table.push(std::iter::once(Cell::Number(nm)).chain(cells));
+    }
+    Ok(table)
+}
+
+/// All curves of a set, in nanometers and fractions, but else as measured.
+fn curves(place: &Place, ask: &impl Ask) -> Result<Vec<(String, SpectralDistribution)>, LoadError> {
+    match place {
+        // A camera would give its red, green and blue alone.
+        Place::Own(set) if set.role == Role::Camera => {
+            Ok(ImportedSet { role: Role::Unknown, ..ImportedSet::clone(set) }.curves_in_nm()?)
+        }
+        place => load::curves(place, ask),
+    }
+}
+
+fn content(entry: &Entry) -> Content<'_> {
+    let response = match (&entry.header, &entry.place) {
+        (Some(header), _) => header.response(),
+        (None, Place::Own(set)) => set.response(),
+        (None, Place::BuiltIn { .. }) => Response::Unknown,
+    };
+    match entry.kind {
+        SetKind::Camera => {
+            let (manufacturer, model) = maker_and_model(&entry.name);
+            Content::Camera {
+                channels: if let Place::Own(set) = &entry.place { set.channels } else { [0, 1, 2] },
+                per_photon: match response {
+                    Response::PerEnergy => Some(false),
+                    Response::PerPhoton => Some(true),
+                    Response::Unknown => None,
+                },
+                manufacturer,
+                model,
+            }
+        }
+        SetKind::Observer => Content::Observer,
+        SetKind::Chart | SetKind::Material => Content::Reflectance,
+        SetKind::Filter => Content::Transmittance,
+        SetKind::Illuminant => Content::Illuminant,
+        SetKind::Unsorted => Content::Other,
+    }
+}
+
+fn facts(entry: &Entry) -> Facts<'_> {
+    let (unit, comments) = match (&entry.header, &entry.place) {
+        (Some(header), _) => (Some(header.unit.clone()), header_comments(entry.kind, header)),
+        (None, Place::Own(set)) => (own_unit(set), own_comments(set)),
+        (None, Place::BuiltIn { .. }) => (None, Vec::new()),
+    };
+    Facts { title: &entry.name, content: content(entry), unit, comments }
+}
+
+fn header_comments(kind: SetKind, header: &Header) -> Vec<(String, String)> {
+    let mut comments =
+        vec![("source".to_owned(), header.source.clone()), ("license".to_owned(), header.license.clone())];
+    if let Some(origin) = &header.origin {
+        comments.push(("note".to_owned(), format!("Origin: {origin}.")));
+    }
+    comments.extend(header.notes.iter().map(|note| ("note".to_owned(), note.clone())));
+    // The formats have a field for the response basis of a camera, but none for its evidence; for observers both are in
+    // words.
+    if let Some(response) = header.response.as_ref().filter(|_| matches!(kind, SetKind::Camera | SetKind::Observer)) {
+        comments.push(("note".to_owned(), format!("Response: {response}.")));
+    }
+    comments
+}
+
+/// Source of the set, and how its file was read.
+fn own_comments(set: &ImportedSet) -> Vec<(String, String)> {
+    let mut comments = vec![("source".to_owned(), set.file.clone())];
+    comments.extend(set.decisions.iter().map(|decision| ("reading".to_owned(), decision.clone())));
+    comments
+}
+
+/// The unit that all curves of a set are in.
+fn own_unit(set: &ImportedSet) -> Option<String> {
+    let unit = set.curves.first()?.unit.as_ref()?;
+    set.curves.iter().all(|curve| curve.unit.as_ref() == Some(unit)).then(|| unit.clone())
+}
+
+/// Maker and model of a camera, where its name begins with a maker. A final parenthesis distinguishes measurements, not
+/// cameras.
+fn maker_and_model(name: &str) -> (Option<&str>, Option<&str>) {
+    const MAKERS: [&str; 16] = [
+        "ARRI",
+        "Blackmagic",
+        "Canon",
+        "DJI",
+        "Fujifilm",
+        "Hasselblad",
+        "Kodak",
+        "Leica",
+        "Nikon",
+        "Olympus",
+        "Panasonic",
+        "Pentax",
+        "Phase One",
+        "RED",
+        "Sigma",
+        "Sony",
+    ];
+    let name = name.split_once(" (").map_or(name, |(before, _)| before).trim();
+    let found = MAKERS.iter().find_map(|maker| {
+        let (start, rest) = name.split_at_checked(maker.len())?;
+        (start.eq_ignore_ascii_case(maker) && rest.starts_with(' ')).then(|| (start, rest.trim()))
+    });
+    found.filter(|(_, model)| !model.is_empty()).unzip()
+}
+
+/// File name of a set: characters that some systems do not allow become hyphens.
+fn file_name(name: &str) -> String {
+    let plain = |c: char| if c.is_alphanumeric() || ".()_ ".contains(c) { c } else { '-' };
+    let name: String = name.chars().map(plain).collect();
+    let name = name.split_whitespace().collect::<Vec<_>>().join(" ");
+    let name = name.trim_matches(['.', ' ', '-']);
+    if name.is_empty() { "spectra".to_owned() } else { name.to_owned() }
+}
+
+/// Changes of the curves on writing, for the end of a sentence: empty if none.
+pub fn notes_in_words(notes: &[Note]) -> String {
+    notes.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ")
+}

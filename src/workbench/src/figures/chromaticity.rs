@@ -1,0 +1,366 @@
+//! The diagram: loci with temperature ticks, patches with tails to the reference's points, and what surrounds them.
+
+mod drawing;
+mod edges;
+mod fit;
+mod frame;
+mod ground;
+mod labels;
+mod loci;
+mod points;
+pub mod shown;
+mod whites;
+
+use std::collections::BTreeSet;
+
+use chromascope_core::colorimetry::{UvPrime, Xy, Xyz};
+use chromascope_core::light::Cct;
+use chromascope_figure::{
+    Axis, AxisRanges, Cell, Figure, FigureRoom, InkRole, LegendEntry, LegendPlace, Mark, Marker, Numbers, Panel,
+    Projection, Rect, Shape, Stroke, Table, Ticks, auto_ticks,
+};
+
+use chromascope_core::spectral::sensor::TAIL_BELOW_K;
+
+use super::kind::FigureKind;
+use super::look::{FigureLook, PixelPlace};
+use super::render::pixel_of;
+use crate::document::{Diagram, SetKind, TransformChoice};
+use crate::plot_item::{PickIndex, PlotItem};
+use crate::render_service::RenderedFrame;
+use crate::render_service::pixel::PixelShows;
+use crate::scene::{ComparedSensor, Scene};
+use drawing::Drawing;
+pub use drawing::id;
+use frame::Frame;
+use shown::{DiagramFit, Ranges};
+
+pub use fit::{fit_key, fitted};
+pub use points::{blackbody_distance, brief, describe, distance_symbol};
+
+/// The diagram with the items of its marks.
+#[derive(Clone, Debug)]
+pub struct Built {
+    pub panel: Panel,
+    pub things: PickIndex,
+    /// Sensors that could not be drawn, with why.
+    pub refused: Vec<String>,
+    /// Places among the marks of the lines of Planckian loci: their points are the locus's points, in its order.
+    pub loci: BTreeSet<usize>,
+    /// The data enlarged, in the free half beside the whole diagram.
+    pub lens: Option<Box<Built>>,
+}
+
+pub const fn coordinates(diagram: Diagram) -> [&'static str; 2] {
+    match diagram {
+        Diagram::Xy => ["x", "y"],
+        Diagram::UvPrime => ["u′", "v′"],
+    }
+}
+
+/// Builds the diagram for an area of the given size. Shows what the look holds, else a fit.
+pub fn build(scene: &Scene<'_>, look: &FigureLook, size: [f64; 2]) -> Built {
+    let fit = look.fit;
+    let held = look.diagram.fit().unwrap_or_else(|| fit::fitted(scene, &fit::fit_key(scene, fit)));
+    let area = Rect::from_min_size([0.0, 0.0], size);
+    let frame = Frame::around(held.shown, size);
+    let has_lens = fit == DiagramFit::Whole && look.diagram.zoomed.is_none();
+    let place = lens_area(scene.document.diagram, &frame, held.data).filter(|_| has_lens);
+    let drawn = look.diagram.zoomed.map_or(frame, |ranges| Frame { ranges, ..frame });
+    let mut drawing = draw(scene, look, drawn, place.is_some());
+    if look.diagram.zoomed.is_none() {
+        edges::add(&mut drawing);
+    }
+    let lens = place.map(|area| {
+        let frame = Frame::around(held.data, [area.width(), area.height()]);
+        let [x, y] = frame.ranges;
+        let part = Shape::Rect { min: [x[0], y[0]], max: [x[1], y[1]] };
+        drawing.marks.push(Mark::new(PickIndex::NONE, "part in the lens", part).with_stroke(InkRole::Weak, 1.0));
+        Box::new(finish(draw(scene, look, frame, false), "Data, enlarged", area, frame))
+    });
+    let mut built = Built { lens, ..finish(drawing, "Chromaticity", area, frame) };
+    if let Some(lens) = &built.lens {
+        clear_for_lens(&mut built.panel, lens.panel.area, &frame);
+    }
+    built
+}
+
+fn draw<'a>(scene: &'a Scene<'a>, look: &'a FigureLook, frame: Frame, sketch: bool) -> Drawing<'a> {
+    let mut drawing = Drawing::new(scene, look, frame, sketch);
+    ground::add(&mut drawing);
+    if !sketch {
+        whites::add(&mut drawing);
+    }
+    let sources: Vec<ComparedSensor> = scene.sources().into_iter().filter(|source| source.visible).collect();
+    if scene.document.overlays.camera_spectral_loci {
+        loci::add_monochromatic(&mut drawing, &sources);
+    }
+    if scene.document.overlays.loci {
+        loci::add(&mut drawing, &sources);
+        loci::add_ghost(&mut drawing);
+    }
+    if scene.document.overlays.patches {
+        points::add(&mut drawing, &sources);
+    }
+    if let Some(pictures) = look.pictures.as_deref().filter(|_| !sketch) {
+        add_pixel(&mut drawing, pictures, &sources);
+    }
+    drawing
+}
+
+/// Radius of the mark of a pixel in points.
+const PIXEL_RADIUS: f64 = 4.5;
+
+/// Adds a diamond for each sensor that has a picture, in whatever workspace that is.
+fn add_pixel(drawing: &mut Drawing<'_>, pictures: &RenderedFrame, sources: &[ComparedSensor]) {
+    let Some(pinned) = drawing.look.pinned_pixel.clone() else { return };
+    for source in sources.iter().rev() {
+        let place = PixelPlace { source: id(source), ..pinned.clone() };
+        let Some(PixelShows::Lit(lit)) = pixel_of(drawing.scene, pictures, &place).map(|reading| reading.shows) else {
+            continue;
+        };
+        let Some(at) = lit.xy.and_then(|xy| drawing.place(xy)) else { continue };
+        let tag = drawing.things.tag(PlotItem::Sensor(id(source)));
+        let shape = Shape::Points { points: vec![at], marker: Marker::Diamond, radius: PIXEL_RADIUS };
+        let mark = Mark::new(tag, format!("{}, pixel", source.label), shape).with_stroke(source.role, 1.5);
+        drawing.small.push(mark.with_fill(source.role).with_halo(InkRole::Plot));
+    }
+}
+
+fn finish(drawing: Drawing<'_>, name: &str, area: Rect, frame: Frame) -> Built {
+    let Drawing { diagram, frame: drawn, mut marks, points, small, labels, things, refused, loci, .. } = drawing;
+    let texts = labels::placed(labels, &[&marks, &points, &small], &drawn);
+    marks.extend(points.into_iter().chain(small).chain(texts));
+    let [x_range, y_range] = frame.ranges;
+    let [x, y] = coordinates(diagram);
+    let mut panel = Panel::new(name, area, Axis::new(x, x_range), Axis::new(y, y_range));
+    panel.equal_aspect = true;
+    panel.marks = marks;
+    Built { panel, things, refused, loci, lens: None }
+}
+
+/// Area of the lens in the panel: free space right of the whole diagram, as high as the data need, if it is large enough.
+fn lens_area(diagram: Diagram, frame: &Frame, [x, y]: Ranges) -> Option<Rect> {
+    const LEAST: [f64; 2] = [200.0, 170.0];
+    const GAP: f64 = 8.0;
+    // Room for a wavelength.
+    const BESIDE: f64 = 32.0;
+    // Room for the label of the axis.
+    const BELOW: f64 = 22.0;
+    let [end, _] = frame.at(fit::full_extent(diagram));
+    let min = [Projection::LEFT + end + BESIDE, GAP];
+    let width = Projection::LEFT + frame.size[0] - GAP - min[0];
+    let needed = (width - Projection::LEFT) * (y[1] - y[0]) / (x[1] - x[0]) + Projection::BOTTOM;
+    let height = needed.max(LEAST[1]).min(frame.size[1] - GAP - BELOW);
+    (width >= LEAST[0] && height >= LEAST[1]).then(|| Rect::from_min_size(min, [width, height]))
+}
+
+/// Clears the ground of the lens and ends the horizontal axis with the diagram.
+fn clear_for_lens(panel: &mut Panel, area: Rect, frame: &Frame) {
+    let corner = |at: [f64; 2]| frame.value([at[0] - Projection::LEFT, at[1]]);
+    let ground = Shape::Rect { min: corner([area.min[0], area.max[1]]), max: corner([area.max[0], area.min[1]]) };
+    panel.marks.push(Mark::new(PickIndex::NONE, "ground of the lens", ground).with_fill(InkRole::Plot));
+    let ticks = auto_ticks(panel.x.range, frame.size[0]).into_iter();
+    let ticks = ticks.filter(|tick| tick.value < corner(area.min)[0]).map(|tick| (tick.value, tick.label));
+    panel.x.ticks = Ticks::At(ticks.collect());
+}
+
+/// Overview of the whole diagram with the visible range: `[x, y]` ranges.
+pub fn overview(scene: &Scene<'_>, shown: [[f64; 2]; 2], size: [f64; 2]) -> Panel {
+    let diagram = scene.document.diagram;
+    let look = FigureLook::default();
+    let ranges = fit::full_extent(diagram).map(|end| [0.0, end]);
+    let mut drawing = Drawing::new(scene, &look, Frame { ranges, size }, true);
+    ground::add_area(&mut drawing);
+    let [x, y] = shown;
+    let frame = Shape::Rect { min: [x[0], y[0]], max: [x[1], y[1]] };
+    drawing.marks.push(Mark::new(PickIndex::NONE, "shown", frame).with_stroke(InkRole::Weak, 1.0));
+    let [x, y] = ranges.map(Axis::hidden);
+    let mut panel = Panel::new("Overview", Rect::from_min_size([0.0, 0.0], size), x, y);
+    panel.equal_aspect = true;
+    panel.marks = drawing.marks;
+    panel
+}
+
+/// Factor on lines and markers.
+const SMALLER: f64 = 0.5;
+
+/// The diagram of a scene, fitted to its data, in small: tint, loci and patches.
+pub fn thumbnail(scene: &Scene<'_>, size: [f64; 2]) -> Panel {
+    let mut panel = build(scene, &FigureLook::default(), size).panel;
+    (panel.x, panel.y) = (Axis::hidden(panel.x.range), Axis::hidden(panel.y.range));
+    panel.marks.retain(|mark| !matches!(mark.shape, Shape::Text { .. }));
+    for mark in &mut panel.marks {
+        mark.halo = None;
+        if let Some(stroke) = &mut mark.stroke {
+            stroke.width *= SMALLER;
+        }
+        if let Shape::Points { radius, .. } = &mut mark.shape {
+            *radius *= SMALLER;
+        }
+    }
+    panel
+}
+
+/// The size of a saved figure in points, with the strip below the diagram.
+const SIZE: [f64; 2] = [640.0, 480.0];
+/// Height in points of the strip below it.
+pub const STRIP: f64 = 136.0;
+
+pub static KIND: FigureKind =
+    FigureKind::new("chromaticity", "The chromaticity diagram with loci and patches", |scene, look, room| {
+        Some(figure(scene, look, room))
+    });
+
+/// The figure as it is saved: diagram, strip, legend, caption, and the numbers of all points.
+pub fn figure(scene: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Figure {
+    let strip = room.strip && super::strip::build(scene, [SIZE[0], STRIP]).is_some();
+    figure_sized(scene, look, room, room.size(SIZE, if strip { STRIP } else { 0.0 }))
+}
+
+/// The figure with a diagram of a size in points.
+pub fn figure_sized(scene: &Scene<'_>, look: &FigureLook, room: FigureRoom, size: [f64; 2]) -> Figure {
+    // Neither hovering nor a pinned pixel is shown on paper.
+    let mut paper = FigureLook { fit: look.fit, ..FigureLook::default() };
+    match room.ranges {
+        AxisRanges::Full => paper.fit = DiagramFit::Whole,
+        AxisRanges::Screen => {
+            paper.diagram = look.diagram.for_paper(&fit_key(scene, look.fit));
+            paper.diagram.zoomed = paper.diagram.zoomed.map(|part| Frame::centered(part, size).ranges);
+        }
+    }
+    let mut built = build(scene, &paper, size);
+    if let Some([x, y]) = paper.diagram.zoomed {
+        (built.panel.x.range, built.panel.y.range) = (x, y);
+    }
+    let mut figure = Figure::new("Chromaticity", size);
+    let shown = Projection::new(&built.panel, 1.0);
+    figure.panels.push(built.panel);
+    figure.panels.extend(built.lens.map(|lens| lens.panel));
+    if let Some(mut strip) = super::strip::build(scene, [size[0], STRIP]).filter(|_| room.strip) {
+        strip.panel.area = Rect::from_min_size([0.0, size[1]], [size[0], STRIP]);
+        figure.size[1] += STRIP;
+        figure.panels.push(strip.panel);
+    }
+    figure.legend = scene.sources().iter().filter(|source| source.visible).map(legend_entry).collect();
+    figure.legend_place = LegendPlace::Outside;
+    figure.caption = caption(scene);
+    figure.table = table(scene);
+    if room.numbers == Numbers::Visible {
+        keep_inside(&mut figure.table, scene.document.diagram, [shown.x, shown.y]);
+    }
+    figure
+}
+
+/// Removes rows whose point lies outside of these ranges, or nowhere.
+fn keep_inside(table: &mut Table, diagram: Diagram, ranges: Ranges) {
+    let first = match diagram {
+        Diagram::Xy => 4,
+        Diagram::UvPrime => 6,
+    };
+    let is_inside = |cell: Option<&Cell>, [low, high]: [f64; 2]| matches!(cell, Some(Cell::Number(value)) if (low..=high).contains(value));
+    table.rows.retain(|row| (0..2).all(|axis| is_inside(row.get(first + axis), ranges[axis])));
+}
+
+fn legend_entry(source: &ComparedSensor) -> LegendEntry {
+    key(source, if source.is_reference { format!("{} (reference)", source.label) } else { source.label.clone() })
+}
+
+/// A sensor's line and marker with a name.
+pub fn key(source: &ComparedSensor, name: String) -> LegendEntry {
+    LegendEntry {
+        name,
+        stroke: Some(Stroke::solid(source.role, source.width)),
+        marker: Some(source.marker),
+        fill: source.marker.has_inside().then(|| source.role.into()),
+    }
+}
+
+/// The conditions of a diagram in sentences.
+pub fn caption(scene: &Scene<'_>) -> String {
+    let cut =
+        |source: &&ComparedSensor| source.visible && scene.extrapolated_below(source.kind, &source.name).is_some();
+    let cut: Vec<String> = scene.sources().iter().filter(cut).map(|source| source.label.clone()).collect();
+    let dotted = if cut.is_empty() {
+        String::new()
+    } else {
+        format!(" Dotted below {TAIL_BELOW_K:.0} K, where the sensitivity table ends too early: {}.", cut.join(", "))
+    };
+    format!("{} Loci from 1000 to 20000 K, normalized to {}.{dotted}", conditions(scene), scene.locus_balance())
+}
+
+/// The conditions in sentences.
+pub fn conditions(scene: &Scene<'_>) -> String {
+    let transform = match &scene.document.transform {
+        TransformChoice::Paper => "Paper matrix (Eq 13), CIE observers drawn directly".to_owned(),
+        TransformChoice::Observer(name) if scene.document.correction.is_default_fit() => {
+            format!("3×3 matrices fitted to {name} over 190 training reflectances")
+        }
+        TransformChoice::Observer(name) => scene.document.correction.describe(name),
+    };
+    format!("{} Patches: {}. Color transform: {transform}.", viewing_conditions(scene), scene.document.chart)
+}
+
+/// The conditions that have nothing to do with patches and diagram, in sentences.
+pub fn viewing_conditions(scene: &Scene<'_>) -> String {
+    let white = scene.document.white.name();
+    format!("Reference: {}. Light: {}. White balance: {white}.", scene.document.reference, scene.light_name())
+}
+
+/// Coordinates in both diagrams.
+type Places = (Option<Xy>, Option<UvPrime>);
+
+fn table(scene: &Scene<'_>) -> Table {
+    let heads =
+        "sensor kind temperature_k patch x y u_prime v_prime distance_xy distance_uv_prime extrapolated cct_k duv";
+    let mut table = Table::new(heads.split(' '));
+    let reference = &scene.document.reference;
+    let reference_locus = scene.locus(SetKind::Observer, reference).ok();
+    let reference_colors = scene.patch_colors(SetKind::Observer, reference).unwrap_or_default();
+    for source in scene.sources().iter().filter(|source| source.visible) {
+        let comparable = matches!(scene.comparable(source.kind, &source.name), Ok(Ok(())));
+        let mut push =
+            |kind: &str, [kelvin, patch]: [Cell; 2], (xy, uv): Places, of: Option<Places>, rest: [Cell; 3]| {
+                let (reference_xy, reference_uv) = of.filter(|_| comparable).unwrap_or_default();
+                let places = [xy.map(|p| p.x), xy.map(|p| p.y), uv.map(|p| p.u), uv.map(|p| p.v)];
+                let distances = [
+                    xy.zip(reference_xy).map(|(a, b)| a.distance(b)),
+                    uv.zip(reference_uv).map(|(a, b)| a.distance(b)),
+                ];
+                let numbers = places.into_iter().chain(distances).map(Cell::from);
+                table.push(
+                    [source.label.as_str().into(), kind.into(), kelvin, patch].into_iter().chain(numbers).chain(rest),
+                );
+            };
+        let below = scene.extrapolated_below(source.kind, &source.name).map_or(0.0, |(below, _)| below);
+        if let Ok(locus) = scene.locus(source.kind, &source.name) {
+            let ccts = temperatures(scene, locus.points.iter().map(|point| point.xyz));
+            for ((index, point), [cct, duv]) in locus.points.iter().enumerate().zip(ccts) {
+                let of = reference_locus.as_ref().and_then(|locus| locus.points.get(index)).map(|p| (p.xy, p.uv));
+                let kelvin = point.temperature.get();
+                let extrapolated = if kelvin < below { "true" } else { "false" };
+                push("locus", [kelvin.into(), Cell::Empty], (point.xy, point.uv), of, [extrapolated.into(), cct, duv]);
+            }
+        }
+        let (Ok(colors), Ok(patches)) = (scene.patch_colors(source.kind, &source.name), scene.patches()) else {
+            continue;
+        };
+        let ccts = temperatures(scene, colors.iter().map(|color| color.xyz));
+        for ((index, (color, patch)), [cct, duv]) in colors.iter().zip(patches.patches()).enumerate().zip(ccts) {
+            let of = reference_colors.get(index).map(|color| (color.xy, color.uv));
+            let patch = patch.name.as_str().into();
+            push("patch", [Cell::Empty, patch], (color.xy, color.uv), of, [Cell::Empty, cct, duv]);
+        }
+    }
+    table
+}
+
+/// CCT and Duv of each color, for the CIE 1931 observer.
+fn temperatures(scene: &Scene<'_>, colors: impl Iterator<Item = Xyz>) -> Vec<[Cell; 2]> {
+    let colors: Vec<Option<Xyz>> = colors.map(Some).collect();
+    let cells = |cct: Option<Cct>| [cct.map(|cct| cct.temperature.get()), cct.map(|cct| cct.duv)].map(Cell::from);
+    match scene.temperatures_of(&colors) {
+        Ok(found) => found.into_iter().map(|cct| cells(cct.ok())).collect(),
+        Err(_) => colors.iter().map(|_| cells(None)).collect(),
+    }
+}

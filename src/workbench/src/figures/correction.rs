@@ -1,0 +1,96 @@
+//! Errors of a two-light correction between its lights.
+
+use chromascope_figure::{
+    Axis, Cell, Dash, Figure, FigureRoom, InkRole, LegendEntry, LegendPlace, Mark, Panel, Rect, Shape, Stroke, Table,
+    Tag, Ticks,
+};
+
+use chromascope_core::query::TwoLightPoint;
+
+use super::kind::{FigureKind, Need};
+use super::look::FigureLook;
+use crate::export::profile::CorrectionFile;
+use crate::scene::Scene;
+
+/// Size of the figure in points.
+const SIZE: [f64; 2] = [460.0, 240.0];
+
+/// A curve: its name, its values, its looks.
+type Curve = (&'static str, fn(&TwoLightPoint) -> f64, InkRole, Dash);
+
+const CURVES: [Curve; 4] = [
+    ("first light's matrix", |point| point.first, InkRole::Sensor(0), Dash::Dashed),
+    ("second light's matrix", |point| point.second, InkRole::Sensor(1), Dash::Dashed),
+    ("fitted at each temperature", |point| point.own, InkRole::Weak, Dash::Dotted),
+    ("mixed as DNG readers do", |point| point.mixed, InkRole::Text, Dash::Solid),
+];
+
+pub static KIND: FigureKind =
+    FigureKind::new("correction", "Error of a correction between its two lights; needs a second light", figure)
+        .needing(Need::Correction);
+
+/// Errors over the temperature; `None` without two lights.
+fn figure(_: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Option<Figure> {
+    let file = look.correction.as_ref()?;
+    let mut figure = Figure::new(title(file), room.size(SIZE, 0.0));
+    figure.panels.push(panel(file, figure.size)?);
+    figure.legend = CURVES
+        .map(|(name, _, role, dash)| LegendEntry {
+            name: name.to_owned(),
+            stroke: Some(Stroke { dash, ..Stroke::solid(role, 1.5) }),
+            marker: None,
+            fill: None,
+        })
+        .to_vec();
+    figure.legend_place = LegendPlace::Inside;
+    let mut table = Table::new(["temperature_k", "first", "second", "own", "mixed"]);
+    for point in file.sheet.between.iter().flatten() {
+        let values = [point.temperature.get(), point.first, point.second, point.own, point.mixed];
+        table.rows.push(values.map(Cell::Number).to_vec());
+    }
+    figure.table = table;
+    Some(figure)
+}
+
+fn title(file: &CorrectionFile) -> String {
+    format!("{}: mean ΔE*00 between {}", file.camera, file.lights.join(" and "))
+}
+
+/// The panel of a size; none without two lights.
+pub fn panel(file: &CorrectionFile, size: [f64; 2]) -> Option<Panel> {
+    let points = file.sheet.between.as_ref()?;
+    let (first, last) = (points.first()?, points.last()?);
+    let values = |of: fn(&TwoLightPoint) -> f64| points.iter().map(of);
+    let top = CURVES.iter().flat_map(|(_, of, ..)| values(*of)).fold(0.0, f64::max);
+    let mired = |point: &TwoLightPoint| point.temperature.mired();
+    let cold_to_hot = [mired(first).max(mired(last)), mired(first).min(mired(last))];
+    let ticks = (0..5).filter_map(|i| points.get(i * (points.len() - 1) / 4));
+    let ticks = ticks.map(|point| (mired(point), format!("{:.0}", point.temperature.get()))).collect();
+    let x = Axis::new("color temperature (K)", cold_to_hot).with_ticks(Ticks::At(ticks)).with_grid(true);
+    let y = Axis::new("mean ΔE*00", [0.0, (top * 1.1).max(1e-6)]).with_grid(true);
+    let mut panel = Panel::new(title(file), Rect::from_min_size([0.0, 0.0], size), x, y);
+    panel.marks = CURVES
+        .iter()
+        .enumerate()
+        .map(|(index, (name, of, role, dash))| {
+            let line =
+                Shape::Line { points: points.iter().map(|point| [mired(point), of(point)]).collect(), closed: false };
+            Mark::new(Tag(index as u32), *name, line).with_stroke(*role, 1.5).with_dash(*dash)
+        })
+        .collect();
+    Some(panel)
+}
+
+/// Names of the curves at a temperature, for the pointer.
+pub fn at(file: &CorrectionFile, mired: f64) -> Option<Vec<String>> {
+    let points = file.sheet.between.as_ref()?;
+    let distance = |point: &TwoLightPoint| (point.temperature.mired() - mired).abs();
+    let nearest = points.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
+    let lines = CURVES.iter().map(|(name, of, ..)| format!("{name}: {:.3}", of(nearest)));
+    Some(std::iter::once(format!("{:.0} K, mean ΔE*00", nearest.temperature.get())).chain(lines).collect())
+}
+
+/// The curves' names with their inks, for a key.
+pub fn key() -> impl Iterator<Item = (&'static str, InkRole)> {
+    CURVES.iter().map(|(name, _, role, _)| (*name, *role))
+}

@@ -1,0 +1,239 @@
+//! Curves of a file, as interpreted.
+
+mod drawn;
+pub mod import_selection;
+
+use std::sync::Arc;
+
+use chromascope_core::spectral::grid::{FIRST_NM, LAST_NM};
+use chromascope_figure::{
+    Anchor, Axis, Cell, Figure, FigureRoom, Ink, InkRole, LegendEntry, LegendPlace, Mark, Numbers, Panel, Projection,
+    Rect, Shape, Stroke, Table, Tag, TextSize, finite_runs,
+};
+
+pub use drawn::{Curve, Curves, DRAWN};
+pub use import_selection::{ImportItem, ImportSelection, places};
+
+use super::kind::{FigureKind, Need};
+use super::look::FigureLook;
+use crate::format::number;
+use crate::plot_item::PickIndex;
+use crate::scene::Scene;
+
+/// The size of a saved figure in points.
+const SIZE: [f64; 2] = [640.0, 360.0];
+/// The height of a line of small text with its margins, and of what is below a plot.
+const TEXT: f64 = 18.0;
+const BELOW: f64 = Projection::BOTTOM + Projection::TITLE;
+/// Maximum number of curves with legend entries of their own.
+const NAMED: usize = 12;
+
+/// The panel for an area of the given size. `hovered` is the index in the file of the hovered curve.
+pub fn panel(curves: &Curves, size: [f64; 2], hovered: Option<usize>) -> Panel {
+    let x = Axis::new("wavelength (nm)", curves.range_nm());
+    let [low, high] = curves.span();
+    let low = low.min(0.0);
+    let clipped = curves.beyond().is_some();
+    // Margin above the curves for labels, none below: near zero there are curves everywhere.
+    let lines = if clipped { 2.0 } else { 1.0 };
+    let share = (lines * TEXT / (size[1] - BELOW).max(1.0)).clamp(0.05, 0.4);
+    let room = ((high - low) * share / (1.0 - share)).max(1e-12);
+    let below = if low < 0.0 { 0.05 * (high - low) } else { 0.0 };
+    let range = [low - below, (high + room).max(round_above(high).filter(|nice| *nice < 1.4 * high).unwrap_or(high))];
+    let y = Axis::new(curves.quantity.clone(), range);
+    let mut panel = Panel::new("curves of the file", Rect::from_min_size([0.0, 0.0], size), x, y);
+    panel.note = curves.beyond().map_or_else(|| curves.note.clone(), |beyond| format!("{}; {beyond}", curves.note));
+    panel.marks.push(visible(range));
+    panel.marks.push(zero(curves.range_nm()));
+    let last = curves.drawn.iter().filter(|curve| Some(curve.place) == hovered);
+    for curve in curves.drawn.iter().filter(|curve| Some(curve.place) != hovered).chain(last) {
+        let on = Some(curve.place) == hovered;
+        let mut points = curve.points.clone();
+        if clipped {
+            // Parts of curves far beyond the plot are not drawn; a note says so.
+            points.iter_mut().filter(|[_, y]| *y < low || *y > high).for_each(|point| point[1] = f64::NAN);
+        }
+        panel.marks.extend(marks(curve, points, on, curves.drawn.len()));
+    }
+    panel
+}
+
+/// The next of 1, 2, 5, 10, … at or above a value, so that there is a tick above it.
+fn round_above(value: f64) -> Option<f64> {
+    let power = 10_f64.powf(value.log10().floor());
+    [1.0, 2.0, 5.0, 10.0].into_iter().map(|factor| factor * power).find(|nice| nice.is_finite() && *nice >= value)
+}
+
+/// Tag of a curve in a panel. The first tag has no item.
+fn tag(place: usize) -> Tag {
+    Tag(u32::try_from(place).unwrap_or(u32::MAX - 1) + 1)
+}
+
+/// The place in the file of a curve that was hit.
+pub fn place(tag: Tag) -> Option<usize> {
+    tag.0.checked_sub(1).map(|place| place as usize)
+}
+
+/// A curve, and what names it where color alone would not.
+fn marks(curve: &Curve, points: Vec<[f64; 2]>, on: bool, count: usize) -> Vec<Mark> {
+    let tag = tag(curve.place);
+    let ink = ink(curve, count, on);
+    let width = if on {
+        4.0
+    } else if count > 20 {
+        1.0
+    } else {
+        2.0
+    };
+    let alone: Vec<[f64; 2]> = finite_runs(&points).filter(|run| run.len() == 1).map(|run| run[0]).collect();
+    let letter = curve.channel.map(|channel| ["R", "G", "B"][channel.min(2)]);
+    let peak = points.iter().filter(|p| p[1].is_finite()).copied().max_by(|a, b| a[1].total_cmp(&b[1]));
+    let line = Mark::new(tag, &curve.name, Shape::Line { points, closed: false }).with_stroke(ink, width);
+    let mut marks = vec![if on { line.with_halo(Ink::new(InkRole::Plot)) } else { line }];
+    if !alone.is_empty() {
+        // A sample between two gaps has no line.
+        let marker = chromascope_figure::Marker::Dot;
+        marks.push(Mark::new(tag, &curve.name, Shape::Points { points: alone, marker, radius: 3.0 }).with_fill(ink));
+    }
+    if let Some((letter, at)) = letter.zip(peak) {
+        let letter = Mark::text(letter, at, Anchor::LEFT_TOP, TextSize::Body, InkRole::Text);
+        marks.push(Mark { tag, name: curve.name.clone(), ..letter.with_offset([5.0, 0.0]) });
+    }
+    marks
+}
+
+/// Red, green and blue for a camera; else one after the other, paler where there are many.
+fn ink(curve: &Curve, count: usize, on: bool) -> Ink {
+    let slot = match curve.channel {
+        Some(channel) => [6, 2, 1][channel.min(2)],
+        None => (5 + curve.order) % 8,
+    };
+    let ink = Ink::new(InkRole::Sensor(u8::try_from(slot).unwrap_or(0)));
+    if count > 20 && !on { ink.faded(0.6) } else { ink }
+}
+
+/// Band of visible wavelengths.
+fn visible(range: [f64; 2]) -> Mark {
+    let shape = Shape::Rect { min: [FIRST_NM, range[0]], max: [LAST_NM, range[1]] };
+    let name = format!("visible range, {FIRST_NM:.0} to {LAST_NM:.0} nm");
+    Mark::new(PickIndex::NONE, name, shape).with_fill(Ink::new(InkRole::Text).faded(0.06))
+}
+
+fn zero(range: [f64; 2]) -> Mark {
+    let points = vec![[range[0], 0.0], [range[1], 0.0]];
+    Mark::new(PickIndex::NONE, "zero", Shape::Line { points, closed: false }).with_stroke(InkRole::Weak, 1.0)
+}
+
+/// Values of a curve near a wavelength: lines of text.
+pub fn describe(curves: &Curves, place: usize, nm: f64) -> Vec<String> {
+    let Some(curve) = curves.drawn.iter().find(|curve| curve.place == place) else { return Vec::new() };
+    let there = curve.points.iter().filter(|point| point[1].is_finite());
+    let nearest = there.min_by(|a, b| (a[0] - nm).abs().total_cmp(&(b[0] - nm).abs()));
+    let unit = curves.unit.as_ref().map_or_else(String::new, |unit| format!(" {unit}"));
+    let mut lines = vec![curve.name.clone()];
+    lines.extend(nearest.map(|[nm, value]| format!("{} nm: {}{unit}", number(*nm), number(*value))));
+    lines
+}
+
+pub static KIND: FigureKind = FigureKind::new("curves", "Curves of a file", figure).needing(Need::Curves);
+
+/// The figure as it is saved, with the values of all curves that are taken.
+fn figure(_: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Option<Figure> {
+    let curves = Curves::of(look.curves.as_ref()?, usize::MAX).ok()?;
+    let mut drawn = curves.clone();
+    drawn.cut(DRAWN);
+    let size = room.size(SIZE, 0.0);
+    let mut figure = Figure::new(title(&curves), size);
+    let mut panel = panel(&drawn, size, None);
+    panel.name.clone_from(&curves.title);
+    figure.panels.push(panel);
+    if (2..=NAMED).contains(&drawn.drawn.len()) {
+        let entry = |curve: &Curve| LegendEntry {
+            name: curve.name.clone(),
+            stroke: Some(Stroke::solid(ink(curve, drawn.drawn.len(), false), 2.0)),
+            marker: None,
+            fill: None,
+        };
+        figure.legend = drawn.drawn.iter().map(entry).collect();
+        figure.legend_place = LegendPlace::Outside;
+    }
+    figure.caption = format!("{}: {}.", curves.title, curves.quantity);
+    figure.table = numbers(if room.numbers == Numbers::Visible { &drawn } else { &curves });
+    Some(figure)
+}
+
+pub fn title(curves: &Curves) -> String {
+    format!("Curves of {}", curves.title)
+}
+
+/// The values at the wavelengths of the file; nothing where a curve has none.
+pub fn numbers(curves: &Curves) -> Table {
+    let unit = curves.unit.as_ref().map_or_else(String::new, |unit| format!(" ({unit})"));
+    let names = curves.drawn.iter().map(|curve| format!("{}{unit}", curve.name));
+    let mut table = Table::new(std::iter::once("wavelength_nm".to_owned()).chain(names));
+    let mut all: Vec<f64> = curves.drawn.iter().flat_map(|curve| curve.points.iter().map(|point| point[0])).collect();
+    all.sort_unstable_by(f64::total_cmp);
+    all.dedup();
+    let mut next = vec![0_usize; curves.drawn.len()];
+    for nm in all {
+        let cells = curves.drawn.iter().zip(&mut next).map(|(curve, next)| {
+            let mut value = None;
+            // A gap lies between two samples, at a wavelength that may be another's.
+            while let Some([at, v]) = curve.points.get(*next).filter(|point| point[0] <= nm) {
+                if *at == nm && v.is_finite() {
+                    value = Some(*v);
+                }
+                *next += 1;
+            }
+            Cell::from(value)
+        });
+        let row: Vec<Cell> = std::iter::once(Cell::from(nm)).chain(cells).collect();
+        if row.iter().skip(1).any(|cell| *cell != Cell::Empty) {
+            table.push(row);
+        }
+    }
+    table
+}
+
+/// Maximum total number of points drawn on screen.
+const POINTS: usize = 80_000;
+
+/// The curves of the last selected item.
+#[derive(Clone, Debug)]
+pub struct CurveCache {
+    of: ImportSelection,
+    curves: Result<Arc<Pair>, String>,
+}
+
+/// Curves, and the same with no more points than can be seen.
+#[derive(Debug)]
+struct Pair {
+    all: Curves,
+    seen: Curves,
+}
+
+impl CurveCache {
+    /// The curves of the selected item: the cached ones, if still valid.
+    pub fn of(shown: &ImportSelection, before: Option<Self>) -> Self {
+        if let Some(before) = before.filter(|before| before.of.is_same(shown)) {
+            return before;
+        }
+        let curves = Curves::of(shown, DRAWN).map(|all| {
+            let most = (POINTS / all.drawn.len().max(1)).clamp(64, 4096);
+            let mut seen = all.clone();
+            seen.drawn.iter_mut().for_each(|curve| curve.points = drawn::thinned(&curve.points, most));
+            Arc::new(Pair { all, seen })
+        });
+        Self { of: shown.clone(), curves }
+    }
+
+    /// The curves with all their points; or why there are none.
+    pub fn all(&self) -> Result<&Curves, &str> {
+        self.curves.as_ref().map(|pair| &pair.all).map_err(String::as_str)
+    }
+
+    /// The curves with the points that can be seen.
+    pub fn seen(&self) -> Option<&Curves> {
+        self.curves.as_ref().ok().map(|pair| &pair.seen)
+    }
+}

@@ -1,0 +1,140 @@
+//! What a figure takes from whoever looks at it, as a plain value; without a window, the default.
+
+use std::sync::Arc;
+
+use chromascope_core::query::RecordedSet;
+use chromascope_measure::Workload;
+use serde::{Deserialize, Serialize};
+
+use super::chromaticity::shown::{DiagramFit, DiagramView, Ranges};
+use super::curves::import_selection::ImportSelection;
+use crate::export::profile::CorrectionFile;
+use crate::palette::Surround;
+use crate::plot_item::{PlotItem, SensorId};
+use crate::profiler::{Measured, Subject};
+use crate::render_service::RenderedFrame;
+use crate::scene::metrics::RankedCameras;
+use crate::scene::recorded::RankedCamera;
+
+/// Choices that the document does not hold, and answers that were made already.
+#[derive(Clone, Debug, Default)]
+pub struct FigureLook {
+    pub hovered: Option<PlotItem>,
+    pub selected: Option<PlotItem>,
+    /// The reference replaces every camera.
+    pub blink: bool,
+    pub fit: DiagramFit,
+    /// Shown part of the chromaticity diagram.
+    pub diagram: DiagramView,
+    /// Ranges that another plot is zoomed to, with the title of the figure that they are of.
+    pub zoom: Option<(String, Ranges)>,
+    /// Share of the loci that is drawn, while they draw in.
+    pub locus_share: Option<f64>,
+    pub pinned_pixel: Option<PixelPlace>,
+    pub swatch_layout: SwatchLayout,
+    pub swatch_style: SwatchStyle,
+    pub without_bars: bool,
+    pub spectra_layout: SpectraLayout,
+    pub mode: RenderMode,
+    /// The gray around pictures.
+    pub surround: Surround,
+    /// Cameras that are ranked.
+    pub cameras: RankedCameras,
+    /// Order of the ranked cameras.
+    pub sorting: Option<Sorting>,
+    /// The two cameras of Head to head; `None` for the selected one and the first compared one.
+    pub pair: [Option<SensorId>; 2],
+    /// The camera of the report card; `None` for the selected one.
+    pub card: Option<SensorId>,
+    /// The camera whose residuals are shown; the best without one.
+    pub residuals_of: Option<String>,
+    pub shows: Shows,
+    pub pictures: Option<Arc<RenderedFrame>>,
+    pub measured: Measured,
+    pub correction: Option<Arc<CorrectionFile>>,
+    /// Recorded values, and the cameras ranked by them.
+    pub recorded: Option<(RecordedSet, Arc<Vec<RankedCamera>>)>,
+    /// The file or set whose curves are drawn.
+    pub curves: Option<ImportSelection>,
+}
+
+/// Arrangement of swatches.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum SwatchLayout {
+    /// Five patches in rows, more as charts.
+    #[default]
+    Auto,
+    /// A row for each sensor.
+    Rows,
+    /// A chart for each sensor.
+    Charts,
+}
+
+/// Arrangement of camera and reference within a swatch.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum SwatchStyle {
+    /// Left half reference, right half sensor.
+    #[default]
+    Split,
+    /// The reference inside the sensor's swatch.
+    Inset,
+    /// The sensor alone.
+    Whole,
+}
+
+/// Arrangement of spectra.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum SpectraLayout {
+    /// All sensors in one plot.
+    #[default]
+    Overlay,
+    /// A plot for each sensor.
+    Each,
+}
+
+/// Arrangement of pictures.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum RenderMode {
+    /// One for each sensor.
+    #[default]
+    Grid,
+    /// The reference and a sensor in one.
+    Split,
+    /// One sensor, large.
+    One,
+    /// Difference of each sensor from the reference.
+    Difference,
+}
+
+/// A place in every picture, with the sensor that was pointed at.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PixelPlace {
+    /// Right and down, from 0 to 1.
+    pub at: [f64; 2],
+    /// The sensor whose picture it was.
+    pub source: SensorId,
+}
+
+/// Order of a table's rows.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Sorting {
+    /// Name of the column.
+    pub column: String,
+    /// Largest first.
+    pub descending: bool,
+}
+
+/// Measurement whose methods are shown.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Shows {
+    /// Those of the scene.
+    Scene(Subject),
+    /// Those of the program, on a workload of the bench.
+    Bench(Workload),
+}
+
+impl Default for Shows {
+    fn default() -> Self {
+        Self::Scene(Subject::default())
+    }
+}

@@ -1,0 +1,296 @@
+//! One camera on one page: sensitivities, differences of the patches, locus error, figures of merit.
+
+use chromascope_core::colorimetry::Metric;
+use chromascope_core::query::metrics::MetricGroup;
+use chromascope_core::query::{CameraMetric, CameraMetrics};
+use chromascope_core::spectral::SpectralDistribution;
+use chromascope_core::spectral::grid::{FIRST_NM, LAST_NM};
+use chromascope_figure::{
+    Anchor, Axis, Cell, Figure, FigureRoom, Ink, InkRole, Mark, Panel, Projection, Rect, Shape, Table, Tag, TextSize,
+    Ticks, text_width,
+};
+
+use super::chromaticity::{conditions, distance_symbol};
+use super::kind::FigureKind;
+use super::look::FigureLook;
+use super::metrics::{nature_cells, unit};
+use crate::document::{LOCUS_RANGE_K, SetKind};
+use crate::format::fixed;
+use crate::plot_item::{PlotItem, SensorId};
+use crate::scene::Scene;
+use crate::scene::locus::distance;
+use crate::scene::metrics::CameraFigures;
+use crate::scene::uncertainty::{UNCERTAINTY_HEADS, in_words, number, uncertainty};
+
+/// Width of the saved page in points.
+const WIDTH: f64 = 560.0;
+/// Below this width, all is in one column.
+const TWO_COLUMNS: f64 = 480.0;
+/// From this width on the bars stand beside the plots, so that the page is low.
+const ONE_ROW: f64 = 840.0;
+/// Width of a column of figures of merit where there are more than two.
+const LIST_COLUMN: f64 = 216.0;
+/// Heights of title, plots and bars.
+const TITLE: f64 = 44.0;
+const PLOTS: f64 = 190.0;
+const BARS: f64 = 200.0;
+/// Height of a line of the list.
+const LINE: f64 = 15.0;
+/// Height of a line of the foot.
+const FOOT_LINE: f64 = 12.0;
+/// Height of a name over a bar, and the air beside it.
+const NAME_LINE: f64 = 14.0;
+const NAME_GAP: f64 = 3.0;
+
+/// The camera of the card: the chosen one, else the selected one, else the first that is compared.
+pub fn camera(scene: &Scene<'_>, look: &FigureLook) -> Option<SensorId> {
+    let is_camera = |id: &&SensorId| id.kind == SetKind::Camera && scene.entry(id.kind, &id.name).is_ok();
+    let selected = look.selected.as_ref().and_then(PlotItem::source);
+    let chosen = look.card.as_ref().filter(is_camera).or(selected.filter(is_camera)).cloned();
+    chosen.or_else(|| {
+        let first = scene.document.compared.iter().find(|c| c.kind == SetKind::Camera)?;
+        Some(SensorId { kind: first.kind, name: first.name.clone() })
+    })
+}
+
+pub static KIND: FigureKind = FigureKind::new("report-card", "All figures of merit of one camera", figure).of_metrics();
+
+/// The page of the camera of the card as it is saved; none without a camera that can be shown.
+fn figure(scene: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Option<Figure> {
+    let id = camera(scene, look)?;
+    let figures = scene.camera_figures(id.kind, &id.name).ok()?;
+    let width = room.width.unwrap_or(WIDTH).max(LIST_COLUMN);
+    Some(page(scene, &id, &figures, width))
+}
+
+/// The page of a camera with its figures of merit in a width; a narrow one has one column.
+pub fn page(scene: &Scene<'_>, id: &SensorId, figures: &CameraFigures, width: f64) -> Figure {
+    let mut top = 0.0;
+    let mut place = |height: f64| {
+        top += height;
+        Rect::from_min_size([0.0, top - height], [width, height])
+    };
+    let mut panels = vec![title(scene, id, place(TITLE))];
+    let beside = |row: Rect, [from, to]: [f64; 2]| {
+        Rect::from_min_size([from * width, row.min[1]], [(to - from) * width, row.height()])
+    };
+    let areas = if width < TWO_COLUMNS {
+        [place(PLOTS), place(PLOTS), place(BARS)]
+    } else if width < ONE_ROW {
+        let row = place(PLOTS);
+        [beside(row, [0.0, 0.5]), beside(row, [0.5, 1.0]), place(BARS)]
+    } else {
+        let row = place(BARS);
+        [[0.0, 0.28], [0.28, 0.5], [0.5, 1.0]].map(|part| beside(row, part))
+    };
+    panels.push(sensitivities(scene, id, areas[0]));
+    panels.push(locus(scene, id, areas[1]));
+    panels.push(patches(scene, &figures.metrics, areas[2]));
+    let columns = list(if width < TWO_COLUMNS { 1 } else { ((width / LIST_COLUMN) as usize).max(2) });
+    let rows = columns.iter().map(Vec::len).max().unwrap_or(0);
+    let temperature_k = scene.document.temperature_k;
+    panels.push(values(figures, place(LINE * (rows as f64 + 0.4)), &columns, temperature_k));
+    let known: Vec<_> = figures.uncertainties.iter().flat_map(|all| all.iter().copied().flatten()).collect();
+    let words = chromascope_figure::wrapped(&in_words(known), TextSize::Small, width - 16.0);
+    let mut foot = Panel::board("uncertainty", place(FOOT_LINE * words.len() as f64), Ink::new(InkRole::Plot));
+    for (row, words) in words.into_iter().enumerate() {
+        let at = [8.0, FOOT_LINE * (row as f64 + 0.5)];
+        foot.marks.push(Mark::text(words, at, Anchor::LEFT, TextSize::Small, InkRole::Weak));
+    }
+    panels.push(foot);
+    let mut figure = Figure::new(format!("Report card: {}", id.name), [width, top]);
+    figure.panels = panels;
+    let words = scene.metrics_words();
+    figure.caption = format!("{words} {}", conditions(scene));
+    figure.table = numbers(id, figures).with_constants(&scene.metrics_constants(temperature_k));
+    figure
+}
+
+fn line(name: &str, points: Vec<[f64; 2]>, ink: Ink, width: f64) -> Mark {
+    Mark::new(Tag::default(), name, Shape::Line { points, closed: false }).with_stroke(ink, width)
+}
+
+/// Name, and where its figures are from.
+fn title(scene: &Scene<'_>, id: &SensorId, area: Rect) -> Panel {
+    let mut panel = Panel::board("title", area, Ink::new(InkRole::Plot));
+    let entry = scene.entry(id.kind, &id.name).ok();
+    let source = entry.and_then(|entry| entry.header).map_or_else(|| "yours".to_owned(), |header| header.source);
+    panel.marks.push(Mark::text(id.name.as_str(), [8.0, 13.0], Anchor::LEFT, TextSize::Heading, InkRole::Text));
+    let source = chromascope_figure::wrapped(&source, TextSize::Small, area.width() - 24.0);
+    let cut = if source.len() > 1 { "…" } else { "" };
+    let source = format!("{}{cut}", source.first().map_or("", String::as_str));
+    panel.marks.push(Mark::text(source, [8.0, 33.0], Anchor::LEFT, TextSize::Small, InkRole::Weak));
+    panel
+}
+
+/// Sensitivities over the wavelength, scaled to the largest.
+fn sensitivities(scene: &Scene<'_>, id: &SensorId, area: Rect) -> Panel {
+    let x = Axis::new("wavelength (nm)", [FIRST_NM, LAST_NM]);
+    let note = "sensitivities, largest = 1".to_owned();
+    let mut panel = Panel { note, ..Panel::new("sensitivities", area, x, Axis::new("", [0.0, 1.1])) };
+    let Ok(sensor) = scene.sensor(id.kind, &id.name) else { return panel };
+    let peak = sensor.curves().iter().flat_map(SpectralDistribution::values).copied().fold(f64::MIN_POSITIVE, f64::max);
+    let inks = [[0xC0, 0x30, 0x30], [0x30, 0x90, 0x30], [0x30, 0x50, 0xC0]].map(Ink::rgb);
+    for ((curve, ink), name) in sensor.curves().iter().zip(inks).zip(sensor.primaries().channels()) {
+        let samples = curve.wavelengths_nm().iter().zip(curve.values());
+        let points = samples.map(|(nm, value)| [*nm, value / peak]).filter(|p| (FIRST_NM..=LAST_NM).contains(&p[0]));
+        panel.marks.push(line(name, points.collect(), ink, 1.5));
+    }
+    panel
+}
+
+/// Distance from the reference's Planckian locus at equal temperature, over reciprocal temperature.
+fn locus(scene: &Scene<'_>, id: &SensorId, area: Rect) -> Panel {
+    let diagram = scene.document.diagram;
+    let [cold, hot] = LOCUS_RANGE_K.map(|kelvin| 1e6 / kelvin);
+    let ticks = [1000.0, 1500.0, 2500.0, 6500.0].map(|kelvin| (1e6 / kelvin, format!("{kelvin:.0}")));
+    let words = "blackbody temperature (K)";
+    let fits = text_width(words, TextSize::Small) < area.width() - Projection::LEFT - 8.0;
+    let x = Axis::new(if fits { words } else { "temperature (K)" }, [cold, hot]).with_ticks(Ticks::At(ticks.into()));
+    let pair = scene
+        .locus(id.kind, &id.name)
+        .and_then(|own| Ok((own, scene.locus(SetKind::Observer, &scene.document.reference)?)));
+    let comparable = matches!(scene.comparable(id.kind, &id.name), Ok(Ok(())));
+    let points: Vec<[f64; 2]> = pair.ok().filter(|_| comparable).map_or_else(Vec::new, |(own, reference)| {
+        let pairs = own.points.iter().zip(&reference.points);
+        pairs.filter_map(|(a, b)| Some([a.temperature.mired(), distance(a, b, diagram)?])).collect()
+    });
+    let top = points.iter().map(|point| point[1]).fold(1e-6, f64::max).min(0.6);
+    let mut panel = Panel::new("locus error", area, x, Axis::new("", [0.0, 1.2 * top]));
+    panel.note = format!("locus error {}", distance_symbol(diagram));
+    panel.marks.push(line("locus error", points, InkRole::Text.into(), 1.5));
+    panel
+}
+
+/// A bar for each patch by the document's metric, the worst ones named.
+fn patches(scene: &Scene<'_>, metrics: &CameraMetrics, area: Rect) -> Panel {
+    let at = Metric::ALL.iter().position(|metric| *metric == scene.document.difference).unwrap_or(0);
+    let value = |patch: usize| metrics.patches.get(patch)?.by_metric.get(at)?.ok();
+    let values: Vec<Option<f64>> = (0..metrics.patches.len()).map(value).collect();
+    let top = values.iter().flatten().copied().fold(1e-6, f64::max);
+    let count = values.len().max(1) as f64;
+    let x = Axis::new("", [-0.5, count - 0.5]).with_ticks(Ticks::None).with_grid(false);
+    let mut panel = Panel::new("patches", area, x, Axis::new("", [0.0, 1.3 * top]));
+    let reason = metrics.patches.first().and_then(|patch| patch.by_metric.get(at)?.err());
+    panel.note = match reason {
+        Some(why) => why.to_string(),
+        None => format!("{} of the patches", scene.difference_name()),
+    };
+    let set = scene.patches().ok();
+    let name = |patch: usize| set.as_ref().and_then(|set| set.patches().get(patch)).map_or("", |patch| &patch.name);
+    let colors = scene.patch_colors(SetKind::Observer, &scene.document.reference).unwrap_or_default();
+    for (patch, value) in values.iter().enumerate() {
+        let Some(value) = value else { continue };
+        let ink = colors.get(patch).map_or(Ink::new(InkRole::Weak), |color| Ink::rgb(color.srgb.bytes));
+        let shape = Shape::Rect { min: [patch as f64 - 0.4, 0.0], max: [patch as f64 + 0.4, *value] };
+        panel.marks.push(Mark::new(Tag::default(), name(patch), shape).with_fill(ink).with_stroke(InkRole::Weak, 0.5));
+    }
+    let worst = metrics.worst.get(at).map_or(&[][..], Vec::as_slice);
+    let points = [(area.width() - Projection::LEFT) / count, area.height() / (1.3 * top)];
+    let mut taken: Vec<Rect> = Vec::new();
+    for (rank, &patch) in worst.iter().enumerate() {
+        let Some(value) = values.get(patch).copied().flatten() else { continue };
+        let number = fixed(value, scene.document.difference.decimals.saturating_sub(1));
+        let words = format!("{}  {} {number}", rank + 1, name(patch));
+        // Names are to the left of bars in the right half, so that none is cut.
+        let (anchor, shift) =
+            if patch as f64 > count / 2.0 { (Anchor::RIGHT_BOTTOM, 4.0) } else { (Anchor::LEFT_BOTTOM, -4.0) };
+        let width = text_width(&words, TextSize::Small);
+        let left = patch as f64 * points[0] + shift - if anchor == Anchor::LEFT_BOTTOM { 0.0 } else { width };
+        let mut lift = 2.0;
+        let label = |lift: f64| {
+            Rect::from_min_size([left - NAME_GAP, -value * points[1] - lift], [width + 2.0 * NAME_GAP, NAME_LINE])
+        };
+        while taken.iter().any(|other| overlap(other, &label(lift))) {
+            lift += 1.0;
+        }
+        taken.push(label(lift));
+        let name = Mark::text(words, [patch as f64, value], anchor, TextSize::Small, InkRole::Text);
+        panel.marks.push(name.with_offset([shift, -lift]).with_halo(InkRole::Plot));
+    }
+    panel
+}
+
+/// True if two rectangles have points in common.
+fn overlap(a: &Rect, b: &Rect) -> bool {
+    (0..2).all(|axis| a.min[axis] < b.max[axis] && b.min[axis] < a.max[axis])
+}
+
+/// A line of the list.
+#[derive(Clone, Copy)]
+enum Line {
+    Group(MetricGroup),
+    Metric(usize),
+}
+
+/// Lines of the figures of merit in columns of about one height; no heading stands at the foot of one.
+fn list(columns: usize) -> Vec<Vec<Line>> {
+    let lines = MetricGroup::ALL.iter().flat_map(|group| {
+        let of_group = (0..CameraMetric::ALL.len()).filter(|&at| CameraMetric::ALL[at].group == *group);
+        std::iter::once(Line::Group(*group)).chain(of_group.map(Line::Metric))
+    });
+    let rows = (CameraMetric::ALL.len() + MetricGroup::ALL.len() + columns - 1).div_ceil(columns);
+    let mut made = vec![Vec::new()];
+    for line in lines {
+        let room = if matches!(line, Line::Group(_)) { rows - 1 } else { rows };
+        match made.last_mut() {
+            Some(column) if column.len() < room => column.push(line),
+            _ => made.push(vec![line]),
+        }
+    }
+    made
+}
+
+/// All figures of merit in columns, by group.
+fn values(figures: &CameraFigures, area: Rect, columns: &[Vec<Line>], temperature_k: f64) -> Panel {
+    let mut panel = Panel::board("figures of merit", area, Ink::new(InkRole::Plot));
+    let places = columns.iter().enumerate().flat_map(|(column, lines)| {
+        let left = 8.0 + column as f64 * area.width() / columns.len() as f64;
+        lines.iter().enumerate().map(move |(row, line)| (left, LINE * (row as f64 + 0.7), *line))
+    });
+    for (left, y, line) in places {
+        let at = match line {
+            Line::Group(group) => {
+                let at = if group == MetricGroup::Locus { format!(" at {temperature_k} K") } else { String::new() };
+                let words = format!("{}{at}", group.label());
+                panel.marks.push(Mark::text(words, [left, y], Anchor::LEFT, TextSize::Small, InkRole::Weak));
+                continue;
+            }
+            Line::Metric(at) => at,
+        };
+        let metric = &CameraMetric::ALL[at];
+        let Some(value) = figures.of(*metric) else { continue };
+        panel.marks.push(Mark::text(metric.symbol, [left + 8.0, y], Anchor::LEFT, TextSize::Small, InkRole::Text));
+        let number = format!("{} {}", number(*metric, value), unit(metric));
+        panel.marks.push(Mark::text(
+            number.trim_end(),
+            [left + 142.0, y],
+            Anchor::RIGHT,
+            TextSize::Small,
+            InkRole::Text,
+        ));
+        if let Some(by) = uncertainty(value) {
+            panel.marks.push(Mark::text(by, [left + 147.0, y], Anchor::LEFT, TextSize::Small, InkRole::Weak));
+        }
+    }
+    panel
+}
+
+fn numbers(id: &SensorId, figures: &CameraFigures) -> Table {
+    let heads = ["camera", "metric", "name", "unit", "value", "uncertainty", "reason"];
+    let mut table = Table::new(heads.into_iter().chain(UNCERTAINTY_HEADS));
+    for metric in CameraMetric::ALL {
+        let Some(value) = figures.of(*metric) else { continue };
+        let cells = [
+            Cell::from(id.name.as_str()),
+            Cell::from(metric.column),
+            Cell::from(metric.label),
+            Cell::from(metric.unit),
+            Cell::from(value.value.ok()),
+            Cell::from(value.uncertainty.map(|by| by.standard)),
+            Cell::from(value.value.err().map_or_else(String::new, |why| why.to_string())),
+        ];
+        table.push(cells.into_iter().chain(nature_cells(value.uncertainty)));
+    }
+    table
+}

@@ -1,0 +1,243 @@
+//! Light, patches and sensitivities over wavelength.
+
+mod content;
+
+use std::sync::Arc;
+
+use chromascope_core::colorimetry::diagram::wavelength_color;
+use chromascope_core::spectral::SpectralDistribution;
+use chromascope_core::spectral::grid::{COUNT, FIRST_NM, LAST_NM, wavelength_nm};
+use chromascope_figure::{
+    Axis, Cell, Figure, FigureRoom, Image, InkRole, LegendPlace, Mark, Panel, Projection, Rect, Shape, Table, TextSize,
+    Ticks, text_width,
+};
+
+use self::content::Content;
+use super::chromaticity::{caption, key};
+use super::kind::FigureKind;
+use super::labels::{Name, Room};
+use super::look::{FigureLook, SpectraLayout};
+use crate::document::{FIT_TARGET, SetKind};
+use crate::plot_item::{PickIndex, PlotItem};
+use crate::scene::{ComparedSensor, Scene};
+
+/// The panels with the items of their curves.
+#[derive(Clone, Debug)]
+pub struct Built {
+    /// The panels, from the light down, the wavelengths written under the last.
+    pub panels: Vec<Panel>,
+    pub things: PickIndex,
+    /// Items that could not be drawn, with the reasons.
+    pub refused: Vec<String>,
+}
+
+/// The height of the band of colors with its labels.
+const FOOT: f64 = 4.0 + Projection::BOTTOM + Projection::TITLE;
+
+/// Builds the panels for an area of the given size.
+pub fn build(scene: &Scene<'_>, look: &FigureLook, size: [f64; 2]) -> Built {
+    let mut built = Built { panels: Vec::new(), things: PickIndex::default(), refused: Vec::new() };
+    let sources: Vec<ComparedSensor> = scene.sources().into_iter().filter(|source| source.visible).collect();
+    let mut contents: Vec<Content> = content::light(scene, &mut built).into_iter().collect();
+    contents.extend(content::patches(scene, &mut built));
+    if look.spectra_layout == SpectraLayout::Each {
+        let reference = sources.iter().find(|source| source.is_reference);
+        for source in &sources {
+            let ghost = reference.filter(|_| !source.is_reference);
+            let own = content::sensitivities(scene, std::slice::from_ref(source), ghost, &mut built);
+            contents.push(Content { note: source.label.clone(), ..own });
+        }
+    } else if !sources.is_empty() {
+        let all = content::sensitivities(scene, &sources, None, &mut built);
+        contents.push(Content { note: "scaled to peak 1".to_owned(), weight: 1.7, ..all });
+    }
+    let weights: f64 = contents.iter().map(|content| content.weight).sum();
+    let large = size[0] > 500.0;
+    let mut y = 0.0;
+    for content in contents {
+        let height = ((size[1] - FOOT) * content.weight / weights.max(1e-9)).max(24.0);
+        built.panels.push(panel(content, Rect::from_min_size([0.0, y], [size[0], height - 4.0]), large));
+        y += height;
+    }
+    built.panels.push(foot(scene, Rect::from_min_size([0.0, y], [size[0], FOOT]), large));
+    built
+}
+
+/// A panel of curves with their names.
+fn panel(content: Content, area: Rect, large: bool) -> Panel {
+    let range = with_room(&content, area, large);
+    let x = Axis::new("", [FIRST_NM, LAST_NM]).with_grid(true).with_ticks(Ticks::None);
+    let ticks = if large { Ticks::Auto } else { Ticks::None };
+    let axis = Axis::new(content.quantity, range).with_ticks(ticks).with_grid(large);
+    let name = format!("{}, {}", content.quantity, content.note);
+    let mut panel = Panel { note: content.note, ..Panel::new(name, area, x, axis) };
+    let written = |names: &[Name]| -> Vec<Mark> {
+        let mut room = Room::of(&panel);
+        room.take(&content.marks);
+        names.iter().filter_map(|name| name.mark(&mut room)).collect()
+    };
+    let mut names = written(&content.names);
+    if names.len() < content.names.len() && !content.common.is_empty() {
+        names = written(&content.common);
+    }
+    panel.marks = hundreds(range);
+    panel.marks.extend(content.marks);
+    panel.marks.extend(names);
+    panel
+}
+
+/// The range with room above what lies under the axis' title at the upper left, under the note at the upper right, and
+/// under the names at peaks.
+fn with_room(content: &Content, area: Rect, large: bool) -> [f64; 2] {
+    /// The height of a line of small text with its margins.
+    const TEXT: f64 = 20.0;
+    let [low, high] = content.range;
+    let width = (area.width() - if large { Projection::LEFT } else { 0.0 }).max(1.0);
+    let [title, note] = [content.quantity, content.note.as_str()].map(|text| text_width(text, TextSize::Small) + 12.0);
+    let second = if title + note <= width { 0.0 } else { 16.0 };
+    let nm = |share: f64| FIRST_NM + share.clamp(0.0, 1.0) * (LAST_NM - FIRST_NM);
+    let names = if content.names.is_empty() { 0.0 } else { 17.0 };
+    // Names stand below the title and the note, unless the panel is low.
+    let below = if area.height() < 70.0 { 0.0 } else { names };
+    let needs = [
+        ([FIRST_NM, nm(title / width)], TEXT + below),
+        ([nm(1.0 - note / width), LAST_NM], TEXT + second + below),
+        ([FIRST_NM, LAST_NM], names),
+    ];
+    let lines = content.marks.iter().filter_map(|mark| match &mark.shape {
+        Shape::Line { points, .. } => Some(points),
+        _ => None,
+    });
+    let pairs: Vec<[[f64; 2]; 2]> = lines.flat_map(|points| points.windows(2).map(|ends| [ends[0], ends[1]])).collect();
+    needs.into_iter().fold(content.range, |range, ([from, to], points)| {
+        let under = pairs.iter().filter(|[a, b]| b[0] >= from && a[0] <= to).map(|[a, b]| a[1].max(b[1]));
+        let top = under.filter(|value| value.is_finite()).fold(low, f64::max);
+        let free = 1.0 - (points / area.height().max(1.0)).min(0.6);
+        [low, range[1].max(high).max(low + (top - low) / free)]
+    })
+}
+
+/// Faint lines at the hundreds of nanometers, since the axis is written only once, and at zero.
+fn hundreds(range: [f64; 2]) -> Vec<Mark> {
+    let line = |a: [f64; 2], b: [f64; 2]| {
+        Mark::new(PickIndex::NONE, "grid", Shape::Line { points: vec![a, b], closed: false })
+            .with_stroke(InkRole::Grid, 1.0)
+    };
+    let mut marks: Vec<Mark> = [400.0, 500.0, 600.0, 700.0].map(|nm| line([nm, range[0]], [nm, range[1]])).into();
+    marks.push(line([FIRST_NM, 0.0], [LAST_NM, 0.0]));
+    marks
+}
+
+/// The wavelengths, written under a band of their colors.
+fn foot(scene: &Scene<'_>, area: Rect, large: bool) -> Panel {
+    let ticks = [400.0_f64, 450.0, 500.0, 550.0, 600.0, 650.0, 700.0, 750.0];
+    let shown = ticks.iter().filter(|nm| large || (**nm / 100.0).fract() == 0.0);
+    let labels = shown.map(|nm| (*nm, format!("{nm:.0}"))).collect();
+    let x = Axis::new("wavelength (nm)", [FIRST_NM, LAST_NM]).with_ticks(Ticks::At(labels));
+    // An axis without labels, but as wide as those above.
+    let y = Axis::new("", [0.0, 1.0]).with_ticks(if large { Ticks::At(Vec::new()) } else { Ticks::None });
+    let mut panel = Panel::new("wavelength", area, x, y);
+    panel.framed = false;
+    if let Ok(observer) = scene.sensor(SetKind::Observer, FIT_TARGET) {
+        let colors = (0..COUNT).map(wavelength_nm).map(|nm| wavelength_color(&observer, nm));
+        let rgba: Vec<u8> = colors.flat_map(|[r, g, b]| [r, g, b, 255]).collect();
+        let image = Image { width: COUNT, height: 1, rgba: Arc::from(rgba) };
+        let shape = Shape::Image { min: [FIRST_NM, 0.0], max: [LAST_NM, 1.0], image };
+        panel.marks.push(Mark::new(PickIndex::NONE, "colors of the wavelengths", shape));
+    }
+    panel
+}
+
+/// The size of a saved figure in points.
+const SIZE: [f64; 2] = [640.0, 560.0];
+
+pub static KIND: FigureKind =
+    FigureKind::new("spectra", "Light, patches and sensitivities over wavelength", |scene, look, room| {
+        Some(figure(scene, look, room))
+    });
+
+/// The figure as it is saved, with all values on the 1 nm grid.
+pub fn figure(scene: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Figure {
+    let size = room.size(SIZE, 0.0);
+    let built = build(scene, look, size);
+    let mut figure = Figure::new("Spectra", size);
+    figure.panels = built.panels;
+    let sources = scene.sources();
+    let shown = sources.iter().filter(|source| source.visible);
+    figure.legend = shown.map(|source| key(source, source.label.clone())).collect();
+    figure.legend_place = LegendPlace::Outside;
+    figure.caption = format!("Dotted: beyond the data, the end value is held. {}", caption(scene));
+    figure.table = table(scene);
+    figure
+}
+
+/// Everything on the grid, as it is integrated.
+fn table(scene: &Scene<'_>) -> Table {
+    let mut names = vec!["wavelength_nm".to_owned()];
+    let mut columns: Vec<Vec<f64>> = vec![(0..COUNT).map(wavelength_nm).collect()];
+    if let Ok(light) = scene.light() {
+        names.push(format!("light {}", scene.light_name()));
+        columns.push(light.grid.values().to_vec());
+    }
+    if let Ok(patches) = scene.patches() {
+        for patch in patches.patches() {
+            names.push(patch.name.clone());
+            columns.push(patch.grid.values().to_vec());
+        }
+    }
+    for source in scene.sources().iter().filter(|source| source.visible) {
+        let Ok(sensor) = scene.sensor(source.kind, &source.name) else { continue };
+        for (channel, letter) in sensor.primaries().channels().iter().enumerate() {
+            names.push(format!("{} {letter}", source.label));
+            columns.push((0..COUNT).map(|index| sensor.at_index(index)[channel]).collect());
+        }
+    }
+    let mut table = Table::new(names);
+    for index in 0..COUNT {
+        table.push(columns.iter().map(|column| Cell::from(column[index])).collect::<Vec<Cell>>());
+    }
+    table
+}
+
+/// Values of an item's curves at a wavelength: lines of text.
+pub fn describe(scene: &Scene<'_>, thing: &PlotItem, nm: f64) -> Vec<String> {
+    let index = ((nm - FIRST_NM).round().max(0.0) as usize).min(COUNT - 1);
+    let at = format!("{:.0} nm", wavelength_nm(index));
+    let measured = |curve: &SpectralDistribution| {
+        let [first, last] = curve.range_nm();
+        format!("measured {first}–{last} nm")
+    };
+    match thing {
+        PlotItem::Light => match scene.light() {
+            Ok(light) => vec![
+                format!("light {}", scene.light_name()),
+                format!("{at}: {:.4} (relative)", light.grid.values()[index]),
+                measured(&light.measured),
+            ],
+            Err(error) => vec![error.to_string()],
+        },
+        PlotItem::Patch { patch, .. } => {
+            let set = scene.patches().ok();
+            let found = set.as_ref().and_then(|set| set.patches().iter().find(|p| p.name == *patch));
+            found.map_or_else(Vec::new, |found| {
+                let held = if found.grid.assumed().nothing() { "" } else { "; beyond, its end value is held (dotted)" };
+                let value = found.grid.values()[index];
+                vec![patch.clone(), format!("{at}: {value:.4}"), format!("{}{held}", measured(&found.measured))]
+            })
+        }
+        PlotItem::Sensor(source) | PlotItem::Radiator { source, .. } => match scene.sensor(source.kind, &source.name) {
+            Ok(sensor) => {
+                let values = sensor.at_index(index);
+                let mut lines = vec![source.name.clone()];
+                for (channel, (letter, value)) in sensor.primaries().channels().iter().zip(values).enumerate() {
+                    let peak = sensor.curves()[channel].values().iter().copied().fold(0.0, f64::max);
+                    lines.push(format!("{letter} at {at}: {:.4} of its peak", value / peak).replace('-', "−"));
+                }
+                lines.push(format!("{}; zero outside", measured(&sensor.curves()[0])));
+                lines
+            }
+            Err(error) => vec![error.to_string()],
+        },
+        PlotItem::DataSet { name, .. } => vec![name.clone()],
+    }
+}

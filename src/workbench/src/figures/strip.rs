@@ -1,0 +1,228 @@
+//! Distance to the reference over temperature.
+
+use chromascope_core::colorimetry::Xy;
+use chromascope_core::query::Locus;
+use chromascope_figure::{
+    Anchor, Axis, Cell, Dash, Figure, FigureRoom, Ink, InkRole, Mark, Marker, Panel, Projection, Rect, Shape, Table,
+    TextSize, Ticks, wrapped,
+};
+
+use super::chromaticity::{self, distance_symbol, id};
+use super::kind::FigureKind;
+use super::labels::{Place, Room};
+use super::look::FigureLook;
+use crate::document::{Diagram, LOCUS_RANGE_K, SetKind};
+use crate::format::number;
+use crate::plot_item::{PickIndex, PlotItem};
+use crate::scene::locus::{distance, split};
+use crate::scene::{ComparedSensor, Scene};
+
+/// The strip with the items of its lines.
+#[derive(Clone, Debug)]
+pub struct Strip {
+    /// The panel; its axes are in mired and in square roots of distances.
+    pub panel: Panel,
+    pub things: PickIndex,
+}
+
+/// Temperatures that are written below, in kelvins.
+const TICKS: [f64; 7] = [1000.0, 1200.0, 1500.0, 2000.0, 3000.0, 5000.0, 20_000.0];
+/// Height of the line of text at the upper edge, in points.
+const NOTE: f64 = 18.0;
+/// Height of each further line.
+const NOTE_LINE: f64 = 15.0;
+/// Largest distance drawn: a locus that goes to infinity leaves the strip, the others stay readable.
+const LARGEST: f64 = 0.6;
+/// Δu′v′ of lights that half of observers just tell apart.
+const JUST_VISIBLE: f64 = 0.0013;
+
+/// Marks of the strip, from back to front.
+#[derive(Default)]
+struct Content {
+    lines: Vec<Mark>,
+    signs: Vec<Mark>,
+    minima: Vec<(ComparedSensor, [f64; 2])>,
+    /// Largest finite distance.
+    top: f64,
+}
+
+/// Builds the strip; none where no sensor can be compared with the reference.
+pub fn build(scene: &Scene<'_>, size: [f64; 2]) -> Option<Strip> {
+    let reference = scene.locus(SetKind::Observer, &scene.document.reference).ok()?;
+    let diagram = scene.document.diagram;
+    let mut things = PickIndex::default();
+    let content = content(scene, &reference, &mut things)?;
+    let note = format!(
+        "distance to reference ({}, square-root scale), normalized to {} (ring: minimum)",
+        distance_symbol(diagram),
+        scene.locus_balance()
+    );
+    // The note at the upper edge is free of lines.
+    let lines = wrapped(&note, TextSize::Small, size[0] - Projection::LEFT - 10.0).len().max(1);
+    let above = NOTE + NOTE_LINE * (lines as f64 - 1.0);
+    let free = 1.0 - (above / (size[1] - Projection::BOTTOM - Projection::TITLE).max(1.0)).min(0.5);
+    let top = content.top.clamp(1e-6, LARGEST).sqrt() / free;
+    let ticks = TICKS.iter().map(|kelvin| (1e6 / kelvin, format!("{kelvin:.0}"))).collect();
+    let [cold, hot] = LOCUS_RANGE_K.map(|kelvin| 1e6 / kelvin);
+    let x = Axis::new("blackbody temperature (K)", [cold, hot]).with_ticks(Ticks::At(ticks)).with_grid(true);
+    let y = Axis::new("", [0.0, top]).with_ticks(Ticks::At(height_ticks((top * free).powi(2)))).with_grid(true);
+    let mut panel =
+        Panel::new("Distance to the reference over temperature", Rect::from_min_size([0.0, 0.0], size), x, y);
+    panel.note = note;
+    let mut room = Room::of(&panel);
+    room.take(&content.lines);
+    room.take(&content.signs);
+    let line = cursor(scene.document.temperature_k, top * free);
+    room.keep_clear_of(&line);
+    panel.marks = just_visible_line(&reference, diagram, &mut room);
+    let mut texts: Vec<Mark> = cursor_text(&mut room, scene.document.temperature_k, top).into_iter().collect();
+    texts.extend(content.minima.iter().flat_map(|(source, at)| minimum_text(&mut room, source, *at)));
+    panel.marks.extend(content.lines);
+    panel.marks.push(line);
+    panel.marks.extend(content.signs);
+    panel.marks.extend(cut(&panel.marks, top, room.height()));
+    panel.marks.extend(texts);
+    Some(Strip { panel, things })
+}
+
+/// Size of a saved figure in points.
+const SIZE: [f64; 2] = [640.0, 170.0];
+
+pub static KIND: FigureKind =
+    FigureKind::new("strip", "Distance of each locus to the reference's over temperature", figure);
+
+/// The strip as a figure of its own, with its numbers; none where no sensor can be compared with the reference.
+fn figure(scene: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Option<Figure> {
+    let size = room.size(SIZE, 0.0);
+    let whole = chromaticity::figure(scene, look, room);
+    let mut figure = Figure::new("Distance to the reference over temperature", size);
+    figure.panels.push(build(scene, size)?.panel);
+    let is_locus = |row: &Vec<Cell>| row.get(1) == Some(&Cell::from("locus"));
+    figure.table = Table { rows: whole.table.rows.into_iter().filter(is_locus).collect(), ..whole.table };
+    Some(Figure { legend: whole.legend, legend_place: whole.legend_place, caption: whole.caption, ..figure })
+}
+
+/// Lines and signs of the sensors; none where there are none.
+fn content(scene: &Scene<'_>, reference: &Locus, things: &mut PickIndex) -> Option<Content> {
+    let diagram = scene.document.diagram;
+    let mut content = Content::default();
+    let sources = scene.sources();
+    for source in sources.iter().filter(|source| source.visible && !source.is_reference) {
+        if !matches!(scene.comparable(source.kind, &source.name), Ok(Ok(()))) {
+            continue;
+        }
+        let Ok(locus) = scene.locus(source.kind, &source.name) else { continue };
+        let pairs = locus.points.iter().zip(&reference.points);
+        let points: Vec<[f64; 2]> =
+            pairs.map(|(a, b)| [a.temperature.mired(), distance(a, b, diagram).map_or(f64::NAN, f64::sqrt)]).collect();
+        let finite = points.iter().map(|p| p[1] * p[1]).filter(|d| d.is_finite());
+        content.top = finite.fold(content.top, f64::max);
+        let tag = things.tag(PlotItem::Sensor(id(source)));
+        let below = scene.extrapolated_below(source.kind, &source.name).map(|(below, _)| below);
+        // Where lines cross or are printed in gray, markers tell them apart: each at a temperature of its own.
+        let share = 0.3 + 0.08 * (content.signs.len() % 6) as f64;
+        let at = points[(share * points.len() as f64) as usize % points.len().max(1)];
+        let sign = Shape::Points { points: vec![at], marker: source.marker, radius: 4.0 };
+        let sign = Mark::new(tag, &source.label, sign).with_stroke(source.role, 1.5);
+        content.signs.push(if source.marker.has_inside() { sign.with_fill(source.role) } else { sign });
+        let [measured, beyond] = split(&points, |index| 1e6 / points[index][0], below);
+        let line = |points| {
+            let line = Mark::new(tag, &source.label, Shape::Line { points, closed: false });
+            line.with_stroke(source.role, source.width)
+        };
+        content.lines.push(line(measured));
+        if !beyond.is_empty() {
+            content.lines.push(line(beyond).with_dash(Dash::Dotted));
+        }
+        content.minima.extend(minimum(scene, source).map(|at| (source.clone(), at)));
+    }
+    for (source, at) in &content.minima {
+        let kelvin = 1e6 / at[0];
+        let tag = things.tag(PlotItem::Radiator { source: id(source), kelvin: kelvin.round() });
+        let ring = Shape::Points { points: vec![*at], marker: Marker::Circle, radius: 3.5 };
+        let ring = Mark::new(tag, format!("{}: minimum at {kelvin:.0} K", source.label), ring);
+        content.signs.push(ring.with_stroke(source.role, 1.5).with_fill(InkRole::Plot));
+    }
+    (!content.lines.is_empty()).then_some(content)
+}
+
+/// A distance's minimum: it follows the balance, not the camera.
+fn minimum(scene: &Scene<'_>, source: &ComparedSensor) -> Option<[f64; 2]> {
+    let nearest = scene.nearest_to_reference(source.kind, &source.name, scene.document.diagram)?;
+    (!nearest.at_end).then(|| [1e6 / nearest.kelvin, nearest.distance.sqrt()])
+}
+
+/// The temperature of a minimum, in the sensor's ink: beside its ring, above, or farther at the end of a leader.
+fn minimum_text(room: &mut Room, source: &ComparedSensor, at: [f64; 2]) -> Vec<Mark> {
+    let away = |x: f64| (0..8).flat_map(move |row| [(x, row), (-x, row)]);
+    let places = [7.0, 24.0, 48.0, 80.0, 120.0, 170.0, 230.0].into_iter().flat_map(away).map(|(x, row)| {
+        let anchor = if x > 0.0 { Anchor::LEFT_BOTTOM } else { Anchor::RIGHT_BOTTOM };
+        (at, anchor, [x, 5.0 - 13.0 * f64::from(row)])
+    });
+    room.lead(&format!("{:.0} K", 1e6 / at[0]), source.role.into(), &places.collect::<Vec<Place>>())
+}
+
+/// Zero and two round distances with equal decimals, at the square roots where they lie.
+fn height_ticks(top: f64) -> Vec<(f64, String)> {
+    let decade = 10_f64.powf(top.log10().floor());
+    let rounds = [(5.0, 1.0), (2.0, 0.5), (1.0, 0.2)].map(|(high, low)| [0.0, low * decade, high * decade]);
+    let rounds = rounds.into_iter().find(|rounds| rounds[2] <= top).unwrap_or([0.0, 0.2 * decade, decade]);
+    let decimals = usize::try_from((-rounds[1].log10().floor()).max(0.0) as i64).unwrap_or(0);
+    rounds.map(|value| (value.sqrt(), format!("{value:.decimals$}"))).to_vec()
+}
+
+/// The hairline of distances that are just visible, with its name where there is room.
+fn just_visible_line(reference: &Locus, diagram: Diagram, room: &mut Room) -> Vec<Mark> {
+    let height = |at: Xy| just_visible(at, diagram).sqrt();
+    let points = reference.points.iter().filter_map(|p| Some([p.temperature.mired(), height(p.xy?)]));
+    let points: Vec<[f64; 2]> = points.collect();
+    let sides = [(Anchor::BOTTOM, -2.0), (Anchor::TOP, 2.0)];
+    let away = [2.0, 18.0, 31.0].into_iter().flat_map(|far| sides.map(|(anchor, y)| (anchor, y / 2.0 * far)));
+    let places = away.flat_map(|(anchor, y)| points.iter().step_by(8).map(move |at| (*at, anchor, [0.0, y])));
+    let name = format!("just visible to half of observers: Δu′v′ {JUST_VISIBLE}");
+    let line = Mark::new(PickIndex::NONE, name, Shape::Line { points: points.clone(), closed: false });
+    room.take(std::slice::from_ref(&line));
+    let text = room.lead("just visible", InkRole::Weak.into(), &places.collect::<Vec<Place>>());
+    std::iter::once(line.with_stroke(InkRole::Weak, 0.8)).chain(text).collect()
+}
+
+/// Distance in a diagram that is just visible near a chromaticity; in xy, that of a circle as large as the ellipse there.
+fn just_visible(at: Xy, diagram: Diagram) -> f64 {
+    match diagram {
+        Diagram::UvPrime => JUST_VISIBLE,
+        // The Jacobian of u′v′ over xy is 108 / (−2x + 12y + 3)³.
+        Diagram::Xy => JUST_VISIBLE / (108.0 / (-2.0 * at.x + 12.0 * at.y + 3.0).powi(3)).sqrt(),
+    }
+}
+
+/// Arrowheads at the upper edge where lines leave the strip, named after how far.
+fn cut(marks: &[Mark], top: f64, height: f64) -> Vec<Mark> {
+    let y = top * (1.0 - 6.0 / height.max(12.0));
+    let head = |mark: &Mark| {
+        let Shape::Line { points, .. } = &mark.shape else { return None };
+        let (stroke, farthest) =
+            (mark.stroke?, points.iter().filter(|p| p[1] > top).max_by(|a, b| a[1].total_cmp(&b[1]))?);
+        let inside = points.windows(2).find(|ends| (ends[0][1] > top) != (ends[1][1] > top));
+        let x = inside.map_or(farthest[0], |ends| 0.5 * (ends[0][0] + ends[1][0]));
+        let shape = Shape::Points { points: vec![[x, y]], marker: Marker::TriangleUp, radius: 4.0 };
+        let name = format!("{}: beyond the strip, up to {}", mark.name, number(farthest[1] * farthest[1]));
+        Some(Mark::new(mark.tag, name, shape).with_fill(stroke.ink))
+    };
+    marks.iter().filter_map(head).collect()
+}
+
+/// The line at the document's temperature.
+fn cursor(kelvin: f64, top: f64) -> Mark {
+    let mired = 1e6 / kelvin;
+    let line = Shape::Line { points: vec![[mired, 0.0], [mired, top]], closed: false };
+    Mark::new(PickIndex::NONE, "temperature", line).with_stroke(InkRole::Text, 1.5)
+}
+
+/// Its number, on the side that has room.
+fn cursor_text(room: &mut Room, kelvin: f64, top: f64) -> Option<Mark> {
+    let at = |share: f64, (anchor, x)| ([1e6 / kelvin, share * top], anchor, [x, 0.0]);
+    let sides = [(Anchor::RIGHT, -5.0), (Anchor::LEFT, 5.0)];
+    let shares = [0.5, 0.62, 0.38, 0.74, 0.68, 0.56, 0.44, 0.32, 0.26];
+    let places: Vec<Place> = shares.into_iter().flat_map(|share| sides.map(|side| at(share, side))).collect();
+    room.place(&format!("{kelvin:.0} K"), Ink::new(InkRole::Text), false, &places)
+}

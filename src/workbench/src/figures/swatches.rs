@@ -1,0 +1,186 @@
+//! Patches as colors: rows or charts, each swatch beside the reference's, with a bar for the difference.
+
+mod board;
+
+use chromascope_core::colorimetry::Metric;
+use chromascope_core::query::PatchColor;
+use chromascope_figure::{Anchor, Cell, Figure, FigureRoom, Ink, InkRole, Panel, Rect, Table};
+
+use self::board::Board;
+use super::chromaticity::{caption, id};
+use super::kind::FigureKind;
+use super::look::{FigureLook, SwatchLayout, SwatchStyle};
+use crate::document::{SetKind, TransformChoice};
+use crate::format::{fixed, number};
+use crate::plot_item::{PickIndex, PlotItem};
+use crate::scene::{ComparedSensor, Scene};
+
+/// The swatches with the items of their marks.
+#[derive(Clone, Debug)]
+pub struct Built {
+    pub panel: Panel,
+    pub things: PickIndex,
+    pub height: f64,
+}
+
+/// One sensor's colors.
+struct Row {
+    source: ComparedSensor,
+    /// Colors with their differences, or why there are none.
+    colors: Result<Vec<(PatchColor, Option<f64>)>, String>,
+}
+
+/// True if patches are arranged in rows.
+pub fn in_rows(layout: SwatchLayout, count: usize) -> bool {
+    match layout {
+        SwatchLayout::Auto => count <= 8,
+        SwatchLayout::Rows => true,
+        SwatchLayout::Charts => false,
+    }
+}
+
+fn patch_names(scene: &Scene<'_>) -> Vec<String> {
+    scene.patches().map(|set| set.patches().iter().map(|p| p.name.clone()).collect()).unwrap_or_default()
+}
+
+/// Builds the board for an area; it may want to be higher.
+pub fn build(scene: &Scene<'_>, look: &FigureLook, size: [f64; 2]) -> Built {
+    let rows = rows(scene);
+    let mut board = Board::new(scene, look, patch_names(scene));
+    let height = if in_rows(look.swatch_layout, board.names.len()) {
+        board.rows(&rows, size)
+    } else {
+        board.charts(&rows, size)
+    };
+    let area = Rect::from_min_size([0.0, 0.0], [size[0], height.max(size[1])]);
+    let mut panel = Panel::board("Swatches", area, Ink::new(InkRole::Surround));
+    panel.marks = board.marks;
+    Built { panel, things: board.things, height }
+}
+
+/// Length of a bar in words.
+pub fn bar_scale(scene: &Scene<'_>) -> String {
+    format!("full bar: {} = {}", scene.difference_name(), number(scene.document.difference.full_scale))
+}
+
+/// A difference with the decimals of a number beside a bar.
+fn short(metric: Metric, difference: f64) -> String {
+    fixed(difference, metric.decimals.saturating_sub(1))
+}
+
+/// The visible sensors that can be shown with the reference.
+fn rows(scene: &Scene<'_>) -> Vec<Row> {
+    let compares = |source: &ComparedSensor| {
+        source.is_reference || scene.document.transform != TransformChoice::Paper || {
+            // By Paper a CIE observer is drawn directly; as a swatch it would be a difference that is none.
+            !matches!(scene.comparable(source.kind, &source.name), Ok(Err(_)))
+        }
+    };
+    let visible = scene.sources().into_iter().filter(|source| source.visible && compares(source));
+    visible
+        .map(|source| {
+            let colors =
+                scene.patch_colors(source.kind, &source.name).map_err(|error| error.to_string()).map(|colors| {
+                    let differences = scene.differences(source.kind, &source.name).unwrap_or_default();
+                    let of = |i: usize| differences.get(i).and_then(|d| d.ok()).filter(|_| !source.is_reference);
+                    colors.into_iter().enumerate().map(|(i, color)| (color, of(i))).collect()
+                });
+            Row { source, colors }
+        })
+        .collect()
+}
+
+/// The largest difference of all in words, with the patch through the sensor.
+pub fn worst(scene: &Scene<'_>) -> Option<(String, PlotItem)> {
+    let (rows, names) = (rows(scene), patch_names(scene));
+    let differences = rows.iter().flat_map(|row| {
+        let named = row.colors.iter().flatten().zip(&names);
+        named.filter_map(move |((_, difference), name)| Some(((*difference)?, &row.source, name)))
+    });
+    let (difference, source, patch) = differences.max_by(|a, b| a.0.total_cmp(&b.0))?;
+    let number = short(scene.document.difference, difference);
+    let compared = rows.iter().filter(|row| row.colors.iter().flatten().any(|(_, difference)| difference.is_some()));
+    let count = compared.clone().count();
+    let what = if compared.clone().all(|row| row.source.kind == SetKind::Camera) { "cameras" } else { "sensors" };
+    let among = if count > 1 { format!("Worst of {count} {what}") } else { "Worst".to_owned() };
+    let words = format!("{among}: {} {number}, {}, {patch}", scene.difference_name(), source.label);
+    Some((words, PlotItem::Patch { source: Some(id(source)), patch: patch.clone() }))
+}
+
+/// The size of a saved figure in points.
+const SIZE: [f64; 2] = [700.0, 300.0];
+/// Width below which a figure is higher than its proportions.
+const NARROW: f64 = 500.0;
+/// Height of the line below it that says how long bars are.
+const KEY: f64 = 18.0;
+
+pub static KIND: FigureKind =
+    FigureKind::new("swatches", "Patches as each sensor renders them", |scene, look, room| {
+        Some(figure(scene, look, room))
+    });
+
+/// The figure as it is saved (in rows with the five patches, the paper's Figure 5), with all numbers.
+pub fn figure(scene: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Figure {
+    let [width, height] = room.size(SIZE, KEY);
+    // On a narrow page charts stand below each other.
+    let least = if room.height.is_none() && width < NARROW { 0.8 * width } else { 0.0 };
+    figure_sized(scene, look, [width, height.max(least)])
+}
+
+/// The figure in a width, and at least a height, in points.
+pub fn figure_sized(scene: &Scene<'_>, look: &FigureLook, size: [f64; 2]) -> Figure {
+    let built = build(scene, &FigureLook { blink: false, ..look.clone() }, size);
+    let mut figure = Figure::new("Swatches", [size[0], built.height.max(120.0) + KEY]);
+    let area = Rect::from_min_size([0.0, 0.0], figure.size);
+    let mut panel = Panel { marks: built.panel.marks, ..Panel::board("Swatches", area, built.panel.background) };
+    if !look.without_bars {
+        let at = [size[0] - 6.0, figure.size[1] - 0.5 * KEY - 2.0];
+        panel.marks.push(board::small(&bar_scale(scene), at, Anchor::RIGHT));
+    }
+    figure.panels.push(panel);
+    let how = match look.swatch_style {
+        SwatchStyle::Split => "Left half: reference; right half: sensor.",
+        SwatchStyle::Inset => "Inside: reference; outside: sensor.",
+        SwatchStyle::Whole => "",
+    };
+    let worst = worst(scene).map_or_else(String::new, |(words, _)| format!("{words}. "));
+    let bars = scene.difference_name();
+    figure.caption = format!("{how} Bars: {bars}. Notched corners: clipped. {worst}{}", caption(scene));
+    figure.table = table(scene);
+    figure
+}
+
+fn table(scene: &Scene<'_>) -> Table {
+    let columns = "sensor patch r g b X Y Z x y L* a* b* srgb_r srgb_g srgb_b clipped difference measure";
+    let mut table = Table::new(columns.split(' '));
+    let names = patch_names(scene);
+    let measure = scene.difference_name();
+    for row in rows(scene) {
+        for ((color, difference), name) in row.colors.iter().flatten().zip(&names) {
+            let part = |i: usize| Cell::from(color.rgb.map(|rgb| rgb[i]));
+            let [sr, sg, sb] = color.srgb.bytes.map(|v| Cell::from(f64::from(v)));
+            table.push([
+                Cell::from(row.source.label.as_str()),
+                Cell::from(name.as_str()),
+                part(0),
+                part(1),
+                part(2),
+                Cell::from(color.xyz.x),
+                Cell::from(color.xyz.y),
+                Cell::from(color.xyz.z),
+                Cell::from(color.xy.map(|p| p.x)),
+                Cell::from(color.xy.map(|p| p.y)),
+                Cell::from(color.lab.map(|lab| lab.l)),
+                Cell::from(color.lab.map(|lab| lab.a)),
+                Cell::from(color.lab.map(|lab| lab.b)),
+                sr,
+                sg,
+                sb,
+                Cell::from(if color.srgb.clipped { "yes" } else { "no" }),
+                Cell::from(*difference),
+                Cell::from(if difference.is_some() { measure } else { "" }),
+            ]);
+        }
+    }
+    table
+}

@@ -1,0 +1,321 @@
+//! Arrangement of swatches in rows or charts.
+
+use chromascope_core::query::PatchColor;
+use chromascope_figure::{Anchor, Ink, InkRole, Mark, Shape, Tag, TextSize, text_width, wrapped};
+
+use super::{Row, short};
+use crate::document::SetKind;
+use crate::figures::chromaticity::id;
+use crate::figures::look::{FigureLook, SwatchStyle};
+use crate::plot_item::{PickIndex, PlotItem};
+use crate::scene::{ComparedSensor, Scene};
+
+const GAP: f64 = 4.0;
+const MARGIN: f64 = 6.0;
+/// The height of the bar of a difference.
+const BAR: f64 = 3.0;
+/// The height of a difference's number.
+const NUMBER: f64 = 11.0;
+/// The width from which on a number stands beside its bar, in points.
+const BESIDE: f64 = 52.0;
+/// The least height of a swatch in a row.
+const LEAST_ROW: f64 = 16.0;
+/// The least height of colors above a number in a chart.
+const LEAST_COLOR: f64 = 13.0;
+/// The height of a chart's head.
+const HEAD: f64 = 20.0;
+/// The least width of a column with a name.
+const LEAST_COLUMN: f64 = 68.0;
+
+pub(super) struct Board<'a> {
+    scene: &'a Scene<'a>,
+    look: &'a FigureLook,
+    pub(super) names: Vec<String>,
+    reference: Vec<PatchColor>,
+    pub(super) marks: Vec<Mark>,
+    pub(super) things: PickIndex,
+}
+
+/// Difference of a swatch as it is drawn below the colors.
+#[derive(Clone, Copy, PartialEq)]
+enum Note {
+    None,
+    Bar,
+    /// The number, and the bar below.
+    Above,
+    /// The number at the right of the bar.
+    Beside,
+}
+
+impl Note {
+    fn height(self) -> f64 {
+        match self {
+            Self::None => 0.0,
+            Self::Bar => BAR + 1.0,
+            Self::Above => NUMBER + BAR + 1.0,
+            Self::Beside => NUMBER + 2.0,
+        }
+    }
+}
+
+impl<'a> Board<'a> {
+    pub(super) fn new(scene: &'a Scene<'a>, look: &'a FigureLook, names: Vec<String>) -> Self {
+        let reference = scene.patch_colors(SetKind::Observer, &scene.document.reference).unwrap_or_default();
+        Self { scene, look, names, reference, marks: Vec::new(), things: PickIndex::default() }
+    }
+
+    /// What fits below a swatch of a width.
+    fn note(&self, rows: &[Row], width: f64) -> Note {
+        if self.look.without_bars {
+            return Note::None;
+        }
+        let widest = self.widest_number(rows);
+        match width {
+            width if width >= BESIDE.max(widest + 24.0) => Note::Beside,
+            width if width >= widest => Note::Above,
+            _ => Note::Bar,
+        }
+    }
+
+    /// Width of the widest number of a difference.
+    fn widest_number(&self, rows: &[Row]) -> f64 {
+        let metric = self.scene.document.difference;
+        let numbers = rows.iter().flat_map(|row| row.colors.iter().flatten()).filter_map(|(_, difference)| *difference);
+        numbers.map(|d| text_width(&short(metric, d), TextSize::Small)).fold(0.0, f64::max)
+    }
+
+    /// A row for each sensor, a column for each patch, in as many blocks as the columns need. Returns the height.
+    pub(super) fn rows(&mut self, rows: &[Row], size: [f64; 2]) -> f64 {
+        let widest = rows.iter().map(|row| text_width(&row.source.label, TextSize::Body)).fold(40.0, f64::max);
+        let head = (widest + 30.0).min(0.3 * size[0]);
+        let room = size[0] - 2.0 * MARGIN - head;
+        let count = self.names.len().max(1);
+        let most = ((room / (LEAST_COLUMN + GAP)) as usize).clamp(1, count);
+        let blocks = count.div_ceil(most);
+        let columns = count.div_ceil(blocks);
+        let width = (room / columns as f64 - GAP).max(6.0);
+        let heads: Vec<Vec<String>> = self.names.iter().map(|name| column_head(name, width)).collect();
+        let title = 3.0 + 14.0 * heads.iter().map(Vec::len).max().unwrap_or(1) as f64;
+        let note = self.note(rows, width);
+        let available = (size[1] - MARGIN) / blocks as f64 - title - MARGIN;
+        let least = LEAST_ROW + note.height() + GAP;
+        // The reference's colors have no differences below.
+        let references = rows.iter().filter(|row| row.source.is_reference).count() as f64;
+        let available = available + references * note.height();
+        let pitch = (available / rows.len().max(1) as f64).clamp(least, 64.0 + note.height());
+        let mut y = MARGIN;
+        for block in 0..blocks {
+            let shown = block * columns..((block + 1) * columns).min(self.names.len());
+            let left = |column: usize| MARGIN + head + (column - block * columns) as f64 * (width + GAP);
+            for column in shown.clone() {
+                self.column_title(column, &heads[column], [left(column) + width / 2.0, y + title - 4.0]);
+            }
+            y += title;
+            for row in rows {
+                let (note, pitch) =
+                    if row.source.is_reference { (Note::None, pitch - note.height()) } else { (note, pitch) };
+                self.row_head(&row.source, [MARGIN, y + (pitch - GAP - note.height()) / 2.0], head);
+                match &row.colors {
+                    Err(why) => self.text(PickIndex::NONE, why, [MARGIN + head, y + pitch / 2.0], Anchor::LEFT),
+                    Ok(colors) => {
+                        for (column, (color, difference)) in
+                            colors.iter().enumerate().filter(|(i, _)| shown.contains(i))
+                        {
+                            let area = [[left(column), y], [left(column) + width, y + pitch - GAP]];
+                            self.swatch(&row.source, column, (color, *difference), area, note);
+                        }
+                    }
+                }
+                y += pitch;
+            }
+            y += MARGIN;
+        }
+        y
+    }
+
+    /// A column's name above it, in lines that end at a height.
+    fn column_title(&mut self, column: usize, lines: &[String], [x, bottom]: [f64; 2]) {
+        let tag = self.things.tag(PlotItem::Patch { source: None, patch: self.names[column].clone() });
+        for (line, words) in lines.iter().rev().enumerate() {
+            self.text(tag, words, [x, bottom - 7.0 - 14.0 * line as f64], Anchor::CENTER);
+        }
+    }
+
+    /// A chart for each sensor, wrapping to the width. Returns the height.
+    pub(super) fn charts(&mut self, rows: &[Row], size: [f64; 2]) -> f64 {
+        let columns = chart_columns(self.names.len());
+        let lines = self.names.len().div_ceil(columns).max(1);
+        let least = match (self.look.without_bars, columns * lines) {
+            (_, count) if count > 60 => [8.0; 2],
+            (false, _) => [self.widest_number(rows).max(12.0), Note::Above.height() + LEAST_COLOR],
+            (true, _) => [12.0; 2],
+        };
+        let (across, cell) = chart_cell(rows.len(), columns, lines, size, least);
+        let note = match self.note(rows, cell[0]) {
+            // Colors come first: of a chart with many low ones, there are no numbers.
+            Note::Above | Note::Beside if cell[1] < Note::Above.height() + LEAST_COLOR => Note::Bar,
+            note => note,
+        };
+        let chart = [columns as f64 * (cell[0] + GAP / 2.0), lines as f64 * (cell[1] + GAP / 2.0) + HEAD];
+        // Names have the width that colors leave, within reason.
+        let closest = chart[0] + 2.0 * MARGIN;
+        let pitch = (size[0] / across as f64).clamp(closest, closest.max(200.0));
+        for (index, row) in rows.iter().enumerate() {
+            let x = MARGIN + (index % across) as f64 * pitch;
+            let y = MARGIN + (index / across) as f64 * (chart[1] + MARGIN);
+            self.row_head(&row.source, [x, y + 8.0], pitch - MARGIN);
+            match &row.colors {
+                Err(why) => {
+                    for (line, words) in wrapped(why, TextSize::Body, pitch - MARGIN).iter().enumerate() {
+                        self.text(PickIndex::NONE, words, [x, y + 32.0 + 15.0 * line as f64], Anchor::LEFT);
+                    }
+                }
+                Ok(colors) => {
+                    for (i, (color, difference)) in colors.iter().enumerate() {
+                        let left = x + (i % columns) as f64 * (cell[0] + GAP / 2.0);
+                        let up = y + HEAD - 2.0 + (i / columns) as f64 * (cell[1] + GAP / 2.0);
+                        let area = [[left, up], [left + cell[0], up + cell[1]]];
+                        self.swatch(&row.source, i, (color, *difference), area, note);
+                    }
+                }
+            }
+        }
+        MARGIN + rows.len().div_ceil(across) as f64 * (chart[1] + MARGIN)
+    }
+
+    /// A sensor's marker and label, no wider than there is room.
+    fn row_head(&mut self, source: &ComparedSensor, at: [f64; 2], width: f64) {
+        let tag = self.things.tag(PlotItem::Sensor(id(source)));
+        let shape = Shape::Points { points: vec![[at[0] + 7.0, at[1]]], marker: source.marker, radius: 5.0 };
+        let mark = Mark::new(tag, source.label.clone(), shape).with_stroke(InkRole::OnSurround, 1.5);
+        let filled = source.marker.has_inside();
+        self.marks.push(if filled { mark.with_fill(InkRole::OnSurround) } else { mark });
+        let label = if source.is_reference { "Reference" } else { &source.label };
+        self.text(tag, &elided(label, width - 18.0), [at[0] + 18.0, at[1]], Anchor::LEFT);
+    }
+
+    /// One swatch: the sensor's color, the reference's part, the notch, a frame that is seen when it is chosen, the
+    /// difference. Nothing lies across the edge between the colors.
+    fn swatch(
+        &mut self,
+        source: &ComparedSensor,
+        index: usize,
+        (color, difference): (&PatchColor, Option<f64>),
+        [[x0, y0], [x1, y1]]: [[f64; 2]; 2],
+        note: Note,
+    ) {
+        let name = self.names.get(index).cloned().unwrap_or_default();
+        let tag = self.things.tag(PlotItem::Patch { source: Some(id(source)), patch: name.clone() });
+        let bottom = if y1 - y0 > 3.0 * BAR { y1 - note.height() } else { y1 };
+        let reference = self.reference.get(index).copied();
+        let shown = if self.look.blink { reference.unwrap_or(*color) } else { *color };
+        let title = format!("{} {name}", source.label);
+        self.area(&title, [[x0, y0], [x1, bottom]], &shown);
+        if let Some(reference) = reference.filter(|_| !source.is_reference && !self.look.blink) {
+            let (w, h) = (x1 - x0, bottom - y0);
+            match self.look.swatch_style {
+                SwatchStyle::Split => self.area("reference", [[x0, y0], [x0 + w / 2.0, bottom]], &reference),
+                SwatchStyle::Inset => {
+                    let inner = [[x0 + w * 0.3, y0 + h * 0.25], [x1 - w * 0.3, bottom - h * 0.25]];
+                    self.area("reference", inner, &reference);
+                }
+                SwatchStyle::Whole => {}
+            }
+        }
+        if shown.srgb.clipped {
+            let notch = (0.3 * (bottom - y0)).min(9.0);
+            let points = vec![[x1 - notch, y0], [x1, y0], [x1, y0 + notch]];
+            let mark = Mark::new(PickIndex::NONE, "clipped", Shape::Polygon { points });
+            self.marks.push(mark.with_fill(InkRole::Surround));
+        }
+        self.marks.push(Mark::new(tag, title, Shape::Rect { min: [x0, y0], max: [x1, bottom] }));
+        if let Some(difference) = difference.filter(|_| bottom < y1) {
+            self.difference(difference, [[x0, bottom], [x1, y1]], note);
+        }
+    }
+
+    /// The bar of a difference on a hairline of full length, with its number.
+    fn difference(&mut self, difference: f64, [[x0, y0], [x1, y1]]: [[f64; 2]; 2], note: Note) {
+        let metric = self.scene.document.difference;
+        let words = short(metric, difference);
+        let share = (difference / metric.full_scale).clamp(0.0, 1.0);
+        let right = if note == Note::Beside { x1 - text_width(&words, TextSize::Small).max(24.0) - 4.0 } else { x1 };
+        let middle = if note == Note::Beside { 0.5 * (y0 + y1) + 0.5 } else { y1 - 0.5 * BAR };
+        let track = Shape::Segments { segments: vec![[[x0, middle], [right, middle]]] };
+        let faint = Ink::new(InkRole::OnSurround).faded(0.35);
+        self.marks.push(Mark::new(PickIndex::NONE, "full scale", track).with_stroke(faint, 1.0));
+        let bar = Shape::Rect { min: [x0, middle - 0.5 * BAR], max: [x0 + share * (right - x0), middle + 0.5 * BAR] };
+        self.marks.push(Mark::new(PickIndex::NONE, "difference", bar).with_fill(InkRole::OnSurround));
+        match note {
+            Note::Beside => self.marks.push(small(&words, [x1, middle], Anchor::RIGHT)),
+            Note::Above => self.marks.push(small(&words, [x0, y0 + 0.5 * NUMBER], Anchor::LEFT)),
+            Note::Bar | Note::None => {}
+        }
+    }
+
+    fn area(&mut self, name: &str, [min, max]: [[f64; 2]; 2], color: &PatchColor) {
+        let mark = Mark::new(PickIndex::NONE, name, Shape::Rect { min, max });
+        self.marks.push(mark.with_fill(Ink::rgb(color.srgb.bytes)));
+    }
+
+    fn text(&mut self, tag: Tag, text: &str, at: [f64; 2], anchor: Anchor) {
+        self.marks.push(Mark { tag, ..Mark::text(text, at, anchor, TextSize::Body, InkRole::OnSurround) });
+    }
+}
+
+/// Small text on the surround.
+pub(super) fn small(text: &str, at: [f64; 2], anchor: Anchor) -> Mark {
+    Mark::text(text, at, anchor, TextSize::Small, InkRole::OnSurround)
+}
+
+/// A column's name in at most two lines, each cut to the width.
+fn column_head(name: &str, width: f64) -> Vec<String> {
+    let mut lines = wrapped(name, TextSize::Body, width);
+    if lines.len() > 2 {
+        let rest = lines.split_off(1).join(" ");
+        lines.push(rest);
+    }
+    lines.iter().map(|line| elided(line, width)).collect()
+}
+
+/// A label cut to the available width; the pointer shows it in full.
+fn elided(label: &str, width: f64) -> String {
+    if text_width(label, TextSize::Body) <= width {
+        return label.to_owned();
+    }
+    let mut short: String = label.to_owned();
+    while short.pop().is_some() {
+        let shown = format!("{}…", short.trim_end());
+        if text_width(&shown, TextSize::Body) <= width {
+            return shown;
+        }
+    }
+    String::new()
+}
+
+/// Six for a ColorChecker, else about half again as wide as high.
+fn chart_columns(count: usize) -> usize {
+    if count == 24 { 6 } else { ((count as f64 * 1.5).sqrt().ceil() as usize).max(1) }
+}
+
+/// Number of charts side by side, and the size of a swatch: the largest that fits, else the least high, and the charts scroll.
+fn chart_cell(charts: usize, columns: usize, lines: usize, size: [f64; 2], least: [f64; 2]) -> (usize, [f64; 2]) {
+    let mut best = (1, [0.0_f64, 0.0_f64]);
+    for across in 1..=charts.max(1) {
+        let down = charts.div_ceil(across).max(1);
+        let width = (size[0] - MARGIN * (2.0 * across as f64)) / across as f64 / columns as f64 - GAP / 2.0;
+        let height = ((size[1] - MARGIN * (1.0 + down as f64)) / down as f64 - HEAD) / lines as f64 - GAP / 2.0;
+        let cell = [width.min(height * 1.6).min(56.0), height.min((width + 6.0).max(least[1])).min(42.0)];
+        let fits = cell[0] >= least[0] && cell[1] >= least[1];
+        if fits && cell[0].min(cell[1]) > best.1[0].min(best.1[1]) {
+            best = (across, cell);
+        }
+    }
+    if best.1[0] > 0.0 {
+        return best;
+    }
+    let width = |across: f64| (size[0] / across - 2.0 * MARGIN) / columns as f64 - GAP / 2.0;
+    let most = size[0] / (columns as f64 * (least[0] + GAP / 2.0) + 2.0 * MARGIN);
+    let across = (most as usize).clamp(1, charts.max(1));
+    (across, [width(across as f64).clamp(least[0], least[0].max(1.6 * least[1])), least[1]])
+}

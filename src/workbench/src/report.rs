@@ -1,0 +1,227 @@
+//! Report on the paper: its figures made with public data, and its claims with what is found.
+//!
+//! Steps are made one by one, each figure in every form, then the page with the claims. Nothing here touches the disk.
+
+mod claim;
+mod figures;
+mod geometry;
+mod loci;
+mod model;
+mod page;
+mod patches;
+mod pictures;
+
+use std::path::PathBuf;
+use std::sync::{Arc, OnceLock};
+
+use chromascope_core::query::Ask as _;
+use chromascope_figure::{Cell, Table};
+
+pub use claim::{Claim, FURTHER, Finding, Subject, Value, Verdict};
+pub use figures::{FIGURES, PaperFigure};
+
+use crate::atomic::write_atomically;
+use crate::catalog::Catalog;
+use crate::document::start::Start;
+use crate::document::{Document, SetKind};
+use crate::export::{FigureForm, Paper};
+use crate::format::io_reason;
+use crate::jobs::Job;
+use crate::results::Results;
+
+/// Name of the page.
+pub const PAGE: &str = "report.html";
+/// Name of the table of claims.
+pub const NUMBERS: &str = "claims.csv";
+/// Header of the table of claims.
+const SOURCE: &str = concat!(
+    "# title: Claims of Huynh and Robles-Kelly 2007, with what is found\n# source: computed by Chromascope ",
+    env!("CARGO_PKG_VERSION"),
+    " from its public data; claims are paraphrased but for words in quotation marks\n# terms: those of the program, MIT or Apache-2.0\n",
+);
+/// Side of a rendered picture in pixels unless the user says otherwise.
+pub const PIXELS: u32 = 480;
+
+/// Forms of each figure.
+const FORMS: [FigureForm; 4] = [FigureForm::Pdf, FigureForm::Svg, FigureForm::Png, FigureForm::Csv];
+
+/// All claims, in the paper's order, then the checks beyond it.
+pub fn claims() -> impl Iterator<Item = &'static Claim> {
+    let claims = loci::CLAIMS.iter().chain(&patches::CLAIMS).chain(&pictures::CLAIMS).chain(&model::CLAIMS);
+    claims.chain(&loci::CHECKS).chain(&patches::CHECKS).chain(&pictures::CHECKS).chain(&model::CHECKS)
+}
+
+/// A claim with its finding.
+pub struct Judged {
+    pub claim: &'static Claim,
+    /// Finding, or the reason that there is none.
+    pub finding: Result<Finding, String>,
+}
+
+/// A file of a report.
+pub struct ReportFile {
+    /// Its name in the report's folder.
+    pub name: String,
+    pub bytes: Vec<u8>,
+}
+
+/// A report: its subject, and the figures made so far.
+pub struct Report {
+    document: Document,
+    has_own_light: bool,
+    pixels: u32,
+    paper: Paper,
+    catalog: Catalog,
+    figures: [OnceLock<String>; FIGURES.len()],
+}
+
+impl Report {
+    /// Name of the work that makes it.
+    pub const NAME: &'static str = "report";
+    /// Number of steps.
+    pub const STEPS: usize = FIGURES.len() + 1;
+
+    /// A report on a document of the start [`Start::Paper`]; with a light of its own, that takes the place of the paper's lights.
+    pub fn new(document: Document, has_own_light: bool, pixels: u32) -> Self {
+        let paper = Paper { width_mm: Some(Paper::TWO_COLUMNS_MM), ..Paper::default() };
+        let figures = std::array::from_fn(|_| OnceLock::new());
+        Self { document, has_own_light, pixels, paper, catalog: Catalog::built_in(), figures }
+    }
+
+    /// A report on the cameras and patches of another document, and on its imported sets.
+    pub fn of_document(other: &Document) -> Self {
+        let mut document = Document { compared: Vec::new(), own: other.own.clone(), ..Start::Paper.document() };
+        document.compare(&document.reference.clone(), SetKind::Observer);
+        for camera in other.compared.iter().filter(|compared| compared.kind == SetKind::Camera && compared.visible) {
+            document.compare(&camera.name, SetKind::Camera);
+        }
+        (document.chart, document.subset) = (other.chart.clone(), other.subset);
+        Self::new(document, false, PIXELS)
+    }
+
+    fn subject<'a>(&'a self, results: &'a Results) -> Subject<'a> {
+        let Self { document, has_own_light, catalog, .. } = self;
+        Subject { document, has_own_light: *has_own_light, catalog, results }
+    }
+
+    /// Name of a step, for progress.
+    pub fn name(step: usize) -> String {
+        FIGURES.get(step).map_or_else(|| "claims".to_owned(), |figure| format!("Figure {}", figure.number))
+    }
+
+    /// Names of the files of all steps.
+    pub fn names() -> Vec<String> {
+        let figures = FIGURES.iter().flat_map(|figure| FORMS.map(|form| file_name(figure, form)));
+        figures.chain([NUMBERS, PAGE].map(str::to_owned)).collect()
+    }
+
+    /// The files of a step; the error is a message.
+    ///
+    /// # Errors
+    ///
+    /// The reason in a sentence.
+    pub fn make(&self, step: usize, results: &Results) -> Result<Vec<ReportFile>, String> {
+        let subject = self.subject(results);
+        let Some(figure) = FIGURES.get(step) else { return Ok(self.claims_and_page(&subject)) };
+        let made = figure.laid_out(&subject, &self.paper, self.pixels).ok_or_else(|| {
+            format!("Figure {} cannot be drawn: no camera can be compared, or it was stopped.", figure.number)
+        })?;
+        let file = |form: FigureForm| {
+            let bytes = form.bytes(&made, &made.table, &self.paper).map_err(|error| error.to_string())?;
+            if form == FigureForm::Svg {
+                let _first = self.figures[step].set(String::from_utf8_lossy(&bytes).into_owned());
+            }
+            Ok(ReportFile { name: file_name(figure, form), bytes })
+        };
+        FORMS.into_iter().map(file).collect()
+    }
+
+    /// The claims with their findings.
+    pub fn judged(&self, results: &Results) -> Vec<Judged> {
+        let subject = self.subject(results);
+        claims()
+            .map(|claim| Judged { claim, finding: (claim.find)(&subject).map_err(|error| error.to_string()) })
+            .collect()
+    }
+
+    fn claims_and_page(&self, subject: &Subject<'_>) -> Vec<ReportFile> {
+        let judged = self.judged(subject.results);
+        let drawn = |step: usize| self.figures[step].get().map(String::as_str);
+        let page = page::page(subject, &judged, &drawn);
+        let numbers = SOURCE.to_owned() + &numbers(&judged).to_csv();
+        let file = |name: &str, text: String| ReportFile { name: name.to_owned(), bytes: text.into_bytes() };
+        vec![file(NUMBERS, numbers), file(PAGE, page)]
+    }
+}
+
+/// Name of a figure's file.
+fn file_name(figure: &PaperFigure, form: FigureForm) -> String {
+    format!("figure{}.{}", figure.number, form.ending())
+}
+
+/// Findings as a table: a row for each number, rounded to the decimals that are stated, with half of the last one; that is the rounding, and
+/// no accuracy of what the number is about.
+pub fn numbers(judged: &[Judged]) -> Table {
+    let mut table = Table::new([
+        "claim",
+        "part",
+        "paper",
+        "verdict",
+        "condition",
+        "quantity",
+        "sensor",
+        "value",
+        "unit",
+        "rounding",
+    ]);
+    for Judged { claim, finding } in judged {
+        let Ok(finding) = finding else { continue };
+        for value in &finding.values {
+            let step = 10_f64.powi(i32::try_from(value.decimals).unwrap_or(0));
+            let rounded = (value.number * step).round() / step;
+            let (verdict, condition) = (finding.verdict.words(), claim.condition(finding.verdict));
+            let texts = [claim.key, claim.part, claim.paper, verdict, condition, &value.quantity, &value.sensor];
+            let numbers = [Cell::from(rounded), Cell::from(value.unit), Cell::from(0.5 / step)];
+            table.push(texts.map(Cell::from).into_iter().chain(numbers));
+        }
+    }
+    table
+}
+
+/// A step of a report that is written to a folder.
+#[derive(Clone)]
+pub struct ReportJob {
+    pub report: Arc<Report>,
+    pub folder: PathBuf,
+    pub step: usize,
+}
+
+impl ReportJob {
+    /// All steps.
+    pub fn all(report: &Arc<Report>, folder: &std::path::Path) -> Vec<Self> {
+        let job = |step| Self { report: Arc::clone(report), folder: folder.to_owned(), step };
+        (0..Report::STEPS).map(job).collect()
+    }
+}
+
+impl PartialEq for ReportJob {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.report, &other.report) && (&self.folder, self.step) == (&other.folder, other.step)
+    }
+}
+
+impl Job for ReportJob {
+    type Answer = Result<(), String>;
+    const NAME: &'static str = Report::NAME;
+
+    fn run(&self, results: &Results) -> Arc<Self::Answer> {
+        let written = self.report.make(self.step, results).and_then(|files| {
+            files.into_iter().take_while(|_| !results.stop().is_set()).try_for_each(|file| {
+                let path = self.folder.join(&file.name);
+                write_atomically(&path, &file.bytes)
+                    .map_err(|error| format!("Cannot write {}: {}.", path.display(), io_reason(&error)))
+            })
+        });
+        Arc::new(written)
+    }
+}

@@ -1,0 +1,227 @@
+//! Claims of the paper as values: what it says, what is found, and whether that agrees.
+
+use chromascope_core::colorimetry::Xy;
+use chromascope_core::patch_set::PatchSet;
+use chromascope_core::query::{Ask as _, PatchColor, PatchColorsQuery, RenderingQuery, Shared};
+use chromascope_core::spectral::SpectralDistribution;
+use chromascope_core::spectral::grid::{FIRST_NM, LAST_NM};
+
+use crate::catalog::Catalog;
+use crate::document::render::{BALANCE, SUN};
+use crate::document::{CIE_1931, Document, Light, SetKind, Subset, TransformChoice, WhiteBalanceChoice};
+use crate::results::Results;
+use crate::scene::metrics::model_of;
+use crate::scene::{Scene, SceneError};
+
+/// The paper's Canon.
+pub(super) const CANON: &str = "Canon EOS 10D (2007 figure)";
+/// The paper's Nikon.
+pub(super) const NIKON: &str = "Nikon D70 (2007 figure)";
+/// The camera in place of the paper's Kodak, a DCS420.
+pub(super) const KODAK: &str = "Kodak DCS200";
+/// Qualification of verdicts on the paper's Kodak.
+pub(super) const STAND_IN: &str = "Kodak DCS200 in place of the paper's DCS420";
+/// Part of the checks that go beyond the paper.
+pub const FURTHER: &str = "Further checks";
+
+/// Agreement of a claim with what is found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Verdict {
+    Holds,
+    /// It holds within limits.
+    Partly,
+    /// It does not hold.
+    Fails,
+    /// Its words have more than one meaning, and the verdict depends on which.
+    Ambiguous,
+    /// It is about cameras or patches that are not in this report.
+    Open,
+}
+
+impl Verdict {
+    /// In words.
+    pub const fn words(self) -> &'static str {
+        match self {
+            Self::Holds => "holds",
+            Self::Partly => "holds in part",
+            Self::Fails => "does not hold",
+            Self::Ambiguous => "ambiguous",
+            Self::Open => "not judged",
+        }
+    }
+
+    /// Verdict of a condition; none where what it is about is not there.
+    pub(super) fn of(holds: Option<bool>) -> Self {
+        match holds {
+            Some(true) => Self::Holds,
+            Some(false) => Self::Fails,
+            None => Self::Open,
+        }
+    }
+}
+
+/// A number that was found.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Value {
+    pub quantity: String,
+    /// Sensor it is of; may be empty.
+    pub sensor: String,
+    pub number: f64,
+    /// Decimals that are stated.
+    pub decimals: usize,
+    /// Unit; may be empty.
+    pub unit: &'static str,
+}
+
+/// Numbers found for a claim, with the verdict.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Finding {
+    pub values: Vec<Value>,
+    /// Verdict on the claim.
+    pub verdict: Verdict,
+}
+
+/// A claim of the paper, or a further check that it suggests.
+pub struct Claim {
+    /// Name in tables.
+    pub key: &'static str,
+    /// Part of the paper, or [`FURTHER`].
+    pub part: &'static str,
+    /// The claim, paraphrased but for what stands between quotation marks.
+    pub paper: &'static str,
+    /// Reason that it holds or not.
+    pub why: &'static str,
+    /// Computes what is found.
+    pub find: fn(&Subject<'_>) -> Result<Finding, SceneError>,
+}
+
+impl Claim {
+    /// True if the paper makes it.
+    pub fn is_of_paper(&self) -> bool {
+        self.part != FURTHER
+    }
+
+    /// Qualification of a verdict on the paper's Kodak; empty for others.
+    pub fn condition(&self, verdict: Verdict) -> &'static str {
+        if self.paper.contains("Kodak") && verdict != Verdict::Open { STAND_IN } else { "" }
+    }
+}
+
+/// A number for each of several sensors.
+pub(super) struct Series(pub Vec<(String, f64)>);
+
+impl Series {
+    /// Number of a sensor.
+    pub(super) fn get(&self, sensor: &str) -> Option<f64> {
+        self.0.iter().find(|(name, _)| name == sensor).map(|(_, number)| *number)
+    }
+
+    /// The numbers with what they are.
+    pub(super) fn values(&self, quantity: &str, unit: &'static str, decimals: usize) -> Vec<Value> {
+        let value = |(sensor, number): &(String, f64)| Value {
+            quantity: quantity.to_owned(),
+            sensor: sensor.clone(),
+            number: *number,
+            decimals,
+            unit,
+        };
+        self.0.iter().map(value).collect()
+    }
+}
+
+/// Cameras, patches and light that a report is about, with the answers.
+pub struct Subject<'a> {
+    /// Start of the paper with these cameras, patches and light.
+    pub document: &'a Document,
+    /// True if the light takes the place of the paper's lights.
+    pub has_own_light: bool,
+    /// The built-in sets.
+    pub catalog: &'a Catalog,
+    /// The answers known.
+    pub results: &'a Results,
+}
+
+impl Subject<'_> {
+    /// A document with its data.
+    pub(super) fn scene<'b>(&'b self, document: &'b Document) -> Scene<'b> {
+        Scene { document, catalog: self.catalog, results: self.results }
+    }
+
+    /// Names of the cameras.
+    pub(super) fn cameras(&self) -> Vec<String> {
+        let cameras = self.document.compared.iter().filter(|compared| compared.kind == SetKind::Camera);
+        cameras.map(|compared| compared.name.clone()).collect()
+    }
+
+    /// A number for each camera.
+    pub(super) fn each(&self, number: impl Fn(&str) -> Result<f64, SceneError>) -> Result<Series, SceneError> {
+        let cameras = self.cameras().into_iter();
+        cameras.map(|name| Ok((name.clone(), number(&name)?))).collect::<Result<_, _>>().map(Series)
+    }
+
+    /// Least and most of a number among the library's tables of the paper's Nikon: what it depends on the table.
+    pub(super) fn spread(
+        &self,
+        quantity: &str,
+        unit: &'static str,
+        decimals: usize,
+        number: impl Fn(&str) -> Result<f64, SceneError>,
+    ) -> Result<Vec<Value>, SceneError> {
+        let model = model_of(NIKON);
+        let tables = self.catalog.of_kind(SetKind::Camera).filter(|entry| model_of(&entry.name) == model);
+        let numbers = tables.map(|entry| number(&entry.name)).collect::<Result<Vec<f64>, _>>()?;
+        let among = format!("among {} tables of one {model}", numbers.len());
+        let end = |end: &str, number| {
+            Series(vec![(String::new(), number)]).values(&format!("{quantity}, {end} {among}"), unit, decimals)
+        };
+        let [least, most] =
+            [f64::min as fn(f64, f64) -> f64, f64::max].map(|fold| numbers.iter().copied().fold(f64::NAN, fold));
+        Ok([end("least", least), end("most", most)].concat())
+    }
+
+    /// A number for the reference of a document and for each camera.
+    pub(super) fn all(
+        &self,
+        document: &Document,
+        number: impl Fn(SetKind, &str) -> Result<f64, SceneError>,
+    ) -> Result<Series, SceneError> {
+        let reference = document.reference.clone();
+        let mut all = vec![(reference.clone(), number(SetKind::Observer, &reference)?)];
+        all.extend(self.each(|name| number(SetKind::Camera, name))?.0);
+        Ok(Series(all))
+    }
+
+    /// Cameras through matrices fitted to CIE 1931, which is the reference, under a light of the catalog.
+    pub(super) fn fitted(&self, light: &str) -> Document {
+        let mut document = self.document.clone();
+        document.set_transform(TransformChoice::Observer(CIE_1931.to_owned()));
+        CIE_1931.clone_into(&mut document.reference);
+        document.light = Light::Set(light.to_owned());
+        document
+    }
+
+    /// A material in sunlight, balanced to D55: the conditions of experiment 3.
+    pub(super) fn in_sun(&self, material: &str) -> Document {
+        let mut document = self.document.clone();
+        if !self.has_own_light {
+            document.light = Light::Set(SUN.to_owned());
+        }
+        document.white = WhiteBalanceChoice::Light(BALANCE.to_owned());
+        (document.chart, document.subset) = (material.to_owned(), Subset::All);
+        document
+    }
+
+    /// Colors of reflectances.
+    pub(super) fn colors(&self, rendering: RenderingQuery, patches: PatchSet) -> Result<Vec<PatchColor>, SceneError> {
+        let answer = self.results.ask(&PatchColorsQuery { rendering, patches: Shared::new(patches) });
+        (*answer).clone().map_err(|error| SceneError::Rendering { name: "a sensor".to_owned(), error })
+    }
+
+    /// Chromaticity of a perfect diffuser through the reference of a document.
+    pub(super) fn white(&self, document: &Document) -> Result<Option<Xy>, SceneError> {
+        let Ok(diffuser) = SpectralDistribution::new(vec![FIRST_NM, LAST_NM], vec![1.0, 1.0]) else { return Ok(None) };
+        let rendering = self.scene(document).rendering_of(SetKind::Observer, &document.reference)?;
+        let colors = self.colors(rendering, PatchSet::new([("perfect diffuser".to_owned(), diffuser)]))?;
+        Ok(colors.first().and_then(|color| color.xy))
+    }
+}

@@ -1,0 +1,210 @@
+//! The paper's figures, made with the report's cameras, patches and light.
+
+use std::sync::Arc;
+
+use chromascope_core::query::Ask as _;
+use chromascope_figure::{Cell, Figure, FigureRoom, LegendPlace, Panel, Table};
+
+use super::claim::Subject;
+use super::geometry;
+use crate::action::{Action, RenderAction};
+use crate::document::render::{LEAF, MeshChoice, ReadingChoice, SKIN};
+use crate::document::{Document, Overlays, SetKind};
+use crate::export::Paper;
+use crate::figures::look::{FigureLook, SpectraLayout};
+use crate::figures::{chromaticity, render, spectra, swatches};
+use crate::render_service::RenderedFrame;
+use crate::scene::Scene;
+use crate::scene::orbit::Orbit;
+
+/// A figure of the paper.
+pub struct PaperFigure {
+    pub number: u8,
+    pub title: &'static str,
+    make: fn(&Subject<'_>, FigureRoom, Pixels) -> Option<Figure>,
+}
+
+/// Side of a rendered picture in pixels.
+pub(super) type Pixels = u32;
+
+/// The figures in their order.
+pub const FIGURES: [PaperFigure; 9] = [
+    PaperFigure {
+        number: 1,
+        title: "Geometry of the reflectance model",
+        make: |_, room, _| Some(geometry::figure(room)),
+    },
+    PaperFigure {
+        number: 2,
+        title: "Sensitivities of the cameras and the reference",
+        make: |subject, room, _| Some(sensitivities(subject, room)),
+    },
+    PaperFigure { number: 3, title: "Planckian loci", make: |subject, room, _| Some(loci(subject, room)) },
+    PaperFigure {
+        number: 4,
+        title: "Chromaticities of the patches",
+        make: |subject, room, _| Some(points(subject, room)),
+    },
+    PaperFigure { number: 5, title: "Colors of the patches", make: |subject, room, _| Some(patches(subject, room)) },
+    PaperFigure { number: 6, title: "Light and reflectances of the rendered scenes", make: materials },
+    PaperFigure { number: 7, title: "Meshes of head and fern", make: meshes },
+    PaperFigure {
+        number: 8,
+        title: "Head in sunlight",
+        make: |subject, room, pixels| scene(subject, &RenderAction::Figure8, room, pixels),
+    },
+    PaperFigure {
+        number: 9,
+        title: "Fern in sunlight",
+        make: |subject, room, pixels| scene(subject, &RenderAction::Figure9, room, pixels),
+    },
+];
+
+impl PaperFigure {
+    /// The figure laid out for a paper; none where nothing can be drawn.
+    pub fn laid_out(&self, subject: &Subject<'_>, paper: &Paper, pixels: Pixels) -> Option<Figure> {
+        let figure = paper.laid_out(|room| (self.make)(subject, room, pixels))?;
+        Some(Figure { title: format!("Figure {}: {}", self.number, self.title), ..figure })
+    }
+}
+
+fn sensitivities(subject: &Subject<'_>, room: FigureRoom) -> Figure {
+    let scene = subject.scene(subject.document);
+    let look = FigureLook { spectra_layout: SpectraLayout::Each, ..FigureLook::default() };
+    let figure = spectra::figure(&scene, &look, room);
+    let table = without(&figure.table, &spectra_but_sensitivities(&scene));
+    // The light and the patches come first.
+    let panels = figure.panels.iter().skip(2).cloned().collect();
+    let caption = "Relative sensitivities, each sensor scaled to peak 1. Dotted: beyond the data.".to_owned();
+    Figure { table, caption, legend: Vec::new(), ..stacked(figure, panels) }
+}
+
+/// Number of columns of a table of spectra before those of sensitivities, without the wavelengths.
+fn spectra_but_sensitivities(scene: &Scene<'_>) -> std::ops::Range<usize> {
+    1..2 + scene.patches().map_or(0, |patches| patches.patches().len())
+}
+
+/// A table without some columns.
+fn without(table: &Table, left_out: &std::ops::Range<usize>) -> Table {
+    let keep = |index: &usize| !left_out.contains(index);
+    let mut kept = Table::new((0..table.columns.len()).filter(keep).map(|index| table.columns[index].clone()));
+    for row in &table.rows {
+        kept.push((0..row.len()).filter(keep).map(|index| row[index].clone()));
+    }
+    kept
+}
+
+/// A figure with these panels, one below the other.
+fn stacked(figure: Figure, panels: Vec<Panel>) -> Figure {
+    let mut top = 0.0;
+    let placed = panels.into_iter().map(|mut panel| {
+        let height = panel.area.height();
+        let shift = top - panel.area.min[1];
+        (panel.area.min[1], panel.area.max[1]) = (top, panel.area.max[1] + shift);
+        top += height + 4.0;
+        panel
+    });
+    let panels: Vec<Panel> = placed.collect();
+    Figure { size: [figure.size[0], top - 4.0], panels, ..figure }
+}
+
+fn diagram(subject: &Subject<'_>, room: FigureRoom, document: &Document) -> Figure {
+    chromaticity::figure(&subject.scene(document), &FigureLook::default(), room)
+}
+
+/// A table's rows of a kind.
+fn of_kind(mut table: Table, kind: &str) -> Table {
+    let at = table.columns.iter().position(|column| column == "kind");
+    table.rows.retain(|row| at.and_then(|at| row.get(at)) == Some(&kind.into()));
+    table
+}
+
+fn loci(subject: &Subject<'_>, room: FigureRoom) -> Figure {
+    let overlays = Overlays { patches: false, ..subject.document.overlays };
+    let figure = diagram(subject, room, &Document { overlays, ..subject.document.clone() });
+    Figure { table: of_kind(figure.table.clone(), "locus"), ..figure }
+}
+
+fn points(subject: &Subject<'_>, room: FigureRoom) -> Figure {
+    let overlays = Overlays { loci: false, ..subject.document.overlays };
+    let mut document = Document { overlays, ..subject.document.clone() };
+    // By Eq 13 no CIE observer can be compared.
+    document.compared.retain(|compared| compared.kind == SetKind::Camera || compared.name == document.reference);
+    let figure = diagram(subject, FigureRoom { strip: false, ..room }, &document);
+    let caption = chromaticity::conditions(&subject.scene(subject.document));
+    Figure { table: of_kind(figure.table.clone(), "patch"), caption, ..figure }
+}
+
+fn patches(subject: &Subject<'_>, room: FigureRoom) -> Figure {
+    swatches::figure(&subject.scene(subject.document), &FigureLook::default(), room)
+}
+
+fn materials(subject: &Subject<'_>, room: FigureRoom, _: Pixels) -> Option<Figure> {
+    /// Height of light and one material over the width.
+    const SHAPE: f64 = 0.5;
+    let room = FigureRoom { height: room.width.map(|width| SHAPE * width), ..room };
+    let [skin, leaf] = [SKIN, LEAF].map(|material| {
+        let document = Document { compared: Vec::new(), ..subject.in_sun(material) };
+        spectra::figure(&subject.scene(&document), &FigureLook::default(), room)
+    });
+    // Light, skin; leaf, wavelengths.
+    let panels = skin.panels.iter().take(2).chain(leaf.panels.iter().skip(1)).cloned().collect();
+    let mut table = skin.table.clone();
+    let (Some(name), at) = (leaf.table.columns.last(), leaf.table.columns.len().saturating_sub(1)) else { return None };
+    table.columns.push(name.clone());
+    for (row, other) in table.rows.iter_mut().zip(&leaf.table.rows) {
+        row.extend(other.get(at).cloned());
+    }
+    let caption = "Spectral power of the light and reflectances of skin and leaf. Dotted: beyond the data.".to_owned();
+    Some(Figure { table, caption, legend: Vec::new(), ..stacked(skin, panels) })
+}
+
+/// Figure of a document's pictures.
+fn pictures(scene: &Scene<'_>, room: FigureRoom, pixels: Pixels) -> Option<Figure> {
+    let orbit = Orbit::of(&scene.document.render.mesh);
+    // Times of this run, which it has none of, are no part of a figure.
+    let frame = RenderedFrame::of_mesh(scene, scene.mesh_of(None)?, orbit.viewpoint(1.0)?, pixels).ok()?;
+    let look = FigureLook { pictures: Some(Arc::new(frame)), ..FigureLook::default() };
+    let figure = render::KIND.figure(scene, &look, room)?;
+    let time = figure.table.columns.iter().position(|column| column == "time_ms")?;
+    Some(Figure { table: without(&figure.table, &(time..time + 1)), ..figure })
+}
+
+fn scene(subject: &Subject<'_>, action: &RenderAction, room: FigureRoom, pixels: Pixels) -> Option<Figure> {
+    let mut document = subject.document.clone();
+    Action::Render(action.clone()).apply(&mut document);
+    if subject.has_own_light {
+        document.light = subject.document.light.clone();
+    }
+    pictures(&subject.scene(&document), room, pixels)
+}
+
+/// Head and fern, equally bright in all directions, through the reference.
+fn meshes(subject: &Subject<'_>, room: FigureRoom, pixels: Pixels) -> Option<Figure> {
+    let shape = |action: RenderAction| {
+        let mut document = subject.document.clone();
+        Action::Render(action).apply(&mut document);
+        document.render.reading = ReadingChoice::Lambertian;
+        document.compared.retain(|compared| compared.name == document.reference);
+        let room = FigureRoom { width: room.width.map(|width| width / 2.0), ..room };
+        let name = if document.render.mesh == MeshChoice::Head { "Head" } else { "Fern" };
+        let scene = subject.scene(&document);
+        let mesh = subject.results.ask(&scene.mesh_of(None)?);
+        Some((name, pictures(&scene, room, pixels)?, mesh))
+    };
+    let (head, fern) = (shape(RenderAction::Figure8)?, shape(RenderAction::Figure9)?);
+    let width = head.1.size[0];
+    let size = [width + fern.1.size[0], head.1.size[1].max(fern.1.size[1])];
+    let mut figure = Figure { size, legend_place: LegendPlace::None, ..head.1 };
+    for mut panel in fern.1.panels {
+        (panel.area.min[0], panel.area.max[0]) = (panel.area.min[0] + width, panel.area.max[0] + width);
+        figure.panels.push(Panel { name: fern.0.to_owned(), ..panel });
+    }
+    "The meshes, Lambertian, through the reference.".clone_into(&mut figure.caption);
+    figure.table = Table::new(["mesh", "triangles", "vertices"]);
+    for (name, mesh) in [(head.0, head.2), (fern.0, fern.2)] {
+        let counts = [mesh.triangles().len(), mesh.positions().len()].map(|count| Cell::from(count as f64));
+        figure.table.push(std::iter::once(Cell::from(name)).chain(counts));
+    }
+    Some(figure)
+}

@@ -1,0 +1,91 @@
+//! Text for display on a terminal: without control sequences.
+
+use std::borrow::Cow;
+use std::io::{self, IsTerminal as _, Write};
+
+use spectral_file::turns_text;
+
+/// A text as it may go to a terminal. Names come from files, and control characters in them could change what the terminal does or
+/// shows: all but line feeds and tabs become escapes such as `\u{1b}`, and so do characters that turn the direction of text.
+pub fn shown(text: &str) -> Cow<'_, str> {
+    escaped(text, |c| c.escape_unicode().to_string())
+}
+
+/// JSON as it may go to a terminal: C1 control characters in its strings become escapes too, as C0 are by its rules.
+pub fn shown_json(text: &str) -> Cow<'_, str> {
+    escaped(text, |c| format!("\\u{:04x}", u32::from(c)))
+}
+
+fn escaped(text: &str, escape: impl Fn(char) -> String) -> Cow<'_, str> {
+    let orders = |c: char| (c.is_control() && c != '\n' && c != '\t') || turns_text(c);
+    if !text.contains(orders) {
+        return Cow::Borrowed(text);
+    }
+    let plain = |c: char| if orders(c) { escape(c) } else { c.to_string() };
+    Cow::Owned(text.chars().map(plain).collect())
+}
+
+pub fn say(text: &str) {
+    // No message can be written once the terminal is closed.
+    let _gone = io::stderr().lock().write_all(shown(text).as_bytes());
+}
+
+/// Draws a bar of progress on standard error, over the one before; at the end it is wiped. Only for terminals: none elsewhere.
+pub fn draw_progress(done: usize, of: usize, what: &str) {
+    const WIDTH: usize = 24;
+    let mut error = io::stderr().lock();
+    if !error.is_terminal() {
+        return;
+    }
+    let full = WIDTH * done / of.max(1);
+    let bar = if done < of {
+        format!("\r{}{} {done}/{of} {}\u{1b}[K", "█".repeat(full), "░".repeat(WIDTH - full), shown(what))
+    } else {
+        "\r\u{1b}[K".to_owned()
+    };
+    // Nothing can be drawn once the terminal is closed.
+    let _gone = error.write_all(bar.as_bytes()).and_then(|()| error.flush());
+}
+
+/// Standard error for logs, a whole record at a time.
+#[derive(Debug, Default)]
+pub struct StandardError;
+
+impl Write for StandardError {
+    fn write(&mut self, record: &[u8]) -> io::Result<usize> {
+        io::stderr().lock().write_all(shown(&String::from_utf8_lossy(record)).as_bytes())?;
+        Ok(record.len())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        io::stderr().lock().flush()
+    }
+}
+
+/// Reports a panic in one line, with the file name alone: the build directory is private.
+pub fn report_panic(info: &std::panic::PanicHookInfo<'_>) {
+    let thread = std::thread::current();
+    let place = info.location().map_or_else(String::new, |place| {
+        let file = place.file().rsplit(['/', '\\']).next().unwrap_or_default();
+        format!(" at {file}:{}:{}", place.line(), place.column())
+    });
+    let words = info.payload_as_str().unwrap_or("no message");
+    say(&format!("chromascope: thread {} panicked{place}: {words}\n", thread.name().unwrap_or("without a name")));
+    // A backtrace names source files where they are known, in builds for debugging.
+    if cfg!(debug_assertions) {
+        say(&format!("{}\n", std::backtrace::Backtrace::capture()));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nothing_is_an_order_to_the_terminal() {
+        assert_eq!(shown("a\u{1b}[31mb\u{7}"), "a\\u{1b}[31mb\\u{7}");
+        assert_eq!(shown("a\u{9b}2Jb\rc\u{7f}"), "a\\u{9b}2Jb\\u{d}c\\u{7f}");
+        assert_eq!(shown("\u{202e}gpj.exe\u{2066}"), "\\u{202e}gpj.exe\\u{2066}");
+        assert!(matches!(shown("two lines\n\twith \u{394}E\u{2a}\n"), Cow::Borrowed(_)));
+    }
+}
