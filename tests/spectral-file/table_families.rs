@@ -206,7 +206,7 @@ fn rawtoaces() {
     assert_eq!(error(&uneven), wrong);
     let cut = &layouts::RAWTOACES[..layouts::RAWTOACES.len() - 4];
     assert!(matches!(error(cut), ReadError::Malformed { family: Family::Json, line: 9, .. }));
-    let text = layouts::RAWTOACES.replace("0.04", "\"x\"");
+    let text = layouts::RAWTOACES.replace("0.04,", "\"x\",");
     assert!(matches!(error(&text), ReadError::Malformed { family: Family::Json, line: 7, .. }));
 }
 
