@@ -33,7 +33,7 @@
 //!
 //! Stages of reading, in order: `text` (bytes to text), `formats` (choice of the reader), for numbers in columns `sniff`
 //! (separators, first row of numbers), `header` (names, units, comments), `columns` or `wide` (text to numbers), then
-//! `wavelengths` (unit, order, repeats), `gaps`, `no_curve`, `scale` (role, percent), `quantity`, `photons`, and in `read` the
+//! `wavelengths` (unit, order, repeats), `gaps`, `no_curve`, `scale` (role, percent), `quantity` (photons to energies), and in `read` the
 //! curves. Another format is one file in `formats` and its line in `FORMATS`: it fills the same `Grid`, and all after it is shared.
 
 #![cfg_attr(

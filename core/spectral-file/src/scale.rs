@@ -1,8 +1,8 @@
 //! Role of the curves and scale of their values.
 //!
 //! `role` decides the role of the curves: as stated in the file, else as suggested by its settings, else by the numbers. `values`
-//! decides for each curve the meaning of its numbers, by the header, else by its own `evidence`. `convert` converts them to plain
-//! numbers, and `check` warns of invalid ones. If nothing decides between scales that differ by a factor, the decision is
+//! decides for each curve the meaning of its numbers, by the header, else by its own numbers. [`convert`] makes plain numbers of
+//! them, and [`warn`] warns of invalid ones. If nothing decides between scales that differ by a factor, the decision is
 //! [`Certainty::Open`] and the numbers stay as written.
 
 mod role;
