@@ -137,7 +137,6 @@ fn remote(g: f64, b: f64, precision: Precision) -> f64 {
     parts(g, b, precision, NOTHING).map_or(0.0, |(ln_scale, rest)| raised(ln_scale, rest))
 }
 
-#[expect(clippy::inline_always, reason = "every instruction set needs a copy of its own")]
 #[inline(always)]
 fn raised(ln_scale: f64, rest: f64) -> f64 {
     // The exponential ends at e^−700: no rest lifts that above the smallest.
@@ -221,7 +220,6 @@ fn logarithms(g: &[f64; RUN], b: &[f64; RUN], precision: Precision) -> [f64; RUN
 }
 
 /// S as e to the first times the second, the second positive; none where S is 0 or m δ beyond what is requested.
-#[expect(clippy::inline_always, reason = "every instruction set needs a copy of its own")]
 #[inline(always)]
 fn parts(g: f64, b: f64, precision: Precision, nothing: f64) -> Option<(f64, f64)> {
     // Written so that NaN falls out too.

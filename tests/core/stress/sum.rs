@@ -133,7 +133,8 @@ fn ln_factorial(n: f64) -> Double {
     for [above, below] in STIRLING.into_iter().rev() {
         series = series * inverse * inverse + Double::from(above) / below.into();
     }
-    (x + half) * x.ln() - x + half * Double::LN_TAU + series * inverse
+    let ln_tau = Double::from(1.837_877_066_409_345_6) + (-7.756_588_316_134_483e-17).into();
+    (x + half) * x.ln() - x + half * ln_tau + series * inverse
 }
 
 fn ln_term(g: f64, b: f64, n: f64) -> Double {

@@ -70,12 +70,12 @@ macro_rules! step {
     };
     (@ $sums:ident, [$($row:literal $spectrum:ident),*], $curves:ident, $lanes:literal, $n:literal) => {
         let curve = $curves[$n].0;
-        $($sums[$row][$n] = std::array::from_fn(|k| $spectrum[k].mul_add(curve[k], $sums[$row][$n][k]));)*
+        $($sums[$row][$n] = fused($spectrum, &curve, &$sums[$row][$n]);)*
     };
 }
 
 macro_rules! kernel {
-    ($type:ident, $lanes:literal) => {
+    ($type:ident, $lanes:literal, $($k:literal)*) => {
         pub(super) mod $type {
             use super::*;
 
@@ -141,7 +141,6 @@ macro_rules! kernel {
             }
 
             /// Portable form for any processor.
-            #[allow(clippy::inline_always, reason = "only there is it compiled for the caller's instruction set")]
             #[inline(always)]
             pub(super) fn portable(
                 spectra: &[$type],
@@ -157,8 +156,8 @@ macro_rules! kernel {
                     let (these, rest) = spectra.split_at(count * length);
                     let (places, others) = answers.split_at_mut(count * channels);
                     // Where spectra are missing, the first stands for them.
-                    let all = [0, 1, 2].map(|row| &these[if row < count { row * length } else { 0 }..][..length]);
-                    let [a, b, c] = all;
+                    let row = |row| &these[if row < count { row * length } else { 0 }..][..length];
+                    let [a, b, c] = [row(0), row(1), row(2)];
                     let rows = [a.as_chunks().0, b.as_chunks().0, c.as_chunks().0];
                     let lasts = [Register(last(a)), Register(last(b)), Register(last(c))];
                     let block = Block { rows, lasts, ahead: if far { rest } else { &[] }, length };
@@ -168,7 +167,6 @@ macro_rules! kernel {
             }
 
             /// The last register of numbers that do not fill it: some are in the one before, too.
-            #[allow(clippy::inline_always, reason = "only there is it compiled for the caller's instruction set")]
             #[inline(always)]
             fn last(numbers: &[$type]) -> [$type; $lanes] {
                 if let Some(last) = numbers.last_chunk() {
@@ -181,7 +179,6 @@ macro_rules! kernel {
 
             impl Block<'_> {
                 /// The responses of all channels.
-                #[allow(clippy::inline_always, reason = "only there is it compiled for the caller's instruction set")]
                 #[inline(always)]
                 fn multiply(&self, curves: &[Lanes], answers: &mut [$type], channels: usize) {
                     let registers = curves.len() / channels;
@@ -210,7 +207,6 @@ macro_rules! kernel {
                 }
 
                 /// The responses of N channels; those of each spectrum are `stride` places further on.
-                #[allow(clippy::inline_always, reason = "only there is it compiled for the caller's instruction set")]
                 #[inline(always)]
                 fn some<const N: usize>(&self, curves: &[Lanes], places: &mut [$type], stride: usize, ahead: &[$type]) {
                     let mut sums = [[[0.0; $lanes]; N]; ROWS];
@@ -232,7 +228,7 @@ macro_rules! kernel {
                         }
                     }
                     if let Some(curves) = rest.next() {
-                        let [a, b, c] = self.lasts.each_ref().map(|last| &last.0);
+                        let [a, b, c] = [&self.lasts[0].0, &self.lasts[1].0, &self.lasts[2].0];
                         step!(sums, [0 a, 1 b, 2 c], curves, $lanes, N);
                     }
                     for (places, sums) in places.chunks_mut(stride).zip(sums) {
@@ -244,14 +240,20 @@ macro_rules! kernel {
                 }
             }
 
+            /// `a b + c`. Written out: a loop that fills an array is not vectorized, and the standard library's goes through a
+            /// function of another codegen unit, which is not compiled for the caller's instruction set.
+            #[inline(always)]
+            fn fused(a: &[$type; $lanes], b: &[$type; $lanes], c: &[$type; $lanes]) -> [$type; $lanes] {
+                [$(a[$k].mul_add(b[$k], c[$k])),*]
+            }
+
             /// Partial sums, pairwise, where they are finite; written in the order in which registers are shuffled.
-            #[allow(clippy::inline_always, reason = "only there is it compiled for the caller's instruction set")]
             #[inline(always)]
             fn totals(sums: &[[$type; $lanes]; 4]) -> [$type; 4] {
                 let mut quarters = [[0.0; 4]; 4];
-                for (quarters, sums) in quarters.iter_mut().zip(sums) {
+                for n in 0..4 {
                     for k in 0..4 {
-                        quarters[k] = if $lanes == 8 { sums[k] + sums[(k + 4) % $lanes] } else { sums[k] };
+                        quarters[n][k] = if $lanes == 8 { sums[n][k] + sums[n][(k + 4) % $lanes] } else { sums[n][k] };
                     }
                 }
                 let [a, b, c, d] = quarters;
@@ -266,8 +268,8 @@ macro_rules! kernel {
     };
 }
 
-kernel!(f64, 4);
-kernel!(f32, 8);
+kernel!(f64, 4, 0 1 2 3);
+kernel!(f32, 8, 0 1 2 3 4 5 6 7);
 
 #[cfg(test)]
 mod tests {
