@@ -143,7 +143,7 @@ impl Query for PatchColorsQuery {
 }
 
 /// The color of raw integrals.
-fn color(rendering: &Rendering, raw: DVec3) -> PatchColor {
+pub(super) fn color(rendering: &Rendering, raw: DVec3) -> PatchColor {
     let signals = rendering.patch_signals(raw.to_array());
     let xyz = rendering.xyz(signals);
     let linear = rendering.linear_srgb(xyz);
