@@ -70,12 +70,12 @@ macro_rules! step {
     };
     (@ $sums:ident, [$($row:literal $spectrum:ident),*], $curves:ident, $lanes:literal, $n:literal) => {
         let curve = $curves[$n].0;
-        $($sums[$row][$n] = fused($spectrum, &curve, &$sums[$row][$n]);)*
+        $($sums[$row][$n] = std::array::from_fn(|k| $spectrum[k].mul_add(curve[k], $sums[$row][$n][k]));)*
     };
 }
 
 macro_rules! kernel {
-    ($type:ident, $lanes:literal, $($k:literal)*) => {
+    ($type:ident, $lanes:literal) => {
         pub(super) mod $type {
             use super::*;
 
@@ -156,8 +156,8 @@ macro_rules! kernel {
                     let (these, rest) = spectra.split_at(count * length);
                     let (places, others) = answers.split_at_mut(count * channels);
                     // Where spectra are missing, the first stands for them.
-                    let row = |row| &these[if row < count { row * length } else { 0 }..][..length];
-                    let [a, b, c] = [row(0), row(1), row(2)];
+                    let all = [0, 1, 2].map(|row| &these[if row < count { row * length } else { 0 }..][..length]);
+                    let [a, b, c] = all;
                     let rows = [a.as_chunks().0, b.as_chunks().0, c.as_chunks().0];
                     let lasts = [Register(last(a)), Register(last(b)), Register(last(c))];
                     let block = Block { rows, lasts, ahead: if far { rest } else { &[] }, length };
@@ -228,7 +228,7 @@ macro_rules! kernel {
                         }
                     }
                     if let Some(curves) = rest.next() {
-                        let [a, b, c] = [&self.lasts[0].0, &self.lasts[1].0, &self.lasts[2].0];
+                        let [a, b, c] = self.lasts.each_ref().map(|last| &last.0);
                         step!(sums, [0 a, 1 b, 2 c], curves, $lanes, N);
                     }
                     for (places, sums) in places.chunks_mut(stride).zip(sums) {
@@ -240,20 +240,13 @@ macro_rules! kernel {
                 }
             }
 
-            /// `a b + c`. Written out: a loop that fills an array is not vectorized, and the standard library's goes through a
-            /// function of another codegen unit, which is not compiled for the caller's instruction set.
-            #[inline(always)]
-            fn fused(a: &[$type; $lanes], b: &[$type; $lanes], c: &[$type; $lanes]) -> [$type; $lanes] {
-                [$(a[$k].mul_add(b[$k], c[$k])),*]
-            }
-
             /// Partial sums, pairwise, where they are finite; written in the order in which registers are shuffled.
             #[inline(always)]
             fn totals(sums: &[[$type; $lanes]; 4]) -> [$type; 4] {
                 let mut quarters = [[0.0; 4]; 4];
-                for n in 0..4 {
+                for (quarters, sums) in quarters.iter_mut().zip(sums) {
                     for k in 0..4 {
-                        quarters[n][k] = if $lanes == 8 { sums[n][k] + sums[n][(k + 4) % $lanes] } else { sums[n][k] };
+                        quarters[k] = if $lanes == 8 { sums[k] + sums[(k + 4) % $lanes] } else { sums[k] };
                     }
                 }
                 let [a, b, c, d] = quarters;
@@ -268,8 +261,8 @@ macro_rules! kernel {
     };
 }
 
-kernel!(f64, 4, 0 1 2 3);
-kernel!(f32, 8, 0 1 2 3 4 5 6 7);
+kernel!(f64, 4);
+kernel!(f32, 8);
 
 #[cfg(test)]
 mod tests {
