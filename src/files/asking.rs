@@ -3,11 +3,11 @@
 use std::path::Path;
 
 use super::Files;
-use super::atomic::write_atomically;
 use super::dialogs::{Answer, Question};
 use super::event::{FileEvent, Note, SavedFile};
 use super::prompt::{self, PathPrompt};
 use super::save::{self, FileForm, SaveRequest};
+use crate::atomic::write_atomically;
 use crate::format::io_reason;
 
 /// A dialog that is open.

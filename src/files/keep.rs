@@ -116,7 +116,7 @@ impl Keeper {
     fn set_aside(&mut self, file: &Path, what: &str, why: &str, copy: bool) -> (String, PathBuf) {
         let aside = profile::free_aside(file.parent().unwrap_or(Path::new(".")));
         let result = if copy {
-            std::fs::read(file).and_then(|bytes| super::atomic::write_atomically(&aside, &bytes))
+            std::fs::read(file).and_then(|bytes| crate::atomic::write_atomically(&aside, &bytes))
         } else {
             std::fs::rename(file, &aside)
         };

@@ -7,12 +7,12 @@ use std::sync::Arc;
 
 use chromascope_core::query::Shared;
 
-use super::atomic::{sweep, write_atomically};
 use super::event::{DocumentSource, FileEvent, Note, OpenedDocument};
 use super::keep::Aside;
 use super::save::MakeText;
 use super::store::{Unread, read};
 use super::{Files, template_name};
+use crate::atomic::{sweep, write_atomically};
 use crate::document::imported::{Fingerprint, ImportedSet};
 use crate::document::{Document, SessionFile, session};
 use crate::format::{io_failure, io_reason};

@@ -8,8 +8,8 @@ use chromascope_core::colorimetry::diagram::wavelength_color;
 use chromascope_core::spectral::SpectralDistribution;
 use chromascope_core::spectral::grid::{COUNT, FIRST_NM, LAST_NM, wavelength_nm};
 use chromascope_figure::{
-    Axis, Cell, Figure, FigureRoom, Image, InkRole, LegendPlace, Mark, Panel, Projection, Rect, Shape, Stroke, Table,
-    TextSize, Ticks, text_width,
+    Axis, Cell, Figure, FigureRoom, Image, InkRole, LegendPlace, Mark, Panel, Projection, Rect, Shape, Table, TextSize,
+    Ticks, text_width,
 };
 
 use self::content::Content;
