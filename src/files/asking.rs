@@ -3,10 +3,10 @@
 use std::path::Path;
 
 use super::Files;
-use super::atomic::write_atomically;
 use super::dialogs::{Answer, Question};
 use super::event::{FileEvent, Note, SavedFile};
 use super::request::{self, FileForm, PathPrompt, SaveRequest};
+use crate::atomic::write_atomically;
 use crate::document::SessionFile;
 use crate::document::imported::Fingerprint;
 use crate::format::io_reason;
