@@ -13,9 +13,6 @@ use proptest::prelude::*;
 use super::{integral, rough};
 use crate::support::{assert_near, cases};
 
-const READINGS: [Normalization; 4] =
-    [Normalization::Radiometric, Normalization::Paper, Normalization::Microfacet, Normalization::Lambertian];
-
 /// The share of light from θi that leaves, by the factor's integral over all directions: ∫ f cos θs dω.
 fn albedo(surface: &Surface, theta_i: f64, pieces: [u32; 2]) -> f64 {
     let ring = |theta_s: f64| {
