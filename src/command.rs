@@ -24,20 +24,16 @@ pub enum Command {
     Redo,
     /// Begin or save a session.
     Session(SessionCommand),
-    /// Show the dialog for files to open.
     Open,
     /// Show the dialog for a file of recorded raw values.
     OpenRecorded,
-    /// Show the dialog for a folder of files to open.
     OpenFolder,
-    /// Show the dialog for the folder of a report.
     Report(ReportOn),
     StopReport,
     /// Open a session or document in place of this one, which is saved first.
     OpenDocument(std::path::PathBuf),
     /// Delete a document that another window saved.
     RemoveDocument(std::path::PathBuf),
-    /// Open a file or folder of the given path.
     OpenPath(std::path::PathBuf),
     /// Show a file in Import, at a line.
     ShowImport(ImportItem, Option<usize>),
@@ -58,11 +54,9 @@ pub enum Command {
     /// Read a set's file from disk again.
     ReadAgain(String),
     StopReading,
-    /// Measure the cost of the scene.
     SpectralWeights,
     MeasureWorkload(Workload),
     StopMeasuring,
-    /// Read text as if it were a file.
     Paste(String),
     /// Show a pane as the printed page, or go back.
     FigurePage(PaneKind),
@@ -72,9 +66,7 @@ pub enum Command {
     ExportExr(SensorId),
     /// Put the curves of a set of the library on the clipboard as text.
     CopySet(SetKind, String),
-    /// Save the curves of a set of the library.
     SaveSet(SetKind, String, Form),
-    /// Save the current color correction.
     SaveCorrection(CorrectionForm),
     CopyPicture(PaneKind),
     /// Put a pane's figure, the swatches and the conditions on the clipboard as one picture.
@@ -92,9 +84,7 @@ pub enum Command {
     ResetView,
     /// All panes back to their places.
     ResetLayout,
-    /// Light or dark.
     SetTheme(egui::ThemePreference),
-    /// The gray around swatches.
     SetSurround(Surround),
     /// How plots and pictures stand.
     Look(ViewChoice),
@@ -115,7 +105,6 @@ pub enum Command {
     Pin,
     /// Show or hide the bars of differences.
     ToggleDifference,
-    /// Clear the selection and similar states, one at a time.
     Escape,
     NextPane,
     /// Show a pane and give it the keyboard.

@@ -101,6 +101,8 @@ pub struct RenderService {
     changed_at: f64,
     asked: bool,
     is_looked_at: bool,
+    /// Running time when the last frame was drawn.
+    busy_then: Option<Duration>,
 }
 
 impl RenderService {
@@ -115,6 +117,7 @@ impl RenderService {
             changed_at: f64::NEG_INFINITY,
             asked: false,
             is_looked_at: false,
+            busy_then: None,
         }
     }
 
@@ -185,6 +188,7 @@ impl RenderService {
     /// Ends a frame: pictures that it did not request are not computed.
     pub fn end_frame(&mut self) {
         self.is_looked_at = std::mem::take(&mut self.asked);
+        self.busy_then = self.busy();
         if !self.is_looked_at {
             self.worker.rest();
         }
@@ -220,9 +224,9 @@ impl RenderService {
         self.worker.busy()
     }
 
-    /// True if the latest request has lasted long enough for progress to be shown.
+    /// True if the request had lasted long enough for progress to be shown when the last frame was drawn.
     pub fn is_waiting(&self) -> bool {
-        self.busy().is_some_and(|busy| busy >= PATIENCE)
+        self.busy_then.is_some_and(|busy| busy >= PATIENCE)
     }
 
     /// Reason that the latest request has no answer, if it failed.

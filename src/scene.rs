@@ -48,31 +48,22 @@ pub const LOCUS_POINTS: usize = 200;
 /// Reason that something of the scene cannot be shown.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum SceneError {
-    /// A name that no set has, as in a session from elsewhere.
     #[error("no {kind} is named \"{name}\" here; open its file, or choose another", kind = kind.singular())]
     NoSet { kind: SetKind, name: String },
-    /// A set that cannot be computed with.
     #[error("{name}: {error}")]
     Load { name: String, error: LoadError },
-    /// A camera without an ACES input transform under this light.
     #[error("{name}: {error}")]
     Idt { name: String, error: IdtError },
-    /// A sensor that cannot be shown under this light.
     #[error("{name}: {error}")]
     Rendering { name: String, error: RenderingError },
-    /// A white that has no color.
     #[error("the white-balance target \"{0}\" has no color; choose another")]
     WhiteBalanceTarget(String),
-    /// A daylight that is not defined.
     #[error(transparent)]
     Daylight(#[from] DaylightError),
-    /// A temperature that is none.
     #[error(transparent)]
     Temperature(#[from] NotPositive),
-    /// A surface that the model says nothing about.
     #[error(transparent)]
     Surface(#[from] SurfaceError),
-    /// A light without a place.
     #[error(transparent)]
     Lighting(#[from] LightingError),
 }

@@ -18,13 +18,9 @@ impl PaneKind {
     /// Sensors compared, and all data sets.
     pub const LIBRARY: Self = Self::new("Library");
     pub const CHROMATICITY: Self = Self::new("Chromaticity");
-    /// Patches as colors.
     pub const SWATCHES: Self = Self::new("Swatches");
-    /// Light, patches, sensitivities.
     pub const SPECTRA: Self = Self::new("Spectra");
-    /// Key, or the selection.
     pub const INSPECTOR: Self = Self::new("Inspector");
-    /// A mesh through each sensor.
     pub const RENDER: Self = Self::new("Render");
     /// Mesh, surface, light and view of the render.
     pub const RENDER_SETTINGS: Self = Self::new("RenderSetup");
@@ -33,9 +29,7 @@ impl PaneKind {
     pub const CURVES: Self = Self::new("Curves");
     /// Decisions made in reading a file, with switches.
     pub const INTERPRETATION: Self = Self::new("Understood");
-    /// Run time against error by method.
     pub const METHODS: Self = Self::new("Accuracy");
-    /// Counts of samples and methods of the pictures.
     pub const STATISTICS: Self = Self::new("Statistics");
     pub const METRICS: Self = Self::new("Metrics");
     /// Two cameras side by side.
@@ -44,9 +38,7 @@ impl PaneKind {
     /// The light judged.
     pub const LIGHT: Self = Self::new("Light");
     pub const CORRECTION: Self = Self::new("Correction");
-    /// Raw values of a real camera against the library.
     pub const RECORDED: Self = Self::new("Recorded");
-    /// Allowed error.
     pub const TOLERANCE: Self = Self::new("Tolerance");
 
     /// The workspace that it is listed under: the one it starts in, else Metrics.
@@ -128,13 +120,9 @@ pub enum Workspace {
     /// The diagram over swatches, inspector over spectra.
     #[default]
     Compare,
-    /// Large spectra.
     Spectra,
-    /// Rendered mesh through each camera, beside its components.
     Render,
-    /// Cameras by figures of merit.
     Metrics,
-    /// The user's files and their interpretation.
     Import,
     /// Run time and error of each method on the scene, the skipped work, the statistics of the pictures.
     #[serde(alias = "Accuracy")]
@@ -165,13 +153,9 @@ impl Workspace {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Splitter {
-    /// Right of the library.
     Library,
-    /// Left of the right column.
     Right,
-    /// Between the panes of the center.
     Center,
-    /// Between the panes of the right column.
     RightRows,
 }
 
@@ -187,19 +171,13 @@ pub struct Layout {
     pub lower_share: f32,
     /// Height of the right column's lower pane as a share.
     pub right_lower_share: f32,
-    /// Library visible.
     pub library: bool,
     /// Compare: center upper, center lower, right upper, right lower.
     pub compare: [Option<PaneKind>; 4],
-    /// Spectra: center upper, center lower, right upper, right lower.
     pub spectra: [Option<PaneKind>; 4],
-    /// Render: center upper, center lower, right upper, right lower.
     pub render: [Option<PaneKind>; 4],
-    /// Metrics: center upper, center lower, right upper, right lower.
     pub metrics: [Option<PaneKind>; 4],
-    /// Import: center upper, center lower, right upper, right lower.
     pub import: [Option<PaneKind>; 4],
-    /// Numerics: center upper, center lower, right upper, right lower.
     #[serde(alias = "accuracy")]
     pub numerics: [Option<PaneKind>; 4],
 }
@@ -303,7 +281,6 @@ impl Layout {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Arrangement {
     pub panes: Vec<(PaneKind, Rect)>,
-    /// Borders with theirs.
     pub splitters: Vec<(Splitter, Rect)>,
     /// A pane that overlaps the others.
     pub over: Option<(PaneKind, Rect)>,
@@ -317,7 +294,6 @@ const NARROW: f32 = 1100.0;
 const HYSTERESIS: f32 = 40.0;
 /// Above this width the columns grow.
 const LARGE: f32 = 1800.0;
-/// Width of a border.
 const GAP: f32 = 4.0;
 
 /// Arranges a workspace in an area. `was_narrow` prevents a window at the limit from flickering; `column_over` lays the omitted
@@ -402,7 +378,6 @@ fn cut_x(area: Rect, width: f32) -> (Rect, Rect, Rect) {
 }
 
 impl Layout {
-    /// Moves a border to the pointer.
     pub fn drag(&mut self, splitter: Splitter, pointer: Pos2, area: Rect) {
         match splitter {
             Splitter::Library => self.library_width = Some((pointer.x - area.left()).clamp(160.0, 360.0)),

@@ -19,16 +19,12 @@ const CLIP: f64 = 65535.0;
 
 #[derive(Debug, thiserror::Error)]
 pub enum ChartPictureError {
-    /// The file is no picture that can be read.
     #[error("{0}; expected a 16-bit TIFF or PNG")]
     Format(#[from] image::ImageError),
-    /// A number in the header of a TIFF is written as text, whose length the decoder would print on standard error.
     #[error("TIFF tag {0} is text where a number is expected; save the picture again")]
     Tag(u16),
-    /// The picture has eight bits, or no color.
     #[error("the picture is {0}; save it as linear 16-bit RGB, without a tone curve")]
     Depth(&'static str),
-    /// The corners mark no patches.
     #[error(transparent)]
     Grid(#[from] ChartGridError),
 }
@@ -40,10 +36,6 @@ pub struct ChartPicture {
 
 impl ChartPicture {
     /// Decodes a TIFF or PNG of 16 bits or 32-bit floats a channel.
-    ///
-    /// # Errors
-    ///
-    /// [`ChartPictureError`] where it cannot be decoded, or has eight bits or one channel.
     pub fn decode(bytes: &[u8]) -> Result<Self, ChartPictureError> {
         let mut reader = ImageReader::new(Cursor::new(bytes)).with_guessed_format().map_err(image::ImageError::from)?;
         let limits = |bytes: u64| {
@@ -106,10 +98,6 @@ impl ChartPicture {
     }
 
     /// Means of the patches; NaN marks a missing patch, infinity a channel with a clipped pixel.
-    ///
-    /// # Errors
-    ///
-    /// [`ChartPictureError::Grid`] where the corners mark no patches.
     pub fn rows(&self, grid: &ChartGrid, levels: Levels) -> Result<Vec<RawRow>, ChartPictureError> {
         let clip = levels.clip.min(CLIP);
         let means = grid.means(self.size(), clip, |x, y| self.pixel(x, y))?;

@@ -23,25 +23,18 @@ pub const CURVE_SPREAD: &str = "uncertainty/curve_spread.csv";
 /// Reason that a set's figures cannot be computed with.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum LoadError {
-    /// A built-in file is missing from the program.
     #[error("{0} is missing from this build")]
     Missing(&'static str),
-    /// A built-in file is damaged.
     #[error("{path}: {error}")]
     Damaged { path: &'static str, error: DatasetError },
-    /// A light needs a curve.
     #[error("no curve found")]
     NoCurve,
-    /// The curves make no sensor.
     #[error(transparent)]
     Sensor(#[from] SensorError),
-    /// The file of the spread is damaged.
     #[error(transparent)]
     Spread(#[from] CurveSpreadError),
-    /// The user's settings make a spectrum that cannot be.
     #[error(transparent)]
     Spectrum(#[from] DistributionError),
-    /// There is no daylight of that temperature.
     #[error(transparent)]
     Daylight(#[from] DaylightError),
 }
@@ -64,9 +57,6 @@ fn asset(path: &'static str, ask: &impl Ask) -> Result<Dataset, LoadError> {
 }
 
 /// A set's curves with their names, as measured.
-///
-/// # Errors
-/// [`LoadError`] if the file is damaged or the user's settings make an impossible spectrum.
 pub fn curves(place: &Place, ask: &impl Ask) -> Result<Vec<(String, SpectralDistribution)>, LoadError> {
     match place {
         Place::BuiltIn { file, column } => {

@@ -11,7 +11,6 @@ pub enum NameError {
         name: String,
         nearest: Vec<String>,
     },
-    /// Several names contain it.
     #[error("\"{name}\" could be {}; type more of the name", .candidates.join(", "))]
     Ambiguous {
         name: String,

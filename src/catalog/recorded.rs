@@ -21,13 +21,11 @@ const MAX_ROWS: usize = 100_000;
 pub struct RawRow {
     /// Line of the file, from 1; patch of a picture, from 1.
     pub line: usize,
-    /// Name of the patch, where it has one.
     pub name: Option<String>,
     /// Red, green and blue; NaN where missing.
     pub rgb: [f64; 3],
 }
 
-/// Raw values with their spectra.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RawTable {
     pub rows: Vec<RawRow>,
@@ -35,7 +33,6 @@ pub struct RawTable {
     pub spectra: Option<String>,
 }
 
-/// Levels of the raw values.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Levels {
     /// Value of no light, subtracted.
@@ -53,16 +50,12 @@ impl Default for Levels {
 /// Reason that a table gives no raw values.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum RawTableError {
-    /// Nothing but comments.
     #[error("no rows; expected columns patch,R,G,B")]
     Empty,
-    /// The heads do not name the three channels.
     #[error("line {line}: no columns R, G and B; head the columns of raw values so")]
     Heads { line: usize },
-    /// A row that is shorter than its heads.
     #[error("line {line}: {found} cells for {expected} heads")]
     Cells { line: usize, found: usize, expected: usize },
-    /// A cell that is not a number.
     #[error("line {line}, column {column}: \"{text}\" is not a number; leave a missing value empty")]
     Number {
         line: usize,
@@ -70,7 +63,6 @@ pub enum RawTableError {
         column: usize,
         text: String,
     },
-    /// Too many rows.
     #[error("more than {MAX_ROWS} rows")]
     Long,
 }
@@ -78,7 +70,6 @@ pub enum RawTableError {
 /// Reason that raw values do not belong to the spectra.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum JoinError {
-    /// A name that no spectrum has.
     #[error("line {line}: no spectrum is named \"{name}\"; there are {known}")]
     Unknown {
         /// The line, from 1.
@@ -87,10 +78,8 @@ pub enum JoinError {
         /// The first of the spectra's names.
         known: String,
     },
-    /// A name that occurs twice.
     #[error("line {line}: \"{name}\" was named before; name each patch once")]
     Twice { line: usize, name: String },
-    /// Rows without names, and another number of spectra.
     #[error(
         "{rows} rows of raw values for {spectra} spectra; name the patches in a first column, or give one row for each spectrum"
     )]
@@ -154,10 +143,6 @@ fn name_column(heads: &[String], channels: [usize; 3], delimiter: char) -> Optio
 }
 
 /// Reads a table of raw values, with or without spectra.
-///
-/// # Errors
-///
-/// [`RawTableError`] with line and column.
 pub fn read_table(bytes: &[u8]) -> Result<RawTable, RawTableError> {
     let text = String::from_utf8_lossy(bytes);
     let text = text.trim_start_matches('\u{feff}');
@@ -224,10 +209,6 @@ fn row(
 }
 
 /// Patches with spectrum and raw values: by name where every row has one, else in order. Spectra without a row are omitted.
-///
-/// # Errors
-///
-/// [`JoinError`] where a row has no spectrum.
 pub fn join(
     spectra: &[(String, GridSpectrum)],
     rows: &[RawRow],

@@ -31,13 +31,10 @@ const DATA: [&str; 9] = ["img", "dat", "raw", "bil", "bip", "bsq", "bin", "cube"
 pub enum OpenImageError {
     #[error("{}: {}", path.display(), crate::format::io_reason(error))]
     Io { path: PathBuf, error: io::Error },
-    /// A header without its data file.
     #[error("{}: no data beside this header; expected {} or that name with .img, .dat, .bil, .bip or .bsq", header.display(), data.display())]
     NoData { header: PathBuf, data: PathBuf },
-    /// Data without its header file.
     #[error("{}: no header beside these data; expected {}", data.display(), header.display())]
     NoHeader { data: PathBuf, header: PathBuf },
-    /// The file is no spectral image.
     #[error("{}: {error}", path.display())]
     Image { path: PathBuf, error: ImageError },
 }
@@ -46,10 +43,6 @@ pub enum OpenImageError {
 pub type ImageOnDisk = SpectralImage<File>;
 
 /// Opens an ENVI header (or its data) or an OpenEXR file. `wanted` chooses where an OpenEXR has both radiance and reflectance.
-///
-/// # Errors
-///
-/// [`OpenImageError`] with the file and a remedy.
 pub fn open(path: &Path, wanted: Option<ImageQuantity>) -> Result<ImageOnDisk, OpenImageError> {
     if has_ending(path, "exr") {
         let image = ExrImage::new(opened(path)?, wanted);
@@ -179,10 +172,6 @@ pub type ImageStore = FileStore<LoadedImage>;
 pub type ImageState = FileState<LoadedImage>;
 
 /// Reads header and state of an image.
-///
-/// # Errors
-///
-/// [`OpenImageError`] with the file and a remedy.
 pub fn load(path: &Path) -> Result<LoadedImage, OpenImageError> {
     let version = version(path)?;
     let image = open(path, None)?;
@@ -297,15 +286,12 @@ pub enum ReadSignalsError {
     Open(#[from] OpenImageError),
     #[error(transparent)]
     Read(#[from] ImageError),
-    /// The image cannot be put through cameras.
     #[error(transparent)]
     Image(#[from] SpectralImageError),
     #[error("{0} million pixels; the limit is {limit} million, so cut or bin the image", limit = MOST_PIXELS / 1_000_000)]
     Pixels(usize),
-    /// No pixel has a value.
     #[error("no pixel has a value in every band")]
     Empty,
-    /// The image is another now.
     #[error("the file changed while it was visible; open it again")]
     Changed,
     #[error("stopped")]
@@ -322,10 +308,6 @@ pub struct ReadSignals {
 }
 
 /// Reads an image a few rows at a time, every `step`-th row and pixel of it, divided by `scale`.
-///
-/// # Errors
-///
-/// [`ReadSignalsError`] where the image cannot be read, or reading is stopped.
 pub fn read_signals(
     image: &mut ImageOnDisk,
     weights: BandWeights,
@@ -380,10 +362,6 @@ fn keep_every(step: usize, bands: usize, row: &mut Vec<f32>) {
 
 impl ImageSource {
     /// Opens the image, if its files are as they were.
-    ///
-    /// # Errors
-    ///
-    /// [`ReadSignalsError`] where it cannot be opened, or is another now.
     pub fn open(&self, wanted: Option<ImageQuantity>) -> Result<ImageOnDisk, ReadSignalsError> {
         if version(&self.path)? != self.version {
             return Err(ReadSignalsError::Changed);
@@ -392,10 +370,6 @@ impl ImageSource {
     }
 
     /// Wavelengths in nanometers and samples of a pixel, right and down.
-    ///
-    /// # Errors
-    ///
-    /// [`ReadSignalsError`] where it cannot be read.
     pub fn spectrum(
         &self,
         wanted: Option<ImageQuantity>,

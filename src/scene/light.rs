@@ -22,13 +22,10 @@ use crate::format::fixed;
 /// Reason that a camera has no consistency under the light.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum NoConsistency {
-    /// The light has no reference illuminant.
     #[error(transparent)]
     Light(#[from] RenditionError),
-    /// The camera cannot be corrected under it.
     #[error(transparent)]
     Camera(#[from] ConsistencyError),
-    /// Something of the scene is missing.
     #[error(transparent)]
     Scene(#[from] SceneError),
 }

@@ -31,10 +31,8 @@ const FIRST_PIXELS: usize = 60_000;
 /// Reason that a spectral image has no pictures.
 #[derive(Debug, thiserror::Error)]
 pub enum ImagePicturesError {
-    /// The reference has no colors.
     #[error(transparent)]
     Reference(RenderingError),
-    /// The image cannot be read.
     #[error(transparent)]
     Read(#[from] ReadSignalsError),
     #[error("the file does not state whether its samples are reflectances or radiances")]
@@ -214,10 +212,6 @@ fn difference(map: Vec<f32>) -> Difference {
 
 impl Scene<'_> {
     /// Query for an image through sensors.
-    ///
-    /// # Errors
-    ///
-    /// [`SceneError`] where the scene cannot be computed.
     pub fn image_pictures(
         &self,
         source: &ImageSource,

@@ -5,7 +5,6 @@
 pub struct HelpView {
     /// Name of the open page; none while the window is closed.
     pub page: Option<&'static str>,
-    /// Pages visited before, the latest last.
     pub visited: Vec<&'static str>,
     pub query: String,
     /// The result that Enter opens.
@@ -17,7 +16,6 @@ pub struct HelpView {
 }
 
 impl HelpView {
-    /// Opens a page at a block.
     pub fn open(&mut self, page: &'static str, block: usize) {
         if let Some(last) = self.page.replace(page).filter(|last| *last != page) {
             self.visited.push(last);
@@ -25,7 +23,6 @@ impl HelpView {
         self.scroll_to = Some(block);
     }
 
-    /// Returns to the page visited before.
     pub fn back(&mut self) {
         if let Some(page) = self.visited.pop() {
             (self.page, self.scroll_to) = (Some(page), Some(0));

@@ -15,7 +15,6 @@ const REMEMBERED: usize = 100;
 /// Something in the list of files.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub enum ImportItem {
-    /// A set of the document, by name.
     Set(String),
     /// A file that no set is made of.
     File(Fingerprint),
@@ -36,7 +35,6 @@ pub struct ImportView {
     pub focus: Option<Stop>,
     /// The line of the text to bring into view in this frame.
     pub line: Option<usize>,
-    /// Search text of the curve list.
     pub search: String,
     /// Curves under the pointer, by place in the file.
     pub hovered_curve: Option<usize>,
@@ -46,7 +44,6 @@ pub struct ImportView {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stop {
     Files,
-    /// The first of the switches.
     Switches,
     Picker,
 }
@@ -71,7 +68,6 @@ impl ImportView {
         takes
     }
 
-    /// Settings tried for an item.
     pub fn pending(&self, item: &ImportItem) -> Option<&ImportOverrides> {
         self.tried.get(item)
     }
@@ -114,7 +110,6 @@ pub struct Remembered {
     pub wishes: ImportOverrides,
 }
 
-/// Import settings saved between runs.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct ImportMemory {

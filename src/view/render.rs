@@ -39,14 +39,11 @@ impl RenderLook {
 /// Arrangement of pictures.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum RenderMode {
-    /// One for each sensor.
     #[default]
     Grid,
     /// The reference and a sensor in one.
     Split,
-    /// One sensor, large.
     One,
-    /// Difference of each sensor from the reference.
     Difference,
 }
 

@@ -11,15 +11,12 @@ use crate::workspaces::{PaneKind, Workspace};
 use chromascope_core::query::Shared;
 
 pub struct TourStep {
-    /// Finding in a few words.
     pub title: &'static str,
     /// What to look at, and why it is so.
     pub text: &'static str,
     /// Numbers of the scene that are written below the text.
     pub numbers: TourNumbers,
-    /// Workspace that shows it.
     pub workspace: Workspace,
-    /// Pane that fills the window.
     pub maximized: Option<PaneKind>,
     /// Patch that is selected through all sensors.
     pub patch: Option<&'static str>,
@@ -29,11 +26,9 @@ pub struct TourStep {
 /// Numbers that a step computes from its scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TourNumbers {
-    /// Length of each locus in xy.
     LocusLengths,
     /// Temperature at which each locus is nearest to the reference's.
     NearestTemperatures,
-    /// Difference of each patch, for each camera.
     PatchDifferences,
     /// Difference of the rendered material facing the light, for each camera.
     RenderedDifferences,

@@ -48,7 +48,6 @@ pub(super) struct Entry {
     /// Contents, or the reason why it was not read.
     pub(super) note: String,
     pub(super) path: Option<PathBuf>,
-    /// True if its contents are available.
     pub(super) at_hand: bool,
 }
 
@@ -107,7 +106,6 @@ fn of_file(file: &OpenFile) -> Entry {
     Entry { item, name, state, note, path: file.origin.path.clone(), at_hand: true }
 }
 
-/// A failure without the name of the file before it.
 fn reason<'a>(failure: &'a str, name: &str) -> &'a str {
     failure.strip_prefix(name).map_or(failure, |rest| rest.trim_start_matches([',', ':', ' ']))
 }

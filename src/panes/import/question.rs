@@ -12,7 +12,6 @@ use crate::theme::UNIT;
 
 type Answer = (&'static str, &'static str, Option<Role>, Option<Values>);
 
-/// Answers where nothing indicates the quantity.
 const KINDS: [Answer; 5] = [
     ("Reflectances", "Use the numbers as reflectances, fractions of one", Some(Role::Reflectance), None),
     ("Filter", "Use the numbers as transmittances, fractions of one", Some(Role::Transmittance), None),
@@ -49,7 +48,6 @@ const AS_WRITTEN: Answer = (
     None,
 );
 
-/// Answers where only the scale is open.
 const SCALES: [Answer; 2] = [
     ("In percent", "Divide the numbers by 100", None, Some(Values::Percent)),
     ("As written", "Use the numbers as fractions of one", None, Some(Values::Plain)),

@@ -11,7 +11,6 @@ use crate::document::imported::ImportOverrides;
 use crate::figures::curves::ImportSelection;
 use crate::theme::{Theme, UNIT};
 
-/// The kinds, as the user calls them.
 pub(super) const ROLES: [(Role, &str); 5] = [
     (Role::Camera, "Camera sensitivities"),
     (Role::Reflectance, "Reflectance"),
@@ -140,7 +139,6 @@ pub(super) fn show(ui: &mut Ui, shown: &ImportSelection, wishes: &mut ImportOver
     }
 }
 
-/// True if nothing of the file's format is a guess or a person's choice.
 fn is_certain(reading: &ReadReport, options: &ReadOptions) -> bool {
     let certainties = [
         reading.wavelength_unit.certainty,
@@ -206,7 +204,6 @@ fn pair(ui: &mut Ui, gap: f32, add: impl FnOnce(&mut Ui)) {
     });
 }
 
-/// True if the file is, or is to be read as, numbers in columns.
 fn columns(table: Option<&SpectralFile>, wish: Option<Reader>) -> bool {
     let known = table.map(|table| table.reading.reader.value);
     wish.or(known).is_none_or(|reader| reader == Reader::Table)
@@ -237,7 +234,6 @@ fn column(ui: &mut Ui, shown: &ImportSelection, wish: &mut Option<usize>, theme:
     }
 }
 
-/// The names of the columns, as their line writes them.
 fn header(shown: &ImportSelection) -> Vec<String> {
     let line = || {
         let reading = &shown.table()?.reading;
