@@ -101,7 +101,7 @@ pub struct RenderService {
     changed_at: f64,
     asked: bool,
     is_looked_at: bool,
-    /// Running time when the last frame was drawn.
+    /// Running time when the last frame was made.
     busy_then: Option<Duration>,
 }
 
@@ -175,6 +175,7 @@ impl RenderService {
     /// Applies finished work.
     pub fn refresh(&mut self) {
         self.is_hidden = false;
+        self.busy_then = self.busy();
         let Some(shown) = self.worker.shown() else { return };
         if self.frame.as_ref().is_none_or(|frame| frame.serial != shown.serial) {
             let PicturesJob { query, sources, is_last, .. } = shown.job;
@@ -188,7 +189,6 @@ impl RenderService {
     /// Ends a frame: pictures that it did not request are not computed.
     pub fn end_frame(&mut self) {
         self.is_looked_at = std::mem::take(&mut self.asked);
-        self.busy_then = self.busy();
         if !self.is_looked_at {
             self.worker.rest();
         }
@@ -224,7 +224,7 @@ impl RenderService {
         self.worker.busy()
     }
 
-    /// True if the request had lasted long enough for progress to be shown when the last frame was drawn.
+    /// True if the request had lasted long enough for progress to be shown when the last frame was made.
     pub fn is_waiting(&self) -> bool {
         self.busy_then.is_some_and(|busy| busy >= PATIENCE)
     }
