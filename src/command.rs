@@ -84,7 +84,6 @@ pub enum Command {
     /// Keep the selection, or let it go.
     Pin,
     ToggleDifference,
-    /// Clear the selection and similar states, one at a time.
     Escape,
     NextPane,
     GoTo(PaneKind),

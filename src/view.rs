@@ -6,7 +6,6 @@ pub mod help;
 pub mod import;
 pub mod metrics;
 pub mod page;
-pub mod pick;
 pub mod recorded;
 pub mod render;
 pub mod table;
@@ -36,12 +35,10 @@ use help::HelpView;
 use import::{ImportItem, ImportMemory, ImportView};
 use metrics::MetricsLook;
 use page::{PageLook, PageView};
-use pick::PickState;
 use recorded::RecordedView;
 use render::{RenderLook, RenderMode, RenderView};
 use table::TableLook;
 
-/// View state of the window.
 #[derive(Debug, Default)]
 #[expect(clippy::struct_excessive_bools, reason = "independent one-frame requests and switches")]
 pub struct View {
@@ -52,15 +49,12 @@ pub struct View {
     pub next_hovered: Option<PlotItem>,
     /// Text of the coordinates under the pointer, where it is over no item.
     pub point: Option<String>,
-    /// Chosen by a click.
     pub selected: Option<PlotItem>,
     /// True if the selection belongs to a sensor that is not compared: nothing drawn is dimmed for it.
     pub selected_elsewhere: bool,
     /// Pinned items, labeled A, B, …
     pub pinned: Vec<PlotItem>,
-    /// Search text of the library.
     pub search: String,
-    /// The pane that fills the window.
     pub maximized: Option<PaneKind>,
     /// The pane that keys and exports mean.
     pub focused: Option<PaneKind>,
@@ -79,24 +73,20 @@ pub struct View {
     pub reset_plots: bool,
     /// True while B is held: the reference replaces every camera.
     pub blink: bool,
-    /// The search field takes the keyboard in this frame.
     pub focus_search: bool,
     /// True if a field has the keyboard in which Esc discards the typed text.
     pub keeps_escape: bool,
     /// True if the focused pane shows a table, which copies its own rows.
     pub table_copies: bool,
-    /// The temperature field takes the keyboard in this frame.
     pub focus_temperature: bool,
     pub help: HelpView,
     /// Step of the tour, while it is played.
     pub tour: Option<usize>,
-    /// True while the window about the program is open.
     pub about: bool,
     /// Share of the loci that is drawn, while they draw in.
     pub locus_share: Option<f64>,
     /// Time of egui in seconds at which the loci began to draw in.
     pub draws_since: Option<f64>,
-    /// The palette that finds anything, while open.
     pub palette: Option<PickState>,
     /// The keyboard walks through panes: the pane that has it is framed.
     pub by_keyboard: bool,
@@ -110,13 +100,10 @@ pub struct View {
     pub fixed_clock: bool,
     /// Documents that other windows saved, with their ages.
     pub other_documents: Vec<(PathBuf, String)>,
-    /// Names and files of the user's templates.
     pub templates: Vec<(String, PathBuf)>,
-    /// The last message.
     pub status: Status,
 }
 
-/// Subject of a report.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ReportOn {
     /// The paper's cameras and patches.
@@ -146,7 +133,6 @@ pub struct SavedView {
     pub swatch_style: SwatchStyle,
     /// Arrangement of curves: in one plot or one plot per sensor.
     pub spectra_layout: SpectraLayout,
-    /// True if the bars of differences are shown.
     pub difference_bars: bool,
     /// Nothing moves by itself.
     pub reduced_motion: bool,
@@ -154,12 +140,10 @@ pub struct SavedView {
     pub draws_in: bool,
     /// Groups of the library that are folded.
     pub folded: BTreeSet<String>,
-    /// Files opened lately, the newest first.
     #[serde(with = "crate::document::paths::list")]
     pub recent: Vec<PathBuf>,
     /// Viewpoint and arrangement of rendered pictures.
     pub render: RenderLook,
-    /// Remembered import settings by kind of file.
     pub import: ImportMemory,
     pub page: PageLook,
 }
@@ -189,18 +173,12 @@ impl Default for SavedView {
     }
 }
 
-/// A choice of how plots and pictures stand.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ViewChoice {
-    /// The part of the diagram.
     Diagram(DiagramFit),
-    /// Arrangement of swatches.
     Swatches(SwatchLayout),
-    /// The reference within a swatch.
     SwatchStyle(SwatchStyle),
-    /// Arrangement of spectra.
     Spectra(SpectraLayout),
-    /// Arrangement of pictures.
     Pictures(RenderMode),
 }
 
@@ -359,12 +337,10 @@ impl View {
         }
     }
 
-    /// Shows a message in the status bar.
     pub fn say(&mut self, text: impl Into<String>) {
         self.status = Status { text: text.into(), ..Status::default() };
     }
 
-    /// Shows an error in the status bar.
     pub fn fail(&mut self, text: impl Into<String>) {
         self.status = Status { text: text.into(), weight: Weight::Error, ..Status::default() };
     }
@@ -419,7 +395,6 @@ impl View {
         self.render.chosen.take_if(|id| gone(id));
     }
 
-    /// Returns the emphasis of a drawn item.
     pub fn emphasis(&self, drawn: &PlotItem, reference: &str) -> Emphasis {
         let standing = |of: &Option<PlotItem>| of.as_ref().map(|thing| thing.relation_to(drawn, reference));
         let pinned = self.pinned.iter().any(|thing| thing == drawn);
@@ -439,4 +414,12 @@ impl View {
     pub fn emphasis_of(&self, things: &PickIndex, tag: Tag, reference: &str) -> Emphasis {
         things.get(tag).map_or(Emphasis::Normal, |thing| self.emphasis(thing, reference))
     }
+}
+
+/// The text that is typed, and the highlighted line.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct PickState {
+    pub text: String,
+    /// The highlighted line, counted among those that can be chosen; none for the one that is set.
+    pub picked: Option<usize>,
 }

@@ -18,13 +18,9 @@ impl PaneKind {
     /// Sensors compared, and all data sets.
     pub const LIBRARY: Self = Self::new("Library");
     pub const CHROMATICITY: Self = Self::new("Chromaticity");
-    /// Patches as colors.
     pub const SWATCHES: Self = Self::new("Swatches");
-    /// Light, patches, sensitivities.
     pub const SPECTRA: Self = Self::new("Spectra");
-    /// Key, or the selection.
     pub const INSPECTOR: Self = Self::new("Inspector");
-    /// A mesh through each sensor.
     pub const RENDER: Self = Self::new("Render");
     /// Mesh, surface, light and view of the render.
     pub const RENDER_SETTINGS: Self = Self::new("RenderSetup");
@@ -33,9 +29,7 @@ impl PaneKind {
     pub const CURVES: Self = Self::new("Curves");
     /// Decisions made in reading a file, with switches.
     pub const INTERPRETATION: Self = Self::new("Understood");
-    /// Run time against error by method.
     pub const METHODS: Self = Self::new("Accuracy");
-    /// Counts of samples and methods of the pictures.
     pub const STATISTICS: Self = Self::new("Statistics");
     pub const METRICS: Self = Self::new("Metrics");
     /// Two cameras side by side.
@@ -44,9 +38,7 @@ impl PaneKind {
     /// The light judged.
     pub const LIGHT: Self = Self::new("Light");
     pub const CORRECTION: Self = Self::new("Correction");
-    /// Raw values of a real camera against the library.
     pub const RECORDED: Self = Self::new("Recorded");
-    /// Allowed error.
     pub const TOLERANCE: Self = Self::new("Tolerance");
 
     /// The workspace that it is listed under: the one it starts in, else Metrics.
@@ -129,10 +121,8 @@ pub enum Workspace {
     #[default]
     Compare,
     Spectra,
-    /// Rendered mesh through each camera, beside its components.
     Render,
     Metrics,
-    /// The user's files and their interpretation.
     Import,
     /// Run time and error of each method on the scene, the skipped work, the statistics of the pictures.
     #[serde(alias = "Accuracy")]
@@ -163,13 +153,9 @@ impl Workspace {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Splitter {
-    /// Right of the library.
     Library,
-    /// Left of the right column.
     Right,
-    /// Between the panes of the center.
     Center,
-    /// Between the panes of the right column.
     RightRows,
 }
 
@@ -188,15 +174,10 @@ pub struct Layout {
     pub library: bool,
     /// Compare: center upper, center lower, right upper, right lower.
     pub compare: [Option<PaneKind>; 4],
-    /// Spectra: center upper, center lower, right upper, right lower.
     pub spectra: [Option<PaneKind>; 4],
-    /// Render: center upper, center lower, right upper, right lower.
     pub render: [Option<PaneKind>; 4],
-    /// Metrics: center upper, center lower, right upper, right lower.
     pub metrics: [Option<PaneKind>; 4],
-    /// Import: center upper, center lower, right upper, right lower.
     pub import: [Option<PaneKind>; 4],
-    /// Numerics: center upper, center lower, right upper, right lower.
     #[serde(alias = "accuracy")]
     pub numerics: [Option<PaneKind>; 4],
 }

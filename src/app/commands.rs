@@ -19,10 +19,10 @@ use crate::panes;
 use crate::profiler::{Profiler, SceneRunJob};
 use crate::scene::Scene;
 use crate::scene::conditions::CONDITIONS;
+use crate::view::PickState;
 use crate::view::SavedView;
 use crate::view::accuracy::Shows;
 use crate::view::import::Stop;
-use crate::view::pick::PickState;
 use crate::view::render::RenderMode;
 use crate::workspaces::{Layout, PaneKind, Workspace};
 

@@ -45,6 +45,7 @@ pub struct PaneStates(HashMap<TypeId, Box<dyn Any>>);
 
 impl PaneStates {
     /// The state of a type; as new at first.
+    #[expect(clippy::missing_panics_doc, reason = "a state is of the type that it is kept under")]
     pub fn of<S: Default + 'static>(&mut self) -> &mut S {
         let state = self.0.entry(TypeId::of::<S>()).or_insert_with(|| Box::<S>::default());
         state.downcast_mut().expect("a state is of the type that it is kept under")

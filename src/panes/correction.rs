@@ -108,7 +108,6 @@ fn under_light(ui: &mut Ui, file: &CorrectionFile, name: &str, under: &Correctio
     }
 }
 
-/// A caption, with a button that copies a text.
 fn section(ui: &mut Ui, caption: &str, copied: Option<&str>, hint: &str) {
     ui.add_space(UNIT);
     ui.horizontal_wrapped(|ui| {

@@ -54,7 +54,6 @@ fn source_of(scene: &Scene<'_>, id: &SensorId) -> Option<ComparedSensor> {
     scene.sources().into_iter().find(|source| source.kind == id.kind && source.name == id.name)
 }
 
-/// The label of a visible sensor; the name of any other.
 fn label_of(scene: &Scene<'_>, id: &SensorId) -> String {
     source_of(scene, id).map_or_else(|| id.name.clone(), |source| source.label)
 }

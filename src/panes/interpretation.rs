@@ -159,7 +159,6 @@ impl Closed {
     }
 }
 
-/// A list of choices with its caption above it. Returns the place of what was clicked.
 fn list(
     ui: &mut Ui,
     theme: &Theme,

@@ -69,7 +69,6 @@ fn unseen_dot(ui: &Ui, tab: &egui::Response, context: &PaneContext<'_>) {
     tab.clone().on_hover_text(words);
 }
 
-/// A curved arrow back or forward, named after its step.
 fn step_button(ui: &mut Ui, forward: bool, step: Option<&str>, context: &mut PaneContext<'_>) {
     let (icon, word, command) =
         if forward { (Icon::Redo, "Redo", Command::Redo) } else { (Icon::Undo, "Undo", Command::Undo) };
@@ -99,7 +98,6 @@ fn focused(context: &PaneContext<'_>) -> PaneKind {
     context.view.keyed()
 }
 
-/// The pane whose figure is meant.
 fn pictured(context: &PaneContext<'_>) -> PaneKind {
     context.view.pictured(focused(context), |kind| context.pane(kind).is_some_and(|pane| pane.figure.is_some()))
 }
@@ -225,7 +223,6 @@ fn edit(ui: &mut Ui, history: &History, context: &mut PaneContext<'_>) {
     item(ui, "Reset to the first screen", Command::Do(Action::Reset), context);
 }
 
-/// Gutter before a line of a menu, with a tick where it is on.
 fn gutter(on: bool) -> Atom<'static> {
     Atom::paint(GUTTER, move |ui, place| {
         if on {
@@ -258,7 +255,6 @@ fn heading(ui: &mut Ui, words: &str) {
     });
 }
 
-/// Panes of this workspace with their ticks; the others by the workspace they start in.
 fn panes(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let workspace = context.view.saved.workspace;
     let line = |ui: &mut Ui, pane: &Pane, context: &mut PaneContext<'_>| {

@@ -71,7 +71,6 @@ fn count(pairs: usize) -> String {
     if pairs == 1 { "1 pair".to_owned() } else { format!("{pairs} pairs") }
 }
 
-/// The one that confuses.
 fn switches(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let choices = [
         (Confuses::Camera, "Camera confuses", "Equal to the camera, different to the reference"),

@@ -150,7 +150,6 @@ fn benchmark(ui: &mut Ui, body: Rect, workload: Workload, context: &mut PaneCont
     });
 }
 
-/// Key: subject, meaning and marks. Returns the rectangle below.
 fn above(
     ui: &mut Ui,
     body: Rect,
@@ -225,7 +224,6 @@ fn measure(shows: Shows) -> Command {
     }
 }
 
-/// A sentence in place of a picture.
 fn nothing(ui: &mut Ui, body: Rect, words: &str, context: &PaneContext<'_>) {
     let mut child = widgets::middle(ui, "nothing measured", body, Vec2::new(420.0, 48.0));
     child.label(words);

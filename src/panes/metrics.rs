@@ -145,7 +145,6 @@ fn columns() -> Vec<Column> {
     before.into_iter().chain(metrics).collect()
 }
 
-/// The rows of the table with the notes of their cells.
 struct Rows<'a> {
     ranked: &'a Ranked,
     ranks: Vec<Option<[usize; 2]>>,

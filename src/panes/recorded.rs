@@ -28,7 +28,6 @@ use crate::workspaces::PaneKind;
 const REACH: f32 = 10.0;
 /// Share of the squares below which a cause is not named.
 const NOTABLE: f64 = 0.25;
-/// Corners of a chart in the order in which they are clicked.
 const CORNERS: [&str; 4] = ["top left", "top right", "bottom right", "bottom left"];
 const ABOUT: &str = "Raw RGB that a camera recorded of known patches, against the sensitivities of every camera. Open a \
     table with columns patch, R, G, B (of the chart and light chosen above, or with spectra in further columns), or a linear 16-bit TIFF \
@@ -136,7 +135,6 @@ fn switches(ui: &mut Ui, context: &mut PaneContext<'_>) {
     ui.add(clip).on_hover_text("Raw value from which on a channel is clipped and excluded; 0 for none");
 }
 
-/// A message in the pane's center, with a button to open a file.
 fn sentence(ui: &mut Ui, body: Rect, words: &str, open: bool, context: &mut PaneContext<'_>) {
     let mut child = widgets::middle(ui, "recorded sentence", body, Vec2::new(460.0, 140.0));
     child.add(Label::new(words).wrap());
@@ -209,7 +207,6 @@ fn ranking_and_residuals(
     }
 }
 
-/// Facts above the plot; returns where they end.
 fn words(
     ui: &mut Ui,
     body: Rect,
@@ -251,7 +248,6 @@ fn words(
     (child.min_rect().bottom() + UNIT).min(body.bottom())
 }
 
-/// All cameras, best first. Returns the one clicked.
 fn ranking(
     ui: &mut Ui,
     rect: Rect,

@@ -15,10 +15,8 @@ use crate::scene::metrics::{CameraFigures, unloaded};
 use crate::theme::UNIT;
 use crate::workspaces::PaneKind;
 
-/// Narrowest page, in points; a narrower pane scrolls.
 const NARROWEST: f32 = 300.0;
 
-/// Panel of the patches.
 const BARS: &str = "patches";
 
 pub const PANE: Pane = Pane {

@@ -19,7 +19,6 @@ use crate::workspaces::PaneKind;
 
 /// Temperatures of the slider, in mired from hot to cold; the slider runs like the strip, cold at the left.
 const MIRED: [f64; 2] = [50.0, 1000.0];
-/// Opacity of a control that does nothing in the workspace.
 const DIM: f32 = 0.45;
 /// Below this width the list of differences has no room for its name, only for a button.
 const WITH_DIFFERENCE: f32 = 1100.0;
@@ -145,7 +144,6 @@ fn field(
     control(&mut body, context);
 }
 
-/// A list to choose from, as wide as its field. Returns the line that was chosen.
 fn choice(
     ui: &mut Ui,
     name: &str,

@@ -10,7 +10,6 @@ use crate::theme::UNIT;
 use crate::view::SpectraLayout;
 use crate::workspaces::PaneKind;
 
-/// The least height of a panel before the pane scrolls.
 const LEAST: f32 = 64.0;
 const REACH: f32 = 8.0;
 

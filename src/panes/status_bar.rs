@@ -26,7 +26,6 @@ use crate::view::{Offer, Status, Weight};
 use crate::workspaces::{Arrangement, PaneKind};
 
 const READY: &str = "Ready. Drop a spectrum or camera file anywhere.";
-/// Rendering time above which progress is shown.
 const LONG: Duration = Duration::from_millis(500);
 /// Share of the bar that readings have; messages and facts have the rest, so that neither moves the other. A longer message takes
 /// the room of readings while there is none.
@@ -35,7 +34,6 @@ const READINGS: f32 = 0.62;
 const MESSAGE: f64 = 6.0;
 /// Seconds of those in which it fades.
 const FADE: f64 = 0.5;
-/// Time between frames while it fades.
 const FRAME: Duration = Duration::from_millis(100);
 const FACTS: &str = "Computation time of the last change; largest error of the visible loci, relative to the largest \
                      signal and checked against sums at 1 nm; number of cameras computed. What is not visible is not \
@@ -186,7 +184,6 @@ fn take(offer: &Offer, context: &mut PaneContext<'_>) {
     });
 }
 
-/// Width that the last message takes in one line, with its mark and its button.
 fn message_width(ui: &Ui, context: &PaneContext<'_>) -> f32 {
     let status = &context.view.status;
     if status.text.is_empty() {
@@ -352,7 +349,6 @@ fn describe(thing: &PlotItem, context: &PaneContext<'_>) -> String {
     }
 }
 
-/// The right side. What no pane shows is not computed for it.
 fn facts(arrangement: &Arrangement, context: &PaneContext<'_>) -> Vec<String> {
     let scene = &context.scene;
     if arrangement.panes.iter().any(|(pane, _)| *pane == PaneKind::RENDER) {

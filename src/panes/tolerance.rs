@@ -113,7 +113,6 @@ fn sources(ui: &mut Ui, context: &mut PaneContext<'_>) {
     not_rendered(ui, context);
 }
 
-/// Visible sensors without a picture comparable to this reference, and the reasons.
 fn not_rendered(ui: &mut Ui, context: &PaneContext<'_>) {
     let rendered = context.scene.rendered_sources();
     let is_rendered =

@@ -368,7 +368,6 @@ pub fn switch<T: Copy + PartialEq>(ui: &mut Ui, choices: &[(T, &str, &str)], val
     }
 }
 
-/// The same as [`segmented`], for choices that do something when pressed again.
 pub fn pressed<T: Copy + PartialEq>(ui: &mut Ui, choices: &[(T, &str, &str)], current: T) -> Option<T> {
     let mut clicked = None;
     for &(choice, words, hint) in choices {
@@ -399,7 +398,6 @@ pub fn source_key(ui: &mut Ui, source: &ComparedSensor, theme: &Theme) -> Respon
     response
 }
 
-/// Lines of text at the pointer, the first one strong.
 pub fn read_at_pointer(response: &Response, lines: &[String]) {
     response.clone().on_hover_ui_at_pointer(|ui| {
         for (index, line) in lines.iter().enumerate() {

@@ -29,10 +29,6 @@ impl CorrectionView {
     }
 
     /// The neutral typed for a camera under the light on the scene; none for an empty field.
-    ///
-    /// # Errors
-    ///
-    /// [`NeutralError`] for text that is no neutral.
     pub fn neutral(&self, scene: &Scene<'_>, camera: &str) -> Result<Option<Neutral>, NeutralError> {
         let typed = self.neutrals.get(&(camera.to_owned(), scene.light_name()));
         typed.filter(|typed| !typed.trim().is_empty()).map(|typed| typed.parse()).transpose()

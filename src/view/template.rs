@@ -13,7 +13,6 @@ pub struct Template {
     pub name: &'static str,
     /// The question that it answers, and the conditions.
     pub summary: &'static str,
-    /// Pane that shows it, in its workspace.
     pub pane: PaneKind,
     start: Start,
     actions: fn(&Document) -> Vec<Action>,

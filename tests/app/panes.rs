@@ -14,7 +14,7 @@ use chromascope::panes::context::{PaneContext, PaneStates};
 use chromascope::profiler::{Measured, Profiler};
 use chromascope::render_service::RenderService;
 use chromascope::scene::Scene;
-use chromascope::theme::Theme;
+use chromascope::theme::{self, Theme};
 use chromascope::view::View;
 use chromascope::workspaces::{Layout, PaneKind, Workspace};
 use egui_kittest::Harness;
@@ -127,7 +127,11 @@ fn a_pane_with_a_slow_answer_is_one_file() {
     let (mut view, mut states, mut commands) = (View::default(), PaneStates::default(), Vec::new());
     let mut render_service = RenderService::on(&executor, || {});
     let mut profiler = Profiler { measured: Measured::default() };
+    let mut has_fonts = false;
     let mut window = Harness::new_ui(|ui| {
+        if !std::mem::replace(&mut has_fonts, true) {
+            return theme::apply(ui.ctx());
+        }
         let mut context = PaneContext {
             panes: panes::ALL,
             scene: Scene { document: &document, catalog: &catalog, results: &results },

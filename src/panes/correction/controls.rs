@@ -165,7 +165,6 @@ fn set(context: &mut PaneContext<'_>, choice: CorrectionChoice) {
     context.push(Action::Scene(SceneAction::SetCorrection(choice)));
 }
 
-/// A list to choose from, with its name before it. Returns the line that was chosen.
 fn list(
     ui: &mut Ui,
     (name, hint): (&str, &str),

@@ -106,7 +106,6 @@ fn of_file(file: &OpenFile) -> Entry {
     Entry { item, name, state, note, path: file.origin.path.clone(), at_hand: true }
 }
 
-/// A failure without the name of the file before it.
 fn reason<'a>(failure: &'a str, name: &str) -> &'a str {
     failure.strip_prefix(name).map_or(failure, |rest| rest.trim_start_matches([',', ':', ' ']))
 }

@@ -13,7 +13,6 @@ use crate::view::import::{ImportItem, Stop};
 use crate::workspaces::PaneKind;
 
 const HEIGHT: f32 = 38.0;
-/// Height of one more line, for the reason why a file was not read.
 const LINE: f32 = 14.0;
 const MARK: f32 = 16.0;
 const SCROLL_BAR: f32 = 8.0;
@@ -52,7 +51,6 @@ pub(super) fn column(ui: &mut Ui, rect: Rect, entries: &[Entry], context: &mut P
     });
 }
 
-/// Upper ends of the files in the list, and its height.
 fn tops(entries: &[Entry]) -> Vec<f32> {
     let mut tops = vec![0.0];
     for entry in entries {
@@ -298,7 +296,6 @@ fn menu(ui: &Ui, rect: Rect, index: usize, entries: &[Entry], context: &mut Pane
     });
 }
 
-/// Takes a file off the list; the next one is shown.
 fn remove(ui: &Ui, index: usize, entries: &[Entry], context: &mut PaneContext<'_>) {
     let entry = &entries[index];
     let was_shown = context.view.import.selected.as_ref() == Some(&entry.item);

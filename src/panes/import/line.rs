@@ -17,7 +17,6 @@ pub(super) struct Line {
 
 pub(super) struct Pen<'a> {
     pub(super) theme: &'a Theme,
-    /// True if the interpretation is known, so that unmarked parts were not used.
     pub(super) understood: bool,
     pub(super) hovered: Option<usize>,
     /// Flags for the imported curves, by index in the file.
@@ -56,7 +55,6 @@ impl Line {
         self.galley.size().y
     }
 
-    /// Mark under the pointer, and its rectangle.
     pub(super) fn hit(&self, at: Pos2, pointer: Pos2) -> Option<(&Mark, Rect)> {
         let mut found = None;
         for mark in &self.marks {

@@ -12,7 +12,6 @@ use crate::theme::UNIT;
 
 type Answer = (&'static str, &'static str, Option<Role>, Option<Values>);
 
-/// Answers where nothing indicates the quantity.
 const KINDS: [Answer; 5] = [
     ("Reflectances", "Use the numbers as reflectances, fractions of one", Some(Role::Reflectance), None),
     ("Filter", "Use the numbers as transmittances, fractions of one", Some(Role::Transmittance), None),

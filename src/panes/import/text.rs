@@ -237,7 +237,6 @@ impl View<'_> {
         widgets::hover_curve(ui, "pointer over text of import", pointer.is_some(), curve, context);
     }
 
-    /// Draws one line. Returns the curve that the pointer is on.
     fn line(
         &self,
         ui: &Ui,

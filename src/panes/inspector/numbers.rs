@@ -14,7 +14,6 @@ use crate::workspaces::PaneKind;
 pub(super) struct Row {
     pub(super) name: &'static str,
     pub(super) decimals: usize,
-    /// The numbers; none where there is none.
     pub(super) cells: Vec<Option<f64>>,
 }
 
@@ -105,7 +104,6 @@ pub(super) fn show(ui: &mut Ui, id: &str, heads: &[String], rows: &[Row], contex
     });
 }
 
-/// Rows for a spreadsheet, in full precision.
 pub(super) fn to_tsv(heads: &[String], rows: &[Row]) -> String {
     table(heads, rows).to_tsv()
 }

@@ -37,7 +37,6 @@ fn title(scene: &Scene<'_>, patch: &str) -> String {
     }
 }
 
-/// Swatches on the surround: left the reference, right the sensor; only one without a reference.
 fn pair(ui: &mut Ui, theme: &Theme, left: &PatchColor, right: Option<&PatchColor>, height: f32, width: f32) {
     let (rect, response) = ui.allocate_exact_size(Vec2::new(width, height), Sense::hover());
     response.widget_info(|| {
@@ -176,7 +175,6 @@ fn buttons_without_copy(ui: &mut Ui, context: &mut PaneContext<'_>) {
     }
 }
 
-/// Key, label, swatches and difference of one sensor; a click selects the patch through it.
 fn source_row(ui: &mut Ui, source: &ComparedSensor, patch: &str, seen: &PatchColor, context: &mut PaneContext<'_>) {
     let (scene, theme) = (context.scene, context.theme);
     let id = SensorId { kind: source.kind, name: source.name.clone() };

@@ -62,7 +62,6 @@ pub(super) fn show(ui: &mut Ui, id: &SensorId, context: &mut PaneContext<'_>) {
     }
 }
 
-/// Deviation of the sensor from the reference, in a few numbers.
 fn measures(scene: &Scene<'_>, id: &SensorId) -> Vec<Fact> {
     let mut facts: Vec<Fact> = Vec::new();
     let reference = reference_id(scene);

@@ -105,7 +105,6 @@ fn picture_of(ui: &Ui, start: Start, size: Vec2, context: &PaneContext<'_>) -> A
     made
 }
 
-/// A drawn key and its action; the words wrap beside it.
 fn entry(ui: &mut Ui, words: &str, draw: impl FnOnce(&Ui, Rect)) {
     ui.horizontal_top(|ui| {
         let (rect, _) = ui.allocate_exact_size(Vec2::new(KEY, 17.0), egui::Sense::hover());
@@ -128,7 +127,6 @@ fn swatch(ui: &Ui, rect: Rect, theme: &Theme) {
     painter.rect_filled(bar, 0.0, theme.on_surround);
 }
 
-/// Caveat about settings that make the picture misleading.
 fn caveat(context: &PaneContext<'_>) -> Option<&'static str> {
     let scene = &context.scene;
     let sources = scene.sources();

@@ -9,7 +9,6 @@ use crate::figures::curves::ImportSelection;
 use crate::panes::widgets::segmented;
 use crate::theme::{Theme, UNIT};
 
-/// Maximum number of curves to choose from.
 const LISTED: usize = 500;
 
 /// Responses per energy and per photon.

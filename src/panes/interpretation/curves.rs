@@ -14,7 +14,6 @@ use super::keys;
 
 const POINTER: &str = "pointer over curves taken";
 const ROWS: usize = 6;
-/// Number of curves above which there is a search.
 const SEARCHED: usize = 8;
 
 pub(super) fn show(

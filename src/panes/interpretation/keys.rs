@@ -26,7 +26,6 @@ pub(super) fn closed(ui: &Ui, list: Id, open: bool) -> bool {
     was && !open && !ui.input(|input| input.pointer.any_click())
 }
 
-/// The step that arrows make in this frame.
 pub(super) fn step(ui: &Ui) -> isize {
     ui.input(|input| isize::from(input.key_pressed(Key::ArrowDown)) - isize::from(input.key_pressed(Key::ArrowUp)))
 }

@@ -52,7 +52,6 @@ pub(super) fn show(ui: &mut Ui, set: &ImportedSet, context: &mut PaneContext<'_>
     }
 }
 
-/// Keeps a set selected when its name changes.
 fn follow(old: &str, new: &str, context: &mut PaneContext<'_>) {
     if let Some(PlotItem::Sensor(id)) = &mut context.view.selected
         && id.kind == SetKind::Camera

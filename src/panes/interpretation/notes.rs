@@ -11,7 +11,6 @@ use crate::panes::widgets;
 use crate::panes::widgets::facts::range_words;
 use crate::theme::{Theme, UNIT};
 
-/// Maximum number of dropped rows listed individually.
 const MAX_DROPPED_ROWS: usize = 5;
 
 fn led_to() -> Id {

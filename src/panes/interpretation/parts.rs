@@ -13,7 +13,6 @@ use crate::theme::{ROW, UNIT};
 
 const ROWS: usize = 5;
 
-/// Name of a part; parts count from 1.
 pub(super) fn name(part: usize, known: Option<&Part>) -> String {
     match known {
         Some(known) if !known.name.is_empty() => format!("{part}: {}", known.name),

@@ -105,7 +105,6 @@ fn camera(ui: &mut Ui, set: &mut ImportedSet, theme: &Theme) {
     });
 }
 
-/// Reason that the set cannot be used as it is read now, if so.
 fn trouble(set: &ImportedSet, context: &PaneContext<'_>) -> Option<String> {
     match set.role {
         Role::Camera => context.scene.sensor(SetKind::Camera, &set.name).err().map(|error| error.to_string()),

@@ -95,7 +95,6 @@ pub(super) fn show(ui: &mut Ui, shown: &ImportSelection, overrides: &mut ImportO
     }
 }
 
-/// True if nothing of the file's format is a guess or a person's choice.
 fn is_certain(reading: &ReadReport, options: &ReadOptions) -> bool {
     let certainties = [
         reading.wavelength_unit.certainty,
@@ -172,7 +171,6 @@ fn pair(ui: &mut Ui, gap: f32, add: impl FnOnce(&mut Ui)) {
     });
 }
 
-/// True if the file is, or is to be read as, numbers in columns.
 fn columns(table: Option<&SpectralFile>, wish: Option<Reader>) -> bool {
     let known = table.map(|table| table.reading.reader.value);
     wish.or(known).is_none_or(|reader| reader == Reader::TABLE)
@@ -203,7 +201,6 @@ fn column(ui: &mut Ui, shown: &ImportSelection, wish: &mut Option<usize>, theme:
     }
 }
 
-/// The names of the columns, as their line writes them.
 fn header(shown: &ImportSelection) -> Vec<String> {
     let line = || {
         let reading = &shown.table()?.reading;

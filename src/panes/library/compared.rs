@@ -86,7 +86,6 @@ fn thing(source: &ComparedSensor) -> PlotItem {
     PlotItem::of_set(source.kind, &source.name)
 }
 
-/// Draws the sensor's further roles; returns the width used.
 fn tag(ui: &Ui, rect: Rect, source: &ComparedSensor, context: &PaneContext<'_>) -> f32 {
     let words = match (source.is_reference, source.is_own) {
         (true, _) => "reference",
@@ -96,7 +95,6 @@ fn tag(ui: &Ui, rect: Rect, source: &ComparedSensor, context: &PaneContext<'_>) 
     lines::right_aligned(ui, rect, words, TextStyle::Small, context.theme.weak) + UNIT
 }
 
-/// Reason that the sensor cannot be shown, if so.
 fn trouble(source: &ComparedSensor, context: &PaneContext<'_>) -> Option<String> {
     use chromascope_core::query::Ask;
     let scene = &context.scene;

@@ -16,7 +16,6 @@ pub(super) struct PictureSlot {
     /// Its sensor's index among those requested.
     pub(super) source: usize,
     pub(super) caption: Rect,
-    /// The picture, on whole pixels of the screen.
     pub(super) picture: Rect,
 }
 
@@ -28,9 +27,7 @@ pub(super) struct PictureLayout {
     pub(super) cells: Vec<PictureSlot>,
     /// Position of the divider of a split picture.
     pub(super) divider: Option<f32>,
-    /// Rectangle of the color scale of differences.
     pub(super) scale: Option<Rect>,
-    /// The size of each picture in pixels of the screen.
     pub(super) pixels: [u32; 2],
 }
 
@@ -79,7 +76,6 @@ impl PictureLayout {
         Self { mode, sources, cells, divider, scale, pixels: pixels.map(|side| side as u32) }
     }
 
-    /// Visible part of a cell's picture.
     pub(super) fn visible(&self, cell: usize) -> Rect {
         let mut visible = self.cells[cell].picture;
         if let Some(x) = self.divider {

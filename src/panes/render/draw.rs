@@ -17,14 +17,12 @@ use crate::scene::ComparedSensor;
 use crate::theme::TEXT;
 use crate::view::render::RenderMode;
 
-/// From this width of a caption on it states the difference: its number, with its measure, with quantiles, with the largest.
 const WITH_NOTE: f32 = 150.0;
 const WITH_MEASURE: f32 = 270.0;
 const WITH_QUANTILES: f32 = 470.0;
 const WITH_LARGEST: f32 = 540.0;
 const HANDLE: f32 = 8.0;
 const RING: f32 = 7.0;
-/// Size of the list of sensors above a picture.
 const CHOOSER: Vec2 = Vec2::new(190.0, CAPTION - 2.0);
 
 pub(super) fn pictures(ui: &mut Ui, painter: &Painter, layout: &PictureLayout, context: &mut PaneContext<'_>) {
@@ -217,7 +215,6 @@ pub(super) fn divider(ui: &mut Ui, layout: &PictureLayout, context: &mut PaneCon
     response.on_hover_and_drag_cursor(CursorIcon::ResizeHorizontal);
 }
 
-/// The line above a single or split picture, with a list to choose its source from.
 pub(super) fn choosers(ui: &mut Ui, layout: &PictureLayout, sources: &[ComparedSensor], context: &mut PaneContext<'_>) {
     let Some(cell) = layout.cells.first() else { return };
     if !matches!(layout.mode, RenderMode::One | RenderMode::Split) {

@@ -8,7 +8,6 @@ use crate::workspaces::PaneKind;
 
 const DRAG: f64 = 0.4;
 const STEP: f64 = 5.0;
-/// The factor of a press of + or −.
 const NEARER: f64 = 0.9;
 
 /// Drag turns, wheel and pinch approach.

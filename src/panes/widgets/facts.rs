@@ -16,7 +16,6 @@ use crate::theme::{SMALL, Theme};
 
 pub type Fact = (&'static str, String);
 
-/// Response basis of a built-in table's sensitivities, with the evidence and its grounds.
 pub fn response_of(header: &Header) -> String {
     let words = match (header.response(), header.response_evidence()) {
         (Response::Unknown, _) | (_, Evidence::Unknown) => "unknown, assumed per energy".to_owned(),
@@ -125,7 +124,6 @@ pub fn of(scene: &Scene<'_>, entry: &Entry, with_range: bool) -> Vec<Fact> {
     facts
 }
 
-/// Writes facts below each other, each with its caption.
 pub fn show(ui: &mut Ui, theme: &Theme, facts: &[Fact]) {
     let mut last = "";
     for (caption, words) in facts {

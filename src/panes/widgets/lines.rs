@@ -8,7 +8,6 @@ use crate::scene::ComparedSensor;
 use crate::theme::{FADED, ROW, Theme};
 
 pub const KEY: f32 = 26.0;
-/// Width of the button that opens a row's menu.
 pub const DOTS: f32 = 18.0;
 
 /// Draws a line of text into a rectangle, with an ellipsis if it does not fit. Returns whether it was cut.
@@ -56,7 +55,6 @@ pub fn key(painter: &Painter, rect: Rect, source: &ComparedSensor, theme: &Theme
     }
 }
 
-/// A source's key, and its label, in one line.
 pub fn key_and_label(ui: &mut Ui, source: &ComparedSensor, theme: &Theme) -> Response {
     let (rect, response) = ui.allocate_exact_size(Vec2::new(ui.available_width(), ROW), Sense::hover());
     key(ui.painter(), Rect::from_min_size(rect.min, Vec2::new(KEY, ROW)), source, theme);
@@ -66,7 +64,6 @@ pub fn key_and_label(ui: &mut Ui, source: &ComparedSensor, theme: &Theme) -> Res
     if cut { response.on_hover_text(&source.label) } else { response }
 }
 
-/// The rim of what the keyboard is on.
 pub fn focus_rim(response: &Response, theme: &Theme) -> egui::Stroke {
     if response.has_focus() { egui::Stroke::new(1.5, theme.text) } else { egui::Stroke::NONE }
 }

@@ -13,7 +13,6 @@ pub struct NumberField<'a> {
     pub now: f64,
     /// The least and the largest number that is taken.
     pub range: [f64; 2],
-    /// Change per point of dragging, and per press of an arrow key.
     pub speed: f64,
     pub unit: &'a str,
     pub name: &'a str,
@@ -74,7 +73,6 @@ impl NumberField<'_> {
         (moved != 0.0).then(|| (self.now + moved).round().clamp(least, largest)).filter(|chosen| *chosen != self.now)
     }
 
-    /// The number as text.
     fn edit(&self, ui: &mut Ui, rect: Rect, mut typed: Typed, context: &mut PaneContext<'_>) -> Option<f64> {
         let mut edit = TextEdit::singleline(&mut typed.text).id(self.id).margin(egui::Margin::symmetric(4, 4));
         if typed.wrong.is_some() {

@@ -11,12 +11,11 @@ use crate::catalog::Entry;
 use crate::catalog::names::{no_match, ranked};
 use crate::document::SetKind;
 use crate::theme::{ROW, Theme, UNIT};
-use crate::view::pick::PickState;
+use crate::view::PickState;
 
 const GUTTER: f32 = 18.0;
 /// Largest share of a line that its note takes.
 const NOTE: f32 = 0.45;
-/// Lines that Page Up and Page Down move by.
 const PAGE: usize = 10;
 /// Height of the list below a control before it scrolls.
 const DROPPED: f32 = 14.0 * ROW;
@@ -28,7 +27,6 @@ const MOST: f32 = 440.0;
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Line {
     pub words: String,
-    /// What stands at the right: what choosing it does, or its key.
     pub note: String,
     /// What is known of it, told when it is pointed at.
     pub facts: String,
@@ -153,7 +151,6 @@ impl PickList<'_> {
     }
 }
 
-/// One line. Returns whether it was clicked.
 fn row(ui: &mut Ui, line: &Line, picked: bool, theme: &Theme) -> bool {
     let size = Vec2::new(ui.available_width(), ROW);
     if line.is_heading {
@@ -246,7 +243,6 @@ pub fn menu(
     (response.on_hover_text(hint), opened.and_then(|opened| opened.inner))
 }
 
-/// Field and lines within a popup, which closes when a line is chosen.
 fn within(ui: &mut Ui, key: Id, name: &str, theme: &Theme, all: &[Line]) -> Option<usize> {
     let longest = all.iter().map(|line| line.words.as_str()).max_by_key(|words| words.chars().count()).unwrap_or("");
     ui.set_min_width((lines::width(ui, longest, TextStyle::Body) + GUTTER + 6.0 * UNIT).clamp(LEAST, MOST));

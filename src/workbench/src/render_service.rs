@@ -101,6 +101,8 @@ pub struct RenderService {
     changed_at: f64,
     asked: bool,
     is_looked_at: bool,
+    /// Running time when the last frame was made.
+    busy_then: Option<Duration>,
 }
 
 impl RenderService {
@@ -114,6 +116,7 @@ impl RenderService {
             changed_at: f64::NEG_INFINITY,
             asked: false,
             is_looked_at: false,
+            busy_then: None,
         }
     }
 
@@ -171,6 +174,7 @@ impl RenderService {
     /// Applies finished work.
     pub fn refresh(&mut self) {
         self.is_hidden = false;
+        self.busy_then = self.busy();
         let Some(shown) = self.worker.shown() else { return };
         if self.frame.as_ref().is_none_or(|frame| frame.serial != shown.serial) {
             let PicturesJob { query, sources, is_last, .. } = shown.job;
@@ -219,9 +223,9 @@ impl RenderService {
         self.worker.busy()
     }
 
-    /// True if the latest request has lasted long enough for progress to be shown.
+    /// True if the request had lasted long enough for progress to be shown when the last frame was made.
     pub fn is_waiting(&self) -> bool {
-        self.busy().is_some_and(|busy| busy >= PATIENCE)
+        self.busy_then.is_some_and(|busy| busy >= PATIENCE)
     }
 
     /// Reason that the latest request has no answer, if it failed.

@@ -116,10 +116,6 @@ impl Report {
     }
 
     /// The files of a step; the error is a message.
-    ///
-    /// # Errors
-    ///
-    /// The reason in a sentence.
     pub fn make(&self, step: usize, results: &Results) -> Result<Vec<ReportFile>, String> {
         let subject = self.subject(results);
         let Some(figure) = FIGURES.get(step) else { return Ok(self.claims_and_page(&subject)) };

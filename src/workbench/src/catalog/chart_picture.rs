@@ -35,10 +35,6 @@ pub struct ChartPicture {
 
 impl ChartPicture {
     /// Decodes a TIFF or PNG of 16 bits or 32-bit floats a channel.
-    ///
-    /// # Errors
-    ///
-    /// [`ChartPictureError`] where it cannot be decoded, or has eight bits or one channel.
     pub fn decode(bytes: &[u8]) -> Result<Self, ChartPictureError> {
         let mut reader = ImageReader::new(Cursor::new(bytes)).with_guessed_format().map_err(image::ImageError::from)?;
         let limits = |bytes: u64| {
@@ -101,10 +97,6 @@ impl ChartPicture {
     }
 
     /// Means of the patches; NaN marks a missing patch, infinity a channel with a clipped pixel.
-    ///
-    /// # Errors
-    ///
-    /// [`ChartPictureError::Grid`] where the corners mark no patches.
     pub fn rows(&self, grid: &ChartGrid, levels: Levels) -> Result<Vec<RawRow>, ChartPictureError> {
         let clip = levels.clip.min(CLIP);
         let means = grid.means(self.size(), clip, |x, y| self.pixel(x, y))?;

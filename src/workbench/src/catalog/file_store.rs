@@ -44,10 +44,6 @@ pub trait FromFile: Sized + Send + Sync + 'static {
     const THREAD: &'static str;
 
     /// Reads a file unless it is still in this state. `stop` is polled.
-    ///
-    /// # Errors
-    ///
-    /// Reason that there is no such content.
     fn read_unless(
         path: &Path,
         unless: Option<Self::Version>,
@@ -65,7 +61,6 @@ pub trait FromFile: Sized + Send + Sync + 'static {
 pub enum Unread {
     #[error("{file}: {}", io_reason(.error))]
     Io { file: String, error: io::Error },
-    /// A panic while it was read.
     #[error("{0} could not be read because of an error in this program; please report it with the file")]
     Broken(String),
     #[error("Reading {0} stopped")]

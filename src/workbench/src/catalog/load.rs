@@ -57,9 +57,6 @@ fn asset(path: &'static str, ask: &impl Ask) -> Result<Dataset, LoadError> {
 }
 
 /// A set's curves with their names, as measured.
-///
-/// # Errors
-/// [`LoadError`] if the file is damaged or the user's settings make an impossible spectrum.
 pub fn curves(place: &Place, ask: &impl Ask) -> Result<Vec<(String, SpectralDistribution)>, LoadError> {
     match place {
         Place::BuiltIn { file, column } => {

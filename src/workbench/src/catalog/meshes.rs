@@ -74,10 +74,8 @@ pub enum MeshFailure {
         /// Folder that was searched.
         folder: String,
     },
-    /// The system does not give it out.
     #[error("{file}: {}", io_reason(.error))]
     Io { file: String, error: io::Error },
-    /// A folder or a device.
     #[error("{0} is not a file")]
     NoFile(String),
     #[error(
@@ -88,14 +86,12 @@ pub enum MeshFailure {
     TooLarge { file: String, bytes: u64 },
     #[error("{file}: not enough memory for its {} MB; close other programs or simplify the mesh", .bytes / 1_000_000)]
     NoMemory { file: String, bytes: u64 },
-    /// Its contents make no mesh.
     #[error("{file}{}{error}", joint(.error))]
     Mesh {
         file: String,
         /// Cause, with its position.
         error: MeshReadError,
     },
-    /// The program broke on it.
     #[error("{0} could not be read because of an error in this program; please report it with the file")]
     Broken(String),
     #[error("reading {0} stopped")]

@@ -114,7 +114,6 @@ struct State {
     files: Vec<OpenFile>,
     events: Vec<OpenedEvent>,
     running: Vec<Arc<Job>>,
-    /// Number of files read again.
     tickets: u64,
     /// Files that were looked for on disk and are not there as they were.
     lost: Vec<Fingerprint>,
@@ -223,7 +222,6 @@ impl Opened {
         self.monitor.lock().files.clone()
     }
 
-    /// A file by its contents.
     pub fn file(&self, fingerprint: Fingerprint) -> Option<OpenFile> {
         self.monitor.lock().file(fingerprint).cloned()
     }

@@ -25,7 +25,6 @@ pub struct RawRow {
     pub rgb: [f64; 3],
 }
 
-/// Raw values with their spectra.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RawTable {
     pub rows: Vec<RawRow>,
@@ -135,10 +134,6 @@ fn name_column(heads: &[String], channels: [usize; 3], delimiter: char) -> Optio
 }
 
 /// Reads a table of raw values, with or without spectra.
-///
-/// # Errors
-///
-/// [`RawTableError`] with line and column.
 pub fn read_table(bytes: &[u8]) -> Result<RawTable, RawTableError> {
     let text = String::from_utf8_lossy(bytes);
     let text = text.trim_start_matches('\u{feff}');
@@ -205,10 +200,6 @@ fn row(
 }
 
 /// Patches with spectrum and raw values: by name where every row has one, else in order. Spectra without a row are omitted.
-///
-/// # Errors
-///
-/// [`JoinError`] where a row has no spectrum.
 pub fn join(
     spectra: &[(String, GridSpectrum)],
     rows: &[RawRow],

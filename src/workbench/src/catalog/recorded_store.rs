@@ -137,10 +137,6 @@ impl RecordedFile {
 
     /// Patches with spectra and raw values. `chart` is the current chart's radiances, `light` the current light, `corners` the chart's
     /// corners in a picture.
-    ///
-    /// # Errors
-    ///
-    /// A message where values and spectra do not belong together.
     pub fn patches(
         &self,
         chart: &[(String, GridSpectrum)],

@@ -43,10 +43,6 @@ pub enum OpenImageError {
 pub type ImageOnDisk = SpectralImage<File>;
 
 /// Opens an ENVI header (or its data) or an OpenEXR file. `wanted` chooses where an OpenEXR has both radiance and reflectance.
-///
-/// # Errors
-///
-/// [`OpenImageError`] with the file and a remedy.
 pub fn open(path: &Path, wanted: Option<ImageQuantity>) -> Result<ImageOnDisk, OpenImageError> {
     if has_ending(path, "exr") {
         let image = ExrImage::new(opened(path)?, wanted);
@@ -174,10 +170,6 @@ pub type ImageStore = FileStore<LoadedImage>;
 pub type ImageState = FileState<LoadedImage>;
 
 /// Reads header and state of an image.
-///
-/// # Errors
-///
-/// [`OpenImageError`] with the file and a remedy.
 pub fn load(path: &Path) -> Result<LoadedImage, OpenImageError> {
     let version = version(path)?;
     let image = open(path, None)?;
@@ -313,10 +305,6 @@ pub struct ReadSignals {
 }
 
 /// Reads an image a few rows at a time, every `step`-th row and pixel of it, divided by `scale`.
-///
-/// # Errors
-///
-/// [`ReadSignalsError`] where the image cannot be read, or reading is stopped.
 pub fn read_signals(
     image: &mut ImageOnDisk,
     weights: BandWeights,
@@ -371,10 +359,6 @@ fn keep_every(step: usize, bands: usize, row: &mut Vec<f32>) {
 
 impl ImageSource {
     /// Opens the image, if its files are as they were.
-    ///
-    /// # Errors
-    ///
-    /// [`ReadSignalsError`] where it cannot be opened, or is another now.
     pub fn open(&self, wanted: Option<ImageQuantity>) -> Result<ImageOnDisk, ReadSignalsError> {
         if version(&self.path)? != self.version {
             return Err(ReadSignalsError::Changed);
@@ -383,10 +367,6 @@ impl ImageSource {
     }
 
     /// Wavelengths in nanometers and samples of a pixel, right and down.
-    ///
-    /// # Errors
-    ///
-    /// [`ReadSignalsError`] where it cannot be read.
     pub fn spectrum(
         &self,
         wanted: Option<ImageQuantity>,

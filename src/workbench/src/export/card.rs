@@ -43,10 +43,6 @@ pub const fn swatches_size() -> [f64; 2] {
 
 impl Card {
     /// The picture, of [`SIZE`].
-    ///
-    /// # Errors
-    ///
-    /// [`ExportError`] where a figure cannot be drawn.
     pub fn picture(&self) -> Result<RgbaImage, ExportError> {
         let inner = POINTS[0] - 2.0 * MARGIN;
         let lines = wrapped(&self.figure.caption, TextSize::Small, inner);

@@ -64,10 +64,6 @@ impl FigureForm {
     }
 
     /// Bytes of a figure's file, laid out for a paper; a table of numbers is written as it is.
-    ///
-    /// # Errors
-    ///
-    /// [`ExportError`] where the figure cannot be drawn.
     pub fn bytes(self, figure: &Figure, numbers: &Table, paper: &Paper) -> Result<Vec<u8>, ExportError> {
         let colors = paper.colors();
         match self {

@@ -108,10 +108,6 @@ impl CorrectionFile {
     }
 
     /// Bytes of a file.
-    ///
-    /// # Errors
-    ///
-    /// [`CorrectionFileError`] for what the format cannot hold, and for one that needs the channel ratio where that is not credible.
     pub fn written(&self, form: CorrectionForm) -> Result<Vec<u8>, CorrectionFileError> {
         match form {
             CorrectionForm::Dcp => self.dcp(),
@@ -123,10 +119,6 @@ impl CorrectionFile {
     }
 
     /// Checks that the ratio between the channels is credible, or a neutral is given in its place.
-    ///
-    /// # Errors
-    ///
-    /// [`CorrectionFileError::Ratio`].
     pub fn has_ratio(&self) -> Result<(), CorrectionFileError> {
         let light = self.lights.first().map_or("", String::as_str);
         has_ratio(&self.camera, light, self.ratio, self.neutral)
@@ -173,10 +165,6 @@ impl CorrectionFile {
     }
 
     /// DNG's matrices as `Tag: values` lines; of two lights, the warmer first.
-    ///
-    /// # Errors
-    ///
-    /// [`CorrectionFileError`] for a root polynomial or a singular matrix, and without a credible channel ratio.
     pub fn dng(&self) -> Result<String, CorrectionFileError> {
         let mut text = format!("UniqueCameraModel: {}\n", self.model);
         for (index, (name, under)) in self.warmer_first().into_iter().enumerate() {
@@ -281,10 +269,6 @@ impl CorrectionFile {
 const IDT_FIT: &str = "Another fit than of DCP and ICC, to ACES: least squares in L*a*b* over 190 reflectances, CAT02";
 
 /// Checks that a channel ratio is credible, or a neutral is given in its place.
-///
-/// # Errors
-///
-/// [`CorrectionFileError::Ratio`].
 pub fn has_ratio(
     camera: &str,
     light: &str,
@@ -313,10 +297,6 @@ fn error_table(head: &str, rows: &[(&str, Option<ErrorSummary>)], names: &[Strin
 }
 
 /// ACES input transform in Common LUT Format.
-///
-/// # Errors
-///
-/// [`CorrectionFileError`] for a name that the format cannot hold.
 pub fn clf(camera: &str, light: &str, idt: &Idt) -> Result<String, CorrectionFileError> {
     let [r, g, b] = idt.balance;
     let mut descriptions = vec![

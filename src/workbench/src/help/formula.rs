@@ -66,9 +66,6 @@ pub enum FormulaError {
 
 impl Formula {
     /// Parses TeX. `display` selects display style.
-    ///
-    /// # Errors
-    /// [`FormulaError`] for TeX outside the subset.
     pub fn parse(tex: &str, display: bool) -> Result<Self, FormulaError> {
         let mut parser = Reader { tokens: tokens(tex).into_iter().peekable() };
         let root = parser.row(&[])?;

@@ -85,9 +85,6 @@ pub fn plain(content: &[Inline]) -> String {
 }
 
 /// Parses a page.
-///
-/// # Errors
-/// [`MarkdownError`] for a construct that the viewer does not draw.
 pub fn parse(text: &str) -> Result<Vec<Block>, MarkdownError> {
     let mut events = Parser::new_ext(text, Options::ENABLE_TABLES | Options::ENABLE_MATH);
     blocks(&mut events, None)

@@ -15,8 +15,10 @@ use super::{Background, Executor, Job, Shown};
 pub struct Later {
     executor: Executor,
     wake: Arc<dyn Fn() + Send + Sync>,
-    slots: RefCell<HashMap<(&'static str, TypeId), Box<dyn Slot>>>,
+    slots: RefCell<Slots>,
 }
+
+type Slots = HashMap<(&'static str, TypeId), Box<dyn Slot>>;
 
 /// What there is of an answer.
 pub struct Waiting<J: Job> {

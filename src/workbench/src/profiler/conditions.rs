@@ -25,7 +25,6 @@ pub struct Conditions {
 }
 
 impl Conditions {
-    /// Those of a run that begins now.
     pub(super) fn now(run: &SceneRunJob) -> Self {
         Self {
             scene: run.scene.clone(),

@@ -48,7 +48,6 @@ impl PicturesOf {
         }
     }
 
-    /// Place of the reference among the sensors.
     pub fn reference_index(&self) -> Option<usize> {
         (0..).map_while(|index| self.rendering(index)).position(|rendering| rendering == self.reference())
     }
@@ -89,15 +88,12 @@ impl PicturesOf {
 pub enum NoPictures {
     #[error("rendering was stopped")]
     Stopped,
-    /// A color cannot be computed.
     #[error(transparent)]
     Rendering(#[from] RenderingError),
-    /// The spectral image cannot be shown.
     #[error(transparent)]
     Image(Arc<ImagePicturesError>),
 }
 
-/// Answer to a query for pictures.
 #[derive(Clone, Debug)]
 pub enum PicturesAnswer {
     Mesh(Arc<<PicturesQuery as Query>::Answer>),
@@ -107,10 +103,6 @@ pub enum PicturesAnswer {
 
 impl PicturesAnswer {
     /// The pictures, or why there are none.
-    ///
-    /// # Errors
-    ///
-    /// [`NoPictures`] with the reason.
     pub fn pictures(&self) -> Result<MadePictures<'_>, NoPictures> {
         match self {
             Self::Mesh(answer) => match &**answer {

@@ -43,10 +43,6 @@ fn maker_of(name: &str) -> String {
 
 impl Scene<'_> {
     /// Query for the credibility of a camera's channel ratio. Loads no table.
-    ///
-    /// # Errors
-    ///
-    /// [`SceneError::NoSet`] for a name that no camera has.
     pub fn channel_ratio_query(&self, name: &str) -> Result<ChannelRatioQuery, SceneError> {
         let own = self.entry(SetKind::Camera, name)?;
         let maker = maker_of(&own.name);
@@ -57,10 +53,6 @@ impl Scene<'_> {
     }
 
     /// Credibility of a camera's channel ratio. Loads the tables of its maker.
-    ///
-    /// # Errors
-    ///
-    /// [`SceneError`] for a name that no camera has, and for a damaged table.
     pub fn channel_ratio(&self, name: &str) -> Result<ChannelRatio, SceneError> {
         self.loaded(&self.channel_ratio_query(name)?, name)
     }

@@ -282,10 +282,6 @@ pub struct FoundMetamers {
 
 impl CatalogMetamersQuery {
     /// The question with all sets loaded.
-    ///
-    /// # Errors
-    ///
-    /// [`SceneError::Load`] for a damaged set.
     pub fn loaded(&self, ask: &impl Ask) -> Result<MetamersQuery, SceneError> {
         let load = |set: &SetPlace| {
             let patches = ask.ask(&PatchesQuery { place: set.place.clone(), names: None });

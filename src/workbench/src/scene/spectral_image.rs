@@ -209,10 +209,6 @@ fn difference(map: Vec<f32>) -> Difference {
 
 impl Scene<'_> {
     /// Query for an image through sensors.
-    ///
-    /// # Errors
-    ///
-    /// [`SceneError`] where the scene cannot be computed.
     pub fn image_pictures(
         &self,
         source: &ImageSource,

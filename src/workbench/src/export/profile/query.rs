@@ -46,10 +46,6 @@ pub struct CorrectionFileQuery {
 
 impl CorrectionFileQuery {
     /// Query for a camera.
-    ///
-    /// # Errors
-    ///
-    /// [`SceneError`] where the camera, a light or the training reflectances are not available, or colors are shown by Eq 13.
     pub fn new(scene: &Scene<'_>, request: CorrectionRequest<'_>) -> Result<Self, SceneError> {
         let CorrectionRequest { camera, model, neutral, exposure } = request;
         if scene.document.transform.is_eq_13() {

@@ -9,7 +9,6 @@ use crate::plot_item::SensorId;
 /// Values at the ends of x and of y.
 pub type Ranges = [[f64; 2]; 2];
 
-/// Extent of the diagram.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum DiagramFit {
     /// The compared sensors' loci and patches.
@@ -34,16 +33,13 @@ pub struct FitKey {
     pub patches: (String, Option<Fingerprint>, Subset),
 }
 
-/// Ranges of a fit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fit {
-    /// What the diagram shows.
     pub shown: Ranges,
     /// The data: what a lens shows of the whole diagram.
     pub data: Ranges,
 }
 
-/// The part of the diagram that is shown.
 #[derive(Clone, Debug, Default)]
 pub struct DiagramView {
     held: Option<Held>,
