@@ -19,7 +19,7 @@ use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread;
 
-use crate::atomic::{self, fitting};
+use crate::atomic::fitting;
 use crate::jobs::Executor;
 use event::Note;
 

@@ -3,7 +3,6 @@
 use std::path::Path;
 
 use super::Files;
-use super::atomic::write_atomically;
 use super::dialogs::{Answer, Question};
 use super::event::{FileEvent, Note, SavedFile};
 use super::request::{self, FileForm, PathPrompt, SaveRequest};

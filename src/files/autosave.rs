@@ -140,7 +140,7 @@ impl Autosave {
     fn set_aside(&mut self, file: &Path, what: &str, why: &str, copy: bool) -> (String, PathBuf) {
         let aside = folder::free_aside(file.parent().unwrap_or(Path::new(".")));
         let result = if copy {
-            std::fs::read(file).and_then(|bytes| super::atomic::write_atomically(&aside, &bytes))
+            std::fs::read(file).and_then(|bytes| crate::atomic::write_atomically(&aside, &bytes))
         } else {
             std::fs::rename(file, &aside)
         };

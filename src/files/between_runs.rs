@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
 use super::Files;
-use super::atomic::write_atomically;
+use crate::atomic::write_atomically;
 use super::event::{FileEvent, Note};
 use crate::document::Document;
 use crate::document::start::Start;

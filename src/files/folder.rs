@@ -6,7 +6,7 @@ use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, SystemTime};
 
-use super::atomic::{TEMPORARY, is_older, sweep};
+use crate::atomic::{TEMPORARY, is_older, sweep};
 use crate::format::io_failure;
 
 /// The file in which the first window's document is saved.

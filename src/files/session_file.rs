@@ -7,12 +7,13 @@ use std::sync::Arc;
 
 use chromascope_core::query::Shared;
 
-use super::atomic::{sweep, write_atomically};
+use crate::atomic::{sweep, write_atomically};
 use super::document_file::{DocumentFile, Unread, Unwritten, read};
 use super::event::{DocumentSource, FileEvent, Note, OpenedDocument};
 use super::folder::free_copy;
 use super::request::MakeBytes;
 use super::{Files, template_name};
+use crate::atomic::{sweep, write_atomically};
 use crate::document::imported::{Fingerprint, ImportedSet};
 use crate::document::{Document, SessionFile, session};
 use crate::format::{io_failure, io_reason};

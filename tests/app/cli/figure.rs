@@ -52,7 +52,7 @@ fn skipped_work_says_where_its_table_is() {
 fn every_kind_of_figure_is_listed_and_panes_have_no_others() {
     let help = String::from_utf8(run(&["figure", "--help"]).stdout).expect("text");
     for kind in FIGURES {
-        assert_eq!(help.matches(&format!("- {}:", kind.key)).count(), 1, "{} is not in\n{help}", kind.key);
+        assert!(help.contains(&format!("- {}:", kind.key)), "{} is not in\n{help}", kind.key);
         assert_eq!(FIGURES.iter().filter(|other| other.key == kind.key).count(), 1, "{}", kind.key);
     }
     for (pane, kind) in panes::ALL.iter().filter_map(|pane| Some((pane, pane.figure?))) {

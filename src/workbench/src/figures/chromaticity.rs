@@ -7,6 +7,7 @@ mod frame;
 mod ground;
 mod labels;
 mod loci;
+mod pixel;
 mod points;
 pub mod shown;
 mod whites;
@@ -16,19 +17,16 @@ use std::collections::BTreeSet;
 use chromascope_core::colorimetry::{UvPrime, Xy, Xyz};
 use chromascope_core::light::Cct;
 use chromascope_figure::{
-    Axis, AxisRanges, Cell, Figure, FigureRoom, InkRole, LegendEntry, LegendPlace, Mark, Marker, Numbers, Panel,
-    Projection, Rect, Shape, Stroke, Table, Ticks, auto_ticks,
+    Axis, AxisRanges, Cell, Figure, FigureRoom, InkRole, LegendEntry, LegendPlace, Mark, Numbers, Panel, Projection,
+    Rect, Shape, Stroke, Table, Ticks, auto_ticks,
 };
 
 use chromascope_core::spectral::sensor::TAIL_BELOW_K;
 
 use super::kind::FigureKind;
-use super::look::{FigureLook, PixelPlace};
-use super::render::pixel_of;
+use super::look::FigureLook;
 use crate::document::{Diagram, SetKind, TransformChoice};
-use crate::plot_item::{PickIndex, PlotItem};
-use crate::render_service::RenderedFrame;
-use crate::render_service::pixel::PixelShows;
+use crate::plot_item::PickIndex;
 use crate::scene::{ComparedSensor, Scene};
 use drawing::Drawing;
 pub use drawing::id;
@@ -103,28 +101,9 @@ fn draw<'a>(scene: &'a Scene<'a>, look: &'a FigureLook, frame: Frame, sketch: bo
         points::add(&mut drawing, &sources);
     }
     if let Some(pictures) = look.pictures.as_deref().filter(|_| !sketch) {
-        add_pixel(&mut drawing, pictures, &sources);
+        pixel::add(&mut drawing, pictures, &sources);
     }
     drawing
-}
-
-/// Radius of the mark of a pixel in points.
-const PIXEL_RADIUS: f64 = 4.5;
-
-/// Adds a diamond for each sensor that has a picture, in whatever workspace that is.
-fn add_pixel(drawing: &mut Drawing<'_>, pictures: &RenderedFrame, sources: &[ComparedSensor]) {
-    let Some(pinned) = drawing.look.pinned_pixel.clone() else { return };
-    for source in sources.iter().rev() {
-        let place = PixelPlace { source: id(source), ..pinned.clone() };
-        let Some(PixelShows::Lit(lit)) = pixel_of(drawing.scene, pictures, &place).map(|reading| reading.shows) else {
-            continue;
-        };
-        let Some(at) = lit.xy.and_then(|xy| drawing.place(xy)) else { continue };
-        let tag = drawing.things.tag(PlotItem::Sensor(id(source)));
-        let shape = Shape::Points { points: vec![at], marker: Marker::Diamond, radius: PIXEL_RADIUS };
-        let mark = Mark::new(tag, format!("{}, pixel", source.label), shape).with_stroke(source.role, 1.5);
-        drawing.small.push(mark.with_fill(source.role).with_halo(InkRole::Plot));
-    }
 }
 
 fn finish(drawing: Drawing<'_>, name: &str, area: Rect, frame: Frame) -> Built {

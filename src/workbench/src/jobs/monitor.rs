@@ -2,7 +2,7 @@
 
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 
-use super::{Clock, Executor};
+use super::executor::{Clock, Executor};
 
 /// State shared by the window and background threads, with a condition variable for waiting threads and a wake callback
 /// for the window.
