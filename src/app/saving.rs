@@ -85,7 +85,7 @@ impl ChromascopeApp {
             let [width, height] = card::figure_size();
             let size = [width, height - chromaticity::STRIP];
             let figure = chromaticity::figure_sized(&scene, &look, FigureRoom::default(), size);
-            Figure { legend_place: LegendPlace::LowerRight, ..figure }
+            Figure { legend_place: LegendPlace::Inside, ..figure }
         } else {
             shown
         };

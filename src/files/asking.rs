@@ -6,6 +6,7 @@ use super::Files;
 use super::dialogs::{Answer, Question};
 use super::event::{FileEvent, Note, SavedFile};
 use super::request::{self, FileForm, PathPrompt, SaveRequest};
+use crate::atomic::write_atomically;
 use crate::document::SessionFile;
 use crate::document::imported::Fingerprint;
 use crate::format::io_reason;

@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
 use super::Files;
-use crate::atomic::write_atomically;
 use super::event::{FileEvent, Note};
+use crate::atomic::write_atomically;
 use crate::document::Document;
 use crate::document::start::Start;
 use crate::format::io_failure;

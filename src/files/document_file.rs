@@ -11,8 +11,8 @@ use std::ptr::from_ref;
 
 use chromascope_core::query::Shared;
 
-use crate::atomic::write_atomically;
 use super::folder::{CURVES, Lock, free_copy, texts_of_documents};
+use crate::atomic::write_atomically;
 use crate::document::imported::{Fingerprint, ImportedCurve, ImportedSet};
 use crate::document::session::{self, LoadedDocument, Place};
 use crate::document::{Document, VERSION};

@@ -7,7 +7,6 @@ use std::sync::Arc;
 
 use chromascope_core::query::Shared;
 
-use crate::atomic::{sweep, write_atomically};
 use super::document_file::{DocumentFile, Unread, Unwritten, read};
 use super::event::{DocumentSource, FileEvent, Note, OpenedDocument};
 use super::folder::free_copy;

@@ -2,7 +2,7 @@
 
 use chromascope_figure::{
     Anchor, Ink, InkRole, LegendEntry, Mark, Marker, MarkerOutline, Rgb, Shape as Form, Stroke as Pen, TextSize,
-    color_runs, finite_runs,
+    clip_segment, color_runs, finite_runs,
 };
 use egui::{Color32, Painter, Pos2, Rect, Shape, Stroke, StrokeKind, Vec2, epaint::PathStroke};
 
@@ -204,24 +204,11 @@ impl Brush<'_> {
     }
 }
 
-/// The part of a straight line inside a rectangle (Liang and Barsky 1984).
+/// The part of a straight line inside a rectangle.
 fn clipped(a: Pos2, b: Pos2, rect: Rect) -> Option<[Pos2; 2]> {
-    let d = b - a;
-    let (mut from, mut to) = (0.0_f32, 1.0_f32);
-    for (step, room) in
-        [(-d.x, a.x - rect.left()), (d.x, rect.right() - a.x), (-d.y, a.y - rect.top()), (d.y, rect.bottom() - a.y)]
-    {
-        if step == 0.0 {
-            if room < 0.0 {
-                return None;
-            }
-        } else if step < 0.0 {
-            from = from.max(room / step);
-        } else {
-            to = to.min(room / step);
-        }
-    }
-    (from < to).then(|| [a + from * d, a + to * d])
+    let [a, b, min, max] = [a, b, rect.min, rect.max].map(|at| [f64::from(at.x), f64::from(at.y)]);
+    let ends = clip_segment(chromascope_figure::Rect { min, max }, [a, b])?;
+    Some(ends.map(|[x, y]| Pos2::new(x as f32, y as f32)))
 }
 
 fn outline(painter: &Painter, at: Pos2, marker: Marker, radius: f32, fill: Color32, rim: Stroke) {

@@ -2,6 +2,7 @@
 
 mod compare;
 mod figure;
+mod figure_texts;
 mod files;
 mod identify;
 mod inspect;

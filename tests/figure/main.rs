@@ -9,6 +9,8 @@ use chromascope_figure::{
 };
 use proptest::prelude::*;
 
+mod faults;
+mod labels;
 mod pdf;
 
 struct Gray;

@@ -2,6 +2,8 @@
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on should say so by failing")]
 
+mod pareto;
+
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 

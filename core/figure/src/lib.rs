@@ -7,10 +7,10 @@
 //!
 //! Points that are not finite are never drawn: they break a line in two and are omitted from everything else.
 
-mod annotation;
 mod axis;
-mod figure;
+mod clip;
 mod ink;
+mod labels;
 mod mark;
 mod page;
 mod panel;
@@ -22,17 +22,17 @@ pub mod svg;
 mod table;
 mod text;
 
-pub use annotation::{Annotation, annotations};
 pub use axis::{Axis, MIN_LABEL_SPACING, Tick, Ticks, auto_ticks};
-pub use figure::Figure;
+pub use clip::segment as clip_segment;
 pub use ink::{Ink, InkRole, Palette};
+pub use labels::{Label, Labels, Place};
 pub use mark::{
     Anchor, Dash, Image, Mark, Marker, MarkerOutline, Rgb, Shape, Stroke, Tag, TextSize, color_runs, finite_runs,
 };
 pub use page::{AxisTitles, Page, PageStyle};
-pub use panel::{LegendEntry, LegendPlace, Panel};
+pub use panel::{Annotation, Figure, LegendEntry, LegendPlace, Panel, annotations};
 pub use projection::{Projection, fit_equal};
 pub use rect::Rect;
 pub use room::{AxisRanges, FigureRoom, Numbers};
 pub use table::{Cell, Table};
-pub use text::{text_width, wrapped};
+pub use text::{text_area, text_width, wrapped};

@@ -1,20 +1,18 @@
 //! A figure laid out on a page, and the order in which its parts are drawn.
 
 mod canvas;
-mod clip;
 mod ground;
 mod legend;
 mod marks;
 mod panels;
 
-use super::figure::Figure;
 use super::ink::{Ink, InkRole, Palette};
 use super::mark::{Anchor, Mark, Marker, MarkerOutline, Stroke, TextSize};
-use super::panel::LegendPlace;
+use super::panel::{Figure, LegendPlace};
 use super::projection::Projection;
 use super::rect::Rect;
 use super::text::wrapped;
-pub(super) use canvas::{Canvas, Label};
+pub(super) use canvas::{Canvas, TextLine};
 
 /// Position of the titles of the axes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
@@ -108,7 +106,7 @@ pub(super) fn draw(figure: &Figure, page: &Page, style: &PageStyle, palette: &dy
     }
     for (i, line) in page.caption.iter().enumerate() {
         let y = page.height + 8.0 + Page::CAPTION_LINE * i as f64;
-        brush.text(&Label::new([0.0, y], line, Anchor::LEFT_TOP, TextSize::Small, InkRole::Text.into()));
+        brush.text(&TextLine::new([0.0, y], line, Anchor::LEFT_TOP, TextSize::Small, InkRole::Text.into()));
     }
 }
 
@@ -136,7 +134,7 @@ impl Brush<'_> {
         self.canvas.rect(area, stroke, fill);
     }
 
-    fn text(&mut self, label: &Label<'_>) {
+    fn text(&mut self, label: &TextLine<'_>) {
         if !label.text.is_empty() {
             self.canvas.text(label);
         }

@@ -17,10 +17,10 @@ use krilla::text::{Font, GlyphId, KrillaGlyph};
 use krilla::{Data, Document};
 use rustybuzz::{Direction, Face, UnicodeBuffer};
 
-use super::figure::Figure;
 use super::ink::{Ink, Palette};
 use super::mark::{Image, Stroke, TextSize};
-use super::page::{Canvas, Label, Page, PageStyle, draw};
+use super::page::{Canvas, Page, PageStyle, TextLine, draw};
+use super::panel::Figure;
 use super::rect::Rect;
 
 /// Reason that there is no PDF.
@@ -206,7 +206,7 @@ impl Canvas for Pdf<'_, '_> {
         self.draw(path.finish(), stroke, fill);
     }
 
-    fn text(&mut self, label: &Label<'_>) {
+    fn text(&mut self, label: &TextLine<'_>) {
         let typeface = &self.fonts[usize::from(label.size == TextSize::Mono)];
         let (glyphs, width) = typeface.shaped(label.text);
         let (font, points) = (typeface.font.clone(), label.size.points());
@@ -216,7 +216,7 @@ impl Canvas for Pdf<'_, '_> {
         self.surface.push_transform(&Transform::from_row(turn[0], turn[1], turn[2], turn[3], x, y));
         if let Some(halo) = label.halo {
             // Outlines: the words are in the file once.
-            let stroke = self.stroke(Stroke::solid(halo, Label::HALO));
+            let stroke = self.stroke(Stroke::solid(halo, TextLine::HALO));
             self.surface.set_fill(None);
             self.surface.set_stroke(Some(stroke));
             self.surface.draw_glyphs(start, &glyphs, font.clone(), label.text, points, true);

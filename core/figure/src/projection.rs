@@ -89,4 +89,11 @@ impl Projection {
         let v = (point[1] - self.y[0]) / (self.y[1] - self.y[0]);
         [self.plot.min[0] + u * self.plot.width(), self.plot.max[1] - v * self.plot.height()]
     }
+
+    /// The point in data units at a place in the figure, in points.
+    pub fn value(&self, at: [f64; 2]) -> [f64; 2] {
+        let u = (at[0] - self.plot.min[0]) / self.plot.width();
+        let v = (self.plot.max[1] - at[1]) / self.plot.height();
+        [self.x[0] + u * (self.x[1] - self.x[0]), self.y[0] + v * (self.y[1] - self.y[0])]
+    }
 }

@@ -5,10 +5,10 @@
 
 use std::fmt::Write as _;
 
-use super::figure::Figure;
 use super::ink::{Ink, Palette};
 use super::mark::{Image, Stroke, TextSize};
-use super::page::{Canvas, Label, Page, PageStyle, draw};
+use super::page::{Canvas, Page, PageStyle, TextLine, draw};
+use super::panel::Figure;
 use super::rect::Rect;
 use super::text::text_width;
 
@@ -147,7 +147,7 @@ impl Canvas for Svg<'_> {
         let _ = writeln!(self.out, "<circle cx=\"{x}\" cy=\"{y}\" r=\"{r}\"{paint}/>");
     }
 
-    fn text(&mut self, label: &Label<'_>) {
+    fn text(&mut self, label: &TextLine<'_>) {
         let down = label.baseline();
         // SVG has three anchors; between them the text is moved along its line.
         let (align, anchor) = match label.anchor.0 {
@@ -163,7 +163,7 @@ impl Canvas for Svg<'_> {
             _ => String::new(),
         };
         let turned = if label.upward { format!(" transform=\"rotate(-90 {x} {y})\"") } else { String::new() };
-        let halo = label.halo.map(|ink| Stroke::solid(ink, Label::HALO));
+        let halo = label.halo.map(|ink| Stroke::solid(ink, TextLine::HALO));
         let order = if halo.is_some() { " paint-order=\"stroke\"" } else { "" };
         let (paint, points) = (self.paint(halo, Some(label.ink)), coordinate(f64::from(label.size.points())));
         let _ = writeln!(

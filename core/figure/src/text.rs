@@ -1,6 +1,7 @@
 //! Widths of text, and its breaking into lines.
 
-use super::mark::TextSize;
+use super::mark::{Anchor, TextSize};
+use super::rect::Rect;
 
 /// Width of a line of text in points, from the advances of `DejaVu` Sans (rounded, without kerning).
 pub fn text_width(text: &str, size: TextSize) -> f64 {
@@ -8,6 +9,12 @@ pub fn text_width(text: &str, size: TextSize) -> f64 {
         if size == TextSize::Mono { 0.602 } else { advance(c) }
     };
     text.chars().map(advance).sum::<f64>() * f64::from(size.points())
+}
+
+/// Rectangle in points of a line of text whose anchor lies at a place: as high as its line, on screen as on paper.
+pub fn text_area(text: &str, size: TextSize, at: [f64; 2], anchor: Anchor) -> Rect {
+    let extent = [text_width(text, size), 1.2 * f64::from(size.points())];
+    Rect::from_min_size([at[0] - anchor.0 * extent[0], at[1] - anchor.1 * extent[1]], extent)
 }
 
 /// Advance of a character in `DejaVu` Sans, relative to the font size.

@@ -1,11 +1,14 @@
 //! Run time against error, both in powers of ten: methods as points, those that no other beats joined by a line.
 
-mod names;
-
-use chromascope_figure::{Axis, Dash, InkRole, Mark, Marker, Panel, Rect, Shape, Tag, Ticks};
+use chromascope_figure::{
+    Anchor, Axis, Dash, InkRole, Label, Labels, Mark, Marker, Panel, Rect, Shape, Tag, TextSize, Ticks, text_width,
+};
 
 /// Errors below this are drawn at it: in doubles they are not distinguishable from zero.
 pub const LEAST_ERROR: f64 = 1e-18;
+
+/// Maximum number of columns of a list of names.
+const COLUMNS: usize = 3;
 
 /// A method's place.
 #[derive(Clone, Debug, PartialEq)]
@@ -52,9 +55,8 @@ pub fn panel(name: &str, [error_label, time_label]: [&str; 2], note: String, pla
     panel.note = note;
     let (mut front, rest): (Vec<&Place>, Vec<&Place>) = places.iter().partition(|place| !place.is_beaten(places));
     front.sort_by(|a, b| a.error.total_cmp(&b.error));
-    let line: Vec<[f64; 2]> = front.iter().map(|place| place.logarithms()).collect();
     if front.len() > 1 {
-        let points = line.clone();
+        let points = front.iter().map(|place| place.logarithms()).collect();
         let line = Mark::new(Tag::default(), "best methods", Shape::Line { points, closed: false });
         panel.marks.push(line.with_stroke(InkRole::Weak, 1.2).with_dash(Dash::Dashed));
     }
@@ -64,11 +66,67 @@ pub fn panel(name: &str, [error_label, time_label]: [&str; 2], note: String, pla
         let filled = on_front && place.marker.has_inside();
         panel.marks.push(if filled { mark.with_fill(place.role) } else { mark });
     }
+    let mut panel = panel.with_headroom(4.0);
     // What is on the front is named first: it is what one looks for.
     let order: Vec<&Place> = front.into_iter().chain(rest).collect();
-    let names = names::names(&panel, &order, &line);
-    panel.marks.extend(names);
+    panel.marks.extend(names(&panel, &order));
     panel
+}
+
+/// Names of points, in this order, each written once. Where points crowd a number stands for the name, which is then in a list;
+/// one without room for either is omitted, and shown under the pointer.
+fn names(panel: &Panel, places: &[&Place]) -> Vec<Mark> {
+    let mut labels = Labels::new(panel);
+    let (mut named, mut crowded): (Vec<&str>, Vec<&Place>) = (Vec::new(), Vec::new());
+    for place in places {
+        if !named.contains(&place.name.as_str()) {
+            named.push(&place.name);
+            if !labels.place(&label(place, &place.name)) {
+                crowded.push(place);
+            }
+        }
+    }
+    // As many in a list as it has room for.
+    let listed = (1..=crowded.len()).rev().find_map(|count| with_list(&labels, &crowded[..count]));
+    listed.unwrap_or(labels).into_marks()
+}
+
+fn label(place: &Place, text: &str) -> Label {
+    let at = place.logarithms();
+    // Above to the right first: the line falls to the right, and passes below.
+    let places = chromascope_figure::Place::around(at, [1.0, -0.9], 9.0);
+    Label { tag: place.tag, starts: vec![at], ..Label::new(text, InkRole::Text, places) }
+}
+
+/// Labels with a number beside each point, and a list of what they stand for; none where there is no room.
+fn with_list(labels: &Labels, crowded: &[&Place]) -> Option<Labels> {
+    (1..=COLUMNS).find_map(|columns| {
+        let (mut labels, mut list) = (labels.clone(), Vec::new());
+        // Numbers first: each line of the list is of a point that has one.
+        for place in crowded {
+            let number = (list.len() + 1).to_string();
+            if labels.place(&label(place, &number)) {
+                list.push((place.tag, format!("{number}: {}", place.name)));
+            }
+        }
+        (!list.is_empty() && write_list(&mut labels, &list, columns)).then_some(labels)
+    })
+}
+
+/// Writes lines of text in columns where nothing else is, the lower left corner first. Whether there was room.
+fn write_list(labels: &mut Labels, lines: &[(Tag, String)], columns: usize) -> bool {
+    const LINE: f64 = 14.0;
+    const GAP: f64 = 8.0;
+    let widest = lines.iter().map(|(_, line)| text_width(line, TextSize::Small)).fold(0.0, f64::max);
+    let (down, across) = (lines.len().div_ceil(columns), widest + GAP);
+    let Some([x, y]) = labels.corner([across * columns as f64, LINE * down as f64]) else { return false };
+    for (index, (tag, line)) in lines.iter().enumerate() {
+        let at = [x + 0.5 * GAP + across * (index / down) as f64, y + LINE * (index % down) as f64];
+        let place =
+            chromascope_figure::Place { at: labels.projection().value(at), anchor: Anchor::LEFT_TOP, offset: [0.0; 2] };
+        labels.place(&Label { tag: *tag, always: true, ..Label::new(line, InkRole::Text, vec![place]) });
+    }
+    true
 }
 
 fn error_of(error: f64) -> f64 {
@@ -110,36 +168,4 @@ pub fn duration(seconds: f64) -> String {
         _ => 2,
     };
     format!("{value:.decimals$} {unit}")
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn what_has_no_error_has_a_place() {
-        let place = |error, seconds| Place {
-            name: "a method".to_owned(),
-            tag: Tag(1),
-            error,
-            seconds,
-            marker: Marker::Circle,
-            role: InkRole::Text,
-        };
-        let area = Rect::from_min_size([0.0, 0.0], [400.0, 300.0]);
-        let panel = panel("p", ["error", "time"], String::new(), &[place(0.0, 1e-6), place(1e-3, 0.0)], area);
-        let finite = |v: &[f64; 2]| v.iter().all(|v| v.is_finite());
-        for mark in &panel.marks {
-            if let Shape::Points { points, .. } | Shape::Line { points, .. } = &mark.shape {
-                assert!(points.iter().all(finite));
-            }
-        }
-        assert_eq!((panel.x.range, panel.y.range), ([-19.0, -2.0], [-16.0, -5.0]), "all is within the axes");
-    }
-
-    #[test]
-    fn times_have_units_that_suit() {
-        let all = [1e-9, 1.5e-8, 9.99e-7, 1e-6, 2.5e-6, 1.5e-3, 0.9999, 12.0].map(duration);
-        assert_eq!(all, ["1 ns", "15 ns", "999 ns", "1 µs", "2.50 µs", "1.50 ms", "1.00 s", "12 s"]);
-    }
 }

@@ -17,14 +17,14 @@ pub(crate) trait Canvas {
     /// Draws a disk.
     fn disk(&mut self, center: [f64; 2], radius: f64, stroke: Option<Stroke>, fill: Option<Ink>);
     /// Draws a line of text.
-    fn text(&mut self, label: &Label<'_>);
+    fn text(&mut self, label: &TextLine<'_>);
     /// Draws a picture over a rectangle.
     fn image(&mut self, area: Rect, image: &Image);
 }
 
 /// A line of text with its place.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Label<'a> {
+pub(crate) struct TextLine<'a> {
     /// Its place.
     pub(crate) at: [f64; 2],
     /// The text.
@@ -41,7 +41,7 @@ pub(crate) struct Label<'a> {
     pub(crate) upward: bool,
 }
 
-impl<'a> Label<'a> {
+impl<'a> TextLine<'a> {
     /// Width of a halo's stroke, half of which shows on each side.
     pub(crate) const HALO: f64 = 4.0;
 

@@ -1,13 +1,13 @@
 //! The legend: inside the largest plot, beside the figure, or below it.
 
-use super::{Brush, Label, marks};
-use crate::figure::Figure;
+use super::{Brush, TextLine};
 use crate::ink::{Ink, InkRole};
+use crate::labels::Labels;
 use crate::mark::{Anchor, Stroke, TextSize};
-use crate::panel::{LegendEntry, LegendPlace, Panel};
+use crate::panel::{Figure, LegendEntry, LegendPlace, Panel};
 use crate::projection::Projection;
 use crate::rect::Rect;
-use crate::text::text_width;
+use crate::text::{text_width, wrapped};
 
 const ROW: f64 = 20.0;
 const KEY: f64 = 28.0;
@@ -16,36 +16,47 @@ const PAD: f64 = 8.0;
 const MOST_COLUMNS: usize = 6;
 /// Width below which a legend inside is small.
 const NARROW: f64 = 500.0;
+/// Least width of a line of a name.
+const LEAST: f64 = 60.0;
 /// Distance from the figure.
 const GAP: f64 = 12.0;
+
+/// Height of a further line of a long name.
+const LINE: f64 = 15.0;
 
 /// Columns of a legend with the size of its text.
 #[derive(Clone, PartialEq, Debug)]
 struct Columns {
     widths: Vec<f64>,
     size: TextSize,
+    /// Lines of each name.
+    names: Vec<Vec<String>>,
 }
 
 impl Columns {
-    /// So many columns, filled row by row.
-    fn new(entries: &[LegendEntry], count: usize, size: TextSize) -> Self {
+    /// So many columns, filled row by row; a name wider than there is room for one column stands in lines.
+    fn new(entries: &[LegendEntry], count: usize, size: TextSize, room: f64) -> Self {
         let mut widths = vec![0.0_f64; count.max(1)];
-        for (i, entry) in entries.iter().enumerate() {
+        // After the last column none is needed.
+        let most = (room - PAD - KEY + 0.5).max(LEAST);
+        let names: Vec<Vec<String>> = entries.iter().map(|entry| wrapped(&entry.name, size, most)).collect();
+        for (i, lines) in names.iter().enumerate() {
+            let widest = lines.iter().map(|line| text_width(line, size)).fold(0.0, f64::max);
             let width = &mut widths[i % count.max(1)];
-            *width = width.max(2.0 * PAD + KEY + text_width(&entry.name, size));
+            *width = width.max(2.0 * PAD + KEY + widest);
         }
-        Self { widths, size }
+        Self { widths, size, names }
     }
 
     /// The fewest rows that fit below a figure; text that stands in fewer rows if it is small is small.
     fn below(entries: &[LegendEntry], width: f64) -> Self {
         let fit = |size| {
             let most = entries.len().clamp(1, MOST_COLUMNS);
-            let fitting = (1..=most).rev().map(|count| Self::new(entries, count, size));
+            let fitting = (1..=most).rev().map(|count| Self::new(entries, count, size, width));
             let fewest = fitting.into_iter().find(|columns| columns.width() <= width + PAD + 0.5);
             let rows = fewest.map_or(entries.len(), |columns| columns.rows(entries)).max(1);
             // In rows as full as possible.
-            Self::new(entries, entries.len().div_ceil(rows), size)
+            Self::new(entries, entries.len().div_ceil(rows), size, width)
         };
         let [body, small] = [TextSize::Body, TextSize::Small].map(fit);
         if body.widths.len() == 1 && small.widths.len() > 1 { small } else { body }
@@ -53,7 +64,8 @@ impl Columns {
 
     /// One column in a plot: of small text in a narrow figure, where it would cover too much.
     fn inside(entries: &[LegendEntry], width: f64) -> Self {
-        Self::new(entries, 1, if width < NARROW { TextSize::Small } else { TextSize::Body })
+        let size = if width < NARROW { TextSize::Small } else { TextSize::Body };
+        Self::new(entries, 1, size, 0.7 * width)
     }
 
     fn rows(&self, entries: &[LegendEntry]) -> usize {
@@ -64,8 +76,14 @@ impl Columns {
         self.widths.iter().sum()
     }
 
-    fn size(&self, entries: &[LegendEntry]) -> [f64; 2] {
-        [self.width() + PAD, ROW * self.rows(entries) as f64 + PAD]
+    fn size(&self) -> [f64; 2] {
+        [self.width() + PAD, self.heights().sum::<f64>() + PAD]
+    }
+
+    /// Heights of the rows.
+    fn heights(&self) -> impl Iterator<Item = f64> {
+        let lines = self.names.chunks(self.widths.len()).map(|row| row.iter().map(Vec::len).max().unwrap_or(1));
+        lines.map(|lines| ROW + LINE * (lines.max(1) - 1) as f64)
     }
 }
 
@@ -74,13 +92,13 @@ pub(super) fn outside(figure: &Figure, place: LegendPlace, [width, height]: [f64
     match place {
         _ if figure.legend.is_empty() => None,
         LegendPlace::Outside => {
-            let size = Columns::new(&figure.legend, 1, TextSize::Body).size(&figure.legend);
+            let size = Columns::new(&figure.legend, 1, TextSize::Body, f64::INFINITY).size();
             Some(Rect::from_min_size([width + GAP, 0.0], size))
         }
         LegendPlace::Below => {
             let columns = Columns::below(&figure.legend, width);
             // Keys begin where the figure does, and the last column needs no room after it.
-            let size = [(columns.width() - PAD).min(width.max(columns.widths[0])), columns.size(&figure.legend)[1]];
+            let size = [(columns.width() - PAD).min(width.max(columns.widths[0])), columns.size()[1]];
             Some(Rect::from_min_size([0.0, height + 0.5 * GAP], size))
         }
         _ => None,
@@ -101,30 +119,34 @@ pub(super) fn draw(
     }
     let (columns, inset) = match place {
         LegendPlace::Below => (Columns::below(&figure.legend, area.width()), 0.0),
-        LegendPlace::Outside => (Columns::new(&figure.legend, 1, TextSize::Body), PAD),
+        LegendPlace::Outside => (Columns::new(&figure.legend, 1, TextSize::Body, f64::INFINITY), PAD),
         _ => (Columns::inside(&figure.legend, figure.size[0]), PAD),
     };
     for (i, entry) in figure.legend.iter().enumerate() {
         let column = i % columns.widths.len();
         let x = area.min[0] + inset + columns.widths[..column].iter().sum::<f64>();
-        let y = area.min[1] + 0.5 * PAD + ROW * ((i / columns.widths.len()) as f64 + 0.5);
+        let above: f64 = columns.heights().take(i / columns.widths.len()).sum();
+        let y = area.min[1] + 0.5 * PAD + above + 0.5 * ROW;
         key(brush, entry, [x, y]);
-        let at = [x + KEY + PAD, y];
-        brush.text(&Label::new(at, &entry.name, Anchor::LEFT, columns.size, InkRole::Text.into()));
+        for (row, line) in columns.names[i].iter().enumerate() {
+            let at = [x + KEY + PAD, y + LINE * row as f64];
+            brush.text(&TextLine::new(at, line, Anchor::LEFT, columns.size, InkRole::Text.into()));
+        }
     }
 }
 
-/// Place of the legend: [`LegendPlace::Inside`] is the corner where it covers no point, else it stands below.
+/// Place of the legend: [`LegendPlace::Inside`] is the corner where it covers nothing, else it stands below.
 pub(super) fn place(figure: &Figure) -> LegendPlace {
     if figure.legend_place != LegendPlace::Inside {
         return figure.legend_place;
     }
     let projections: Vec<Projection> = figure.panels.iter().map(|panel| Projection::new(panel, 1.0)).collect();
     let panels: Vec<_> = figure.panels.iter().zip(&projections).collect();
-    let Some((panel, projection)) = largest(&panels) else { return LegendPlace::Below };
+    let Some((panel, _)) = largest(&panels) else { return LegendPlace::Below };
+    let labels = Labels::new(panel);
     [LegendPlace::UpperRight, LegendPlace::UpperLeft, LegendPlace::LowerRight, LegendPlace::LowerLeft]
         .into_iter()
-        .find(|place| !marks::has_points_in(panel, projection, inside(figure, *place, &panels)))
+        .find(|place| labels.is_free(&inside(figure, *place, &panels), 0.0))
         .unwrap_or(LegendPlace::Below)
 }
 
@@ -135,7 +157,7 @@ fn largest<'a>(panels: &[(&'a Panel, &'a Projection)]) -> Option<(&'a Panel, &'a
 
 /// The rectangle of a legend in a corner of the largest panel.
 fn inside(figure: &Figure, place: LegendPlace, panels: &[(&Panel, &Projection)]) -> Rect {
-    let size = Columns::inside(&figure.legend, figure.size[0]).size(&figure.legend);
+    let size = Columns::inside(&figure.legend, figure.size[0]).size();
     let largest = largest(panels);
     let plot = largest.map_or(Rect::from_min_size([0.0, 0.0], figure.size), |(_, projection)| projection.plot);
     let note = if largest.is_some_and(|(panel, _)| !panel.note.is_empty()) { 18.0 } else { 0.0 };

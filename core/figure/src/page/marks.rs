@@ -1,10 +1,9 @@
 //! Marks of a panel.
 
-use super::clip::{self, contains, enlarged};
-use super::{Brush, Label, ground};
+use super::{Brush, TextLine, ground};
+use crate::clip;
 use crate::ink::{Ink, InkRole};
 use crate::mark::{Image, Mark, Rgb, Shape, Stroke, color_runs, finite_runs};
-use crate::panel::Panel;
 use crate::projection::Projection;
 use crate::rect::Rect;
 use crate::text::text_width;
@@ -29,7 +28,7 @@ pub(super) fn draw_ground(brush: &mut Brush<'_>, mark: &Mark, projection: &Proje
 
 /// Draws one mark, its halo first.
 pub(super) fn draw(brush: &mut Brush<'_>, mark: &Mark, projection: &Projection) {
-    let reach = enlarged(projection.plot, REACH);
+    let reach = projection.plot.enlarged(REACH);
     brush.canvas.begin(&mark.name, None);
     match &mark.shape {
         Shape::Line { points, closed } => line(brush, mark, projection, points, *closed),
@@ -37,7 +36,7 @@ pub(super) fn draw(brush: &mut Brush<'_>, mark: &Mark, projection: &Projection) 
         Shape::Points { points, marker, radius } => {
             for point in finite_runs(points).flatten() {
                 let center = at(projection, *point);
-                if contains(reach, center) {
+                if reach.contains(center) {
                     brush.marker(center, (*marker, *radius), mark.stroke, mark.fill, mark.halo);
                 }
             }
@@ -78,29 +77,18 @@ fn at(projection: &Projection, point: [f64; 2]) -> [f64; 2] {
     projection.at(point).map(|v| v.clamp(-1e6, 1e6))
 }
 
-/// True if a marker, a line or a text of a panel has a point in a rectangle.
-pub(super) fn has_points_in(panel: &Panel, projection: &Projection, area: Rect) -> bool {
-    let inside = |point: &[f64; 2]| contains(area, at(projection, *point));
-    panel.marks.iter().any(|mark| match &mark.shape {
-        Shape::Line { points, .. } | Shape::Points { points, .. } => points.iter().any(inside),
-        Shape::Gradient { points } => points.iter().any(|(point, _)| inside(point)),
-        Shape::Text { at, .. } => inside(at),
-        _ => false,
-    })
-}
-
 fn halo_stroke(mark: &Mark) -> Option<Stroke> {
     let width = mark.stroke.map_or(0.0, |stroke| stroke.width);
     mark.halo.map(|ink| Stroke::solid(ink, width + 2.0 * Mark::HALO))
 }
 
 fn line(brush: &mut Brush<'_>, mark: &Mark, projection: &Projection, points: &[[f64; 2]], closed: bool) {
-    let reach = enlarged(projection.plot, REACH);
+    let reach = projection.plot.enlarged(REACH);
     for stroke in halo_stroke(mark).into_iter().chain(mark.stroke) {
         for run in finite_runs(points) {
             let whole = closed && run.len() == points.len();
             let mut placed: Vec<[f64; 2]> = run.iter().map(|p| at(projection, *p)).collect();
-            if whole && placed.iter().all(|p| contains(reach, *p)) {
+            if whole && placed.iter().all(|p| reach.contains(*p)) {
                 brush.path(&placed, true, Some(stroke), None);
                 continue;
             }
@@ -115,7 +103,7 @@ fn line(brush: &mut Brush<'_>, mark: &Mark, projection: &Projection, points: &[[
 }
 
 fn gradient(brush: &mut Brush<'_>, mark: &Mark, projection: &Projection, points: &[([f64; 2], Rgb)]) {
-    let reach = enlarged(projection.plot, REACH);
+    let reach = projection.plot.enlarged(REACH);
     let style = mark.stroke.unwrap_or(Stroke::solid(InkRole::Text, 2.0));
     for run in color_runs(points) {
         let placed: Vec<[f64; 2]> = run.iter().map(|p| at(projection, p.0)).collect();
@@ -127,7 +115,7 @@ fn gradient(brush: &mut Brush<'_>, mark: &Mark, projection: &Projection, points:
 }
 
 fn area(brush: &mut Brush<'_>, mark: &Mark, projection: &Projection, corners: &[[f64; 2]]) {
-    let inside = clip::area(enlarged(projection.plot, REACH), corners);
+    let inside = clip::area(projection.plot.enlarged(REACH), corners);
     if let Some(halo) = halo_stroke(mark) {
         brush.path(&inside, true, Some(halo), None);
     }
@@ -140,17 +128,17 @@ fn text(brush: &mut Brush<'_>, mark: &Mark, projection: &Projection) {
     if !point.iter().all(|v| v.is_finite()) {
         return;
     }
-    let plot = projection.plot;
+    let (plot, reach) = (projection.plot, projection.plot.enlarged(REACH));
     let place = at(projection, *point);
     let [x, y] = [place[0] + offset[0], place[1] + offset[1]];
-    if !contains(enlarged(plot, REACH), place) || !contains(enlarged(plot, REACH), [x, y]) {
+    if !reach.contains(place) || !reach.contains([x, y]) {
         return;
     }
     let width = text_width(text, *size);
     let left = x - anchor.0 * width;
     let inside = if width < plot.width() { left.min(plot.max[0] - width).max(plot.min[0]) } else { left };
-    let label = Label::new([x + inside - left, y], text, *anchor, *size, *ink);
-    brush.text(&Label { halo: mark.halo, ..label });
+    let label = TextLine::new([x + inside - left, y], text, *anchor, *size, *ink);
+    brush.text(&TextLine { halo: mark.halo, ..label });
 }
 
 fn placed(projection: &Projection, a: [f64; 2], b: [f64; 2]) -> Option<Rect> {

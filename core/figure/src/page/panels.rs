@@ -1,10 +1,9 @@
 //! Panels: ground, grid, marks, tick labels, and the titles of the axes.
 
-use super::{AxisTitles, Brush, Label, marks};
-use crate::annotation::annotations;
+use super::{AxisTitles, Brush, TextLine, marks};
 use crate::ink::{Ink, InkRole};
 use crate::mark::{Anchor, Mark, Shape, Stroke, TextSize};
-use crate::panel::Panel;
+use crate::panel::{Panel, annotations};
 use crate::projection::Projection;
 use crate::rect::Rect;
 use crate::text::text_width;
@@ -102,8 +101,8 @@ pub(super) fn draw(brush: &mut Brush<'_>, titled: &Titled, projection: &Projecti
     draw_tick_labels(brush, panel, projection);
     draw_titles(brush, titled, projection);
     for note in annotations(panel, plot, 1.0) {
-        let label = Label::new(note.at, &note.text, note.anchor, TextSize::Small, InkRole::Weak.into());
-        brush.text(&Label { halo: Some(panel.background), ..label });
+        let label = TextLine::new(note.at, &note.text, note.anchor, TextSize::Small, InkRole::Weak.into());
+        brush.text(&TextLine { halo: Some(panel.background), ..label });
     }
 }
 
@@ -129,13 +128,13 @@ fn draw_tick_labels(brush: &mut Brush<'_>, panel: &Panel, projection: &Projectio
         let half = 0.5 * text_width(&tick.label, TextSize::Body);
         let x = projection.at([tick.value, projection.y[0]])[0];
         let x = x.min(panel.area.max[0] - half).max(panel.area.min[0] + half);
-        brush.text(&Label::new([x, plot.max[1] + 6.0], &tick.label, Anchor::TOP, TextSize::Body, ink));
+        brush.text(&TextLine::new([x, plot.max[1] + 6.0], &tick.label, Anchor::TOP, TextSize::Body, ink));
     }
     for tick in &projection.y_ticks {
         let half = 0.5 * f64::from(TextSize::Body.points());
         let y = projection.at([projection.x[0], tick.value])[1];
         let y = y.min(panel.area.max[1] - half).max(panel.area.min[1] + half);
-        brush.text(&Label::new([plot.min[0] - 7.0, y], &tick.label, Anchor::RIGHT, TextSize::Body, ink));
+        brush.text(&TextLine::new([plot.min[0] - 7.0, y], &tick.label, Anchor::RIGHT, TextSize::Body, ink));
     }
 }
 
@@ -143,8 +142,8 @@ fn draw_titles(brush: &mut Brush<'_>, titled: &Titled, projection: &Projection) 
     let (plot, area, ink) = (projection.plot, titled.panel.area, Ink::new(InkRole::Weak));
     let middle = [0, 1].map(|axis| 0.5 * (plot.min[axis] + plot.max[axis]));
     let below = [middle[0], area.max[1] + 0.5 * TITLE];
-    brush.text(&Label::new(below, &titled.x, Anchor::CENTER, TextSize::Small, ink));
+    brush.text(&TextLine::new(below, &titled.x, Anchor::CENTER, TextSize::Small, ink));
     let beside = [area.min[0] - 0.5 * TITLE, middle[1]];
-    let label = Label::new(beside, &titled.y, Anchor::CENTER, TextSize::Small, ink);
-    brush.text(&Label { upward: true, ..label });
+    let label = TextLine::new(beside, &titled.y, Anchor::CENTER, TextSize::Small, ink);
+    brush.text(&TextLine { upward: true, ..label });
 }

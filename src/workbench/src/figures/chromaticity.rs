@@ -108,13 +108,14 @@ fn draw<'a>(scene: &'a Scene<'a>, look: &'a FigureLook, frame: Frame, sketch: bo
 
 fn finish(drawing: Drawing<'_>, name: &str, area: Rect, frame: Frame) -> Built {
     let Drawing { diagram, frame: drawn, mut marks, points, small, labels, things, refused, loci, .. } = drawing;
-    let texts = labels::placed(labels, &[&marks, &points, &small], &drawn);
-    marks.extend(points.into_iter().chain(small).chain(texts));
-    let [x_range, y_range] = frame.ranges;
-    let [x, y] = coordinates(diagram);
+    marks.extend(points.into_iter().chain(small));
+    let ([x, y], [x_range, y_range]) = (coordinates(diagram), drawn.ranges);
     let mut panel = Panel::new(name, area, Axis::new(x, x_range), Axis::new(y, y_range));
     panel.equal_aspect = true;
     panel.marks = marks;
+    let texts = labels::placed(labels, &panel);
+    panel.marks.extend(texts);
+    [panel.x.range, panel.y.range] = frame.ranges;
     Built { panel, things, refused, loci, lens: None }
 }
 

@@ -7,8 +7,8 @@ use std::sync::Arc;
 
 use chromascope_core::spectral::grid::{FIRST_NM, LAST_NM};
 use chromascope_figure::{
-    Anchor, Axis, Cell, Figure, FigureRoom, Ink, InkRole, LegendEntry, LegendPlace, Mark, Numbers, Panel, Projection,
-    Rect, Shape, Stroke, Table, Tag, TextSize, finite_runs,
+    Axis, Cell, Figure, FigureRoom, Ink, InkRole, Label, Labels, LegendEntry, LegendPlace, Mark, Numbers, Panel, Place,
+    Projection, Rect, Shape, Stroke, Table, Tag, TextSize, finite_runs,
 };
 
 pub use drawn::{Curve, Curves, DRAWN};
@@ -55,6 +55,17 @@ pub fn panel(curves: &Curves, size: [f64; 2], hovered: Option<usize>) -> Panel {
         }
         panel.marks.extend(marks(curve, points, on, curves.drawn.len()));
     }
+    let mut labels = Labels::new(&panel);
+    for curve in &curves.drawn {
+        // The letter of a channel, where color alone would not name it.
+        let Some(channel) = curve.channel else { continue };
+        let finite = curve.points.iter().filter(|p| p[1].is_finite() && (!clipped || (low..=high).contains(&p[1])));
+        let Some(at) = finite.copied().max_by(|a, b| a[1].total_cmp(&b[1])) else { continue };
+        let places = Place::around(at, [1.0, 0.3], 7.0);
+        let letter = Label::new(["R", "G", "B"][channel.min(2)], InkRole::Text, places);
+        labels.place(&Label { tag: tag(curve.place), size: TextSize::Body, starts: vec![at], ..letter });
+    }
+    panel.marks.extend(labels.into_marks());
     panel
 }
 
@@ -74,7 +85,7 @@ pub fn place(tag: Tag) -> Option<usize> {
     tag.0.checked_sub(1).map(|place| place as usize)
 }
 
-/// A curve, and what names it where color alone would not.
+/// A curve.
 fn marks(curve: &Curve, points: Vec<[f64; 2]>, on: bool, count: usize) -> Vec<Mark> {
     let tag = tag(curve.place);
     let ink = ink(curve, count, on);
@@ -86,18 +97,12 @@ fn marks(curve: &Curve, points: Vec<[f64; 2]>, on: bool, count: usize) -> Vec<Ma
         2.0
     };
     let alone: Vec<[f64; 2]> = finite_runs(&points).filter(|run| run.len() == 1).map(|run| run[0]).collect();
-    let letter = curve.channel.map(|channel| ["R", "G", "B"][channel.min(2)]);
-    let peak = points.iter().filter(|p| p[1].is_finite()).copied().max_by(|a, b| a[1].total_cmp(&b[1]));
     let line = Mark::new(tag, &curve.name, Shape::Line { points, closed: false }).with_stroke(ink, width);
     let mut marks = vec![if on { line.with_halo(Ink::new(InkRole::Plot)) } else { line }];
     if !alone.is_empty() {
         // A sample between two gaps has no line.
         let marker = chromascope_figure::Marker::Dot;
         marks.push(Mark::new(tag, &curve.name, Shape::Points { points: alone, marker, radius: 3.0 }).with_fill(ink));
-    }
-    if let Some((letter, at)) = letter.zip(peak) {
-        let letter = Mark::text(letter, at, Anchor::LEFT_TOP, TextSize::Body, InkRole::Text);
-        marks.push(Mark { tag, name: curve.name.clone(), ..letter.with_offset([5.0, 0.0]) });
     }
     marks
 }

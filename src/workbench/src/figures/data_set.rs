@@ -3,9 +3,9 @@
 use chromascope_core::query::Ask;
 use chromascope_core::spectral::SpectralDistribution;
 use chromascope_core::spectral::grid::{FIRST_NM, LAST_NM};
-use chromascope_figure::{Axis, Ink, InkRole, Mark, Panel, Rect, Shape, Ticks};
+use chromascope_figure::{Axis, Ink, InkRole, Labels, Mark, Panel, Rect, Shape, Ticks};
 
-use super::labels::{Name, Room, channel_symbol};
+use super::labels::{Name, channel_symbol};
 use crate::catalog::load::{LoadError, curves};
 use crate::catalog::{Entry, Place};
 use crate::document::SetKind;
@@ -38,9 +38,11 @@ pub fn panel(ask: &impl Ask, entry: &Entry, role: InkRole, size: [f64; 2]) -> Re
         panel.note = format!("{} of {} curves", drawn.len(), all.len());
     }
     if few && drawn.len() > 1 {
-        let mut room = Room::of(&panel);
-        room.take(&panel.marks);
-        panel.marks.extend(drawn.iter().filter_map(|(name, points)| at_peak(name, points)?.mark(&mut room)));
+        let mut labels = Labels::new(&panel);
+        for name in drawn.iter().filter_map(|(name, points)| at_peak(name, points)) {
+            name.place(&mut labels);
+        }
+        panel.marks.extend(labels.into_marks());
     }
     Ok(Some(panel))
 }

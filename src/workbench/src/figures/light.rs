@@ -7,8 +7,8 @@ use chromascope_core::colorimetry::rgb::{encode_srgb, srgb_from_xyz, srgb_white}
 use chromascope_core::query::{Consistency, Rendition};
 use chromascope_core::rendition::{ColorFidelity, HueBin};
 use chromascope_figure::{
-    Anchor, Axis, Cell, Dash, Figure, FigureRoom, Ink, InkRole, Mark, Panel, Projection, Rect, Shape, Table, Tag,
-    TextSize, Ticks, text_width,
+    Anchor, Axis, Cell, Dash, Figure, FigureRoom, Ink, InkRole, Label, Labels, Mark, Panel, Place, Projection, Rect,
+    Shape, Table, Tag, TextSize, Ticks, text_width,
 };
 
 use super::kind::FigureKind;
@@ -49,14 +49,16 @@ pub fn bars(rendition: &Rendition, area: Rect) -> Option<Panel> {
         let middle = index as f64 + 0.5;
         let bar = Shape::Rect { min: [middle - 0.36, value.min(0.0)], max: [middle + 0.36, value.max(0.0)] };
         let role = if index == 0 { InkRole::Text } else { InkRole::Weak };
-        panel.marks.push(Mark::new(Tag::default(), name, bar).with_fill(role));
-        let at = [middle, value.max(0.0)];
-        let text = fixed(*value, 0);
-        let lift = if staggers && index % 2 == 1 { 13.0 } else { 0.0 };
-        let text =
-            Mark::text(text, at, Anchor(0.5, 1.0), TextSize::Small, InkRole::Text).with_offset([0.0, -1.0 - lift]);
-        panel.marks.push(Mark { name: format!("{name} {value:.1}"), ..text });
+        panel.marks.push(Mark::new(Tag::default(), format!("{name} {value:.1}"), bar).with_fill(role));
     }
+    let mut panel = panel.with_headroom(14.0);
+    let mut labels = Labels::new(&panel);
+    for (index, (_, value)) in values.iter().enumerate() {
+        let at = [index as f64 + 0.5, value.max(0.0)];
+        let places = [0.0, 14.0].map(|lift| Place { at, anchor: Anchor::BOTTOM, offset: [0.0, -1.0 - lift] });
+        labels.place(&Label { starts: vec![at], ..Label::new(fixed(*value, 0), InkRole::Text, places.to_vec()) });
+    }
+    panel.marks.extend(labels.into_marks());
     Some(panel)
 }
 
@@ -83,21 +85,24 @@ pub fn vectors(rendition: &Rendition, area: Rect) -> Option<Panel> {
         let ink = Ink::rgb(hue(index));
         let line = Shape::Segments { segments: vec![[*from, *to]] };
         panel.marks.push(Mark::new(Tag::default(), format!("hue bin {}", index + 1), line).with_stroke(ink, 3.0));
-        panel.marks.push(Mark::text(
-            (index + 1).to_string(),
-            from.map(|v| 1.36 * v),
-            Anchor::CENTER,
-            TextSize::Small,
-            InkRole::Weak,
-        ));
     }
     let points = ends.iter().map(|[_, to]| *to).collect();
     let outline = Mark::new(Tag::default(), "light", Shape::Line { points, closed: true });
     panel.marks.push(outline.with_stroke(InkRole::Text, 1.6));
     let at = |x: f64, y: f64| [x * RADIUS, y * RADIUS];
     let [rf, rg] = [fidelity.fidelity, fidelity.gamut].map(|value| fixed(value, 1));
-    panel.marks.push(Mark::text(format!("Rf {rf}"), at(-0.97, 0.95), Anchor::LEFT_TOP, TextSize::Small, InkRole::Text));
-    panel.marks.push(Mark::text(format!("Rg {rg}"), at(0.97, 0.95), Anchor::RIGHT_TOP, TextSize::Small, InkRole::Text));
+    let mut labels = Labels::new(&panel);
+    for (text, x, anchor) in
+        [(format!("Rf {rf}"), -0.97, Anchor::LEFT_TOP), (format!("Rg {rg}"), 0.97, Anchor::RIGHT_TOP)]
+    {
+        let place = Place { at: at(x, 0.95), anchor, offset: [0.0; 2] };
+        labels.place(&Label { always: true, ..Label::new(text, InkRole::Text, vec![place]) });
+    }
+    for (index, [from, _]) in ends.iter().enumerate() {
+        let beyond = [1.36, 1.42, 1.3].map(|far| Place::beside(from.map(|v| far * v), [0.0; 2], 0.0));
+        labels.place(&Label::new((index + 1).to_string(), InkRole::Weak, beyond.to_vec()));
+    }
+    panel.marks.extend(labels.into_marks());
     Some(panel)
 }
 

@@ -2,8 +2,8 @@
 
 use chromascope_core::camera::recorded::{RankRange, RecordedFit};
 use chromascope_figure::{
-    Anchor, Axis, Cell, Figure, FigureRoom, Ink, InkRole, LegendEntry, LegendPlace, Mark, Marker, Panel, Rect, Shape,
-    Table, Tag, TextSize, Ticks,
+    Anchor, Axis, Cell, Figure, FigureRoom, Ink, InkRole, Label, Labels, LegendEntry, LegendPlace, Mark, Marker, Panel,
+    Place, Rect, Shape, Table, Tag, Ticks,
 };
 
 use super::kind::{FigureKind, Need};
@@ -88,13 +88,14 @@ pub fn panel(fit: &RecordedFit, names: &[String], size: [f64; 2]) -> Panel {
             panel.marks.push(Mark::new(Tag((row * 3 + channel) as u32 + 1), words, shape).with_fill(Ink::rgb(rgb)));
         }
     }
-    for (patch, rms) in fit.worst_patches().into_iter().take(3).filter(|(_, rms)| *rms > 1e-9) {
+    let mut labels = Labels::new(&panel);
+    for (patch, _) in fit.worst_patches().into_iter().take(3).filter(|(_, rms)| *rms > 1e-9) {
         let top = (0..3).filter_map(|c| percent(patch, c)).fold(f64::MIN, f64::max);
-        let anchor = Anchor(patch as f64 / (count - 1.0).max(1.0), 1.0);
-        let text = Mark::text(names[patch].as_str(), [patch as f64, top], anchor, TextSize::Small, InkRole::Weak);
-        let name = format!("{}: {} %", names[patch], fixed(rms * 100.0, 2));
-        panel.marks.push(Mark { name, ..text.with_offset([0.0, -6.0]) });
+        let (at, along) = ([patch as f64, top], patch as f64 / (count - 1.0).max(1.0));
+        let places = [along, 0.0, 1.0].map(|along| Place { at, anchor: Anchor(along, 1.0), offset: [0.0, -6.0] });
+        labels.place(&Label { starts: vec![at], ..Label::new(&names[patch], InkRole::Weak, places.to_vec()) });
     }
+    panel.marks.extend(labels.into_marks());
     panel
 }
 

@@ -6,8 +6,8 @@ use chromascope_core::query::{CameraMetric, CameraMetrics};
 use chromascope_core::spectral::SpectralDistribution;
 use chromascope_core::spectral::grid::{FIRST_NM, LAST_NM};
 use chromascope_figure::{
-    Anchor, Axis, Cell, Figure, FigureRoom, Ink, InkRole, Mark, Panel, Projection, Rect, Shape, Table, Tag, TextSize,
-    Ticks, text_width,
+    Anchor, Axis, Cell, Figure, FigureRoom, Ink, InkRole, Label, Labels, Mark, Panel, Place, Projection, Rect, Shape,
+    Table, Tag, TextSize, Ticks, text_width,
 };
 
 use super::chromaticity::{conditions, distance_symbol};
@@ -30,17 +30,15 @@ const TWO_COLUMNS: f64 = 480.0;
 const ONE_ROW: f64 = 840.0;
 /// Width of a column of figures of merit where there are more than two.
 const LIST_COLUMN: f64 = 216.0;
-/// Heights of title, plots and bars.
+/// Heights of title, plots and bars, and of a further line of the name.
 const TITLE: f64 = 44.0;
+const NAME_LINE: f64 = 20.0;
 const PLOTS: f64 = 190.0;
 const BARS: f64 = 200.0;
 /// Height of a line of the list.
 const LINE: f64 = 15.0;
 /// Height of a line of the foot.
 const FOOT_LINE: f64 = 12.0;
-/// Height of a name over a bar, and the air beside it.
-const NAME_LINE: f64 = 14.0;
-const NAME_GAP: f64 = 3.0;
 
 /// The camera of the card: the chosen one, else the selected one, else the first that is compared.
 pub fn camera(scene: &Scene<'_>, look: &FigureLook) -> Option<SensorId> {
@@ -70,7 +68,8 @@ pub fn page(scene: &Scene<'_>, id: &SensorId, figures: &CameraFigures, width: f6
         top += height;
         Rect::from_min_size([0.0, top - height], [width, height])
     };
-    let mut panels = vec![title(scene, id, place(TITLE))];
+    let name = chromascope_figure::wrapped(&id.name, TextSize::Heading, width - 16.0);
+    let mut panels = vec![title(scene, id, &name, place(TITLE + NAME_LINE * (name.len() as f64 - 1.0)))];
     let beside = |row: Rect, [from, to]: [f64; 2]| {
         Rect::from_min_size([from * width, row.min[1]], [(to - from) * width, row.height()])
     };
@@ -111,15 +110,18 @@ fn line(name: &str, points: Vec<[f64; 2]>, ink: Ink, width: f64) -> Mark {
 }
 
 /// Name, and where its figures are from.
-fn title(scene: &Scene<'_>, id: &SensorId, area: Rect) -> Panel {
+fn title(scene: &Scene<'_>, id: &SensorId, name: &[String], area: Rect) -> Panel {
     let mut panel = Panel::board("title", area, Ink::new(InkRole::Plot));
     let entry = scene.entry(id.kind, &id.name).ok();
     let source = entry.and_then(|entry| entry.header).map_or_else(|| "yours".to_owned(), |header| header.source);
-    panel.marks.push(Mark::text(id.name.as_str(), [8.0, 13.0], Anchor::LEFT, TextSize::Heading, InkRole::Text));
+    for (row, words) in name.iter().enumerate() {
+        let at = [8.0, 13.0 + NAME_LINE * row as f64];
+        panel.marks.push(Mark::text(words, at, Anchor::LEFT, TextSize::Heading, InkRole::Text));
+    }
     let source = chromascope_figure::wrapped(&source, TextSize::Small, area.width() - 24.0);
     let cut = if source.len() > 1 { "…" } else { "" };
     let source = format!("{}{cut}", source.first().map_or("", String::as_str));
-    panel.marks.push(Mark::text(source, [8.0, 33.0], Anchor::LEFT, TextSize::Small, InkRole::Weak));
+    panel.marks.push(Mark::text(source, [8.0, area.height() - 11.0], Anchor::LEFT, TextSize::Small, InkRole::Weak));
     panel
 }
 
@@ -136,7 +138,7 @@ fn sensitivities(scene: &Scene<'_>, id: &SensorId, area: Rect) -> Panel {
         let points = samples.map(|(nm, value)| [*nm, value / peak]).filter(|p| (FIRST_NM..=LAST_NM).contains(&p[0]));
         panel.marks.push(line(name, points.collect(), ink, 1.5));
     }
-    panel
+    panel.with_headroom(2.0)
 }
 
 /// Distance from the reference's Planckian locus at equal temperature, over reciprocal temperature.
@@ -159,7 +161,7 @@ fn locus(scene: &Scene<'_>, id: &SensorId, area: Rect) -> Panel {
     let mut panel = Panel::new("locus error", area, x, Axis::new("", [0.0, 1.2 * top]));
     panel.note = format!("locus error {}", distance_symbol(diagram));
     panel.marks.push(line("locus error", points, InkRole::Text.into(), 1.5));
-    panel
+    panel.with_headroom(2.0)
 }
 
 /// A bar for each patch by the document's metric, the worst ones named.
@@ -186,34 +188,19 @@ fn patches(scene: &Scene<'_>, metrics: &CameraMetrics, area: Rect) -> Panel {
         panel.marks.push(Mark::new(Tag::default(), name(patch), shape).with_fill(ink).with_stroke(InkRole::Weak, 0.5));
     }
     let worst = metrics.worst.get(at).map_or(&[][..], Vec::as_slice);
-    let points = [(area.width() - Projection::LEFT) / count, area.height() / (1.3 * top)];
-    let mut taken: Vec<Rect> = Vec::new();
+    let mut panel = panel.with_headroom(14.0);
+    let mut labels = Labels::new(&panel);
     for (rank, &patch) in worst.iter().enumerate() {
         let Some(value) = values.get(patch).copied().flatten() else { continue };
         let number = fixed(value, scene.document.difference.decimals.saturating_sub(1));
         let words = format!("{}  {} {number}", rank + 1, name(patch));
-        // Names are to the left of bars in the right half, so that none is cut.
-        let (anchor, shift) =
-            if patch as f64 > count / 2.0 { (Anchor::RIGHT_BOTTOM, 4.0) } else { (Anchor::LEFT_BOTTOM, -4.0) };
-        let width = text_width(&words, TextSize::Small);
-        let left = patch as f64 * points[0] + shift - if anchor == Anchor::LEFT_BOTTOM { 0.0 } else { width };
-        let mut lift = 2.0;
-        let label = |lift: f64| {
-            Rect::from_min_size([left - NAME_GAP, -value * points[1] - lift], [width + 2.0 * NAME_GAP, NAME_LINE])
-        };
-        while taken.iter().any(|other| overlap(other, &label(lift))) {
-            lift += 1.0;
-        }
-        taken.push(label(lift));
-        let name = Mark::text(words, [patch as f64, value], anchor, TextSize::Small, InkRole::Text);
-        panel.marks.push(name.with_offset([shift, -lift]).with_halo(InkRole::Plot));
+        let at = [patch as f64, value];
+        let place = |(anchor, shift)| Place { at, anchor, offset: [shift, -2.0] };
+        let places = [(Anchor::BOTTOM, 0.0), (Anchor::LEFT_BOTTOM, -4.0), (Anchor::RIGHT_BOTTOM, 4.0)].map(place);
+        labels.place(&Label { starts: vec![at], ..Label::new(words, InkRole::Text, places.to_vec()) });
     }
+    panel.marks.extend(labels.into_marks());
     panel
-}
-
-/// True if two rectangles have points in common.
-fn overlap(a: &Rect, b: &Rect) -> bool {
-    (0..2).all(|axis| a.min[axis] < b.max[axis] && b.min[axis] < a.max[axis])
 }
 
 /// A line of the list.

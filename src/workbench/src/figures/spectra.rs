@@ -8,14 +8,14 @@ use chromascope_core::colorimetry::diagram::wavelength_color;
 use chromascope_core::spectral::SpectralDistribution;
 use chromascope_core::spectral::grid::{COUNT, FIRST_NM, LAST_NM, wavelength_nm};
 use chromascope_figure::{
-    Axis, Cell, Figure, FigureRoom, Image, InkRole, LegendPlace, Mark, Panel, Projection, Rect, Shape, Table, TextSize,
-    Ticks, text_width,
+    Axis, Cell, Figure, FigureRoom, Image, InkRole, Labels, LegendPlace, Mark, Panel, Projection, Rect, Shape, Table,
+    Ticks,
 };
 
 use self::content::Content;
 use super::chromaticity::{caption, key};
 use super::kind::FigureKind;
-use super::labels::{Name, Room};
+use super::labels::Name;
 use super::look::{FigureLook, SpectraLayout};
 use crate::document::{FIT_TARGET, SetKind};
 use crate::plot_item::{PickIndex, PlotItem};
@@ -65,56 +65,25 @@ pub fn build(scene: &Scene<'_>, look: &FigureLook, size: [f64; 2]) -> Built {
 
 /// A panel of curves with their names.
 fn panel(content: Content, area: Rect, large: bool) -> Panel {
-    let range = with_room(&content, area, large);
     let x = Axis::new("", [FIRST_NM, LAST_NM]).with_grid(true).with_ticks(Ticks::None);
     let ticks = if large { Ticks::Auto } else { Ticks::None };
-    let axis = Axis::new(content.quantity, range).with_ticks(ticks).with_grid(large);
+    let axis = Axis::new(content.quantity, content.range).with_ticks(ticks).with_grid(large);
     let name = format!("{}, {}", content.quantity, content.note);
-    let mut panel = Panel { note: content.note, ..Panel::new(name, area, x, axis) };
-    let written = |names: &[Name]| -> Vec<Mark> {
-        let mut room = Room::of(&panel);
-        room.take(&content.marks);
-        names.iter().filter_map(|name| name.mark(&mut room)).collect()
+    let panel = Panel { note: content.note, marks: content.marks, ..Panel::new(name, area, x, axis) };
+    // Names stand above curves, below the title and the note.
+    let mut panel = panel.with_headroom(if content.names.is_empty() { 0.0 } else { 17.0 });
+    panel.marks.splice(..0, hundreds(panel.y.range));
+    let written = |names: &[Name]| {
+        let mut labels = Labels::new(&panel);
+        let count = names.iter().filter(|name| name.place(&mut labels)).count();
+        (count == names.len(), labels.into_marks())
     };
-    let mut names = written(&content.names);
-    if names.len() < content.names.len() && !content.common.is_empty() {
-        names = written(&content.common);
+    let (is_complete, mut names) = written(&content.names);
+    if !is_complete && !content.common.is_empty() {
+        (_, names) = written(&content.common);
     }
-    panel.marks = hundreds(range);
-    panel.marks.extend(content.marks);
     panel.marks.extend(names);
     panel
-}
-
-/// The range with room above what lies under the axis' title at the upper left, under the note at the upper right, and
-/// under the names at peaks.
-fn with_room(content: &Content, area: Rect, large: bool) -> [f64; 2] {
-    /// The height of a line of small text with its margins.
-    const TEXT: f64 = 20.0;
-    let [low, high] = content.range;
-    let width = (area.width() - if large { Projection::LEFT } else { 0.0 }).max(1.0);
-    let [title, note] = [content.quantity, content.note.as_str()].map(|text| text_width(text, TextSize::Small) + 12.0);
-    let second = if title + note <= width { 0.0 } else { 16.0 };
-    let nm = |share: f64| FIRST_NM + share.clamp(0.0, 1.0) * (LAST_NM - FIRST_NM);
-    let names = if content.names.is_empty() { 0.0 } else { 17.0 };
-    // Names stand below the title and the note, unless the panel is low.
-    let below = if area.height() < 70.0 { 0.0 } else { names };
-    let needs = [
-        ([FIRST_NM, nm(title / width)], TEXT + below),
-        ([nm(1.0 - note / width), LAST_NM], TEXT + second + below),
-        ([FIRST_NM, LAST_NM], names),
-    ];
-    let lines = content.marks.iter().filter_map(|mark| match &mark.shape {
-        Shape::Line { points, .. } => Some(points),
-        _ => None,
-    });
-    let pairs: Vec<[[f64; 2]; 2]> = lines.flat_map(|points| points.windows(2).map(|ends| [ends[0], ends[1]])).collect();
-    needs.into_iter().fold(content.range, |range, ([from, to], points)| {
-        let under = pairs.iter().filter(|[a, b]| b[0] >= from && a[0] <= to).map(|[a, b]| a[1].max(b[1]));
-        let top = under.filter(|value| value.is_finite()).fold(low, f64::max);
-        let free = 1.0 - (points / area.height().max(1.0)).min(0.6);
-        [low, range[1].max(high).max(low + (top - low) / free)]
-    })
 }
 
 /// Faint lines at the hundreds of nanometers, since the axis is written only once, and at zero.

@@ -3,13 +3,12 @@
 use chromascope_core::colorimetry::Xy;
 use chromascope_core::query::Locus;
 use chromascope_figure::{
-    Anchor, Axis, Cell, Dash, Figure, FigureRoom, Ink, InkRole, Mark, Marker, Panel, Projection, Rect, Shape, Table,
-    TextSize, Ticks, wrapped,
+    Anchor, Axis, Cell, Dash, Figure, FigureRoom, InkRole, Label, Labels, Mark, Marker, Panel, Place, Projection, Rect,
+    Shape, Table, Ticks,
 };
 
 use super::chromaticity::{self, distance_symbol, id};
 use super::kind::FigureKind;
-use super::labels::{Place, Room};
 use super::look::FigureLook;
 use crate::document::{Diagram, LOCUS_RANGE_K, SetKind};
 use crate::format::number;
@@ -27,10 +26,6 @@ pub struct Strip {
 
 /// Temperatures that are written below, in kelvins.
 const TICKS: [f64; 7] = [1000.0, 1200.0, 1500.0, 2000.0, 3000.0, 5000.0, 20_000.0];
-/// Height of the line of text at the upper edge, in points.
-const NOTE: f64 = 18.0;
-/// Height of each further line.
-const NOTE_LINE: f64 = 15.0;
 /// Largest distance drawn: a locus that goes to infinity leaves the strip, the others stay readable.
 const LARGEST: f64 = 0.6;
 /// Δu′v′ of lights that half of observers just tell apart.
@@ -57,31 +52,33 @@ pub fn build(scene: &Scene<'_>, size: [f64; 2]) -> Option<Strip> {
         distance_symbol(diagram),
         scene.locus_balance()
     );
-    // The note at the upper edge is free of lines.
-    let lines = wrapped(&note, TextSize::Small, size[0] - Projection::LEFT - 10.0).len().max(1);
-    let above = NOTE + NOTE_LINE * (lines as f64 - 1.0);
-    let free = 1.0 - (above / (size[1] - Projection::BOTTOM - Projection::TITLE).max(1.0)).min(0.5);
-    let top = content.top.clamp(1e-6, LARGEST).sqrt() / free;
+    let highest = content.top.clamp(1e-6, LARGEST).sqrt();
     let ticks = TICKS.iter().map(|kelvin| (1e6 / kelvin, format!("{kelvin:.0}"))).collect();
     let [cold, hot] = LOCUS_RANGE_K.map(|kelvin| 1e6 / kelvin);
     let x = Axis::new("blackbody temperature (K)", [cold, hot]).with_ticks(Ticks::At(ticks)).with_grid(true);
-    let y = Axis::new("", [0.0, top]).with_ticks(Ticks::At(height_ticks((top * free).powi(2)))).with_grid(true);
+    let y = Axis::new("", [0.0, highest]).with_ticks(Ticks::At(height_ticks(highest * highest))).with_grid(true);
     let mut panel =
         Panel::new("Distance to the reference over temperature", Rect::from_min_size([0.0, 0.0], size), x, y);
     panel.note = note;
-    let mut room = Room::of(&panel);
-    room.take(&content.lines);
-    room.take(&content.signs);
-    let line = cursor(scene.document.temperature_k, top * free);
-    room.keep_clear_of(&line);
-    panel.marks = just_visible_line(&reference, diagram, &mut room);
-    let mut texts: Vec<Mark> = cursor_text(&mut room, scene.document.temperature_k, top).into_iter().collect();
-    texts.extend(content.minima.iter().flat_map(|(source, at)| minimum_text(&mut room, source, *at)));
-    panel.marks.extend(content.lines);
+    // Lines up to the highest pass below the note.
+    let ceiling = Shape::Line { points: vec![[cold, highest], [hot, highest]], closed: false };
+    panel.marks.push(Mark::new(PickIndex::NONE, "", ceiling));
+    panel = panel.with_headroom(2.0);
+    panel.marks.clear();
+    let top = panel.y.range[1];
+    let (line, just_visible) = just_visible_line(&reference, diagram);
     panel.marks.push(line);
+    panel.marks.extend(content.lines);
+    panel.marks.push(cursor(scene.document.temperature_k, highest));
     panel.marks.extend(content.signs);
-    panel.marks.extend(cut(&panel.marks, top, room.height()));
-    panel.marks.extend(texts);
+    panel.marks.extend(cut(&panel.marks, top, Projection::new(&panel, 1.0).plot.height()));
+    let mut labels = Labels::new(&panel);
+    for (source, at) in &content.minima {
+        labels.place(&minimum_text(source, *at));
+    }
+    labels.place(&cursor_text(scene.document.temperature_k, top));
+    labels.place(&just_visible);
+    panel.marks.extend(labels.into_marks());
     Some(Strip { panel, things })
 }
 
@@ -152,14 +149,10 @@ fn minimum(scene: &Scene<'_>, source: &ComparedSensor) -> Option<[f64; 2]> {
     (!nearest.at_end).then(|| [1e6 / nearest.kelvin, nearest.distance.sqrt()])
 }
 
-/// The temperature of a minimum, in the sensor's ink: beside its ring, above, or farther at the end of a leader.
-fn minimum_text(room: &mut Room, source: &ComparedSensor, at: [f64; 2]) -> Vec<Mark> {
-    let away = |x: f64| (0..8).flat_map(move |row| [(x, row), (-x, row)]);
-    let places = [7.0, 24.0, 48.0, 80.0, 120.0, 170.0, 230.0].into_iter().flat_map(away).map(|(x, row)| {
-        let anchor = if x > 0.0 { Anchor::LEFT_BOTTOM } else { Anchor::RIGHT_BOTTOM };
-        (at, anchor, [x, 5.0 - 13.0 * f64::from(row)])
-    });
-    room.lead(&format!("{:.0} K", 1e6 / at[0]), source.role.into(), &places.collect::<Vec<Place>>())
+/// The temperature of a minimum, in the sensor's ink.
+fn minimum_text(source: &ComparedSensor, at: [f64; 2]) -> Label {
+    let places = [7.0, 11.0].into_iter().flat_map(|far| Place::around(at, [1.0, -0.1], far)).collect();
+    Label { starts: vec![at], ..Label::new(format!("{:.0} K", 1e6 / at[0]), source.role, places) }
 }
 
 /// Zero and two round distances with equal decimals, at the square roots where they lie.
@@ -171,19 +164,20 @@ fn height_ticks(top: f64) -> Vec<(f64, String)> {
     rounds.map(|value| (value.sqrt(), format!("{value:.decimals$}"))).to_vec()
 }
 
-/// The hairline of distances that are just visible, with its name where there is room.
-fn just_visible_line(reference: &Locus, diagram: Diagram, room: &mut Room) -> Vec<Mark> {
+/// The hairline of distances that are just visible, with its name.
+fn just_visible_line(reference: &Locus, diagram: Diagram) -> (Mark, Label) {
     let height = |at: Xy| just_visible(at, diagram).sqrt();
     let points = reference.points.iter().filter_map(|p| Some([p.temperature.mired(), height(p.xy?)]));
     let points: Vec<[f64; 2]> = points.collect();
     let sides = [(Anchor::BOTTOM, -2.0), (Anchor::TOP, 2.0)];
-    let away = [2.0, 18.0, 31.0].into_iter().flat_map(|far| sides.map(|(anchor, y)| (anchor, y / 2.0 * far)));
-    let places = away.flat_map(|(anchor, y)| points.iter().step_by(8).map(move |at| (*at, anchor, [0.0, y])));
+    let along = || points.iter().step_by(8).copied();
+    let places =
+        sides.into_iter().flat_map(|(anchor, y)| along().map(move |at| Place { at, anchor, offset: [0.0, y] }));
+    let starts = along().step_by(4).collect();
+    let label = Label { starts, ..Label::new("just visible", InkRole::Weak, places.collect()) };
     let name = format!("just visible to half of observers: Δu′v′ {JUST_VISIBLE}");
-    let line = Mark::new(PickIndex::NONE, name, Shape::Line { points: points.clone(), closed: false });
-    room.take(std::slice::from_ref(&line));
-    let text = room.lead("just visible", InkRole::Weak.into(), &places.collect::<Vec<Place>>());
-    std::iter::once(line.with_stroke(InkRole::Weak, 0.8)).chain(text).collect()
+    let line = Mark::new(PickIndex::NONE, name, Shape::Line { points, closed: false });
+    (line.with_stroke(InkRole::Weak, 0.8), label)
 }
 
 /// Distance in a diagram that is just visible near a chromaticity; in xy, that of a circle as large as the ellipse there.
@@ -219,10 +213,11 @@ fn cursor(kelvin: f64, top: f64) -> Mark {
 }
 
 /// Its number, on the side that has room.
-fn cursor_text(room: &mut Room, kelvin: f64, top: f64) -> Option<Mark> {
-    let at = |share: f64, (anchor, x)| ([1e6 / kelvin, share * top], anchor, [x, 0.0]);
+fn cursor_text(kelvin: f64, top: f64) -> Label {
+    let at = |share: f64, (anchor, x)| Place { at: [1e6 / kelvin, share * top], anchor, offset: [x, 0.0] };
     let sides = [(Anchor::RIGHT, -5.0), (Anchor::LEFT, 5.0)];
     let shares = [0.5, 0.62, 0.38, 0.74, 0.68, 0.56, 0.44, 0.32, 0.26];
-    let places: Vec<Place> = shares.into_iter().flat_map(|share| sides.map(|side| at(share, side))).collect();
-    room.place(&format!("{kelvin:.0} K"), Ink::new(InkRole::Text), false, &places)
+    let places = shares.into_iter().flat_map(|share| sides.map(|side| at(share, side))).collect();
+    let starts = [0.3, 0.5, 0.7].map(|share| [1e6 / kelvin, share * top]).to_vec();
+    Label { starts, ..Label::new(format!("{kelvin:.0} K"), InkRole::Text, places) }
 }

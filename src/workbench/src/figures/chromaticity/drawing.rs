@@ -3,10 +3,10 @@
 use std::collections::BTreeSet;
 
 use chromascope_core::colorimetry::{UvPrime, Xy};
-use chromascope_figure::Mark;
+use chromascope_figure::{Label, Mark};
 
 use super::frame::{self, Frame};
-use super::labels::Label;
+use super::labels::Rank;
 use crate::document::Diagram;
 use crate::figures::look::FigureLook;
 use crate::plot_item::{PickIndex, SensorId};
@@ -26,7 +26,7 @@ pub(super) struct Drawing<'a> {
     /// Small marks, over the patches.
     pub(super) small: Vec<Mark>,
     /// Texts, over all.
-    pub(super) labels: Vec<Label>,
+    pub(super) labels: Vec<(Rank, Label)>,
     pub(super) things: PickIndex,
     /// Positions of the markers halfway along the lines.
     pub(super) halfway: Vec<[f64; 2]>,

@@ -7,10 +7,10 @@ use chromascope_core::colorimetry::rgb::GAMUTS;
 use chromascope_core::colorimetry::{UvPrime, Xy};
 use chromascope_core::light::daylight;
 use chromascope_core::units::Kelvin;
-use chromascope_figure::{Dash, Image, InkRole, Mark, Shape};
+use chromascope_figure::{Dash, Image, InkRole, Mark, Place, Shape};
 
 use super::drawing::Drawing;
-use super::labels::{Label, Place};
+use super::labels::{Rank, label};
 use crate::document::{Diagram, FIT_TARGET, SetKind};
 use crate::plot_item::PickIndex;
 
@@ -27,12 +27,12 @@ pub(super) fn add(drawing: &mut Drawing<'_>) {
     for (gamut, on) in GAMUTS.iter().zip([overlays.srgb, overlays.dci_p3, overlays.rec2020]) {
         if on {
             let points: Vec<[f64; 2]> = gamut.primaries.iter().filter_map(|xy| drawing.place(*xy)).collect();
-            let label = points.get(1).copied();
+            let corner = points.get(1).copied();
             let line = Shape::Line { points, closed: true };
             drawing.marks.push(Mark::new(PickIndex::NONE, gamut.name, line).with_stroke(InkRole::Weak, 1.2));
-            if let Some(at) = label {
+            if let Some(at) = corner {
                 let places = Place::around(at, [1.0, -1.0], 4.0);
-                drawing.labels.push(Label::ground(gamut.name, places));
+                drawing.labels.push(label(Rank::Ground, gamut.name, InkRole::Weak, places));
             }
         }
     }
@@ -74,8 +74,9 @@ fn add_labels(drawing: &mut Drawing<'_>) {
         let length = away[0].hypot(away[1]).max(1e-9);
         // Outside, or inside where the plot ends.
         let out = [away[0] / length, -away[1] / length];
-        let places = vec![Place::beside(at, out, 6.0), Place::beside(at, out.map(|v| -v), 6.0)];
-        drawing.labels.push(Label::ground(&format!("{nm:.0}"), places));
+        let sides = [1.0, -1.0].into_iter().flat_map(|side| [6.0, 9.0, 12.0].map(|far| (side, far)));
+        let places = sides.map(|(side, far)| Place::beside(at, out.map(|v| side * v), far)).collect();
+        drawing.labels.push(label(Rank::Ground, format!("{nm:.0}"), InkRole::Weak, places));
         let dot = Shape::Points { points: vec![at], marker: chromascope_figure::Marker::Circle, radius: 1.8 };
         drawing.marks.push(Mark::new(PickIndex::NONE, "wavelength", dot).with_fill(InkRole::Weak));
     }
@@ -91,7 +92,7 @@ fn add_daylight(drawing: &mut Drawing<'_>) {
     let line = Mark::new(PickIndex::NONE, "daylight locus", Shape::Line { points, closed: false });
     drawing.marks.push(line.with_stroke(InkRole::Weak, 1.5).with_dash(Dash::Dashed));
     if let Some(at) = end {
-        drawing.labels.push(Label::ground("daylight", Place::around(at, [-1.0, 0.0], 6.0)));
+        drawing.labels.push(label(Rank::Ground, "daylight", InkRole::Weak, Place::around(at, [-1.0, 0.0], 6.0)));
     }
 }
 

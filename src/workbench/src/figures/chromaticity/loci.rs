@@ -2,10 +2,10 @@
 
 use chromascope_core::query::{LocusPoint, Temperatures};
 use chromascope_core::units::Kelvin;
-use chromascope_figure::{Anchor, Dash, Ink, InkRole, Mark, Marker, Shape, TextSize};
+use chromascope_figure::{Dash, Ink, InkRole, Label, Mark, Marker, Place, Shape, TextSize};
 
 use super::drawing::{Drawing, id};
-use super::labels::{Label, Place, Rank};
+use super::labels::{Rank, label};
 use crate::plot_item::{PickIndex, PlotItem, SensorId};
 use crate::scene::locus::split;
 use crate::scene::{ComparedSensor, Scene};
@@ -112,9 +112,9 @@ fn add_ticks(drawing: &mut Drawing<'_>, source: &ComparedSensor, points: &[[f64;
             continue;
         }
         let beside = |distance| Place::beside(at, [normal[0], -normal[1]], distance);
-        let places = [0.0, 6.0, 12.0].map(|more| beside(TICK + 4.0 + more)).to_vec();
+        let places = [0.0, 3.0, 6.0, 12.0].map(|more| beside(TICK + 4.0 + more)).to_vec();
         let text = format!("{kelvin:.0} K");
-        drawing.labels.push(Label::new(text, Rank::Temperature, InkRole::Weak, places));
+        drawing.labels.push(label(Rank::Temperature, text, InkRole::Weak, places));
     }
 }
 
@@ -181,7 +181,8 @@ fn add_end(drawing: &mut Drawing<'_>, source: &ComparedSensor, points: &[[f64; 2
     }
     let tag = drawing.things.tag(PlotItem::Sensor(id(source)));
     let starts = marker.into_iter().chain(start.copied()).collect();
-    drawing.labels.push(Label { tag, starts, ..Label::new(&source.label, Rank::Sensor, source.role, places) });
+    let (rank, label) = label(Rank::Sensor, &source.label, source.role, places);
+    drawing.labels.push((rank, Label { tag, starts, ..label }));
 }
 
 /// The ring at the document's temperature.
@@ -233,8 +234,8 @@ pub(super) fn add_ghost(drawing: &mut Drawing<'_>) {
     let ink = Ink::new(InkRole::Text).faded(0.7);
     let line = Mark::new(PickIndex::NONE, format!("{} (not compared)", id.name), Shape::Line { points, closed: false });
     drawing.marks.push(line.with_stroke(ink, 2.0).with_dash(Dash::Dashed).with_halo(InkRole::Plot));
-    let text = Mark::text(id.name, at, Anchor::TOP, TextSize::Small, InkRole::Text);
-    drawing.marks.push(text.with_offset([0.0, 6.0]).with_halo(InkRole::Plot));
+    let (rank, label) = label(Rank::Patch, id.name, InkRole::Text, Place::around(at, [0.0, 1.0], 6.0));
+    drawing.labels.push((rank, Label { size: TextSize::Small, starts: vec![at], ..label }));
 }
 
 /// The sensor under the pointer, else the selected one, if it is not compared.

@@ -3,11 +3,11 @@
 use chromascope_core::colorimetry::{Metric, UvPrime, Xy};
 use chromascope_core::query::{LocusPoint, PatchColor, Temperatures, compare};
 use chromascope_core::units::Kelvin;
-use chromascope_figure::{Ink, InkRole, Mark, Shape};
+use chromascope_figure::{Ink, InkRole, Label, Mark, Place, Shape};
 
 use super::drawing::{Drawing, id};
 use super::edges;
-use super::labels::{Label, Place, Rank};
+use super::labels::{Rank, label as ranked};
 use crate::document::{Diagram, SetKind};
 use crate::format::number;
 use crate::palette::LINE_TAIL;
@@ -121,7 +121,8 @@ fn add_names(drawing: &mut Drawing<'_>, names: &[&str], reference: &[PatchColor]
         let up = if at[1] >= center[1] { -1.0 } else { 1.0 };
         let right = if at[0] >= center[0] - 0.02 { 1.0 } else { -1.0 };
         let places = Place::around(at, [right, up], radius + 3.0);
-        labels.push(Label::new(*name, rank, InkRole::Text, places));
+        let (rank, label) = ranked(rank, *name, InkRole::Text, places);
+        labels.push((rank, Label { starts: vec![at], ..label }));
     }
     drawing.labels.extend(labels);
 }

@@ -4,10 +4,10 @@ use chromascope_core::colorimetry::{UvPrime, Xy, Xyz};
 use chromascope_core::light::Cct;
 use chromascope_core::query::Ask;
 use chromascope_core::units::Kelvin;
-use chromascope_figure::{InkRole, Mark, Marker, Shape};
+use chromascope_figure::{InkRole, Label, Mark, Marker, Place, Shape};
 
 use super::drawing::Drawing;
-use super::labels::{Label, Place, Rank};
+use super::labels::{Rank, label};
 use crate::catalog::load::LightQuery;
 use crate::document::{FIT_TARGET, Light, SetKind};
 use crate::plot_item::{PickIndex, PlotItem};
@@ -52,7 +52,8 @@ fn add_whites(drawing: &mut Drawing<'_>) {
         let mark = Mark::new(PickIndex::NONE, format!("white {name}"), shape).with_stroke(InkRole::Text, 1.2);
         drawing.small.push(mark.with_fill(InkRole::Plot).with_halo(InkRole::Plot));
         let places = Place::around(at, side, 7.0);
-        drawing.labels.push(Label::new(name, Rank::White, InkRole::Text, places));
+        let (rank, label) = label(Rank::White, name, InkRole::Text, places);
+        drawing.labels.push((rank, Label { starts: vec![at], ..label }));
     }
     let light = scene.light_color().ok().and_then(Xyz::chromaticity);
     let Some(at) = light.and_then(|xy| drawing.place(xy)) else { return };
@@ -62,7 +63,8 @@ fn add_whites(drawing: &mut Drawing<'_>) {
     let mark = Mark::new(tag, &name, shape).with_stroke(InkRole::Text, 1.5).with_fill(InkRole::Text);
     drawing.small.push(mark.with_halo(InkRole::Plot));
     let places = Place::around(at, [0.2, 1.0], 9.0);
-    drawing.labels.push(Label::new(name, Rank::Light, InkRole::Text, places));
+    let (rank, label) = label(Rank::Light, name, InkRole::Text, places);
+    drawing.labels.push((rank, Label { starts: vec![at], ..label }));
 }
 
 fn add_isotherms(drawing: &mut Drawing<'_>) {
@@ -82,7 +84,7 @@ fn add_isotherms(drawing: &mut Drawing<'_>) {
         let mark = Mark::new(PickIndex::NONE, format!("isotherm {name}"), line);
         drawing.marks.push(mark.with_stroke(InkRole::Weak, 0.8));
         let up = [0.0, -1.0];
-        let places = vec![Place::beside(above, up, 2.0), Place::beside(below, up.map(|v| -v), 2.0)];
-        drawing.labels.push(Label::ground(&name, places));
+        let places = vec![Place::beside(above, up, 3.0), Place::beside(below, up.map(|v| -v), 3.0)];
+        drawing.labels.push(label(Rank::Ground, name, InkRole::Weak, places));
     }
 }

@@ -2,25 +2,15 @@
 
 use crate::rect::Rect;
 
-/// The rectangle enlarged by a margin on each side.
-pub(super) fn enlarged(rect: Rect, by: f64) -> Rect {
-    Rect { min: rect.min.map(|v| v - by), max: rect.max.map(|v| v + by) }
-}
-
-/// True if a point lies inside.
-pub(super) fn contains(rect: Rect, point: [f64; 2]) -> bool {
-    (0..2).all(|axis| (rect.min[axis]..=rect.max[axis]).contains(&point[axis]))
-}
-
 /// The part of a rectangle inside.
-pub(super) fn rect(within: Rect, area: Rect) -> Option<Rect> {
+pub(crate) fn rect(within: Rect, area: Rect) -> Option<Rect> {
     let min = [0, 1].map(|axis| area.min[axis].max(within.min[axis]));
     let max = [0, 1].map(|axis| area.max[axis].min(within.max[axis]));
     (min[0] <= max[0] && min[1] <= max[1]).then_some(Rect { min, max })
 }
 
-/// The part of a straight line inside (Liang and Barsky 1984).
-pub(super) fn segment(rect: Rect, [a, b]: [[f64; 2]; 2]) -> Option<[[f64; 2]; 2]> {
+/// The part of a straight line inside a rectangle, its edges included (Liang and Barsky 1984).
+pub fn segment(rect: Rect, [a, b]: [[f64; 2]; 2]) -> Option<[[f64; 2]; 2]> {
     let mut share = [0.0_f64, 1.0];
     for axis in 0..2 {
         let step = b[axis] - a[axis];
@@ -40,7 +30,7 @@ pub(super) fn segment(rect: Rect, [a, b]: [[f64; 2]; 2]) -> Option<[[f64; 2]; 2]
 }
 
 /// The stretches of a line inside.
-pub(super) fn line(rect: Rect, points: &[[f64; 2]]) -> Vec<Vec<[f64; 2]>> {
+pub(crate) fn line(rect: Rect, points: &[[f64; 2]]) -> Vec<Vec<[f64; 2]>> {
     let mut runs: Vec<Vec<[f64; 2]>> = Vec::new();
     for pair in points.windows(2) {
         let Some([from, to]) = segment(rect, [pair[0], pair[1]]) else { continue };
@@ -53,7 +43,7 @@ pub(super) fn line(rect: Rect, points: &[[f64; 2]]) -> Vec<Vec<[f64; 2]>> {
 }
 
 /// The part of an area inside (Sutherland and Hodgman 1974).
-pub(super) fn area(rect: Rect, points: &[[f64; 2]]) -> Vec<[f64; 2]> {
+pub(crate) fn area(rect: Rect, points: &[[f64; 2]]) -> Vec<[f64; 2]> {
     let mut corners = points.to_vec();
     for (axis, sign, limit) in
         [(0, 1.0, rect.min[0]), (0, -1.0, -rect.max[0]), (1, 1.0, rect.min[1]), (1, -1.0, -rect.max[1])]
