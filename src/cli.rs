@@ -21,6 +21,7 @@ mod radiance;
 mod render;
 mod report;
 mod request;
+mod settings;
 mod sources;
 mod tables;
 

@@ -1,5 +1,6 @@
 //! Every color, size and stroke. Only data has color, the frame is pure gray; numbers sit on a grid of 4 points.
 
+use chromascope_text::choices;
 use std::sync::Arc;
 
 use chromascope_figure::{Ink, InkRole, Palette, TextSize};
@@ -88,14 +89,16 @@ impl Surround {
     }
 }
 
-/// Colors of compared sources in a figure.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
-pub enum SourceInks {
-    /// Those on screen, told apart in all kinds of color vision.
-    #[default]
-    Screen,
-    /// Grays, told apart in print without color.
-    Gray,
+choices! {
+    /// Colors of compared sources in a figure.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
+    pub enum SourceInks {
+        /// Those on screen, told apart in all kinds of color vision.
+        #[default]
+        Screen = "safe", "Color", "Colors told apart in all kinds of color vision";
+        /// Grays, told apart in print without color.
+        Gray = "gray", "Gray", "Grays told apart in print without color";
+    }
 }
 
 /// The colors of one theme.

@@ -19,7 +19,7 @@ impl Files {
     pub fn saved_document(&mut self) -> Document {
         if self.keeper.is_first_run() {
             let words =
-                format!("Start: {}. The other start is in the Inspector and under Edit.", Start::default().name());
+                format!("Start: {}. The other start is in the Inspector and under Edit.", Start::default().label());
             self.note(Note::Event(FileEvent::Said(words)));
         }
         let loaded = self.keeper.load();

@@ -1,16 +1,14 @@
 //! Settings of the scene, the view and the render, as they are found.
 
 use chromascope_core::correction::CorrectionMethod;
-use chromascope_core::render::QualityLevel;
-use chromascope_core::scene::lighting::SUN_RADIUS;
+use chromascope_text::{Settings as _, Value};
 
 use super::Found;
 use crate::action::{Action, CompareAction, RenderAction, SceneAction};
 use crate::catalog::Entry;
 use crate::command::{Command, THEMES};
 use crate::document::correction::CorrectionChoice;
-use crate::document::render::model::{AreaChoice, SpecularChoice};
-use crate::document::render::{GARMENT, MeshChoice, NEAR, ReadingChoice, RenderSettings, RoughnessChoice};
+use crate::document::render::{GARMENT, MeshChoice, RenderSettings};
 use crate::document::{Diagram, Light, SetKind, Subset, TransformChoice, WhiteBalanceChoice};
 use crate::panes::PaneContext;
 use crate::panes::widgets::pixel::PIXEL;
@@ -21,20 +19,6 @@ use crate::workspaces::PaneKind;
 
 const SETTINGS: &str = "Settings";
 const RENDER: &str = "Render";
-
-/// Sliders of the render settings by name, with other words for them.
-const SLIDERS: [(&str, &str); 10] = [
-    ("Roughness σ", "RMS sigma surface"),
-    ("Correlation τ", "length tau surface"),
-    ("Index n", "refractive Fresnel surface"),
-    ("Light elevation", "direction height sun"),
-    ("Light azimuth", "direction side sun"),
-    ("Light distance", "near point light"),
-    ("Sky", "skylight ambient hemisphere"),
-    ("Exposure", "EV brightness"),
-    ("Field of view", "lens angle zoom"),
-    ("Triangles", "mesh resolution"),
-];
 
 /// Conditions of the scene bar, and the diagram's elements.
 pub(super) fn scene(context: &PaneContext<'_>) -> Vec<Found> {
@@ -162,12 +146,12 @@ pub(super) fn view(context: &PaneContext<'_>) -> Vec<Found> {
 pub(super) fn render(context: &PaneContext<'_>) -> Vec<Found> {
     let now = &context.scene.document.render;
     let mut found: Vec<Found> = Vec::new();
-    for (name, also) in SLIDERS {
-        let shown = name != "Light distance" || now.light_distance.is_some();
-        if shown {
-            let line = Found::new(RENDER, name, Command::Seek(PaneKind::RENDER_SETTINGS, name));
-            found.push(line.note("go to the slider").also(format!("render {also}")));
-        }
+    let settings = || RenderSettings::ALL.iter().filter(|setting| (setting.idle)(now).is_none());
+    let sliders = settings().filter(|setting| !setting.value.numbers().is_empty());
+    let sliders = sliders.map(|setting| (setting.sought(), setting.name, setting.found_by));
+    for (sought, name, also) in sliders.chain([("Field of view", "Field of view", "lens angle zoom")]) {
+        let line = Found::new(RENDER, name, Command::Seek(PaneKind::RENDER_SETTINGS, sought));
+        found.push(line.note("go to the slider").also(format!("render {also}")));
     }
     let mut set = |what: &'static str, words: String, also: &str, change: &dyn Fn(&mut RenderSettings)| {
         let mut to = now.clone();
@@ -182,32 +166,21 @@ pub(super) fn render(context: &PaneContext<'_>) -> Vec<Found> {
     for (words, garment) in [("Garment of the head: jeans", Some(GARMENT)), ("Garment of the head: none", None)] {
         set("Garment", words.to_owned(), "clothes collar bare", &|to| to.garment = garment.map(str::to_owned));
     }
-    for quality in QualityLevel::ALL {
-        set("Quality", format!("Quality: {}", quality.label()), "", &|to| to.quality = quality);
+    for setting in settings() {
+        let (name, also) = (setting.name, setting.found_by);
+        match &setting.value {
+            Value::Switch(get, to) => {
+                let words = format!("{name}: {}", if get(now) { "off" } else { "on" });
+                set(name, words, also, &|settings| to(settings, !get(now)));
+            }
+            Value::Choice(pick) => {
+                for (index, words) in (pick.all)().into_iter().enumerate() {
+                    set(name, format!("{name}: {}", words.label), also, &|to| (pick.set)(to, index));
+                }
+            }
+            Value::Number(_) | Value::Pair(_) | Value::Own => {}
+        }
     }
-    for reading in ReadingChoice::ALL {
-        let words = format!("Normalization: {}", reading.label());
-        set("Normalization", words, "reflectance model surface", &|to| to.reading = reading);
-    }
-    for specular in SpecularChoice::ALL {
-        let words = format!("Coherent component: {}", specular.label());
-        set("Coherent component", words, "specular lobe surface", &|to| to.specular = specular);
-    }
-    for area in AreaChoice::ALL {
-        set("Illuminated area", format!("Illuminated area: {}", area.label()), "surface", &|to| to.area = area);
-    }
-    let mesh = now.roughness == RoughnessChoice::Mesh;
-    let other = if mesh { RoughnessChoice::Surface } else { RoughnessChoice::Mesh };
-    let words = if mesh { "Roughness of the surface" } else { "Roughness from the mesh, as in the paper" };
-    set("Roughness from the mesh", words.to_owned(), "sigma tau", &|to| to.roughness = other);
-    let words = if now.shadows { "Shadows: off" } else { "Shadows: on" };
-    set("Shadows", words.to_owned(), "", &|to| to.shadows = !now.shadows);
-    let words = if now.light_radius > 0.0 { "Sun's disk: off" } else { "Sun's disk: on" };
-    let radius = if now.light_radius > 0.0 { 0.0 } else { SUN_RADIUS };
-    set("Sun's disk", words.to_owned(), "light radius", &|to| to.light_radius = radius);
-    let distance = if now.light_distance.is_some() { None } else { Some(NEAR) };
-    let words = if distance.is_none() { "Point light: off" } else { "Point light: on" };
-    set("Point light", words.to_owned(), "near", &|to| to.light_distance = distance);
     let own = context.scene.entries(SetKind::Chart).filter(Entry::is_own);
     for entry in own.chain(context.scene.entries(SetKind::Material)) {
         set("Material", format!("Material: {}", entry.name), "reflectance surface", &|to| {
