@@ -14,6 +14,7 @@ pub mod table;
 pub mod template;
 pub mod tour;
 
+use chromascope_text::choices;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::mem::take;
 use std::path::PathBuf;
@@ -267,38 +268,36 @@ impl SavedView {
     }
 }
 
-/// Arrangement of swatches.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub enum SwatchLayout {
-    /// Five patches in rows, more as charts.
-    #[default]
-    Auto,
-    /// A row for each sensor.
-    Rows,
-    /// A chart for each sensor.
-    Charts,
+choices! {
+    /// Arrangement of swatches.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+    pub enum SwatchLayout {
+        #[default]
+        Auto = "auto", "Automatic", "Five patches in rows, more as charts";
+        Rows = "rows", "Rows", "A row for each sensor";
+        Charts = "charts", "Charts", "A chart for each sensor";
+    }
 }
 
-/// Arrangement of camera and reference within a swatch.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub enum SwatchStyle {
-    /// Left half reference, right half sensor.
-    #[default]
-    Split,
-    /// The reference inside the sensor's swatch.
-    Inset,
-    /// The sensor alone.
-    Whole,
+choices! {
+    /// Arrangement of camera and reference within a swatch.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+    pub enum SwatchStyle {
+        #[default]
+        Split = "split", "Split", "Left half: reference; right half: sensor";
+        Inset = "inset", "Inset", "The reference inside";
+        Whole = "whole", "Sensor only", "The sensor without the reference";
+    }
 }
 
-/// Arrangement of spectra.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub enum SpectraLayout {
-    /// All sensors in one plot.
-    #[default]
-    Overlay,
-    /// A plot for each sensor.
-    Each,
+choices! {
+    /// Arrangement of spectra.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+    pub enum SpectraLayout {
+        #[default]
+        Overlay = "overlay", "Overlay", "All sensitivities in one plot";
+        Each = "each", "Each", "A plot for each sensor, where there is room for them";
+    }
 }
 
 /// A message at the foot of the window.

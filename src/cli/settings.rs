@@ -9,7 +9,12 @@ use clap::{Arg, ArgAction, ArgMatches, Args, Command, Error, FromArgMatches};
 
 /// Parser of a choice by key.
 pub(super) fn choice<T: Choice>() -> impl TypedValueParser<Value = T> {
-    keys(T::ALL.iter().map(|choice| choice.words()))
+    choice_of(T::ALL)
+}
+
+/// Parser of some alternatives of a choice by key.
+pub(super) fn choice_of<T: Choice>(all: &[T]) -> impl TypedValueParser<Value = T> + use<T> {
+    keys(all.iter().map(|choice| choice.words()))
         .try_map(|key| T::parse(&key).ok_or_else(|| format!("{key} is no alternative")))
 }
 
@@ -63,7 +68,7 @@ impl<D: Settings> Given<D> {
 
 /// Settings with flags made here, by place.
 fn flagged<D: Settings>() -> impl Iterator<Item = (usize, &'static Setting<D>)> {
-    D::ALL.iter().enumerate().filter(|(_, setting)| !setting.flag.long.is_empty() && !setting.flag.own)
+    D::ALL.iter().enumerate().filter(|(_, setting)| !setting.flag.long.is_empty() && !setting.flag.elsewhere)
 }
 
 /// The flag of a setting.
@@ -77,22 +82,21 @@ fn argument<D: Settings>(setting: &'static Setting<D>) -> Arg {
         Value::Choice(pick) => {
             arg.value_parser(keys((pick.all)().into_iter().filter(|words| words.key != flag.except)))
         }
+        _ if flag.whole => {
+            let [low, high] = flag.range.map(|end| end as i64);
+            arg.value_parser(clap::value_parser!(u32).range(low..=high))
+        }
         value => {
             let count = value.numbers().len();
             arg.allow_hyphen_values(true).value_parser(move |text: &str| numbers(setting, text, count))
         }
     };
-    let arg = match flag.range {
-        Some(([low, high], _)) if flag.whole => {
-            arg.allow_hyphen_values(false).value_parser(clap::value_parser!(u32).range(low as i64..=high as i64))
-        }
-        _ => arg,
-    };
-    let arg = if flag.value.is_empty() { arg } else { arg.value_name(flag.value) };
-    let arg = flag.alias.into_iter().fold(arg, Arg::alias);
-    let arg = flag.usual.into_iter().fold(arg, Arg::default_value);
-    let arg = flag.needs.into_iter().fold(arg, Arg::requires);
-    let arg = flag.excludes.into_iter().fold(arg, Arg::conflicts_with);
+    let given = |text: &'static str| Some(text).filter(|text| !text.is_empty()).into_iter();
+    let arg = given(flag.value).fold(arg, Arg::value_name);
+    let arg = given(flag.alias).fold(arg, Arg::alias);
+    let arg = given(flag.usual).fold(arg, Arg::default_value);
+    let arg = given(flag.needs).fold(arg, Arg::requires);
+    let arg = given(flag.excludes).fold(arg, Arg::conflicts_with);
     match D::idle_with() {
         Some((other, settings)) if (setting.idle)(&settings).is_some() => arg.conflicts_with(other),
         _ => arg,

@@ -78,12 +78,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
 
 /// Cameras of the table, progress, and actions on the selected one.
 fn switches(ui: &mut Ui, context: &mut PaneContext<'_>) {
-    let choices = [
-        (RankedCameras::Library, "Library", "All cameras of the library and yours"),
-        (RankedCameras::Compared, "Compared", "The cameras that are compared"),
-        (RankedCameras::Yours, "Yours", "The cameras that you imported"),
-    ];
-    if let Some(cameras) = widgets::segmented(ui, &choices, context.view.saved.metrics.cameras) {
+    if let Some(cameras) = widgets::choice(ui, context.view.saved.metrics.cameras) {
         context.view.saved.metrics.cameras = cameras;
         ui.ctx().request_repaint();
     }

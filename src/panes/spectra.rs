@@ -28,11 +28,7 @@ pub const PANE: Pane = Pane {
 /// Shows the pane in its rectangle.
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let body = widgets::pane(ui, &PANE, rect, context, |ui, context| {
-        let choices = [
-            (SpectraLayout::Overlay, "Overlay", "All sensitivities in one plot"),
-            (SpectraLayout::Each, "Each", "A plot for each sensor, where there is room for them"),
-        ];
-        if let Some(layout) = widgets::segmented(ui, &choices, context.view.saved.spectra_layout) {
+        if let Some(layout) = widgets::choice(ui, context.view.saved.spectra_layout) {
             context.view.saved.spectra_layout = layout;
             ui.ctx().request_repaint();
         }

@@ -17,6 +17,7 @@ pub use lines::focus_rim;
 use std::time::Duration;
 
 use chromascope_figure::{Ink, LegendEntry, Stroke};
+use chromascope_text::Choice;
 use egui::{Align, Button, Layout, Rect, Response, Sense, Ui, UiBuilder, Vec2};
 
 use crate::command::Command;
@@ -291,6 +292,17 @@ pub fn icon_button(ui: &mut Ui, icon: Icon, name: &str) -> Response {
 /// A switch of a few words of which one is on. Returns the one clicked.
 pub fn segmented<T: Copy + PartialEq>(ui: &mut Ui, choices: &[(T, &str, &str)], current: T) -> Option<T> {
     pressed(ui, choices, current).filter(|choice| *choice != current)
+}
+
+/// Buttons of all alternatives of a choice, of which one is on. Returns the one clicked.
+pub fn choice<T: Choice>(ui: &mut Ui, current: T) -> Option<T> {
+    choice_of(ui, T::ALL, current).filter(|choice| *choice != current)
+}
+
+/// Buttons of some alternatives, which may do something when pressed again.
+pub fn choice_of<T: Choice>(ui: &mut Ui, all: &[T], current: T) -> Option<T> {
+    let line = |choice: &T| (*choice, choice.words().label, choice.words().why);
+    pressed(ui, &all.iter().map(line).collect::<Vec<_>>(), current)
 }
 
 /// The same, for choices that do something when pressed again.

@@ -1,6 +1,7 @@
 //! View state of the Metrics pane.
 
 use chromascope_core::metamers::Confusion;
+use chromascope_text::choices;
 use serde::{Deserialize, Serialize};
 
 use crate::plot_item::SensorId;
@@ -21,26 +22,25 @@ pub struct MetricsLook {
     pub card: Option<SensorId>,
 }
 
-/// A choice of cameras.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub enum RankedCameras {
-    /// All of the library, the user's too.
-    #[default]
-    Library,
-    /// Those that are compared.
-    Compared,
-    /// The user's.
-    Yours,
+choices! {
+    /// A choice of cameras.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+    pub enum RankedCameras {
+        #[default]
+        Library = "library", "Library", "All cameras of the library and yours";
+        Compared = "compared", "Compared", "The cameras that are compared";
+        Yours = "yours", "Yours", "The cameras that you imported";
+    }
 }
 
-/// The one that takes two reflectances for one.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Confuses {
-    /// The camera.
-    #[default]
-    Camera,
-    /// The reference observer.
-    Reference,
+choices! {
+    /// The one that takes two reflectances for one.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+    pub enum Confuses {
+        #[default]
+        Camera = "camera", "Camera confuses", "Equal to the camera, different to the reference";
+        Reference = "reference", "Reference confuses", "Equal to the reference, different to the camera";
+    }
 }
 
 impl Confuses {

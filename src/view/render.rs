@@ -1,5 +1,6 @@
 //! View state of the Render pane: orbit, arrangement of pictures and pinned pixel.
 
+use chromascope_text::choices;
 use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
@@ -39,18 +40,16 @@ impl RenderLook {
     }
 }
 
-/// Arrangement of pictures.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub enum RenderMode {
-    /// One for each sensor.
-    #[default]
-    Grid,
-    /// The reference and a sensor in one.
-    Split,
-    /// One sensor, large.
-    One,
-    /// Difference of each sensor from the reference.
-    Difference,
+choices! {
+    /// Arrangement of pictures.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+    pub enum RenderMode {
+        #[default]
+        Grid = "grid", "Grid", "All sensors side by side";
+        Split = "split", "Split", "The reference at the left, a sensor at the right, with a divider to drag";
+        One = "one", "One", "One sensor, large (double-click a picture)";
+        Difference = "difference", "Difference", "Difference of each sensor from the reference, pixel by pixel";
+    }
 }
 
 /// A place in every picture, with the sensor that was pointed at.

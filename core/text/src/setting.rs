@@ -179,7 +179,8 @@ pub fn words_of<T: Choice>() -> Vec<&'static Words> {
     T::ALL.iter().map(|choice| choice.words()).collect()
 }
 
-/// A list of settings, each as `"key" "name" in entry, by "other words", "help", value, flag;`. A value is one of
+/// A list of settings, each as `"key" "name" in entry, by "other words", "help", value, flag;`. A flag is `flag(others, "name",
+/// "value", "end of help"; more)` with fields of [`Flag`], `elsewhere("name")` or `none()`. A value is one of
 ///
 /// - `field(field, unit, range; more)`: a field that is a number; what follows are fields of [`Number`]
 /// - `number(get, set, unit, range; more)`: a number that is read and set by functions
@@ -190,14 +191,14 @@ pub fn words_of<T: Choice>() -> Vec<&'static Words> {
 /// - `own()`: a value with a control and a flag of its own
 #[macro_export]
 macro_rules! settings {
-    ($($key:literal $name:literal in $base:expr, by $by:literal, $help:expr, $kind:ident($($value:tt)*), $flag:expr;)+) => {
+    ($($key:literal $name:literal in $base:expr, by $by:literal, $help:expr, $kind:ident($($value:tt)*), $flag:ident($($of_flag:tt)*);)+) => {
         &[$($crate::Setting {
             key: $key,
             name: $name,
             help: $help,
             found_by: $by,
             value: $crate::settings!(@$kind $($value)*),
-            flag: $flag,
+            flag: $crate::settings!(@$flag $($of_flag)*),
             ..$base
         }),+]
     };
@@ -249,110 +250,67 @@ macro_rules! settings {
     };
     (@choice $pick:expr) => { $crate::Value::Choice($pick) };
     (@own) => { $crate::Value::Own };
+    (@flag $others:expr, $long:expr, $value:expr, $note:expr; $($more:ident: $to:expr),*) => {
+        $crate::Flag { long: $long, value: $value, note: $note, $($more: $to,)* ..$others }
+    };
+    (@elsewhere $long:expr) => { $crate::Flag { long: $long, elsewhere: true, ..$crate::Flag::NONE } };
+    (@none) => { $crate::Flag::NONE };
 }
 
-/// Flag of a setting.
+/// Flag of a setting. A text that is empty is none.
 #[derive(Clone, Copy, Debug)]
 pub struct Flag {
-    /// Its name without dashes; empty without a flag. A switch whose flag begins with `no-` is turned off by it.
+    /// Its name without dashes. A switch whose flag begins with `no-` is turned off by it.
     pub long: &'static str,
     /// Its name before.
-    pub alias: Option<&'static str>,
+    pub alias: &'static str,
     /// Name of its value in help; a switch without one takes none.
     pub value: &'static str,
     /// End of its help after that of the setting: unit, default.
     pub note: &'static str,
     /// Default that help states.
-    pub usual: Option<&'static str>,
+    pub usual: &'static str,
     /// Head of its group in help.
     pub heading: &'static str,
     /// Numbers of the control for one of the flag.
     pub scale: f64,
-    /// Range of its numbers, with their unit.
-    pub range: Option<([f64; 2], &'static str)>,
+    /// Range of its numbers.
+    pub range: [f64; 2],
+    /// Unit of the range.
+    pub unit: &'static str,
     /// True if its number is whole.
     pub whole: bool,
-    /// Units of length that it takes, with the millimeters of each; one is required.
+    /// Units of length, one of which it requires, with the millimeters of each.
     pub lengths: &'static [(&'static str, f64)],
     /// Key of an alternative that it does not take.
     pub except: &'static str,
     /// Flag that it needs.
-    pub needs: Option<&'static str>,
+    pub needs: &'static str,
     /// Flag that it excludes.
-    pub excludes: Option<&'static str>,
+    pub excludes: &'static str,
     /// True if it is declared elsewhere, as reading its value takes more than the value.
-    pub own: bool,
-}
-
-macro_rules! with {
-    ($($(#[$doc:meta])* $name:ident($($arg:ident: $Arg:ty),+) => $field:ident: $value:expr;)+) => {
-        $($(#[$doc])*
-        #[must_use]
-        pub const fn $name(self, $($arg: $Arg),+) -> Self {
-            Self { $field: $value, ..self }
-        })+
-    };
+    pub elsewhere: bool,
 }
 
 impl Flag {
     /// No flag.
-    pub const NONE: Self = Self::headed("");
-
-    /// Flags below a head.
-    pub const fn headed(heading: &'static str) -> Self {
-        Self {
-            long: "",
-            alias: None,
-            value: "",
-            note: "",
-            usual: None,
-            heading,
-            scale: 1.0,
-            range: None,
-            whole: false,
-            lengths: &[],
-            except: "",
-            needs: None,
-            excludes: None,
-            own: false,
-        }
-    }
-
-    /// A flag that is declared elsewhere.
-    pub const fn own(long: &'static str) -> Self {
-        Self { long, own: true, ..Self::NONE }
-    }
-
-    /// The flag of a name, with its value's and the end of its help.
-    #[must_use]
-    pub const fn named(self, long: &'static str, value: &'static str, note: &'static str) -> Self {
-        Self { long, value, note, ..self }
-    }
-
-    /// With whole numbers of a range.
-    #[must_use]
-    pub const fn whole(self, range: [f64; 2]) -> Self {
-        Self { whole: true, ..self.range(range, "") }
-    }
-
-    with! {
-        /// With a name before.
-        alias(alias: &'static str) => alias: Some(alias);
-        /// With a default that help states.
-        usual(usual: &'static str) => usual: Some(usual);
-        /// With numbers of the control for one of the flag.
-        scale(scale: f64) => scale: scale;
-        /// With a range of its numbers and their unit.
-        range(range: [f64; 2], unit: &'static str) => range: Some((range, unit));
-        /// With an alternative that it does not take.
-        except(key: &'static str) => except: key;
-        /// With a flag that it needs.
-        needs(flag: &'static str) => needs: Some(flag);
-        /// With a flag that it excludes.
-        excludes(flag: &'static str) => excludes: Some(flag);
-        /// With units of length, one of which it requires.
-        lengths(units: &'static [(&'static str, f64)]) => lengths: units;
-    }
+    pub const NONE: Self = Self {
+        long: "",
+        alias: "",
+        value: "",
+        note: "",
+        usual: "",
+        heading: "",
+        scale: 1.0,
+        range: [f64::MIN, f64::MAX],
+        unit: "",
+        whole: false,
+        lengths: &[],
+        except: "",
+        needs: "",
+        excludes: "",
+        elsewhere: false,
+    };
 
     /// A number of a text in the flag's unit, as the control has it.
     ///
@@ -370,16 +328,15 @@ impl Flag {
         let number = digits.trim().replace('\u{2212}', "-").parse::<f64>().ok().filter(|number| number.is_finite());
         let number =
             number.ok_or_else(|| format!("\"{digits}\" is not a number; write one like 0.5 or 5e-6"))? * factor;
-        match self.range {
-            Some(([low, _], _)) if low == f64::MIN_POSITIVE && number < low => {
-                Err(format!("\"{text}\" is not above 0"))
-            }
-            Some(([low, high], unit)) if !(low..=high).contains(&number) => {
-                let [low, high] = [low, high]
-                    .map(|end| if low != 0.0 && low.abs() < 1e-3 { format!("{end:e}") } else { end.to_string() });
-                Err(format!("must be from {low} to {high} {unit}").trim_end().to_owned())
-            }
-            _ => Ok(number * self.scale),
+        let [low, high] = self.range;
+        if (low..=high).contains(&number) {
+            return Ok(number * self.scale);
         }
+        if low == f64::MIN_POSITIVE {
+            return Err(format!("\"{text}\" is not above 0"));
+        }
+        let [low, high] =
+            self.range.map(|end| if low != 0.0 && low.abs() < 1e-3 { format!("{end:e}") } else { end.to_string() });
+        Err(format!("must be from {low} to {high} {}", self.unit).trim_end().to_owned())
     }
 }

@@ -6,17 +6,10 @@ use crate::action::{Action, RenderAction};
 use crate::panes::context::PaneContext;
 use crate::panes::widgets;
 use crate::theme::UNIT;
-use crate::view::render::RenderMode;
 
 /// Shows the arrangement of pictures and the presets of the paper's figures.
 pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
-    let modes = [
-        (RenderMode::Grid, "Grid", "All sensors side by side"),
-        (RenderMode::Split, "Split", "The reference at the left, a sensor at the right, with a divider to drag"),
-        (RenderMode::One, "One", "One sensor, large (double-click a picture)"),
-        (RenderMode::Difference, "Difference", "Difference of each sensor from the reference, pixel by pixel"),
-    ];
-    if let Some(mode) = widgets::segmented(ui, &modes, context.view.saved.render.mode) {
+    if let Some(mode) = widgets::choice(ui, context.view.saved.render.mode) {
         context.view.saved.render.mode = mode;
         ui.ctx().request_repaint();
     }

@@ -1,7 +1,7 @@
 //! Settings of the scene, the view and the render, as they are found.
 
 use chromascope_core::correction::CorrectionMethod;
-use chromascope_text::{Settings as _, Value};
+use chromascope_text::{Settings as _, Value, lowered};
 
 use super::Found;
 use crate::action::{Action, CompareAction, RenderAction, SceneAction};
@@ -25,12 +25,10 @@ pub(super) fn scene(context: &PaneContext<'_>) -> Vec<Found> {
     let document = context.scene.document;
     let set = |words: String, action: SceneAction, on: bool| Found::new(SETTINGS, words, Action::Scene(action)).on(on);
     let mut found = Vec::new();
-    for (diagram, words, also) in [
-        (Diagram::Xy, "Diagram: xy", "CIE 1931 chromaticity"),
-        (Diagram::UvPrime, "Diagram: u′v′", "uv CIE 1976 chromaticity"),
-    ] {
-        let line = set(words.to_owned(), SceneAction::SetDiagram(diagram), document.diagram == diagram);
-        found.push(line.also(also));
+    for diagram in Diagram::ALL {
+        let line =
+            set(format!("Diagram: {}", diagram.label()), SceneAction::SetDiagram(diagram), document.diagram == diagram);
+        found.push(line.also(format!("chromaticity {}", diagram.why())));
     }
     let mut overlays = document.overlays;
     let count = overlays.labeled().len();
@@ -107,26 +105,25 @@ fn white_and_transform(context: &PaneContext<'_>) -> Vec<Found> {
 pub(super) fn view(context: &PaneContext<'_>) -> Vec<Found> {
     let saved = &context.view.saved;
     let mut found = Vec::new();
-    let mut choice = |words: &str, also: &str, choice: ViewChoice| {
-        let on = saved.has(choice);
-        found.push(Found::new(SETTINGS, words, Command::Look(choice)).on(on).also(also));
+    let mut choice = |what: &str, label: &str, also: String, choice: ViewChoice| {
+        let words = format!("{what}: {}", lowered(label));
+        let line = Found::new(SETTINGS, words, Command::Look(choice)).on(saved.has(choice));
+        found.push(line.also(also));
     };
-    choice("Diagram: fit to data", "zoom range", ViewChoice::Diagram(DiagramFit::Data));
-    choice("Diagram: full diagram", "whole zoom range spectral locus", ViewChoice::Diagram(DiagramFit::Whole));
-    choice("Swatches: rows", "layout", ViewChoice::Swatches(SwatchLayout::Rows));
-    choice("Swatches: charts", "layout", ViewChoice::Swatches(SwatchLayout::Charts));
-    choice("Swatches: split", "reference half style", ViewChoice::SwatchStyle(SwatchStyle::Split));
-    choice("Swatches: inset", "reference inside style", ViewChoice::SwatchStyle(SwatchStyle::Inset));
-    choice("Swatches: sensor only", "style", ViewChoice::SwatchStyle(SwatchStyle::Whole));
-    choice("Spectra: overlay", "sensitivities one plot", ViewChoice::Spectra(SpectraLayout::Overlay));
-    choice("Spectra: each", "sensitivities plot for each sensor", ViewChoice::Spectra(SpectraLayout::Each));
-    for (mode, words) in [
-        (RenderMode::Grid, "Pictures: grid"),
-        (RenderMode::Split, "Pictures: split"),
-        (RenderMode::One, "Pictures: one"),
-        (RenderMode::Difference, "Pictures: difference maps"),
-    ] {
-        choice(words, "render mode", ViewChoice::Pictures(mode));
+    for fit in DiagramFit::ALL {
+        choice("Diagram", fit.label(), format!("zoom range whole {}", fit.why()), ViewChoice::Diagram(fit));
+    }
+    for layout in [SwatchLayout::Rows, SwatchLayout::Charts] {
+        choice("Swatches", layout.label(), format!("layout {}", layout.why()), ViewChoice::Swatches(layout));
+    }
+    for style in SwatchStyle::ALL {
+        choice("Swatches", style.label(), format!("style half {}", style.why()), ViewChoice::SwatchStyle(style));
+    }
+    for layout in SpectraLayout::ALL {
+        choice("Spectra", layout.label(), layout.why().to_owned(), ViewChoice::Spectra(layout));
+    }
+    for mode in RenderMode::ALL {
+        choice("Pictures", mode.label(), format!("render mode maps {}", mode.why()), ViewChoice::Pictures(mode));
     }
     let is_dark = context.theme.dark;
     for (preference, words) in THEMES {
