@@ -25,7 +25,7 @@ impl Words {
     }
 }
 
-/// A closed set of named alternatives. Made by [`choices!`](crate::choices).
+/// A closed set of named alternatives. Made by `choices!`.
 pub trait Choice: Copy + PartialEq + Send + Sync + 'static {
     /// All alternatives, in the order in which they are listed.
     const ALL: &'static [Self];
@@ -88,19 +88,19 @@ macro_rules! choices {
             }
 
             /// Words of the alternative.
-            $vis const fn words(self) -> &'static $crate::Words {
+            $vis const fn words(self) -> &'static $crate::choice::Words {
                 match self {
                     $(Self::$Variant => {
-                        &$crate::Words { key: $key, label: $label, why: $why, aliases: &[$($alias),*] }
+                        &$crate::choice::Words { key: $key, label: $label, why: $why, aliases: &[$($alias),*] }
                     })+
                 }
             }
         }
 
-        impl $crate::Choice for $Name {
+        impl $crate::choice::Choice for $Name {
             const ALL: &'static [Self] = &[$(Self::$Variant),+];
 
-            fn words(self) -> &'static $crate::Words {
+            fn words(self) -> &'static $crate::choice::Words {
                 self.words()
             }
         }

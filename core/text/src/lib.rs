@@ -1,6 +1,6 @@
 //! Words: names of alternatives, and names as they can stand on a screen, on a line and in a cell.
 
-mod choice;
+pub mod choice;
 mod setting;
 
 pub use choice::{Choice, Words};

@@ -1,6 +1,6 @@
 //! Settings as data: one entry holds all that control, flag, palette, undo, session and range check need to know.
 
-use crate::{Choice, Words};
+use crate::choice::{Choice, Words};
 
 /// A setting of `D`.
 #[derive(Debug)]

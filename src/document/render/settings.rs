@@ -51,6 +51,11 @@ fn least_triangles(settings: &RenderSettings) -> f64 {
     if is_head { FEWEST[usize::from(settings.garment.is_some())] as f64 } else { 2e3 }
 }
 
+/// A share from its percentage, without the last digit that multiplying by 100 gives a share such as 0.007.
+fn share(percent: f64) -> f64 {
+    (percent * 1e10).round() / 1e12
+}
+
 const SCENE: Flag = Flag { heading: "Scene", ..Flag::NONE };
 const PICTURE: Flag = Flag { heading: "Picture", ..Flag::NONE };
 const MODEL: Flag = Flag { heading: SURFACE, ..Flag::NONE };
@@ -107,11 +112,11 @@ impl Settings for RenderSettings {
         "sky" "Sky" in OF_MESH, by "skylight ambient hemisphere",
             "Uniform sky above the horizon, of the light's spectrum: irradiance of a level surface over that of a surface \
              that faces the light. About 15 % on a clear day. Figures 8 and 9 have none",
-            number(|s| 100.0 * s.sky, |s, to| s.sky = to / 100.0, " %", [0.0, 100.0]; step: Some(1.0), clamps: true),
-            flag(SCENE, "sky", "SHARE", ", from 0 to 1 [default: 0.15; none in the paper's start, whose light is a point]";
+            number(|s| 100.0 * s.sky, |s, to| s.sky = share(to), " %", [0.0, 100.0]; step: Some(1.0), clamps: true),
+            flag(SCENE, "sky", "SHARE", "; from 0 to 1 [default: 0.15; none in the paper's start, whose light is a point]";
                  range: [0.0, 1.0], scale: 100.0);
         "shadows" "Shadows" in OF_MESH, by "", "Self-shadowing of the mesh",
-            switch(|s| s.shadows, |s, on| s.shadows = on), flag(SCENE, "no-shadows", "", ": disables it";);
+            switch(|s| s.shadows, |s, on| s.shadows = on), flag(SCENE, "no-shadows", "", ", turned off";);
         "light_radius" "Sun's disk" in BESIDE, by "light radius",
             "A light as wide as the Sun softens the edges of shadows and blurs the specular lobe; a point does not",
             switch(|s| s.light_radius > 0.0, |s, on| s.light_radius = if on { SUN_RADIUS } else { 0.0 }), none();

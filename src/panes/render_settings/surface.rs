@@ -15,8 +15,10 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let settings = context.scene.document.render.clone();
     ui.add_enabled_ui(!settings.mesh.is_image(), |ui| presets(ui, context));
     controls(ui, SURFACE, context);
-    returned_light(ui, &settings, context);
-    cautions(ui, &settings, context);
+    ui.add_enabled_ui(!settings.mesh.is_image(), |ui| {
+        returned_light(ui, &settings, context);
+        cautions(ui, &settings, context);
+    });
 }
 
 /// The share of light that the surface returns; where that is more than came, in the color of a warning.
