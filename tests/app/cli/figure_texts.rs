@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 use std::fs;
 
-use chromascope::theme::Theme;
+use chromascope::palette::Colors;
 use chromascope_figure::{InkRole, Palette as _};
 
 use super::run;
@@ -52,7 +52,7 @@ fn faults_of(kind: &str, arguments: &[&str]) -> Vec<String> {
     let done = run(&[&["figure", kind, "--force", "--out", &path], arguments].concat());
     assert!(done.status.success(), "{kind}: {}", String::from_utf8_lossy(&done.stderr));
     let hex =
-        |role: InkRole| Theme::LIGHT.rgb(role).iter().fold("#".to_owned(), |hex, byte| format!("{hex}{byte:02x}"));
+        |role: InkRole| Colors::LIGHT.rgb(role).iter().fold("#".to_owned(), |hex, byte| format!("{hex}{byte:02x}"));
     let svg = fs::read_to_string(&out).expect("a file");
     faults::faults(&svg, &hex(InkRole::Plot), &hex(InkRole::Grid))
 }
