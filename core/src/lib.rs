@@ -33,9 +33,13 @@
 //!
 //! # Out of scope
 //!
-//! Fluorescence, polarization, noise, lenses, ICC profiles.
+//! Fluorescence, polarization, lenses. Bytes of camera profiles (DCP, ICC) are written by `chromascope-profile`.
 //!
 #![doc = include_str!("sources.md")]
+#![allow(
+    clippy::inline_always,
+    reason = "only inside the caller is a kernel compiled for the caller's instruction set"
+)]
 
 pub use chromascope_math as math;
 pub use chromascope_mesh as mesh;

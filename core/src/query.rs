@@ -11,7 +11,6 @@ pub mod loci;
 pub mod metamers;
 pub mod metrics;
 pub mod patches;
-pub mod radiances;
 pub mod recorded;
 pub mod render;
 pub mod shared;
@@ -31,7 +30,8 @@ pub use metrics::{
     CameraMetric, CameraMetrics, CameraMetricsQuery, IndexConditions, MetricUncertaintiesQuery, MetricUncertainty,
     MetricValue, WhyNot,
 };
-pub use patches::{ColorTransformSpec, FitTargetsQuery, PatchColor, PatchColorsQuery, RenderingQuery};
-pub use radiances::RadianceColorsQuery;
+pub use patches::{
+    ColorTransformSpec, FitTargetsQuery, PatchColor, PatchColorsQuery, RadianceColorsQuery, RenderingQuery,
+};
 pub use recorded::{RecordedFitQuery, RecordedSet};
 pub use shared::Shared;

@@ -30,7 +30,5 @@ pub use hemispherical::{HemisphericalReflectance, directional_hemispherical, hem
 pub use normalization::Normalization;
 pub use power::{beta, coherent_prefactor, diffuse_prefactor, factor, factors, kappa, wavelength_power};
 pub use regimes::{Regime, diffuse_sum_by_regimes};
-pub use sum::{
-    Precision, SeriesTerms, diffuse_sum, diffuse_sums_into, ln_diffuse_sum, ln_diffuse_sums_into, series_terms,
-};
+pub use sum::{Precision, diffuse_sum, diffuse_sums_into, ln_diffuse_sum};
 pub use surface::{Caution, IlluminatedArea, Specular, Surface, SurfaceError};

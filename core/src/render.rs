@@ -29,7 +29,7 @@ pub use coherent::CoherentIntegral;
 pub use develop::{ColorimetricScale, Development, Picture, develop};
 pub use geometry::{Angles, GeometryCounts, GeometryImage, LitSamples, Reach, Shadows};
 pub use measure::{LAMBDA_0_NM, SpectralWeights, Transmitted};
-pub use plan::{Against, Demand, IntegrationMethod, Plan};
+pub use plan::{Demand, IntegrationMethod, Plan};
 pub use quality::{Quality, QualityLevel};
 pub use shading::{ShadingCounts, ShadingImage};
 pub use signals::CameraImage;

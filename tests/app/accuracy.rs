@@ -278,9 +278,9 @@ fn a_report_of_the_bench_is_shown_and_exported() {
     let mut window = open([1280.0, 800.0], egui::Theme::Light);
     let view = window.state_mut().view_mut();
     view.saved.workspace = Workspace::Numerics;
-    view.accuracy.shows = Shows::Bench(Workload::Difference);
+    view.accuracy.shows = Shows::Bench(Workload::DiffuseSum);
     let measured = &mut window.state_mut().profiler_mut().measured;
-    measured.reports.insert(Workload::Difference, Arc::new(Ok(report.clone())));
+    measured.reports.insert(Workload::DiffuseSum, Arc::new(Ok(report.clone())));
     window.run_steps(3);
     assert!(window.query_by_label("Nothing measured yet. A quick run takes a few seconds.").is_none());
     assert_eq!(window.query_by_label("Run again").is_some(), cfg!(feature = "bench"));
@@ -307,7 +307,7 @@ fn a_report_of_the_bench_is_shown_and_exported() {
 fn without_the_benchmark_its_place_says_how_to_get_it() {
     let mut window = open([900.0, 600.0], egui::Theme::Light);
     window.state_mut().push(Command::Show(Workspace::Numerics));
-    window.state_mut().view_mut().accuracy.shows = Shows::Bench(Workload::Difference);
+    window.state_mut().view_mut().accuracy.shows = Shows::Bench(Workload::DiffuseSum);
     window.run_steps(3);
     let offered = window.query_by_label("Nothing measured yet. A quick run takes some seconds.").is_some();
     let told = window.query_by_label(chromascope::profiler::bench::BUILD).is_some();

@@ -9,11 +9,11 @@ use chromascope_measure::{Effort, ErrorOf, ErrorScale, Machine, Measurement, Rep
 /// A report with two invented measurements.
 pub(crate) fn report() -> Report {
     let measurement = |method: &str, seconds: f64, error: f64| Measurement {
-        workload: Workload::Difference,
-        case: "a million pairs".to_owned(),
+        workload: Workload::DiffuseSum,
+        case: "g from 1 to 60".to_owned(),
         method: method.to_owned(),
         threads: 1,
-        item: "pair".to_owned(),
+        item: "sum".to_owned(),
         items: 1000,
         rounds: 3,
         seconds_per_item: seconds,
@@ -21,8 +21,8 @@ pub(crate) fn report() -> Report {
         spread: 0.1,
         build_seconds: 0.0,
         error: ErrorOf {
-            what: "\u{394}E*00, against its definition in 106 bits".to_owned(),
-            scale: ErrorScale::Absolute,
+            what: "S, relative, against the sum in 106 bits".to_owned(),
+            scale: ErrorScale::Relative,
             max_abs: error,
             rms_abs: error,
             max_rel: error,
@@ -30,7 +30,7 @@ pub(crate) fn report() -> Report {
             checked: 20,
             refused: 0,
         },
-        baseline: "pair by pair".to_owned(),
+        baseline: "term by term".to_owned(),
         ratio: seconds / 2e-7,
         roof: None,
     };
@@ -40,17 +40,17 @@ pub(crate) fn report() -> Report {
         machine: Machine::unmeasured(),
         effort: Effort::Trial,
         whole: true,
-        measurements: vec![measurement("pair by pair", 2e-7, 1e-15), measurement("side by side", 7e-8, 2e-15)],
+        measurements: vec![measurement("term by term", 2e-7, 1e-15), measurement("uniform, 1e-13", 7e-8, 2e-15)],
     }
 }
 
 #[test]
 fn a_report_is_drawn_and_read_back() {
     let report = report();
-    let figure = report.figure(Workload::Difference).unwrap();
+    let figure = report.figure(Workload::DiffuseSum).unwrap();
     let paper = chromascope::export::Paper::default();
     let svg = chromascope::export::svg(&figure, &chromascope::palette::Colors::LIGHT, paper);
-    assert!(svg.contains("side by side") && !svg.contains("NaN") && !svg.contains("inf\""));
+    assert!(svg.contains("uniform") && !svg.contains("NaN") && !svg.contains("inf\""));
     chromascope::export::png(&svg, 0.5).unwrap();
     assert_eq!(serde_json::from_str::<Report>(&report.to_json().unwrap()).unwrap(), report);
 }
@@ -71,12 +71,12 @@ fn scratch(name: &str) -> PathBuf {
 #[test]
 fn the_command_writes_figures_a_table_and_json() {
     let folder = scratch("bench_files");
-    let output = bench(&["--trial", "--only", "difference", "--out", folder.to_str().unwrap()]);
+    let output = bench(&["--trial", "--only", "diffuse-sum", "--out", folder.to_str().unwrap()]);
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     let mut names: Vec<String> =
         std::fs::read_dir(&folder).unwrap().map(|f| f.unwrap().file_name().to_string_lossy().into_owned()).collect();
     names.sort();
-    assert_eq!(names, ["bench.csv", "bench.json", "difference.png", "difference.svg"]);
+    assert_eq!(names, ["bench.csv", "bench.json", "diffuse-sum.png", "diffuse-sum.svg"]);
     let report: chromascope_measure::Report =
         serde_json::from_str(&std::fs::read_to_string(folder.join("bench.json")).unwrap()).unwrap();
     let said = String::from_utf8_lossy(&output.stderr);
@@ -89,7 +89,7 @@ fn the_command_writes_figures_a_table_and_json() {
         report.began
     );
 
-    let arguments = ["--trial", "--only", "difference", "--out", folder.to_str().unwrap()];
+    let arguments = ["--trial", "--only", "diffuse-sum", "--out", folder.to_str().unwrap()];
     let output = bench(&arguments);
     let said = String::from_utf8_lossy(&output.stderr).into_owned();
     assert!(!output.status.success() && said.contains("--replace"), "{said}");
@@ -120,7 +120,7 @@ fn the_command_refuses() {
         (&["--trial"][..], "--out"),
         (&["--trial", "--out", concat!(env!("CARGO_MANIFEST_DIR"), "/Cargo.toml")], "is a file"),
         (&["--trial", "--out", concat!(env!("CARGO_MANIFEST_DIR"), "/Cargo.toml/below")], "cannot write"),
-        (&["--trial", "--only", "loci", "--out", "x"], "difference"),
+        (&["--trial", "--only", "loci", "--out", "x"], "diffuse-sum"),
     ] {
         let output = bench(arguments);
         let said = String::from_utf8_lossy(&output.stderr).into_owned();

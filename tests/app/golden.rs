@@ -176,7 +176,7 @@ fn written(arguments: &[&str]) -> String {
 /// A text without run times: those of a sentence, of JSON and of a column.
 fn without_times(text: &str) -> String {
     let is_time = |line: &&str| {
-        ["_ms\"", "\"ns_per_sample\"", "\"all\"", "\"reading_mesh\"", "\"writing_files\""]
+        ["_ms\"", "\"time_ratio\"", "\"ns_per_sample\"", "\"all\"", "\"reading_mesh\"", "\"writing_files\""]
             .iter()
             .any(|key| line.contains(key))
     };

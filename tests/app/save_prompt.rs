@@ -133,12 +133,12 @@ fn another_kind_of_file_takes_its_own_ending() {
 fn a_workload_is_offered_by_its_name() {
     let report = crate::bench::report();
     let mut window = window();
-    window.state_mut().view_mut().accuracy.shows = Shows::Bench(Workload::Difference);
+    window.state_mut().view_mut().accuracy.shows = Shows::Bench(Workload::DiffuseSum);
     let measured = &mut window.state_mut().profiler_mut().measured;
-    measured.reports.insert(Workload::Difference, std::sync::Arc::new(Ok(report)));
+    measured.reports.insert(Workload::DiffuseSum, std::sync::Arc::new(Ok(report)));
     window.state_mut().push(Command::Export(PaneKind::METHODS, FigureForm::Csv));
     window.run_steps(8);
-    assert_eq!(typed(&window), "difference.csv");
+    assert_eq!(typed(&window), "diffuse-sum.csv");
 }
 
 #[test]

@@ -61,14 +61,6 @@ proptest! {
     #![proptest_config(cases(128))]
 
     #[test]
-    fn dot_is_the_plain_sum_to_rounding(a in vec(-1.0..1.0, 0..450), b in vec(-1.0..1.0, 0..450)) {
-        let plain: f64 = a.iter().zip(&b).map(|(x, y)| x * y).sum();
-        let unsigned: f64 = a.iter().zip(&b).map(|(x, y): (&f64, &f64)| (x * y).abs()).sum();
-        prop_assert!((dot(&a, &b) - plain).abs() <= 450.0 * f64::EPSILON * unsigned);
-        prop_assert_eq!(dot(&a, &b), dot(&b, &a));
-    }
-
-    #[test]
     fn three_dots_at_once_are_three_dots(a in vec(-1.0..1.0, 401), b in vec(-1.0..1.0, 401), x in vec(-1.0..1.0, 401)) {
         let array = |v: &[f64]| -> [f64; 401] { v.try_into().unwrap() };
         let (a, b, x) = (array(&a), array(&b), array(&x));
@@ -163,34 +155,6 @@ fn grid(n: usize) -> Vec<f64> {
 
 proptest! {
     #![proptest_config(cases(64))]
-
-    #[test]
-    fn gauss_rules_are_exact_to_degree_2n_minus_1(masses in vec(1e-6..1.0, 40..401), count in 1_usize..13) {
-        let points = grid(masses.len());
-        let rule = gauss_rule(&points, &masses, count);
-        let mass: f64 = masses.iter().sum();
-        prop_assert_eq!(rule.nodes.len(), count);
-        for degree in 0..2 * count {
-            let exact: f64 = points.iter().zip(&masses).map(|(x, m)| m * chebyshev(degree, *x)).sum();
-            prop_assert!((total(&rule, degree) - exact).abs() < 1e-13 * mass, "degree {degree} of {count} nodes");
-        }
-        prop_assert!(rule.weights.iter().all(|w| *w > 0.0));
-        prop_assert!(rule.nodes.iter().all(|x| (380.0..=780.0).contains(x)));
-        prop_assert!(rule.nodes.windows(2).all(|pair| pair[0] < pair[1]));
-    }
-
-    #[test]
-    fn interpolatory_rules_are_exact_to_degree_n_minus_1(masses in vec(-1.0..1.0_f64, 40..401), count in 1_usize..13) {
-        let points = grid(masses.len());
-        let absolute: Vec<f64> = masses.iter().map(|m| m.abs()).collect();
-        let nodes = gauss_rule(&points, &absolute, count).nodes;
-        let rule = interpolatory_rule(&nodes, &points, &masses);
-        let size: f64 = absolute.iter().sum();
-        for degree in 0..count {
-            let exact: f64 = points.iter().zip(&masses).map(|(x, m)| m * chebyshev(degree, *x)).sum();
-            prop_assert!((total(&rule, degree) - exact).abs() < 1e-12 * size, "degree {degree} of {count} nodes");
-        }
-    }
 
     #[test]
     fn masses_over_many_orders_of_magnitude_stay_exact(exponents in vec(-40.0..0.0_f64, 60..401), count in 1_usize..29) {

@@ -87,8 +87,7 @@ fn what_has_no_error_has_a_place() {
             assert!(points.iter().all(finite));
         }
     }
-    assert_eq!(panel.x.range, [-19.0, -2.0], "all is within the axes");
-    assert_eq!(panel.y.range[0], -16.0, "all is within the axes");
+    assert_eq!((panel.x.range, panel.y.range[0]), ([-19.0, -2.0], -16.0), "all is within the axes");
     assert!((-5.0..-3.0).contains(&panel.y.range[1]), "the title has room above: {:?}", panel.y.range);
 }
 

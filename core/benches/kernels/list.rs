@@ -15,8 +15,8 @@ use chromascope_core::light::PlanckianLocus;
 use chromascope_core::reflectance::{Normalization, Precision, Surface, diffuse_sum, wavelength_power};
 use chromascope_core::render::diffuse::{by_moments, by_nodes, rough_basis};
 use chromascope_core::render::{
-    Against, CameraImage, Demand, Development, GeometryImage, Plan, Quality, RasterSize, ShadingImage, Shadows,
-    SpectralWeights, Stop, Visibility, develop,
+    CameraImage, Demand, Development, GeometryImage, Plan, Quality, RasterSize, ShadingImage, Shadows, SpectralWeights,
+    Stop, Visibility, develop,
 };
 use chromascope_core::scene::{Lighting, SUN_RADIUS, Viewpoint};
 use chromascope_core::spectral::{GridSpectrum, Quantity, Sensor, SpectralDistribution};
@@ -109,13 +109,13 @@ fn moments() -> Work {
 fn searched() -> Work {
     let (_, measure) = measure();
     let (tolerance, demand) = (RelTolerance::new(1e-5).unwrap(), Demand::of_picture([0.1, 100.0], 100_000));
-    Box::new(move || Plan::new(black_box(&measure), tolerance, Against::Peak, demand).unwrap().at(1.0, 1.0)[1])
+    Box::new(move || Plan::new(black_box(&measure), tolerance, demand).unwrap().at(1.0, 1.0)[1])
 }
 
 /// Samples from smooth to rough and from the peak into the dark, by a plan that took a table and moments.
 fn planned() -> Work {
     let demand = Demand::new([1e-2, 1e4], 10_000_000);
-    let plan = Plan::new(&measure().1, RelTolerance::new(1e-5).unwrap(), Against::Peak, demand).unwrap();
+    let plan = Plan::new(&measure().1, RelTolerance::new(1e-5).unwrap(), demand).unwrap();
     let point = |i: u32| [1e-2 * 1e6_f64.powf(f64::from(i) / 999.0), 0.03 * f64::from(i * 389 % 1000)];
     let points: Vec<[f64; 2]> = (0..1000).map(point).collect();
     let mut sums = vec![[0.0; 3]; points.len()];

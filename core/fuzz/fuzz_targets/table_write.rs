@@ -42,7 +42,7 @@ fn content(table: &SpectralFile) -> Content<'_> {
 /// The choices under which a CSV is what it was written as.
 fn as_written(role: Role) -> ReadOptions {
     ReadOptions {
-        reader: Some(Reader::Table),
+        reader: Some(Reader::TABLE),
         delimiter: Some(Delimiter::Comma),
         decimal_mark: Some(DecimalMark::Point),
         orientation: Some(Orientation::Down),

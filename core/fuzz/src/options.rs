@@ -5,29 +5,14 @@ use spectral_file::{DecimalMark, Delimiter, Orientation, ReadOptions, Reader, Ro
 /// Number of bytes that determine the choices.
 pub const LENGTH: usize = 6;
 
-const DELIMITERS: [Delimiter; 6] = [
-    Delimiter::Comma,
-    Delimiter::CommaSpace,
-    Delimiter::Semicolon,
-    Delimiter::Tab,
-    Delimiter::Spaces,
-    Delimiter::Elements,
-];
-const MARKS: [DecimalMark; 2] = [DecimalMark::Point, DecimalMark::Comma];
-const ORIENTATIONS: [Orientation; 2] = [Orientation::Down, Orientation::Across];
-const UNITS: [WavelengthUnit; 5] = [
-    WavelengthUnit::Nanometer,
-    WavelengthUnit::Micrometer,
-    WavelengthUnit::Angstrom,
-    WavelengthUnit::Wavenumber,
-    WavelengthUnit::Terahertz,
-];
-const VALUES: [Values; 4] = [Values::Plain, Values::Percent, Values::Absorbance, Values::Decibels];
-const ROLES: [Role; 5] = [Role::Camera, Role::Reflectance, Role::Transmittance, Role::Illuminant, Role::Unknown];
-
 /// One of several, or none where the number is 0 or beyond them.
 fn pick<T: Copy>(all: &[T], number: u8) -> Option<T> {
     all.get(usize::from(number).wrapping_sub(1)).copied()
+}
+
+/// One of the labeled choices, or none.
+fn choose<T: Copy>(all: &[(T, &str)], number: u8) -> Option<T> {
+    pick(all, number).map(|(choice, _)| choice)
 }
 
 /// The choices and the rest of an input; zeros choose nothing.
@@ -35,12 +20,12 @@ pub fn split(input: &[u8]) -> Option<(ReadOptions, &[u8])> {
     let ([reader, cells, axis, values, part, column], rest) = input.split_first_chunk::<LENGTH>()?;
     let options = ReadOptions {
         reader: pick(&Reader::ALL, *reader),
-        delimiter: pick(&DELIMITERS, cells & 15),
-        decimal_mark: pick(&MARKS, cells >> 4),
-        orientation: pick(&ORIENTATIONS, axis & 15),
-        wavelength_unit: pick(&UNITS, axis >> 4),
-        values: pick(&VALUES, values & 15),
-        role: pick(&ROLES, values >> 4),
+        delimiter: choose(Delimiter::CHOICES, cells & 15),
+        decimal_mark: choose(DecimalMark::CHOICES, cells >> 4),
+        orientation: choose(Orientation::CHOICES, axis & 15),
+        wavelength_unit: choose(WavelengthUnit::CHOICES, axis >> 4),
+        values: choose(Values::CHOICES, values & 15),
+        role: choose(Role::CHOICES, values >> 4),
         part: (*part & 15 > 0).then_some(usize::from(part & 15)),
         raw: pick(&[true, false], part >> 4),
         wavelength_column: (*column > 0).then_some(usize::from(*column)),

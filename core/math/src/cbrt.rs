@@ -12,7 +12,6 @@ const THIRD: u64 = 0x2a9f_7893_782d_a1ce;
 /// use chromascope_math::cbrt::cbrt;
 /// assert!((cbrt(27.0) - 3.0).abs() < 1e-15);
 /// ```
-#[expect(clippy::inline_always, reason = "every instruction set needs a copy of its own")]
 #[inline(always)]
 pub fn cbrt(x: f64) -> f64 {
     let mut y = f64::from_bits(x.to_bits() / 3 + THIRD);

@@ -45,7 +45,11 @@ pub fn coefficients<const N: usize>(values: [f64; N]) -> [f64; N] {
 }
 
 /// The value at t of a polynomial given by the coefficients of 1, t, t², ….
-#[inline]
+#[inline(always)]
 pub fn evaluate<const N: usize>(coefficients: &[f64; N], t: f64) -> f64 {
-    coefficients.iter().rev().fold(0.0, |sum, c| sum * t + c)
+    let mut sum = 0.0;
+    for k in (0..N).rev() {
+        sum = sum * t + coefficients[k];
+    }
+    sum
 }

@@ -1,5 +1,7 @@
 //! Dot products that the compiler can vectorize.
 
+use crate::array::sum;
+
 /// The sum of products of two slices of equal length; the longer one's rest is ignored.
 ///
 /// Eight partial sums instead of one: a single running sum is a chain of dependent additions, which neither vectorizes
@@ -11,13 +13,12 @@ pub fn dot(a: &[f64], b: &[f64]) -> f64 {
     let mut lanes = [0.0; 8];
     let (chunks_a, rest_a) = a.as_chunks::<8>();
     let (chunks_b, rest_b) = b.as_chunks::<8>();
-    for (x, y) in chunks_a.iter().zip(chunks_b) {
+    for i in 0..chunks_a.len().min(chunks_b.len()) {
         for k in 0..8 {
-            lanes[k] += x[k] * y[k];
+            lanes[k] += chunks_a[i][k] * chunks_b[i][k];
         }
     }
-    let tail: f64 = rest_a.iter().zip(rest_b).map(|(x, y)| x * y).sum();
-    total(lanes, tail)
+    total(lanes, sum(rest_a.len().min(rest_b.len()), |i| rest_a[i] * rest_b[i]))
 }
 
 /// Three dot products with one vector: the same to the last bit as [`dot`] of each, but the vector is read once.
@@ -27,18 +28,20 @@ pub fn dot_each<const N: usize>(a: [&[f64; N]; 3], b: &[f64; N]) -> [f64; 3] {
     let (chunks_0, rest_0) = a[0].as_chunks::<8>();
     let (chunks_1, rest_1) = a[1].as_chunks::<8>();
     let (chunks_2, rest_2) = a[2].as_chunks::<8>();
-    for (((x0, x1), x2), y) in chunks_0.iter().zip(chunks_1).zip(chunks_2).zip(chunks_b) {
+    for i in 0..N / 8 {
+        let (x0, x1, x2, y) = (&chunks_0[i], &chunks_1[i], &chunks_2[i], &chunks_b[i]);
         for k in 0..8 {
             lanes[0][k] += x0[k] * y[k];
             lanes[1][k] += x1[k] * y[k];
             lanes[2][k] += x2[k] * y[k];
         }
     }
-    let tail = |rest: &[f64]| -> f64 { rest.iter().zip(rest_b).map(|(x, y)| x * y).sum() };
+    let tail = |rest: &[f64]| sum(N % 8, |i| rest[i] * rest_b[i]);
     [total(lanes[0], tail(rest_0)), total(lanes[1], tail(rest_1)), total(lanes[2], tail(rest_2))]
 }
 
 /// The partial sums, pairwise, and what did not fill them.
+#[inline(always)]
 fn total(lanes: [f64; 8], tail: f64) -> f64 {
     let even = (lanes[0] + lanes[4]) + (lanes[2] + lanes[6]);
     let odd = (lanes[1] + lanes[5]) + (lanes[3] + lanes[7]);

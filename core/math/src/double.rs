@@ -19,7 +19,7 @@
 //! assert!((tenth.error_of(0.1) - 5.551_115_123_125_783e-18).abs() < 1e-32);
 //! ```
 
-use std::f64::consts::{FRAC_PI_2, LN_2};
+use std::f64::consts::LN_2;
 use std::iter::Sum;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -33,12 +33,8 @@ pub struct Double {
 impl Double {
     /// One.
     pub const ONE: Self = Self::new(1.0);
-    /// π/2.
-    pub const FRAC_PI_2: Self = Self { high: FRAC_PI_2, low: 6.123_233_995_736_766e-17 };
     /// ln 2.
     pub const LN_2: Self = Self { high: LN_2, low: 2.319_046_813_846_299_6e-17 };
-    /// ln 2π.
-    pub const LN_TAU: Self = Self { high: 1.837_877_066_409_345_6, low: -7.756_588_316_134_483e-17 };
 
     /// A double as it is.
     pub const fn new(value: f64) -> Self {
@@ -106,16 +102,6 @@ impl Double {
         first + (self - first * first) / first.times(2.0)
     }
 
-    /// The cube root: one step of Newton's from the double's.
-    #[must_use]
-    pub fn cbrt(self) -> Self {
-        let first = Self::new(self.high.cbrt());
-        if first.high == 0.0 {
-            return first;
-        }
-        first - (first * first * first - self) / (first * first * Self::new(3.0))
-    }
-
     /// The whole power, with an error of 1e-31 for each factor of itself.
     #[must_use]
     pub fn powi(self, power: u32) -> Self {
@@ -180,41 +166,6 @@ impl Double {
         let less = (-first).exp_m1();
         let step = (near - Self::ONE) * (less + Self::ONE) + less;
         first + step + Self::LN_2 * Self::new(power)
-    }
-
-    /// Sine and cosine, with an absolute error of 1e-31 and 1e-32 for each radian.
-    pub fn sin_cos(self) -> (Self, Self) {
-        let turns = (self.high / FRAC_PI_2).round();
-        let rest = self - Self::FRAC_PI_2 * Self::new(turns);
-        let square = rest * rest;
-        let series = |first: Self, from: u32| {
-            let (mut term, mut sum, mut k) = (first, first, from);
-            while k < 28 {
-                term = -(term * square) / Self::new(f64::from((k + 1) * (k + 2)));
-                sum = sum + term;
-                k += 2;
-            }
-            sum
-        };
-        let (sine, cosine) = (series(rest, 1), series(Self::ONE, 0));
-        match (turns as i64).rem_euclid(4) {
-            0 => (sine, cosine),
-            1 => (cosine, -sine),
-            2 => (-sine, -cosine),
-            _ => (-cosine, sine),
-        }
-    }
-
-    /// The angle of the point with this ordinate and that abscissa, −π to π, and 0 of the origin: one step from the double's.
-    #[must_use]
-    pub fn atan2(self, x: Self) -> Self {
-        let length = (self * self + x * x).sqrt();
-        if length.high == 0.0 {
-            return Self::default();
-        }
-        let first = Self::new(self.high.atan2(x.high));
-        let (sine, cosine) = first.sin_cos();
-        first + (self * cosine - x * sine) / length
     }
 }
 

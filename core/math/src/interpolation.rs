@@ -1,5 +1,7 @@
 //! Interpolation of tables: linear anywhere, Sprague's fifth degree on uniform steps.
 
+use crate::array::sum;
+
 /// Interpolates linearly at `x` in a table with strictly ascending abscissae; outside, the end value.
 ///
 /// An empty table gives zero.
@@ -82,10 +84,10 @@ impl Sprague {
         }
         let t = position - cell as f64;
         let neighbors = &self.padded[cell..cell + 6];
-        let coefficient = |row: &[f64; 6]| -> f64 { (0..6).map(|j| row[j] * neighbors[j]).sum::<f64>() / 24.0 };
+        let coefficient = |row: &[f64; 6]| sum(6, |j| row[j] * neighbors[j]) / 24.0;
         let mut value = 0.0;
-        for row in QUINTIC.iter().rev() {
-            value = (value + coefficient(row)) * t;
+        for power in (0..5).rev() {
+            value = (value + coefficient(&QUINTIC[power])) * t;
         }
         neighbors[2] + value
     }

@@ -39,7 +39,6 @@ const ARTANH: [f64; 10] = [
 /// use chromascope_math::ln::ln;
 /// assert!((ln(10.0) - std::f64::consts::LN_10).abs() < 1e-15);
 /// ```
-#[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
 #[inline(always)]
 pub fn ln(x: f64) -> f64 {
     with_rest(x.clamp(f64::MIN_POSITIVE, f64::MAX), 0.0)
@@ -54,7 +53,6 @@ pub fn ln(x: f64) -> f64 {
 /// use chromascope_math::ln::ln_1p;
 /// assert_eq!(ln_1p(1e-20), 1e-20);
 /// ```
-#[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
 #[inline(always)]
 pub fn ln_1p(x: f64) -> f64 {
     let x = x.clamp(0.0, f64::MAX);
@@ -65,7 +63,6 @@ pub fn ln_1p(x: f64) -> f64 {
 }
 
 /// ln x + rest.
-#[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
 #[inline(always)]
 fn with_rest(x: f64, rest: f64) -> f64 {
     // 2ⁿ is what brings the mantissa between √½ and √2.

@@ -21,45 +21,31 @@ pub enum Workload {
     Frames,
     /// Correlated color temperature and Duv.
     Temperature,
-    /// Color differences ΔE*00.
-    Difference,
 }
 
 impl Workload {
     /// All, in the order of the pipeline's queries.
-    pub const ALL: [Self; 7] = [
-        Self::Locus,
-        Self::Responses,
-        Self::DiffuseSum,
-        Self::Integral,
-        Self::Frames,
-        Self::Temperature,
-        Self::Difference,
-    ];
+    pub const ALL: [Self; 6] =
+        [Self::Locus, Self::Responses, Self::DiffuseSum, Self::Integral, Self::Frames, Self::Temperature];
 
     /// The name to request it by, also that of its files.
     pub const fn name(self) -> &'static str {
-        match self {
-            Self::Locus => "locus",
-            Self::Responses => "responses",
-            Self::DiffuseSum => "diffuse-sum",
-            Self::Integral => "integral",
-            Self::Frames => "frames",
-            Self::Temperature => "temperature",
-            Self::Difference => "difference",
-        }
+        self.words()[0]
     }
 
     /// Title in a few words.
     pub const fn title(self) -> &'static str {
+        self.words()[1]
+    }
+
+    const fn words(self) -> [&'static str; 2] {
         match self {
-            Self::Locus => "Chromaticities of blackbodies, 1000 to 20 000 K",
-            Self::Responses => "Responses of reflectances through sensitivities",
-            Self::DiffuseSum => "The diffuse sum S(g, b)",
-            Self::Integral => "The spectral integral of a pixel",
-            Self::Frames => "Frames of the head through four sources",
-            Self::Temperature => "Correlated color temperature and Duv",
-            Self::Difference => "Color differences \u{394}E*00",
+            Self::Locus => ["locus", "Chromaticities of blackbodies, 1000 to 20 000 K"],
+            Self::Responses => ["responses", "Responses of reflectances through sensitivities"],
+            Self::DiffuseSum => ["diffuse-sum", "The diffuse sum S(g, b)"],
+            Self::Integral => ["integral", "The spectral integral of a pixel"],
+            Self::Frames => ["frames", "Frames of the head through four sources"],
+            Self::Temperature => ["temperature", "Correlated color temperature and Duv"],
         }
     }
 

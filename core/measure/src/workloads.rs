@@ -6,7 +6,6 @@
 //! Candidates of a case take turns; times are medians, ratios are medians of the ratios to the case's baseline in the same
 //! round. No time is reported without an error.
 
-mod difference;
 mod diffuse_sum;
 pub mod exact;
 mod frames;
@@ -18,6 +17,7 @@ pub(crate) mod timing;
 
 use chromascope_core::light::RadiationConstants;
 use chromascope_core::render::Stop;
+use chromascope_math::random::SplitMix64;
 
 use self::timing::{Bench, Pools};
 use crate::harness::now;
@@ -61,29 +61,23 @@ pub fn run(
             Workload::Integral => integral::run(&mut bench)?,
             Workload::Frames => frames::run(&mut bench)?,
             Workload::Temperature => temperature::run(&mut bench)?,
-            Workload::Difference => difference::run(&mut bench),
         }
     }
     let Bench { machine, measurements, .. } = bench;
     Ok(Report { program: crate::program(), began, machine, effort, whole: !stop.is_set(), measurements })
 }
 
-/// Numbers that look like chance and are the same in every run (Steele, Lea and Flood 2014).
-struct Numbers(u64);
+/// Numbers that look like chance and are the same in every run.
+struct Numbers(SplitMix64);
 
 impl Numbers {
     fn new(seed: u64) -> Self {
-        Self(seed)
+        Self(SplitMix64::new(seed))
     }
 
     /// The next, evenly from `low` to `high`.
     fn between(&mut self, low: f64, high: f64) -> f64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut mixed = self.0;
-        mixed = (mixed ^ (mixed >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        let unit = (mixed ^ (mixed >> 31)) >> 11;
-        low + (high - low) * (unit as f64 / (1_u64 << 53) as f64)
+        low + (high - low) * self.0.unit()
     }
 
     /// The next, its logarithm evenly.

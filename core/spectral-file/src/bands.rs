@@ -1,14 +1,15 @@
 //! Wavelengths across a header: `400`, `400nm`, or in the names of columns: `SCI 360nm`, `SPEC_380`, `R380`, `380 nm [%]`.
 
+use crate::decimal::extent;
+use crate::decision::WavelengthUnit;
 use crate::dialect::{Cell, Dialect};
+use crate::error::MAX_CURVES;
 use crate::header_terms;
-use crate::limits::MAX_CURVES;
-use crate::wavelength_unit::{WavelengthUnit, plausible};
+use crate::units::plausible;
 
 /// The fewest bands that are taken for a spectrum.
 pub(super) const FEWEST: usize = 5;
 
-/// Parts of the name of a band.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Band<'a> {
     /// Text before the wavelength, and text behind it and its unit.
@@ -36,7 +37,6 @@ pub(super) struct Group {
     pub(super) start: usize,
     /// The wavelength of each column; NaN where none can be read.
     pub(super) wavelengths: Vec<f64>,
-    /// The unit beside the wavelengths.
     pub(super) unit: Option<WavelengthUnit>,
     /// Text before and behind the wavelengths.
     pub(super) prefix: String,
@@ -44,7 +44,6 @@ pub(super) struct Group {
 }
 
 impl Group {
-    /// The column behind the last.
     pub(super) fn end(&self) -> usize {
         self.start + self.wavelengths.len()
     }
@@ -54,7 +53,6 @@ impl Group {
     }
 }
 
-/// The wavelength in the name of a column.
 fn band(dialect: Dialect, name: &str) -> Option<Band<'_>> {
     const LONGEST: usize = 64;
     let digit = |c: char| c.is_ascii_digit();
@@ -81,7 +79,6 @@ fn band(dialect: Dialect, name: &str) -> Option<Band<'_>> {
     found.filter(|band| band.unit.is_some() || is_band_prefix(band.prefix))
 }
 
-/// The unit that a text begins with, and what follows it.
 fn unit(text: &str) -> (Option<WavelengthUnit>, &str) {
     let rest = text.trim_start().trim_start_matches(['[', '(', '_']).trim_start();
     let end = rest.find(|c: char| !(c.is_alphabetic() || c == '/' || c == '-' || c == '1')).unwrap_or(rest.len());
@@ -189,7 +186,6 @@ fn has_letter(cell: &str) -> bool {
     cell.contains(char::is_alphabetic)
 }
 
-/// The wavelength at the head of a column.
 fn head(dialect: Dialect, cell: &str) -> Option<Band<'_>> {
     let plain = |wavelength, unit| Band { prefix: "", suffix: "", wavelength, unit };
     match dialect.parse(cell) {
@@ -208,7 +204,7 @@ fn group(run: &[(usize, Band<'_>)], wrong: usize) -> Option<Group> {
     const SOUND: usize = 5;
     let ((start, first), (end, _)) = (run.first().filter(|_| run.len() >= FEWEST)?, run.last()?);
     let values = || run.iter().map(|(_, band)| band.wavelength);
-    let (min, max) = (values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max));
+    let (min, max) = extent(values());
     if !plausible(min, max, values().any(|w| w.fract() != 0.0)) || run.len() < SOUND * wrong {
         return None;
     }

@@ -1,9 +1,8 @@
 //! Evidence beside a file: its metadata, and the names of the file and its folders.
 
+use crate::decision::{Decided, Role};
 use crate::grid::Grid;
-use crate::report::Decided;
-use crate::role::Role;
-use crate::text::excerpt;
+use crate::text::{excerpt, is_one};
 
 /// Endings, after the whole name of a table, of files with its metadata: of the CIE, and of the W3C's CSV on the Web.
 pub const METADATA: [&str; 2] = ["_metadata.json", "-metadata.json"];
@@ -86,30 +85,24 @@ fn words(name: &str) -> Vec<String> {
 
 /// The role that a word in the name of a file or a folder suggests: a quantity, or a thing that has only one spectrum.
 fn role_of_word(word: &str) -> Option<Role> {
-    const STARTS: [(&str, Role); 11] = [
-        ("illumin", Role::Illuminant),
-        ("irradian", Role::Illuminant),
-        ("radian", Role::Illuminant),
-        ("luminaire", Role::Illuminant),
-        ("reflect", Role::Reflectance),
-        ("remission", Role::Reflectance),
-        ("transmi", Role::Transmittance),
-        ("sensitiv", Role::Camera),
-        ("responsiv", Role::Camera),
-        ("quantum", Role::Camera),
-        ("camera", Role::Camera),
+    /// How words begin, and whole words.
+    const WORDS: [(Role, &str, &str); 4] = [
+        (
+            Role::Illuminant,
+            "illumin|irradian|radian|luminaire",
+            "illum|irrad|spd|spds|lamp|lamps|led|leds|lights|bulb|bulbs|daylight|sunlight|skylight|halogen|xenon|tungsten|\
+             incandescent|fluorescent|emission",
+        ),
+        (Role::Reflectance, "reflect|remission", "refl|rfl|colorchecker|colourchecker|munsell"),
+        (Role::Transmittance, "transmi", "filter|filters|trans|gel|gels|wratten"),
+        (
+            Role::Camera,
+            "sensitiv|responsiv|quantum|camera",
+            "ssf|ssfs|qe|cmf|cmfs|cmos|response|responses|photopic|scotopic|melanopic|observer|observers",
+        ),
     ];
-    let starts = STARTS.iter().find(|(start, _)| word.starts_with(start)).map(|(_, role)| *role);
-    starts.or(match word {
-        "illum" | "irrad" | "spd" | "spds" | "lamp" | "lamps" | "led" | "leds" | "lights" | "bulb" | "bulbs"
-        | "daylight" | "sunlight" | "skylight" | "halogen" | "xenon" | "tungsten" | "incandescent" | "fluorescent"
-        | "emission" => Some(Role::Illuminant),
-        "ssf" | "ssfs" | "qe" | "cmf" | "cmfs" | "cmos" | "response" | "responses" | "photopic" | "scotopic"
-        | "melanopic" | "observer" | "observers" => Some(Role::Camera),
-        "refl" | "rfl" | "colorchecker" | "colourchecker" | "munsell" => Some(Role::Reflectance),
-        "filter" | "filters" | "trans" | "gel" | "gels" | "wratten" => Some(Role::Transmittance),
-        _ => None,
-    })
+    let starts = |starts: &str| starts.split('|').any(|start| word.starts_with(start));
+    WORDS.iter().find(|(_, begin, whole)| starts(begin) || is_one(word, whole)).map(|(role, ..)| *role)
 }
 
 #[cfg(feature = "json")]
@@ -118,12 +111,10 @@ mod metadata {
 
     use serde_json::Value;
 
+    use crate::decision::{Decided, Quantity, WavelengthUnit};
     use crate::grid::Grid;
     use crate::header_terms;
-    use crate::report::Decided;
-    use crate::role::Quantity;
     use crate::text::excerpt;
-    use crate::wavelength_unit::WavelengthUnit;
 
     /// Takes names, units, quantity and title that the table itself lacks.
     pub(super) fn take(json: &[u8], grid: &mut Grid) {

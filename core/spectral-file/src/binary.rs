@@ -2,165 +2,74 @@
 
 use std::fmt;
 
-/// A kind of binary file that is recognized by its first bytes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum BinaryKind {
-    /// A ZIP container, such as an Excel workbook (`.xlsx`).
-    Zip,
-    /// An OLE2 container, such as an old Excel workbook (`.xls`).
-    Ole2,
-    /// A PNG image.
-    Png,
-    /// A JPEG image.
-    Jpeg,
-    /// A PDF document.
-    Pdf,
-    /// A gzip archive.
-    Gzip,
-    /// A measurement in `AvaSoft` 8's own format.
-    AvaSoft8,
-    /// A measurement in the own format of `AvaSoft` 6 or 7.
-    AvaSoft7,
-    /// A spectrum in the format of GRAMS, `.spc`.
-    GramsSpc,
-    /// An ICC profile.
-    Icc,
-    /// The header of ENVI, beside which its numbers stand in a binary file.
-    Envi,
-    /// A Thermo OMNIC spectrum.
-    Omnic,
-    /// A `PerkinElmer` spectrum.
-    PerkinElmer,
-    /// A Renishaw `WiRE` measurement.
-    Renishaw,
-    /// An Andor image or spectrum.
-    Andor,
-    /// A netCDF file of version 3.
-    NetCdf,
-    /// An array of `NumPy`.
-    Numpy,
-    /// A workspace of R.
-    RData,
-    /// An `SQLite` database.
-    Sqlite,
-    /// A Parquet table.
-    Parquet,
-    /// An archive of 7-Zip or RAR.
-    Archive,
-    /// A measurement in ASD's own format.
-    Asd,
-    /// An HDF5 or netCDF 4 file.
-    Hdf5,
-    /// A TIFF image.
-    Tiff,
-    /// An `OpenEXR` image.
-    Exr,
-    /// A MATLAB workspace.
-    Matlab,
-    /// A measurement in Bruker OPUS's own format.
-    Opus,
-    /// Any other file with bytes that no text has.
-    Unknown,
-}
+const SHEET: &str = "save the sheet with the spectra as CSV";
+const PICTURE: &str = "a picture has no spectra; open the table they came from";
+const UNPACK: &str = "unpack it and open the text files in it";
+const AVASOFT: &str = "export it in AvaSoft as text (File, Convert Graph, To ASCII)";
+const PROGRAM: &str = "save it in its program as CSV or as JCAMP-DX";
+const EXPORT: &str = "export the measurement as text or CSV";
 
-impl fmt::Display for BinaryKind {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Zip => "a ZIP container (such as .xlsx)",
-            Self::Ole2 => "an OLE2 container (such as an old .xls)",
-            Self::Png => "a PNG image",
-            Self::Jpeg => "a JPEG image",
-            Self::Pdf => "a PDF document",
-            Self::Gzip => "a gzip archive",
-            Self::AvaSoft8 => "an AvaSoft 8 binary measurement (AVS8x)",
-            Self::AvaSoft7 => "an AvaSoft 6 or 7 binary measurement (such as .ROH or .TRM)",
-            Self::GramsSpc => "a GRAMS spectrum (.spc)",
-            Self::Icc => "an ICC profile",
-            Self::Envi => "an ENVI header, whose numbers are in the binary file beside it",
-            Self::Omnic => "a Thermo OMNIC spectrum (.spa)",
-            Self::PerkinElmer => "a PerkinElmer spectrum (.sp)",
-            Self::Renishaw => "a Renishaw WiRE measurement (.wdf)",
-            Self::Andor => "an Andor file (.sif)",
-            Self::NetCdf => "a netCDF file",
-            Self::Numpy => "a NumPy array",
-            Self::RData => "an R workspace",
-            Self::Sqlite => "an SQLite database",
-            Self::Parquet => "a Parquet table",
-            Self::Archive => "an archive",
-            Self::Asd => "an ASD binary measurement (.asd)",
-            Self::Hdf5 => "an HDF5 file",
-            Self::Tiff => "a TIFF image",
-            Self::Exr => "an OpenEXR image",
-            Self::Matlab => "a MATLAB workspace",
-            Self::Opus => "a Bruker OPUS measurement",
-            Self::Unknown => "a binary file of an unknown kind",
-        })
-    }
-}
-
-impl BinaryKind {
-    /// Remedy, as the second half of a sentence.
-    pub(super) fn remedy(self) -> &'static str {
-        match self {
-            Self::Zip | Self::Ole2 => "save the sheet with the spectra as CSV",
-            Self::Gzip | Self::Archive => "unpack it and open the text files in it",
-            Self::AvaSoft8 | Self::AvaSoft7 => "export it in AvaSoft as text (File, Convert Graph, To ASCII)",
-            Self::GramsSpc => "export it as text (x, y) or as JCAMP-DX from the program that wrote it",
-            Self::Icc => "it holds no spectra; open the measurements it was made of (.ti3, CGATS, CxF)",
-            Self::Envi => "export the spectra in ENVI as an ASCII plot or spectral library text",
-            Self::Asd => "export it in ViewSpec Pro as ASCII",
-            Self::Opus => "save it in OPUS as a data point table or as JCAMP-DX",
-            Self::Omnic | Self::PerkinElmer | Self::Renishaw => "save it in its program as CSV or as JCAMP-DX",
-            Self::Png | Self::Jpeg | Self::Tiff | Self::Exr => {
-                "a picture has no spectra; open the table they came from"
-            }
-            _ => "export the measurement as text or CSV",
+/// The kinds of binary files: each with its words, its remedy as the second half of a sentence, and the bytes it may begin with.
+macro_rules! kinds {
+    ($($kind:ident $words:literal, $remedy:expr, [$($magic:literal),*];)+) => {
+        /// A kind of binary file that is recognized by its first bytes.
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+        pub enum BinaryKind {
+            $(#[doc = concat!("This is ", $words, ".")] $kind,)+
         }
-    }
+
+        impl fmt::Display for BinaryKind {
+            fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str(match self { $(Self::$kind => $words,)+ })
+            }
+        }
+
+        impl BinaryKind {
+            pub(super) fn remedy(self) -> &'static str {
+                match self { $(Self::$kind => $remedy,)+ }
+            }
+        }
+
+        const MAGIC: &[(&[u8], BinaryKind)] = &[$($(($magic, BinaryKind::$kind),)*)+];
+    };
 }
 
-const MAGIC: [(&[u8], BinaryKind); 37] = [
-    (b"PK\x03\x04", BinaryKind::Zip),
-    (b"\xD0\xCF\x11\xE0\xA1\xB1\x1A\xE1", BinaryKind::Ole2),
-    (b"\x89PNG", BinaryKind::Png),
-    (b"\xFF\xD8\xFF", BinaryKind::Jpeg),
-    (b"%PDF", BinaryKind::Pdf),
-    (b"\x1F\x8B", BinaryKind::Gzip),
-    (b"AVS8", BinaryKind::AvaSoft8),
-    (b"ASD\0", BinaryKind::Asd),
-    (b"as2\0", BinaryKind::Asd),
-    (b"as3\0", BinaryKind::Asd),
-    (b"as6\0", BinaryKind::Asd),
-    (b"as7\0", BinaryKind::Asd),
-    (b"as8\0", BinaryKind::Asd),
-    (b"\x89HDF\r\n", BinaryKind::Hdf5),
-    (b"II*\0", BinaryKind::Tiff),
-    (b"MM\0*", BinaryKind::Tiff),
-    (b"\x76\x2F\x31\x01", BinaryKind::Exr),
-    (b"MATLAB 5.0 MAT-file", BinaryKind::Matlab),
-    (b"\x0A\x0A\xFE\xFE", BinaryKind::Opus),
+kinds! {
+    Zip "a ZIP container (such as .xlsx)", SHEET, [b"PK\x03\x04"];
+    Ole2 "an OLE2 container (such as an old .xls)", SHEET, [b"\xD0\xCF\x11\xE0\xA1\xB1\x1A\xE1"];
+    Png "a PNG image", PICTURE, [b"\x89PNG"];
+    Jpeg "a JPEG image", PICTURE, [b"\xFF\xD8\xFF"];
+    Pdf "a PDF document", EXPORT, [b"%PDF"];
+    Gzip "a gzip archive", UNPACK, [b"\x1F\x8B"];
+    AvaSoft8 "an AvaSoft 8 binary measurement (AVS8x)", AVASOFT, [b"AVS8"];
     // Versions 60 and 70 as numbers in single precision.
-    (b"\x00\x00\x70\x42", BinaryKind::AvaSoft7),
-    (b"\x00\x00\x8C\x42", BinaryKind::AvaSoft7),
-    (b"MATLAB 7.3 MAT-file", BinaryKind::Matlab),
-    (b"Spectral Data File\r\n", BinaryKind::Omnic),
-    (b"PEPE", BinaryKind::PerkinElmer),
-    (b"WDF1", BinaryKind::Renishaw),
-    (b"Andor Technology Multi-Channel File", BinaryKind::Andor),
-    (b"CDF\x01", BinaryKind::NetCdf),
-    (b"CDF\x02", BinaryKind::NetCdf),
-    (b"\x93NUMPY", BinaryKind::Numpy),
-    (b"RDX2\n", BinaryKind::RData),
-    (b"RDX3\n", BinaryKind::RData),
-    (b"SQLite format 3\0", BinaryKind::Sqlite),
-    (b"PAR1", BinaryKind::Parquet),
-    (b"7z\xBC\xAF\x27\x1C", BinaryKind::Archive),
-    (b"Rar!\x1A\x07", BinaryKind::Archive),
-    (b"ENVI\n", BinaryKind::Envi),
-    (b"ENVI\r\n", BinaryKind::Envi),
-];
+    AvaSoft7 "an AvaSoft 6 or 7 binary measurement (such as .ROH or .TRM)", AVASOFT,
+        [b"\x00\x00\x70\x42", b"\x00\x00\x8C\x42"];
+    GramsSpc "a GRAMS spectrum (.spc)",
+        "export it as text (x, y) or as JCAMP-DX from the program that wrote it", [];
+    Icc "an ICC profile", "it holds no spectra; open the measurements it was made of (.ti3, CGATS, CxF)", [];
+    Envi "an ENVI header, whose numbers are in the binary file beside it",
+        "export the spectra in ENVI as an ASCII plot or spectral library text", [b"ENVI\n", b"ENVI\r\n"];
+    Omnic "a Thermo OMNIC spectrum (.spa)", PROGRAM, [b"Spectral Data File\r\n"];
+    PerkinElmer "a PerkinElmer spectrum (.sp)", PROGRAM, [b"PEPE"];
+    Renishaw "a Renishaw WiRE measurement (.wdf)", PROGRAM, [b"WDF1"];
+    Andor "an Andor file (.sif)", EXPORT, [b"Andor Technology Multi-Channel File"];
+    NetCdf "a netCDF file", EXPORT, [b"CDF\x01", b"CDF\x02"];
+    Numpy "a NumPy array", EXPORT, [b"\x93NUMPY"];
+    RData "an R workspace", EXPORT, [b"RDX2\n", b"RDX3\n"];
+    Sqlite "an SQLite database", EXPORT, [b"SQLite format 3\0"];
+    Parquet "a Parquet table", EXPORT, [b"PAR1"];
+    Archive "an archive", UNPACK, [b"7z\xBC\xAF\x27\x1C", b"Rar!\x1A\x07"];
+    Asd "an ASD binary measurement (.asd)", "export it in ViewSpec Pro as ASCII",
+        [b"ASD\0", b"as2\0", b"as3\0", b"as6\0", b"as7\0", b"as8\0"];
+    Hdf5 "an HDF5 file", EXPORT, [b"\x89HDF\r\n"];
+    Tiff "a TIFF image", PICTURE, [b"II*\0", b"MM\0*"];
+    Exr "an OpenEXR image", PICTURE, [b"\x76\x2F\x31\x01"];
+    Matlab "a MATLAB workspace", EXPORT, [b"MATLAB 5.0 MAT-file", b"MATLAB 7.3 MAT-file"];
+    Opus "a Bruker OPUS measurement", "save it in OPUS as a data point table or as JCAMP-DX", [b"\x0A\x0A\xFE\xFE"];
+    Unknown "a binary file of an unknown kind", EXPORT, [];
+}
 
-/// The kind of a binary file by its first bytes.
 pub(super) fn binary(bytes: &[u8]) -> Option<BinaryKind> {
     const LOOK: usize = 64;
     let control = bytes.iter().take(LOOK).any(|byte| *byte < b'\t');

@@ -1,12 +1,12 @@
 //! Instrument settings above the numbers that indicate the measured quantity and its scale.
 
+use crate::decision::{Role, Values};
 use crate::header_terms;
-use crate::role::{Role, Values};
+use crate::text::is_one;
 
 /// Longer lines are no settings.
-const LONGEST: usize = 400;
+pub(super) const LONGEST: usize = 400;
 
-/// Statements of the settings, each with its line.
 #[derive(Debug, Default)]
 pub(super) struct Clues {
     /// True if the values are ratios to a reference measurement.
@@ -15,45 +15,54 @@ pub(super) struct Clues {
     pub(super) cosine_receptor: Option<usize>,
     /// The program writes ratios in percent.
     pub(super) ratios_in_percent: Option<(usize, &'static str)>,
-    /// Role that a setting such as `Technique` gives.
     pub(super) role: Option<(usize, Role)>,
-    /// Scale of the values that a setting gives.
     pub(super) values: Option<(usize, Values)>,
     /// A title or a name of data mentions absorbances.
     pub(super) absorbance: Option<usize>,
 }
 
 /// Keys of settings that name what is measured.
-pub(super) const MEASURED: [&str; 16] = [
-    "quantity",
-    "spectral quantity",
-    "measured quantity",
-    "technique",
-    "mode",
-    "data mode",
-    "photometric mode",
-    "measuring mode",
-    "measurement",
-    "measurement mode",
-    "measurement type",
-    "ordinate",
-    "ordinate mode",
-    "y axis",
-    "yaxis",
-    "y label",
+pub(super) const MEASURED: &str = "quantity|spectral quantity|measured quantity|technique|mode|data mode|photometric mode|\
+    measuring mode|measurement|measurement mode|measurement type|ordinate|ordinate mode|y axis|yaxis|y label";
+
+pub(super) struct Program {
+    /// Beginning and end of a line that it writes.
+    start: &'static str,
+    end: &'static str,
+    pub(super) name: &'static str,
+    /// True if it writes reflectances and transmittances in percent, whatever their values.
+    percent: bool,
+}
+
+const fn program_of(start: &'static str, name: &'static str, percent: bool) -> Program {
+    Program { start, end: "", name, percent }
+}
+
+pub(super) const THORLABS: &str = "Thorlabs (read as described, no real file was at hand)";
+
+pub(super) const SVC: &str = "/*** Spectra Vista SIG Data";
+
+const PROGRAMS: [Program; 15] = [
+    program_of("SpectraSuite Data File", "Ocean SpectraSuite", true),
+    program_of("OOIBase32 Version", "Ocean OOIBase32", true),
+    program_of("Jaz Data File", "Ocean Jaz", true),
+    Program { end: " Node", ..program_of("Data from ", "Ocean OceanView", true) },
+    program_of(">>>>>", "an Ocean program", true),
+    program_of("Text conversion of header file", "ASD ViewSpec Pro", false),
+    program_of("Data measured with spectrometer", "Avantes AvaSoft", true),
+    program_of("Filename-->", "an Avantes program", false),
+    program_of("ENLIGHTEN Version", "Wasatch ENLIGHTEN", true),
+    program_of("Date,Mode,IntegrationTime(ms)", "CID SpectraVue", true),
+    program_of("LambdaPValue\t", "a UPRtek meter", false),
+    program_of("#Thorlabs", THORLABS, false),
+    program_of("Thorlabs", THORLABS, false),
+    program_of("X Units:", "the ECOSTRESS library", false),
+    program_of(SVC, "Spectra Vista", false),
 ];
 
-/// Programs that write reflectances and transmittances in percent whatever their values: what a line starts with.
-const IN_PERCENT: [(&str, &str); 8] = [
-    ("SpectraSuite Data File", "Ocean SpectraSuite"),
-    ("OOIBase32 Version", "Ocean OOIBase32"),
-    ("Jaz Data File", "Ocean Jaz"),
-    ("Data from ", "Ocean OceanView"),
-    (">>>>>", "an Ocean program"),
-    ("Data measured with spectrometer", "Avantes AvaSoft"),
-    ("ENLIGHTEN Version", "Wasatch ENLIGHTEN"),
-    ("Date,Mode,IntegrationTime(ms)", "CID SpectraVue"),
-];
+pub(super) fn program(line: &str) -> Option<&'static Program> {
+    PROGRAMS.iter().find(|program| line.starts_with(program.start) && line.trim_end().ends_with(program.end))
+}
 
 impl Clues {
     /// Takes what a title or a line of prose mentions.
@@ -68,9 +77,8 @@ impl Clues {
         if text.len() > LONGEST && !text.starts_with("Date,Mode,") {
             return;
         }
-        let mark = IN_PERCENT.iter().find(|(start, _)| text.starts_with(start));
-        let mark = mark.filter(|(start, _)| *start != "Data from " || text.trim_end().ends_with(" Node"));
-        self.ratios_in_percent = self.ratios_in_percent.or(mark.map(|(_, program)| (line, *program)));
+        let percent = program(text).filter(|program| program.percent).map(|program| (line, program.name));
+        self.ratios_in_percent = self.ratios_in_percent.or(percent);
         if text.len() > LONGEST {
             return;
         }
@@ -87,15 +95,11 @@ impl Clues {
         let Some((key, value)) = lower.split_once([':', ',', ';', '=', '\t']) else { return };
         let (key, value) = (key.trim().trim_matches('"'), value.trim().trim_matches('"'));
         if key == "reference spectrum present" {
-            let present = |answers: [&str; 3]| answers.contains(&value);
-            let said = if present(["no", "false", "0"]) {
-                Some(false)
-            } else {
-                Some(true).filter(|_| present(["yes", "true", "1"]))
-            };
+            let present = is_one(value, "yes|true|1").then_some(true);
+            let said = if is_one(value, "no|false|0") { Some(false) } else { present };
             self.ratio = said.map(|said| (line, said)).or(self.ratio);
         }
-        if MEASURED.contains(&key) {
+        if is_one(key, MEASURED) {
             self.role = header_terms::role(value).map(|role| (line, role)).or(self.role);
             let values = header_terms::values(value).filter(|values| *values != Values::Plain);
             self.values = values.map(|values| (line, values)).or(self.values);

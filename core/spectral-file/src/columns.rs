@@ -1,25 +1,19 @@
 //! Reads tables whose wavelengths run down a column.
 
 pub(super) mod axes;
-mod pairs;
-mod texts;
 
-use crate::columns::texts::Texts;
+use crate::decision::{Decision, Dropped, WavelengthUnit};
 use crate::dialect::{Cell, Dialect};
-use crate::error::ReadError;
+use crate::error::{MAX_CURVES, MAX_SAMPLES, ReadError};
 use crate::grid::{Grid, RawCurve};
-use crate::header::Header;
-use crate::limits::{MAX_CURVES, MAX_SAMPLES};
+use crate::header::{self, Header};
+use crate::layout::Layout;
 use crate::no_curve::is_empty;
-use crate::report::{Decision, Dropped};
-use crate::sniff::Layout;
 use crate::text::{Lines, Section, comment, excerpt};
 use crate::warning::{LineList, Warning};
 use crate::watch::Log;
-use crate::wavelength_unit::WavelengthUnit;
-use crate::{header, header_terms, unit_text, wavelengths};
+use crate::{header_terms, unit_text, wavelengths};
 
-/// First table of a section.
 pub(super) struct Read {
     pub(super) grid: Grid,
     /// The line after it, if another table follows.
@@ -75,7 +69,6 @@ pub(super) fn read(section: Section<'_>, layout: &Layout, log: &mut Log<'_>) -> 
     Ok(Read { bytes: read - section.byte, ..found })
 }
 
-/// The column that the header names as that of the wavelengths, if it names one.
 fn wavelength_column(header: &Header) -> Option<usize> {
     header_terms::axis(&header.names)
 }
@@ -92,7 +85,6 @@ struct Broken {
     error: ReadError,
 }
 
-/// The numbers of the rows so far, by column.
 struct Columns {
     dialect: Dialect,
     texts: Texts,
@@ -190,7 +182,6 @@ impl Columns {
         count == self.width && numbers > 0
     }
 
-    /// Ends the table, if another one was seen.
     fn end(&mut self, second: bool) {
         self.next = self.lines.last().filter(|_| second).map(|line| line + 1);
     }
@@ -318,7 +309,7 @@ impl Columns {
             let curves = all.into_iter().map(curve).collect();
             (Grid { wavelengths, lines: self.lines, curves, header, ..Grid::default() }, None)
         } else {
-            pairs::read(header, at, wavelengths, values, &axes, &self.lines, log)?
+            axes::read_pairs(header, at, wavelengths, values, &axes, &self.lines, log)?
         };
         grid.label_unit = label_unit;
         grid.rows = rows;
@@ -337,7 +328,6 @@ impl Columns {
     }
 }
 
-/// A column as a curve, with its header's information.
 fn raw_curve(header: &Header, column: usize, only: bool, values: Vec<f64>) -> RawCurve {
     let title = header.comment("title").filter(|_| only);
     // What is measured names no sample, where there is only one.
@@ -349,7 +339,6 @@ fn raw_curve(header: &Header, column: usize, only: bool, values: Vec<f64>) -> Ra
     RawCurve { name, named, column: Some(column + 1), origin: column, label, unit, values }
 }
 
-/// Names the columns of text, which are in no curve.
 fn warn_of_texts(header: &Header, texts: &[usize], log: &mut Log<'_>) {
     if let Some(&first) = texts.first() {
         let name = header.name(first).unwrap_or_default().to_owned();
@@ -376,5 +365,66 @@ fn drop_without_wavelength(grid: &mut Grid, log: &mut Log<'_>) {
     if !list.is_empty() {
         grid.remove(&marked);
         log.push(Warning::NoWavelength(list));
+    }
+}
+
+#[derive(Debug)]
+struct Texts {
+    mask: u128,
+    columns: Vec<Text>,
+}
+
+#[derive(Debug)]
+struct Text {
+    column: usize,
+    /// The unit of all cells until now.
+    unit: Option<String>,
+    /// True if a cell was not a number with that unit.
+    other: bool,
+}
+
+impl Texts {
+    fn new(mask: u128) -> Self {
+        let columns = (0..128).filter(|column| mask >> column & 1 == 1);
+        Self { mask, columns: columns.map(|column| Text { column, unit: None, other: false }).collect() }
+    }
+
+    /// Returns whether a column holds text, or numbers with units.
+    #[inline]
+    fn contains(&self, column: usize) -> bool {
+        column < 128 && self.mask >> column & 1 == 1
+    }
+
+    /// Processes a cell of such a column: its number, or NaN.
+    fn take(&mut self, column: usize, dialect: Dialect, cell: &str) -> f64 {
+        let Some(text) = self.columns.iter_mut().find(|text| text.column == column) else { return f64::NAN };
+        if dialect.parse(cell) == Cell::Gap {
+            return f64::NAN;
+        }
+        let Some((value, unit)) = dialect.parse_united(cell).filter(|_| !text.other) else {
+            text.other = true;
+            return f64::NAN;
+        };
+        text.other = text.unit.get_or_insert_with(|| unit.to_owned()) != unit;
+        value
+    }
+
+    fn unit(&self, column: usize) -> Option<&str> {
+        let text = self.columns.iter().find(|text| text.column == column && !text.other)?;
+        text.unit.as_deref()
+    }
+
+    /// A curve with the unit that stands beside each of its values, where the header names none.
+    fn united(&self, mut curve: RawCurve, column: usize) -> RawCurve {
+        if let Some(unit) = self.unit(column).filter(|_| curve.unit.is_none()) {
+            let before = if curve.label.is_empty() { "" } else { " " };
+            curve.label = format!("{}{before}{unit}", curve.label);
+            curve.unit = Some(unit.to_owned());
+        }
+        curve
+    }
+
+    fn left_out(&self) -> impl Iterator<Item = usize> {
+        self.columns.iter().filter(|text| text.other || text.unit.is_none()).map(|text| text.column)
     }
 }

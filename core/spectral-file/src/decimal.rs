@@ -37,6 +37,10 @@ fn by_text(value: f64, power: i32) -> f64 {
     moved.unwrap_or_else(|| value * 10_f64.powi(power))
 }
 
+pub(super) fn extent(numbers: impl Iterator<Item = f64>) -> (f64, f64) {
+    numbers.fold((f64::INFINITY, f64::NEG_INFINITY), |(min, max), number| (min.min(number), max.max(number)))
+}
+
 /// The exponent of a number that is a power of ten, such as 2 for 100.
 pub(super) fn power_of_ten(number: f64) -> Option<i32> {
     (-15..=15).find(|power| 10_f64.powi(*power) == number)

@@ -1,8 +1,7 @@
 //! Notation of a line of numbers: what separates cells, what marks fractions, what stands for a gap.
 
-use crate::separators::{DecimalMark, Delimiter};
+use crate::decision::{DecimalMark, Delimiter, WavelengthUnit};
 use crate::unit_text;
-use crate::wavelength_unit::WavelengthUnit;
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Cell {
@@ -11,7 +10,6 @@ pub(super) enum Cell {
     Text,
 }
 
-/// A delimiter and a decimal mark.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Dialect {
     pub(super) delimiter: Delimiter,
@@ -56,6 +54,20 @@ impl Dialect {
         let mut cells = self.cells(line);
         while cells.next().is_some() {}
         cells.quotes
+    }
+
+    /// The notation of a single number, whichever its decimal mark.
+    pub(super) fn of_number(text: &str) -> Self {
+        Self::new(Delimiter::Spaces, if text.contains(',') { DecimalMark::Comma } else { DecimalMark::Point })
+    }
+
+    /// A number, or NaN for a gap.
+    pub(super) fn value(self, cell: &str) -> Option<f64> {
+        match self.parse(cell) {
+            Cell::Number(value) => Some(value),
+            Cell::Gap => Some(f64::NAN),
+            Cell::Text => None,
+        }
     }
 
     #[inline]
@@ -163,7 +175,6 @@ impl Dialect {
         Some((value, unit.trim())).filter(|(_, unit)| unit_text::is_value_unit(unit) && sole(unit))
     }
 
-    /// Returns whether a number is written with this dialect's decimal mark.
     pub(super) fn has_mark(self, cell: &str) -> bool {
         cell.contains(match self.mark {
             DecimalMark::Point => '.',
@@ -249,7 +260,6 @@ fn joined(line: &str) -> u64 {
     (first..count - 1).step_by(2).fold(0, |bits, comma| bits | 1 << comma)
 }
 
-/// Iterator over the cells of a line; made by [`Dialect::cells`].
 #[derive(Debug, Clone)]
 pub(super) struct Cells<'a> {
     rest: Option<&'a str>,
@@ -328,7 +338,6 @@ impl<'a> Cells<'a> {
 }
 
 impl Delimiter {
-    /// Start and length, in bytes, of the next delimiter.
     #[inline]
     fn find(self, text: &str) -> Option<(usize, usize)> {
         let wanted = match self {

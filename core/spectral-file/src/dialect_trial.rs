@@ -1,16 +1,14 @@
 //! One way to split lines into cells, tried on the beginning of a file.
 
-use crate::bands;
-use crate::bands::Group;
+use crate::bands::{self, Group};
+use crate::decision::Orientation;
 use crate::dialect::{Cell, Dialect, may_be_thousands};
-use crate::limits::MAX_CURVES;
-use crate::report::Orientation;
-use crate::wavelength_unit::plausible;
+use crate::error::MAX_CURVES;
+use crate::units::plausible;
 
 /// Lines that may not fit below such a header before it is rejected: the reader then reports their errors.
 const MISSES: usize = 3;
 
-/// Shape of a line, split in one way.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Shape {
     /// All cells, and all but empty ones at the end.
@@ -87,12 +85,10 @@ impl Shape {
     }
 }
 
-/// The bit that stands for a column, if there is one.
 fn bit(column: usize) -> Option<u128> {
     u32::try_from(column).ok().and_then(|column| 1_u128.checked_shl(column))
 }
 
-/// Rows of numbers in one block.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Run {
     pub(super) line: usize,
@@ -184,7 +180,6 @@ pub(super) struct Across {
 }
 
 impl Across {
-    /// The group of wavelengths that is read.
     pub(super) fn group(&self) -> &Group {
         self.groups.get(self.part).unwrap_or(&self.groups[0])
     }
@@ -206,7 +201,6 @@ impl Across {
     }
 }
 
-/// A dialect and what it makes of the lines so far.
 #[derive(Debug, Clone)]
 pub(super) struct Trial {
     pub(super) dialect: Dialect,
@@ -249,7 +243,6 @@ impl Trial {
         }
     }
 
-    /// Processes one line that is neither blank nor a comment.
     pub(super) fn take(&mut self, number: usize, line: &str) {
         let shape = Shape::of(self.dialect, line);
         self.take_across(number, &shape, line);

@@ -3,10 +3,21 @@
 use std::fmt;
 
 use crate::binary::BinaryKind;
-use crate::limits::{MAX_CURVES, MAX_SAMPLES};
-use crate::markup::Family;
-use crate::report::Reader;
-use crate::switch::Switch;
+use crate::decision::{Family, Reader};
+use crate::options::Switch;
+
+pub(super) const MAX_PARTS: usize = 1000;
+
+/// The most bytes a file may have: 64 MiB. Spectra of a whole session of measurements are far below.
+pub const MAX_BYTES: usize = 64 << 20;
+
+/// The most curves one table may hold.
+pub const MAX_CURVES: usize = 100_000;
+
+pub(super) const MAX_DROPPED: usize = 1000;
+
+/// The most samples (curves times wavelengths) one table may hold.
+pub const MAX_SAMPLES: usize = 20_000_000;
 
 /// Reason that a file could not be read: where, what, and what helps. Lines and columns count from 1; a
 /// number alone is a line.

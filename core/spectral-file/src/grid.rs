@@ -2,14 +2,12 @@
 
 use chromascope_text::on_one_line;
 
+use crate::decision::{Decided, Dropped, Part, Quantity, Role, WavelengthUnit};
 use crate::error::ReadError;
-use crate::file::Curve;
 use crate::header::Header;
-use crate::report::{Decided, Dropped, DroppedRow, Part};
-use crate::role::{Quantity, Role};
-use crate::warning::{LineList, Sentinel, Warning};
+use crate::report::{Curve, DroppedRow};
+use crate::warning::{Sentinel, Warning};
 use crate::watch::Log;
-use crate::wavelength_unit::WavelengthUnit;
 
 /// Numbers as they stand in the file, before units, order and scale are settled.
 #[derive(Debug, Default)]
@@ -20,22 +18,18 @@ pub(super) struct Grid {
     pub(super) lines: Vec<usize>,
     /// The curves; each has one value (NaN for a gap) for each wavelength.
     pub(super) curves: Vec<RawCurve>,
-    /// Content above the numbers.
     pub(super) header: Header,
     /// The unit, if it stands beside each wavelength.
     pub(super) label_unit: Option<WavelengthUnit>,
     /// The unit, if the format prescribes it.
     pub(super) unit: Option<Decided<WavelengthUnit>>,
-    /// Role of the curves, if the format gives or suggests it.
     pub(super) role: Option<Decided<Role>>,
     /// Role that the metadata beside the file state, or that the names of file and folders suggest.
     pub(super) beside: Option<Decided<Role>>,
-    /// Quantity of the values, if the format gives it.
     pub(super) quantity: Option<Decided<Quantity>>,
     /// The parts of the file, if it can have several, and which one this is.
     pub(super) parts: Vec<Part>,
     pub(super) part: Option<Decided<usize>>,
-    /// Rows of numbers in the file.
     pub(super) rows: usize,
     /// The column of the wavelengths, from 1, where they run down one.
     pub(super) wavelength_column: Option<usize>,
@@ -47,11 +41,9 @@ pub(super) struct Grid {
     pub(super) axes: Vec<(usize, Option<WavelengthUnit>)>,
     /// The lines of a table whose curves have wavelengths of their own.
     pub(super) row_lines: Vec<usize>,
-    /// Omitted rows.
     pub(super) dropped: Vec<DroppedRow>,
 }
 
-/// A curve as it stands in the file.
 #[derive(Debug, Default)]
 pub(super) struct RawCurve {
     pub(super) name: String,
@@ -84,7 +76,6 @@ impl Grid {
         [self.wavelengths[0], self.wavelengths[self.wavelengths.len() - 1]]
     }
 
-    /// The line of a wavelength.
     pub(super) fn line(&self, index: usize) -> usize {
         self.lines.get(index).or(self.lines.last()).copied().unwrap_or(1)
     }
@@ -140,7 +131,6 @@ impl Grid {
         }
     }
 
-    /// Records a row as omitted.
     pub(super) fn drop_row(&mut self, line: usize, why: Dropped) {
         self.dropped.push(DroppedRow { line, why });
     }
@@ -216,11 +206,7 @@ fn warn_gaps(gaps: &[u32], lines: &[usize], sentinel: Option<Sentinel>, log: &mu
     let with_gaps = gaps.iter().zip(lines).filter(|(count, _)| **count > 0);
     let mut gap_lines: Vec<usize> = with_gaps.map(|(_, line)| *line).collect();
     gap_lines.sort_unstable();
-    let mut list = LineList::default();
-    for line in gap_lines {
-        list.add(line);
-    }
-    log.push(Warning::Gaps { cells, lines: list, sentinel });
+    log.push(Warning::Gaps { cells, lines: gap_lines.into_iter().collect(), sentinel });
 }
 
 fn retain<T>(items: &mut Vec<T>, marked: &[bool]) {

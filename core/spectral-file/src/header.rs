@@ -1,26 +1,23 @@
-//! Header above the numbers: comments, names of columns, units.
+//! Header above the numbers: comments, names of columns, units; and the heads of the columns in the program's own tables, such as
+//! `leaf [reflectance factor in 1]`, so that a table says what it holds without a line above it.
 
 use chromascope_text::unguarded;
+use std::fmt::Write as _;
 
-use crate::clues::Clues;
+use crate::clues::{self, Clues};
+use crate::decision::{Delimiter, Medium, Orientation, Quantity, Role, Values, WavelengthUnit};
 use crate::dialect::{Cell, Dialect};
-use crate::header_terms::XUnit;
-use crate::limits::MAX_CURVES;
-use crate::report::{Medium, Orientation};
-use crate::role::{Quantity, Role, Values};
-use crate::separators::Delimiter;
-use crate::sniff::Layout;
-use crate::text::{Lines, Section, comment};
-use crate::wavelength_unit::WavelengthUnit;
-use crate::{clues, header_terms, heads, unit_text, units};
+use crate::error::MAX_CURVES;
+use crate::header_terms::{self, UNSPECIFIED, XUnit};
+use crate::layout::Layout;
+use crate::text::{Lines, Section, comment, is_one};
+use crate::{unit_text, units};
 
-/// Maximum number of stored comments; more are not a header.
 const MAX_COMMENTS: usize = 1000;
 
 /// Most lines with text between the names or units and the numbers.
 const NEAR: usize = 6;
 
-/// Header above the numbers.
 #[derive(Debug, Default)]
 pub(super) struct Header {
     pub(super) comments: Vec<(String, String)>,
@@ -28,7 +25,6 @@ pub(super) struct Header {
     pub(super) noted: Vec<u32>,
     /// The line that names the columns.
     pub(super) line: Option<usize>,
-    /// The cells of that line.
     pub(super) names: Vec<String>,
     /// The cells of a line of units below the names.
     pub(super) units: Vec<String>,
@@ -41,7 +37,6 @@ pub(super) struct Header {
     pub(super) values: Option<(usize, Values)>,
     /// The physical quantity of all values with the line that states it.
     pub(super) quantity: Option<(usize, Quantity)>,
-    /// The unit of all values.
     pub(super) unit: Option<String>,
     /// The line which states that all values are photons.
     pub(super) photons: Option<usize>,
@@ -55,12 +50,10 @@ pub(super) struct Header {
     pub(super) mentioned: Option<(usize, Role)>,
     /// The one mentioned before it.
     pub(super) earlier: Option<(usize, Role)>,
-    /// Clues in the settings of the instrument.
     pub(super) clues: Clues,
 }
 
 impl Header {
-    /// The name of a column, if the header gives one.
     pub(super) fn name(&self, column: usize) -> Option<&str> {
         // A line of units such as `nm,R%` or `nm,leaf %R` may be all there is.
         let unit = || self.units.get(column).filter(|unit| unit.contains('%') && !unit.starts_with('%'));
@@ -68,7 +61,6 @@ impl Header {
         name.map(String::as_str).filter(|name| !name.is_empty())
     }
 
-    /// The header's information about a column.
     pub(super) fn label(&self, column: usize) -> String {
         let unit = self.units.get(column).map_or("", String::as_str);
         let name = self.name(column).filter(|name| *name != unit).unwrap_or_default();
@@ -79,7 +71,6 @@ impl Header {
         format!("{name} {unit}").trim().to_owned()
     }
 
-    /// The unit that the header gives for a column of values.
     pub(super) fn unit(&self, column: usize) -> Option<String> {
         let whole = |cell: &&String| cell.starts_with(['[', '(']);
         let cell = self.units.get(column);
@@ -97,13 +88,11 @@ impl Header {
         }
     }
 
-    /// The value of a comment.
     pub(super) fn comment(&self, key: &str) -> Option<&str> {
         self.comments.iter().find(|(name, _)| name.eq_ignore_ascii_case(key)).map(|(_, value)| value.as_str())
     }
 }
 
-/// Reads what stands above the numbers of a layout.
 pub(super) fn read(section: Section<'_>, layout: &Layout) -> Header {
     let mut header = Header::default();
     let mut near: Vec<(usize, &str)> = Vec::with_capacity(NEAR + 1);
@@ -126,16 +115,15 @@ pub(super) fn read(section: Section<'_>, layout: &Layout) -> Header {
     }
     if layout.orientation.value == Orientation::Down {
         header.take_names(&near, layout);
-        heads::take(&mut header);
+        take_heads(&mut header);
     }
     header
 }
 
 impl Header {
-    /// Takes the information of a comment `# key: value`.
     pub(super) fn take_comment(&mut self, line: usize, key: &str, value: &str) {
         let lower = key.to_ascii_lowercase();
-        if matches!(lower.as_str(), "unit" | "units" | "y unit" | "y units" | "yunit" | "yunits") {
+        if is_one(&lower, "unit|units|y unit|y units|yunit|yunits") {
             self.take_value_unit(line, value);
             self.unit = unit_text::unit_cell(value).filter(|unit| unit != "1").or(self.unit.take());
         } else if lower == "quantity" || is_title_with_unit(value) && says_values(&lower) {
@@ -143,7 +131,7 @@ impl Header {
             let unit = unit_text::unit(value).filter(|_| unit_text::without_unit(value) != value);
             self.unit = unit.or(self.unit.take());
         }
-        if matches!(lower.as_str(), "response" | "title" | "description") {
+        if is_one(&lower, "response|title|description") {
             self.mentioned = self.mentioned.or_else(|| header_terms::role(value).map(|role| (line, role)));
             self.take_photons(line, value);
             self.clues.mention(line, value);
@@ -159,7 +147,6 @@ impl Header {
         }
     }
 
-    /// Takes the information of a title or free text on responses per photon.
     fn take_photons(&mut self, line: usize, text: &str) {
         self.per_photon = self.per_photon.or_else(|| unit_text::says_per_photon(text).then_some(line));
         self.photons = self.photons.or_else(|| unit_text::said_in_prose(text).then_some(line));
@@ -183,6 +170,7 @@ impl Header {
     }
 
     fn take_prose(&mut self, line: usize, text: &str) {
+        const ABOUT_Y: &str = "y unit|yunit|yaxisunit|unit:|units:|unit,|units,|unit=|unit =|units=|units =";
         if let Some(unit) = header_terms::x_unit_in_prose(text) {
             self.x_unit = Some((line, unit));
         }
@@ -191,21 +179,7 @@ impl Header {
         let start = text.trim_start().as_bytes();
         let begins =
             |word: &str| start.get(..word.len()).is_some_and(|start| start.eq_ignore_ascii_case(word.as_bytes()));
-        let about_y = [
-            "y unit",
-            "yunit",
-            "yaxisunit",
-            "unit:",
-            "units:",
-            "unit,",
-            "units,",
-            "unit=",
-            "unit =",
-            "units=",
-            "units =",
-        ]
-        .iter()
-        .any(|word| begins(word));
+        let about_y = ABOUT_Y.split('|').any(begins);
         // As a sign of a comment it is no unit.
         let text = text.trim_start().trim_start_matches('%');
         if about_y || is_title_with_unit(text) {
@@ -327,13 +301,11 @@ fn row_key(cell: &str) -> Option<RowKey> {
     }
 }
 
-/// Returns whether the next row above is one of names, numbers or times.
 fn is_keyed<'a>(layout: &Layout, mut rows: impl Iterator<Item = &'a (usize, &'a str)>) -> bool {
     let cells = rows.next().map(|(_, line)| split(layout.dialect(), line));
     cells.is_some_and(|cells| cells.first().is_some_and(|cell| row_key(cell).is_some()))
 }
 
-/// The row of names among rows of numbers and times.
 fn name_row<'a>(layout: &Layout, rows: impl Iterator<Item = &'a (usize, &'a str)>) -> Option<(usize, Vec<String>)> {
     let rows = rows.map(|(number, line)| (*number, split(layout.dialect(), line)));
     let mut keyed = rows.take_while(|(_, cells)| cells.first().is_some_and(|cell| row_key(cell).is_some()));
@@ -342,8 +314,7 @@ fn name_row<'a>(layout: &Layout, rows: impl Iterator<Item = &'a (usize, &'a str)
 
 /// Returns whether a comment with such a key tells what the values are, if it gives a quantity and a unit.
 fn says_values(key: &str) -> bool {
-    let names = ["data", "data type", "value", "values", "y", "signal", "spectrum", "spectra", "column", "columns"];
-    clues::MEASURED.contains(&key) || names.contains(&key)
+    is_one(key, clues::MEASURED) || is_one(key, "data|data type|value|values|y|signal|spectrum|spectra|column|columns")
 }
 
 /// A line that is a title, without separators that fill it up.
@@ -449,5 +420,68 @@ fn looks_like_unit(cell: &str) -> bool {
         && (cell.is_empty()
             || cell.starts_with(['[', '('])
             || (cell.contains(['%', '/']) && !begins_with_figure(cell))
-            || matches!(cell.to_ascii_lowercase().as_str(), "a.u." | "counts" | "1" | "-"))
+            || is_one(&cell.to_ascii_lowercase(), "a.u.|counts|1|-"))
+}
+
+const QUANTITIES: [(&str, Quantity); 13] = [
+    ("relative spectral sensitivity", Quantity::Sensitivity),
+    ("spectral sensitivity", Quantity::Sensitivity),
+    ("color matching functions", Quantity::Sensitivity),
+    ("reflectance factor", Quantity::Reflectance),
+    ("transmittance", Quantity::Transmittance),
+    ("relative spectral power", Quantity::SpectralPower),
+    ("spectral power", Quantity::SpectralPower),
+    ("spectral irradiance", Quantity::Irradiance),
+    ("spectral radiance", Quantity::Radiance),
+    ("spectral flux", Quantity::RadiantFlux),
+    ("radiant intensity", Quantity::RadiantIntensity),
+    ("counts", Quantity::Counts),
+    (UNSPECIFIED, Quantity::Unknown),
+];
+
+/// Name of the quantity of lights in a unit.
+pub(super) fn quantity_of_light(quantity: Quantity) -> &'static str {
+    let mut named = QUANTITIES.iter().filter(|(_, known)| *known == quantity && quantity != Quantity::SpectralPower);
+    named.next().map_or("spectral power", |(name, _)| name)
+}
+
+pub(super) fn head_tail(quantity: &str, per_photon: Option<bool>, unit: Option<&str>) -> String {
+    let mut tail = format!(" [{quantity}");
+    tail.push_str(per_photon.map_or("", |photon| if photon { " per photon" } else { " per energy" }));
+    if let Some(unit) = unit {
+        // Writing to a string cannot fail.
+        let _infallible = write!(tail, " in {unit}");
+    }
+    tail + "]"
+}
+
+/// Takes quantity, scale, unit and response from names that all end alike in such a bracket, and leaves the names.
+fn take_heads(header: &mut Header) {
+    let names = header.names.get(1..).unwrap_or_default();
+    let heads = names.iter().map(|name| name.strip_suffix(']')?.rsplit_once(" ["));
+    let (Some(line), Some(heads)) = (header.line, heads.collect::<Option<Vec<_>>>()) else { return };
+    let Some((_, tail)) = heads.first().copied().filter(|(_, tail)| heads.iter().all(|(_, other)| other == tail))
+    else {
+        return;
+    };
+    let (said, unit) = tail.split_once(" in ").map_or((tail, None), |(said, unit)| (said, Some(unit)));
+    let mut responses = ["per photon", "per energy"].into_iter();
+    let response = responses.find_map(|response| Some((said.strip_suffix(response)?.trim_end(), response)));
+    let name = response.map_or(said, |(name, _)| name);
+    let Some((_, quantity)) = QUANTITIES.iter().find(|(known, _)| *known == name) else { return };
+    let role = quantity.role().unwrap_or(Role::Unknown);
+    // Without a unit nothing says that fractions are no percent: such a bracket is another program's.
+    if role.is_fraction() && unit.is_none() {
+        return;
+    }
+    let bare: Vec<String> = heads.iter().map(|(bare, _)| (*bare).to_owned()).collect();
+    let (unit, response) = (unit.map(str::to_owned), response.map(|(_, response)| response));
+    if let Some(response) = response.filter(|_| header.comment("response").is_none()) {
+        header.note(line, "response", response);
+    }
+    header.values = unit.as_ref().filter(|unit| *unit == "1").map(|_| (line, Values::Plain)).or(header.values);
+    (header.role, header.quantity) = (Some((line, role)), Some((line, *quantity)));
+    header.unit = unit.filter(|unit| unit != "1").or(header.unit.take());
+    header.names.truncate(1);
+    header.names.extend(bare);
 }

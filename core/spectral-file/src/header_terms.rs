@@ -1,11 +1,7 @@
 //! Units, quantities and roles in the words of a header.
 
-mod axis;
-
-pub(super) use axis::*;
-
-use crate::role::{Quantity, Role, Values};
-use crate::text::{begins, lower, spaced, words};
+use crate::decision::{Medium, Quantity, Role, Values, WavelengthUnit};
+use crate::text::{begins, has_word, is_one, lower, slashed, spaced, words};
 use crate::unit_text::percent_sign;
 
 /// Quantity of curves that state none, in the heads of the program's own tables.
@@ -19,18 +15,14 @@ pub(super) fn names_axis(text: &str) -> bool {
     (names_wavelengths(text) || energies) && !of_values
 }
 
-/// Returns whether a header says percent.
 pub(super) fn says_percent(text: &str) -> bool {
     let text = lower(text);
-    percent_sign(&text).is_some()
-        || upper_end(&text) == Some(100)
-        || words(&text).any(|word| matches!(word, "percent" | "pct" | "percentage"))
+    percent_sign(&text).is_some() || upper_end(&text) == Some(100) || has_word(&text, "percent|pct|percentage")
 }
 
-/// Returns whether a header says that values are fractions of one.
 pub(super) fn says_fraction(text: &str) -> bool {
     let text = lower(text);
-    upper_end(&text) == Some(1) || words(&text).any(|word| matches!(word, "fraction" | "0-1" | "1"))
+    upper_end(&text) == Some(1) || has_word(&text, "fraction|0-1|1")
 }
 
 /// The upper end of the range of values that a header gives from 0: `(0-100)`, `[0, 1]`, `(range 0 to 100)`. Only what stands in
@@ -89,17 +81,14 @@ fn says_absorbance(lower: &str) -> bool {
     const OTHERS: [&str; 7] = ["radian", "power", "flux", "energ", "reflect", "transmi", "sensiti"];
     let short = || {
         let name = crate::unit_text::without_unit(lower);
-        matches!(name, "abs" | "abs." | "od" | "o.d." | "a.u. (abs)")
-            || lower.ends_with("(od)")
-            || lower.ends_with("[od]")
+        is_one(name, "abs|abs.|od|o.d.|a.u. (abs)") || lower.ends_with("(od)") || lower.ends_with("[od]")
     };
-    let abs = || words(lower).any(|word| word == "abs") && !OTHERS.iter().any(|other| lower.contains(other));
+    let abs = || has_word(lower, "abs") && !OTHERS.iter().any(|other| lower.contains(other));
     let culture = |word: &str| {
         word.strip_prefix("od").is_some_and(|nm| nm.len() == 3 && nm.bytes().all(|digit| digit.is_ascii_digit()))
     };
     begins(lower, "absorban|optical density")
-        || lower.trim() == "extinktion"
-        || matches!(lower.trim(), "a (au)" | "a [au]" | "a(au)")
+        || is_one(lower.trim(), "extinktion|a (au)|a [au]|a(au)")
         || words(lower).any(culture)
         || inverse_log(lower).is_some()
         || ((short() || abs()) && !says_percent(lower))
@@ -108,10 +97,9 @@ fn says_absorbance(lower: &str) -> bool {
 /// Scale in a header that is not converted, with its remedy.
 pub(super) fn not_converted(text: &str) -> Option<&'static str> {
     let text = lower(text);
-    let word = |wanted: &[&str]| words(&text).any(|word| wanted.contains(&word));
-    if word(&["mau", "mabs", "milliabsorbance"]) || text.contains("(mod)") || text.contains("[mod]") {
+    if has_word(&text, "mau|mabs|milliabsorbance") || text.contains("(mod)") || text.contains("[mod]") {
         Some("mAU, thousandths of absorbances, are not converted: divide them by 1000 first")
-    } else if word(&["db"]) && ["attenuation", "loss", "dämpfung"].iter().any(|part| text.contains(part)) {
+    } else if has_word(&text, "db") && ["attenuation", "loss", "dämpfung"].iter().any(|part| text.contains(part)) {
         Some("losses in dB are not converted: negate them first")
     } else {
         None
@@ -131,19 +119,18 @@ pub(super) fn mentions_absorbance(text: &str) -> bool {
 
 /// Returns whether a header names light on a scale of its own: `Relative power`, `Intensity (a.u.)`, `mW`.
 pub(super) fn names_light_scale(text: &str) -> bool {
-    const WORDS: [&str; 10] = ["power", "intensity", "emission", "energy", "luminance", "mw", "µw", "uw", "nw", "w"];
+    const WORDS: &str = "power|intensity|emission|energy|luminance|mw|µw|uw|nw|w";
     let text = lower(text);
-    text.trim() == "a.u." || words(&text).any(|word| WORDS.contains(&word) || word.starts_with("erg/"))
+    text.trim() == "a.u." || has_word(&text, WORDS) || words(&text).any(|word| word.starts_with("erg/"))
 }
 
-/// Returns whether a header ends in the word for power: `Relative power`.
 pub(super) fn is_power(text: &str) -> bool {
     words(&lower(crate::unit_text::without_unit(text))).last() == Some("power")
 }
 
 /// Returns whether a header names a response, which is neither a light nor a fraction of one.
 pub(super) fn names_response(text: &str) -> bool {
-    words(&lower(text)).any(|word| matches!(word, "response" | "responses" | "quantum"))
+    has_word(&lower(text), "response|responses|quantum")
 }
 
 /// Returns whether the unit of a header is AU, which is of absorbance or arbitrary.
@@ -152,14 +139,13 @@ pub(super) fn says_au(text: &str) -> bool {
     text.ends_with("(au)") || text.ends_with("[au]")
 }
 
-/// Scale of the values that a header gives.
 pub(super) fn values(text: &str) -> Option<Values> {
     let short = lower(text);
     if not_converted(text).is_some() {
         None
     } else if says_absorbance(&short) {
         Some(Values::Absorbance)
-    } else if words(&short).any(|word| matches!(word, "dbm" | "db")) {
+    } else if has_word(&short, "dbm|db") {
         Some(Values::Decibels)
     } else if says_percent(text) {
         Some(Values::Percent)
@@ -170,69 +156,65 @@ pub(super) fn values(text: &str) -> Option<Values> {
     }
 }
 
-/// Returns whether a header says that values are what a detector counted.
 pub(super) fn says_counts(text: &str) -> bool {
-    words(&lower(text)).any(|word| matches!(word, "count" | "counts" | "adc" | "dn"))
+    has_word(&lower(text), COUNTS)
 }
 
-/// How names of quantities begin, in English, German, French, Spanish, Italian, Portuguese, Japanese and Chinese.
-const SENSITIVITIES: &str = "sensitivit|photosensitiv|responsiv|color match|colour match|color-match|colour-match|cone fund|\
-    empfindlichkeit|sensibilit|sensibilid|感度|luminous efficien|tristimulus val|action spectr";
-const REFLECTANCES: &str =
-    "reflect|reflekt|reflexi|refletâ|réflect|réflexi|riflett|rifless|remission|r-factor|反射率|反射比";
-const TRANSMITTANCES: &str = "transmit|transmiss|trasmitt|trasmiss|t-factor|透過率|透射";
-const IRRADIANCES: &str = "irradian|irradiân|irraggiam|exitance|bestrahlungsst|éclairement énerg|放射照度";
-const RADIANCES: &str = "radianc|radianz|radiânc|strahldichte|luminance énerg|放射輝度";
+const COUNTS: &str = "count|counts|adc|dn";
 
-/// The physical quantity that a header names, in whole words.
+/// Quantities by the beginnings of their names, in English, German, French, Spanish, Italian, Portuguese, Japanese and Chinese, and
+/// by whole words. The first that is named counts.
+const QUANTITIES: [(Quantity, &str, &str); 14] = [
+    (Quantity::Unknown, "chromaticity coord", ""),
+    (Quantity::QuantumEfficiency, "quantum eff", "qe"),
+    (
+        Quantity::Sensitivity,
+        "sensitivit|photosensitiv|responsiv|color match|colour match|color-match|colour-match|cone fund|empfindlichkeit|\
+         sensibilit|sensibilid|感度|luminous efficien|tristimulus val|action spectr",
+        "",
+    ),
+    (Quantity::Absorptance, "absorptan", ""),
+    // A natural logarithm, which is not converted.
+    (Quantity::Unknown, "ln(1/|ln 1/|-ln(", ""),
+    (
+        Quantity::Reflectance,
+        "reflect|reflekt|reflexi|refletâ|réflect|réflexi|riflett|rifless|remission|r-factor|反射率|反射比",
+        "rfr|rpc|rfl",
+    ),
+    (Quantity::Transmittance, "transmit|transmiss|trasmitt|trasmiss|t-factor|透過率|透射", "tfr|tpc"),
+    (Quantity::Irradiance, "irradian|irradiân|irraggiam|exitance|bestrahlungsst|éclairement énerg|放射照度", "irrad"),
+    (Quantity::Radiance, "radianc|radianz|radiânc|strahldichte|luminance énerg|放射輝度", ""),
+    (Quantity::RadiantIntensity, "radiant intensity", ""),
+    (Quantity::RadiantFlux, "radiant flux|spectral flux", ""),
+    (Quantity::SpectralPower, "spectral power|spectral distribution", "spd|emission|emissions"),
+    (Quantity::Counts, "", COUNTS),
+    (Quantity::Relative, "", "relative"),
+];
+
 pub(super) fn quantity(text: &str) -> Option<Quantity> {
     let text = spaced(text);
-    let any = |parts: &str| begins(&text, parts);
-    let word = |wanted: &[&str]| words(&text).any(|word| wanted.contains(&word));
+    if text.trim() == UNSPECIFIED {
+        return Some(Quantity::Unknown);
+    }
     // Light that something reflects or transmits is light.
-    let passed = any("reflected|transmitted") && any("radian|irradian|spectral flux|power");
+    let passed = begins(&text, "reflected|transmitted") && begins(&text, "radian|irradian|spectral flux|power");
     let letter = percent_letter(&text).or_else(|| inverse_log(&text));
-    let found = if text.trim() == UNSPECIFIED || any("chromaticity coord") {
-        Quantity::Unknown
-    } else if any("quantum eff") || word(&["qe"]) {
-        Quantity::QuantumEfficiency
-    } else if any(SENSITIVITIES) {
-        Quantity::Sensitivity
-    } else if any("absorptan") {
-        Quantity::Absorptance
-    } else if any("ln(1/|ln 1/|-ln(") {
-        // A natural logarithm, which is not converted.
-        Quantity::Unknown
-    } else if !passed && (any(REFLECTANCES) || word(&["rfr", "rpc", "rfl"]) || letter == Some('r')) {
-        Quantity::Reflectance
-    } else if !passed && (any(TRANSMITTANCES) || word(&["tfr", "tpc"]) || letter == Some('t')) {
-        Quantity::Transmittance
-    } else if any(IRRADIANCES) || word(&["irrad"]) {
-        Quantity::Irradiance
-    } else if any(RADIANCES) {
-        Quantity::Radiance
-    } else if any("radiant intensity") {
-        Quantity::RadiantIntensity
-    } else if any("radiant flux|spectral flux") {
-        Quantity::RadiantFlux
-    } else if any("spectral power|spectral distribution") || word(&["spd", "emission", "emissions"]) {
-        Quantity::SpectralPower
-    } else if says_counts(&text) {
-        Quantity::Counts
-    } else if word(&["relative"]) {
-        Quantity::Relative
-    } else {
-        return None;
+    let is_named = |(quantity, beginnings, whole): &&(Quantity, &str, &str)| {
+        let named = begins(&text, beginnings) || has_word(&text, whole);
+        match quantity {
+            Quantity::Reflectance => !passed && (named || letter == Some('r')),
+            Quantity::Transmittance => !passed && (named || letter == Some('t')),
+            _ => named,
+        }
     };
-    Some(found)
+    QUANTITIES.iter().find(is_named).map(|(quantity, ..)| *quantity)
 }
 
-/// Role that a header gives to the values.
 pub(super) fn role(text: &str) -> Option<Role> {
     let light = || {
         let text = lower(text);
-        let word = || words(&text).any(|word| matches!(word, "lux" | "cct"));
-        begins(&text, "radianc|radiant flux|radiant power|radiant energ|irradian|illuminan|light source") || word()
+        begins(&text, "radianc|radiant flux|radiant power|radiant energ|irradian|illuminan|light source")
+            || has_word(&text, "lux|cct")
     };
     match quantity(text) {
         Some(Quantity::Counts | Quantity::Relative) | None => light().then_some(Role::Illuminant),
@@ -244,7 +226,7 @@ pub(super) fn role(text: &str) -> Option<Role> {
 /// Role that a line of prose gives to the values. `Illuminant: D65` is a condition of colors, as `Observer: 2°` is.
 pub(super) fn role_in_prose(text: &str) -> Option<Role> {
     let key = text.split([':', ',', ';', '=', '\t']).next().unwrap_or_default();
-    let condition = key.len() < text.len() && matches!(lower(key.trim()).as_str(), "illuminant" | "illuminants");
+    let condition = key.len() < text.len() && is_one(&lower(key.trim()), "illuminant|illuminants");
     // A luminance is measured of lights.
     let light = key.len() < text.len() && lower(key.trim()) == "luminance";
     if light { Some(Role::Illuminant) } else { role(text).filter(|_| !condition) }
@@ -255,14 +237,13 @@ pub(super) fn names_illuminant(name: &str) -> bool {
     let name = lower(name);
     let mut told = false;
     let mut rest = words(&name).filter(|word| {
-        let about =
-            matches!(*word, "cie" | "iso" | "standard" | "std" | "illuminant" | "ill" | "illum" | "light" | "series");
+        let about = is_one(word, "cie|iso|standard|std|illuminant|ill|illum|light|series");
         told |= about;
         !about
     });
     let (Some(first), None) = (rest.next(), rest.next()) else { return false };
     let number = |text: &str, most: u32| text.parse::<u32>().is_ok_and(|number| (1..=most).contains(&number));
-    matches!(first, "d50" | "d55" | "d60" | "d65" | "d75" | "d93" | "id50" | "id65" | "iso7589")
+    is_one(first, "d50|d55|d60|d65|d75|d93|id50|id65|iso7589")
         || first.strip_prefix("fl").is_some_and(|rest| number(rest, 12))
         || ["led-b", "led-rgb", "led-v"]
             .iter()
@@ -273,21 +254,8 @@ pub(super) fn names_illuminant(name: &str) -> bool {
 
 /// Kind of a light in a name; only good for a guess.
 pub(super) fn names_lamp(name: &str) -> bool {
-    const LAMPS: [&str; 12] = [
-        "lamp",
-        "lamps",
-        "led",
-        "leds",
-        "halogen",
-        "xenon",
-        "daylight",
-        "sunlight",
-        "skylight",
-        "tungsten",
-        "lightbulb",
-        "luminaire",
-    ];
-    words(&lower(name)).any(|word| LAMPS.contains(&word))
+    const LAMPS: &str = "lamp|lamps|led|leds|halogen|xenon|daylight|sunlight|skylight|tungsten|lightbulb|luminaire";
+    has_word(&lower(name), LAMPS)
 }
 
 /// Role of bands named by a letter: `R400`, `T_380`.
@@ -303,45 +271,24 @@ pub(super) fn role_of_bands(prefix: &str) -> Option<Role> {
 /// Returns whether a text is the word for what is measured and nothing else.
 pub(super) fn is_quantity(text: &str) -> bool {
     let word = !text.trim().contains(|c: char| !c.is_alphabetic());
-    word && (quantity(text).is_some() || matches!(lower(text).as_str(), "value" | "values" | "intensity" | "signal"))
+    word && (quantity(text).is_some() || is_one(&lower(text), "value|values|intensity|signal"))
 }
 
 /// Returns whether a column's header names what only counts its rows.
 pub(super) fn is_count(name: &str) -> bool {
     let name = lower(name);
-    let mut words = words(&name);
-    name == "#"
-        || words.next().is_some_and(|word| {
-            matches!(
-                word,
-                "pixel" | "pixels" | "px" | "index" | "no" | "nr" | "number" | "row" | "line" | "id" | "n" | "i"
-            )
-        })
+    let first = words(&name).next();
+    name == "#" || first.is_some_and(|word| is_one(word, "pixel|pixels|px|index|no|nr|number|row|line|id|n|i"))
 }
 
 /// Returns whether a column's header names what tells rows apart and nothing else: samples, channels, scans, flags.
 pub(super) fn is_label(name: &str) -> bool {
-    const LABELS: [&str; 13] = [
-        "sample_id",
-        "sample id",
-        "sampleid",
-        "id",
-        "flag",
-        "quality",
-        "channel",
-        "scan",
-        "band",
-        "n",
-        "no",
-        "no.",
-        "#",
-    ];
-    LABELS.contains(&lower(name).trim())
+    is_one(lower(name).trim(), "sample_id|sample id|sampleid|id|flag|quality|channel|scan|band|n|no|no.|#")
 }
 
 /// Returns whether the name of bands says how specular reflection was treated: included (SCI) or excluded (SCE).
 pub(super) fn says_specular(text: &str) -> bool {
-    words(&lower(text)).any(|word| matches!(word, "sci" | "sce" | "spin" | "spex"))
+    has_word(&lower(text), "sci|sce|spin|spex")
 }
 
 /// Channel of a camera, by the form of its name.
@@ -353,17 +300,162 @@ pub(super) enum Channel {
     Word(usize),
 }
 
-/// The channel (0, 1, 2) that a name stands for.
 pub(super) fn channel(name: &str) -> Option<Channel> {
     let name = lower(name);
-    let position = |word: &str, list: &[&str]| list.iter().position(|entry| *entry == word);
+    let position = |word: &str, list: &str| list.split('|').position(|entry| entry == word);
     let parts = || name.split(|c: char| !c.is_alphanumeric()).filter(|part| !part.is_empty());
-    let alone = parts().count() == 1;
-    let kind = if alone { Channel::Letter } else { Channel::Word };
+    let kind = if parts().count() == 1 { Channel::Letter } else { Channel::Word };
     parts().find_map(|part| {
-        let letters = ["r", "g", "b", "x", "y", "z", "l", "m", "s", "xbar", "ybar", "zbar", "rbar", "gbar", "bbar"];
-        let letter = position(part, &letters).map(|i| kind(i % 3));
-        let colors = ["red", "green", "blue", "rot", "grün", "blau", "rouge", "vert", "bleu"];
-        letter.or_else(|| position(part, &colors).map(|i| Channel::Word(i % 3)))
+        let letter = position(part, "r|g|b|x|y|z|l|m|s|xbar|ybar|zbar|rbar|gbar|bbar").map(|i| kind(i % 3));
+        let color = || position(part, "red|green|blue|rot|grün|blau|rouge|vert|bleu").map(|i| Channel::Word(i % 3));
+        letter.or_else(color)
     })
+}
+
+/// Quantity on the x axis, as a header may name it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum XUnit {
+    Wavelength(WavelengthUnit),
+    /// Something that is not converted, such as photon energies.
+    Other,
+}
+
+/// The first unit of length, of wave number or of frequency in a piece of text.
+pub(super) fn x_unit(text: &str) -> Option<XUnit> {
+    let text = bracketed(lower(text)).replace('⁻', "-").replace('¹', "1");
+    if let Some(unit) = bracketed_letter(&text) {
+        return Some(unit);
+    }
+    let energies = text.contains("energ") || words(&text).count() == 1;
+    let unit = words(&text).find_map(|word| match word {
+        "ev" | "kev" | "mev" if energies => Some(XUnit::Other),
+        "hz" | "ghz" | "phz" | "1/nm" | "1/m" | "m-1" => Some(XUnit::Other),
+        _ => WavelengthUnit::from_symbol(word).map(XUnit::Wavelength),
+    });
+    let wave_numbers = text.contains("wavenumber") || text.contains("wave number");
+    unit.or_else(|| wave_numbers.then_some(XUnit::Wavelength(WavelengthUnit::Wavenumber)))
+}
+
+/// Words for wavelengths and what stands for them.
+const NAMES: &str = "wavelength|wavelengths|wave|wl|lambda|λ|wavenumber|wave number|frequency|freq|ν";
+
+/// As other languages call them.
+const CALLED: [&str; 7] =
+    ["wellenl", "longueur d", "longitud de onda", "lunghezza d", "comprimento de onda", "波長", "波长"];
+
+/// Returns whether a name is that of wavelengths and nothing else.
+fn is_axis_name(name: &str) -> bool {
+    is_one(name, NAMES) || CALLED.iter().any(|start| name.starts_with(start))
+}
+
+/// A header in lower case with its unit in brackets, if it stands behind a slash: `frequency (thz)` of `frequency/thz`.
+fn bracketed(lower: String) -> String {
+    match slashed(&lower) {
+        Some((name, unit)) if is_axis_name(name) => format!("{name} ({})", unit.trim_matches(['(', ')'])),
+        _ => lower,
+    }
+}
+
+/// A unit of one letter, or a multiple of one, in brackets right after the word for wavelengths: `Wavelength (A)`, `wave(m)`,
+/// `Wavenumber (10^3 cm-1)`.
+fn bracketed_letter(lower: &str) -> Option<XUnit> {
+    let (name, rest) = lower.split_once(['(', '['])?;
+    let unit = rest[..rest.find([')', ']'])?].trim();
+    let name = name.trim_matches(|c: char| !c.is_alphanumeric());
+    if !is_axis_name(name) {
+        return None;
+    }
+    let multiple = ["10^3", "10^4", "10³", "1000", "k"].iter().any(|start| unit.starts_with(start));
+    match unit {
+        "a" => Some(XUnit::Wavelength(WavelengthUnit::Angstrom)),
+        "m" | "meter" | "meters" | "metre" | "metres" => Some(XUnit::Other),
+        _ if multiple && unit.contains("cm") => Some(XUnit::Other),
+        _ => None,
+    }
+}
+
+pub(super) fn medium(text: &str) -> Option<Medium> {
+    let text = lower(text);
+    if text.contains("nm_air") || text.contains("nm (air)") {
+        Some(Medium::Air)
+    } else if text.contains("nm_vac") || text.contains("nm (vac") {
+        Some(Medium::Vacuum)
+    } else {
+        None
+    }
+}
+
+/// The unit that a line of free text gives for wavelengths: the first unit after the word.
+pub(super) fn x_unit_in_prose(text: &str) -> Option<XUnit> {
+    let text = lower(text);
+    let start = ["wavelength", "wavenumber", "wave number", "x unit", "xunit", "x axis", "xaxis"]
+        .iter()
+        .find_map(|word| text.find(word))?;
+    x_unit(&text[start..])
+}
+
+/// A name in lower case without the argument of a function of wavelength: `S(λ)` and `V(lambda)` are values.
+fn without_argument(lower: &str) -> String {
+    const ARGUMENTS: [&str; 3] = ["(λ)", "(lambda)", "(wavelength)"];
+    let mut text = lower.to_owned();
+    for argument in ARGUMENTS {
+        if let Some(at) = text.find(argument)
+            && !text[..at].trim().is_empty()
+        {
+            text = text.replace(argument, "");
+        }
+    }
+    text
+}
+
+/// Returns whether a column's header is about wavelengths before all: it begins or ends with their name, units aside.
+pub(super) fn begins_with_wavelengths(text: &str) -> bool {
+    const NAMES: &str = "wavelength|wavelengths|wl|λ|lambda|wavenumber";
+    let text = without_argument(&lower(text));
+    let mut words = words(&text).filter(|word| WavelengthUnit::from_symbol(word).is_none());
+    let first = words.next();
+    let last = words.last().or(first);
+    first.is_some_and(|word| is_one(word, NAMES)) || last.is_some_and(|word| is_one(word, NAMES))
+}
+
+/// Returns whether a column's header names wavelengths, wave numbers or frequencies of light.
+pub(super) fn names_wavelengths(text: &str) -> bool {
+    // As their unit alone does.
+    const UNITS: [&str; 10] = ["[nm]", "(nm)", "[µm]", "(µm)", "[μm]", "(μm)", "[um]", "(um)", "[cm-1]", "(cm-1)"];
+    let text = without_argument(&bracketed(lower(text)));
+    if CALLED.iter().chain(&UNITS).any(|part| text.contains(part)) {
+        return true;
+    }
+    // As an index, such as in `E_λ`, it names no wavelengths.
+    let symbol = |symbol| {
+        text.match_indices(symbol).any(|(at, _)| !text[..at].ends_with(|c: char| c.is_alphanumeric() || c == '_'))
+    };
+    text.contains("wavelength")
+        || text.contains("wavenumber")
+        || text.contains("wave number")
+        || (text.contains("frequency") && has_word(&text, "thz"))
+        || symbol("lambda")
+        || symbol("λ")
+        || words(&text).next().is_some_and(|word| is_one(word, "wave|wl|nm|um|µm|μm|cm-1|1/cm|thz"))
+}
+
+/// Returns whether a column's header names times and nothing else, such as `Time (s)` or `Integration time [ms]`.
+pub(super) fn names_time(text: &str) -> bool {
+    const TIMES: &str = "time|timestamp|date|datetime|date/time|zeit";
+    const BESIDE: &str =
+        "s|sec|seconds|ms|us|µs|min|h|hours|utc|local|stamp|integration|exposure|acquisition|elapsed|measurement";
+    let text = lower(text);
+    has_word(&text, TIMES) && words(&text).all(|word| is_one(word, TIMES) || is_one(word, BESIDE))
+}
+
+/// Index of the column header that names the wavelengths: those in nanometers before those in other units.
+pub(super) fn axis(names: &[String]) -> Option<usize> {
+    let rank = |name: &str| match x_unit(name) {
+        Some(XUnit::Wavelength(WavelengthUnit::Nanometer)) => 0,
+        Some(XUnit::Wavelength(WavelengthUnit::Micrometer | WavelengthUnit::Angstrom)) => 1,
+        None => 2,
+        Some(_) => 3,
+    };
+    let named = names.iter().enumerate().filter(|(_, name)| names_wavelengths(name));
+    named.min_by_key(|(_, name)| rank(name)).map(|(column, _)| column)
 }

@@ -1,66 +1,23 @@
 //! Program that wrote a table, and its own words about the values.
 
+use crate::clues::{self, Program, SVC, THORLABS};
+use crate::decision::{Decided, Decision, Quantity, Role, Values};
 use crate::grid::Grid;
-use crate::report::{Decided, Decision};
-use crate::role::{Quantity, Role, Values};
 use crate::text::Lines;
 
 /// Lines that are looked at for marks.
 const LOOK: usize = 60;
 
-/// Longer lines hold no marks.
-const LONGEST: usize = 400;
-
-const THORLABS: &str = "Thorlabs (read as described, no real file was at hand)";
-
-const SVC: &str = "/*** Spectra Vista SIG Data";
-
-/// Beginnings or contents of lines, and the programs that write them.
-const MARKS: [(Mark, &str); 15] = [
-    (Mark::Start("SpectraSuite Data File"), "Ocean SpectraSuite"),
-    (Mark::Start("OOIBase32 Version"), "Ocean OOIBase32"),
-    (Mark::Start("Jaz Data File"), "Ocean Jaz"),
-    (Mark::Ends("Data from ", " Node"), "Ocean OceanView"),
-    (Mark::Start(">>>>>"), "an Ocean program"),
-    (Mark::Start("Text conversion of header file"), "ASD ViewSpec Pro"),
-    (Mark::Start("Data measured with spectrometer"), "Avantes AvaSoft"),
-    (Mark::Start("Filename-->"), "an Avantes program"),
-    (Mark::Start("ENLIGHTEN Version"), "Wasatch ENLIGHTEN"),
-    (Mark::Start("Date,Mode,IntegrationTime(ms)"), "CID SpectraVue"),
-    (Mark::Start("LambdaPValue\t"), "a UPRtek meter"),
-    (Mark::Start("#Thorlabs"), THORLABS),
-    (Mark::Start("Thorlabs"), THORLABS),
-    (Mark::Start("X Units:"), "the ECOSTRESS library"),
-    (Mark::Start(SVC), "Spectra Vista"),
-];
-
-#[derive(Debug, Clone, Copy)]
-enum Mark {
-    Start(&'static str),
-    Ends(&'static str, &'static str),
-}
-
-impl Mark {
-    fn fits(self, line: &str) -> bool {
-        match self {
-            Self::Start(start) => line.starts_with(start),
-            Self::Ends(start, end) => line.starts_with(start) && line.trim_end().ends_with(end),
-        }
-    }
-}
-
 /// Names the program that wrote a table, and takes over what only its own words say.
 pub(super) fn recognize(text: &str, grid: &mut Grid) -> Option<Decision> {
-    let lines = || Lines::new(text).take(LOOK).filter(|(_, line)| line.len() <= LONGEST);
+    let lines = || Lines::new(text).take(LOOK).filter(|(_, line)| line.len() <= clues::LONGEST);
     if let Some((line, mode)) = lines().take(4).find_map(|(line, text)| Some((line, stellarnet_mode(text)?))) {
         take_mode(line, mode, grid);
         return Some(decision("StellarNet SpectraWiz", line));
     }
-    let (line, program) = lines().find_map(|(number, line)| {
-        let mark = MARKS.iter().find(|(mark, _)| mark.fits(line));
-        mark.map(|(_, program)| (number, *program))
-    })?;
-    if program == THORLABS {
+    let (line, Program { name: program, .. }) =
+        lines().find_map(|(number, line)| Some((number, clues::program(line)?)))?;
+    if *program == THORLABS {
         grid.role
             .get_or_insert_with(|| Decided::guess(Role::Illuminant, format!("Line {line} is of an analyzer of light")));
     }
@@ -96,7 +53,6 @@ fn take_ratio(line: usize, grid: &mut Grid) {
     (grid.header.role, grid.header.unit, grid.curves[0].unit) = (None, None, None);
 }
 
-/// The name of a sample of a spectral library.
 fn library_name(line: &str) -> Option<&str> {
     line.strip_prefix("Name:").map(str::trim).filter(|name| !name.is_empty())
 }

@@ -1,9 +1,8 @@
 //! Layout of a text: separators, decimal mark, orientation, and the line where the numbers begin.
 
+use crate::decision::{Decided, DecimalMark, Delimiter, Orientation};
 use crate::dialect::Dialect;
 use crate::dialect_trial::Across;
-use crate::report::{Decided, Orientation};
-use crate::separators::{DecimalMark, Delimiter};
 use crate::warning::Warning;
 
 #[derive(Debug)]
@@ -18,7 +17,6 @@ pub(super) struct Layout {
     pub(super) texts: u128,
     /// Columns, as far as seen.
     pub(super) width: usize,
-    /// The header of wavelengths, if they run across.
     pub(super) across: Option<Across>,
     /// The column of the wavelengths, from 1, if the caller chose one.
     pub(super) wavelength_column: Option<usize>,

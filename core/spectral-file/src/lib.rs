@@ -33,8 +33,8 @@
 //!
 //! Stages of reading, in order: `text` (bytes to text), `formats` (choice of the reader), for numbers in columns `sniff`
 //! (separators, first row of numbers), `header` (names, units, comments), `columns` or `wide` (text to numbers), then
-//! `wavelengths` (unit, order, repeats), `gaps`, `no_curve`, `scale` (role, percent), `quantity`, `photons`, and in `read` the
-//! curves. A reader for another format is one file in `formats`: it fills the same `Grid`, and all after it is shared.
+//! `wavelengths` (unit, order, repeats), `gaps`, `no_curve`, `scale` (role, percent), `quantity` (photons to energies), and in `read` the
+//! curves. Another format is one file in `formats` and its line in `FORMATS`: it fills the same `Grid`, and all after it is shared.
 
 #![cfg_attr(
     not(all(feature = "encodings", feature = "json", feature = "xml")),
@@ -51,39 +51,27 @@ mod decision;
 mod dialect;
 mod dialect_trial;
 mod error;
-mod file;
 mod formats;
 mod gaps;
 mod grid;
 mod header;
 mod header_terms;
-mod heads;
 mod instrument;
 mod layout;
-mod limits;
-mod markup;
-mod near_miss;
 mod no_curve;
 mod options;
-mod photons;
-mod places;
 mod preview;
 mod quantity;
-mod raw;
 mod read;
 mod report;
-mod role;
 mod scale;
-mod separators;
 mod sniff;
-mod switch;
 mod text;
 mod thousands;
 mod unit_text;
 mod units;
 mod warning;
 mod watch;
-mod wavelength_unit;
 mod wavelengths;
 mod wide;
 pub mod write;
@@ -91,23 +79,17 @@ pub mod write;
 pub use beside::{METADATA, Source};
 pub use binary::BinaryKind;
 pub use chromascope_text::{cell, guarded, lowered, on_one_line, quoted, turns_text};
-pub use error::{NearMiss, ReadError};
-pub use file::{Curve, SpectralFile};
-pub use limits::{MAX_BYTES, MAX_CURVES, MAX_SAMPLES};
-pub use markup::Family;
-pub use options::ReadOptions;
+pub use decision::{
+    Certainty, Decided, DecimalMark, Decision, Delimiter, Dropped, Effect, Encoding, Family, Medium, Orientation, Part,
+    Quantity, Reader, Role, Values, WavelengthUnit,
+};
+pub use error::{MAX_BYTES, MAX_CURVES, MAX_SAMPLES, NearMiss, ReadError};
+pub use options::{ReadOptions, Switch};
 pub use preview::{LONGEST_LINE, LeftOut, Mark, Marker, Preview, Shown, What};
 pub use read::{read, read_marked, read_watched};
-pub use report::{
-    Certainty, Decided, Decision, Dropped, DroppedRow, Effect, Encoding, Medium, Orientation, Part, ReadReport, Reader,
-    Steps,
-};
-pub use role::{Quantity, Role, Values};
-pub use separators::{DecimalMark, Delimiter};
-pub use switch::Switch;
+pub use report::{Curve, DroppedRow, ReadReport, SpectralFile, Steps};
 pub use warning::{LineList, Sentinel, Warning};
 pub use watch::Watch;
-pub use wavelength_unit::WavelengthUnit;
 
 /// The example of the README, compiled.
 #[cfg(doctest)]

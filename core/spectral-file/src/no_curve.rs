@@ -1,6 +1,10 @@
-//! Numbers that are no curve: temperatures, times, counts of rows, and other scales of the same samples.
+//! Numbers that are no curve: temperatures, times, counts of rows, other scales of the same samples, and the counts that some
+//! instruments write beside the curve they made of them.
 
+use crate::decision::{Decided, Decision};
 use crate::grid::{Grid, RawCurve};
+use crate::options::ReadOptions;
+use crate::text::is_one;
 use crate::warning::Warning;
 use crate::watch::Log;
 use crate::{header_terms, unit_text};
@@ -9,50 +13,13 @@ use crate::{header_terms, unit_text};
 pub(super) const FEWEST_ROWS: usize = 3;
 
 /// Names of what is recorded beside spectra, without their units.
-const NAMES: [&str; 36] = [
-    "temperature",
-    "temp",
-    "temp.",
-    "t_amb",
-    "ambient temperature",
-    "detector temperature",
-    "ccd temperature",
-    "temperatur",
-    "température",
-    "temperatura",
-    "time",
-    "elapsed time",
-    "elapsed",
-    "timestamp",
-    "time stamp",
-    "date",
-    "day",
-    "hour",
-    "zeit",
-    "temps",
-    "tiempo",
-    "integration time",
-    "exposure",
-    "exposure time",
-    "humidity",
-    "relative humidity",
-    "rel. humidity",
-    "rh",
-    "pressure",
-    "air pressure",
-    "voltage",
-    "battery",
-    "battery voltage",
-    "altitude",
-    "latitude",
-    "longitude",
-];
+const NAMES: &str = "temperature|temp|temp.|t_amb|ambient temperature|detector temperature|ccd temperature|temperatur|\
+    température|temperatura|time|elapsed time|elapsed|timestamp|time stamp|date|day|hour|zeit|temps|tiempo|integration time|\
+    exposure|exposure time|humidity|relative humidity|rel. humidity|rh|pressure|air pressure|voltage|battery|battery voltage|\
+    altitude|latitude|longitude";
 
 /// Units that no spectrum has.
-const UNITS: [&str; 17] = [
-    "°c", "℃", "deg c", "degc", "°f", "℉", "° c", "celsius", "kelvin", "seconds", "ms", "hpa", "mbar", "kpa", "%rh",
-    "% rh", "rh",
-];
+const UNITS: &str = "°c|℃|deg c|degc|°f|℉|° c|celsius|kelvin|seconds|ms|hpa|mbar|kpa|%rh|% rh|rh";
 
 /// Removes curves that are no spectra, unless there are no others.
 pub(super) fn leave_out(grid: &mut Grid, log: &mut Log<'_>) {
@@ -74,19 +41,18 @@ fn is_companion(curve: &RawCurve) -> bool {
     }
     let name = unit_text::without_unit(&curve.name).trim().to_lowercase();
     let label = curve.label.to_lowercase();
-    let bracketed = UNITS.iter().any(|unit| {
+    let bracketed = UNITS.split('|').any(|unit| {
         let inside = |open: char, close: char| label.ends_with(&format!("{open}{unit}{close}"));
         inside('(', ')') || inside('[', ']')
     });
     let bare = name.split(['(', '[']).next().unwrap_or_default().trim().replace('_', " ");
-    let named = NAMES.contains(&&*bare) || NAMES.contains(&&*name);
+    let named = is_one(&bare, NAMES) || is_one(&name, NAMES);
     let counts =
         header_terms::is_count(&bare) && !bare.contains(' ') && curve.values.len() > 2 && counts(&curve.values);
     // What names a quantity of light is a spectrum, whatever stands in brackets.
     (named || bracketed || counts) && header_terms::role(&curve.label).is_none()
 }
 
-/// True for a column without numbers.
 pub(super) fn is_empty(column: &[f64]) -> bool {
     column.iter().all(|value| value.is_nan())
 }
@@ -129,4 +95,51 @@ pub(super) fn is_scale_row<'a>(leading: impl Iterator<Item = &'a str>, wavelengt
             || header_terms::is_count(name) && counts(&curve.values)
     });
     named || is_other_scale(wavelengths, &curve.values)
+}
+
+/// Removes raw columns if a processed one exists, unless they are requested.
+pub(super) fn leave_out_raw(grid: &mut Grid, options: &ReadOptions) -> Option<Decision> {
+    if options.raw == Some(true) {
+        return None;
+    }
+    let raw = raw_marks(&grid.curves)?;
+    let list = |wanted: bool| {
+        let named = grid.curves.iter().zip(&raw).filter(|(_, raw)| **raw == wanted);
+        named.map(|(curve, _)| format!("“{}”", curve.name)).collect::<Vec<_>>().join(", ")
+    };
+    let (kept, left) = (list(false), list(true));
+    let decided = Decided::or_chosen(options.raw.map(|_| kept.clone()), || {
+        Decided::certain(kept, format!("Its header calls {left} raw counts"))
+    });
+    let mut marks = raw.iter();
+    grid.curves.retain(|_| !marks.next().copied().unwrap_or(false));
+    Some(Decision::new("Columns", &decided))
+}
+
+/// Flags for the curves that are raw; `None` if none is, or all are.
+fn raw_marks(curves: &[RawCurve]) -> Option<Vec<bool>> {
+    const LETTERS: [&str; 3] = ["D", "R", "S"];
+    let letters = curves.iter().all(|curve| curve.name == "P" || LETTERS.contains(&curve.name.as_str()));
+    let jaz = letters && curves.len() >= 2 && curves.iter().any(|curve| curve.name == "P");
+    let processed = curves.iter().any(is_processed);
+    let raw = |curve: &RawCurve| {
+        let counts = curve.label.to_lowercase().contains("count");
+        if jaz { curve.name != "P" } else { processed && !is_processed(curve) && (counts || is_raw_name(&curve.name)) }
+    };
+    let marks: Vec<bool> = curves.iter().map(raw).collect();
+    (marks.contains(&true) && marks.contains(&false)).then_some(marks)
+}
+
+/// Returns whether a header describes a column computed from others.
+fn is_processed(curve: &RawCurve) -> bool {
+    let counts = curve.label.to_lowercase().contains("count");
+    let said = header_terms::role(&curve.label).is_some() || header_terms::says_percent(&curve.label);
+    !counts && (said || curve.name.eq_ignore_ascii_case("processed"))
+}
+
+fn is_raw_name(name: &str) -> bool {
+    // Spectral Evolution: `Norm. DN (Ref.)`, `Rad. (Target)`.
+    let lower = name.to_lowercase();
+    let measured = lower.starts_with("norm. dn") || lower.starts_with("rad. (");
+    measured || is_one(&name.to_ascii_lowercase(), "raw|dark|ref|reference|sample|scope")
 }

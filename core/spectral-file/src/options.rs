@@ -1,11 +1,9 @@
 //! Choices of the caller.
 
 use serde::{Deserialize, Serialize};
+use std::fmt;
 
-use crate::report::{Orientation, Reader};
-use crate::role::{Role, Values};
-use crate::separators::{DecimalMark, Delimiter};
-use crate::wavelength_unit::WavelengthUnit;
+use crate::decision::{DecimalMark, Delimiter, Orientation, Reader, Role, Values, WavelengthUnit};
 
 /// Settings that the caller fixes before reading; `None` leaves the decision to the content.
 ///
@@ -30,9 +28,64 @@ pub struct ReadOptions {
     pub part: Option<usize>,
     /// Role of the curves.
     pub role: Option<Role>,
-    /// Reader for the file; [`Reader::Table`] reads numbers in columns whatever stands around them.
+    /// Reader for the file; [`Reader::TABLE`] reads numbers in columns whatever stands around them.
     pub reader: Option<Reader>,
     /// True if raw curves (dark, reference and sample counts) and other records (temperatures, times) are included;
     /// together with a chosen wavelength column, every other column.
     pub raw: Option<bool>,
+}
+
+impl ReadOptions {
+    /// Chosen settings that can cause an error, each with the options without it.
+    pub(super) fn switches(&self) -> impl Iterator<Item = (Switch, Self)> {
+        macro_rules! each {
+            ($($field:ident: $switch:ident),+) => {
+                [$(self.$field.map(|chosen| (Switch::$switch(chosen), Self { $field: None, ..self.clone() }))),+]
+            };
+        }
+        let found = each!(
+            delimiter: Delimiter, decimal_mark: DecimalMark, orientation: Orientation, wavelength_unit: WavelengthUnit,
+            wavelength_column: WavelengthColumn, values: Values, part: Part, role: Role, reader: Reader
+        );
+        found.into_iter().flatten()
+    }
+}
+
+/// A setting that was chosen, not left to the content, and causes an error.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Switch {
+    /// Separator of cells.
+    Delimiter(Delimiter),
+    /// Decimal mark.
+    DecimalMark(DecimalMark),
+    /// Direction of the wavelengths: down a column or across a row.
+    Orientation(Orientation),
+    /// Their unit.
+    WavelengthUnit(WavelengthUnit),
+    /// Their column, from 1.
+    WavelengthColumn(usize),
+    /// Scale of the values.
+    Values(Values),
+    /// The part of the file, from 1.
+    Part(usize),
+    /// Role of the curves.
+    Role(Role),
+    /// The reader.
+    Reader(Reader),
+}
+
+impl fmt::Display for Switch {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Delimiter(delimiter) => delimiter.fmt(f),
+            Self::DecimalMark(mark) => mark.fmt(f),
+            Self::Orientation(orientation) => orientation.fmt(f),
+            Self::WavelengthUnit(unit) => unit.fmt(f),
+            Self::WavelengthColumn(column) => write!(f, "wavelengths in column {column}"),
+            Self::Values(values) => write!(f, "values are {values}"),
+            Self::Part(part) => write!(f, "part {part}"),
+            Self::Role(role) => role.fmt(f),
+            Self::Reader(reader) => write!(f, "read as {reader}"),
+        }
+    }
 }

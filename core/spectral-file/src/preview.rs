@@ -18,25 +18,20 @@
 //! # Ok::<(), spectral_file::ReadError>(())
 //! ```
 
-mod across;
 mod cells;
-mod down;
-mod fault;
 mod mark;
 mod marker;
-mod shown;
+mod tables;
 
-pub use mark::{LeftOut, Mark, What};
+pub use mark::{LeftOut, Mark, Shown, What};
 pub use marker::Marker;
-pub use shown::Shown;
 
 use std::ops::Range;
 
+use crate::decision::Encoding;
 use crate::error::ReadError;
-use crate::file::SpectralFile;
-use crate::report::Encoding;
-use crate::text;
-use crate::text::Lines;
+use crate::report::SpectralFile;
+use crate::text::{self, Lines};
 
 /// The most characters that [`Preview::longest`] counts of a line.
 pub const LONGEST_LINE: usize = 1_000_000;
@@ -47,7 +42,6 @@ pub const LONGEST_LINE: usize = 1_000_000;
 #[derive(Debug, Clone)]
 pub struct Preview {
     text: String,
-    /// The byte at which each line begins.
     starts: Vec<u32>,
     longest: usize,
     encoding: Encoding,
@@ -127,10 +121,9 @@ impl Preview {
     /// `None` where the error is about the file as a whole.
     pub fn error_range(&self, error: &ReadError) -> Option<(usize, Range<usize>)> {
         let number = error.line()?;
-        Some((number, fault::range(self.line(number)?, error)))
+        Some((number, cells::of_error(self.line(number)?, error)))
     }
 
-    /// The byte of the text at which a line begins.
     fn start(&self, number: usize) -> Option<usize> {
         self.starts.get(number.checked_sub(1)?).map(|start| *start as usize)
     }

@@ -1,20 +1,16 @@
 //! Reading of a file, from its bytes to its curves.
 
-use crate::beside::Source;
-use crate::error::ReadError;
-use crate::file::SpectralFile;
-use crate::formats::found::Found;
+use crate::beside::{self, Source};
+use crate::decision::{Certainty, Decided, Decision, Encoding, WavelengthUnit};
+use crate::error::{MAX_DROPPED, ReadError};
+use crate::formats::spectra::Found;
 use crate::grid::Grid;
-use crate::limits::MAX_DROPPED;
 use crate::options::ReadOptions;
-use crate::places::Places;
 use crate::preview::Marker;
-use crate::report::{Certainty, Decided, Decision, Encoding, ReadReport, Steps};
-use crate::switch::Switch;
+use crate::report::{ReadReport, SpectralFile, Steps};
 use crate::warning::Warning;
-use crate::watch::{Log, Watch};
-use crate::wavelength_unit::WavelengthUnit;
-use crate::{beside, formats, gaps, no_curve, photons, quantity, scale, text, wavelengths};
+use crate::watch::{Log, Places, Watch};
+use crate::{formats, gaps, no_curve, quantity, scale, text, wavelengths};
 
 /// Files up to this size are read again to find what an error is due to.
 const LONGEST: usize = 1 << 20;
@@ -34,7 +30,7 @@ pub(super) fn blame(source: Source<'_>, options: &ReadOptions, error: ReadError,
     if own || source.bytes.len() > LONGEST {
         return error;
     }
-    for (switch, without) in switches(options) {
+    for (switch, without) in options.switches() {
         match read_once(source, &without, watch) {
             Ok(_) => return ReadError::AsChosen { switch, error: Box::new(error) },
             Err(ReadError::Stopped) => return ReadError::Stopped,
@@ -42,29 +38,6 @@ pub(super) fn blame(source: Source<'_>, options: &ReadOptions, error: ReadError,
         }
     }
     error
-}
-
-/// Chosen settings, each with the options without it.
-fn switches(options: &ReadOptions) -> Vec<(Switch, ReadOptions)> {
-    let all = options;
-    let without = |change: fn(&mut ReadOptions)| {
-        let mut less = all.clone();
-        change(&mut less);
-        less
-    };
-    let found = [
-        all.delimiter.map(|chosen| (Switch::Delimiter(chosen), without(|less| less.delimiter = None))),
-        all.decimal_mark.map(|chosen| (Switch::DecimalMark(chosen), without(|less| less.decimal_mark = None))),
-        all.orientation.map(|chosen| (Switch::Orientation(chosen), without(|less| less.orientation = None))),
-        all.wavelength_unit.map(|chosen| (Switch::WavelengthUnit(chosen), without(|less| less.wavelength_unit = None))),
-        all.wavelength_column
-            .map(|chosen| (Switch::WavelengthColumn(chosen), without(|less| less.wavelength_column = None))),
-        all.values.map(|chosen| (Switch::Values(chosen), without(|less| less.values = None))),
-        all.part.map(|chosen| (Switch::Part(chosen), without(|less| less.part = None))),
-        all.role.map(|chosen| (Switch::Role(chosen), without(|less| less.role = None))),
-        all.reader.map(|chosen| (Switch::Reader(chosen), without(|less| less.reader = None))),
-    ];
-    found.into_iter().flatten().collect()
 }
 
 /// Reads the bytes of a file as spectral curves. What stands beside them is looked at where they do not say what the curves are.
@@ -161,7 +134,7 @@ fn finish(
     wavelengths::warn(&grid, step_nm, &mut warnings);
     warnings.look(usize::MAX)?;
     gaps::take(&mut grid, &mut warnings);
-    photons::suggest_role(&mut grid);
+    quantity::suggest_role(&mut grid);
     if options.raw != Some(true) {
         no_curve::leave_out(&mut grid, &mut warnings);
     }
@@ -169,7 +142,7 @@ fn finish(
     let quantity = quantity::decide(&grid, &scale.role, &mut warnings);
     let per_photon = quantity::per_photon(&grid, scale.role.value, &quantity);
     scale::convert(&mut grid, &scale);
-    notes.extend(photons::to_energy(&mut grid, scale.role.value, &wavelength_unit, options));
+    notes.extend(quantity::to_energy(&mut grid, scale.role.value, &wavelength_unit, options));
     scale::warn(&scale, &grid, &mut warnings);
     let marker = |places| Marker::new(places, &grid, &layout, reader.value, wavelength_unit.value);
     let mut marker = warnings.places.take().map(marker);

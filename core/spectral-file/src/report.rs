@@ -1,173 +1,72 @@
-//! Provenance: what was decided on reading a file, how sure it is, and why.
-
-use serde::{Deserialize, Serialize};
-use std::fmt;
+//! Result of reading: curves, and the report of what was decided on the way, how sure it is, and why.
 
 use crate::decimal::clean;
-pub use crate::decision::{Certainty, Decided, Decision, Effect};
-use crate::role::{Quantity, Role, Values};
-use crate::separators::{DecimalMark, Delimiter};
-use crate::wavelength_unit::WavelengthUnit;
+use crate::decision::{
+    Certainty, Decided, DecimalMark, Decision, Delimiter, Dropped, Effect, Encoding, Orientation, Part, Quantity,
+    Reader, Role, Values, WavelengthUnit,
+};
+use crate::error::ReadError;
+use crate::warning::Warning;
 
-/// The encoding of the bytes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Encoding {
-    /// UTF-8, of which ASCII is a part.
-    Utf8,
-    /// UTF-16, low byte first.
-    Utf16Le,
-    /// UTF-16, high byte first.
-    Utf16Be,
-    /// Windows-1252, which holds Latin-1: taken for all that is none of the others.
-    Windows1252,
-    /// Shift-JIS, as Windows writes it.
-    ShiftJis,
-}
-
-impl fmt::Display for Encoding {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Utf8 => "UTF-8",
-            Self::Utf16Le => "UTF-16 LE",
-            Self::Utf16Be => "UTF-16 BE",
-            Self::Windows1252 => "Windows-1252",
-            Self::ShiftJis => "Shift-JIS",
-        })
-    }
-}
-
-/// Direction of the wavelengths: down a column or across a row.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Orientation {
-    /// Down a column; every other column is a curve.
-    Down,
-    /// Across a header row; every row is a curve.
-    Across,
-}
-
-impl fmt::Display for Orientation {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Down => "wavelengths down a column",
-            Self::Across => "wavelengths across a row",
-        })
-    }
-}
-
-/// Reader of a file format.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-#[non_exhaustive]
-pub enum Reader {
-    /// The general reader of numbers in rows and columns.
-    Table,
-    /// CGATS and its relatives, as Argyll and X-Rite write them.
-    Cgats,
-    /// JCAMP-DX.
-    Jcamp,
-    /// XML of IES TM-27 (`.spdx`).
-    Tm27,
-    /// XML of `CxF3`.
-    Cxf,
-    /// JSON of rawtoaces.
-    Rawtoaces,
-    /// JSON of dcamprof, with or without comments.
-    Dcamprof,
-    /// JSON of Wasatch ENLIGHTEN.
-    Enlighten,
-    /// One sample a line, its wavelength at the end of a label, as Sekonic meters write.
-    Labels,
-    /// Wavelengths and values on alternate lines, as Macam writes.
-    Alternate,
-    /// Cameras by name, each with three lines of 33 values.
-    Camspec,
-}
-
-impl Reader {
-    /// All readers.
-    pub const ALL: [Self; 11] = [
-        Self::Table,
-        Self::Cgats,
-        Self::Jcamp,
-        Self::Tm27,
-        Self::Cxf,
-        Self::Rawtoaces,
-        Self::Dcamprof,
-        Self::Enlighten,
-        Self::Labels,
-        Self::Alternate,
-        Self::Camspec,
-    ];
-}
-
-impl fmt::Display for Reader {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Table => "table of numbers",
-            Self::Cgats => "CGATS",
-            Self::Jcamp => "JCAMP-DX",
-            Self::Tm27 => "IES TM-27",
-            Self::Cxf => "CxF",
-            Self::Rawtoaces => "rawtoaces JSON",
-            Self::Dcamprof => "dcamprof JSON",
-            Self::Enlighten => "Wasatch ENLIGHTEN JSON",
-            Self::Labels => "one labeled sample a line",
-            Self::Camspec => "database of cameras, untested on a real file",
-            Self::Alternate => "wavelengths and values on alternate lines",
-        })
-    }
-}
-
-/// In what the wavelengths of a file are measured. They are taken as they are: the difference is 0.03 %.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Medium {
-    /// Air.
-    Air,
-    /// Vacuum.
-    Vacuum,
-}
-
-impl fmt::Display for Medium {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Air => "wavelengths in air, taken as they are",
-            Self::Vacuum => "wavelengths in vacuum, taken as they are",
-        })
-    }
-}
-
-/// One of several tables, blocks or groups in a file.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Part {
-    /// The line where its numbers begin, from 1.
-    pub line: usize,
-    /// Its name in the file, or an empty text.
+/// One curve: values over wavelength, in the order of wavelength.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Curve {
+    /// The name from the header, the title of the file, or `Column 2` and `Row 1`.
     pub name: String,
-    /// Curves in it.
-    pub curves: usize,
-    /// Rows of numbers in it (samples, where wavelengths run down).
-    pub rows: usize,
+    /// True if the name is from the file; where it is not, the name of the file may say more.
+    pub named: bool,
+    /// Wavelengths in nanometers: finite, strictly ascending, at least two.
+    pub wavelengths_nm: Vec<f64>,
+    /// Values, one for each wavelength: finite; percent are already divided by 100.
+    pub values: Vec<f64>,
+    /// Number of wavelengths of the table without a value in this curve. They are omitted, not filled.
+    pub missing: usize,
+    /// The unit of the values as the file names it, such as `W/m²/nm` or `counts`.
+    pub unit: Option<String>,
 }
 
-/// Reason that a row is in no curve.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Dropped {
-    /// It has values but no wavelength.
-    NoWavelength,
-    /// It repeats an earlier row exactly.
-    Repeated,
-    /// Another row has other values at its wavelength: their mean was taken.
-    Averaged,
+/// Curves of a file, with the report of how it was read.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SpectralFile {
+    /// The curves, in the order of the file; at least one.
+    pub curves: Vec<Curve>,
+    /// Role of the curves.
+    pub role: Decided<Role>,
+    /// Decisions made while reading.
+    pub reading: ReadReport,
+    /// Doubts to check before the curves are trusted.
+    pub warnings: Vec<Warning>,
 }
 
-impl fmt::Display for Dropped {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::NoWavelength => "no wavelength",
-            Self::Repeated => "the same as an earlier row",
-            Self::Averaged => "merged with rows of the same wavelength, of which the mean was taken",
-        })
+impl SpectralFile {
+    /// This file, unless it holds values that no quantity of its role has: fractions of light far from 0 to 1, and numbers beyond any
+    /// unit. A scale that is open, or that was chosen to be as written, is not judged.
+    ///
+    /// # Errors
+    /// [`ReadError::ImpossibleValues`], with the first of them.
+    pub fn usable(self) -> Result<Self, ReadError> {
+        const NOISE: f64 = 0.05;
+        let values = &self.reading.values;
+        let asked = values.certainty == Certainty::Open || self.role.certainty == Certainty::Open;
+        if asked || (values.certainty, values.value) == (Certainty::Chosen, Values::Plain) {
+            return Ok(self);
+        }
+        let impossible = self.warnings.iter().find(|warning| match warning {
+            Warning::NotReflectances { .. } => true,
+            Warning::BelowZero { min, .. } => self.role.value.is_fraction() && *min < -NOISE,
+            _ => false,
+        });
+        match impossible {
+            Some(warning) => Err(ReadError::ImpossibleValues { line: warning.line(), what: warning.to_string() }),
+            None => Ok(self),
+        }
+    }
+
+    /// Every decision made on reading, the role first, ready to be listed for the user.
+    pub fn decisions(&self) -> Vec<Decision> {
+        let mut all = vec![Decision::new("Role", &self.role)];
+        all.extend(self.reading.decisions());
+        all
     }
 }
 
@@ -258,11 +157,11 @@ impl ReadReport {
     /// Every decision, in the order in which they were made.
     pub fn decisions(&self) -> Vec<Decision> {
         let mut all = Vec::new();
-        if self.reader.value != Reader::Table || self.reader.certainty == Certainty::Chosen {
+        if self.reader.value != Reader::TABLE || self.reader.certainty == Certainty::Chosen {
             all.push(Decision::new("Layout", &self.reader));
         }
         // The form of JCAMP-DX, among the notes, stands for both: its data are no columns.
-        let columns = self.reader.value != Reader::Jcamp;
+        let columns = self.reader.value != Reader::JCAMP;
         all.push(Decision::new("Encoding", &self.decided_encoding()));
         all.extend(columns.then(|| Decision::new("Separator", &self.delimiter).affecting(Effect::Data)));
         all.push(Decision::new("Decimal mark", &self.decimal_mark));

@@ -1,35 +1,153 @@
 //! Role of the curves and scale of their values.
 //!
 //! `role` decides the role of the curves: as stated in the file, else as suggested by its settings, else by the numbers. `values`
-//! decides for each curve the meaning of its numbers, by the header, else by its own `evidence`. `convert` converts them to plain
-//! numbers, and `check` warns of invalid ones. If nothing decides between scales that differ by a factor, the decision is
+//! decides for each curve the meaning of its numbers, by the header, else by its own numbers. [`convert`] makes plain numbers of
+//! them, and [`warn`] warns of invalid ones. If nothing decides between scales that differ by a factor, the decision is
 //! [`Certainty::Open`] and the numbers stay as written.
 
-mod camera;
-mod check;
-mod convert;
-mod decision;
-mod evidence;
 mod role;
 mod values;
 
-pub(super) use camera::camera_columns;
-pub(super) use check::warn;
-pub(super) use convert::convert;
+pub(super) use role::camera_columns;
 
-use crate::grid::Grid;
+use crate::decision::{Certainty, Decided, Role, Values};
+use crate::grid::{Grid, RawCurve};
 use crate::options::ReadOptions;
-use crate::report::Decided;
-use crate::scale::decision::Scale;
+use crate::scale::values::VISIBLE_NM;
+use crate::warning::Warning;
 use crate::watch::Log;
+use crate::{decimal, header_terms, unit_text};
 
 /// Decides what the curves are and what the values of each stand for.
 pub(super) fn decide(grid: &Grid, options: &ReadOptions, log: &mut Log<'_>) -> Scale {
-    let evidence = evidence::Evidence::of(grid);
+    let evidence = values::Evidence::of(grid);
     let said = role::said(grid, options.values.filter(|_| options.role.is_none()));
     let from_file = said.is_some();
     let content = said.unwrap_or_else(|| role::suggested(grid, &evidence));
     let role = Decided::or_chosen(options.role, || content.clone());
     let (values, columns) = values::decide(grid, options, &role, from_file, &evidence, log);
     Scale { role, content, values, columns }
+}
+
+#[derive(Debug)]
+pub(super) struct Scale {
+    pub(super) role: Decided<Role>,
+    /// The role by content and surroundings, where another was chosen.
+    pub(super) content: Decided<Role>,
+    pub(super) values: Decided<Values>,
+    columns: Vec<Values>,
+}
+
+impl Scale {
+    /// Returns whether values above a thousand are out of question: percent, and fractions of light.
+    pub(super) fn denies_thousands(&self) -> bool {
+        let sure = |certainty| matches!(certainty, Certainty::Certain | Certainty::Chosen);
+        (self.values.value == Values::Percent && sure(self.values.certainty))
+            || (self.role.value.is_fraction() && sure(self.role.certainty))
+    }
+}
+
+pub(super) fn convert(grid: &mut Grid, scale: &Scale) {
+    let plain_by_choice = scale.values.certainty == Certainty::Chosen && scale.values.value == Values::Plain;
+    for (curve, &values) in grid.curves.iter_mut().zip(&scale.columns) {
+        if values == Values::Plain {
+            let denied = |unit: &String| header_terms::values(unit).is_some_and(|said| said != Values::Plain);
+            curve.unit = curve.unit.take().filter(|unit| !(plain_by_choice && denied(unit)));
+            continue;
+        }
+        relabel(curve, values, scale.role.value);
+        let plain = |value: f64| match values {
+            Values::Plain => value,
+            Values::Percent => decimal::shifted(value, -2),
+            Values::Absorbance => 10_f64.powf(-value),
+            Values::Decibels => 10_f64.powf(value / 10.0),
+        };
+        // A value outside the range of doubles is a gap.
+        let finite = |value: f64| if value.is_finite() { value } else { f64::NAN };
+        curve.values.iter_mut().for_each(|value| *value = finite(plain(*value)));
+    }
+}
+
+/// Gives a curve the unit that its converted values have, and a name that does not say what they were.
+fn relabel(curve: &mut RawCurve, values: Values, role: Role) {
+    let fraction = if role == Role::Reflectance { "Reflectance" } else { "Transmittance" };
+    let renamed = match values {
+        // Percent are so common that written files omit the conversion, but the user sees it.
+        Values::Plain | Values::Percent => return,
+        Values::Absorbance => {
+            curve.unit = Some("1".to_owned());
+            let name =
+                replaced(&curve.name, |word| (word == "abs" || word.starts_with("absorban")).then_some(fraction));
+            name.trim_end_matches('.').to_owned()
+        }
+        Values::Decibels => {
+            // Decibels are powers above a milliwatt, or ratios.
+            let word = |ratio| {
+                move |word: &str| match word {
+                    "dbm" => Some("mW"),
+                    "db" => Some(ratio),
+                    _ => None,
+                }
+            };
+            let milliwatts = || curve.label.to_lowercase().contains("dbm").then_some("dBm");
+            curve.unit = curve.unit.as_deref().or_else(milliwatts).map(|unit| replaced(unit, word("1")));
+            replaced(&curve.name, word(""))
+        }
+    };
+    let misleads = renamed.is_empty() || header_terms::values(&renamed).is_some_and(|said| said != Values::Plain);
+    let whole = if role.is_fraction() { fraction } else { "Power" };
+    curve.name = if misleads { whole.to_owned() } else { renamed };
+}
+
+/// A text with some of its words, given in lower case, replaced, and without what blanks and brackets that leaves.
+fn replaced<'a>(text: &str, by: impl Fn(&str) -> Option<&'a str>) -> String {
+    let mut out = String::with_capacity(text.len());
+    for piece in text.split_inclusive(|c: char| !c.is_alphanumeric()) {
+        let word = piece.trim_end_matches(|c: char| !c.is_alphanumeric());
+        out.push_str(by(&word.to_lowercase()).unwrap_or(word));
+        out.push_str(&piece[word.len()..]);
+    }
+    unit_text::tidy(&out)
+}
+
+/// Warns of reflectances that cannot be, and of values further below zero than noise, also of lights.
+pub(super) fn warn(scale: &Scale, grid: &Grid, log: &mut Log<'_>) {
+    const LARGEST_FRACTION: f64 = 2.0;
+    // Photons on a square meter in a second and a nanometer stay below 1e22.
+    const LARGEST: f64 = 1e30;
+    const NOISE: f64 = 0.05;
+    let role = scale.role.value;
+    let light = role == Role::Illuminant;
+    if !role.is_fraction() && role != Role::Camera && !light {
+        return;
+    }
+    // Outside, instruments are noisy.
+    let all = !light && !grid.wavelengths.iter().any(|w| VISIBLE_NM.contains(w));
+    let (mut bright, mut below) = (0, 0);
+    let (mut first_bright, mut first_below) = (None, None);
+    for curve in &grid.curves {
+        let mut lowest = (f64::INFINITY, 0);
+        let mut max = f64::NEG_INFINITY;
+        for (at, (w, &value)) in grid.wavelengths.iter().zip(&curve.values).enumerate() {
+            if (all || VISIBLE_NM.contains(w)) && !value.is_nan() {
+                max = max.max(value);
+                lowest = if value < lowest.0 { (value, at) } else { lowest };
+            }
+        }
+        if (role.is_fraction() && max > LARGEST_FRACTION && !all) || max > LARGEST {
+            bright += 1;
+            first_bright.get_or_insert((curve, max));
+        }
+        if lowest.0 < -NOISE * max.max(0.0) && lowest.0 < 0.0 {
+            below += 1;
+            first_below.get_or_insert((curve, lowest));
+        }
+    }
+    if let Some((curve, max)) = first_bright {
+        log.push(Warning::NotReflectances { count: bright, first: curve.description(), max });
+    }
+    if let Some((curve, (min, at))) = first_below {
+        let line = (grid.lines.len() == grid.wavelengths.len()).then(|| grid.line(at));
+        log.push(Warning::BelowZero { count: below, first: curve.description(), min, line });
+    }
 }

@@ -1,17 +1,16 @@
 //! Decides how a text is laid out: separators, decimal mark, orientation, and the line where the numbers begin.
 
+use crate::decision::{Decided, DecimalMark, Delimiter, Orientation};
 use crate::dialect::{Cell, Dialect};
 use crate::dialect_trial::{Shape, Trial};
-use crate::error::ReadError;
-pub(super) use crate::layout::Layout;
+use crate::error::{NearMiss, ReadError};
+use crate::layout::Layout;
 use crate::options::ReadOptions;
-use crate::report::{Decided, Orientation};
-use crate::separators::{DecimalMark, Delimiter};
-use crate::text::{Lines, Section, comment};
+use crate::text::{Lines, Section, comment, excerpt};
+use crate::units::plausible;
 use crate::warning::Warning;
 use crate::watch::Log;
-use crate::wavelength_unit::plausible;
-use crate::{bands, near_miss, thousands};
+use crate::{bands, thousands};
 
 /// Lines that are tried before deciding, if enough of them are rows of numbers.
 const SAMPLE_LINES: usize = 200;
@@ -72,16 +71,14 @@ pub(super) fn sniff(
     }
     let Some(best) = best else {
         let single = trials.iter().find(|trial| trial.single >= 2);
-        return Err(
-            single.map_or_else(|| near_miss::error(section, options), |trial| ReadError::OneColumn(trial.single_line))
-        );
+        return Err(single.map_or_else(|| near_miss(section, options), |trial| ReadError::OneColumn(trial.single_line)));
     };
     let orientation = Decided::or_chosen(options.orientation, || orientation(best));
     if orientation.value == Orientation::Across {
         return lay_across(section, options, best, orientation);
     }
     if best.best.rows == 0 {
-        return Err(near_miss::error(section, options));
+        return Err(near_miss(section, options));
     }
     lay_down(section, options, best, orientation)
 }
@@ -144,7 +141,6 @@ fn try_all(
     Ok(trials)
 }
 
-/// The lines that are neither blank nor comments.
 fn content(section: Section<'_>) -> impl Iterator<Item = (usize, &str)> {
     Lines::of(section).filter(|(_, line)| !line.trim_ascii().is_empty() && comment(line).is_none())
 }
@@ -373,4 +369,81 @@ fn is_spoiled(trial: &Trial, shape: &Shape, line: &str) -> bool {
     };
     let whole = shape.leads && shape.text && shape.cells == run.cells;
     whole && before && plausible(run.first, run.last, run.first.fract() != 0.0) && dialect.cells(line).all(begun)
+}
+
+/// Bytes of a text that are searched.
+const LOOK_NEAR: usize = 1 << 18;
+
+/// A line of more bytes is not looked at as a whole.
+const LONGEST: usize = 4000;
+
+/// Ways in which a line may split.
+const SPLITS: [(Delimiter, DecimalMark); 7] = [
+    (Delimiter::Semicolon, DecimalMark::Point),
+    (Delimiter::Tab, DecimalMark::Point),
+    (Delimiter::Semicolon, DecimalMark::Comma),
+    (Delimiter::Tab, DecimalMark::Comma),
+    (Delimiter::Comma, DecimalMark::Point),
+    (Delimiter::Spaces, DecimalMark::Point),
+    (Delimiter::Spaces, DecimalMark::Comma),
+];
+
+/// The error for a text without rows: about the first line that nearly is one.
+fn near_miss(section: Section<'_>, options: &ReadOptions) -> ReadError {
+    let mut read = 0;
+    for (line, text) in Lines::of(section) {
+        read += text.len() + 1;
+        if read > LOOK_NEAR {
+            break;
+        }
+        if comment(text).is_some() {
+            continue;
+        }
+        let start = &text[..text.floor_char_boundary(LONGEST)];
+        if let Some(why) = nearly(start.trim(), options) {
+            return ReadError::NearlyRow { line, text: excerpt(text.trim()), why };
+        }
+    }
+    ReadError::NoNumbers
+}
+
+/// Prose that begins with a number has more words behind it than a row has texts.
+const MOST_CELLS: usize = 3;
+
+fn nearly(line: &str, options: &ReadOptions) -> Option<NearMiss> {
+    let chosen = options.delimiter.is_some() || options.decimal_mark.is_some();
+    let shapes = SPLITS.map(|(delimiter, mark)| {
+        let dialect = Dialect::new(delimiter, mark);
+        let cells = dialect.cells(line).filter(|cell| !cell.is_empty());
+        let is_number = |cell: &str| matches!(dialect.parse(cell), Cell::Number(_));
+        let (mut count, mut numbers, mut leads) = (0, 0, false);
+        for cell in cells {
+            leads |= count == 0 && (is_number(cell) || dialect.parse_label(cell).is_some());
+            numbers += usize::from(is_number(cell));
+            count += 1;
+        }
+        (count, numbers, leads)
+    });
+    if shapes.iter().any(|(count, numbers, _)| *count > 1 && count == numbers) {
+        return chosen.then_some(NearMiss::Separators);
+    }
+    if let Some(between) = between(line) {
+        return Some(NearMiss::Between(between));
+    }
+    if shapes.iter().any(|(count, numbers, leads)| *leads && *numbers <= 1 && (2..=MOST_CELLS).contains(count)) {
+        return Some(NearMiss::TextAfter);
+    }
+    shapes.iter().any(|(count, numbers, _)| *numbers >= 2 && *count > *numbers).then_some(NearMiss::Order)
+}
+
+/// The sign between two numbers that fill a line.
+fn between(line: &str) -> Option<char> {
+    let in_number = |c: char| c.is_ascii_digit() || matches!(c, '.' | ',' | '-' | '+');
+    let end = line.find(|c: char| !in_number(c))?;
+    let rest = line[end..].trim_start();
+    let sign = rest.chars().next().filter(|c| !c.is_alphanumeric() && !matches!(c, ';' | '"' | '\''))?;
+    let second = rest[sign.len_utf8()..].trim();
+    let second = second.split(sign).next()?.trim();
+    let plain = |text: &str| text.replace(',', ".").parse::<f64>().is_ok_and(f64::is_finite);
+    (plain(&line[..end]) && plain(second)).then_some(sign)
 }

@@ -5,9 +5,8 @@ use encoding_rs::{SHIFT_JIS, UTF_16BE, UTF_16LE, WINDOWS_1252};
 use std::borrow::Cow;
 
 use crate::binary::binary;
-use crate::error::ReadError;
-use crate::limits::MAX_BYTES;
-use crate::report::Encoding;
+use crate::decision::Encoding;
+use crate::error::{MAX_BYTES, ReadError};
 
 /// The text of a file and the encoding it was in. NUL padding, which some instruments write, is removed.
 pub(super) fn decode(bytes: &[u8]) -> Result<(Cow<'_, str>, Encoding), ReadError> {
@@ -28,7 +27,6 @@ pub(super) fn decode(bytes: &[u8]) -> Result<(Cow<'_, str>, Encoding), ReadError
     Ok((text, encoding))
 }
 
-/// Decodes UTF-8 alone.
 #[cfg(not(feature = "encodings"))]
 fn decode_utf8(bytes: &[u8]) -> Result<(Cow<'_, str>, Encoding), ReadError> {
     let rest = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
@@ -108,9 +106,7 @@ fn bare_utf16(bytes: &[u8]) -> Option<Encoding> {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Section<'a> {
     pub(super) text: &'a str,
-    /// The number of its first line.
     pub(super) line: usize,
-    /// The byte where it begins.
     pub(super) byte: usize,
 }
 
@@ -119,7 +115,6 @@ impl<'a> Section<'a> {
         Self { text, line: 1, byte: 0 }
     }
 
-    /// Rest of the section from a line on.
     pub(super) fn after(self, line: usize) -> Self {
         let mut lines = Lines::of(self);
         for _ in self.line..line {
@@ -193,7 +188,23 @@ pub(super) fn words(lower: &str) -> impl Iterator<Item = &str> {
 /// in `remission`.
 pub(super) fn begins(lower: &str, parts: &str) -> bool {
     let is_start = |at: usize| !lower[..at].ends_with(|c: char| c.is_ascii_alphabetic());
-    parts.split('|').any(|part| lower.match_indices(part).any(|(at, _)| is_start(at)))
+    let mut parts = parts.split('|').filter(|part| !part.is_empty());
+    parts.any(|part| lower.match_indices(part).any(|(at, _)| is_start(at)))
+}
+
+/// Returns whether a word is one of those between bars.
+pub(super) fn is_one(word: &str, list: &str) -> bool {
+    list.split('|').any(|listed| listed == word)
+}
+
+/// Returns whether a text in lower case has one of the parts between bars in it.
+pub(super) fn has_part(lower: &str, list: &str) -> bool {
+    list.split('|').any(|part| lower.contains(part))
+}
+
+/// Returns whether a text in lower case has one of the words between bars.
+pub(super) fn has_word(lower: &str, list: &str) -> bool {
+    words(lower).any(|word| is_one(word, list))
 }
 
 /// A header with blanks between the words of names such as `LeafReflectance`, in lower case.

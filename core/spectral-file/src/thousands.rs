@@ -1,9 +1,8 @@
 //! Detection of marks that group thousands: `1,000` beside `980`.
 
+use crate::decision::{DecimalMark, Delimiter, Orientation};
 use crate::dialect::{Dialect, may_be_thousands};
-use crate::limits::MAX_CURVES;
-use crate::report::Orientation;
-use crate::separators::{DecimalMark, Delimiter};
+use crate::error::MAX_CURVES;
 use crate::text::{Lines, Section, comment};
 
 /// Returns whether a mark groups thousands in the rows from a line on: each number that has it could be a whole one, and the

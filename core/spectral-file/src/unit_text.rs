@@ -1,6 +1,6 @@
 //! Units, and mentions of photons, in the words of a header.
 
-use crate::text::slashed;
+use crate::text::{has_part, is_one, slashed};
 use crate::{header_terms, units};
 
 /// The unit in a piece of a header, if it holds one: in brackets, or alone.
@@ -57,7 +57,6 @@ pub(super) fn without_unit(name: &str) -> &str {
         .unwrap_or(name)
 }
 
-/// Content of the last pair of brackets, which may hold others.
 fn last_bracket(text: &str, open: char, close: char) -> Option<&str> {
     let end = text.rfind(close)?;
     let mut depth = 1;
@@ -88,22 +87,19 @@ fn is_unit(text: &str) -> bool {
         return false;
     }
     let lower = text.to_lowercase();
-    let whole =
-        ["a.u.", "au", "a. u.", "arb. units", "arb.u.", "relative", "rel.", "fraction", "dbm", "db", "dn", "dl"];
+    const WHOLE: &str = "a.u.|au|a. u.|arb. units|arb.u.|relative|rel.|fraction|dbm|db|dn|dl";
     // `10%` is a figure, `%` a unit.
     (text.contains('%') && header_terms::says_percent(text))
         || is_light_unit(text)
-        || whole.contains(&lower.as_str())
+        || is_one(&lower, WHOLE)
         || header_terms::says_counts(&lower)
         || (header_terms::says_percent(&lower) && !lower.contains(['(', '[']))
-        || ["w/", "watt", "w m", "w·", "w.m", "mol/", "mol m", "photons/", "j/", "/nm"]
-            .iter()
-            .any(|part| lower.contains(part))
+        || has_part(&lower, "w/|watt|w m|w·|w.m|mol/|mol m|photons/|j/|/nm")
 }
 
 /// Returns whether a text can be the unit beside a single value: also one of power, which no header needs a list for.
 pub(super) fn is_value_unit(text: &str) -> bool {
-    const BASES: [&str; 13] = ["w", "watt", "watts", "j", "a", "v", "lm", "lx", "lux", "cd", "mol", "count", "cts"];
+    const BASES: &str = "w|watt|watts|j|a|v|lm|lx|lux|cd|mol|count|cts";
     // What a wrong separator leaves of numbers is no unit.
     if text.bytes().all(|b| b.is_ascii() && !b.is_ascii_alphabetic() && b != b'%') {
         return false;
@@ -111,7 +107,7 @@ pub(super) fn is_value_unit(text: &str) -> bool {
     let lower = text.to_lowercase();
     let base = lower.split(['/', '·', '*', '.', ' ', '^']).next().unwrap_or_default();
     let bare = base.strip_prefix(['m', 'µ', 'μ', 'u', 'n', 'p', 'k']).unwrap_or(base);
-    is_unit(text) || (text.chars().count() <= LONGEST_UNIT && (BASES.contains(&base) || BASES.contains(&bare)))
+    is_unit(text) || (text.chars().count() <= LONGEST_UNIT && (is_one(base, BASES) || is_one(bare, BASES)))
 }
 
 /// A unit whose µ and ² were lost or doubled on the way through encodings, with them restored.
@@ -156,11 +152,11 @@ pub(super) fn is_light_unit(text: &str) -> bool {
 /// Returns whether a unit is one of a response to power or energy.
 pub(super) fn is_per_energy(unit: &str) -> bool {
     const LONGEST: usize = 8;
-    unit.len() <= LONGEST && matches!(unit.to_lowercase().as_str(), "a/w" | "ma/w" | "v/w" | "mv/w" | "1/w" | "1/j")
+    unit.len() <= LONGEST && is_one(&unit.to_lowercase(), "a/w|ma/w|v/w|mv/w|1/w|1/j")
 }
 
 pub(super) fn is_photons(text: &str) -> bool {
-    matches!(text.trim().to_lowercase().as_str(), "photon" | "photons" | "quanta" | "qntm")
+    is_one(&text.trim().to_lowercase(), "photon|photons|quanta|qntm")
 }
 
 pub(super) fn is_per_photon(unit: &str) -> bool {
@@ -175,25 +171,14 @@ pub(super) fn is_per_photon(unit: &str) -> bool {
 /// Returns whether a text names a quantity of photons, and not only a lamp.
 pub(super) fn names_photons(text: &str) -> bool {
     const LONGEST: usize = 400;
-    const PHRASES: [&str; 10] = [
-        "photon flux",
-        "photon irradian",
-        "photon radian",
-        "photon exitan",
-        "photon fluence",
-        "photon intensity",
-        "quantum flux",
-        "quantum irradian",
-        "(qntm)",
-        "s.q.irrad",
-    ];
+    const PHRASES: &str = "photon flux|photon irradian|photon radian|photon exitan|photon fluence|photon intensity|\
+        quantum flux|quantum irradian|(qntm)|s.q.irrad";
     if text.len() > LONGEST || header_terms::says_counts(text) {
         return false;
     }
     let lower = text.to_lowercase().replace('_', " ");
-    let word = |word: &str| matches!(word, "ppfd" | "pfd" | "spfd" | "photons" | "quanta" | "qntm");
-    PHRASES.iter().any(|phrase| lower.contains(phrase))
-        || lower.split(|c: char| !c.is_alphanumeric()).any(word) && !lower.contains("/photon")
+    let word = |word: &str| is_one(word, "ppfd|pfd|spfd|photons|quanta|qntm");
+    has_part(&lower, PHRASES) || lower.split(|c: char| !c.is_alphanumeric()).any(word) && !lower.contains("/photon")
 }
 
 /// Returns whether a line of free text states that all values are photons: LI-COR's `(QNTM)`, or a sentence on all
@@ -204,8 +189,8 @@ pub(super) fn said_in_prose(line: &str) -> bool {
         return false;
     }
     let lower = line.to_lowercase();
-    let values = ["values are in ", "values in ", "units are "].iter().any(|start| lower.contains(start));
-    let photons = ["photons per ", "moles of photons", "mol of photons"].iter().any(|part| lower.contains(part));
+    let values = has_part(&lower, "values are in |values in |units are ");
+    let photons = has_part(&lower, "photons per |moles of photons|mol of photons");
     line.contains("(QNTM)") || values && photons && !header_terms::says_counts(&lower)
 }
 
@@ -218,7 +203,5 @@ pub(super) fn says_per_photon(text: &str) -> bool {
     }
     let lower = text.to_lowercase();
     let qe = lower.split(|c: char| !c.is_alphanumeric()).any(|word| word == "qe");
-    let said = qe
-        || ["quantum eff", "quantal", "per photon", "/photon", "per quantum"].iter().any(|part| lower.contains(part));
-    said && !lower.contains("energ")
+    (qe || has_part(&lower, "quantum eff|quantal|per photon|/photon|per quantum")) && !lower.contains("energ")
 }

@@ -4,17 +4,18 @@
 //! the size of an exponent counts, so that `W/m2/nm`, `W m-2 nm-1` and `W/m2 nm` are one unit, and a centimeter that is not
 //! squared is always a wave number: `W/m²/cm-1`, `W m-2 (cm-1)-1`, `W m-2 cm`.
 
+use crate::decimal::{self, clean};
+use crate::decision::WavelengthUnit;
+
 /// The Avogadro constant, exact (SI 2019).
 const AVOGADRO: f64 = 6.022_140_76e23;
 
-/// A unit of light.
 #[derive(Debug, Clone)]
 pub(super) struct Unit {
     pub(super) amount: Amount,
     /// The area, such as `m²`.
     pub(super) area: Option<&'static str>,
     pub(super) steradian: bool,
-    /// The time, such as `s`.
     time: Option<&'static str>,
     pub(super) per: Per,
     /// The power of ten before it.
@@ -25,7 +26,6 @@ pub(super) struct Unit {
     pub(super) start: usize,
 }
 
-/// Measured amount.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Amount {
     /// Energy or power, as its symbol.
@@ -264,4 +264,59 @@ fn plain(c: char) -> char {
         '⁴'..='⁹' => char::from_digit(u32::from(c) - u32::from('⁰'), 10).unwrap_or(c),
         other => other,
     }
+}
+
+impl WavelengthUnit {
+    /// The unit of a symbol or name, such as `nm`, `um`, `µm` or `Micrometers`.
+    pub(super) fn from_symbol(symbol: &str) -> Option<Self> {
+        // Every unit has a letter: numbers cut in pieces by a wrong separator have none.
+        if symbol.len() > 16 || !symbol.contains(char::is_alphabetic) {
+            return None;
+        }
+        let lower = symbol.to_lowercase();
+        match lower.as_str() {
+            "nm" | "nanometer" | "nanometers" | "nanometre" | "nanometres" => Some(Self::Nanometer),
+            // U+00B5 and U+03BC, and the former misread as Windows-1252.
+            "um" | "µm" | "μm" | "âµm" | "micron" | "microns" | "micro" | "micrometer" | "micrometers"
+            | "micrometre" | "micrometres" => Some(Self::Micrometer),
+            "cm-1" | "cm^-1" | "1/cm" | "cm⁻¹" | "wavenumbers" => Some(Self::Wavenumber),
+            "thz" | "terahertz" => Some(Self::Terahertz),
+            "å" | "ångström" | "ångströms" | "angstrom" | "angstroms" => Some(Self::Angstrom),
+            _ => None,
+        }
+    }
+
+    /// The wavelength in nanometers that a number in this unit means, to 1e-9 nm.
+    pub fn nanometers(self, value: f64) -> f64 {
+        match self {
+            Self::Nanometer => value,
+            Self::Micrometer => clean(decimal::shifted(value, 3)),
+            Self::Angstrom => clean(decimal::shifted(value, -1)),
+            Self::Wavenumber => clean(1e7 / value),
+            Self::Terahertz => clean(SPEED_OF_LIGHT_NM_THZ / value),
+        }
+    }
+
+    /// The number in this unit that means a wavelength in nanometers, to 1e-9 of the unit: what
+    /// [`nanometers`](Self::nanometers) was given.
+    pub fn from_nanometers(self, nm: f64) -> f64 {
+        match self {
+            Self::Nanometer => nm,
+            Self::Micrometer => decimal::shifted(nm, -3),
+            Self::Angstrom => decimal::shifted(nm, 1),
+            Self::Wavenumber => clean(1e7 / nm),
+            Self::Terahertz => clean(SPEED_OF_LIGHT_NM_THZ / nm),
+        }
+    }
+}
+
+/// The speed of light in vacuum in nm THz, exact.
+pub(super) const SPEED_OF_LIGHT_NM_THZ: f64 = 299_792.458;
+
+/// Accepted wavelengths in nanometers: beyond what any instrument for light measures.
+pub(super) const RANGE_NM: std::ops::RangeInclusive<f64> = 100.0..=25_000.0;
+
+/// Returns whether numbers can be wavelengths at all: in range as nanometers, or as micrometers with fractions.
+pub(super) fn plausible(min: f64, max: f64, fractions: bool) -> bool {
+    (RANGE_NM.contains(&min) && RANGE_NM.contains(&max)) || (fractions && min >= 0.2 && max <= 20.0)
 }

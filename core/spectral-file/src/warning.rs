@@ -1,12 +1,9 @@
 //! Warnings: doubts to check before the curves of a file are trusted.
 
-mod words;
-
 use std::fmt;
 
+use crate::decision::{DecimalMark, Quantity, Role};
 use crate::error::ReadError;
-use crate::role::{Quantity, Role};
-use crate::separators::DecimalMark;
 
 /// Line numbers, of which the first few are stored.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -16,7 +13,6 @@ pub struct LineList {
 }
 
 impl LineList {
-    /// Maximum number of stored line numbers.
     const MAX_LISTED: usize = 6;
 
     /// Adds a line; a line added twice in a row counts once.
@@ -46,6 +42,14 @@ impl LineList {
     }
 }
 
+impl FromIterator<usize> for LineList {
+    fn from_iter<I: IntoIterator<Item = usize>>(lines: I) -> Self {
+        let mut list = Self::default();
+        lines.into_iter().for_each(|line| list.add(line));
+        list
+    }
+}
+
 impl fmt::Display for LineList {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(if self.count == 1 { "line " } else { "lines " })?;
@@ -69,10 +73,11 @@ pub struct Sentinel {
 }
 
 /// Warning about a file that was read. Plain numbers are lines, unless noted.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Warning {
     /// Cells without a value: omitted from their curves.
+    #[error("{}", gaps(*.cells, .lines, .sentinel.as_ref()))]
     Gaps {
         /// Number of cells.
         cells: usize,
@@ -82,6 +87,7 @@ pub enum Warning {
         sentinel: Option<Sentinel>,
     },
     /// Curves with fewer than two values: omitted.
+    #[error("{}", empty_curves(*.count, .first))]
     EmptyCurves {
         /// Number.
         count: usize,
@@ -89,8 +95,10 @@ pub enum Warning {
         first: String,
     },
     /// Columns before the wavelengths, such as a pixel number: omitted. Holds the column of the wavelengths, from 1.
+    #[error("Wavelengths stand in column {0}: the columns before it are left out")]
     SkippedColumns(usize),
     /// Columns that hold text: omitted.
+    #[error("{}", text_columns(*.count, *.column, .name))]
     TextColumns {
         /// Number.
         count: usize,
@@ -100,23 +108,32 @@ pub enum Warning {
         name: String,
     },
     /// Rows were neither ascending nor descending: sorted. Holds the first line out of order.
+    #[error("line {0}: wavelengths out of order: sorted")]
     Sorted(usize),
     /// Rows that repeat an earlier row exactly: counted once.
+    #[error("{0}: the same as an earlier row: counted once")]
     RepeatedRows(LineList),
     /// Rows with different values at one wavelength: their mean was taken.
+    #[error("{0}: several rows with different values at one wavelength: their mean is taken")]
     AveragedRows(LineList),
     /// Comments inside the table that look like rows: omitted.
+    #[error("{0}: rows that begin with # in the table: left out as comments")]
     CommentedRows(LineList),
     /// The line of names again, inside the table: omitted.
+    #[error("{0}: the names of the columns again: left out")]
     RepeatedHeader(LineList),
     /// All fractions have three digits, so that their marks may group thousands.
+    #[error("Every fraction has three digits: if the marks group thousands, the values are wrong")]
     MaybeThousands,
     /// Marks before three digits were taken to group thousands, because whole numbers stand next to them.
     /// Holds the mark to choose if they have fractions.
+    #[error("Numbers such as {} are read as thousands: if they have fractions, choose {}", grouped(*.0), .0)]
     GroupedThousands(DecimalMark),
     /// All wavelengths are outside 380 to 780 nm.
+    #[error("There is nothing between 380 and 780 nm, the light that is seen")]
     Invisible,
     /// Neighboring wavelengths far further apart than the others: more than 20 nm and ten times the median step.
+    #[error("{}nothing between {from_nm} and {to_nm} nm, far more than the other steps", both(*.lines))]
     Hole {
         /// The wavelength before it, in nanometers.
         from_nm: f64,
@@ -126,14 +143,19 @@ pub enum Warning {
         lines: Option<[usize; 2]>,
     },
     /// Rows without a wavelength: omitted.
+    #[error("{0}: no wavelength: left out")]
     NoWavelength(LineList),
     /// Numbers above the table that belong to no row.
+    #[error("line {0}: numbers above the table: left out")]
     NumbersAbove(usize),
     /// Text after the table: omitted. Holds its first line.
+    #[error("line {0}: text after the table: left out")]
     TextBelow(usize),
     /// No number has a decimal point, so the separating commas might be decimal marks.
+    #[error("No number has a decimal point: if the commas mark fractions, choose decimal commas")]
     CommasOnly,
     /// Several values at one wavelength of a curve: their mean was taken.
+    #[error("{lines}: “{name}” has several values at one wavelength: their mean is taken")]
     Averaged {
         /// The curve.
         name: String,
@@ -141,8 +163,10 @@ pub enum Warning {
         lines: LineList,
     },
     /// Another table with spectra follows the one that was read. Holds its line.
+    #[error("line {0}: another table with spectra: left out")]
     MoreTables(usize),
     /// Other spectra of the same samples stand beside those that were read.
+    #[error("“{second}”{}: left out", other_groups(*.count))]
     MoreGroups {
         /// Number of groups of columns.
         count: usize,
@@ -150,8 +174,10 @@ pub enum Warning {
         second: String,
     },
     /// Numbers without a unit were read as wave numbers.
+    #[error("Nothing names the unit of wave numbers: if they are wavelengths, choose nanometers")]
     MaybeWavelengths,
     /// A reflectance or a sensitivity is far below zero.
+    #[error("{}{}", at(*.line), below_zero(*.count, .first, *.min))]
     BelowZero {
         /// Number of such curves.
         count: usize,
@@ -163,6 +189,7 @@ pub enum Warning {
         line: Option<usize>,
     },
     /// The curves were declared to have another role than the file states.
+    #[error("The numbers look like {quantity}, not like {role}")]
     OtherQuantity {
         /// Quantity that the file gives.
         quantity: Quantity,
@@ -170,6 +197,7 @@ pub enum Warning {
         role: Role,
     },
     /// Rows of numbers below the table make no table that can be read.
+    #[error("line {line}: another table that cannot be read: left out ({error})")]
     BrokenTable {
         /// Line where they begin.
         line: usize,
@@ -177,10 +205,13 @@ pub enum Warning {
         error: Box<ReadError>,
     },
     /// Lines out of place: their values are at the abscissas at their heads.
+    #[error("{0}: not where the line before ends: placed by the wavelength at the head of the line")]
     PlacedByAbscissa(LineList),
     /// Lines with fewer values than there are places before the next line: omitted.
+    #[error("{0}: fewer values than places before the next line: left out. Which is missing is not known")]
     ShortLines(LineList),
     /// A header announces another value than the data hold.
+    #[error("line {line}: {label} announces {announced}, but the data give {found}")]
     HeaderDiffers {
         /// Line of the announcement.
         line: usize,
@@ -192,6 +223,7 @@ pub enum Warning {
         found: f64,
     },
     /// Columns or rows that hold wavelengths again, another scale of them, or only count or time the others: omitted.
+    #[error("{named}: another scale than the wavelengths{}, no spectrum: left out", in_column(*.wavelength_column))]
     OtherAxes {
         /// Their names in quotes and their columns or lines, the first few.
         named: String,
@@ -199,6 +231,7 @@ pub enum Warning {
         wavelength_column: Option<usize>,
     },
     /// Rows of other quantities than those that were read.
+    #[error("Rows of other quantities than “{taken}”: left out ({others}): choose the part to read them")]
     MoreQuantities {
         /// Value that was read.
         taken: String,
@@ -206,6 +239,7 @@ pub enum Warning {
         others: String,
     },
     /// Columns with values whose names should be wavelengths and are none: omitted.
+    #[error("line {line}: {named}: no wavelength there, so the column is left out")]
     BadWavelengths {
         /// The line of the wavelengths.
         line: usize,
@@ -213,6 +247,7 @@ pub enum Warning {
         named: String,
     },
     /// The file announces another number of values than it holds.
+    #[error("line {line} announces {expected} values, but there are {found}")]
     CountDiffers {
         /// Line of the announcement.
         line: usize,
@@ -222,6 +257,7 @@ pub enum Warning {
         found: usize,
     },
     /// Curves that reach values no quantity of their role has.
+    #[error("{}", not_reflectances(*.count, .first, *.max))]
     NotReflectances {
         /// Number.
         count: usize,
@@ -231,6 +267,7 @@ pub enum Warning {
         max: f64,
     },
     /// Columns of quantities other than spectra, such as temperatures: omitted.
+    #[error("{}", not_spectra(*.count, .first))]
     NotSpectra {
         /// Number.
         count: usize,
@@ -238,6 +275,7 @@ pub enum Warning {
         first: String,
     },
     /// Some curves were read as percent, others as written, each by its own numbers.
+    #[error("By their values {first}{} are read as percent, others such as {other} as written", and_more(*.percent))]
     ScalesDiffer {
         /// Number in percent.
         percent: usize,
@@ -247,8 +285,10 @@ pub enum Warning {
         other: String,
     },
     /// The file states percent, but its values would be fractions. Holds the largest value as written, in words.
+    #[error("The file says percent, but no value exceeds {0}: if they are fractions, choose plain numbers")]
     SmallPercent(String),
     /// Warnings of kinds that are listed often enough: only counted. Stands last.
+    #[error("{} more warning{} like these", .0, if *.0 == 1 { "" } else { "s" })]
     More(usize),
 }
 
@@ -293,5 +333,81 @@ impl Warning {
             | Self::SmallPercent(..)
             | Self::More(..) => None,
         }
+    }
+}
+
+fn gaps(cells: usize, lines: &LineList, sentinel: Option<&Sentinel>) -> String {
+    let plural = if cells == 1 { "" } else { "s" };
+    let lines = if lines.is_empty() { String::new() } else { format!(", {lines}") };
+    let number = sentinel.map_or_else(String::new, |Sentinel { number, curve }| {
+        let number = if number.abs() >= 1e9 { format!("{number:e}") } else { number.to_string() };
+        format!(" ({number} in {curve} stands for no value)")
+    });
+    format!("{cells} missing value{plural}{lines}: left out{number}")
+}
+
+fn empty_curves(count: usize, first: &str) -> String {
+    match count {
+        1 => format!("{first} has fewer than two values: left out"),
+        _ => format!("{count} curves with fewer than two values, the first {first}: left out"),
+    }
+}
+
+fn text_columns(count: usize, column: usize, name: &str) -> String {
+    let name = if name.is_empty() { String::new() } else { format!(" (“{name}”)") };
+    match count {
+        1 => format!("Column {column}{name} holds text: left out"),
+        2 => format!("Column {column}{name} and another hold text: left out"),
+        _ => format!("Column {column}{name} and {} others hold text: left out", count - 1),
+    }
+}
+
+fn grouped(fractions: DecimalMark) -> &'static str {
+    if fractions == DecimalMark::Comma { "1,000" } else { "1.000" }
+}
+
+fn both(lines: Option<[usize; 2]>) -> String {
+    lines.map_or_else(String::new, |[a, b]| format!("lines {a} and {b}: "))
+}
+
+fn at(line: Option<usize>) -> String {
+    line.map_or_else(String::new, |line| format!("line {line}: "))
+}
+
+fn in_column(column: Option<usize>) -> String {
+    column.map_or_else(String::new, |column| format!(" in column {column}"))
+}
+
+fn and_more(count: usize) -> String {
+    if count == 1 { String::new() } else { format!(" and {} more", count - 1) }
+}
+
+fn other_groups(count: usize) -> String {
+    if count == 2 {
+        ", another group of spectra".to_owned()
+    } else {
+        format!(" and {} more groups of spectra", count - 2)
+    }
+}
+
+fn below_zero(count: usize, first: &str, min: f64) -> String {
+    match count {
+        1 => format!("{first} falls to {min}, further below zero than noise"),
+        _ => format!("{count} curves fall further below zero than noise, the first {first} to {min}"),
+    }
+}
+
+fn not_reflectances(count: usize, first: &str, max: f64) -> String {
+    match count {
+        _ if max > 1e30 => format!("{first} reaches {max:e}, more than any quantity of light can"),
+        1 => format!("{first} reaches {max}, more than a fraction of light can"),
+        _ => format!("{count} curves reach more than a fraction of light can, the first {first} {max}"),
+    }
+}
+
+fn not_spectra(count: usize, first: &str) -> String {
+    match count {
+        1 => format!("{first} is no spectrum: left out"),
+        _ => format!("{count} columns are no spectra, the first {first}: left out"),
     }
 }

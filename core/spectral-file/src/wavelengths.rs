@@ -1,13 +1,15 @@
 //! Wavelengths: their unit, their range, their order, and repeats.
 
+use crate::decimal::extent;
+use crate::decision::{Decided, Dropped, WavelengthUnit};
 use crate::error::ReadError;
 use crate::grid::Grid;
 use crate::header_terms::XUnit;
 use crate::options::ReadOptions;
-use crate::report::{Decided, Dropped, Steps};
+use crate::report::Steps;
+use crate::units::RANGE_NM;
 use crate::warning::{LineList, Warning};
 use crate::watch::Log;
-use crate::wavelength_unit::{RANGE_NM, WavelengthUnit};
 
 /// The unit of the wavelengths: chosen, or given by a header, or guessed from their range.
 pub(super) fn unit(grid: &Grid, options: &ReadOptions) -> Result<Decided<WavelengthUnit>, ReadError> {
@@ -29,9 +31,7 @@ pub(super) fn unit(grid: &Grid, options: &ReadOptions) -> Result<Decided<Wavelen
 
 /// The unit that a range suggests. If both ångströms and wave numbers fit, only the user knows.
 fn unit_from_range(grid: &Grid) -> Result<Decided<WavelengthUnit>, ReadError> {
-    let wavelengths = &grid.wavelengths;
-    let min = wavelengths.iter().copied().fold(f64::INFINITY, f64::min);
-    let max = wavelengths.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let (min, max) = extent(grid.wavelengths.iter().copied());
     let unit = if min >= 0.2 && max <= 20.0 {
         WavelengthUnit::Micrometer
     } else if (2000.0..=20_000.0).contains(&min) && (3000.0..=20_000.0).contains(&max) {
@@ -47,13 +47,11 @@ fn unit_from_range(grid: &Grid) -> Result<Decided<WavelengthUnit>, ReadError> {
     Ok(Decided::guess(unit, format!("Wavelengths run from {min} to {max}")))
 }
 
-/// Returns whether a table is a single curve without any information.
 fn is_bare(grid: &Grid) -> bool {
     let named = !grid.header.names.is_empty() || !grid.header.comments.is_empty() || grid.header.mentioned.is_some();
     grid.curves.len() == 1 && !named
 }
 
-/// Converts the wavelengths of a grid to nanometers and checks their range.
 pub(super) fn to_nanometers(grid: &mut Grid, unit: WavelengthUnit) -> Result<(), ReadError> {
     for i in 0..grid.wavelengths.len() {
         let wavelength_nm = unit.nanometers(grid.wavelengths[i]);
@@ -137,11 +135,8 @@ fn merge_repeats(grid: &mut Grid, log: &mut Log<'_>) {
     }
     for (mut lines, why) in [(same, Dropped::Repeated), (averaged, Dropped::Averaged)] {
         lines.sort_unstable();
-        let mut list = LineList::default();
-        for &line in &lines {
-            list.add(line);
-            grid.drop_row(line, why);
-        }
+        let list: LineList = lines.iter().copied().collect();
+        lines.into_iter().for_each(|line| grid.drop_row(line, why));
         match why {
             _ if list.is_empty() => {}
             Dropped::Averaged => log.push(Warning::AveragedRows(list)),

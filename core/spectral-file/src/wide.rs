@@ -1,23 +1,18 @@
 //! Reads tables whose wavelengths run across a header row: every row is a curve.
 
-mod kinds;
-
 use crate::bands::Group;
+use crate::decision::{Decided, Orientation, Part, Quantity, Role, Values};
 use crate::dialect::{Cell, Dialect};
 use crate::dialect_trial::Across;
-use crate::error::ReadError;
+use crate::error::{MAX_CURVES, MAX_PARTS, MAX_SAMPLES, ReadError};
 use crate::grid::{Grid, RawCurve};
-use crate::limits::{MAX_CURVES, MAX_PARTS, MAX_SAMPLES};
-use crate::report::{Decided, Orientation, Part};
-use crate::role::Role;
-use crate::sniff::Layout;
+use crate::header::{self, Header};
+use crate::layout::Layout;
 use crate::text::{Lines, Section, comment, excerpt, listed};
 use crate::warning::{LineList, Warning};
 use crate::watch::Log;
-use crate::wide::kinds::Label;
-use crate::{header, header_terms, no_curve, unit_text};
+use crate::{header_terms, no_curve, unit_text};
 
-/// Reads the header row and the rows of a layout.
 pub(super) fn read(section: Section<'_>, layout: &Layout, log: &mut Log<'_>) -> Result<Grid, ReadError> {
     debug_assert_eq!(layout.orientation.value, Orientation::Across);
     let Some(across) = &layout.across else { return Err(ReadError::NoNumbers) };
@@ -64,7 +59,7 @@ pub(super) fn read(section: Section<'_>, layout: &Layout, log: &mut Log<'_>) -> 
     let mut part = None;
     // Where columns are parts, only the first quantity of the rows can be read.
     let wanted = if parts.is_empty() { across.part } else { 0 };
-    let kinds = kinds::settle(&mut rows.curves, &rows.labels, wanted, &mut header);
+    let kinds = settle_kinds(&mut rows.curves, &rows.labels, wanted, &mut header);
     if !kinds.is_empty() && !parts.is_empty() {
         log.push(Warning::MoreQuantities { taken: kinds[0].name.clone(), others: other_names(&kinds, 0) });
     } else if !kinds.is_empty() {
@@ -119,7 +114,6 @@ fn suspects(dialect: Dialect, heads: &[&str], across: &Across) -> Vec<(usize, bo
     (from..until).filter(is_bad).map(|at| (at, false)).collect()
 }
 
-/// A column and what stands at its head.
 fn description(heads: &[&str], at: usize) -> String {
     if heads[at].is_empty() {
         format!("column {} (empty)", at + 1)
@@ -141,7 +135,6 @@ pub(super) fn other_names(parts: &[Part], but: usize) -> String {
     listed(&others.map(|(_, part)| format!("“{}”", part.name)).collect::<Vec<_>>())
 }
 
-/// The curves so far.
 struct Rows<'a> {
     dialect: Dialect,
     across: &'a Across,
@@ -149,7 +142,7 @@ struct Rows<'a> {
     curves: Vec<RawCurve>,
     gaps: usize,
     gap_lines: LineList,
-    mentioned: Option<(usize, crate::role::Role)>,
+    mentioned: Option<(usize, Role)>,
     /// A line that is no row: its number, the error it makes if rows follow, and whether it is an error by itself.
     broken: Option<(usize, ReadError, bool)>,
     /// Columns without a wavelength at their heads, and whether they hold numbers.
@@ -166,7 +159,7 @@ impl<'a> Rows<'a> {
         Self {
             suspects,
             labels: Vec::new(),
-            kind_column: kinds::column(leading),
+            kind_column: kind_column(leading),
             scales: Vec::new(),
             dialect,
             across,
@@ -274,7 +267,6 @@ impl<'a> Rows<'a> {
         Ok(Some(RawCurve { name, named, values, origin: number, ..RawCurve::default() }))
     }
 
-    /// Returns whether a line has as many cells as a row.
     fn is_long(&self, line: &str) -> bool {
         let width = self.across.group().end();
         self.dialect.cells(line).take(width).count() == width
@@ -305,4 +297,73 @@ impl<'a> Rows<'a> {
         self.curves.push(curve);
         Ok(())
     }
+}
+
+#[derive(Debug, Clone, PartialEq)]
+struct Label {
+    text: String,
+    line: usize,
+    quantity: Option<Quantity>,
+    /// True if it is an absorbance, which is no quantity of its own.
+    absorbance: bool,
+}
+
+impl Label {
+    fn of(cell: &str, line: usize) -> Self {
+        let alone = !cell.trim().contains(|c: char| !c.is_alphabetic());
+        let absorbance = alone && header_terms::values(cell) == Some(Values::Absorbance);
+        let quantity = header_terms::quantity(cell).filter(|_| alone && !absorbance);
+        Self { text: excerpt(cell), line, quantity, absorbance }
+    }
+
+    fn is_said(&self) -> bool {
+        self.quantity.is_some() || self.absorbance
+    }
+
+    fn goes_with(&self, other: &Self) -> bool {
+        (self.quantity, self.absorbance) == (other.quantity, other.absorbance)
+    }
+
+    fn tell(&self, header: &mut Header) {
+        header.mentioned = None;
+        header.role = self.quantity.and_then(Quantity::role).map(|role| (self.line, role)).or(header.role);
+        header.quantity = self.quantity.map(|quantity| (self.line, quantity)).or(header.quantity);
+        header.values = self.absorbance.then_some((self.line, Values::Absorbance)).or(header.values);
+    }
+}
+
+/// The column before the values with the kind of each row, if its header says so.
+fn kind_column(leading: &[&str]) -> Option<usize> {
+    const HEADS: [&str; 8] =
+        ["mode", "technique", "quantity", "measurement", "measurement type", "measurement mode", "data type", "type"];
+    leading.iter().position(|head| HEADS.iter().any(|wanted| head.trim().eq_ignore_ascii_case(wanted)))
+}
+
+/// Selects the rows of one quantity if there are several: the first, or the requested one. Returns all as parts.
+fn settle_kinds(curves: &mut Vec<RawCurve>, labels: &[Option<Label>], wanted: usize, header: &mut Header) -> Vec<Part> {
+    let Some(labels) = labels.iter().cloned().collect::<Option<Vec<Label>>>() else { return Vec::new() };
+    if !labels.iter().any(Label::is_said) || labels.len() != curves.len() {
+        return Vec::new();
+    }
+    let mut kinds: Vec<(&Label, usize)> = Vec::new();
+    for label in &labels {
+        match kinds.iter_mut().find(|(kind, _)| kind.goes_with(label)) {
+            Some((_, count)) => *count += 1,
+            None => kinds.push((label, 1)),
+        }
+    }
+    let taken = kinds.get(wanted).map_or(kinds[0].0, |(label, _)| label);
+    taken.tell(header);
+    if kinds.len() < 2 {
+        return Vec::new();
+    }
+    let mut rows = labels.iter();
+    curves.retain(|_| rows.next().is_none_or(|label| label.goes_with(taken)));
+    let part = |(label, count): &(&Label, usize)| Part {
+        line: label.line,
+        name: label.text.clone(),
+        curves: *count,
+        rows: *count,
+    };
+    kinds.iter().map(part).collect()
 }

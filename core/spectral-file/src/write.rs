@@ -36,49 +36,18 @@
 //! # Ok::<(), spectral_file::write::WriteError>(())
 //! ```
 
+mod base;
 mod cgats;
-mod common;
 mod csv;
 mod format;
 mod json;
-mod note;
-mod resample;
 mod sheet;
-mod text;
 
 pub use csv::Prepared;
-pub use format::{Format, Grid};
-pub use note::{Note, WriteError};
+pub use format::{Format, Grid, Note, WriteError};
 pub use sheet::{Content, Sheet, Trace};
 
 impl Format {
-    /// Every format, in the order of a menu.
-    pub const ALL: [Self; 6] =
-        [Self::Csv, Self::RawtoacesJson, Self::DcamprofJson, Self::ArgyllSp, Self::ArgyllCmf, Self::Cgats];
-
-    /// The name for a menu.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Csv => "CSV",
-            Self::RawtoacesJson => "rawtoaces JSON",
-            Self::DcamprofJson => "dcamprof JSON",
-            Self::ArgyllSp => "Argyll spectrum",
-            Self::ArgyllCmf => "Argyll color matching functions",
-            Self::Cgats => "CGATS",
-        }
-    }
-
-    /// The usual ending of the file's name, without the point.
-    pub fn ending(self) -> &'static str {
-        match self {
-            Self::Csv => "csv",
-            Self::RawtoacesJson | Self::DcamprofJson => "json",
-            Self::ArgyllSp => "sp",
-            Self::ArgyllCmf => "cmf",
-            Self::Cgats => "txt",
-        }
-    }
-
     /// Returns whether curves of this kind and number can be written in this format, whatever their wavelengths.
     ///
     /// # Errors
@@ -121,20 +90,19 @@ pub struct Written {
 /// [`WriteError`] for curves that are none, or that the format cannot hold on such a grid.
 pub fn write(sheet: &Sheet<'_>, format: Format, grid: Grid) -> Result<Written, WriteError> {
     format.fits(sheet)?;
-    resample::check(grid)?;
-    let mut notes = Vec::new();
+    base::check(grid)?;
+    if format == Format::Csv {
+        let mut prepared = Prepared::new(sheet, grid)?;
+        let text = collected(|put| prepared.with_comments(put));
+        return Ok(Written { text, notes: prepared.notes() });
+    }
+    let mut draft = base::Draft::new(sheet, format, grid)?;
     let text = match format {
-        Format::Csv => {
-            let mut prepared = Prepared::new(sheet, grid)?;
-            let text = collected(|put| prepared.with_comments(put));
-            notes = prepared.notes();
-            text
-        }
-        Format::RawtoacesJson => json::rawtoaces(sheet, grid, &mut notes)?,
-        Format::DcamprofJson => json::dcamprof(sheet, grid, &mut notes)?,
-        Format::ArgyllSp | Format::ArgyllCmf | Format::Cgats => cgats::write(sheet, format, grid, &mut notes)?,
+        Format::RawtoacesJson => json::rawtoaces(&mut draft),
+        Format::DcamprofJson => json::dcamprof(&mut draft),
+        Format::Csv | Format::ArgyllSp | Format::ArgyllCmf | Format::Cgats => cgats::write(&mut draft),
     };
-    Ok(Written { text, notes })
+    Ok(Written { text, notes: draft.notes })
 }
 
 /// The table of the command line: `wavelength_nm,<curve> [<quantity> in <unit>]…` and nothing above it.

@@ -1,4 +1,4 @@
-//! `OpenEXR` images with spectral channels.
+//! `OpenEXR` images with spectral channels, by the names of channels of Fichet, Pacanowski and Wilkie 2021, JCGT 10(3).
 
 use std::io::{Read, Seek, SeekFrom};
 use std::ops::Range;
@@ -13,7 +13,6 @@ use exr::prelude::f16;
 
 use crate::error::ImageError;
 use crate::image::{ImageInfo, ImageQuantity, MAX_ROW_BYTES, Note, ascending};
-use crate::names::SpectralChannel;
 
 /// `OpenEXR` image whose rows are read when requested.
 #[derive(Debug)]
@@ -91,7 +90,6 @@ impl<R: Read + Seek> ExrImage<R> {
     }
 }
 
-/// Rows that are filled.
 struct Filled<'a> {
     info: &'a ImageInfo,
     channels: &'a ChannelList,
@@ -172,4 +170,69 @@ fn check(header: &Header, length: u64) -> Result<(), ImageError> {
     // Each chunk has 8 bytes in the table of offsets.
     let expected = (header.chunk_count as u64).saturating_mul(8);
     if expected > length { Err(ImageError::Short { expected, found: length }) } else { Ok(()) }
+}
+
+/// Spectral channel: quantity and wavelength.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SpectralChannel {
+    /// Radiance for `S0`, reflectance for `T`.
+    pub quantity: ImageQuantity,
+    /// Wavelength in nanometers.
+    pub nm: f64,
+}
+
+/// Speed of light in nanometers per second.
+const LIGHT_NM_PER_S: f64 = 299_792_458e9;
+
+impl SpectralChannel {
+    /// Channel of a name such as `S0.550,5nm`, `T.5,5E2nm` or `S0.545THz`; none for any other name, such as those of the Stokes
+    /// components S1 to S3 and of reradiation.
+    ///
+    /// A comma is the decimal mark. Units are m or Hz with an SI prefix.
+    pub fn parse(name: &str) -> Option<Self> {
+        let (head, rest) = name.split_once('.')?;
+        let quantity = match head {
+            "S0" => ImageQuantity::Radiance,
+            "T" => ImageQuantity::Reflectance,
+            _ => return None,
+        };
+        let (rest, per_second) = match rest.strip_suffix("Hz") {
+            Some(rest) => (rest, true),
+            None => (rest.strip_suffix('m')?, false),
+        };
+        let end = rest.rfind(|c: char| c.is_ascii_digit() || c == ',')? + 1;
+        let number = &rest[..end];
+        if !number.chars().all(|c| c.is_ascii_digit() || matches!(c, ',' | '+' | '-' | 'e' | 'E')) {
+            return None;
+        }
+        let number: f64 = number.replacen(',', ".", 1).parse().ok()?;
+        let exponent = prefix(&rest[end..])?;
+        // Powers above zero are exact, so 550 nm is 550.
+        let scaled = |power: i32| if power < 0 { number / 10_f64.powi(-power) } else { number * 10_f64.powi(power) };
+        let nm = if per_second { LIGHT_NM_PER_S / scaled(exponent) } else { scaled(exponent + 9) };
+        (nm.is_finite() && nm > 0.0).then_some(Self { quantity, nm })
+    }
+}
+
+fn prefix(text: &str) -> Option<i32> {
+    Some(match text {
+        "" => 0,
+        "Y" => 24,
+        "Z" => 21,
+        "E" => 18,
+        "P" => 15,
+        "T" => 12,
+        "G" => 9,
+        "M" => 6,
+        "k" => 3,
+        "h" => 2,
+        "da" => 1,
+        "d" => -1,
+        "c" => -2,
+        "m" => -3,
+        "u" => -6,
+        "n" => -9,
+        "p" => -12,
+        _ => return None,
+    })
 }

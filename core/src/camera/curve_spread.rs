@@ -1,6 +1,7 @@
 //! Spread of published sensitivities of one camera model between laboratories: what a table of an unknown laboratory may be off by.
 
 use crate::math::interpolation::Sprague;
+use crate::math::random::SplitMix64;
 use crate::spectral::grid::{COUNT, FIRST_NM};
 use crate::spectral::{Dataset, Sensor};
 use std::hash::{Hash, Hasher};
@@ -115,19 +116,11 @@ fn add(to: &mut Deviation, mode: &Deviation, factor: f64) {
     to.iter_mut().flatten().zip(mode.iter().flatten()).for_each(|(value, part)| *value += factor * part);
 }
 
-/// Rows of a random orthogonal matrix, always the same: Gram and Schmidt's method, done twice, on numbers of a counter.
+/// Rows of a random orthogonal matrix, always the same: Gram and Schmidt's method, done twice.
 fn orthogonal(count: usize) -> Vec<Vec<f64>> {
-    let mut counter = 0_u64;
+    let mut random = SplitMix64::new(0);
     // Directions need no exact normal numbers: sums of twelve uniform ones round alike on every machine.
-    let mut number = || {
-        let sum: f64 = (0..12)
-            .map(|_| {
-                counter += 1;
-                (mix(counter) >> 11) as f64 / (1_u64 << 53) as f64
-            })
-            .sum();
-        sum - 6.0
-    };
+    let mut number = || (0..12).map(|_| random.unit()).sum::<f64>() - 6.0;
     let mut rows: Vec<Vec<f64>> = Vec::with_capacity(count);
     while rows.len() < count {
         let row: Vec<f64> = (0..count).map(|_| number()).collect();
@@ -136,14 +129,6 @@ fn orthogonal(count: usize) -> Vec<Vec<f64>> {
         rows.push(rest.iter().map(|v| v / length).collect());
     }
     rows
-}
-
-/// Finalizer of splitmix64 (Steele, Lea and Flood 2014) of the golden ratio's multiples.
-fn mix(counter: u64) -> u64 {
-    let mut z = counter.wrapping_mul(0x9E37_79B9_7F4A_7C15);
-    z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-    z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-    z ^ (z >> 31)
 }
 
 /// The deviation of 1 at one site and 0 at all others on the grid, brought there as tables at 10 nm are (CIE 167).

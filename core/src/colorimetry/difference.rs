@@ -260,7 +260,8 @@ pub fn delta_e_2000_into(firsts: &[Lab], seconds: &[Lab], answers: &mut [f64]) {
 }
 
 /// Color with each coordinate clamped to the limit.
+#[inline(always)]
 fn bounded(lab: Lab) -> Lab {
-    let [l, a, b] = [lab.l, lab.a, lab.b].map(|v| v.clamp(-LIMIT, LIMIT));
-    Lab { l, a, b }
+    let held = |v: f64| v.clamp(-LIMIT, LIMIT);
+    Lab { l: held(lab.l), a: held(lab.a), b: held(lab.b) }
 }

@@ -18,8 +18,8 @@ use crate::reflectance::{Normalization, Specular, Surface, wavelength_power};
 use crate::render::quality::SkyFineness;
 use crate::render::sky::SkyView;
 use crate::render::{
-    Against, CameraImage, GeometryImage, Plan, Quality, RasterSize, Reach, ShadingImage, Shadows, Sky, SkyImage,
-    SkyReflectance, SkyVisibility, SpectralWeights, Transmitted, VertexImage, Visibility,
+    CameraImage, GeometryImage, Plan, Quality, RasterSize, Reach, ShadingImage, Shadows, Sky, SkyImage, SkyReflectance,
+    SkyVisibility, SpectralWeights, Transmitted, VertexImage, Visibility,
 };
 use crate::scene::roughness::{VertexRoughness, vertex_roughness};
 use crate::scene::{Lighting, Viewpoint};
@@ -505,7 +505,7 @@ impl CameraImageQuery {
         let Some((tolerance, demand)) = shading.plan_request() else {
             return Ok(Arc::new(Plan::fixed(measure, shading.fixed_quality())));
         };
-        let plan = ask.ask(&PlanQuery { measure: self.measure.clone(), tolerance, against: Against::Peak, demand });
+        let plan = ask.ask(&PlanQuery { measure: self.measure.clone(), tolerance, demand });
         (*plan).as_ref().map(Arc::clone).map_err(|&e| e)
     }
 }

@@ -73,7 +73,6 @@ impl Geometry {
 
     /// [`Self::from_directions`] without a branch, and true if the result holds: not where a vector is NaN, nor so near to normal
     /// incidence that the plane of incidence is undefined.
-    #[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
     #[inline(always)]
     pub fn from_directions_branchless(to_light: DVec3, to_viewer: DVec3, normal: DVec3) -> (Self, bool) {
         let turned = normal.cross(to_light + to_viewer);

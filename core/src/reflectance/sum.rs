@@ -18,7 +18,6 @@ mod direct;
 mod narrow;
 mod pieces;
 mod saddle;
-mod terms;
 
 use crate::accuracy::{RelTolerance, Unmet};
 use crate::math::exp::exp;
@@ -26,7 +25,6 @@ use direct::Choice;
 use multiversion::multiversion;
 use pieces::RUN;
 use saddle::Peak;
-pub use terms::{SeriesTerms, series_terms};
 
 /// Error allowed of a diffuse sum.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -137,7 +135,6 @@ fn remote(g: f64, b: f64, precision: Precision) -> f64 {
     parts(g, b, precision, NOTHING).map_or(0.0, |(ln_scale, rest)| raised(ln_scale, rest))
 }
 
-#[expect(clippy::inline_always, reason = "every instruction set needs a copy of its own")]
 #[inline(always)]
 fn raised(ln_scale: f64, rest: f64) -> f64 {
     // The exponential ends at e^−700: no rest lifts that above the smallest.
@@ -175,30 +172,15 @@ fn ln_remote(g: f64, b: f64, precision: Precision) -> f64 {
 /// assert_eq!(sums[1], diffuse_sum(20.0, 10.0, Precision::Fine));
 /// ```
 pub fn diffuse_sums_into(g: &[f64], b: &[f64], precision: Precision, sums: &mut [f64]) {
-    in_runs(g, b, sums, |g, b| values(g, b, precision), |g, b| remote(g, b, precision));
-}
-
-/// ln S(g, b) of many arguments, each to the last bit what [`ln_diffuse_sum`] gives; lengths as by [`diffuse_sums_into`].
-pub fn ln_diffuse_sums_into(g: &[f64], b: &[f64], precision: Precision, logs: &mut [f64]) {
-    in_runs(g, b, logs, |g, b| logarithms(g, b, precision), |g, b| ln_remote(g, b, precision));
-}
-
-/// Run by run, and what a run leaves open one by one.
-fn in_runs(
-    g: &[f64],
-    b: &[f64],
-    answers: &mut [f64],
-    run: impl Fn(&[f64; RUN], &[f64; RUN]) -> [f64; RUN],
-    remote: impl Fn(f64, f64) -> f64,
-) {
-    for ((g, b), answers) in g.chunks(RUN).zip(b.chunks(RUN)).zip(answers.chunks_mut(RUN)) {
-        let count = g.len().min(b.len()).min(answers.len());
+    for ((g, b), sums) in g.chunks(RUN).zip(b.chunks(RUN)).zip(sums.chunks_mut(RUN)) {
+        let count = g.len().min(b.len()).min(sums.len());
         let (mut some_g, mut some_b) = ([0.0; RUN], [0.0; RUN]);
         some_g[..count].copy_from_slice(&g[..count]);
         some_b[..count].copy_from_slice(&b[..count]);
-        let found = run(&some_g, &some_b);
+        // What a run leaves open is done one by one.
+        let found = values(&some_g, &some_b, precision);
         for i in 0..count {
-            answers[i] = if found[i].is_nan() { remote(g[i], b[i]) } else { found[i] };
+            sums[i] = if found[i].is_nan() { remote(g[i], b[i], precision) } else { found[i] };
         }
     }
 }
@@ -214,14 +196,7 @@ fn values(g: &[f64; RUN], b: &[f64; RUN], precision: Precision) -> [f64; RUN] {
     values
 }
 
-/// Compiled as [`value`] is.
-#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl+avx512bw+avx512cd", "x86_64+avx2", "aarch64+neon"))]
-fn logarithms(g: &[f64; RUN], b: &[f64; RUN], precision: Precision) -> [f64; RUN] {
-    pieces::ln_run(g, b, precision)
-}
-
 /// S as e to the first times the second, the second positive; none where S is 0 or m δ beyond what is requested.
-#[expect(clippy::inline_always, reason = "every instruction set needs a copy of its own")]
 #[inline(always)]
 fn parts(g: f64, b: f64, precision: Precision, nothing: f64) -> Option<(f64, f64)> {
     // Written so that NaN falls out too.

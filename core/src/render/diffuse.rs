@@ -9,6 +9,7 @@
 //! serves a sample.
 
 use super::measure::{MOMENTS, Node};
+use crate::math::chebyshev::evaluate;
 use crate::math::exp::exp;
 use crate::reflectance::{Precision, diffuse_sums_into, regimes::diffuse_sum_by_regimes};
 
@@ -31,15 +32,13 @@ pub fn by_nodes(nodes: &[Node], kappa: f64, beta: f64, precision: Precision) -> 
     let mut channels = [0.0; 3];
     let (mut g, mut b, mut sums) = ([0.0; TOGETHER], [0.0; TOGETHER], [0.0; TOGETHER]);
     for nodes in nodes.chunks(TOGETHER) {
-        for ((g, b), node) in g.iter_mut().zip(&mut b).zip(nodes) {
-            *g = kappa * node.scale;
-            *b = beta * *g;
+        for (i, node) in nodes.iter().enumerate() {
+            g[i] = kappa * node.scale;
+            b[i] = beta * g[i];
         }
         diffuse_sums_into(&g[..nodes.len()], &b, precision, &mut sums);
-        for (node, sum) in nodes.iter().zip(sums) {
-            for (channel, weight) in channels.iter_mut().zip(node.weights) {
-                *channel += weight * sum;
-            }
+        for (i, node) in nodes.iter().enumerate() {
+            add(&mut channels, node, sums[i]);
         }
     }
     channels
@@ -54,15 +53,13 @@ pub fn by_nodes_into(nodes: &[Node], kappa: &[f64], beta: &[f64], precision: Pre
     for ((kappa, beta), answers) in samples.zip(answers[..count].chunks_mut(TOGETHER)) {
         answers.fill([0.0; 3]);
         for node in nodes {
-            for (i, (kappa, beta)) in kappa.iter().zip(beta).enumerate() {
-                g[i] = kappa * node.scale;
-                b[i] = beta * g[i];
+            for i in 0..kappa.len() {
+                g[i] = kappa[i] * node.scale;
+                b[i] = beta[i] * g[i];
             }
             diffuse_sums_into(&g[..kappa.len()], &b, precision, &mut sums);
-            for (answer, sum) in answers.iter_mut().zip(sums) {
-                for (channel, weight) in answer.iter_mut().zip(node.weights) {
-                    *channel += weight * sum;
-                }
+            for (i, answer) in answers.iter_mut().enumerate() {
+                add(answer, node, sums[i]);
             }
         }
     }
@@ -73,12 +70,17 @@ pub fn by_regimes(nodes: &[Node], kappa: f64, beta: f64) -> [f64; 3] {
     let mut channels = [0.0; 3];
     for node in nodes {
         let g = kappa * node.scale;
-        let sum = diffuse_sum_by_regimes(g, beta * g);
-        for (channel, weight) in channels.iter_mut().zip(node.weights) {
-            *channel += weight * sum;
-        }
+        add(&mut channels, node, diffuse_sum_by_regimes(g, beta * g));
     }
     channels
+}
+
+/// Adds a wavelength's sum S to the channels.
+#[inline(always)]
+fn add(channels: &mut [f64; 3], node: &Node, sum: f64) {
+    for c in 0..3 {
+        channels[c] += node.weights[c] * sum;
+    }
 }
 
 /// Coefficients of `q_k(β)` for k = 1 … 7, from the constant on.
@@ -152,42 +154,35 @@ pub fn rough_basis(kappa: f64, beta: f64) -> [f64; MOMENTS] {
 }
 
 /// The first N factors, for β up to 700; without branches or calls, so that a loop over it vectorizes.
-#[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
 #[inline(always)]
 pub(super) fn rough_basis_of<const N: usize>(kappa: f64, beta: f64) -> [f64; N] {
     let t = 1.0 / kappa;
     let mut power = exp(-beta) * t;
     let mut basis = [0.0; N];
-    for (k, value) in basis.iter_mut().enumerate() {
+    for k in 0..N {
         let q = match k {
             0 => 1.0,
-            1 => polynomial(&Q1, beta),
-            2 => polynomial(&Q2, beta),
-            3 => polynomial(&Q3, beta),
-            4 => polynomial(&Q4, beta),
-            5 => polynomial(&Q5, beta),
-            6 => polynomial(&Q6, beta),
-            _ => polynomial(&Q7, beta),
+            1 => evaluate(&Q1, beta),
+            2 => evaluate(&Q2, beta),
+            3 => evaluate(&Q3, beta),
+            4 => evaluate(&Q4, beta),
+            5 => evaluate(&Q5, beta),
+            6 => evaluate(&Q6, beta),
+            _ => evaluate(&Q7, beta),
         };
-        *value = power * q;
+        basis[k] = power * q;
         power *= t;
     }
     basis
 }
 
-#[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
-#[inline(always)]
-fn polynomial<const N: usize>(coefficients: &[f64; N], x: f64) -> f64 {
-    coefficients.iter().rev().fold(0.0, |sum, c| sum * x + c)
-}
-
 /// J from its moments.
-#[inline]
+#[inline(always)]
 pub fn by_moments(moments: &[[f64; MOMENTS]; 3], basis: &[f64; MOMENTS]) -> [f64; 3] {
     let mut channels = [0.0; 3];
-    for (channel, moments) in channels.iter_mut().zip(moments) {
-        for (m, b) in moments.iter().zip(basis) {
-            *channel += m * b;
+    for c in 0..3 {
+        for k in 0..MOMENTS {
+            channels[c] += moments[c][k] * basis[k];
         }
     }
     channels

@@ -474,7 +474,6 @@ impl Scene<'_> {
     }
 }
 
-#[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
 #[inline(always)]
 fn mix(v: [DVec3; 3], weights: [f64; 3]) -> DVec3 {
     v[0] * weights[0] + v[1] * weights[1] + v[2] * weights[2]
@@ -490,7 +489,6 @@ fn turned_to(normal: DVec3, to_viewer: DVec3) -> DVec3 {
     bent.try_normalize().unwrap_or(to_viewer)
 }
 
-#[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
 #[inline(always)]
 fn angles(geometry: &Geometry, cos_alpha: f64) -> Angles {
     let vz2 = geometry.vz_by_k * geometry.vz_by_k;

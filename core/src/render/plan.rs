@@ -13,8 +13,9 @@
 //! | wavelengths of each channel's own Gauss rule | 3 N sums S |
 //! | all wavelengths of the grid | 401 sums S |
 //!
-//! Each is compared with the sum over all wavelengths at [`Precision::Full`] at a fixed set of (κ, β); the largest error found,
-//! times [`MARGIN`], is its estimated error bound. The fastest within the tolerance is taken, the cost of filling a table counted
+//! Each is compared with the sum over all wavelengths at [`Precision::Full`] at a fixed set of (κ, β). Errors are relative to the
+//! largest channel of J(κ, 0), the brightest that a surface of this roughness gets, so that a channel that changes its sign has
+//! none of its own. The largest found, times [`MARGIN`], is the estimated error bound. The fastest within the tolerance is taken, the cost of filling a table counted
 //! in. Where samples are too few to pay for that search, [`Plan::fixed`] takes as many wavelengths as are known to be enough.
 
 mod candidate;
@@ -44,18 +45,6 @@ use crate::accuracy::{RelTolerance, Unmet};
 use crate::reflectance::Precision;
 use nodes::OwnRule;
 use table::Table;
-
-/// Scale of errors of the integral, at each (κ, β) the same for the three channels, so that a channel that changes its sign has no
-/// error of its own.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum Against {
-    /// The largest channel of J(κ, 0): the brightest that a surface of this roughness gets.
-    #[default]
-    Peak,
-    /// The largest channel of J(κ, β) itself, as long as that is above e^-30 of the peak; darker, the bound refers to e^-30 of
-    /// the peak.
-    Value,
-}
 
 /// A method of integration with all that it needs.
 #[derive(Clone, Debug, PartialEq)]
@@ -103,13 +92,8 @@ impl Plan {
     ///
     /// # Errors
     /// [`Unmet`] for tolerances below 1e-13, the error of the most exact S there is.
-    pub fn new(
-        measure: &SpectralWeights,
-        tolerance: RelTolerance,
-        against: Against,
-        demand: Demand,
-    ) -> Result<Self, Unmet> {
-        search::plan(measure, tolerance, against, demand)
+    pub fn new(measure: &SpectralWeights, tolerance: RelTolerance, demand: Demand) -> Result<Self, Unmet> {
+        search::plan(measure, tolerance, demand)
     }
 
     /// The method of a quality without a search, by what is known of any measure: a few wavelengths, or all.
@@ -138,7 +122,6 @@ impl Plan {
             moments: *measure.moments(),
             explanation: Explanation {
                 asked: RelTolerance::at_best(bound.unwrap_or(1.0)),
-                against: Against::Peak,
                 demand,
                 rough: rough.map(|([from_kappa, _], bound)| {
                     Candidate::known(IntegrationMethod::Moments { orders: MOMENTS, from_kappa }, Some(bound))
@@ -157,7 +140,7 @@ impl Plan {
     /// See [`Plan::new`].
     pub fn for_picture(shading: &ShadingImage, measure: &SpectralWeights) -> Result<Self, Unmet> {
         match shading.plan_request() {
-            Some((tolerance, demand)) => Self::new(measure, tolerance, Against::Peak, demand),
+            Some((tolerance, demand)) => Self::new(measure, tolerance, demand),
             None => Ok(Self::fixed(measure, shading.fixed_quality())),
         }
     }

@@ -379,7 +379,6 @@ fn draw(tile: &mut Tile, index: usize, scene: &Scene<'_>, corner: [usize; 2]) {
 }
 
 /// Portable form for any processor.
-#[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
 #[inline(always)]
 fn draw_portable(tile: &mut Tile, index: usize, scene: &Scene<'_>, corner: [usize; 2]) {
     tile.clear(scene.rays, corner[0]);
@@ -396,7 +395,6 @@ impl Tile {
         xs: [0.0; STRIDE],
     };
 
-    #[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
     #[inline(always)]
     fn clear(&mut self, rays: &Rays, left: usize) {
         for row in self.nearness.chunks_exact_mut(STRIDE) {
@@ -412,7 +410,6 @@ impl Tile {
     }
 
     /// The nearness that all samples have at least.
-    #[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
     #[inline(always)]
     fn floor(&self) -> f64 {
         // Bits of what is not negative are in the order of the numbers, and whole numbers are compared in vectors.
@@ -420,7 +417,6 @@ impl Tile {
     }
 
     /// Draws the triangles of one side that are not certainly behind what all samples see.
-    #[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
     #[inline(always)]
     fn draw(&mut self, index: usize, facing: bool, scene: &Scene<'_>, [left, top]: [usize; 2], floor: f64) {
         for bins in scene.bins {
@@ -442,7 +438,6 @@ impl Tile {
     }
 
     /// True if all of these samples see something nearer than a depth.
-    #[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
     #[inline(always)]
     fn hides(&self, ahead: f64, across: &Range<usize>, down: &Range<usize>) -> bool {
         ahead > 0.0
@@ -455,7 +450,6 @@ impl Tile {
     }
 
     /// Writes the samples of a triangle that are nearer than what was there; of equals the one with the lowest index stays.
-    #[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
     #[inline(always)]
     fn triangle(
         &mut self,
@@ -489,7 +483,6 @@ impl Tile {
     }
 
     /// Depths of some samples side by side.
-    #[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
     #[inline(always)]
     fn four(&mut self, id: f64, row: usize, column: usize, lines: [(f64, f64, f64); 3], scale: f64) {
         let start = row * STRIDE + column;
@@ -527,19 +520,16 @@ impl Tile {
     }
 }
 
-#[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
 #[inline(always)]
 fn each(value: impl Fn(usize) -> f64) -> [f64; LANES] {
     [value(0), value(1), value(2), value(3)]
 }
 
-#[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
 #[inline(always)]
 fn least(a: f64, b: f64) -> f64 {
     if a < b { a } else { b }
 }
 
-#[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
 #[inline(always)]
 fn lanes(all: &[f64], start: usize) -> [f64; LANES] {
     let mut lanes = [0.0; LANES];

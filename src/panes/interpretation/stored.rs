@@ -1,10 +1,10 @@
 //! A set whose file is not available: what can be changed by its values alone.
 
 use egui::{RichText, Ui};
-use spectral_file::Values;
+use spectral_file::{Values, WavelengthUnit};
 
 use super::camera::RESPONSES;
-use super::{Closed, caption, list, name, switches};
+use super::{Closed, caption, list, name};
 use crate::action::{Action, ImportedAction};
 use crate::document::SetKind;
 use crate::document::imported::{ImportedSet, Role};
@@ -81,8 +81,8 @@ fn choice<T: Copy + PartialEq>(ui: &mut Ui, theme: &Theme, words: &str, choices:
 }
 
 fn choices(ui: &mut Ui, set: &mut ImportedSet, theme: &Theme) {
-    choice(ui, theme, "This is a", &switches::ROLES, &mut set.role);
-    choice(ui, theme, "Wavelengths in", &switches::UNITS, &mut set.unit);
+    choice(ui, theme, "This is a", Role::CHOICES, &mut set.role);
+    choice(ui, theme, "Wavelengths in", WavelengthUnit::CHOICES, &mut set.unit);
     ui.checkbox(&mut set.percent, "Values are percent");
 }
 

@@ -11,57 +11,6 @@ use crate::document::imported::ImportOverrides;
 use crate::figures::curves::ImportSelection;
 use crate::theme::{Theme, UNIT};
 
-/// The kinds, as the user calls them.
-pub(super) const ROLES: [(Role, &str); 5] = [
-    (Role::Camera, "Camera sensitivities"),
-    (Role::Reflectance, "Reflectance"),
-    (Role::Transmittance, "Transmittance"),
-    (Role::Illuminant, "Illuminant"),
-    (Role::Unknown, "Unknown"),
-];
-
-pub(super) const UNITS: [(WavelengthUnit, &str); 5] = [
-    (WavelengthUnit::Nanometer, "nm"),
-    (WavelengthUnit::Micrometer, "µm"),
-    (WavelengthUnit::Angstrom, "Å"),
-    (WavelengthUnit::Wavenumber, "1/cm"),
-    (WavelengthUnit::Terahertz, "THz"),
-];
-
-const VALUES: [(Values, &str); 4] = [
-    (Values::Plain, "Plain numbers"),
-    (Values::Percent, "Percent"),
-    (Values::Absorbance, "Absorbance"),
-    (Values::Decibels, "Decibels"),
-];
-
-const MARKS: [(DecimalMark, &str); 2] = [(DecimalMark::Point, "Point"), (DecimalMark::Comma, "Comma")];
-
-const DELIMITERS: [(Delimiter, &str); 5] = [
-    (Delimiter::Comma, "Comma"),
-    (Delimiter::CommaSpace, "Comma, space"),
-    (Delimiter::Semicolon, "Semicolon"),
-    (Delimiter::Tab, "Tab"),
-    (Delimiter::Spaces, "Spaces"),
-];
-
-const ORIENTATIONS: [(Orientation, &str); 2] =
-    [(Orientation::Down, "Down a column"), (Orientation::Across, "Across a row")];
-
-const READERS: [(Reader, &str); 11] = [
-    (Reader::Table, "Table of numbers"),
-    (Reader::Cgats, "CGATS"),
-    (Reader::Jcamp, "JCAMP-DX"),
-    (Reader::Tm27, "IES TM-27"),
-    (Reader::Cxf, "CxF"),
-    (Reader::Rawtoaces, "rawtoaces"),
-    (Reader::Dcamprof, "dcamprof"),
-    (Reader::Enlighten, "Wasatch ENLIGHTEN"),
-    (Reader::Labels, "Labeled lines"),
-    (Reader::Alternate, "Alternate lines"),
-    (Reader::Camspec, "Camera database"),
-];
-
 /// Head of the switches of a file's format where none of them is in doubt.
 const SETTLED: &str = "File format: all certain";
 
@@ -126,10 +75,16 @@ pub(super) fn show(ui: &mut Ui, shown: &ImportSelection, overrides: &mut ImportO
     let reading = table.map(|table| &table.reading);
     let options = &mut overrides.options;
     let whole = ui.available_width() - 2.0;
-    Switch { words: "This is a", wish: &mut options.role, decided: table.map(|table| &table.role), choices: &ROLES }
-        .show(ui, theme, whole, true);
+    Switch {
+        words: "This is a",
+        wish: &mut options.role,
+        decided: table.map(|table| &table.role),
+        choices: Role::CHOICES,
+    }
+    .show(ui, theme, whole, true);
     let decided = reading.map(|reading| &reading.values);
-    Switch { words: "Values are", wish: &mut options.values, decided, choices: &VALUES }.show(ui, theme, whole, true);
+    Switch { words: "Values are", wish: &mut options.values, decided, choices: Values::CHOICES }
+        .show(ui, theme, whole, true);
     let is_settled = shown.error().is_none() && reading.is_some_and(|reading| is_certain(reading, options));
     if is_settled {
         let head = RichText::new(SETTLED).small();
@@ -162,23 +117,34 @@ fn format(ui: &mut Ui, shown: &ImportSelection, options: &mut ReadOptions, theme
     let unit = reading.map(|reading| &reading.wavelength_unit);
     let columns = columns(table, options.reader);
     pair(ui, gap, |ui| {
-        Switch { words: "Wavelengths in", wish: &mut options.wavelength_unit, decided: unit, choices: &UNITS }
-            .show(ui, theme, half, false);
+        Switch {
+            words: "Wavelengths in",
+            wish: &mut options.wavelength_unit,
+            decided: unit,
+            choices: WavelengthUnit::CHOICES,
+        }
+        .show(ui, theme, half, false);
         let decided = reading.map(|reading| &reading.reader);
-        Switch { words: "Read by", wish: &mut options.reader, decided, choices: &READERS }.show(ui, theme, half, false);
+        Switch {
+            words: "Read by",
+            wish: &mut options.reader,
+            decided,
+            choices: &Reader::ALL.map(|reader| (reader, reader.label())),
+        }
+        .show(ui, theme, half, false);
     });
     if columns {
         pair(ui, gap, |ui| {
             let decided = reading.map(|reading| &reading.decimal_mark);
-            Switch { words: "Decimal mark", wish: &mut options.decimal_mark, decided, choices: &MARKS }
+            Switch { words: "Decimal mark", wish: &mut options.decimal_mark, decided, choices: DecimalMark::CHOICES }
                 .show(ui, theme, half, false);
             let decided = reading.map(|reading| &reading.delimiter);
-            Switch { words: "Columns split by", wish: &mut options.delimiter, decided, choices: &DELIMITERS }
+            Switch { words: "Columns split by", wish: &mut options.delimiter, decided, choices: Delimiter::CHOICES }
                 .show(ui, theme, half, false);
         });
         pair(ui, gap, |ui| {
             let decided = reading.map(|reading| &reading.orientation);
-            Switch { words: "Wavelengths run", wish: &mut options.orientation, decided, choices: &ORIENTATIONS }
+            Switch { words: "Wavelengths run", wish: &mut options.orientation, decided, choices: Orientation::CHOICES }
                 .show(ui, theme, half, false);
             let across = options.orientation == Some(Orientation::Across)
                 || (options.orientation.is_none() && decided.is_some_and(|d| d.value == Orientation::Across));
@@ -209,7 +175,7 @@ fn pair(ui: &mut Ui, gap: f32, add: impl FnOnce(&mut Ui)) {
 /// True if the file is, or is to be read as, numbers in columns.
 fn columns(table: Option<&SpectralFile>, wish: Option<Reader>) -> bool {
     let known = table.map(|table| table.reading.reader.value);
-    wish.or(known).is_none_or(|reader| reader == Reader::Table)
+    wish.or(known).is_none_or(|reader| reader == Reader::TABLE)
 }
 
 fn column(ui: &mut Ui, shown: &ImportSelection, wish: &mut Option<usize>, theme: &Theme, width: f32) {

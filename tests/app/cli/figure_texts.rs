@@ -84,7 +84,9 @@ fn no_text_of_a_figure_meets_a_mark_a_text_or_the_edge() {
         }
     }
     let raw = folder.path().join("raw.csv");
-    fs::write(&raw, "patch,R,G,B\ndark skin,0.12,0.09,0.06\nlight skin,0.38,0.29,0.25\nblue sky,0.16,0.19,0.31\nfoliage,0.11,0.14,0.06\nblue flower,0.25,0.22,0.40\nbluish green,0.29,0.43,0.43\n").expect("written");
+    let patches = "patch,R,G,B\ndark skin,0.12,0.09,0.06\nlight skin,0.38,0.29,0.25\nblue sky,0.16,0.19,0.31\n\
+                   foliage,0.11,0.14,0.06\nblue flower,0.25,0.22,0.40\nbluish green,0.29,0.43,0.43\n";
+    fs::write(&raw, patches).expect("written");
     for (kind, file) in [("recorded", raw.to_string_lossy().into_owned()), ("curves", long.clone())] {
         for width in ["85mm", "174mm"] {
             for fault in faults_of(kind, &[&file, "--width", width]) {

@@ -13,9 +13,6 @@ use proptest::prelude::*;
 use super::{integral, rough};
 use crate::support::{assert_near, cases};
 
-const READINGS: [Normalization; 4] =
-    [Normalization::Radiometric, Normalization::Paper, Normalization::Microfacet, Normalization::Lambertian];
-
 /// The share of light from θi that leaves, by the factor's integral over all directions: ∫ f cos θs dω.
 fn albedo(surface: &Surface, theta_i: f64, pieces: [u32; 2]) -> f64 {
     let ring = |theta_s: f64| {
@@ -200,46 +197,8 @@ fn between(low: f64, high: f64) -> impl Strategy<Value = f64> {
     (low.ln()..high.ln()).prop_map(f64::exp)
 }
 
-/// Any surface of the model.
-fn any_surface() -> impl Strategy<Value = Surface> {
-    let sigma = prop_oneof![1 => Just(0.0), 1 => Just(1.0), 8 => between(1e-15, 1.0)];
-    let length = || prop_oneof![1 => Just(1e-9), 1 => Just(1.0), 8 => between(1.000_1e-9, 0.999)];
-    let index = prop_oneof![2 => Just(1.0), 1 => Just(1e-3), 1 => Just(1000.0), 8 => between(1.000_1e-3, 999.0)];
-    (sigma, length(), length(), length(), index)
-        .prop_map(|(sigma, tau, x, y, index)| Surface::new(sigma, tau, x, y, index).unwrap())
-}
-
-/// An angle, with those that hurt.
-fn any_angle() -> impl Strategy<Value = f64> {
-    prop_oneof![
-        1 => Just(0.0), 1 => Just(FRAC_PI_2), 1 => Just(PI), 2 => between(1e-300, 1e-3),
-        2 => between(1e-16, 1e-3).prop_map(|x| FRAC_PI_2 - x), 10 => -4.0..4.0_f64, 1 => any::<f64>(),
-    ]
-}
-
 proptest! {
     #![proptest_config(cases(4000))]
-
-    #[test]
-    fn the_factor_is_a_number_whatever_happens(
-        surface in any_surface(), theta_i in any_angle(), theta_s in any_angle(), phi in any_angle(),
-        nm in 200.0..2500.0_f64, radius in prop_oneof![1 => Just(0.0), 4 => between(1e-12, 10.0), 1 => any::<f64>()],
-        twin in any::<bool>(),
-    ) {
-        let geometry = Geometry::from_angles(theta_i, if twin { theta_i } else { theta_s }, phi);
-        for reading in READINGS {
-            let value = factor(&surface, &geometry, nm, reading, radius);
-            prop_assert!(value.is_finite() && value >= 0.0, "{:?}: {}", reading, value);
-            prop_assert!(geometry.is_lit() || value == 0.0);
-            let pieces = [
-                diffuse_prefactor(&surface, &geometry, reading),
-                coherent_prefactor(&surface, &geometry, reading),
-                kappa(&surface, &geometry),
-                beta(&surface, &geometry),
-            ];
-            prop_assert!(pieces.iter().all(|p| p.is_finite() && *p >= 0.0), "{:?}: {:?}", reading, pieces);
-        }
-    }
 
     #[test]
     fn the_pieces_make_the_whole(

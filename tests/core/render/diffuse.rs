@@ -4,7 +4,7 @@ use chromascope_core::accuracy::RelTolerance;
 use chromascope_core::camera::rendering::white_divisors;
 use chromascope_core::reflectance::Precision;
 use chromascope_core::render::diffuse::{DARK, NEARLY_ROUGH, ROUGH, by_moments, by_nodes, by_regimes, rough_basis};
-use chromascope_core::render::{Against, Demand, IntegrationMethod, LAMBDA_0_NM, Plan, Quality, SpectralWeights};
+use chromascope_core::render::{Demand, IntegrationMethod, LAMBDA_0_NM, Plan, Quality, SpectralWeights};
 use chromascope_core::spectral::GridSpectrum;
 
 use crate::support;
@@ -70,7 +70,7 @@ fn plans_of_pictures_keep_their_tolerance() {
         for (i, measure) in measures(power).iter().enumerate() {
             let kappa = [[0.3, 90.0], [1e-6, 1e5], [200.0, 1e6]][i % 3];
             let demand = Demand::of_picture(kappa, if i % 2 == 0 { 100_000 } else { 300 });
-            let plan = Plan::new(measure, RelTolerance::new(tolerance).unwrap(), Against::Peak, demand).unwrap();
+            let plan = Plan::new(measure, RelTolerance::new(tolerance).unwrap(), demand).unwrap();
             let points = lattice(200).map(|[s, t]| [within(kappa[0], kappa[1], s), within(1.0, 1e3, t) - 1.0]);
             let ends = lattice(40).map(|[s, t]| [within(1e-15, 1e-10, s), 200.0 * t]);
             let ends = ends.chain(lattice(40).map(|[s, t]| [within(1e9, 1e15, s), 40.0 * t]));
@@ -108,7 +108,7 @@ fn a_plan_says_how_each_sample_is_integrated() {
     assert_eq!(said(&Plan::fixed(measure, Quality::Reference), 2.0, 1e6), "all 401 wavelengths, S to 1e-13");
     assert_eq!(Plan::fixed(measure, Quality::Regimes).method(2.0, 1.0), IntegrationMethod::Regimes);
     let demand = Demand::of_picture([1e-6, 90.0], 100_000);
-    let plan = Plan::new(measure, RelTolerance::new(1e-5).unwrap(), Against::Peak, demand).unwrap();
+    let plan = Plan::new(measure, RelTolerance::new(1e-5).unwrap(), demand).unwrap();
     let methods = [1e3, 5.0, 1e-9].map(|kappa| plan.method(kappa, 0.1));
     assert!(matches!(methods[0], IntegrationMethod::Moments { .. }), "{methods:?}");
     assert!(matches!(methods[1], IntegrationMethod::Table { .. }), "{methods:?}");

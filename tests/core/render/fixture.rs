@@ -20,7 +20,7 @@ use crate::support;
 
 /// Scene and settings of a picture; each test changes what it is about.
 #[derive(Clone)]
-pub(super) struct RenderService {
+pub(super) struct FrameCase {
     pub sources: Vec<RenderingQuery>,
     pub reflectance: Shared<GridSpectrum>,
     pub garment: Option<Shared<GridSpectrum>>,
@@ -44,7 +44,7 @@ pub(super) struct RenderService {
     pub metric: Metric,
 }
 
-impl RenderService {
+impl FrameCase {
     /// Skin under the sun on a sphere, through Stiles & Burch and the paper's cameras, at σ = 5 µm.
     pub(super) fn new() -> Self {
         let light = Shared::new(support::light("illuminants/direct_sun_astm_g173.csv"));

@@ -19,7 +19,7 @@ use chromascope_core::spectral::GridSpectrum;
 use chromascope_mesh::{Mesh, shapes};
 use glam::Vec3;
 
-use super::fixture::{Counting, RenderService};
+use super::fixture::{Counting, FrameCase};
 use crate::support;
 
 /// The largest difference between pictures of one scene, relative to each source's largest signal or, where that is larger,
@@ -47,9 +47,9 @@ fn every_quality_keeps_its_error_against_401_wavelengths() {
     let size = if thorough() { RasterSize::new(20, 20) } else { RasterSize::new(10, 10) };
     for reading in [Normalization::Radiometric, Normalization::Paper, Normalization::Microfacet] {
         // Tables do not depend on σ: they are made once.
-        let (studio, ask) = (RenderService { size, reading, ..RenderService::new() }, Counting::default());
+        let (studio, ask) = (FrameCase { size, reading, ..FrameCase::new() }, Counting::default());
         for sigma_m in [5e-6, 0.4e-6, 0.06e-6, 2e-9] {
-            let with = |quality| RenderService { sigma_m, quality, ..studio.clone() };
+            let with = |quality| FrameCase { sigma_m, quality, ..studio.clone() };
             let exact = with(Quality::Reference).take(&ask);
             // Signals are kept in single precision, which alone is 6e-8.
             for (quality, bound) in [(Quality::Full, 1e-5), (Quality::Fine, 1e-7), (Quality::Preview, 1e-3)] {
@@ -73,7 +73,7 @@ fn a_picture_keeps_the_error_that_was_asked_for() {
         for sigma_m in sigmas_m {
             let with = |quality| {
                 let mut studio =
-                    RenderService { reading, sigma_m, quality, size: RasterSize::new(12, 12), ..RenderService::new() };
+                    FrameCase { reading, sigma_m, quality, size: RasterSize::new(12, 12), ..FrameCase::new() };
                 studio.sources.truncate(2);
                 studio
             };
@@ -96,7 +96,7 @@ fn a_picture_keeps_the_error_that_was_asked_for() {
 #[test]
 fn what_no_plan_can_promise_is_said() {
     let quality = Quality::Within(RelTolerance::new(1e-14).unwrap());
-    let studio = RenderService { quality, ..RenderService::new() };
+    let studio = FrameCase { quality, ..FrameCase::new() };
     let pictures = Direct.ask(&studio.question());
     let pictures = (*pictures).as_ref().unwrap().as_ref().unwrap();
     for picture in &pictures.pictures {
@@ -106,8 +106,7 @@ fn what_no_plan_can_promise_is_said() {
 
 #[test]
 fn three_cases_of_g_are_seen_to_err() {
-    let with =
-        |quality| RenderService { sigma_m: 0.2e-6, quality, size: RasterSize::new(20, 20), ..RenderService::new() };
+    let with = |quality| FrameCase { sigma_m: 0.2e-6, quality, size: RasterSize::new(20, 20), ..FrameCase::new() };
     let error = apart(&with(Quality::Regimes).take(&Direct), &with(Quality::Reference).take(&Direct));
     assert!((1e-3..1.0).contains(&error), "{error:.1e}");
 }
@@ -117,7 +116,7 @@ fn the_number_of_threads_changes_nothing() {
     let with = |threads: usize, sigma_m: f64| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         let size = RasterSize { width: 70, height: 60, samples: if thorough() { 2 } else { 1 } };
-        let studio = RenderService { mesh: MeshQuery::Fern(5_000), size, sigma_m, ..RenderService::new() };
+        let studio = FrameCase { mesh: MeshQuery::Fern(5_000), size, sigma_m, ..FrameCase::new() };
         pool.install(|| studio.take(&Direct))
     };
     for sigma_m in [5e-6, 0.1e-6] {
@@ -152,7 +151,7 @@ fn between_vertices_of_one_roughness_there_is_little_to_interpolate() {
     let (sigma_m, tau_m) = (median(|v| v.sigma_m), median(|v| v.tau_m));
     let with = |roughness| {
         let size = RasterSize::new(96, 96);
-        RenderService { mesh: ball.clone(), roughness, sigma_m, tau_m, size, ..RenderService::new() }.take(&Direct)
+        FrameCase { mesh: ball.clone(), roughness, sigma_m, tau_m, size, ..FrameCase::new() }.take(&Direct)
     };
     let [uniform, own] = [Roughness::Surface, Roughness::Mesh].map(with);
     assert_eq!(uniform.geometry, own.geometry);
@@ -168,7 +167,7 @@ fn between_vertices_of_one_roughness_there_is_little_to_interpolate() {
 fn by_the_papers_own_roughness_a_head_has_the_gloss_of_its_triangles() {
     let with = |triangles, roughness| {
         let size = RasterSize::new(64, 64);
-        RenderService { mesh: MeshQuery::Head(triangles), roughness, size, ..RenderService::new() }.take(&Direct)
+        FrameCase { mesh: MeshQuery::Head(triangles), roughness, size, ..FrameCase::new() }.take(&Direct)
     };
     let concentration = |pictures: &Pictures| {
         let signals = pictures.images[0].as_ref().unwrap().signals();
@@ -188,12 +187,11 @@ fn by_the_papers_own_roughness_a_head_has_the_gloss_of_its_triangles() {
 fn of_the_papers_cameras_the_kodak_is_farthest_from_the_truth() {
     let leaf = support::patches("materials/leaves_vrhel.csv");
     let leaf = leaf.patches().iter().find(|patch| patch.name.contains("024")).unwrap();
-    let skin = RenderService::new().reflectance;
+    let skin = FrameCase::new().reflectance;
     for (mesh, reflectance) in
         [(MeshQuery::Head(9_000), skin), (MeshQuery::Fern(20_000), Shared::new(leaf.grid.clone()))]
     {
-        let studio =
-            RenderService { mesh, reflectance, yaw: 0.35, size: RasterSize::new(96, 96), ..RenderService::new() };
+        let studio = FrameCase { mesh, reflectance, yaw: 0.35, size: RasterSize::new(96, 96), ..FrameCase::new() };
         let differences = studio.take(&Direct).differences;
         let facing: Vec<f64> = differences.iter().flatten().filter_map(|difference| difference.facing).collect();
         let medians: Vec<f64> =
@@ -207,7 +205,7 @@ fn of_the_papers_cameras_the_kodak_is_farthest_from_the_truth() {
 #[test]
 fn read_to_the_letter_a_rough_white_turns_yellow() {
     for (reading, expected) in [(Normalization::Radiometric, [0.332, 0.347]), (Normalization::Paper, [0.373, 0.379])] {
-        let mut studio = RenderService { reading, ..RenderService::new() };
+        let mut studio = FrameCase { reading, ..FrameCase::new() };
         studio.reflectance = Shared::new(GridSpectrum::constant(1.0));
         let light = Shared::new(support::light("illuminants/d55.csv"));
         studio.sources.iter_mut().for_each(|source| source.light = light.clone());
@@ -225,14 +223,13 @@ fn read_to_the_letter_a_rough_white_turns_yellow() {
 #[test]
 fn an_untinted_lobe_keeps_its_color_on_any_material() {
     let with = |specular, reflectance: f64, sigma_m| {
-        let mut studio = RenderService { specular, sigma_m, quality: Quality::Reference, ..RenderService::new() };
+        let mut studio = FrameCase { specular, sigma_m, quality: Quality::Reference, ..FrameCase::new() };
         studio.reflectance = Shared::new(GridSpectrum::constant(reflectance));
         studio
     };
     // A mirror has no diffuse component: all that is left is the boundary's reflection.
-    let signals = |studio: &RenderService| -> Vec<[f32; 3]> {
-        studio.take(&Direct).images[1].as_ref().unwrap().signals().to_vec()
-    };
+    let signals =
+        |studio: &FrameCase| -> Vec<[f32; 3]> { studio.take(&Direct).images[1].as_ref().unwrap().signals().to_vec() };
     let [white, dark] = [1.0, 0.05].map(|reflectance| signals(&with(Specular::Fresnel, reflectance, 0.0)));
     assert_eq!(white, dark);
     assert!(white.iter().any(|signal| signal[1] > 0.0));
@@ -249,7 +246,7 @@ fn untinted_lobes_keep_every_qualitys_error_on_a_dark_material() {
     for sigma_m in [0.4e-6, 0.06e-6, 2e-9] {
         let with = |quality| {
             let (specular, size) = (Specular::Fresnel, RasterSize::new(20, 20));
-            let mut studio = RenderService { size, sigma_m, specular, quality, ..RenderService::new() };
+            let mut studio = FrameCase { size, sigma_m, specular, quality, ..FrameCase::new() };
             studio.reflectance = Shared::new(GridSpectrum::from_fn(|nm| if nm > 600.0 { 0.04 } else { 0.02 }));
             studio.sources.truncate(2);
             studio
@@ -267,7 +264,7 @@ fn untinted_lobes_keep_every_qualitys_error_on_a_dark_material() {
 
 #[test]
 fn the_headline_is_the_patch_that_patches_print() {
-    let studio = RenderService { mesh: MeshQuery::Head(9_000), ..RenderService::new() };
+    let studio = FrameCase { mesh: MeshQuery::Head(9_000), ..FrameCase::new() };
     let skin = support::patches("materials/skin_vrhel.csv")
         .subset(&[&support::patches("materials/skin_vrhel.csv").patches()[0].name]);
     let patches = Shared::new(skin);
@@ -281,7 +278,7 @@ fn the_headline_is_the_patch_that_patches_print() {
         (0.1e-6, 80.0, Normalization::Paper, Metric::XY),
         (5e-6, -60.0, Normalization::Lambertian, Metric::UV_PRIME),
     ] {
-        let studio = RenderService { light_up, sigma_m, reading, metric, ..studio.clone() };
+        let studio = FrameCase { light_up, sigma_m, reading, metric, ..studio.clone() };
         let pictures = studio.take(&Direct);
         for (source, difference) in studio.sources.iter().zip(&pictures.differences).skip(1) {
             let expected = compare::difference(studio.metric, &color(&studio.sources[0]), &color(source)).unwrap();
@@ -294,12 +291,8 @@ fn the_headline_is_the_patch_that_patches_print() {
 fn the_mean_over_all_lit_samples_is_a_mean_of_brightness() {
     let of = |ev_of_light: f64| {
         let light_up = ev_of_light;
-        let studio = RenderService {
-            light_up,
-            mesh: MeshQuery::Sphere(20_000),
-            size: RasterSize::new(96, 96),
-            ..RenderService::new()
-        };
+        let studio =
+            FrameCase { light_up, mesh: MeshQuery::Sphere(20_000), size: RasterSize::new(96, 96), ..FrameCase::new() };
         let difference = studio.take(&Direct).differences[1].clone().unwrap();
         let bright = difference.bright.unwrap();
         assert!(bright.count < difference.map.len() && bright.median <= bright.p95 && bright.p95 <= difference.max);
@@ -320,7 +313,7 @@ fn the_mean_over_all_lit_samples_is_a_mean_of_brightness() {
 #[test]
 fn every_sample_is_accounted_for() {
     for mesh in [MeshQuery::Sphere(2_000), MeshQuery::Fern(5_000), MeshQuery::Head(5_000)] {
-        let studio = RenderService { mesh, ..RenderService::new() };
+        let studio = FrameCase { mesh, ..FrameCase::new() };
         let pictures = studio.take(&Direct);
         let counts = pictures.geometry;
         assert_eq!(counts.seen, counts.lit + counts.facing_away + counts.shadowed);
@@ -337,10 +330,9 @@ fn a_garment_has_a_material_of_its_own() {
     let cloth = support::patches("materials/textiles_vrhel.csv");
     let cloth = Shared::new(cloth.patches().iter().find(|patch| patch.name.starts_with("Faded")).unwrap().grid.clone());
     for (roughness, sky, sigma_m) in [(Roughness::Surface, Some(0.15), 0.05e-6), (Roughness::Mesh, None, 5e-6)] {
-        let skin =
-            RenderService { mesh: MeshQuery::ClothedHead(13_000), roughness, sky, sigma_m, ..RenderService::new() };
-        let all = RenderService { reflectance: cloth.clone(), ..skin.clone() };
-        let worn = RenderService { garment: Some(cloth.clone()), ..skin.clone() };
+        let skin = FrameCase { mesh: MeshQuery::ClothedHead(13_000), roughness, sky, sigma_m, ..FrameCase::new() };
+        let all = FrameCase { reflectance: cloth.clone(), ..skin.clone() };
+        let worn = FrameCase { garment: Some(cloth.clone()), ..skin.clone() };
         let seen = skin.question().shading.geometry.visibility;
         let [skin, all, worn] = [skin, all, worn].map(|service| service.take(&Direct));
         let (mesh, visibility) = (Direct.ask(&seen.mesh), Direct.ask(&seen));
@@ -369,7 +361,7 @@ fn a_material_facing_light_and_eye_is_shown_at_its_exposure() {
         [Normalization::Radiometric, Normalization::Paper, Normalization::Microfacet, Normalization::Lambertian]
     {
         // The light stands behind the eye.
-        let mut question = RenderService { mesh: MeshQuery::Plane, reading, ..RenderService::new() }.question();
+        let mut question = FrameCase { mesh: MeshQuery::Plane, reading, ..FrameCase::new() }.question();
         question.shading.geometry.visibility.viewpoint = Viewpoint::new(0.0, 0.0, 1000.0, 0.002).unwrap();
         question.shading.geometry.lighting = chromascope_core::scene::Lighting::from_angles(0.0, 0.0, 4.65e-3).unwrap();
         let pictures = (*Direct.ask(&question)).clone().unwrap().unwrap();
@@ -388,7 +380,7 @@ fn a_material_facing_light_and_eye_is_shown_at_its_exposure() {
 #[test]
 fn without_a_model_a_white_in_the_light_is_white() {
     let mut question =
-        RenderService { mesh: MeshQuery::Plane, reading: Normalization::Lambertian, ..RenderService::new() }.question();
+        FrameCase { mesh: MeshQuery::Plane, reading: Normalization::Lambertian, ..FrameCase::new() }.question();
     question.reflectance = Shared::new(GridSpectrum::constant(1.0));
     let pictures = (*Direct.ask(&question)).clone().unwrap().unwrap();
     let facing = pictures.facing;
@@ -417,7 +409,7 @@ fn table_and_lid() -> Mesh {
 fn a_lid_casts_its_shadow_where_the_sun_is_high() {
     let mesh = MeshQuery::Own(Shared::new(table_and_lid()));
     let from_above = |shadows| {
-        let mut question = RenderService { mesh: mesh.clone(), shadows, ..RenderService::new() }.question();
+        let mut question = FrameCase { mesh: mesh.clone(), shadows, ..FrameCase::new() }.question();
         let geometry = &mut question.shading.geometry;
         geometry.visibility.size = RasterSize::new(101, 101);
         // From straight above the lid hides its own shadow but for perspective; from the side the table is seen.
@@ -438,8 +430,7 @@ fn a_lid_casts_its_shadow_where_the_sun_is_high() {
 #[test]
 fn a_ball_does_not_shadow_itself_in_the_light() {
     // Facets are flat where normals are round: rays that start on them must not meet their neighbors.
-    let studio =
-        RenderService { mesh: MeshQuery::Sphere(300), size: RasterSize::new(200, 200), ..RenderService::new() };
+    let studio = FrameCase { mesh: MeshQuery::Sphere(300), size: RasterSize::new(200, 200), ..FrameCase::new() };
     let counts = studio.take(&Direct).geometry;
     assert!(counts.shadowed * 200 < counts.lit, "{counts:?}");
 }
@@ -456,7 +447,7 @@ fn what_is_stopped_gives_nothing() {
 fn more_samples_give_the_same_picture_but_for_its_edges() {
     let with = |samples| {
         let size = RasterSize { width: 48, height: 48, samples };
-        RenderService { size, mesh: MeshQuery::Sphere(20_000), ..RenderService::new() }.take(&Direct).pictures[1]
+        FrameCase { size, mesh: MeshQuery::Sphere(20_000), ..FrameCase::new() }.take(&Direct).pictures[1]
             .clone()
             .unwrap()
     };

@@ -14,7 +14,7 @@ use chromascope_core::render::{Quality, RasterSize, Shadows, Stop};
 use chromascope_mesh::{Mesh, ShadowTree};
 use glam::{DVec3, Vec3};
 
-use super::fixture::{Counting, RenderService};
+use super::fixture::{Counting, FrameCase};
 
 /// `∫ π f cos θi dωi / π` over the part of the sky that a place with this normal sees, by midpoints in height and azimuth.
 fn by_midpoints(surface: &Surface, reading: Normalization, normal: DVec3, to_viewer: DVec3, nm: f64) -> f64 {
@@ -58,13 +58,13 @@ fn the_reflectance_under_light_from_everywhere_is_that_of_a_plain_quadrature() {
 }
 
 /// The same scene without sky, and with one.
-fn taken(service: &RenderService, sky: f64) -> [Pictures; 2] {
-    let without = RenderService { sky: None, ..service.clone() };
-    [without.take(&Direct), RenderService { sky: Some(sky), ..without }.take(&Direct)]
+fn taken(service: &FrameCase, sky: f64) -> [Pictures; 2] {
+    let without = FrameCase { sky: None, ..service.clone() };
+    [without.take(&Direct), FrameCase { sky: Some(sky), ..without }.take(&Direct)]
 }
 
 /// The sky's part of the first sensor's signals at every sample that sees the mesh, with the sample's place in the picture.
-fn sky_part(service: &RenderService, sky: f64) -> Vec<(u32, [f64; 3])> {
+fn sky_part(service: &FrameCase, sky: f64) -> Vec<(u32, [f64; 3])> {
     let [without, with] = taken(service, sky);
     let [plain, image] = [&without, &with].map(|pictures| pictures.images[0].clone().unwrap());
     assert_eq!(image.placed().samples(), image.placed().seen(), "the sky lights whatever is seen");
@@ -80,7 +80,7 @@ fn sky_part(service: &RenderService, sky: f64) -> Vec<(u32, [f64; 3])> {
 }
 
 /// Normal of a unit sphere, direction to the viewer, and cos⁴α of a sample.
-fn on_sphere(service: &RenderService, sample: u32) -> (DVec3, DVec3, f64) {
+fn on_sphere(service: &FrameCase, sample: u32) -> (DVec3, DVec3, f64) {
     let question = service.question();
     let visibility = &question.shading.geometry.visibility;
     let mesh = chromascope_mesh::shapes::sphere(2_000);
@@ -106,16 +106,16 @@ fn a_sphere_under_the_sky_is_as_a_quadrature_over_all_directions_makes_it() {
         (5e-6, 10e-6, Normalization::Microfacet, [0.0075, 0.08, 0.12]),
         (1e-6, 10e-6, Normalization::Radiometric, [0.007, 0.026, 0.031]),
     ] {
-        let service = RenderService {
+        let service = FrameCase {
             mesh: MeshQuery::Sphere(20_000),
             size: RasterSize::new(96, 96),
             reflectance: Shared::new(chromascope_core::spectral::GridSpectrum::constant(1.0)),
             sigma_m,
             tau_m,
             reading,
-            ..RenderService::new()
+            ..FrameCase::new()
         };
-        let parts = QUALITIES.map(|quality| sky_part(&RenderService { quality, ..service.clone() }, 0.5));
+        let parts = QUALITIES.map(|quality| sky_part(&FrameCase { quality, ..service.clone() }, 0.5));
         let (mut worst, mut checked) = ([0.0_f64; 3], 0);
         for index in (0..parts[0].len()).step_by(113) {
             let (normal, to_viewer, falloff) = on_sphere(&service, parts[0][index].0);
@@ -195,7 +195,7 @@ fn a_wall_hides_half_of_the_sky_from_the_floor_at_its_foot() {
 #[test]
 fn without_a_sky_nothing_of_it_is_computed_and_nothing_else_changes() {
     let counting = Counting::default();
-    let service = RenderService::new();
+    let service = FrameCase::new();
     let plain = service.take(&counting);
     let made = counting.made();
     assert!(made.keys().all(|name| !name.contains("sky") && !name.contains("leaf")), "{made:?}");
@@ -203,11 +203,11 @@ fn without_a_sky_nothing_of_it_is_computed_and_nothing_else_changes() {
     assert_eq!(image.placed().samples().len() as u64, plain.geometry.lit, "only what the light reaches is listed");
     assert!(plain.geometry.rays <= plain.geometry.seen, "one ray a sample at most");
     // Moving the light asks for no sky anew, and a sky asks for no visibility anew.
-    let sky = RenderService { sky: Some(0.15), ..service.clone() };
+    let sky = FrameCase { sky: Some(0.15), ..service.clone() };
     sky.take(&counting);
     let made = counting.made();
     assert_eq!((made.get("sky"), made.get("sky visibility"), made.get("visibility")), (Some(&1), Some(&1), None));
-    RenderService { light_up: 40.0, ..sky.clone() }.take(&counting);
+    FrameCase { light_up: 40.0, ..sky.clone() }.take(&counting);
     let made = counting.made();
     assert_eq!(
         (made.get("sky"), made.get("sky visibility"), made.get("sky reflectance")),
@@ -215,14 +215,14 @@ fn without_a_sky_nothing_of_it_is_computed_and_nothing_else_changes() {
         "{made:?}"
     );
     // Turning the mesh traces no ray to the sky.
-    RenderService { yaw: 0.3, ..sky }.take(&counting);
+    FrameCase { yaw: 0.3, ..sky }.take(&counting);
     let made = counting.made();
     assert_eq!((made.get("sky"), made.get("sky visibility"), made.get("sky reflectance")), (Some(&1), None, None));
 }
 
 #[test]
 fn the_sky_adds_in_proportion_to_its_share() {
-    let service = RenderService { quality: Quality::Preview, shadows: Shadows::Off, ..RenderService::new() };
+    let service = FrameCase { quality: Quality::Preview, shadows: Shadows::Off, ..FrameCase::new() };
     let [one, two] = [0.1, 0.2].map(|share| sky_part(&service, share));
     assert!(!one.is_empty());
     for ((_, one), (_, two)) in one.iter().zip(&two) {
@@ -235,18 +235,18 @@ fn a_leaf_lit_from_behind_shines_in_its_transmittance() {
     use chromascope_core::reflectance::leaf::LeafModel;
     use chromascope_core::spectral::GridSpectrum;
     let gray = 0.12;
-    let service = RenderService {
+    let service = FrameCase {
         mesh: MeshQuery::Plane,
         reflectance: Shared::new(GridSpectrum::constant(gray)),
         // Behind the plane, 30° from its back's normal.
         light_up: 150.0,
         light_right: 0.0,
         through: true,
-        ..RenderService::new()
+        ..FrameCase::new()
     };
     let made = service.take(&Direct);
     assert_eq!((made.geometry.lit, made.geometry.through), (0, made.geometry.seen));
-    let opaque = RenderService { through: false, ..service.clone() }.take(&Direct);
+    let opaque = FrameCase { through: false, ..service.clone() }.take(&Direct);
     assert!(opaque.images[0].as_ref().unwrap().signals().is_empty(), "it is dark without");
     // What the rough surface takes from the reflectance it takes from the transmittance.
     let theta = f64::from(-made.angles.angles()[0].cos_i).acos();
@@ -262,7 +262,7 @@ fn a_leaf_lit_from_behind_shines_in_its_transmittance() {
     let transmitted = LeafModel::new().transmittance(gray);
     // The share scattered is interpolated in a table; without a model nothing is.
     check(&made, transmitted * scattered, 1e-4);
-    let even = RenderService { reading: Normalization::Lambertian, ..service }.take(&Direct);
+    let even = FrameCase { reading: Normalization::Lambertian, ..service }.take(&Direct);
     check(&even, transmitted, 1e-5);
 }
 

@@ -6,7 +6,7 @@ use chromascope_core::query::{Ask, Direct};
 use chromascope_core::render::{CoherentIntegral, Quality, RasterSize};
 use chromascope_core::scene::lighting::SUN_RADIUS;
 
-use super::fixture::{Counting, RenderService};
+use super::fixture::{Counting, FrameCase};
 use super::images::apart;
 
 const SIGMAS_M: [f64; 5] = [0.3e-6, 0.1e-6, 0.05e-6, 0.01e-6, 0.0];
@@ -14,12 +14,12 @@ const HALF_WIDTHS_M: [f64; 4] = [1e-6, 10e-6, 50e-6, 1e-3];
 const RADII: [f64; 2] = [0.0, SUN_RADIUS];
 
 /// Every smooth surface under every light.
-fn each_smooth_surface(start: &RenderService, check: impl Fn(&RenderService, &str)) {
+fn each_smooth_surface(start: &FrameCase, check: impl Fn(&FrameCase, &str)) {
     for sigma_m in SIGMAS_M {
         for half_width_m in HALF_WIDTHS_M {
             for angular_radius in RADII {
                 let name = format!("σ {sigma_m}, half-width {half_width_m}, radius {angular_radius}");
-                check(&RenderService { sigma_m, half_width_m, angular_radius, ..start.clone() }, &name);
+                check(&FrameCase { sigma_m, half_width_m, angular_radius, ..start.clone() }, &name);
             }
         }
     }
@@ -27,18 +27,18 @@ fn each_smooth_surface(start: &RenderService, check: impl Fn(&RenderService, &st
 
 #[test]
 fn every_smooth_surface_keeps_its_error_against_401_wavelengths() {
-    let mut start = RenderService { size: RasterSize::new(12, 12), ..RenderService::new() };
+    let mut start = FrameCase { size: RasterSize::new(12, 12), ..FrameCase::new() };
     start.sources.truncate(2);
     // Tables do not depend on the surface: they are made once.
     let ask = Counting::default();
     let within = |error| Quality::Within(RelTolerance::new(error).unwrap());
     each_smooth_surface(&start, |studio, name| {
-        let exact = RenderService { quality: Quality::Reference, ..studio.clone() }.take(&ask);
+        let exact = FrameCase { quality: Quality::Reference, ..studio.clone() }.take(&ask);
         // Signals are kept in single precision.
         for (quality, bound) in
             [(Quality::Full, 1e-5), (Quality::Preview, 1e-3), (within(1e-3), 1e-3), (within(1e-6), 1.2e-6)]
         {
-            let error = apart(&RenderService { quality, ..studio.clone() }.take(&ask), &exact);
+            let error = apart(&FrameCase { quality, ..studio.clone() }.take(&ask), &exact);
             assert!(error <= bound, "{name}, {quality:?}: {error:.1e}");
         }
     });
@@ -47,34 +47,34 @@ fn every_smooth_surface_keeps_its_error_against_401_wavelengths() {
 #[test]
 fn views_places_of_the_light_and_roughnesses_share_their_plans() {
     // Large enough that a search pays.
-    let mut start = RenderService {
+    let mut start = FrameCase {
         size: RasterSize::new(256, 256),
         mesh: MeshQuery::Head(9_000),
         sigma_m: 0.3e-6,
-        ..RenderService::new()
+        ..FrameCase::new()
     };
     start.sources.truncate(1);
     let ask = Counting::default();
-    let plans = |services: &[RenderService]| -> usize {
+    let plans = |services: &[FrameCase]| -> usize {
         for service in services {
             drop(service.take(&ask));
         }
         ask.made().get("plan").copied().unwrap_or_default()
     };
     assert_eq!(plans(&[start.clone()]), 1, "a search pays");
-    let turned: Vec<RenderService> =
-        (-8..=8).map(|step| RenderService { yaw: 0.3 * f64::from(step), ..start.clone() }).collect();
-    let lit: Vec<RenderService> =
-        (-6..=6).map(|step| RenderService { light_right: 12.0 * f64::from(step), ..start.clone() }).collect();
-    let rough: Vec<RenderService> =
-        (0..8).map(|step| RenderService { sigma_m: (0.1 + 0.1 * f64::from(step)) * 1e-6, ..start.clone() }).collect();
+    let turned: Vec<FrameCase> =
+        (-8..=8).map(|step| FrameCase { yaw: 0.3 * f64::from(step), ..start.clone() }).collect();
+    let lit: Vec<FrameCase> =
+        (-6..=6).map(|step| FrameCase { light_right: 12.0 * f64::from(step), ..start.clone() }).collect();
+    let rough: Vec<FrameCase> =
+        (0..8).map(|step| FrameCase { sigma_m: (0.1 + 0.1 * f64::from(step)) * 1e-6, ..start.clone() }).collect();
     assert_eq!([plans(&turned), plans(&lit), plans(&rough)], [0, 0, 0]);
 }
 
 #[test]
 fn no_smooth_surface_takes_many_wavelengths() {
     // Of a head, few samples see the sun's image: next to the brightest of these, few coherent terms count.
-    let start = RenderService { size: RasterSize::new(64, 64), mesh: MeshQuery::Head(9_000), ..RenderService::new() };
+    let start = FrameCase { size: RasterSize::new(64, 64), mesh: MeshQuery::Head(9_000), ..FrameCase::new() };
     each_smooth_surface(&start, |studio, name| {
         let question = studio.question();
         let shading = Direct.ask(&question.shading);

@@ -54,11 +54,11 @@ fn exponential(&[x, ..]: &Case, v: &mut Verdict) {
 }
 
 fn draw_double(d: &mut Draw) -> Case {
-    case([d.signed(1e-90, 1e90), d.signed(1e-90, 1e90), d.signed(1e-12, 600.0), d.signed(1e-12, 100.0)])
+    case([d.signed(1e-90, 1e90), d.signed(1e-90, 1e90), d.signed(1e-12, 600.0)])
 }
 
 /// Checks double-double functions by their inverses: relative, or absolute below `at_least`.
-fn double(&[x, y, power, angle, ..]: &Case, v: &mut Verdict) {
+fn double(&[x, y, power, ..]: &Case, v: &mut Verdict) {
     let one = Double::ONE;
     let (third, half) = (Double::new(x) / Double::new(3.0), Double::new(0.5));
     let mut same = |a: Double, b: Double, at_least: f64| {
@@ -69,18 +69,11 @@ fn double(&[x, y, power, angle, ..]: &Case, v: &mut Verdict) {
     same(third * y.into() / y.into(), third, 0.0);
     same([third, third + third].into_iter().sum(), third * Double::new(3.0), 0.0);
     same(third.abs().sqrt() * third.abs().sqrt(), third.abs(), 0.0);
-    same(third.cbrt().powi(3), third, 0.0);
     same(third.abs().ln() + third.abs().ln(), (third * third).ln(), 1.0);
     let d = Double::from(power) + half * power.into() * f64::EPSILON.into();
     same(d.exp() * (-d).exp(), one, 0.0);
     let less = (d * half).exp_m1();
     same(d.exp_m1(), less * (less + one + one), 0.0);
-    let (sine, cosine) = Double::from(angle).sin_cos();
-    let (twice, _) = (Double::from(angle) + angle.into()).sin_cos();
-    same(twice, (sine + sine) * cosine, 1.0);
-    let back = sine.atan2(cosine).sin_cos();
-    same(back.0, sine, 1.0);
-    same(back.1, cosine, 1.0);
     let near = third.value().next_up();
     v.holds("the sign of an error", third.error_of(near) > 0.0 && third.error_of(third.value().next_down()) < 0.0);
 }
@@ -88,7 +81,7 @@ fn double(&[x, y, power, angle, ..]: &Case, v: &mut Verdict) {
 /// Requires only that all functions return, and that magnitudes and even powers are not negative.
 fn ends(&[x, y, ..]: &Case, v: &mut Verdict) {
     let (x, y) = (Double::new(x), Double::new(y));
-    let all = [x + y, x - y, x * y, x / y, x.atan2(y), x.sqrt(), x.cbrt(), x.exp(), x.exp_m1(), x.ln(), x.sin_cos().0];
+    let all = [x + y, x - y, x * y, x / y, x.sqrt(), x.exp(), x.exp_m1(), x.ln()];
     v.holds("a magnitude below 0", all.into_iter().all(|d| d.abs().value().is_nan() || d.abs().value() >= 0.0));
     let even = x.powi(u32::MAX - 1).value();
     v.holds("an even power below 0", even.is_nan() || even >= 0.0);

@@ -11,8 +11,8 @@ use chromascope_core::render::diffuse::by_nodes;
 use chromascope_core::render::plan::position;
 use chromascope_core::render::shading::{CoherentSample, DiffuseKind, Shade};
 use chromascope_core::render::{
-    Against, CameraImage, CoherentIntegral, Demand, GeometryImage, Plan, Quality, RasterSize, ShadingImage,
-    SpectralWeights, Stop, Visibility,
+    CameraImage, CoherentIntegral, Demand, GeometryImage, Plan, Quality, RasterSize, ShadingImage, SpectralWeights,
+    Stop, Visibility,
 };
 use chromascope_core::scene::{Lighting, Viewpoint};
 use chromascope_core::spectral::Primaries;
@@ -233,8 +233,7 @@ fn demand(&[least, most, kappa, beta, samples, inside, ..]: &Case, v: &mut Verdi
 static PLANS: LazyLock<[Plan; 4]> = LazyLock::new(|| {
     [0, 1, 2, 3].map(|i| {
         let (accuracy, samples) = (RelTolerance::new(ERRORS[i]).unwrap(), if i % 2 == 0 { 1_000_000 } else { 10 });
-        let against = if i == 1 { Against::Value } else { Against::Peak };
-        Plan::new(&of((i % 2) as f64).measure, accuracy, against, Demand::new([1e-3, 1e6], samples)).unwrap()
+        Plan::new(&of((i % 2) as f64).measure, accuracy, Demand::new([1e-3, 1e6], samples)).unwrap()
     })
 });
 
@@ -266,12 +265,8 @@ fn bounded(plan: &Plan, measure: &SpectralWeights, [kappa, beta]: [f64; 2], v: &
     let (found, exact, peak) = (plan.at(kappa, beta), exact(beta), largest(exact(0.0)));
     v.all_finite(found);
     let explanation = plan.explanation();
-    let relative_to = match explanation.against {
-        Against::Peak => peak,
-        Against::Value => largest(exact).max((-30.0_f64).exp() * peak),
-    };
     for (a, b) in found.into_iter().zip(exact) {
-        v.error(if a == b { 0.0 } else { (a - b).abs() / relative_to / explanation.error_bound() });
+        v.error(if a == b { 0.0 } else { (a - b).abs() / peak / explanation.error_bound() });
     }
 }
 
@@ -316,9 +311,8 @@ fn any_plan(numbers: &Case, v: &mut Verdict) {
     let &[.., error, from, span, key] = numbers;
     let (Some(measure), Ok(accuracy)) = (drawn_measure(numbers), RelTolerance::new(error)) else { return v.refuse() };
     let mut d = Draw::new(key as u64, "places", 0);
-    let against = if d.pick(2) == 0.0 { Against::Peak } else { Against::Value };
     let demand = Demand::new([from, from * span], d.log(1.0, 1e12) as u64);
-    let plan = match Plan::new(&measure, accuracy, against, demand) {
+    let plan = match Plan::new(&measure, accuracy, demand) {
         Ok(plan) => plan,
         Err(unmet) => {
             v.holds("refused without need", error < 1e-13);

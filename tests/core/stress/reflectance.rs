@@ -117,7 +117,8 @@ fn exact_integral(x: f64) -> f64 {
         term = term * f64::from(k + 1).into() * inverse;
     }
     let (sin, cos) = x.sin_cos();
-    (Double::FRAC_PI_2 - sums[0] * cos.into() - sums[1] * sin.into()).value()
+    let quarter = Double::from(std::f64::consts::FRAC_PI_2) + 6.123_233_995_736_766e-17.into();
+    (quarter - sums[0] * cos.into() - sums[1] * sin.into()).value()
 }
 
 fn integral(&[x, ..]: &Case, v: &mut Verdict) {

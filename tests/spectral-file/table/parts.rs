@@ -143,13 +143,13 @@ fn tables_of_cgats_and_groups_of_json() {
 
 #[test]
 fn the_reader_of_another_layout() {
-    for reader in Reader::ALL.into_iter().filter(|reader| *reader != Reader::Table) {
+    for reader in Reader::ALL.into_iter().filter(|reader| *reader != Reader::TABLE) {
         let options = ReadOptions { reader: Some(reader), ..ReadOptions::default() };
         assert_eq!(with("nm,a\n400,1\n500,2\n", &options), Err(ReadError::OtherLayout(reader)));
     }
-    let options = ReadOptions { reader: Some(Reader::Rawtoaces), ..ReadOptions::default() };
+    let options = ReadOptions { reader: Some(Reader::RAWTOACES), ..ReadOptions::default() };
     let other = with("{\"bands\": [400, 420, 10], \"spectrum\": [1, 2, 3]}", &options);
-    assert_eq!(other, Err(ReadError::OtherLayout(Reader::Rawtoaces)));
+    assert_eq!(other, Err(ReadError::OtherLayout(Reader::RAWTOACES)));
 }
 
 #[test]

@@ -139,8 +139,8 @@ proptest! {
     fn damaged_files_are_survived(
         bytes in damaged(),
         reader in prop::option::weighted(0.3, prop::sample::select(vec![
-            Reader::Table, Reader::Cgats, Reader::Jcamp, Reader::Tm27, Reader::Cxf, Reader::Rawtoaces, Reader::Labels,
-            Reader::Alternate,
+            Reader::TABLE, Reader::CGATS, Reader::JCAMP, Reader::TM27, Reader::CXF, Reader::RAWTOACES, Reader::LABELS,
+            Reader::ALTERNATE,
         ])),
         raw in any::<Option<bool>>(),
     ) {

@@ -143,7 +143,7 @@ fn broken_markup_is_placed() {
         (format!("{sound} 380,1\n<!-- -->"), 8, 13),
         (format!("{}<", sound.trim_end()), 8, 13),
     ] {
-        let found = read(text.as_bytes(), &ReadOptions { reader: Some(Reader::Tm27), ..ReadOptions::default() });
+        let found = read(text.as_bytes(), &ReadOptions { reader: Some(Reader::TM27), ..ReadOptions::default() });
         assert_eq!(found, Err(malformed(line, column)), "{text}");
     }
     let attribute = light("<SpectralData wavelength=410>2</SpectralData>");
@@ -155,7 +155,7 @@ fn broken_markup_is_placed() {
 #[test]
 fn the_root_element_decides_and_nothing_before_it() {
     let long = format!("<!-- <html> {} -->\n{}", "license ".repeat(2000), points(""));
-    assert_eq!(ok(&long).reading.reader.value, Reader::Cxf);
+    assert_eq!(ok(&long).reading.reader.value, Reader::CXF);
     for other in [
         "<!-- <CxF> -->\n<html><CxF/></html>",
         "<?xml version=\"1.0\"?><?CxF <CxF> ?>\n<svg/>",

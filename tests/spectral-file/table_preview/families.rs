@@ -71,7 +71,7 @@ pub(super) const ALL: [&str; 13] = [
 #[test]
 fn cgats_fields_and_sets() {
     let seen = whole(CGATS.as_bytes());
-    assert_eq!(seen.table.reading.reader.value, Reader::Cgats);
+    assert_eq!(seen.table.reading.reader.value, Reader::CGATS);
     assert_eq!(seen.pieces(3), [("DESCRIPTOR \"Lamp 400\"", What::Setting)]);
     let format: Vec<&str> = seen.pieces(11).into_iter().map(|(piece, _)| piece).collect();
     assert_eq!(format, ["400", "410", "420", "430"]);

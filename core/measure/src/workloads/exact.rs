@@ -1,7 +1,6 @@
 //! The workloads' quantities in 106 bits, from their definitions: the references. Nothing of the core computes here but its
 //! constants and data.
 
-use chromascope_core::colorimetry::Lab;
 use chromascope_core::colorimetry::rgb::XYZ_FROM_SRGB;
 use chromascope_core::light::RadiationConstants;
 use chromascope_core::spectral::grid::{COUNT, wavelength_nm};
@@ -145,65 +144,4 @@ fn largest_term(g: f64, b: f64) -> u64 {
         if g.ln() - middle.ln() + b / (middle * middle) > 0.0 { low = middle } else { high = middle }
     }
     low.round().max(1.0) as u64
-}
-
-/// The CIEDE2000 difference by its published steps (CIE 142-2001).
-pub fn delta_e_2000(first: Lab, second: Lab) -> Double {
-    let d = Double::new;
-    let degree = d(std::f64::consts::PI) / d(180.0) + d(1.224_646_799_147_353_2e-16) / d(180.0);
-    let (l1, a1, b1) = (d(first.l), d(first.a), d(first.b));
-    let (l2, a2, b2) = (d(second.l), d(second.a), d(second.b));
-    let length = |x: Double, y: Double| (x * x + y * y).sqrt();
-    let share = |c: Double| {
-        let c7 = c.powi(7);
-        (c7 / (c7 + d(25.0).powi(7))).sqrt()
-    };
-    let mean = (length(a1, b1) + length(a2, b2)) / d(2.0);
-    let stretch = Double::ONE + (Double::ONE - share(mean)) / d(2.0);
-    let (a1, a2) = (a1 * stretch, a2 * stretch);
-    let (c1, c2) = (length(a1, b1), length(a2, b2));
-    let hue = |a: Double, b: Double| {
-        let h = b.atan2(a) / degree;
-        if h.value() < 0.0 { h + d(360.0) } else { h }
-    };
-    let (h1, h2) = (hue(a1, b1), hue(a2, b2));
-    let gray = c1.value() * c2.value() == 0.0;
-    let apart = h2 - h1;
-    let turn = if gray {
-        Double::default()
-    } else if apart.value() > 180.0 {
-        apart - d(360.0)
-    } else if apart.value() < -180.0 {
-        apart + d(360.0)
-    } else {
-        apart
-    };
-    let mid = if gray {
-        h1 + h2
-    } else if apart.value().abs() <= 180.0 {
-        (h1 + h2) / d(2.0)
-    } else if (h1 + h2).value() < 360.0 {
-        (h1 + h2 + d(360.0)) / d(2.0)
-    } else {
-        (h1 + h2 - d(360.0)) / d(2.0)
-    };
-    let sin = |degrees: Double| (degrees * degree).sin_cos().0;
-    let cos = |degrees: Double| (degrees * degree).sin_cos().1;
-    let hundredths = |value: f64| d(value) / d(100.0);
-    let (l, c) = ((l1 + l2) / d(2.0), (c1 + c2) / d(2.0));
-    let t = Double::ONE - hundredths(17.0) * cos(mid - d(30.0))
-        + hundredths(24.0) * cos(d(2.0) * mid)
-        + hundredths(32.0) * cos(d(3.0) * mid + d(6.0))
-        - hundredths(20.0) * cos(d(4.0) * mid - d(63.0));
-    let lift = (l - d(50.0)) * (l - d(50.0));
-    let sl = Double::ONE + hundredths(1.5) * lift / (d(20.0) + lift).sqrt();
-    let sc = Double::ONE + hundredths(4.5) * c;
-    let sh = Double::ONE + hundredths(1.5) * c * t;
-    let bell = (mid - d(275.0)) / d(25.0);
-    let swing = d(30.0) * (-(bell * bell)).exp();
-    let rt = -(d(2.0) * share(c) * sin(d(2.0) * swing));
-    let dl = (l2 - l1) / sl;
-    let dc = (c2 - c1) / sc;
-    let dh = d(2.0) * (c1 * c2).sqrt() * sin(turn / d(2.0)) / sh;
-    (dl * dl + dc * dc + dh * dh + rt * dc * dh).sqrt()
 }

@@ -46,7 +46,7 @@ const ROUGHNESSES: [(&str, f64); 4] = [
 
 /// Parts that are not recomputed per frame.
 #[derive(Clone)]
-struct RenderService {
+struct FrameCase {
     mesh: Arc<Mesh>,
     tree: Arc<ShadowTree>,
     eye: Viewpoint,
@@ -55,7 +55,7 @@ struct RenderService {
     sources: Arc<Vec<SpectralWeights>>,
 }
 
-impl RenderService {
+impl FrameCase {
     fn new(triangles: usize, sigma_m: f64) -> Result<Option<Self>, BenchError> {
         let (light, skin) = (curve(LIGHT, Quantity::Light)?, curve(REFLECTANCE, Quantity::Reflectance)?);
         let mut sources = Vec::new();
@@ -198,7 +198,7 @@ const CHANGES: [(&str, Change); 5] = [
 
 /// Frames after a change, with the plans that it requires and the window does not know yet, as a multiple of a changed view's
 /// time. The view turns from frame to frame.
-fn changes(bench: &mut Bench<'_>, service: &RenderService, side: u32, roughness: &str) {
+fn changes(bench: &mut Bench<'_>, service: &FrameCase, side: u32, roughness: &str) {
     let (quality, stop) = (Quality::Full, bench.stop);
     let counts = bench.pools.counts();
     let most = bench.pools.most();
@@ -237,9 +237,9 @@ fn changes(bench: &mut Bench<'_>, service: &RenderService, side: u32, roughness:
 }
 
 /// Frames of smooth surfaces as a multiple of a rough one's time.
-fn smooth_surfaces(bench: &mut Bench<'_>, service: &RenderService, side: u32) {
+fn smooth_surfaces(bench: &mut Bench<'_>, service: &FrameCase, side: u32) {
     let most = bench.pools.most();
-    let with = |sigma_m| surface(sigma_m).map(|surface| RenderService { surface, ..service.clone() });
+    let with = |sigma_m| surface(sigma_m).map(|surface| FrameCase { surface, ..service.clone() });
     let services = ROUGHNESSES.map(|(name, sigma_m)| (name, with(sigma_m)));
     let mut candidates = Vec::new();
     for (name, service) in services {
@@ -266,7 +266,7 @@ pub(super) fn run(bench: &mut Bench<'_>) -> Result<(), BenchError> {
     );
     for ((name, sigma_m), sides) in [("\u{3c3} 5 µm", 5e-6), ("\u{3c3} 0.3 µm", 0.3e-6)].into_iter().zip(sides) {
         let most = bench.pools.most();
-        let Some(service) = bench.pools.on(most, || RenderService::new(triangles, sigma_m))? else { continue };
+        let Some(service) = bench.pools.on(most, || FrameCase::new(triangles, sigma_m))? else { continue };
         let service = &service;
         let side = bench.pick(32, 512, 512);
         if sigma_m > 1e-6 {

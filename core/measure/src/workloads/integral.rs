@@ -7,7 +7,7 @@ use chromascope_core::camera::rendering::white_divisors;
 use chromascope_core::reflectance::{Precision, diffuse_sum};
 use chromascope_core::render::diffuse::{ROUGH, by_moments, by_nodes, by_regimes, rough_basis};
 use chromascope_core::render::measure::Node;
-use chromascope_core::render::{Against, Demand, Plan, SpectralWeights};
+use chromascope_core::render::{Demand, Plan, SpectralWeights};
 use chromascope_core::spectral::Quantity;
 use chromascope_math::double::Double;
 use chromascope_math::gauss::gauss_rule;
@@ -144,7 +144,7 @@ fn plans<'a>(
 ) -> Vec<Candidate<'a>> {
     let Ok(accuracy) = RelTolerance::new(tolerance) else { return Vec::new() };
     let demand = Demand::new(kappa, points.len() as u64);
-    let plan = || timed(|| Plan::new(measure, accuracy, Against::Peak, demand));
+    let plan = || timed(|| Plan::new(measure, accuracy, demand));
     let on = |threads| {
         let (Ok(plan), seconds) = bench.pools.on(threads, plan) else { return None };
         let checked: Vec<Signals> = some.iter().map(|&(kappa, beta)| plan.at(kappa, beta)).collect();

@@ -1,17 +1,22 @@
-//! Columns that are no curves: wavelengths again, in another unit, at the other edges of intervals, or counts and times of rows.
+//! Columns that are no curves: wavelengths again, in another unit, at the other edges of intervals, or counts and times of rows;
+//! and columns in groups, each with wavelengths of its own before its values.
 
+use crate::columns::raw_curve;
+use crate::decision::{Decided, Decision, WavelengthUnit};
+use crate::error::ReadError;
+use crate::formats::spectra::{self, Sample, Spectrum};
+use crate::grid::Grid;
 use crate::header::Header;
-use crate::header_terms;
-use crate::header_terms::XUnit;
+use crate::header_terms::{self, XUnit};
 use crate::no_curve::{FEWEST_ROWS, counts, is_empty, is_other_scale, tells_rows_apart};
 use crate::text::listed;
+use crate::units;
+use crate::watch::{Log, PlaceId};
 
-/// Roles of the columns beside the first wavelengths.
 #[derive(Debug, Default)]
 pub(super) struct Axes {
     /// Columns, counted from the one right of the wavelengths, that hold the wavelengths of those behind them.
     pub(super) more: Vec<usize>,
-    /// Omitted columns of the table.
     pub(super) left: Vec<usize>,
     /// True if only the numbers suggest that there are several columns of wavelengths.
     pub(super) guessed: bool,
@@ -57,7 +62,6 @@ pub(super) fn find(header: &Header, at: usize, wavelengths: &[f64], before: &[Ve
     axes
 }
 
-/// Columns in words, the first few.
 pub(super) fn column_list(header: &Header, columns: &[usize]) -> String {
     let name = |column: &usize| match header.name(*column) {
         Some(name) => format!("column {} (“{name}”)", column + 1),
@@ -89,7 +93,6 @@ fn kind(header: &Header, at: usize, index: usize, wavelengths: &[f64], column: &
     }
 }
 
-/// The unit that the header gives for a column of wavelengths.
 pub(super) fn unit(header: &Header, column: usize) -> Option<XUnit> {
     let unit = header.units.get(column).and_then(|unit| header_terms::x_unit(unit));
     unit.or_else(|| header_terms::x_unit(header.name(column)?))
@@ -120,7 +123,7 @@ fn runs_like_axis(header: &Header, [first, column]: [usize; 2], wavelengths: &[f
     };
     let (from, to) = (from.min(to), from.max(to));
     let known = own.or(shared).is_some();
-    let plausible = crate::wavelength_unit::plausible(from, to, !known);
+    let plausible = units::plausible(from, to, !known);
     let overlaps = || match (ends(wavelengths), shared) {
         (Some((a, b)), Some(XUnit::Wavelength(unit))) => {
             let (a, b) = (unit.nanometers(a), unit.nanometers(b));
@@ -148,7 +151,7 @@ fn guess_pairs(header: &Header, at: usize, first: &[f64], columns: &[Vec<f64>], 
     let sound = |values: &[f64]| -> Option<(f64, f64)> {
         let (low, high) = ends(values)?;
         let enough = values.iter().filter(|value| !value.is_nan()).nth(FEWEST_ROWS).is_some();
-        (enough && crate::wavelength_unit::plausible(low, high, named)).then_some((low, high))
+        (enough && units::plausible(low, high, named)).then_some((low, high))
     };
     let Some((low, high)) = sound(first).filter(|_| filled.len() >= FEWEST_ROWS && filled.len() % 2 == 1) else {
         return false;
@@ -175,5 +178,78 @@ pub(super) fn after_count(cells: &[Vec<f64>]) -> Option<usize> {
     let [count, wavelengths, _, ..] = cells else { return None };
     let from_start = count.len() > FEWEST_ROWS && counts(count) && matches!(count[0], 0.0 | 1.0);
     let (low, high) = ends(wavelengths).filter(|_| from_start)?;
-    crate::wavelength_unit::plausible(low, high, false).then_some(1)
+    units::plausible(low, high, false).then_some(1)
+}
+
+/// The unit of a column of wavelengths and that of the first, where they differ.
+fn units(header: &Header, first: usize, column: usize) -> Option<(WavelengthUnit, WavelengthUnit)> {
+    match (unit(header, column), unit(header, first)) {
+        (Some(XUnit::Wavelength(own)), Some(XUnit::Wavelength(shared))) if own != shared => Some((own, shared)),
+        _ => None,
+    }
+}
+
+/// Reads each column with the wavelengths that stand before it. Where all wavelengths are the same, the curves share them.
+pub(super) fn read_pairs(
+    header: Header,
+    at: usize,
+    first: Vec<f64>,
+    mut columns: Vec<Vec<f64>>,
+    found: &Axes,
+    lines: &[usize],
+    log: &mut Log<'_>,
+) -> Result<(Grid, Option<Decision>), ReadError> {
+    let more = &found.more;
+    let is_curve = |index: usize, values: &[f64]| {
+        let column = at + 1 + index;
+        !more.contains(&index) && !found.left.contains(&column) && (header.name(column).is_some() || !is_empty(values))
+    };
+    let count = columns.iter().enumerate().filter(|(index, values)| is_curve(*index, values)).count();
+    let decided = |value: String| {
+        let why = format!("Column {} holds wavelengths too", at + 2 + more[0]);
+        let decided = if found.guessed { Decided::guess(value, why) } else { Decided::certain(value, why) };
+        Some(Decision::new("Columns", &decided))
+    };
+    if more.iter().all(|&index| columns[index] == first) {
+        let values = columns.into_iter().enumerate().filter(|(index, values)| is_curve(*index, values));
+        let curves = values.map(|(index, values)| raw_curve(&header, at + 1 + index, count == 1, values)).collect();
+        let axes = more.iter().map(|index| (at + 1 + index, None)).collect();
+        let grid = Grid { wavelengths: first, lines: lines.to_vec(), curves, header, axes, ..Grid::default() };
+        return Ok((grid, decided(format!("{count} curves over the same wavelengths"))));
+    }
+    let mut axes = Vec::with_capacity(more.len());
+    for &index in more {
+        axes.push((at + 1 + index, units(&header, at, at + 1 + index).map(|(own, _)| own)));
+        if let Some((own, shared)) = units(&header, at, at + 1 + index) {
+            columns[index].iter_mut().for_each(|value| *value = shared.from_nanometers(own.nanometers(*value)));
+        }
+    }
+    let mut own = &first;
+    let (mut all, mut units) = (Vec::with_capacity(count), Vec::with_capacity(count));
+    for (index, values) in columns.iter().enumerate() {
+        log.look(usize::MAX)?;
+        if more.contains(&index) {
+            own = values;
+        }
+        if !is_curve(index, values) {
+            continue;
+        }
+        let curve = raw_curve(&header, at + 1 + index, count == 1, Vec::new());
+        let rows = own
+            .iter()
+            .zip(values)
+            .zip(lines)
+            .filter(|((wavelength, value), _)| !(wavelength.is_nan() || value.is_nan()));
+        let samples = rows
+            .map(|((&wavelength, &value), &line)| Sample { wavelength, value, line, place: PlaceId::default() })
+            .collect();
+        all.push(Spectrum { name: Some(curve.name), label: curve.label, samples });
+        units.push((curve.unit, curve.named, curve.origin));
+    }
+    let mut grid = spectra::grid(all, header, log)?;
+    for (curve, (unit, named, origin)) in grid.curves.iter_mut().zip(units) {
+        (curve.unit, curve.named, curve.origin) = (unit, named, origin);
+    }
+    (grid.axes, grid.row_lines) = (axes, lines.to_vec());
+    Ok((grid, decided(format!("{count} curves with wavelengths of their own"))))
 }

@@ -1,20 +1,25 @@
 //! A database of cameras: a line with the name of each, then a line of 33 values for red, green and blue, without wavelengths
 //! (J. Jiang et al. 2013: 400 to 720 nm by 10). Read as its users describe it; no real file was available.
 
+use crate::decision::{Decided, DecimalMark, Decision, Delimiter, Orientation, Reader, Role, WavelengthUnit};
 use crate::dialect::{Cell, Dialect};
-use crate::error::ReadError;
-use crate::formats::found::Found;
+use crate::error::{MAX_CURVES, ReadError};
+use crate::formats::Format;
+use crate::formats::spectra::Found;
 use crate::grid::{Grid, RawCurve};
 use crate::header::Header;
-use crate::limits::MAX_CURVES;
-use crate::places::PlaceKind;
-use crate::report::{Decided, Decision, Orientation, Reader};
-use crate::role::Role;
-use crate::separators::{DecimalMark, Delimiter};
-use crate::sniff::Layout;
+use crate::layout::Layout;
+use crate::options::ReadOptions;
 use crate::text::Lines;
-use crate::watch::Log;
-use crate::wavelength_unit::WavelengthUnit;
+use crate::watch::{Log, PlaceKind};
+
+impl Reader {
+    /// Cameras by name, each with three lines of 33 values.
+    pub const CAMSPEC: Self = Self::new("camspec", "database of cameras, untested on a real file", "Camera database");
+}
+
+pub(super) const FORMAT: Format =
+    Format { reader: Reader::CAMSPEC, fits: |head| head.is_plain() && recognize(head.text), read };
 
 /// Values in a line, one every 10 nm from 400 nm.
 const BANDS: usize = 33;
@@ -22,7 +27,7 @@ const BANDS: usize = 33;
 const CHANNELS: [&str; 3] = ["R", "G", "B"];
 
 /// Returns whether the text begins with a name and three lines of 33 numbers.
-pub(super) fn recognize(text: &str) -> bool {
+fn recognize(text: &str) -> bool {
     let mut lines = Lines::new(text).map(|(_, line)| line).filter(|line| !line.trim().is_empty());
     lines.next().is_some_and(is_name) && (0..CHANNELS.len()).all(|_| lines.next().and_then(values).is_some())
 }
@@ -57,7 +62,7 @@ fn record(line: &str, origin: usize, log: &mut Log<'_>) {
 }
 
 /// Reads three curves for each camera.
-pub(super) fn read(text: &str, log: &mut Log<'_>) -> Result<Found, ReadError> {
+fn read(text: &str, _: &ReadOptions, log: &mut Log<'_>) -> Result<Found, ReadError> {
     let mut lines = Lines::new(text).filter(|(_, line)| !line.trim().is_empty()).peekable();
     let first_line = lines.peek().map_or(1, |(line, _)| line + 1);
     let mut cameras: Vec<(String, [Vec<f64>; 3])> = Vec::new();
@@ -101,5 +106,5 @@ pub(super) fn read(text: &str, log: &mut Log<'_>) -> Result<Found, ReadError> {
     };
     let notes = vec![Decision::new("Grid", &Decided::guess("400 to 720 nm in steps of 10".to_owned(), why))];
     let layout = Layout::fixed((Delimiter::Spaces, DecimalMark::Point), Orientation::Across, first_line, why);
-    Ok(Found { grid, layout, reader: Decided::guess(Reader::Camspec, why), notes })
+    Ok(Found { grid, layout, reader: Decided::guess(Reader::CAMSPEC, why), notes })
 }

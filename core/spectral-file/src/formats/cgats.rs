@@ -3,28 +3,37 @@
 mod bands;
 mod tokens;
 
-use crate::dialect::{Cell, Dialect};
-use crate::error::ReadError;
+use crate::decision::{
+    Decided, DecimalMark, Decision, Delimiter, Family, Orientation, Part, Reader, Role, Values, WavelengthUnit,
+};
+use crate::dialect::Dialect;
+use crate::error::{MAX_CURVES, MAX_PARTS, MAX_SAMPLES, ReadError};
+use crate::formats::Format;
 use crate::formats::cgats::bands::{Bands, Declared};
 use crate::formats::cgats::tokens::Token;
-use crate::formats::found::Found;
+use crate::formats::spectra::Found;
 use crate::grid::{Grid, RawCurve};
 use crate::header::Header;
-use crate::limits::{MAX_CURVES, MAX_PARTS, MAX_SAMPLES};
+use crate::layout::Layout;
 use crate::options::ReadOptions;
-use crate::places::{PlaceId, PlaceKind};
-use crate::report::{Decided, Decision, Orientation, Part, Reader};
-use crate::role::{Role, Values};
-use crate::separators::{DecimalMark, Delimiter};
-use crate::sniff::Layout;
 use crate::text::{Lines, comment, excerpt};
 use crate::warning::Warning;
-use crate::watch::Log;
-use crate::wavelength_unit::WavelengthUnit;
+use crate::watch::{Log, PlaceId, PlaceKind};
 use crate::{decimal, header_terms};
 
+impl Reader {
+    /// CGATS and its relatives, as Argyll and X-Rite write them.
+    pub const CGATS: Self = Self::new("cgats", "CGATS", "CGATS");
+}
+
+pub(super) const FORMAT: Format = Format {
+    reader: Reader::CGATS,
+    fits: |head| head.is(Family::Cgats) || head.is_chosen_for("BEGIN_DATA_FORMAT"),
+    read,
+};
+
 /// Reads the table with spectral fields that was chosen, else the first.
-pub(super) fn read(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Result<Found, ReadError> {
+fn read(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Result<Found, ReadError> {
     let mut file = File { wanted: options.part.unwrap_or(1), ..File::default() };
     let mut place = Place::Keywords;
     for (number, line) in Lines::new(text) {
@@ -302,7 +311,7 @@ impl File {
         let dialect = (Delimiter::Spaces, DecimalMark::Point);
         let layout = Layout::fixed(dialect, Orientation::Across, self.data_line + 1, "CGATS prescribes it");
         let why = format!("Line {} begins a data format", self.format_line);
-        Ok(Found { grid, layout, reader: Decided::certain(Reader::Cgats, why), notes })
+        Ok(Found { grid, layout, reader: Decided::certain(Reader::CGATS, why), notes })
     }
 }
 
@@ -357,19 +366,13 @@ fn warn_announced(announced: &[(&'static str, usize, f64)], wavelengths: &[f64],
 fn warn_gaps(curves: &[RawCurve], line: usize, log: &mut Log<'_>) {
     let cells = curves.iter().flat_map(|curve| &curve.values).filter(|value| value.is_nan()).count();
     if cells > 0 {
-        let mut lines = crate::warning::LineList::default();
-        lines.add(line);
-        log.push(Warning::Gaps { cells, lines, sentinel: None });
+        log.push(Warning::Gaps { cells, lines: [line].into_iter().collect(), sentinel: None });
     }
 }
 
 /// A value; NaN for a gap. A comma can only be a decimal mark here.
 fn number(token: &Token, line: usize, field: usize) -> Result<f64, ReadError> {
     let text = token.text();
-    let mark = if text.contains(',') { DecimalMark::Comma } else { DecimalMark::Point };
-    match Dialect::new(Delimiter::Spaces, mark).parse(&text) {
-        Cell::Number(value) => Ok(value),
-        Cell::Gap => Ok(f64::NAN),
-        Cell::Text => Err(ReadError::NotANumber { line, column: field + 1, text: excerpt(&text) }),
-    }
+    let value = Dialect::of_number(&text).value(&text);
+    value.ok_or_else(|| ReadError::NotANumber { line, column: field + 1, text: excerpt(&text) })
 }

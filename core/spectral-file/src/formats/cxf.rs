@@ -3,21 +3,25 @@
 use std::borrow::Cow;
 
 use crate::decimal::clean;
-use crate::error::ReadError;
-use crate::formats::found::Found;
-use crate::formats::spectra;
-use crate::formats::spectra::{Sample, Spectrum};
-use crate::formats::xml::{Element, Step, Walk};
+use crate::decision::{Decided, DecimalMark, Delimiter, Reader, WavelengthUnit};
+use crate::error::{MAX_CURVES, MAX_SAMPLES, ReadError};
+use crate::formats::Format;
+use crate::formats::spectra::{self, Found, Sample, Spectrum};
+use crate::formats::xml::{self, Element, Step, Walk};
 use crate::header::Header;
-use crate::limits::{MAX_CURVES, MAX_SAMPLES};
-use crate::report::{Decided, Orientation, Reader};
-use crate::separators::{DecimalMark, Delimiter};
-use crate::sniff::Layout;
+use crate::options::ReadOptions;
 use crate::watch::Log;
-use crate::wavelength_unit::WavelengthUnit;
+
+impl Reader {
+    /// XML of `CxF3`.
+    pub const CXF: Self = Self::new("cxf", "CxF", "CxF");
+}
+
+pub(super) const FORMAT: Format =
+    Format { reader: Reader::CXF, fits: |head| xml::fits(head, |root| root == "CxF"), read };
 
 /// Reads the spectra of all objects of a document.
-pub(super) fn read(text: &str, log: &mut Log<'_>) -> Result<Found, ReadError> {
+fn read(text: &str, _: &ReadOptions, log: &mut Log<'_>) -> Result<Found, ReadError> {
     let mut walk = Walk::new(text);
     let mut content = Content::default();
     while let Some(step) = walk.next(log)? {
@@ -34,9 +38,8 @@ pub(super) fn read(text: &str, log: &mut Log<'_>) -> Result<Found, ReadError> {
     let mut grid = spectra::grid(all, header, log)?;
     grid.unit = Some(Decided::certain(WavelengthUnit::Nanometer, "CxF prescribes it"));
     let dialect = (Delimiter::Elements, DecimalMark::Point);
-    let layout = Layout::fixed(dialect, Orientation::Down, first_line, "CxF prescribes it");
-    let reader = Decided::certain(Reader::Cxf, "The root element is “CxF”");
-    Ok(Found { grid, layout, reader, notes: Vec::new() })
+    let reader = Decided::certain(Reader::CXF, "The root element is “CxF”");
+    Ok(Found::fixed(grid, reader, (dialect, first_line, "CxF prescribes it"), Vec::new()))
 }
 
 fn is_spectrum(name: &str) -> bool {

@@ -1,26 +1,30 @@
 //! JCAMP-DX: labeled records, blocks of blocks, points or compressed ordinates.
 
 mod block;
-mod checks;
 mod counts;
 mod ordinates;
 
-use crate::error::ReadError;
-use crate::formats::found::Found;
+use crate::decision::{Decided, DecimalMark, Decision, Delimiter, Family, Part, Reader};
+use crate::error::{MAX_CURVES, MAX_PARTS, MAX_SAMPLES, ReadError};
+use crate::formats::Format;
 use crate::formats::jcamp::block::{Block, label};
-use crate::formats::spectra;
-use crate::limits::{MAX_CURVES, MAX_PARTS, MAX_SAMPLES};
+use crate::formats::spectra::{self, Found};
 use crate::options::ReadOptions;
-use crate::report::{Decided, Decision, Orientation, Part, Reader};
-use crate::separators::{DecimalMark, Delimiter};
-use crate::sniff::Layout;
 use crate::text::{Lines, excerpt};
 use crate::unit_text;
 use crate::warning::Warning;
 use crate::watch::Log;
 
+impl Reader {
+    /// JCAMP-DX.
+    pub const JCAMP: Self = Self::new("jcamp", "JCAMP-DX", "JCAMP-DX");
+}
+
+pub(super) const FORMAT: Format =
+    Format { reader: Reader::JCAMP, fits: |head| head.is(Family::Jcamp) || head.is_chosen_for("##"), read };
+
 /// Reads the processed spectrum, or all spectra if none is a raw one beside it.
-pub(super) fn read(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Result<Found, ReadError> {
+fn read(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Result<Found, ReadError> {
     let mut blocks = blocks(text, log)?;
     blocks.retain(|block| !block.samples.is_empty());
     let parts: Vec<Part> = blocks.iter().take(MAX_PARTS).map(Block::part).collect();
@@ -48,10 +52,9 @@ pub(super) fn read(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Resu
     }
     let dialect =
         if comma { (Delimiter::CommaSpace, DecimalMark::Comma) } else { (Delimiter::Comma, DecimalMark::Point) };
-    let layout = Layout::fixed(dialect, Orientation::Down, first_line, &form.1);
-    notes.insert(0, Decision::new("Form", &Decided::certain(form.0.description(), form.1)));
-    let reader = Decided::certain(Reader::Jcamp, "The file begins with ## labels");
-    Ok(Found { grid, layout, reader, notes })
+    notes.insert(0, Decision::new("Form", &Decided::certain(form.0.description(), &*form.1)));
+    let reader = Decided::certain(Reader::JCAMP, "The file begins with ## labels");
+    Ok(Found::fixed(grid, reader, (dialect, first_line, &form.1), notes))
 }
 
 /// Leaves the block that was chosen, else those that are not raw; 0 stands for several.

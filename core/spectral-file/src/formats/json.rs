@@ -1,165 +1,179 @@
 //! JSON as rawtoaces, dcamprof and Wasatch ENLIGHTEN write it, with or without comments.
 
-mod comments;
-mod content;
 mod document;
-mod enlighten;
-mod rows;
-mod spans;
-mod watched;
 
-use crate::error::ReadError;
-use crate::formats::found::Found;
-use crate::formats::json::content::{Content, Curves, line_of, note_remarks, range, says};
-use crate::formats::json::document::{Aces, File, Shape};
-use crate::formats::json::rows::{Fault, Rows};
-use crate::formats::json::watched::Watched;
-use crate::formats::spectra;
-use crate::formats::spectra::{Sample, Spectrum};
+use crate::decimal::{self, clean};
+use crate::decision::{Decided, DecimalMark, Decision, Delimiter, Family, Part, Reader, Role, Values, WavelengthUnit};
+use crate::error::{MAX_CURVES, MAX_PARTS, MAX_SAMPLES, ReadError};
+use crate::formats::Format;
+use crate::formats::json::document::{Members, Value, without_comments};
+use crate::formats::spectra::{self, Found, Sample, Spectrum};
 use crate::grid::{Grid, RawCurve};
 use crate::header::Header;
-use crate::limits::{MAX_CURVES, MAX_PARTS, MAX_SAMPLES};
-use crate::markup::Family;
 use crate::options::ReadOptions;
-use crate::places::PlaceId;
-use crate::report::{Decided, Decision, Orientation, Part, Reader};
-use crate::role::Role;
-use crate::separators::{DecimalMark, Delimiter};
-use crate::sniff::Layout;
-use crate::watch::Log;
-use crate::wavelength_unit::WavelengthUnit;
-use crate::{decimal, header_terms, unit_text};
+use crate::text::excerpt;
+use crate::watch::{Log, PlaceId, PlaceKind, Places};
+use crate::{header_terms, unit_text};
+
+impl Reader {
+    /// JSON of rawtoaces.
+    pub const RAWTOACES: Self = Self::new("rawtoaces", "rawtoaces JSON", "rawtoaces");
+    /// JSON of dcamprof, with or without comments.
+    pub const DCAMPROF: Self = Self::new("dcamprof", "dcamprof JSON", "dcamprof");
+    /// JSON of Wasatch ENLIGHTEN.
+    pub const ENLIGHTEN: Self = Self::new("enlighten", "Wasatch ENLIGHTEN JSON", "Wasatch ENLIGHTEN");
+}
+
+pub(super) const RAWTOACES: Format = Format { reader: Reader::RAWTOACES, fits: |head| head.is(Family::Json), read };
+pub(super) const DCAMPROF: Format = Format { reader: Reader::DCAMPROF, ..RAWTOACES };
+pub(super) const ENLIGHTEN: Format = Format { reader: Reader::ENLIGHTEN, ..RAWTOACES };
 
 /// The fewest bytes for each quotation mark in a file of spectra.
 const FEWEST_BYTES: usize = 5;
 
+/// Content of a layout: its curves, and the decisions that only it needs.
+type Content = (Grid, Decided<Reader>, Vec<Decision>);
+
 /// Reads a document of any of the layouts.
-pub(super) fn read(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Result<Found, ReadError> {
+fn read(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Result<Found, ReadError> {
     // Every list and every text has a name of its own; hostile text, which has nothing else, would need many times its size.
     if text.bytes().filter(|byte| *byte == b'"').count() > text.len() / FEWEST_BYTES + 1000 {
         return Err(ReadError::Unsupported(Family::Json));
     }
-    let bare = comments::blank(text, log)?;
-    let file = parse(text, &bare, log)?;
-    let content = match file {
-        File { spectral_data: Some(data), header, .. } => aces(text, data, &header.unwrap_or_default().0, options),
-        File {
-            ssf_bands: Some(bands),
-            red_ssf: Some(r),
-            green_ssf: Some(g),
-            blue_ssf: Some(b),
-            camera_name,
-            comments,
-            ..
-        } => camera(text, &bands, [r, g, b], camera_name.as_deref(), &comments.0),
-        File { spectrum: Some(Shape::Curves(curves)), settings, metadata, .. } => {
-            enlighten::read(text, curves, settings, &metadata.unwrap_or_default().0, options)
-        }
-        File { bands: Some(bands), spectrum: Some(Shape::Values(values)), scale, comments, name, .. } => {
-            spectrum(text, &bands, values, scale, &comments.0).map(|mut content| {
-                content.header.note(0, "title", name.0.first().map_or("", String::as_str));
-                content
-            })
-        }
-        _ => return Err(ReadError::Unsupported(Family::Json)),
-    };
-    let Content { curves, mut header, reader, role, notes, parts, part } =
-        content.map_err(|error| placed(text, error))?;
-    if let Some(places) = &mut log.places {
-        let group = part.as_ref().map_or(0, |part| part.value.saturating_sub(1));
-        spans::record(&bare, group, places);
-        spans::note_lines(text, &mut header);
-    }
-    let mut grid = match curves {
-        Curves::Spectra(spectra) => spectra::grid(spectra, header, log)?,
-        Curves::Rows { rows, names } => on_one_grid(rows, &names, header, log).map_err(|error| placed(text, error))?,
-    };
-    grid.unit = Some(Decided::certain(WavelengthUnit::Nanometer, "The layout prescribes it"));
-    grid.role = role;
-    // Each wavelength has one value for every curve.
-    grid.rows = grid.wavelengths.len();
-    (grid.parts, grid.part) = (parts, part);
-    let unit = grid.header.unit.clone();
-    grid.curves.iter_mut().for_each(|curve| curve.unit.clone_from(&unit));
-    let dialect = (Delimiter::Comma, DecimalMark::Point);
-    let first_line =
-        ["data", "ssf_bands", "bands", "processed"].iter().find_map(|name| line_of(text, name)).unwrap_or(1);
-    let layout = Layout::fixed(dialect, Orientation::Down, first_line, "JSON prescribes it");
-    Ok(Found { grid, layout, reader, notes })
-}
-
-fn parse(text: &str, bare: &str, log: &Log<'_>) -> Result<File, ReadError> {
+    let bare = without_comments(text, log)?;
     log.look(0)?;
-    serde_json::from_reader(Watched::new(bare.as_bytes(), log)).map_err(|error| {
-        // Nothing else fails in a reader of bytes that are there.
-        if error.is_io() { ReadError::Stopped } else { malformed(text, &error) }
-    })
-}
-
-/// An error about a list with the line where the list is named.
-fn placed(text: &str, error: ReadError) -> ReadError {
-    match error {
+    let members = Value::whole(&bare).members()?;
+    let content = layout(text, &members, options, log);
+    let (mut grid, reader, notes) = content.map_err(|error| match error {
         ReadError::WrongCount { name, found, expected, .. } => {
-            let line = line_of(text, &name).unwrap_or(1);
-            ReadError::WrongCount { line, name, found, expected }
+            ReadError::WrongCount { line: line_of(text, &name).unwrap_or(1), name, found, expected }
         }
         other => other,
+    })?;
+    if log.places.is_some() {
+        note_lines(text, &mut grid.header);
+    }
+    grid.unit = Some(Decided::certain(WavelengthUnit::Nanometer, "The layout prescribes it"));
+    // Each wavelength has one value for every curve.
+    grid.rows = grid.wavelengths.len();
+    let unit = grid.header.unit.clone();
+    grid.curves.iter_mut().for_each(|curve| curve.unit.clone_from(&unit));
+    let first_line =
+        ["data", "ssf_bands", "bands", "processed"].iter().find_map(|name| line_of(text, name)).unwrap_or(1);
+    let dialect = (Delimiter::Comma, DecimalMark::Point);
+    Ok(Found::fixed(grid, reader, (dialect, first_line, "JSON prescribes it"), notes))
+}
+
+/// Reads the layout that the members are of.
+fn layout(text: &str, members: &Members<'_>, options: &ReadOptions, log: &mut Log<'_>) -> Result<Content, ReadError> {
+    let spectrum = members.get("spectrum");
+    let lists = ["ssf_bands", "red_ssf", "green_ssf", "blue_ssf"].map(|name| members.get(name));
+    if let Some(data) = members.get("spectral_data") {
+        aces(text, data, members, options, log)
+    } else if let [Some(bands), Some(r), Some(g), Some(b)] = lists {
+        camera(text, bands, [r, g, b], members, log)
+    } else if let Some(curves) = spectrum.filter(|spectrum| spectrum.written.starts_with('{')) {
+        enlighten(text, &curves.members()?, members, options, log)
+    } else if let (Some(bands), Some(values)) = (members.get("bands"), spectrum) {
+        light(text, bands, values, members, log)
+    } else {
+        Err(ReadError::Unsupported(Family::Json))
     }
 }
 
-fn malformed(text: &str, error: &serde_json::Error) -> ReadError {
-    // A list at the top, or members of other types than the known layouts have, is sound JSON of another layout.
-    if error.is_data() && (text.trim_start().starts_with('[') || !has_marks(text)) {
-        return ReadError::Unsupported(Family::Json);
-    }
-    ReadError::Malformed { family: Family::Json, line: error.line().max(1), column: error.column().max(1) }
+/// The line in which a name stands between quotes, if it does.
+fn line_of(text: &str, name: &str) -> Option<usize> {
+    let at = text.find(&format!("\"{name}\""))?;
+    Some(1 + text[..at].bytes().filter(|byte| *byte == b'\n').count())
 }
 
-fn has_marks(text: &str) -> bool {
-    ["\"spectral_data\"", "\"ssf_bands\"", "\"spectrum\""].iter().any(|mark| text.contains(mark))
+/// Evidence: the line that has a member of this name.
+fn says(text: &str, name: &str) -> String {
+    line_of(text, name).map_or_else(|| format!("The document has “{name}”"), |line| format!("Line {line} has “{name}”"))
+}
+
+/// Lines of a header's members, each sought behind the one before.
+fn note_lines(text: &str, header: &mut Header) {
+    let (mut from, mut line) = (0, 1);
+    for ((key, _), noted) in header.comments.iter().zip(&mut header.noted) {
+        let Some(at) = text[from..].find(&format!("\"{key}\"")) else { continue };
+        line += text[from..from + at].bytes().filter(|byte| *byte == b'\n').count();
+        from += at;
+        *noted = line as u32;
+    }
+}
+
+/// Stores the remarks on the values, in the words of this program's own files.
+fn note_remarks<'a>(text: &str, header: &mut Header, remarks: impl Iterator<Item = &'a str>) {
+    for (key, value) in remarks.filter_map(|remark| remark.split_once(": ")) {
+        if matches!(key, "quantity" | "unit" | "response") {
+            header.take_comment(line_of(text, "comments").unwrap_or(1), key, value);
+        }
+    }
 }
 
 /// Wavelengths are the keys of one object, each with a value for every name of the index.
-fn aces(text: &str, data: Aces, comments: &[(String, String)], options: &ReadOptions) -> Result<Content, ReadError> {
+fn aces(
+    text: &str,
+    aces: Value<'_>,
+    members: &Members<'_>,
+    options: &ReadOptions,
+    log: &mut Log<'_>,
+) -> Result<Content, ReadError> {
+    let data = aces.members()?;
     let (mut header, mut notes) = (Header::default(), Vec::new());
-    for (key, value) in comments {
-        header.note(0, key, value);
-    }
-    if let Some((_, remarks)) = comments.iter().find(|(key, _)| key == "comments") {
-        note_remarks(text, &mut header, remarks.split("; "));
+    if let Some(comments) = members.members("header")? {
+        comments.texts().for_each(|(key, value)| header.note(0, key, &value));
+        if let Some((_, remarks)) = comments.texts().find(|(key, _)| *key == "comments") {
+            note_remarks(text, &mut header, remarks.split("; "));
+        }
     }
     title(text, &mut header, &mut notes);
-    if let Some(units) = data.units.as_deref().filter(|units| !units.is_empty()) {
-        header.note(0, "unit", units);
-        header.unit = unit_text::unit_cell(units);
-        header.values = header_terms::values(units).map(|values| (line_of(text, "units").unwrap_or(1), values));
-        header.quantity = header_terms::quantity(units).map(|quantity| (line_of(text, "units").unwrap_or(1), quantity));
-        notes.push(Decision::new("Unit", &Decided::certain(units.to_owned(), says(text, "units"))));
+    if let Some(units) = data.read::<String>("units")?.filter(|units| !units.is_empty()) {
+        let line = line_of(text, "units").unwrap_or(1);
+        header.note(0, "unit", &units);
+        header.unit = unit_text::unit_cell(&units);
+        header.values = header_terms::values(&units).map(|values| (line, values));
+        header.quantity = header_terms::quantity(&units).map(|quantity| (line, quantity));
+        notes.push(Decision::new("Unit", &Decided::certain(units, says(text, "units"))));
     }
-    let groups = &data.data.0;
-    let list = groups.iter().take(MAX_PARTS).map(|(name, rows)| Part {
+    let groups = data.members("data")?.ok_or_else(|| aces.lacks_member())?;
+    let mut all = Vec::with_capacity(groups.each().len());
+    for (name, group) in groups.each() {
+        all.push((name, group, Rows::of(group, log)?));
+    }
+    let list = all.iter().take(MAX_PARTS).map(|(name, _, rows)| Part {
         line: line_of(text, name).unwrap_or(1),
-        name: name.clone(),
+        name: name.to_string(),
         curves: rows.width,
         rows: rows.wavelengths.len(),
     });
     let parts: Vec<Part> = list.collect();
-    let first = groups.iter().position(|(name, _)| name == "main").map_or(1, |index| index + 1);
+    let first = all.iter().position(|(name, ..)| *name == "main").map_or(1, |index| index + 1);
     let part = options.part.unwrap_or(first);
-    let group = part.checked_sub(1).and_then(|at| data.data.0.into_iter().nth(at));
-    let (name, rows) = group.ok_or(match parts.len() {
+    let group = part.checked_sub(1).and_then(|at| all.into_iter().nth(at));
+    let (name, group, rows) = group.ok_or(match parts.len() {
         0 => ReadError::NoNumbers,
         parts => ReadError::NoSuchPart { part, parts },
     })?;
-    let mut index = data.index.0;
-    let at = index.iter().position(|(key, _)| *key == name).unwrap_or(0);
-    let names = if at < index.len() { index.swap_remove(at).1 } else { Vec::new() };
-    let power = names.len() == 1 && names[0] == "power";
-    let role = power.then(|| Decided::certain(Role::Illuminant, format!("{} as its only value", says(text, "power"))));
-    let reader = Decided::certain(Reader::Rawtoaces, says(text, "spectral_data"));
+    if let Some(places) = &mut log.places {
+        record_rows(&group.members()?, group, places);
+    }
+    let names: Vec<String> = match data.members("index")? {
+        // Another name than the group's is better than none.
+        Some(index) => {
+            let named = index.get(name).or_else(|| index.each().next().map(|(_, names)| names));
+            named.map(Value::read).transpose()?.unwrap_or_default()
+        }
+        None => Vec::new(),
+    };
+    let mut grid = rows.grid(&names, header, log)?;
+    if names == ["power"] {
+        grid.role = Some(Decided::certain(Role::Illuminant, format!("{} as its only value", says(text, "power"))));
+    }
     let part = Decided::certain(part, format!("{} groups of data, of which “main” comes first", parts.len()));
-    let curves = Curves::Rows { rows, names };
-    Ok(Content { curves, header, reader, role, notes, parts, part: Some(part) })
+    (grid.parts, grid.part) = (parts, Some(part));
+    Ok((grid, Decided::certain(Reader::RAWTOACES, says(text, "spectral_data")), notes))
 }
 
 /// The name of what was measured: a camera's maker and model, a light's type, else its description.
@@ -177,125 +191,276 @@ fn title(text: &str, header: &mut Header, notes: &mut Vec<Decision>) {
     header.note(0, "title", &title);
 }
 
-/// Rows as their grid; wavelengths at which no curve has a value are omitted.
-fn on_one_grid(rows: Rows, names: &[String], header: Header, log: &Log<'_>) -> Result<Grid, ReadError> {
-    let Rows { wavelengths, values, width, fault } = rows;
-    match fault {
-        Some(Fault::Key(text)) => return Err(ReadError::NotANumber { line: 1, column: 1, text }),
-        Some(Fault::Count { key, found }) => {
-            return Err(ReadError::WrongCount { line: 1, name: key, found, expected: width });
+/// Wavelengths with a value for each curve.
+#[derive(Debug, Default)]
+struct Rows {
+    wavelengths: Vec<f64>,
+    /// The values of one wavelength after those of the other, NaN for a gap.
+    values: Vec<f64>,
+    /// Number of values at the first wavelength.
+    width: usize,
+    /// Error of the first row that does not go with the others.
+    fault: Option<ReadError>,
+}
+
+impl Rows {
+    fn of(group: Value<'_>, log: &Log<'_>) -> Result<Self, ReadError> {
+        let mut rows = Self::default();
+        for (key, values) in group.members()?.each() {
+            let before = rows.values.len();
+            rows.values.extend(values.numbers(true, log)?);
+            rows.take(key, before);
         }
-        None if width > MAX_CURVES => return Err(ReadError::TooManyCurves(1)),
-        None if values.len() > MAX_SAMPLES => return Err(ReadError::TooManySamples(1)),
-        None => {}
+        Ok(rows)
     }
-    let gaps: Vec<bool> = values.chunks(width.max(1)).map(|row| row.iter().all(|value| value.is_nan())).collect();
-    let single = width == 1;
-    let title = header.comment("title").filter(|_| single).map(str::to_owned);
-    let mut curves = Vec::with_capacity(width);
-    let mut all = Some(values);
-    for column in 0..width {
-        log.look(usize::MAX)?;
-        let values = match all.as_deref() {
-            Some(values) if !single => values.iter().skip(column).step_by(width).copied().collect(),
-            _ => all.take().unwrap_or_default(),
+
+    fn take(&mut self, key: &str, before: usize) {
+        let found = self.values.len() - before;
+        self.width = if self.wavelengths.is_empty() { found } else { self.width };
+        let fault = match key.trim().parse().ok().filter(|value: &f64| value.is_finite()) {
+            Some(wavelength) => {
+                self.wavelengths.push(wavelength);
+                let (name, expected) = (wavelength.to_string(), self.width);
+                (found != expected).then_some(ReadError::WrongCount { line: 1, name, found, expected })
+            }
+            None => Some(ReadError::NotANumber { line: 1, column: 1, text: excerpt(key) }),
         };
-        // A single curve is named by the title, which is more specific than "power".
-        let given = names.get(column).filter(|_| !single).cloned().or_else(|| title.clone());
-        let name = given.clone().unwrap_or_else(|| format!("Spectrum {}", column + 1));
-        let label = names.get(column).cloned().unwrap_or_default();
-        curves.push(RawCurve { name, named: given.is_some(), label, values, origin: column, ..RawCurve::default() });
+        // A row that matches no other is discarded, so that all have the same width.
+        if fault.is_some() {
+            self.values.truncate(before);
+            self.wavelengths.truncate(before / self.width.max(1));
+        }
+        self.fault = self.fault.take().or(fault);
     }
-    drop(all);
-    let mut grid = Grid { wavelengths, lines: vec![1], curves, header, own_wavelengths: true, ..Grid::default() };
-    if gaps.contains(&true) && width > 0 {
-        grid.remove(&gaps);
+
+    /// Rows as their grid; wavelengths at which no curve has a value are omitted.
+    fn grid(self, names: &[String], header: Header, log: &Log<'_>) -> Result<Grid, ReadError> {
+        let Self { wavelengths, values, width, fault } = self;
+        match fault {
+            Some(error) => return Err(error),
+            None if width > MAX_CURVES => return Err(ReadError::TooManyCurves(1)),
+            None if values.len() > MAX_SAMPLES => return Err(ReadError::TooManySamples(1)),
+            None => {}
+        }
+        let gaps: Vec<bool> = values.chunks(width.max(1)).map(|row| row.iter().all(|value| value.is_nan())).collect();
+        let single = width == 1;
+        let title = header.comment("title").filter(|_| single).map(str::to_owned);
+        let mut curves = Vec::with_capacity(width);
+        let mut all = Some(values);
+        for column in 0..width {
+            log.look(usize::MAX)?;
+            let values = match all.as_deref() {
+                Some(values) if !single => values.iter().skip(column).step_by(width).copied().collect(),
+                _ => all.take().unwrap_or_default(),
+            };
+            // A single curve is named by the title, which is more specific than "power".
+            let given = names.get(column).filter(|_| !single).cloned().or_else(|| title.clone());
+            let name = given.clone().unwrap_or_else(|| format!("Spectrum {}", column + 1));
+            let label = names.get(column).cloned().unwrap_or_default();
+            curves.push(RawCurve {
+                name,
+                named: given.is_some(),
+                label,
+                values,
+                origin: column,
+                ..RawCurve::default()
+            });
+        }
+        drop(all);
+        let mut grid = Grid { wavelengths, lines: vec![1], curves, header, own_wavelengths: true, ..Grid::default() };
+        if gaps.contains(&true) && width > 0 {
+            grid.remove(&gaps);
+        }
+        Ok(grid)
     }
-    Ok(grid)
 }
 
 fn camera(
     text: &str,
-    bands: &[f64],
-    curves: [Vec<f64>; 3],
-    name: Option<&str>,
-    remarks: &[String],
+    bands: Value<'_>,
+    lists: [Value<'_>; 3],
+    members: &Members<'_>,
+    log: &mut Log<'_>,
 ) -> Result<Content, ReadError> {
-    let (wavelengths, note) = wavelengths(text, bands, "ssf_bands")?;
+    let (wavelengths, note) = wavelengths(text, &bands.numbers(false, log)?, "ssf_bands")?;
     let mut header = Header::default();
     let mut notes = vec![note];
-    if let Some(name) = name {
-        notes.push(Decision::new("Camera", &Decided::certain(name.to_owned(), says(text, "camera_name"))));
+    let name = members.read::<String>("camera_name")?;
+    if let Some(name) = &name {
+        notes.push(Decision::new("Camera", &Decided::certain(name, says(text, "camera_name"))));
     }
-    header.note(0, "title", name.unwrap_or_default());
-    note_remarks(text, &mut header, remarks.iter().map(String::as_str));
-    let names = [("R", "red_ssf"), ("G", "green_ssf"), ("B", "blue_ssf")];
+    header.note(0, "title", &name.unwrap_or_default());
+    note_remarks(text, &mut header, comments(members).iter().map(String::as_str));
     let mut all = Vec::with_capacity(3);
-    for (values, (short, long)) in curves.into_iter().zip(names) {
-        all.push(on(&wavelengths, &values, long)?.named(short));
+    for (list, (short, long)) in lists.iter().zip([("R", "red_ssf"), ("G", "green_ssf"), ("B", "blue_ssf")]) {
+        let spectrum = on(&wavelengths, &list.numbers(false, log)?, long)?;
+        all.push(Spectrum { name: Some(short.to_owned()), label: short.to_owned(), ..spectrum });
     }
-    let reader = Decided::certain(Reader::Dcamprof, says(text, "ssf_bands"));
-    let role = Some(Decided::certain(Role::Camera, says(text, "red_ssf")));
-    Ok(Content { curves: Curves::Spectra(all), header, reader, role, notes, parts: Vec::new(), part: None })
+    record_lists(bands, &lists, log);
+    let mut grid = spectra::grid(all, header, log)?;
+    grid.role = Some(Decided::certain(Role::Camera, says(text, "red_ssf")));
+    Ok((grid, Decided::certain(Reader::DCAMPROF, says(text, "ssf_bands")), notes))
 }
 
-fn spectrum(
+fn comments(members: &Members<'_>) -> Vec<String> {
+    members.get("comments").map_or_else(Vec::new, Value::texts)
+}
+
+fn light(
     text: &str,
-    bands: &[f64],
-    mut values: Vec<f64>,
-    scale: Option<f64>,
-    remarks: &[String],
+    bands: Value<'_>,
+    list: Value<'_>,
+    members: &Members<'_>,
+    log: &mut Log<'_>,
 ) -> Result<Content, ReadError> {
-    let (wavelengths, note) = wavelengths(text, bands, "bands")?;
+    let (wavelengths, note) = wavelengths(text, &bands.numbers(false, log)?, "bands")?;
+    let mut values = list.numbers(false, log)?;
     let mut header = Header::default();
-    note_remarks(text, &mut header, remarks.iter().map(String::as_str));
+    note_remarks(text, &mut header, comments(members).iter().map(String::as_str));
     let mut notes = vec![note];
-    if let Some(scale) = scale.filter(|scale| *scale > 0.0 && *scale != 1.0) {
-        for value in &mut values {
-            *value = decimal::divided(*value, scale);
-        }
+    if let Some(scale) = members.read::<f64>("scale")?.filter(|scale| *scale > 0.0 && *scale != 1.0) {
+        values.iter_mut().for_each(|value| *value = decimal::divided(*value, scale));
         notes.push(Decision::new("Scale", &Decided::certain(format!("divided by {scale}"), says(text, "scale"))));
     }
-    let spectra = vec![on(&wavelengths, &values, "spectrum")?];
-    let reader = Decided::certain(Reader::Dcamprof, says(text, "spectrum"));
-    let curves = Curves::Spectra(spectra);
-    Ok(Content { curves, header, reader, role: None, notes, parts: Vec::new(), part: None })
+    let spectrum = on(&wavelengths, &values, "spectrum")?;
+    header.note(0, "title", members.get("name").map_or_else(Vec::new, Value::texts).first().map_or("", String::as_str));
+    record_lists(bands, &[list], log);
+    let grid = spectra::grid(vec![spectrum], header, log)?;
+    Ok((grid, Decided::certain(Reader::DCAMPROF, says(text, "spectrum")), notes))
 }
 
-impl Spectrum {
-    fn named(self, name: &str) -> Self {
-        Self { name: Some(name.to_owned()), label: name.to_owned(), ..self }
-    }
-}
-
+/// A curve of as many values as there are wavelengths, gaps among neither.
 fn on(wavelengths: &[f64], values: &[f64], name: &str) -> Result<Spectrum, ReadError> {
     if values.len() != wavelengths.len() {
         let (found, expected) = (values.len(), wavelengths.len());
         return Err(ReadError::WrongCount { line: 1, name: name.to_owned(), found, expected });
     }
-    let samples = wavelengths.iter().zip(values).map(|(&wavelength, &value)| Sample {
-        wavelength,
-        value,
-        line: 1,
-        place: PlaceId::default(),
-    });
-    Ok(Spectrum { samples: samples.collect(), ..Spectrum::default() })
+    let present = wavelengths.iter().zip(values).filter(|(wavelength, value)| !wavelength.is_nan() && !value.is_nan());
+    let sample = |(&wavelength, &value)| Sample { wavelength, value, line: 1, place: PlaceId::default() };
+    Ok(Spectrum { samples: present.map(sample).collect(), ..Spectrum::default() })
+}
+
+/// The wavelengths of a range, given by its ends and its step.
+fn range(bands: &[f64]) -> Option<Vec<f64>> {
+    let &[first, last, step] = bands else { return None };
+    let steps = ((last - first) / step).round();
+    let some = (1.0..=MAX_SAMPLES as f64).contains(&steps);
+    some.then(|| (0..=steps as usize).map(|i| clean(first + step * i as f64)).collect())
 }
 
 /// Three numbers are the ends of a range and its step, unless the third goes on from the second.
 fn wavelengths(text: &str, bands: &[f64], key: &str) -> Result<(Vec<f64>, Decision), ReadError> {
-    let listed = |bands: &[f64]| {
-        let listed = Decided::certain(format!("{} wavelengths", bands.len()), says(text, key));
-        Ok((bands.to_vec(), Decision::new("Grid", &listed)))
+    let said = says(text, key);
+    let (grid, value, why) = match *bands {
+        [first, last, step] if step <= last && step > 0.0 => {
+            let grid = range(bands).ok_or(ReadError::NoWavelengths(1))?;
+            (grid, format!("{first} to {last} nm in steps of {step}"), format!("{said}, and three numbers are a range"))
+        }
+        _ => (bands.to_vec(), format!("{} wavelengths", bands.len()), said),
     };
-    let &[first, last, step] = bands else { return listed(bands) };
-    if step > last || step <= 0.0 {
-        return listed(bands);
+    Ok((grid, Decision::new("Grid", &Decided::certain(value, why))))
+}
+
+/// A measurement of Wasatch ENLIGHTEN: curves by name, wavelengths among them or among the settings of the spectrometer. The
+/// processed curve is read, or all of them where raw ones are requested.
+fn enlighten(
+    text: &str,
+    spectrum: &Members<'_>,
+    members: &Members<'_>,
+    options: &ReadOptions,
+    log: &mut Log<'_>,
+) -> Result<Content, ReadError> {
+    let mut curves: Vec<(String, Vec<f64>)> = Vec::new();
+    for (name, list) in spectrum.each().filter(|(_, list)| list.written != "null") {
+        curves.push((name.to_string(), list.numbers(true, log)?));
     }
-    let grid = range(bands).ok_or(ReadError::NoWavelengths(1))?;
-    let range = Decided::certain(
-        format!("{first} to {last} nm in steps of {step}"),
-        format!("{}, and three numbers are a range", says(text, key)),
-    );
-    Ok((grid, Decision::new("Grid", &range)))
+    let at = curves.iter().position(|(name, _)| name.to_lowercase().starts_with("wavelength"));
+    let wavelengths =
+        match (at, members.members("spectrometerSettings")?.and_then(|settings| settings.get("wavelengths"))) {
+            (Some(at), _) => curves.remove(at).1,
+            (None, Some(list)) => list.numbers(false, log)?,
+            (None, None) => Vec::new(),
+        };
+    if wavelengths.is_empty() {
+        return Err(ReadError::NoWavelengths(line_of(text, "spectrum").unwrap_or(1)));
+    }
+    let mut header = Header::default();
+    if let Some(metadata) = members.members("metadata")? {
+        metadata.texts().for_each(|(key, value)| header.note(0, key, &value));
+    }
+    let program = Decided::certain("a file of Wasatch ENLIGHTEN", says(text, "spectrum"));
+    let mut notes = vec![Decision::new("Program", &program)];
+    let label = header.comment("Label").map(str::to_owned);
+    header.note(0, "title", label.as_deref().unwrap_or_default());
+    let role = technique(text, &mut header);
+    let processed = curves.iter().position(|(name, _)| name.eq_ignore_ascii_case("processed"));
+    if let Some(processed) = processed.filter(|_| options.raw != Some(true)) {
+        let left: Vec<String> = curves.iter().map(|(name, _)| format!("“{name}”")).collect();
+        let left: Vec<&str> = left.iter().map(String::as_str).filter(|name| *name != "“processed”").collect();
+        curves = vec![curves.swap_remove(processed)];
+        if !left.is_empty() {
+            let why = format!("{} are raw counts", left.join(", "));
+            let decided =
+                Decided::or_chosen(options.raw.map(|_| "“processed”"), || Decided::certain("“processed”", why));
+            notes.push(Decision::new("Columns", &decided));
+        }
+    }
+    let label = label.filter(|_| curves.len() == 1);
+    let named = |(name, values): (String, Vec<f64>)| {
+        let spectrum = on(&wavelengths, &values, &name)?;
+        Ok(Spectrum { name: Some(label.clone().unwrap_or(name)), ..spectrum })
+    };
+    let all: Result<Vec<Spectrum>, ReadError> = curves.into_iter().map(named).collect();
+    let grid = Grid { role, ..spectra::grid(all?, header, log)? };
+    Ok((grid, Decided::certain(Reader::ENLIGHTEN, says(text, "spectrometerSettings")), notes))
+}
+
+/// The role by the technique of the measurement.
+fn technique(text: &str, header: &mut Header) -> Option<Decided<Role>> {
+    let technique = header.comment("Technique")?.to_owned();
+    let line = line_of(text, "Technique").unwrap_or(1);
+    let why = format!("Line {line} says {technique}");
+    match technique.to_lowercase().as_str() {
+        "absorbance" => {
+            header.values = Some((line, Values::Absorbance));
+            Some(Decided::guess(Role::Transmittance, why))
+        }
+        "scope" | "raman" | "fluorescence" => Some(Decided::certain(Role::Unknown, why)),
+        other => header_terms::role(other).map(|role| Decided::certain(role, why)),
+    }
+}
+
+/// Records lists of values and of their wavelengths, which may be a range.
+fn record_lists(bands: Value<'_>, lists: &[Value<'_>], log: &mut Log<'_>) {
+    let Some(places) = &mut log.places else { return };
+    let parsed: Vec<f64> = bands.pieces().filter_map(|band| band.parse().ok()).collect();
+    let listed = parsed.len() == lists.first().map_or(0, |list| list.pieces().count());
+    let wavelengths = if listed { parsed } else { range(&parsed).unwrap_or_default() };
+    let own = (wavelengths.len() == bands.pieces().count()).then_some((PlaceKind::Wavelength, 0, bands));
+    let values = lists.iter().enumerate().map(|(curve, list)| (PlaceKind::Value, curve, *list));
+    for (kind, curve, list) in own.into_iter().chain(values) {
+        for (piece, wavelength) in list.pieces().zip(&wavelengths) {
+            record(list, piece, kind, (curve, *wavelength), places);
+        }
+    }
+}
+
+/// Records wavelengths that are keys, each before a number for each curve.
+fn record_rows(rows: &Members<'_>, group: Value<'_>, places: &mut Places<'_>) {
+    for (key, row) in rows.each() {
+        let Ok(wavelength) = key.trim().parse() else { continue };
+        if row.pieces().next().is_some() && matches!(key, std::borrow::Cow::Borrowed(_)) {
+            record(group, key, PlaceKind::Wavelength, (0, wavelength), places);
+        }
+        for (curve, piece) in row.pieces().enumerate() {
+            record(row, piece, PlaceKind::Value, (curve, wavelength), places);
+        }
+    }
+}
+
+fn record(value: Value<'_>, piece: &str, kind: PlaceKind, (curve, nm): (usize, f64), places: &mut Places<'_>) {
+    if piece != "null" {
+        let place = places.add_at(kind, value.offset(piece), piece.len());
+        places.assign(place, curve, nm);
+    }
 }

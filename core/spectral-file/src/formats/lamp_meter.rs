@@ -1,26 +1,28 @@
 //! One sample a line, its wavelength at the end of a label in any language: `Spectral Data 380[nm],0.001`.
 
+use crate::decision::{Decided, DecimalMark, Decision, Delimiter, Part, Reader, Role, WavelengthUnit};
 use crate::dialect::{Cell, Dialect};
-use crate::error::ReadError;
-use crate::formats::found::Found;
-use crate::formats::spectra;
-use crate::formats::spectra::{Sample, Spectrum};
+use crate::error::{MAX_PARTS, ReadError};
+use crate::formats::Format;
+use crate::formats::spectra::{self, Found, Sample, Spectrum};
 use crate::header::Header;
-use crate::limits::MAX_PARTS;
 use crate::options::ReadOptions;
-use crate::report::{Decided, Decision, Orientation, Part, Reader};
-use crate::role::Role;
-use crate::separators::{DecimalMark, Delimiter};
-use crate::sniff::Layout;
 use crate::text::{Lines, excerpt};
 use crate::watch::Log;
-use crate::wavelength_unit::WavelengthUnit;
 
 /// The fewest lines of one label that make a spectrum.
 const FEWEST: usize = 5;
 
 /// Bytes of the text that are looked at.
 const LOOK: usize = 1 << 20;
+
+impl Reader {
+    /// One sample a line, its wavelength at the end of a label, as Sekonic meters write.
+    pub const LABELS: Self = Self::new("labels", "one labeled sample a line", "Labeled lines");
+}
+
+pub(super) const FORMAT: Format =
+    Format { reader: Reader::LABELS, fits: |head| head.is_plain() && recognize(head.text), read };
 
 /// A line that is a sample.
 struct Labeled<'a> {
@@ -32,7 +34,7 @@ struct Labeled<'a> {
 }
 
 /// Returns whether enough lines hold a label, a wavelength in nanometers and a value.
-pub(super) fn recognize(text: &str) -> bool {
+fn recognize(text: &str) -> bool {
     let start = &text[..text.floor_char_boundary(LOOK)];
     // Most files have no `nm` in their rows; counting letters is many times faster than splitting lines.
     if start.bytes().filter(|byte| matches!(byte, b'n' | b'N')).count() < FEWEST {
@@ -42,7 +44,7 @@ pub(super) fn recognize(text: &str) -> bool {
 }
 
 /// Reads the finest block of samples.
-pub(super) fn read(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Result<Found, ReadError> {
+fn read(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Result<Found, ReadError> {
     let mut header = Header::default();
     let (blocks, delimiter, mark) = blocks(text, &mut header, log)?;
     let finest = blocks.iter().enumerate().max_by_key(|(at, block)| (block.len(), std::cmp::Reverse(*at)));
@@ -67,8 +69,8 @@ pub(super) fn read(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Resu
     grid.unit = Some(Decided::certain(WavelengthUnit::Nanometer, "The unit stands in the labels"));
     grid.role = Some(Decided::guess(Role::Illuminant, "Meters that write such files measure light"));
     let why = format!("Labels such as the one in line {first_line} end with a wavelength");
-    let layout = Layout::fixed((delimiter, mark), Orientation::Down, first_line, &why);
-    Ok(Found { grid, layout, reader: Decided::certain(Reader::Labels, why), notes })
+    let reader = Decided::certain(Reader::LABELS, &*why);
+    Ok(Found::fixed(grid, reader, ((delimiter, mark), first_line, &why), notes))
 }
 
 fn part(block: &[Sample]) -> Part {

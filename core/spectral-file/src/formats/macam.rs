@@ -1,23 +1,28 @@
 //! Wavelengths and values on alternate lines below `@date`, `@time` and `#title`, as Macam writes.
 
-use crate::dialect::{Cell, Dialect};
+use crate::decision::{Decided, DecimalMark, Delimiter, Reader, Role};
+use crate::dialect::Dialect;
 use crate::error::ReadError;
-use crate::formats::found::Found;
-use crate::formats::spectra;
-use crate::formats::spectra::{Sample, Spectrum};
+use crate::formats::Format;
+use crate::formats::spectra::{self, Found, Sample, Spectrum};
 use crate::header::Header;
-use crate::report::{Decided, Orientation, Reader};
-use crate::role::Role;
-use crate::separators::{DecimalMark, Delimiter};
-use crate::sniff::Layout;
+use crate::options::ReadOptions;
 use crate::text::{Lines, excerpt};
 use crate::watch::Log;
+
+impl Reader {
+    /// Wavelengths and values on alternate lines, as Macam writes.
+    pub const ALTERNATE: Self = Self::new("alternate", "wavelengths and values on alternate lines", "Alternate lines");
+}
+
+pub(super) const FORMAT: Format =
+    Format { reader: Reader::ALTERNATE, fits: |head| head.is_plain() && recognize(head.text), read };
 
 /// Lines of numbers that are looked at.
 const LOOK: usize = 4;
 
 /// Returns whether the first lines begin with `@` and the next ones are single numbers.
-pub(super) fn recognize(text: &str) -> bool {
+fn recognize(text: &str) -> bool {
     let mut lines = Lines::new(text).map(|(_, line)| line.trim()).filter(|line| !line.is_empty());
     let marked = |line: &str| line.starts_with(['@', '#']);
     if !lines.next().is_some_and(|line| line.starts_with('@')) {
@@ -28,15 +33,10 @@ pub(super) fn recognize(text: &str) -> bool {
 }
 
 fn number(cell: &str) -> Option<f64> {
-    let mark = if cell.contains(',') { DecimalMark::Comma } else { DecimalMark::Point };
-    match Dialect::new(Delimiter::Spaces, mark).parse(cell) {
-        Cell::Number(value) => Some(value),
-        Cell::Gap => Some(f64::NAN),
-        Cell::Text => None,
-    }
+    Dialect::of_number(cell).value(cell)
 }
 
-pub(super) fn read(text: &str, log: &mut Log<'_>) -> Result<Found, ReadError> {
+fn read(text: &str, _: &ReadOptions, log: &mut Log<'_>) -> Result<Found, ReadError> {
     let mut header = Header::default();
     let mut samples = Vec::new();
     let mut wavelength = None;
@@ -73,6 +73,6 @@ pub(super) fn read(text: &str, log: &mut Log<'_>) -> Result<Found, ReadError> {
     grid.role = Some(Decided::guess(Role::Illuminant, "Meters that write such files measure light"));
     let mark = if comma { DecimalMark::Comma } else { DecimalMark::Point };
     let why = "The first line begins with @, and single numbers follow";
-    let layout = Layout::fixed((Delimiter::Elements, mark), Orientation::Down, first_line, why);
-    Ok(Found { grid, layout, reader: Decided::certain(Reader::Alternate, why), notes: Vec::new() })
+    let (dialect, reader) = ((Delimiter::Elements, mark), Decided::certain(Reader::ALTERNATE, why));
+    Ok(Found::fixed(grid, reader, (dialect, first_line, why), Vec::new()))
 }

@@ -1,12 +1,33 @@
-//! Spectra that each have wavelengths of their own, brought onto one grid.
+//! What readers of formats give, and spectra that each have wavelengths of their own, brought onto one grid.
 
-use crate::error::ReadError;
+use crate::decision::{Decided, DecimalMark, Decision, Delimiter, Orientation, Reader};
+use crate::error::{MAX_CURVES, MAX_SAMPLES, ReadError};
 use crate::grid::{Grid, RawCurve};
 use crate::header::Header;
-use crate::limits::{MAX_CURVES, MAX_SAMPLES};
-use crate::places::{PlaceId, PlaceKind};
-use crate::warning::{LineList, Warning};
-use crate::watch::Log;
+use crate::layout::Layout;
+use crate::warning::Warning;
+use crate::watch::{Log, PlaceId, PlaceKind};
+
+/// Result of a reader, before units, order and scale are settled.
+pub(crate) struct Found {
+    pub(crate) grid: Grid,
+    pub(crate) layout: Layout,
+    pub(crate) reader: Decided<Reader>,
+    /// Decisions that only this family needs.
+    pub(crate) notes: Vec<Decision>,
+}
+
+impl Found {
+    /// Result of a format that leaves nothing to decide on its layout.
+    pub(crate) fn fixed(
+        grid: Grid,
+        reader: Decided<Reader>,
+        (dialect, first_line, why): ((Delimiter, DecimalMark), usize, &str),
+        notes: Vec<Decision>,
+    ) -> Self {
+        Self { grid, layout: Layout::fixed(dialect, Orientation::Down, first_line, why), reader, notes }
+    }
+}
 
 /// One sample and the line it stands in.
 #[derive(Debug, Clone, Copy)]
@@ -65,11 +86,7 @@ impl Spectrum {
         self.samples.truncate(kept + 1);
         if !lines.is_empty() {
             lines.sort_unstable();
-            let mut list = LineList::default();
-            for line in lines {
-                list.add(line);
-            }
-            log.push(Warning::Averaged { name: name.to_owned(), lines: list });
+            log.push(Warning::Averaged { name: name.to_owned(), lines: lines.into_iter().collect() });
         }
         if let Some(places) = &mut log.places {
             self.samples.iter().for_each(|sample| places.assign(sample.place, index, sample.wavelength));

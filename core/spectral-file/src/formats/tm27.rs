@@ -1,23 +1,25 @@
 //! IES TM-27: spectra of light sources in XML, one element for each sample.
 
-use crate::error::ReadError;
-use crate::formats::found::Found;
-use crate::formats::spectra;
-use crate::formats::spectra::{Sample, Spectrum};
-use crate::formats::xml::{Element, Step, Walk};
+use crate::decision::{Decided, DecimalMark, Delimiter, Part, Quantity, Reader, Role, WavelengthUnit};
+use crate::error::{MAX_CURVES, MAX_PARTS, ReadError};
+use crate::formats::Format;
+use crate::formats::spectra::{self, Found, Sample, Spectrum};
+use crate::formats::xml::{self, Element, Step, Walk};
 use crate::header::Header;
-use crate::limits::{MAX_CURVES, MAX_PARTS};
 use crate::options::ReadOptions;
-use crate::report::{Decided, Orientation, Part, Reader};
-use crate::role::{Quantity, Role};
-use crate::separators::{DecimalMark, Delimiter};
-use crate::sniff::Layout;
 use crate::warning::Warning;
 use crate::watch::Log;
-use crate::wavelength_unit::WavelengthUnit;
+
+impl Reader {
+    /// XML of IES TM-27 (`.spdx`).
+    pub const TM27: Self = Self::new("tm27", "IES TM-27", "IES TM-27");
+}
+
+pub(super) const FORMAT: Format =
+    Format { reader: Reader::TM27, fits: |head| xml::fits(head, |root| root.starts_with("IESTM27")), read };
 
 /// Reads all spectra of a document. Only local names are compared: the namespace differs between editions.
-pub(super) fn read(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Result<Found, ReadError> {
+fn read(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Result<Found, ReadError> {
     let mut walk = Walk::new(text);
     let mut content = Content::default();
     while let Some(step) = walk.next(log)? {
@@ -45,9 +47,8 @@ pub(super) fn read(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Resu
     }
     grid.unit = Some(Decided::certain(WavelengthUnit::Nanometer, "TM-27 prescribes it"));
     let dialect = (Delimiter::Elements, DecimalMark::Point);
-    let layout = Layout::fixed(dialect, Orientation::Down, first_line, "TM-27 prescribes it");
-    let why = format!("The root element is “{}”", walk.root());
-    Ok(Found { grid, layout, reader: Decided::certain(Reader::Tm27, why), notes: Vec::new() })
+    let reader = Decided::certain(Reader::TM27, format!("The root element is “{}”", walk.root()));
+    Ok(Found::fixed(grid, reader, (dialect, first_line, "TM-27 prescribes it"), Vec::new()))
 }
 
 #[derive(Default)]

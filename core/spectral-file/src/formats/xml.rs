@@ -10,20 +10,23 @@ use quick_xml::events::{BytesRef, BytesStart, Event};
 use quick_xml::reader::Reader as Parser;
 use std::borrow::Cow;
 
-use crate::dialect::{Cell, Dialect};
+use crate::decision::{DecimalMark, Delimiter, Family};
+use crate::dialect::Dialect;
 use crate::error::ReadError;
-use crate::markup::Family;
-use crate::places::PlaceId;
-use crate::report::Reader;
-use crate::separators::{DecimalMark, Delimiter};
+use crate::formats::{Head, recognize};
 use crate::text::excerpt;
-use crate::watch::Log;
+use crate::watch::{Log, PlaceId};
 
 /// The deepest nesting that is followed; files of spectra stay below ten.
 const DEEPEST: usize = 200;
 
-/// The reader for the root element of a text.
-pub(super) fn recognize(text: &str) -> Option<Reader> {
+/// Returns whether the root element of a document is of a format. One that is of no format is read as what was chosen.
+pub(super) fn fits(head: &Head<'_>, is_root: impl FnOnce(&str) -> bool) -> bool {
+    head.is(Family::Xml) && (root(head.text).is_some_and(is_root) || head.chosen && recognize(head.text).is_err())
+}
+
+/// The name of the root element.
+fn root(text: &str) -> Option<&str> {
     let mut parser = Parser::from_str(text);
     let tag = loop {
         let from = parser.buffer_position() as usize;
@@ -35,12 +38,7 @@ pub(super) fn recognize(text: &str) -> Option<Reader> {
             Ok(_) => {}
         }
     };
-    let name = tag.strip_prefix('<')?.split(|c: char| c.is_whitespace() || matches!(c, '>' | '/')).next()?;
-    match local(name) {
-        "CxF" => Some(Reader::Cxf),
-        name if name.starts_with("IESTM27") => Some(Reader::Tm27),
-        _ => None,
-    }
+    tag.strip_prefix('<')?.split(|c: char| c.is_whitespace() || matches!(c, '>' | '/')).next().map(local)
 }
 
 /// A name without its namespace.
@@ -127,11 +125,7 @@ fn number(text: &str, line: usize) -> Result<f64, ReadError> {
 }
 
 fn parse(text: &str) -> Option<f64> {
-    match Dialect::new(Delimiter::Elements, DecimalMark::Point).parse(text) {
-        Cell::Number(value) => Some(value),
-        Cell::Gap => Some(f64::NAN),
-        Cell::Text => None,
-    }
+    Dialect::new(Delimiter::Elements, DecimalMark::Point).value(text)
 }
 
 fn not_a_number(text: &str, line: usize) -> ReadError {

@@ -2,16 +2,14 @@
 
 use std::ops::Range;
 
-use crate::file::SpectralFile;
+use crate::decision::{Orientation, Reader, WavelengthUnit};
 use crate::grid::Grid;
-use crate::places::{Place, PlaceKind, Places};
-use crate::preview::across::Across;
-use crate::preview::down::Down;
+use crate::layout::Layout;
+use crate::preview::cells;
 use crate::preview::mark::{LeftOut, Mark, What};
-use crate::preview::{cells, down};
-use crate::report::{Orientation, Reader};
-use crate::sniff::Layout;
-use crate::wavelength_unit::WavelengthUnit;
+use crate::preview::tables::{self, Across, Down};
+use crate::report::SpectralFile;
+use crate::watch::{Place, PlaceKind, Places};
 
 /// Line, column or bytes of each sample, name and setting, recorded while a file was read. Made by
 /// [`read_marked`](crate::read_marked).
@@ -38,10 +36,10 @@ impl Marker {
     /// Takes over what was recorded; [`take_curves`](Self::take_curves) completes it.
     pub(crate) fn new(places: Places<'_>, grid: &Grid, layout: &Layout, reader: Reader, unit: WavelengthUnit) -> Self {
         let plan = match (&layout.across, reader, layout.orientation.value) {
-            (Some(across), Reader::Table, Orientation::Across) => {
+            (Some(across), Reader::TABLE, Orientation::Across) => {
                 Plan::Across(Across::new(layout, across, places.line(across.line), unit))
             }
-            (_, Reader::Table, _) => Plan::Down(Down::new(grid, layout, unit)),
+            (_, Reader::TABLE, _) => Plan::Down(Down::new(grid, layout, unit)),
             _ => Plan::Placed(places.used()),
         };
         let mut settings = grid.header.noted.clone();
@@ -95,7 +93,6 @@ impl Marker {
     }
 }
 
-/// The recorded pieces of one line.
 fn placed(all: &[Place], start: usize, line: &str, window: &Range<usize>, file: &SpectralFile) -> Vec<Mark> {
     let first = all.partition_point(|piece| (piece.end as usize) < start.saturating_add(window.start));
     let last = start + line.len().min(window.end);
@@ -112,7 +109,7 @@ fn what(place: &Place, written: &str, file: &SpectralFile) -> Option<What> {
     let curve = place.origin as usize;
     Some(match place.kind {
         PlaceKind::Wavelength => What::Wavelength(place.wavelength),
-        PlaceKind::Value => down::value(cells::number(written)?, curve, place.wavelength, file),
+        PlaceKind::Value => tables::value(cells::number(written)?, curve, place.wavelength, file),
         PlaceKind::Block | PlaceKind::Check => What::Block(curve),
         PlaceKind::Repeated => What::LeftOut(LeftOut::Repeated),
         PlaceKind::Averaged => What::LeftOut(LeftOut::Averaged),

@@ -1,45 +1,31 @@
 //! CGATS and the two formats that Argyll makes of it.
 
-use crate::write::common::{Common, Limits, common, even_bands};
-use crate::write::format::{Format, Grid};
-use crate::write::note::{Note, WriteError};
-use crate::write::sheet::{Content, Piece, Sheet};
-use crate::write::text::{one_line, push, push_quoted, push_real};
+use crate::write::base::Draft;
+use crate::write::format::{Format, Note};
+use crate::write::sheet::{Content, one_line, push, push_quoted, push_real};
 
-/// Most bands that Argyll has room for.
-const ARGYLL_BANDS: usize = 601;
-
-/// Writes a table with one set for each curve.
-pub(super) fn write(
-    sheet: &Sheet<'_>,
-    format: Format,
-    grid: Grid,
-    notes: &mut Vec<Note>,
-) -> Result<String, WriteError> {
-    let cmf = format == Format::ArgyllCmf;
-    let pieces = if cmf { sheet.channel_pieces(notes) } else { sheet.energy_pieces(notes) };
-    let bands = if format == Format::Cgats { usize::MAX } else { ARGYLL_BANDS };
-    let limits = Limits { format, range_nm: [1.0, 99_999.0], bands, reads: even_bands };
-    let common = common(&pieces, sheet.content, grid, &limits, notes)?;
+pub(super) fn write(draft: &mut Draft<'_>) -> String {
+    let (format, cmf) = (draft.format, draft.format == Format::ArgyllCmf);
     // Argyll takes the three sets of an observer by their place, and the one of a spectrum for lack of others.
-    let named = format == Format::Cgats || (!cmf && pieces.len() > 1);
+    let named = format == Format::Cgats || (!cmf && draft.pieces.len() > 1);
     if cmf {
-        notes.push(Note::NoNames);
+        draft.notes.push(Note::NoNames);
     } else if !named {
-        sheet.note_lone_name(notes);
+        draft.note_lone_name();
     }
     let mut out = String::from(match format {
         Format::ArgyllSp => "SPECT\n\n",
         Format::ArgyllCmf => "CMF\n\n",
         _ => "CGATS.17\n\n",
     });
-    push_keywords(&mut out, sheet, format, &common);
-    push_format(&mut out, format, named, &common.wavelengths);
-    push_sets(&mut out, named, &pieces, &common);
-    Ok(out)
+    push_keywords(&mut out, draft);
+    push_format(&mut out, format, named, &draft.wavelengths);
+    push_sets(&mut out, named, draft);
+    out
 }
 
-fn push_keywords(out: &mut String, sheet: &Sheet<'_>, format: Format, common: &Common) {
+fn push_keywords(out: &mut String, draft: &Draft<'_>) {
+    let sheet = draft.sheet;
     let title = sheet.title();
     if !title.is_empty() {
         push_keyword(out, "DESCRIPTOR", &title);
@@ -55,18 +41,18 @@ fn push_keywords(out: &mut String, sheet: &Sheet<'_>, format: Format, common: &C
             push_comment(out, key, value);
         }
     }
-    if let Some(resampling) = &common.resampling {
+    if let Some(resampling) = &draft.resampling {
         push_comment(out, "resampling", resampling);
     }
     for (key, value) in sheet.comments() {
         push_comment(out, &key, &value);
     }
     out.push('\n');
-    if let Some(kind) = measurement(sheet.content).filter(|_| format != Format::Cgats) {
+    if let Some(kind) = measurement(sheet.content).filter(|_| draft.format != Format::Cgats) {
         push_own(out, "MEAS_TYPE", kind);
     }
-    let ends = [common.wavelengths.first(), common.wavelengths.last()].map(|end| end.copied().unwrap_or_default());
-    push_own(out, "SPECTRAL_BANDS", &common.wavelengths.len().to_string());
+    let ends = [draft.wavelengths.first(), draft.wavelengths.last()].map(|end| end.copied().unwrap_or_default());
+    push_own(out, "SPECTRAL_BANDS", &draft.wavelengths.len().to_string());
     push_own(out, "SPECTRAL_START_NM", &real(ends[0]));
     push_own(out, "SPECTRAL_END_NM", &real(ends[1]));
     push_own(out, "SPECTRAL_NORM", "1.0");
@@ -116,9 +102,9 @@ fn push_format(out: &mut String, format: Format, named: bool, wavelengths: &[f64
     out.push_str("\nEND_DATA_FORMAT\n");
 }
 
-fn push_sets(out: &mut String, named: bool, pieces: &[Piece<'_>], common: &Common) {
-    push(out, format_args!("\nNUMBER_OF_SETS {}\nBEGIN_DATA\n", pieces.len()));
-    for (index, (piece, values)) in pieces.iter().zip(&common.values).enumerate() {
+fn push_sets(out: &mut String, named: bool, draft: &Draft<'_>) {
+    push(out, format_args!("\nNUMBER_OF_SETS {}\nBEGIN_DATA\n", draft.pieces.len()));
+    for (index, (piece, values)) in draft.pieces.iter().zip(&draft.values).enumerate() {
         if named {
             push(out, format_args!("{} ", index + 1));
             push_quoted(out, &piece.name);

@@ -4,13 +4,10 @@
 use chromascope_text::guarded;
 use std::borrow::Cow;
 
-use crate::limits::MAX_SAMPLES;
-use crate::write::format::{Format, Grid};
-use crate::write::note::{Note, WriteError};
-use crate::write::resample;
-use crate::write::resample::{Changes, SAME_NM, Sampling, multiples};
-use crate::write::sheet::{Content, Piece, Sheet};
-use crate::write::text::{push_number, push_quoted};
+use crate::error::MAX_SAMPLES;
+use crate::write::base::{self, Changes, SAME_NM, Sampling, multiples};
+use crate::write::format::{Format, Grid, Note, WriteError};
+use crate::write::sheet::{Content, Piece, Sheet, one_line, push_number, push_quoted};
 
 /// Block size of text; a longer row is written alone.
 const CHUNK: usize = 1 << 16;
@@ -39,7 +36,7 @@ impl<'a> Prepared<'a> {
     /// [`WriteError`] for curves that are none, or over the limits on such a grid.
     pub fn new(sheet: &Sheet<'a>, grid: Grid) -> Result<Self, WriteError> {
         Format::Csv.fits(sheet)?;
-        resample::check(grid)?;
+        base::check(grid)?;
         let mut renamed = Vec::new();
         let pieces = sheet.pieces(&mut renamed);
         let (step, sampling) = (grid.step_nm(), Sampling::of(grid));
@@ -138,7 +135,6 @@ fn rows(pieces: &[Piece<'_>], step: Option<f64>, sampling: Sampling) -> Result<V
     Ok(rows)
 }
 
-/// The wavelengths that a curve of this range has a value at.
 fn within(rows: &[f64], [first, last]: [f64; 2]) -> &[f64] {
     let from = rows.partition_point(|&row| row < first - SAME_NM);
     let to = rows.partition_point(|&row| row <= last + SAME_NM);
@@ -180,14 +176,14 @@ fn push_comments(out: &mut String, sheet: &Sheet<'_>, resampling: Option<&str>) 
     }
     push("quantity", sheet.quantity());
     if let Some(unit) = sheet.unit() {
-        push("unit", &crate::write::text::one_line(unit));
+        push("unit", &one_line(unit));
     }
     if let Content::Camera { per_photon: Some(per_photon), .. } = sheet.content {
         push("response", if per_photon { "per photon" } else { "per energy" });
     }
     if let Content::Camera { manufacturer, model, .. } = sheet.content {
         for (key, value) in [("manufacturer", manufacturer), ("model", model)] {
-            if let Some(value) = value.map(crate::write::text::one_line).filter(|value| !value.is_empty()) {
+            if let Some(value) = value.map(one_line).filter(|value| !value.is_empty()) {
                 push(key, &value);
             }
         }
@@ -201,7 +197,6 @@ fn push_comments(out: &mut String, sheet: &Sheet<'_>, resampling: Option<&str>) 
     }
 }
 
-/// A name, quoted only where it has to be.
 fn push_name(out: &mut String, name: &str) {
     let name = guarded(name);
     if name.contains([',', '"', ';', '\t']) {

@@ -1,25 +1,19 @@
 //! JSON as rawtoaces and dcamprof read it.
 
-use crate::write::common::{Common, Limits, common};
-use crate::write::format::{Format, Grid};
-use crate::write::note::{Note, WriteError};
-use crate::write::resample::even_step;
-use crate::write::sheet::{Content, Piece, Sheet};
-use crate::write::text::{one_line, push, push_number};
+use crate::write::base::{Draft, even_step};
+use crate::write::format::Note;
+use crate::write::sheet::{Content, one_line, push, push_number};
 
 /// Writes a document of rawtoaces, whose schema wants all of these members.
-pub(super) fn rawtoaces(sheet: &Sheet<'_>, grid: Grid, notes: &mut Vec<Note>) -> Result<String, WriteError> {
-    let pieces = sheet.channel_pieces(notes);
-    let limits =
-        Limits { format: Format::RawtoacesJson, range_nm: RAWTOACES_NM, bands: usize::MAX, reads: even_in_single };
-    let common = common(&pieces, sheet.content, grid, &limits, notes)?;
-    if sheet.content == Content::Illuminant {
-        sheet.note_lone_name(notes);
+pub(super) fn rawtoaces(draft: &mut Draft<'_>) -> String {
+    let content = draft.sheet.content;
+    if content == Content::Illuminant {
+        draft.note_lone_name();
     }
     let mut out = String::from("{\n    \"header\": {\n");
-    push_header(&mut out, sheet, &common, notes);
+    push_header(&mut out, draft);
     out.push_str("    },\n    \"spectral_data\": {\n");
-    let (units, reflection, transmission) = match sheet.content {
+    let (units, reflection, transmission) = match content {
         Content::Reflectance => ("reflectance", Some("other"), None),
         Content::Transmittance => ("transmittance", None, Some("other")),
         Content::Other => ("other", None, None),
@@ -31,31 +25,22 @@ pub(super) fn rawtoaces(sheet: &Sheet<'_>, grid: Grid, notes: &mut Vec<Note>) ->
     push_member(&mut out, 8, "bandwidth_FWHM", None);
     push_member(&mut out, 8, "bandwidth_corrected", None);
     out.push_str("        \"index\": {\n            \"main\": [");
-    push_index(&mut out, sheet.content, &pieces, notes);
+    push_index(&mut out, draft);
     out.push_str("]\n        },\n        \"data\": {\n            \"main\": {\n");
-    push_keyed_rows(&mut out, &common);
+    push_keyed_rows(&mut out, draft);
     out.push_str("            }\n        }\n    }\n}\n");
-    Ok(out)
+    out
 }
 
-/// Keys of three digits before the point: those alone are in the order of wavelengths when sorted as text.
-const RAWTOACES_NM: [f64; 2] = [100.0, 999.999];
-
-/// Returns whether wavelengths are evenly spaced for a program that takes them in single precision and compares exactly.
-fn even_in_single(wavelengths: &[f64]) -> bool {
-    let single: Vec<f32> = wavelengths.iter().map(|&w| w as f32).collect();
-    let mut steps = single.windows(2).map(|pair| pair[1] - pair[0]);
-    steps.next().is_some_and(|first| first > 0.0 && steps.all(|step| step == first))
-}
-
-fn push_header(out: &mut String, sheet: &Sheet<'_>, common: &Common, notes: &mut Vec<Note>) {
+fn push_header(out: &mut String, draft: &mut Draft<'_>) {
+    let sheet = draft.sheet;
     let title = sheet.title();
     let (mut maker, mut camera) = (None, None);
     if let Content::Camera { manufacturer, model, .. } = sheet.content {
         let known = |text: Option<&str>| text.map(|text| one_line(text).into_owned()).filter(|text| !text.is_empty());
         (maker, camera) = (known(manufacturer), known(model));
         if maker.is_none() || camera.is_none() {
-            notes.push(Note::Unidentified);
+            draft.notes.push(Note::Unidentified);
         }
         camera = camera.or_else(|| Some(title.to_string()));
     }
@@ -73,14 +58,13 @@ fn push_header(out: &mut String, sheet: &Sheet<'_>, common: &Common, notes: &mut
     push_member(out, 8, "measurement_equipment", None);
     push_member(out, 8, "laboratory", None);
     push_member(out, 8, "document_creation_date", Some(sheet.created.unwrap_or_default()));
-    let mut comments = sheet.remarks();
-    comments.extend(common.resampling.iter().map(|resampling| format!("resampling: {resampling}")));
+    let comments = draft.remarks();
     push_member(out, 8, "comments", (!comments.is_empty()).then_some(comments.join("; ")).as_deref());
     push_last(out, 8, "license", &quoted(&sheet.license()));
 }
 
-/// Names of the curves that rawtoaces expects.
-fn push_index(out: &mut String, content: Content<'_>, pieces: &[Piece<'_>], notes: &mut Vec<Note>) {
+fn push_index(out: &mut String, draft: &mut Draft<'_>) {
+    let (content, pieces) = (draft.sheet.content, &draft.pieces);
     let fixed: &[&str] = match content {
         Content::Camera { .. } => &["R", "G", "B"],
         Content::Observer => &["X", "Y", "Z"],
@@ -88,7 +72,7 @@ fn push_index(out: &mut String, content: Content<'_>, pieces: &[Piece<'_>], note
         Content::Reflectance | Content::Transmittance | Content::Other => &[],
     };
     if content == Content::Observer && pieces.iter().zip(fixed).any(|(piece, fixed)| piece.name != *fixed) {
-        notes.push(Note::NoNames);
+        draft.notes.push(Note::NoNames);
     }
     for (index, piece) in pieces.iter().enumerate() {
         out.push_str(if index > 0 { ", " } else { "" });
@@ -96,12 +80,12 @@ fn push_index(out: &mut String, content: Content<'_>, pieces: &[Piece<'_>], note
     }
 }
 
-fn push_keyed_rows(out: &mut String, common: &Common) {
-    for (row, wavelength) in common.wavelengths.iter().enumerate() {
+fn push_keyed_rows(out: &mut String, draft: &Draft<'_>) {
+    for (row, wavelength) in draft.wavelengths.iter().enumerate() {
         out.push_str(if row > 0 { ",\n                \"" } else { "                \"" });
         // Never in powers of ten: the keys are sorted as text.
         push(out, format_args!("{wavelength}\": ["));
-        push_list(out, common.values.iter().map(|values| values[row]));
+        push_list(out, draft.values.iter().map(|values| values[row]));
         out.push(']');
     }
     out.push('\n');
@@ -110,20 +94,16 @@ fn push_keyed_rows(out: &mut String, common: &Common) {
 /// Writes a document of dcamprof: `ssf_bands` and three lists for a camera, `bands` and one list for anything else.
 ///
 /// Members that dcamprof lacks stand in `comments`, which it passes over.
-pub(super) fn dcamprof(sheet: &Sheet<'_>, grid: Grid, notes: &mut Vec<Note>) -> Result<String, WriteError> {
-    let pieces = sheet.channel_pieces(notes);
-    let any = |_: &[f64]| true;
-    let limits = Limits { format: Format::DcamprofJson, range_nm: [0.0, f64::MAX], bands: DCAMPROF_BANDS, reads: any };
-    let common = common(&pieces, sheet.content, grid, &limits, notes)?;
+pub(super) fn dcamprof(draft: &mut Draft<'_>) -> String {
     let mut out = String::from("{\n");
+    let sheet = draft.sheet;
     let title = sheet.title();
     let camera = matches!(sheet.content, Content::Camera { .. });
     if !camera {
-        sheet.note_lone_name(notes);
+        draft.note_lone_name();
     }
     push_member(&mut out, 4, if camera { "camera_name" } else { "description" }, Some(&title));
-    let mut comments = sheet.remarks();
-    comments.extend(common.resampling.iter().map(|resampling| format!("resampling: {resampling}")));
+    let mut comments = draft.remarks();
     comments.extend(Some(sheet.license()).filter(|text| !text.is_empty()).map(|license| format!("license: {license}")));
     if !comments.is_empty() {
         let list: Vec<String> = comments.iter().map(|comment| format!("\n        {}", quoted(comment))).collect();
@@ -131,17 +111,14 @@ pub(super) fn dcamprof(sheet: &Sheet<'_>, grid: Grid, notes: &mut Vec<Note>) -> 
     }
     let lists = if camera { ["red_ssf", "green_ssf", "blue_ssf"].as_slice() } else { ["spectrum"].as_slice() };
     out.push_str(if camera { "    \"ssf_bands\": [" } else { "    \"bands\": [" });
-    push_bands(&mut out, &common.wavelengths);
-    for (name, values) in lists.iter().zip(&common.values) {
+    push_bands(&mut out, &draft.wavelengths);
+    for (name, values) in lists.iter().zip(&draft.values) {
         push(&mut out, format_args!("],\n    \"{name}\": ["));
         push_list(&mut out, values.iter().copied());
     }
     out.push_str("]\n}\n");
-    Ok(out)
+    out
 }
-
-/// The most bands that dcamprof takes for a range.
-const DCAMPROF_BANDS: usize = 1_000_000;
 
 /// First, last and step where they are whole numbers; else every wavelength.
 fn push_bands(out: &mut String, wavelengths: &[f64]) {

@@ -1,13 +1,13 @@
-//! Input of the writers: borrowed curves, and what is known about them.
+//! Input of the writers: borrowed curves and what is known about them; their numbers and names as text.
 
 use std::borrow::Cow;
+use std::fmt::{Arguments, Write};
 
-use crate::file::Curve;
-use crate::limits::{MAX_CURVES, MAX_SAMPLES};
-use crate::role::Quantity;
-use crate::write::note::{Note, WriteError};
-use crate::write::text;
-use crate::{header_terms, heads, quantity};
+use crate::decision::{Quantity, Values};
+use crate::error::{MAX_CURVES, MAX_SAMPLES};
+use crate::report::Curve;
+use crate::write::format::{Note, WriteError};
+use crate::{header, header_terms, quantity, unit_text};
 
 /// A curve to be written: values over wavelength.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -55,7 +55,6 @@ pub enum Content<'a> {
 }
 
 impl Content<'_> {
-    /// The default unit of the values.
     pub(super) fn unit(self) -> Option<&'static str> {
         (!matches!(self, Self::Illuminant | Self::Other)).then_some("1")
     }
@@ -85,7 +84,6 @@ pub struct Sheet<'a> {
 }
 
 impl<'a> Sheet<'a> {
-    /// The unit as it is written.
     pub(super) fn unit(&self) -> Option<&'a str> {
         let said = self.unit.filter(|unit| !unit.trim().is_empty() && !self.content.is_fraction());
         said.or(self.content.unit())
@@ -103,23 +101,22 @@ impl<'a> Sheet<'a> {
             Content::Illuminant if relative => "relative spectral power",
             Content::Illuminant => {
                 let quantity = self.unit().and_then(quantity::of_unit).unwrap_or(Quantity::SpectralPower);
-                heads::of_light(quantity)
+                header::quantity_of_light(quantity)
             }
             Content::Other => header_terms::UNSPECIFIED,
         }
     }
 
-    /// The end of the head of every column: quantity and unit.
     pub(super) fn head(&self) -> String {
         let per_photon = if let Content::Camera { per_photon, .. } = self.content { per_photon } else { None };
-        let unit = self.unit().map(text::one_line);
-        heads::tail(self.quantity(), per_photon, unit.as_deref())
+        let unit = self.unit().map(one_line);
+        header::head_tail(self.quantity(), per_photon, unit.as_deref())
     }
 
     /// The comments on one line each, without those that repeat the rest of the sheet.
     pub(super) fn comments(&self) -> impl Iterator<Item = (Cow<'a, str>, Cow<'a, str>)> + use<'a> {
         const SAID: [&str; 4] = ["title", "quantity", "unit", "response"];
-        let lines = self.comments.iter().map(|(key, value)| (text::one_line(key), text::one_line(value)));
+        let lines = self.comments.iter().map(|(key, value)| (one_line(key), one_line(value)));
         lines.filter(|(key, value)| {
             !key.is_empty() && !value.is_empty() && !SAID.iter().any(|said| key.eq_ignore_ascii_case(said))
         })
@@ -134,7 +131,7 @@ impl<'a> Sheet<'a> {
     /// All that formats with few members of their own have no other place for, each as `key: value`, licenses aside.
     pub(super) fn remarks(&self) -> Vec<String> {
         let own = [("quantity", Some(self.quantity())), ("unit", self.unit().filter(|unit| *unit != "1"))];
-        let own = own.iter().filter_map(|(key, value)| Some(format!("{key}: {}", text::one_line((*value)?))));
+        let own = own.iter().filter_map(|(key, value)| Some(format!("{key}: {}", one_line((*value)?))));
         let rest = self.comments().filter(|(key, _)| !is_license(key)).map(|(key, value)| format!("{key}: {value}"));
         let response = self.energy_response().map(|response| format!("response: {response}"));
         own.chain(response).chain(rest).collect()
@@ -147,17 +144,10 @@ impl<'a> Sheet<'a> {
 
     /// The title, or what stands for one.
     pub(super) fn title(&self) -> Cow<'a, str> {
-        let title = text::one_line(self.title);
+        let title = one_line(self.title);
         match self.curves {
-            [only] if title.is_empty() => text::one_line(only.name),
+            [only] if title.is_empty() => one_line(only.name),
             _ => title,
-        }
-    }
-
-    /// Notes that the name of a single curve gives way to the title.
-    pub(super) fn note_lone_name(&self, notes: &mut Vec<Note>) {
-        if self.curves.first().is_some_and(|only| text::one_line(only.name) != self.title()) {
-            notes.push(Note::NoNames);
         }
     }
 
@@ -185,7 +175,7 @@ impl<'a> Sheet<'a> {
     pub(super) fn pieces(&self, notes: &mut Vec<Note>) -> Vec<Piece<'a>> {
         let mut renamed = 0;
         let pieces = self.curves.iter().enumerate().map(|(index, trace)| {
-            let name = text::name(trace.name, index, self.content);
+            let name = name(trace.name, index, self.content);
             renamed += usize::from(name != trace.name);
             let (wavelengths, values) = (Cow::Borrowed(trace.wavelengths_nm), Cow::Borrowed(trace.values));
             Piece { name, wavelengths, values }
@@ -259,4 +249,67 @@ fn check(trace: &Trace<'_>, curve: usize) -> Result<(), WriteError> {
         return Err(WriteError::Wavelengths(curve));
     }
     if values.iter().all(|value| value.is_finite()) { Ok(()) } else { Err(WriteError::NotFinite(curve)) }
+}
+
+pub(super) use chromascope_text::on_one_line as one_line;
+
+/// Appends what a format string makes.
+pub(super) fn push(out: &mut String, arguments: Arguments<'_>) {
+    out.write_fmt(arguments).expect("a text takes whatever is written to it");
+}
+
+/// Appends the shortest decimal that reads back as the same double: `0.055`, `400`, `1e-7`, `1.5e300`.
+pub(super) fn push_number(out: &mut String, value: f64) {
+    const PLAIN: std::ops::Range<f64> = 1e-5..1e16;
+    let plain = value == 0.0 || PLAIN.contains(&value.abs());
+    if plain { push(out, format_args!("{value}")) } else { push(out, format_args!("{value:e}")) }
+}
+
+/// A number with a point in it: readers of CGATS take whole numbers for integers.
+pub(super) fn push_real(out: &mut String, value: f64) {
+    let start = out.len();
+    push_number(out, value);
+    if !out[start..].contains('.') {
+        let end = out[start..].find('e').map_or(out.len(), |at| start + at);
+        out.insert_str(end, ".0");
+    }
+}
+
+/// The name of a curve: on one line, not blank, and not one that a reader takes for a unit which the values are not in.
+fn name<'a>(text: &'a str, index: usize, content: Content<'_>) -> Cow<'a, str> {
+    let mut name = one_line(text);
+    if misleads(&name, content) {
+        name = Cow::Owned(unit_text::without_percent_signs(&name));
+    }
+    let bad = name.is_empty() || heads_wavelengths(&name) || misleads(&name, content);
+    if bad { Cow::Owned(format!("Curve {}", index + 1)) } else { name }
+}
+
+/// Returns whether a reader would convert the values under such a name. What responds to light is never scaled down from percent.
+fn misleads(name: &str, content: Content<'_>) -> bool {
+    match header_terms::values(name) {
+        // Energies are not photons or powers per frequency.
+        _ if matches!(content, Content::Illuminant | Content::Other) && quantity::converts(name) => true,
+        None | Some(Values::Plain) => false,
+        Some(Values::Decibels) => true,
+        Some(Values::Percent | Values::Absorbance) => !matches!(content, Content::Camera { .. } | Content::Observer),
+    }
+}
+
+/// Returns whether a reader would take a column of such a name for one of wavelengths.
+fn heads_wavelengths(name: &str) -> bool {
+    const LONGEST_UNIT: usize = 4;
+    header_terms::names_wavelengths(name) || (name.len() <= LONGEST_UNIT && header_terms::x_unit(name).is_some())
+}
+
+/// Appends a text between quotation marks, those inside doubled, as CSV and CGATS have it.
+pub(super) fn push_quoted(out: &mut String, text: &str) {
+    out.push('"');
+    for part in text.split_inclusive('"') {
+        out.push_str(part);
+        if part.ends_with('"') {
+            out.push('"');
+        }
+    }
+    out.push('"');
 }

@@ -141,7 +141,6 @@ macro_rules! kernel {
             }
 
             /// Portable form for any processor.
-            #[allow(clippy::inline_always, reason = "only there is it compiled for the caller's instruction set")]
             #[inline(always)]
             pub(super) fn portable(
                 spectra: &[$type],
@@ -168,7 +167,6 @@ macro_rules! kernel {
             }
 
             /// The last register of numbers that do not fill it: some are in the one before, too.
-            #[allow(clippy::inline_always, reason = "only there is it compiled for the caller's instruction set")]
             #[inline(always)]
             fn last(numbers: &[$type]) -> [$type; $lanes] {
                 if let Some(last) = numbers.last_chunk() {
@@ -181,7 +179,6 @@ macro_rules! kernel {
 
             impl Block<'_> {
                 /// The responses of all channels.
-                #[allow(clippy::inline_always, reason = "only there is it compiled for the caller's instruction set")]
                 #[inline(always)]
                 fn multiply(&self, curves: &[Lanes], answers: &mut [$type], channels: usize) {
                     let registers = curves.len() / channels;
@@ -210,7 +207,6 @@ macro_rules! kernel {
                 }
 
                 /// The responses of N channels; those of each spectrum are `stride` places further on.
-                #[allow(clippy::inline_always, reason = "only there is it compiled for the caller's instruction set")]
                 #[inline(always)]
                 fn some<const N: usize>(&self, curves: &[Lanes], places: &mut [$type], stride: usize, ahead: &[$type]) {
                     let mut sums = [[[0.0; $lanes]; N]; ROWS];
@@ -245,7 +241,6 @@ macro_rules! kernel {
             }
 
             /// Partial sums, pairwise, where they are finite; written in the order in which registers are shuffled.
-            #[allow(clippy::inline_always, reason = "only there is it compiled for the caller's instruction set")]
             #[inline(always)]
             fn totals(sums: &[[$type; $lanes]; 4]) -> [$type; 4] {
                 let mut quarters = [[0.0; 4]; 4];

@@ -2,6 +2,7 @@
 
 use multiversion::multiversion;
 
+use crate::math::array::{array, each};
 use crate::math::exp::{exp, exp_m1_near};
 use crate::spectral::grid::COUNT;
 
@@ -103,11 +104,11 @@ fn filled(values: impl Iterator<Item = f64>) -> Vec<f64> {
 #[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl+avx512bw+avx512cd", "x86_64+avx2", "aarch64+neon"))]
 fn plain(terms: &Terms, skip: usize, scale: f64, anchor: f64) -> [f64; 3] {
     let rest = 1.0 - anchor;
-    sums(terms, skip, |gap| {
+    let law = |gap| {
         let value = exp(-scale * gap);
         value / (1.0 - value * rest)
-    })
-    .map(|sum| sum * anchor)
+    };
+    each(sums(terms, skip, law), |sum| sum * anchor)
 }
 
 /// Small exponents: 1 − e^−x as the sum of two positive numbers.
@@ -120,24 +121,23 @@ fn hot(terms: &Terms, skip: usize, scale: f64, anchor: f64) -> [f64; 3] {
     })
 }
 
-#[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
 #[inline(always)]
 fn sums(terms: &Terms, skip: usize, law: impl Fn(f64) -> f64) -> [f64; 3] {
     let mut buffer = [0.0; MOST];
     let count = terms.gaps.len().min(MOST);
     let values = &mut buffer[..count];
-    for (value, &gap) in values[skip..].iter_mut().zip(&terms.gaps[skip..]) {
-        *value = law(gap);
+    for (i, value) in values.iter_mut().enumerate().skip(skip) {
+        *value = law(terms.gaps[i]);
     }
     let values = &*values;
-    [0, 1, 2].map(|c: usize| {
+    array(|c| {
         let Channel { first, weights, .. } = &terms.channels[c];
         let weights = weights.get(skip.saturating_sub(*first)..).unwrap_or_default();
         let mut lanes = [0.0; LANES];
-        let pairs = weights.as_chunks::<LANES>().0.iter().zip(values[skip.max(*first)..].as_chunks::<LANES>().0);
-        for (weights, values) in pairs {
+        let (weights, values) = (weights.as_chunks::<LANES>().0, values[skip.max(*first)..].as_chunks::<LANES>().0);
+        for i in 0..weights.len().min(values.len()) {
             for lane in 0..LANES {
-                lanes[lane] += weights[lane] * values[lane];
+                lanes[lane] += weights[i][lane] * values[i][lane];
             }
         }
         let [a, b, c, d, e, f, g, h] = lanes;

@@ -108,7 +108,6 @@ fn fill(pieces: &[Piece], within_bits: u32, temperatures: &[Kelvin], answers: &m
 }
 
 /// The piece of a temperature and the place in it, −1…1: read off the bits of the shifted reciprocal temperature, exactly.
-#[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
 #[inline(always)]
 fn place(temperature: Kelvin, within_bits: u32) -> (u64, f64) {
     let bits = (1e6 / temperature.get() + SHIFT).to_bits();
@@ -126,7 +125,6 @@ fn mired(index: usize, bits: u32, t: f64) -> f64 {
     (start - SHIFT) + start * (part / parts) + start * ((1.0 + t) / (2.0 * parts))
 }
 
-#[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
 #[inline(always)]
 fn answer(pieces: &[Piece], index: u64, t: f64, temperature: Kelvin) -> Result<Xy, LocusTableError> {
     let Some(piece) = pieces.get(index as usize).filter(|_| (COLDEST_K..=HOTTEST_K).contains(&temperature.get()))
@@ -138,7 +136,6 @@ fn answer(pieces: &[Piece], index: u64, t: f64, temperature: Kelvin) -> Result<X
 }
 
 /// The polynomials at t: even and odd powers side by side, by Horner's rule in t².
-#[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
 #[inline(always)]
 fn evaluate(piece: &Piece, t: f64) -> Xy {
     let square = t * t;

@@ -1,5 +1,7 @@
 //! Ranks of fits as ranges, by a paired bootstrap over the patches (Efron and Tibshirani 1993, *An Introduction to the Bootstrap*).
 
+use chromascope_math::random::SplitMix64;
+
 use super::two_way::{Freedom, Grid, rms};
 
 /// Resamples of the patches.
@@ -24,10 +26,10 @@ pub(super) fn rank_ranges(fits: &[Vec<[Option<f64>; 3]>], freedom: Freedom) -> V
         return vec![RankRange { range: [1, count], first: 1.0 }; count];
     }
     let mut seen = vec![Vec::with_capacity(RESAMPLES); count];
-    let mut state = SEED;
+    let mut random = SplitMix64::new(SEED);
     let mut drawn = vec![0; patches];
     for _ in 0..RESAMPLES {
-        drawn.fill_with(|| next(&mut state, patches));
+        drawn.fill_with(|| random.below(patches));
         let rms: Vec<f64> = fits.iter().map(|fit| resampled_rms(fit, &drawn, freedom)).collect();
         for (ranks, rank) in seen.iter_mut().zip(ranks(&rms)) {
             ranks.push(rank);
@@ -55,12 +57,4 @@ fn ranks(values: &[f64]) -> Vec<usize> {
 fn resampled_rms(fit: &[[Option<f64>; 3]], drawn: &[usize], freedom: Freedom) -> f64 {
     let grid = Grid::new(drawn.iter().map(|&patch| fit[patch]).collect(), freedom);
     rms(grid.fit().residuals.into_iter().flatten().flatten()).unwrap_or(f64::INFINITY)
-}
-
-/// Next number below `count` by `SplitMix64` (Steele, Lea and Flood 2014).
-fn next(state: &mut u64, count: usize) -> usize {
-    *state = state.wrapping_add(0x9E37_79B9_7F4A_7C15);
-    let mixed = (*state ^ (*state >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-    let mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-    ((u128::from(mixed ^ (mixed >> 31)) * count as u128) >> 64) as usize
 }

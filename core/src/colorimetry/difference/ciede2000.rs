@@ -33,19 +33,20 @@ pub(super) fn fill(firsts: &[Lab], seconds: &[Lab], answers: &mut [f64]) {
         for (lane, (first, second)) in firsts.iter().zip(seconds).enumerate().take(LANES) {
             let (first, second) = (bounded(*first), bounded(*second));
             let pair = [first.l, first.a, first.b, second.l, second.a, second.b];
-            lanes.iter_mut().zip(pair).for_each(|(row, value)| row[lane] = value);
+            for row in 0..6 {
+                lanes[row][lane] = pair[row];
+            }
         }
         let mut found = [0.0; LANES];
         for lane in 0..LANES {
-            let [l1, a1, b1, l2, a2, b2] = [0, 1, 2, 3, 4, 5].map(|row: usize| lanes[row][lane]);
-            found[lane] = difference([l1, a1, b1], [l2, a2, b2]);
+            let at = |row: usize| lanes[row][lane];
+            found[lane] = difference([at(0), at(1), at(2)], [at(3), at(4), at(5)]);
         }
-        answers.iter_mut().zip(found).for_each(|(answer, found)| *answer = found);
+        answers.copy_from_slice(&found[..answers.len()]);
     }
 }
 
 /// The difference of two colors whose coordinates are bounded.
-#[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
 #[inline(always)]
 pub(super) fn difference(first: [f64; 3], second: [f64; 3]) -> f64 {
     let [l, c, h, turn] = components(first, second);
@@ -53,7 +54,6 @@ pub(super) fn difference(first: [f64; 3], second: [f64; 3]) -> f64 {
 }
 
 /// Weighted differences of lightness, chroma and hue, and the factor of the rotation term `R_T c h`.
-#[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
 #[inline(always)]
 pub(super) fn components([l1, a1, b1]: [f64; 3], [l2, a2, b2]: [f64; 3]) -> [f64; 4] {
     let mean_chroma = 0.5 * (length(a1, b1) + length(a2, b2));
@@ -85,7 +85,6 @@ struct Hues {
 
 impl Hues {
     /// Of two colors a′, b′, C′, their vector product, and which way it turns if they are far from each other.
-    #[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
     #[inline(always)]
     fn new([a1, b1, c1]: [f64; 3], [a2, b2, c2]: [f64; 3], cross: f64, turning: f64) -> Self {
         let (dot, size) = (a1 * a2 + b1 * b2, c1 * c2);
@@ -108,7 +107,6 @@ impl Hues {
 
 /// a₁b₂ − a₂b₁ to the right side of zero, on which a leap of the difference depends: products with their rounding errors
 /// (Dekker 1971).
-#[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
 #[inline(always)]
 fn turning([a1, b1]: [f64; 2], [a2, b2]: [f64; 2]) -> f64 {
     let ((first, rest), (second, other)) = (product(a1, b2), product(a2, b1));
@@ -116,7 +114,6 @@ fn turning([a1, b1]: [f64; 2], [a2, b2]: [f64; 2]) -> f64 {
 }
 
 /// A product and what its rounding took away.
-#[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
 #[inline(always)]
 fn product(a: f64, b: f64) -> (f64, f64) {
     let ((a_high, a_low), (b_high, b_low)) = (halves(a), halves(b));
@@ -125,7 +122,6 @@ fn product(a: f64, b: f64) -> (f64, f64) {
 }
 
 /// The upper and the lower half of a mantissa (Veltkamp 1968).
-#[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
 #[inline(always)]
 fn halves(a: f64) -> (f64, f64) {
     let shifted = 134_217_729.0 * a;
@@ -134,7 +130,6 @@ fn halves(a: f64) -> (f64, f64) {
 }
 
 /// T, the weight of a mean hue.
-#[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
 #[inline(always)]
 fn hue_weight([x, y]: [f64; 2]) -> f64 {
     let (x2, y2) = ((x - y) * (x + y), 2.0 * x * y);
@@ -145,7 +140,6 @@ fn hue_weight([x, y]: [f64; 2]) -> f64 {
 }
 
 /// Δθ/30°: how far the ellipses of a mean hue are turned.
-#[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
 #[inline(always)]
 fn turned([x, y]: [f64; 2]) -> f64 {
     let (cos, sin) = (x * COS_275 + y * SIN_275, y * COS_275 - x * SIN_275);
@@ -165,7 +159,6 @@ fn turned([x, y]: [f64; 2]) -> f64 {
 }
 
 /// The sine of 0 to π/3, by Taylor's series.
-#[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
 #[inline(always)]
 fn sine(x: f64) -> f64 {
     let square = x * x;
@@ -177,7 +170,6 @@ fn sine(x: f64) -> f64 {
 }
 
 /// c⁷ / (c⁷ + 25⁷), without overflow.
-#[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
 #[inline(always)]
 fn chroma_share(c: f64) -> f64 {
     let r = c.min(1e9) / 25.0;
@@ -186,14 +178,12 @@ fn chroma_share(c: f64) -> f64 {
     seventh / (seventh + 1.0)
 }
 
-#[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
 #[inline(always)]
 fn length(a: f64, b: f64) -> f64 {
     (a * a + b * b).sqrt()
 }
 
 /// A divisor: what would be divided by zero is zero itself.
-#[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
 #[inline(always)]
 fn nonzero(divisor: f64) -> f64 {
     if divisor == 0.0 { 1.0 } else { divisor }

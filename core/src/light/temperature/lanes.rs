@@ -5,6 +5,7 @@ use multiversion::multiversion;
 use super::pieces::{Found, Pieces, Seen, TERMS, UNIT, index};
 use super::start::{Start, between};
 use crate::colorimetry::Uv60;
+use crate::math::array::{array, each};
 
 /// Colors per run: enough for any register, few enough for the nearest cache beside the pieces.
 pub(super) const LANES: usize = 32;
@@ -74,29 +75,32 @@ fn solve(lanes: &mut Lanes, start: &Start, pieces: &Pieces) {
     }
     for lane in 0..LANES {
         let corners = start.cell(lanes.cells[0][lane], lanes.cells[1][lane]);
-        lanes.corners.iter_mut().zip(corners).for_each(|(row, corner)| row[lane] = corner);
+        for k in 0..4 {
+            lanes.corners[k][lane] = corners[k];
+        }
     }
     for lane in 0..LANES {
-        let corners = [0, 1, 2, 3].map(|k: usize| lanes.corners[k][lane]);
+        let corners = array(|k| lanes.corners[k][lane]);
         let mired = between(corners, lanes.within[0][lane], lanes.within[1][lane]);
         (lanes.start[lane], lanes.pieces[lane]) = (mired, index(mired));
     }
     // Four at a time: written lane by lane, the stores would take longer than all of the arithmetic.
     for first in (0..LANES).step_by(4) {
-        let four = [0, 1, 2, 3].map(|lane: usize| pieces.get(lanes.pieces[first + lane]));
+        let piece = |lane: usize| pieces.get(lanes.pieces[first + lane]);
+        let four = [piece(0), piece(1), piece(2), piece(3)];
         let run = first..first + 4;
         for k in 0..TERMS {
-            lanes.own[k][run.clone()].copy_from_slice(&four.map(|piece| piece.own[k]));
-            lanes.du[k][run.clone()].copy_from_slice(&four.map(|piece| piece.du[k]));
-            lanes.dv[k][run.clone()].copy_from_slice(&four.map(|piece| piece.dv[k]));
+            lanes.own[k][run.clone()].copy_from_slice(&each(four, |piece| piece.own[k]));
+            lanes.du[k][run.clone()].copy_from_slice(&each(four, |piece| piece.du[k]));
+            lanes.dv[k][run.clone()].copy_from_slice(&each(four, |piece| piece.dv[k]));
         }
-        lanes.middle[0][run.clone()].copy_from_slice(&four.map(|piece| piece.middle.u));
-        lanes.middle[1][run.clone()].copy_from_slice(&four.map(|piece| piece.middle.v));
-        lanes.middle[2][run].copy_from_slice(&four.map(|piece| piece.mired));
+        lanes.middle[0][run.clone()].copy_from_slice(&each(four, |piece| piece.middle.u));
+        lanes.middle[1][run.clone()].copy_from_slice(&each(four, |piece| piece.middle.v));
+        lanes.middle[2][run].copy_from_slice(&each(four, |piece| piece.mired));
     }
     for lane in 0..LANES {
-        let column = |rows: &[Row; TERMS]| -> [f64; TERMS] { std::array::from_fn(|k| rows[k][lane]) };
-        let [u, v, mired] = [0, 1, 2].map(|c: usize| lanes.middle[c][lane]);
+        let column = |rows: &[Row; TERMS]| -> [f64; TERMS] { array(|k| rows[k][lane]) };
+        let [u, v, mired] = array(|c| lanes.middle[c][lane]);
         let color = Uv60 { u: lanes.u[lane], v: lanes.v[lane] };
         let seen = Seen::new(color, Uv60 { u, v }, column(&lanes.own), column(&lanes.du), column(&lanes.dv));
         let found = seen.solve((lanes.start[lane] - mired) * (1.0 / UNIT), mired);

@@ -5,6 +5,7 @@ use rayon::prelude::*;
 use super::exact::{ExactLocus, Motion};
 use super::result::{Cct, MAX_DUV, SLACK, is_in_range};
 use crate::colorimetry::Uv60;
+use crate::math::array::array;
 use crate::math::chebyshev::{coefficients, evaluate, nodes};
 use crate::units::Kelvin;
 
@@ -78,15 +79,15 @@ impl Found {
 /// If the last step was longer than this, in mired, the search has not converged and the careful one decides.
 const CONVERGED: f64 = 1e-6;
 impl Seen {
-    #[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
     #[inline(always)]
     pub(super) fn new(color: Uv60, middle: Uv60, own: [f64; TERMS], du: [f64; TERMS], dv: [f64; TERMS]) -> Self {
         let (u, v) = (color.u - middle.u, color.v - middle.v);
-        let f = std::array::from_fn(|k| own[k] - u * du[k] - v * dv[k]);
+        let f = array(|k| own[k] - u * du[k] - v * dv[k]);
         Self { u, v, f, du, dv }
     }
 
     /// f and its derivative at t.
+    #[inline]
     pub(super) fn at(&self, t: f64) -> (f64, f64) {
         let (mut value, mut slope) = (0.0, 0.0);
         for k in (0..TERMS).rev() {
@@ -101,7 +102,6 @@ impl Seen {
     /// Three steps. Each takes as many terms as its own error is worth: one term more is about a hundred times less. The last
     /// carries the slope on by the second derivative instead of evaluating it again. Polynomials are summed in pairs, not term
     /// after term: what limits the speed is how long one operation waits for another.
-    #[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
     #[inline(always)]
     pub(super) fn solve(&self, t: f64, middle: f64) -> Found {
         let c = &self.f;
@@ -127,7 +127,6 @@ impl Seen {
     ///
     /// At the root t this is the full distance, and the tangent's direction has a second-order effect only, so that four
     /// terms of it suffice.
-    #[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
     #[inline(always)]
     pub(super) fn above(&self, t: f64) -> f64 {
         let (du, dv) = (direction(&self.du, t), direction(&self.dv, t));
@@ -137,14 +136,12 @@ impl Seen {
 }
 
 /// `a + b t`.
-#[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
 #[inline(always)]
 fn pair(a: f64, b: f64, t: f64) -> f64 {
     a + b * t
 }
 
 /// The value at t, summed in pairs of pairs of pairs (Estrin 1960).
-#[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
 #[inline(always)]
 fn sum_in_pairs(c: &[f64; TERMS], t: f64) -> f64 {
     let t2 = t * t;
@@ -153,7 +150,6 @@ fn sum_in_pairs(c: &[f64; TERMS], t: f64) -> f64 {
 }
 
 /// The first four terms.
-#[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
 #[inline(always)]
 fn direction(c: &[f64; TERMS], t: f64) -> f64 {
     let t2 = t * t;
@@ -173,11 +169,13 @@ impl Piece {
     }
 
     /// A color from here.
+    #[inline(always)]
     pub(super) fn seen(&self, color: Uv60) -> Seen {
         Seen::new(color, self.middle, self.own, self.du, self.dv)
     }
 
     /// The locus at t.
+    #[inline]
     pub(super) fn motion(&self, t: f64) -> Motion {
         let at = Uv60 { u: self.middle.u + integral(&self.du, t), v: self.middle.v + integral(&self.dv, t) };
         Motion { at, per_mired: [&self.du, &self.dv].map(|d| evaluate(d, t) / UNIT) }
@@ -191,17 +189,15 @@ impl Piece {
 }
 
 /// `∫₀ᵗ` of a polynomial.
-#[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
 #[inline(always)]
 fn integral(derivative: &[f64; TERMS], t: f64) -> f64 {
-    t * sum_in_pairs(&std::array::from_fn(|k| derivative[k] * (1.0 / (k + 1) as f64)), t)
+    t * sum_in_pairs(&array(|k| derivative[k] * (1.0 / (k + 1) as f64)), t)
 }
 
 /// Adding this rounds a small double to an integer, in the low bits of its mantissa.
 pub(super) const ROUNDER: f64 = 6_755_399_441_055_744.0;
 
 /// The number of the piece of a reciprocal temperature; NaN gets the first.
-#[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
 #[allow(clippy::manual_clamp, reason = "clamp keeps what is not a number")]
 #[inline(always)]
 pub(super) fn index(mired: f64) -> u32 {

@@ -55,7 +55,6 @@ pub enum LocusError {
 }
 
 /// True if a reciprocal temperature is one that is looked for.
-#[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
 #[inline(always)]
 pub(super) fn is_in_range(mired: f64) -> bool {
     (HOTTEST_MIRED * (1.0 - SLACK)..=COLDEST_MIRED * (1.0 + SLACK)).contains(&mired)

@@ -6,6 +6,7 @@ use super::nearest::Vertices;
 use super::pieces::{Pieces, ROUNDER};
 use super::result::{COLDEST_MIRED, HOTTEST_MIRED, MAX_DUV};
 use crate::colorimetry::Uv60;
+use crate::math::array::each;
 
 /// The grid's spacing in u and v. Halving it costs the nearest cache, doubling it another step of Newton's.
 const PITCH: f64 = 0.002;
@@ -65,7 +66,6 @@ impl Start {
 
     /// Place of a color on the grid. Colors beyond it are held at its border, and NaN at a corner: searches from there do
     /// not end near them.
-    #[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
     #[allow(clippy::manual_clamp, reason = "clamp keeps what is not a number")]
     #[inline(always)]
     pub(super) fn place(&self, color: Uv60) -> Place {
@@ -86,9 +86,8 @@ impl Start {
 }
 
 /// About where the nearest point lies, in mired: between the values at four corners.
-#[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
 #[inline(always)]
 pub(super) fn between(cell: [f32; 4], right: f64, up: f64) -> f64 {
-    let [a, b, c, d] = cell.map(f64::from);
+    let [a, b, c, d] = each(cell, f64::from);
     (a + right * b) + up * (c + right * d)
 }

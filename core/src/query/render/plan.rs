@@ -4,7 +4,7 @@ use super::SpectralWeightsQuery;
 use crate::accuracy::RelTolerance;
 use crate::camera::RenderingError;
 use crate::query::ask::{Ask, Query};
-use crate::render::{Against, Demand, Plan};
+use crate::render::{Demand, Plan};
 use std::sync::Arc;
 
 /// The fastest method of a camera's spectral integral within a tolerance. Depends on no surface or angle: the demands of pictures
@@ -15,8 +15,6 @@ pub struct PlanQuery {
     pub measure: SpectralWeightsQuery,
     /// The allowed error.
     pub tolerance: RelTolerance,
-    /// Scale of the error.
-    pub against: Against,
     /// Range of κ and number of samples.
     pub demand: Demand,
 }
@@ -34,6 +32,6 @@ impl Query for PlanQuery {
     fn answer(&self, ask: &impl Ask) -> Self::Answer {
         let measure = ask.ask(&self.measure);
         let measure = (*measure).as_ref().map_err(|&e| e)?;
-        Ok(Arc::new(Plan::new(measure, self.tolerance, self.against, self.demand)?))
+        Ok(Arc::new(Plan::new(measure, self.tolerance, self.demand)?))
     }
 }

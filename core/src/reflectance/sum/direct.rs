@@ -8,8 +8,6 @@
 //! so smoothly that every second to eighth of them gives the sum (Poisson's summation formula): two dozen exponentials
 //! do for any m.
 
-#![expect(clippy::inline_always, reason = "every instruction set needs a copy of its own")]
-
 use super::saddle::{Peak, roughly_ln};
 use chromascope_math::double::Double;
 use std::f64::consts::{LN_2, LOG2_E};

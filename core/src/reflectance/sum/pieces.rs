@@ -11,11 +11,10 @@
 //! far off. Of the square of coefficients those that weigh are a staircase, of which lower precisions read less. A piece is made
 //! when it is first requested, by what is slow and exact (`fit`): once, in 20 to 120 µs.
 
-#![expect(clippy::inline_always, reason = "every instruction set needs a copy of its own")]
-
 mod fit;
 
 use super::Precision;
+use crate::math::array::array;
 use std::sync::OnceLock;
 
 /// The coefficients of a piece in tiles of four by four, x before y, of which
@@ -196,7 +195,7 @@ fn run<const TILES: usize>(g: &[f64; RUN], b: &[f64; RUN]) -> [f64; RUN] {
     for i in 0..RUN {
         if found[i] != NOWHERE {
             let t = [t[0][i], t[1][i], t[2][i], t[3][i]];
-            lanes[i] = piece(found[i]).lanes::<TILES>(&std::array::from_fn(|k| weights[k][i]), &t);
+            lanes[i] = piece(found[i]).lanes::<TILES>(&array(|k| weights[k][i]), &t);
         }
     }
     let mut logs = [0.0; RUN];
@@ -238,7 +237,13 @@ impl Piece {
         let mut lanes = [0.0; LANES];
         for l in 0..self.lanes.min(LANES) {
             let mut sums = [0.0; 4];
-            for k in 0..TILES {
+            // In halves: all twelve are too many to be unrolled at opt-level 2, and what is not unrolled is not vectorized.
+            for k in 0..TILES / 2 {
+                for r in 0..4 {
+                    sums[r] += tiles[k][r][l] * weights[k];
+                }
+            }
+            for k in TILES / 2..TILES {
                 for r in 0..4 {
                     sums[r] += tiles[k][r][l] * weights[k];
                 }

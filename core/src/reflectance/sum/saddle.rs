@@ -7,9 +7,9 @@
 //! From the saddle point of `Σ → ∫`, with Stirling's series for n!; the `c_k` are polynomials in r. With eight of them the error
 //! at b = 0, its worst, is 1.4e-6 for m = 20, 2e-9 for 40, 4e-13 for 100 and 1e-14 for 150.
 
-#![expect(clippy::inline_always, reason = "every instruction set needs a copy of its own")]
-
 use super::coefficients::CORRECTIONS;
+use crate::math::array::array;
+use crate::math::chebyshev::evaluate;
 use crate::math::exp::{exp, exp_m1_near};
 
 /// Index of the largest term of S(g, b).
@@ -29,7 +29,7 @@ impl Peak {
     pub(super) fn near(g: f64, b: f64) -> Self {
         let z = 2.0 * (b / g) / g;
         if z < SMALL {
-            let w_by_z = LAMBERT.iter().rev().fold(0.0, |sum, c| sum * z + c);
+            let w_by_z = evaluate(&LAMBERT, z);
             return Self { g, b, delta: 0.5 * z * w_by_z, m: g / w_by_z.sqrt() };
         }
         let l = if z < LARGE { roughly_ln(1.0 + z) } else { ln_z(g, b) };
@@ -140,14 +140,17 @@ fn series<const K: usize, const POWERS: usize>(table: &[[f64; K]; POWERS], r: f6
     let mut sums = [table[power], [0.0; K], [0.0; K], [0.0; K]];
     while power >= 4 {
         power -= 4;
-        for (sum, row) in sums.iter_mut().zip(&table[power..power + 4]) {
+        for part in 0..4 {
             for k in 0..K {
-                sum[k] = sum[k] * r4 + row[k];
+                sums[part][k] = sums[part][k] * r4 + table[power + part][k];
             }
         }
     }
-    let c: [f64; K] = std::array::from_fn(|k| (sums[0][k] + sums[1][k] * r) + (sums[2][k] + sums[3][k] * r) * r2);
-    let four = |c: &[f64]| (c[0] + c[1] * x) + (c[2] + c[3] * x) * (x * x);
+    let c: [f64; K] = array(|k| (sums[0][k] + sums[1][k] * r) + (sums[2][k] + sums[3][k] * r) * r2);
     let x4 = (x * x) * (x * x);
-    c.chunks_exact(4).rev().fold(0.0, |total, c| total * x4 + four(c)) * x
+    let mut total = 0.0;
+    for first in (0..K).step_by(4).rev() {
+        total = total * x4 + ((c[first] + c[first + 1] * x) + (c[first + 2] + c[first + 3] * x) * (x * x));
+    }
+    total * x
 }

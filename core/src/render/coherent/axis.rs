@@ -7,8 +7,6 @@
 //! P is the path, half-width times |v|/k, and W half-width times the light's angular radius. Without T, which oscillates, M is
 //! smooth in wavelength: `1/2ab` with `a = u − w`, `b = u + w`, and `π/2w` more where the disk holds the specular direction.
 
-#![expect(clippy::inline_always, reason = "every instruction set needs a copy of its own")]
-
 use super::antiderivative;
 use super::rules::{LANES, Rule};
 use crate::math::exp::exp;

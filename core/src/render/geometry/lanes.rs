@@ -86,7 +86,6 @@ pub(super) fn find(given: &Given, world_from_view: &DMat3, found: &mut Found) {
 }
 
 /// Portable form for any processor.
-#[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
 #[inline(always)]
 fn find_portable(given: &Given, world_from_view: &DMat3, found: &mut Found) {
     for lane in 0..LANES {
@@ -115,13 +114,11 @@ fn find_portable(given: &Given, world_from_view: &DMat3, found: &mut Found) {
     }
 }
 
-#[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
 #[inline(always)]
 fn at<T: Copy + Into<f64>>(rows: &Rows<T>, lane: usize) -> DVec3 {
     DVec3::new(rows[0][lane].into(), rows[1][lane].into(), rows[2][lane].into())
 }
 
-#[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
 #[inline(always)]
 fn put(rows: &mut Rows<f64>, lane: usize, v: DVec3) {
     for (row, v) in rows.iter_mut().zip(v.to_array()) {

@@ -2,7 +2,7 @@
 
 use super::table::Size;
 use super::tables::Makings;
-use super::{Against, Demand, cost};
+use super::{Demand, cost};
 use crate::accuracy::RelTolerance;
 use crate::reflectance::Precision;
 use crate::spectral::grid::COUNT;
@@ -171,8 +171,6 @@ impl Candidate {
 pub struct Explanation {
     /// Requested tolerance.
     pub asked: RelTolerance,
-    /// Scale of errors.
-    pub against: Against,
     /// κ and number of samples.
     pub demand: Demand,
     /// Method for large κ; none where moments are nowhere exact enough within the demand.

@@ -1,12 +1,12 @@
 //! Fixed set of (κ, β) with reference values of the integral, against which every method is checked.
 
+use super::Plan;
 use super::domain::{Demand, beta_at};
 use super::nodes::many_by_nodes;
 use super::run::RUN;
-use super::{Against, Plan};
 use crate::accuracy::RelTolerance;
 use crate::reflectance::Precision;
-use crate::render::diffuse::{DARK, by_nodes};
+use crate::render::diffuse::by_nodes;
 use crate::render::measure::{Node, SpectralWeights};
 use rayon::prelude::*;
 
@@ -55,31 +55,30 @@ pub(super) struct Check {
     edges: Vec<Point>,
     /// The wavelengths that `exact` is made of.
     nodes: Vec<Node>,
-    against: Against,
     /// Error allowed of `exact`.
     reference: f64,
 }
 
 impl Check {
     /// By the sum over all wavelengths; where fewer are as good as that next to a tolerance, by those.
-    pub(super) fn new(measure: &SpectralWeights, against: Against, demand: Demand, tolerance: RelTolerance) -> Self {
-        let few = points(measure.dense(), against, demand, COMPARED_STRIDE);
+    pub(super) fn new(measure: &SpectralWeights, demand: Demand, tolerance: RelTolerance) -> Self {
+        let few = points(measure.dense(), demand, COMPARED_STRIDE);
         let slack = (STAND_IN_SHARE * tolerance.max_relative_error()).max(REFERENCE);
         for count in STAND_INS {
             let nodes = measure.shared(count);
             let off = |point: &Point| off(point, by_nodes(&nodes, point.kappa, point.beta, Precision::Full));
             let apart = few.par_iter().map(off).reduce(|| 0.0, f64::max);
             if apart <= slack {
-                return Self::by(nodes, against, demand, MARGIN * apart + REFERENCE);
+                return Self::by(nodes, demand, MARGIN * apart + REFERENCE);
             }
         }
-        Self::by(measure.dense().to_vec(), against, demand, REFERENCE)
+        Self::by(measure.dense().to_vec(), demand, REFERENCE)
     }
 
-    fn by(nodes: Vec<Node>, against: Against, demand: Demand, reference: f64) -> Self {
-        let grid = points(&nodes, against, demand, 1);
-        let edges = demand.kappa().map(|kappa| edge(&nodes, against, kappa)).into_iter().flatten().collect();
-        Self { grid, edges, nodes, against, reference }
+    fn by(nodes: Vec<Node>, demand: Demand, reference: f64) -> Self {
+        let grid = points(&nodes, demand, 1);
+        let edges = demand.kappa().map(|kappa| edge(&nodes, kappa)).into_iter().flatten().collect();
+        Self { grid, edges, nodes, reference }
     }
 
     /// The largest error of a method that is smooth in κ and β, over the points for which `asked` holds, without
@@ -94,7 +93,7 @@ impl Check {
 
     /// Check points from some κ on, with that κ itself as an edge.
     pub(super) fn error_from(&self, from: f64, way: impl Fn(f64, f64) -> [f64; 3] + Sync) -> f64 {
-        let first = edge(&self.nodes, self.against, from);
+        let first = edge(&self.nodes, from);
         let first = first.iter().map(|point| off(point, way(point.kappa, point.beta))).fold(0.0, f64::max);
         first.max(self.error(|kappa| kappa >= from, &way))
     }
@@ -121,7 +120,7 @@ impl Check {
     pub(super) fn error_of_first(&self, [from, to]: [f64; 2], intervals: usize, plan: &Plan) -> f64 {
         let of_row = |i: usize| {
             let kappa = from * (to / from).powf((i as f64 + 0.5) / FIRST_KAPPAS as f64);
-            row(&self.nodes, self.against, kappa, FIRST_SHARES.iter().map(|share| share / intervals as f64))
+            row(&self.nodes, kappa, FIRST_SHARES.iter().map(|share| share / intervals as f64))
         };
         let rows: Vec<Vec<Point>> = (0..FIRST_KAPPAS).into_par_iter().map(of_row).collect();
         error_of_plan(&rows.concat(), plan)
@@ -155,7 +154,7 @@ fn error_of_plan(points: &[Point], plan: &Plan) -> f64 {
 }
 
 /// Every `stride`th point of the grid, by a sum over these wavelengths; only where a bound applies.
-fn points(nodes: &[Node], against: Against, demand: Demand, stride: usize) -> Vec<Point> {
+fn points(nodes: &[Node], demand: Demand, stride: usize) -> Vec<Point> {
     let [from, to] = demand.kappa();
     let rows: Vec<Vec<Point>> = (0..KAPPAS)
         .into_par_iter()
@@ -165,35 +164,28 @@ fn points(nodes: &[Node], against: Against, demand: Demand, stride: usize) -> Ve
             // The edge itself, then a little beyond v = 1 too; each row lies between the others'.
             let v = |j: usize| if j == 0 { 0.0 } else { 1.05 * (j as f64 - shift) / (BETAS - 1) as f64 };
             let asked = (0..BETAS).filter(|j| (i * BETAS + j).is_multiple_of(stride));
-            row(nodes, against, kappa, asked.map(v))
+            row(nodes, kappa, asked.map(v))
         })
         .collect();
     rows.into_iter().flatten().collect()
 }
 
 /// Many points at one κ.
-fn edge(nodes: &[Node], against: Against, kappa: f64) -> Vec<Point> {
-    row(nodes, against, kappa, (0..EDGE_BETAS).map(|j| j as f64 / (EDGE_BETAS - 1) as f64))
+fn edge(nodes: &[Node], kappa: f64) -> Vec<Point> {
+    row(nodes, kappa, (0..EDGE_BETAS).map(|j| j as f64 / (EDGE_BETAS - 1) as f64))
 }
 
 /// Points at one κ.
-fn row(nodes: &[Node], against: Against, kappa: f64, vs: impl Iterator<Item = f64>) -> Vec<Point> {
+fn row(nodes: &[Node], kappa: f64, vs: impl Iterator<Item = f64>) -> Vec<Point> {
     // The peak comes first.
     let places: Vec<[f64; 2]> = [0.0].into_iter().chain(vs).map(|v| [kappa, beta_at(kappa, v)]).collect();
     if places.len() == 1 {
         return Vec::new();
     }
     let sums = many_by_nodes(nodes, &places);
-    let peak = largest(sums[0]);
-    let point = |(&[_, beta], &exact): (&[f64; 2], &[f64; 3])| {
-        let value = largest(exact);
-        let (scale, promised) = match against {
-            Against::Peak => (peak, true),
-            Against::Value => (value, value > (-DARK).exp() * peak),
-        };
-        promised.then_some(Point { kappa, beta, exact, scale })
-    };
-    places.iter().zip(&sums).skip(1).filter_map(point).collect()
+    let scale = largest(sums[0]);
+    let point = |(&[_, beta], &exact): (&[f64; 2], &[f64; 3])| Point { kappa, beta, exact, scale };
+    places.iter().zip(&sums).skip(1).map(point).collect()
 }
 
 fn largest(sums: [f64; 3]) -> f64 {

@@ -85,7 +85,6 @@ impl Demand {
 /// ```
 /// Beyond v = 1 the integral is below e^-30 of its peak, whatever the weights. For κ from 1e-300 to 1e300; without branches or
 /// calls, so that a loop over it vectorizes.
-#[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
 #[inline(always)]
 pub fn position(kappa: f64, beta: f64) -> [f64; 2] {
     [ln(kappa), ln_1p(beta) / ln_last(kappa)]
@@ -103,14 +102,12 @@ pub(super) fn beta_at(kappa: f64, v: f64) -> f64 {
 }
 
 /// The logarithm of 1 + β at v = 1.
-#[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
 #[inline(always)]
 pub(super) fn ln_last(kappa: f64) -> f64 {
     ln_1p(last(kappa))
 }
 
 /// β at v = 1.
-#[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
 #[inline(always)]
 fn last(kappa: f64) -> f64 {
     let root = 1.0 / kappa.sqrt();

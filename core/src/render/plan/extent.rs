@@ -48,14 +48,12 @@ impl Extent {
     }
 
     /// t and v of κ and β; without branches or calls, so that a loop over it vectorizes.
-    #[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
     #[inline(always)]
     pub(super) fn place(&self, kappa: f64, beta: f64) -> [f64; 2] {
         let t = self.slope * ln(kappa) + self.shift;
         [t, ln(1.0 + beta) * self.stretch(t)]
     }
 
-    #[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
     #[inline(always)]
     fn stretch(&self, t: f64) -> f64 {
         let c = &self.bend;
@@ -76,7 +74,6 @@ const INTEGERS: u64 = 0x4330_0000_0000_0000;
 /// ln x within 2e-14 for what is positive, normal and finite; beyond that some number.
 ///
 /// Less exact than [`crate::math::ln::ln`], which a place need not be, and shorter; its operations wait less for each other.
-#[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
 #[inline(always)]
 fn ln(x: f64) -> f64 {
     let raised = x.to_bits().wrapping_add(ONE - ROOT_HALF);

@@ -168,7 +168,6 @@ fn by_table(table: &Table, chosen: &Chosen, sums: &mut [[f64; RUN]; 3]) {
 }
 
 /// Portable form for any processor.
-#[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
 #[inline(always)]
 fn by_moments_portable(
     (moments, few): (&[[f64; MOMENTS]; 3], f64),
@@ -197,7 +196,6 @@ fn by_moments_portable(
     }
 }
 
-#[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
 #[inline(always)]
 fn block<const N: usize>(
     moments: &[[f64; MOMENTS]; 3],
@@ -224,7 +222,6 @@ fn block<const N: usize>(
 }
 
 /// Portable form for any processor.
-#[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
 #[inline(always)]
 fn by_table_portable(table: &Table, chosen: &Chosen, sums: &mut [[f64; RUN]; 3]) {
     match table.degree() {
@@ -235,7 +232,6 @@ fn by_table_portable(table: &Table, chosen: &Chosen, sums: &mut [[f64; RUN]; 3])
     }
 }
 
-#[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
 #[inline(always)]
 fn read<const N: usize>(table: &Table, chosen: &Chosen, sums: &mut [[f64; RUN]; 3]) {
     let mut around = Around::<N>::NOTHING;

@@ -10,7 +10,7 @@ use super::check::{Check, Point};
 use super::nodes::{by_own, carried, own_rules};
 use super::table::Size;
 use super::tables::Makings;
-use super::{Against, Below, Demand, Plan, run};
+use super::{Below, Demand, Plan, run};
 use crate::accuracy::{RelTolerance, Unmet};
 use crate::reflectance::{Precision, diffuse_sum};
 use crate::render::diffuse::{FEW_MOMENTS, by_moments, by_nodes, rough_basis};
@@ -32,14 +32,9 @@ const PAYS_NS: f64 = 2e6;
 /// A table's error is taken to be smaller than what is likely by this power of ten at most.
 const UNLIKELY: f64 = 0.1;
 
-pub(super) fn plan(
-    measure: &SpectralWeights,
-    tolerance: RelTolerance,
-    against: Against,
-    demand: Demand,
-) -> Result<Plan, Unmet> {
+pub(super) fn plan(measure: &SpectralWeights, tolerance: RelTolerance, demand: Demand) -> Result<Plan, Unmet> {
     tolerance.met_by(REFERENCE)?;
-    let check = Check::new(measure, against, demand, tolerance);
+    let check = Check::new(measure, demand, tolerance);
     let mut search = Search { measure, tolerance, demand, check: &check, seen: Vec::new(), best: None };
     let whole = search.moments();
     let rough = search.rough();
@@ -82,7 +77,6 @@ pub(super) fn plan(
         every: measure.dense().to_vec(),
         explanation: Explanation {
             asked: tolerance,
-            against,
             demand,
             rough: rough.map(|(candidate, _)| Candidate { verdict: Verdict::Chosen, ..candidate }),
             chosen,
@@ -329,14 +323,7 @@ impl Search<'_> {
             moments: *self.measure.moments(),
             below,
             every: Vec::new(),
-            explanation: Explanation {
-                asked,
-                against: Against::Peak,
-                demand,
-                rough: None,
-                chosen,
-                rejected: Vec::new(),
-            },
+            explanation: Explanation { asked, demand, rough: None, chosen, rejected: Vec::new() },
         }
     }
 }

@@ -49,7 +49,6 @@ impl<const N: usize> Basis<N> {
 }
 
 /// The weights of N coefficients at s = 2t − 1, for many together.
-#[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
 #[inline(always)]
 pub(super) fn weights<const N: usize>(s: &[f64; BLOCK], weights: &mut [[f64; BLOCK]; N]) {
     // The last is the first mirrored: even and odd powers apart serve both.

@@ -5,6 +5,7 @@ use super::extent::Extent;
 use super::run::BLOCK;
 use super::spline::weights;
 use super::surface::{Cell, Surface};
+use crate::math::array::array;
 use crate::render::measure::Node;
 
 /// A table's fineness: each fourth step halves its cells.
@@ -114,7 +115,6 @@ impl Table {
     }
 
     /// Places of a block of samples between the knots.
-    #[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
     #[inline(always)]
     pub(super) fn around<const N: usize>(&self, kappa: &[f64; BLOCK], beta: &[f64; BLOCK], around: &mut Around<N>) {
         let (mut t, mut s, width) = ([0.0; BLOCK], [0.0; BLOCK], self.width() as f64);
@@ -132,10 +132,9 @@ impl Table {
     }
 
     /// A cell between the knots; v from 0 to 1.
-    #[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
     #[inline(always)]
     pub(super) fn read<const N: usize>(&self, around: &Around<N>, i: usize) -> Cell {
-        let along: [f64; N] = std::array::from_fn(|k| around.along[k][i]);
+        let along: [f64; N] = array(|k| around.along[k][i]);
         let cells = self.surface.cells.get(around.start[i] as usize..).unwrap_or_default();
         let mut rows = cells.chunks(self.width());
         let mut mixed = [0.0; 4];
@@ -175,7 +174,6 @@ impl<const N: usize> Around<N> {
 const ROUNDER: f64 = 6_755_399_441_055_744.0;
 
 /// The cell of a place, not beyond the last. Which of two cells a knot belongs to does not matter.
-#[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
 #[inline(always)]
 fn cell(place: f64, count: f64) -> f64 {
     let nearest = place - 0.5 + ROUNDER - ROUNDER;

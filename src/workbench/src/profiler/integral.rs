@@ -6,7 +6,7 @@ use chromascope_core::query::render::picture::PicturesQuery;
 use chromascope_core::reflectance::{Normalization, Precision};
 use chromascope_core::render::diffuse::by_nodes;
 use chromascope_core::render::shading::DiffuseKind;
-use chromascope_core::render::{Against, Demand, Plan, Quality, ShadingImage, SpectralWeights};
+use chromascope_core::render::{Demand, Plan, Quality, ShadingImage, SpectralWeights};
 use chromascope_measure::harness::timed;
 use chromascope_measure::method::{Family, Method, Point, compare, largest, together};
 
@@ -79,7 +79,7 @@ fn through(
 ) -> Option<Vec<Point>> {
     let mut methods = fixed(measure, places);
     for (accuracy, name) in tolerances {
-        let (plan, preparation) = timed(|| Plan::new(measure, *accuracy, Against::Peak, demand));
+        let (plan, preparation) = timed(|| Plan::new(measure, *accuracy, demand));
         let Ok(plan) = plan else { continue };
         methods.push(Method {
             name: name.clone(),

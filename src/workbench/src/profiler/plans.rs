@@ -5,7 +5,6 @@ use chromascope_core::camera::RenderingError;
 use chromascope_core::query::render::picture::{PicturesQuery, SourceOf};
 use chromascope_core::query::render::plan::PlanQuery;
 use chromascope_core::query::{Ask, Query};
-use chromascope_core::render::Against;
 use chromascope_core::render::plan::Explanation;
 
 use crate::jobs::Later;
@@ -121,7 +120,7 @@ pub fn planned(pictures: &PicturesQuery, source: &SourceOf, ask: &impl Ask) -> P
         None => None,
         Some(demand) => {
             let measure = pictures.image(&source.rendering).measure;
-            let plan = ask.ask(&PlanQuery { measure, tolerance: of_peak, against: Against::Peak, demand });
+            let plan = ask.ask(&PlanQuery { measure, tolerance: of_peak, demand });
             Some((*plan).as_ref().map_err(|&error| error)?.explanation().clone())
         }
     };

@@ -1,7 +1,7 @@
 //! Spectral fields and their wavelengths.
 
 use crate::decimal::clean;
-use crate::report::{Decided, Decision};
+use crate::decision::{Decided, Decision};
 
 /// Bands that keywords declare, in nanometers.
 #[derive(Debug, Clone, Copy, Default)]
@@ -11,13 +11,11 @@ pub(super) struct Declared {
     pub(super) end: Option<f64>,
 }
 
-/// The spectral fields of a table.
 #[derive(Debug)]
 pub(super) struct Bands {
     pub(super) wavelengths: Vec<f64>,
     /// True if the name of the fields states percent.
     pub(super) percent: bool,
-    /// Content of each field.
     kinds: Vec<Kind>,
     why: String,
     pub(super) in_rows: bool,
@@ -49,7 +47,6 @@ impl Bands {
         Some(Self { wavelengths, percent: false, kinds, why, in_rows: false })
     }
 
-    /// Fields in pairs, a wavelength and its value.
     fn pairs(fields: &[String]) -> Option<Self> {
         let mut kinds = vec![Kind::Other; fields.len()];
         let mut percent = false;
@@ -106,7 +103,6 @@ pub(super) fn digits(field: &str) -> &str {
     &field[field.len() - field.chars().rev().take_while(|c| number(*c)).count()..]
 }
 
-/// The wavelength in the name of a spectral field.
 fn wavelength(field: &str) -> Option<f64> {
     const PLAUSIBLE: std::ops::RangeInclusive<f64> = 100.0..=20_000.0;
     if field.len() > 32 || !field.is_ascii() {

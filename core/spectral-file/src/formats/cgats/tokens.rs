@@ -2,7 +2,6 @@
 
 use std::borrow::Cow;
 
-/// One word of a line.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Token<'a> {
     Bare(&'a str),
@@ -69,7 +68,6 @@ fn follows_blank(text: &str, at: usize) -> bool {
     text[..at].ends_with(char::is_whitespace)
 }
 
-/// The names of fields in a line of a data format.
 pub(super) fn fields(line: &str) -> Vec<Token<'_>> {
     if !line.contains('\t') {
         return of(line).collect();
@@ -123,7 +121,6 @@ fn unquoted(piece: &str) -> Token<'_> {
     }
 }
 
-/// Offset of the closing quote, or of the end.
 fn closing(text: &str) -> usize {
     let bytes = text.as_bytes();
     let mut at = 0;

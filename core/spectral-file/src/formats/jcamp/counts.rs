@@ -1,13 +1,11 @@
 //! Blocks of what a detector counted with a sample, with a reference, and in the dark.
 
+use crate::decision::{Decided, Decision, Quantity, Role, Values};
 use crate::formats::jcamp::block::Block;
 use crate::header_terms;
 use crate::options::ReadOptions;
-use crate::places::PlaceId;
-use crate::report::{Decided, Decision};
-use crate::role::{Quantity, Role, Values};
-use crate::warning::{LineList, Warning};
-use crate::watch::Log;
+use crate::warning::Warning;
+use crate::watch::{Log, PlaceId};
 
 /// A median that no percentage has.
 const MOST_PERCENT: f64 = 200.0;
@@ -38,7 +36,6 @@ impl Source {
     }
 }
 
-/// Ratio formed from the counts of several blocks.
 pub(super) struct Ratio {
     pub(super) role: Decided<Role>,
     pub(super) quantity: Decided<Quantity>,
@@ -81,11 +78,9 @@ pub(super) fn settle(blocks: &mut [Block], options: &ReadOptions, log: &mut Log<
         (sample.value, sample.place) = (value, PlaceId::default());
     }
     // Where reference and dark are equal, such as at a saturated pixel, there is no ratio.
-    let mut lines = LineList::default();
-    let undefined = block.samples.iter().filter(|sample| !sample.value.is_finite());
-    let cells = undefined.map(|sample| lines.add(sample.line)).count();
-    if cells > 0 {
-        log.push(Warning::Gaps { cells, lines, sentinel: None });
+    let undefined = || block.samples.iter().filter(|sample| !sample.value.is_finite()).map(|sample| sample.line);
+    if let cells @ 1.. = undefined().count() {
+        log.push(Warning::Gaps { cells, lines: undefined().collect(), sentinel: None });
     }
     block.samples.retain(|sample| sample.value.is_finite());
     block.y_units.1.clear();

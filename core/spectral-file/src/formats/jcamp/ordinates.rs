@@ -6,8 +6,8 @@
 use crate::decimal::{clean, last_digit};
 use crate::error::ReadError;
 use crate::formats::spectra::Sample;
-use crate::places::{PlaceId, PlaceKind, Places};
 use crate::warning::{LineList, Warning};
+use crate::watch::{PlaceId, PlaceKind, Places};
 
 /// A number and the unit of its last digit.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -24,7 +24,6 @@ impl Written {
     }
 }
 
-/// A line of ordinates.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Row {
     pub(super) line: usize,
@@ -40,7 +39,6 @@ pub(super) struct Row {
 }
 
 impl Row {
-    /// The place of an ordinate of the line.
     fn place(&self, index: usize) -> PlaceId {
         if self.block { self.place } else { self.place.after(index) }
     }
@@ -61,7 +59,6 @@ pub(super) fn record(line: &str, values: usize, repeats: bool, places: &mut Plac
     (first, false)
 }
 
-/// Abscissas that a header gives.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Axis {
     pub(super) first: Written,
@@ -81,14 +78,12 @@ enum Digits {
     Loose,
 }
 
-/// The lines and ordinates of a block.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Data<'a> {
     pub(super) rows: &'a [Row],
     pub(super) ordinates: &'a [f64],
 }
 
-/// The samples of a block, without factor, and the warnings about them.
 #[derive(Debug, Default)]
 pub(super) struct Placed {
     pub(super) samples: Vec<Sample>,
@@ -221,7 +216,6 @@ impl Axis {
         (from_ends.into_iter().chain(second).collect(), contradicted)
     }
 
-    /// Largest possible number of values.
     fn most(&self, step: f64) -> Option<f64> {
         let from_ends = || self.last.map(|last| ((last.value - self.first.value) / step).round() + 1.0);
         self.points.map(|points| points as f64).or_else(from_ends)

@@ -1,180 +1,206 @@
-//! Members used by the layouts; all others are skipped without being stored.
+//! Values of a document as they are written, each read when it is asked for, and their places in the text.
 
 use serde::Deserialize;
-use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
-use serde::de::{Deserializer, Error, IgnoredAny, MapAccess, SeqAccess, Visitor};
+use serde::de::{Deserializer, IgnoredAny, MapAccess, Visitor};
+use serde_json::value::RawValue;
+use std::borrow::Cow;
 use std::fmt;
-use std::marker::PhantomData;
 
-use crate::formats::json::rows::Rows;
+use crate::decision::Family;
+use crate::error::ReadError;
+use crate::watch::Log;
 
-/// Maximum number of stored header entries.
-const MAX_ENTRIES: usize = 1000;
+/// Bytes between two looks at the watch: some milliseconds.
+const STRIDE: usize = 1 << 20;
 
-#[derive(Deserialize)]
-pub(super) struct File {
-    pub(super) header: Option<Texts>,
-    pub(super) spectral_data: Option<Aces>,
-    pub(super) camera_name: Option<String>,
-    #[serde(default)]
-    pub(super) comments: TextsOf<true>,
-    #[serde(default)]
-    pub(super) name: TextsOf<true>,
-    pub(super) ssf_bands: Option<Vec<f64>>,
-    pub(super) red_ssf: Option<Vec<f64>>,
-    pub(super) green_ssf: Option<Vec<f64>>,
-    pub(super) blue_ssf: Option<Vec<f64>>,
-    pub(super) bands: Option<Vec<f64>>,
-    pub(super) scale: Option<f64>,
-    pub(super) spectrum: Option<Shape>,
-    pub(super) metadata: Option<Texts>,
-    #[serde(rename = "spectrometerSettings")]
-    pub(super) settings: Option<Settings>,
+/// Maximum number of texts that are kept of an object or a list.
+const MAX_TEXTS: usize = 1000;
+
+/// A value and the document that it stands in.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Value<'a> {
+    document: &'a str,
+    pub(super) written: &'a str,
 }
 
-/// A spectrum: the values of dcamprof, or the curves of ENLIGHTEN by their names.
-pub(super) enum Shape {
-    Values(Vec<f64>),
-    Curves(InOrder<Option<Vec<Option<f64>>>>),
-}
+impl<'a> Value<'a> {
+    pub(super) fn whole(document: &'a str) -> Self {
+        Self { document, written: document }
+    }
 
-impl<'de> Deserialize<'de> for Shape {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct Any;
-        impl<'de> Visitor<'de> for Any {
-            type Value = Shape;
-            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-                f.write_str("a list of numbers, or an object of lists")
-            }
-            fn visit_seq<A: SeqAccess<'de>>(self, list: A) -> Result<Shape, A::Error> {
-                Vec::deserialize(SeqAccessDeserializer::new(list)).map(Shape::Values)
-            }
-            fn visit_map<M: MapAccess<'de>>(self, map: M) -> Result<Shape, M::Error> {
-                InOrder::deserialize(MapAccessDeserializer::new(map)).map(Shape::Curves)
-            }
+    /// The byte of the document where a piece of it begins.
+    pub(super) fn offset(self, piece: &str) -> usize {
+        piece.as_ptr().addr().saturating_sub(self.document.as_ptr().addr())
+    }
+
+    /// The value as a type; that it is of another breaks the rules of the layouts.
+    pub(super) fn read<T: Deserialize<'a>>(self) -> Result<T, ReadError> {
+        serde_json::from_str(self.written).map_err(|error| {
+            // A reader of bytes finds the very end of what is sound.
+            let broken = serde_json::from_reader::<_, IgnoredAny>(self.written.as_bytes());
+            let error = broken.err().unwrap_or(error);
+            let lines = self.written.split_inclusive('\n').take(error.line().saturating_sub(1));
+            let end = lines.map(str::len).sum::<usize>() + error.column();
+            self.malformed(error.is_data(), self.offset(self.written) + end)
+        })
+    }
+
+    /// The error of an object without a member that it must have.
+    pub(super) fn lacks_member(self) -> ReadError {
+        self.malformed(true, self.offset(self.written) + self.written.len())
+    }
+
+    /// An error, in what ends at a byte of the document.
+    fn malformed(self, is_json: bool, end: usize) -> ReadError {
+        const MARKS: [&str; 3] = ["\"spectral_data\"", "\"ssf_bands\"", "\"spectrum\""];
+        // A list at the top, or members of other types than the known layouts have, is sound JSON of another layout.
+        let other =
+            self.document.trim_start().starts_with('[') || !MARKS.iter().any(|mark| self.document.contains(mark));
+        if is_json && other {
+            return ReadError::Unsupported(Family::Json);
         }
-        deserializer.deserialize_any(Any)
+        let before = &self.document.as_bytes()[..end.min(self.document.len())];
+        let start = before.iter().rposition(|byte| *byte == b'\n').map_or(0, |at| at + 1);
+        let line = 1 + before.iter().filter(|byte| **byte == b'\n').count();
+        ReadError::Malformed { family: Family::Json, line, column: (before.len() - start).max(1) }
+    }
+
+    /// The members of an object, in the order of the file.
+    pub(super) fn members(self) -> Result<Members<'a>, ReadError> {
+        let Entries(entries) = self.read()?;
+        Ok(Members { whole: self, entries })
+    }
+
+    /// The numbers of a list, as they are written.
+    pub(super) fn pieces(self) -> impl Iterator<Item = &'a str> {
+        let inner = self.written.strip_prefix('[').and_then(|rest| rest.strip_suffix(']')).unwrap_or_default().trim();
+        inner.split(',').map(str::trim).filter(move |_| !inner.is_empty())
+    }
+
+    /// The numbers of a list; NaN for `null`, where gaps are allowed.
+    pub(super) fn numbers(self, gaps: bool, log: &Log<'_>) -> Result<Vec<f64>, ReadError> {
+        let other_type = |piece: &str| self.malformed(true, self.offset(piece) + piece.len());
+        if !self.written.starts_with('[') {
+            return Err(other_type(self.written));
+        }
+        let mut numbers = Vec::new();
+        for piece in self.pieces() {
+            log.work(piece.len() + 1, self.offset(piece))?;
+            let gap = (gaps && piece == "null").then_some(f64::NAN);
+            let number = || piece.parse().ok().filter(|number: &f64| number.is_finite());
+            numbers.push(gap.or_else(number).ok_or_else(|| other_type(piece))?);
+        }
+        numbers.shrink_to_fit();
+        Ok(numbers)
+    }
+
+    /// The text, or the texts among the members of a list; what is none is passed over.
+    pub(super) fn texts(self) -> Vec<String> {
+        let list: Vec<&str> = match serde_json::from_str::<Vec<&RawValue>>(self.written) {
+            Ok(list) => list.into_iter().map(RawValue::get).collect(),
+            Err(_) => vec![self.written],
+        };
+        list.into_iter().filter_map(|text| serde_json::from_str(text).ok()).take(MAX_TEXTS).collect()
     }
 }
 
-/// Settings of a spectrometer, as ENLIGHTEN writes them.
-#[derive(Deserialize)]
-pub(super) struct Settings {
-    #[serde(default)]
-    pub(super) wavelengths: Option<Vec<f64>>,
+/// The members of an object.
+pub(super) struct Members<'a> {
+    whole: Value<'a>,
+    entries: Vec<(Cow<'a, str>, &'a str)>,
 }
 
-/// The data of rawtoaces.
-#[derive(Deserialize)]
-pub(super) struct Aces {
-    pub(super) units: Option<String>,
-    #[serde(default)]
-    pub(super) index: InOrder<Vec<String>>,
-    pub(super) data: InOrder<Rows>,
-}
+impl<'a> Members<'a> {
+    pub(super) fn each(&self) -> impl ExactSizeIterator<Item = (&Cow<'a, str>, Value<'a>)> {
+        self.entries.iter().map(|(name, written)| (name, Value { written, ..self.whole }))
+    }
 
-/// An object whose members are stored in the order of the file.
-pub(super) struct InOrder<T>(pub(super) Vec<(String, T)>);
+    pub(super) fn get(&self, name: &str) -> Option<Value<'a>> {
+        self.each().find(|(other, value)| *other == name && value.written != "null").map(|(_, value)| value)
+    }
 
-impl<T> Default for InOrder<T> {
-    fn default() -> Self {
-        Self(Vec::new())
+    /// A member as a type.
+    pub(super) fn read<T: Deserialize<'a>>(&self, name: &str) -> Result<Option<T>, ReadError> {
+        self.get(name).map(Value::read).transpose()
+    }
+
+    /// The members of a member.
+    pub(super) fn members(&self, name: &str) -> Result<Option<Members<'a>>, ReadError> {
+        self.get(name).map(Value::members).transpose()
+    }
+
+    /// The members that are texts.
+    pub(super) fn texts(&self) -> impl Iterator<Item = (&str, String)> {
+        let texts = self.each().filter_map(|(name, value)| Some((&**name, serde_json::from_str(value.written).ok()?)));
+        texts.take(MAX_TEXTS)
     }
 }
 
-impl<'de, T: Deserialize<'de>> Deserialize<'de> for InOrder<T> {
+struct Entries<'a>(Vec<(Cow<'a, str>, &'a str)>);
+
+impl<'de> Deserialize<'de> for Entries<'de> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct Entries<T>(PhantomData<T>);
-        impl<'de, T: Deserialize<'de>> Visitor<'de> for Entries<T> {
-            type Value = InOrder<T>;
+        struct InOrder;
+        impl<'de> Visitor<'de> for InOrder {
+            type Value = Entries<'de>;
             fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
                 f.write_str("an object")
             }
-            fn visit_map<M: MapAccess<'de>>(self, mut map: M) -> Result<InOrder<T>, M::Error> {
+            fn visit_map<M: MapAccess<'de>>(self, mut map: M) -> Result<Entries<'de>, M::Error> {
                 let mut entries = Vec::new();
-                while let Some(entry) = map.next_entry()? {
-                    entries.push(entry);
+                while let Some((name, value)) = map.next_entry::<&RawValue, &RawValue>()? {
+                    let name = name.get();
+                    // Most names stand as they are between their quotes.
+                    let plain = || Cow::Borrowed(name.trim_matches('"'));
+                    let escaped = name.contains('\\').then(|| serde_json::from_str(name).ok()).flatten();
+                    entries.push((escaped.map_or_else(plain, Cow::Owned), value.get()));
                 }
-                Ok(InOrder(entries))
+                Ok(Entries(entries))
             }
         }
-        deserializer.deserialize_map(Entries(PhantomData))
+        deserializer.deserialize_map(InOrder)
     }
 }
 
-/// An object of texts; other values are omitted.
-#[derive(Default)]
-pub(super) struct Texts(pub(super) Vec<(String, String)>);
-
-impl<'de> Deserialize<'de> for Texts {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct Entries;
-        impl<'de> Visitor<'de> for Entries {
-            type Value = Texts;
-            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-                f.write_str("an object of texts")
-            }
-            fn visit_map<M: MapAccess<'de>>(self, mut map: M) -> Result<Texts, M::Error> {
-                let mut kept = Vec::new();
-                while let Some((key, entry)) = map.next_entry::<String, TextsOf<false>>()? {
-                    if let Some(text) = entry.0.into_iter().next().filter(|_| kept.len() < MAX_ENTRIES) {
-                        kept.push((key, text));
-                    }
-                }
-                Ok(Texts(kept))
-            }
-        }
-        deserializer.deserialize_map(Entries)
-    }
+/// Context of a byte in a document.
+#[derive(Clone, Copy, PartialEq)]
+enum In {
+    Code,
+    String,
+    Line,
+    Block,
 }
 
-/// Texts of a value: the value itself, or the members of a list where `LIST` is set. All others are passed over.
-#[derive(Default)]
-pub(super) struct TextsOf<const LIST: bool>(pub(super) Vec<String>);
-
-impl<'de, const LIST: bool> Deserialize<'de> for TextsOf<LIST> {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        deserializer.deserialize_any(AnyValue::<LIST>).map(Self)
+/// A text whose comments are spaces, so that lines and columns in errors are those of the file.
+pub(super) fn without_comments<'a>(text: &'a str, log: &Log<'_>) -> Result<Cow<'a, str>, ReadError> {
+    if !text.contains("//") && !text.contains("/*") {
+        return Ok(Cow::Borrowed(text));
     }
-}
-
-struct AnyValue<const LIST: bool>;
-
-impl<'de, const LIST: bool> Visitor<'de> for AnyValue<LIST> {
-    type Value = Vec<String>;
-    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        f.write_str("any value")
-    }
-    fn visit_str<E: Error>(self, text: &str) -> Result<Vec<String>, E> {
-        Ok(vec![text.to_owned()])
-    }
-    fn visit_bool<E: Error>(self, _: bool) -> Result<Vec<String>, E> {
-        Ok(Vec::new())
-    }
-    fn visit_i64<E: Error>(self, _: i64) -> Result<Vec<String>, E> {
-        Ok(Vec::new())
-    }
-    fn visit_u64<E: Error>(self, _: u64) -> Result<Vec<String>, E> {
-        Ok(Vec::new())
-    }
-    fn visit_f64<E: Error>(self, _: f64) -> Result<Vec<String>, E> {
-        Ok(Vec::new())
-    }
-    fn visit_unit<E: Error>(self) -> Result<Vec<String>, E> {
-        Ok(Vec::new())
-    }
-    fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Vec<String>, A::Error> {
-        let mut kept = Vec::new();
-        while LIST && let Some(entry) = list.next_element::<TextsOf<false>>()? {
-            if kept.len() < MAX_ENTRIES {
-                kept.extend(entry.0);
-            }
+    let mut bytes = text.as_bytes().to_vec();
+    let (mut state, mut at, mut next_look) = (In::Code, 0, STRIDE);
+    while at < bytes.len() {
+        if at >= next_look {
+            next_look = at + STRIDE;
+            log.look(0)?;
         }
-        while list.next_element::<IgnoredAny>()?.is_some() {}
-        Ok(kept)
+        let pair = (bytes[at], bytes.get(at + 1).copied().unwrap_or(0));
+        let (next, width) = match (state, pair) {
+            (In::Code, (b'"', _)) => (In::String, 1),
+            (In::Code, (b'/', b'/')) => (In::Line, 2),
+            (In::Code, (b'/', b'*')) => (In::Block, 2),
+            (In::String, (b'\\', _)) => (In::String, 2),
+            (In::String, (b'"', _)) | (In::Line, (b'\n' | b'\r', _)) => (In::Code, 1),
+            (In::Block, (b'*', b'/')) => (In::Code, 2),
+            (state, _) => (state, 1),
+        };
+        let comment = |state| matches!(state, In::Line | In::Block);
+        if comment(state) || comment(next) {
+            let end = (at + width).min(bytes.len());
+            bytes[at..end].iter_mut().filter(|byte| !matches!(byte, b'\n' | b'\r')).for_each(|byte| *byte = b' ');
+        }
+        state = next;
+        at += width;
     }
-    fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Vec<String>, A::Error> {
-        while map.next_entry::<IgnoredAny, IgnoredAny>()?.is_some() {}
-        Ok(Vec::new())
-    }
+    // Comments are replaced whole, so no character is cut.
+    Ok(Cow::Owned(String::from_utf8(bytes).unwrap_or_default()))
 }

@@ -1,8 +1,7 @@
 //! Making a piece: ln S at Chebyshev's points, and from there the coefficients.
 
-#![expect(clippy::inline_always, reason = "every instruction set needs a copy of its own")]
-
 use super::{BIAS, FIRST, GRID, LANES, Piece, ROOTS, SHAPE, TO_X, TO_Y};
+use crate::math::array::{array, each};
 use crate::math::chebyshev::nodes;
 use crate::math::exp::exp;
 use crate::reflectance::sum::saddle::{self, Peak};
@@ -22,50 +21,51 @@ impl Piece {
     /// The piece of an octave of g and of half an octave of t.
     pub(super) fn new(row: usize, column: usize) -> Self {
         let c = coefficients(points_g(row), points_b(row, column));
-        let tile = |[p, q]: [usize; 2]| [0, 1, 2, 3].map(|r| [0, 1, 2, 3].map(|l| c[4 * p + r][4 * q + l]));
-        Self { tiles: SHAPE.map(tile), lanes: LANES }
+        let tile = |[p, q]: [usize; 2]| array(|r| array(|l| c[4 * p + r][4 * q + l]));
+        Self { tiles: each(SHAPE, tile), lanes: LANES }
     }
 }
 
 fn points_g(row: usize) -> [f64; POINTS] {
     let middle = f64::from_bits((BIAS.wrapping_add_signed(FIRST) + row as u64) << 52) * ROOTS[1];
-    nodes::<POINTS>().map(|x| middle * (TO_X + x) / (TO_X - x))
+    each(nodes::<POINTS>(), |x| middle * (TO_X + x) / (TO_X - x))
 }
 
 fn points_b(row: usize, column: usize) -> [f64; POINTS] {
     let octave = f64::from_bits((BIAS + column as u64 / 2) << 52);
     let middle = octave * if column.is_multiple_of(2) { ROOTS[0] } else { ROOTS[2] };
-    nodes::<POINTS>().map(|y| (middle * (TO_Y + y) / (TO_Y - y) - 1.0) / GRID[row].scale)
+    each(nodes::<POINTS>(), |y| (middle * (TO_Y + y) / (TO_Y - y) - 1.0) / GRID[row].scale)
 }
 
 /// ln S.
 #[inline(always)]
 fn values(g: &[f64; POINTS], b: &[f64; POINTS]) -> Square {
     if g[POINTS - 1] >= EXPANSION {
-        return g.map(|g| b.map(|b| expanded(g, b)));
+        return each(*g, |g| each(*b, |b| expanded(g, b)));
     }
     // The number of terms above e^-41 of the largest, at its most.
     let m = Peak::near(g[0], b[0]).m;
     let count = (m + 9.5 * m.sqrt() + 20.0) as usize;
     let mut sums = [[0.0; POINTS]; POINTS];
-    let mut powers = g.map(|g| g * exp(-g));
+    let mut powers = each(*g, |g| g * exp(-g));
     let mut falls = [0.0; POINTS];
     for n in (1..=count).map(|n| n as f64) {
         let less = -1.0 / n;
-        for (fall, b) in falls.iter_mut().zip(b) {
-            *fall = exp(b * less);
+        for k in 0..POINTS {
+            falls[k] = exp(b[k] * less);
         }
         let ratio = n / ((n + 1.0) * (n + 1.0));
         for i in 0..POINTS {
-            for (sum, fall) in sums[i].iter_mut().zip(&falls) {
-                *sum += powers[i] * fall;
+            for k in 0..POINTS {
+                sums[i][k] += powers[i] * falls[k];
             }
             powers[i] *= g[i] * ratio;
         }
     }
-    sums.map(|sums| sums.map(f64::ln))
+    each(sums, |sums| each(sums, f64::ln))
 }
 
+#[inline(always)]
 fn expanded(g: f64, b: f64) -> f64 {
     let (ln_scale, rest) = saddle::sum(&Peak::near(g, b).refined(), f64::INFINITY);
     ln_scale + rest.ln()
@@ -79,10 +79,11 @@ fn coefficients(g: [f64; POINTS], b: [f64; POINTS]) -> Square {
     let values = values(&g, &b);
     let middle = values[POINTS / 2][POINTS / 2];
     let chebyshev = chebyshev();
-    let lines = values.map(|line| products(weighted(&line.map(|v| [v - middle]), &chebyshev).map(|[c]| c)));
+    let line = |line| products(each(weighted(&each(line, |v| [v - middle]), &chebyshev), |[c]| c));
+    let lines = each(values, line);
     let mut c = weighted(&lines, &chebyshev);
     for k in 0..POINTS {
-        let column = products(c.map(|line| line[k]));
+        let column = products(each(c, |line| line[k]));
         for j in 0..POINTS {
             c[j][k] = column[j];
         }
@@ -95,10 +96,10 @@ fn coefficients(g: [f64; POINTS], b: [f64; POINTS]) -> Square {
 #[inline(always)]
 fn weighted<const N: usize>(values: &[[f64; N]; POINTS], chebyshev: &Square) -> [[f64; N]; POINTS] {
     let mut sums = [[0.0; N]; POINTS];
-    for (sums, weights) in sums.iter_mut().zip(chebyshev) {
-        for (value, weight) in values.iter().zip(weights) {
+    for k in 0..POINTS {
+        for i in 0..POINTS {
             for n in 0..N {
-                sums[n] += value[n] * weight;
+                sums[k][n] += values[i][n] * chebyshev[k][i];
             }
         }
     }
@@ -106,6 +107,7 @@ fn weighted<const N: usize>(values: &[[f64; N]; POINTS], chebyshev: &Square) -> 
 }
 
 /// From coefficients of `T_k` to those of `T_4q T_l`, l < 4: `T_4q T_l = (T_{4q+l} + T_{4q−l})/2`.
+#[inline(always)]
 fn products(mut c: [f64; POINTS]) -> [f64; POINTS] {
     for q in (4..POINTS).step_by(4).rev() {
         for l in 1..4 {
@@ -120,7 +122,7 @@ fn products(mut c: [f64; POINTS]) -> [f64; POINTS] {
 ///
 /// From the cosines of one quadrant, so that what ought to cancel does: by the recurrence a constant of 20 would leave 1e-13.
 fn chebyshev() -> Square {
-    let quadrant: [f64; POINTS] = std::array::from_fn(|i| (FRAC_PI_2 * i as f64 / POINTS as f64).cos());
+    let quadrant: [f64; POINTS] = array(|i| (FRAC_PI_2 * i as f64 / POINTS as f64).cos());
     let cosine = |step: usize| {
         let step = step % (4 * POINTS);
         let step = step.min(4 * POINTS - step);
@@ -130,8 +132,8 @@ fn chebyshev() -> Square {
             Ordering::Greater => -quadrant[2 * POINTS - step],
         }
     };
-    std::array::from_fn(|k| {
+    array(|k| {
         let weight = if k == 0 { 1.0 } else { 2.0 } / POINTS as f64;
-        std::array::from_fn(|i| cosine(k * (2 * i + 1)) * weight)
+        array(|i| cosine(k * (2 * i + 1)) * weight)
     })
 }

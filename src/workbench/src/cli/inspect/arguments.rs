@@ -56,7 +56,7 @@ pub(in crate::cli) struct InspectArguments {
     #[arg(long, requires = "step")]
     average: bool,
     /// Role of the curves
-    #[arg(long, value_name = "ROLE", value_parser = named::<Role>(&ROLES), help_heading = READING)]
+    #[arg(long, value_name = "ROLE", value_parser = named::<Role>(ROLES), help_heading = READING)]
     role: Option<Role>,
     /// Scale of the values as written
     #[arg(long, value_name = "VALUES", value_parser = values(), help_heading = READING)]
@@ -65,13 +65,13 @@ pub(in crate::cli) struct InspectArguments {
     #[arg(long, value_name = "UNIT", value_parser = unit(), help_heading = READING)]
     unit: Option<WavelengthUnit>,
     /// Delimiter between cells
-    #[arg(long, value_name = "DELIMITER", value_parser = named::<Delimiter>(&DELIMITERS), help_heading = READING)]
+    #[arg(long, value_name = "DELIMITER", value_parser = named::<Delimiter>(DELIMITERS), help_heading = READING)]
     delimiter: Option<Delimiter>,
     /// Decimal mark
-    #[arg(long, value_name = "MARK", value_parser = named::<DecimalMark>(&MARKS), help_heading = READING)]
+    #[arg(long, value_name = "MARK", value_parser = named::<DecimalMark>(MARKS), help_heading = READING)]
     decimal_mark: Option<DecimalMark>,
     /// Orientation of the wavelengths: down a column or across a row
-    #[arg(long, value_name = "ORIENTATION", value_parser = named::<Orientation>(&ORIENTATIONS), help_heading = READING)]
+    #[arg(long, value_name = "ORIENTATION", value_parser = named::<Orientation>(ORIENTATIONS), help_heading = READING)]
     orientation: Option<Orientation>,
     /// Column of the wavelengths, from 1
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..), help_heading = READING)]
@@ -83,7 +83,7 @@ pub(in crate::cli) struct InspectArguments {
     #[arg(long, value_name = "UNIT", value_parser = PossibleValuesParser::new(["energy", "photon"]), help_heading = READING)]
     per: Option<String>,
     /// Format of the file, overriding detection
-    #[arg(long, value_name = "READER", value_parser = named::<Reader>(&READERS), help_heading = READING)]
+    #[arg(long, value_name = "READER", value_parser = named::<Reader>(Reader::ALL.map(Reader::key)), help_heading = READING)]
     reader: Option<Reader>,
     /// Imports raw counts and other quantities recorded with the spectra; with --wavelength-column, every other column
     #[arg(long, value_name = "BOOL", num_args = 0..=1, require_equals = true, default_missing_value = "true",
@@ -105,17 +105,15 @@ const UNITS: [(&str, &[&str]); 5] = [
 const DELIMITERS: [&str; 6] = ["comma", "comma-space", "semicolon", "tab", "spaces", "elements"];
 const MARKS: [&str; 2] = ["point", "comma"];
 const ORIENTATIONS: [&str; 2] = ["down", "across"];
-const READERS: [&str; 11] =
-    ["table", "cgats", "jcamp", "tm27", "cxf", "rawtoaces", "dcamprof", "enlighten", "labels", "alternate", "camspec"];
 
 /// Takes what values stand for as written.
 pub(in crate::cli) fn values() -> impl TypedValueParser<Value = Values> {
-    named::<Values>(&VALUES)
+    named::<Values>(VALUES)
 }
 
 /// Takes the names that sessions use too.
 fn named<T: DeserializeOwned + Clone + Send + Sync + 'static>(
-    names: &'static [&'static str],
+    names: impl IntoIterator<Item = &'static str>,
 ) -> impl TypedValueParser<Value = T> {
     PossibleValuesParser::new(names).try_map(|name| {
         let name: StrDeserializer<'_, Error> = name.as_str().into_deserializer();

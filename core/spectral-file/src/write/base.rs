@@ -1,19 +1,159 @@
-//! Values at other wavelengths than those of a curve.
+//! What all formats but CSV share: the curves that they hold on one grid, and values at other wavelengths than those of a curve.
 
 use chromascope_math::interpolation::{Sprague, linear};
 
 use crate::decimal::clean;
-use crate::limits::MAX_SAMPLES;
-use crate::write::format::Grid;
-use crate::write::note::{Note, WriteError};
-use crate::write::sheet::{Content, Piece};
+use crate::error::MAX_SAMPLES;
+use crate::write::format::{Format, Grid, Note, WriteError};
+use crate::write::sheet::{Content, Piece, Sheet, one_line};
+
+pub(super) struct Draft<'a> {
+    pub(super) sheet: &'a Sheet<'a>,
+    pub(super) format: Format,
+    pub(super) pieces: Vec<Piece<'a>>,
+    pub(super) wavelengths: Vec<f64>,
+    pub(super) values: Vec<Vec<f64>>,
+    pub(super) resampling: Option<String>,
+    pub(super) notes: Vec<Note>,
+}
+
+/// Limits of a format, or of the program that reads it.
+struct Limits {
+    format: Format,
+    range_nm: [f64; 2],
+    bands: usize,
+    /// True if wavelengths are ones that the program reads.
+    reads: fn(&[f64]) -> bool,
+}
+
+impl Limits {
+    fn of(format: Format) -> Self {
+        let (range_nm, bands, reads): (_, _, fn(&[f64]) -> bool) = match format {
+            // Keys of three digits before the point: those alone are in the order of wavelengths when sorted as text.
+            Format::RawtoacesJson => ([100.0, 999.999], usize::MAX, even_in_single),
+            // The most bands that dcamprof takes for a range.
+            Format::DcamprofJson | Format::Csv => ([0.0, f64::MAX], 1_000_000, |_| true),
+            // Argyll has room for as many.
+            Format::ArgyllSp | Format::ArgyllCmf => ([1.0, 99_999.0], 601, even_bands),
+            Format::Cgats => ([1.0, 99_999.0], usize::MAX, even_bands),
+        };
+        Self { format, range_nm, bands, reads }
+    }
+
+    fn take(&self, wavelengths: &[f64]) -> bool {
+        wavelengths.len() > 1 && wavelengths.len() <= self.bands && (self.reads)(wavelengths)
+    }
+}
+
+/// Returns whether wavelengths are evenly spaced for a program that takes them in single precision and compares exactly.
+fn even_in_single(wavelengths: &[f64]) -> bool {
+    let single: Vec<f32> = wavelengths.iter().map(|&w| w as f32).collect();
+    let mut steps = single.windows(2).map(|pair| pair[1] - pair[0]);
+    steps.next().is_some_and(|first| first > 0.0 && steps.all(|step| step == first))
+}
+
+/// Returns whether wavelengths are evenly spaced and, rounded to whole nanometers as in the names of fields, all different.
+fn even_bands(wavelengths: &[f64]) -> bool {
+    let rounded = |w: f64| (w + 0.5).floor();
+    even_step(wavelengths).is_some() && wavelengths.windows(2).all(|pair| rounded(pair[0]) < rounded(pair[1]))
+}
+
+/// The steps in nanometers that are tried where curves have no grid in common that the format takes.
+const STEPS_NM: [f64; 3] = [1.0, 5.0, 10.0];
+
+impl<'a> Draft<'a> {
+    /// Brings the curves that a format holds onto one grid within the range that all of them cover.
+    pub(super) fn new(sheet: &'a Sheet<'a>, format: Format, grid: Grid) -> Result<Self, WriteError> {
+        let mut notes = Vec::new();
+        let pieces = match format {
+            Format::ArgyllSp | Format::Cgats => sheet.energy_pieces(&mut notes),
+            _ => sheet.channel_pieces(&mut notes),
+        };
+        let limits = &Limits::of(format);
+        let sampling = Sampling::of(grid);
+        let ranges = pieces.iter().map(|piece| sampling.within(piece.range()));
+        let range = ranges.fold(limits.range_nm, |[a, b], [from, to]| [a.max(from), b.min(to)]);
+        let (wavelengths, step) = match grid {
+            Grid::Step(step) | Grid::Average(step) => (asked(step, range, limits)?, Some(step)),
+            Grid::Native => match own(&pieces, range).filter(|own| limits.take(own)) {
+                Some(own) => (own, None),
+                None => sensible(&pieces, range, limits).map(|(wavelengths, step)| (wavelengths, Some(step)))?,
+            },
+        };
+        let (Some(&from), Some(&to)) = (wavelengths.first(), wavelengths.last()) else {
+            return Err(WriteError::NoOverlap);
+        };
+        if wavelengths.len() < 2 {
+            return Err(WriteError::NoOverlap);
+        }
+        if wavelengths.len().saturating_mul(pieces.len()) > MAX_SAMPLES {
+            return Err(WriteError::TooLarge);
+        }
+        let mut changes = Changes::new(sampling);
+        let values = pieces.iter().map(|piece| changes.take(piece, sheet.content, &wavelengths)).collect();
+        changes.note(step, [from, to], &mut notes);
+        Ok(Self { sheet, format, pieces, wavelengths, values, resampling: changes.description(step), notes })
+    }
+
+    /// Notes that the name of a single curve gives way to the title.
+    pub(super) fn note_lone_name(&mut self) {
+        if self.sheet.curves.first().is_some_and(|only| one_line(only.name) != self.sheet.title()) {
+            self.notes.push(Note::NoNames);
+        }
+    }
+
+    /// All that a format with few members of its own has no other place for, each as `key: value`, licenses aside.
+    pub(super) fn remarks(&self) -> Vec<String> {
+        let mut remarks = self.sheet.remarks();
+        remarks.extend(self.resampling.iter().map(|resampling| format!("resampling: {resampling}")));
+        remarks
+    }
+}
+
+fn asked(step: f64, range: [f64; 2], limits: &Limits) -> Result<Vec<f64>, WriteError> {
+    let wavelengths = multiples(step, range)?;
+    let (format, found, most) = (limits.format, wavelengths.len(), limits.bands);
+    if found > 1 && !(limits.reads)(&wavelengths) {
+        return Err(WriteError::StepOfFormat { format, step_nm: step });
+    }
+    if found > most { Err(WriteError::Bands { format, found, most }) } else { Ok(wavelengths) }
+}
+
+/// The wavelengths in a range, if they are the same in all curves.
+fn own(pieces: &[Piece<'_>], [from, to]: [f64; 2]) -> Option<Vec<f64>> {
+    let within = |piece: &Piece<'_>| {
+        let start = piece.wavelengths.partition_point(|&w| w < from - SAME_NM);
+        start..piece.wavelengths.partition_point(|&w| w <= to + SAME_NM).max(start)
+    };
+    let first = pieces.first()?;
+    let own = &first.wavelengths[within(first)];
+    let same = |piece: &Piece<'_>| {
+        let other = &piece.wavelengths[within(piece)];
+        other.len() == own.len() && other.iter().zip(own).all(|(a, b)| (a - b).abs() <= SAME_NM)
+    };
+    pieces.iter().all(same).then(|| own.to_vec())
+}
+
+/// Multiples of the largest step that is not above that of the curves, or of a larger one if there would be too many.
+fn sensible(pieces: &[Piece<'_>], range: [f64; 2], limits: &Limits) -> Result<(Vec<f64>, f64), WriteError> {
+    let finest = pieces.iter().map(|piece| mean_step(&piece.wavelengths)).fold(f64::INFINITY, f64::min);
+    let start = STEPS_NM.iter().rposition(|step| *step <= finest * (1.0 + 1e-6)).unwrap_or(0);
+    let mut error = WriteError::NoOverlap;
+    for &step in STEPS_NM[..=start].iter().rev().chain(&STEPS_NM[start + 1..]) {
+        match asked(step, range, limits) {
+            Ok(wavelengths) if wavelengths.len() > 1 => return Ok((wavelengths, step)),
+            Ok(_) => {}
+            Err(found) => error = found,
+        }
+    }
+    Err(error)
+}
 
 /// Largest distance in nanometers at which a wavelength is that of a sample.
 pub(super) const SAME_NM: f64 = 1e-6;
 
 const SMALLEST_STEP_NM: f64 = 1e-3;
 
-/// Returns whether a grid is valid.
 pub(super) fn check(grid: Grid) -> Result<(), WriteError> {
     match grid {
         Grid::Step(step) | Grid::Average(step) if !(step.is_finite() && step >= SMALLEST_STEP_NM) => {
@@ -40,7 +180,6 @@ impl Sampling {
         }
     }
 
-    /// The range in which a curve has values of this kind.
     pub(super) fn within(self, [first, last]: [f64; 2]) -> [f64; 2] {
         match self {
             Self::Points => [first, last],
@@ -85,7 +224,6 @@ fn band_means(piece: &Piece<'_>, centers: &[f64], width: f64) -> Vec<f64> {
     centers.iter().map(mean).collect()
 }
 
-/// The whole multiples of a step within a range.
 pub(super) fn multiples(step: f64, [first, last]: [f64; 2]) -> Result<Vec<f64>, WriteError> {
     // Beyond, multiples have no room for nine decimals.
     const LARGEST: f64 = 1e12;
@@ -105,7 +243,6 @@ pub(super) fn even_step(wavelengths: &[f64]) -> Option<f64> {
     (wavelengths.len() > 1 && even).then_some(step)
 }
 
-/// The mean distance between neighbors.
 pub(super) fn mean_step(wavelengths: &[f64]) -> f64 {
     match wavelengths {
         [first, .., last] => (last - first) / (wavelengths.len() - 1) as f64,
@@ -113,7 +250,6 @@ pub(super) fn mean_step(wavelengths: &[f64]) -> f64 {
     }
 }
 
-/// A curve between its samples.
 pub(super) struct Between<'a> {
     wavelengths: &'a [f64],
     values: &'a [f64],
@@ -132,7 +268,6 @@ impl<'a> Between<'a> {
         Self { wavelengths, values, sprague, clamps: content != Content::Observer }
     }
 
-    /// Returns whether it is interpolated by polynomials.
     pub(super) fn is_smooth(&self) -> bool {
         self.sprague.is_some()
     }
@@ -182,7 +317,6 @@ impl Changes {
         Self { sampling: Some(sampling), ..Self::default() }
     }
 
-    /// The values of a curve at wavelengths within its range.
     pub(super) fn take(&mut self, piece: &Piece<'_>, content: Content<'_>, wavelengths: &[f64]) -> Vec<f64> {
         let [first, last] = piece.range();
         self.reach_nm = Some(self.reach_nm.map_or([first, last], |[a, b]| [a.min(first), b.max(last)]));
