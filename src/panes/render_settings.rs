@@ -122,7 +122,7 @@ fn control(ui: &mut Ui, setting: &Setting<RenderSettings>, settings: &RenderSett
         Value::Pair(pair) => {
             caption(ui, name, context);
             ui.horizontal(|ui| {
-                for (name, hint, number) in pair {
+                for (name, hint, number) in *pair {
                     field(ui, [name, hint], number, &mut to);
                     ui.label(name.rsplit(' ').next().unwrap_or(name)).on_hover_text(*hint);
                 }

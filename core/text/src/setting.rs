@@ -75,7 +75,7 @@ pub enum Value<D: 'static> {
     /// A number.
     Number(Number<D>),
     /// Two numbers with their names and meanings.
-    Pair([(&'static str, &'static str, Number<D>); 2]),
+    Pair(&'static [(&'static str, &'static str, Number<D>); 2]),
     /// On or off, by a function that reads it and one that sets it.
     Switch(fn(&D) -> bool, fn(&mut D, bool)),
     /// One of some alternatives.
@@ -216,7 +216,7 @@ macro_rules! settings {
         })
     };
     (@pair $a:expr, $about:expr, $b:expr, $of_b:expr; $field:ident, $unit:expr, $range:expr) => {
-        $crate::Value::Pair([
+        $crate::Value::Pair(&[
             ($a, $about, $crate::settings!(@one $field[0], $unit, $range)),
             ($b, $of_b, $crate::settings!(@one $field[1], $unit, $range)),
         ])

@@ -278,7 +278,7 @@ mod image_quantity {
 
     const FILE: &str = "file";
 
-    #[expect(clippy::ref_option, reason = "the signature that serde calls")]
+    #[expect(clippy::ref_option, clippy::trivially_copy_pass_by_ref, reason = "the signature that serde calls")]
     pub(super) fn serialize<S: Serializer>(quantity: &Option<ImageQuantity>, to: S) -> Result<S::Ok, S::Error> {
         to.serialize_str(quantity.map_or(FILE, ImageQuantity::key))
     }

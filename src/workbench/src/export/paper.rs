@@ -120,9 +120,9 @@ impl Settings for Paper {
         "numbers" "Numbers" in IN_LOOK, by "", "Numbers of a CSV",
             pick(numbers: Numbers, Row), flag(PAPER, "numbers", "NUMBERS", ""; usual: "all");
         "strip" "Strip of distances below the diagram" in IN_LOOK, by "", "Strip of distances below the chromaticity diagram",
-            switch(|p| p.strip, |p, on| p.strip = on), flag(PAPER, "no-strip", "", ", left out";);
+            switch(|p| p.strip, |p, on| p.strip = on), flag(PAPER, "no-strip", "", ", omitted";);
         "caption" "Caption with the conditions" in IN_LOOK, by "", "Caption with the conditions",
-            switch(|p| p.caption, |p, on| p.caption = on), flag(PAPER, "no-caption", "", ", left out";);
+            switch(|p| p.caption, |p, on| p.caption = on), flag(PAPER, "no-caption", "", ", omitted";);
     };
 }
 
