@@ -16,6 +16,7 @@ use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::mem::take;
 use std::path::PathBuf;
 
+use chromascope_text::Settings as _;
 use serde::{Deserialize, Serialize};
 
 use crate::document::{Compared, SetKind};
@@ -199,7 +200,13 @@ impl SavedView {
     pub fn take_session(&mut self, view: Self) {
         let (recent, import, folded) = (take(&mut self.recent), take(&mut self.import), take(&mut self.folded));
         *self = Self { recent, import, folded, draws_in: false, reduced_motion: self.reduced_motion, ..view };
+        self.mend();
+    }
+
+    /// Corrects values of a damaged file that are out of range.
+    pub fn mend(&mut self) {
         self.render.mend();
+        self.page.paper.mend();
     }
 
     /// View of the first start, under the system's wish for motion.

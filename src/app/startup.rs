@@ -67,7 +67,7 @@ pub fn run(paths: Vec<PathBuf>, start: Instant) -> Result<(), WindowError> {
         Box::new(move |cc| {
             let known: Option<SavedView> = cc.storage.and_then(|s| eframe::get_value(s, LAYOUT_KEY));
             let mut saved = known.unwrap_or_else(|| SavedView::first(files::reduces_motion()));
-            saved.render.mend();
+            saved.mend();
             let history = History::new(kept.saved_document());
             let mut app = ChromascopeApp::new(&cc.egui_ctx, history, saved, kept);
             app.restore_place(cc.storage);

@@ -90,7 +90,7 @@ impl Files {
     pub fn saved_document(&mut self) -> Document {
         if self.autosave.is_first_run() {
             let words =
-                format!("Start: {}. The other start is in the Inspector and under Edit.", Start::default().name());
+                format!("Start: {}. The other start is in the Inspector and under Edit.", Start::default().label());
             self.note(Note::Event(FileEvent::Said(words)));
         }
         let (document, complaint) = self.autosave.load();

@@ -49,19 +49,11 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
 }
 
 fn switches(ui: &mut Ui, context: &mut PaneContext<'_>) {
-    let diagrams = [
-        (Diagram::Xy, "xy", "The CIE 1931 diagram"),
-        (Diagram::UvPrime, "u′v′", "The CIE 1976 diagram, perceptually more uniform"),
-    ];
-    if let Some(diagram) = widgets::segmented(ui, &diagrams, context.scene.document.diagram) {
+    if let Some(diagram) = widgets::choice(ui, context.scene.document.diagram) {
         context.push(Action::Scene(SceneAction::SetDiagram(diagram)));
     }
     ui.add_space(UNIT);
-    let fits = [
-        (DiagramFit::Data, "Data", "Fit to loci and patches, again if pressed again"),
-        (DiagramFit::Whole, "Full diagram", "The full spectral locus"),
-    ];
-    if let Some(fit) = widgets::pressed(ui, &fits, context.view.saved.diagram_fit) {
+    if let Some(fit) = widgets::choice_of(ui, &DiagramFit::ALL, context.view.saved.diagram_fit) {
         context.view.saved.diagram_fit = fit;
         context.view.reset_plots = true;
         ui.ctx().request_repaint();

@@ -218,7 +218,7 @@ fn edit(ui: &mut Ui, history: &History, context: &mut PaneContext<'_>) {
     item(ui, "Find anything…", Command::FindAnything, context);
     ui.separator();
     for start in Start::ALL {
-        item(ui, &format!("Start: {}", start.name()), Command::Do(Action::Start(start)), context);
+        item(ui, &format!("Start: {}", start.label()), Command::Do(Action::Start(start)), context);
     }
     item(ui, "Reset to the first screen", Command::Do(Action::Reset), context);
 }

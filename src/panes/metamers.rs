@@ -13,7 +13,6 @@ use crate::panes::widgets::table::{CellNote, Column, DataTable};
 use crate::plot_item::{PlotItem, SensorId};
 use crate::scene::metrics::{FoundMetamers, MetamerRow};
 use crate::theme::UNIT;
-use crate::view::metrics::Confuses;
 use crate::workspaces::PaneKind;
 
 pub const PANE: Pane = Pane {
@@ -72,11 +71,7 @@ fn count(pairs: usize) -> String {
 }
 
 fn switches(ui: &mut Ui, context: &mut PaneContext<'_>) {
-    let choices = [
-        (Confuses::Camera, "Camera confuses", "Equal to the camera, different to the reference"),
-        (Confuses::Reference, "Reference confuses", "Equal to the reference, different to the camera"),
-    ];
-    if let Some(confusion) = widgets::segmented(ui, &choices, context.view.saved.metrics.confusion) {
+    if let Some(confusion) = widgets::choice(ui, context.view.saved.metrics.confusion) {
         context.view.saved.metrics.confusion = confusion;
         context.states.of::<ClickedPair>().0 = None;
         ui.ctx().request_repaint();

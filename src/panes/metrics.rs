@@ -70,12 +70,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
 }
 
 fn switches(ui: &mut Ui, context: &mut PaneContext<'_>) {
-    let choices = [
-        (RankedCameras::Library, "Library", "All cameras of the library and yours"),
-        (RankedCameras::Compared, "Compared", "The cameras that are compared"),
-        (RankedCameras::Yours, "Yours", "The cameras that you imported"),
-    ];
-    widgets::switch(ui, &choices, &mut context.view.saved.metrics.cameras);
+    widgets::switch(ui, &mut context.view.saved.metrics.cameras);
     ui.add_space(UNIT);
     widgets::pixel::show(ui, context);
     if let Some(PlotItem::Sensor(id)) = context.view.selected.clone().filter(|_| selected(context).is_some()) {

@@ -135,13 +135,7 @@ fn point_at(ui: &Ui, response: &egui::Response, layout: &PictureLayout, context:
 }
 
 fn switches(ui: &mut Ui, context: &mut PaneContext<'_>) {
-    let modes = [
-        (RenderMode::Grid, "Grid", "All sensors side by side"),
-        (RenderMode::Split, "Split", "The reference at the left, a sensor at the right, with a divider to drag"),
-        (RenderMode::One, "One", "One sensor, large (double-click a picture)"),
-        (RenderMode::Difference, "Difference", "Difference of each sensor from the reference, pixel by pixel"),
-    ];
-    widgets::switch(ui, &modes, &mut context.view.saved.render.mode);
+    widgets::switch(ui, &mut context.view.saved.render.mode);
     ui.add_space(UNIT);
     let figures = [
         (RenderAction::Figure8, "Figure 8", "The paper's head"),

@@ -1,15 +1,17 @@
 //! Settings of the render: mesh, material, surface, light, view; and the pixel that is read.
 
-mod image;
 mod material;
 mod pixel;
 mod scene;
 mod surface;
 mod view;
 
-use egui::{CollapsingHeader, Rect, ScrollArea, Ui, UiBuilder, Vec2};
+use chromascope_text::{Look, Number, Pick, Setting, Settings as _, Value};
+use egui::{CollapsingHeader, DragValue, Rect, ScrollArea, Ui, UiBuilder, Vec2};
 
 use super::context::{Pane, PaneContext, set_render as set};
+use crate::document::render::RenderSettings;
+use crate::document::render::settings::{LIGHT, SURFACE, VIEW};
 use crate::panes::widgets::{
     self,
     pick_list::{self, Line},
@@ -52,12 +54,11 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let groups = Rect::from_min_max(body.min, egui::pos2(body.right(), body.bottom() - below));
     widgets::scroll::show(ui, (PANE.kind, "render setup"), groups, context, |ui, context| {
         ui.spacing_mut().item_spacing.y = 0.5 * UNIT;
-        group(ui, "Mesh and light", true, context, scene::show);
-        let no_surface = "A spectral image has no surface.";
-        group(ui, "Surface", true, context, |ui, context| unless_image(ui, no_surface, context, surface::show));
-        group(ui, "View", true, context, view::show);
+        group(ui, LIGHT, context, |ui, context| controls(ui, LIGHT, context));
+        group(ui, SURFACE, context, surface::show);
+        group(ui, VIEW, context, view::show);
         if below == 0.0 {
-            group(ui, "Pixel", true, context, pixel::show);
+            group(ui, "Pixel", context, pixel::show);
         }
         ui.add_space(2.0 * UNIT);
     });
@@ -76,28 +77,129 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
 }
 
 /// A group that folds.
-fn group(
-    ui: &mut Ui,
-    words: &str,
-    open: bool,
-    context: &mut PaneContext<'_>,
-    content: impl FnOnce(&mut Ui, &mut PaneContext<'_>),
-) {
-    CollapsingHeader::new(words).id_salt(words).default_open(open).show(ui, |ui| content(ui, context));
+fn group(ui: &mut Ui, words: &str, context: &mut PaneContext<'_>, content: impl FnOnce(&mut Ui, &mut PaneContext<'_>)) {
+    CollapsingHeader::new(words).id_salt(words).default_open(true).show(ui, |ui| content(ui, context));
 }
 
-/// Controls that do nothing for a spectral image: dim then, below the reason.
-fn unless_image(
-    ui: &mut Ui,
-    reason: &str,
-    context: &mut PaneContext<'_>,
-    content: impl FnOnce(&mut Ui, &mut PaneContext<'_>),
-) {
-    let is_image = context.scene.document.render.mesh.is_image();
-    if is_image {
-        caption(ui, reason, context);
+/// Controls of a group's settings. Those without effect now are dim, below the reason.
+fn controls(ui: &mut Ui, group: &str, context: &mut PaneContext<'_>) {
+    let settings = context.scene.document.render.clone();
+    let all: Vec<_> = RenderSettings::ALL.iter().filter(|setting| setting.group == group).collect();
+    let mut told = "";
+    for line in all.chunk_by(|_, next| next.beside) {
+        let idle = (line[0].idle)(&settings).unwrap_or_default();
+        if told != idle && !idle.is_empty() {
+            caption(ui, idle, context);
+            told = idle;
+        }
+        ui.add_enabled_ui(idle.is_empty(), |ui| match line {
+            [one] => control(ui, one, &settings, context),
+            several => {
+                ui.horizontal(|ui| several.iter().for_each(|one| control(ui, one, &settings, context)));
+            }
+        });
     }
-    ui.add_enabled_ui(!is_image, |ui| content(ui, context));
+}
+
+/// The control of a setting.
+fn control(ui: &mut Ui, setting: &Setting<RenderSettings>, settings: &RenderSettings, context: &mut PaneContext<'_>) {
+    let (name, hint) = (setting.name, setting.help);
+    let is_enabled = (setting.idle)(settings).is_none();
+    let mut to = settings.clone();
+    match &setting.value {
+        _ if setting.key == "tolerance" => view::tolerance(ui, is_enabled, settings, context),
+        Value::Number(number) if number.field => {
+            caption(ui, name, context);
+            field(ui, [name, hint], number, &mut to);
+        }
+        Value::Number(number) => {
+            let least = (number.floor)(settings);
+            let dial = Dial { name, hint, number, is_enabled };
+            if let Some(value) = dial.show(ui, (number.get)(settings).max(least), context).filter(|_| is_enabled) {
+                (number.set)(&mut to, number.rounded(value).max(least));
+            }
+        }
+        Value::Pair(pair) => {
+            caption(ui, name, context);
+            ui.horizontal(|ui| {
+                for (name, hint, number) in *pair {
+                    field(ui, [name, hint], number, &mut to);
+                    ui.label(name.rsplit(' ').next().unwrap_or(name)).on_hover_text(*hint);
+                }
+            });
+        }
+        Value::Switch(get, set) => {
+            let mut on = get(settings);
+            let response = ui.checkbox(&mut on, name).on_hover_text(hint);
+            widgets::take_sought(&response, name);
+            if response.changed() {
+                set(&mut to, on);
+            }
+        }
+        Value::Choice(pick) => {
+            let chosen = ui.add_enabled_ui(is_enabled, |ui| choice(ui, name, pick, settings, context)).inner;
+            if let Some(index) = chosen {
+                (pick.set)(&mut to, index);
+            }
+        }
+        Value::Own => scene::own(ui, setting.key, is_enabled, context),
+    }
+    if to != *settings {
+        set(context, name, |settings| *settings = to);
+    }
+    if setting.key == "reading" {
+        let words = settings.normalization.words();
+        line(ui, words.brief(), words.why, context.theme.weak);
+    }
+    if setting.key == "exposure_ev" {
+        view::lens(ui, settings, context);
+    }
+}
+
+/// A number that is typed or dragged.
+fn field<D>(ui: &mut Ui, [name, hint]: [&str; 2], number: &Number<D>, settings: &mut D) {
+    let now = (number.get)(settings);
+    let mut value = now;
+    let [low, high] = number.slider;
+    let field = DragValue::new(&mut value).range(low..=high).speed(0.01 * now).suffix(number.unit);
+    let field = if number.unit.is_empty() { field } else { field.max_decimals(3) };
+    let response = ui.add_sized([VALUE + 2.0 * UNIT, SLIDER], field);
+    response.widget_info(|| egui::WidgetInfo::slider(true, value, name));
+    widgets::take_sought(&response, name);
+    if response.on_hover_text(hint).changed() {
+        (number.set)(settings, value);
+    }
+}
+
+/// The alternatives of a choice. Returns the one that was chosen.
+fn choice<D>(
+    ui: &mut Ui,
+    name: &'static str,
+    pick: &Pick<D>,
+    settings: &D,
+    context: &PaneContext<'_>,
+) -> Option<usize> {
+    let (all, now) = ((pick.all)(), (pick.get)(settings));
+    match pick.look {
+        Look::List => list(ui, name, [all[now].label, all[now].why], context, || {
+            let line = |(index, words): (usize, &&chromascope_text::Words)| Line {
+                facts: words.why.to_owned(),
+                ..Line::new(words.label, index == now)
+            };
+            all.iter().enumerate().map(line).collect()
+        }),
+        Look::Row => {
+            caption(ui, name, context);
+            let lines: Vec<_> = all.iter().enumerate().map(|(index, words)| (index, words.label, words.why)).collect();
+            ui.horizontal(|ui| widgets::segmented(ui, &lines, now)).inner
+        }
+        Look::Radio => {
+            let radio = |ui: &mut Ui, index: usize| {
+                ui.radio(index == now, all[index].label).on_hover_text(all[index].why).clicked()
+            };
+            ui.horizontal(|ui| (0..all.len()).filter(|&index| radio(ui, index)).last()).inner
+        }
+    }
 }
 
 /// A small caption above a control.
@@ -118,27 +220,22 @@ fn line(ui: &mut Ui, words: &str, meaning: &str, color: egui::Color32) {
     }
 }
 
-/// A slider of the settings: its name above, then the slider over the width of the pane and the value. Says what it was moved to.
-struct Dial<'a> {
+/// A slider over the width of the pane, its name above and its value beside it. Says what it was moved to.
+struct Dial<'a, D: 'static> {
     name: &'static str,
-    range: std::ops::RangeInclusive<f64>,
-    /// For ranges over powers of ten: the least value above zero.
-    logarithmic: Option<f64>,
-    unit: &'a str,
     hint: &'a str,
-    /// Values beyond the slider may be typed.
-    beyond: bool,
+    number: &'a Number<D>,
     /// False where it has no effect now; it keeps its place.
-    enabled: bool,
+    is_enabled: bool,
 }
 
-impl Dial<'_> {
+impl<D> Dial<'_, D> {
     fn show(&self, ui: &mut Ui, now: f64, context: &PaneContext<'_>) -> Option<f64> {
         let mut value = now;
         caption(ui, self.name, context);
         let (rect, _) = ui.allocate_exact_size(Vec2::new(ui.available_width(), SLIDER), egui::Sense::hover());
         let mut child = ui.new_child(UiBuilder::new().id_salt(self.name).max_rect(rect));
-        if !self.enabled {
+        if !self.is_enabled {
             child.disable();
         }
         let (left, right) = rect.split_left_right_at_x(rect.right() - VALUE);
@@ -147,32 +244,41 @@ impl Dial<'_> {
         (changed && value.is_finite() && value != now).then(|| short_value(value))
     }
 
+    fn range(&self) -> std::ops::RangeInclusive<f64> {
+        self.number.slider[0]..=self.number.slider[1]
+    }
+
+    fn hint(&self) -> String {
+        let typed = self.number.typed.map(|[_, high]| format!("; type up to {high}{}", self.number.unit));
+        format!("{}{}.", self.hint, typed.unwrap_or_default())
+    }
+
     fn slider(&self, ui: &mut Ui, rect: Rect, value: &mut f64) -> bool {
         ui.spacing_mut().slider_width = rect.width();
-        let clamping = if self.beyond { egui::SliderClamping::Never } else { egui::SliderClamping::Edits };
-        let mut slider = egui::Slider::new(value, self.range.clone()).clamping(clamping).show_value(false).step_by(0.0);
-        if let Some(least) = self.logarithmic {
+        let is_open = self.number.typed.is_some();
+        let clamping = if is_open { egui::SliderClamping::Never } else { egui::SliderClamping::Edits };
+        let mut slider = egui::Slider::new(value, self.range()).clamping(clamping).show_value(false).step_by(0.0);
+        if let Some(least) = self.number.log_from {
             slider = slider.logarithmic(true).smallest_positive(least);
         }
-        let response = ui.put(rect, slider).on_hover_text(self.hint);
+        let response = ui.put(rect, slider).on_hover_text(self.hint());
         widgets::take_sought(&response, self.name);
         response.widget_info(|| egui::WidgetInfo::slider(true, *value, self.name));
         response.changed()
     }
 
     fn field(&self, ui: &mut Ui, rect: Rect, value: &mut f64) -> bool {
-        let unit = self.unit.to_owned();
-        let mut field = egui::DragValue::new(value)
+        let unit = self.number.unit;
+        let mut field = DragValue::new(value)
             // Typing is one step when it is done, not one for each key.
             .update_while_editing(false)
             .speed(0.0)
             .custom_formatter(move |value, _| format!("{}{unit}", short(value)))
             .custom_parser(parsed);
-        if !self.beyond {
-            field = field.range(self.range.clone());
+        if self.number.typed.is_none() {
+            field = field.range(self.range());
         }
-        let response = ui.put(rect, field).on_hover_text(self.hint);
-        response.changed()
+        ui.put(rect, field).on_hover_text(self.hint()).changed()
     }
 }
 
@@ -187,22 +293,6 @@ fn list(
     caption(ui, name, context);
     let width = ui.available_width();
     pick_list::drop_down(ui, (name, hint), shown, width, &context.theme, lines)
-}
-
-/// A list of choices that are told apart by their labels. Returns the one that was chosen.
-fn choices<T: Copy + PartialEq>(
-    ui: &mut Ui,
-    (name, hint): (&'static str, &str),
-    (all, now): (&[T], T),
-    words: impl Fn(T) -> [&'static str; 2],
-    context: &PaneContext<'_>,
-) -> Option<T> {
-    let line = |&choice: &T| {
-        let [label, facts] = words(choice);
-        Line { facts: facts.to_owned(), ..Line::new(label, choice == now) }
-    };
-    let chosen = list(ui, name, [words(now)[0], hint], context, || all.iter().map(line).collect());
-    chosen.map(|index| all[index])
 }
 
 /// A value as it is shown: three digits.

@@ -24,11 +24,7 @@ pub const PANE: Pane = Pane {
 
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let body = widgets::pane(ui, &PANE, rect, context, |ui, context| {
-        let choices = [
-            (SpectraLayout::Overlay, "Overlay", "All sensitivities in one plot"),
-            (SpectraLayout::Each, "Each", "A plot for each sensor, where there is room for them"),
-        ];
-        widgets::switch(ui, &choices, &mut context.view.saved.spectra_layout);
+        widgets::switch(ui, &mut context.view.saved.spectra_layout);
     });
     let body = Rect::from_min_max(body.min + Vec2::new(2.0 * UNIT, 0.0), body.max - Vec2::new(2.0 * UNIT, 0.0));
     if widgets::figure_numbers(ui, &PANE, body, context) {

@@ -5,12 +5,11 @@ use egui::{Id, Rect, ScrollArea, Ui, Vec2};
 
 use super::context::{Pane, PaneContext};
 use crate::action::{Action, SceneAction};
-use crate::document::Subset;
 use crate::figures::{chromaticity, swatches};
 use crate::paint;
 use crate::panes::widgets;
 use crate::theme::UNIT;
-use crate::view::{SwatchLayout, SwatchStyle};
+use crate::view::SwatchLayout;
 use crate::workspaces::PaneKind;
 
 const FOOTER: f32 = 24.0;
@@ -110,26 +109,17 @@ fn board(ui: &mut Ui, area: Rect, built: &swatches::Built, context: &mut PaneCon
 fn switches(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let count = context.scene.patches().map_or(0, |set| set.patches().len());
     if context.scene.has_five() {
-        let choices = [
-            (Subset::Five, "Five", "The paper's five: red, green, blue, white, orange yellow"),
-            (Subset::All, "All", "All patches of the chart"),
-        ];
-        if let Some(subset) = widgets::segmented(ui, &choices, context.scene.document.subset) {
+        if let Some(subset) = widgets::choice(ui, context.scene.document.subset) {
             context.push(Action::Scene(SceneAction::SetSubset(subset)));
         }
         ui.add_space(UNIT);
     }
     let rows = swatches::in_rows(context.view.saved.swatch_layout, count);
-    let choices = [(true, "Rows", "A row for each sensor"), (false, "Charts", "A chart for each sensor")];
-    if let Some(rows) = widgets::segmented(ui, &choices, rows) {
-        context.view.saved.swatch_layout = if rows { SwatchLayout::Rows } else { SwatchLayout::Charts };
+    let layout = if rows { SwatchLayout::Rows } else { SwatchLayout::Charts };
+    if let Some(layout) = widgets::choice_of(ui, &[SwatchLayout::Rows, SwatchLayout::Charts], layout) {
+        context.view.saved.swatch_layout = layout;
         ui.ctx().request_repaint();
     }
     ui.add_space(UNIT);
-    let choices = [
-        (SwatchStyle::Split, "Split", "Left half: reference; right half: sensor"),
-        (SwatchStyle::Inset, "Inset", "The reference inside"),
-        (SwatchStyle::Whole, "Sensor only", "The sensor without the reference"),
-    ];
-    widgets::switch(ui, &choices, &mut context.view.saved.swatch_style);
+    widgets::switch(ui, &mut context.view.saved.swatch_style);
 }

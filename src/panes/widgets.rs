@@ -17,6 +17,7 @@ pub use lines::focus_rim;
 use std::time::Duration;
 
 use chromascope_figure::{FigureRoom, Ink, LegendEntry, Stroke, Table};
+use chromascope_text::Choice;
 use egui::{Align, Align2, Button, FontId, Layout, Rect, Response, RichText, Sense, Ui, UiBuilder, Vec2};
 
 use crate::command::Command;
@@ -361,11 +362,22 @@ pub fn segmented<T: Copy + PartialEq>(ui: &mut Ui, choices: &[(T, &str, &str)], 
 }
 
 /// A switch that sets a value.
-pub fn switch<T: Copy + PartialEq>(ui: &mut Ui, choices: &[(T, &str, &str)], value: &mut T) {
-    if let Some(to) = segmented(ui, choices, *value) {
+pub fn switch<T: Choice>(ui: &mut Ui, value: &mut T) {
+    if let Some(to) = choice(ui, *value) {
         *value = to;
         ui.ctx().request_repaint();
     }
+}
+
+/// Buttons of all alternatives of a choice, of which one is on. Returns the one clicked.
+pub fn choice<T: Choice>(ui: &mut Ui, current: T) -> Option<T> {
+    choice_of(ui, T::ALL, current).filter(|choice| *choice != current)
+}
+
+/// Buttons of some alternatives, which may do something when pressed again.
+pub fn choice_of<T: Choice>(ui: &mut Ui, all: &[T], current: T) -> Option<T> {
+    let line = |choice: &T| (*choice, choice.words().label, choice.words().why);
+    pressed(ui, &all.iter().map(line).collect::<Vec<_>>(), current)
 }
 
 pub fn pressed<T: Copy + PartialEq>(ui: &mut Ui, choices: &[(T, &str, &str)], current: T) -> Option<T> {

@@ -1,6 +1,7 @@
 //! View state of the Metrics pane.
 
 use chromascope_core::metamers::Confusion;
+use chromascope_text::choices;
 use serde::{Deserialize, Serialize};
 
 use crate::plot_item::SensorId;
@@ -21,12 +22,14 @@ pub struct MetricsLook {
     pub card: Option<SensorId>,
 }
 
-/// The one that takes two reflectances for one.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Confuses {
-    #[default]
-    Camera,
-    Reference,
+choices! {
+    /// The one that takes two reflectances for one.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+    pub enum Confuses {
+        #[default]
+        Camera = "camera", "Camera confuses", "Equal to the camera, different to the reference";
+        Reference = "reference", "Reference confuses", "Equal to the reference, different to the camera";
+    }
 }
 
 impl Confuses {

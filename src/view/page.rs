@@ -1,5 +1,6 @@
 //! View of the Figure page: its paper and its zoom.
 
+use chromascope_text::choices;
 use serde::{Deserialize, Serialize};
 
 use crate::export::Paper;
@@ -22,16 +23,15 @@ impl Default for PageLook {
     }
 }
 
-/// Size of a page on screen.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub enum PageZoom {
-    /// As large as fits.
-    #[default]
-    Fit,
-    /// As on paper.
-    TrueSize,
-    /// Twice as large as on paper.
-    Double,
+choices! {
+    /// Size of a page on screen.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+    pub enum PageZoom {
+        #[default]
+        Fit = "fit", "Fit", "The whole page";
+        TrueSize = "true", "True size", "As large as on paper, where a screen has 96 points per inch";
+        Double = "double", "200 %", "Twice as large as on paper";
+    }
 }
 
 impl PageZoom {

@@ -44,7 +44,7 @@ pub const TEMPLATES: [Template; 7] = [
     },
     Template {
         name: "Colorimetry",
-        summary: Start::Colorimetry.summary(),
+        summary: Start::Colorimetry.why(),
         pane: PaneKind::CHROMATICITY,
         start: Start::Colorimetry,
         actions: |_| Vec::new(),

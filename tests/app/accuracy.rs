@@ -6,13 +6,14 @@ use chromascope::action::{Action, CompareAction, RenderAction};
 
 use chromascope::command::Command;
 use chromascope::document::SetKind;
-use chromascope::document::render::{ReadingChoice, RenderSettings};
+use chromascope::document::render::RenderSettings;
 use chromascope::panes;
 use chromascope::profiler::{Profiler, SceneRun, Subject};
 use chromascope::scene::Scene;
 use chromascope::view::accuracy::Shows;
 use chromascope::workspaces::{PaneKind, Workspace};
 use chromascope_core::accuracy::RelTolerance;
+use chromascope_core::reflectance::Normalization;
 use chromascope_core::render::QualityLevel;
 use chromascope_figure::{FigureRoom, Ink, InkRole, Shape};
 use chromascope_measure::Workload;
@@ -184,8 +185,10 @@ fn a_tolerance_is_kept_by_pictures_and_each_source_says_how() {
 fn a_source_without_a_plan_says_why() {
     let mut window = open([1280.0, 1000.0], egui::Theme::Light);
     window.state_mut().push(Command::Show(Workspace::Numerics));
-    let flat =
-        RenderSettings { reading: ReadingChoice::Lambertian, ..window.state().history().document().render.clone() };
+    let flat = RenderSettings {
+        normalization: Normalization::Lambertian,
+        ..window.state().history().document().render.clone()
+    };
     window.state_mut().push(Action::Render(RenderAction::Set { what: "Normalization", to: Box::new(flat) }));
     window.run_steps(2);
     take_in(&mut window);

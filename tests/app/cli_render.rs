@@ -335,7 +335,7 @@ fn the_coherent_component_and_the_area_can_be_chosen() {
     let help = String::from_utf8(run(&folder, &["--help"]).stdout).unwrap();
     let words = help.split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(
-        words.contains("0.49 and 0.03 of the light (radiometric)") && words.contains("diffuse component only"),
+        words.contains("0.49 and 0.03 of the light (radiometric)") && words.contains("Only the diffuse component"),
         "{words}"
     );
 }

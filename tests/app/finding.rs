@@ -24,7 +24,7 @@ fn window() -> Window {
 }
 
 /// Types into the palette, presses a key some times, then Enter.
-fn find(window: &mut Window, text: &str, down: usize) {
+pub(crate) fn find(window: &mut Window, text: &str, down: usize) {
     window.state_mut().push(Command::FindAnything);
     window.run_steps(3);
     window.get_by_role_and_label(Role::TextInput, "Find anything").type_text(text);

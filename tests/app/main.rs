@@ -55,6 +55,7 @@ mod save_prompt;
 mod save_set;
 mod screenshots;
 mod sessions;
+mod settings;
 mod shell;
 mod spectral_images;
 mod starts;

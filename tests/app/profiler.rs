@@ -4,7 +4,7 @@ use chromascope::action::{Action, RenderAction};
 use chromascope::catalog::Catalog;
 use chromascope::command::Command;
 use chromascope::document::Document;
-use chromascope::document::render::{MeshChoice, ReadingChoice, RenderSettings};
+use chromascope::document::render::{MeshChoice, RenderSettings};
 use chromascope::jobs::{Executor, Job as _, Later};
 use chromascope::profiler::plans::PlansQuery;
 use chromascope::profiler::{Profiler, SceneRunJob};
@@ -12,6 +12,7 @@ use chromascope::results::Results;
 use chromascope::scene::Scene;
 use chromascope::workspaces::Workspace;
 use chromascope_core::query::render::picture::PicturesQuery;
+use chromascope_core::reflectance::Normalization;
 use chromascope_core::render::QualityLevel;
 use chromascope_core::render::RasterSize;
 use egui_kittest::kittest::Queryable;
@@ -32,7 +33,7 @@ fn small(change: impl FnOnce(&mut Document)) -> SceneRunJob {
 
 #[test]
 fn a_second_run_measures_computing_and_not_remembering() {
-    let scene = small(|document| document.render.reading = ReadingChoice::Lambertian);
+    let scene = small(|document| document.render.normalization = Normalization::Lambertian);
     let results = Results::default();
     let runs = [1, 2].map(|_| scene.run(&results));
     assert!(runs.iter().all(|run| !run.trials.is_empty()));
@@ -67,7 +68,8 @@ fn plans_are_of_the_sources_that_are_asked_for() {
 fn what_is_measured_is_of_the_scene_that_it_was_measured_on() {
     let (executor, mut window) = driven([1280.0, 800.0], egui::Theme::Dark);
     // Without spectral integrals there is little to measure.
-    let flat = |settings: &RenderSettings| RenderSettings { reading: ReadingChoice::Lambertian, ..settings.clone() };
+    let flat =
+        |settings: &RenderSettings| RenderSettings { normalization: Normalization::Lambertian, ..settings.clone() };
     let to = Box::new(flat(&window.state().history().document().render));
     window.state_mut().push(Action::Render(RenderAction::Set { what: "Normalization", to }));
     window.state_mut().push(Command::MeasureScene);

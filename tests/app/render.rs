@@ -7,14 +7,14 @@ use chromascope::action::{Action, CompareAction, RenderAction};
 use chromascope::app::ChromascopeApp;
 use chromascope::catalog::meshes::MeshState;
 use chromascope::command::Command;
-use chromascope::document::render::model::{AreaChoice, SpecularChoice};
-use chromascope::document::render::{BALANCE, MeshChoice, ReadingChoice, RenderSettings, SUN};
+use chromascope::document::render::{BALANCE, MeshChoice, RenderSettings, SUN};
 use chromascope::document::{Document, Light, SetKind, WhiteBalanceChoice, session};
 use chromascope::panes;
 use chromascope::plot_item::SensorId;
 use chromascope::scene::Scene;
 use chromascope::view::render::{PixelPlace, RenderMode};
 use chromascope::workspaces::{PaneKind, Workspace};
+use chromascope_core::reflectance::{IlluminatedArea, Normalization, Specular};
 use chromascope_core::render::QualityLevel;
 use chromascope_figure::FigureRoom;
 use egui::accesskit::Role;
@@ -112,18 +112,18 @@ fn a_figure_sets_light_and_white_in_one_step() {
 #[test]
 fn a_figure_is_radiometric() {
     let mut window = small();
-    render(&mut window, |settings| settings.reading = ReadingChoice::Paper);
+    render(&mut window, |settings| settings.normalization = Normalization::Paper);
     window.get_by_role_and_label(Role::Button, "Figure 8").click();
     window.run_steps(2);
-    assert_eq!(document(&window).render.reading, ReadingChoice::Radiometric);
+    assert_eq!(document(&window).render.normalization, Normalization::Radiometric);
     assert_eq!(document(&window).white, WhiteBalanceChoice::Light(BALANCE.to_owned()));
 }
 
 #[test]
 fn a_figure_as_in_the_paper_has_a_point_light_and_the_papers_normalization() {
     let mut document = Document::colorimetry();
-    assert_eq!(document.render.specular, SpecularChoice::Fresnel);
-    assert_eq!(Document::paper().render.specular, SpecularChoice::Paper);
+    assert_eq!(document.render.specular, Specular::Fresnel);
+    assert_eq!(Document::paper().render.specular, Specular::Paper);
     for (action, name, mesh) in [
         (RenderAction::PaperFigure8, "Figure 8, as in the paper", MeshChoice::Head),
         (RenderAction::PaperFigure9, "Figure 9, as in the paper", MeshChoice::Fern),
@@ -133,19 +133,19 @@ fn a_figure_as_in_the_paper_has_a_point_light_and_the_papers_normalization() {
         action.apply(&mut document);
         let settings = &document.render;
         assert_eq!(
-            (&settings.mesh, settings.reading, settings.specular),
-            (&mesh, ReadingChoice::Paper, SpecularChoice::Paper)
+            (&settings.mesh, settings.normalization, settings.specular),
+            (&mesh, Normalization::Paper, Specular::Paper)
         );
-        assert_eq!((settings.area, settings.light_radius), (AreaChoice::Xy, 0.0));
+        assert_eq!((settings.area, settings.light_radius), (IlluminatedArea::Xy, 0.0));
         assert!(settings.light_distance.is_some());
         assert_eq!(document.light, Light::Set(SUN.to_owned()));
     }
     // The program's own has parallel light and the radiometric normalization again, and its start's specular component.
     Action::Render(RenderAction::Figure8).apply(&mut document);
-    assert_eq!((document.render.light_distance, document.render.area), (None, AreaChoice::FourXy));
+    assert_eq!((document.render.light_distance, document.render.area), (None, IlluminatedArea::FourXy));
     assert_eq!(
-        (document.render.reading, document.render.specular),
-        (ReadingChoice::Radiometric, SpecularChoice::Fresnel)
+        (document.render.normalization, document.render.specular),
+        (Normalization::Radiometric, Specular::Fresnel)
     );
 }
 
@@ -155,7 +155,7 @@ fn a_saved_session_keeps_the_coherent_component_that_it_was_made_with() {
     let settings = saved["render"].as_object_mut().unwrap();
     assert_eq!((settings.remove("specular"), settings.remove("area")), (Some("fresnel".into()), Some("4xy".into())));
     let opened = session::from_json(&saved.to_string()).unwrap();
-    assert_eq!((opened.render.specular, opened.render.area), (SpecularChoice::Paper, AreaChoice::FourXy));
+    assert_eq!((opened.render.specular, opened.render.area), (Specular::Paper, IlluminatedArea::FourXy));
 }
 
 #[test]
@@ -166,16 +166,16 @@ fn the_surface_says_its_limits_where_it_is_chosen() {
         window.query_all_by(|node| node.value().is_some_and(|label| label.contains(words))).count() > 0
     };
     assert!(says(&window, "Returns 0.49 of the light at normal incidence (0.03 at 85°)"));
-    render(&mut window, |settings| settings.reading = ReadingChoice::Microfacet);
+    render(&mut window, |settings| settings.normalization = Normalization::Microfacet);
     assert!(says(&window, "more than 1 from 7") && says(&window, "Only the diffuse component is reciprocal"));
-    render(&mut window, |settings| settings.reading = ReadingChoice::Lambertian);
+    render(&mut window, |settings| settings.normalization = Normalization::Lambertian);
     assert!(!says(&window, "Returns 0"));
     // Both choices of the coherent component and of the area are there.
-    render(&mut window, |settings| settings.reading = ReadingChoice::Radiometric);
+    render(&mut window, |settings| settings.normalization = Normalization::Radiometric);
     assert!(window.query_by_role_and_label(Role::ComboBox, "Coherent component: As in the paper").is_some());
     window.get_by_role_and_label(Role::RadioButton, "A = XY").click();
     window.run_steps(2);
-    assert_eq!(document(&window).render.area, AreaChoice::Xy);
+    assert_eq!(document(&window).render.area, IlluminatedArea::Xy);
 }
 
 #[test]

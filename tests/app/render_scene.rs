@@ -6,13 +6,14 @@ use chromascope::action::{Action, RenderAction, SceneAction};
 use chromascope::app::ChromascopeApp;
 use chromascope::catalog::Catalog;
 use chromascope::command::Command;
-use chromascope::document::render::{BALANCE, GARMENT, LEAF, MeshChoice, ReadingChoice, RenderSettings, SKY, SUN};
+use chromascope::document::render::{BALANCE, GARMENT, LEAF, MeshChoice, RenderSettings, SKY, SUN};
 use chromascope::document::{Document, Light, session};
 use chromascope::results::Results;
 use chromascope::scene::Scene;
 use chromascope::view::render::PixelPlace;
 use chromascope::workspaces::Workspace;
 use chromascope_core::query::render::MeshQuery;
+use chromascope_core::reflectance::Normalization;
 use chromascope_core::render::QualityLevel;
 use egui::accesskit::Role;
 use egui_kittest::Harness;
@@ -149,8 +150,8 @@ fn nothing_in_the_settings_jumps_when_values_change() {
         |settings| settings.sigma_um = 0.02,
         |settings| settings.sigma_um = 123.0,
         |settings| settings.tau_um = 0.01,
-        |settings| settings.reading = ReadingChoice::Lambertian,
-        |settings| settings.reading = ReadingChoice::Microfacet,
+        |settings| settings.normalization = Normalization::Lambertian,
+        |settings| settings.normalization = Normalization::Microfacet,
         |settings| settings.light_distance = Some(2.0),
         |settings| settings.quality = QualityLevel::Tolerance,
         |settings| settings.mesh = MeshChoice::Plane,

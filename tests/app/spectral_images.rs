@@ -7,7 +7,7 @@ use chromascope::app::ChromascopeApp;
 use chromascope::catalog::Catalog;
 use chromascope::catalog::spectral_images::{RowsRead, load, read_signals};
 use chromascope::command::Command;
-use chromascope::document::render::{MeshChoice, QuantityChoice};
+use chromascope::document::render::MeshChoice;
 use chromascope::document::{Document, Light, SetKind, session};
 use chromascope::figures::render::pixel_of;
 use chromascope::panes;
@@ -28,6 +28,7 @@ use glam::DVec3;
 use crate::cli_render_image::chart_image;
 use crate::screenshots::open_with;
 use crate::waiting::until;
+use spectral_image::ImageQuantity;
 
 type Window = Harness<'static, ChromascopeApp>;
 
@@ -253,9 +254,9 @@ fn an_unstated_quantity_is_asked_for_and_radiances_take_no_light() {
     });
     window.run_steps(2);
     assert!(window.state().render_service().frame().is_none(), "no picture without a quantity");
-    let xy = |window: &mut Window, quantity: QuantityChoice, light: &str| {
+    let xy = |window: &mut Window, quantity: ImageQuantity, light: &str| {
         let mut to = window.state().history().document().render.clone();
-        to.image_quantity = quantity;
+        to.image_quantity = Some(quantity);
         window.state_mut().push(Action::Render(RenderAction::Set { what: "Quantity", to: Box::new(to) }));
         let light = Light::Set(light.to_owned());
         window.state_mut().push(Action::Scene(chromascope::action::SceneAction::SetLight(light)));
@@ -269,9 +270,9 @@ fn an_unstated_quantity_is_asked_for_and_radiances_take_no_light() {
         let PixelShows::Lit(lit) = reading.shows else { panic!("{:?}", reading.shows) };
         lit.xy.unwrap()
     };
-    let [d65, a] = ["D65", "A"].map(|light| xy(&mut window, QuantityChoice::Reflectance, light));
+    let [d65, a] = ["D65", "A"].map(|light| xy(&mut window, ImageQuantity::Reflectance, light));
     assert!((d65.x - 0.31).abs() < 0.01 && (a.x - 0.45).abs() < 0.01, "the light's: {d65:?} {a:?}");
-    let [d65, a] = ["D65", "A"].map(|light| xy(&mut window, QuantityChoice::Radiance, light));
+    let [d65, a] = ["D65", "A"].map(|light| xy(&mut window, ImageQuantity::Radiance, light));
     assert!((d65.x - a.x).abs() < 1e-4 && (a.x - 0.333).abs() < 0.01, "a flat spectrum's: {d65:?} {a:?}");
 }
 

@@ -13,18 +13,21 @@ use super::projection::Projection;
 use super::rect::Rect;
 use super::text::wrapped;
 pub(super) use canvas::{Canvas, TextLine};
+use chromascope_text::choices;
 
-/// Position of the titles of the axes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub enum AxisTitles {
-    /// In the corners of the plot.
-    #[default]
-    Inside,
-    /// Centered along the axes, beyond the tick labels; the page grows by them.
-    Outside,
-    /// Nowhere.
-    None,
+choices! {
+    /// Position of the titles of the axes.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+    #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+    pub enum AxisTitles {
+        /// In the corners of the plot.
+        #[default]
+        Inside = "inside", "Inside", "In the corners of the plot";
+        /// Centered along the axes, beyond the tick labels; the page grows by them.
+        Outside = "outside", "Outside", "Along the axes";
+        /// Nowhere.
+        None = "none", "None", "No titles";
+    }
 }
 
 /// Layout of a figure on a page, apart from its colors.

@@ -1,5 +1,7 @@
 //! A whole figure and its parts: panels with axes, marks and small texts, and the legend.
 
+use chromascope_text::choices;
+
 use super::axis::Axis;
 use super::ink::{Ink, InkRole};
 use super::mark::{Anchor, Mark, Marker, Shape, Stroke, TextSize};
@@ -184,25 +186,27 @@ pub struct LegendEntry {
     pub fill: Option<Ink>,
 }
 
-/// Position of a legend.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub enum LegendPlace {
-    /// Inside the largest panel, upper right, below the panel's note.
-    #[default]
-    UpperRight,
-    /// Inside the largest panel, upper left.
-    UpperLeft,
-    /// Inside the largest panel, lower right.
-    LowerRight,
-    /// Inside the largest panel, lower left.
-    LowerLeft,
-    /// In a corner of the largest panel where it covers nothing, else below.
-    Inside,
-    /// In a column right of the figure, which grows by it.
-    Outside,
-    /// In rows below the figure, which grows by them.
-    Below,
-    /// Nowhere.
-    None,
+choices! {
+    /// Position of a legend.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+    #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+    pub enum LegendPlace {
+        /// In a corner of the largest panel where it covers no point, else below.
+        Inside = "inside", "Inside, where it covers nothing", "Inside, in a corner where it covers no point; below where there is none";
+        /// Inside the largest panel, upper right, below the panel's note.
+        #[default]
+        UpperRight = "upper-right", "Upper right", "Inside, at the upper right";
+        /// Inside the largest panel, upper left.
+        UpperLeft = "upper-left", "Upper left", "Inside, at the upper left";
+        /// Inside the largest panel, lower right.
+        LowerRight = "lower-right", "Lower right", "Inside, at the lower right";
+        /// Inside the largest panel, lower left.
+        LowerLeft = "lower-left", "Lower left", "Inside, at the lower left";
+        /// In a column right of the figure, which grows by it.
+        Outside = "beside", "Beside", "Right of the figure; below where that would take half of the width";
+        /// In rows below the figure, which grows by them.
+        Below = "below", "Below", "Below the figure";
+        /// Nowhere.
+        None = "none", "None", "No legend";
+    }
 }

@@ -1,25 +1,31 @@
 //! Room for a figure on paper.
 
-/// Ranges of the axes of a saved figure.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub enum AxisRanges {
-    /// Those on screen, zoomed or not.
-    #[default]
-    Screen,
-    /// The whole diagram.
-    Full,
+use chromascope_text::choices;
+
+choices! {
+    /// Ranges of the axes of a saved figure.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+    pub enum AxisRanges {
+        /// Those on screen, zoomed or not.
+        #[default]
+        Screen = "screen", "As on screen", "Zoomed or not";
+        /// The whole diagram.
+        Full = "full", "Full", "All of the plot; of the diagram, the data enlarged where there is room";
+    }
 }
 
-/// Extent of the numbers written with a figure.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub enum Numbers {
-    /// Everything that the figure is made from.
-    #[default]
-    All,
-    /// Only what its axes and panels show.
-    Visible,
+choices! {
+    /// Extent of the numbers written with a figure.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+    pub enum Numbers {
+        /// Everything that the figure is made from.
+        #[default]
+        All = "all", "All", "Everything that the figure is made from";
+        /// Only what its axes and panels show.
+        Visible = "visible", "Visible", "Only points within the axes, and curves that are drawn";
+    }
 }
 
 /// Size that a saved figure is laid out for, in points, and what it leaves out.

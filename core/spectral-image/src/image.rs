@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use crate::error::ImageError;
+use chromascope_text::choices;
 
 /// Largest width and height in pixels.
 pub const MAX_SIDE: usize = 65_536;
@@ -11,13 +12,15 @@ pub const MAX_BANDS: usize = 4096;
 /// Largest size of one row of samples in memory, in bytes.
 pub const MAX_ROW_BYTES: usize = 1 << 28;
 
-/// Quantity of the samples.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum ImageQuantity {
-    /// Reflectance or transmittance, 1 for a perfect diffuser.
-    Reflectance,
-    /// Radiance, in any unit.
-    Radiance,
+choices! {
+    /// Quantity of the samples.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+    pub enum ImageQuantity {
+        /// Reflectance or transmittance, 1 for a perfect diffuser.
+        Reflectance = "reflectance", "Reflectance", "Reflectances, lit by the illuminant";
+        /// Radiance, in any unit.
+        Radiance = "radiance", "Radiance", "Radiances, taken as they are; the illuminant only balances white";
+    }
 }
 
 /// Decision made on reading that the user should know of.

@@ -1,57 +1,37 @@
 //! Classes of training reflectances by their color, and their weights.
 
+use chromascope_text::choices;
 use std::hash::{Hash, Hasher};
 
 use crate::colorimetry::lab::lab_from_xyz;
 use crate::colorimetry::{Lab, Xyz};
 use glam::DVec3;
 
-/// Class of a reflectance by its color under the light, to the reference observer.
-///
-/// | class | L\* | C\*ab | hue angle |
-/// |---|---|---|---|
-/// | neutral | any | up to 5 | any |
-/// | skin | 25–90 | 8–40 | 30°–80° |
-/// | foliage | 15–80 | 10–60 | 100°–160° |
-/// | sky | 30–90 | 8–50 | 220°–290° |
-///
-/// The bounds are this program's: boxes around the memory colors of a `ColorChecker` (dark and light skin, foliage, blue sky).
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum ColorClass {
-    /// Near gray.
-    Neutral,
-    /// Like skin.
-    Skin,
-    /// Like leaves.
-    Foliage,
-    /// Like the blue sky.
-    Sky,
+choices! {
+    /// Class of a reflectance by its color under the light, to the reference observer.
+    ///
+    /// | class | L\* | C\*ab | hue angle |
+    /// |---|---|---|---|
+    /// | neutral | any | up to 5 | any |
+    /// | skin | 25–90 | 8–40 | 30°–80° |
+    /// | foliage | 15–80 | 10–60 | 100°–160° |
+    /// | sky | 30–90 | 8–50 | 220°–290° |
+    ///
+    /// The bounds are this program's: boxes around the memory colors of a `ColorChecker` (dark and light skin, foliage, blue sky).
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+    pub enum ColorClass {
+        /// Near gray.
+        Neutral = "neutrals", "Neutrals", "Near gray";
+        /// Like skin.
+        Skin = "skin", "Skin", "Like skin";
+        /// Like leaves.
+        Foliage = "foliage", "Foliage", "Like leaves";
+        /// Like the blue sky.
+        Sky = "sky", "Sky", "Like the blue sky";
+    }
 }
 
 impl ColorClass {
-    /// All classes, in the order of [`ClassWeights`].
-    pub const ALL: [Self; 4] = [Self::Neutral, Self::Skin, Self::Foliage, Self::Sky];
-
-    /// Name in the window.
-    pub const fn label(self) -> &'static str {
-        match self {
-            Self::Neutral => "Neutrals",
-            Self::Skin => "Skin",
-            Self::Foliage => "Foliage",
-            Self::Sky => "Sky",
-        }
-    }
-
-    /// Name in documents and on the command line.
-    pub const fn id(self) -> &'static str {
-        match self {
-            Self::Neutral => "neutrals",
-            Self::Skin => "skin",
-            Self::Foliage => "foliage",
-            Self::Sky => "sky",
-        }
-    }
-
     /// The class of a color; none for all others.
     pub fn of(lab: Lab) -> Option<Self> {
         let (chroma, hue) = (lab.a.hypot(lab.b), lab.b.atan2(lab.a).to_degrees().rem_euclid(360.0));

@@ -25,6 +25,7 @@ use crate::scene::roughness::{VertexRoughness, vertex_roughness};
 use crate::scene::{Lighting, Viewpoint};
 use crate::spectral::{GridSpectrum, Sensor};
 use chromascope_mesh::{Mesh, ShadowTree, fern, head, shapes};
+use chromascope_text::choices;
 use std::sync::Arc;
 
 /// A mesh.
@@ -248,14 +249,21 @@ impl Query for MeshRoughnessQuery {
     }
 }
 
-/// Origin of σ and τ.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Roughness {
-    /// The surface's own, the same everywhere.
-    #[default]
-    Surface,
-    /// Heights and radius of each vertex's neighborhood in the mesh; P is interpolated between vertices. The paper's.
-    Mesh,
+choices! {
+    /// Origin of σ and τ.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "kebab-case"))]
+    pub enum Roughness {
+        /// The surface's own, the same everywhere.
+        #[default]
+        Surface = "surface", "Of the surface", "σ and τ as they are set, the same everywhere";
+        /// Heights and radius of each vertex's neighborhood in the mesh; P is interpolated between vertices. The paper's.
+        Mesh = "mesh", "From the mesh",
+            "As in the paper: at each vertex σ from the heights of its neighbors about the tangent plane, τ from the radius of that \
+             neighborhood; P at the vertices, interpolated. These are lengths of the mesh, not of the material: tenths of \
+             millimeters and millimeters, so g is tens of millions, and the width of the specular lobe, 2σ/τ, is the angle between \
+             neighboring triangles. It narrows with more triangles.";
+    }
 }
 
 /// Factors of the reflectance model at each lit sample. None if stopped.

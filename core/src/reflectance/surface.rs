@@ -4,6 +4,8 @@ use std::fmt;
 use std::hash::{Hash, Hasher};
 use std::ops::RangeInclusive;
 
+use chromascope_text::choices;
+
 /// The largest height deviation, in meters.
 const SIGMA_M: RangeInclusive<f64> = 0.0..=1.0;
 /// Correlation lengths and half-widths, in meters.
@@ -28,16 +30,24 @@ pub enum SurfaceError {
     Index,
 }
 
-/// The area A of the coherently illuminated patch with half-widths X and Y.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum IlluminatedArea {
-    /// A = 4XY: with the arguments `v_x X` and `v_y Y` of the paper's sinc the patch is 2X by 2Y, and only with this area does
-    /// the coherent lobe of a smooth surface hold all that its boundary reflects.
-    #[default]
-    FourXy,
-    /// A = XY, as the paper prints it. Radiometrically three quarters of the coherent component are lost; in the paper's own
-    /// normalization the diffuse component is four times stronger relative to the coherent one.
-    Xy,
+choices! {
+    /// The area A of the coherently illuminated patch with half-widths X and Y.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
+    #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "kebab-case"))]
+    pub enum IlluminatedArea {
+        /// A = 4XY: with the arguments `v_x X` and `v_y Y` of the paper's sinc the patch is 2X by 2Y, and only with this area does
+        /// the coherent lobe of a smooth surface hold all that its boundary reflects.
+        #[default]
+        #[cfg_attr(feature = "serde", serde(rename = "4xy"))]
+        FourXy = "4xy", "A = 4XY",
+            "With the paper's sinc(v_x X) sinc(v_y Y) the illuminated area is 2X by 2Y: only A = 4XY normalizes the coherent lobe, \
+             so that a smooth surface returns what its boundary reflects.";
+        /// A = XY, as the paper prints it. Radiometrically three quarters of the coherent component are lost; in the paper's own
+        /// normalization the diffuse component is four times stronger relative to the coherent one.
+        Xy = "xy", "A = XY",
+            "As printed in the paper. Three quarters of the coherent component are lost; with the normalization Paper, Eq 1–12, \
+             the diffuse component is four times stronger instead.";
+    }
 }
 
 impl IlluminatedArea {
@@ -50,15 +60,22 @@ impl IlluminatedArea {
     }
 }
 
-/// The reflectance factor of the coherent (specular) component.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum Specular {
-    /// The paper's: no Fresnel factor, and S(λ) multiplies it, as if the boundary were a perfect mirror of the material's
-    /// color. At n = 1.4 and normal incidence 36 times brighter than a dielectric.
-    #[default]
-    Paper,
-    /// Fresnel's reflectance at the half vector, independent of S(λ): a dielectric boundary reflects all wavelengths alike.
-    Fresnel,
+choices! {
+    /// The reflectance factor of the coherent (specular) component.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
+    #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "kebab-case"))]
+    pub enum Specular {
+        /// The paper's: no Fresnel factor, and S(λ) multiplies it, as if the boundary were a perfect mirror of the material's
+        /// color. At n = 1.4 and normal incidence 36 times brighter than a dielectric.
+        #[default]
+        Paper = "paper", "As in the paper",
+            "Eq 1 has no Fresnel factor, and S(λ) multiplies the coherent component too: a specular reflection in the material's \
+             color, at n = 1.4 and normal incidence 36 times as bright as a dielectric's.";
+        /// Fresnel's reflectance at the half vector, independent of S(λ): a dielectric boundary reflects all wavelengths alike.
+        Fresnel = "fresnel", "Fresnel, untinted",
+            "The coherent component times Fresnel's reflectance at the half vector, without S(λ): the specular reflection of a \
+             dielectric has the color of the light.";
+    }
 }
 
 /// The roughness, illuminated area and refractive index of a surface. Lengths in meters.

@@ -2,6 +2,7 @@
 
 use crate::accuracy::RelTolerance;
 use crate::spectral::grid::COUNT;
+use chromascope_text::choices;
 
 /// Share of the error for omitted coherent terms, and for the others.
 const SKIPPED_OF_ERROR: f64 = 0.1;
@@ -119,30 +120,30 @@ impl Quality {
     }
 }
 
-/// A [`Quality`] by name, as documents and the command line have it: without the number of [`Quality::Within`].
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "kebab-case"))]
-pub enum QualityLevel {
-    /// [`Quality::Preview`].
-    Preview,
-    /// [`Quality::Full`].
-    #[default]
-    Full,
-    /// [`Quality::Fine`].
-    Fine,
-    /// [`Quality::Reference`].
-    #[cfg_attr(feature = "serde", serde(rename = "exact", alias = "reference"))]
-    Reference,
-    /// [`Quality::Within`] a tolerance.
-    Tolerance,
-    /// [`Quality::Regimes`].
-    Regimes,
+choices! {
+    /// A [`Quality`] by name, as documents and the command line have it: without the number of [`Quality::Within`].
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "kebab-case"))]
+    pub enum QualityLevel {
+        /// [`Quality::Preview`].
+        Preview = "preview", "Preview, error < 1e-4",
+            "as while something moves: few wavelengths, and only the mean of the specular lobe's oscillation";
+        /// [`Quality::Full`].
+        #[default]
+        Full = "full", "Full, error < 1e-5", "error below 1e-5 of the peak, by the fastest method that keeps it";
+        /// [`Quality::Fine`].
+        Fine = "fine", "Fine, error < 1e-9", "error below 1e-9 of the peak, by the fastest method that keeps it";
+        /// [`Quality::Reference`].
+        #[cfg_attr(feature = "serde", serde(rename = "exact", alias = "reference"))]
+        Reference = "reference" | "exact", "Reference, 401 wavelengths", "sum over all 401 wavelengths";
+        /// [`Quality::Within`] a tolerance.
+        Tolerance = "tolerance", "Within a tolerance", "error within a tolerance, by the fastest method that keeps it";
+        /// [`Quality::Regimes`].
+        Regimes = "regimes", "Paper's three cases of g", "sum over all 401 wavelengths with the paper's three cases of g";
+    }
 }
 
 impl QualityLevel {
-    /// All levels, in the order in which they are listed.
-    pub const ALL: [Self; 6] = [Self::Preview, Self::Full, Self::Fine, Self::Reference, Self::Tolerance, Self::Regimes];
-
     /// The quality of this name.
     pub const fn quality(self, tolerance: RelTolerance) -> Quality {
         match self {
@@ -152,44 +153,6 @@ impl QualityLevel {
             Self::Reference => Quality::Reference,
             Self::Tolerance => Quality::Within(tolerance),
             Self::Regimes => Quality::Regimes,
-        }
-    }
-
-    /// Key on the command line and in exported files.
-    pub const fn key(self) -> &'static str {
-        match self {
-            Self::Preview => "preview",
-            Self::Full => "full",
-            Self::Fine => "fine",
-            Self::Reference => "reference",
-            Self::Tolerance => "tolerance",
-            Self::Regimes => "regimes",
-        }
-    }
-
-    /// Label in a list.
-    pub const fn label(self) -> &'static str {
-        match self {
-            Self::Preview => "Preview, error < 1e-4",
-            Self::Full => "Full, error < 1e-5",
-            Self::Fine => "Fine, error < 1e-9",
-            Self::Reference => "Reference, 401 wavelengths",
-            Self::Tolerance => "Within a tolerance",
-            Self::Regimes => "Paper's three cases of g",
-        }
-    }
-
-    /// One sentence without a full stop, for help and hover text.
-    pub const fn description(self) -> &'static str {
-        match self {
-            Self::Preview => {
-                "as while something moves: few wavelengths, and only the mean of the specular lobe's oscillation"
-            }
-            Self::Full => "error below 1e-5 of the peak, by the fastest method that keeps it",
-            Self::Fine => "error below 1e-9 of the peak, by the fastest method that keeps it",
-            Self::Reference => "sum over all 401 wavelengths",
-            Self::Tolerance => "error within a tolerance, by the fastest method that keeps it",
-            Self::Regimes => "sum over all 401 wavelengths with the paper's three cases of g",
         }
     }
 }

@@ -1,4 +1,10 @@
-//! Names as they can stand on a screen, on a line and in a cell.
+//! Words: names of alternatives, and names as they can stand on a screen, on a line and in a cell.
+
+pub mod choice;
+mod setting;
+
+pub use choice::{Choice, Words};
+pub use setting::{Flag, Look, Number, Pick, Setting, Settings, Value, place, words_of};
 
 use std::borrow::Cow;
 

@@ -1,53 +1,20 @@
 //! Settings of the paper, and what to do with the page.
 
-use chromascope_figure::{AxisRanges, AxisTitles, LegendPlace, Numbers};
+use chromascope_text::{Look, Number, Pick, Setting, Settings as _, Value};
 use egui::{DragValue, Rect, Response, ScrollArea, Ui};
 
 use super::{inside, small};
 use crate::command::Command;
 use crate::export::page::PageFacts;
-use crate::export::paper::PaperStyle;
+use crate::export::paper::{LOOK, SIZE};
 use crate::export::{FigureForm, Paper};
 use crate::panes::context::PaneContext;
 use crate::panes::widgets;
 use crate::panes::widgets::pick_list::{self, Line};
-use crate::theme::{ROW, SourceInks, UNIT};
+use crate::theme::{ROW, UNIT};
 use crate::view::page::{LengthUnit, PageLook};
 use crate::workspaces::PaneKind;
 
-const STYLES: [(PaperStyle, &str, &str); 3] = [
-    (PaperStyle::Light, "Light", "As on a light screen"),
-    (PaperStyle::Print, "Print", "Black on white"),
-    (PaperStyle::Dark, "Dark", "Light on dark, for slides"),
-];
-const INKS: [(SourceInks, &str, &str); 2] = [
-    (SourceInks::Screen, "Color", "Colors told apart in all kinds of color vision"),
-    (SourceInks::Gray, "Gray", "Grays told apart in print without color"),
-];
-const TITLES: [(AxisTitles, &str, &str); 3] = [
-    (AxisTitles::Inside, "Inside", "In the corners of the plot"),
-    (AxisTitles::Outside, "Outside", "Along the axes"),
-    (AxisTitles::None, "None", "No titles"),
-];
-const RANGES: [(AxisRanges, &str, &str); 2] = [
-    (AxisRanges::Screen, "As on screen", "Zoomed or not"),
-    (AxisRanges::Full, "Full", "All of the plot; of the diagram, the data enlarged where there is room"),
-];
-const NUMBERS: [(Numbers, &str, &str); 2] = [
-    (Numbers::All, "All", "All numbers that the figure is made from"),
-    (Numbers::Visible, "Visible", "Only those of points inside the axes"),
-];
-const LEGENDS: [(Option<LegendPlace>, &str); 9] = [
-    (None, "Automatic"),
-    (Some(LegendPlace::Outside), "Beside"),
-    (Some(LegendPlace::Below), "Below"),
-    (Some(LegendPlace::Inside), "Inside, where it covers nothing"),
-    (Some(LegendPlace::UpperRight), "Upper right"),
-    (Some(LegendPlace::UpperLeft), "Upper left"),
-    (Some(LegendPlace::LowerRight), "Lower right"),
-    (Some(LegendPlace::LowerLeft), "Lower left"),
-    (Some(LegendPlace::None), "None"),
-];
 /// Width of names before controls.
 const NAMES: f32 = 72.0;
 /// Widths of a journal's columns.
@@ -120,39 +87,37 @@ fn size(ui: &mut Ui, look: &mut PageLook, facts: Option<PageFacts>, context: &mu
         }
     });
     ui.horizontal_wrapped(|ui| {
-        let lines = "Factor on the widths of lines and on markers";
-        number(ui, "Text", &mut paper.font_pt, (Paper::FONT_PT, 0.05, " pt"), "Size of labels, names and legend");
-        number(ui, "Lines", &mut paper.line_scale, (Paper::LINE_SCALE, 0.01, "×"), lines);
-        number(ui, "PNG", &mut paper.dpi, (Paper::DPI, 1.0, " dpi"), "Resolution of PNG, TIFF and the copied picture");
+        for setting in Paper::ALL.iter().filter(|setting| setting.group == SIZE) {
+            if let Value::Number(value) = &setting.value
+                && value.step.is_some()
+            {
+                number(ui, setting, value, paper);
+            }
+        }
     });
 }
 
 /// Style, legend, axes and what is left out.
 fn dress(ui: &mut Ui, paper: &mut Paper, (kind, facts): (PaneKind, Option<PageFacts>), context: &PaneContext<'_>) {
-    choice(ui, "Style", &STYLES, &mut paper.style, context);
-    choice(ui, "Colors", &INKS, &mut paper.inks, context);
-    if facts.is_some_and(|facts| facts.has_legend) {
-        legend(ui, paper, context);
-    }
-    if facts.is_some_and(|facts| facts.has_titles) {
-        choice(ui, "Axis titles", &TITLES, &mut paper.axis_titles, context);
-    }
-    if kind == PaneKind::CHROMATICITY || context.view.zoomed.contains_key(&kind) {
-        choice(ui, "Axis ranges", &RANGES, &mut paper.ranges, context);
-    }
-    if kind == PaneKind::CHROMATICITY {
-        choice(ui, "Numbers", &NUMBERS, &mut paper.numbers, context);
-        ui.checkbox(&mut paper.strip, "Strip of distances below the diagram");
-    }
-    ui.checkbox(&mut paper.caption, "Caption with the conditions");
-}
-
-fn legend(ui: &mut Ui, paper: &mut Paper, context: &PaneContext<'_>) {
-    let shown = LEGENDS.iter().find(|(place, _)| *place == paper.legend).map_or("", |(_, words)| words);
-    let hint = "Automatic: below on a page narrower than 120 mm, else where the figure has it";
-    let words = LEGENDS.map(|(_, words)| words);
-    if let Some(index) = drop_down(ui, ("Legend", hint), shown, &words, context).1 {
-        paper.legend = LEGENDS[index].0;
+    let is_diagram = kind == PaneKind::CHROMATICITY;
+    let has = |key: &str| match key {
+        "legend" => facts.is_some_and(|facts| facts.has_legend),
+        "axis_titles" => facts.is_some_and(|facts| facts.has_titles),
+        "ranges" => is_diagram || context.view.zoomed.contains_key(&kind),
+        "numbers" | "strip" => is_diagram,
+        _ => true,
+    };
+    for setting in Paper::ALL.iter().filter(|setting| setting.group == LOOK && has(setting.key)) {
+        match &setting.value {
+            Value::Choice(pick) => choice(ui, setting, pick, paper, context),
+            Value::Switch(get, set) => {
+                let mut on = get(paper);
+                if ui.checkbox(&mut on, setting.name).changed() {
+                    set(paper, on);
+                }
+            }
+            _ => {}
+        }
     }
 }
 
@@ -213,16 +178,19 @@ fn row<R>(ui: &mut Ui, name: &str, context: &PaneContext<'_>, control: impl FnOn
     .inner
 }
 
-/// A switch behind its name.
-fn choice<T: Copy + PartialEq>(
-    ui: &mut Ui,
-    name: &str,
-    choices: &[(T, &str, &str)],
-    now: &mut T,
-    context: &PaneContext<'_>,
-) {
-    if let Some(to) = row(ui, name, context, |ui| widgets::segmented(ui, choices, *now)) {
-        *now = to;
+/// A switch or a list behind its name.
+fn choice(ui: &mut Ui, setting: &Setting<Paper>, pick: &Pick<Paper>, paper: &mut Paper, context: &PaneContext<'_>) {
+    let (all, now) = ((pick.all)(), (pick.get)(paper));
+    let chosen = if pick.look == Look::List {
+        let words: Vec<&str> = all.iter().map(|words| words.label).collect();
+        let hint = all[now].why;
+        drop_down(ui, (setting.name, hint), all[now].label, &words, context).1
+    } else {
+        let lines: Vec<_> = all.iter().enumerate().map(|(index, words)| (index, words.label, words.why)).collect();
+        row(ui, setting.name, context, |ui| widgets::segmented(ui, &lines, now))
+    };
+    if let Some(index) = chosen {
+        (pick.set)(paper, index);
     }
 }
 
@@ -260,16 +228,20 @@ fn length(ui: &mut Ui, name: &str, mm: &mut f64, unit: LengthUnit) -> bool {
 }
 
 /// The field of a number, behind its name.
-fn number(ui: &mut Ui, name: &str, value: &mut f64, ([low, high], speed, suffix): ([f64; 2], f64, &str), hint: &str) {
-    let field = DragValue::new(value)
+fn number(ui: &mut Ui, setting: &Setting<Paper>, number: &Number<Paper>, paper: &mut Paper) {
+    let mut value = (number.get)(paper);
+    let [low, high] = number.slider;
+    let field = DragValue::new(&mut value)
         .range(low..=high)
-        .speed(speed)
+        .speed(number.step.unwrap_or(1.0))
         .max_decimals(2)
         .custom_formatter(|value, _| short(value))
-        .suffix(suffix)
+        .suffix(number.unit)
         .update_while_editing(false);
-    let label = ui.label(name);
-    ui.add(field).labelled_by(label.id).on_hover_text(hint);
+    let label = ui.label(setting.name);
+    if ui.add(field).labelled_by(label.id).on_hover_text(setting.help).changed() {
+        (number.set)(paper, value);
+    }
 }
 
 /// A number with two decimals at most.

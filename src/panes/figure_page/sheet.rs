@@ -75,16 +75,11 @@ pub(super) fn show(
 
 fn head(ui: &mut Ui, rect: Rect, kind: PaneKind, scale: Option<f64>, context: &mut PaneContext<'_>) {
     let inner = rect.shrink2(Vec2::new(2.0 * UNIT, UNIT));
-    let zooms = [
-        (PageZoom::Fit, "Fit", "The whole page"),
-        (PageZoom::TrueSize, "True size", "As large as on paper, where a screen has 96 points per inch"),
-        (PageZoom::Double, "200 %", "Twice as large as on paper"),
-    ];
     let to_left = Layout::right_to_left(Align::Center);
     let mut right = ui.new_child(UiBuilder::new().id_salt("page zoom").max_rect(inner).layout(to_left));
     let zoom = context.view.saved.page.zoom;
-    let switches: Vec<_> = zooms.into_iter().rev().collect();
-    if let Some(to) = widgets::segmented(&mut right, &switches, zoom) {
+    let [fit, true_size, double] = PageZoom::ALL;
+    if let Some(to) = widgets::choice_of(&mut right, &[double, true_size, fit], zoom) {
         context.view.saved.page.zoom = to;
         ui.ctx().request_repaint();
     }

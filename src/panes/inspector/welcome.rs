@@ -77,16 +77,16 @@ fn card(ui: &mut Ui, start: Start, size: Vec2, context: &mut PaneContext<'_>) {
     let theme = context.theme;
     let on = context.scene.document.start == start;
     let (rect, response) = ui.allocate_exact_size(size, egui::Sense::click());
-    response.widget_info(|| egui::WidgetInfo::selected(egui::Role::Button, true, on, start.name()));
+    response.widget_info(|| egui::WidgetInfo::selected(egui::Role::Button, true, on, start.label()));
     let fill = if response.hovered() { theme.hover } else { theme.control };
     ui.painter().rect_filled(rect, 3.0, fill);
     let picture = Rect::from_min_max(rect.min + Vec2::splat(2.0), egui::pos2(rect.right() - 2.0, rect.bottom() - ROW));
     paint::still(ui.painter(), &picture_of(ui, start, picture.size(), context), &theme, picture);
     let words = Rect::from_min_max(egui::pos2(rect.left() + 1.5 * UNIT, picture.bottom()), rect.max);
-    lines::elided(ui, words, start.name(), egui::TextStyle::Body, theme.text);
+    lines::elided(ui, words, start.label(), egui::TextStyle::Body, theme.text);
     let rim = if on { egui::Stroke::new(1.5, theme.text) } else { focus_rim(&response, &theme) };
     ui.painter().rect_stroke(rect, 3.0, rim, egui::StrokeKind::Inside);
-    if response.on_hover_text(start.summary()).clicked() {
+    if response.on_hover_text(start.why()).clicked() {
         context.push(Action::Start(start));
     }
 }

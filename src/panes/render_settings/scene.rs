@@ -1,76 +1,48 @@
-//! Mesh, material, and where the light is.
+//! Mesh, material and garment: settings that are sets or files.
 
 use std::path::PathBuf;
 
-use chromascope_core::scene::lighting::SUN_RADIUS;
-use chromascope_mesh::head::FEWEST;
-use egui::Ui;
+use egui::{RichText, Ui};
 
-use super::{Dial, caption, line, list, material, set, unless_image};
+use super::{caption, controls, line, list, material, set};
 use crate::catalog::meshes::{MeshState, is_mesh};
-use crate::catalog::spectral_images::has_image_ending;
+use crate::catalog::spectral_images::{ImageState, has_image_ending};
 use crate::command::Command;
-use crate::document::render::{MeshChoice, NEAR, RenderSettings};
+use crate::document::render::settings::IMAGE;
+use crate::document::render::{MeshChoice, RenderSettings};
 use crate::format::{capitalized, file_name};
 use crate::panes::context::PaneContext;
-use crate::panes::widgets::{self, pick_list::Line};
+use crate::panes::widgets::pick_list::Line;
 
-/// Choices of the number of triangles.
-const TRIANGLES: std::ops::RangeInclusive<f64> = 2e3..=2e6;
-
-/// Shows the group.
-pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
-    let settings = context.scene.document.render.clone();
-    mesh(ui, &settings, context);
-    summary(ui, &settings, context);
-    super::image::show(ui, context);
-    let reason = "These do nothing to a spectral image.";
-    unless_image(ui, reason, context, |ui, context| of_mesh(ui, &settings, context));
-}
-
-/// Controls of a mesh: its triangles, material and light.
-fn of_mesh(ui: &mut Ui, settings: &RenderSettings, context: &mut PaneContext<'_>) {
-    // The head's cages have so many that a smaller number would change nothing. The slider has one range for all meshes: equal
-    // numbers have equal places.
-    let is_head = settings.mesh == MeshChoice::Head;
-    let least = if is_head { FEWEST[usize::from(settings.garment.is_some())] as f64 } else { *TRIANGLES.start() };
-    let dial = Dial {
-        name: "Triangles",
-        range: TRIANGLES,
-        logarithmic: Some(1.0),
-        unit: "",
-        hint: "Approximate number of triangles of head, fern and sphere. Generating a mesh takes longer than drawing it.",
-        beyond: false,
-        enabled: matches!(settings.mesh, MeshChoice::Head | MeshChoice::Fern | MeshChoice::Sphere),
-    };
-    if let Some(to) = dial.show(ui, (settings.triangles as f64).max(least), context) {
-        set(context, "Triangles", |settings| settings.triangles = to.max(least) as usize);
-    }
-    caption(ui, "Material", context);
-    material::choice(ui, material::Part::Skin, context);
-    let words = if is_head { "Garment" } else { "Garment: only the head has one" };
-    caption(ui, words, context);
-    ui.add_enabled_ui(is_head, |ui| material::choice(ui, material::Part::Garment, context));
-    conditions(ui, settings, context);
-    light(ui, settings, context);
-}
-
-/// The rendered scene's light and white: the sun, or those of the scene bar.
-fn conditions(ui: &mut Ui, settings: &RenderSettings, context: &mut PaneContext<'_>) {
-    caption(ui, "Light and white balance", context);
-    ui.horizontal(|ui| {
-        let choices = [
-            (true, "Sun, D55", "Direct sun (ASTM G173), balanced to D55, in this workspace alone"),
-            (
-                false,
-                "As above",
-                "The light and white balance of all workspaces; choosing one above while pictures are visible chooses this too",
-            ),
-        ];
-        if let Some(to) = widgets::segmented(ui, &choices, settings.sunlight) {
-            set(context, "Light and white balance", |settings| settings.sunlight = to);
+/// The control of a setting that is a set or a file.
+pub(super) fn own(ui: &mut Ui, key: &str, is_enabled: bool, context: &mut PaneContext<'_>) {
+    match key {
+        "mesh" => {
+            let settings = context.scene.document.render.clone();
+            mesh(ui, &settings, context);
+            summary(ui, &settings, context);
+            image(ui, &settings, context);
         }
-    });
+        "garment" => {
+            let is_head = context.scene.document.render.mesh == MeshChoice::Head;
+            caption(ui, if is_head { "Garment" } else { "Garment: only the head has one" }, context);
+            ui.add_enabled_ui(is_enabled, |ui| material::choice(ui, material::Part::Garment, context));
+        }
+        _ => {
+            caption(ui, "Material", context);
+            material::choice(ui, material::Part::Skin, context);
+        }
+    }
+}
+
+/// Facts and settings of a spectral image in place of a mesh.
+fn image(ui: &mut Ui, settings: &RenderSettings, context: &mut PaneContext<'_>) {
+    let MeshChoice::Image(path) = &settings.mesh else { return };
+    if let ImageState::Ready(image) = context.images.get(path) {
+        let words = RichText::new(&image.summary).small().color(context.theme.weak);
+        ui.label(words).on_hover_text(image.message());
+    }
+    controls(ui, IMAGE, context);
 }
 
 fn mesh(ui: &mut Ui, settings: &RenderSettings, context: &mut PaneContext<'_>) {
@@ -112,65 +84,4 @@ fn summary(ui: &mut Ui, settings: &RenderSettings, context: &PaneContext<'_>) {
     let [words, notes] =
         ready.map_or_else(<[String; 2]>::default, |mesh| [mesh.summary.clone(), mesh.notes.join("\n")]);
     line(ui, &words, if notes.is_empty() { &words } else { &notes }, context.theme.weak);
-}
-
-fn light(ui: &mut Ui, settings: &RenderSettings, context: &mut PaneContext<'_>) {
-    let angle = |name, to: f64, hint| Dial {
-        name,
-        range: -to..=to,
-        logarithmic: None,
-        unit: "°",
-        hint,
-        beyond: false,
-        enabled: true,
-    };
-    let hint = "Elevation of the light above the view axis; it moves with the viewpoint.";
-    if let Some(to) = angle("Light elevation", 90.0, hint).show(ui, settings.light_up_deg, context) {
-        set(context, "Light elevation", |settings| settings.light_up_deg = to.round());
-    }
-    let hint = "Azimuth of the light to the right of the view axis; negative is left, beyond 90° is behind.";
-    if let Some(to) = angle("Light azimuth", 180.0, hint).show(ui, settings.light_right_deg, context) {
-        set(context, "Light azimuth", |settings| settings.light_right_deg = to.round());
-    }
-    let hint = "Uniform sky above the horizon, of the light's spectrum: irradiance of a level surface over that of a \
-                surface that faces the light. About 15 % on a clear day. Figures 8 and 9 have none.";
-    let sky = Dial { range: 0.0..=100.0, unit: " %", ..angle("Sky", 0.0, hint) };
-    if let Some(to) = sky.show(ui, 100.0 * settings.sky, context) {
-        set(context, "Sky", |settings| settings.sky = to.round() / 100.0);
-    }
-    switches(ui, settings, context);
-    let hint = "Of a point light from the center, in radii of the mesh";
-    let enabled = settings.light_distance.is_some();
-    let dial =
-        Dial { range: 1.1..=100.0, logarithmic: Some(1.0), unit: "", enabled, ..angle("Light distance", 0.0, hint) };
-    if let Some(to) = dial.show(ui, settings.light_distance.unwrap_or(NEAR), context).filter(|_| enabled) {
-        set(context, "Light distance", |settings| settings.light_distance = Some(to));
-    }
-}
-
-/// Shadows, the Sun's disk, a point light, and light through leaves.
-fn switches(ui: &mut Ui, settings: &RenderSettings, context: &mut PaneContext<'_>) {
-    ui.horizontal(|ui| {
-        let mut shadows = settings.shadows;
-        if ui.checkbox(&mut shadows, "Shadows").on_hover_text("Self-shadowing of the mesh").changed() {
-            set(context, "Shadows", |settings| settings.shadows = shadows);
-        }
-        let mut disk = settings.light_radius > 0.0;
-        let hint =
-            "A light as wide as the Sun softens the edges of shadows and blurs the specular lobe; a point does not.";
-        if ui.checkbox(&mut disk, "Sun's disk").on_hover_text(hint).changed() {
-            set(context, "Sun's disk", |settings| settings.light_radius = if disk { SUN_RADIUS } else { 0.0 });
-        }
-        let mut near = settings.light_distance.is_some();
-        let hint = "Point light at a finite distance instead of parallel rays; no inverse-square falloff";
-        if ui.checkbox(&mut near, "Point light").on_hover_text(hint).changed() {
-            set(context, "Point light", |settings| settings.light_distance = near.then_some(NEAR));
-        }
-    });
-    let mut thin = settings.thin;
-    let hint = "Light also passes through, as through a leaf: its transmittance from the material's reflectance by the \
-                plate model (PROSPECT: 1.5 plates of index 1.45), alike in all directions";
-    if ui.checkbox(&mut thin, "Light through leaves").on_hover_text(hint).changed() {
-        set(context, "Light through leaves", |settings| settings.thin = thin);
-    }
 }

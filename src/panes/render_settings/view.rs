@@ -1,78 +1,50 @@
 //! Exposure, lens and quality.
 
+use chromascope_text::Number;
 use egui::Ui;
 
-use super::{Dial, caption, choices, line, set, unless_image};
-
+use super::{Dial, caption, controls, line, set};
 use crate::document::render::RenderSettings;
+use crate::document::render::settings::VIEW;
 use crate::panes::context::PaneContext;
 use crate::panes::widgets;
 use crate::scene::orbit::Orbit;
-use chromascope_core::render::QualityLevel;
+
+/// The lens's field of view.
+const FIELD: Number<Orbit> = Number { unit: "°", slider: [2.0, 120.0], ..Number::DEFAULT };
 
 /// Shows the group.
 pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
-    let settings = context.scene.document.render.clone();
-    let hint = if settings.mesh.is_image() {
-        "The same for all cameras. At 0 EV a reflectance of 1 is the screen's white; of radiances, the luminance that \
-         99.5 % of the pixels stay below."
-    } else {
-        "The same for all cameras. At 0 EV the material facing the light has 40 % of the screen's white."
-    };
-    let dial = Dial {
-        name: "Exposure",
-        range: -6.0..=6.0,
-        logarithmic: None,
-        unit: " EV",
-        hint,
-        beyond: false,
-        enabled: true,
-    };
-    if let Some(to) = dial.show(ui, settings.exposure_ev, context) {
-        set(context, "Exposure", |settings| settings.exposure_ev = (to * 10.0).round() / 10.0);
+    controls(ui, VIEW, context);
+    let is_image = context.scene.document.render.mesh.is_image();
+    let reset = ui.add_enabled(!is_image, egui::Button::new("Reset view"));
+    if reset.on_hover_text("Initial view of the mesh (Home)").clicked() {
+        context.view.saved.render.orbit = None;
+        ui.ctx().request_repaint();
     }
-    let reason = "These do nothing to a spectral image.";
-    unless_image(ui, reason, context, |ui, context| lens_and_quality(ui, &settings, context));
     without_picture(ui, context);
 }
 
-/// Lens, accuracy of the integrals, and the initial view.
-fn lens_and_quality(ui: &mut Ui, settings: &RenderSettings, context: &mut PaneContext<'_>) {
+/// The field of view, which is no part of the document.
+pub(super) fn lens(ui: &mut Ui, settings: &RenderSettings, context: &mut PaneContext<'_>) {
     let orbit = context.view.saved.render.orbit.unwrap_or_else(|| Orbit::of(&settings.mesh));
-    let hint = "Of the lens; the viewpoint moves so that the mesh keeps its size. Wide lenses fall off with cos⁴ (Eq \
-                12).";
-    let dial = Dial {
-        name: "Field of view",
-        range: 2.0..=120.0,
-        logarithmic: None,
-        unit: "°",
-        hint,
-        beyond: false,
-        enabled: true,
-    };
+    let hint =
+        "Of the lens; the viewpoint moves so that the mesh keeps its size. Wide lenses fall off with cos⁴ (Eq 12)";
+    let is_enabled = !settings.mesh.is_image();
+    let dial = Dial { name: "Field of view", hint, number: &FIELD, is_enabled };
     if let Some(to) = dial.show(ui, orbit.field_of_view_deg, context) {
         context.view.saved.render.orbit = Some(orbit.with_field_of_view(to));
         ui.ctx().request_repaint();
     }
-    let now = settings.quality;
-    let hint = "Accuracy of integrals over wavelength at rest";
-    let words = |quality: QualityLevel| [quality.label(), ""];
-    if let Some(to) = choices(ui, ("Quality", hint), (&QualityLevel::ALL, now), words, context) {
-        set(context, "Quality", |settings| settings.quality = to);
-    }
-    caption(ui, "Tolerance", context);
-    ui.add_enabled_ui(now == QualityLevel::Tolerance, |ui| tolerance(ui, settings, context));
-    if ui.button("Reset view").on_hover_text("Initial view of the mesh (Home)").clicked() {
-        context.view.saved.render.orbit = None;
-        ui.ctx().request_repaint();
-    }
 }
 
-fn tolerance(ui: &mut Ui, settings: &RenderSettings, context: &mut PaneContext<'_>) {
+pub(super) fn tolerance(ui: &mut Ui, is_enabled: bool, settings: &RenderSettings, context: &mut PaneContext<'_>) {
     let hint = "Largest error of a picture, relative to its brightest sample, with the quality Within a tolerance. The \
                 Numerics workspace shows the method for each camera.";
+    caption(ui, "Tolerance", context);
     let id = ui.make_persistent_id("tolerance field");
-    if let Some(to) = widgets::tolerance::field(ui, id, settings.tolerance, "", hint, context) {
+    let field = |ui: &mut Ui| widgets::tolerance::field(ui, id, settings.tolerance, "", hint, context);
+    if let Some(to) = ui.add_enabled_ui(is_enabled, field).inner {
         set(context, "Tolerance", |settings| settings.tolerance = to);
     }
 }

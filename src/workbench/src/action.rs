@@ -130,7 +130,7 @@ impl Action {
             Self::Render(action) => action.name().to_owned(),
             Self::Imported(action) => action.name(),
             Self::ForPictures(action) => action.name(),
-            Self::Start(start) => format!("Start: {}", start.name()),
+            Self::Start(start) => format!("Start: {}", start.label()),
             Self::Reset => "Reset to the first screen".to_owned(),
         }
     }

@@ -21,6 +21,7 @@ mod radiance;
 mod render;
 mod report;
 mod request;
+mod settings;
 mod sources;
 mod tables;
 
@@ -29,7 +30,7 @@ use std::path::{Path, PathBuf};
 
 use clap::{CommandFactory as _, FromArgMatches as _};
 
-use arguments::{Arguments, ListKind, Subcommand};
+use arguments::{Arguments, Subcommand};
 use outputs::{put, show};
 
 pub use self::tables::list;
@@ -85,7 +86,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Outcome {
         Subcommand::Identify(arguments) => identify::run(&arguments),
         Subcommand::Inspect(arguments) => inspect::run(&arguments),
         Subcommand::Bench(arguments) => bench::run(&arguments),
-        Subcommand::List { kind } => show(&list(&Catalog::built_in(), kind.map(ListKind::of_sets))),
+        Subcommand::List { kind } => show(&list(&Catalog::built_in(), kind)),
     };
     Outcome::Done(match result {
         Ok(()) => 0,

@@ -15,6 +15,7 @@ pub mod start;
 use chromascope_core::camera::quality::{Electrons, ElectronsError};
 use chromascope_core::colorimetry::Metric;
 use chromascope_core::query::Shared;
+use chromascope_text::choices;
 use correction::CorrectionChoice;
 pub use correction::TRAINING;
 use imported::ImportedSet;
@@ -94,13 +95,15 @@ pub enum Light {
     Daylight,
 }
 
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Subset {
-    /// The paper's five, where the chart has them.
-    #[default]
-    Five,
-    All,
+choices! {
+    /// Number of patches of a chart.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+    #[serde(rename_all = "kebab-case")]
+    pub enum Subset {
+        #[default]
+        Five = "five", "Five", "The paper's five: red, green, blue, white, orange yellow";
+        All = "all", "All", "All patches of the chart";
+    }
 }
 
 /// The color a perfect white is to take (Eq 11).
@@ -167,14 +170,15 @@ mod metric_id {
     }
 }
 
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Diagram {
-    /// CIE 1931 x, y.
-    #[default]
-    Xy,
-    /// CIE 1976 u′, v′.
-    UvPrime,
+choices! {
+    /// The diagram's coordinates.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+    #[serde(rename_all = "kebab-case")]
+    pub enum Diagram {
+        #[default]
+        Xy = "xy", "xy", "The CIE 1931 diagram";
+        UvPrime = "uv-prime", "u′v′", "The CIE 1976 diagram, perceptually more uniform";
+    }
 }
 
 /// Overlays of the chromaticity diagram other than loci and patches.

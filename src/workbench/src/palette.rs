@@ -1,6 +1,7 @@
 //! Colors of figures as bytes, and the bundled fonts: the same on screen and in files.
 
 use chromascope_figure::{InkRole, Palette};
+use chromascope_text::choices;
 use serde::{Deserialize, Serialize};
 
 /// Width of the tail from a point to the reference.
@@ -58,14 +59,16 @@ impl Surround {
     }
 }
 
-/// Colors of compared sources in a figure.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-pub enum SourceInks {
-    /// Those on screen, told apart in all kinds of color vision.
-    #[default]
-    Screen,
-    /// Grays, told apart in print without color.
-    Gray,
+choices! {
+    /// Colors of compared sources in a figure.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+    pub enum SourceInks {
+        /// Those on screen, told apart in all kinds of color vision.
+        #[default]
+        Screen = "safe", "Color", "Colors told apart in all kinds of color vision";
+        /// Grays, told apart in print without color.
+        Gray = "gray", "Gray", "Grays told apart in print without color";
+    }
 }
 
 /// The colors of figures in one theme.

@@ -71,7 +71,7 @@ pub(super) fn commands(history: &History, context: &PaneContext<'_>) -> Vec<Foun
         found.push(Found::new("Commands", words, command));
     }
     for start in Start::ALL {
-        found.push(Found::new("Commands", format!("Start: {}", start.name()), Action::Start(start)));
+        found.push(Found::new("Commands", format!("Start: {}", start.label()), Action::Start(start)));
     }
     found.push(Found::new("Commands", "Reset to the first screen", Action::Reset));
     for (action, words) in [

@@ -1,16 +1,14 @@
 //! Settings of the scene, the view and the render, as they are found.
 
 use chromascope_core::correction::CorrectionMethod;
-use chromascope_core::render::QualityLevel;
-use chromascope_core::scene::lighting::SUN_RADIUS;
+use chromascope_text::{Settings as _, Value, lowered};
 
 use super::Found;
 use crate::action::{Action, CompareAction, RenderAction, SceneAction};
 use crate::catalog::Entry;
 use crate::command::{Command, THEMES};
 use crate::document::correction::CorrectionChoice;
-use crate::document::render::model::{AreaChoice, SpecularChoice};
-use crate::document::render::{GARMENT, MeshChoice, NEAR, ReadingChoice, RenderSettings, RoughnessChoice};
+use crate::document::render::{GARMENT, MeshChoice, RenderSettings};
 use crate::document::{Diagram, Light, SetKind, Subset, TransformChoice, WhiteBalanceChoice};
 use crate::panes::PaneContext;
 use crate::panes::widgets::pixel::PIXEL;
@@ -22,31 +20,15 @@ use crate::workspaces::PaneKind;
 const SETTINGS: &str = "Settings";
 const RENDER: &str = "Render";
 
-/// Sliders of the render settings by name, with other words for them.
-const SLIDERS: [(&str, &str); 10] = [
-    ("Roughness σ", "RMS sigma surface"),
-    ("Correlation τ", "length tau surface"),
-    ("Index n", "refractive Fresnel surface"),
-    ("Light elevation", "direction height sun"),
-    ("Light azimuth", "direction side sun"),
-    ("Light distance", "near point light"),
-    ("Sky", "skylight ambient hemisphere"),
-    ("Exposure", "EV brightness"),
-    ("Field of view", "lens angle zoom"),
-    ("Triangles", "mesh resolution"),
-];
-
 /// Conditions of the scene bar, and the diagram's elements.
 pub(super) fn scene(context: &PaneContext<'_>) -> Vec<Found> {
     let document = context.scene.document;
     let set = |words: String, action: SceneAction, on: bool| Found::new(SETTINGS, words, Action::Scene(action)).on(on);
     let mut found = Vec::new();
-    for (diagram, words, also) in [
-        (Diagram::Xy, "Diagram: xy", "CIE 1931 chromaticity"),
-        (Diagram::UvPrime, "Diagram: u′v′", "uv CIE 1976 chromaticity"),
-    ] {
-        let line = set(words.to_owned(), SceneAction::SetDiagram(diagram), document.diagram == diagram);
-        found.push(line.also(also));
+    for diagram in Diagram::ALL {
+        let line =
+            set(format!("Diagram: {}", diagram.label()), SceneAction::SetDiagram(diagram), document.diagram == diagram);
+        found.push(line.also(format!("chromaticity {}", diagram.why())));
     }
     let mut overlays = document.overlays;
     let count = overlays.labeled().len();
@@ -123,26 +105,25 @@ fn white_and_transform(context: &PaneContext<'_>) -> Vec<Found> {
 pub(super) fn view(context: &PaneContext<'_>) -> Vec<Found> {
     let saved = &context.view.saved;
     let mut found = Vec::new();
-    let mut choice = |words: &str, also: &str, choice: ViewChoice| {
-        let on = saved.has(choice);
-        found.push(Found::new(SETTINGS, words, Command::Look(choice)).on(on).also(also));
+    let mut choice = |what: &str, label: &str, also: String, choice: ViewChoice| {
+        let words = format!("{what}: {}", lowered(label));
+        let line = Found::new(SETTINGS, words, Command::Look(choice)).on(saved.has(choice));
+        found.push(line.also(also));
     };
-    choice("Diagram: fit to data", "zoom range", ViewChoice::Diagram(DiagramFit::Data));
-    choice("Diagram: full diagram", "whole zoom range spectral locus", ViewChoice::Diagram(DiagramFit::Whole));
-    choice("Swatches: rows", "layout", ViewChoice::Swatches(SwatchLayout::Rows));
-    choice("Swatches: charts", "layout", ViewChoice::Swatches(SwatchLayout::Charts));
-    choice("Swatches: split", "reference half style", ViewChoice::SwatchStyle(SwatchStyle::Split));
-    choice("Swatches: inset", "reference inside style", ViewChoice::SwatchStyle(SwatchStyle::Inset));
-    choice("Swatches: sensor only", "style", ViewChoice::SwatchStyle(SwatchStyle::Whole));
-    choice("Spectra: overlay", "sensitivities one plot", ViewChoice::Spectra(SpectraLayout::Overlay));
-    choice("Spectra: each", "sensitivities plot for each sensor", ViewChoice::Spectra(SpectraLayout::Each));
-    for (mode, words) in [
-        (RenderMode::Grid, "Pictures: grid"),
-        (RenderMode::Split, "Pictures: split"),
-        (RenderMode::One, "Pictures: one"),
-        (RenderMode::Difference, "Pictures: difference maps"),
-    ] {
-        choice(words, "render mode", ViewChoice::Pictures(mode));
+    for fit in DiagramFit::ALL {
+        choice("Diagram", fit.label(), format!("zoom range whole {}", fit.why()), ViewChoice::Diagram(fit));
+    }
+    for layout in [SwatchLayout::Rows, SwatchLayout::Charts] {
+        choice("Swatches", layout.label(), format!("layout {}", layout.why()), ViewChoice::Swatches(layout));
+    }
+    for style in SwatchStyle::ALL {
+        choice("Swatches", style.label(), format!("style half {}", style.why()), ViewChoice::SwatchStyle(style));
+    }
+    for layout in SpectraLayout::ALL {
+        choice("Spectra", layout.label(), layout.why().to_owned(), ViewChoice::Spectra(layout));
+    }
+    for mode in RenderMode::ALL {
+        choice("Pictures", mode.label(), format!("render mode maps {}", mode.why()), ViewChoice::Pictures(mode));
     }
     let is_dark = context.theme.dark;
     for (preference, words) in THEMES {
@@ -162,12 +143,12 @@ pub(super) fn view(context: &PaneContext<'_>) -> Vec<Found> {
 pub(super) fn render(context: &PaneContext<'_>) -> Vec<Found> {
     let now = &context.scene.document.render;
     let mut found: Vec<Found> = Vec::new();
-    for (name, also) in SLIDERS {
-        let shown = name != "Light distance" || now.light_distance.is_some();
-        if shown {
-            let line = Found::new(RENDER, name, Command::Seek(PaneKind::RENDER_SETTINGS, name));
-            found.push(line.note("go to the slider").also(format!("render {also}")));
-        }
+    let settings = || RenderSettings::ALL.iter().filter(|setting| (setting.idle)(now).is_none());
+    let sliders = settings().filter(|setting| !setting.value.numbers().is_empty());
+    let sliders = sliders.map(|setting| (setting.sought(), setting.name, setting.found_by));
+    for (sought, name, also) in sliders.chain([("Field of view", "Field of view", "lens angle zoom")]) {
+        let line = Found::new(RENDER, name, Command::Seek(PaneKind::RENDER_SETTINGS, sought));
+        found.push(line.note("go to the slider").also(format!("render {also}")));
     }
     let mut set = |what: &'static str, words: String, also: &str, change: &dyn Fn(&mut RenderSettings)| {
         let mut to = now.clone();
@@ -182,32 +163,21 @@ pub(super) fn render(context: &PaneContext<'_>) -> Vec<Found> {
     for (words, garment) in [("Garment of the head: jeans", Some(GARMENT)), ("Garment of the head: none", None)] {
         set("Garment", words.to_owned(), "clothes collar bare", &|to| to.garment = garment.map(str::to_owned));
     }
-    for quality in QualityLevel::ALL {
-        set("Quality", format!("Quality: {}", quality.label()), "", &|to| to.quality = quality);
+    for setting in settings() {
+        let (name, also) = (setting.name, setting.found_by);
+        match &setting.value {
+            Value::Switch(get, to) => {
+                let words = format!("{name}: {}", if get(now) { "off" } else { "on" });
+                set(name, words, also, &|settings| to(settings, !get(now)));
+            }
+            Value::Choice(pick) => {
+                for (index, words) in (pick.all)().into_iter().enumerate() {
+                    set(name, format!("{name}: {}", words.label), also, &|to| (pick.set)(to, index));
+                }
+            }
+            Value::Number(_) | Value::Pair(_) | Value::Own => {}
+        }
     }
-    for reading in ReadingChoice::ALL {
-        let words = format!("Normalization: {}", reading.label());
-        set("Normalization", words, "reflectance model surface", &|to| to.reading = reading);
-    }
-    for specular in SpecularChoice::ALL {
-        let words = format!("Coherent component: {}", specular.label());
-        set("Coherent component", words, "specular lobe surface", &|to| to.specular = specular);
-    }
-    for area in AreaChoice::ALL {
-        set("Illuminated area", format!("Illuminated area: {}", area.label()), "surface", &|to| to.area = area);
-    }
-    let mesh = now.roughness == RoughnessChoice::Mesh;
-    let other = if mesh { RoughnessChoice::Surface } else { RoughnessChoice::Mesh };
-    let words = if mesh { "Roughness of the surface" } else { "Roughness from the mesh, as in the paper" };
-    set("Roughness from the mesh", words.to_owned(), "sigma tau", &|to| to.roughness = other);
-    let words = if now.shadows { "Shadows: off" } else { "Shadows: on" };
-    set("Shadows", words.to_owned(), "", &|to| to.shadows = !now.shadows);
-    let words = if now.light_radius > 0.0 { "Sun's disk: off" } else { "Sun's disk: on" };
-    let radius = if now.light_radius > 0.0 { 0.0 } else { SUN_RADIUS };
-    set("Sun's disk", words.to_owned(), "light radius", &|to| to.light_radius = radius);
-    let distance = if now.light_distance.is_some() { None } else { Some(NEAR) };
-    let words = if distance.is_none() { "Point light: off" } else { "Point light: on" };
-    set("Point light", words.to_owned(), "near", &|to| to.light_distance = distance);
     let own = context.scene.entries(SetKind::Chart).filter(Entry::is_own);
     for entry in own.chain(context.scene.entries(SetKind::Material)) {
         set("Material", format!("Material: {}", entry.name), "reflectance surface", &|to| {

@@ -3,7 +3,7 @@
 use std::ffi::OsString;
 use std::path::PathBuf;
 
-use clap::{Args, Parser, ValueEnum};
+use clap::{Args, Parser};
 use spectral_file::Values;
 
 use super::bench::BenchArguments;
@@ -120,7 +120,8 @@ pub(super) enum Subcommand {
     /// The names of the built-in data sets, one per line
     List {
         /// Kind of data sets [default: all]
-        kind: Option<ListKind>,
+        #[arg(value_parser = super::settings::choice_of(&SetKind::ALL[..6]))]
+        kind: Option<SetKind>,
     },
 }
 
@@ -161,35 +162,4 @@ pub(super) struct PatchesArguments {
     /// The radiance of a perfect diffuser among those of the file: it takes the white-balance target and Y = 1
     #[arg(long, value_name = "NAME", requires = "radiance")]
     pub(super) radiance_white: Option<String>,
-}
-
-/// A kind of data sets to list.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(super) enum ListKind {
-    /// Camera sensitivities
-    Cameras,
-    /// Color matching functions
-    Observers,
-    /// Sets of patches
-    Charts,
-    /// Lights
-    Illuminants,
-    /// Transmittances of filters
-    Filters,
-    /// Single reflectances
-    Materials,
-}
-
-impl ListKind {
-    /// The kind of the sets.
-    pub(super) const fn of_sets(self) -> SetKind {
-        match self {
-            Self::Cameras => SetKind::Camera,
-            Self::Observers => SetKind::Observer,
-            Self::Charts => SetKind::Chart,
-            Self::Illuminants => SetKind::Illuminant,
-            Self::Filters => SetKind::Filter,
-            Self::Materials => SetKind::Material,
-        }
-    }
 }

@@ -29,10 +29,10 @@ pub(super) fn method() -> impl clap::builder::TypedValueParser<Value = Correctio
 
 /// One weight, as `skin=2`.
 fn weight(text: &str) -> Result<(ColorClass, f64), String> {
-    let classes = || ColorClass::ALL.map(ColorClass::id).join(", ");
+    let classes = || ColorClass::ALL.map(ColorClass::key).join(", ");
     let malformed = || format!("write a class and its weight, as skin=2; classes: {}", classes());
     let (class, number) = text.split_once('=').ok_or_else(malformed)?;
-    let class = ColorClass::ALL.into_iter().find(|known| known.id() == class.trim());
+    let class = ColorClass::ALL.into_iter().find(|known| known.key() == class.trim());
     let class = class.ok_or_else(|| format!("no class is named so; classes: {}", classes()))?;
     let number = number.trim().parse::<f64>().ok().filter(|number| (0.0..=ClassWeights::MOST).contains(number));
     let number = number.ok_or_else(|| format!("a weight is a number from 0 to {}", ClassWeights::MOST))?;

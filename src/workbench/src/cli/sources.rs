@@ -15,7 +15,7 @@ use crate::document::start::Start;
 pub(super) struct SourceArguments {
     /// Defaults of all options that are not given: reference, sensors, color transform and, in tables, illuminant, white balance and
     /// patches
-    #[arg(long, value_enum, default_value_t = Start::Colorimetry)]
+    #[arg(long, value_parser = super::settings::choice::<Start>(), default_value = Start::Colorimetry.key())]
     pub(super) preset: Start,
     /// An observer; may be repeated. Without any sensor: those of the preset
     #[arg(long, value_name = "NAME")]

@@ -1,23 +1,23 @@
 //! The kinds of data sets.
 
+use chromascope_text::choices;
 use serde::{Deserialize, Serialize};
 
 use super::imported::{ImportedSet, Role};
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum SetKind {
-    /// A camera's spectral sensitivities.
-    Camera,
-    /// An observer's color matching functions or cone fundamentals.
-    Observer,
-    Chart,
-    Illuminant,
-    /// Transmittance of a filter in front of the light.
-    Filter,
-    Material,
-    /// The user's spectra of unknown quantity.
-    Unsorted,
+choices! {
+    /// Kind of a data set.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+    #[serde(rename_all = "kebab-case")]
+    pub enum SetKind {
+        Camera = "cameras", "camera", "Camera sensitivities";
+        Observer = "observers", "observer", "Color matching functions";
+        Chart = "charts", "chart", "Sets of patches";
+        Illuminant = "illuminants", "illuminant", "Lights";
+        Filter = "filters", "filter", "Transmittances of filters";
+        Material = "materials", "material", "Single reflectances";
+        Unsorted = "unsorted spectra", "unsorted spectrum", "Spectra of unknown quantity";
+    }
 }
 
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
@@ -27,20 +27,14 @@ pub struct SensorId {
 }
 
 impl SetKind {
-    pub const ALL: [Self; 7] =
-        [Self::Camera, Self::Observer, Self::Chart, Self::Illuminant, Self::Filter, Self::Material, Self::Unsorted];
-
     /// The plural, as shown and as the command line takes it.
     pub const fn plural(self) -> &'static str {
-        match self {
-            Self::Camera => "cameras",
-            Self::Observer => "observers",
-            Self::Chart => "charts",
-            Self::Illuminant => "illuminants",
-            Self::Filter => "filters",
-            Self::Material => "materials",
-            Self::Unsorted => "unsorted spectra",
-        }
+        self.key()
+    }
+
+    /// One of them.
+    pub const fn singular(self) -> &'static str {
+        self.label()
     }
 
     pub const fn of_own(set: &ImportedSet) -> Self {
@@ -66,18 +60,6 @@ impl SetKind {
             Self::Chart | Self::Material => Some("chart"),
             Self::Filter => Some("filter"),
             Self::Camera | Self::Observer | Self::Unsorted => None,
-        }
-    }
-
-    pub const fn singular(self) -> &'static str {
-        match self {
-            Self::Camera => "camera",
-            Self::Observer => "observer",
-            Self::Chart => "chart",
-            Self::Illuminant => "illuminant",
-            Self::Filter => "filter",
-            Self::Material => "material",
-            Self::Unsorted => "unsorted spectrum",
         }
     }
 }

@@ -1,17 +1,18 @@
 //! Settings of the Render pane: mesh, material, surface, direction of the light, quality. Part of the document.
 
-pub mod model;
+pub mod settings;
 
 use std::ops::RangeInclusive;
 use std::path::PathBuf;
 
 use chromascope_core::accuracy::RelTolerance;
 use chromascope_core::query::render::Roughness;
-use chromascope_core::reflectance::{Normalization, Surface, SurfaceError};
+use chromascope_core::reflectance::{IlluminatedArea, Normalization, Specular, Surface, SurfaceError};
 use chromascope_core::render::{Quality, QualityLevel};
 use chromascope_core::scene::lighting::{Lighting, LightingError, SUN_RADIUS};
-use model::{AreaChoice, SpecularChoice};
+use chromascope_text::Settings;
 use serde::{Deserialize, Serialize};
+use spectral_image::ImageQuantity;
 
 /// The skin of the default head.
 pub const SKIN: &str = "Skin Caucasian mean (Vrhel)";
@@ -29,9 +30,6 @@ pub const SKY: f64 = 0.15;
 
 /// The distance that a near light begins with, in radii of the mesh.
 pub const NEAR: f64 = 4.0;
-
-/// Number of triangles the program's own meshes may have.
-pub const TRIANGLES: RangeInclusive<usize> = 2_000..=2_000_000;
 
 /// The tolerances that can be chosen; beyond, S itself is not exact enough.
 pub const TOLERANCES: RangeInclusive<f64> = 1e-13..=1e-1;
@@ -60,20 +58,22 @@ pub struct RenderSettings {
     /// Height deviation σ in micrometers.
     pub sigma_um: f64,
     /// Origin of σ and τ.
-    pub roughness: RoughnessChoice,
+    pub roughness: Roughness,
     /// Correlation length τ in micrometers.
     pub tau_um: f64,
     /// Half-widths X and Y of the coherently illuminated area in micrometers.
     pub half_sides_um: [f64; 2],
     /// The area A that follows from them.
-    pub area: AreaChoice,
+    pub area: IlluminatedArea,
     /// Refractive index.
     pub index: f64,
     /// Normalization of the reflectance (Eq 1).
-    pub reading: ReadingChoice,
+    #[serde(rename = "reading")]
+    pub normalization: Normalization,
     /// The reflectance factor of the coherent component.
-    #[serde(default = "SpecularChoice::before")]
-    pub specular: SpecularChoice,
+    // Sessions saved before there was a choice are as in the paper.
+    #[serde(default)]
+    pub specular: Specular,
     /// Exactness of the integrals once nothing moves.
     pub quality: QualityLevel,
     /// The error that [`QualityLevel::Tolerance`] allows, relative to the peak.
@@ -99,8 +99,9 @@ pub struct RenderSettings {
     /// True if the scene is under [`SUN`] and balanced to [`BALANCE`] until a light or a white is chosen.
     #[serde(default)]
     pub sunlight: bool,
-    /// Quantity of a spectral image's samples.
-    pub image_quantity: QuantityChoice,
+    /// Quantity of a spectral image's samples; none takes the file's statement.
+    #[serde(with = "image_quantity")]
+    pub image_quantity: Option<ImageQuantity>,
     /// Sample of a spectral image that stands for 1, beyond the file's own scale.
     pub image_scale: f64,
 }
@@ -114,13 +115,13 @@ impl Default for RenderSettings {
             material: SKIN.to_owned(),
             garment: None,
             sigma_um: 5.0,
-            roughness: RoughnessChoice::Surface,
+            roughness: Roughness::Surface,
             tau_um: 10.0,
             half_sides_um: [50.0, 50.0],
-            area: AreaChoice::FourXy,
+            area: IlluminatedArea::FourXy,
             index: 1.40,
-            reading: ReadingChoice::Radiometric,
-            specular: SpecularChoice::Fresnel,
+            normalization: Normalization::Radiometric,
+            specular: Specular::Fresnel,
             quality: QualityLevel::Full,
             tolerance: TOLERANCE,
             light_up_deg: 25.0,
@@ -132,32 +133,18 @@ impl Default for RenderSettings {
             thin: false,
             exposure_ev: 0.0,
             sunlight: true,
-            image_quantity: QuantityChoice::File,
+            image_quantity: None,
             image_scale: 1.0,
         }
     }
 }
 
 impl RenderSettings {
-    /// Brings what a spoiled session says within its range: numbers clamped, what is no surface or light replaced.
+    /// Brings what a spoiled session says within its range.
     pub fn mend(&mut self) {
-        let usual = Self::default();
-        self.triangles = self.triangles.clamp(*TRIANGLES.start(), *TRIANGLES.end());
-        self.exposure_ev = if self.exposure_ev.is_finite() { self.exposure_ev.clamp(-20.0, 20.0) } else { 0.0 };
-        self.sky = if self.sky.is_finite() { self.sky.clamp(0.0, 1.0) } else { 0.0 };
-        if !(self.image_scale > 0.0 && self.image_scale.is_finite()) {
-            self.image_scale = usual.image_scale;
-        }
-        if !TOLERANCES.contains(&self.tolerance) {
-            self.tolerance = usual.tolerance;
-        }
-        if self.surface().is_err() {
-            let Self { sigma_um, tau_um, half_sides_um, index, .. } = usual;
-            *self = Self { sigma_um, tau_um, half_sides_um, index, ..self.clone() };
-        }
+        Settings::mend(self);
         if self.lighting().is_err() {
-            let Self { light_up_deg, light_right_deg, light_distance, light_radius, .. } = usual;
-            *self = Self { light_up_deg, light_right_deg, light_distance, light_radius, ..self.clone() };
+            self.light_radius = SUN_RADIUS;
         }
     }
 
@@ -180,9 +167,9 @@ impl RenderSettings {
     #[must_use]
     pub fn as_in_the_paper(self) -> Self {
         Self {
-            reading: ReadingChoice::Paper,
-            specular: SpecularChoice::Paper,
-            area: AreaChoice::Xy,
+            normalization: Normalization::Paper,
+            specular: Specular::Paper,
+            area: IlluminatedArea::Xy,
             garment: None,
             light_distance: Some(NEAR),
             light_radius: 0.0,
@@ -212,7 +199,7 @@ impl RenderSettings {
     pub fn surface(&self) -> Result<Surface, SurfaceError> {
         let [x, y] = self.half_sides_um;
         let surface = Surface::new(self.sigma_um * 1e-6, self.tau_um * 1e-6, x * 1e-6, y * 1e-6, self.index)?;
-        Ok(surface.with_area(self.area.area()).with_specular(self.specular.specular()))
+        Ok(surface.with_area(self.area).with_specular(self.specular))
     }
 
     /// The light's place in view axes.
@@ -282,113 +269,23 @@ impl MeshChoice {
     }
 }
 
-/// Quantity of a spectral image's samples.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum QuantityChoice {
-    /// The file's statement.
-    #[default]
-    File,
-    /// Reflectance, lit by the scene's light.
-    Reflectance,
-    /// Radiance, taken as it is.
-    Radiance,
-}
+/// Quantity of a spectral image's samples by its key, or `file` for the file's statement.
+mod image_quantity {
+    use serde::{Deserialize as _, Deserializer, Serializer, de::Error as _};
 
-/// Origin of σ and τ.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum RoughnessChoice {
-    /// The numbers that are set.
-    #[default]
-    Surface,
-    /// Heights and radius of each vertex's neighborhood, as in the paper.
-    Mesh,
-}
+    use super::ImageQuantity;
+    use chromascope_text::Choice as _;
 
-impl RoughnessChoice {
-    /// Reason that one would not choose the mesh.
-    pub const WHY_NOT: &'static str = "As in the paper: at each vertex σ from the heights of its neighbors about the \
-                                       tangent plane, τ from the radius of that neighborhood; P at the vertices, \
-                                       interpolated. These are lengths of the mesh, not of the material: tenths of \
-                                       millimeters and millimeters, so g is tens of millions, and the width of the \
-                                       specular lobe, 2σ/τ, is the angle between neighboring triangles. It narrows \
-                                       with more triangles.";
+    const FILE: &str = "file";
 
-    /// The core's.
-    pub const fn roughness(self) -> Roughness {
-        match self {
-            Self::Surface => Roughness::Surface,
-            Self::Mesh => Roughness::Mesh,
-        }
-    }
-}
-
-/// Normalization of the reflectance (Eq 1).
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum ReadingChoice {
-    /// Radiance per irradiance.
-    #[default]
-    Radiometric,
-    /// Eq 1 to 12 as printed.
-    Paper,
-    /// Beckmann's own geometric factor: its diffuse component is reciprocal.
-    Microfacet,
-    /// No model: all directions alike.
-    Lambertian,
-}
-
-impl ReadingChoice {
-    /// All of them, in the order they are listed.
-    pub const ALL: [Self; 4] = [Self::Radiometric, Self::Paper, Self::Microfacet, Self::Lambertian];
-
-    /// The core's reading.
-    pub const fn reading(self) -> Normalization {
-        match self {
-            Self::Radiometric => Normalization::Radiometric,
-            Self::Paper => Normalization::Paper,
-            Self::Microfacet => Normalization::Microfacet,
-            Self::Lambertian => Normalization::Lambertian,
-        }
+    #[expect(clippy::ref_option, clippy::trivially_copy_pass_by_ref, reason = "the signature that serde calls")]
+    pub(super) fn serialize<S: Serializer>(quantity: &Option<ImageQuantity>, to: S) -> Result<S::Ok, S::Error> {
+        to.serialize_str(quantity.map_or(FILE, ImageQuantity::key))
     }
 
-    /// Label in the window.
-    pub const fn label(self) -> &'static str {
-        match self {
-            Self::Radiometric => "Radiometric",
-            Self::Paper => "Paper, Eq 1–12",
-            Self::Microfacet => "Microfacet",
-            Self::Lambertian => "Lambertian",
-        }
-    }
-
-    /// Reason that one would choose it.
-    pub const fn why(self) -> &'static str {
-        match self {
-            Self::Radiometric => {
-                "Scattered radiance per incident irradiance: Eq 1 times A / (λ² cos θs). A rough white surface \
-                 remains white."
-            }
-            Self::Paper => {
-                "Eq 1 to 12 as printed, except for A, which is set with X and Y. Eq 4 is proportional to λ² without \
-                 a compensating λ⁻², so rough surfaces turn yellow: a white surface under D55 moves from xy \
-                 (0.332, 0.347) to (0.373, 0.379)."
-            }
-            Self::Microfacet => {
-                "Beckmann's own geometric factor in place of the cos θi of Eq 3. Only the diffuse component is reciprocal (Helmholtz)."
-            }
-            Self::Lambertian => "No model: equal in all directions. The fastest, as a baseline.",
-        }
-    }
-
-    /// Consequence in a few words.
-    pub const fn consequence(self) -> &'static str {
-        match self {
-            Self::Radiometric => "A rough white surface remains white",
-            Self::Paper => "Eq 4 is proportional to λ² without a compensating λ⁻², so rough surfaces turn yellow",
-            Self::Microfacet => "Only the diffuse component is reciprocal (Helmholtz)",
-            Self::Lambertian => "The fastest, as a baseline",
-        }
+    pub(super) fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<Option<ImageQuantity>, D::Error> {
+        let word = String::deserialize(from)?;
+        let unknown = || D::Error::custom(format!("no quantity is named {word}"));
+        if word == FILE { Ok(None) } else { ImageQuantity::parse(&word).map(Some).ok_or_else(unknown) }
     }
 }

@@ -1,45 +1,27 @@
 //! Named starts: the comparison and its conditions on the first screen and after a reset.
 
 use super::SetKind;
-use super::render::{GARMENT, model::SpecularChoice};
+use super::render::GARMENT;
 use super::{CHART, CIE_1931, Document, Light, PAPER_REFERENCE, Subset, TransformChoice};
+use chromascope_core::reflectance::Specular;
+use chromascope_text::choices;
 use serde::{Deserialize, Serialize};
 
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize, clap::ValueEnum)]
-#[serde(rename_all = "kebab-case")]
-pub enum Start {
-    /// CIE 1931 2° as the reference, D65, cameras fitted to it, ColorChecker 24
-    #[default]
-    Colorimetry,
-    /// The paper's experiments 1 and 2: Stiles & Burch 1955, equal energy, Eq 13, five patches
-    Paper,
+choices! {
+    /// A named start.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+    #[serde(rename_all = "kebab-case")]
+    pub enum Start {
+        #[default]
+        Colorimetry = "colorimetry", "Colorimetry",
+            "CIE 1931 2° under D65; cameras through 3×3 matrices fitted to it; ColorChecker 24.";
+        Paper = "paper", "The 2007 paper",
+            "Stiles & Burch 1955 under equal energy; Eq 13; the paper's cameras and five patches.";
+    }
 }
 
 impl Start {
-    pub const ALL: [Self; 2] = [Self::Colorimetry, Self::Paper];
-
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Colorimetry => "Colorimetry",
-            Self::Paper => "The 2007 paper",
-        }
-    }
-
-    /// The name on the command line and in tables.
-    pub const fn key(self) -> &'static str {
-        match self {
-            Self::Colorimetry => "colorimetry",
-            Self::Paper => "paper",
-        }
-    }
-
-    pub const fn summary(self) -> &'static str {
-        match self {
-            Self::Colorimetry => "CIE 1931 2° under D65; cameras through 3×3 matrices fitted to it; ColorChecker 24.",
-            Self::Paper => "Stiles & Burch 1955 under equal energy; Eq 13; the paper's cameras and five patches.",
-        }
-    }
-
+    /// The sensors that are compared, the reference first.
     pub const fn sensors(self) -> &'static [(&'static str, SetKind)] {
         match self {
             Self::Colorimetry => &[
@@ -58,10 +40,11 @@ impl Start {
         }
     }
 
-    pub const fn specular(self) -> SpecularChoice {
+    /// The specular component that it renders with.
+    pub const fn specular(self) -> Specular {
         match self {
-            Self::Colorimetry => SpecularChoice::Fresnel,
-            Self::Paper => SpecularChoice::Paper,
+            Self::Colorimetry => Specular::Fresnel,
+            Self::Paper => Specular::Paper,
         }
     }
 

@@ -1,54 +1,34 @@
 //! Forms of a figure's file.
 
+use chromascope_text::{Choice as _, choices};
 use std::path::Path;
 
 use chromascope_figure::{Figure, Table};
 
 use super::{ExportError, Paper, json, pdf, png, png_file_at, svg, tiff_file_at};
 
-/// Form of a figure's file.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum FigureForm {
-    /// Vectors with embedded fonts.
-    Pdf,
-    /// Vectors.
-    Svg,
-    /// Pixels.
-    Png,
-    /// Pixels, as some journals want them.
-    Tiff,
-    /// Numbers behind the figure.
-    Csv,
-    /// Numbers behind the figure, for programs.
-    Json,
+choices! {
+    /// Form of a figure's file.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum FigureForm {
+        Pdf = "pdf", "PDF", "Vectors with embedded fonts";
+        Svg = "svg", "SVG", "Vectors";
+        Png = "png", "PNG", "Pixels";
+        Tiff = "tif" | "tiff", "TIFF", "Pixels, as some journals want them";
+        Csv = "csv", "CSV", "Numbers behind the figure";
+        Json = "json", "JSON", "Numbers behind the figure, for programs";
+    }
 }
 
 impl FigureForm {
-    /// All forms.
-    pub const ALL: [Self; 6] = [Self::Pdf, Self::Svg, Self::Png, Self::Tiff, Self::Csv, Self::Json];
-
     /// Ending of its files.
     pub const fn ending(self) -> &'static str {
-        match self {
-            Self::Pdf => "pdf",
-            Self::Svg => "svg",
-            Self::Png => "png",
-            Self::Tiff => "tif",
-            Self::Csv => "csv",
-            Self::Json => "json",
-        }
+        self.key()
     }
 
     /// Name on screen.
     pub const fn name(self) -> &'static str {
-        match self {
-            Self::Pdf => "PDF",
-            Self::Svg => "SVG",
-            Self::Png => "PNG",
-            Self::Tiff => "TIFF",
-            Self::Csv => "CSV",
-            Self::Json => "JSON",
-        }
+        self.label()
     }
 
     /// True if its files hold numbers, not the figure.
@@ -58,9 +38,7 @@ impl FigureForm {
 
     /// Form that the ending of a path names.
     pub fn of(path: &Path) -> Option<Self> {
-        let ending = path.extension()?.to_str()?;
-        let ending = if ending.eq_ignore_ascii_case("tiff") { Self::Tiff.ending() } else { ending };
-        Self::ALL.into_iter().find(|form| form.ending().eq_ignore_ascii_case(ending))
+        Self::parse(&path.extension()?.to_str()?.to_ascii_lowercase())
     }
 
     /// Bytes of a figure's file, laid out for a paper; a table of numbers is written as it is.

@@ -1,20 +1,23 @@
 //! Figures laid out for paper: size, text, lines, inks, legend.
 
 use chromascope_figure::{AxisRanges, AxisTitles, Figure, FigureRoom, LegendPlace, Numbers, Page, PageStyle, TextSize};
+use chromascope_text::{Flag, Setting, Settings, Words, choices, settings};
 use serde::{Deserialize, Serialize};
 
 use crate::palette::{Colors, SourceInks};
 
-/// Colors of a figure apart from those of its sources.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub enum PaperStyle {
-    /// As on a light screen.
-    #[default]
-    Light,
-    /// Black on white, for print.
-    Print,
-    /// Light on dark, for slides.
-    Dark,
+choices! {
+    /// Colors of a figure apart from those of its sources.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+    pub enum PaperStyle {
+        /// As on a light screen.
+        #[default]
+        Light = "light", "Light", "As on a light screen";
+        /// Black on white, for print.
+        Print = "print", "Print", "Black on white";
+        /// Light on dark, for slides.
+        Dark = "dark", "Dark", "Light on dark, for slides";
+    }
 }
 
 /// Layout of a figure on paper.
@@ -68,6 +71,59 @@ impl Default for Paper {
             dpi: 300.0,
         }
     }
+}
+
+/// Groups of settings.
+pub const SIZE: &str = "Size";
+pub const LOOK: &str = "Look";
+
+const IN_SIZE: Setting<Paper> = Setting { group: SIZE, ..Setting::DEFAULT };
+const IN_LOOK: Setting<Paper> = Setting { group: LOOK, ..Setting::DEFAULT };
+const PAPER: Flag = Flag { heading: "Paper", ..Flag::NONE };
+const LENGTH: Flag = Flag {
+    value: "LENGTH",
+    range: Paper::SIDE_MM,
+    unit: "mm",
+    lengths: &[("mm", 1.0), ("cm", 10.0), ("in", 25.4), ("pt", 25.4 / 72.0)],
+    ..PAPER
+};
+const AUTOMATIC: Words =
+    Words::new("", "Automatic", "Below on a page narrower than 120 mm, else where the figure has it");
+
+impl Settings for Paper {
+    const ALL: &'static [Setting<Self>] = settings! {
+        "width_mm" "Width" in IN_SIZE, by "", "Width of the page",
+            number(|p| p.width_mm.unwrap_or(Self::ONE_COLUMN_MM), |p, to| p.width_mm = Some(to), " mm", Self::SIDE_MM;),
+            flag(LENGTH, "width", "LENGTH", ", in mm, cm, in or pt [default: 85mm, one column]"; usual: "85mm");
+        "height_mm" "Height" in IN_SIZE, by "", "Height of the page",
+            number(|p| p.height_mm.unwrap_or(Self::ONE_COLUMN_MM), |p, to| p.height_mm = Some(to), " mm", Self::SIDE_MM;),
+            flag(LENGTH, "height", "LENGTH", " [default: the figure's own proportions]";);
+        "font_pt" "Text" in IN_SIZE, by "", "Size of labels, names and legend in points",
+            field(font_pt, " pt", Self::FONT_PT; step: Some(0.05)),
+            flag(PAPER, "font-size", "POINTS", ""; usual: "8", range: Self::FONT_PT, unit: "points");
+        "line_scale" "Lines" in IN_SIZE, by "", "Factor on the widths of lines and on markers",
+            field(line_scale, "×", Self::LINE_SCALE; step: Some(0.01)),
+            flag(PAPER, "line-width", "FACTOR", ""; usual: "1", range: Self::LINE_SCALE);
+        "dpi" "PNG" in IN_SIZE, by "", "Resolution of PNG, TIFF and the copied picture, in pixels per inch",
+            field(dpi, " dpi", Self::DPI; step: Some(1.0)),
+            flag(PAPER, "dpi", "DPI", ""; usual: "300", range: Self::DPI, unit: "pixels per inch");
+        "style" "Style" in IN_LOOK, by "", "Colors of ground, text and frames",
+            pick(style: PaperStyle, Row), flag(PAPER, "style", "STYLE", ""; usual: "light");
+        "inks" "Colors" in IN_LOOK, by "", "Colors of sources",
+            pick(inks: SourceInks, Row), flag(PAPER, "inks", "INKS", ""; usual: "safe");
+        "legend" "Legend" in IN_LOOK, by "", "Place of the legend", pick(legend: LegendPlace, List, or AUTOMATIC),
+            flag(PAPER, "legend", "LEGEND", " [default: below where the page is narrower than 120 mm, else beside]";);
+        "axis_titles" "Axis titles" in IN_LOOK, by "", "Place of the titles of the axes",
+            pick(axis_titles: AxisTitles, Row), flag(PAPER, "axis-titles", "AXIS_TITLES", ""; usual: "inside");
+        "ranges" "Axis ranges" in IN_LOOK, by "", "Ranges of the axes of plots that can be zoomed",
+            pick(ranges: AxisRanges, Row), elsewhere("range");
+        "numbers" "Numbers" in IN_LOOK, by "", "Numbers of a CSV",
+            pick(numbers: Numbers, Row), flag(PAPER, "numbers", "NUMBERS", ""; usual: "all");
+        "strip" "Strip of distances below the diagram" in IN_LOOK, by "", "Strip of distances below the chromaticity diagram",
+            switch(|p| p.strip, |p, on| p.strip = on), flag(PAPER, "no-strip", "", ", omitted";);
+        "caption" "Caption with the conditions" in IN_LOOK, by "", "Caption with the conditions",
+            switch(|p| p.caption, |p, on| p.caption = on), flag(PAPER, "no-caption", "", ", omitted";);
+    };
 }
 
 impl Paper {

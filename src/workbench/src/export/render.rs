@@ -3,7 +3,7 @@
 use std::io::{Cursor, Seek, Write};
 
 use chromascope_core::camera::Rendering;
-use chromascope_core::reflectance::{Normalization, Specular, Surface};
+use chromascope_core::reflectance::{Normalization, Surface};
 use chromascope_core::render::{CameraImage, LitSamples, Picture, Quality};
 use chromascope_core::scene::Viewpoint;
 use chromascope_core::scene::lighting::{Distance, Lighting};
@@ -194,7 +194,7 @@ fn attributes(rendering: &Rendering, provenance: &Provenance<'_>) -> LayerAttrib
         ("material", text(provenance.material)),
         ("mesh", text(provenance.mesh)),
         ("quality", text(provenance.quality.level().key())),
-        ("reading", text(reading_name(provenance.reading))),
+        ("reading", text(provenance.reading.key())),
         (place, three(lighting.place().to_array())),
         ("sky", AttributeValue::F64(provenance.sky)),
         ("leaf", text(if provenance.thin { "true" } else { "false" })),
@@ -204,7 +204,7 @@ fn attributes(rendering: &Rendering, provenance: &Provenance<'_>) -> LayerAttrib
         ("halfSideX", AttributeValue::F64(surface.half_x_m())),
         ("halfSideY", AttributeValue::F64(surface.half_y_m())),
         ("illuminatedArea", AttributeValue::F64(surface.area_m2())),
-        ("specular", text(specular_name(surface.specular()))),
+        ("specular", text(surface.specular().key())),
         ("refractiveIndex", AttributeValue::F64(surface.index())),
         ("orbit", three(orbit)),
         ("fieldOfView", AttributeValue::F64(viewpoint.field_of_view().to_degrees())),
@@ -242,24 +242,6 @@ fn comments(reading: Normalization) -> &'static str {
              view axes, orbit = yaw, pitch, distance in scene radii (0: framedDistance times the one from which the mesh \
              fills the picture)."
         }
-    }
-}
-
-/// A reading's name, as the command line takes it.
-pub const fn reading_name(reading: Normalization) -> &'static str {
-    match reading {
-        Normalization::Radiometric => "radiometric",
-        Normalization::Paper => "paper",
-        Normalization::Microfacet => "microfacet",
-        Normalization::Lambertian => "lambertian",
-    }
-}
-
-/// The name of the coherent component's reflectance factor, as the command line takes it.
-pub const fn specular_name(specular: Specular) -> &'static str {
-    match specular {
-        Specular::Paper => "paper",
-        Specular::Fresnel => "fresnel",
     }
 }
 

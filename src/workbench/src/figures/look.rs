@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use chromascope_core::query::RecordedSet;
 use chromascope_measure::Workload;
+use chromascope_text::choices;
 use serde::{Deserialize, Serialize};
 
 use super::chromaticity::shown::{DiagramFit, DiagramView, Ranges};
@@ -58,52 +59,48 @@ pub struct FigureLook {
     pub curves: Option<ImportSelection>,
 }
 
-/// Arrangement of swatches.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub enum SwatchLayout {
-    /// Five patches in rows, more as charts.
-    #[default]
-    Auto,
-    /// A row for each sensor.
-    Rows,
-    /// A chart for each sensor.
-    Charts,
+choices! {
+    /// Arrangement of swatches.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+    pub enum SwatchLayout {
+        #[default]
+        Auto = "auto", "Automatic", "Five patches in rows, more as charts";
+        Rows = "rows", "Rows", "A row for each sensor";
+        Charts = "charts", "Charts", "A chart for each sensor";
+    }
 }
 
-/// Arrangement of camera and reference within a swatch.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub enum SwatchStyle {
-    /// Left half reference, right half sensor.
-    #[default]
-    Split,
-    /// The reference inside the sensor's swatch.
-    Inset,
-    /// The sensor alone.
-    Whole,
+choices! {
+    /// Arrangement of camera and reference within a swatch.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+    pub enum SwatchStyle {
+        #[default]
+        Split = "split", "Split", "Left half: reference; right half: sensor";
+        Inset = "inset", "Inset", "The reference inside";
+        Whole = "whole", "Sensor only", "The sensor without the reference";
+    }
 }
 
-/// Arrangement of spectra.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub enum SpectraLayout {
-    /// All sensors in one plot.
-    #[default]
-    Overlay,
-    /// A plot for each sensor.
-    Each,
+choices! {
+    /// Arrangement of spectra.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+    pub enum SpectraLayout {
+        #[default]
+        Overlay = "overlay", "Overlay", "All sensitivities in one plot";
+        Each = "each", "Each", "A plot for each sensor, where there is room for them";
+    }
 }
 
-/// Arrangement of pictures.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub enum RenderMode {
-    /// One for each sensor.
-    #[default]
-    Grid,
-    /// The reference and a sensor in one.
-    Split,
-    /// One sensor, large.
-    One,
-    /// Difference of each sensor from the reference.
-    Difference,
+choices! {
+    /// Arrangement of pictures.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+    pub enum RenderMode {
+        #[default]
+        Grid = "grid", "Grid", "All sensors side by side";
+        Split = "split", "Split", "The reference at the left, a sensor at the right, with a divider to drag";
+        One = "one", "One", "One sensor, large (double-click a picture)";
+        Difference = "difference", "Difference", "Difference of each sensor from the reference, pixel by pixel";
+    }
 }
 
 /// A place in every picture, with the sensor that was pointed at.

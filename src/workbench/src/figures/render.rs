@@ -14,7 +14,6 @@ use self::headline::{Detail, Measure};
 use super::chromaticity::viewing_conditions;
 use super::kind::{FigureKind, Need};
 use super::look::{FigureLook, PixelPlace, RenderMode};
-use crate::document::render::RoughnessChoice;
 use crate::format::fixed;
 use crate::plot_item::{PickIndex, SensorId};
 use crate::render_service::RenderedFrame;
@@ -22,6 +21,7 @@ use crate::render_service::made::MadePictures;
 use crate::render_service::pixel::{self, LitPixel, PixelReading, PixelShows};
 use crate::scene::spectral_image::ImagePictures;
 use crate::scene::{ComparedSensor, Scene};
+use chromascope_core::query::render::Roughness;
 
 /// The width of a saved picture in points, where the figure may be as wide as it likes.
 const WIDTH: f64 = 340.0;
@@ -188,8 +188,8 @@ fn caption(scene: &Scene<'_>, shot: &RenderedFrame) -> String {
         return format!("Spectral image: {mesh}, {size}, {quantity}. {}", viewing_conditions(scene));
     }
     let roughness = match settings.roughness {
-        RoughnessChoice::Surface => format!("σ = {} µm, τ = {} µm", settings.sigma_um, settings.tau_um),
-        RoughnessChoice::Mesh => "σ and τ from the mesh".to_owned(),
+        Roughness::Surface => format!("σ = {} µm, τ = {} µm", settings.sigma_um, settings.tau_um),
+        Roughness::Mesh => "σ and τ from the mesh".to_owned(),
     };
     let [light, white] = scene.rendered_conditions();
     let sky = if settings.sky > 0.0 { format!(" and {} % sky", fixed(100.0 * settings.sky, 0)) } else { String::new() };
@@ -199,7 +199,7 @@ fn caption(scene: &Scene<'_>, shot: &RenderedFrame) -> String {
          Light: {light}{sky}. White balance: {white}.",
         settings.materials(),
         settings.index,
-        settings.reading.label(),
+        settings.normalization.label(),
         settings.specular.label(),
         settings.area.label(),
         scene.document.reference

@@ -114,11 +114,11 @@ impl Subject {
 
 pub(super) fn words(scene: &Scene<'_>, sources: usize) -> String {
     let settings = &scene.document.render;
-    let sigma = match settings.roughness.roughness() {
+    let sigma = match settings.roughness {
         Roughness::Mesh => "σ of the mesh".to_owned(),
         Roughness::Surface => format!("σ {} µm", number(settings.sigma_um)),
     };
-    let reading = settings.reading.label();
+    let reading = settings.normalization.label();
     let (mesh, [light, _]) = (settings.mesh.name(), scene.rendered_conditions());
     let light = if light == "E" { "E, equal energy".to_owned() } else { light };
     let plural = if sources == 1 { "source" } else { "sources" };

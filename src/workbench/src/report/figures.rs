@@ -8,7 +8,7 @@ use chromascope_figure::{Cell, Figure, FigureRoom, LegendPlace, Panel, Table};
 use super::claim::Subject;
 use super::geometry;
 use crate::action::{Action, RenderAction};
-use crate::document::render::{LEAF, MeshChoice, ReadingChoice, SKIN};
+use crate::document::render::{LEAF, MeshChoice, SKIN};
 use crate::document::{Document, Overlays, SetKind};
 use crate::export::Paper;
 use crate::figures::look::{FigureLook, SpectraLayout};
@@ -16,6 +16,7 @@ use crate::figures::{chromaticity, render, spectra, swatches};
 use crate::render_service::RenderedFrame;
 use crate::scene::Scene;
 use crate::scene::orbit::Orbit;
+use chromascope_core::reflectance::Normalization;
 
 /// A figure of the paper.
 pub struct PaperFigure {
@@ -184,7 +185,7 @@ fn meshes(subject: &Subject<'_>, room: FigureRoom, pixels: Pixels) -> Option<Fig
     let shape = |action: RenderAction| {
         let mut document = subject.document.clone();
         Action::Render(action).apply(&mut document);
-        document.render.reading = ReadingChoice::Lambertian;
+        document.render.normalization = Normalization::Lambertian;
         document.compared.retain(|compared| compared.name == document.reference);
         let room = FigureRoom { width: room.width.map(|width| width / 2.0), ..room };
         let name = if document.render.mesh == MeshChoice::Head { "Head" } else { "Fern" };

@@ -12,6 +12,7 @@ use chromascope_core::query::{
 };
 use chromascope_core::spectral::Sensor;
 use chromascope_core::units::Kelvin;
+use chromascope_text::choices;
 use serde::{Deserialize, Serialize};
 
 use super::channel_ratio::ChannelRatioQuery;
@@ -123,14 +124,15 @@ fn uncertainties_query(
     })
 }
 
-/// A choice of cameras.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub enum RankedCameras {
-    /// All of the library, the user's too.
-    #[default]
-    Library,
-    Compared,
-    Yours,
+choices! {
+    /// A choice of cameras.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+    pub enum RankedCameras {
+        #[default]
+        Library = "library", "Library", "All cameras of the library and yours";
+        Compared = "compared", "Compared", "The cameras that are compared";
+        Yours = "yours", "Yours", "The cameras that you imported";
+    }
 }
 
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]

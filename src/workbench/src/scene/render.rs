@@ -104,8 +104,8 @@ impl Scene<'_> {
         let shading = ShadingQuery {
             geometry,
             surface: settings.surface()?,
-            roughness: settings.roughness.roughness(),
-            reading: settings.reading.reading(),
+            roughness: settings.roughness,
+            reading: settings.normalization,
             quality: finish.quality,
             sky: (settings.sky > 0.0).then(|| settings.sky.to_bits()),
             open_sky: finish.open_sky,

@@ -18,7 +18,6 @@ use spectral_image::{ImageInfo, ImageQuantity};
 use super::{ComparedSensor, Scene, SceneError};
 use crate::catalog::spectral_images::{ImageSource, ReadSignals, ReadSignalsError, read_signals};
 use crate::document::SetKind;
-use crate::document::render::QuantityChoice;
 
 /// Share of the pixels that are darker than the white of radiances.
 const WHITE_QUANTILE: f64 = 0.995;
@@ -246,11 +245,7 @@ impl Scene<'_> {
     /// Use of an image as the document has it.
     pub fn image_use(&self, step: usize) -> ImageUse {
         let settings = &self.document.render;
-        let quantity = match settings.image_quantity {
-            QuantityChoice::File => None,
-            QuantityChoice::Reflectance => Some(ImageQuantity::Reflectance),
-            QuantityChoice::Radiance => Some(ImageQuantity::Radiance),
-        };
+        let quantity = settings.image_quantity;
         ImageUse { quantity, scale: settings.image_scale, exposure_ev: settings.exposure_ev, step }
     }
 }

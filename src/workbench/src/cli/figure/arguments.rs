@@ -3,18 +3,18 @@
 use std::ffi::OsString;
 use std::path::PathBuf;
 
-use chromascope_figure::{AxisRanges, AxisTitles, LegendPlace, Numbers};
+use chromascope_figure::AxisRanges;
+use clap::Args;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
-use clap::{Args, ValueEnum};
 
 use crate::cli::pixel::PixelArguments;
 use crate::cli::render::arguments::ViewpointArguments;
+use crate::cli::settings::Given;
 use crate::cli::sources::CommonArguments;
-use crate::export::paper::{Paper, PaperStyle};
+use crate::export::Paper;
 use crate::figures::FIGURES;
 use crate::figures::chromaticity::shown::Ranges;
 use crate::figures::kind::FigureKind;
-use crate::palette::SourceInks;
 
 pub(in crate::cli) const EXAMPLES: &str = "Examples:
   chromascope figure chromaticity --preset paper --width 85mm --font-size 8 --out figure3.pdf
@@ -76,156 +76,22 @@ fn kind() -> impl TypedValueParser<Value = Kind> {
         .map(|key| Kind(FIGURES.iter().copied().find(|kind| kind.key == key)))
 }
 
-const PAPER: &str = "Paper";
-
 /// Arguments that lay a figure out.
 #[derive(Debug, Args)]
 pub(super) struct PaperArguments {
-    /// Width of the page, in mm, cm, in or pt [default: 85mm, one column]
-    #[arg(long, value_name = "LENGTH", default_value = "85mm", value_parser = millimeters, help_heading = PAPER)]
-    width: f64,
-    /// Height of the page [default: the figure's own proportions]
-    #[arg(long, value_name = "LENGTH", value_parser = millimeters, help_heading = PAPER)]
-    height: Option<f64>,
-    /// Size of text in points
-    #[arg(long, value_name = "POINTS", default_value_t = 8.0, value_parser = points, help_heading = PAPER)]
-    font_size: f64,
-    /// Factor on the widths of lines and on markers
-    #[arg(long, value_name = "FACTOR", default_value_t = 1.0, value_parser = factor, help_heading = PAPER)]
-    line_width: f64,
-    /// Resolution of PNG and TIFF, in pixels per inch
-    #[arg(long, value_name = "DPI", default_value_t = 300.0, value_parser = dpi, help_heading = PAPER)]
-    dpi: f64,
-    /// Colors of ground, text and frames
-    #[arg(long, value_enum, default_value_t = StyleName::Light, help_heading = PAPER)]
-    style: StyleName,
-    /// Colors of sources: `safe` for all kinds of color vision, as on screen, or grays
-    #[arg(long, value_enum, default_value_t = InksName::Safe, help_heading = PAPER)]
-    inks: InksName,
-    /// Place of the legend [default: below where the page is narrower than 120 mm, else beside]
-    #[arg(long, value_enum, help_heading = PAPER)]
-    legend: Option<LegendName>,
-    /// Place of the titles of the axes
-    #[arg(long, value_enum, default_value_t = TitlesName::Inside, help_heading = PAPER)]
-    axis_titles: TitlesName,
+    #[command(flatten)]
+    settings: Given<Paper>,
     /// Ranges of the chromaticity diagram: `data`, `full`, or X0,X1,Y0,Y1
-    #[arg(long, value_name = "RANGE", default_value = "data", value_parser = range, help_heading = PAPER)]
+    #[arg(long, value_name = "RANGE", default_value = "data", value_parser = range, help_heading = "Paper")]
     pub(super) range: Range,
-    /// Numbers of a CSV: all, or those of what the figure shows
-    #[arg(long, value_enum, default_value_t = NumbersName::All, help_heading = PAPER)]
-    numbers: NumbersName,
-    /// Leaves the caption with the conditions out
-    #[arg(long, help_heading = PAPER)]
-    no_caption: bool,
-    /// Leaves the strip below the chromaticity diagram out
-    #[arg(long, help_heading = PAPER)]
-    no_strip: bool,
 }
 
 impl PaperArguments {
-    /// The paper.
     pub(super) fn paper(&self) -> Paper {
-        Paper {
-            width_mm: Some(self.width),
-            height_mm: self.height,
-            font_pt: self.font_size,
-            line_scale: self.line_width,
-            style: match self.style {
-                StyleName::Light => PaperStyle::Light,
-                StyleName::Print => PaperStyle::Print,
-                StyleName::Dark => PaperStyle::Dark,
-            },
-            inks: match self.inks {
-                InksName::Safe => SourceInks::Screen,
-                InksName::Gray => SourceInks::Gray,
-            },
-            legend: self.legend.map(LegendName::place),
-            axis_titles: match self.axis_titles {
-                TitlesName::Inside => AxisTitles::Inside,
-                TitlesName::Outside => AxisTitles::Outside,
-                TitlesName::None => AxisTitles::None,
-            },
-            caption: !self.no_caption,
-            strip: !self.no_strip,
-            ranges: if self.range == Range::Full { AxisRanges::Full } else { AxisRanges::Screen },
-            numbers: match self.numbers {
-                NumbersName::All => Numbers::All,
-                NumbersName::Visible => Numbers::Visible,
-            },
-            dpi: self.dpi,
-        }
+        let ranges = if self.range == Range::Full { AxisRanges::Full } else { AxisRanges::Screen };
+        let usual = Paper { width_mm: Some(Paper::ONE_COLUMN_MM), ranges, ..Paper::default() };
+        self.settings.applied_to(usual)
     }
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum StyleName {
-    /// As on a light screen
-    Light,
-    /// Black on white
-    Print,
-    /// Light on dark
-    Dark,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum InksName {
-    /// Colors told apart in all kinds of color vision
-    Safe,
-    /// Grays told apart in print without color
-    Gray,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum LegendName {
-    /// Inside, in a corner where it covers no point; below where there is none
-    Inside,
-    /// Inside, at the upper right
-    UpperRight,
-    /// Inside, at the upper left
-    UpperLeft,
-    /// Inside, at the lower right
-    LowerRight,
-    /// Inside, at the lower left
-    LowerLeft,
-    /// Right of the figure; below where that would take half of the width
-    Beside,
-    /// Below the figure
-    Below,
-    /// No legend
-    None,
-}
-
-impl LegendName {
-    fn place(self) -> LegendPlace {
-        match self {
-            Self::Inside => LegendPlace::Inside,
-            Self::UpperRight => LegendPlace::UpperRight,
-            Self::UpperLeft => LegendPlace::UpperLeft,
-            Self::LowerRight => LegendPlace::LowerRight,
-            Self::LowerLeft => LegendPlace::LowerLeft,
-            Self::Beside => LegendPlace::Outside,
-            Self::Below => LegendPlace::Below,
-            Self::None => LegendPlace::None,
-        }
-    }
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum TitlesName {
-    /// In the corners of the plot
-    Inside,
-    /// Along the axes
-    Outside,
-    /// Nowhere
-    None,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum NumbersName {
-    /// Everything that the figure is made from
-    All,
-    /// Only points within the axes, and curves that are drawn
-    Visible,
 }
 
 /// Ranges of the chromaticity diagram.
@@ -251,34 +117,5 @@ fn range(text: &str) -> Result<Range, String> {
             Ok(Range::Of([[x0, x1], [y0, y1]]))
         }
         _ => Err("expected data, full, or the ends of x and y in ascending order, such as 0.3,0.5,0.3,0.4".to_owned()),
-    }
-}
-
-/// A length in millimeters; the unit is required.
-fn millimeters(text: &str) -> Result<f64, String> {
-    let units = [("mm", 1.0), ("cm", 10.0), ("in", 25.4), ("pt", 25.4 / 72.0)];
-    let found = units.iter().find_map(|(unit, mm)| Some((text.trim().strip_suffix(unit)?, mm)));
-    let (number, mm) = found.ok_or("a length needs a unit, such as 85mm or 3.35in")?;
-    let length = number.trim().parse::<f64>().map_err(|error| error.to_string())? * mm;
-    within(length, Paper::SIDE_MM, "mm")
-}
-
-fn points(text: &str) -> Result<f64, String> {
-    within(text.parse().map_err(|_| "not a number".to_owned())?, Paper::FONT_PT, "points")
-}
-
-fn factor(text: &str) -> Result<f64, String> {
-    within(text.parse().map_err(|_| "not a number".to_owned())?, Paper::LINE_SCALE, "")
-}
-
-fn dpi(text: &str) -> Result<f64, String> {
-    within(text.parse().map_err(|_| "not a number".to_owned())?, Paper::DPI, "pixels per inch")
-}
-
-fn within(value: f64, [low, high]: [f64; 2], unit: &str) -> Result<f64, String> {
-    if (low..=high).contains(&value) {
-        Ok(value)
-    } else {
-        Err(format!("must be from {low} to {high} {unit}").trim_end().to_owned())
     }
 }

@@ -10,7 +10,7 @@ use chromascope_core::query::render::difference::Difference;
 use chromascope_core::query::{Ask as _, DifferenceError, RenderingQuery};
 use clap::ArgMatches;
 
-use super::arguments::{Format, ImageQuantityName, RenderArguments};
+use super::arguments::{Format, RenderArguments};
 use super::files::{file_names, make_folder, patiently};
 use super::setup::compared_request;
 use crate::catalog::spectral_images::{self, OpenImageError, ReadSignalsError};
@@ -18,6 +18,7 @@ use crate::cli::error::CliError;
 use crate::cli::outputs::{self, show, write_to};
 use crate::cli::request::display_path;
 use crate::document::TransformChoice;
+use crate::document::render::RenderSettings;
 use crate::export::render::{ImageProvenance, image_exr_bytes, png_bytes};
 use crate::format::fixed;
 use crate::results::Results;
@@ -28,7 +29,8 @@ use crate::terminal::say;
 /// Computes the pictures of an image, writes them and reports the result.
 pub(super) fn run(arguments: &RenderArguments, path: &Path, matches: &ArgMatches) -> Result<(), CliError> {
     let start = Instant::now();
-    let wanted = arguments.image_quantity.map(ImageQuantityName::quantity);
+    let settings = arguments.settings.applied_to(RenderSettings::default());
+    let wanted = settings.image_quantity;
     let opened = |error: OpenImageError| CliError::File(error.to_string());
     let info = spectral_images::open(path, wanted).map_err(opened)?.info().clone();
     for note in &info.notes {
@@ -49,7 +51,7 @@ pub(super) fn run(arguments: &RenderArguments, path: &Path, matches: &ArgMatches
     let inputs: Vec<PathBuf> = request.inputs().into_iter().chain([path.to_owned()]).collect();
     outputs::check(files.iter().map(PathBuf::as_path), &inputs, arguments.force)?;
     make_folder(&arguments.out)?;
-    let (scale, exposure_ev) = (arguments.image_scale, arguments.exposure);
+    let (scale, exposure_ev) = (settings.image_scale, settings.exposure_ev);
     let wanted = ImageUse { quantity: wanted, scale, exposure_ev, step: 1 };
     let source = spectral_images::load(path).map_err(opened)?.source;
     let query = scene.image_pictures(&source, &sources, wanted)?;

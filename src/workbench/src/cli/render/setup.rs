@@ -13,11 +13,11 @@ use chromascope_core::scene::viewpoint::ViewpointError;
 use chromascope_mesh::Mesh;
 use clap::ArgMatches;
 
-use super::arguments::{RenderArguments, SpecularName, ViewpointArguments};
+use super::arguments::{RenderArguments, ViewpointArguments};
 use crate::catalog::meshes;
 use crate::cli::error::CliError;
 use crate::cli::request::Request;
-use crate::document::render::{BALANCE, MeshChoice, RenderSettings, RoughnessChoice, SUN};
+use crate::document::render::{BALANCE, MeshChoice, RenderSettings, SUN};
 use crate::document::{Compared, Light, SetKind, WhiteBalanceChoice};
 use crate::scene::orbit::Orbit;
 use crate::scene::render::Finish;
@@ -151,29 +151,13 @@ pub(in crate::cli) fn read_mesh(path: &PathBuf) -> Result<Shared<Mesh>, CliError
 
 /// Render settings: those of the paper's head or fern with the arguments applied.
 fn settings(arguments: &RenderArguments, mesh: MeshChoice, start: RenderSettings) -> Result<RenderSettings, CliError> {
-    const MICRO: f64 = 1e6;
     let usual = if mesh == MeshChoice::Fern { RenderSettings::fern() } else { RenderSettings::default() };
-    let mut settings = RenderSettings {
-        mesh,
-        garment: start.garment,
-        triangles: arguments.triangles as usize,
-        sigma_um: arguments.sigma.map_or(usual.sigma_um, |sigma| sigma * MICRO),
-        roughness: if arguments.sigma_from_mesh { RoughnessChoice::Mesh } else { RoughnessChoice::Surface },
-        tau_um: arguments.tau.map_or(usual.tau_um, |tau| tau * MICRO),
-        half_sides_um: arguments.patch.map_or(usual.half_sides_um, |sides| sides.map(|side| side * MICRO)),
-        area: arguments.area.choice(),
-        index: arguments.ior.unwrap_or(usual.index),
-        reading: arguments.reading.choice(),
-        specular: arguments.specular.map_or(start.specular, SpecularName::choice),
-        quality: if arguments.tolerance.is_some() { QualityLevel::Tolerance } else { arguments.quality },
-        tolerance: arguments.tolerance.unwrap_or(usual.tolerance),
-        shadows: !arguments.no_shadows,
-        sky: arguments.sky.unwrap_or(start.sky),
-        thin: arguments.leaf.unwrap_or(usual.thin),
-        sunlight: false,
-        exposure_ev: arguments.exposure,
-        ..usual
-    };
+    let RenderSettings { garment, specular, sky, .. } = start;
+    let usual = RenderSettings { mesh, garment, specular, sky, sunlight: false, ..usual };
+    let mut settings = arguments.settings.applied_to(usual);
+    if arguments.settings.has("tolerance") {
+        settings.quality = QualityLevel::Tolerance;
+    }
     if let Some([x, y, z]) = arguments.light {
         let length = x.hypot(y).hypot(z);
         if !(length > 0.0 && length.is_finite()) {

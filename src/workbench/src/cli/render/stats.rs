@@ -13,7 +13,6 @@ use serde_json::{Value, json};
 
 use super::accuracy::{self, Cost, Errors, Measured};
 use super::{Made, Times};
-use crate::export::render::reading_name;
 use crate::figures::render::headline::Measure;
 use crate::figures::render::returned;
 use crate::profiler::plans;
@@ -74,7 +73,7 @@ fn settings(made: &Made<'_>) -> Value {
         "reference": document.reference,
         "transform": made.scene.conditions()[3],
         "preset": document.start.key(),
-        "reading": reading_name(shading.reading),
+        "reading": shading.reading.key(),
         "quality": shading.quality.level().key(),
         "tolerance": shading.quality.given_tolerance().map(RelTolerance::max_relative_error),
         "sigma_m": plain(surface.sigma_m()),

@@ -1,5 +1,6 @@
 //! The part of the chromaticity diagram that is shown: held while the data move, eased to a new fit.
 
+use chromascope_text::choices;
 use serde::{Deserialize, Serialize};
 
 use crate::document::imported::Fingerprint;
@@ -9,13 +10,14 @@ use crate::plot_item::SensorId;
 /// Values at the ends of x and of y.
 pub type Ranges = [[f64; 2]; 2];
 
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub enum DiagramFit {
-    /// The compared sensors' loci and patches.
-    #[default]
-    Data,
-    /// The whole spectral locus.
-    Whole,
+choices! {
+    /// Extent of the diagram.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+    pub enum DiagramFit {
+        #[default]
+        Data = "data", "Data", "Fit to loci and patches, again if pressed again";
+        Whole = "full", "Full diagram", "The full spectral locus";
+    }
 }
 
 /// Seconds from one fit to the next.

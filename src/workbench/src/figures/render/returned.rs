@@ -1,11 +1,11 @@
 //! Share of light that the chosen surface returns, in words: an indication of the reflectance model's limits.
 
 use chromascope_core::query::Ask as _;
+use chromascope_core::query::render::Roughness;
 use chromascope_core::query::render::picture::LEAST_FACING;
 use chromascope_core::query::render::returned::{ReturnedLight, ReturnedLightQuery};
 use chromascope_core::reflectance::{Normalization, Surface};
 
-use crate::document::render::{ReadingChoice, RoughnessChoice};
 use crate::format::number;
 use crate::scene::Scene;
 
@@ -20,22 +20,22 @@ pub struct Words {
 /// The share for the selected surface; `None` where each vertex has a roughness of its own, or without a model.
 pub fn of(scene: &Scene<'_>) -> Option<ReturnedLight> {
     let settings = &scene.document.render;
-    if settings.roughness == RoughnessChoice::Mesh || settings.reading == ReadingChoice::Lambertian {
+    if settings.roughness == Roughness::Mesh || settings.normalization == Normalization::Lambertian {
         return None;
     }
     let surface: Surface = settings.surface().ok()?;
-    Some(*scene.results.ask(&ReturnedLightQuery { surface, reading: settings.reading.reading() }))
+    Some(*scene.results.ask(&ReturnedLightQuery { surface, reading: settings.normalization }))
 }
 
 /// The share for the surface that is chosen, in words.
 pub fn words(scene: &Scene<'_>) -> Option<Words> {
-    of(scene).map(|light| sentence(light, scene.document.render.reading.reading()))
+    of(scene).map(|light| sentence(light, scene.document.render.normalization))
 }
 
 /// Meaning of the sentence, for a hint.
-pub const fn meaning(reading: ReadingChoice) -> &'static str {
+pub const fn meaning(reading: Normalization) -> &'static str {
     match reading {
-        ReadingChoice::Paper => {
+        Normalization::Paper => {
             "The model's directional-hemispherical reflectance at 550 nm, diffuse and coherent, for S(λ) = 1. P is \
              relative to a smooth mirror, and depends on A: it is not a reflectance. This is the value that Eq 12 \
              uses."
@@ -96,15 +96,15 @@ mod tests {
 
     #[test]
     fn more_light_than_comes_is_a_warning() {
-        let words = said(|document| document.render.reading = ReadingChoice::Microfacet).expect("a sentence");
+        let words = said(|document| document.render.normalization = Normalization::Microfacet).expect("a sentence");
         assert!(words.is_warning && words.text.contains("; more than 1 from 7"), "{}", words.text);
-        let words = said(|document| document.render.reading = ReadingChoice::Paper).expect("a sentence");
+        let words = said(|document| document.render.normalization = Normalization::Paper).expect("a sentence");
         assert!(!words.is_warning && words.text.contains("e-6 of the light") && words.text.ends_with("with P as π f"));
     }
 
     #[test]
     fn without_one_surface_nothing_is_said() {
-        assert_eq!(said(|document| document.render.reading = ReadingChoice::Lambertian), None);
-        assert_eq!(said(|document| document.render.roughness = RoughnessChoice::Mesh), None);
+        assert_eq!(said(|document| document.render.normalization = Normalization::Lambertian), None);
+        assert_eq!(said(|document| document.render.roughness = Roughness::Mesh), None);
     }
 }
