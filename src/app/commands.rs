@@ -19,7 +19,6 @@ use crate::files::{DocumentSource, FileEvent, FileForm, SaveRequest};
 use crate::panes;
 use crate::profiler::SceneRunJob;
 use crate::scene::Scene;
-use crate::scene::conditions::CONDITIONS;
 use crate::view::SavedView;
 use crate::view::accuracy::Shows;
 use crate::view::import::Stop;
@@ -505,8 +504,7 @@ impl ChromascopeApp {
             return figure.table.clone();
         }
         let scene = Scene { document: self.history.document(), catalog: &self.catalog, results: &self.results };
-        let cells: Vec<_> = CONDITIONS.into_iter().zip(scene.conditions()).collect();
-        figure.table.clone().with_constants(&cells)
+        figure.table.clone().with_constants(scene.conditions())
     }
 
     /// Saves the document as soon as it changes.

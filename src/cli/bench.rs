@@ -7,7 +7,7 @@ use chromascope_core::render::Stop;
 use chromascope_figure::Figure;
 use chromascope_measure::pareto::duration;
 use chromascope_measure::{Effort, Measurement, Progress, Report, Workload};
-use clap::Args;
+use clap::{ArgMatches, Args};
 
 use super::error::CliError;
 use super::outputs::{show, write_to};
@@ -16,7 +16,7 @@ use crate::profiler::bench::bench;
 use crate::terminal::say;
 use crate::theme::Theme;
 
-pub(super) const EXAMPLES: &str = "Examples:
+const EXAMPLES: &str = "Examples:
   chromascope bench --quick --out measured
   chromascope bench --only locus,temperature --out measured
   chromascope bench --list
@@ -31,8 +31,9 @@ const JSON: &str = "bench.json";
 /// The table of all measurements.
 const CSV: &str = "bench.csv";
 
-/// Arguments of `bench`.
+/// Run time against error of every method, measured on this machine: figures, table and JSON
 #[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
 #[expect(clippy::struct_excessive_bools, reason = "switches of a command line")]
 pub(super) struct BenchArguments {
     /// Takes a minute instead of a quarter of an hour
@@ -60,7 +61,7 @@ fn workload(name: &str) -> Result<Workload, String> {
     Workload::from_name(name).ok_or_else(|| format!("there are: {}", names()))
 }
 
-pub(super) fn run(arguments: &BenchArguments) -> Result<(), CliError> {
+pub(super) fn run(arguments: &BenchArguments, _: &ArgMatches) -> Result<(), CliError> {
     let (false, Some(folder)) = (arguments.list, &arguments.out) else {
         let lines = Workload::ALL.map(|workload| format!("{:<12} {}\n", workload.name(), workload.title()));
         return show(&lines.concat());

@@ -11,12 +11,10 @@ use chromascope_core::units::Kelvin;
 use clap::ArgMatches;
 use spectral_file::{Certainty, MAX_BYTES, ReadError, Values};
 
-use super::arguments::{CommonArguments, SourceArguments, Transform};
+use super::arguments::{CommonArguments, FitArguments, Per, SourceArguments, Transform};
 use super::checks;
 use super::error::CliError;
-use super::fit::FitArguments;
 use super::outputs::is_descriptor;
-use super::per::Per;
 use crate::catalog::import::{Origin, imported};
 use crate::catalog::names::{Found, find, telling_words};
 use crate::catalog::{Catalog, Entry};
@@ -26,6 +24,7 @@ use crate::document::render::{LEAF, MeshChoice, SKIN};
 use crate::document::start::Start;
 use crate::document::{CHART, CIE_1931, Document, FIVE, Light, SetKind, Subset, TransformChoice, WhiteBalanceChoice};
 use crate::format::io_reason;
+use crate::scene::{Caution, Scene, SceneError};
 use crate::terminal::say;
 
 /// Kinds of sets of reflectances.
@@ -122,6 +121,24 @@ impl Request {
             _ => None,
         };
         self.read.iter().cloned().chain(mesh).collect()
+    }
+
+    /// Reports once the reason that differences from the reference are empty or not those of the color transform alone.
+    pub(super) fn say_caution(&self, scene: &Scene<'_>) -> Result<(), SceneError> {
+        say_light(scene)?;
+        let Some(caution) = scene.caution() else { return Ok(()) };
+        let remedy = match caution {
+            Caution::FitDiffers { .. } => "",
+            Caution::NotComparable { .. } => {
+                let comparable = self.sources.iter().map(|(kind, name)| scene.comparable(*kind, name));
+                if comparable.collect::<Result<Vec<_>, _>>()?.iter().all(Result::is_ok) {
+                    return Ok(());
+                }
+                " Their differences are left empty; add --transform fitted."
+            }
+        };
+        say(&format!("chromascope: {}{remedy}\n", caution.sentence()));
+        Ok(())
     }
 
     fn named_sources(
@@ -504,4 +521,12 @@ fn is_file(argument: &OsStr) -> bool {
         .is_some_and(|ending| ["csv", "txt", "tsv", "dat"].iter().any(|known| ending.eq_ignore_ascii_case(known)));
     // A name is text, so that other arguments are file paths.
     path.is_file() || ends_as_file || argument.to_str().is_none_or(|typed| typed.contains(['/', '\\']))
+}
+
+/// Reports that a light shows next to no colors.
+pub(super) fn say_light(scene: &Scene<'_>) -> Result<(), SceneError> {
+    if let Some(caution) = scene.light_caution()? {
+        say(&format!("chromascope: {caution}\n"));
+    }
+    Ok(())
 }

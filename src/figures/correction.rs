@@ -1,7 +1,7 @@
 //! Errors of a two-light correction between its lights.
 
 use chromascope_figure::{
-    Axis, Cell, Dash, Figure, InkRole, LegendEntry, LegendPlace, Mark, Panel, Rect, Shape, Stroke, Table, Tag, Ticks,
+    Axis, Dash, Field, Figure, InkRole, LegendEntry, LegendPlace, Mark, Panel, Rect, Shape, Stroke, Table, Tag, Ticks,
 };
 
 use crate::export::profile::CorrectionFile;
@@ -35,18 +35,22 @@ pub fn figure(view: &View) -> Option<Figure> {
         })
         .to_vec();
     figure.legend_place = LegendPlace::Inside;
-    let mut table = Table::new(["temperature_k", "first", "second", "own", "mixed"]);
-    for point in file.sheet.between.iter().flatten() {
-        let values = [point.temperature.get(), point.first, point.second, point.own, point.mixed];
-        table.rows.push(values.map(Cell::Number).to_vec());
-    }
-    figure.table = table;
+    figure.table = Table::of(&COLUMNS, file.sheet.between.iter().flatten());
     Some(figure)
 }
 
 fn title(file: &CorrectionFile) -> String {
     format!("{}: mean ΔE*00 between {}", file.camera, file.lights.join(" and "))
 }
+
+/// Columns of the numbers.
+const COLUMNS: [Field<TwoLightPoint>; 5] = [
+    Field::quantity(["temperature_k", "temperature", "K"], |point| point.temperature.get().into()),
+    Field::new("first", |point| point.first.into()),
+    Field::new("second", |point| point.second.into()),
+    Field::new("own", |point| point.own.into()),
+    Field::new("mixed", |point| point.mixed.into()),
+];
 
 /// The panel of a size; none without two lights.
 pub fn panel(file: &CorrectionFile, size: [f64; 2]) -> Option<Panel> {

@@ -2,24 +2,23 @@
 
 use chromascope_core::colorimetry::Metric;
 use chromascope_core::query::metrics::MetricGroup;
-use chromascope_core::query::{CameraMetric, CameraMetrics};
+use chromascope_core::query::{CameraMetric, CameraMetrics, MetricValue};
 use chromascope_core::spectral::SpectralDistribution;
 use chromascope_core::spectral::grid::{FIRST_NM, LAST_NM};
 use chromascope_figure::{
-    Anchor, Axis, Cell, Figure, Ink, InkRole, Mark, Panel, Projection, Rect, Shape, Table, Tag, TextSize, Ticks,
+    Anchor, Axis, Cell, Field, Figure, Ink, InkRole, Mark, Panel, Projection, Rect, Shape, Table, Tag, TextSize, Ticks,
     text_width,
 };
 
 use super::FigureInput;
 use super::chromaticity::{conditions, distance_symbol};
-use super::metrics::{nature_cells, unit};
 use crate::document::{LOCUS_RANGE_K, SetKind};
 use crate::format::fixed;
 use crate::plot_item::{PlotItem, SensorId};
 use crate::scene::Scene;
 use crate::scene::locus::distance;
 use crate::scene::metrics::CameraFigures;
-use crate::scene::uncertainty::{UNCERTAINTY_HEADS, in_words, number, uncertainty};
+use crate::scene::uncertainty::{in_words, number, uncertainty, unit, with_nature};
 use crate::view::View;
 
 /// Width of the saved page in points.
@@ -100,7 +99,7 @@ pub fn page(scene: &Scene<'_>, id: &SensorId, figures: &CameraFigures, width: f6
     figure.panels = panels;
     let words = scene.metrics_words();
     figure.caption = format!("{words} {}", conditions(scene));
-    figure.table = numbers(id, figures).with_constants(&scene.metrics_constants(temperature_k));
+    figure.table = numbers(id, figures).with_constants(scene.metrics_constants(temperature_k));
     figure
 }
 
@@ -274,21 +273,19 @@ fn values(figures: &CameraFigures, area: Rect, columns: &[Vec<Line>], temperatur
     panel
 }
 
+/// Columns of the numbers, of a metric with its value.
+const COLUMNS: [Field<(String, CameraMetric, MetricValue)>; 7] = [
+    Field::new("camera", |(camera, ..)| Cell::from(camera.as_str())),
+    Field::new("metric", |(_, metric, _)| Cell::from(metric.column)),
+    Field::new("name", |(_, metric, _)| Cell::from(metric.label)),
+    Field::new("unit", |(_, metric, _)| Cell::from(metric.unit)),
+    Field::new("value", |(.., value)| Cell::from(value.value.ok())),
+    Field::new("uncertainty", |(.., value)| Cell::from(value.uncertainty.map(|by| by.standard))),
+    Field::new("reason", |(.., value)| Cell::from(value.value.err().map_or_else(String::new, |why| why.to_string()))),
+];
+
 fn numbers(id: &SensorId, figures: &CameraFigures) -> Table {
-    let heads = ["camera", "metric", "name", "unit", "value", "uncertainty", "reason"];
-    let mut table = Table::new(heads.into_iter().chain(UNCERTAINTY_HEADS));
-    for metric in CameraMetric::ALL {
-        let Some(value) = figures.of(*metric) else { continue };
-        let cells = [
-            Cell::from(id.name.as_str()),
-            Cell::from(metric.column),
-            Cell::from(metric.label),
-            Cell::from(metric.unit),
-            Cell::from(value.value.ok()),
-            Cell::from(value.uncertainty.map(|by| by.standard)),
-            Cell::from(value.value.err().map_or_else(String::new, |why| why.to_string())),
-        ];
-        table.push(cells.into_iter().chain(nature_cells(value.uncertainty)));
-    }
-    table
+    let values = CameraMetric::ALL.iter().filter_map(|metric| Some((id.name.clone(), *metric, figures.of(*metric)?)));
+    let values: Vec<_> = values.collect();
+    with_nature(Table::of(&COLUMNS, &values), |row| values[row].2.uncertainty)
 }

@@ -7,10 +7,10 @@ use chromascope_core::spectral::SpectralDistribution;
 use chromascope_core::spectral::grid::{FIRST_NM, LAST_NM};
 
 use crate::catalog::Catalog;
+use crate::catalog::names::model_of;
 use crate::document::render::{BALANCE, SUN};
 use crate::document::{CIE_1931, Document, Light, SetKind, Subset, TransformChoice, WhiteBalanceChoice};
 use crate::results::Results;
-use crate::scene::metrics::model_of;
 use crate::scene::{Scene, SceneError};
 
 /// The paper's Canon.

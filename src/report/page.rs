@@ -8,7 +8,6 @@ use super::{FORMS, Judged, file_name};
 use crate::document::render::{BALANCE, LEAF, SKIN, SUN};
 use crate::document::{CHART, PAPER_REFERENCE, SetKind};
 use crate::format::{capitalized, fixed};
-use crate::scene::conditions::CONDITIONS;
 
 const STYLE: &str = "
 body { font: 15px/1.5 'DejaVu Sans', Verdana, sans-serif; color: #1c1c1c; background: #fff; max-width: 1180px;
@@ -87,8 +86,9 @@ fn summary(judged: &[Judged]) -> String {
 
 fn conditions(out: &mut String, subject: &Subject<'_>) {
     let scene = subject.scene(subject.document);
-    let cells = CONDITIONS.into_iter().zip(scene.conditions());
-    let cells: Vec<String> = cells.map(|(name, value)| format!("{}: {value}", name.replace('_', " "))).collect();
+    let cells = scene.conditions().into_iter();
+    let cells: Vec<String> =
+        cells.map(|(column, value)| format!("{}: {value}", column.name.replace('_', " "))).collect();
     let cameras = subject.cameras().join(", ");
     let _ = writeln!(
         out,

@@ -290,8 +290,3 @@ impl Scene<'_> {
         })
     }
 }
-
-/// Camera model of a set: its name without the parenthesis that distinguishes tables of one model.
-pub fn model_of(name: &str) -> &str {
-    name.split_once(" (").map_or(name, |(model, _)| model)
-}

@@ -340,7 +340,7 @@ fn constants_stand_at_the_end_of_every_row() {
     let mut table = Table::new(["a", "b"]);
     table.push([Cell::from(1.0), Cell::from(2.0)]);
     table.push([Cell::from(3.0)]);
-    let table = table.with_constants(&[("light", "E, equal".to_owned())]);
+    let table = table.with_constants([("light", "E, equal".to_owned())]);
     assert_eq!(table.to_csv(), "a,b,light\n1,2,\"E, equal\"\n3,,\"E, equal\"\n");
 }
 

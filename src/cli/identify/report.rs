@@ -3,9 +3,10 @@
 use std::fmt::Write as _;
 
 use chromascope_core::camera::recorded::{Freedom, Link, LinkKind, RESAMPLES, RankRange, RecordedFit, RecordedPatch};
+use chromascope_figure::number::significant;
+use chromascope_figure::{Cell, Column, Field, Table};
 use serde_json::{Value, json};
 
-use crate::cli::tables::{field, significant};
 use crate::format::{fixed, rank_in_words};
 use crate::scene::recorded::{CHANNELS, RANK_CAUTION, RankedCamera, cause_in_words, range_in_words};
 
@@ -18,47 +19,71 @@ fn names(patches: &[RecordedPatch]) -> Vec<String> {
     patches.iter().map(|patch| patch.name.clone()).collect()
 }
 
-/// Cameras that have a fit, with their ranks by the bootstrap.
-fn fitted(ranked: &[RankedCamera]) -> impl Iterator<Item = (RankRange, &str, &RecordedFit)> {
-    ranked.iter().filter_map(|camera| Some((camera.rank?, camera.name.as_str(), camera.fit.as_ref().ok()?)))
+/// Cameras that have a fit.
+fn cameras<'a>(ranked: &'a [RankedCamera], patches: &'a [String]) -> impl Iterator<Item = Ranked<'a>> {
+    let fitted =
+        ranked.iter().filter_map(|camera| Some((camera.rank?, camera.name.as_str(), camera.fit.as_ref().ok()?)));
+    fitted.enumerate().map(move |(place, (rank, name, fit))| Ranked { place, rank, name, fit, patches })
 }
 
-/// Percent of a logarithm, aligned; a dash for none.
+/// Percent of a logarithm; a dash for none.
 fn percent(log: Option<f64>) -> String {
     log.map_or_else(|| "–".to_owned(), |log| fixed(log * 100.0, 2))
+}
+
+/// A camera of the ranking.
+struct Ranked<'a> {
+    place: usize,
+    rank: RankRange,
+    name: &'a str,
+    fit: &'a RecordedFit,
+    patches: &'a [String],
+}
+
+impl Ranked<'_> {
+    /// The patch with the largest residuals.
+    fn worst(&self) -> Option<(&str, f64)> {
+        self.fit.worst_patches().first().map(|(patch, rms)| (self.patches[*patch].as_str(), *rms))
+    }
+}
+
+fn column(name: &str, width: usize, decimals: usize) -> Column {
+    Column { width, decimals: Some(decimals), ..Column::from(name) }
+}
+
+fn in_percent(log: Option<f64>) -> Cell {
+    log.map(|log| log * 100.0).into()
 }
 
 /// Aligned columns: the ranking, then residuals and causes of the first.
 pub(super) fn table(patches: &[RecordedPatch], ranked: &[RankedCamera]) -> String {
     let names = names(patches);
-    let widest = fitted(ranked).take(SHOWN).map(|(_, name, _)| name.chars().count()).max().unwrap_or(0);
-    let mut text = format!(" rank  {:widest$}  RMS %    R %    G %    B %  worst patch\n", "camera");
-    for (rank, name, fit) in fitted(ranked).take(SHOWN) {
-        let rank = rank_in_words(Some(rank.range));
-        let [r, g, b] = fit.channel_rms().map(percent);
-        let worst =
-            fit.worst_patches().first().map(|(patch, rms)| format!("{}, {} %", names[*patch], percent(Some(*rms))));
-        let worst = worst.unwrap_or_default();
-        let rms = percent(Some(fit.rms()));
-        let _ = writeln!(text, "{rank:>5}  {name:widest$}  {rms:>5}  {r:>5}  {g:>5}  {b:>5}  {worst}");
+    let heads = [("RMS %", 5), ("R %", 5), ("G %", 5), ("B %", 5)].map(|(name, width)| column(name, width, 2));
+    let mut best =
+        Table::new([column("rank", 5, 0), "camera".into()].into_iter().chain(heads).chain(["worst patch".into()]));
+    for camera in cameras(ranked, &names).take(SHOWN) {
+        let [first, _] = camera.rank.range;
+        let rank = Cell::from(first as f64).with(|note| note.words = Some(rank_in_words(Some(camera.rank.range))));
+        let worst = camera.worst().map(|(name, rms)| format!("{name}, {} %", percent(Some(rms))));
+        let [r, g, b] = camera.fit.channel_rms();
+        let percents = [Some(camera.fit.rms()), r, g, b].map(in_percent).into_iter();
+        best.push([rank, camera.name.into()].into_iter().chain(percents).chain([worst.unwrap_or_default().into()]));
     }
-    let left = fitted(ranked).count().saturating_sub(SHOWN);
+    let mut text = best.to_text();
+    let left = cameras(ranked, &names).count().saturating_sub(SHOWN);
     if left > 0 {
         let _ = writeln!(text, "       {left} more cameras: --format csv");
     }
-    let Some((rank, name, fit)) = fitted(ranked).next() else { return text };
+    let Some(Ranked { rank, name, fit, .. }) = cameras(ranked, &names).next() else { return text };
     let _ = write!(text, "\n{name}: {}.\n{RANK_CAUTION}\n", range_in_words(rank));
     let _ = write!(text, "\nResiduals of {name} in percent (recorded over modeled)\n\n");
-    let widest = names.iter().map(|name| name.chars().count()).max().unwrap_or(0).max(5);
-    let _ = writeln!(text, "{:widest$}       R       G       B  brightness", "patch");
-    for (patch, name) in names.iter().enumerate() {
-        let cells = fit.residuals[patch].map(|residual| match residual {
-            Ok(log) => fixed(log * 100.0, 2),
-            Err(_) => "–".to_owned(),
-        });
-        let brightness = fit.brightness[patch].map_or_else(|| "–".to_owned(), |b| fixed(b, 3));
-        let _ = writeln!(text, "{name:widest$}  {:>6}  {:>6}  {:>6}  {brightness:>10}", cells[0], cells[1], cells[2]);
+    let heads = ["R", "G", "B"].map(|name| column(name, 6, 2)).into_iter();
+    let mut residuals = Table::new(heads.chain([column("brightness", 10, 3)]));
+    for (row, brightness) in fit.residuals.iter().zip(&fit.brightness) {
+        residuals.push(row.map(|log| in_percent(log.ok())).into_iter().chain([Cell::from(*brightness)]));
     }
+    residuals.insert(0, column("patch", 5, 0), names.iter().map(|name| name.as_str().into()));
+    text += &residuals.to_text();
     let gains = fit.gains.map(|gain| gain.map_or_else(|| "–".to_owned(), |gain| format!("{gain:.5e}")));
     let _ = write!(text, "\nGains {}; {} values, {} fitted parameters, ", gains.join(", "), fit.values, fit.parameters);
     let _ = writeln!(text, "standard deviation {} % by the degrees of freedom", percent(Some(fit.deviation())));
@@ -87,62 +112,61 @@ fn excluded(patches: &[RecordedPatch], fit: &RecordedFit) -> Vec<(String, Vec<St
     reasons
 }
 
-/// Rows of numbers, empty where there is none.
-fn number(value: Option<f64>) -> String {
-    value.map_or_else(String::new, significant)
+/// Columns of the ranking.
+fn columns<'a>() -> [Field<Ranked<'a>>; 19] {
+    [
+        Field::new("rank", |camera| (camera.place + 1).to_string().into()),
+        Field::new("rank_first", |camera| camera.rank.range[0].to_string().into()),
+        Field::new("rank_last", |camera| camera.rank.range[1].to_string().into()),
+        Field::new("first_share", |camera| camera.rank.first.into()),
+        Field::new("camera", |camera| camera.name.into()),
+        Field::new("rms_percent", |camera| (camera.fit.rms() * 100.0).into()),
+        Field::new("deviation_percent", |camera| (camera.fit.deviation() * 100.0).into()),
+        Field::new("rms_r_percent", |camera| in_percent(camera.fit.channel_rms()[0])),
+        Field::new("rms_g_percent", |camera| in_percent(camera.fit.channel_rms()[1])),
+        Field::new("rms_b_percent", |camera| in_percent(camera.fit.channel_rms()[2])),
+        Field::new("gain_r", |camera| camera.fit.gains[0].into()),
+        Field::new("gain_g", |camera| camera.fit.gains[1].into()),
+        Field::new("gain_b", |camera| camera.fit.gains[2].into()),
+        Field::new("values", |camera| camera.fit.values.to_string().into()),
+        Field::new("parameters", |camera| camera.fit.parameters.to_string().into()),
+        Field::new("worst_patch", |camera| camera.worst().map_or("", |(name, _)| name).into()),
+        Field::new("worst_patch_percent", |camera| in_percent(camera.worst().map(|(_, rms)| rms))),
+        Field::new("cause", |camera| {
+            camera
+                .fit
+                .links
+                .first()
+                .map_or_else(String::new, |link| cause_in_words(link.kind, link.amount, camera.patches))
+                .into()
+        }),
+        Field::new("cause_share", |camera| camera.fit.links.first().map(|link| link.share).into()),
+    ]
 }
 
 pub(super) fn csv(patches: &[RecordedPatch], ranked: &[RankedCamera]) -> String {
-    let names = names(patches);
-    let mut text = "rank,rank_first,rank_last,first_share,camera,rms_percent,deviation_percent,rms_r_percent,rms_g_percent,rms_b_percent,\
-                    gain_r,gain_g,gain_b,values,parameters,worst_patch,worst_patch_percent,cause,cause_share\n"
-        .to_owned();
-    for (index, (rank, name, fit)) in fitted(ranked).enumerate() {
-        let RankRange { range: [first, last], first: share_first } = rank;
-        let (rank, share_first) = (index + 1, significant(share_first));
-        let logs = [Some(fit.rms()), Some(fit.deviation())].into_iter().chain(fit.channel_rms());
-        let numbers = logs.map(|log| number(log.map(|log| log * 100.0))).chain(fit.gains.map(number));
-        let numbers: Vec<String> = numbers.collect();
-        let worst = fit.worst_patches().first().copied();
-        let patch = worst.map_or_else(String::new, |(patch, _)| field(&names[patch]));
-        let worst = number(worst.map(|(_, rms)| rms * 100.0));
-        let link = fit.links.first();
-        let cause = link.map_or_else(String::new, |link| field(&cause_in_words(link.kind, link.amount, &names)));
-        let share = number(link.map(|link| link.share));
-        let (values, parameters) = (fit.values, fit.parameters);
-        let _ = writeln!(
-            text,
-            "{rank},{first},{last},{share_first},{},{},{values},{parameters},{patch},{worst},{cause},{share}",
-            field(name),
-            numbers.join(",")
-        );
-    }
-    text
+    Table::of(&columns(), cameras(ranked, &names(patches))).csv(significant)
 }
 
 /// All residuals as CSV.
 pub(super) fn residuals(patches: &[RecordedPatch], ranked: &[RankedCamera]) -> String {
-    let mut text = "camera,patch,channel,residual_percent,excluded\n".to_owned();
-    for (_, name, fit) in fitted(ranked) {
+    let mut table = Table::new(["camera", "patch", "channel", "residual_percent", "excluded"]);
+    for Ranked { name, fit, .. } in cameras(ranked, &[]) {
         for (patch, row) in patches.iter().zip(&fit.residuals) {
             for (value, channel) in row.iter().zip(CHANNELS) {
-                let (residual, why) = match value {
-                    Ok(log) => (significant(log * 100.0), String::new()),
-                    Err(why) => (String::new(), why.to_string()),
-                };
-                let _ = writeln!(text, "{},{},{channel},{residual},{why}", field(name), field(&patch.name));
+                let why = value.err().map_or_else(String::new, |why| why.to_string());
+                let residual = in_percent(value.ok());
+                table.push([name.into(), patch.name.as_str().into(), channel.into(), residual, why.into()]);
             }
         }
     }
-    text
+    table.csv(significant)
 }
 
 /// Everything as JSON.
 pub(super) fn json(patches: &[RecordedPatch], ranked: &[RankedCamera], freedom: Freedom) -> String {
     let names = names(patches);
-    let numbered = fitted(ranked).enumerate();
-    let cameras: Vec<Value> =
-        numbered.map(|(index, (rank, name, fit))| camera(index + 1, rank, (name, fit), &names)).collect();
+    let cameras: Vec<Value> = cameras(ranked, &names).map(camera).collect();
     let recorded = |patch: &RecordedPatch| {
         let rgb = patch.rgb.map(|signal| signal.value().ok());
         let excluded = patch.rgb.map(|signal| signal.value().err().map(|why| why.to_string()));
@@ -157,7 +181,7 @@ pub(super) fn json(patches: &[RecordedPatch], ranked: &[RankedCamera], freedom: 
     format!("{value:#}\n")
 }
 
-fn camera(rank: usize, by_bootstrap: RankRange, (name, fit): (&str, &RecordedFit), names: &[String]) -> Value {
+fn camera(Ranked { place, rank, name, fit, patches }: Ranked<'_>) -> Value {
     let percent = |log: Option<f64>| log.map(|log| log * 100.0);
     let link = |link: &Link| {
         let kind = match link.kind {
@@ -165,13 +189,13 @@ fn camera(rank: usize, by_bootstrap: RankRange, (name, fit): (&str, &RecordedFit
             LinkKind::Channel(_) => "sensitivity",
             LinkKind::Patch(_) => "patch",
         };
-        let words = cause_in_words(link.kind, link.amount, names);
+        let words = cause_in_words(link.kind, link.amount, patches);
         json!({ "link": kind, "cause": words, "amount": link.amount, "share_of_squares": link.share })
     };
     json!({
-        "rank": rank,
-        "rank_range": by_bootstrap.range,
-        "first_share": by_bootstrap.first,
+        "rank": place + 1,
+        "rank_range": rank.range,
+        "first_share": rank.first,
         "camera": name,
         "rms_percent": fit.rms() * 100.0,
         "deviation_percent": fit.deviation() * 100.0,

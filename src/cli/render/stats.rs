@@ -72,7 +72,7 @@ fn settings(made: &Made<'_>) -> Value {
         "illuminant": made.scene.light_name(),
         "white": document.white.name(),
         "reference": document.reference,
-        "transform": made.scene.conditions()[3],
+        "transform": made.scene.conditions()[3].1,
         "preset": document.start.key(),
         "reading": reading_name(shading.reading),
         "quality": shading.quality.level().key(),

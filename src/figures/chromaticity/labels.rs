@@ -3,6 +3,7 @@
 use chromascope_figure::{Anchor, InkRole, Mark, Shape, Tag, TextSize, text_width};
 
 use super::frame::Frame;
+use crate::catalog::names::model_of;
 use crate::plot_item::PickIndex;
 
 /// Space around a text in points.
@@ -218,7 +219,7 @@ fn shortened(label: &Label, labels: &[Label]) -> Vec<String> {
     if !matches!(label.ink, InkRole::Sensor(_)) || label.rank != Rank::Sensor {
         return Vec::new();
     }
-    let model = label.text.split_once(" (").map_or(label.text.as_str(), |(model, _)| model);
+    let model = model_of(&label.text);
     let is_alone = |short: &&str| labels.iter().filter(|other| other.text.contains(*short)).count() == 1;
     let without_maker = model.split_once(' ').map(|(_, rest)| rest);
     [Some(model), without_maker].into_iter().flatten().filter(is_alone).map(str::to_owned).collect()

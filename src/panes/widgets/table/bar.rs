@@ -1,8 +1,9 @@
 //! The bar over a table: filter, number of rows, columns, copying.
 
+use chromascope_figure::Column;
 use egui::{Align, Layout, Rect, RichText, ScrollArea, TextEdit, Ui};
 
-use super::{Column, DataTable, TableLook, cut};
+use super::{DataTable, TableLook, cut};
 use crate::panes::context::PaneContext;
 use crate::theme::UNIT;
 
@@ -32,7 +33,9 @@ impl DataTable<'_> {
                 if !look.filter.is_empty() && ui.button("Clear").on_hover_text("Show all rows").clicked() {
                     look.filter.clear();
                 }
-                ui.menu_button("Columns", |ui| menu(ui, &self.columns, look)).response.on_hover_text("Choose columns");
+                ui.menu_button("Columns", |ui| menu(ui, &self.table.columns, look))
+                    .response
+                    .on_hover_text("Choose columns");
                 let hint = "Copy rows and columns as shown, in full precision (Ctrl+C)";
                 ui.button("Copy").on_hover_text(hint).clicked()
             })

@@ -19,13 +19,13 @@ pub(super) struct RowItems {
 impl RowItems {
     /// Finds the columns of a table.
     pub(super) fn of(scene: &Scene<'_>, table: &Table) -> Self {
-        let column = |name: &str| table.columns.iter().position(|head| head == name);
         let mut sensors: HashMap<String, Option<SensorId>> = HashMap::new();
         for source in scene.sources() {
             let id = SensorId { kind: source.kind, name: source.name };
             sensors.entry(source.label).and_modify(|known| *known = None).or_insert(Some(id));
         }
-        Self { sensor: column("sensor"), patch: column("patch"), temperature: column("temperature_k"), sensors }
+        let [sensor, patch, temperature] = ["sensor", "patch", "temperature_k"].map(|key| table.place(key));
+        Self { sensor, patch, temperature, sensors }
     }
 
     /// True if no row has an item.
@@ -34,17 +34,14 @@ impl RowItems {
     }
 
     pub(super) fn of_row(&self, row: &[Cell]) -> Option<PlotItem> {
-        let text = |column: Option<usize>| match row.get(column?) {
-            Some(Cell::Text(text)) => Some(text.as_str()),
-            _ => None,
-        };
-        let source = self.sensors.get(text(self.sensor)?)?.clone()?;
-        if let Some(patch) = text(self.patch) {
+        let cell = |column: Option<usize>| row.get(column?);
+        let source = self.sensors.get(cell(self.sensor)?.text()?)?.clone()?;
+        if let Some(patch) = cell(self.patch).and_then(Cell::text) {
             return Some(PlotItem::Patch { source: Some(source), patch: patch.to_owned() });
         }
-        match self.temperature.and_then(|column| row.get(column)) {
-            Some(Cell::Number(kelvin)) => Some(PlotItem::Radiator { source, kelvin: *kelvin }),
-            _ => Some(PlotItem::Sensor(source)),
+        match cell(self.temperature).and_then(Cell::number) {
+            Some(kelvin) => Some(PlotItem::Radiator { source, kelvin }),
+            None => Some(PlotItem::Sensor(source)),
         }
     }
 }
