@@ -5,7 +5,6 @@
 
 mod arguments;
 mod bench;
-mod checks;
 mod compare;
 mod error;
 mod figure;

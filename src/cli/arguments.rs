@@ -86,7 +86,6 @@ impl OutArguments {
         outputs::check(self.path.as_deref(), &request.inputs(), self.force)
     }
 
-    /// Writes a text.
     pub(super) fn put(&self, text: &str) -> Result<(), CliError> {
         outputs::put(text, self.path.as_deref())
     }
@@ -104,7 +103,6 @@ pub(super) struct ChartArguments {
 }
 
 impl ChartArguments {
-    /// Chooses the patches of a request.
     pub(super) fn set(&self, request: &mut Request) -> Result<(), CliError> {
         request.values = self.values;
         request.set_chart(self.chart.as_deref())
@@ -125,7 +123,6 @@ impl SourceArguments {
         given.into_iter().find(|(_, given)| *given).map(|(argument, _)| argument)
     }
 
-    /// True if no sensor was named.
     pub(super) fn names_no_sensor(&self) -> bool {
         self.observer.is_empty() && self.camera.is_empty()
     }
@@ -155,7 +152,6 @@ pub(super) struct FitArguments {
     pub(super) free_white: bool,
 }
 
-/// Names of the correction methods.
 pub(super) fn method() -> impl TypedValueParser<Value = CorrectionMethod> {
     let ids = CorrectionMethod::ALL.map(|method| PossibleValue::new(method.id()).help(method.label()));
     PossibleValuesParser::new(ids).map(|id| CorrectionMethod::by_id(&id).unwrap_or_default())
@@ -220,12 +216,10 @@ pub(super) fn named<T: DeserializeOwned + Clone + Send + Sync + 'static>(
     })
 }
 
-/// Scale of written values.
 pub(super) fn values() -> impl TypedValueParser<Value = Values> {
     named::<Values>(&["plain", "percent", "absorbance", "decibels"])
 }
 
-/// Form of a table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Form {
     /// For reading.

@@ -97,7 +97,6 @@ pub(super) fn run(arguments: &BenchArguments, _: &ArgMatches) -> Result<(), CliE
     show(&format!("{count} measurements in {} files in {}\n", files.len(), folder.display()))
 }
 
-/// The names of the files that a run writes.
 fn names(plan: &[Workload]) -> Vec<String> {
     let figures = plan.iter().flat_map(|workload| ["svg", "png"].map(|ending| format!("{}.{ending}", workload.name())));
     [JSON, CSV].map(str::to_owned).into_iter().chain(figures).collect()
@@ -150,7 +149,6 @@ fn line(m: &Measurement) -> String {
     )
 }
 
-/// Every file with its contents.
 fn files(report: &Report, folder: &Path) -> Result<Vec<(PathBuf, Vec<u8>)>, CliError> {
     let mut files = vec![
         (folder.join(JSON), report.to_json()?.into_bytes()),

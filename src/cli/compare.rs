@@ -46,14 +46,12 @@ pub(super) struct CompareArguments {
     pixel: PixelArguments,
 }
 
-/// Forms of the output.
 const FORMS: [&str; 3] = [
     "Aligned columns for reading",
     "One row for each sensor, with 15 significant digits",
     "One object with conditions, metrics and values",
 ];
 
-/// Metrics of the table unless some are named.
 const USUAL: [&str; 8] = [
     "delta-e2000-mean",
     "delta-e2000-p95",
@@ -105,19 +103,16 @@ fn metric_names(more: [&'static str; 1]) -> PossibleValuesParser {
     PossibleValuesParser::new(CameraMetric::ALL.iter().map(|metric| metric.id).chain(more))
 }
 
-/// A ranking: sensors in order, with their values.
 struct Comparison {
     metrics: Vec<CameraMetric>,
     /// The metric that orders the rows; none for the order of names.
     sorted_by: Option<CameraMetric>,
     rows: Vec<Row>,
-    /// Names of the patches.
     patches: Vec<String>,
     /// Conditions by their heads, the temperature among them.
     conditions: Vec<(Column, String)>,
 }
 
-/// One sensor.
 struct Row {
     kind: SetKind,
     name: String,
@@ -130,7 +125,6 @@ struct Row {
     rank: Option<[usize; 2]>,
 }
 
-/// Ranks the cameras and writes them.
 pub(super) fn run(arguments: &CompareArguments, matches: &ArgMatches) -> Result<(), CliError> {
     let mut request = Request::new(&arguments.common, matches)?;
     arguments.chart.set(&mut request)?;
@@ -186,7 +180,6 @@ fn compared(scene: &Scene<'_>, request: &Request, arguments: &CompareArguments) 
     Ok(Comparison { rows: rows(&found, &metrics, sorted_by), metrics, sorted_by, patches, conditions })
 }
 
-/// The rows in order, with ranks.
 fn rows(
     found: &[(SetKind, String, CameraFigures)],
     metrics: &[CameraMetric],
@@ -226,9 +219,7 @@ fn rows(
     order.into_iter().map(row).collect()
 }
 
-/// Version of the JSON form.
 const VERSION: u32 = 1;
-/// The most characters of a name in the aligned table.
 const LONGEST_NAME: usize = 40;
 
 /// A row for each sensor; a name is cut after a number of characters.
@@ -283,7 +274,6 @@ fn uncertainties(row: &Row) -> impl Iterator<Item = MetricUncertainty> + Clone {
     row.values.iter().filter_map(|value| value.uncertainty)
 }
 
-/// One row for each sensor; values with 15 significant digits.
 fn csv(comparison: &Comparison) -> String {
     let rows = &comparison.rows;
     let mut table = table(comparison, usize::MAX);
@@ -294,7 +284,6 @@ fn csv(comparison: &Comparison) -> String {
     with_nature(table, |row| uncertainties(&rows[row])).with_constants(comparison.conditions.clone()).csv(significant)
 }
 
-/// What an uncertainty is made of.
 fn budget(of: MetricUncertainty) -> Value {
     json!({
         "source": of.source.word(),
@@ -308,7 +297,6 @@ fn budget(of: MetricUncertainty) -> Value {
     })
 }
 
-/// One object.
 fn json(comparison: &Comparison) -> String {
     let metric = |metric: &CameraMetric| {
         json!({

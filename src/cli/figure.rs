@@ -23,7 +23,6 @@ use crate::results::Results;
 use crate::scene::Scene;
 use crate::view::View;
 
-/// Draws a figure and writes it.
 pub(super) fn run(arguments: &FigureArguments, matches: &ArgMatches) -> Result<(), CliError> {
     let out = arguments.common.out.path.as_deref();
     let form = out.and_then(FigureForm::of).ok_or_else(|| {

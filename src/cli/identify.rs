@@ -113,7 +113,6 @@ enum Held {
     Brightness,
 }
 
-/// Forms of the ranking.
 const FORMS: [&str; 3] = [
     "Aligned columns, then the best camera's residuals",
     "Comma-separated values",
@@ -137,7 +136,6 @@ fn grid(text: &str) -> Result<[usize; 2], String> {
 /// Spectra by the names of their patches.
 type Spectra = Vec<(String, GridSpectrum)>;
 
-/// Ranks the cameras and writes the result.
 pub(super) fn run(arguments: &IdentifyArguments, _: &ArgMatches) -> Result<(), CliError> {
     let mut request = Request::of_cameras(Start::Colorimetry, "--camera", &arguments.camera, arguments.per)?;
     request.values = arguments.values;
@@ -182,7 +180,6 @@ fn levels(arguments: &IdentifyArguments) -> Result<Levels, CliError> {
     Err(CliError::Argument { argument: "--clip", reason })
 }
 
-/// The patches with their spectra and raw values.
 fn recorded_set(request: &mut Request, arguments: &IdentifyArguments, levels: Levels) -> Result<RecordedSet, CliError> {
     if let Some(light) = &arguments.illuminant {
         request.set_light(light)?;
@@ -253,7 +250,6 @@ fn raw_rows(request: &mut Request, path: &Path) -> Result<Vec<RawRow>, CliError>
     Err(CliError::File(format!("{}: {why}", display_path(path))))
 }
 
-/// Means of the patches in a picture.
 fn picture_rows(
     request: &mut Request,
     arguments: &IdentifyArguments,
@@ -270,7 +266,6 @@ fn picture_rows(
     picture.rows(&grid, levels).map_err(|error| said(&error))
 }
 
-/// Radiances of the chart under the light.
 fn chart_spectra(request: &Request) -> Result<Spectra, CliError> {
     let results = Results::default();
     let scene = Scene { document: &request.document, catalog: &request.catalog, results: &results };

@@ -146,7 +146,6 @@ fn step(text: &str) -> Result<f64, String> {
 }
 
 impl InspectArguments {
-    /// The switches of the reader.
     fn options(&self) -> ReadOptions {
         ReadOptions {
             delimiter: self.delimiter,
@@ -167,22 +166,17 @@ impl InspectArguments {
         self.per.as_ref().map(|per| per == "photon")
     }
 
-    /// The wavelengths of what is written.
     fn grid(&self) -> Grid {
         self.step.map_or(Grid::Native, if self.average { Grid::Average } else { Grid::Step })
     }
 }
 
-/// Reason that a file could not be read or written.
 #[derive(Clone)]
 enum Failure {
-    /// The system says no.
     Disk(String),
-    /// The content is not recognized.
     Read(ReadError),
     /// Only sensitivities are responses to something.
     NoCamera(Role),
-    /// The curves cannot be written as asked.
     Write(spectral_file::write::WriteError),
 }
 
@@ -401,7 +395,6 @@ fn files(named: &[PathBuf]) -> Result<(Vec<PathBuf>, bool), CliError> {
     Ok((files, several))
 }
 
-/// Destination of the files' tables.
 enum Out {
     Nowhere,
     StandardOutput,

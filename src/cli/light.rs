@@ -61,10 +61,8 @@ pub(super) struct LightArguments {
     out: OutArguments,
 }
 
-/// Forms of the output.
 const FORMS: [&str; 3] = ["For people", "Comma-separated, 15 digits", "One object for each light"];
 
-/// One light with all its answers.
 struct Answer {
     name: String,
     temperature: Result<Cct, CctError>,
@@ -82,13 +80,11 @@ impl Answer {
         self.cameras.get(camera)?.1.as_ref().ok()
     }
 
-    /// The first hue bin.
     fn reds(&self) -> Option<&HueBin> {
         self.rendition.fidelity.as_ref().ok()?.bins.first()
     }
 }
 
-/// Results for each light in the given order.
 pub(super) fn run(arguments: &LightArguments, matches: &ArgMatches) -> Result<(), CliError> {
     let mut request = Request::of_sources(&arguments.sources, matches)?;
     request.set_chart(arguments.chart.as_deref())?;
@@ -133,7 +129,6 @@ fn answer(scene: &Scene<'_>, cameras: &[String], similar_to: Option<&str>) -> Re
     })
 }
 
-/// Reasons for missing values of a light, each listed once.
 fn reasons(answer: &Answer) -> Vec<String> {
     let Rendition { rendering, fidelity, similarity, .. } = &answer.rendition;
     let mut reasons: Vec<String> = [
@@ -151,7 +146,6 @@ fn reasons(answer: &Answer) -> Vec<String> {
     reasons.into_iter().map(|reason| format!("{}: {reason}", answer.name)).collect()
 }
 
-/// Cautions with the light's name.
 fn cautions(answer: &Answer) -> impl Iterator<Item = String> {
     answer.cautions.iter().map(|caution| format!("{}: {caution}", answer.name))
 }
@@ -171,7 +165,6 @@ const COLUMNS: [Field<Answer>; 9] = [
 /// Place of R1 to R14 among them.
 const SPECIAL: usize = 3;
 
-/// The numbers of lights: a row for each.
 fn numbers<'a>(answers: impl IntoIterator<Item = &'a Answer> + Clone) -> Table {
     let mut table = Table::of(&COLUMNS, answers.clone());
     for index in 0..14 {
@@ -182,7 +175,6 @@ fn numbers<'a>(answers: impl IntoIterator<Item = &'a Answer> + Clone) -> Table {
     table
 }
 
-/// A row for each light and camera.
 fn csv(answers: &[Answer]) -> String {
     let cameras = |answer: &Answer| answer.cameras.len().max(1);
     let rows: Vec<(&Answer, usize)> =

@@ -57,7 +57,6 @@ pub(super) struct LocusArguments {
 /// Number of temperatures computed together; a table of millions of them is written as it is computed.
 const PART: usize = 1024;
 
-/// A blackbody through a sensor.
 struct Row {
     sensor: String,
     point: LocusPoint,
@@ -87,7 +86,6 @@ fn table(scene: &Scene<'_>, rows: Vec<Row>) -> Table {
     Table::of(&COLUMNS, rows).with_constants(scene.conditions())
 }
 
-/// Writes loci, one row for each sensor and temperature.
 pub(super) fn run(arguments: &LocusArguments, matches: &ArgMatches) -> Result<(), CliError> {
     let temperatures = temperatures(arguments)?;
     let request = Request::new(&arguments.common, matches)?;
@@ -109,7 +107,6 @@ pub(super) fn run(arguments: &LocusArguments, matches: &ArgMatches) -> Result<()
     Ok(request.say_caution(&scene)?)
 }
 
-/// Writes the locus of a sensor.
 fn locus_rows(
     out: &mut dyn Write,
     scene: &Scene<'_>,

@@ -83,7 +83,6 @@ pub(super) struct MatrixArguments {
     out: OutArguments,
 }
 
-/// Reads the version of ICC files.
 fn icc_version() -> impl TypedValueParser<Value = IccVersion> {
     PossibleValuesParser::new(["2", "4"]).map(|text| if text == "2" { IccVersion::V2 } else { IccVersion::V4 })
 }
@@ -103,7 +102,6 @@ enum Format {
     Clf,
 }
 
-/// Writes the color correction of a camera.
 pub(super) fn run(arguments: &MatrixArguments, _: &ArgMatches) -> Result<(), CliError> {
     let cameras = std::slice::from_ref(&arguments.camera);
     let mut request = Request::of_cameras(Start::Colorimetry, "CAMERA", cameras, arguments.per)?;

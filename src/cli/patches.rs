@@ -53,7 +53,6 @@ pub(super) struct PatchesArguments {
     radiance_white: Option<String>,
 }
 
-/// A patch through a sensor.
 struct Row {
     sensor: String,
     patch: String,
@@ -85,7 +84,6 @@ const COLUMNS: [Field<Row>; 17] = [
     Field::new("duv", |row| row.cct.map(|cct| cct.duv).into()),
 ];
 
-/// Writes patches or radiances, one row for each sensor and spectrum.
 pub(super) fn run(arguments: &PatchesArguments, matches: &ArgMatches) -> Result<(), CliError> {
     let mut request = Request::new(&arguments.common, matches)?;
     arguments.chart.set(&mut request)?;
@@ -146,14 +144,12 @@ pub(super) fn run(arguments: &PatchesArguments, matches: &ArgMatches) -> Result<
 
 /// Radiances with their names, and which of them is that of a perfect diffuser.
 struct Radiances {
-    /// The names of the curves.
     names: Vec<String>,
     spectra: Vec<Shared<GridSpectrum>>,
     white: Option<usize>,
 }
 
 impl Radiances {
-    /// Reads a file of radiances.
     fn open(request: &mut Request, file: &Path, white: Option<&str>) -> Result<Self, CliError> {
         let set = request.read(file, Role::Illuminant)?;
         let curves = set.curves_in_nm().map_err(|error| CliError::File(format!("{}: {error}", display_path(file))))?;

@@ -52,7 +52,6 @@ pub(super) struct ReportArguments {
     force: bool,
 }
 
-/// Makes the report.
 pub(super) fn run(arguments: &ReportArguments, _: &ArgMatches) -> Result<(), CliError> {
     let mut request = Request::of_cameras(Start::Paper, "--camera", &arguments.camera, arguments.per)?;
     request.set_chart(arguments.chart.as_deref())?;

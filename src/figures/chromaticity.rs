@@ -283,7 +283,6 @@ struct Point {
     cct: Option<Cct>,
 }
 
-/// Columns of the numbers.
 const COLUMNS: [Field<Point>; 13] = [
     Field::new("sensor", |point| point.sensor.as_str().into()),
     Field::new("kind", |point| if point.patch.is_some() { "patch" } else { "locus" }.into()),

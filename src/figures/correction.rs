@@ -8,7 +8,6 @@ use crate::export::profile::CorrectionFile;
 use crate::view::View;
 use chromascope_core::query::TwoLightPoint;
 
-/// Size of the figure in points.
 const SIZE: [f64; 2] = [460.0, 240.0];
 
 /// A curve: its name, its values, its looks.
@@ -43,7 +42,6 @@ fn title(file: &CorrectionFile) -> String {
     format!("{}: mean ΔE*00 between {}", file.camera, file.lights.join(" and "))
 }
 
-/// Columns of the numbers.
 const COLUMNS: [Field<TwoLightPoint>; 5] = [
     Field::quantity(["temperature_k", "temperature", "K"], |point| point.temperature.get().into()),
     Field::new("first", |point| point.first.into()),

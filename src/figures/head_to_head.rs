@@ -99,7 +99,6 @@ fn rows(table: &Table) -> Vec<[String; COLUMNS]> {
     rows.map(|row| [0, VALUES[0], VALUES[1], DIFFERENCE, 2].map(|column| table.cell(row, column).in_words())).collect()
 }
 
-/// All numbers of the figure: the table with uncertainties.
 fn numbers(ranked: &Ranked, cameras: [usize; 2], mut table: Table) -> Table {
     for column in [DIFFERENCE, VALUES[0], VALUES[1]] {
         let head = format!("{} uncertainty", table.columns[column].name);

@@ -129,7 +129,6 @@ pub fn head_to_head(ranked: &Ranked, cameras: [usize; 2]) -> Table {
     table
 }
 
-/// Explanation of the better camera.
 const BETTER_HINT: &str = "The better camera at 95 %: where the difference exceeds k times its standard uncertainty; neither where it does not.";
 
 /// Difference of two values with its uncertainty, whose parts are not told apart; extrapolated where either is.
@@ -143,7 +142,6 @@ pub fn difference(a: MetricValue, b: MetricValue) -> Option<MetricValue> {
 
 /// Width of a saved figure in points.
 const WIDTH: f64 = 640.0;
-/// Height of a row.
 const ROW: f64 = 16.0;
 
 /// Cameras in order of the metric by which the table is sorted, with uncertainties, and the table of all numbers.

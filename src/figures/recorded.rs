@@ -91,7 +91,6 @@ pub fn panel(fit: &RecordedFit, names: &[String], size: [f64; 2]) -> Panel {
     panel
 }
 
-/// Residual of a channel of a patch.
 struct Residual {
     camera: String,
     patch: String,
@@ -101,7 +100,6 @@ struct Residual {
     rank: RankRange,
 }
 
-/// Columns of the numbers.
 const COLUMNS: [Field<Residual>; 8] = [
     Field::new("camera", |residual| residual.camera.as_str().into()),
     Field::new("patch", |residual| residual.patch.as_str().into()),
@@ -113,7 +111,6 @@ const COLUMNS: [Field<Residual>; 8] = [
     Field::new("rank_last", |residual| (residual.rank.range[1] as f64).into()),
 ];
 
-/// Residuals as numbers.
 fn table(camera: &str, fit: &RecordedFit, rank: RankRange, names: &[String]) -> Table {
     let residuals = names.iter().enumerate().flat_map(|(row, patch)| {
         let brightness = fit.brightness[row];

@@ -29,13 +29,10 @@ const TWO_COLUMNS: f64 = 480.0;
 const ONE_ROW: f64 = 840.0;
 /// Width of a column of figures of merit where there are more than two.
 const LIST_COLUMN: f64 = 216.0;
-/// Heights of title, plots and bars.
 const TITLE: f64 = 44.0;
 const PLOTS: f64 = 190.0;
 const BARS: f64 = 200.0;
-/// Height of a line of the list.
 const LINE: f64 = 15.0;
-/// Height of a line of the foot.
 const FOOT_LINE: f64 = 12.0;
 /// Height of a name over a bar, and the air beside it.
 const NAME_LINE: f64 = 14.0;
@@ -107,7 +104,6 @@ fn line(name: &str, points: Vec<[f64; 2]>, ink: Ink, width: f64) -> Mark {
     Mark::new(Tag::default(), name, Shape::Line { points, closed: false }).with_stroke(ink, width)
 }
 
-/// Name, and where its figures are from.
 fn title(scene: &Scene<'_>, id: &SensorId, area: Rect) -> Panel {
     let mut panel = Panel::board("title", area, Ink::new(InkRole::Plot));
     let entry = scene.entry(id.kind, &id.name).ok();
@@ -208,12 +204,10 @@ fn patches(scene: &Scene<'_>, metrics: &CameraMetrics, area: Rect) -> Panel {
     panel
 }
 
-/// True if two rectangles have points in common.
 fn overlap(a: &Rect, b: &Rect) -> bool {
     (0..2).all(|axis| a.min[axis] < b.max[axis] && b.min[axis] < a.max[axis])
 }
 
-/// A line of the list.
 #[derive(Clone, Copy)]
 enum Line {
     Group(MetricGroup),
@@ -238,7 +232,6 @@ fn list(columns: usize) -> Vec<Vec<Line>> {
     made
 }
 
-/// All figures of merit in columns, by group.
 fn values(figures: &CameraFigures, area: Rect, columns: &[Vec<Line>], temperature_k: f64) -> Panel {
     let mut panel = Panel::board("figures of merit", area, Ink::new(InkRole::Plot));
     let places = columns.iter().enumerate().flat_map(|(column, lines)| {

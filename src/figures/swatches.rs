@@ -25,7 +25,6 @@ pub struct Built {
     pub height: f64,
 }
 
-/// One sensor's colors.
 struct Row {
     source: ComparedSensor,
     /// Colors with their differences, or why there are none.
@@ -41,7 +40,6 @@ pub fn in_rows(layout: SwatchLayout, count: usize) -> bool {
     }
 }
 
-/// Names of the patches.
 fn patch_names(scene: &Scene<'_>) -> Vec<String> {
     scene.patches().map(|set| set.patches().iter().map(|p| p.name.clone()).collect()).unwrap_or_default()
 }
@@ -110,7 +108,6 @@ pub fn worst(scene: &Scene<'_>) -> Option<(String, PlotItem)> {
     Some((words, PlotItem::Patch { source: Some(id(source)), patch: patch.clone() }))
 }
 
-/// The size of a saved figure in points.
 const SIZE: [f64; 2] = [700.0, 300.0];
 /// Width below which a figure is higher than its proportions.
 const NARROW: f64 = 500.0;
@@ -152,7 +149,6 @@ pub fn figure_sized(scene: &Scene<'_>, view: &View, size: [f64; 2]) -> Figure {
 /// A patch through a sensor: label, name, color, and difference from the reference by a metric.
 type Swatch = (String, String, PatchColor, Option<f64>, &'static str);
 
-/// Columns of the numbers.
 const COLUMNS: [Field<Swatch>; 19] = [
     Field::new("sensor", |(sensor, ..)| sensor.as_str().into()),
     Field::new("patch", |(_, patch, ..)| patch.as_str().into()),

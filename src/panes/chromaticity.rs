@@ -27,7 +27,6 @@ const WITH_STRIP: f32 = 350.0;
 /// The overview's size in points.
 const OVERVIEW: Vec2 = Vec2::new(96.0, 104.0);
 
-/// The pane.
 pub const PANE: Pane = Pane {
     kind: PaneKind::CHROMATICITY,
     title: "Chromaticity",
@@ -37,7 +36,6 @@ pub const PANE: Pane = Pane {
     table: true,
 };
 
-/// Shows the pane in its rectangle.
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let body = widgets::pane(ui, &PANE, rect, context, switches);
     let body = body.shrink2(Vec2::new(2.0 * UNIT, 0.0));

@@ -15,7 +15,6 @@ use crate::panes::widgets;
 use crate::theme::UNIT;
 use crate::workspaces::PaneKind;
 
-/// The pane.
 pub const PANE: Pane = Pane {
     kind: PaneKind::CORRECTION,
     title: "Correction",
@@ -25,7 +24,6 @@ pub const PANE: Pane = Pane {
     table: false,
 };
 
-/// Shows the pane in its rectangle.
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     widgets::scrolling_pane(ui, &PANE, rect, context, |ui, context| {
         ui.spacing_mut().item_spacing = Vec2::new(2.0 * UNIT, UNIT);

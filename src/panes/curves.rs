@@ -13,7 +13,6 @@ use crate::workspaces::PaneKind;
 /// Reach of the pointer, in points.
 const REACH: f32 = 8.0;
 
-/// The pane.
 pub const PANE: Pane = Pane {
     kind: PaneKind::CURVES,
     title: "Curves",
@@ -23,7 +22,6 @@ pub const PANE: Pane = Pane {
     table: true,
 };
 
-/// Shows the pane in its rectangle.
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let body = widgets::pane(ui, &PANE, rect, context, |_, _| {});
     let body = Rect::from_min_max(body.min + Vec2::new(2.0 * UNIT, 0.0), body.max - Vec2::new(2.0 * UNIT, UNIT));

@@ -16,7 +16,6 @@ use crate::view::metrics::RankedCameras;
 use crate::view::table::Sorting;
 use crate::workspaces::PaneKind;
 
-/// The pane.
 pub const PANE: Pane = Pane {
     kind: PaneKind::HEAD_TO_HEAD,
     title: "Head to head",
@@ -26,7 +25,6 @@ pub const PANE: Pane = Pane {
     table: false,
 };
 
-/// Shows the pane in its rectangle.
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let body = widgets::pane(ui, &PANE, rect, context, |_, _| {});
     let body = Rect::from_min_max(body.min + Vec2::new(2.0 * UNIT, 0.0), body.max - Vec2::new(2.0 * UNIT, UNIT));

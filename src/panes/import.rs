@@ -26,7 +26,6 @@ const NARROW: f32 = 480.0;
 /// Delay after which a progress message appears.
 const PATIENCE: Duration = Duration::from_millis(100);
 
-/// The pane.
 pub const PANE: Pane =
     Pane { kind: PaneKind::IMPORT, title: "Import", show, figure: None, under_conditions: false, table: true };
 
@@ -35,7 +34,6 @@ pub fn lists_files(pane: Rect) -> bool {
     pane.width() - 4.0 * UNIT >= NARROW
 }
 
-/// Shows the pane in its rectangle.
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let body = widgets::pane(ui, &PANE, rect, context, switches);
     let body = Rect::from_min_max(body.min + Vec2::new(2.0 * UNIT, 0.0), body.max - Vec2::new(2.0 * UNIT, UNIT));

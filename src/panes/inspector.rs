@@ -26,11 +26,9 @@ use crate::scene::{ComparedSensor, Scene};
 use crate::theme::{Theme, UNIT};
 use crate::workspaces::{PaneKind, Workspace};
 
-/// The pane.
 pub const PANE: Pane =
     Pane { kind: PaneKind::INSPECTOR, title: "Inspector", show, figure: None, under_conditions: false, table: false };
 
-/// Shows the pane in its rectangle.
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     widgets::scrolling_pane(ui, &PANE, rect, context, |ui, context| {
         ui.spacing_mut().item_spacing.y = 0.5 * UNIT;

@@ -28,7 +28,6 @@ const CONTENT: &str = "Decided by content";
 /// First entry where room is short.
 const CONTENT_SHORT: &str = "By content";
 
-/// The pane.
 pub const PANE: Pane = Pane {
     kind: PaneKind::INTERPRETATION,
     title: "Interpretation",
@@ -38,7 +37,6 @@ pub const PANE: Pane = Pane {
     table: false,
 };
 
-/// Shows the pane in its rectangle.
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let body = widgets::pane(ui, &PANE, rect, context, notes::button);
     let inner = Rect::from_min_max(body.min + Vec2::new(2.0 * UNIT, 0.0), body.max - Vec2::new(2.0 * UNIT, 0.0));

@@ -22,7 +22,6 @@ use crate::scene::light::LightSheetQuery;
 use crate::theme::UNIT;
 use crate::workspaces::PaneKind;
 
-/// The pane.
 pub const PANE: Pane = Pane {
     kind: PaneKind::LIGHT,
     title: "Light",
@@ -32,15 +31,12 @@ pub const PANE: Pane = Pane {
     table: true,
 };
 
-/// Width of the list of lights.
 const LIST: f32 = 220.0;
 /// Minimum width for bars and vectors side by side.
 const WIDE: f32 = 520.0;
-/// Heights of the bars and of the vectors below them.
 const BARS: f32 = 150.0;
 const VECTORS: f32 = 250.0;
 
-/// Shows the pane in its rectangle.
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let body = widgets::pane(ui, &PANE, rect, context, |_, _| {});
     let scene = context.scene;
@@ -116,7 +112,6 @@ fn summary(ui: &mut Ui, scene: &Scene<'_>, rendition: &Rendition, context: &Pane
     }
 }
 
-/// Spectral similarity to a light that is chosen.
 fn similarity(ui: &mut Ui, scene: &Scene<'_>, context: &mut PaneContext<'_>) {
     let now = context.view.similar_to.clone();
     ui.horizontal(|ui| {
@@ -143,7 +138,6 @@ fn similarity(ui: &mut Ui, scene: &Scene<'_>, context: &mut PaneContext<'_>) {
     });
 }
 
-/// Bars and vectors, side by side or stacked.
 fn pictures(ui: &mut Ui, rendition: &Rendition, context: &PaneContext<'_>) {
     let width = ui.available_width();
     let wide = width >= WIDE;

@@ -16,7 +16,6 @@ use crate::theme::UNIT;
 use crate::view::metrics::Confuses;
 use crate::workspaces::PaneKind;
 
-/// The pane.
 pub const PANE: Pane = Pane {
     kind: PaneKind::new("Metamers"),
     title: "Metamers",
@@ -26,7 +25,6 @@ pub const PANE: Pane = Pane {
     table: false,
 };
 
-/// Shows the pane in its rectangle.
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let body = widgets::pane(ui, &PANE, rect, context, switches);
     let body = Rect::from_min_max(body.min + Vec2::new(2.0 * UNIT, 0.0), body.max - Vec2::new(2.0 * UNIT, UNIT));
@@ -70,7 +68,6 @@ fn count(pairs: usize) -> String {
     if pairs == 1 { "1 pair".to_owned() } else { format!("{pairs} pairs") }
 }
 
-/// The one that confuses.
 fn switches(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let choices = [
         (Confuses::Camera, "Camera confuses", "Equal to the camera, different to the reference"),
@@ -116,7 +113,6 @@ fn pairs(ui: &mut Ui, place: Rect, camera: &SensorId, found: &FoundMetamers, con
     }
 }
 
-/// Buttons that act on the selected pair.
 fn buttons(ui: &mut Ui, row: &MetamerRow, context: &mut PaneContext<'_>) {
     ui.horizontal_wrapped(|ui| {
         for ([set, patch], kind) in row.names.iter().zip(row.kinds) {

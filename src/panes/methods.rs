@@ -29,7 +29,6 @@ const MARKS: &str = "Filled markers, joined by the dashed line: no other method 
 const BENCH: &str = "The program's methods on standard inputs, independent of the scene, against reference values \
                      computed by another method or with twice the digits. Point at a marker for its values.";
 
-/// The pane.
 pub const PANE: Pane = Pane {
     kind: PaneKind::METHODS,
     title: "Methods",
@@ -39,7 +38,6 @@ pub const PANE: Pane = Pane {
     table: true,
 };
 
-/// Shows the pane in its rectangle.
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     context.refresh_run();
     let body = widgets::pane(ui, &PANE, rect, context, switches);

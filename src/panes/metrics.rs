@@ -24,10 +24,8 @@ use crate::workspaces::PaneKind;
 
 /// Columns of differences that the table starts with; all other groups are shown whole.
 const SHOWN: [&str; 5] = ["delta-e2000-mean", "delta-e2000-p95", "delta-e2000-max", "uv-prime-mean", "xy-mean"];
-/// Delay before progress is shown.
 const PATIENCE: Duration = Duration::from_millis(100);
 
-/// The pane.
 pub const PANE: Pane = Pane {
     kind: PaneKind::METRICS,
     title: "Metrics",
@@ -37,7 +35,6 @@ pub const PANE: Pane = Pane {
     table: false,
 };
 
-/// Shows the pane in its rectangle.
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let body = widgets::pane(ui, &PANE, rect, context, switches);
     let body = Rect::from_min_max(body.min + Vec2::new(2.0 * UNIT, 0.0), body.max - Vec2::new(2.0 * UNIT, UNIT));
@@ -108,7 +105,6 @@ fn switches(ui: &mut Ui, context: &mut PaneContext<'_>) {
     }
 }
 
-/// The selected camera.
 fn selected(context: &PaneContext<'_>) -> Option<SensorId> {
     context.view.selected.as_ref()?.source().filter(|id| id.kind == SetKind::Camera).cloned()
 }

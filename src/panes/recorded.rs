@@ -34,7 +34,6 @@ const ABOUT: &str = "Raw RGB that a camera recorded of known patches, against th
     table with columns patch, R, G, B (of the chart and light chosen above, or with spectra in further columns), or a linear 16-bit TIFF \
     or PNG of a 6 × 4 chart.";
 
-/// The pane.
 pub const PANE: Pane = Pane {
     kind: PaneKind::RECORDED,
     title: "Recorded",
@@ -44,7 +43,6 @@ pub const PANE: Pane = Pane {
     table: true,
 };
 
-/// Shows the pane in its rectangle.
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let body = widgets::pane(ui, &PANE, rect, context, switches);
     let body = Rect::from_min_max(body.min + Vec2::new(2.0 * UNIT, 0.0), body.max - Vec2::new(2.0 * UNIT, UNIT));
@@ -105,7 +103,6 @@ fn refresh(file: &Arc<RecordedFile>, context: &mut PaneContext<'_>) -> Result<()
     Ok(())
 }
 
-/// Patches with spectra and raw values.
 fn patches(scene: &Scene<'_>, inputs: &RecordedInputs) -> Result<Vec<RecordedPatch>, String> {
     let chart =
         if inputs.chart.is_some() { scene.patch_radiances().map_err(|error| error.to_string())? } else { Vec::new() };

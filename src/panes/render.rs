@@ -20,7 +20,6 @@ use crate::view::render::{PixelPlace, RenderMode};
 use crate::workspaces::PaneKind;
 use cells::PictureLayout;
 
-/// The pane.
 pub const PANE: Pane = Pane {
     kind: PaneKind::RENDER,
     title: "Render",
@@ -30,7 +29,6 @@ pub const PANE: Pane = Pane {
     table: true,
 };
 
-/// Shows the pane in its rectangle.
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let body = widgets::pane(ui, &PANE, rect, context, switches::show);
     let body = Rect::from_min_max(body.min + Vec2::new(2.0 * UNIT, 0.0), body.max - Vec2::new(2.0 * UNIT, UNIT));

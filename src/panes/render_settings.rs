@@ -32,7 +32,6 @@ const SLIDER: f32 = 24.0;
 /// In a lower pane they are a group among the others.
 const WITH_PIXEL: f32 = 480.0;
 
-/// The pane.
 pub const PANE: Pane = Pane {
     kind: PaneKind::RENDER_SETTINGS,
     title: "Render settings",
@@ -42,7 +41,6 @@ pub const PANE: Pane = Pane {
     table: false,
 };
 
-/// Shows the pane in its rectangle.
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let body = widgets::pane(ui, &PANE, rect, context, |_, _| {});
     let sources = context.scene.rendered_sources().len();

@@ -15,7 +15,6 @@ const LEAST: f32 = 64.0;
 /// Largest distance of the pointer, in points.
 const REACH: f32 = 8.0;
 
-/// The pane.
 pub const PANE: Pane = Pane {
     kind: PaneKind::SPECTRA,
     title: "Spectra",
@@ -25,7 +24,6 @@ pub const PANE: Pane = Pane {
     table: true,
 };
 
-/// Shows the pane in its rectangle.
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let body = widgets::pane(ui, &PANE, rect, context, |ui, context| {
         let choices = [

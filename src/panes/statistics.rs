@@ -29,11 +29,9 @@ const STAGES: [(&str, &str); 14] = [
     ("patch colors", "patches"),
 ];
 
-/// The pane.
 pub const PANE: Pane =
     Pane { kind: PaneKind::STATISTICS, title: "Statistics", show, figure: None, under_conditions: false, table: false };
 
-/// Shows the pane in its rectangle.
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     widgets::scrolling_pane(ui, &PANE, rect, context, |ui, context| {
         ui.spacing_mut().item_spacing.y = 0.5 * UNIT;

@@ -16,7 +16,6 @@ use crate::workspaces::PaneKind;
 /// Height of the line below the swatches.
 const FOOTER: f32 = 24.0;
 
-/// The pane.
 pub const PANE: Pane = Pane {
     kind: PaneKind::SWATCHES,
     title: "Swatches",
@@ -26,7 +25,6 @@ pub const PANE: Pane = Pane {
     table: true,
 };
 
-/// Shows the pane in its rectangle.
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let body = widgets::pane(ui, &PANE, rect, context, switches);
     let body = Rect::from_min_max(body.min + Vec2::new(2.0 * UNIT, 0.0), body.max - Vec2::new(2.0 * UNIT, UNIT));

@@ -13,11 +13,9 @@ use crate::theme::UNIT;
 use crate::workspaces::PaneKind;
 use chromascope_core::render::QualityLevel;
 
-/// The pane.
 pub const PANE: Pane =
     Pane { kind: PaneKind::TOLERANCE, title: "Tolerance", show, figure: None, under_conditions: false, table: false };
 
-/// Shows the pane in its rectangle.
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     widgets::scrolling_pane(ui, &PANE, rect, context, |ui, context| {
         choice(ui, context);

@@ -15,17 +15,14 @@ use crate::scene::Scene;
 use crate::scene::orbit::Orbit;
 use crate::view::{SpectraLayout, View};
 
-/// A figure of the paper.
 pub struct PaperFigure {
     pub number: u8,
     pub title: &'static str,
     make: fn(&Subject<'_>, FigureRoom, Pixels) -> Option<Figure>,
 }
 
-/// Side of a rendered picture in pixels.
 pub(super) type Pixels = u32;
 
-/// The figures in their order.
 pub const FIGURES: [PaperFigure; 9] = [
     PaperFigure {
         number: 1,
@@ -87,7 +84,6 @@ fn spectra_but_sensitivities(scene: &Scene<'_>) -> std::ops::Range<usize> {
     1..2 + scene.patches().map_or(0, |patches| patches.patches().len())
 }
 
-/// A table without some columns.
 fn without(table: &Table, left_out: &std::ops::Range<usize>) -> Table {
     let keep = |index: &usize| !left_out.contains(index);
     let mut kept = Table::new((0..table.columns.len()).filter(keep).map(|index| table.columns[index].clone()));
@@ -115,7 +111,6 @@ fn diagram(subject: &Subject<'_>, room: FigureRoom, document: &Document) -> Figu
     chromaticity::figure(&subject.scene(document), &view(room))
 }
 
-/// A table's rows of a kind.
 fn of_kind(mut table: Table, kind: &str) -> Table {
     let at = table.columns.iter().position(|column| column == "kind");
     table.rows.retain(|row| at.and_then(|at| row.get(at)) == Some(&kind.into()));
@@ -162,7 +157,6 @@ fn materials(subject: &Subject<'_>, room: FigureRoom, _: Pixels) -> Option<Figur
     Some(Figure { table, caption, legend: Vec::new(), ..stacked(skin, panels) })
 }
 
-/// Figure of a document's pictures.
 fn pictures(scene: &Scene<'_>, room: FigureRoom, pixels: Pixels) -> Option<Figure> {
     let orbit = Orbit::of(&scene.document.render.mesh);
     // Times of this run, which it has none of, are no part of a figure.

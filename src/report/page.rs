@@ -9,23 +9,6 @@ use crate::document::render::{BALANCE, LEAF, SKIN, SUN};
 use crate::document::{CHART, PAPER_REFERENCE, SetKind};
 use crate::format::{capitalized, fixed};
 
-const STYLE: &str = "
-body { font: 15px/1.5 'DejaVu Sans', Verdana, sans-serif; color: #1c1c1c; background: #fff; max-width: 1180px;
-  margin: 2em auto; padding: 0 1.5em; }
-h1 { font-size: 1.6em; margin-bottom: 0.2em; } h2 { font-size: 1.2em; margin-top: 2em; }
-table { border-collapse: collapse; width: 100%; }
-th, td { text-align: left; vertical-align: top; padding: 0.45em 0.7em; border-bottom: 1px solid #d4d4d4; }
-th { border-bottom: 2px solid #555; } td table { width: auto; }
-td td, td th { padding: 0 0.8em 0 0; border: 0; font-size: 0.86em; font-weight: normal; }
-td td:first-child { min-width: 9em; } td td + td { text-align: right; font-variant-numeric: tabular-nums; white-space: nowrap; }
-tr.part th { background: #f0f0f0; border-bottom: 1px solid #d4d4d4; }
-table.claims > tbody > tr > td:first-child, table.claims > tbody > tr > td:last-child { width: 22%; }
-.verdict { font-weight: bold; white-space: nowrap; } .quantity { color: #555; padding-top: 0.35em; }
-figure { margin: 2em 0; } figure svg { max-width: 100%; height: auto; border: 1px solid #e0e0e0; }
-figcaption, .note { color: #555; font-size: 0.9em; } a { color: #1c1c1c; }
-@media print { body { font-size: 9pt; margin: 0; } figure, tr { break-inside: avoid; } }
-";
-
 /// Data of the paper with the data in their place, by kind and name.
 const DATA: [(&str, SetKind, &str); 9] = [
     ("Canon EOS 10D", SetKind::Camera, CANON),
@@ -48,12 +31,13 @@ const SHAPES: [(&str, &str); 3] = [
 
 /// The page; `drawn` gives the figures as SVG, by place.
 pub(super) fn page<'a>(subject: &Subject<'_>, judged: &[Judged], drawn: &dyn Fn(usize) -> Option<&'a str>) -> String {
+    let style = chromascope_data::text("report/report.css").unwrap_or_default();
     let mut out = String::new();
     let _ = write!(
         out,
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta name=\"viewport\" content=\"width=device-width\">\n\
-         <title>Report on Huynh and Robles-Kelly 2007</title>\n<style>{STYLE}</style>\n</head>\n<body>\n\
+         <title>Report on Huynh and Robles-Kelly 2007</title>\n<style>{style}</style>\n</head>\n<body>\n\
          <h1>What holds of the paper</h1>\n\
          <p>C. P. Huynh and A. Robles-Kelly, <cite>Comparative Colorimetric Simulation and Evaluation of Digital Cameras \
          Using Spectroscopy Data</cite> (2007), computed again with public data by Chromascope {}. {}</p>\n",
@@ -68,7 +52,6 @@ pub(super) fn page<'a>(subject: &Subject<'_>, judged: &[Judged], drawn: &dyn Fn(
     out
 }
 
-/// A text in HTML.
 fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
@@ -168,7 +151,6 @@ fn found(subject: &Subject<'_>, finding: &Finding) -> String {
     out + "</table>"
 }
 
-/// Texts of values, each once, in their order.
 fn unique(values: &[Value], text: impl Fn(&Value) -> &String) -> Vec<&str> {
     let mut texts: Vec<&str> = Vec::new();
     for value in values {
@@ -234,7 +216,6 @@ fn data(out: &mut String, subject: &Subject<'_>) {
     out.push_str("</tbody>\n</table>\n");
 }
 
-/// A set with its source and terms.
 fn row(subject: &Subject<'_>, paper: &str, kind: SetKind, name: &str) -> [String; 4] {
     let scene = subject.scene(subject.document);
     let entry = scene.entry(kind, name).or_else(|_| scene.chart_entry(name)).ok();

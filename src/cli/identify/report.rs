@@ -19,7 +19,6 @@ fn names(patches: &[RecordedPatch]) -> Vec<String> {
     patches.iter().map(|patch| patch.name.clone()).collect()
 }
 
-/// Cameras that have a fit.
 fn cameras<'a>(ranked: &'a [RankedCamera], patches: &'a [String]) -> impl Iterator<Item = Ranked<'a>> {
     let fitted =
         ranked.iter().filter_map(|camera| Some((camera.rank?, camera.name.as_str(), camera.fit.as_ref().ok()?)));
@@ -31,7 +30,6 @@ fn percent(log: Option<f64>) -> String {
     log.map_or_else(|| "–".to_owned(), |log| fixed(log * 100.0, 2))
 }
 
-/// A camera of the ranking.
 struct Ranked<'a> {
     place: usize,
     rank: RankRange,
@@ -97,7 +95,6 @@ pub(super) fn table(patches: &[RecordedPatch], ranked: &[RankedCamera]) -> Strin
     text
 }
 
-/// Excluded values, by reason.
 fn excluded(patches: &[RecordedPatch], fit: &RecordedFit) -> Vec<(String, Vec<String>)> {
     let mut reasons: Vec<(String, Vec<String>)> = Vec::new();
     for (patch, row) in patches.iter().zip(&fit.residuals) {
@@ -112,7 +109,6 @@ fn excluded(patches: &[RecordedPatch], fit: &RecordedFit) -> Vec<(String, Vec<St
     reasons
 }
 
-/// Columns of the ranking.
 fn columns<'a>() -> [Field<Ranked<'a>>; 19] {
     [
         Field::new("rank", |camera| (camera.place + 1).to_string().into()),
@@ -148,7 +144,6 @@ pub(super) fn csv(patches: &[RecordedPatch], ranked: &[RankedCamera]) -> String 
     Table::of(&columns(), cameras(ranked, &names(patches))).csv(significant)
 }
 
-/// All residuals as CSV.
 pub(super) fn residuals(patches: &[RecordedPatch], ranked: &[RankedCamera]) -> String {
     let mut table = Table::new(["camera", "patch", "channel", "residual_percent", "excluded"]);
     for Ranked { name, fit, .. } in cameras(ranked, &[]) {
@@ -163,7 +158,6 @@ pub(super) fn residuals(patches: &[RecordedPatch], ranked: &[RankedCamera]) -> S
     table.csv(significant)
 }
 
-/// Everything as JSON.
 pub(super) fn json(patches: &[RecordedPatch], ranked: &[RankedCamera], freedom: Freedom) -> String {
     let names = names(patches);
     let cameras: Vec<Value> = cameras(ranked, &names).map(camera).collect();

@@ -11,9 +11,7 @@ use super::{Failure, Stop};
 use crate::format;
 use crate::terminal::shown_json;
 
-/// Largest number of curves named.
 const NAMED: usize = 20;
-/// Largest number of dropped rows listed one by one.
 const MAX_DROPPED_ROWS: usize = 6;
 
 /// The name of the file, and below it a line for each decision, fact and warning.
@@ -198,7 +196,6 @@ pub(super) fn notes(prepared: &mut Prepared<'_>) -> Vec<Note> {
     prepared.notes()
 }
 
-/// Writes the table as it is made.
 pub(super) fn table(prepared: &mut Prepared<'_>, out: &mut dyn Write) -> Result<(), Stop> {
     let mut done = Ok(());
     prepared.table(&mut |part| {

@@ -168,7 +168,6 @@ fn source(made: &Made<'_>, index: usize, accuracy: Option<&Measured>) -> Value {
     })
 }
 
-/// Integration methods of a sensor.
 fn plan(made: &Made<'_>, index: usize) -> Option<Value> {
     let explanation = made.pictures.images[index].as_ref()?.plan().explanation();
     let planned = plans::planned(&made.query, &made.query.sources[index], made.scene.results).ok()?;

@@ -13,11 +13,8 @@ use crate::workspaces::PaneKind;
 
 /// A row: its name, its decimals, and a number for each column.
 pub(super) struct Row {
-    /// Name of the quantity.
     pub(super) name: &'static str,
-    /// Number of decimals shown.
     pub(super) decimals: usize,
-    /// The numbers; none where there is none.
     pub(super) cells: Vec<Option<f64>>,
 }
 
@@ -35,31 +32,26 @@ pub(super) struct Point {
 }
 
 impl Point {
-    /// A patch.
     pub(super) fn of_patch(head: impl Into<String>, color: Option<PatchColor>) -> Self {
         let point =
             color.map(|c| Self { rgb: c.rgb, lab: c.lab, xyz: Some(c.xyz), xy: c.xy, uv: c.uv, ..Self::default() });
         Self { head: head.into(), ..point.unwrap_or_default() }
     }
 
-    /// A blackbody.
     pub(super) fn of_blackbody(head: impl Into<String>, point: Option<LocusPoint>) -> Self {
         let point = point.map(|p| Self { xyz: Some(p.xyz), xy: p.xy, uv: p.uv, ..Self::default() });
         Self { head: head.into(), ..point.unwrap_or_default() }
     }
 
-    /// Point under another head.
     pub(super) fn with_head(self, head: impl Into<String>) -> Self {
         Self { head: head.into(), ..self }
     }
 
-    /// Point with its difference from the reference.
     pub(super) fn with_difference(self, difference: Option<f64>) -> Self {
         Self { difference, ..self }
     }
 }
 
-/// The columns' heads.
 pub(super) fn heads(points: &[Point]) -> Vec<String> {
     points.iter().map(|point| point.head.clone()).collect()
 }
@@ -110,7 +102,6 @@ pub(super) fn show(ui: &mut Ui, id: &str, heads: &[String], rows: &[Row], contex
     });
 }
 
-/// Rows for a spreadsheet, in full precision.
 pub(super) fn to_tsv(heads: &[String], rows: &[Row]) -> String {
     table(heads, rows).to_tsv()
 }

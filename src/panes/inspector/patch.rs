@@ -62,7 +62,6 @@ fn pair(ui: &mut Ui, theme: &Theme, left: &PatchColor, right: Option<&PatchColor
     }
 }
 
-/// A patch through one sensor.
 pub(super) fn one(ui: &mut Ui, id: &SensorId, patch: &str, context: &mut PaneContext<'_>) {
     let (scene, theme) = (context.scene, context.theme);
     head(ui, id, context);
@@ -141,7 +140,6 @@ pub(super) fn rank(value: f64, all: &[Result<f64, DifferenceError>]) -> Option<S
     })
 }
 
-/// A patch through all visible sensors.
 pub(super) fn across(ui: &mut Ui, patch: &str, context: &mut PaneContext<'_>) {
     let (scene, theme) = (context.scene, context.theme);
     ui.label(egui::RichText::new(title(&scene, patch)).strong());

@@ -11,7 +11,6 @@ use crate::panes::widgets::{Icon, icon_button};
 use crate::plot_item::PlotItem;
 use crate::scene::Scene;
 
-/// Shows the pinned items and their numbers.
 pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
     if context.view.pinned.is_empty() {
         return;

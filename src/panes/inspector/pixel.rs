@@ -15,13 +15,11 @@ use crate::theme::UNIT;
 use crate::view::render::PixelPlace;
 use crate::workspaces::PaneKind;
 
-/// Pinned pixel, if pictures are visible.
 pub(super) fn pinned_pixel<'a>(context: &'a PaneContext<'_>) -> Option<&'a PixelPlace> {
     let (saved, render) = (&context.view.saved, &context.view.render);
     render.pinned.as_ref().filter(|_| saved.layout.shows(saved.workspace, PaneKind::RENDER))
 }
 
-/// Shows the pinned pixel, if pictures are visible.
 pub(super) fn show(ui: &mut Ui, context: &PaneContext<'_>) {
     let Some((pinned, shot)) = pinned_pixel(context).zip(context.render_service.frame()) else { return };
     ui.add_space(UNIT);

@@ -42,18 +42,15 @@ pub(super) fn point_of(scene: &Scene<'_>, item: &PlotItem) -> Option<Point> {
     }
 }
 
-/// The letter of a pinned thing.
 pub(super) fn letter(index: usize) -> String {
     let letters = 'A'..='Z';
     letters.clone().nth(index).map_or_else(|| (index + 1).to_string(), String::from)
 }
 
-/// Index of a patch among the visible ones.
 pub(super) fn index_of(scene: &Scene<'_>, patch: &str) -> Option<usize> {
     scene.patches().ok()?.patches().iter().position(|p| p.name == patch)
 }
 
-/// A patch through a sensor.
 pub(super) fn color_of(scene: &Scene<'_>, id: &SensorId, patch: &str) -> Result<Option<PatchColor>, SceneError> {
     let colors = scene.patch_colors(id.kind, &id.name)?;
     Ok(index_of(scene, patch).and_then(|index| colors.get(index).copied()))
@@ -64,7 +61,6 @@ pub(super) fn difference_of(scene: &Scene<'_>, id: &SensorId, patch: &str) -> Op
     scene.differences(id.kind, &id.name).ok()?.get(index_of(scene, patch)?).copied()
 }
 
-/// One point of a sensor's locus.
 pub(super) fn blackbody_of(scene: &Scene<'_>, id: &SensorId, kelvin: f64) -> Result<Option<LocusPoint>, SceneError> {
     let temperatures = Temperatures::List(vec![Kelvin::new(kelvin)?]);
     Ok(scene.locus_at(id.kind, &id.name, temperatures)?.points.first().copied())

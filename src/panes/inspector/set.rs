@@ -12,10 +12,8 @@ use crate::panes::context::PaneContext;
 use crate::panes::widgets::facts;
 use crate::theme::UNIT;
 
-/// Height of the drawn curves.
 const CURVES: f32 = 104.0;
 
-/// A chart, light, filter or material.
 pub(super) fn show(ui: &mut Ui, kind: SetKind, name: &str, context: &mut PaneContext<'_>) {
     let (scene, theme) = (context.scene, context.theme);
     let entry = match scene.entry(kind, name) {
@@ -34,7 +32,6 @@ pub(super) fn show(ui: &mut Ui, kind: SetKind, name: &str, context: &mut PaneCon
     }
 }
 
-/// The curves of a set over wavelength.
 pub(super) fn curves(ui: &mut Ui, entry: &Entry, role: InkRole, context: &PaneContext<'_>) {
     let size = Vec2::new(ui.available_width(), CURVES);
     let panel = match data_set::panel(context.scene.results, entry, role, [f64::from(size.x), f64::from(size.y)]) {

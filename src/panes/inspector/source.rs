@@ -19,7 +19,6 @@ use crate::scene::Scene;
 use crate::theme::UNIT;
 use crate::view::import::ImportItem;
 
-/// A camera or an observer.
 pub(super) fn show(ui: &mut Ui, id: &SensorId, context: &mut PaneContext<'_>) {
     let (scene, theme) = (context.scene, context.theme);
     head(ui, id, context);
@@ -106,7 +105,6 @@ fn temperature_words(scene: &Scene<'_>) -> String {
     }
 }
 
-/// The light on the scene.
 pub(super) fn light(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let (scene, theme) = (context.scene, context.theme);
     ui.label(RichText::new(format!("Light {}", scene.light_name())).strong());

@@ -17,9 +17,7 @@ use crate::panes::widgets::{WHAT_YOU_SEE, focus_rim, lines};
 use crate::scene::Scene;
 use crate::theme::{ROW, Theme, UNIT};
 
-/// Size of a start's card.
 const CARD: Vec2 = Vec2::new(200.0, 92.0);
-/// Width of the drawn keys.
 const KEY: f32 = 26.0;
 
 pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {

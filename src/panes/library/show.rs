@@ -14,11 +14,9 @@ use crate::workspaces::PaneKind;
 /// Share of the pane's height for the compared sensors, and the least and most rows of it.
 const COMPARED: (f32, [f32; 2]) = (0.36, [3.0, 8.0]);
 
-/// The pane.
 pub const PANE: Pane =
     Pane { kind: PaneKind::LIBRARY, title: "Library", show, figure: None, under_conditions: false, table: false };
 
-/// Shows the pane in its rectangle.
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     ui.painter().rect_filled(rect, 0.0, context.theme.panel);
     if ui.input(|input| input.pointer.any_pressed() && input.pointer.interact_pos().is_some_and(|at| rect.contains(at)))

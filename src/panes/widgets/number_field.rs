@@ -29,7 +29,6 @@ pub struct NumberField<'a> {
 /// The text being typed. Rejected text stays until it is corrected or discarded, or the number changes.
 #[derive(Clone)]
 struct Typed {
-    /// The number that it is to replace.
     of: f64,
     text: String,
     wrong: Option<String>,
@@ -80,7 +79,6 @@ impl NumberField<'_> {
         (moved != 0.0).then(|| (self.now + moved).round().clamp(least, largest)).filter(|chosen| *chosen != self.now)
     }
 
-    /// The number as text.
     fn edit(&self, ui: &mut Ui, rect: Rect, mut typed: Typed, context: &mut PaneContext<'_>) -> Option<f64> {
         let mut edit = TextEdit::singleline(&mut typed.text).id(self.id).margin(egui::Margin::symmetric(4, 4));
         if typed.wrong.is_some() {

@@ -5,25 +5,25 @@
 mod bar;
 mod body;
 mod columns;
-mod items;
 mod order;
+
+use std::collections::HashMap;
 
 use chromascope_figure::{Cell, Table};
 use egui::{Event, Id, Key, Modifiers, Rect, Ui, UiBuilder, Vec2};
 
 use crate::panes::context::PaneContext;
-use crate::plot_item::PlotItem;
+use crate::plot_item::{PlotItem, SensorId};
+use crate::scene::Scene;
 use crate::theme::{ROW, UNIT};
 use crate::view::table::{Sorting, TableLook};
 use crate::workspaces::PaneKind;
 use body::Body;
 use columns::Layout;
 
-/// Height of a row.
 const LINE: f32 = 20.0;
 /// Height of a row between other lines of text.
 const COMPACT_LINE: f32 = 15.0;
-/// Height of a line of a head.
 const HEAD_LINE: f32 = 15.0;
 
 /// A table as it is shown.
@@ -191,7 +191,6 @@ impl<'a> DataTable<'a> {
         table
     }
 
-    /// Applies clicks and hovering to the view.
     fn take_in(&self, body: &Body<'_>, look: &mut TableLook, context: &mut PaneContext<'_>) -> TableOutput {
         if let Some(column) = body.clicked_head {
             let column = &self.table.columns[column];
@@ -215,10 +214,46 @@ impl<'a> DataTable<'a> {
     }
 }
 
+struct RowItems {
+    sensor: Option<usize>,
+    patch: Option<usize>,
+    temperature: Option<usize>,
+    /// Sensors by label; none for a label that several have.
+    sensors: HashMap<String, Option<SensorId>>,
+}
+
+impl RowItems {
+    fn of(scene: &Scene<'_>, table: &Table) -> Self {
+        let mut sensors: HashMap<String, Option<SensorId>> = HashMap::new();
+        for source in scene.sources() {
+            let id = SensorId { kind: source.kind, name: source.name };
+            sensors.entry(source.label).and_modify(|known| *known = None).or_insert(Some(id));
+        }
+        let [sensor, patch, temperature] = ["sensor", "patch", "temperature_k"].map(|key| table.place(key));
+        Self { sensor, patch, temperature, sensors }
+    }
+
+    fn is_empty(&self) -> bool {
+        self.sensor.is_none()
+    }
+
+    fn of_row(&self, row: &[Cell]) -> Option<PlotItem> {
+        let cell = |column: Option<usize>| row.get(column?);
+        let source = self.sensors.get(cell(self.sensor)?.text()?)?.clone()?;
+        if let Some(patch) = cell(self.patch).and_then(Cell::text) {
+            return Some(PlotItem::Patch { source: Some(source), patch: patch.to_owned() });
+        }
+        match cell(self.temperature).and_then(Cell::number) {
+            Some(kelvin) => Some(PlotItem::Radiator { source, kelvin }),
+            None => Some(PlotItem::Sensor(source)),
+        }
+    }
+}
+
 /// Shows the numbers of a figure, its rows linked by the columns of sensors, patches and temperatures.
 pub fn show_numbers(ui: &mut Ui, rect: Rect, pane: PaneKind, table: &Table, context: &mut PaneContext<'_>) {
     let scene = context.scene;
-    let items = items::RowItems::of(&scene, table);
+    let items = RowItems::of(&scene, table);
     let item = |row: usize| items.of_row(&table.rows[row]);
     let id = context.title(pane);
     let shown = DataTable::new(pane, id, table);

@@ -10,7 +10,6 @@ use crate::theme::UNIT;
 /// Maximum and minimum width of the filter, and the width of the controls beside it.
 const FILTER: [f32; 2] = [132.0, 48.0];
 const BESIDE: f32 = 192.0;
-/// Height of the menu of columns before it scrolls.
 const MENU: f32 = 360.0;
 
 impl DataTable<'_> {

@@ -15,7 +15,6 @@ use crate::view::table::Sorting;
 /// Largest share of a table that its first column takes where it stays in place.
 const WIDEST_FROZEN: f32 = 0.6;
 
-/// A table in the middle of a frame.
 pub(super) struct Body<'a> {
     of: &'a DataTable<'a>,
     layouts: Vec<Layout>,
@@ -32,13 +31,9 @@ pub(super) struct Body<'a> {
     id: Id,
     /// The first column stays in place.
     sticks: bool,
-    /// It is being drawn.
     frozen: bool,
-    /// Row under the pointer.
     pub(super) hovered: Option<usize>,
-    /// Column whose head was clicked.
     pub(super) clicked_head: Option<usize>,
-    /// User actions on rows.
     pub(super) output: TableOutput,
 }
 
@@ -71,7 +66,6 @@ impl<'a> Body<'a> {
         }
     }
 
-    /// Applies a selection made by keyboard.
     pub(super) fn follow(&mut self, look: &TableLook, context: &PaneContext<'_>) {
         self.cursor = look.cursor;
         self.selected.clone_from(&context.view.selected);
@@ -165,13 +159,11 @@ impl<'a> Body<'a> {
         }
     }
 
-    /// Place of a cell's content.
     fn inner(&self, cell: Rect) -> Rect {
         let [left, right] = air(self.of.compact);
         Rect::from_min_max(cell.min + Vec2::new(left, 0.0), cell.max - Vec2::new(right, 0.0))
     }
 
-    /// The arrow of the column that rows are sorted by.
     fn arrow(&self, ui: &Ui, rect: Rect, descending: bool) {
         let center = rect.center();
         let tip = if descending { 3.0 } else { -3.0 };
@@ -190,7 +182,6 @@ impl<'a> Body<'a> {
         }
     }
 
-    /// A cell in words.
     fn said(&self, row: usize, column: usize) -> String {
         let cell = self.of.table.cell(row, column);
         match cell.value() {
@@ -217,7 +208,6 @@ impl<'a> Body<'a> {
         if others.is_empty() { said(first) } else { format!("{}: {}", said(first), others.join(", ")) }
     }
 
-    /// Writes a number with its uncertainty.
     fn number(&self, ui: &Ui, rect: Rect, cell: &Cell, value: f64, column: usize) {
         let (layout, note) = (self.layouts[column], cell.note());
         let ink = if note.is_gray { self.theme.weak } else { self.theme.text };

@@ -9,13 +9,11 @@ use crate::theme::UNIT;
 const WIDEST_TEXT: f64 = 260.0;
 /// Maximum width of a header above shorter cells.
 const WIDEST_HEAD: f64 = 150.0;
-/// Narrowest column.
 const NARROWEST: f64 = 40.0;
 /// Rows that the width of a column of text is taken from.
 const MEASURED_ROWS: usize = 2000;
 /// Significant digits of numbers without a fixed number of decimals.
 const DIGITS: i32 = 6;
-/// Form that a column's cells are written in.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Form {
     /// Text, flush left.
@@ -31,11 +29,9 @@ pub(super) fn air(compact: bool) -> [f32; 2] {
     if compact { [0.0, 3.0 * UNIT] } else { [2.0 * UNIT; 2] }
 }
 
-/// Form and range of a column.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Layout {
     pub(super) form: Form,
-    /// Width in points.
     pub(super) width: f32,
     /// Width of the uncertainties behind the numbers.
     pub(super) uncertainty: f32,
@@ -44,7 +40,6 @@ pub(super) struct Layout {
 }
 
 impl Layout {
-    /// Layout of a column that is not shown.
     pub(super) const HIDDEN: Self = Self { form: Form::Text, width: 0.0, uncertainty: 0.0, shades: None };
 
     /// Layout of a column. Rows of a compact table hold quantities of their own.
