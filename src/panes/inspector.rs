@@ -62,7 +62,6 @@ fn label_of(scene: &Scene<'_>, id: &SensorId) -> String {
     source_of(scene, id).map_or_else(|| id.name.clone(), |source| source.label)
 }
 
-/// The sensor that the others are compared to.
 fn reference_id(scene: &Scene<'_>) -> SensorId {
     SensorId { kind: SetKind::Observer, name: scene.document.reference.clone() }
 }
@@ -84,7 +83,6 @@ fn note(ui: &mut Ui, theme: &Theme, words: impl Into<String>) {
     ui.label(RichText::new(words).small().color(theme.weak));
 }
 
-/// A failure, in its place.
 fn failure(ui: &mut Ui, theme: &Theme, words: &str) {
     ui.label(RichText::new(words).color(theme.error));
 }
@@ -119,7 +117,6 @@ fn buttons(ui: &mut Ui, context: &mut PaneContext<'_>) -> bool {
     copy
 }
 
-/// Puts numbers on the clipboard.
 fn copy_text(ui: &Ui, text: String, context: &mut PaneContext<'_>) {
     ui.ctx().copy_text(text);
     context.view.say("Inspector: numbers copied.");
@@ -176,7 +173,6 @@ fn assumptions(scene: &Scene<'_>, id: &SensorId, label: &str) -> Vec<String> {
     words
 }
 
-/// Lists the assumptions.
 fn show_assumptions(ui: &mut Ui, theme: &Theme, words: Vec<String>) {
     if words.is_empty() {
         return;

@@ -38,7 +38,6 @@ pub const WHAT_YOU_SEE: &str = "A camera's spectral sensitivities differ from th
 /// Passes after which a control that is not drawn is no longer sought.
 const SOUGHT: u64 = 4;
 
-/// The height of a pane's header.
 pub const HEADER: f32 = 32.0;
 
 /// Draws a pane's frame and header and returns the rectangle below it. `switches` adds the pane's own controls.
@@ -226,7 +225,6 @@ pub enum Icon {
     Redo,
 }
 
-/// An icon button with an accessible name.
 pub fn icon_button(ui: &mut Ui, icon: Icon, name: &str) -> Response {
     let (rect, response) = ui.allocate_exact_size(Vec2::splat(ROW), Sense::click());
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, ui.is_enabled(), name));
@@ -318,7 +316,6 @@ pub fn legend_entry(source: &ComparedSensor) -> LegendEntry {
     }
 }
 
-/// Draws a source's key in a small rectangle.
 pub fn source_key(ui: &mut Ui, source: &ComparedSensor, theme: &Theme) -> Response {
     let (rect, response) = ui.allocate_exact_size(Vec2::new(26.0, ROW), Sense::hover());
     paint::key(ui.painter(), rect, &legend_entry(source), theme);

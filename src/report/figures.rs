@@ -85,12 +85,8 @@ fn spectra_but_sensitivities(scene: &Scene<'_>) -> std::ops::Range<usize> {
 }
 
 fn without(table: &Table, left_out: &std::ops::Range<usize>) -> Table {
-    let keep = |index: &usize| !left_out.contains(index);
-    let mut kept = Table::new((0..table.columns.len()).filter(keep).map(|index| table.columns[index].clone()));
-    for row in &table.rows {
-        kept.push((0..row.len()).filter(keep).map(|index| row[index].clone()));
-    }
-    kept
+    let kept: Vec<usize> = (0..table.columns.len()).filter(|index| !left_out.contains(index)).collect();
+    table.part(&kept, &(0..table.rows.len()).collect::<Vec<usize>>())
 }
 
 /// A figure with these panels, one below the other.
@@ -112,7 +108,7 @@ fn diagram(subject: &Subject<'_>, room: FigureRoom, document: &Document) -> Figu
 }
 
 fn of_kind(mut table: Table, kind: &str) -> Table {
-    let at = table.columns.iter().position(|column| column == "kind");
+    let at = table.place("kind");
     table.rows.retain(|row| at.and_then(|at| row.get(at)) == Some(&kind.into()));
     table
 }
@@ -148,11 +144,8 @@ fn materials(subject: &Subject<'_>, room: FigureRoom, _: Pixels) -> Option<Figur
     // Light, skin; leaf, wavelengths.
     let panels = skin.panels.iter().take(2).chain(leaf.panels.iter().skip(1)).cloned().collect();
     let mut table = skin.table.clone();
-    let (Some(name), at) = (leaf.table.columns.last(), leaf.table.columns.len().saturating_sub(1)) else { return None };
-    table.columns.push(name.clone());
-    for (row, other) in table.rows.iter_mut().zip(&leaf.table.rows) {
-        row.extend(other.get(at).cloned());
-    }
+    let name = leaf.table.columns.last()?;
+    table.insert(table.columns.len(), name, leaf.table.rows.iter().map(|row| row.last().cloned().unwrap_or_default()));
     let caption = "Spectral power of the light and reflectances of skin and leaf. Dotted: beyond the data.".to_owned();
     Some(Figure { table, caption, legend: Vec::new(), ..stacked(skin, panels) })
 }
@@ -163,7 +156,7 @@ fn pictures(scene: &Scene<'_>, room: FigureRoom, pixels: Pixels) -> Option<Figur
     let frame = RenderedFrame::of_mesh(scene, scene.mesh_of(None)?, orbit.viewpoint(1.0)?, pixels).ok()?;
     let view = view(room);
     let figure = render::figure(&FigureInput { pictures: Some(&frame), ..FigureInput::new(scene, &view) })?;
-    let time = figure.table.columns.iter().position(|column| column == "time_ms")?;
+    let time = figure.table.place("time_ms")?;
     Some(Figure { table: without(&figure.table, &(time..time + 1)), ..figure })
 }
 

@@ -73,7 +73,6 @@ impl Scene<'_> {
     }
 }
 
-/// The distance of two points in a diagram.
 pub fn distance(a: &LocusPoint, b: &LocusPoint, diagram: Diagram) -> Option<f64> {
     match diagram {
         Diagram::Xy => a.xy.zip(b.xy).map(|(a, b)| a.distance(b)),

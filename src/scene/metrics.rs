@@ -21,7 +21,6 @@ use crate::document::{CHART, CIE_1931, SetKind};
 
 /// The light of the sensitivity metamerism index (ISO 17321-1).
 const INDEX_LIGHT: &str = "D55";
-/// Maximum number of metameric pairs listed.
 const MOST_METAMERS: usize = 100;
 
 /// Conditions of figures of merit, the same for all sensors.
@@ -60,7 +59,6 @@ pub struct CameraFigures {
 }
 
 impl CameraFigures {
-    /// Value of a metric with its uncertainty.
     pub fn of(&self, metric: CameraMetric) -> Option<MetricValue> {
         self.metrics.with(self.uncertainties.as_ref().map(|all| all.as_slice()), metric)
     }
@@ -129,20 +127,15 @@ fn uncertainties_query(
 pub struct SetPlace {
     pub kind: SetKind,
     pub name: String,
-    /// Location of its figures.
     pub place: Place,
 }
 
 /// Question for metamers among sets of the catalog, which are loaded where it is answered.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct CatalogMetamersQuery {
-    /// The camera.
     pub rendering: RenderingQuery,
-    /// The reference observer.
     pub reference: RenderingQuery,
-    /// The sets that are searched.
     pub sets: Vec<SetPlace>,
-    /// The one that confuses.
     pub confusion: Confusion,
 }
 
@@ -155,12 +148,9 @@ pub struct MetamerRow {
     pub kinds: [SetKind; 2],
 }
 
-/// Metamers by name.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FoundMetamers {
-    /// The pairs, worst first.
     pub rows: Vec<MetamerRow>,
-    /// Number of reflectances that were searched.
     pub searched: usize,
 }
 
@@ -237,7 +227,6 @@ impl Scene<'_> {
         uncertainties_query(metrics, &self.entry(kind, name)?.place, ratio.as_ref(), self.results).map_err(failed)
     }
 
-    /// Figures of merit of a sensor with their uncertainties.
     pub fn camera_figures(&self, kind: SetKind, name: &str) -> Result<CameraFigures, SceneError> {
         let query = self.camera_metrics_query(kind, name)?;
         let metrics = self.results.ask(&query);

@@ -13,12 +13,9 @@ use crate::catalog::load::PatchesQuery;
 use crate::document::render::{BALANCE, MeshChoice, SUN};
 use crate::document::{SetKind, WhiteBalanceChoice};
 
-/// Quality settings of a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Finish {
-    /// Pixels and samples.
     pub size: RasterSize,
-    /// Quality of the spectral integration.
     pub quality: Quality,
     /// Sampling of shadows, where there are any.
     pub shadows: Shadows,

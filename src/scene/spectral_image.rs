@@ -34,7 +34,6 @@ pub enum ImagePicturesError {
     /// The reference has no colors.
     #[error(transparent)]
     Reference(RenderingError),
-    /// The image cannot be read.
     #[error(transparent)]
     Read(#[from] ReadSignalsError),
     /// The file does not state what its samples are.
@@ -42,7 +41,6 @@ pub enum ImagePicturesError {
     Quantity,
 }
 
-/// Use of a spectral image.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ImageUse {
     /// Quantity of the samples, overriding the file's.
@@ -69,12 +67,10 @@ pub struct ImageSignalsQuery {
     sensors: Vec<(Shared<Sensor>, [u64; 3])>,
 }
 
-/// Signals of an image.
 #[derive(Clone, Debug)]
 pub struct ImageSignals {
     /// Signals of each sensor at the pixels with values.
     pub read: ReadSignals,
-    /// Quantity of the samples.
     pub quantity: ImageQuantity,
     pub info: ImageInfo,
 }
@@ -124,9 +120,7 @@ pub struct ImagePicturesQuery {
     pub reference: RenderingQuery,
     /// The sensors, and whether each is compared with the reference.
     pub sources: Vec<(RenderingQuery, bool)>,
-    /// Metric of the differences.
     pub metric: Metric,
-    /// Exposure in EV, as bits.
     pub ev: u64,
 }
 
@@ -137,7 +131,6 @@ pub struct ImagePictures {
     pub pictures: Vec<Result<Arc<Picture>, RenderingError>>,
     /// Differences from the reference over all pixels with values; none for the reference, and where colors cannot be compared.
     pub differences: Vec<Option<Arc<Difference>>>,
-    /// What was read.
     pub image: Arc<ImageSignals>,
     /// Y of the white: 1 for reflectances, the 99.5 % quantile of the reference's Y for radiances.
     pub white: f64,
@@ -146,7 +139,6 @@ pub struct ImagePictures {
 }
 
 impl ImagePictures {
-    /// Pixels with values.
     pub fn placed(&self) -> &LitSamples {
         &self.image.read.placed
     }

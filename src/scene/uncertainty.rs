@@ -15,7 +15,6 @@ pub fn unit(metric: &CameraMetric) -> &'static str {
     if metric.unit == "1" { "" } else { metric.unit }
 }
 
-/// Column of a metric.
 fn column(metric: &CameraMetric) -> Column {
     let better = match metric.better {
         Better::Lower => " Smaller is better.",

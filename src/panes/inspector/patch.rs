@@ -20,7 +20,6 @@ use crate::theme::{HEADING, ROW, TEXT, Theme, UNIT};
 /// Height of the pair of swatches with its surround.
 const PAIR: f32 = 40.0;
 
-/// Assumption about a patch beyond its samples.
 fn held_of(scene: &Scene<'_>, patch: &str) -> Option<String> {
     let set = scene.patches().ok()?;
     let found = set.patches().iter().find(|p| p.name == patch)?;

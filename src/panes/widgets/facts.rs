@@ -14,7 +14,6 @@ use crate::format::number;
 use crate::scene::Scene;
 use crate::theme::{SMALL, Theme};
 
-/// A fact with its caption.
 pub type Fact = (&'static str, String);
 
 /// Response basis of a built-in table's sensitivities, with the evidence and its grounds.
@@ -57,7 +56,6 @@ pub const fn response_words(response: Response) -> &'static str {
     }
 }
 
-/// A range of wavelengths.
 pub fn range_words([first, last]: [f64; 2]) -> String {
     format!("{}–{} nm", number(first), number(last))
 }

@@ -7,7 +7,6 @@ use crate::paint;
 use crate::scene::ComparedSensor;
 use crate::theme::{FADED, ROW, Theme};
 
-/// Width of a source's key.
 pub const KEY: f32 = 26.0;
 /// Width of the button that opens a row's menu.
 pub const DOTS: f32 = 18.0;
@@ -30,7 +29,6 @@ pub fn wrapped(ui: &Ui, rect: Rect, words: &str, rows: usize, color: Color32) {
     ui.painter().galley(rect.min, galley, color);
 }
 
-/// Width of a line of text.
 pub fn width(ui: &Ui, words: &str, style: TextStyle) -> f32 {
     WidgetText::from(words).into_galley(ui, Some(TextWrapMode::Extend), f32::INFINITY, style).size().x
 }
@@ -58,7 +56,6 @@ pub fn key(painter: &Painter, rect: Rect, source: &ComparedSensor, theme: &Theme
     }
 }
 
-/// A source's key, and its label, in one line.
 pub fn key_and_label(ui: &mut Ui, source: &ComparedSensor, theme: &Theme) -> Response {
     let (rect, response) = ui.allocate_exact_size(Vec2::new(ui.available_width(), ROW), Sense::hover());
     key(ui.painter(), Rect::from_min_size(rect.min, Vec2::new(KEY, ROW)), source, theme);

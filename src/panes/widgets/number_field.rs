@@ -10,19 +10,13 @@ use crate::theme::UNIT;
 
 /// A number that can be typed or dragged.
 pub struct NumberField<'a> {
-    /// Identity of the field.
     pub id: Id,
-    /// The number now.
     pub now: f64,
-    /// The least and the largest number that is taken.
     pub range: [f64; 2],
     /// Change per point of dragging, and per press of an arrow key.
     pub speed: f64,
-    /// The unit behind the number.
     pub unit: &'a str,
-    /// The accessible name.
     pub name: &'a str,
-    /// Explanation under the pointer.
     pub hint: &'a str,
 }
 

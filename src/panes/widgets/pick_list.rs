@@ -26,16 +26,13 @@ const LEAST: f32 = 280.0;
 /// Greatest width of that list; longer names are told on hover.
 const MOST: f32 = 440.0;
 
-/// A line of a list.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Line {
-    /// Its words.
     pub words: String,
     /// What stands at the right: what choosing it does, or its key.
     pub note: String,
     /// What is known of it, told when it is pointed at.
     pub facts: String,
-    /// Further words that find it.
     pub also: String,
     /// True if it is what is set now.
     pub on: bool,
@@ -44,17 +41,14 @@ pub struct Line {
 }
 
 impl Line {
-    /// A line that can be chosen.
     pub fn new(words: impl Into<String>, on: bool) -> Self {
         Self { words: words.into(), on, ..Self::default() }
     }
 
-    /// Head of a group.
     pub fn heading(words: impl Into<String>) -> Self {
         Self { words: words.into(), is_heading: true, ..Self::default() }
     }
 
-    /// The line of a data set.
     pub fn of_set(entry: &Entry, on: bool) -> Self {
         let words = if entry.kind == SetKind::Illuminant { entry.glossed_name() } else { entry.name.clone() };
         Self { also: entry.gloss(), ..Self::new(words, on) }
@@ -79,13 +73,9 @@ pub fn found(all: &[Line], text: &str) -> Vec<usize> {
 
 /// A search field above the lines that match.
 pub struct PickList<'a> {
-    /// Identity of the search field.
     pub id: Id,
-    /// Name of the search field.
     pub name: &'a str,
-    /// Hint in the empty search field.
     pub hint: &'a str,
-    /// Height of the lines before they scroll.
     pub height: f32,
     /// The line that is set is highlighted first, not the uppermost.
     pub from_set: bool,
@@ -199,7 +189,6 @@ fn row(ui: &mut Ui, line: &Line, picked: bool, theme: &Theme) -> bool {
     response.clicked()
 }
 
-/// A tick about a point.
 pub fn tick(painter: &egui::Painter, at: egui::Pos2, color: egui::Color32) {
     let points = [Vec2::new(-4.0, 0.5), Vec2::new(-1.0, 3.5), Vec2::new(4.5, -3.5)].map(|step| at + step);
     painter.line(points.to_vec(), Stroke::new(1.5, color));
