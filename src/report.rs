@@ -66,7 +66,7 @@ const FIND: [(&str, Find); 17] = [
 /// All claims, in the paper's order, then the checks beyond it.
 pub fn claims() -> &'static [Claim] {
     static CLAIMS: LazyLock<Vec<Claim>> = LazyLock::new(|| {
-        let text = chromascope_data::text("report/claims.md").unwrap_or_default();
+        let text: &'static str = include_str!("../assets/report/claims.md");
         let parts = text.split("\n## ").skip(1).filter_map(|part| part.split_once('\n'));
         let claims = parts.flat_map(|(part, claims)| claims.split("\n### ").skip(1).map(move |claim| (part, claim)));
         let claim = |(part, claim): (&'static str, &'static str)| {

@@ -1,6 +1,7 @@
 //! `list`: names of the built-in data sets.
 
-use clap::{ArgMatches, Args, ValueEnum};
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use clap::{ArgMatches, Args};
 
 use super::error::CliError;
 use super::outputs::show;
@@ -11,41 +12,28 @@ use crate::document::{FIVE, SetKind};
 #[derive(Debug, Args)]
 pub(super) struct ListArguments {
     /// Kind of data sets [default: all]
-    kind: Option<ListKind>,
+    #[arg(value_parser = kind())]
+    kind: Option<SetKind>,
 }
 
-/// A kind of data sets to list.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum ListKind {
-    /// Camera sensitivities
-    Cameras,
-    /// Color matching functions
-    Observers,
-    /// Sets of patches
-    Charts,
-    /// Lights
-    Illuminants,
-    /// Transmittances of filters
-    Filters,
-    /// Single reflectances
-    Materials,
-}
+/// Kinds of data sets with their descriptions.
+const KINDS: [(SetKind, &str); 6] = [
+    (SetKind::Camera, "Camera sensitivities"),
+    (SetKind::Observer, "Color matching functions"),
+    (SetKind::Chart, "Sets of patches"),
+    (SetKind::Illuminant, "Lights"),
+    (SetKind::Filter, "Transmittances of filters"),
+    (SetKind::Material, "Single reflectances"),
+];
 
-impl ListKind {
-    const fn of_sets(self) -> SetKind {
-        match self {
-            Self::Cameras => SetKind::Camera,
-            Self::Observers => SetKind::Observer,
-            Self::Charts => SetKind::Chart,
-            Self::Illuminants => SetKind::Illuminant,
-            Self::Filters => SetKind::Filter,
-            Self::Materials => SetKind::Material,
-        }
-    }
+fn kind() -> impl TypedValueParser<Value = SetKind> {
+    let values = KINDS.map(|(kind, help)| PossibleValue::new(kind.plural()).help(help));
+    let by_name = |name: &str| KINDS.into_iter().find(|(kind, _)| kind.plural() == name);
+    PossibleValuesParser::new(values).map(move |name| by_name(&name).map_or(SetKind::Camera, |(kind, _)| kind))
 }
 
 pub(super) fn run(arguments: &ListArguments, _: &ArgMatches) -> Result<(), CliError> {
-    show(&list(&Catalog::built_in(), arguments.kind.map(ListKind::of_sets)))
+    show(&list(&Catalog::built_in(), arguments.kind))
 }
 
 /// Names of a catalog's sets of a kind, one a line; of all kinds for none.

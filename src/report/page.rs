@@ -9,6 +9,8 @@ use crate::document::render::{BALANCE, LEAF, SKIN, SUN};
 use crate::document::{CHART, PAPER_REFERENCE, SetKind};
 use crate::format::{capitalized, fixed};
 
+const STYLE: &str = include_str!("../../assets/report/report.css");
+
 /// Data of the paper with the data in their place, by kind and name.
 const DATA: [(&str, SetKind, &str); 9] = [
     ("Canon EOS 10D", SetKind::Camera, CANON),
@@ -31,13 +33,12 @@ const SHAPES: [(&str, &str); 3] = [
 
 /// The page; `drawn` gives the figures as SVG, by place.
 pub(super) fn page<'a>(subject: &Subject<'_>, judged: &[Judged], drawn: &dyn Fn(usize) -> Option<&'a str>) -> String {
-    let style = chromascope_data::text("report/report.css").unwrap_or_default();
     let mut out = String::new();
     let _ = write!(
         out,
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta name=\"viewport\" content=\"width=device-width\">\n\
-         <title>Report on Huynh and Robles-Kelly 2007</title>\n<style>{style}</style>\n</head>\n<body>\n\
+         <title>Report on Huynh and Robles-Kelly 2007</title>\n<style>{STYLE}</style>\n</head>\n<body>\n\
          <h1>What holds of the paper</h1>\n\
          <p>C. P. Huynh and A. Robles-Kelly, <cite>Comparative Colorimetric Simulation and Evaluation of Digital Cameras \
          Using Spectroscopy Data</cite> (2007), computed again with public data by Chromascope {}. {}</p>\n",
