@@ -18,7 +18,6 @@ use crate::files::{DocumentSource, FileEvent, FileForm, SaveRequest};
 use crate::panes;
 use crate::profiler::{Profiler, SceneRunJob};
 use crate::scene::Scene;
-use crate::scene::conditions::CONDITIONS;
 use crate::view::PickState;
 use crate::view::SavedView;
 use crate::view::accuracy::Shows;
@@ -492,8 +491,7 @@ impl ChromascopeApp {
             return figure.table.clone();
         }
         let scene = Scene { document: self.history.document(), catalog: &self.catalog, results: &self.results };
-        let cells: Vec<_> = CONDITIONS.into_iter().zip(scene.conditions()).collect();
-        figure.table.clone().with_constants(&cells)
+        figure.table.clone().with_constants(scene.conditions())
     }
 
     pub(super) fn autosave(&mut self, ctx: &egui::Context) {

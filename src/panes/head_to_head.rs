@@ -8,18 +8,12 @@ use super::context::{Pane, PaneContext};
 use crate::figures::{head_to_head as figure, metrics};
 use crate::panes::widgets;
 use crate::panes::widgets::pick_list::{self, Line};
-use crate::panes::widgets::table::{CellNote, Column, DataTable};
+use crate::panes::widgets::table::DataTable;
 use crate::plot_item::SensorId;
 use crate::scene::metrics::{Ranked, RankedCameras, Ranking};
 use crate::theme::UNIT;
 use crate::view::table::Sorting;
 use crate::workspaces::PaneKind;
-
-/// Columns of the difference, the better camera, and both values.
-const DIFFERENCE: usize = 1;
-const BETTER: usize = 2;
-const FIRST: usize = 3;
-const SECOND: usize = 4;
 
 pub const PANE: Pane = Pane {
     kind: PaneKind::HEAD_TO_HEAD,
@@ -56,28 +50,18 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let known: Vec<_> = metrics::uncertainties(&ranked, [a, b]).collect();
     let body = widgets::caution::foot(ui, body, &context.scene.metrics_words_with(known), context);
     let table = metrics::head_to_head(&ranked, [a, b]);
-    let note = |row: usize, column: usize| note(&ranked, [a, b], row, column);
-    let columns = ["metric", "A − B", "better", "A", "B"].map(|name| Column {
-        name: name.to_owned(),
-        decimals: Some(0),
-        hint: if name == "better" { BETTER_HINT.to_owned() } else { String::new() },
-        ..Column::default()
-    });
-    let shown = DataTable::new(PaneKind::HEAD_TO_HEAD, "Head to head", &table).with_columns(columns.into());
+    let shown = DataTable::new(PaneKind::HEAD_TO_HEAD, "Head to head", &table);
     // The table reaches to the pane's edge: a narrow pane shows the first three columns whole.
     let place = Rect::from_min_max(
         egui::pos2(body.left() - 1.5 * UNIT, top.min(body.bottom())),
         body.max + Vec2::new(2.0 * UNIT, 0.0),
     );
-    let shown = shown.with_notes(&note).show(ui, place, context);
+    let shown = shown.show(ui, place, context);
     if let Some(metric) = shown.activated.and_then(|row| CameraMetric::ALL.get(row)) {
         let sorting = Sorting { column: metric.symbol.to_owned(), descending: metric.better == Better::Higher };
         context.view.saved.looks.entry(metrics::TABLE.to_owned()).or_default().sorting = Some(sorting);
     }
 }
-
-/// Explanation of the last column.
-const BETTER_HINT: &str = "The better camera at 95 %: where the difference exceeds k times its standard uncertainty; neither where it does not.";
 
 fn choose(
     ui: &mut Ui,
@@ -102,31 +86,4 @@ fn choose(
         chosen = index.map(|index| ranked.cameras[index].id.clone());
     });
     chosen
-}
-
-/// Decimals and uncertainty of a cell; gray where the difference is within its uncertainty.
-fn note(ranked: &Ranked, cameras: [usize; 2], row: usize, column: usize) -> CellNote {
-    let Some(metric) = CameraMetric::ALL.get(row) else { return CellNote::default() };
-    let [a, b] = cameras.map(|camera| metrics::value(ranked, camera, *metric));
-    let pair = a.zip(b);
-    let reason = |value: Option<chromascope_core::query::MetricValue>| {
-        value.and_then(|value| value.value.err()).map_or_else(String::new, |why| format!("{why}."))
-    };
-    let (shown, hint) = match column {
-        FIRST => (a, reason(a)),
-        SECOND => (b, reason(b)),
-        DIFFERENCE => (pair.and_then(|(a, b)| metrics::difference(a, b)), String::new()),
-        0 => (None, format!("{}. Enter or a double click sorts Metrics by it.", metric.label)),
-        _ => (None, String::new()),
-    };
-    let same = pair.and_then(|(a, b)| metrics::differ(a, b)) == Some(false);
-    let uncertainty = shown.and_then(|value| value.uncertainty);
-    CellNote {
-        uncertainty: uncertainty.map(|by| by.standard),
-        is_extrapolated: uncertainty.is_some_and(|by| by.is_extrapolated),
-        is_gray: same && matches!(column, DIFFERENCE | BETTER),
-        decimals: Some(metric.decimals),
-        hint,
-        ..CellNote::default()
-    }
 }

@@ -58,7 +58,6 @@ fn label_of(scene: &Scene<'_>, id: &SensorId) -> String {
     source_of(scene, id).map_or_else(|| id.name.clone(), |source| source.label)
 }
 
-/// The sensor that the others are compared to.
 fn reference_id(scene: &Scene<'_>) -> SensorId {
     SensorId { kind: SetKind::Observer, name: scene.document.reference.clone() }
 }

@@ -15,7 +15,7 @@ use crate::jobs::Shown;
 use crate::paint;
 use crate::panes::widgets;
 use crate::panes::widgets::pick_list::{self, Line};
-use crate::panes::widgets::table::{CellNote, Column, DataTable};
+use crate::panes::widgets::table::DataTable;
 use crate::plot_item::{PlotItem, SensorId};
 use crate::scene::Scene;
 use crate::scene::light::LightSheetQuery;
@@ -31,11 +31,9 @@ pub const PANE: Pane = Pane {
     table: true,
 };
 
-/// Width of the list of lights.
 const LIST: f32 = 220.0;
 /// Minimum width for bars and vectors side by side.
 const WIDE: f32 = 520.0;
-/// Heights of the bars and of the vectors below them.
 const BARS: f32 = 150.0;
 const VECTORS: f32 = 250.0;
 
@@ -117,7 +115,6 @@ fn summary(ui: &mut Ui, scene: &Scene<'_>, rendition: &Rendition, context: &Pane
     }
 }
 
-/// Spectral similarity to a light that is chosen.
 fn similarity(ui: &mut Ui, scene: &Scene<'_>, context: &mut PaneContext<'_>) {
     let now = context.states.of::<SimilarTo>().0.clone();
     ui.horizontal(|ui| {
@@ -182,24 +179,23 @@ fn cameras(ui: &mut Ui, scene: &Scene<'_>, shown: &Shown<LightSheetQuery>, conte
     let names = scene.patches().map(|set| set.patches().iter().map(|patch| patch.name.clone()).collect::<Vec<_>>());
     let names = names.unwrap_or_default();
     let mut table = Table::new(["camera", "mean", "95 %", "max", "worst patch"]);
+    for column in &mut table.columns {
+        column.decimals = Some(2);
+    }
     for ((label, _), found) in cameras.iter().zip(found) {
+        let why = found.as_ref().err().map_or_else(String::new, |error| sentence(&error.to_string()));
         let found = found.as_ref().ok();
-        let [mean, p95, max] =
-            [found.map(|f| f.mean), found.map(|f| f.percentile_95), found.map(|f| f.max)].map(Cell::from);
+        let numbers = [found.map(|f| f.mean), found.map(|f| f.percentile_95), found.map(|f| f.max)].map(Cell::from);
         let worst = found.and_then(|found| names.get(found.worst)).map_or("", String::as_str);
-        table.push([Cell::from(label.as_str()), mean, p95, max, Cell::from(worst)]);
+        let cells = std::iter::once(Cell::from(label.as_str())).chain(numbers).chain([Cell::from(worst)]);
+        table.push(cells.map(|cell| if why.is_empty() { cell } else { cell.with(|note| note.hint.clone_from(&why)) }));
     }
     let sources = scene.sources();
     let item = |row: usize| {
         let source = sources.iter().find(|source| source.kind == SetKind::Camera && source.label == cameras[row].0)?;
         Some(PlotItem::Sensor(SensorId { kind: source.kind, name: source.name.clone() }))
     };
-    let columns = table.columns.iter().map(|head| Column { decimals: Some(2), ..Column::from_head(head) }).collect();
-    let note = |row: usize, _| CellNote {
-        hint: found[row].as_ref().err().map_or_else(String::new, |error| sentence(&error.to_string())),
-        ..CellNote::default()
-    };
-    let shown = DataTable::new(PANE.kind, "consistency", &table).with_columns(columns).with_notes(&note);
+    let shown = DataTable::new(PANE.kind, "consistency", &table);
     let top = ui.cursor().top();
     if let Some(row) = shown.with_items(&item).show_compact(ui, context).clicked {
         context.view.click(item(row).as_ref());

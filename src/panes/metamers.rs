@@ -1,6 +1,6 @@
 //! Pairs of measured reflectances that a camera confuses and the reference does not, and the reverse.
 
-use chromascope_figure::{Cell, Table};
+use chromascope_figure::{Cell, Column, Table};
 use egui::{Rect, RichText, Ui};
 
 use super::context::{Pane, PaneContext};
@@ -9,7 +9,7 @@ use crate::document::render::RenderSettings;
 use crate::document::{SetKind, Subset};
 use crate::figures::report_card;
 use crate::panes::widgets;
-use crate::panes::widgets::table::{CellNote, Column, DataTable};
+use crate::panes::widgets::table::DataTable;
 use crate::plot_item::{PlotItem, SensorId};
 use crate::scene::metrics::{FoundMetamers, MetamerRow};
 use crate::theme::UNIT;
@@ -79,33 +79,31 @@ fn switches(ui: &mut Ui, context: &mut PaneContext<'_>) {
 }
 
 fn pairs(ui: &mut Ui, place: Rect, camera: &SensorId, found: &FoundMetamers, context: &mut PaneContext<'_>) {
-    let mut table = Table::new(["reflectance", "its metamer", "ΔE*00 reference", "ΔL* camera"]);
-    for row in &found.rows {
-        let [a, b] =
-            row.names.each_ref().map(|[set, name]| if set == name { name.clone() } else { format!("{name} ({set})") });
-        let [reference, camera] = [row.pair.observer_difference, row.pair.camera_difference];
-        table.push([Cell::from(a), Cell::from(b), Cell::from(reference), Cell::from(camera)]);
-    }
     let hints = [
         "",
         "",
         "Difference to the reference observer.",
         "Largest difference of a balanced camera channel, each through the CIE lightness function (0 to 100).",
     ];
-    let columns = table.columns.iter().zip(hints).map(|(name, hint)| Column {
-        name: name.clone(),
+    let heads = ["reflectance", "its metamer", "ΔE*00 reference", "ΔL* camera"].into_iter().zip(hints);
+    let mut table = Table::new(heads.map(|(head, hint)| Column {
         hint: hint.to_owned(),
         decimals: Some(2),
         largest_first: true,
-        ..Column::default()
-    });
+        ..Column::from(head)
+    }));
+    for row in &found.rows {
+        let [a, b] =
+            row.names.each_ref().map(|[set, name]| if set == name { name.clone() } else { format!("{name} ({set})") });
+        let [reference, camera] = [row.pair.observer_difference, row.pair.camera_difference];
+        table.push([Cell::from(a), Cell::from(b), Cell::from(reference), Cell::from(camera)]);
+    }
     let item = |row: usize| {
         let source = Some(camera.clone());
         Some(PlotItem::Patch { source, patch: found.rows.get(row)?.names[0][1].clone() })
     };
-    let note = |_: usize, _: usize| CellNote::default();
-    let shown = DataTable::new(PANE.kind, "Metamers", &table).with_columns(columns.collect());
-    if let Some(row) = shown.with_items(&item).with_notes(&note).show(ui, place, context).clicked {
+    let shown = DataTable::new(PANE.kind, "Metamers", &table).with_items(&item);
+    if let Some(row) = shown.show(ui, place, context).clicked {
         context.states.of::<ClickedPair>().0 = Some(row);
         let patch = |name: &str| PlotItem::Patch { source: Some(camera.clone()), patch: name.to_owned() };
         context.view.pinned = found.rows[row].names.iter().map(|[_, name]| patch(name)).collect();

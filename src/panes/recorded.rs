@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use chromascope_core::camera::recorded::{RankRange, RecordedFit, RecordedPatch};
 use chromascope_core::query::{RecordedSet, Shared};
-use chromascope_figure::{Axis, Cell, Image, InkRole, Mark, Marker, Panel, Shape, Table, Tag};
+use chromascope_figure::{Axis, Cell, Column, Image, InkRole, Mark, Marker, Panel, Shape, Table, Tag};
 use egui::{DragValue, Id, Label, Rect, RichText, Sense, Ui, Vec2};
 
 use super::context::{Pane, PaneContext};
@@ -17,7 +17,7 @@ use crate::figures::recorded;
 use crate::format::{file_name, fixed, rank_in_words};
 use crate::paint::{self, PlotOptions};
 use crate::panes::widgets;
-use crate::panes::widgets::table::{CellNote, Column, DataTable};
+use crate::panes::widgets::table::DataTable;
 use crate::plot_item::{PlotItem, SensorId};
 use crate::scene::Scene;
 use crate::scene::recorded::{RANK_CAUTION, RankedCamera, cause_in_words, range_in_words};
@@ -255,33 +255,27 @@ fn ranking(
     names: &[String],
     context: &mut PaneContext<'_>,
 ) -> Option<String> {
-    let mut table = Table::new(["camera", "rank", "RMS (%)", "red (%)", "green (%)", "blue (%)", "worst patch"]);
+    let percent = |name: &str| Column { decimals: Some(2), shaded: true, ..Column::in_unit(name, "%") };
+    let hint = format!("95 % range by a bootstrap over the patches. {RANK_CAUTION}");
+    let rank = Column { hint, ..Column::from("rank") };
+    let channels = ["RMS", "red", "green", "blue"].map(percent).into_iter();
+    let mut table = Table::new(["camera".into(), rank].into_iter().chain(channels).chain(["worst patch".into()]));
     for (index, camera) in ranked.iter().enumerate() {
-        let fit = camera.fit.as_ref().ok();
+        let fit = camera.fit.as_ref();
+        let why = fit.err().map_or_else(String::new, ToString::to_string);
+        let fit = fit.ok();
         let percent = |log: Option<f64>| Cell::from(log.map(|log| 100.0 * log));
         let worst = fit.and_then(|fit| names.get(fit.worst_patches().first()?.0)).map_or("", String::as_str);
         let channels = fit.map_or([None; 3], RecordedFit::channel_rms).map(percent);
-        let rank = fit.map(|_| (index + 1) as f64);
-        let first = [Cell::from(camera.name.as_str()), Cell::from(rank), percent(fit.map(RecordedFit::rms))];
-        table.push(first.into_iter().chain(channels).chain([Cell::from(worst)]));
+        let range = camera.rank.map(|rank| rank.range).filter(|[first, last]| first < last);
+        let rank = Cell::from(fit.map(|_| (index + 1) as f64));
+        let rank = rank.with(|note| note.words = range.map(|range| rank_in_words(Some(range))));
+        let rest = [rank, percent(fit.map(RecordedFit::rms))].into_iter().chain(channels).chain([Cell::from(worst)]);
+        let rest = rest.map(|cell| cell.with(|note| note.hint.clone_from(&why)));
+        table.push(std::iter::once(Cell::from(camera.name.as_str())).chain(rest));
     }
-    let columns = table.columns.iter().map(|head| {
-        let column = Column::from_head(head);
-        let hint = if column.name == "rank" {
-            format!("95 % range by a bootstrap over the patches. {RANK_CAUTION}")
-        } else {
-            String::new()
-        };
-        Column { hint, decimals: (column.unit == "%").then_some(2), shaded: column.unit == "%", ..column }
-    });
-    let range = |row: usize| ranked[row].rank.map(|rank| rank.range).filter(|[first, last]| first < last);
-    let note = |row: usize, column: usize| CellNote {
-        words: range(row).filter(|_| column == 1).map(|range| rank_in_words(Some(range))),
-        hint: ranked[row].fit.as_ref().err().filter(|_| column > 0).map_or_else(String::new, ToString::to_string),
-        ..CellNote::default()
-    };
     let item = |row: usize| Some(PlotItem::Sensor(SensorId { kind: SetKind::Camera, name: ranked[row].name.clone() }));
-    let shown = DataTable::new(PaneKind::RECORDED, "Recorded: cameras", &table).with_columns(columns.collect());
-    let output = shown.with_notes(&note).with_items(&item).show(ui, rect, context);
+    let shown = DataTable::new(PaneKind::RECORDED, "Recorded: cameras", &table).with_items(&item);
+    let output = shown.show(ui, rect, context);
     output.clicked.map(|row| ranked[row].name.clone())
 }

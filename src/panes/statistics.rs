@@ -1,12 +1,12 @@
 //! Statistics of the visible pictures: samples, integration methods, computed and reused stages.
 
-use chromascope_figure::{Cell, Table};
+use chromascope_figure::{Cell, Column, Table};
 use egui::{Rect, RichText, Ui};
 
 use super::context::{Pane, PaneContext};
 use crate::command::Command;
 use crate::panes::widgets;
-use crate::panes::widgets::table::{Column, DataTable, show_pairs};
+use crate::panes::widgets::table::{DataTable, show_pairs};
 use crate::render_service::made::MadePictures;
 use crate::theme::UNIT;
 use crate::workspaces::{PaneKind, Workspace};
@@ -74,7 +74,8 @@ fn pictures(ui: &mut Ui, context: &mut PaneContext<'_>) {
 
 fn stages(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let counts = context.counts();
-    let mut table = Table::new(["since the start", "computed", "reused", "each (ms)"]);
+    let each = Column { decimals: Some(1), ..Column::in_unit("each", "ms") };
+    let mut table = Table::new(["since the start".into(), "computed".into(), "reused".into(), each]);
     for (name, words) in STAGES {
         if let Some((_, count)) = counts.iter().find(|(counted, _)| *counted == name) {
             let each = count.own_time.as_secs_f64() * 1e3 / count.misses.max(1) as f64;
@@ -86,7 +87,5 @@ fn stages(ui: &mut Ui, context: &mut PaneContext<'_>) {
         return;
     }
     ui.add_space(UNIT);
-    let mut columns: Vec<Column> = table.columns.iter().map(|head| Column::from_head(head)).collect();
-    columns[3].decimals = Some(1);
-    DataTable::new(PANE.kind, "stages", &table).with_columns(columns).show_compact(ui, context);
+    DataTable::new(PANE.kind, "stages", &table).show_compact(ui, context);
 }

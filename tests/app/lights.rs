@@ -33,7 +33,7 @@ fn a_filter_multiplies_the_light_of_every_comparison() {
     let plain = with(&filtered(&[]), |scene| scene.light().unwrap());
     let half = with(&filtered(&["ND 0.3"]), |scene| {
         assert_eq!(scene.light_name(), "D65 × ND 0.3");
-        assert_eq!(scene.conditions()[1], "D65 × ND 0.3");
+        assert_eq!(scene.conditions()[1].1, "D65 × ND 0.3");
         scene.light().unwrap()
     });
     for (a, b) in plain.grid.values().iter().zip(half.grid.values()) {

@@ -391,13 +391,28 @@ fn all_numbers_go_out_as_csv_and_json() {
     assert_eq!(figure.table.rows.len(), cameras);
     let (conditions, metrics) = (2, CameraMetric::ALL.len());
     let of_uncertainty = 4;
-    assert_eq!(figure.table.columns.len(), 1 + 2 * metrics + of_uncertainty + conditions);
-    assert!(figure.table.columns.ends_with(&["chart".to_owned(), "temperature_k".to_owned()]));
+    let keys: Vec<&str> = figure.table.keys().collect();
+    assert_eq!(keys.len(), 1 + 2 * metrics + of_uncertainty + conditions);
+    assert!(keys.ends_with(&["chart", "temperature_k"]));
     let json: serde_json::Value = serde_json::from_str(&export::json(&figure.title, &figure.table)).unwrap();
     assert_eq!((json["version"].as_u64(), json["rows"].as_array().map(Vec::len)), (Some(1), Some(cameras)));
     let column = json["columns"].as_array().unwrap().iter().position(|c| c == "delta_e_2000_mean").unwrap();
     assert!(json["rows"][0][column].as_f64().is_some_and(|value| value > 0.0), "{}", json["rows"][0]);
     assert!(figure.table.to_csv().starts_with("camera,delta_e_2000_mean,delta_e_2000_mean_uncertainty,"));
+}
+
+#[test]
+fn a_metric_is_one_entry_for_every_table() {
+    let (catalog, results, document) = (Catalog::built_in(), Results::default(), Document::colorimetry());
+    let scene = Scene { document: &document, catalog: &catalog, results: &results };
+    let figure = panes::figure(PaneKind::METRICS, &scene, &FigureLook::default(), FigureRoom::default());
+    let table = figure.expect("a figure").table;
+    for metric in CameraMetric::ALL {
+        let column = &table.columns[table.place(metric.column).expect(metric.column)];
+        assert_eq!((column.name.as_str(), column.decimals), (metric.symbol, Some(metric.decimals)));
+        assert_eq!(column.uncertainty, format!("{}_uncertainty", metric.column));
+        assert!(column.hint.starts_with(metric.label) && column.group == metric.group.label());
+    }
 }
 
 #[test]

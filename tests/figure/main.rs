@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use chromascope_figure::{
-    Anchor, Axis, Cell, Dash, Figure, Image, Ink, InkRole, LegendEntry, LegendPlace, MIN_LABEL_SPACING, Mark, Marker,
-    MarkerOutline, PageStyle, Palette, Panel, Projection, Rect, Shape, Stroke, Table, Tag, TextSize, Ticks,
+    Anchor, Axis, Cell, Dash, Field, Figure, Image, Ink, InkRole, LegendEntry, LegendPlace, MIN_LABEL_SPACING, Mark,
+    Marker, MarkerOutline, PageStyle, Palette, Panel, Projection, Rect, Shape, Stroke, Table, Tag, TextSize, Ticks,
     annotations, auto_ticks, finite_runs, fit_equal, svg, text_width, wrapped,
 };
 use proptest::prelude::*;
@@ -301,6 +301,31 @@ fn a_tables_text_is_quoted_where_it_must_be() {
     assert_eq!(table.to_tsv().lines().nth(1), Some("\"a, \"\"b\"\"\"\t0.1\t"));
 }
 
+/// A quantity with its uncertainty.
+type Measured = (&'static str, f64, f64);
+
+const COLUMNS: [Field<Measured>; 2] = [
+    Field::new("name", |(name, ..)| (*name).into()),
+    Field::quantity(["length_mm", "length", "mm"], |(_, value, by)| {
+        Cell::from(*value).with(|note| note.uncertainty = Some(*by))
+    }),
+];
+
+#[test]
+fn a_column_is_one_entry_for_text_csv_and_tabs() {
+    let rows = [("a", 12.3456, 0.21), ("b, c", 4.0, 0.013)];
+    let mut table = Table::of(&COLUMNS, rows);
+    table.insert(2, "note", [Cell::Missing("not measured".to_owned())]);
+    assert_eq!(table.to_text(), "name  length [mm]  note\na          12.35      –\nb, c        4.000     –\n");
+    table.columns[1].uncertainty = "length_mm_uncertainty".to_owned();
+    let text = "name     length [mm]  note\na     12.35  ± 0.21      –\nb, c   4.000 ± 0.013     –\n";
+    assert_eq!(table.to_text(), text);
+    assert_eq!(table.to_csv(), "name,length_mm,length_mm_uncertainty,note\na,12.3456,0.21,\n\"b, c\",4,0.013,\n");
+    assert_eq!(table.to_tsv().lines().nth(2), Some("b, c\t4\t0.013\t"));
+    assert_eq!((table.cell(0, 2).hint(), table.cell(1, 1).in_words().as_str()), ("not measured", "4.000 ± 0.013"));
+    assert_eq!(table.part(&[1], &[1]).to_csv(), "length_mm,length_mm_uncertainty\n4,0.013\n");
+}
+
 #[test]
 fn sixteen_sources_differ_in_color_or_marker() {
     let keys: Vec<(usize, Marker)> = (0..16).map(|slot| (slot % 8, Marker::source(slot))).collect();
@@ -342,7 +367,7 @@ fn constants_stand_at_the_end_of_every_row() {
     let mut table = Table::new(["a", "b"]);
     table.push([Cell::from(1.0), Cell::from(2.0)]);
     table.push([Cell::from(3.0)]);
-    let table = table.with_constants(&[("light", "E, equal".to_owned())]);
+    let table = table.with_constants([("light", "E, equal".to_owned())]);
     assert_eq!(table.to_csv(), "a,b,light\n1,2,\"E, equal\"\n3,,\"E, equal\"\n");
 }
 

@@ -12,6 +12,7 @@ mod clip;
 mod ink;
 mod labels;
 mod mark;
+pub mod number;
 mod page;
 mod panel;
 pub mod pdf;
@@ -34,5 +35,5 @@ pub use panel::{Annotation, Figure, LegendEntry, LegendPlace, Panel, annotations
 pub use projection::{Projection, fit_equal};
 pub use rect::Rect;
 pub use room::{AxisRanges, FigureRoom, Numbers};
-pub use table::{Cell, Table};
+pub use table::{Cell, CellValue, Column, Field, Note, Table};
 pub use text::{text_area, text_width, wrapped};

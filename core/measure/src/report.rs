@@ -1,6 +1,6 @@
 //! All that was measured in one run, as figures, a table and JSON.
 
-use chromascope_figure::{Cell, Figure, Panel, Table};
+use chromascope_figure::{Field, Figure, Panel, Table};
 use serde::{Deserialize, Serialize};
 
 use crate::{Effort, Machine, Measurement, Workload, figure};
@@ -76,43 +76,34 @@ impl Report {
     }
 }
 
+/// Columns of the measurements.
+const COLUMNS: [Field<Measurement>; 22] = [
+    Field::new("workload", |m| m.workload.name().into()),
+    Field::new("case", |m| m.case.as_str().into()),
+    Field::new("method", |m| m.method.as_str().into()),
+    Field::new("threads", |m| (m.threads as f64).into()),
+    Field::new("item", |m| m.item.as_str().into()),
+    Field::new("items", |m| (m.items as f64).into()),
+    Field::new("rounds", |m| (m.rounds as f64).into()),
+    Field::quantity(["time per item (s)", "time per item", "s"], |m| m.seconds_per_item.into()),
+    Field::quantity(["shortest time per item (s)", "shortest time per item", "s"], |m| m.least_seconds_per_item.into()),
+    Field::quantity(["spread (quartiles / median)", "spread", "quartiles / median"], |m| m.spread.into()),
+    Field::quantity(["time to build (s)", "time to build", "s"], |m| m.build_seconds.into()),
+    Field::new("error of", |m| m.error.what.as_str().into()),
+    Field::new("max abs error", |m| m.error.max_abs.into()),
+    Field::new("rms abs error", |m| m.error.rms_abs.into()),
+    Field::new("max rel error", |m| m.error.max_rel.into()),
+    Field::new("rms rel error", |m| m.error.rms_rel.into()),
+    Field::new("checked", |m| (m.error.checked as f64).into()),
+    Field::new("refused", |m| (m.error.refused as f64).into()),
+    Field::new("baseline", |m| m.baseline.as_str().into()),
+    Field::new("time / baseline", |m| m.ratio.into()),
+    Field::new("share of memory limit", |m| m.roof.map(|roof| roof.memory).into()),
+    Field::new("share of arithmetic limit", |m| m.roof.map(|roof| roof.arithmetic).into()),
+];
+
 /// Measurements of a report as a table, each row with what and when it was measured on.
 pub(crate) fn table<'a>(report: &Report, measurements: impl Iterator<Item = &'a Measurement>) -> Table {
-    let columns = "workload; case; method; threads; item; items; rounds; time per item (s); \
-                   shortest time per item (s); spread (quartiles / median); time to build (s); error of; \
-                   max abs error; rms abs error; max rel error; rms rel error; checked; refused; baseline; \
-                   time / baseline; share of memory limit; share of arithmetic limit; machine; program; began";
-    let machine = report.machine.to_string();
-    let mut table = Table::new(columns.split("; "));
-    for m in measurements {
-        let count = |number: usize| Cell::from(number as f64);
-        table.push([
-            Cell::from(m.workload.name()),
-            Cell::from(m.case.as_str()),
-            Cell::from(m.method.as_str()),
-            count(m.threads),
-            Cell::from(m.item.as_str()),
-            count(m.items),
-            count(m.rounds),
-            Cell::from(m.seconds_per_item),
-            Cell::from(m.least_seconds_per_item),
-            Cell::from(m.spread),
-            Cell::from(m.build_seconds),
-            Cell::from(m.error.what.as_str()),
-            Cell::from(m.error.max_abs),
-            Cell::from(m.error.rms_abs),
-            Cell::from(m.error.max_rel),
-            Cell::from(m.error.rms_rel),
-            count(m.error.checked),
-            count(m.error.refused),
-            Cell::from(m.baseline.as_str()),
-            Cell::from(m.ratio),
-            Cell::from(m.roof.map(|roof| roof.memory)),
-            Cell::from(m.roof.map(|roof| roof.arithmetic)),
-            Cell::from(machine.as_str()),
-            Cell::from(report.program.as_str()),
-            Cell::from(report.began.as_str()),
-        ]);
-    }
-    table
+    let constants = [("machine", report.machine.to_string()), ("program", report.program.clone())];
+    Table::of(&COLUMNS, measurements).with_constants(constants).with_constants([("began", report.began.clone())])
 }

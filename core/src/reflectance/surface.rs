@@ -221,19 +221,32 @@ pub enum Caution {
     Steep,
 }
 
+impl Caution {
+    /// The limit that is exceeded.
+    pub const fn brief(self) -> &'static str {
+        match self {
+            Self::SmallPatch => "The illuminated area is narrower than ten correlation lengths",
+            Self::ShortCorrelation => "The correlation length is shorter than a wavelength",
+            Self::Steep => "The RMS slope is above 0.4",
+        }
+    }
+
+    /// The rest of the sentence: what follows from it.
+    const fn rest(self) -> &'static str {
+        match self {
+            Self::SmallPatch => ": too small to stand for the surface, and the scattered power can exceed 1",
+            Self::ShortCorrelation => ": tangent planes no longer stand for the surface",
+            Self::Steep => {
+                ", the limit of the model: steeper facets shadow each other, which it leaves out, so brightness by \
+                 angle is approximate"
+            }
+        }
+    }
+}
+
 impl fmt::Display for Caution {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::SmallPatch => {
-                "The illuminated area is narrower than ten correlation lengths: too small to stand for the surface, and the scattered power can exceed 1"
-            }
-            Self::ShortCorrelation => {
-                "The correlation length is shorter than a wavelength: tangent planes no longer stand for the surface"
-            }
-            Self::Steep => {
-                "The RMS slope is above 0.4, the limit of the model: steeper facets shadow each other, which it leaves out, so brightness by angle is approximate"
-            }
-        })
+        write!(f, "{}{}", self.brief(), self.rest())
     }
 }
 

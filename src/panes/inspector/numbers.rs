@@ -3,11 +3,11 @@
 use chromascope_core::colorimetry::{Lab, UvPrime, Xy, Xyz};
 use chromascope_core::light::Cct;
 use chromascope_core::query::{LocusPoint, PatchColor};
-use chromascope_figure::{Cell, Table};
+use chromascope_figure::{Cell, Column, Table};
 use egui::{ScrollArea, Ui};
 
 use crate::panes::context::PaneContext;
-use crate::panes::widgets::table::{CellNote, Column, DataTable};
+use crate::panes::widgets::table::DataTable;
 use crate::scene::Scene;
 use crate::workspaces::PaneKind;
 
@@ -93,12 +93,9 @@ fn temperatures(scene: &Scene<'_>, colors: impl Iterator<Item = Option<Xyz>>) ->
 
 /// Writes rows below the columns' headers; `id` distinguishes tables of one pane.
 pub(super) fn show(ui: &mut Ui, id: &str, heads: &[String], rows: &[Row], context: &PaneContext<'_>) {
-    let table = table(heads, rows);
-    let names = std::iter::once(Column::default());
-    let decimals = rows.iter().map(|row| row.decimals).max();
-    let columns = names.chain(heads.iter().map(|head| Column { name: head.clone(), decimals, ..Column::default() }));
-    let note = |row: usize, _| CellNote { decimals: Some(rows[row].decimals), ..CellNote::default() };
-    let shown = DataTable::new(PaneKind::INSPECTOR, id, &table).with_columns(columns.collect()).with_notes(&note);
+    let mut table = table(heads, rows);
+    table.columns[0] = Column::default();
+    let shown = DataTable::new(PaneKind::INSPECTOR, id, &table);
     ScrollArea::horizontal().id_salt(id).auto_shrink([false, true]).show(ui, |ui| {
         shown.with_scrolling().show_compact(ui, context);
     });
@@ -109,9 +106,12 @@ pub(super) fn to_tsv(heads: &[String], rows: &[Row]) -> String {
 }
 
 fn table(heads: &[String], rows: &[Row]) -> Table {
-    let mut table = Table::new(std::iter::once("quantity").chain(heads.iter().map(String::as_str)));
+    let decimals = rows.iter().map(|row| row.decimals).max();
+    let heads = heads.iter().map(|head| Column { decimals, ..Column::from(head.as_str()) });
+    let mut table = Table::new(std::iter::once(Column::from("quantity")).chain(heads));
     for row in rows {
-        table.push(std::iter::once(Cell::from(row.name)).chain(row.cells.iter().map(|cell| Cell::from(*cell))));
+        let cells = row.cells.iter().map(|cell| Cell::from(*cell).with(|note| note.decimals = Some(row.decimals)));
+        table.push(std::iter::once(Cell::from(row.name)).chain(cells));
     }
     table
 }

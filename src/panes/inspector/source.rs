@@ -98,7 +98,6 @@ fn measures(scene: &Scene<'_>, id: &SensorId) -> Vec<Fact> {
     facts
 }
 
-/// CCT and Duv of the light, or why there are none.
 fn temperature_words(scene: &Scene<'_>) -> String {
     match scene.light_temperature() {
         Ok(Ok(cct)) => format!("CCT {} K, Duv {} for {FIT_TARGET}", fixed(cct.temperature.get(), 0), signed(cct.duv)),

@@ -1,13 +1,13 @@
 //! Values of the pinned pixel.
 
-use chromascope_figure::{Cell, Table};
+use chromascope_figure::{Cell, Column, Table};
 use egui::{RichText, Ui};
 
 use crate::figures::render::headline::Measure;
 use crate::figures::render::{NO_VALUE, facts, index_of, pixel_of};
 use crate::panes::context::PaneContext;
 use crate::panes::widgets::pixel_spectrum;
-use crate::panes::widgets::table::{Column, DataTable, show_pairs};
+use crate::panes::widgets::table::{DataTable, show_pairs};
 use crate::plot_item::SensorId;
 use crate::render_service::RenderedFrame;
 use crate::render_service::pixel::PixelShows;
@@ -82,7 +82,8 @@ fn shown(place: PixelPlace, shot: &RenderedFrame) -> PixelPlace {
 /// The pixel through each sensor, one line each.
 fn others(ui: &mut Ui, place: &PixelPlace, shot: &RenderedFrame, context: &PaneContext<'_>) {
     let measure = Measure::of_frame(shot);
-    let mut table = Table::new(["", "x", "y", measure.short_name()]);
+    let heads = ["", "x", "y", measure.short_name()];
+    let mut table = Table::new(heads.map(|head| Column { decimals: Some(4), ..Column::from(head) }));
     for source in shot.sources.iter() {
         let place = PixelPlace { at: place.at, source: SensorId { kind: source.kind, name: source.name.clone() } };
         let Some(PixelShows::Lit(lit)) = pixel_of(&context.scene, shot, &place).map(|reading| reading.shows) else {
@@ -92,7 +93,5 @@ fn others(ui: &mut Ui, place: &PixelPlace, shot: &RenderedFrame, context: &PaneC
         let difference = lit.difference.map_or_else(String::new, |difference| measure.number(difference));
         table.push([Cell::from(source.label.as_str()), x, y, Cell::from(difference)]);
     }
-    let columns = table.columns.iter().map(|head| Column { decimals: Some(4), ..Column::from_head(head) }).collect();
-    let shown = DataTable::new(PaneKind::RENDER_SETTINGS, "pixel in all pictures", &table);
-    shown.with_columns(columns).show_compact(ui, context);
+    DataTable::new(PaneKind::RENDER_SETTINGS, "pixel in all pictures", &table).show_compact(ui, context);
 }

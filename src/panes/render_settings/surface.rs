@@ -100,14 +100,12 @@ fn cautions_of(settings: &RenderSettings) -> Vec<[String; 2]> {
         said.push(["Nearly specular: dark except for the highlight".to_owned(), whole.to_owned()]);
     }
     for caution in surface.cautions() {
-        let whole = format!("{caution}.");
-        let words = whole.split([',', ':']).next().unwrap_or(&whole);
         let words = if caution == Caution::Steep {
             format!("Slope {:.1}, model good to 0.4: brightness by angle is approximate", surface.slope())
         } else {
-            words.to_owned()
+            caution.brief().to_owned()
         };
-        said.push([words, whole]);
+        said.push([words, format!("{caution}.")]);
     }
     said
 }

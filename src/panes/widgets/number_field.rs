@@ -11,7 +11,6 @@ use crate::theme::UNIT;
 pub struct NumberField<'a> {
     pub id: Id,
     pub now: f64,
-    /// The least and the largest number that is taken.
     pub range: [f64; 2],
     pub speed: f64,
     pub unit: &'a str,
@@ -22,7 +21,6 @@ pub struct NumberField<'a> {
 /// The text being typed. Rejected text stays until it is corrected or discarded, or the number changes.
 #[derive(Clone)]
 struct Typed {
-    /// The number that it is to replace.
     of: f64,
     text: String,
     wrong: Option<String>,

@@ -23,14 +23,12 @@ const LEAST: f32 = 280.0;
 /// Greatest width of that list; longer names are told on hover.
 const MOST: f32 = 440.0;
 
-/// A line of a list.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Line {
     pub words: String,
     pub note: String,
     /// What is known of it, told when it is pointed at.
     pub facts: String,
-    /// Further words that find it.
     pub also: String,
     /// True if it is what is set now.
     pub on: bool,
@@ -184,7 +182,6 @@ fn row(ui: &mut Ui, line: &Line, picked: bool, theme: &Theme) -> bool {
     response.clicked()
 }
 
-/// A tick about a point.
 pub fn tick(painter: &egui::Painter, at: egui::Pos2, color: egui::Color32) {
     let points = [Vec2::new(-4.0, 0.5), Vec2::new(-1.0, 3.5), Vec2::new(4.5, -3.5)].map(|step| at + step);
     painter.line(points.to_vec(), Stroke::new(1.5, color));

@@ -5,28 +5,25 @@
 mod bar;
 mod body;
 mod columns;
-mod items;
 mod order;
+
+use std::collections::HashMap;
 
 use chromascope_figure::{Cell, Table};
 use egui::{Event, Id, Key, Modifiers, Rect, Ui, UiBuilder, Vec2};
 
 use crate::panes::context::PaneContext;
-use crate::plot_item::PlotItem;
-use crate::scene::conditions::CONDITIONS;
+use crate::plot_item::{PlotItem, SensorId};
+use crate::scene::Scene;
 use crate::theme::{ROW, UNIT};
 use crate::view::table::{Sorting, TableLook};
 use crate::workspaces::PaneKind;
 use body::Body;
 use columns::Layout;
 
-pub use columns::{CellNote, Column};
-
-/// Height of a row.
 const LINE: f32 = 20.0;
 /// Height of a row between other lines of text.
 const COMPACT_LINE: f32 = 15.0;
-/// Height of a line of a head.
 const HEAD_LINE: f32 = 15.0;
 
 /// A table as it is shown.
@@ -34,8 +31,6 @@ pub struct DataTable<'a> {
     pane: PaneKind,
     id: &'a str,
     table: &'a Table,
-    columns: Vec<Column>,
-    note: Option<&'a dyn Fn(usize, usize) -> CellNote>,
     item: Option<&'a dyn Fn(usize) -> Option<PlotItem>>,
     first: Option<Sorting>,
     compact: bool,
@@ -52,28 +47,15 @@ pub struct TableOutput {
 }
 
 impl<'a> DataTable<'a> {
-    /// A table of a pane, with columns named by its heads. `id` names its order and columns in what is saved between runs.
+    /// A table of a pane. `id` names its order and columns in what is saved between runs.
     pub fn new(pane: PaneKind, id: &'a str, table: &'a Table) -> Self {
-        let columns = table.columns.iter().map(|head| Column::from_head(head)).collect();
-        Self { pane, id, table, columns, note: None, item: None, first: None, compact: false, scrolls: false }
+        Self { pane, id, table, item: None, first: None, compact: false, scrolls: false }
     }
 
     /// Compact table that is as wide as its columns need, for a place that scrolls.
     #[must_use]
     pub fn with_scrolling(self) -> Self {
         Self { scrolls: true, ..self }
-    }
-
-    /// Table with descriptions of its columns.
-    #[must_use]
-    pub fn with_columns(self, columns: Vec<Column>) -> Self {
-        Self { columns, ..self }
-    }
-
-    /// Table with uncertainties and reasons, by row and column.
-    #[must_use]
-    pub fn with_notes(self, note: &'a dyn Fn(usize, usize) -> CellNote) -> Self {
-        Self { note: Some(note), ..self }
     }
 
     /// Table with the items of its rows.
@@ -92,12 +74,12 @@ impl<'a> DataTable<'a> {
     pub fn show(&self, ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) -> TableOutput {
         let mut look = context.view.saved.looks.remove(self.id).unwrap_or_default();
         look.sorting = look.sorting.or_else(|| self.first.clone());
-        let shown = order::columns(&self.columns, &look);
-        let mut order = order::rows(self.table, &self.columns, &look);
+        let shown = order::columns(&self.table.columns, &look);
+        let mut order = order::rows(self.table, &look);
         let bar = Rect::from_min_size(rect.min, Vec2::new(rect.width(), ROW));
         let copy = self.bar(ui, bar, &mut look, order.len(), context);
         if look.filter.is_empty() && order.len() < self.table.rows.len() {
-            order = order::rows(self.table, &self.columns, &look);
+            order = order::rows(self.table, &look);
         }
         let below = Rect::from_min_max(egui::pos2(rect.left(), bar.bottom() + UNIT), rect.max);
         let mut body = self.body(shown, order, &look, context);
@@ -119,7 +101,7 @@ impl<'a> DataTable<'a> {
     /// Shows a few rows between other lines of text: without bar and scrolling, at their own height.
     pub fn show_compact(self, ui: &mut Ui, context: &PaneContext<'_>) -> TableOutput {
         let table = Self { compact: true, ..self };
-        let shown = (0..table.columns.len()).collect();
+        let shown = (0..table.table.columns.len()).collect();
         let order: Vec<usize> = (0..table.table.rows.len()).collect();
         let mut body = table.body(shown, order, &TableLook::default(), context);
         let height = body.head_height() + COMPACT_LINE * table.table.rows.len() as f32;
@@ -136,12 +118,8 @@ impl<'a> DataTable<'a> {
         look: &TableLook,
         context: &PaneContext<'_>,
     ) -> Body<'t> {
-        let layouts = self.columns.iter().enumerate().map(|(index, column)| {
-            if !shown.contains(&index) {
-                return Layout::HIDDEN;
-            }
-            let note = |row: usize| self.note.map_or_else(CellNote::default, |note| note(row, index));
-            Layout::of(column, self.table, index, &note, self.compact)
+        let layouts = (0..self.table.columns.len()).map(|index| {
+            if shown.contains(&index) { Layout::of(self.table, index, self.compact) } else { Layout::HIDDEN }
         });
         Body::new(self, layouts.collect(), shown, order, look, context)
     }
@@ -195,38 +173,28 @@ impl<'a> DataTable<'a> {
     /// Rows and columns as shown, in full precision, uncertainties in separate columns, with the conditions where numbers
     /// depend on them.
     fn copied(&self, shown: &[usize], order: &[usize], context: &PaneContext<'_>) -> Table {
-        let uncertain = |column: usize| {
-            self.note.is_some_and(|note| order.iter().any(|&row| note(row, column).uncertainty.is_some()))
-        };
-        let columns: Vec<(usize, bool)> = shown.iter().map(|&column| (column, uncertain(column))).collect();
-        let heads = columns.iter().flat_map(|&(column, uncertain)| {
-            let name = self.columns[column].full_name();
-            [Some(name.clone()), uncertain.then(|| format!("± {name}"))].into_iter().flatten()
-        });
-        let mut table = Table::new(heads.collect::<Vec<_>>());
-        for &row in order {
-            let cells = columns.iter().flat_map(|&(column, uncertain)| {
-                let value = self.table.rows[row].get(column).cloned().unwrap_or_default();
-                let behind = uncertain.then(|| Cell::from(self.note.and_then(|note| note(row, column).uncertainty)));
-                [Some(value), behind].into_iter().flatten()
-            });
-            table.push(cells.collect::<Vec<_>>());
+        let mut table = self.table.part(shown, order);
+        for place in 0..table.columns.len() {
+            let uncertain = (0..order.len()).any(|row| table.cell(row, place).note().uncertainty.is_some());
+            let column = &mut table.columns[place];
+            column.key = column.full_name();
+            column.uncertainty = if uncertain { format!("± {}", column.key) } else { String::new() };
         }
         if context.pane(self.pane).is_some_and(|pane| pane.under_conditions) {
-            let mut conditions: Vec<_> = CONDITIONS.into_iter().zip(context.scene.conditions()).collect();
+            let mut conditions = context.scene.conditions();
             if matches!(self.pane, PaneKind::METRICS | PaneKind::HEAD_TO_HEAD) {
                 let document = context.scene.document;
                 conditions.extend(context.scene.metrics_constants(document.temperature_k));
             }
-            return table.with_constants(&conditions);
+            return table.with_constants(conditions);
         }
         table
     }
 
-    /// Applies clicks and hovering to the view.
     fn take_in(&self, body: &Body<'_>, look: &mut TableLook, context: &mut PaneContext<'_>) -> TableOutput {
         if let Some(column) = body.clicked_head {
-            look.sort_by(&self.columns[column].name, self.columns[column].largest_first);
+            let column = &self.table.columns[column];
+            look.sort_by(&column.name, column.largest_first);
         }
         let item = |row: Option<usize>| self.item.and_then(|item| item(row?));
         context.view.hover(item(body.hovered).as_ref());
@@ -246,10 +214,46 @@ impl<'a> DataTable<'a> {
     }
 }
 
+struct RowItems {
+    sensor: Option<usize>,
+    patch: Option<usize>,
+    temperature: Option<usize>,
+    /// Sensors by label; none for a label that several have.
+    sensors: HashMap<String, Option<SensorId>>,
+}
+
+impl RowItems {
+    fn of(scene: &Scene<'_>, table: &Table) -> Self {
+        let mut sensors: HashMap<String, Option<SensorId>> = HashMap::new();
+        for source in scene.sources() {
+            let id = SensorId { kind: source.kind, name: source.name };
+            sensors.entry(source.label).and_modify(|known| *known = None).or_insert(Some(id));
+        }
+        let [sensor, patch, temperature] = ["sensor", "patch", "temperature_k"].map(|key| table.place(key));
+        Self { sensor, patch, temperature, sensors }
+    }
+
+    fn is_empty(&self) -> bool {
+        self.sensor.is_none()
+    }
+
+    fn of_row(&self, row: &[Cell]) -> Option<PlotItem> {
+        let cell = |column: Option<usize>| row.get(column?);
+        let source = self.sensors.get(cell(self.sensor)?.text()?)?.clone()?;
+        if let Some(patch) = cell(self.patch).and_then(Cell::text) {
+            return Some(PlotItem::Patch { source: Some(source), patch: patch.to_owned() });
+        }
+        match cell(self.temperature).and_then(Cell::number) {
+            Some(kelvin) => Some(PlotItem::Radiator { source, kelvin }),
+            None => Some(PlotItem::Sensor(source)),
+        }
+    }
+}
+
 /// Shows the numbers of a figure, its rows linked by the columns of sensors, patches and temperatures.
 pub fn show_numbers(ui: &mut Ui, rect: Rect, pane: PaneKind, table: &Table, context: &mut PaneContext<'_>) {
     let scene = context.scene;
-    let items = items::RowItems::of(&scene, table);
+    let items = RowItems::of(&scene, table);
     let item = |row: usize| items.of_row(&table.rows[row]);
     let id = context.title(pane);
     let shown = DataTable::new(pane, id, table);

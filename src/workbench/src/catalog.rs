@@ -134,8 +134,7 @@ impl Catalog {
         }
         entries.sort_by_cached_key(|e| {
             // Of one model's tables the measured ones come first.
-            let model = e.name.split_once(" (").map_or(e.name.as_str(), |(model, _)| model);
-            (e.kind, names::sort_key(model), e.is_digitized(), names::sort_key(&e.name))
+            (e.kind, names::sort_key(names::model_of(&e.name)), e.is_digitized(), names::sort_key(&e.name))
         });
         let names = BuiltInNames::new(entries.iter().map(|entry| (entry.kind, entry.name.as_str())));
         Self { entries, names }

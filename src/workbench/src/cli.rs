@@ -1,41 +1,101 @@
-//! Command-line interface: `locus`, `patches`, `compare`, `matrix`, `light`, `figure`, `report`, `render`, `identify`, `inspect`, `bench`, `list`.
+//! Command-line interface: a command is a file here and an entry of `commands`.
 //!
 //! Arguments become a [`Document`](crate::document::Document), which is evaluated through [`Scene`](crate::scene::Scene), as in
 //! the window, so that the two cannot disagree. Nothing here needs a display or a graphics library.
 
 mod arguments;
 mod bench;
-mod checks;
 mod compare;
 mod error;
 mod figure;
-mod fit;
 mod identify;
 mod inspect;
 mod light;
+mod list;
+mod locus;
 mod matrix;
 mod outputs;
-mod per;
-mod pixel;
-mod radiance;
+mod patches;
 mod render;
 mod report;
 mod request;
 mod settings;
-mod sources;
-mod tables;
 
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
-use clap::{CommandFactory as _, FromArgMatches as _};
+use clap::{ArgMatches, CommandFactory as _, FromArgMatches as _, Parser};
 
-use arguments::{Arguments, Subcommand};
-use outputs::{put, show};
+use error::CliError;
+use outputs::show;
 
-pub use self::tables::list;
-use crate::catalog::Catalog;
+pub use self::list::list;
 pub use crate::terminal::say;
+
+/// Commands: each with its arguments, whose doc comment is its line in the help, and the function that runs it.
+macro_rules! commands {
+    ($($name:ident($arguments:path) => $run:path,)*) => {
+        #[derive(Debug, clap::Subcommand)]
+        enum Command {
+            $($name(Box<$arguments>),)*
+        }
+
+        impl Command {
+            fn run(&self, matches: &ArgMatches) -> Result<(), CliError> {
+                match self {
+                    $(Self::$name(arguments) => $run(arguments, matches),)*
+                }
+            }
+        }
+    };
+}
+
+commands! {
+    Locus(locus::LocusArguments) => locus::run,
+    Patches(patches::PatchesArguments) => patches::run,
+    Compare(compare::CompareArguments) => compare::run,
+    Light(light::LightArguments) => light::run,
+    Matrix(matrix::MatrixArguments) => matrix::run,
+    Figure(figure::arguments::FigureArguments) => figure::run,
+    Report(report::ReportArguments) => report::run,
+    Render(render::arguments::RenderArguments) => render::run,
+    Identify(identify::IdentifyArguments) => identify::run,
+    Inspect(inspect::InspectArguments) => inspect::run,
+    Bench(bench::BenchArguments) => bench::run,
+    List(list::ListArguments) => list::run,
+}
+
+/// See, measure and explain how digital cameras render color, from spectra.
+///
+/// Without a command, opens the window with the given files.
+#[derive(Debug, Parser)]
+#[command(name = "chromascope", version, args_conflicts_with_subcommands = true, after_help = EXAMPLES)]
+struct Arguments {
+    /// A session (.chromascope), spectra or camera sensitivities to open in the window
+    #[arg(value_name = "FILE")]
+    files: Vec<PathBuf>,
+    /// A session to open in the window
+    #[arg(long, value_name = "FILE")]
+    session: Option<PathBuf>,
+    /// A computation without a window
+    #[command(subcommand)]
+    command: Option<Command>,
+}
+
+const EXAMPLES: &str = "Examples:
+  chromascope leaf.csv
+  chromascope locus --camera \"Nikon D70\" --observer \"CIE 1931 2°\" --temperatures 2856,5500,6504
+  chromascope patches --camera \"Canon EOS 10D\" --illuminant D55 --out patches.csv
+  chromascope compare --illuminant A --sort metamerism-index
+  chromascope matrix \"Nikon D850\" --illuminant A --second-illuminant D65 --format dcp --out d850.dcp
+  chromascope render --mesh head --camera \"Nikon D70\" --out pictures
+  chromascope inspect measured.txt --csv measured.csv
+  chromascope report --out report
+  chromascope list cameras
+
+Names are those of `chromascope list`. Case, punctuation and words such as CIE, illuminant, standard and observer are ignored; whole
+words, or any unambiguous part of one, match. A match that is not exact is reported on standard error.
+No command overwrites a file that it reads, or any other file without --force.";
 
 /// Action requested by the command line.
 pub enum Outcome {
@@ -66,29 +126,13 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Outcome {
         Ok(parsed) => parsed,
         Err(error) => return Outcome::Done(explain(&error)),
     };
-    let (Some(subcommand), Some((_, matches))) = (parsed.subcommand, matches.subcommand()) else {
+    let (Some(command), Some((_, matches))) = (parsed.command, matches.subcommand()) else {
         if let Some(word) = parsed.files.iter().find(|file| is_mistyped_command(file)) {
             return Outcome::Done(unknown_command(word));
         }
         return Outcome::Window(parsed.session.into_iter().chain(parsed.files).collect());
     };
-    let result = match subcommand {
-        Subcommand::Locus(arguments) => tables::locus(&arguments, matches),
-        Subcommand::Patches(arguments) => {
-            tables::patches(&arguments, matches).and_then(|text| put(&text, arguments.common.out.as_deref()))
-        }
-        Subcommand::Compare(arguments) => compare::run(&arguments, matches),
-        Subcommand::Matrix(arguments) => matrix::run(&arguments),
-        Subcommand::Render(arguments) => render::run(&arguments, matches),
-        Subcommand::Figure(arguments) => figure::run(&arguments, matches),
-        Subcommand::Report(arguments) => report::run(&arguments),
-        Subcommand::Light(arguments) => light::run(&arguments, matches),
-        Subcommand::Identify(arguments) => identify::run(&arguments),
-        Subcommand::Inspect(arguments) => inspect::run(&arguments),
-        Subcommand::Bench(arguments) => bench::run(&arguments),
-        Subcommand::List { kind } => show(&list(&Catalog::built_in(), kind)),
-    };
-    Outcome::Done(match result {
+    Outcome::Done(match command.run(matches) {
         Ok(()) => 0,
         Err(error) => {
             say(&format!("chromascope: {error}\n"));

@@ -12,7 +12,7 @@ use std::io::Cursor;
 use std::sync::{Arc, LazyLock};
 
 use base64::{Engine as _, prelude::BASE64_STANDARD};
-use chromascope_figure::{Cell, Figure, Image, Table, pdf, svg};
+use chromascope_figure::{CellValue, Figure, Image, Table, pdf, svg};
 use image::{
     ExtendedColorType, ImageEncoder as _, RgbaImage,
     codecs::png::{CompressionType, FilterType, PngEncoder},
@@ -53,18 +53,17 @@ pub enum ExportError {
 
 /// A table as JSON: version, title, names of the columns, and rows of numbers, texts and null.
 pub fn json(title: &str, table: &Table) -> String {
-    let cell = |cell: Option<&Cell>| match cell {
-        Some(Cell::Number(value)) if value.is_finite() => serde_json::json!(value),
-        Some(Cell::Text(text)) => serde_json::json!(text),
+    let cell = |value: CellValue<'_>| match value {
+        CellValue::Number(value) if value.is_finite() => serde_json::json!(value),
+        CellValue::Text(text) => serde_json::json!(text),
         _ => serde_json::Value::Null,
     };
-    let row = |row: &Vec<Cell>| (0..table.columns.len()).map(|index| cell(row.get(index))).collect::<Vec<_>>();
-    let rows: Vec<_> = table.rows.iter().map(row).collect();
+    let rows: Vec<Vec<_>> = (0..table.rows.len()).map(|row| table.values(row).map(cell).collect()).collect();
     let value = serde_json::json!({
         "format": "chromascope-table",
         "version": 1,
         "title": title,
-        "columns": table.columns,
+        "columns": table.keys().collect::<Vec<_>>(),
         "rows": rows,
     });
     format!("{value:#}\n")

@@ -1,74 +1,9 @@
-//! Numbers, times and messages of libraries as text for display.
+//! Ranks, names and messages of libraries as text for display; numbers are those of the figures.
 
 use std::path::Path;
 
+pub use chromascope_figure::number::{aligned, behind, decimals_by, fixed, number, rounded, signed, whole};
 use spectral_file::{Dropped, DroppedRow};
-
-/// A number for reading: six significant digits at most, a true minus sign.
-pub fn number(value: f64) -> String {
-    let magnitude = value.abs();
-    let text = if value == 0.0 || (1e-4..1e6).contains(&magnitude) {
-        let decimals = if magnitude >= 1.0 { 5_usize.saturating_sub(magnitude.log10() as usize) } else { 5 };
-        let fixed = format!("{value:.decimals$}");
-        if fixed.contains('.') { fixed.trim_end_matches('0').trim_end_matches('.').to_owned() } else { fixed }
-    } else {
-        format!("{value:.4e}")
-    };
-    text.replace('-', "−")
-}
-
-/// A number with a fixed count of decimals and a true minus sign; no minus before nothing but zeros.
-pub fn fixed(value: f64, decimals: usize) -> String {
-    let text = format!("{value:.decimals$}");
-    let is_zero = !text.bytes().any(|b| b.is_ascii_digit() && b != b'0');
-    if is_zero { text.trim_start_matches('-').to_owned() } else { text.replace('-', "−") }
-}
-
-/// Most decimals of a value with its uncertainty.
-const MOST_DECIMALS: i32 = 9;
-/// Sign behind an uncertainty that is extrapolated.
-const EXTRAPOLATED: &str = "†";
-
-/// Decimals at which a value with a standard uncertainty ends: where two significant digits of the uncertainty do, the most that the GUM
-/// finds useful (JCGM 100:2008, 7.2.6). Negative for tens and hundreds; none for an uncertainty of zero.
-pub fn decimals_by(uncertainty: f64) -> Option<i32> {
-    // Rounded before it is counted: 0.0996 is 0.10.
-    let exponent: i32 = format!("{uncertainty:.1e}").split_once('e')?.1.parse().ok()?;
-    (uncertainty > 0.0).then_some((1 - exponent).min(MOST_DECIMALS))
-}
-
-/// A count of decimals beside those that may be negative.
-pub fn whole(decimals: usize) -> i32 {
-    i32::try_from(decimals).unwrap_or(MOST_DECIMALS)
-}
-
-/// A number rounded to a count of decimals; a negative count is of zeros before the point.
-pub fn rounded(value: f64, decimals: i32) -> String {
-    let Ok(decimals) = usize::try_from(decimals) else {
-        let unit = 10_f64.powi(-decimals);
-        return fixed((value / unit).round() * unit, 0);
-    };
-    fixed(value, decimals)
-}
-
-/// A number with fewer decimals than others below it, padded so that decimal points stand below each other.
-pub fn aligned(value: f64, decimals: i32, column: usize) -> String {
-    let own = decimals.max(0) as usize;
-    let point = usize::from(own == 0 && column > 0);
-    format!("{}{}", rounded(value, decimals), " ".repeat(column.saturating_sub(own) + point))
-}
-
-/// A standard uncertainty as it is written behind its value; none for one of zero.
-pub fn behind(uncertainty: f64, is_extrapolated: bool) -> Option<String> {
-    let mark = if is_extrapolated { EXTRAPOLATED } else { "" };
-    Some(format!("± {}{mark}", rounded(uncertainty, decimals_by(uncertainty)?)))
-}
-
-/// Duv and other signed numbers with four decimals: `+0.0032`.
-pub fn signed(value: f64) -> String {
-    let text = fixed(value, 4);
-    if text.starts_with('−') { text } else { format!("+{text}") }
-}
 
 /// A rank as `3`, or as `1–3` where it is not certain.
 pub fn rank_in_words(rank: Option<[usize; 2]>) -> String {
@@ -147,37 +82,6 @@ pub fn slug(name: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn a_value_ends_where_its_uncertainty_ends() {
-        let cases = [
-            (0.90512, Some(0.1149), "0.91", Some("± 0.11")),
-            (0.90512, Some(0.0996), "0.91", Some("± 0.10")),
-            (0.90512, Some(0.003_54), "0.9051", Some("± 0.0035")),
-            (246.39, Some(123.0), "250", Some("± 120")),
-            (-16.4348, Some(14.6), "−16", Some("± 15")),
-            (20.8626, Some(2.3), "20.9", Some("± 2.3")),
-            (-0.4, Some(15.0), "0", Some("± 15")),
-            (99.96, Some(0.996), "100.0", Some("± 1.0")),
-            (1.5, Some(0.0), "1.50", None),
-            (1.5, Some(f64::NAN), "1.50", None),
-            (1.5, Some(f64::INFINITY), "1.50", None),
-            (1.5, None, "1.50", None),
-        ];
-        for (value, uncertainty, number, by) in cases {
-            let own = uncertainty.and_then(decimals_by).unwrap_or(2);
-            let written = uncertainty.and_then(|by| behind(by, false));
-            assert_eq!(
-                (rounded(value, own), written),
-                (number.to_owned(), by.map(str::to_owned)),
-                "{value} {uncertainty:?}"
-            );
-        }
-        assert_eq!(behind(0.0996, true).as_deref(), Some("± 0.10†"));
-        let column = [(12.3, 2), (4.52, 1), (7.1, 0), (123.0, -1)].map(|(value, own)| aligned(value, own, 2));
-        assert_eq!(column, ["12.30", "4.5 ", "7   ", "120   "]);
-        assert_eq!(aligned(123.0, -1, 0), "120");
-    }
 
     #[test]
     fn merged_rows_are_not_left_out() {

@@ -12,12 +12,12 @@ mod patches;
 mod pictures;
 
 use std::path::PathBuf;
-use std::sync::{Arc, OnceLock};
+use std::sync::{Arc, LazyLock, OnceLock};
 
 use chromascope_core::query::Ask as _;
-use chromascope_figure::{Cell, Table};
+use chromascope_figure::{Field, Table};
 
-pub use claim::{Claim, FURTHER, Finding, Subject, Value, Verdict};
+pub use claim::{Claim, FURTHER, Find, Finding, Subject, Value, Verdict};
 pub use figures::{FIGURES, PaperFigure};
 
 use crate::atomic::write_atomically;
@@ -29,9 +29,7 @@ use crate::format::io_reason;
 use crate::jobs::Job;
 use crate::results::Results;
 
-/// Name of the page.
 pub const PAGE: &str = "report.html";
-/// Name of the table of claims.
 pub const NUMBERS: &str = "claims.csv";
 /// Header of the table of claims.
 const SOURCE: &str = concat!(
@@ -42,16 +40,46 @@ const SOURCE: &str = concat!(
 /// Side of a rendered picture in pixels unless the user says otherwise.
 pub const PIXELS: u32 = 480;
 
-/// Forms of each figure.
 const FORMS: [FigureForm; 4] = [FigureForm::Pdf, FigureForm::Svg, FigureForm::Png, FigureForm::Csv];
 
+/// Judges of the claims by their names in `assets/report/claims.md`.
+const FIND: [(&str, Find); 17] = [
+    ("locus-length", loci::lengths),
+    ("daylight-minimum", loci::minima),
+    ("canon-and-nikon-nearer", loci::means),
+    ("white-alike", patches::white),
+    ("red-nearer-xy", patches::in_diagram),
+    ("kodak-farthest", patches::farthest),
+    ("kodak-head-brighter", pictures::brighter),
+    ("kodak-head-saturated", pictures::saturated),
+    ("kodak-fern-white", pictures::fern_white),
+    ("fern-greener", pictures::greener),
+    ("match-skin-differ-leaf", pictures::skin_and_leaf),
+    ("balance", model::balance),
+    ("falloff", model::falloff),
+    ("daylight-is-the-cameras", loci::minima_under_a),
+    ("red-nearer-delta-e", patches::by_eye),
+    ("match-skin-differ-leaf-fitted", pictures::skin_and_leaf_fitted),
+    ("white-stays-white", model::tint),
+];
+
 /// All claims, in the paper's order, then the checks beyond it.
-pub fn claims() -> impl Iterator<Item = &'static Claim> {
-    let claims = loci::CLAIMS.iter().chain(&patches::CLAIMS).chain(&pictures::CLAIMS).chain(&model::CLAIMS);
-    claims.chain(&loci::CHECKS).chain(&patches::CHECKS).chain(&pictures::CHECKS).chain(&model::CHECKS)
+pub fn claims() -> &'static [Claim] {
+    static CLAIMS: LazyLock<Vec<Claim>> = LazyLock::new(|| {
+        let text: &'static str = include_str!("../../../assets/report/claims.md");
+        let parts = text.split("\n## ").skip(1).filter_map(|part| part.split_once('\n'));
+        let claims = parts.flat_map(|(part, claims)| claims.split("\n### ").skip(1).map(move |claim| (part, claim)));
+        let claim = |(part, claim): (&'static str, &'static str)| {
+            let mut paragraphs = claim.split("\n\n").map(str::trim);
+            let [key, paper, why] = std::array::from_fn(|_| paragraphs.next().unwrap_or_default());
+            let find = FIND.iter().find(|(known, _)| *known == key)?.1;
+            Some(Claim { key, part, paper, why, find })
+        };
+        claims.filter_map(claim).collect()
+    });
+    &CLAIMS
 }
 
-/// A claim with its finding.
 pub struct Judged {
     pub claim: &'static Claim,
     /// Finding, or the reason that there is none.
@@ -78,7 +106,6 @@ pub struct Report {
 impl Report {
     /// Name of the work that makes it.
     pub const NAME: &'static str = "report";
-    /// Number of steps.
     pub const STEPS: usize = FIGURES.len() + 1;
 
     /// A report on a document of the start [`Start::Paper`]; with a light of its own, that takes the place of the paper's lights.
@@ -136,6 +163,7 @@ impl Report {
     pub fn judged(&self, results: &Results) -> Vec<Judged> {
         let subject = self.subject(results);
         claims()
+            .iter()
             .map(|claim| Judged { claim, finding: (claim.find)(&subject).map_err(|error| error.to_string()) })
             .collect()
     }
@@ -150,38 +178,37 @@ impl Report {
     }
 }
 
-/// Name of a figure's file.
 fn file_name(figure: &PaperFigure, form: FigureForm) -> String {
     format!("figure{}.{}", figure.number, form.ending())
+}
+
+/// A number found for a claim.
+type Found<'a> = (&'static Claim, Verdict, &'a Value);
+
+fn step(value: &Value) -> f64 {
+    10_f64.powi(i32::try_from(value.decimals).unwrap_or(0))
 }
 
 /// Findings as a table: a row for each number, rounded to the decimals that are stated, with half of the last one; that is the rounding, and
 /// no accuracy of what the number is about.
 pub fn numbers(judged: &[Judged]) -> Table {
-    let mut table = Table::new([
-        "claim",
-        "part",
-        "paper",
-        "verdict",
-        "condition",
-        "quantity",
-        "sensor",
-        "value",
-        "unit",
-        "rounding",
-    ]);
-    for Judged { claim, finding } in judged {
-        let Ok(finding) = finding else { continue };
-        for value in &finding.values {
-            let step = 10_f64.powi(i32::try_from(value.decimals).unwrap_or(0));
-            let rounded = (value.number * step).round() / step;
-            let (verdict, condition) = (finding.verdict.words(), claim.condition(finding.verdict));
-            let texts = [claim.key, claim.part, claim.paper, verdict, condition, &value.quantity, &value.sensor];
-            let numbers = [Cell::from(rounded), Cell::from(value.unit), Cell::from(0.5 / step)];
-            table.push(texts.map(Cell::from).into_iter().chain(numbers));
-        }
+    fn columns<'a>() -> [Field<Found<'a>>; 10] {
+        [
+            Field::new("claim", |(claim, ..)| claim.key.into()),
+            Field::new("part", |(claim, ..)| claim.part.into()),
+            Field::new("paper", |(claim, ..)| claim.paper.into()),
+            Field::new("verdict", |(_, verdict, _)| verdict.words().into()),
+            Field::new("condition", |(claim, verdict, _)| claim.condition(*verdict).into()),
+            Field::new("quantity", |(.., value)| value.quantity.as_str().into()),
+            Field::new("sensor", |(.., value)| value.sensor.as_str().into()),
+            Field::new("value", |(.., value)| ((value.number * step(value)).round() / step(value)).into()),
+            Field::new("unit", |(.., value)| value.unit.into()),
+            Field::new("rounding", |(.., value)| (0.5 / step(value)).into()),
+        ]
     }
-    table
+    let found = judged.iter().filter_map(|Judged { claim, finding }| Some((*claim, finding.as_ref().ok()?)));
+    let values = found.flat_map(|(claim, found)| found.values.iter().map(move |value| (claim, found.verdict, value)));
+    Table::of(&columns(), values)
 }
 
 /// A step of a report that is written to a folder.

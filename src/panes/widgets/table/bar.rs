@@ -1,15 +1,15 @@
 //! The bar over a table: filter, number of rows, columns, copying.
 
+use chromascope_figure::Column;
 use egui::{Align, Layout, Rect, RichText, ScrollArea, TextEdit, Ui};
 
-use super::{Column, DataTable, TableLook, cut};
+use super::{DataTable, TableLook, cut};
 use crate::panes::context::PaneContext;
 use crate::theme::UNIT;
 
 /// Maximum and minimum width of the filter, and the width of the controls beside it.
 const FILTER: [f32; 2] = [132.0, 48.0];
 const BESIDE: f32 = 192.0;
-/// Height of the menu of columns before it scrolls.
 const MENU: f32 = 360.0;
 
 impl DataTable<'_> {
@@ -32,7 +32,9 @@ impl DataTable<'_> {
                 if !look.filter.is_empty() && ui.button("Clear").on_hover_text("Show all rows").clicked() {
                     look.filter.clear();
                 }
-                ui.menu_button("Columns", |ui| menu(ui, &self.columns, look)).response.on_hover_text("Choose columns");
+                ui.menu_button("Columns", |ui| menu(ui, &self.table.columns, look))
+                    .response
+                    .on_hover_text("Choose columns");
                 let hint = "Copy rows and columns as shown, in full precision (Ctrl+C)";
                 ui.button("Copy").on_hover_text(hint).clicked()
             })

@@ -1,11 +1,11 @@
 //! Header and rows of a table; only visible ones are laid out.
 
-use chromascope_figure::Cell;
+use chromascope_figure::{Cell, CellValue, Column};
 use egui::{Id, Rect, Response, Role, Sense, Stroke, StrokeKind, TextStyle, Ui, UiBuilder, Vec2, WidgetInfo};
 use egui_table::{CellInfo, HeaderCellInfo, HeaderRow, PrefetchInfo, TableDelegate};
 
 use super::columns::{Form, Layout, air, words};
-use super::{COMPACT_LINE, CellNote, DataTable, HEAD_LINE, LINE, TableLook, TableOutput, cut};
+use super::{COMPACT_LINE, DataTable, HEAD_LINE, LINE, TableLook, TableOutput, cut};
 use crate::panes::context::PaneContext;
 use crate::panes::widgets::{focus_rim, lines};
 use crate::plot_item::{PlotItem, Relation};
@@ -15,7 +15,6 @@ use crate::view::table::Sorting;
 /// Largest share of a table that its first column takes where it stays in place.
 const WIDEST_FROZEN: f32 = 0.6;
 
-/// A table in the middle of a frame.
 pub(super) struct Body<'a> {
     of: &'a DataTable<'a>,
     layouts: Vec<Layout>,
@@ -32,13 +31,9 @@ pub(super) struct Body<'a> {
     id: Id,
     /// The first column stays in place.
     sticks: bool,
-    /// It is being drawn.
     frozen: bool,
-    /// Row under the pointer.
     pub(super) hovered: Option<usize>,
-    /// Column whose head was clicked.
     pub(super) clicked_head: Option<usize>,
-    /// User actions on rows.
     pub(super) output: TableOutput,
 }
 
@@ -71,7 +66,6 @@ impl<'a> Body<'a> {
         }
     }
 
-    /// Applies a selection made by keyboard.
     pub(super) fn follow(&mut self, look: &TableLook, context: &PaneContext<'_>) {
         self.cursor = look.cursor;
         self.selected.clone_from(&context.view.selected);
@@ -97,7 +91,7 @@ impl<'a> Body<'a> {
 
     /// Height of the head: one line, or two where there are units.
     pub(super) fn head_height(&self) -> f32 {
-        let has = |text: fn(&super::Column) -> &str| self.of.columns.iter().any(|column| !text(column).is_empty());
+        let has = |text: fn(&Column) -> &str| self.of.table.columns.iter().any(|column| !text(column).is_empty());
         let lines = f32::from(u8::from(has(|column| &column.name))) + f32::from(u8::from(has(|column| &column.unit)));
         let air = if self.of.compact || lines == 0.0 { 0.0 } else { 1.5 * UNIT };
         lines * HEAD_LINE + air
@@ -165,17 +159,11 @@ impl<'a> Body<'a> {
         }
     }
 
-    fn note(&self, row: usize, column: usize) -> CellNote {
-        self.of.note.map_or_else(CellNote::default, |note| note(row, column))
-    }
-
-    /// Place of a cell's content.
     fn inner(&self, cell: Rect) -> Rect {
         let [left, right] = air(self.of.compact);
         Rect::from_min_max(cell.min + Vec2::new(left, 0.0), cell.max - Vec2::new(right, 0.0))
     }
 
-    /// The arrow of the column that rows are sorted by.
     fn arrow(&self, ui: &Ui, rect: Rect, descending: bool) {
         let center = rect.center();
         let tip = if descending { 3.0 } else { -3.0 };
@@ -194,33 +182,34 @@ impl<'a> Body<'a> {
         }
     }
 
-    /// A cell in words.
-    fn said(&self, row: usize, column: usize, note: &CellNote) -> String {
-        let form = self.layouts[column].form;
-        match self.of.table.rows[row].get(column).unwrap_or(&Cell::Empty) {
-            Cell::Empty => "–".to_owned(),
-            Cell::Text(text) => text.clone(),
-            Cell::Number(value) => {
-                let number = note
-                    .words
-                    .clone()
-                    .unwrap_or_else(|| words(*value, form, note.own_decimals()).trim_end().to_owned());
-                note.behind().map_or(number.clone(), |behind| format!("{number} {behind}"))
+    fn said(&self, row: usize, column: usize) -> String {
+        let cell = self.of.table.cell(row, column);
+        match cell.value() {
+            CellValue::Nothing => "–".to_owned(),
+            CellValue::Text(text) => text.to_owned(),
+            CellValue::Number(value) => {
+                let number = self.number_in_words(cell, value, column).trim_end().to_owned();
+                cell.note().behind().map_or(number.clone(), |behind| format!("{number} {behind}"))
             }
         }
     }
 
+    fn number_in_words(&self, cell: &Cell, value: f64, column: usize) -> String {
+        let note = cell.note();
+        note.words.clone().unwrap_or_else(|| words(value, self.layouts[column].form, note.own_decimals()))
+    }
+
     /// A row in words: its first cell, then each column with its cell.
     fn spoken(&self, row: usize) -> String {
-        let said = |&column: &usize| self.said(row, column, &self.note(row, column));
+        let said = |&column: &usize| self.said(row, column);
         let Some((first, others)) = self.shown.split_first() else { return String::new() };
-        let others = others.iter().map(|column| format!("{} {}", self.of.columns[*column].name, said(column)));
+        let others = others.iter().map(|column| format!("{} {}", self.of.table.columns[*column].name, said(column)));
         let others: Vec<String> = others.map(|words| words.trim_start().to_owned()).collect();
         if others.is_empty() { said(first) } else { format!("{}: {}", said(first), others.join(", ")) }
     }
 
-    /// Writes a number with its uncertainty.
-    fn number(&self, ui: &Ui, rect: Rect, value: f64, layout: Layout, note: &CellNote) {
+    fn number(&self, ui: &Ui, rect: Rect, cell: &Cell, value: f64, column: usize) {
+        let (layout, note) = (self.layouts[column], cell.note());
         let ink = if note.is_gray { self.theme.weak } else { self.theme.text };
         if !note.is_gray
             && let Some(share) = layout.shade(value)
@@ -228,7 +217,7 @@ impl<'a> Body<'a> {
             let ground = rect.shrink2(Vec2::new(1.0, 2.0)).expand2(Vec2::new(2.0 * UNIT - 2.0, 0.0));
             ui.painter().rect_filled(ground, 2.0, self.theme.shade(share));
         }
-        let written = note.words.clone().unwrap_or_else(|| words(value, layout.form, note.own_decimals()));
+        let written = self.number_in_words(cell, value, column);
         // Rows of a compact table are quantities of their own: their points stand apart anyway.
         let written = if self.of.compact { written.trim_end() } else { &written };
         let mut place = rect;
@@ -286,7 +275,7 @@ impl Body<'_> {
     /// A column's head; a click sorts.
     fn head(&mut self, ui: &Ui, place: usize) {
         let index = self.shown[place];
-        let (column, layout) = (&self.of.columns[index], self.layouts[index]);
+        let (column, layout) = (&self.of.table.columns[index], self.layouts[index]);
         let rect = ui.max_rect();
         let sense = if self.of.compact { Sense::hover() } else { Sense::click() };
         let response = ui.interact(rect, self.id.with(("head", index)), sense);
@@ -356,21 +345,20 @@ impl Body<'_> {
 
     fn cell(&self, ui: &Ui, row: usize, column: usize) {
         let (Some(&row), Some(&column)) = (self.order.get(row), self.shown.get(column)) else { return };
-        let (layout, note) = (self.layouts[column], self.note(row, column));
+        let (layout, cell) = (self.layouts[column], self.of.table.cell(row, column));
         let whole = ui.max_rect();
         let rect = self.inner(whole);
         let style = if self.of.compact { TextStyle::Small } else { TextStyle::Body };
-        let value = self.of.table.rows[row].get(column).unwrap_or(&Cell::Empty);
-        let ink = if note.is_gray { self.theme.weak } else { self.theme.text };
-        let said = self.said(row, column, &note);
-        let cut = match value {
-            Cell::Number(value) => {
-                self.number(ui, rect, *value, layout, &note);
+        let ink = if cell.note().is_gray { self.theme.weak } else { self.theme.text };
+        let said = self.said(row, column);
+        let cut = match cell.value() {
+            CellValue::Number(value) => {
+                self.number(ui, rect, cell, value, column);
                 false
             }
-            Cell::Text(text) => lines::elided(ui, rect, text, style, ink),
-            Cell::Empty if layout.form == Form::Text => lines::elided(ui, rect, "–", style, self.theme.weak),
-            Cell::Empty => {
+            CellValue::Text(text) => lines::elided(ui, rect, text, style, ink),
+            CellValue::Nothing if layout.form == Form::Text => lines::elided(ui, rect, "–", style, self.theme.weak),
+            CellValue::Nothing => {
                 let mut place = rect;
                 place.max.x -= layout.uncertainty;
                 lines::right_aligned(ui, place, "–", TextStyle::Monospace, self.theme.weak);
@@ -379,8 +367,8 @@ impl Body<'_> {
         };
         let response = ui.interact(whole, self.id.with(("cell", row, column)), Sense::hover());
         response.widget_info(|| WidgetInfo::labeled(Role::Cell, true, &said));
-        if !note.hint.is_empty() {
-            response.on_hover_text(note.hint);
+        if !cell.hint().is_empty() {
+            response.on_hover_text(cell.hint());
         } else if cut {
             response.on_hover_text(said);
         }

@@ -1,107 +1,19 @@
-//! Columns of a table: head, unit, form of the numbers, width.
+//! Columns of a table on screen: form of the numbers, width.
 
-use chromascope_figure::{Cell, Table, TextSize, text_width};
+use chromascope_figure::{Cell, Column, Table, TextSize, text_width};
 
-use crate::format::{aligned, behind, decimals_by, number, whole};
+use crate::format::{aligned, number, whole};
 use crate::theme::UNIT;
 
 /// Maximum width of a text column, in points; longer text is cut and shown under the pointer.
 const WIDEST_TEXT: f64 = 260.0;
 /// Maximum width of a header above shorter cells.
 const WIDEST_HEAD: f64 = 150.0;
-/// Narrowest column.
 const NARROWEST: f64 = 40.0;
 /// Rows that the width of a column of text is taken from.
 const MEASURED_ROWS: usize = 2000;
 /// Significant digits of numbers without a fixed number of decimals.
 const DIGITS: i32 = 6;
-/// Units that names of columns in files end in.
-const SUFFIXES: [(&str, &str); 4] = [("_nm", "nm"), ("_k", "K"), ("_ms", "ms"), ("_px", "px")];
-/// Symbols of quantities by their names in files.
-const SYMBOLS: [(&str, &str); 6] = [
-    ("u_prime", "u′"),
-    ("v_prime", "v′"),
-    ("distance_xy", "Δxy"),
-    ("distance_uv_prime", "Δu′v′"),
-    ("cct", "CCT"),
-    ("duv", "Duv"),
-];
-
-/// Description and format of a table column.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Column {
-    /// Name, without unit.
-    pub name: String,
-    /// Unit; empty for none.
-    pub unit: String,
-    /// Explanation under the pointer.
-    pub hint: String,
-    /// Heading over it in the menu of columns; empty for none.
-    pub group: String,
-    /// Decimals of its numbers; none for as many as the largest needs.
-    pub decimals: Option<usize>,
-    /// The largest number is the best: first where it is sorted by.
-    pub largest_first: bool,
-    /// Gray behind its numbers, darker for worse ones.
-    pub shaded: bool,
-    /// Hidden by default.
-    pub starts_hidden: bool,
-}
-
-impl Column {
-    /// A column named as in a file: `wavelength (nm)`, `temperature_k`.
-    pub fn from_head(head: &str) -> Self {
-        let in_brackets = head.strip_suffix(')').and_then(|head| head.split_once(" ("));
-        let with_suffix =
-            SUFFIXES.iter().find_map(|(suffix, unit)| head.strip_suffix(suffix).map(|name| (name, *unit)));
-        let (name, unit) = in_brackets.or(with_suffix).unwrap_or((head, ""));
-        let symbol = SYMBOLS.iter().find(|(in_files, _)| *in_files == name);
-        // Of a blackbody it is 0 but for rounding.
-        let decimals = (name == "duv").then_some(6);
-        Self {
-            name: symbol.map_or(name, |(_, symbol)| symbol).to_owned(),
-            unit: unit.to_owned(),
-            decimals,
-            ..Self::default()
-        }
-    }
-
-    /// Name with unit, for screen readers and the pointer.
-    pub fn full_name(&self) -> String {
-        if self.unit.is_empty() { self.name.clone() } else { format!("{} ({})", self.name, self.unit) }
-    }
-}
-
-/// Appearance and tooltip of a cell.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct CellNote {
-    /// Standard uncertainty in the value's unit; the value ends where it ends.
-    pub uncertainty: Option<f64>,
-    /// The uncertainty is extrapolated: a dagger behind it.
-    pub is_extrapolated: bool,
-    /// Written in gray: a difference within the uncertainty.
-    pub is_gray: bool,
-    /// Decimals without an uncertainty, where the cell has others than its column.
-    pub decimals: Option<usize>,
-    /// Words in place of the number, such as a range of ranks.
-    pub words: Option<String>,
-    /// Tooltip, such as the reason for a missing value.
-    pub hint: String,
-}
-
-impl CellNote {
-    /// Decimals of the cell, where they are its own.
-    pub(super) fn own_decimals(&self) -> Option<i32> {
-        self.uncertainty.and_then(decimals_by).or(self.decimals.map(whole))
-    }
-
-    /// The uncertainty as it is written behind the number.
-    pub(super) fn behind(&self) -> Option<String> {
-        behind(self.uncertainty?, self.is_extrapolated)
-    }
-}
-
-/// Form that a column's cells are written in.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Form {
     /// Text, flush left.
@@ -117,11 +29,9 @@ pub(super) fn air(compact: bool) -> [f32; 2] {
     if compact { [0.0, 3.0 * UNIT] } else { [2.0 * UNIT; 2] }
 }
 
-/// Form and range of a column.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Layout {
     pub(super) form: Form,
-    /// Width in points.
     pub(super) width: f32,
     /// Width of the uncertainties behind the numbers.
     pub(super) uncertainty: f32,
@@ -130,34 +40,24 @@ pub(super) struct Layout {
 }
 
 impl Layout {
-    /// Layout of a column that is not shown.
     pub(super) const HIDDEN: Self = Self { form: Form::Text, width: 0.0, uncertainty: 0.0, shades: None };
 
-    /// Layout of a column, with the notes of its rows. Rows of a compact table hold quantities of their own.
-    pub(super) fn of(
-        column: &Column,
-        table: &Table,
-        index: usize,
-        note: &dyn Fn(usize) -> CellNote,
-        compact: bool,
-    ) -> Self {
-        let rows = || table.rows.iter().enumerate().filter_map(|(row, cells)| cells.get(index).map(|cell| (row, cell)));
+    /// Layout of a column. Rows of a compact table hold quantities of their own.
+    pub(super) fn of(table: &Table, index: usize, compact: bool) -> Self {
+        let column = &table.columns[index];
         let size = if compact { TextSize::Small } else { TextSize::Body };
-        let cells = || table.rows.iter().filter_map(|row| row.get(index));
-        let numbers = || cells().filter_map(|cell| if let Cell::Number(value) = cell { Some(*value) } else { None });
-        let own = rows().filter(|(_, cell)| matches!(cell, Cell::Number(_))).map(|(row, _)| note(row).own_decimals());
-        let own: Vec<Option<i32>> = own.collect();
-        let form = match form(column, numbers(), cells().any(|cell| matches!(cell, Cell::Text(_)))) {
+        let cells = || (0..table.rows.len()).map(|row| table.cell(row, index));
+        let numbers = || cells().filter_map(Cell::number);
+        let own: Vec<Option<i32>> =
+            cells().filter(|cell| cell.number().is_some()).map(|cell| cell.note().own_decimals()).collect();
+        let form = match form(column, numbers(), cells().any(|cell| cell.text().is_some())) {
             Form::Fixed(decimals) => {
                 let ends = own.iter().map(|own| own.map_or(decimals, |own| own.max(0) as usize));
                 Form::Fixed(ends.max().unwrap_or(decimals))
             }
             other => other,
         };
-        let texts = cells().take(MEASURED_ROWS).filter_map(|cell| match cell {
-            Cell::Text(text) => Some(text_width(text, size)),
-            _ => None,
-        });
+        let texts = cells().take(MEASURED_ROWS).filter_map(|cell| Some(text_width(cell.text()?, size)));
         let text = texts.fold(0.0, f64::max).min(WIDEST_TEXT);
         let extremes = numbers().fold([0.0_f64; 2], |[low, high], value| [low.min(value), high.max(value)]);
         let written = |value: f64| text_width(&words(value, form, None), TextSize::Mono);
@@ -169,7 +69,7 @@ impl Layout {
             extremes.into_iter().map(written).fold(number, f64::max)
         };
         let number = if numbers().next().is_some() { number } else { 0.0 };
-        let behind = rows().filter_map(|(row, _)| note(row).behind());
+        let behind = cells().filter_map(|cell| cell.note().behind());
         let behind = behind.map(|words| text_width(&words, TextSize::Small) + f64::from(UNIT)).fold(0.0, f64::max);
         let (arrow, least) = if compact { (0.0, 0.0) } else { (12.0, NARROWEST) };
         let head = text_width(&column.name, TextSize::Small).max(text_width(&column.unit, TextSize::Small)) + arrow;
@@ -228,18 +128,6 @@ pub(super) fn words(value: f64, form: Form, decimals: Option<i32>) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn heads_are_split_into_name_and_unit() {
-        let head = |text: &str| {
-            let column = Column::from_head(text);
-            [column.name.clone(), column.unit.clone()]
-        };
-        assert_eq!(head("wavelength (nm)"), ["wavelength", "nm"]);
-        assert_eq!(head("temperature_k"), ["temperature", "K"]);
-        assert_eq!(head("u_prime"), ["u′", ""]);
-        assert_eq!(Column::from_head("time (µs)").full_name(), "time (µs)");
-    }
 
     #[test]
     fn numbers_of_a_column_align() {

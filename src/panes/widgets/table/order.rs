@@ -2,9 +2,8 @@
 
 use std::cmp::Ordering;
 
-use chromascope_figure::{Cell, Table};
+use chromascope_figure::{Cell, CellValue, Column, Table};
 
-use super::columns::Column;
 use crate::view::table::{Sorting, TableLook};
 
 /// Columns that are shown, the first always.
@@ -16,34 +15,32 @@ pub(super) fn columns(columns: &[Column], look: &TableLook) -> Vec<usize> {
 }
 
 /// Rows that contain the filter's words, sorted. Equal rows keep the order as given; empty cells come last.
-pub(super) fn rows(table: &Table, columns: &[Column], look: &TableLook) -> Vec<usize> {
+pub(super) fn rows(table: &Table, look: &TableLook) -> Vec<usize> {
     let words: Vec<String> = look.filter.split_whitespace().map(str::to_lowercase).collect();
     let mut order: Vec<usize> = (0..table.rows.len()).filter(|&row| contains(&table.rows[row], &words)).collect();
-    let by = |sorting: &Sorting| Some((columns.iter().position(|c| c.name == sorting.column)?, sorting.descending));
+    let by =
+        |sorting: &Sorting| Some((table.columns.iter().position(|c| c.name == sorting.column)?, sorting.descending));
     if let Some((column, descending)) = look.sorting.as_ref().and_then(by) {
-        let cell = |row: usize| table.rows[row].get(column).unwrap_or(&Cell::Empty);
-        order.sort_by(|&a, &b| compare(cell(a), cell(b), descending));
+        order.sort_by(|&a, &b| compare(table.cell(a, column).value(), table.cell(b, column).value(), descending));
     }
     order
 }
 
 fn contains(row: &[Cell], words: &[String]) -> bool {
-    words.iter().all(|word| {
-        row.iter().any(|cell| matches!(cell, Cell::Text(text) if text.to_lowercase().contains(word.as_str())))
-    })
+    words.iter().all(|word| row.iter().filter_map(Cell::text).any(|text| text.to_lowercase().contains(word.as_str())))
 }
 
 /// Numbers by value, before texts by letters, before nothing.
-fn compare(a: &Cell, b: &Cell, descending: bool) -> Ordering {
+fn compare(a: CellValue<'_>, b: CellValue<'_>, descending: bool) -> Ordering {
     let turned = |order: Ordering| if descending { order.reverse() } else { order };
-    let rank = |cell: &Cell| match cell {
-        Cell::Number(value) if !value.is_nan() => 0,
-        Cell::Text(_) => 1,
+    let rank = |cell: CellValue<'_>| match cell {
+        CellValue::Number(value) if !value.is_nan() => 0,
+        CellValue::Text(_) => 1,
         _ => 2,
     };
     match (a, b) {
-        (Cell::Number(a), Cell::Number(b)) if !a.is_nan() && !b.is_nan() => turned(a.total_cmp(b)),
-        (Cell::Text(a), Cell::Text(b)) => turned(a.to_lowercase().cmp(&b.to_lowercase())),
+        (CellValue::Number(a), CellValue::Number(b)) if !a.is_nan() && !b.is_nan() => turned(a.total_cmp(&b)),
+        (CellValue::Text(a), CellValue::Text(b)) => turned(a.to_lowercase().cmp(&b.to_lowercase())),
         _ => rank(a).cmp(&rank(b)),
     }
 }
@@ -52,40 +49,39 @@ fn compare(a: &Cell, b: &Cell, descending: bool) -> Ordering {
 mod tests {
     use super::*;
 
-    fn table() -> (Table, Vec<Column>) {
+    fn table() -> Table {
         let mut table = Table::new(["camera", "error"]);
         for (name, value) in
             [("Nikon D70", Some(0.4)), ("Canon 10D", Some(0.3)), ("Sony", None), ("Nikon D90", Some(0.4))]
         {
             table.push([Cell::from(name), Cell::from(value)]);
         }
-        let columns = table.columns.iter().map(|head| Column::from_head(head)).collect();
-        (table, columns)
+        table
     }
 
     #[test]
     fn sorting_is_stable_and_leaves_empty_cells_last() {
-        let (table, columns) = table();
+        let table = table();
         let mut look = TableLook::default();
-        assert_eq!(rows(&table, &columns, &look), [0, 1, 2, 3]);
+        assert_eq!(rows(&table, &look), [0, 1, 2, 3]);
         look.sort_by("error", false);
-        assert_eq!(rows(&table, &columns, &look), [1, 0, 3, 2]);
+        assert_eq!(rows(&table, &look), [1, 0, 3, 2]);
         look.sort_by("error", false);
-        assert_eq!(rows(&table, &columns, &look), [0, 3, 1, 2]);
+        assert_eq!(rows(&table, &look), [0, 3, 1, 2]);
         look.sort_by("error", false);
         assert_eq!(look.sorting, None);
     }
 
     #[test]
     fn every_word_of_the_filter_is_in_some_cell() {
-        let (table, columns) = table();
+        let table = table();
         let look = TableLook { filter: " d90 NIKON".to_owned(), ..TableLook::default() };
-        assert_eq!(rows(&table, &columns, &look), [3]);
+        assert_eq!(rows(&table, &look), [3]);
     }
 
     #[test]
     fn the_first_column_stays() {
-        let (_, mut all) = table();
+        let mut all = table().columns;
         let hidden = [("camera".to_owned(), false), ("error".to_owned(), false)].into();
         let look = TableLook { columns: hidden, ..TableLook::default() };
         assert_eq!(columns(&all, &look), [0]);

@@ -24,6 +24,11 @@ fn suggest(name: &str, nearest: &[String]) -> String {
     }
 }
 
+/// Camera model of a set: its name without the parenthesis that distinguishes tables of one model.
+pub fn model_of(name: &str) -> &str {
+    name.split_once(" (").map_or(name, |(model, _)| model)
+}
+
 /// A name without case, spaces and punctuation, for comparing.
 pub fn folded(name: &str) -> String {
     name.chars().filter(|c| c.is_alphanumeric()).flat_map(char::to_lowercase).collect()

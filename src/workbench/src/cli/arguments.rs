@@ -1,165 +1,239 @@
-//! Command-line arguments.
+//! Arguments that several commands take.
 
 use std::ffi::OsString;
 use std::path::PathBuf;
 
-use clap::{Args, Parser};
+use chromascope_core::correction::CorrectionMethod;
+use chromascope_core::correction::classes::{ClassWeights, ColorClass};
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use clap::{Args, ValueEnum};
+use serde::de::value::{Error, StrDeserializer};
+use serde::de::{DeserializeOwned, IntoDeserializer as _};
 use spectral_file::Values;
 
-use super::bench::BenchArguments;
-use super::compare::arguments::CompareArguments;
-use super::figure::arguments::FigureArguments;
-use super::identify::arguments::IdentifyArguments;
-use super::inspect::arguments::InspectArguments;
-use super::matrix::arguments::MatrixArguments;
-use super::render::arguments::RenderArguments;
-use super::report::arguments::ReportArguments;
-pub(super) use super::sources::{CommonArguments, SourceArguments, Transform};
-use crate::document::SetKind;
+use super::error::CliError;
+use super::outputs;
+use super::request::Request;
+use crate::document::Pixel;
+use crate::document::start::Start;
 
-/// See, measure and explain how digital cameras render color, from spectra.
-///
-/// Without a command, opens the window with the given files.
-#[derive(Debug, Parser)]
-#[command(name = "chromascope", version, args_conflicts_with_subcommands = true, after_help = EXAMPLES)]
-pub(super) struct Arguments {
-    /// A session (.chromascope), spectra or camera sensitivities to open in the window
-    #[arg(value_name = "FILE")]
-    pub(super) files: Vec<PathBuf>,
-    /// A session to open in the window
-    #[arg(long, value_name = "FILE")]
-    pub(super) session: Option<PathBuf>,
-    /// A computation without a window
-    #[command(subcommand)]
-    pub(super) subcommand: Option<Subcommand>,
-}
-
-const EXAMPLES: &str = "Examples:
-  chromascope leaf.csv
-  chromascope locus --camera \"Nikon D70\" --observer \"CIE 1931 2°\" --temperatures 2856,5500,6504
-  chromascope patches --camera \"Canon EOS 10D\" --illuminant D55 --out patches.csv
-  chromascope compare --illuminant A --sort metamerism-index
-  chromascope matrix \"Nikon D850\" --illuminant A --second-illuminant D65 --format dcp --out d850.dcp
-  chromascope render --mesh head --camera \"Nikon D70\" --out pictures
-  chromascope inspect measured.txt --csv measured.csv
-  chromascope report --out report
-  chromascope list cameras
-
-Names are those of `chromascope list`. Case, punctuation and words such as CIE, illuminant, standard and observer are ignored; whole
-words, or any unambiguous part of one, match. A match that is not exact is reported on standard error.
-No command overwrites a file that it reads, or any other file without --force.";
-
-const LOCUS_EXAMPLES: &str = "\
-Examples:
-  chromascope locus > loci.csv
-  chromascope locus --preset paper --from 2000 --to 10000 --count 50
-  chromascope locus --camera \"Nikon D70\" --camera mine.csv --reference \"CIE 1964 10°\" --illuminant A --white-balance D55
-
-Columns: sensor, temperature_k, x, y, u_prime, v_prime; distance_xy and distance_uv_prime, the distances to the reference at the same
-temperature, in x, y and in u\u{2032}, v\u{2032}; cct_error_k, the correlated color temperature by CIE 15 read on
-the reference's own locus (nearest in CIE 1960 u, v, within 0.05) minus the true temperature, the metric of `compare`; arc_length_xy,
-the length in x, y of the straight steps from row to row since the sensor's first (more rows, nearer to the locus's own length);
-extrapolated, true below the temperature from which the end of the sensor's table matters (drawn dotted in figures); then the
-conditions: reference, illuminant, white_balance, transform, preset.
-
-Temperatures are in kelvins, from 1 to 1e15. Rows are ordered by sensor, as named, then by temperature. Undefined values
-are empty.";
-
-const PATCHES_EXAMPLES: &str = "Examples:
-  chromascope patches --preset paper
-  chromascope patches --camera \"Canon EOS 10D\" --illuminant A --white-balance D55
-  chromascope patches --camera mine.csv --per photon --chart leaves.csv --illuminant daylight:6504 --out leaves_seen.csv
-  chromascope patches --radiance measured.csv --radiance-white \"white tile\"
-
-Columns: sensor, patch; r, g, b after white balance (empty for CIE observers); x_tristimulus, y_tristimulus, z_tristimulus (Y = 1
-for a perfect diffuser, under Eq 13 within 5e-5); x, y; u_prime, v_prime; lab_l, lab_a, lab_b, whose adopted white is a perfect diffuser;
-cct_k, duv, the nearest blackbody for the CIE 1931 observer;
-delta_…, the differences from the reference, a column for each metric; then the conditions: reference, illuminant,
-white_balance, transform, preset. Undefined values are empty: with the paper's matrix, Eq 13 takes RGB as sRGB
-whatever the sensor, so its colors have distances in the diagrams, but no L*a*b*, no color temperature and no \u{394}E*.
-
-A file's reflectances are fractions or percent, its wavelengths nm or µm; guesses are reported on standard error. Numbers above one whose
-scale the file does not state need --values percent or --values plain; a file of radiances is refused as a chart.";
-
-/// Subcommands, which run without a window.
-#[derive(Debug, clap::Subcommand)]
-pub(super) enum Subcommand {
-    /// Planckian loci as CSV: chromaticity, distances to the reference, CCT error and arc length of blackbodies by temperature
-    #[command(after_help = LOCUS_EXAMPLES)]
-    Locus(LocusArguments),
-    /// Chart patches or measured radiances as CSV: RGB, XYZ, xy, u′v′, L*a*b* and differences from the reference
-    #[command(after_help = PATCHES_EXAMPLES)]
-    Patches(PatchesArguments),
-    /// Cameras ranked by figures of merit, with uncertainties: a table, CSV or JSON
-    #[command(after_help = super::compare::arguments::examples())]
-    Compare(Box<CompareArguments>),
-    /// Lights: CCT and Duv, Ra, Rf and Rg, spectral similarity, and how consistent cameras are under them
-    #[command(after_help = super::light::arguments::EXAMPLES)]
-    Light(Box<super::light::arguments::LightArguments>),
-    /// Color correction matrix of a camera, with its errors, as text, DNG values, DCP, ICC or CLF
-    #[command(after_help = super::matrix::arguments::EXAMPLES)]
-    Matrix(Box<MatrixArguments>),
-    /// Figures for paper, laid out for a width: PDF, SVG, PNG, or the numbers behind them as CSV
-    #[command(after_help = super::figure::arguments::EXAMPLES)]
-    Figure(Box<FigureArguments>),
-    /// Figures and claims of the 2007 paper with public data: PDF, SVG, PNG, CSV and one page
-    #[command(after_help = super::report::arguments::EXAMPLES)]
-    Report(Box<ReportArguments>),
-    /// Pictures of a mesh under a light, through cameras and observers, as PNG or OpenEXR
-    #[command(after_help = super::render::arguments::EXAMPLES)]
-    Render(Box<RenderArguments>),
-    /// Cameras ranked by how well their sensitivities explain the raw RGB of known patches, by log error
-    #[command(after_help = super::identify::arguments::EXAMPLES)]
-    Identify(Box<IdentifyArguments>),
-    /// Contents of files of spectra and the decisions made when reading them; curves as CSV or JSON
-    #[command(after_help = super::inspect::arguments::EXAMPLES)]
-    Inspect(Box<InspectArguments>),
-    /// Run time against error of every method, measured on this machine: figures, table and JSON
-    #[command(after_help = super::bench::EXAMPLES)]
-    Bench(BenchArguments),
-    /// The names of the built-in data sets, one per line
-    List {
-        /// Kind of data sets [default: all]
-        #[arg(value_parser = super::settings::choice_of(&SetKind::ALL[..6]))]
-        kind: Option<SetKind>,
-    },
-}
-
-/// Arguments of `locus`.
+/// Sensors, the reference and the color transform, for tables and pictures.
 #[derive(Debug, Args)]
-pub(super) struct LocusArguments {
+pub(super) struct SourceArguments {
+    /// Defaults of all options that are not given: reference, sensors, color transform and, in tables, illuminant, white balance and
+    /// patches
+    #[arg(long, value_parser = super::settings::choice::<Start>(), default_value = Start::Colorimetry.key())]
+    pub(super) preset: Start,
+    /// An observer; may be repeated. Without any sensor: those of the preset
+    #[arg(long, value_name = "NAME")]
+    pub(super) observer: Vec<String>,
+    /// A camera, or a file with three sensitivities; may be repeated
+    #[arg(long, value_name = "NAME|FILE")]
+    pub(super) camera: Vec<OsString>,
+    /// Unit of the sensitivities in camera files, overriding the files: response per energy or per photon
+    #[arg(long, value_enum, value_name = "UNIT")]
+    pub(super) per: Option<Per>,
+    /// The reference observer that all sensors are compared with [default: the preset's]
+    #[arg(long, value_name = "OBSERVER")]
+    pub(super) reference: Option<String>,
+    /// The color transform from camera RGB to XYZ [default: the preset's]
+    #[arg(long, value_enum)]
+    pub(super) transform: Option<Transform>,
+    /// The observer that 3×3 matrices are fitted to [default: the reference if it is an XYZ observer, else CIE 1931 2°]
+    #[arg(long, value_name = "OBSERVER")]
+    pub(super) fit_to: Option<String>,
+    /// The color correction of a fitted transform [default: matrix]
+    #[arg(long, value_name = "METHOD", value_parser = method())]
+    pub(super) correction: Option<CorrectionMethod>,
     #[command(flatten)]
-    pub(super) common: CommonArguments,
-    /// The first temperature in kelvins [default: 1000]
-    #[arg(long, value_name = "K", conflicts_with = "temperatures")]
-    pub(super) from: Option<f64>,
-    /// The last temperature in kelvins [default: 20000]
-    #[arg(long, value_name = "K", conflicts_with = "temperatures")]
-    pub(super) to: Option<f64>,
-    /// Number of temperatures, evenly in 1/T [default: 200]
-    #[arg(long, value_name = "N", conflicts_with = "temperatures", value_parser = clap::value_parser!(u32).range(1..=10_000_000))]
-    pub(super) count: Option<u32>,
-    /// These temperatures in kelvins, in this order
-    #[arg(long, value_name = "a,b,c", value_delimiter = ',')]
-    pub(super) temperatures: Vec<f64>,
+    pub(super) fit: FitArguments,
 }
 
-/// Arguments of `patches`.
+/// Arguments of tables and figures: sensors, light, output.
 #[derive(Debug, Args)]
-pub(super) struct PatchesArguments {
+pub(super) struct CommonArguments {
     #[command(flatten)]
-    pub(super) common: CommonArguments,
+    pub(super) sources: SourceArguments,
+    /// The illuminant: a name, a file with one curve, `daylight:K` or `blackbody:K` [default: the preset's]
+    #[arg(long, value_name = "NAME|FILE")]
+    pub(super) illuminant: Option<OsString>,
+    /// A filter in front of the illuminant: a name of `chromascope list filters`, or a file with one transmittance; may be repeated,
+    /// in any order
+    #[arg(long, value_name = "NAME|FILE")]
+    pub(super) filter: Vec<OsString>,
+    /// The white-balance target, the RGB a perfect diffuser is mapped to: `unity`, an illuminant, `daylight:K` or `blackbody:K`
+    /// [default: the preset's]
+    #[arg(long = "white-balance", alias = "white", value_name = "WHITE")]
+    pub(super) white: Option<String>,
+    #[command(flatten)]
+    pub(super) out: OutArguments,
+}
+
+/// File of a text.
+#[derive(Debug, Args)]
+pub(super) struct OutArguments {
+    /// Output file [default: standard output, also `-`]
+    #[arg(long = "out", value_name = "FILE")]
+    pub(super) path: Option<PathBuf>,
+    /// Overwrites the file named by --out
+    #[arg(long)]
+    pub(super) force: bool,
+}
+
+impl OutArguments {
+    /// Refuses the file before anything is computed.
+    pub(super) fn check(&self, request: &Request) -> Result<(), CliError> {
+        outputs::check(self.path.as_deref(), &request.inputs(), self.force)
+    }
+
+    pub(super) fn put(&self, text: &str) -> Result<(), CliError> {
+        outputs::put(text, self.path.as_deref())
+    }
+}
+
+/// Reflectances in place of the preset's.
+#[derive(Debug, Args)]
+pub(super) struct ChartArguments {
     /// A chart, a material, or a file with reflectances [default: the preset's]
     #[arg(long, value_name = "NAME|FILE")]
-    pub(super) chart: Option<OsString>,
+    chart: Option<OsString>,
     /// Scale of the values in a file of reflectances that does not state it
-    #[arg(long, value_name = "VALUES", value_parser = super::inspect::arguments::values(), requires = "chart")]
-    pub(super) values: Option<Values>,
-    /// A file with spectra of radiance, which are integrated as they are: no chart and no illuminant is named then. Without
-    /// --radiance-white they are balanced to equal energy, X, Y, Z are relative, and there is no L*a*b*
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["chart", "illuminant"])]
-    pub(super) radiance: Option<PathBuf>,
-    /// The radiance of a perfect diffuser among those of the file: it takes the white-balance target and Y = 1
-    #[arg(long, value_name = "NAME", requires = "radiance")]
-    pub(super) radiance_white: Option<String>,
+    #[arg(long, value_name = "VALUES", value_parser = values(), requires = "chart")]
+    values: Option<Values>,
+}
+
+impl ChartArguments {
+    pub(super) fn set(&self, request: &mut Request) -> Result<(), CliError> {
+        request.values = self.values;
+        request.set_chart(self.chart.as_deref())
+    }
+}
+
+impl SourceArguments {
+    /// The first argument that only a fitted transform has.
+    pub(super) fn names_fit(&self) -> Option<&'static str> {
+        let FitArguments { training, weights, free_white } = &self.fit;
+        let given = [
+            ("--fit-to", self.fit_to.is_some()),
+            ("--correction", self.correction.is_some()),
+            ("--training", training.is_some()),
+            ("--weights", !weights.is_empty()),
+            ("--free-white", *free_white),
+        ];
+        given.into_iter().find(|(_, given)| *given).map(|(argument, _)| argument)
+    }
+
+    pub(super) fn names_no_sensor(&self) -> bool {
+        self.observer.is_empty() && self.camera.is_empty()
+    }
+}
+
+/// A color transform from camera RGB to XYZ.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum Transform {
+    /// Eq 13 for cameras and RGB observers
+    Paper,
+    /// A 3×3 matrix for each sensor, fitted over 190 training reflectances
+    #[value(alias = "observer")]
+    Fitted,
+}
+
+/// Conditions of a fit.
+#[derive(Debug, Args)]
+pub(super) struct FitArguments {
+    /// The training reflectances: a chart, a material, or a file with reflectances [default: the built-in 190]
+    #[arg(long, value_name = "NAME|FILE")]
+    pub(super) training: Option<OsString>,
+    /// Weights of classes of reflectances in the fit, 0 to 100: `neutrals=4,skin=2,foliage=1,sky=1`
+    #[arg(long, value_name = "CLASS=WEIGHT,…", value_delimiter = ',', value_parser = weight)]
+    pub(super) weights: Vec<(ColorClass, f64)>,
+    /// Fits without keeping the color of a perfect diffuser
+    #[arg(long)]
+    pub(super) free_white: bool,
+}
+
+pub(super) fn method() -> impl TypedValueParser<Value = CorrectionMethod> {
+    let ids = CorrectionMethod::ALL.map(|method| PossibleValue::new(method.id()).help(method.label()));
+    PossibleValuesParser::new(ids).map(|id| CorrectionMethod::by_id(&id).unwrap_or_default())
+}
+
+/// One weight, as `skin=2`.
+fn weight(text: &str) -> Result<(ColorClass, f64), String> {
+    let classes = || ColorClass::ALL.map(ColorClass::key).join(", ");
+    let malformed = || format!("write a class and its weight, as skin=2; classes: {}", classes());
+    let (class, number) = text.split_once('=').ok_or_else(malformed)?;
+    let class = ColorClass::ALL.into_iter().find(|known| known.key() == class.trim());
+    let class = class.ok_or_else(|| format!("no class is named so; classes: {}", classes()))?;
+    let number = number.trim().parse::<f64>().ok().filter(|number| (0.0..=ClassWeights::MOST).contains(number));
+    let number = number.ok_or_else(|| format!("a weight is a number from 0 to {}", ClassWeights::MOST))?;
+    Ok((class, number))
+}
+
+/// Response basis of sensitivities.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum Per {
+    /// Equal energy at each wavelength
+    Energy,
+    /// Equal numbers of photons at each wavelength
+    Photon,
+}
+
+/// Temperature in kelvins of the locus metrics unless another is named.
+pub(super) const LOCUS_K: f64 = 2856.0;
+
+/// A pixel of the cameras.
+#[derive(Clone, Copy, Debug, Args)]
+pub(super) struct PixelArguments {
+    /// Full-well capacity of a pixel in electrons, for gray-snr
+    #[arg(long, value_name = "ELECTRONS")]
+    full_well: Option<f64>,
+    /// Read noise of a pixel in electrons (RMS)
+    #[arg(long, value_name = "ELECTRONS", default_value_t = 0.0, requires = "full_well")]
+    read_noise: f64,
+}
+
+impl PixelArguments {
+    /// The pixel, if its full well is named.
+    ///
+    /// # Errors
+    ///
+    /// [`CliError::Argument`] for numbers that describe no pixel.
+    pub(super) fn pixel(self) -> Result<Option<Pixel>, CliError> {
+        let pixel = self.full_well.map(|full_well| Pixel { full_well, read_noise: self.read_noise });
+        let valid = pixel.map_or(Ok(()), |pixel| pixel.electrons().map(drop));
+        valid.map_err(|error| CliError::Argument { argument: "--full-well", reason: error.to_string() })?;
+        Ok(pixel)
+    }
+}
+
+/// Takes the names that sessions use too.
+pub(super) fn named<T: DeserializeOwned + Clone + Send + Sync + 'static>(
+    names: impl IntoIterator<Item = &'static str>,
+) -> impl TypedValueParser<Value = T> {
+    PossibleValuesParser::new(names.into_iter().collect::<Vec<_>>()).try_map(|name| {
+        let name: StrDeserializer<'_, Error> = name.as_str().into_deserializer();
+        T::deserialize(name)
+    })
+}
+
+pub(super) fn values() -> impl TypedValueParser<Value = Values> {
+    named::<Values>(["plain", "percent", "absorbance", "decibels"])
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Form {
+    /// For reading.
+    Table,
+    Csv,
+    Json,
+}
+
+/// Takes a form of a table, each described for the command.
+pub(super) fn form([table, csv, json]: [&'static str; 3]) -> impl TypedValueParser<Value = Form> {
+    let all = [("table", table), ("csv", csv), ("json", json)].map(|(name, help)| PossibleValue::new(name).help(help));
+    PossibleValuesParser::new(all).map(|name| match name.as_str() {
+        "csv" => Form::Csv,
+        "json" => Form::Json,
+        _ => Form::Table,
+    })
 }

@@ -7,7 +7,7 @@ use chromascope_core::render::Stop;
 use chromascope_figure::Figure;
 use chromascope_measure::pareto::duration;
 use chromascope_measure::{Effort, Measurement, Progress, Report, Workload};
-use clap::Args;
+use clap::{ArgMatches, Args};
 
 use super::error::CliError;
 use super::outputs::{show, write_to};
@@ -16,7 +16,7 @@ use crate::palette::Colors;
 use crate::profiler::bench::bench;
 use crate::terminal::say;
 
-pub(super) const EXAMPLES: &str = "Examples:
+const EXAMPLES: &str = "Examples:
   chromascope bench --quick --out measured
   chromascope bench --only locus,temperature --out measured
   chromascope bench --list
@@ -31,8 +31,9 @@ const JSON: &str = "bench.json";
 /// The table of all measurements.
 const CSV: &str = "bench.csv";
 
-/// Arguments of `bench`.
+/// Run time against error of every method, measured on this machine: figures, table and JSON
 #[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
 #[expect(clippy::struct_excessive_bools, reason = "switches of a command line")]
 pub(super) struct BenchArguments {
     /// Takes a minute instead of a quarter of an hour
@@ -60,7 +61,7 @@ fn workload(name: &str) -> Result<Workload, String> {
     Workload::from_name(name).ok_or_else(|| format!("there are: {}", names()))
 }
 
-pub(super) fn run(arguments: &BenchArguments) -> Result<(), CliError> {
+pub(super) fn run(arguments: &BenchArguments, _: &ArgMatches) -> Result<(), CliError> {
     let (false, Some(folder)) = (arguments.list, &arguments.out) else {
         let lines = Workload::ALL.map(|workload| format!("{:<12} {}\n", workload.name(), workload.title()));
         return show(&lines.concat());
@@ -96,7 +97,6 @@ pub(super) fn run(arguments: &BenchArguments) -> Result<(), CliError> {
     show(&format!("{count} measurements in {} files in {}\n", files.len(), folder.display()))
 }
 
-/// The names of the files that a run writes.
 fn names(plan: &[Workload]) -> Vec<String> {
     let figures = plan.iter().flat_map(|workload| ["svg", "png"].map(|ending| format!("{}.{ending}", workload.name())));
     [JSON, CSV].map(str::to_owned).into_iter().chain(figures).collect()
@@ -149,7 +149,6 @@ fn line(m: &Measurement) -> String {
     )
 }
 
-/// Every file with its contents.
 fn files(report: &Report, folder: &Path) -> Result<Vec<(PathBuf, Vec<u8>)>, CliError> {
     let mut files = vec![
         (folder.join(JSON), report.to_json()?.into_bytes()),

@@ -1,38 +1,118 @@
-//! Cameras ranked by figures of merit.
+//! `compare`: cameras ranked by figures of merit, as an aligned table, as CSV and as JSON.
 
-pub(super) mod arguments;
-mod output;
+use std::fmt::Write as _;
 
-use chromascope_core::query::metrics::rank_ranges;
-use chromascope_core::query::{Ask as _, CameraMetric, CameraMetricsQuery, MetricValue};
-use clap::ArgMatches;
+use chromascope_core::colorimetry::Metric;
+use chromascope_core::query::metrics::{Better, rank_ranges};
+use chromascope_core::query::{Ask as _, CameraMetric, CameraMetricsQuery, MetricUncertainty, MetricValue, WhyNot};
+use chromascope_figure::number::significant;
+use chromascope_figure::{Cell, Column, Table};
+use clap::builder::PossibleValuesParser;
+use clap::{ArgMatches, Args};
+use serde_json::{Map, Value, json};
 
-use self::arguments::{ALL, CompareArguments, Format, NAME, USUAL};
+use super::arguments::{ChartArguments, CommonArguments, Form, LOCUS_K, PixelArguments, form};
 use super::error::CliError;
-use super::outputs;
-use super::pixel::LOCUS_K;
 use super::request::Request;
-use super::tables;
 use crate::document::SetKind;
 use crate::results::Results;
-use crate::scene::conditions::CONDITIONS;
 use crate::scene::metrics::CameraFigures;
+use crate::scene::uncertainty::{self, cell, in_words, rank_cell, with_nature};
 use crate::scene::{Scene, SceneError};
 use crate::terminal::shown_json;
 
-/// A ranking: sensors in order, with their values.
+/// Cameras ranked by figures of merit, with uncertainties: a table, CSV or JSON
+#[derive(Debug, Args)]
+#[command(after_help = examples())]
+pub(super) struct CompareArguments {
+    #[command(flatten)]
+    common: CommonArguments,
+    #[command(flatten)]
+    chart: ChartArguments,
+    /// Metrics in the order of the columns, or `all` [default: the usual eight]
+    #[arg(long, value_name = "a,b,c", value_delimiter = ',', value_parser = metric_names([ALL]), hide_possible_values = true)]
+    metrics: Vec<String>,
+    /// Metric that orders the rows, best first, or `name` [default: the first of --metrics]
+    #[arg(long, value_name = "METRIC", value_parser = metric_names([NAME]), hide_possible_values = true)]
+    sort: Option<String>,
+    /// Form of the output
+    #[arg(long, value_parser = form(FORMS), default_value = "table")]
+    format: Form,
+    /// Temperature in kelvins of the blackbody whose place on the locus is compared [default: that of a blackbody or daylight as the
+    /// illuminant, otherwise 2856]
+    #[arg(long, value_name = "K")]
+    temperature: Option<f64>,
+    #[command(flatten)]
+    pixel: PixelArguments,
+}
+
+const FORMS: [&str; 3] = [
+    "Aligned columns for reading",
+    "One row for each sensor, with 15 significant digits",
+    "One object with conditions, metrics and values",
+];
+
+const USUAL: [&str; 8] = [
+    "delta-e2000-mean",
+    "delta-e2000-p95",
+    "delta-e2000-max",
+    "metamerism-index",
+    "vora",
+    "luther",
+    "cct-error",
+    "noise-gain",
+];
+/// All metrics, in the place of their names.
+const ALL: &str = "all";
+/// The order of names, in the place of a metric.
+const NAME: &str = "name";
+
+/// Examples and what the numbers mean, with every metric.
+fn examples() -> String {
+    let statistics = Metric::ALL.len() * 4;
+    let line = |(id, label): (&str, &str)| format!("\n  {id:22} {label}");
+    let named = |metric: &CameraMetric| line((metric.id, metric.label));
+    let list = CameraMetric::ALL[statistics..].iter().map(named).collect::<Vec<_>>().concat();
+    let differences = Metric::ALL.iter().map(|metric| line((metric.id, metric.label))).collect::<Vec<_>>().concat();
+    format!(
+        "Examples:
+  chromascope compare
+  chromascope compare --camera \"Nikon D70 (A.M.P.A.S.)\" --camera mine.csv --illuminant A --metrics all
+  chromascope compare --sort metamerism-index --metrics metamerism-index,metamerism-index-min,vora,luther
+  chromascope compare --correction min-delta-e --chart leaves.csv --format csv --out ranking.csv
+
+Without --camera and --observer: all built-in cameras. Metrics of the chart's patches, each followed by -mean, -median, -p95 or -max:
+{differences}
+
+Other metrics:
+{list}
+
+The number after ± is the standard uncertainty that errors of the sensitivities cause: the spread between laboratories, propagated
+through the camera's own curves. A rank is a range where values do not differ at 95 %. A value that is undefined is –, with the reason
+below.
+
+CSV: sensor, rank_first, rank_last (by the metric of --sort); for each metric its column and the same with _uncertainty; origin of the
+uncertainty, coverage factor, degrees of freedom, extrapolated; then the conditions. JSON: format, version, conditions, metrics,
+cameras with value, uncertainty, its budget and rank of each metric or the reason for none, and worst_patches, those of the largest
+\u{394}E*00."
+    )
+}
+
+/// Names of all metrics and one more word.
+fn metric_names(more: [&'static str; 1]) -> PossibleValuesParser {
+    PossibleValuesParser::new(CameraMetric::ALL.iter().map(|metric| metric.id).chain(more))
+}
+
 struct Comparison {
     metrics: Vec<CameraMetric>,
     /// The metric that orders the rows; none for the order of names.
     sorted_by: Option<CameraMetric>,
     rows: Vec<Row>,
-    /// Names of the patches.
     patches: Vec<String>,
     /// Conditions by their heads, the temperature among them.
-    conditions: Vec<(&'static str, String)>,
+    conditions: Vec<(Column, String)>,
 }
 
-/// One sensor.
 struct Row {
     kind: SetKind,
     name: String,
@@ -45,11 +125,9 @@ struct Row {
     rank: Option<[usize; 2]>,
 }
 
-/// Ranks the cameras and writes them.
 pub(super) fn run(arguments: &CompareArguments, matches: &ArgMatches) -> Result<(), CliError> {
     let mut request = Request::new(&arguments.common, matches)?;
-    request.values = arguments.values;
-    request.set_chart(arguments.chart.as_deref())?;
+    arguments.chart.set(&mut request)?;
     if arguments.common.sources.names_no_sensor() {
         let cameras = request.catalog.of_kind(SetKind::Camera);
         request.sources = cameras.map(|entry| (SetKind::Camera, entry.name.clone())).collect();
@@ -59,17 +137,17 @@ pub(super) fn run(arguments: &CompareArguments, matches: &ArgMatches) -> Result<
         let reason = format!("{wrong} is not a temperature; use kelvins from 1 to 1e15");
         return Err(CliError::Argument { argument: "--temperature", reason });
     }
-    tables::check_out(&arguments.common, &request)?;
+    arguments.common.out.check(&request)?;
     let results = Results::default();
     let scene = Scene { document: &request.document, catalog: &request.catalog, results: &results };
     let comparison = compared(&scene, &request, arguments)?;
     let text = match arguments.format {
-        Format::Table => output::table(&comparison),
-        Format::Csv => output::csv(&comparison),
-        Format::Json => shown_json(&output::json(&comparison)).into_owned(),
+        Form::Table => text(&comparison),
+        Form::Csv => csv(&comparison),
+        Form::Json => shown_json(&json(&comparison)).into_owned(),
     };
-    tables::say_caution(&scene, &request)?;
-    outputs::put(&text, arguments.common.out.as_deref())
+    request.say_caution(&scene)?;
+    arguments.common.out.put(&text)
 }
 
 fn compared(scene: &Scene<'_>, request: &Request, arguments: &CompareArguments) -> Result<Comparison, CliError> {
@@ -96,19 +174,18 @@ fn compared(scene: &Scene<'_>, request: &Request, arguments: &CompareArguments) 
     let figures = figures.map(|(metrics, all)| CameraFigures { metrics, uncertainties: Some(all) });
     let found: Vec<_> =
         request.sources.iter().cloned().zip(figures).map(|((kind, name), all)| (kind, name, all)).collect();
-    let mut conditions: Vec<_> = CONDITIONS.into_iter().zip(scene.conditions()).collect();
+    let mut conditions = scene.conditions();
     conditions.extend(scene.metrics_constants(temperature));
     let patches = scene.patches()?.patches().iter().map(|patch| patch.name.clone()).collect();
     Ok(Comparison { rows: rows(&found, &metrics, sorted_by), metrics, sorted_by, patches, conditions })
 }
 
-/// The rows in order, with ranks.
 fn rows(
     found: &[(SetKind, String, CameraFigures)],
     metrics: &[CameraMetric],
     sorted_by: Option<CameraMetric>,
 ) -> Vec<Row> {
-    let missing = MetricValue { value: Err(chromascope_core::query::WhyNot::NoPatches), uncertainty: None };
+    let missing = MetricValue { value: Err(WhyNot::NoPatches), uncertainty: None };
     let values = |metric: CameraMetric| -> Vec<MetricValue> {
         found.iter().map(|(_, _, all)| all.of(metric).unwrap_or(missing)).collect()
     };
@@ -140,4 +217,125 @@ fn rows(
         }
     };
     order.into_iter().map(row).collect()
+}
+
+const VERSION: u32 = 1;
+const LONGEST_NAME: usize = 40;
+
+/// A row for each sensor; a name is cut after a number of characters.
+fn table(comparison: &Comparison, longest: usize) -> Table {
+    let rows = &comparison.rows;
+    let names =
+        rows.iter().map(|row| row.name.char_indices().nth(longest).map_or(&*row.name, |(end, _)| &row.name[..end]));
+    uncertainty::table(("sensor", names), &comparison.metrics, |row, metric| {
+        rows[row].all.of(metric).map_or(Cell::Empty, cell)
+    })
+}
+
+/// Aligned columns: rank, sensor, values with uncertainties; then the conditions and the reasons for missing values.
+fn text(comparison: &Comparison) -> String {
+    let mut table = table(comparison, LONGEST_NAME);
+    table.insert(0, "rank", comparison.rows.iter().map(|row| rank_cell(row.rank)));
+    table.to_text() + &notes(comparison)
+}
+
+/// Conditions, the meaning of rank and ±, and why values are missing.
+fn notes(comparison: &Comparison) -> String {
+    let mut text = "\n".to_owned();
+    for (column, value) in &comparison.conditions {
+        let unit = if column.unit == "K" { " in kelvins" } else { "" };
+        let _ = writeln!(text, "{}{unit}: {value}", column.name.replace('_', " "));
+    }
+    if let Some(metric) = comparison.sorted_by {
+        let _ =
+            writeln!(text, "Rank by {}; a range where values do not differ at 95 % (k √(u₁² + u₂²)).", metric.symbol);
+    }
+    let all: Vec<MetricUncertainty> = comparison.rows.iter().flat_map(uncertainties).collect();
+    text.extend(Some(in_words(all)).filter(|words| !words.is_empty()).map(|words| words + "\n"));
+    let mut reasons: Vec<(String, Vec<&str>)> = Vec::new();
+    for row in &comparison.rows {
+        for (metric, value) in comparison.metrics.iter().zip(&row.values) {
+            let Err(why) = value.value else { continue };
+            let reason = format!("{}: {why}", metric.symbol);
+            match reasons.iter_mut().find(|(known, _)| *known == reason) {
+                Some((_, names)) => names.push(&row.name),
+                None => reasons.push((reason, vec![&row.name])),
+            }
+        }
+    }
+    for (reason, names) in reasons {
+        let who = if names.len() == comparison.rows.len() { "all".to_owned() } else { names.join(", ") };
+        let _ = writeln!(text, "– {reason} ({who})");
+    }
+    text
+}
+
+fn uncertainties(row: &Row) -> impl Iterator<Item = MetricUncertainty> + Clone {
+    row.values.iter().filter_map(|value| value.uncertainty)
+}
+
+fn csv(comparison: &Comparison) -> String {
+    let rows = &comparison.rows;
+    let mut table = table(comparison, usize::MAX);
+    for (end, key) in ["rank_first", "rank_last"].into_iter().enumerate() {
+        let ends = rows.iter().map(|row| row.rank.map_or(Cell::Empty, |rank| rank[end].to_string().into()));
+        table.insert(1 + end, key, ends);
+    }
+    with_nature(table, |row| uncertainties(&rows[row])).with_constants(comparison.conditions.clone()).csv(significant)
+}
+
+fn budget(of: MetricUncertainty) -> Value {
+    json!({
+        "source": of.source.word(),
+        "coverage_factor_95": of.coverage,
+        "degrees_of_freedom": of.freedom,
+        "extrapolated": of.is_extrapolated,
+        "curves": of.contributions.curves,
+        "response": of.contributions.response,
+        "channel_ratio": of.contributions.channel_ratio,
+        "bias": of.bias,
+    })
+}
+
+fn json(comparison: &Comparison) -> String {
+    let metric = |metric: &CameraMetric| {
+        json!({
+            "id": metric.id, "label": metric.label, "symbol": metric.symbol, "unit": metric.unit,
+            "better": match metric.better {
+                Better::Lower => "lower",
+                Better::Higher => "higher",
+                Better::Neither => "neither",
+            },
+        })
+    };
+    let camera = |row: &Row| {
+        let values = comparison.metrics.iter().zip(&row.values).zip(&row.ranks).map(|((metric, value), rank)| {
+            let told = match value.value {
+                Ok(number) => {
+                    let standard = value.uncertainty.map(|u| u.standard);
+                    json!({ "value": number, "uncertainty": standard, "budget": value.uncertainty.map(budget), "rank": rank })
+                }
+                Err(why) => json!({ "reason": why.to_string() }),
+            };
+            (metric.id.to_owned(), told)
+        });
+        let worst: Vec<&String> =
+            row.all.metrics.worst.iter().take(1).flatten().filter_map(|&patch| comparison.patches.get(patch)).collect();
+        json!({
+            "name": row.name,
+            "kind": row.kind.singular(),
+            "values": values.collect::<Map<String, Value>>(),
+            "worst_patches": worst,
+        })
+    };
+    let conditions = comparison.conditions.iter().map(|(column, value)| (column.key.clone(), json!(value)));
+    let all = json!({
+        "format": "chromascope-comparison",
+        "version": VERSION,
+        "conditions": conditions.collect::<Map<String, Value>>(),
+        "sorted_by": comparison.sorted_by.map(|metric| metric.id),
+        "metrics": comparison.metrics.iter().map(metric).collect::<Vec<_>>(),
+        "cameras": comparison.rows.iter().map(camera).collect::<Vec<_>>(),
+    });
+    format!("{all:#}\n")
 }

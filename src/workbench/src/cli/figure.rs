@@ -10,28 +10,26 @@ use chromascope_figure::{Figure, Page};
 use clap::ArgMatches;
 
 use self::arguments::{FigureArguments, Range};
+use super::arguments::LOCUS_K;
 use super::error::CliError;
 use super::identify::recorded_table;
 use super::outputs::{self, Stop};
-use super::pixel::LOCUS_K;
 use super::request::Request;
 use crate::document::{Document, LOCUS_RANGE_K, session};
 use crate::export::{FigureForm, Paper};
 use crate::figures::kind::Need;
 use crate::results::Results;
 use crate::scene::Scene;
-use crate::scene::conditions::CONDITIONS;
 
-/// Draws a figure and writes it.
 pub(super) fn run(arguments: &FigureArguments, matches: &ArgMatches) -> Result<(), CliError> {
-    let out = arguments.common.out.as_deref();
+    let out = arguments.common.out.path.as_deref();
     let form = out.and_then(FigureForm::of).ok_or_else(|| {
         let reason = "a file that ends in .pdf, .svg, .png, .tif, .csv or .json is needed".to_owned();
         CliError::Argument { argument: "--out", reason }
     })?;
     let mut request = Request::new(&arguments.common, matches)?;
     let recorded = prepare(&mut request, arguments)?;
-    outputs::check(out, &request.inputs(), arguments.common.force)?;
+    arguments.common.out.check(&request)?;
     let results = Results::default();
     let scene = Scene { document: &request.document, catalog: &request.catalog, results: &results };
     let paper = arguments.paper.paper();
@@ -48,8 +46,7 @@ pub(super) fn run(arguments: &FigureArguments, matches: &ArgMatches) -> Result<(
         CliError::Argument { argument: "KIND", reason }
     })?;
     check_height(&figure, &paper, form)?;
-    let cells: Vec<_> = CONDITIONS.into_iter().zip(scene.conditions()).collect();
-    let bytes = form.bytes(&figure, &figure.table.clone().with_constants(&cells), &paper)?;
+    let bytes = form.bytes(&figure, &figure.table.clone().with_constants(scene.conditions()), &paper)?;
     outputs::stream(out, |out| out.write_all(&bytes).map_err(Stop::Output))
 }
 

@@ -1,11 +1,9 @@
 //! `inspect`: contents of spectral files, their interpretation, and their curves as plain tables.
 
-pub(super) mod arguments;
-mod json;
-mod out;
-mod report;
-mod samples;
+mod output;
 
+use std::collections::HashSet;
+use std::fs;
 use std::io::{self, IsTerminal as _, Read as _};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -13,29 +11,170 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 use std::time::Duration;
 
-use spectral_file::write::{Prepared, Sheet, Trace};
-use spectral_file::{Certainty, Decided, ReadError, Role, SpectralFile};
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use clap::{ArgMatches, Args};
+use serde::Deserialize as _;
+use serde::de::IntoDeserializer as _;
+use serde::de::value::{Error, StrDeserializer};
+use spectral_file::write::{Grid, Prepared, Sheet, Trace};
+use spectral_file::{
+    Certainty, Decided, DecimalMark, Delimiter, Orientation, ReadError, ReadOptions, Reader, Role, SpectralFile,
+    Values, WavelengthUnit,
+};
 
-use self::arguments::InspectArguments;
-use self::out::Out;
+use super::arguments::{named, values};
 use super::error::CliError;
-use super::outputs::{Stop, put, show, stream};
+use super::outputs::{self, Stop, is_standard_output, put, show, stream};
 use super::request::read;
+use crate::atomic::fitting;
 use crate::catalog::import::Origin;
 use crate::catalog::opened::files_of;
 use crate::format::{io_failure, io_reason};
 use crate::terminal::{say, shown_json};
 
-/// Reason that a file could not be read or written.
+const EXAMPLES: &str = "Examples:
+  chromascope inspect leaf.txt
+  chromascope inspect leaf.txt --values percent --csv leaf.csv
+  chromascope inspect measured/ --step 5 --csv tables
+  chromascope inspect lamp.txt --step 5 --average --csv -
+  chromascope inspect lamp.spdx --csv - | head
+  chromascope inspect *.sp --json | jq '.[].kind'
+
+Reports the decisions made for each file, one line each: value, confidence (certain, a guess, chosen) and reason. An option of the
+same name overrides a decision. A folder stands for the files in it, `-` for standard input; named pipes are not supported.
+
+--csv writes `wavelength_nm,<curve> [<quantity> in <unit>],...`: nanometers, reflectances and transmittances as fractions, a cell left blank where a
+curve has no sample. With `--csv -` the table goes to standard output and the report to standard error. OUT is a
+folder where several files or a folder are named.
+
+--json prints an object for a file, an array for several: file, kind (camera, reflectance, transmittance, illuminant, unknown),
+curves [{name, unit, quantity, wavelengths_nm, values, missing}], channels [red, green, blue] as places in curves from 0,
+decisions [{what, value, certainty, why}], warnings [{line, text}], reading {...}, notes on resampling; or file and error
+{line, column, text}. Lines and columns count from 1.
+
+A file that cannot be read is reported on standard error; the others are still read, and the exit code is 1.";
+
+/// Contents of files of spectra and the decisions made when reading them; curves as CSV or JSON
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub(super) struct InspectArguments {
+    /// Files with spectra, or folders of them
+    #[arg(value_name = "FILE", required = true)]
+    files: Vec<PathBuf>,
+    /// Prints all that was read as JSON, curves included
+    #[arg(long)]
+    json: bool,
+    /// Writes the curves as CSV: a file, a folder for several files, or `-` for standard output
+    #[arg(long, value_name = "OUT")]
+    csv: Option<PathBuf>,
+    /// Overwrites existing files named by --csv, but never an input file
+    #[arg(long)]
+    force: bool,
+    /// Resamples the curves, in CSV and JSON, to whole multiples of a step in nanometers
+    #[arg(long, value_name = "NM", value_parser = step)]
+    step: Option<f64>,
+    /// With --step, averages the curves over bands of that width around each wavelength, which preserves the energy of
+    /// narrow lines, instead of sampling them
+    #[arg(long, requires = "step")]
+    average: bool,
+    /// Role of the curves
+    #[arg(long, value_name = "ROLE", value_parser = named::<Role>(ROLES), help_heading = READING)]
+    role: Option<Role>,
+    /// Scale of the values as written
+    #[arg(long, value_name = "VALUES", value_parser = values(), help_heading = READING)]
+    values: Option<Values>,
+    /// Unit of the wavelengths as written
+    #[arg(long, value_name = "UNIT", value_parser = unit(), help_heading = READING)]
+    unit: Option<WavelengthUnit>,
+    /// Delimiter between cells
+    #[arg(long, value_name = "DELIMITER", value_parser = named::<Delimiter>(DELIMITERS), help_heading = READING)]
+    delimiter: Option<Delimiter>,
+    /// Decimal mark
+    #[arg(long, value_name = "MARK", value_parser = named::<DecimalMark>(MARKS), help_heading = READING)]
+    decimal_mark: Option<DecimalMark>,
+    /// Orientation of the wavelengths: down a column or across a row
+    #[arg(long, value_name = "ORIENTATION", value_parser = named::<Orientation>(ORIENTATIONS), help_heading = READING)]
+    orientation: Option<Orientation>,
+    /// Column of the wavelengths, from 1
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..), help_heading = READING)]
+    wavelength_column: Option<u32>,
+    /// Number of the table, block or group in the file, from 1
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..), help_heading = READING)]
+    part: Option<u32>,
+    /// Unit of a camera's sensitivities: response per energy or per photon
+    #[arg(long, value_name = "UNIT", value_parser = PossibleValuesParser::new(["energy", "photon"]), help_heading = READING)]
+    per: Option<String>,
+    /// Format of the file, overriding detection
+    #[arg(long, value_name = "READER", value_parser = named::<Reader>(Reader::ALL.map(Reader::key)), help_heading = READING)]
+    reader: Option<Reader>,
+    /// Imports raw counts and other quantities recorded with the spectra; with --wavelength-column, every other column
+    #[arg(long, value_name = "BOOL", num_args = 0..=1, require_equals = true, default_missing_value = "true",
+          help_heading = READING)]
+    raw: Option<bool>,
+}
+
+const READING: &str = "Overrides";
+
+const ROLES: [&str; 5] = ["camera", "reflectance", "transmittance", "illuminant", "unknown"];
+const UNITS: [(&str, &[&str]); 5] = [
+    ("nanometer", &["nm"]),
+    ("micrometer", &["um", "µm"]),
+    ("angstrom", &[]),
+    ("wavenumber", &[]),
+    ("terahertz", &["thz"]),
+];
+const DELIMITERS: [&str; 6] = ["comma", "comma-space", "semicolon", "tab", "spaces", "elements"];
+const MARKS: [&str; 2] = ["point", "comma"];
+const ORIENTATIONS: [&str; 2] = ["down", "across"];
+
+/// Parser of units, which have symbols besides names.
+fn unit() -> impl TypedValueParser<Value = WavelengthUnit> {
+    let names = UNITS.map(|(name, symbols)| PossibleValue::new(name).aliases(symbols));
+    PossibleValuesParser::new(names).try_map(|typed| {
+        let known = UNITS.iter().find(|(_, symbols)| symbols.contains(&typed.as_str()));
+        let name: StrDeserializer<'_, Error> = known.map_or(typed.as_str(), |(name, _)| name).into_deserializer();
+        WavelengthUnit::deserialize(name)
+    })
+}
+
+fn step(text: &str) -> Result<f64, String> {
+    const SMALLEST_NM: f64 = 0.001;
+    let step = text.parse::<f64>().ok().filter(|step| step.is_finite() && *step >= SMALLEST_NM);
+    step.ok_or_else(|| "not a number of at least 0.001; write 5 for 5 nm".to_owned())
+}
+
+impl InspectArguments {
+    fn options(&self) -> ReadOptions {
+        ReadOptions {
+            delimiter: self.delimiter,
+            decimal_mark: self.decimal_mark,
+            orientation: self.orientation,
+            wavelength_unit: self.unit,
+            wavelength_column: self.wavelength_column.map(|column| column as usize),
+            values: self.values,
+            part: self.part.map(|part| part as usize),
+            role: self.role,
+            reader: self.reader,
+            raw: self.raw,
+        }
+    }
+
+    /// True if sensitivities are to be taken as responses per photon.
+    fn per_photon(&self) -> Option<bool> {
+        self.per.as_ref().map(|per| per == "photon")
+    }
+
+    fn grid(&self) -> Grid {
+        self.step.map_or(Grid::Native, if self.average { Grid::Average } else { Grid::Step })
+    }
+}
+
 #[derive(Clone)]
 enum Failure {
-    /// The system says no.
     Disk(String),
-    /// The content is not recognized.
     Read(ReadError),
     /// Only sensitivities are responses to something.
     NoCamera(Role),
-    /// The curves cannot be written as asked.
     Write(spectral_file::write::WriteError),
 }
 
@@ -71,7 +210,7 @@ impl Failure {
 }
 
 /// Reads the files one by one and writes the requested output of each. A failed file does not stop the others.
-pub(super) fn run(arguments: &InspectArguments) -> Result<(), CliError> {
+pub(super) fn run(arguments: &InspectArguments, _: &ArgMatches) -> Result<(), CliError> {
     let (files, several) = files(&arguments.files)?;
     let out = Out::new(arguments, &files, several)?;
     let mut failures = Vec::new();
@@ -112,7 +251,7 @@ fn answer(
     let curves: Vec<Trace<'_>> = table.iter().flat_map(|table| &table.curves).map(Trace::from).collect();
     let wanted = arguments.csv.is_some() || arguments.step.is_some();
     let prepared = table.as_ref().map_err(Clone::clone).and_then(|table| {
-        let sheet = Sheet { content: samples::content(table), curves: &curves, ..Sheet::default() };
+        let sheet = Sheet { content: output::content(table), curves: &curves, ..Sheet::default() };
         let prepared = wanted.then(|| Prepared::new(&sheet, arguments.grid())).transpose().map_err(Failure::Write)?;
         Ok((table, prepared))
     });
@@ -120,27 +259,27 @@ fn answer(
         Ok(prepared) => prepared,
         Err(failure) => {
             if arguments.json {
-                put(&shown_json(&format!("{}{end}", json::failure(&name, &failure))), None)?;
+                put(&shown_json(&format!("{}{end}", output::failure(&name, &failure))), None)?;
             }
             return Ok(Err(CliError::File(failure.sentence(&told))));
         }
     };
     if arguments.json {
         stream(None, |out| {
-            json::write(out, &name, table, prepared.as_mut())?;
+            output::json(out, &name, table, prepared.as_mut())?;
             Ok(out.write_all(end.as_bytes())?)
         })?;
     } else {
-        let notes = prepared.as_mut().map_or_else(Vec::new, samples::notes);
+        let notes = prepared.as_mut().map_or_else(Vec::new, output::notes);
         let gap = if index > 0 { "\n" } else { "" };
-        let text = format!("{gap}{}", report::of(&told, table, &notes));
+        let text = format!("{gap}{}", output::report(&told, table, &notes));
         if out.is_standard_output() { say(&text) } else { show(&text)? }
     }
     if let Some(question) = question(table) {
         say(&format!("chromascope: {told}: {question}\n"));
     }
     Ok(match (&mut prepared, out.place(index)) {
-        (Some(prepared), Some(place)) => stream(Some(place), |out| samples::write(prepared, out)),
+        (Some(prepared), Some(place)) => stream(Some(place), |out| output::table(prepared, out)),
         _ => Ok(()),
     })
 }
@@ -252,6 +391,78 @@ fn files(named: &[PathBuf]) -> Result<(Vec<PathBuf>, bool), CliError> {
         files.extend(within);
     }
     Ok((files, several))
+}
+
+enum Out {
+    Nowhere,
+    StandardOutput,
+    /// A file for each file that is read, in the same order.
+    Files(Vec<PathBuf>),
+}
+
+impl Out {
+    /// Writes the tables as requested; a missing folder is created. Nothing is created or written if one of the tables
+    /// may not be.
+    fn new(arguments: &InspectArguments, files: &[PathBuf], several: bool) -> Result<Self, CliError> {
+        let wrong = |reason: &str| Err(CliError::Argument { argument: "--csv", reason: reason.to_owned() });
+        let Some(path) = arguments.csv.as_deref() else { return Ok(Self::Nowhere) };
+        if is_standard_output(path) {
+            return match (arguments.json, several) {
+                (true, _) => wrong("JSON goes to standard output already; name a file"),
+                (_, true) => wrong("several tables cannot be written to one file; name a folder"),
+                _ => Ok(Self::StandardOutput),
+            };
+        }
+        let folder = several || path.is_dir();
+        if folder && path.exists() && !path.is_dir() {
+            return wrong(&format!("{} is a file; several files need a folder", path.display()));
+        }
+        let mut taken = HashSet::new();
+        let tables: Vec<PathBuf> = if folder {
+            files.iter().map(|file| path.join(free_name(file, &mut taken))).collect()
+        } else {
+            vec![path.to_owned()]
+        };
+        outputs::check(tables.iter().map(PathBuf::as_path), &inputs(files), arguments.force)?;
+        if folder {
+            fs::create_dir_all(path).map_err(|error| CliError::Output { path: path.to_owned(), error })?;
+        }
+        Ok(Self::Files(tables))
+    }
+
+    /// True if tables go where reports go else.
+    fn is_standard_output(&self) -> bool {
+        matches!(self, Self::StandardOutput)
+    }
+
+    /// Destination of the table of the file with this index, if any; `-` for standard output.
+    fn place(&self, index: usize) -> Option<&Path> {
+        match self {
+            Self::Nowhere => None,
+            Self::StandardOutput => Some(Path::new("-")),
+            Self::Files(paths) => paths.get(index).map(PathBuf::as_path),
+        }
+    }
+}
+
+/// Files that are read; standard input too, which may be redirected from a file.
+fn inputs(files: &[PathBuf]) -> Vec<PathBuf> {
+    let place = |file: &PathBuf| if is_standard_input(file) { PathBuf::from("/dev/stdin") } else { file.clone() };
+    files.iter().map(place).collect()
+}
+
+/// The file's name with another ending, and a number where another file has that name already.
+fn free_name(source: &Path, taken: &mut HashSet<String>) -> String {
+    let stem = source.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
+    let stem = if stem.is_empty() || stem == "-" { "table".to_owned() } else { stem };
+    let mut name = fitting(&stem, ".csv");
+    let mut number = 2;
+    // Some file systems do not distinguish `A.csv` from `a.csv`.
+    while !taken.insert(name.to_lowercase()) {
+        name = fitting(&stem, &format!("-{number}.csv"));
+        number += 1;
+    }
+    name
 }
 
 #[cfg(test)]

@@ -1,20 +1,19 @@
 //! `light`: temperature, rendition indices and consistency of cameras for illuminants.
 
-pub(super) mod arguments;
+use std::ffi::OsString;
+use std::fmt::Write as _;
 
 use chromascope_core::light::{Cct, CctError};
 use chromascope_core::query::{Consistency, Rendition};
-use chromascope_core::rendition::RenditionError;
-use clap::ArgMatches;
+use chromascope_core::rendition::{HueBin, RenditionError};
+use chromascope_figure::number::significant;
+use chromascope_figure::{Cell, Field, Table};
+use clap::{ArgMatches, Args};
 use serde_json::{Value, json};
-use std::fmt::Write as _;
 
-use arguments::{LightArguments, TableFormat};
-
+use super::arguments::{Form, OutArguments, SourceArguments, form};
 use super::error::CliError;
-use super::outputs;
 use super::request::Request;
-use super::tables::{field, significant};
 use crate::document::SetKind;
 use crate::format::fixed;
 use crate::results::Results;
@@ -22,7 +21,48 @@ use crate::scene::light::NoConsistency;
 use crate::scene::{Scene, SceneError};
 use crate::terminal::{say, shown};
 
-/// One light with all its answers.
+const EXAMPLES: &str = "Examples:
+  chromascope light FL2 LED-B3 D65
+  chromascope light lamp.csv --camera \"Nikon D70\" --format csv --out lamp_indices.csv
+  chromascope light blackbody:3200 --filter \"Cooling 131 mired\"
+  chromascope light LED-B3 --ssi-reference blackbody:3200
+
+CSV columns: light; cct_k, duv (CIE 1931 2\u{b0}, 380-780 nm); ra, r1 to r14 (CIE 13.3; none for lamps that are
+mainly monochromatic, which it excludes); rf, rg (ANSI/IES TM-30, CIE 224); ssi, the spectral similarity of SMPTE ST 2122 to the
+reference of the same temperature, unrounded; rf_h1, rcs_h1, fidelity and chroma shift of the first hue bin (reds); ssi_to, the similarity
+to the light of --ssi-reference, and ssi_reference, its name; then, in a row for each camera: camera,
+consistency_mean, consistency_p95, consistency_max, the \u{394}E*00 of the patches between this light and its reference illuminant
+through the camera, balanced to each and corrected by the matrix of the reference; worst_patch; cautions, what
+to know about the indices. Undefined values are empty; the
+reason is reported on standard error.";
+
+/// Lights: CCT and Duv, Ra, Rf and Rg, spectral similarity, and how consistent cameras are under them
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub(super) struct LightArguments {
+    /// Illuminants: names, files with one curve, `daylight:K` or `blackbody:K`
+    #[arg(value_name = "NAME|FILE", required = true)]
+    lights: Vec<OsString>,
+    /// A filter in front of each light: a name of `chromascope list filters`, or a file with one transmittance; may be repeated
+    #[arg(long, value_name = "NAME|FILE")]
+    filter: Vec<OsString>,
+    /// A light that the spectral similarity is taken to as well, such as `blackbody:3200` or D55: a name or a file with one curve
+    #[arg(long, value_name = "NAME|FILE")]
+    ssi_reference: Option<OsString>,
+    #[command(flatten)]
+    sources: SourceArguments,
+    /// The patches that cameras are compared over: a chart, a material, or a file with reflectances [default: the preset's]
+    #[arg(long, value_name = "NAME|FILE")]
+    chart: Option<OsString>,
+    /// Form of the output
+    #[arg(long, value_parser = form(FORMS), default_value = "table")]
+    format: Form,
+    #[command(flatten)]
+    out: OutArguments,
+}
+
+const FORMS: [&str; 3] = ["For people", "Comma-separated, 15 digits", "One object for each light"];
+
 struct Answer {
     name: String,
     temperature: Result<Cct, CctError>,
@@ -35,7 +75,16 @@ struct Answer {
     patches: Vec<String>,
 }
 
-/// Results for each light in the given order.
+impl Answer {
+    fn consistency(&self, camera: usize) -> Option<&Consistency> {
+        self.cameras.get(camera)?.1.as_ref().ok()
+    }
+
+    fn reds(&self) -> Option<&HueBin> {
+        self.rendition.fidelity.as_ref().ok()?.bins.first()
+    }
+}
+
 pub(super) fn run(arguments: &LightArguments, matches: &ArgMatches) -> Result<(), CliError> {
     let mut request = Request::of_sources(&arguments.sources, matches)?;
     request.set_chart(arguments.chart.as_deref())?;
@@ -52,18 +101,18 @@ pub(super) fn run(arguments: &LightArguments, matches: &ArgMatches) -> Result<()
         let scene = Scene { document: &request.document, catalog: &request.catalog, results: &results };
         answers.push(answer(&scene, &cameras, similar_to.as_deref())?);
     }
-    outputs::check(arguments.out.as_deref(), &request.inputs(), arguments.force)?;
+    arguments.out.check(&request)?;
     answers
         .iter()
         .flat_map(|answer| reasons(answer).into_iter().chain(cautions(answer)))
         .for_each(|reason| say(&format!("chromascope: {reason}\n")));
     let text = match arguments.format {
-        TableFormat::Table => table(&answers),
-        TableFormat::Csv => csv(&answers),
-        TableFormat::Json => format!("{:#}\n", Value::Array(answers.iter().map(object).collect())),
+        Form::Table => text(&answers),
+        Form::Csv => csv(&answers),
+        Form::Json => format!("{:#}\n", Value::Array(answers.iter().map(object).collect())),
     };
-    let people = arguments.format == TableFormat::Table && arguments.out.is_none();
-    outputs::put(&if people { shown(&text).into_owned() } else { text }, arguments.out.as_deref())
+    let people = arguments.format == Form::Table && arguments.out.path.is_none();
+    arguments.out.put(&if people { shown(&text).into_owned() } else { text })
 }
 
 fn answer(scene: &Scene<'_>, cameras: &[String], similar_to: Option<&str>) -> Result<Answer, CliError> {
@@ -80,7 +129,6 @@ fn answer(scene: &Scene<'_>, cameras: &[String], similar_to: Option<&str>) -> Re
     })
 }
 
-/// Reasons for missing values of a light, each listed once.
 fn reasons(answer: &Answer) -> Vec<String> {
     let Rendition { rendering, fidelity, similarity, .. } = &answer.rendition;
     let mut reasons: Vec<String> = [
@@ -98,66 +146,65 @@ fn reasons(answer: &Answer) -> Vec<String> {
     reasons.into_iter().map(|reason| format!("{}: {reason}", answer.name)).collect()
 }
 
-/// Cautions with the light's name.
 fn cautions(answer: &Answer) -> impl Iterator<Item = String> {
     answer.cautions.iter().map(|caution| format!("{}: {caution}", answer.name))
 }
 
-/// CCT, Duv, Ra, R1 to R14, Rf, Rg, SSI, Rf and Rcs of the first hue bin (reds), SSI to the light of choice.
-fn numbers(answer: &Answer) -> Vec<Option<f64>> {
-    let Rendition { rendering, fidelity, similarity, .. } = &answer.rendition;
-    let temperature = answer.temperature.ok();
-    let rendering = rendering.as_ref().ok();
-    let fidelity = fidelity.as_ref().ok();
-    let mut numbers = vec![temperature.map(|cct| cct.temperature.get()), temperature.map(|cct| cct.duv)];
-    numbers.push(rendering.map(|indices| indices.general));
-    numbers.extend((0..14).map(|index| rendering.map(|indices| indices.special[index])));
-    numbers.extend([fidelity.map(|f| f.fidelity), fidelity.map(|f| f.gamut), similarity.as_ref().ok().copied()]);
-    let reds = fidelity.and_then(|fidelity| fidelity.bins.first());
-    numbers.extend([reds.map(|bin| bin.fidelity), reds.map(|bin| bin.chroma_shift)]);
-    numbers.push(answer.similarity.as_ref().and_then(|(_, found)| found.ok()));
-    numbers
-}
+/// Columns of a light's numbers; `_h1` is the first hue bin (reds), `ssi_to` the similarity to the light of choice.
+const COLUMNS: [Field<Answer>; 9] = [
+    Field::new("cct_k", |answer| answer.temperature.ok().map(|cct| cct.temperature.get()).into()),
+    Field::new("duv", |answer| answer.temperature.ok().map(|cct| cct.duv).into()),
+    Field::new("ra", |answer| answer.rendition.rendering.as_ref().ok().map(|indices| indices.general).into()),
+    Field::new("rf", |answer| answer.rendition.fidelity.as_ref().ok().map(|found| found.fidelity).into()),
+    Field::new("rg", |answer| answer.rendition.fidelity.as_ref().ok().map(|found| found.gamut).into()),
+    Field::new("ssi", |answer| answer.rendition.similarity.as_ref().ok().copied().into()),
+    Field::new("rf_h1", |answer| answer.reds().map(|bin| bin.fidelity).into()),
+    Field::new("rcs_h1", |answer| answer.reds().map(|bin| bin.chroma_shift).into()),
+    Field::new("ssi_to", |answer| answer.similarity.as_ref().and_then(|(_, found)| found.ok()).into()),
+];
+/// Place of R1 to R14 among them.
+const SPECIAL: usize = 3;
 
-fn heads() -> Vec<String> {
-    let special = (1..=14).map(|index| format!("r{index}"));
-    let first = ["cct_k", "duv", "ra"].map(str::to_owned);
-    let last = ["rf", "rg", "ssi", "rf_h1", "rcs_h1", "ssi_to"].map(str::to_owned);
-    first.into_iter().chain(special).chain(last).collect()
+fn numbers<'a>(answers: impl IntoIterator<Item = &'a Answer> + Clone) -> Table {
+    let mut table = Table::of(&COLUMNS, answers.clone());
+    for index in 0..14 {
+        let special = |answer: &Answer| answer.rendition.rendering.as_ref().ok().map(|indices| indices.special[index]);
+        let cells = answers.clone().into_iter().map(|answer| special(answer).into());
+        table.insert(SPECIAL + index, format!("r{}", index + 1), cells);
+    }
+    table
 }
 
 fn csv(answers: &[Answer]) -> String {
-    let rest = "camera,consistency_mean,consistency_p95,consistency_max,worst_patch";
-    let mut text = format!("light,{},ssi_reference,{rest},cautions\n", heads().join(","));
-    for answer in answers {
-        let cells = numbers(answer).into_iter().map(|value| value.map_or_else(String::new, significant));
-        let to = answer.similarity.as_ref().map_or("", |(name, _)| name);
-        let cautions = field(&reasons(answer).into_iter().chain(cautions(answer)).collect::<Vec<_>>().join("; "));
-        let start = std::iter::once(field(&answer.name)).chain(cells).chain([field(to)]).collect::<Vec<_>>().join(",");
-        if answer.cameras.is_empty() {
-            let _ = writeln!(text, "{start},,,,,,{cautions}");
-        }
-        for (camera, consistency) in &answer.cameras {
-            let values = consistency.as_ref().map_or_else(
-                |_| ",,,".to_owned(),
-                |c| {
-                    let [mean, p95, max] = [c.mean, c.percentile_95, c.max].map(significant);
-                    format!("{mean},{p95},{max},{}", field(&answer.patches[c.worst]))
-                },
-            );
-            let _ = writeln!(text, "{start},{},{values},{cautions}", field(camera));
-        }
-    }
-    text
+    let cameras = |answer: &Answer| answer.cameras.len().max(1);
+    let rows: Vec<(&Answer, usize)> =
+        answers.iter().flat_map(|answer| (0..cameras(answer)).map(move |camera| (answer, camera))).collect();
+    let mut table = numbers(rows.iter().map(|(answer, _)| *answer));
+    table.insert(0, "light", rows.iter().map(|(answer, _)| answer.name.as_str().into()));
+    let mut push = |head: &str, cell: &dyn Fn(&Answer, usize) -> Cell| {
+        let cells: Vec<Cell> = rows.iter().map(|(answer, camera)| cell(answer, *camera)).collect();
+        table.insert(table.columns.len(), head, cells);
+    };
+    push("ssi_reference", &|answer, _| answer.similarity.as_ref().map_or("", |(name, _)| name).into());
+    push("camera", &|answer, camera| answer.cameras.get(camera).map_or("", |(name, _)| name).into());
+    push("consistency_mean", &|answer, camera| answer.consistency(camera).map(|c| c.mean).into());
+    push("consistency_p95", &|answer, camera| answer.consistency(camera).map(|c| c.percentile_95).into());
+    push("consistency_max", &|answer, camera| answer.consistency(camera).map(|c| c.max).into());
+    push("worst_patch", &|answer, camera| answer.consistency(camera).map_or("", |c| &answer.patches[c.worst]).into());
+    push("cautions", &|answer, _| {
+        reasons(answer).into_iter().chain(cautions(answer)).collect::<Vec<_>>().join("; ").into()
+    });
+    table.csv(significant)
 }
 
 fn object(answer: &Answer) -> Value {
+    let table = numbers([answer]);
     let indices: serde_json::Map<String, Value> =
-        heads().into_iter().zip(numbers(answer)).map(|(head, value)| (head, json!(value))).collect();
+        table.keys().zip(&table.rows[0]).map(|(head, cell)| (head.to_owned(), json!(cell.number()))).collect();
     let bins = answer.rendition.fidelity.as_ref().map_or_else(
         |_| Value::Null,
         |fidelity| {
-            let bin = |bin: &chromascope_core::rendition::HueBin| {
+            let bin = |bin: &HueBin| {
                 json!({ "rf_h": bin.fidelity, "rcs_h": bin.chroma_shift, "rhs_h": bin.hue_shift,
                         "test": bin.test, "reference": bin.reference })
             };
@@ -175,22 +222,22 @@ fn object(answer: &Answer) -> Value {
 }
 
 /// Rows for people: a light's indices, then its cameras.
-fn table(answers: &[Answer]) -> String {
-    let cell = |value: Option<f64>, decimals| value.map_or_else(|| "\u{2013}".to_owned(), |v| fixed(v, decimals));
+fn text(answers: &[Answer]) -> String {
     let mut text = String::new();
     for answer in answers {
-        let numbers = numbers(answer);
-        let [cct, duv, ra] = [(0, 0), (1, 4), (2, 1)].map(|(place, decimals)| cell(numbers[place], decimals));
-        let [rf, rg, ssi] = [(17, 1), (18, 1), (19, 0)].map(|(place, decimals)| cell(numbers[place], decimals));
+        let table = numbers([answer]);
+        let number = |key: &str| table.cell(0, table.place(key)?).number();
+        let cell = |key: &str, decimals| number(key).map_or_else(|| "\u{2013}".to_owned(), |v| fixed(v, decimals));
+        let [cct, ra, rf] = [("cct_k", 0), ("ra", 1), ("rf", 1)].map(|(key, decimals)| cell(key, decimals));
+        let [duv, rg, ssi] = [("duv", 4), ("rg", 1), ("ssi", 0)].map(|(key, decimals)| cell(key, decimals));
         let _ = write!(text, "{}\n  CCT {cct} K   Duv {duv}   Ra {ra}   Rf {rf}   Rg {rg}   SSI {ssi}", answer.name);
-        let [rf_h1, to] = [(20, 1), (22, 0)].map(|(place, decimals)| cell(numbers[place], decimals));
         if let Some((name, _)) = &answer.similarity {
-            let _ = write!(text, "   SSI[{name}] {to}");
+            let _ = write!(text, "   SSI[{name}] {}", cell("ssi_to", 0));
         }
-        let rcs_h1 = cell(numbers[21].map(|shift| 100.0 * shift), 0);
-        let _ = write!(text, "\n  Rf,h1 {rf_h1}   Rcs,h1 {rcs_h1} %\n ");
-        for (index, value) in numbers[3..17].iter().enumerate() {
-            let _ = write!(text, " R{} {}", index + 1, cell(*value, 0));
+        let rcs_h1 = number("rcs_h1").map_or_else(|| "\u{2013}".to_owned(), |shift| fixed(100.0 * shift, 0));
+        let _ = write!(text, "\n  Rf,h1 {}   Rcs,h1 {rcs_h1} %\n ", cell("rf_h1", 1));
+        for index in 1..=14 {
+            let _ = write!(text, " R{index} {}", cell(&format!("r{index}"), 0));
         }
         text.push('\n');
         for caution in &answer.cautions {

@@ -12,34 +12,28 @@ use crate::atomic::write_atomically_with;
 use crate::scene::SceneError;
 use crate::terminal;
 
-/// Block size of output.
 const BUFFER: usize = 1 << 16;
 
 /// A file as the file system knows it, by whatever name or link it is reached.
 #[derive(Debug, PartialEq, Eq)]
 enum Identity {
-    /// Device and inode.
     #[cfg(unix)]
     Inode(u64, u64),
-    /// The path without links.
     Path(PathBuf),
 }
 
 impl Identity {
-    /// Identifies an existing file.
     #[cfg(unix)]
     fn existing(path: &Path) -> Option<Self> {
         use std::os::unix::fs::MetadataExt as _;
         fs::metadata(path).ok().map(|known| Self::Inode(known.dev(), known.ino()))
     }
 
-    /// Identifies an existing file.
     #[cfg(not(unix))]
     fn existing(path: &Path) -> Option<Self> {
         fs::canonicalize(path).ok().map(Self::Path)
     }
 
-    /// Identifies a file, existing or not.
     fn new(path: &Path) -> Self {
         Self::existing(path).unwrap_or_else(|| {
             let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
@@ -74,7 +68,6 @@ pub(super) fn check<'a>(
     Ok(())
 }
 
-/// True if a path means standard output.
 pub(super) fn is_standard_output(path: &Path) -> bool {
     ["-", "/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"].iter().any(|name| path == Path::new(name))
 }
@@ -92,7 +85,6 @@ fn is_stream(path: &Path) -> bool {
     is_standard_output(path) || is_descriptor(path) || no_file()
 }
 
-/// Writes a message to standard output.
 pub(super) fn show(text: &str) -> Result<(), CliError> {
     put(&terminal::shown(text), None)
 }
@@ -102,11 +94,8 @@ pub(super) fn put(text: &str, out: Option<&Path>) -> Result<(), CliError> {
     stream(out, |out| Ok(out.write_all(text.as_bytes())?))
 }
 
-/// Reason why writing ended early.
 pub(super) enum Stop {
-    /// The output takes no more.
     Output(io::Error),
-    /// There is nothing more to write.
     Because(Box<CliError>),
 }
 

@@ -66,7 +66,6 @@ struct Times {
     writing: Duration,
 }
 
-/// Rendered pictures with their setup.
 struct Made<'a> {
     setup: &'a Setup,
     scene: Scene<'a>,
@@ -196,7 +195,6 @@ impl<'a> Made<'a> {
     }
 }
 
-/// Contents of an output file.
 enum Content<'a> {
     Png(&'a Picture),
     Exr { image: &'a CameraImage, rendering: Box<Rendering>, provenance: Box<Provenance<'a>> },

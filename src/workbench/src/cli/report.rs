@@ -1,23 +1,58 @@
 //! `report`: the paper's figures and claims with public data, as files in a folder.
 
-pub(super) mod arguments;
-
+use std::ffi::OsString;
 use std::io;
 use std::path::PathBuf;
 
-use self::arguments::ReportArguments;
+use clap::{ArgMatches, Args};
+
+use super::arguments::Per;
 use super::error::CliError;
 use super::outputs::{self, show, write_to};
 use super::render::make_folder;
 use super::request::Request;
 use crate::document::start::Start;
 use crate::document::{Document, SetKind};
-use crate::report::{PAGE, Report};
+use crate::report::{PAGE, PIXELS, Report};
 use crate::results::Results;
 use crate::terminal::draw_progress;
 
-/// Makes the report.
-pub(super) fn run(arguments: &ReportArguments) -> Result<(), CliError> {
+const EXAMPLES: &str = "Examples:
+  chromascope report --out report
+  chromascope report --out mine --camera \"Canon EOS 5D Mark II\" --camera mine.csv --chart \"ColorChecker 24\"
+
+The folder gets Figures 1 to 9 of the paper as PDF, SVG, PNG and CSV (the numbers behind them), claims.csv with each claim, what is
+found and its rounding (half of the last digit, not how well it is known), and report.html: one page with all of that, without links
+to the network. Claims about cameras that are not in the report are not judged; checks beyond the paper stand apart.";
+
+/// Figures and claims of the 2007 paper with public data: PDF, SVG, PNG, CSV and one page
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub(super) struct ReportArguments {
+    /// A folder, made if it is not there
+    #[arg(long, value_name = "FOLDER")]
+    out: PathBuf,
+    /// A camera in place of the paper's, or a file with three sensitivities; may be repeated
+    #[arg(long, value_name = "NAME|FILE")]
+    camera: Vec<OsString>,
+    /// Unit of the sensitivities in camera files, overriding the files: response per energy or per photon
+    #[arg(long, value_enum, value_name = "UNIT", requires = "camera")]
+    per: Option<Per>,
+    /// A chart, a material, or a file with reflectances in place of the five patches
+    #[arg(long, value_name = "NAME|FILE")]
+    chart: Option<OsString>,
+    /// A light in place of equal energy and of sunlight: a name, a file with one curve, `daylight:K` or `blackbody:K`
+    #[arg(long, value_name = "NAME|FILE")]
+    illuminant: Option<OsString>,
+    /// Width and height of a rendered picture in pixels
+    #[arg(long, value_name = "PIXELS", default_value_t = PIXELS, value_parser = clap::value_parser!(u32).range(16..=2048))]
+    picture_size: u32,
+    /// Overwrites the files of an earlier report
+    #[arg(long)]
+    force: bool,
+}
+
+pub(super) fn run(arguments: &ReportArguments, _: &ArgMatches) -> Result<(), CliError> {
     let mut request = Request::of_cameras(Start::Paper, "--camera", &arguments.camera, arguments.per)?;
     request.set_chart(arguments.chart.as_deref())?;
     if let Some(illuminant) = &arguments.illuminant {

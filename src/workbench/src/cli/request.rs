@@ -9,14 +9,11 @@ use chromascope_core::correction::CorrectionMethod;
 use chromascope_core::query::Shared;
 use chromascope_core::units::Kelvin;
 use clap::ArgMatches;
-use spectral_file::{Certainty, MAX_BYTES, ReadError, Values};
+use spectral_file::{Certainty, MAX_BYTES, ReadError, SpectralFile, Values, Warning};
 
-use super::arguments::{CommonArguments, SourceArguments, Transform};
-use super::checks;
+use super::arguments::{CommonArguments, FitArguments, Per, SourceArguments, Transform};
 use super::error::CliError;
-use super::fit::FitArguments;
 use super::outputs::is_descriptor;
-use super::per::Per;
 use crate::catalog::import::{Origin, imported};
 use crate::catalog::names::{Found, find, telling_words};
 use crate::catalog::{Catalog, Entry};
@@ -26,20 +23,16 @@ use crate::document::render::{LEAF, MeshChoice, SKIN};
 use crate::document::start::Start;
 use crate::document::{CHART, CIE_1931, Document, FIVE, Light, SetKind, Subset, TransformChoice, WhiteBalanceChoice};
 use crate::format::io_reason;
+use crate::scene::{Caution, Scene, SceneError};
 use crate::terminal::say;
 
-/// Kinds of sets of reflectances.
 const REFLECTANCES: [SetKind; 2] = [SetKind::Chart, SetKind::Material];
 
 /// Document made from arguments, and the sensors in the order they were named.
 pub(super) struct Request {
-    /// Document made from the arguments.
     pub(super) document: Document,
-    /// The built-in sets.
     pub(super) catalog: Catalog,
-    /// The requested sensors.
     pub(super) sources: Vec<(SetKind, String)>,
-    /// The start used where nothing was named.
     pub(super) preset: Start,
     /// Quantity of the values in reflectance files, if given.
     pub(super) values: Option<Values>,
@@ -124,6 +117,24 @@ impl Request {
         self.read.iter().cloned().chain(mesh).collect()
     }
 
+    /// Reports once the reason that differences from the reference are empty or not those of the color transform alone.
+    pub(super) fn say_caution(&self, scene: &Scene<'_>) -> Result<(), SceneError> {
+        say_light(scene)?;
+        let Some(caution) = scene.caution() else { return Ok(()) };
+        let remedy = match caution {
+            Caution::FitDiffers { .. } => "",
+            Caution::NotComparable { .. } => {
+                let comparable = self.sources.iter().map(|(kind, name)| scene.comparable(*kind, name));
+                if comparable.collect::<Result<Vec<_>, _>>()?.iter().all(Result::is_ok) {
+                    return Ok(());
+                }
+                " Their differences are left empty; add --transform fitted."
+            }
+        };
+        say(&format!("chromascope: {}{remedy}\n", caution.sentence()));
+        Ok(())
+    }
+
     fn named_sources(
         &mut self,
         arguments: &SourceArguments,
@@ -197,14 +208,12 @@ impl Request {
         }
     }
 
-    /// Chooses the observer that color transforms are fitted to.
     pub(super) fn set_fit_target(&mut self, target: &str) -> Result<(), CliError> {
         let target = self.name("--fit-to", &[SetKind::Observer], target)?;
         self.document.set_transform(TransformChoice::Observer(target));
         Ok(())
     }
 
-    /// Chooses how color transforms are fitted.
     pub(super) fn set_correction(&mut self, method: CorrectionMethod, fit: &FitArguments) -> Result<(), CliError> {
         let mut choice = CorrectionChoice { method, keeps_white: !fit.free_white, ..CorrectionChoice::default() };
         for (class, weight) in &fit.weights {
@@ -217,7 +226,6 @@ impl Request {
         Ok(())
     }
 
-    /// Chooses the second calibration light.
     pub(super) fn set_second_light(&mut self, given: &OsStr) -> Result<(), CliError> {
         self.document.correction.second_light = Some(self.light_named("--second-illuminant", given)?);
         Ok(())
@@ -243,7 +251,6 @@ impl Request {
         !built_in && is_file(given)
     }
 
-    /// Chooses the light.
     pub(super) fn set_light(&mut self, given: &OsStr) -> Result<(), CliError> {
         if let Some((light, kelvin)) = radiator("--illuminant", &given.to_string_lossy())? {
             self.document.light = if light == Radiator::Daylight { Light::Daylight } else { Light::BlackBody };
@@ -255,7 +262,6 @@ impl Request {
         Ok(())
     }
 
-    /// Puts filters in front of the light.
     pub(super) fn set_filters(&mut self, filters: &[OsString]) -> Result<(), CliError> {
         for given in filters {
             let name = self.set_or_file("--filter", &[SetKind::Filter], Role::Transmittance, given)?;
@@ -268,7 +274,6 @@ impl Request {
         Ok(())
     }
 
-    /// Chooses the patches.
     pub(super) fn set_chart(&mut self, chart: Option<&OsStr>) -> Result<(), CliError> {
         let Some(chart) = chart else { return Ok(()) };
         if self.means_file("--chart", &REFLECTANCES, chart) {
@@ -319,7 +324,6 @@ impl Request {
         Ok(found.entry.name.clone())
     }
 
-    /// Chooses the white-balance target.
     pub(super) fn set_white(&mut self, white: &str) -> Result<(), CliError> {
         self.document.white = match radiator("--white-balance", white)? {
             Some((Radiator::Daylight, kelvin)) => WhiteBalanceChoice::Daylight(kelvin),
@@ -367,7 +371,7 @@ impl Request {
             return Ok(known.clone());
         }
         let mut set = self.read(path, role)?;
-        checks::curves(&set)?;
+        check_curves(&set)?;
         let kind = SetKind::of_own(&set);
         if self.document.holder_of(kind, &set.name, None, self.catalog.names()).is_some() {
             set.name = format!("{} ({})", set.name, display_path(path));
@@ -397,9 +401,9 @@ impl Request {
         let origin = Origin::on_disk(&file, path, bytes);
         let table = spectral_file::read(origin.source(bytes), &overrides.options)
             .map_err(|error| CliError::File(format!("{file}: {error}")))?;
-        checks::quantity(&file, role, &table)?;
+        check_quantity(&file, role, &table)?;
         let table = table.usable().map_err(|error| CliError::File(format!("{file}: {error}")))?;
-        checks::channels(&file, role, &table)?;
+        check_channels(&file, role, &table)?;
         overrides.taken = Some((0..table.curves.len()).collect());
         if role == Role::Camera {
             overrides.per_photon = self.per.map(|per| per == Per::Photon);
@@ -424,7 +428,6 @@ pub(super) fn display_path(path: &Path) -> String {
     spectral_file::on_one_line(&path.to_string_lossy()).into_owned()
 }
 
-/// Reports the match of an inexact name.
 fn tell(argument: &str, typed: &str, found: &Found<'_>) {
     if let Some(note) = found.note() {
         say(&format!("chromascope: {argument} \"{typed}\": {note}\n"));
@@ -478,7 +481,6 @@ impl Radiator {
     }
 }
 
-/// `daylight:K` and `blackbody:K`.
 fn radiator(argument: &'static str, text: &str) -> Result<Option<(Radiator, f64)>, CliError> {
     let Some((name, kelvin)) = text.split_once(':') else { return Ok(None) };
     let radiator = match name.trim().to_ascii_lowercase().as_str() {
@@ -504,4 +506,76 @@ fn is_file(argument: &OsStr) -> bool {
         .is_some_and(|ending| ["csv", "txt", "tsv", "dat"].iter().any(|known| ending.eq_ignore_ascii_case(known)));
     // A name is text, so that other arguments are file paths.
     path.is_file() || ends_as_file || argument.to_str().is_none_or(|typed| typed.contains(['/', '\\']))
+}
+
+pub(super) fn say_light(scene: &Scene<'_>) -> Result<(), SceneError> {
+    if let Some(caution) = scene.light_caution()? {
+        say(&format!("chromascope: {caution}\n"));
+    }
+    Ok(())
+}
+
+/// Rejects a file that states another quantity than its option takes, values of unknown scale, and values that no such quantity has;
+/// reports the use of a file that states none.
+fn check_quantity(path: &str, role: Role, table: &SpectralFile) -> Result<(), CliError> {
+    let refuse = |why: String| Err(CliError::File(format!("{path}: {why}")));
+    let content = &table.reading.content_role;
+    let other = content.value != role && !(content.value.is_fraction() && role.is_fraction());
+    if other && content.certainty == Certainty::Certain && content.value != Role::Unknown {
+        let option = match content.value {
+            Role::Camera => "--camera",
+            Role::Reflectance => "--chart",
+            Role::Transmittance => "--filter",
+            Role::Illuminant | Role::Unknown => "--illuminant, or patches --radiance for measured radiances",
+        };
+        let quantity = table.warnings.iter().find_map(|warning| match warning {
+            Warning::OtherQuantity { quantity, .. } => Some(quantity.to_string()),
+            _ => None,
+        });
+        let stated = quantity.unwrap_or_else(|| content.value.to_string());
+        let why = spectral_file::lowered(&content.why);
+        return refuse(format!("the file states {stated}, not {role} ({why}); use {option}, or correct its header"));
+    }
+    let values = &table.reading.values;
+    if role.is_fraction() && values.certainty == Certainty::Open {
+        let remedy = if role == Role::Transmittance {
+            "state it in the file, such as Transmittance (%)"
+        } else {
+            "add --values percent, or --values plain for fractions"
+        };
+        return refuse(format!("{}; {remedy}", values.why));
+    }
+    if other && content.certainty != Certainty::Certain {
+        let why = match content.certainty {
+            Certainty::Guess => format!("{}, which suggests {}", content.why, content.value),
+            _ => "the file does not state its quantity".to_owned(),
+        };
+        say(&format!("chromascope: {path}: {why}; used as {role} because of the option\n"));
+    }
+    Ok(())
+}
+
+/// Refuses sensitivities of which nothing says which are red, green and blue.
+fn check_channels(path: &str, role: Role, table: &SpectralFile) -> Result<(), CliError> {
+    let count = table.curves.len();
+    if role != Role::Camera || count <= 3 || table.reading.camera_columns.is_some() {
+        return Ok(());
+    }
+    let why = "red, green and blue are not identified; name the columns red, green and blue, or keep three";
+    Err(CliError::File(format!("{path}: {count} curves; {why}")))
+}
+
+/// True if a file holds as many curves as its use takes.
+fn check_curves(set: &ImportedSet) -> Result<(), CliError> {
+    let wanted = match set.role {
+        Role::Camera if set.curves.len() < 3 => "expected three for a camera: red, green and blue",
+        Role::Transmittance if set.curves.len() > 1 => "expected exactly one curve for a filter",
+        Role::Illuminant if set.curves.len() > 1 => "expected exactly one curve for an illuminant",
+        _ => return Ok(()),
+    };
+    let count = match set.curves.len() {
+        1 => "1 curve".to_owned(),
+        n => format!("{n} curves"),
+    };
+    Err(CliError::File(format!("{}: {count}; {wanted}", set.file)))
 }

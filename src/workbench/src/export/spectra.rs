@@ -2,11 +2,12 @@
 
 use chromascope_core::query::Ask;
 use chromascope_core::spectral::{Header, Response, SpectralDistribution};
-use chromascope_figure::{Cell, Table};
+use chromascope_figure::{Cell, Column, Table};
 use spectral_file::write::{Content, Format, Grid, Note, Sheet, Trace, WriteError, write};
 
 use crate::atomic::fitting;
 use crate::catalog::load::{self, LoadError};
+use crate::catalog::names::model_of;
 use crate::catalog::{Entry, Place};
 use crate::document::SetKind;
 use crate::document::imported::{ImportedSet, Role};
@@ -114,8 +115,9 @@ pub fn table(entry: &Entry, ask: &impl Ask) -> Result<Table, LoadError> {
     let mut wavelengths: Vec<f64> = curves.iter().flat_map(|(_, curve)| curve.wavelengths_nm()).copied().collect();
     wavelengths.sort_by(f64::total_cmp);
     wavelengths.dedup();
-    let names = curves.iter().map(|(name, _)| name.as_str());
-    let mut table = Table::new(std::iter::once("wavelength_nm").chain(names));
+    let names = curves.iter().map(|(name, _)| name.as_str().into());
+    let wavelength = Column::quantity("wavelength_nm", "wavelength", "nm");
+    let mut table = Table::new(std::iter::once(wavelength).chain(names));
     for nm in wavelengths {
         let at = |curve: &SpectralDistribution| {
             let index = curve.wavelengths_nm().binary_search_by(|known| known.total_cmp(&nm)).ok()?;
@@ -224,7 +226,7 @@ fn maker_and_model(name: &str) -> (Option<&str>, Option<&str>) {
         "Sigma",
         "Sony",
     ];
-    let name = name.split_once(" (").map_or(name, |(before, _)| before).trim();
+    let name = model_of(name).trim();
     let found = MAKERS.iter().find_map(|maker| {
         let (start, rest) = name.split_at_checked(maker.len())?;
         (start.eq_ignore_ascii_case(maker) && rest.starts_with(' ')).then(|| (start, rest.trim()))

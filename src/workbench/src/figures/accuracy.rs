@@ -1,7 +1,7 @@
 //! Run time against error for the visible scene, as measured.
 
 use chromascope_figure::{
-    Cell, Figure, FigureRoom, InkRole, LegendEntry, LegendPlace, Marker, Panel, Rect, Stroke, Table, Tag,
+    Cell, Column, Figure, FigureRoom, InkRole, LegendEntry, LegendPlace, Marker, Panel, Rect, Stroke, Table, Tag,
 };
 use chromascope_measure::Measurement;
 use chromascope_measure::method::{Family, Point};
@@ -130,14 +130,11 @@ pub fn title(subject: Subject) -> String {
 }
 
 /// Each row with what, on what and when it was measured.
-fn with_conditions(mut table: Table, trial: &Trial, conditions: &Conditions) -> Table {
+fn with_conditions(table: Table, trial: &Trial, conditions: &Conditions) -> Table {
     let of = format!("{}: {}", conditions.of(trial), trial.inputs_in_words());
-    let cells = [&of, &conditions.machine, &conditions.program, &conditions.began];
-    table.columns.extend(["measured on", "machine", "program", "began"].map(str::to_owned));
-    for row in &mut table.rows {
-        row.extend(cells.map(|text| Cell::from(text.as_str())));
-    }
-    table
+    let Conditions { machine, program, began, .. } = conditions;
+    let all = [("measured on", of.as_str()), ("machine", machine), ("program", program), ("began", began)];
+    table.with_constants(all.map(|(column, text)| (column, text.to_owned())))
 }
 
 pub fn legend(trial: &Trial) -> Vec<LegendEntry> {
@@ -155,14 +152,15 @@ fn entry(family: Family) -> LegendEntry {
 }
 
 pub fn table(trial: &Trial) -> Table {
+    let error = trial.subject.error_of();
     let mut table = Table::new([
-        "method".to_owned(),
-        format!("time for {} (µs)", trial.subject.per()),
-        "ratio to the reference".to_owned(),
-        format!("largest error ({})", trial.subject.error_of()),
-        format!("RMS error ({})", trial.subject.error_of()),
-        format!("estimated error bound ({})", trial.subject.error_of()),
-        "preparation (ms)".to_owned(),
+        "method".into(),
+        Column::in_unit(&format!("time for {}", trial.subject.per()), "µs"),
+        "ratio to the reference".into(),
+        Column::in_unit("largest error", error),
+        Column::in_unit("RMS error", error),
+        Column::in_unit("estimated error bound", error),
+        Column::in_unit("preparation", "ms"),
     ]);
     let reference = trial.points.first().map_or(1.0, |point| point.seconds);
     for (index, point) in trial.points.iter().enumerate() {

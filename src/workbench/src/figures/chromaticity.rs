@@ -17,8 +17,8 @@ use std::collections::BTreeSet;
 use chromascope_core::colorimetry::{UvPrime, Xy, Xyz};
 use chromascope_core::light::Cct;
 use chromascope_figure::{
-    Axis, AxisRanges, Cell, Figure, FigureRoom, InkRole, LegendEntry, LegendPlace, Mark, Numbers, Panel, Projection,
-    Rect, Shape, Stroke, Table, Ticks, auto_ticks,
+    Axis, AxisRanges, Cell, Field, Figure, FigureRoom, InkRole, LegendEntry, LegendPlace, Mark, Numbers, Panel,
+    Projection, Rect, Shape, Stroke, Table, Ticks, auto_ticks,
 };
 
 use chromascope_core::spectral::sensor::TAIL_BELOW_K;
@@ -234,12 +234,15 @@ pub fn figure_sized(scene: &Scene<'_>, look: &FigureLook, room: FigureRoom, size
 
 /// Removes rows whose point lies outside of these ranges, or nowhere.
 fn keep_inside(table: &mut Table, diagram: Diagram, ranges: Ranges) {
-    let first = match diagram {
-        Diagram::Xy => 4,
-        Diagram::UvPrime => 6,
+    let axes = match diagram {
+        Diagram::Xy => ["x", "y"],
+        Diagram::UvPrime => ["u_prime", "v_prime"],
     };
-    let is_inside = |cell: Option<&Cell>, [low, high]: [f64; 2]| matches!(cell, Some(Cell::Number(value)) if (low..=high).contains(value));
-    table.rows.retain(|row| (0..2).all(|axis| is_inside(row.get(first + axis), ranges[axis])));
+    let places = axes.map(|axis| table.place(axis));
+    let is_inside = |row: &[Cell], place: Option<usize>, [low, high]: [f64; 2]| {
+        place.and_then(|place| row.get(place)?.number()).is_some_and(|value| (low..=high).contains(&value))
+    };
+    table.rows.retain(|row| places.iter().zip(ranges).all(|(place, range)| is_inside(row, *place, range)));
 }
 
 fn legend_entry(source: &ComparedSensor) -> LegendEntry {
@@ -287,60 +290,92 @@ pub fn viewing_conditions(scene: &Scene<'_>) -> String {
     format!("Reference: {}. Light: {}. White balance: {white}.", scene.document.reference, scene.light_name())
 }
 
-/// Coordinates in both diagrams.
-type Places = (Option<Xy>, Option<UvPrime>);
+/// A blackbody or a patch through a sensor.
+struct Point {
+    sensor: String,
+    /// Temperature in kelvins of a blackbody.
+    kelvin: Option<f64>,
+    /// Name of a patch.
+    patch: Option<String>,
+    xy: Option<Xy>,
+    uv: Option<UvPrime>,
+    /// The same point through the reference, where the two can be compared.
+    reference: (Option<Xy>, Option<UvPrime>),
+    extrapolated: Option<bool>,
+    cct: Option<Cct>,
+}
 
+const COLUMNS: [Field<Point>; 13] = [
+    Field::new("sensor", |point| point.sensor.as_str().into()),
+    Field::new("kind", |point| if point.patch.is_some() { "patch" } else { "locus" }.into()),
+    Field::quantity(["temperature_k", "temperature", "K"], |point| point.kelvin.into()),
+    Field::new("patch", |point| point.patch.as_deref().map_or(Cell::Empty, Cell::from)),
+    Field::new("x", |point| point.xy.map(|xy| xy.x).into()),
+    Field::new("y", |point| point.xy.map(|xy| xy.y).into()),
+    Field::quantity(["u_prime", "u′", ""], |point| point.uv.map(|uv| uv.u).into()),
+    Field::quantity(["v_prime", "v′", ""], |point| point.uv.map(|uv| uv.v).into()),
+    Field::quantity(["distance_xy", "Δxy", ""], |point| {
+        point.xy.zip(point.reference.0).map(|(a, b)| a.distance(b)).into()
+    }),
+    Field::quantity(["distance_uv_prime", "Δu′v′", ""], |point| {
+        point.uv.zip(point.reference.1).map(|(a, b)| a.distance(b)).into()
+    }),
+    Field::new("extrapolated", |point| {
+        point.extrapolated.map_or(Cell::Empty, |extrapolated| extrapolated.to_string().into())
+    }),
+    Field::quantity(["cct_k", "CCT", "K"], |point| point.cct.map(|cct| cct.temperature.get()).into()),
+    // Of a blackbody it is 0 but for rounding.
+    Field { decimals: Some(6), ..Field::quantity(["duv", "Duv", ""], |point| point.cct.map(|cct| cct.duv).into()) },
+];
+
+/// All points as numbers.
 fn table(scene: &Scene<'_>) -> Table {
-    let heads =
-        "sensor kind temperature_k patch x y u_prime v_prime distance_xy distance_uv_prime extrapolated cct_k duv";
-    let mut table = Table::new(heads.split(' '));
-    let reference = &scene.document.reference;
-    let reference_locus = scene.locus(SetKind::Observer, reference).ok();
-    let reference_colors = scene.patch_colors(SetKind::Observer, reference).unwrap_or_default();
+    let mut points = Vec::new();
+    let reference_locus = scene.locus(SetKind::Observer, &scene.document.reference).ok();
+    let reference_patches = scene.patch_colors(SetKind::Observer, &scene.document.reference).unwrap_or_default();
     for source in scene.sources().iter().filter(|source| source.visible) {
         let comparable = matches!(scene.comparable(source.kind, &source.name), Ok(Ok(())));
-        let mut push =
-            |kind: &str, [kelvin, patch]: [Cell; 2], (xy, uv): Places, of: Option<Places>, rest: [Cell; 3]| {
-                let (reference_xy, reference_uv) = of.filter(|_| comparable).unwrap_or_default();
-                let places = [xy.map(|p| p.x), xy.map(|p| p.y), uv.map(|p| p.u), uv.map(|p| p.v)];
-                let distances = [
-                    xy.zip(reference_xy).map(|(a, b)| a.distance(b)),
-                    uv.zip(reference_uv).map(|(a, b)| a.distance(b)),
-                ];
-                let numbers = places.into_iter().chain(distances).map(Cell::from);
-                table.push(
-                    [source.label.as_str().into(), kind.into(), kelvin, patch].into_iter().chain(numbers).chain(rest),
-                );
-            };
         let below = scene.extrapolated_below(source.kind, &source.name).map_or(0.0, |(below, _)| below);
+        let sensor = || source.label.clone();
         if let Ok(locus) = scene.locus(source.kind, &source.name) {
             let ccts = temperatures(scene, locus.points.iter().map(|point| point.xyz));
-            for ((index, point), [cct, duv]) in locus.points.iter().enumerate().zip(ccts) {
-                let of = reference_locus.as_ref().and_then(|locus| locus.points.get(index)).map(|p| (p.xy, p.uv));
-                let kelvin = point.temperature.get();
-                let extrapolated = if kelvin < below { "true" } else { "false" };
-                push("locus", [kelvin.into(), Cell::Empty], (point.xy, point.uv), of, [extrapolated.into(), cct, duv]);
-            }
+            let reference = |place: usize| reference_locus.as_ref()?.points.get(place).filter(|_| comparable);
+            points.extend(locus.points.iter().zip(ccts).enumerate().map(|(place, (point, cct))| Point {
+                sensor: sensor(),
+                kelvin: Some(point.temperature.get()),
+                patch: None,
+                xy: point.xy,
+                uv: point.uv,
+                reference: reference(place).map_or((None, None), |point| (point.xy, point.uv)),
+                extrapolated: Some(point.temperature.get() < below),
+                cct,
+            }));
         }
         let (Ok(colors), Ok(patches)) = (scene.patch_colors(source.kind, &source.name), scene.patches()) else {
             continue;
         };
         let ccts = temperatures(scene, colors.iter().map(|color| color.xyz));
-        for ((index, (color, patch)), [cct, duv]) in colors.iter().zip(patches.patches()).enumerate().zip(ccts) {
-            let of = reference_colors.get(index).map(|color| (color.xy, color.uv));
-            let patch = patch.name.as_str().into();
-            push("patch", [Cell::Empty, patch], (color.xy, color.uv), of, [Cell::Empty, cct, duv]);
-        }
+        let reference = |place: usize| reference_patches.get(place).filter(|_| comparable);
+        let colors = colors.iter().zip(patches.patches()).zip(ccts).enumerate();
+        points.extend(colors.map(|(place, ((color, patch), cct))| Point {
+            sensor: sensor(),
+            kelvin: None,
+            patch: Some(patch.name.clone()),
+            xy: color.xy,
+            uv: color.uv,
+            reference: reference(place).map_or((None, None), |color| (color.xy, color.uv)),
+            extrapolated: None,
+            cct,
+        }));
     }
-    table
+    Table::of(&COLUMNS, points)
 }
 
 /// CCT and Duv of each color, for the CIE 1931 observer.
-fn temperatures(scene: &Scene<'_>, colors: impl Iterator<Item = Xyz>) -> Vec<[Cell; 2]> {
+fn temperatures(scene: &Scene<'_>, colors: impl Iterator<Item = Xyz>) -> Vec<Option<Cct>> {
     let colors: Vec<Option<Xyz>> = colors.map(Some).collect();
-    let cells = |cct: Option<Cct>| [cct.map(|cct| cct.temperature.get()), cct.map(|cct| cct.duv)].map(Cell::from);
     match scene.temperatures_of(&colors) {
-        Ok(found) => found.into_iter().map(|cct| cells(cct.ok())).collect(),
-        Err(_) => colors.iter().map(|_| cells(None)).collect(),
+        Ok(found) => found.into_iter().map(Result::ok).collect(),
+        Err(_) => vec![None; colors.len()],
     }
 }

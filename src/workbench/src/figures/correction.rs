@@ -1,7 +1,7 @@
 //! Errors of a two-light correction between its lights.
 
 use chromascope_figure::{
-    Axis, Cell, Dash, Figure, FigureRoom, InkRole, LegendEntry, LegendPlace, Mark, Panel, Rect, Shape, Stroke, Table,
+    Axis, Dash, Field, Figure, FigureRoom, InkRole, LegendEntry, LegendPlace, Mark, Panel, Rect, Shape, Stroke, Table,
     Tag, Ticks,
 };
 
@@ -12,7 +12,6 @@ use super::look::FigureLook;
 use crate::export::profile::CorrectionFile;
 use crate::scene::Scene;
 
-/// Size of the figure in points.
 const SIZE: [f64; 2] = [460.0, 240.0];
 
 /// A curve: its name, its values, its looks.
@@ -43,18 +42,21 @@ fn figure(_: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Option<Figure> 
         })
         .to_vec();
     figure.legend_place = LegendPlace::Inside;
-    let mut table = Table::new(["temperature_k", "first", "second", "own", "mixed"]);
-    for point in file.sheet.between.iter().flatten() {
-        let values = [point.temperature.get(), point.first, point.second, point.own, point.mixed];
-        table.rows.push(values.map(Cell::Number).to_vec());
-    }
-    figure.table = table;
+    figure.table = Table::of(&COLUMNS, file.sheet.between.iter().flatten());
     Some(figure)
 }
 
 fn title(file: &CorrectionFile) -> String {
     format!("{}: mean ΔE*00 between {}", file.camera, file.lights.join(" and "))
 }
+
+const COLUMNS: [Field<TwoLightPoint>; 5] = [
+    Field::quantity(["temperature_k", "temperature", "K"], |point| point.temperature.get().into()),
+    Field::new("first", |point| point.first.into()),
+    Field::new("second", |point| point.second.into()),
+    Field::new("own", |point| point.own.into()),
+    Field::new("mixed", |point| point.mixed.into()),
+];
 
 /// The panel of a size; none without two lights.
 pub fn panel(file: &CorrectionFile, size: [f64; 2]) -> Option<Panel> {

@@ -7,8 +7,8 @@ use std::sync::Arc;
 
 use chromascope_core::spectral::grid::{FIRST_NM, LAST_NM};
 use chromascope_figure::{
-    Axis, Cell, Figure, FigureRoom, Ink, InkRole, Label, Labels, LegendEntry, LegendPlace, Mark, Numbers, Panel, Place,
-    Projection, Rect, Shape, Stroke, Table, Tag, TextSize, finite_runs,
+    Axis, Cell, Column, Figure, FigureRoom, Ink, InkRole, Label, Labels, LegendEntry, LegendPlace, Mark, Numbers,
+    Panel, Place, Projection, Rect, Shape, Stroke, Table, Tag, TextSize, finite_runs,
 };
 
 pub use drawn::{Curve, Curves, DRAWN};
@@ -173,9 +173,12 @@ pub fn title(curves: &Curves) -> String {
 
 /// The values at the wavelengths of the file; nothing where a curve has none.
 pub fn numbers(curves: &Curves) -> Table {
-    let unit = curves.unit.as_ref().map_or_else(String::new, |unit| format!(" ({unit})"));
-    let names = curves.drawn.iter().map(|curve| format!("{}{unit}", curve.name));
-    let mut table = Table::new(std::iter::once("wavelength_nm".to_owned()).chain(names));
+    let column = |curve: &Curve| match &curves.unit {
+        Some(unit) => Column::in_unit(&curve.name, unit),
+        None => curve.name.as_str().into(),
+    };
+    let wavelength = Column::quantity("wavelength_nm", "wavelength", "nm");
+    let mut table = Table::new(std::iter::once(wavelength).chain(curves.drawn.iter().map(column)));
     let mut all: Vec<f64> = curves.drawn.iter().flat_map(|curve| curve.points.iter().map(|point| point[0])).collect();
     all.sort_unstable_by(f64::total_cmp);
     all.dedup();

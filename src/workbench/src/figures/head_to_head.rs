@@ -1,6 +1,6 @@
 //! Two cameras side by side as a figure: each metric with both values and their difference.
 
-use chromascope_core::query::{CameraMetric, MetricValue};
+use chromascope_core::query::CameraMetric;
 use chromascope_figure::{
     Anchor, Cell, Figure, FigureRoom, Ink, InkRole, Mark, Panel, Rect, Shape, Table, Tag, TextSize, text_width,
 };
@@ -8,12 +8,12 @@ use chromascope_figure::{
 use super::chromaticity::conditions;
 use super::kind::FigureKind;
 use super::look::FigureLook;
-use super::metrics::{difference, head_to_head, nature_cells, uncertainties, value};
+use super::metrics::{DIFFERENCE, VALUES, head_to_head, uncertainties, value};
 use crate::document::SetKind;
 use crate::plot_item::{PlotItem, SensorId};
 use crate::scene::Scene;
 use crate::scene::metrics::Ranked;
-use crate::scene::uncertainty::{UNCERTAINTY_HEADS, number, uncertainty};
+use crate::scene::uncertainty::with_nature;
 
 /// Width of a saved figure in points, and height of a row.
 const WIDTH: f64 = 640.0;
@@ -48,7 +48,7 @@ fn figure(scene: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Option<Figu
     let ranked = scene.ranked(look.cameras);
     let [Some(a), Some(b)] = pair(&ranked, scene, look) else { return None };
     let table = head_to_head(&ranked, [a, b]);
-    let rows = rows(&ranked, [a, b], &table);
+    let rows = rows(&table);
     let width_of = |words: &str| text_width(words, TextSize::Small);
     let widest = |column: usize| rows.iter().map(|row| width_of(&row[column])).fold(30.0, f64::max) + GAP;
     let least: f64 = 12.0 + (0..COLUMNS).map(widest).sum::<f64>();
@@ -91,40 +91,26 @@ fn figure(scene: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Option<Figu
         conditions(scene)
     );
     figure.table =
-        numbers(&ranked, [a, b], table).with_constants(&scene.metrics_constants(scene.document.temperature_k));
+        numbers(&ranked, [a, b], table).with_constants(scene.metrics_constants(scene.document.temperature_k));
     Some(figure)
 }
 
 /// Rows of the figure in words: metric, A, B, their difference and the better one; metrics without a difference are omitted.
-fn rows(ranked: &Ranked, cameras: [usize; 2], table: &Table) -> Vec<[String; COLUMNS]> {
-    let text = |cells: &[Cell], column: usize| match cells.get(column) {
-        Some(Cell::Text(words)) => words.clone(),
-        _ => String::new(),
-    };
-    let row = |(metric, cells): (&CameraMetric, &Vec<Cell>)| {
-        let [a, b] = cameras.map(|camera| value(ranked, camera, *metric));
-        let (a, b) = a.zip(b)?;
-        let written = |value: MetricValue| {
-            [Some(number(*metric, value)), uncertainty(value)].into_iter().flatten().collect::<Vec<_>>().join(" ")
-        };
-        Some([text(cells, 0), written(a), written(b), written(difference(a, b)?), text(cells, 2)])
-    };
-    CameraMetric::ALL.iter().zip(&table.rows).filter_map(row).collect()
+fn rows(table: &Table) -> Vec<[String; COLUMNS]> {
+    let rows = (0..table.rows.len()).filter(|&row| table.cell(row, DIFFERENCE).number().is_some());
+    rows.map(|row| [0, VALUES[0], VALUES[1], DIFFERENCE, 2].map(|column| table.cell(row, column).in_words())).collect()
 }
 
-/// All numbers of the figure: the table with uncertainties.
 fn numbers(ranked: &Ranked, cameras: [usize; 2], mut table: Table) -> Table {
-    let heads = ["A − B uncertainty", "A uncertainty", "B uncertainty"].into_iter().chain(UNCERTAINTY_HEADS);
-    table.columns.extend(heads.map(str::to_owned));
-    for (metric, row) in CameraMetric::ALL.iter().zip(&mut table.rows) {
-        let [a, b] = cameras.map(|camera| value(ranked, camera, *metric));
-        let of = a.zip(b).and_then(|(a, b)| difference(a, b));
-        let standard =
-            |value: Option<MetricValue>| Cell::from(value.and_then(|value| Some(value.uncertainty?.standard)));
-        row.extend([standard(of), standard(a), standard(b)]);
-        row.extend(nature_cells([a, b].into_iter().flatten().filter_map(|value| value.uncertainty)));
+    for column in [DIFFERENCE, VALUES[0], VALUES[1]] {
+        let head = format!("{} uncertainty", table.columns[column].name);
+        let cells: Vec<Cell> = table.rows.iter().map(|row| row[column].note().uncertainty.into()).collect();
+        table.insert(table.columns.len(), head, cells);
     }
-    table
+    with_nature(table, |row| {
+        let values = cameras.map(|camera| value(ranked, camera, CameraMetric::ALL[row]));
+        values.into_iter().flatten().filter_map(|value| value.uncertainty)
+    })
 }
 
 fn text(words: &str, at: [f64; 2], anchor: Anchor, size: TextSize) -> Mark {

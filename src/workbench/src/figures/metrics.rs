@@ -3,7 +3,7 @@
 use chromascope_core::query::metrics::{Better, Difference, rank_ranges};
 use chromascope_core::query::{CameraMetric, MetricUncertainty, MetricValue, WhyNot};
 use chromascope_figure::{
-    Anchor, Cell, Figure, FigureRoom, Ink, InkRole, Mark, Panel, Rect, Shape, Table, Tag, TextSize, text_width,
+    Anchor, Cell, Figure, FigureRoom, Ink, InkRole, Mark, Note, Panel, Rect, Shape, Table, Tag, TextSize, text_width,
 };
 
 use super::chromaticity::conditions;
@@ -11,7 +11,7 @@ use super::kind::FigureKind;
 use super::look::{FigureLook, Sorting};
 use crate::scene::Scene;
 use crate::scene::metrics::{CameraFigures, Ranked};
-use crate::scene::uncertainty::{UNCERTAINTY_HEADS, nature, number, uncertainty};
+use crate::scene::uncertainty::{self, cell, number, uncertainty, unit, with_nature};
 
 /// Id of the table of cameras in what is saved between runs.
 pub const TABLE: &str = "Metrics";
@@ -19,11 +19,6 @@ pub const TABLE: &str = "Metrics";
 pub const FIRST: &str = "delta-e2000-mean";
 /// The metric where the first has no meaning.
 pub const FIRST_EQ_13: &str = "xy-mean";
-
-/// Unit of a metric; empty for ratios and indices.
-pub fn unit(metric: &CameraMetric) -> &'static str {
-    if metric.unit == "1" { "" } else { metric.unit }
-}
 
 /// The metric that rows are sorted by: the column's, or the first one that has a meaning under the color transform.
 pub fn sorted_by(scene: &Scene<'_>, sorting: Option<&Sorting>) -> Option<CameraMetric> {
@@ -72,21 +67,16 @@ pub fn ranks(ranked: &Ranked, metric: CameraMetric) -> Vec<Option<[usize; 2]>> {
     rank_ranges(metric.better, &values.collect::<Vec<_>>())
 }
 
-/// All figures of merit of all cameras, each with its uncertainty, as files hold them.
-pub fn numbers(ranked: &Ranked) -> Table {
-    let heads = CameraMetric::ALL.iter().flat_map(|m| [m.column.to_owned(), format!("{}_uncertainty", m.column)]);
-    let heads = heads.chain(UNCERTAINTY_HEADS.map(str::to_owned));
-    let mut table = Table::new(std::iter::once("camera".to_owned()).chain(heads));
-    for (camera, row) in ranked.cameras.iter().enumerate() {
-        let cells = CameraMetric::ALL.iter().flat_map(|metric| {
-            let value = value(ranked, camera, *metric);
-            let number = value.and_then(|value| value.value.ok());
-            [Cell::from(number), Cell::from(value.and_then(|value| value.uncertainty).map(|by| by.standard))]
-        });
-        let known = uncertainties(ranked, [camera]);
-        table.push(std::iter::once(Cell::from(row.id.name.as_str())).chain(cells).chain(nature_cells(known)));
-    }
-    table
+/// All figures of merit of all cameras, each with its uncertainty or the reason that there is none.
+pub fn table(ranked: &Ranked) -> Table {
+    let names = ranked.cameras.iter().map(|camera| camera.id.name.as_str());
+    uncertainty::table(("camera", names), CameraMetric::ALL, |camera, metric| {
+        let failed = || ranked.metrics[camera].as_ref().and_then(|made| made.as_ref().err());
+        match value(ranked, camera, metric) {
+            Some(value) => cell(value),
+            None => failed().map_or(Cell::Empty, |why| Cell::Missing(why.clone())),
+        }
+    })
 }
 
 /// Uncertainties of cameras in all metrics, where they are known.
@@ -98,39 +88,47 @@ pub fn uncertainties(
     all.flat_map(|all| all.iter().copied().flatten())
 }
 
-/// Cells under [`UNCERTAINTY_HEADS`].
-pub fn nature_cells(of: impl IntoIterator<Item = MetricUncertainty>) -> [Cell; 4] {
-    let Some((source, coverage, freedom, extrapolated)) = nature(of) else { return Default::default() };
-    [source.word().into(), coverage.into(), freedom.into(), extrapolated.to_string().as_str().into()]
-}
+/// Columns of the difference of two cameras, and of their values.
+pub const DIFFERENCE: usize = 1;
+pub const VALUES: [usize; 2] = [3, 4];
 
-/// Two cameras head to head: each metric with the difference, the camera better by more than the uncertainty, and both values.
-pub fn head_to_head(ranked: &Ranked, [a, b]: [usize; 2]) -> Table {
+/// Two cameras head to head: each metric with the difference, the camera better by more than the uncertainty, and both values;
+/// gray where the difference is within its uncertainty.
+pub fn head_to_head(ranked: &Ranked, cameras: [usize; 2]) -> Table {
     let mut table = Table::new(["metric", "A − B", "better", "A", "B"]);
+    for column in &mut table.columns {
+        column.decimals = Some(0);
+    }
+    BETTER_HINT.clone_into(&mut table.columns[2].hint);
     for metric in CameraMetric::ALL {
-        let values = [a, b].map(|camera| value(ranked, camera, *metric));
-        let [x, y] = values.map(|value| value.and_then(|value| value.value.ok()));
-        let words = match values {
-            [Some(a), Some(b)] if x.is_some() && y.is_some() => match (is_better(*metric, a, b), differ(a, b)) {
-                (None, _) => "",
-                (_, Some(false)) => "neither",
-                (Some(true), _) => "A",
-                (Some(false), _) if x == y => "neither",
-                (Some(false), _) => "B",
-            },
-            _ => "",
+        let values = cameras.map(|camera| value(ranked, camera, *metric));
+        let pair = values[0].zip(values[1]);
+        let better = pair.and_then(|(a, b)| is_better(*metric, a, b));
+        let differ = pair.and_then(|(a, b)| differ(a, b));
+        let words = match (better, differ, pair) {
+            (None, ..) => "",
+            (_, Some(false), _) => "neither",
+            (Some(true), ..) => "A",
+            (Some(false), _, Some((a, b))) if a.value.ok() == b.value.ok() => "neither",
+            (Some(false), ..) => "B",
         };
-        let difference = x.zip(y).map(|(x, y)| x - y);
+        let hint = format!("{}. Enter or a double click sorts Metrics by it.", metric.label);
+        let exact = |note: &mut Note| note.decimals = Some(metric.decimals);
+        let gray = |note: &mut Note| note.is_gray = differ == Some(false);
+        let [a, b] = values.map(|value| value.map_or(Cell::Empty, cell).with(exact));
+        let difference = pair.and_then(|(a, b)| difference(a, b)).map_or(Cell::Empty, cell);
         table.push([
-            Cell::from(format!("{} {}", metric.symbol, unit(metric)).trim_end()),
-            Cell::from(difference),
-            Cell::from(words),
-            Cell::from(x),
-            Cell::from(y),
+            Cell::from(format!("{} {}", metric.symbol, unit(metric)).trim_end()).with(|note| note.hint = hint),
+            difference.with(exact).with(gray),
+            Cell::from(words).with(gray),
+            a,
+            b,
         ]);
     }
     table
 }
+
+const BETTER_HINT: &str = "The better camera at 95 %: where the difference exceeds k times its standard uncertainty; neither where it does not.";
 
 /// Difference of two values with its uncertainty, whose parts are not told apart; extrapolated where either is.
 pub fn difference(a: MetricValue, b: MetricValue) -> Option<MetricValue> {
@@ -143,7 +141,6 @@ pub fn difference(a: MetricValue, b: MetricValue) -> Option<MetricValue> {
 
 /// Width of a saved figure in points.
 const WIDTH: f64 = 640.0;
-/// Height of a row.
 const ROW: f64 = 16.0;
 
 pub static KIND: FigureKind =
@@ -204,6 +201,7 @@ fn figure(scene: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Option<Figu
         scene.metrics_words_with(rows.iter().filter_map(|row| row.1.uncertainty).collect::<Vec<_>>()),
         conditions(scene)
     );
-    figure.table = numbers(&ranked).with_constants(&scene.metrics_constants(scene.document.temperature_k));
+    let numbers = with_nature(table(&ranked), |camera| uncertainties(&ranked, [camera]));
+    figure.table = numbers.with_constants(scene.metrics_constants(scene.document.temperature_k));
     Some(figure)
 }

@@ -1,9 +1,9 @@
 //! Residuals of a camera's sensitivities against recorded raw values, patch by patch.
 
-use chromascope_core::camera::recorded::{RankRange, RecordedFit};
+use chromascope_core::camera::recorded::{Exclusion, RankRange, RecordedFit};
 use chromascope_figure::{
-    Anchor, Axis, Cell, Figure, FigureRoom, Ink, InkRole, Label, Labels, LegendEntry, LegendPlace, Mark, Marker, Panel,
-    Place, Rect, Shape, Table, Tag, Ticks,
+    Anchor, Axis, Cell, Field, Figure, FigureRoom, Ink, InkRole, Label, Labels, LegendEntry, LegendPlace, Mark, Marker,
+    Panel, Place, Rect, Shape, Table, Tag, Ticks,
 };
 
 use super::kind::{FigureKind, Need};
@@ -99,23 +99,38 @@ pub fn panel(fit: &RecordedFit, names: &[String], size: [f64; 2]) -> Panel {
     panel
 }
 
-fn table(name: &str, fit: &RecordedFit, rank: RankRange, names: &[String]) -> Table {
-    let heads = ["camera", "patch", "channel", "residual_percent", "excluded", "brightness", "rank_first", "rank_last"];
-    let mut table = Table::new(heads);
-    for (row, patch) in names.iter().enumerate() {
-        for (channel, residual) in CHANNELS.into_iter().zip(&fit.residuals[row]) {
-            let why = residual.err().map_or(Cell::Empty, |why| Cell::Text(why.to_string()));
-            table.push([
-                name.into(),
-                patch.as_str().into(),
-                channel.into(),
-                residual.ok().map(|log| log * 100.0).into(),
-                why,
-                fit.brightness[row].into(),
-                (rank.range[0] as f64).into(),
-                (rank.range[1] as f64).into(),
-            ]);
-        }
-    }
-    table
+struct Residual {
+    camera: String,
+    patch: String,
+    channel: &'static str,
+    log: Result<f64, Exclusion>,
+    brightness: Option<f64>,
+    rank: RankRange,
+}
+
+const COLUMNS: [Field<Residual>; 8] = [
+    Field::new("camera", |residual| residual.camera.as_str().into()),
+    Field::new("patch", |residual| residual.patch.as_str().into()),
+    Field::new("channel", |residual| residual.channel.into()),
+    Field::new("residual_percent", |residual| residual.log.ok().map(|log| log * 100.0).into()),
+    Field::new("excluded", |residual| residual.log.err().map_or(Cell::Empty, |why| why.to_string().into())),
+    Field::new("brightness", |residual| residual.brightness.into()),
+    Field::new("rank_first", |residual| (residual.rank.range[0] as f64).into()),
+    Field::new("rank_last", |residual| (residual.rank.range[1] as f64).into()),
+];
+
+fn table(camera: &str, fit: &RecordedFit, rank: RankRange, names: &[String]) -> Table {
+    let residuals = names.iter().enumerate().flat_map(|(row, patch)| {
+        let brightness = fit.brightness[row];
+        let channels = CHANNELS.into_iter().zip(fit.residuals[row]);
+        channels.map(move |(channel, log)| Residual {
+            camera: camera.to_owned(),
+            patch: patch.clone(),
+            channel,
+            log,
+            brightness,
+            rank,
+        })
+    });
+    Table::of(&COLUMNS, residuals)
 }

@@ -5,8 +5,8 @@ pub mod headline;
 pub mod returned;
 
 use chromascope_figure::{
-    Anchor, Axis, Cell, Figure, FigureRoom, Image, Ink, InkRole, Mark, Panel, Rect, Shape, Table, Tag, TextSize,
-    text_width, wrapped,
+    Anchor, Axis, Cell, Column, Figure, FigureRoom, Image, Ink, InkRole, Mark, Panel, Rect, Shape, Table, Tag,
+    TextSize, text_width, wrapped,
 };
 use spectral_image::ImageQuantity;
 
@@ -229,6 +229,7 @@ fn table(shot: &RenderedFrame, measure: &str) -> Table {
          median_above_l20 p95_above_l20 samples_above_l20 garment_facing_light"
     };
     let mut table = Table::new(columns.split(' '));
+    table.columns[6] = Column::quantity("time_ms", "time", "ms");
     let Some(made) = shot.made() else { return table };
     for (at, source) in shot.sources.iter().enumerate() {
         let difference = made.differences.get(at).and_then(Option::as_ref);

@@ -2,25 +2,24 @@
 
 use chromascope_core::colorimetry::Metric;
 use chromascope_core::query::metrics::MetricGroup;
-use chromascope_core::query::{CameraMetric, CameraMetrics};
+use chromascope_core::query::{CameraMetric, CameraMetrics, MetricValue};
 use chromascope_core::spectral::SpectralDistribution;
 use chromascope_core::spectral::grid::{FIRST_NM, LAST_NM};
 use chromascope_figure::{
-    Anchor, Axis, Cell, Figure, FigureRoom, Ink, InkRole, Label, Labels, Mark, Panel, Place, Projection, Rect, Shape,
-    Table, Tag, TextSize, Ticks, text_width,
+    Anchor, Axis, Cell, Field, Figure, FigureRoom, Ink, InkRole, Label, Labels, Mark, Panel, Place, Projection, Rect,
+    Shape, Table, Tag, TextSize, Ticks, text_width,
 };
 
 use super::chromaticity::{conditions, distance_symbol};
 use super::kind::FigureKind;
 use super::look::FigureLook;
-use super::metrics::{nature_cells, unit};
 use crate::document::{LOCUS_RANGE_K, SetKind};
 use crate::format::fixed;
 use crate::plot_item::{PlotItem, SensorId};
 use crate::scene::Scene;
 use crate::scene::locus::distance;
 use crate::scene::metrics::CameraFigures;
-use crate::scene::uncertainty::{UNCERTAINTY_HEADS, in_words, number, uncertainty};
+use crate::scene::uncertainty::{in_words, number, uncertainty, unit, with_nature};
 
 /// Width of the saved page in points.
 const WIDTH: f64 = 560.0;
@@ -30,14 +29,11 @@ const TWO_COLUMNS: f64 = 480.0;
 const ONE_ROW: f64 = 840.0;
 /// Width of a column of figures of merit where there are more than two.
 const LIST_COLUMN: f64 = 216.0;
-/// Heights of title, plots and bars, and of a further line of the name.
 const TITLE: f64 = 44.0;
 const NAME_LINE: f64 = 20.0;
 const PLOTS: f64 = 190.0;
 const BARS: f64 = 200.0;
-/// Height of a line of the list.
 const LINE: f64 = 15.0;
-/// Height of a line of the foot.
 const FOOT_LINE: f64 = 12.0;
 
 /// The camera of the card: the chosen one, else the selected one, else the first that is compared.
@@ -101,7 +97,7 @@ pub fn page(scene: &Scene<'_>, id: &SensorId, figures: &CameraFigures, width: f6
     figure.panels = panels;
     let words = scene.metrics_words();
     figure.caption = format!("{words} {}", conditions(scene));
-    figure.table = numbers(id, figures).with_constants(&scene.metrics_constants(temperature_k));
+    figure.table = numbers(id, figures).with_constants(scene.metrics_constants(temperature_k));
     figure
 }
 
@@ -109,7 +105,6 @@ fn line(name: &str, points: Vec<[f64; 2]>, ink: Ink, width: f64) -> Mark {
     Mark::new(Tag::default(), name, Shape::Line { points, closed: false }).with_stroke(ink, width)
 }
 
-/// Name, and where its figures are from.
 fn title(scene: &Scene<'_>, id: &SensorId, name: &[String], area: Rect) -> Panel {
     let mut panel = Panel::board("title", area, Ink::new(InkRole::Plot));
     let entry = scene.entry(id.kind, &id.name).ok();
@@ -203,7 +198,6 @@ fn patches(scene: &Scene<'_>, metrics: &CameraMetrics, area: Rect) -> Panel {
     panel
 }
 
-/// A line of the list.
 #[derive(Clone, Copy)]
 enum Line {
     Group(MetricGroup),
@@ -228,7 +222,6 @@ fn list(columns: usize) -> Vec<Vec<Line>> {
     made
 }
 
-/// All figures of merit in columns, by group.
 fn values(figures: &CameraFigures, area: Rect, columns: &[Vec<Line>], temperature_k: f64) -> Panel {
     let mut panel = Panel::board("figures of merit", area, Ink::new(InkRole::Plot));
     let places = columns.iter().enumerate().flat_map(|(column, lines)| {
@@ -263,21 +256,19 @@ fn values(figures: &CameraFigures, area: Rect, columns: &[Vec<Line>], temperatur
     panel
 }
 
+/// Columns of the numbers, of a metric with its value.
+const COLUMNS: [Field<(String, CameraMetric, MetricValue)>; 7] = [
+    Field::new("camera", |(camera, ..)| Cell::from(camera.as_str())),
+    Field::new("metric", |(_, metric, _)| Cell::from(metric.column)),
+    Field::new("name", |(_, metric, _)| Cell::from(metric.label)),
+    Field::new("unit", |(_, metric, _)| Cell::from(metric.unit)),
+    Field::new("value", |(.., value)| Cell::from(value.value.ok())),
+    Field::new("uncertainty", |(.., value)| Cell::from(value.uncertainty.map(|by| by.standard))),
+    Field::new("reason", |(.., value)| Cell::from(value.value.err().map_or_else(String::new, |why| why.to_string()))),
+];
+
 fn numbers(id: &SensorId, figures: &CameraFigures) -> Table {
-    let heads = ["camera", "metric", "name", "unit", "value", "uncertainty", "reason"];
-    let mut table = Table::new(heads.into_iter().chain(UNCERTAINTY_HEADS));
-    for metric in CameraMetric::ALL {
-        let Some(value) = figures.of(*metric) else { continue };
-        let cells = [
-            Cell::from(id.name.as_str()),
-            Cell::from(metric.column),
-            Cell::from(metric.label),
-            Cell::from(metric.unit),
-            Cell::from(value.value.ok()),
-            Cell::from(value.uncertainty.map(|by| by.standard)),
-            Cell::from(value.value.err().map_or_else(String::new, |why| why.to_string())),
-        ];
-        table.push(cells.into_iter().chain(nature_cells(value.uncertainty)));
-    }
-    table
+    let values = CameraMetric::ALL.iter().filter_map(|metric| Some((id.name.clone(), *metric, figures.of(*metric)?)));
+    let values: Vec<_> = values.collect();
+    with_nature(Table::of(&COLUMNS, &values), |row| values[row].2.uncertainty)
 }

@@ -8,8 +8,8 @@ use chromascope_core::colorimetry::diagram::wavelength_color;
 use chromascope_core::spectral::SpectralDistribution;
 use chromascope_core::spectral::grid::{COUNT, FIRST_NM, LAST_NM, wavelength_nm};
 use chromascope_figure::{
-    Axis, Cell, Figure, FigureRoom, Image, InkRole, Labels, LegendPlace, Mark, Panel, Projection, Rect, Shape, Table,
-    Ticks,
+    Axis, Cell, Column, Figure, FigureRoom, Image, InkRole, Labels, LegendPlace, Mark, Panel, Projection, Rect, Shape,
+    Table, Ticks,
 };
 
 use self::content::Content;
@@ -142,22 +142,22 @@ pub fn figure(scene: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Figure 
 
 /// Everything on the grid, as it is integrated.
 fn table(scene: &Scene<'_>) -> Table {
-    let mut names = vec!["wavelength_nm".to_owned()];
+    let mut names = vec![Column::quantity("wavelength_nm", "wavelength", "nm")];
     let mut columns: Vec<Vec<f64>> = vec![(0..COUNT).map(wavelength_nm).collect()];
     if let Ok(light) = scene.light() {
-        names.push(format!("light {}", scene.light_name()));
+        names.push(format!("light {}", scene.light_name()).into());
         columns.push(light.grid.values().to_vec());
     }
     if let Ok(patches) = scene.patches() {
         for patch in patches.patches() {
-            names.push(patch.name.clone());
+            names.push(patch.name.clone().into());
             columns.push(patch.grid.values().to_vec());
         }
     }
     for source in scene.sources().iter().filter(|source| source.visible) {
         let Ok(sensor) = scene.sensor(source.kind, &source.name) else { continue };
         for (channel, letter) in sensor.primaries().channels().iter().enumerate() {
-            names.push(format!("{} {letter}", source.label));
+            names.push(format!("{} {letter}", source.label).into());
             columns.push((0..COUNT).map(|index| sensor.at_index(index)[channel]).collect());
         }
     }

@@ -4,7 +4,7 @@ mod board;
 
 use chromascope_core::colorimetry::Metric;
 use chromascope_core::query::PatchColor;
-use chromascope_figure::{Anchor, Cell, Figure, FigureRoom, Ink, InkRole, Panel, Rect, Table};
+use chromascope_figure::{Anchor, Field, Figure, FigureRoom, Ink, InkRole, Panel, Rect, Table};
 
 use self::board::Board;
 use super::chromaticity::{caption, id};
@@ -23,7 +23,6 @@ pub struct Built {
     pub height: f64,
 }
 
-/// One sensor's colors.
 struct Row {
     source: ComparedSensor,
     /// Colors with their differences, or why there are none.
@@ -107,7 +106,6 @@ pub fn worst(scene: &Scene<'_>) -> Option<(String, PlotItem)> {
     Some((words, PlotItem::Patch { source: Some(id(source)), patch: patch.clone() }))
 }
 
-/// The size of a saved figure in points.
 const SIZE: [f64; 2] = [700.0, 300.0];
 /// Width below which a figure is higher than its proportions.
 const NARROW: f64 = 500.0;
@@ -150,37 +148,39 @@ pub fn figure_sized(scene: &Scene<'_>, look: &FigureLook, size: [f64; 2]) -> Fig
     figure
 }
 
+/// A patch through a sensor: label, name, color, and difference from the reference by a metric.
+type Swatch = (String, String, PatchColor, Option<f64>, &'static str);
+
+const COLUMNS: [Field<Swatch>; 19] = [
+    Field::new("sensor", |(sensor, ..)| sensor.as_str().into()),
+    Field::new("patch", |(_, patch, ..)| patch.as_str().into()),
+    Field::new("r", |(.., color, _, _)| color.rgb.map(|rgb| rgb[0]).into()),
+    Field::new("g", |(.., color, _, _)| color.rgb.map(|rgb| rgb[1]).into()),
+    Field::new("b", |(.., color, _, _)| color.rgb.map(|rgb| rgb[2]).into()),
+    Field::new("X", |(.., color, _, _)| color.xyz.x.into()),
+    Field::new("Y", |(.., color, _, _)| color.xyz.y.into()),
+    Field::new("Z", |(.., color, _, _)| color.xyz.z.into()),
+    Field::new("x", |(.., color, _, _)| color.xy.map(|xy| xy.x).into()),
+    Field::new("y", |(.., color, _, _)| color.xy.map(|xy| xy.y).into()),
+    Field::new("L*", |(.., color, _, _)| color.lab.map(|lab| lab.l).into()),
+    Field::new("a*", |(.., color, _, _)| color.lab.map(|lab| lab.a).into()),
+    Field::new("b*", |(.., color, _, _)| color.lab.map(|lab| lab.b).into()),
+    Field::new("srgb_r", |(.., color, _, _)| f64::from(color.srgb.bytes[0]).into()),
+    Field::new("srgb_g", |(.., color, _, _)| f64::from(color.srgb.bytes[1]).into()),
+    Field::new("srgb_b", |(.., color, _, _)| f64::from(color.srgb.bytes[2]).into()),
+    Field::new("clipped", |(.., color, _, _)| if color.srgb.clipped { "yes" } else { "no" }.into()),
+    Field::new("difference", |(.., difference, _)| (*difference).into()),
+    Field::new("measure", |(.., difference, measure)| if difference.is_some() { measure } else { "" }.into()),
+];
+
 fn table(scene: &Scene<'_>) -> Table {
-    let columns = "sensor patch r g b X Y Z x y L* a* b* srgb_r srgb_g srgb_b clipped difference measure";
-    let mut table = Table::new(columns.split(' '));
-    let names = patch_names(scene);
-    let measure = scene.difference_name();
-    for row in rows(scene) {
-        for ((color, difference), name) in row.colors.iter().flatten().zip(&names) {
-            let part = |i: usize| Cell::from(color.rgb.map(|rgb| rgb[i]));
-            let [sr, sg, sb] = color.srgb.bytes.map(|v| Cell::from(f64::from(v)));
-            table.push([
-                Cell::from(row.source.label.as_str()),
-                Cell::from(name.as_str()),
-                part(0),
-                part(1),
-                part(2),
-                Cell::from(color.xyz.x),
-                Cell::from(color.xyz.y),
-                Cell::from(color.xyz.z),
-                Cell::from(color.xy.map(|p| p.x)),
-                Cell::from(color.xy.map(|p| p.y)),
-                Cell::from(color.lab.map(|lab| lab.l)),
-                Cell::from(color.lab.map(|lab| lab.a)),
-                Cell::from(color.lab.map(|lab| lab.b)),
-                sr,
-                sg,
-                sb,
-                Cell::from(if color.srgb.clipped { "yes" } else { "no" }),
-                Cell::from(*difference),
-                Cell::from(if difference.is_some() { measure } else { "" }),
-            ]);
-        }
-    }
-    table
+    let (names, measure) = (patch_names(scene), scene.difference_name());
+    let swatches = rows(scene).into_iter().flat_map(|row| {
+        let colors = row.colors.into_iter().flatten().zip(&names);
+        let swatch = |((color, difference), name): (_, &String)| {
+            (row.source.label.clone(), name.clone(), color, difference, measure)
+        };
+        colors.map(swatch).collect::<Vec<Swatch>>()
+    });
+    Table::of(&COLUMNS, swatches)
 }

@@ -7,15 +7,13 @@ use chromascope_core::spectral::SpectralDistribution;
 use chromascope_core::spectral::grid::{FIRST_NM, LAST_NM};
 
 use crate::catalog::Catalog;
+use crate::catalog::names::model_of;
 use crate::document::render::{BALANCE, SUN};
 use crate::document::{CIE_1931, Document, Light, SetKind, Subset, TransformChoice, WhiteBalanceChoice};
 use crate::results::Results;
-use crate::scene::metrics::model_of;
 use crate::scene::{Scene, SceneError};
 
-/// The paper's Canon.
 pub(super) const CANON: &str = "Canon EOS 10D (2007 figure)";
-/// The paper's Nikon.
 pub(super) const NIKON: &str = "Nikon D70 (2007 figure)";
 /// The camera in place of the paper's Kodak, a DCS420.
 pub(super) const KODAK: &str = "Kodak DCS200";
@@ -30,7 +28,6 @@ pub enum Verdict {
     Holds,
     /// It holds within limits.
     Partly,
-    /// It does not hold.
     Fails,
     /// Its words have more than one meaning, and the verdict depends on which.
     Ambiguous,
@@ -39,7 +36,6 @@ pub enum Verdict {
 }
 
 impl Verdict {
-    /// In words.
     pub const fn words(self) -> &'static str {
         match self {
             Self::Holds => "holds",
@@ -60,7 +56,6 @@ impl Verdict {
     }
 }
 
-/// A number that was found.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Value {
     pub quantity: String,
@@ -77,7 +72,6 @@ pub struct Value {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Finding {
     pub values: Vec<Value>,
-    /// Verdict on the claim.
     pub verdict: Verdict,
 }
 
@@ -91,12 +85,13 @@ pub struct Claim {
     pub paper: &'static str,
     /// Reason that it holds or not.
     pub why: &'static str,
-    /// Computes what is found.
-    pub find: fn(&Subject<'_>) -> Result<Finding, SceneError>,
+    pub find: Find,
 }
 
+/// Judge of a claim.
+pub type Find = fn(&Subject<'_>) -> Result<Finding, SceneError>;
+
 impl Claim {
-    /// True if the paper makes it.
     pub fn is_of_paper(&self) -> bool {
         self.part != FURTHER
     }
@@ -111,7 +106,6 @@ impl Claim {
 pub(super) struct Series(pub Vec<(String, f64)>);
 
 impl Series {
-    /// Number of a sensor.
     pub(super) fn get(&self, sensor: &str) -> Option<f64> {
         self.0.iter().find(|(name, _)| name == sensor).map(|(_, number)| *number)
     }
@@ -135,25 +129,20 @@ pub struct Subject<'a> {
     pub document: &'a Document,
     /// True if the light takes the place of the paper's lights.
     pub has_own_light: bool,
-    /// The built-in sets.
     pub catalog: &'a Catalog,
-    /// The answers known.
     pub results: &'a Results,
 }
 
 impl Subject<'_> {
-    /// A document with its data.
     pub(super) fn scene<'b>(&'b self, document: &'b Document) -> Scene<'b> {
         Scene { document, catalog: self.catalog, results: self.results }
     }
 
-    /// Names of the cameras.
     pub(super) fn cameras(&self) -> Vec<String> {
         let cameras = self.document.compared.iter().filter(|compared| compared.kind == SetKind::Camera);
         cameras.map(|compared| compared.name.clone()).collect()
     }
 
-    /// A number for each camera.
     pub(super) fn each(&self, number: impl Fn(&str) -> Result<f64, SceneError>) -> Result<Series, SceneError> {
         let cameras = self.cameras().into_iter();
         cameras.map(|name| Ok((name.clone(), number(&name)?))).collect::<Result<_, _>>().map(Series)
@@ -211,7 +200,6 @@ impl Subject<'_> {
         document
     }
 
-    /// Colors of reflectances.
     pub(super) fn colors(&self, rendering: RenderingQuery, patches: PatchSet) -> Result<Vec<PatchColor>, SceneError> {
         let answer = self.results.ask(&PatchColorsQuery { rendering, patches: Shared::new(patches) });
         (*answer).clone().map_err(|error| SceneError::Rendering { name: "a sensor".to_owned(), error })

@@ -18,17 +18,14 @@ use crate::scene::Scene;
 use crate::scene::orbit::Orbit;
 use chromascope_core::reflectance::Normalization;
 
-/// A figure of the paper.
 pub struct PaperFigure {
     pub number: u8,
     pub title: &'static str,
     make: fn(&Subject<'_>, FigureRoom, Pixels) -> Option<Figure>,
 }
 
-/// Side of a rendered picture in pixels.
 pub(super) type Pixels = u32;
 
-/// The figures in their order.
 pub const FIGURES: [PaperFigure; 9] = [
     PaperFigure {
         number: 1,
@@ -85,14 +82,9 @@ fn spectra_but_sensitivities(scene: &Scene<'_>) -> std::ops::Range<usize> {
     1..2 + scene.patches().map_or(0, |patches| patches.patches().len())
 }
 
-/// A table without some columns.
 fn without(table: &Table, left_out: &std::ops::Range<usize>) -> Table {
-    let keep = |index: &usize| !left_out.contains(index);
-    let mut kept = Table::new((0..table.columns.len()).filter(keep).map(|index| table.columns[index].clone()));
-    for row in &table.rows {
-        kept.push((0..row.len()).filter(keep).map(|index| row[index].clone()));
-    }
-    kept
+    let kept: Vec<usize> = (0..table.columns.len()).filter(|index| !left_out.contains(index)).collect();
+    table.part(&kept, &(0..table.rows.len()).collect::<Vec<usize>>())
 }
 
 /// A figure with these panels, one below the other.
@@ -113,9 +105,8 @@ fn diagram(subject: &Subject<'_>, room: FigureRoom, document: &Document) -> Figu
     chromaticity::figure(&subject.scene(document), &FigureLook::default(), room)
 }
 
-/// A table's rows of a kind.
 fn of_kind(mut table: Table, kind: &str) -> Table {
-    let at = table.columns.iter().position(|column| column == "kind");
+    let at = table.place("kind");
     table.rows.retain(|row| at.and_then(|at| row.get(at)) == Some(&kind.into()));
     table
 }
@@ -151,23 +142,19 @@ fn materials(subject: &Subject<'_>, room: FigureRoom, _: Pixels) -> Option<Figur
     // Light, skin; leaf, wavelengths.
     let panels = skin.panels.iter().take(2).chain(leaf.panels.iter().skip(1)).cloned().collect();
     let mut table = skin.table.clone();
-    let (Some(name), at) = (leaf.table.columns.last(), leaf.table.columns.len().saturating_sub(1)) else { return None };
-    table.columns.push(name.clone());
-    for (row, other) in table.rows.iter_mut().zip(&leaf.table.rows) {
-        row.extend(other.get(at).cloned());
-    }
+    let name = leaf.table.columns.last()?;
+    table.insert(table.columns.len(), name, leaf.table.rows.iter().map(|row| row.last().cloned().unwrap_or_default()));
     let caption = "Spectral power of the light and reflectances of skin and leaf. Dotted: beyond the data.".to_owned();
     Some(Figure { table, caption, legend: Vec::new(), ..stacked(skin, panels) })
 }
 
-/// Figure of a document's pictures.
 fn pictures(scene: &Scene<'_>, room: FigureRoom, pixels: Pixels) -> Option<Figure> {
     let orbit = Orbit::of(&scene.document.render.mesh);
     // Times of this run, which it has none of, are no part of a figure.
     let frame = RenderedFrame::of_mesh(scene, scene.mesh_of(None)?, orbit.viewpoint(1.0)?, pixels).ok()?;
     let look = FigureLook { pictures: Some(Arc::new(frame)), ..FigureLook::default() };
     let figure = render::KIND.figure(scene, &look, room)?;
-    let time = figure.table.columns.iter().position(|column| column == "time_ms")?;
+    let time = figure.table.place("time_ms")?;
     Some(Figure { table: without(&figure.table, &(time..time + 1)), ..figure })
 }
 

@@ -6,14 +6,12 @@ use chromascope_figure::{
 
 use crate::plot_item::PickIndex;
 
-/// Size of the figure in points.
 const SIZE: [f64; 2] = [640.0, 300.0];
 /// Zenith angle of the light in degrees.
 const INCIDENT: f64 = 40.0;
 /// Zenith angle of the camera in degrees.
 const SCATTERED: f64 = 25.0;
 
-/// Draws the geometry of Eq 1 to 4 and of Eq 9.
 pub(super) fn figure(room: FigureRoom) -> Figure {
     let size = room.size(SIZE, 0.0);
     let mut figure = Figure::new("Geometry of the reflectance model", size);
@@ -94,7 +92,6 @@ fn polar([x, y]: [f64; 2], degrees: f64, radius: f64) -> [f64; 2] {
     [x + radius * cos, y + radius * sin]
 }
 
-/// The rough surface with its directions.
 fn surface(drawing: &mut Drawing) {
     const FOOT: [f64; 2] = [170.0, 200.0];
     // Angles are from the normal, which points up: −90°.
@@ -125,7 +122,6 @@ fn surface(drawing: &mut Drawing) {
     drawing.text("σ, τ", [318.0, 212.0], Anchor::LEFT);
 }
 
-/// The lens with a pixel off its axis.
 fn camera(drawing: &mut Drawing) {
     const LENS: [f64; 2] = [480.0, 120.0];
     const SENSOR: f64 = 600.0;

@@ -3,55 +3,16 @@
 use chromascope_core::query::Temperatures;
 use chromascope_core::units::Kelvin;
 
-use super::claim::{CANON, Claim, FURTHER, Finding, KODAK, NIKON, Series, Subject, Value, Verdict};
+use super::claim::{CANON, Finding, KODAK, NIKON, Series, Subject, Value, Verdict};
 use crate::document::{Diagram, LOCUS_RANGE_K, SetKind};
 use crate::scene::locus::distance;
 use crate::scene::{Scene, SceneError};
 
-const PART: &str = "Experiment 1: Planckian loci";
-
 /// Temperatures in kelvins that count as daylight.
 const DAYLIGHT: std::ops::RangeInclusive<f64> = 5000.0..=6200.0;
-/// Number of temperatures along a locus.
 const COUNT: usize = 2001;
 
-pub(super) const CLAIMS: [Claim; 3] = [
-    Claim {
-        key: "locus-length",
-        part: PART,
-        paper: "The Kodak's locus is the shortest of the three: it has the smallest range of colors.",
-        why: "Length of the locus in xy from 1000 to 20000 K. The Kodak's channels overlap most, so its signals differ \
-              least from one temperature to the next.",
-        find: lengths,
-    },
-    Claim {
-        key: "daylight-minimum",
-        part: PART,
-        paper: "The distances to the reference are smallest around daylight.",
-        why: "Eq 15 normalizes each locus to equal energy, so all loci pass near one point, where a blackbody is \
-              flattest: near daylight.",
-        find: minima,
-    },
-    Claim {
-        key: "canon-and-nikon-nearer",
-        part: PART,
-        paper: "The loci of Canon and Nikon “are closer to the ground truth than the Kodak curve”.",
-        why: "In the mean over log T they are. The paper does not say that they are at each temperature: in a narrow \
-              band around its minimum the Kodak is nearer than the Canon.",
-        find: means,
-    },
-];
-
-pub(super) const CHECKS: [Claim; 1] = [Claim {
-    key: "daylight-is-the-cameras",
-    part: FURTHER,
-    paper: "That the distances are smallest around daylight is a property of the cameras.",
-    why: "The minimum follows the balance. With cameras fitted to CIE 1931 under illuminant A, every camera has it at \
-          the temperature of A; with Eq 15, every table of the library has it at daylight.",
-    find: minima_under_a,
-}];
-
-fn lengths(subject: &Subject<'_>) -> Result<Finding, SceneError> {
+pub(super) fn lengths(subject: &Subject<'_>) -> Result<Finding, SceneError> {
     let scene = subject.scene(subject.document);
     let [from, to] = LOCUS_RANGE_K;
     let temperatures = Temperatures::Range { from: Kelvin::new(from)?, to: Kelvin::new(to)?, count: COUNT };
@@ -70,7 +31,7 @@ fn minimum(scene: &Scene<'_>, camera: &str) -> f64 {
     nearest.map_or(f64::NAN, |nearest| nearest.kelvin)
 }
 
-fn minima(subject: &Subject<'_>) -> Result<Finding, SceneError> {
+pub(super) fn minima(subject: &Subject<'_>) -> Result<Finding, SceneError> {
     let scene = subject.scene(subject.document);
     let minima = subject.each(|camera| Ok(minimum(&scene, camera)))?;
     let around = minima.0.iter().all(|(_, kelvin)| DAYLIGHT.contains(kelvin));
@@ -79,7 +40,7 @@ fn minima(subject: &Subject<'_>) -> Result<Finding, SceneError> {
     Ok(Finding { values, verdict: Verdict::of(Some(around)) })
 }
 
-fn minima_under_a(subject: &Subject<'_>) -> Result<Finding, SceneError> {
+pub(super) fn minima_under_a(subject: &Subject<'_>) -> Result<Finding, SceneError> {
     let document = subject.fitted("A");
     let scene = subject.scene(&document);
     let minima = subject.each(|camera| Ok(minimum(&scene, camera)))?;
@@ -94,7 +55,6 @@ fn minima_under_a(subject: &Subject<'_>) -> Result<Finding, SceneError> {
     Ok(Finding { values, verdict: Verdict::of(Some(!moved)) })
 }
 
-/// Temperatures evenly in ln T.
 fn in_logarithm() -> Result<Vec<Kelvin>, SceneError> {
     let [from, to] = LOCUS_RANGE_K;
     let at = |index: usize| from * (to / from).powf(index as f64 / (COUNT - 1) as f64);
@@ -109,7 +69,7 @@ fn distances(scene: &Scene<'_>, camera: &str, temperatures: &[Kelvin]) -> Result
     Ok(pairs.map(|(a, b)| distance(a, b, Diagram::Xy).unwrap_or(f64::NAN)).collect())
 }
 
-fn means(subject: &Subject<'_>) -> Result<Finding, SceneError> {
+pub(super) fn means(subject: &Subject<'_>) -> Result<Finding, SceneError> {
     let scene = subject.scene(subject.document);
     let temperatures = in_logarithm()?;
     let mean = |distances: &[f64]| {

@@ -10,41 +10,12 @@ use chromascope_core::scene::lighting::Lighting;
 use chromascope_core::spectral::SpectralDistribution;
 use chromascope_core::spectral::grid::{COUNT, wavelength_nm};
 
-use super::claim::{Claim, FURTHER, Finding, Series, Subject, Verdict};
+use super::claim::{Finding, Series, Subject, Verdict};
 use crate::document::render::{BALANCE, RenderSettings, SKIN};
 use crate::document::{Document, Light, SetKind};
 use crate::scene::SceneError;
 
-const PART: &str = "Equations";
-
-pub(super) const CLAIMS: [Claim; 2] = [
-    Claim {
-        key: "balance",
-        part: PART,
-        paper: "The white balance for sunlight of 5500 K is 1.1040 : 0.9870 : 0.8233 (Eq 11).",
-        why: "These are linear sRGB of D55 at Y = 1, by the published matrix. A blackbody of 5500 K has other values.",
-        find: balance,
-    },
-    Claim {
-        key: "falloff",
-        part: PART,
-        paper: "Irradiance on the sensor falls off with cos⁴ α (Eq 9).",
-        why: "It does, and pictures have it. The factor of the aperture beside it is printed as (d/z)⁴; it is \
-              (d/z)². Being constant it cancels in Eq 12.",
-        find: falloff,
-    },
-];
-
-pub(super) const CHECKS: [Claim; 1] = [Claim {
-    key: "white-stays-white",
-    part: FURTHER,
-    paper: "Eq 1 to 12 render a rough white surface in the color of the light.",
-    why: "As printed they do not: Eq 4 is proportional to λ² without a compensating λ⁻², so rough surfaces turn \
-          yellow. With radiance per irradiance (the radiometric normalization) white stays white.",
-    find: tint,
-}];
-
-fn balance(subject: &Subject<'_>) -> Result<Finding, SceneError> {
+pub(super) fn balance(subject: &Subject<'_>) -> Result<Finding, SceneError> {
     const PRINTED: [f64; 3] = [1.1040, 0.9870, 0.8233];
     let document = subject.in_sun(SKIN);
     let target = subject.scene(&document).white()?.0;
@@ -56,8 +27,7 @@ fn balance(subject: &Subject<'_>) -> Result<Finding, SceneError> {
     Ok(Finding { values: values.collect(), verdict: Verdict::of(Some(same)) })
 }
 
-fn falloff(subject: &Subject<'_>) -> Result<Finding, SceneError> {
-    /// Pixels along a side.
+pub(super) fn falloff(subject: &Subject<'_>) -> Result<Finding, SceneError> {
     const SIDE: u32 = 64;
     const FIELD_DEG: f64 = 30.0;
     let field = FIELD_DEG.to_radians();
@@ -80,7 +50,7 @@ fn falloff(subject: &Subject<'_>) -> Result<Finding, SceneError> {
     Ok(Finding { values, verdict: Verdict::of(Some((corner - expected).abs() < 1e-4)) })
 }
 
-fn tint(subject: &Subject<'_>) -> Result<Finding, SceneError> {
+pub(super) fn tint(subject: &Subject<'_>) -> Result<Finding, SceneError> {
     let document = Document { light: Light::Set(BALANCE.to_owned()), ..subject.in_sun(SKIN) };
     let scene = subject.scene(&document);
     let surface = RenderSettings::default().as_in_the_paper().surface()?;

@@ -8,24 +8,8 @@ use super::{FORMS, Judged, file_name};
 use crate::document::render::{BALANCE, LEAF, SKIN, SUN};
 use crate::document::{CHART, PAPER_REFERENCE, SetKind};
 use crate::format::{capitalized, fixed};
-use crate::scene::conditions::CONDITIONS;
 
-const STYLE: &str = "
-body { font: 15px/1.5 'DejaVu Sans', Verdana, sans-serif; color: #1c1c1c; background: #fff; max-width: 1180px;
-  margin: 2em auto; padding: 0 1.5em; }
-h1 { font-size: 1.6em; margin-bottom: 0.2em; } h2 { font-size: 1.2em; margin-top: 2em; }
-table { border-collapse: collapse; width: 100%; }
-th, td { text-align: left; vertical-align: top; padding: 0.45em 0.7em; border-bottom: 1px solid #d4d4d4; }
-th { border-bottom: 2px solid #555; } td table { width: auto; }
-td td, td th { padding: 0 0.8em 0 0; border: 0; font-size: 0.86em; font-weight: normal; }
-td td:first-child { min-width: 9em; } td td + td { text-align: right; font-variant-numeric: tabular-nums; white-space: nowrap; }
-tr.part th { background: #f0f0f0; border-bottom: 1px solid #d4d4d4; }
-table.claims > tbody > tr > td:first-child, table.claims > tbody > tr > td:last-child { width: 22%; }
-.verdict { font-weight: bold; white-space: nowrap; } .quantity { color: #555; padding-top: 0.35em; }
-figure { margin: 2em 0; } figure svg { max-width: 100%; height: auto; border: 1px solid #e0e0e0; }
-figcaption, .note { color: #555; font-size: 0.9em; } a { color: #1c1c1c; }
-@media print { body { font-size: 9pt; margin: 0; } figure, tr { break-inside: avoid; } }
-";
+const STYLE: &str = include_str!("../../../../assets/report/report.css");
 
 /// Data of the paper with the data in their place, by kind and name.
 const DATA: [(&str, SetKind, &str); 9] = [
@@ -69,7 +53,6 @@ pub(super) fn page<'a>(subject: &Subject<'_>, judged: &[Judged], drawn: &dyn Fn(
     out
 }
 
-/// A text in HTML.
 fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
@@ -87,8 +70,9 @@ fn summary(judged: &[Judged]) -> String {
 
 fn conditions(out: &mut String, subject: &Subject<'_>) {
     let scene = subject.scene(subject.document);
-    let cells = CONDITIONS.into_iter().zip(scene.conditions());
-    let cells: Vec<String> = cells.map(|(name, value)| format!("{}: {value}", name.replace('_', " "))).collect();
+    let cells = scene.conditions().into_iter();
+    let cells: Vec<String> =
+        cells.map(|(column, value)| format!("{}: {value}", column.name.replace('_', " "))).collect();
     let cameras = subject.cameras().join(", ");
     let _ = writeln!(
         out,
@@ -168,7 +152,6 @@ fn found(subject: &Subject<'_>, finding: &Finding) -> String {
     out + "</table>"
 }
 
-/// Texts of values, each once, in their order.
 fn unique(values: &[Value], text: impl Fn(&Value) -> &String) -> Vec<&str> {
     let mut texts: Vec<&str> = Vec::new();
     for value in values {
@@ -234,7 +217,6 @@ fn data(out: &mut String, subject: &Subject<'_>) {
     out.push_str("</tbody>\n</table>\n");
 }
 
-/// A set with its source and terms.
 fn row(subject: &Subject<'_>, paper: &str, kind: SetKind, name: &str) -> [String; 4] {
     let scene = subject.scene(subject.document);
     let entry = scene.entry(kind, name).or_else(|_| scene.chart_entry(name)).ok();

@@ -2,49 +2,13 @@
 
 use chromascope_core::colorimetry::Metric;
 
-use super::claim::{CANON, Claim, FURTHER, Finding, KODAK, NIKON, Series, Subject, Value, Verdict};
+use super::claim::{CANON, Finding, KODAK, NIKON, Series, Subject, Value, Verdict};
 use crate::document::{Document, SetKind};
 use crate::scene::SceneError;
 
-const PART: &str = "Experiment 2: patches";
 /// Spread of a signal above which a white is not the same through all sensors.
 const SAME: f64 = 0.005;
 
-pub(super) const CLAIMS: [Claim; 3] = [
-    Claim {
-        key: "white-alike",
-        part: PART,
-        paper: "The white patch is the same for all cameras.",
-        why: "Nearly: its reflectance falls toward 400 nm, and cameras whose blue channels peak elsewhere record \
-              different amounts of that. A perfect white is exactly 1 : 1 : 1 through each.",
-        find: white,
-    },
-    Claim {
-        key: "red-nearer-xy",
-        part: PART,
-        paper: "Red and orange yellow are nearer to the reference than green and blue for Canon and Nikon.",
-        why: "In the chromaticity diagram they are, in xy as in u′v′.",
-        find: in_diagram,
-    },
-    Claim {
-        key: "kodak-farthest",
-        part: PART,
-        paper: "The Kodak is farther from the reference than Canon and Nikon in all colored patches.",
-        why: "Its sensitivities overlap most.",
-        find: farthest,
-    },
-];
-
-pub(super) const CHECKS: [Claim; 1] = [Claim {
-    key: "red-nearer-delta-e",
-    part: FURTHER,
-    paper: "Red and orange yellow look nearer to the reference than green and blue for Canon and Nikon.",
-    why: "By ΔE*00, which weighs differences as the eye does (cameras fitted to CIE 1931 under D65), red is the \
-          farthest of all: distances in the diagram are not differences to the eye.",
-    find: by_eye,
-}];
-
-/// The colored ones of the paper's patches.
 const COLORED: [&str; 4] = ["red", "green", "blue", "orange yellow"];
 
 /// Differences of a camera's patches from the reference's, by patch.
@@ -55,7 +19,6 @@ fn differences(subject: &Subject<'_>, document: &Document, camera: &str) -> Resu
     Ok(Series(pairs.filter_map(|(patch, value)| Some((patch.name.clone(), value.ok()?))).collect()))
 }
 
-/// Differences by camera.
 type OfCameras = Vec<(String, Series)>;
 
 /// Differences of all cameras, by patch, and those of each camera.
@@ -96,7 +59,7 @@ fn red_is_nearer(all: &[(String, Series)]) -> Option<bool> {
     Some(nearer(CANON)? && nearer(NIKON)?)
 }
 
-fn white(subject: &Subject<'_>) -> Result<Finding, SceneError> {
+pub(super) fn white(subject: &Subject<'_>) -> Result<Finding, SceneError> {
     let scene = subject.scene(subject.document);
     let Some(at) = scene.patches()?.patches().iter().position(|patch| patch.name == "white") else {
         return Ok(Finding { values: Vec::new(), verdict: Verdict::Open });
@@ -111,7 +74,7 @@ fn white(subject: &Subject<'_>) -> Result<Finding, SceneError> {
     Ok(Finding { values: blues.values("B of the white patch", "", 3), verdict })
 }
 
-fn in_diagram(subject: &Subject<'_>) -> Result<Finding, SceneError> {
+pub(super) fn in_diagram(subject: &Subject<'_>) -> Result<Finding, SceneError> {
     let mut values = Vec::new();
     let mut holds = Some(true);
     for metric in [Metric::XY, Metric::UV_PRIME] {
@@ -123,13 +86,13 @@ fn in_diagram(subject: &Subject<'_>) -> Result<Finding, SceneError> {
     Ok(Finding { values, verdict: Verdict::of(holds) })
 }
 
-fn by_eye(subject: &Subject<'_>) -> Result<Finding, SceneError> {
+pub(super) fn by_eye(subject: &Subject<'_>) -> Result<Finding, SceneError> {
     let document = Document { difference: Metric::DELTA_E_2000, ..subject.fitted("D65") };
     let (values, all) = table(subject, &document)?;
     Ok(Finding { values, verdict: Verdict::of(red_is_nearer(&all)) })
 }
 
-fn farthest(subject: &Subject<'_>) -> Result<Finding, SceneError> {
+pub(super) fn farthest(subject: &Subject<'_>) -> Result<Finding, SceneError> {
     let document = Document { difference: Metric::XY, ..subject.document.clone() };
     let (_, all) = table(subject, &document)?;
     let least = |camera: &str, fold: fn(f64, f64) -> f64| {

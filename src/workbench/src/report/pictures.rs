@@ -4,65 +4,11 @@ use chromascope_core::colorimetry::delta_e_2000;
 use chromascope_core::patch_set::PatchSet;
 use chromascope_core::query::PatchColor;
 
-use super::claim::{CANON, Claim, FURTHER, Finding, KODAK, NIKON, Series, Subject, Value, Verdict};
+use super::claim::{CANON, Finding, KODAK, NIKON, Series, Subject, Value, Verdict};
 use crate::document::render::{LEAF, SKIN, SUN};
 use crate::document::{Document, SetKind};
 use crate::scene::{Scene, SceneError};
 
-const PART: &str = "Experiment 3: pictures";
-
-pub(super) const CLAIMS: [Claim; 5] = [
-    Claim {
-        key: "kodak-head-brighter",
-        part: PART,
-        paper: "Through the Kodak the head appears “slightly brighter”.",
-        why: "Y of the skin by Eq 13, relative to the reference. The Kodak's green channel reaches into the red, which \
-              skin reflects most.",
-        find: brighter,
-    },
-    Claim {
-        key: "kodak-head-saturated",
-        part: PART,
-        paper: "Through the Kodak the head “has a higher saturation and tends further to the white, which makes the \
-                head appear slightly brighter”.",
-        why: "If saturation is how near pixels are to the largest value, it holds: the head is brighter and nearer to \
-              white. If it is saturation of color, it does not: the color is less saturated, for overlapping channels \
-              record more nearly equal signals.",
-        find: saturated,
-    },
-    Claim {
-        key: "kodak-fern-white",
-        part: PART,
-        paper: "The fern is nearer to white through the Kodak.",
-        why: "The same overlap of its channels.",
-        find: fern_white,
-    },
-    Claim {
-        key: "fern-greener",
-        part: PART,
-        paper: "The fern is greener through Canon and Nikon.",
-        why: "Barely: their a* is lower than the reference's by less than one unit.",
-        find: greener,
-    },
-    Claim {
-        key: "match-skin-differ-leaf",
-        part: PART,
-        paper: "Canon and Nikon match the reference on skin and differ on the leaf.",
-        why: "Lightness, not color, is compared: a difference grows with lightness, and the two materials are not \
-              equally light. Scaled to L* 50 for the reference, the leaf is no worse by Eq 13.",
-        find: skin_and_leaf,
-    },
-];
-
-pub(super) const CHECKS: [Claim; 1] = [Claim {
-    key: "match-skin-differ-leaf-fitted",
-    part: FURTHER,
-    paper: "Canon and Nikon differ more on the leaf than on skin when they are fitted to CIE 1931.",
-    why: "Through fitted matrices and at equal lightness the leaf is farther: there it is a matter of color.",
-    find: skin_and_leaf_fitted,
-}];
-
-/// Color of a material in sunlight.
 fn color(scene: &Scene<'_>, kind: SetKind, name: &str) -> Result<PatchColor, SceneError> {
     let color = scene.patch_colors(kind, name)?.first().copied();
     color.ok_or_else(|| SceneError::NoSet { kind: SetKind::Material, name: scene.document.chart.clone() })
@@ -80,7 +26,7 @@ fn relative(series: &Series, camera: &str) -> Option<f64> {
     Some(series.get(camera)? / series.0.first()?.1)
 }
 
-fn brighter(subject: &Subject<'_>) -> Result<Finding, SceneError> {
+pub(super) fn brighter(subject: &Subject<'_>) -> Result<Finding, SceneError> {
     let luminances = numbers(subject, SKIN, |color| color.xyz.y)?;
     let ratios = subject.cameras().into_iter().filter_map(|name| Some((name.clone(), relative(&luminances, &name)?)));
     let ratios = Series(ratios.collect());
@@ -98,7 +44,7 @@ fn saturation(color: &PatchColor) -> f64 {
     (high - low) / high
 }
 
-fn saturated(subject: &Subject<'_>) -> Result<Finding, SceneError> {
+pub(super) fn saturated(subject: &Subject<'_>) -> Result<Finding, SceneError> {
     let saturations = numbers(subject, SKIN, saturation)?;
     let mut values = saturations.values("saturation (HSV) of the skin", "", 3);
     values.extend(to_white(subject, SKIN)?.values("distance of the skin to white, xy", "", 3));
@@ -113,13 +59,13 @@ fn to_white(subject: &Subject<'_>, material: &str) -> Result<Series, SceneError>
     numbers(subject, material, |color| white.zip(color.xy).map_or(f64::NAN, |(white, xy)| xy.distance(white)))
 }
 
-fn fern_white(subject: &Subject<'_>) -> Result<Finding, SceneError> {
+pub(super) fn fern_white(subject: &Subject<'_>) -> Result<Finding, SceneError> {
     let distances = to_white(subject, LEAF)?;
     let holds = relative(&distances, KODAK).map(|ratio| ratio < 1.0);
     Ok(Finding { values: distances.values("distance of the leaf to white, xy", "", 3), verdict: Verdict::of(holds) })
 }
 
-fn greener(subject: &Subject<'_>) -> Result<Finding, SceneError> {
+pub(super) fn greener(subject: &Subject<'_>) -> Result<Finding, SceneError> {
     /// Difference of a* that is barely seen.
     const BARELY: f64 = 1.0;
     let greens = numbers(subject, LEAF, |color| color.lab.map_or(f64::NAN, |lab| lab.a))?;
@@ -134,7 +80,6 @@ fn greener(subject: &Subject<'_>) -> Result<Finding, SceneError> {
 
 /// A material scaled to L* 50 for the reference.
 fn at_lightness_50(scene: &Scene<'_>) -> Result<PatchSet, SceneError> {
-    /// Inverse of CIE lightness.
     fn luminance(lightness: f64) -> f64 {
         let root = (lightness + 16.0) / 116.0;
         if lightness > 8.0 { root.powi(3) } else { lightness * 27.0 / 24389.0 }
@@ -178,11 +123,11 @@ fn compared(subject: &Subject<'_>, name: &str, conditions: impl Fn(&str) -> Docu
     Ok(Finding { values, verdict: Verdict::of(holds) })
 }
 
-fn skin_and_leaf(subject: &Subject<'_>) -> Result<Finding, SceneError> {
+pub(super) fn skin_and_leaf(subject: &Subject<'_>) -> Result<Finding, SceneError> {
     compared(subject, "Δ of Eq 13 colors", |material| subject.in_sun(material))
 }
 
-fn skin_and_leaf_fitted(subject: &Subject<'_>) -> Result<Finding, SceneError> {
+pub(super) fn skin_and_leaf_fitted(subject: &Subject<'_>) -> Result<Finding, SceneError> {
     compared(subject, "ΔE*00", |material| {
         let fitted = subject.fitted(SUN);
         let Document { chart, subset, .. } = subject.in_sun(material);

@@ -1,10 +1,9 @@
 //! Conditions of numbers, in words, for tables and pictures.
 
+use chromascope_figure::Column;
+
 use super::Scene;
 use crate::document::{CHART, FIVE, Subset, TransformChoice, WhiteBalanceChoice};
-
-/// Heads of the columns with a table's conditions.
-pub const CONDITIONS: [&str; 5] = ["reference", "illuminant", "white_balance", "transform", "preset"];
 
 impl WhiteBalanceChoice {
     pub fn name(&self) -> String {
@@ -18,14 +17,21 @@ impl WhiteBalanceChoice {
 }
 
 impl Scene<'_> {
-    /// The cells under [`CONDITIONS`], with the light named as it is to be called.
-    pub fn conditions_under(&self, illuminant: &str) -> [String; 5] {
+    /// Columns at the end of every table with the conditions of its numbers, with the light named as it is to be called.
+    pub fn conditions_under(&self, illuminant: &str) -> Vec<(Column, String)> {
         let transform = match &self.document.transform {
             TransformChoice::Paper => "paper matrix (Eq 13)".to_owned(),
             TransformChoice::Observer(target) => self.document.correction.describe(target),
         };
         let preset = self.document.start.key().to_owned();
-        [self.document.reference.clone(), illuminant.to_owned(), self.document.white.name(), transform, preset]
+        let all = [
+            ("reference", self.document.reference.clone()),
+            ("illuminant", illuminant.to_owned()),
+            ("white_balance", self.document.white.name()),
+            ("transform", transform),
+            ("preset", preset),
+        ];
+        all.map(|(key, value)| (key.into(), value)).into()
     }
 
     /// The name of the patches that are compared.
@@ -38,12 +44,13 @@ impl Scene<'_> {
         }
     }
 
-    /// Conditions of figures of merit beside [`CONDITIONS`], by their heads in files; the locus is compared at a temperature in kelvins.
-    pub fn metrics_constants(&self, temperature_k: f64) -> Vec<(&'static str, String)> {
-        let mut all = vec![("chart", self.chart_name()), ("temperature_k", temperature_k.to_string())];
+    /// Further conditions of figures of merit; the locus is compared at a temperature in kelvins.
+    pub fn metrics_constants(&self, temperature_k: f64) -> Vec<(Column, String)> {
+        let temperature = Column::quantity("temperature_k", "temperature", "K");
+        let mut all = vec![("chart".into(), self.chart_name()), (temperature, temperature_k.to_string())];
         if let Some(pixel) = self.document.pixel {
             let numbers = [("full_well_electrons", pixel.full_well), ("read_noise_electrons", pixel.read_noise)];
-            all.extend(numbers.map(|(head, number)| (head, number.to_string())));
+            all.extend(numbers.map(|(key, number)| (key.into(), number.to_string())));
         }
         all
     }
@@ -54,7 +61,8 @@ impl Scene<'_> {
         format!("Locus metrics at {} K.{pixel}", self.document.temperature_k)
     }
 
-    pub fn conditions(&self) -> [String; 5] {
+    /// Columns with the conditions of a table under the document's light.
+    pub fn conditions(&self) -> Vec<(Column, String)> {
         self.conditions_under(&self.light_name())
     }
 }

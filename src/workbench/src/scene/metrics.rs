@@ -24,7 +24,6 @@ use crate::jobs::{Later, Waiting};
 
 /// The light of the sensitivity metamerism index (ISO 17321-1).
 const INDEX_LIGHT: &str = "D55";
-/// Maximum number of metameric pairs listed.
 const MOST_METAMERS: usize = 100;
 /// Cameras between two answers of a ranking.
 const STEP: usize = 4;
@@ -65,7 +64,6 @@ pub struct CameraFigures {
 }
 
 impl CameraFigures {
-    /// Value of a metric with its uncertainty.
     pub fn of(&self, metric: CameraMetric) -> Option<MetricValue> {
         self.metrics.with(self.uncertainties.as_ref().map(|all| all.as_slice()), metric)
     }
@@ -351,7 +349,6 @@ impl Scene<'_> {
         uncertainties_query(metrics, &self.entry(kind, name)?.place, ratio.as_ref(), self.results).map_err(failed)
     }
 
-    /// Figures of merit of a sensor with their uncertainties.
     pub fn camera_figures(&self, kind: SetKind, name: &str) -> Result<CameraFigures, SceneError> {
         let query = self.camera_metrics_query(kind, name)?;
         let metrics = self.results.ask(&query);
@@ -436,9 +433,4 @@ impl Scene<'_> {
             patches: self.patch_set(CHART, Some(&COLOR_CHECKER_CHROMATIC))?,
         })
     }
-}
-
-/// Camera model of a set: its name without the parenthesis that distinguishes tables of one model.
-pub fn model_of(name: &str) -> &str {
-    name.split_once(" (").map_or(name, |(model, _)| model)
 }

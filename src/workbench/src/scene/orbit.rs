@@ -8,15 +8,12 @@ use crate::document::render::MeshChoice;
 /// The distance of an orbit from which a mesh fills the picture, at the initial field of view; of a round one, in radii.
 pub const FRAMED: f64 = 3.6;
 
-/// The initial field of view in degrees.
 const FIELD_DEG: f64 = 30.0;
 
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Orbit {
-    /// Around the vertical, in degrees.
     pub yaw_deg: f64,
-    /// Above the horizon, in degrees.
     pub pitch_deg: f64,
     /// Over [`FRAMED`], the factor on the distance from which the mesh fills the picture.
     pub distance: f64,
@@ -38,14 +35,12 @@ impl Orbit {
         }
     }
 
-    /// This view turned by angles in degrees.
     #[must_use]
     pub fn turned(self, yaw_deg: f64, pitch_deg: f64) -> Self {
         let yaw_deg = (self.yaw_deg + yaw_deg + 180.0).rem_euclid(360.0) - 180.0;
         Self { yaw_deg, pitch_deg: (self.pitch_deg + pitch_deg).clamp(-89.0, 89.0), ..self }
     }
 
-    /// This view farther away by a factor.
     #[must_use]
     pub fn at_distance(self, factor: f64) -> Self {
         Self { distance: (self.distance * factor).clamp(1.05, 100.0), ..self }

@@ -86,20 +86,17 @@ impl Scene<'_> {
     }
 }
 
-/// Names of the channels in words.
 pub const CHANNELS: [&str; 3] = ["red", "green", "blue"];
 
 /// What a rank does not tell.
 pub const RANK_CAUTION: &str =
     "A rank is of tables: sensors of one maker or family often fit equally well, so it does not prove a model.";
 
-/// A rank with its range in words.
 pub fn range_in_words(rank: RankRange) -> String {
     let (range, first) = (rank_in_words(Some(rank.range)), fixed(rank.first * 100.0, 0));
     format!("rank {range} in 95 % of {RESAMPLES} resamples of the patches, smallest RMS in {first} %")
 }
 
-/// A cause of residuals in words, with its amount.
 pub fn cause_in_words(kind: LinkKind, amount: f64, patches: &[String]) -> String {
     let signed = |value: f64, decimals| format!("{}{}", if value > 0.0 { "+" } else { "" }, fixed(value, decimals));
     match kind {

@@ -117,7 +117,6 @@ pub struct ImagePicturesQuery {
     /// The sensors, and whether each is compared with the reference.
     pub sources: Vec<(RenderingQuery, bool)>,
     pub metric: Metric,
-    /// Exposure in EV, as bits.
     pub ev: u64,
 }
 

@@ -7,16 +7,15 @@ use chromascope_figure::AxisRanges;
 use clap::Args;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 
-use crate::cli::pixel::PixelArguments;
+use crate::cli::arguments::{CommonArguments, PixelArguments};
 use crate::cli::render::arguments::ViewpointArguments;
 use crate::cli::settings::Given;
-use crate::cli::sources::CommonArguments;
 use crate::export::Paper;
 use crate::figures::FIGURES;
 use crate::figures::chromaticity::shown::Ranges;
 use crate::figures::kind::FigureKind;
 
-pub(in crate::cli) const EXAMPLES: &str = "Examples:
+const EXAMPLES: &str = "Examples:
   chromascope figure chromaticity --preset paper --width 85mm --font-size 8 --out figure3.pdf
   chromascope figure spectra --camera \"Nikon D70\" --width 174mm --style print --out spectra.svg
   chromascope figure swatches --session work.chromascope --width 3.35in --dpi 600 --out swatches.png
@@ -27,8 +26,9 @@ pub(in crate::cli) const EXAMPLES: &str = "Examples:
 The ending of the file decides its form: .pdf, .svg, .png, .tif, or .csv and .json, the numbers behind the figure. Text
 keeps its size whatever the width: the figure is laid out for it. In a PDF text can be searched, and its fonts are embedded.";
 
-/// Arguments of `figure`.
+/// Figures for paper, laid out for a width: PDF, SVG, PNG, or the numbers behind them as CSV
 #[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
 pub(in crate::cli) struct FigureArguments {
     /// The figure
     #[arg(value_parser = kind())]

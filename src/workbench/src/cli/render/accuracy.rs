@@ -18,13 +18,10 @@ const SAMPLES: usize = 2000;
 /// Short work is repeated for 20 ms, and the shortest time taken.
 const BUDGET: Budget = Budget { rounds: [0, 0], seconds: [0.02, 0.02] };
 
-/// Measured cost and error of each method.
 pub(super) struct Measured {
     /// Every `stride`th lit sample was measured.
     pub(super) stride: usize,
-    /// Number of samples measured.
     pub(super) samples: usize,
-    /// The chosen quality.
     pub(super) chosen: Cost,
     /// The plain sum over all wavelengths.
     pub(super) exact: Cost,
@@ -32,7 +29,6 @@ pub(super) struct Measured {
     pub(super) regimes: Cost,
 }
 
-/// Cost of an integration method.
 pub(super) struct Cost {
     /// Nanoseconds a sample and sensor, on one thread.
     pub(super) ns: f64,

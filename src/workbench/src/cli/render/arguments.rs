@@ -9,11 +9,11 @@ use clap::builder::{PossibleValue, PossibleValuesParser};
 use clap::{Args, ValueEnum};
 use spectral_file::Values;
 
+use crate::cli::arguments::SourceArguments;
 use crate::cli::settings::Given;
-use crate::cli::sources::SourceArguments;
 use crate::document::render::RenderSettings;
 
-pub(in crate::cli) const EXAMPLES: &str = "Examples:
+const EXAMPLES: &str = "Examples:
   chromascope render --out pictures
   chromascope render --mesh fern --normalization paper --samples 3
   chromascope render --mesh bust.obj --camera \"Nikon D70\" --light=-1,1,1 --orbit 30,10,4
@@ -27,8 +27,9 @@ OpenEXR holds Eq 12 before exposure, with \u{3c0}f in place of P for the radiome
 balance, X Y Z, and the coverage A. Without any sensor: the preset's reference and cameras. A spectral image is read a few rows at a
 time. Of reflectances, 1 is white at 0 EV; of radiances, the 99.5 % quantile of the reference's luminance is.";
 
-/// Arguments of `render`.
+/// Pictures of a mesh under a light, through cameras and observers, as PNG or OpenEXR
 #[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
 pub(in crate::cli) struct RenderArguments {
     #[command(flatten)]
     pub(in crate::cli) sources: SourceArguments,
@@ -49,7 +50,7 @@ pub(in crate::cli) struct RenderArguments {
     #[arg(long, value_name = "NAME|FILE", help_heading = SCENE)]
     pub(super) garment: Option<OsString>,
     /// Scale of the values in a file of reflectances that does not state it
-    #[arg(long, value_name = "VALUES", value_parser = crate::cli::inspect::arguments::values(), requires = "material",
+    #[arg(long, value_name = "VALUES", value_parser = crate::cli::arguments::values(), requires = "material",
           help_heading = SCENE)]
     pub(super) values: Option<Values>,
     /// The illuminant: a name, a file with one curve, `daylight:K` or `blackbody:K` [default: Direct sun (ASTM G173)]

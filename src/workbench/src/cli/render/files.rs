@@ -33,7 +33,6 @@ pub(in crate::cli) fn patiently<T>(what: &'static str, work: impl FnOnce() -> T)
     result
 }
 
-/// Makes the folder of the pictures.
 pub(in crate::cli) fn make_folder(folder: &Path) -> Result<(), CliError> {
     if folder.as_os_str().is_empty() || folder.is_dir() {
         return Ok(());

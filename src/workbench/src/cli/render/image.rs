@@ -91,7 +91,6 @@ fn failure(path: &Path, error: &ImagePicturesError) -> CliError {
     }
 }
 
-/// Bytes of one picture's file.
 fn bytes(
     scene: &Scene<'_>,
     (source, rendering): (&ComparedSensor, &RenderingQuery),
@@ -115,7 +114,6 @@ fn bytes(
     written.map_err(|error| CliError::Picture { path: PathBuf::from(image), error })
 }
 
-/// Difference of a picture from the reference in words.
 fn difference(scene: &Scene<'_>, source: &ComparedSensor, difference: Option<&Difference>) -> String {
     let by_eq_13 = scene.document.transform == TransformChoice::Paper;
     let metric: Metric = scene.document.difference;

@@ -71,7 +71,7 @@ fn settings(made: &Made<'_>) -> Value {
         "illuminant": made.scene.light_name(),
         "white": document.white.name(),
         "reference": document.reference,
-        "transform": made.scene.conditions()[3],
+        "transform": made.scene.conditions()[3].1,
         "preset": document.start.key(),
         "reading": shading.reading.key(),
         "quality": shading.quality.level().key(),
@@ -167,7 +167,6 @@ fn source(made: &Made<'_>, index: usize, accuracy: Option<&Measured>) -> Value {
     })
 }
 
-/// Integration methods of a sensor.
 fn plan(made: &Made<'_>, index: usize) -> Option<Value> {
     let explanation = made.pictures.images[index].as_ref()?.plan().explanation();
     let planned = plans::planned(&made.query, &made.query.sources[index], made.scene.results).ok()?;

@@ -1,6 +1,6 @@
 //! Names by which raw developers know cameras.
 
-use crate::scene::metrics::model_of;
+use crate::catalog::names::model_of;
 
 /// Names of the library and `UniqueCameraModel` of raw files, as rows of a data file.
 const MODELS: &str = "models/unique_camera_model.csv";

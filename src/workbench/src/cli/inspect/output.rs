@@ -1,13 +1,75 @@
-//! Import report as JSON, for programs.
+//! What was read: as lines for the user, as JSON for programs, and as a plain table of the curves.
 
+use std::fmt::{Display, Write as _};
 use std::io::{self, Write};
 
 use serde_json::{Value, json};
-use spectral_file::write::Prepared;
-use spectral_file::{Certainty, Curve, ReadError, ReadReport, SpectralFile};
+use spectral_file::write::{Content, Note, Prepared};
+use spectral_file::{Certainty, Curve, ReadError, ReadReport, Role, SpectralFile};
 
-use super::Failure;
+use super::{Failure, Stop};
+use crate::format;
 use crate::terminal::shown_json;
+
+const NAMED: usize = 20;
+const MAX_DROPPED_ROWS: usize = 6;
+
+/// The name of the file, and below it a line for each decision, fact and warning.
+pub(super) fn report(name: &str, table: &SpectralFile, notes: &[Note]) -> String {
+    let mut text = format!("{name}\n");
+    for decision in table.decisions() {
+        line(&mut text, decision.what, format_args!("{} ({}): {}", decision.value, decision.certainty, decision.why));
+    }
+    facts(&mut text, table);
+    for warning in &table.warnings {
+        line(&mut text, "Warning", warning);
+    }
+    for note in notes {
+        line(&mut text, "Written", note);
+    }
+    text
+}
+
+fn line(text: &mut String, what: &str, words: impl Display) {
+    // Writing to a string cannot fail.
+    let _infallible = writeln!(text, "  {what}: {words}");
+}
+
+fn facts(text: &mut String, table: &SpectralFile) {
+    let reading = &table.reading;
+    line(text, "Rows", rows(reading));
+    let [first, last] = reading.range_nm;
+    let order = if reading.descending { ", written in descending order" } else { "" };
+    line(text, "Range", format_args!("{first} to {last} nm{order}"));
+    let step = reading.step_nm;
+    if step.min == step.max {
+        line(text, "Step", format_args!("{} nm", step.min));
+    } else {
+        line(text, "Step", format_args!("{} to {} nm, median {} nm", step.min, step.max, step.median));
+    }
+    line(text, "Curves", curves(&table.curves));
+    let units: Vec<&str> = table.curves.iter().filter_map(|curve| curve.unit.as_deref()).collect();
+    if let [unit, rest @ ..] = units.as_slice() {
+        let others = if rest.iter().all(|other| other == unit) { "" } else { " and others" };
+        line(text, "Unit", format_args!("{unit}{others}"));
+    }
+    if let Some(channels) = reading.camera_columns {
+        let [red, green, blue] = channels.map(|index| table.curves.get(index).map_or("", |curve| curve.name.as_str()));
+        line(text, "Channels", format_args!("red is {red}, green is {green}, blue is {blue}"));
+    }
+}
+
+fn rows(reading: &ReadReport) -> String {
+    let first = reading.first_data_line;
+    let begin = format!("{}, from line {first}", reading.rows);
+    [vec![begin], format::dropped_rows(&reading.dropped_rows, MAX_DROPPED_ROWS)].concat().join("; ")
+}
+
+fn curves(curves: &[Curve]) -> String {
+    let names: Vec<&str> = curves.iter().take(NAMED).map(|curve| curve.name.as_str()).collect();
+    let more = if curves.len() > NAMED { format!(" and {} more", curves.len() - NAMED) } else { String::new() };
+    format!("{}: {}{more}", curves.len(), names.join(", "))
+}
 
 /// One object: a file that could not be read or written, and why.
 pub(super) fn failure(name: &str, failure: &Failure) -> Value {
@@ -16,7 +78,7 @@ pub(super) fn failure(name: &str, failure: &Failure) -> Value {
 
 /// Writes one object: a file with its curves, as read or, if another step is requested, resampled; one curve at a
 /// time.
-pub(super) fn write(
+pub(super) fn json(
     out: &mut dyn Write,
     name: &str,
     table: &SpectralFile,
@@ -126,4 +188,35 @@ fn error(failure: &Failure) -> Value {
     };
     let text = failure.reason();
     json!({ "line": line, "column": column, "text": text })
+}
+
+/// The differences between curves that are written and those that were read, found by resampling all of them.
+pub(super) fn notes(prepared: &mut Prepared<'_>) -> Vec<Note> {
+    prepared.each(|_, _| true);
+    prepared.notes()
+}
+
+pub(super) fn table(prepared: &mut Prepared<'_>, out: &mut dyn Write) -> Result<(), Stop> {
+    let mut done = Ok(());
+    prepared.table(&mut |part| {
+        done = out.write_all(part.as_bytes());
+        done.is_ok()
+    });
+    Ok(done?)
+}
+
+/// Kind of the curves for those who write them.
+pub(super) fn content(table: &SpectralFile) -> Content<'_> {
+    match table.role.value {
+        Role::Camera => table.reading.camera_columns.map_or(Content::Observer, |channels| Content::Camera {
+            channels,
+            per_photon: table.reading.per_photon.as_ref().map(|decided| decided.value),
+            manufacturer: None,
+            model: None,
+        }),
+        Role::Reflectance => Content::Reflectance,
+        Role::Transmittance => Content::Transmittance,
+        Role::Illuminant => Content::Illuminant,
+        Role::Unknown => Content::Other,
+    }
 }
