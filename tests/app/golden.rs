@@ -112,7 +112,7 @@ fn templates_are_the_sessions_they_were() {
     for template in &TEMPLATES {
         let document = template.document();
         let text = session::to_session(&document, &SavedView::default().for_session()).unwrap();
-        check(&format!("session_{}", file_name(template.name)), &text);
+        check(&format!("session_{}", file_name(template.name)), &thinned(&text));
     }
 }
 
@@ -157,7 +157,7 @@ fn written(arguments: &[&str]) -> String {
     let output = run(&given.iter().map(String::as_str).collect::<Vec<_>>());
     let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).replace(out, "OUT").replace(data, "DATA");
     assert!(output.status.success(), "{arguments:?}: {}", text(&output.stderr));
-    let mut all = without_times(&text(&output.stdout));
+    let mut all = thinned(&without_times(&text(&output.stdout)));
     let mut files: Vec<PathBuf> = Vec::new();
     below(Path::new(out), &mut files);
     files.sort();
@@ -166,7 +166,7 @@ fn written(arguments: &[&str]) -> String {
         writeln!(all, "== {name}").unwrap();
         match path.extension().and_then(|ending| ending.to_str()) {
             Some("svg") => all += &texts(&fs::read_to_string(&path).unwrap()),
-            Some("csv" | "json" | "txt") => all += &without_times(&text(&fs::read(&path).unwrap())),
+            Some("csv" | "json" | "txt") => all += &thinned(&without_times(&text(&fs::read(&path).unwrap()))),
             _ => {}
         }
     }
@@ -247,7 +247,6 @@ fn thinned(text: &str) -> String {
 
 /// Compares a text with its file, or writes it.
 fn check(name: &str, text: &str) {
-    let text = &thinned(text);
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/golden").join(format!("{name}.txt"));
     if std::env::var_os("UPDATE_GOLDEN").is_some() {
         fs::write(&path, text).unwrap();

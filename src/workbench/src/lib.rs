@@ -18,7 +18,7 @@
 
 #![allow(
     clippy::missing_errors_doc,
-    reason = "each function returns one small error enum whose variants are documented"
+    reason = "each function returns one small error enum whose variants say in a message what is wrong"
 )]
 #![allow(missing_docs, reason = "what the name and type of a field say is not said again")]
 

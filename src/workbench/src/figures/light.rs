@@ -51,7 +51,7 @@ pub fn bars(rendition: &Rendition, area: Rect) -> Option<Panel> {
         let role = if index == 0 { InkRole::Text } else { InkRole::Weak };
         panel.marks.push(Mark::new(Tag::default(), format!("{name} {value:.1}"), bar).with_fill(role));
     }
-    let mut panel = panel.with_headroom(14.0);
+    let mut panel = panel.with_headroom(if staggers { 28.0 } else { 14.0 });
     let mut labels = Labels::new(&panel);
     for (index, (_, value)) in values.iter().enumerate() {
         let at = [index as f64 + 0.5, value.max(0.0)];

@@ -183,19 +183,36 @@ fn patches(scene: &Scene<'_>, metrics: &CameraMetrics, area: Rect) -> Panel {
         panel.marks.push(Mark::new(Tag::default(), name(patch), shape).with_fill(ink).with_stroke(InkRole::Weak, 0.5));
     }
     let worst = metrics.worst.get(at).map_or(&[][..], Vec::as_slice);
-    let mut panel = panel.with_headroom(14.0);
-    let mut labels = Labels::new(&panel);
-    for (rank, &patch) in worst.iter().enumerate() {
-        let Some(value) = values.get(patch).copied().flatten() else { continue };
+    let labels = worst.iter().enumerate().filter_map(|(rank, &patch)| {
+        let value = values.get(patch).copied().flatten()?;
         let number = fixed(value, scene.document.difference.decimals.saturating_sub(1));
         let words = format!("{}  {} {number}", rank + 1, name(patch));
         let at = [patch as f64, value];
         let place = |(anchor, shift)| Place { at, anchor, offset: [shift, -2.0] };
         let places = [(Anchor::BOTTOM, 0.0), (Anchor::LEFT_BOTTOM, -4.0), (Anchor::RIGHT_BOTTOM, 4.0)].map(place);
-        labels.place(&Label { starts: vec![at], ..Label::new(words, InkRole::Text, places.to_vec()) });
-    }
-    panel.marks.extend(labels.into_marks());
-    panel
+        Some(Label { starts: vec![at], ..Label::new(words, InkRole::Text, places.to_vec()) })
+    });
+    named(panel, &labels.collect::<Vec<_>>())
+}
+
+/// A panel with labels above its bars: beside the bar's end or at a leader, else higher above it.
+fn named(panel: Panel, labels: &[Label]) -> Panel {
+    const LIFTS: [f64; 4] = [16.0, 30.0, 44.0, 58.0];
+    let raised = |label: &Label, lift: f64| {
+        label.places.iter().map(move |place| Place { offset: [place.offset[0], -lift], ..*place }).collect::<Vec<_>>()
+    };
+    let named = |room: f64| {
+        let mut panel = panel.clone().with_headroom(room);
+        let mut texts = Labels::new(&panel);
+        let all = labels.iter().filter(|label| {
+            let places = LIFTS.into_iter().flat_map(|lift| raised(label, lift)).collect();
+            texts.place(label) || texts.place(&Label { places, starts: Vec::new(), ..(*label).clone() })
+        });
+        let all = all.count() == labels.len();
+        panel.marks.extend(texts.into_marks());
+        (panel, all)
+    };
+    [14.0, 30.0].into_iter().map(named).find(|(_, all)| *all).unwrap_or_else(|| named(58.0)).0
 }
 
 #[derive(Clone, Copy)]

@@ -73,11 +73,12 @@ pub fn build(scene: &Scene<'_>, size: [f64; 2]) -> Option<Strip> {
     panel.marks.extend(content.signs);
     panel.marks.extend(cut(&panel.marks, top, Projection::new(&panel, 1.0).plot.height()));
     let mut labels = Labels::new(&panel);
+    // The temperature is written nowhere else in the figure.
+    labels.place(&cursor_text(scene.document.temperature_k, top));
+    labels.place(&just_visible);
     for (source, at) in &content.minima {
         labels.place(&minimum_text(source, *at));
     }
-    labels.place(&cursor_text(scene.document.temperature_k, top));
-    labels.place(&just_visible);
     panel.marks.extend(labels.into_marks());
     Some(Strip { panel, things })
 }
