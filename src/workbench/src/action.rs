@@ -56,7 +56,6 @@ pub enum SceneAction {
     SetFilter(String, bool),
     ClearFilters,
     SetTemperature(f64),
-    /// Another full well and read noise, or none.
     SetPixel(Option<Pixel>),
     SetChart(String),
     SetSubset(Subset),
@@ -86,7 +85,6 @@ pub enum RenderAction {
     Figure9,
     /// Figure 8 in the paper's own setup: point light, Eq 12 in the paper's normalization.
     PaperFigure8,
-    /// Figure 9 in the paper's own setup.
     PaperFigure9,
 }
 

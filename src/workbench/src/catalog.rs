@@ -33,7 +33,6 @@ pub enum Place {
         /// The value column, if the file holds several sets.
         column: Option<usize>,
     },
-    /// One of the user's sets.
     Own(Shared<ImportedSet>),
 }
 

@@ -28,25 +28,18 @@ pub use paper::Paper;
 /// The longest side of a picture in pixels.
 pub const MAX_SIDE: u32 = 16_384;
 
-/// Reason that there is no picture.
 #[derive(Debug, thiserror::Error)]
 pub enum ExportError {
-    /// The SVG could not be read.
     #[error("the figure could not be drawn: {0}")]
     Svg(#[from] usvg::Error),
-    /// The picture would be too large, or have no pixel.
     #[error("a picture of {width} × {height} pixels cannot be made; the longest side is {MAX_SIDE}")]
     Size { width: u32, height: u32 },
-    /// The picture could not be encoded.
     #[error("the picture could not be encoded: {0}")]
     Encode(#[from] image::ImageError),
-    /// The picture could not be encoded with its resolution.
     #[error("the picture could not be encoded: {0}")]
     Png(#[from] png::EncodingError),
-    /// The picture could not be written as TIFF.
     #[error("the picture could not be encoded: {0}")]
     Tiff(#[from] tiff::TiffError),
-    /// The figure could not be written as PDF.
     #[error(transparent)]
     Pdf(#[from] pdf::PdfError),
 }
@@ -75,7 +68,6 @@ pub fn svg(figure: &Figure, colors: &Colors, paper: Paper) -> String {
     svg::write(figure, colors, &style, &paper.page_style())
 }
 
-/// The figure as PDF, with its fonts in it.
 pub fn pdf(figure: &Figure, colors: &Colors, paper: Paper) -> Result<Vec<u8>, ExportError> {
     let fonts = pdf::PdfFonts { text: FONT, mono: MONO_FONT };
     Ok(pdf::write(figure, colors, fonts, &paper.page_style())?)
@@ -111,7 +103,6 @@ fn drawn(tree: &usvg::Tree, scale: f32) -> Result<RgbaImage, ExportError> {
     RgbaImage::from_raw(width, height, straight.collect()).ok_or_else(too_large)
 }
 
-/// The bytes of a PNG file.
 pub fn png_file(picture: &RgbaImage) -> Result<Vec<u8>, ExportError> {
     Ok(encoded(picture.as_raw(), picture.width(), picture.height(), CompressionType::Default)?)
 }

@@ -13,9 +13,7 @@ pub const DIAGRAM_FILL: f32 = 0.1;
 pub const FONT_FAMILY: &str = "DejaVu Sans";
 /// Family of numbers in figures.
 pub const MONO_FAMILY: &str = "DejaVu Sans Mono";
-/// The text font.
 pub const FONT: &[u8] = include_bytes!("../../../assets/fonts/DejaVuSans.ttf");
-/// The font of numbers.
 pub const MONO_FONT: &[u8] = include_bytes!("../../../assets/fonts/DejaVuSansMono.ttf");
 
 /// The gray around swatches and renders.
@@ -33,7 +31,6 @@ pub enum Surround {
 impl Surround {
     pub const ALL: [Self; 3] = [Self::Middle, Self::Dark, Self::Light];
 
-    /// The name on screen.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Middle => "Middle gray, L* 50",
@@ -63,10 +60,8 @@ choices! {
     /// Colors of compared sources in a figure.
     #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
     pub enum SourceInks {
-        /// Those on screen, told apart in all kinds of color vision.
         #[default]
         Screen = "safe", "Color", "Colors told apart in all kinds of color vision";
-        /// Grays, told apart in print without color.
         Gray = "gray", "Gray", "Grays told apart in print without color";
     }
 }
@@ -98,7 +93,6 @@ pub struct Colors {
 }
 
 impl Colors {
-    /// Light on dark.
     pub const DARK: Self = Self {
         dark: true,
         panel: [0x26; 3],

@@ -18,7 +18,6 @@ pub enum PlotItem {
         source: Option<SensorId>,
         patch: String,
     },
-    /// A blackbody through a sensor.
     Radiator {
         source: SensorId,
         kelvin: f64,
@@ -78,7 +77,6 @@ impl PlotItem {
         self == other || matches!((self, other), (Self::Patch { .. }, Self::Patch { .. }))
     }
 
-    /// Returns the relation of a drawn item to this one.
     pub fn relation_to(&self, drawn: &Self, reference: &str) -> Relation {
         let is_reference = |s: Option<&SensorId>| s.is_some_and(|s| s.kind == SetKind::Observer && s.name == reference);
         let same_source = |a: Option<&SensorId>, b: Option<&SensorId>| a.is_none() || b.is_none() || a == b;

@@ -37,7 +37,6 @@ const HEIGHT: u32 = 360;
 /// Measures the cost of each method for a scene.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SceneRunJob {
-    /// Description of the rendered scene.
     pub scene: String,
     /// The pictures; none where there is nothing to render.
     pub pictures: Option<PicturesQuery>,
@@ -81,7 +80,6 @@ impl SceneRunJob {
     }
 }
 
-/// Measurements of a scene.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct SceneRun {
     #[serde(default)]
@@ -95,7 +93,6 @@ pub struct SceneRun {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Trial {
     pub subject: Subject,
-    /// Number of inputs measured on.
     pub inputs: usize,
     /// The methods, the reference first.
     pub points: Vec<Point>,
@@ -104,7 +101,6 @@ pub struct Trial {
     pub set: Option<usize>,
 }
 
-/// A kind of work.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum Subject {
     /// The spectral integral of the rendered samples.

@@ -86,7 +86,6 @@ pub struct Judged {
     pub finding: Result<Finding, String>,
 }
 
-/// A file of a report.
 pub struct ReportFile {
     /// Its name in the report's folder.
     pub name: String,
@@ -159,7 +158,6 @@ impl Report {
         FORMS.into_iter().map(file).collect()
     }
 
-    /// The claims with their findings.
     pub fn judged(&self, results: &Results) -> Vec<Judged> {
         let subject = self.subject(results);
         claims()
@@ -220,7 +218,6 @@ pub struct ReportJob {
 }
 
 impl ReportJob {
-    /// All steps.
     pub fn all(report: &Arc<Report>, folder: &std::path::Path) -> Vec<Self> {
         let job = |step| Self { report: Arc::clone(report), folder: folder.to_owned(), step };
         (0..Report::STEPS).map(job).collect()

@@ -45,7 +45,6 @@ use crate::results::Results;
 /// Number of points a locus on screen has.
 pub const LOCUS_POINTS: usize = 200;
 
-/// Reason that something of the scene cannot be shown.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum SceneError {
     #[error("no {kind} is named \"{name}\" here; open its file, or choose another", kind = kind.singular())]
@@ -74,7 +73,6 @@ pub struct ComparedSensor {
     pub kind: SetKind,
     pub name: String,
     pub label: String,
-    /// Its color's role.
     pub role: InkRole,
     pub marker: Marker,
     /// The width of its lines in points.
@@ -89,7 +87,6 @@ pub struct ComparedSensor {
 pub enum Caution {
     /// The reference is an XYZ observer while Eq 13 takes RGB: no camera can be compared with it.
     NotComparable {
-        /// The reference, to which cameras can be fitted.
         reference: String,
     },
     /// Cameras are fitted to another observer than they are compared with.

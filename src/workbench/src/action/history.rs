@@ -9,7 +9,6 @@ use crate::document::imported::ImportedSet;
 use crate::document::names::BuiltInNames;
 use crate::document::{Document, SessionFile};
 
-/// Largest number of steps.
 const DEPTH: usize = 10_000;
 /// Largest number of steps that are reloads: each holds another reading of a file.
 const RELOADS: usize = 20;
@@ -21,9 +20,7 @@ struct Step {
     document: Document,
     /// Action that later changes of the same gesture must extend to be merged into this step; `None` if not a gesture.
     action: Option<Action>,
-    /// True if another session begins with it.
     begins: bool,
-    /// True if it is a reload of changed files.
     reloads: bool,
 }
 

@@ -18,7 +18,6 @@ use crate::jobs::{Executor, Monitor};
 /// Maximum bytes of unused files that stay cached, so that undo need not read them again.
 const REMEMBERED_BYTES: usize = 256_000_000;
 
-/// Modification time and length of a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Stamp {
     modified: Option<SystemTime>,
@@ -35,9 +34,7 @@ impl Stamp {
     }
 }
 
-/// Content of a file that is rendered.
 pub trait FromFile: Sized + Send + Sync + 'static {
-    /// Reason that a file gives none.
     type Failure: FileFailure;
     /// State of a file by which it is known to have changed.
     type Version: Copy + Send + 'static;
@@ -52,7 +49,6 @@ pub trait FromFile: Sized + Send + Sync + 'static {
 
     fn bytes(&self) -> usize;
 
-    /// The file's name and counts.
     fn summary(&self) -> &str;
 }
 
@@ -69,7 +65,6 @@ pub enum Unread {
 
 /// Reason that a file gives no content, in sentences.
 pub trait FileFailure: std::fmt::Display + Send + From<Unread> {
-    /// Message for the user who opened the file.
     fn on_opening(&self) -> String;
     /// Message for a picture that needs the file.
     fn picture_message(&self) -> String;
@@ -83,11 +78,9 @@ pub enum FileState<T> {
     Failed(String),
 }
 
-/// Outcome of opening a file.
 #[derive(Debug)]
 pub struct Opened<T> {
     pub path: PathBuf,
-    /// Its content, or the reason that there is none.
     pub result: Result<Arc<T>, String>,
 }
 

@@ -16,7 +16,6 @@ use crate::format::{capitalized, file_name, io_reason};
 pub type MeshStore = FileStore<LoadedMesh>;
 pub type MeshState = FileState<LoadedMesh>;
 
-/// The largest mesh file that is read, in bytes.
 pub const MAX_FILE_BYTES: u64 = 1_000_000_000;
 /// Number of bytes read between two checks of the stop signal.
 const CHUNK_BYTES: u64 = 4 << 20;
@@ -71,7 +70,6 @@ pub enum MeshFailure {
     #[error("{file} is not in {folder}")]
     Missing {
         file: String,
-        /// Folder that was searched.
         folder: String,
     },
     #[error("{file}: {}", io_reason(.error))]
@@ -89,7 +87,6 @@ pub enum MeshFailure {
     #[error("{file}{}{error}", joint(.error))]
     Mesh {
         file: String,
-        /// Cause, with its position.
         error: MeshReadError,
     },
     #[error("{0} could not be read because of an error in this program; please report it with the file")]

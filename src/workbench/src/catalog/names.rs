@@ -67,7 +67,6 @@ pub enum Fit {
     Similar,
 }
 
-/// The words of a search as they are compared.
 pub fn typed_words(text: &str) -> Vec<String> {
     text.split_whitespace().map(folded).filter(|word| !word.is_empty()).collect()
 }

@@ -45,7 +45,6 @@ pub struct Failing {
 #[derive(Debug)]
 pub enum OpenedEvent {
     Read {
-        /// The sets, each with its guesses.
         sets: Vec<Imported>,
         /// Summary of the contents and the decisions, in one sentence.
         message: String,
@@ -66,9 +65,7 @@ pub enum OpenedEvent {
     },
     /// New contents of a file that could not be read before.
     Replaced {
-        /// Fingerprint of the former contents.
         old: Fingerprint,
-        /// Fingerprint of the present contents.
         new: Fingerprint,
         path: PathBuf,
     },

@@ -13,7 +13,6 @@ use chromascope_core::spectral::GridSpectrum;
 
 use super::names::folded;
 
-/// Most rows of a table.
 const MAX_ROWS: usize = 100_000;
 
 #[derive(Clone, Debug, PartialEq)]
@@ -133,7 +132,6 @@ fn name_column(heads: &[String], channels: [usize; 3], delimiter: char) -> Optio
     headed.or_else(|| (0..heads.len()).find(other))
 }
 
-/// Reads a table of raw values, with or without spectra.
 pub fn read_table(bytes: &[u8]) -> Result<RawTable, RawTableError> {
     let text = String::from_utf8_lossy(bytes);
     let text = text.trim_start_matches('\u{feff}');

@@ -15,13 +15,11 @@ use super::file_store::{FileFailure, FileStore, FromFile, Unread};
 use super::recorded::{self, Levels, RawRow};
 use crate::format::{file_name, io_reason};
 
-/// Endings of pictures of charts.
 pub const PICTURES: [&str; 3] = ["tif", "tiff", "png"];
 const MAX_BYTES: u64 = 1 << 30;
 /// Longest side of a picture as it is shown.
 const SHOWN: usize = 1024;
 
-/// Spectra of the recorded patches.
 #[derive(Clone, Debug)]
 pub struct TableSpectra {
     /// By the names of their patches.
@@ -32,7 +30,6 @@ pub struct TableSpectra {
 
 #[derive(Debug)]
 pub enum RecordedContent {
-    /// A table, with spectra or without.
     Table(Vec<RawRow>, Option<TableSpectra>),
     /// A picture of a chart, and as it is shown.
     Picture(ChartPicture, Image),

@@ -21,12 +21,10 @@ const TILE_BYTES: usize = 16 << 20;
 /// Most pixels of an image: the signals of each sensor take 12 bytes a pixel.
 const MOST_PIXELS: usize = 40_000_000;
 
-/// Largest header that is read.
 const MAX_HEADER: u64 = 16 << 20;
 /// Extensions of a header's data file.
 const DATA: [&str; 9] = ["img", "dat", "raw", "bil", "bip", "bsq", "bin", "cube", "sli"];
 
-/// Reason that a spectral image cannot be opened, with its file.
 #[derive(Debug, thiserror::Error)]
 pub enum OpenImageError {
     #[error("{}: {}", path.display(), crate::format::io_reason(error))]
@@ -65,7 +63,6 @@ pub fn is_spectral_image(path: &Path) -> bool {
     has_ending(path, "hdr") || has_ending(path, "exr") || (is_data() && header_of(path).is_ok())
 }
 
-/// True if a path ends as those of spectral images do.
 pub fn has_image_ending(path: &Path) -> bool {
     ENDINGS.iter().any(|ending| has_ending(path, ending))
 }
@@ -169,7 +166,6 @@ impl LoadedImage {
 pub type ImageStore = FileStore<LoadedImage>;
 pub type ImageState = FileState<LoadedImage>;
 
-/// Reads header and state of an image.
 pub fn load(path: &Path) -> Result<LoadedImage, OpenImageError> {
     let version = version(path)?;
     let image = open(path, None)?;

@@ -25,10 +25,8 @@ Writes bench.json, bench.csv and, for each workload, a figure as SVG and PNG. Fi
 and an earlier run is overwritten only with --replace.
 A line gives: threads, median time per item, ratio to the case's first method, largest error, what it is an error of.";
 
-/// The file of all measurements.
 const JSON: &str = "bench.json";
 
-/// The table of all measurements.
 const CSV: &str = "bench.csv";
 
 /// Run time against error of every method, measured on this machine: figures, table and JSON

@@ -23,7 +23,6 @@ pub(super) enum CliError {
     #[error("{argument}: {reason}")]
     Argument {
         argument: &'static str,
-        /// Reason, with the remedy.
         reason: String,
     },
     #[error(transparent)]

@@ -159,7 +159,6 @@ impl InspectArguments {
         }
     }
 
-    /// True if sensitivities are to be taken as responses per photon.
     fn per_photon(&self) -> Option<bool> {
         self.per.as_ref().map(|per| per == "photon")
     }

@@ -150,7 +150,6 @@ pub(super) fn stream(
     }
 }
 
-/// Writes bytes to a path as [`write_with`] does.
 pub(super) fn write_to(path: &Path, bytes: &[u8]) -> io::Result<()> {
     write_with(path, |out| out.write_all(bytes))
 }

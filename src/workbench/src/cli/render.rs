@@ -32,7 +32,6 @@ use crate::results::{Count, Results};
 use crate::scene::{ComparedSensor, Scene, SceneError};
 use crate::terminal::{say, shown_json};
 
-/// Renders the pictures, writes them and reports the result.
 pub(super) fn run(arguments: &RenderArguments, matches: &ArgMatches) -> Result<(), CliError> {
     if let Some(path) = &arguments.image {
         return image::run(arguments, path, matches);

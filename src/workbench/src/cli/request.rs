@@ -472,7 +472,6 @@ enum Radiator {
 }
 
 impl Radiator {
-    /// Its name where it is named with its temperature.
     const fn name(self) -> &'static str {
         match self {
             Self::Daylight => "daylight",

@@ -197,7 +197,6 @@ impl ImportedSet {
     }
 }
 
-/// Saves shared sets as plain values.
 pub(super) mod list {
     use super::{ImportedSet, Shared};
     use serde::{Deserialize, Deserializer, Serializer};

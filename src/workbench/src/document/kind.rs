@@ -6,7 +6,6 @@ use serde::{Deserialize, Serialize};
 use super::imported::{ImportedSet, Role};
 
 choices! {
-    /// Kind of a data set.
     #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
     #[serde(rename_all = "kebab-case")]
     pub enum SetKind {

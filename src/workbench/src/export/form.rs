@@ -8,7 +8,6 @@ use chromascope_figure::{Figure, Table};
 use super::{ExportError, Paper, json, pdf, png, png_file_at, svg, tiff_file_at};
 
 choices! {
-    /// Form of a figure's file.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     pub enum FigureForm {
         Pdf = "pdf", "PDF", "Vectors with embedded fonts";
@@ -21,17 +20,14 @@ choices! {
 }
 
 impl FigureForm {
-    /// Ending of its files.
     pub const fn ending(self) -> &'static str {
         self.key()
     }
 
-    /// Name on screen.
     pub const fn name(self) -> &'static str {
         self.label()
     }
 
-    /// True if its files hold numbers, not the figure.
     pub const fn is_numbers(self) -> bool {
         matches!(self, Self::Csv | Self::Json)
     }

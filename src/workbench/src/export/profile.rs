@@ -29,7 +29,6 @@ pub use query::{CorrectionFileQuery, CorrectionRequest};
 use crate::format::slug;
 use crate::scene::correction::exif_light;
 
-/// Reason that a correction has no file of a kind.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum CorrectionFileError {
     /// Files hold matrices.
@@ -37,23 +36,18 @@ pub enum CorrectionFileError {
         "{0} files hold a 3×3 matrix, which a root polynomial or a singular matrix is not; choose a matrix that is fitted"
     )]
     NoMatrix(&'static str),
-    /// The camera has no ACES input transform under the light.
     #[error(transparent)]
     Idt(#[from] IdtError),
-    /// The format cannot hold it.
     #[error(transparent)]
     Profile(#[from] ProfileError),
-    /// The file holds the ratio between the channels, which the table does not.
     #[error(
         "{camera}: its channel ratio is {ratio}. DCP, DNG and CLF files hold that ratio: give AsShotNeutral of a raw file under \
          {light} (--neutral R,G,B; in the window the field Neutral). ICC files do without"
     )]
     Ratio {
-        /// The camera.
         camera: String,
         /// The light of the neutral.
         light: String,
-        /// What is known of the ratio.
         ratio: ChannelRatio,
     },
 }
@@ -61,25 +55,21 @@ pub enum CorrectionFileError {
 /// Color correction of a camera with the names that files need.
 #[derive(Clone, Debug)]
 pub struct CorrectionFile {
-    /// The camera in the catalog.
     pub camera: String,
     /// Camera model as raw files call it.
     pub model: String,
     /// Correction in words.
     pub correction: String,
-    /// Names of the lights.
     pub lights: Vec<String>,
     /// Symbol of the metric of the errors.
     pub metric: &'static str,
     /// Names of the training reflectances.
     pub training: Vec<String>,
-    /// The correction.
     pub sheet: CorrectionSheet,
     /// ACES input transform under the first light.
     pub idt: Result<Idt, IdtError>,
     /// Names of the training reflectances of that transform.
     pub idt_training: Vec<String>,
-    /// Credibility of the ratio between the table's channels.
     pub ratio: ChannelRatio,
     /// Camera RGB of a neutral under the first light, given in place of the table's own.
     pub neutral: Option<Neutral>,
@@ -107,7 +97,6 @@ impl CorrectionFile {
         unders
     }
 
-    /// Bytes of a file.
     pub fn written(&self, form: CorrectionForm) -> Result<Vec<u8>, CorrectionFileError> {
         match form {
             CorrectionForm::Dcp => self.dcp(),
@@ -249,7 +238,6 @@ impl CorrectionFile {
         }
     }
 
-    /// The transform as aligned numbers.
     pub fn transform_text(&self, under: &CorrectionUnder) -> String {
         match &under.report.transform {
             RgbTransform::Matrix(matrix) => aligned(*matrix),
@@ -348,7 +336,6 @@ pub fn check_lines(check: &StimulusCheck, metric: &str) -> [String; 2] {
     [format!("{what:<8}XYZ {x:9.4}{y:9.4}{z:9.4}"), remark]
 }
 
-/// Name of a correction's file.
 pub fn file_name(file: &CorrectionFile, form: CorrectionForm) -> String {
     let (camera, lights) = (slug(&file.camera), slug(&file.lights.join(" ")));
     format!("{camera}-{lights}{}.{}", form.suffix(), form.ending())

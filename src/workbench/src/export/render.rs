@@ -13,13 +13,10 @@ use exr::prelude::{
 };
 use image::codecs::png::CompressionType;
 
-/// Reason that there is no file.
 #[derive(Debug, thiserror::Error)]
 pub enum PictureError {
-    /// The PNG could not be encoded.
     #[error("the picture could not be encoded: {0}")]
     Png(#[from] image::ImageError),
-    /// The OpenEXR could not be encoded.
     #[error("the picture could not be encoded: {0}")]
     Exr(#[from] exr::error::Error),
 }
@@ -27,27 +24,17 @@ pub enum PictureError {
 /// Conditions of a picture, for its file's header.
 #[derive(Clone, Copy, Debug)]
 pub struct Provenance<'a> {
-    /// The camera's or observer's name.
     pub source: &'a str,
-    /// The name of the balance.
     pub balance: &'a str,
-    /// The name of the light's spectrum.
     pub illuminant: &'a str,
-    /// The name of the material.
     pub material: &'a str,
     /// The name of the garment's material, if one is worn.
     pub garment: Option<&'a str>,
-    /// The mesh's name.
     pub mesh: &'a str,
-    /// Method of integration.
     pub quality: Quality,
-    /// Position of the light.
     pub lighting: Lighting,
-    /// Position of the eye.
     pub viewpoint: Viewpoint,
-    /// The roughness.
     pub surface: Surface,
-    /// Normalization of Eq 1.
     pub reading: Normalization,
     /// Irradiance of a level surface by the sky over that of a surface that faces the light.
     pub sky: f64,
@@ -78,13 +65,9 @@ pub fn exr_bytes(
 /// Conditions of a spectral image's picture, for its file's header.
 #[derive(Clone, Copy, Debug)]
 pub struct ImageProvenance<'a> {
-    /// The camera's or observer's name.
     pub source: &'a str,
-    /// The name of the balance.
     pub balance: &'a str,
-    /// The name of the light's spectrum.
     pub illuminant: &'a str,
-    /// The image's name.
     pub image: &'a str,
 }
 
@@ -227,7 +210,6 @@ fn attributes(rendering: &Rendering, provenance: &Provenance<'_>) -> LayerAttrib
     }
 }
 
-/// Meaning of the numbers.
 fn comments(reading: Normalization) -> &'static str {
     match reading {
         Normalization::Radiometric | Normalization::Microfacet => {

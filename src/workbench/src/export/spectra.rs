@@ -15,9 +15,7 @@ use crate::document::imported::{ImportedSet, Role};
 /// A format, and the wavelengths that curves are brought to.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Form {
-    /// The format.
     pub format: Format,
-    /// The wavelengths.
     pub grid: Grid,
 }
 
@@ -52,23 +50,18 @@ impl Form {
     }
 }
 
-/// Reason that a set cannot be saved.
 #[derive(Debug, thiserror::Error)]
 pub enum SpectraError {
-    /// Its curves cannot be had.
     #[error(transparent)]
     Load(#[from] LoadError),
-    /// The format does not take them.
     #[error(transparent)]
     Write(#[from] WriteError),
 }
 
-/// A set as a file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SpectraFile {
     /// The name offered for it.
     pub name: String,
-    /// Contents.
     pub text: String,
     /// Differences from the set.
     pub notes: Vec<Note>,
@@ -95,7 +88,6 @@ pub fn fits(entry: &Entry, form: Form) -> Result<(), WriteError> {
     form.format.fits(&Sheet { content: content(entry), curves: &curves, ..Sheet::default() })
 }
 
-/// Writes a set in a form.
 pub fn file(entry: &Entry, form: Form, ask: &impl Ask) -> Result<SpectraFile, SpectraError> {
     let curves = curves(&entry.place, ask)?;
     let traces: Vec<Trace<'_>> = curves

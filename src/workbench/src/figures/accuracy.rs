@@ -21,7 +21,6 @@ pub fn trial(run: &SceneRun, subject: Subject) -> Option<&Trial> {
     run.trials.iter().find(|trial| trial.subject == subject)
 }
 
-/// The panel for an area of the given size.
 pub fn panel(trial: &Trial, is_current: bool, size: [f64; 2]) -> Panel {
     let place = |(index, point): (usize, &Point)| Place {
         name: trial.name(index),

@@ -295,7 +295,6 @@ struct Point {
     sensor: String,
     /// Temperature in kelvins of a blackbody.
     kelvin: Option<f64>,
-    /// Name of a patch.
     patch: Option<String>,
     xy: Option<Xy>,
     uv: Option<UvPrime>,
@@ -328,7 +327,6 @@ const COLUMNS: [Field<Point>; 13] = [
     Field { decimals: Some(6), ..Field::quantity(["duv", "Duv", ""], |point| point.cct.map(|cct| cct.duv).into()) },
 ];
 
-/// All points as numbers.
 fn table(scene: &Scene<'_>) -> Table {
     let mut points = Vec::new();
     let reference_locus = scene.locus(SetKind::Observer, &scene.document.reference).ok();

@@ -85,7 +85,6 @@ pub fn place(tag: Tag) -> Option<usize> {
     tag.0.checked_sub(1).map(|place| place as usize)
 }
 
-/// A curve.
 fn marks(curve: &Curve, points: Vec<[f64; 2]>, on: bool, count: usize) -> Vec<Mark> {
     let tag = tag(curve.place);
     let ink = ink(curve, count, on);
@@ -206,7 +205,6 @@ pub fn numbers(curves: &Curves) -> Table {
 /// Maximum total number of points drawn on screen.
 const POINTS: usize = 80_000;
 
-/// The curves of the last selected item.
 #[derive(Clone, Debug)]
 pub struct CurveCache {
     of: ImportSelection,

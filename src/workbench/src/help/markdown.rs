@@ -84,7 +84,6 @@ pub fn plain(content: &[Inline]) -> String {
     words.collect()
 }
 
-/// Parses a page.
 pub fn parse(text: &str) -> Result<Vec<Block>, MarkdownError> {
     let mut events = Parser::new_ext(text, Options::ENABLE_TABLES | Options::ENABLE_MATH);
     blocks(&mut events, None)

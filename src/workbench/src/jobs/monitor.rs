@@ -24,7 +24,6 @@ impl<S> Monitor<S> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// The clock that work is timed by.
     pub fn clock(&self) -> &Clock {
         &self.clock
     }

@@ -88,7 +88,6 @@ pub struct Claim {
     pub find: Find,
 }
 
-/// Judge of a claim.
 pub type Find = fn(&Subject<'_>) -> Result<Finding, SceneError>;
 
 impl Claim {

@@ -42,7 +42,6 @@ fn maker_of(name: &str) -> String {
 }
 
 impl Scene<'_> {
-    /// Query for the credibility of a camera's channel ratio. Loads no table.
     pub fn channel_ratio_query(&self, name: &str) -> Result<ChannelRatioQuery, SceneError> {
         let own = self.entry(SetKind::Camera, name)?;
         let maker = maker_of(&own.name);

@@ -39,7 +39,6 @@ pub struct MetricsConditions {
 }
 
 impl MetricsConditions {
-    /// The question for all figures of merit of a sensor.
     pub fn query(&self, sensor: Shared<Sensor>) -> CameraMetricsQuery {
         CameraMetricsQuery {
             rendering: RenderingQuery { sensor, ..self.reference.clone() },
@@ -123,7 +122,6 @@ fn uncertainties_query(
 }
 
 choices! {
-    /// A choice of cameras.
     #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
     pub enum RankedCameras {
         #[default]

@@ -52,11 +52,9 @@ pub struct ImageUse {
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct ImageSignalsQuery {
     pub source: ImageSource,
-    /// Quantity of the samples, overriding the file's.
     pub wanted: Option<ImageQuantity>,
     /// Value that represents 1, as bits.
     pub scale: u64,
-    /// Every how many rows and pixels are taken.
     pub step: usize,
     light: Shared<GridSpectrum>,
     /// Sensors with the divisors of their integrals, as bits.
@@ -122,7 +120,6 @@ pub struct ImagePicturesQuery {
 
 #[derive(Clone, Debug)]
 pub struct ImagePictures {
-    /// Pictures, or the reasons that there are none.
     pub pictures: Vec<Result<Arc<Picture>, RenderingError>>,
     /// Differences from the reference over all pixels with values; none for the reference, and where colors cannot be compared.
     pub differences: Vec<Option<Arc<Difference>>>,
@@ -206,7 +203,6 @@ fn difference(map: Vec<f32>) -> Difference {
 }
 
 impl Scene<'_> {
-    /// Query for an image through sensors.
     pub fn image_pictures(
         &self,
         source: &ImageSource,
@@ -272,7 +268,6 @@ fn bright(rendering: &Rendering, signals: &[[f32; 3]]) -> Option<f64> {
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct PixelSpectrumQuery {
     pub source: ImageSource,
-    /// Quantity of the samples, overriding the file's.
     pub wanted: Option<ImageQuantity>,
     /// Value that represents 1, as bits.
     pub scale: u64,

@@ -88,7 +88,6 @@ fn missing(reason: &str) -> CliError {
     CliError::Argument { argument: "FILE", reason: reason.to_owned() }
 }
 
-/// The mesh of a file, if the document has one.
 fn own_mesh(document: &Document) -> Result<Option<Shared<chromascope_mesh::Mesh>>, CliError> {
     match &document.render.mesh {
         MeshChoice::File(path) => read_mesh(path).map(Some),

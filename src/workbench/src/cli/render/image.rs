@@ -26,7 +26,6 @@ use crate::scene::spectral_image::{ImagePictures, ImagePicturesError, ImageUse};
 use crate::scene::{ComparedSensor, Scene, SceneError};
 use crate::terminal::say;
 
-/// Computes the pictures of an image, writes them and reports the result.
 pub(super) fn run(arguments: &RenderArguments, path: &Path, matches: &ArgMatches) -> Result<(), CliError> {
     let start = Instant::now();
     let settings = arguments.settings.applied_to(RenderSettings::default());

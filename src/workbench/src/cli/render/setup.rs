@@ -24,12 +24,10 @@ use crate::scene::render::Finish;
 use crate::terminal::say;
 use chromascope_core::render::QualityLevel;
 
-/// Inputs of the pictures.
 pub(super) struct Setup {
     pub(super) request: Request,
     pub(super) viewpoint: Viewpoint,
     pub(super) finish: Finish,
-    /// The user's mesh, if it is one.
     pub(super) own_mesh: Option<Shared<Mesh>>,
     /// Name of the mesh in file names.
     pub(super) mesh_name: String,
@@ -103,7 +101,6 @@ pub(super) fn compared_request(arguments: &RenderArguments, matches: &ArgMatches
     Ok(request)
 }
 
-/// The program's own meshes by name.
 const MESHES: [(&str, MeshChoice); 4] = [
     ("head", MeshChoice::Head),
     ("fern", MeshChoice::Fern),

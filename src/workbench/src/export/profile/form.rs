@@ -2,18 +2,12 @@
 
 use chromascope_profile::icc::IccVersion;
 
-/// A file that a correction is saved as.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CorrectionForm {
-    /// DNG camera profile.
     Dcp,
-    /// ICC matrix profile.
     Icc(IccVersion),
-    /// ACES input transform.
     Clf,
-    /// DNG's matrices as lines.
     Dng,
-    /// Everything in words and numbers.
     Text,
 }
 
@@ -22,7 +16,6 @@ impl CorrectionForm {
     pub const ALL: [Self; 6] =
         [Self::Dcp, Self::Icc(IccVersion::V4), Self::Icc(IccVersion::V2), Self::Clf, Self::Dng, Self::Text];
 
-    /// The ending of such files.
     pub const fn ending(self) -> &'static str {
         match self {
             Self::Dcp => "dcp",

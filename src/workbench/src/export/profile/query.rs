@@ -19,7 +19,6 @@ use crate::scene::{Scene, SceneError};
 /// Camera whose correction is wanted, and what its files are to state.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct CorrectionRequest<'a> {
-    /// The camera in the catalog.
     pub camera: &'a str,
     /// Camera model as raw files call it; by [`unique_camera_model`] where none is given.
     pub model: Option<&'a str>,
@@ -45,7 +44,6 @@ pub struct CorrectionFileQuery {
 }
 
 impl CorrectionFileQuery {
-    /// Query for a camera.
     pub fn new(scene: &Scene<'_>, request: CorrectionRequest<'_>) -> Result<Self, SceneError> {
         let CorrectionRequest { camera, model, neutral, exposure } = request;
         if scene.document.transform.is_eq_13() {

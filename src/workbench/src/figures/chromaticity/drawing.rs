@@ -59,7 +59,6 @@ impl<'a> Drawing<'a> {
         frame::place(self.diagram, Some(xy), xy.uv_prime())
     }
 
-    /// Coordinates of a color that is known in both diagrams.
     pub(super) fn place_of(&self, xy: Option<Xy>, uv: Option<UvPrime>) -> Option<[f64; 2]> {
         frame::place(self.diagram, xy, uv)
     }

@@ -21,7 +21,6 @@ pub(super) fn place(diagram: Diagram, xy: Option<Xy>, uv: Option<UvPrime>) -> Op
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Frame {
     pub(super) ranges: Ranges,
-    /// Width and height of the plot.
     pub(super) size: [f64; 2],
 }
 

@@ -17,7 +17,6 @@ pub const MEANING: &str = "Facing the light: the flat material, or garment, unde
 /// Meaning of the numbers of a spectral image.
 pub const IMAGE_MEANING: &str = "Mean, median, 95 % and maximum over all pixels with a value in every band.";
 
-/// Amount of detail.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Detail {
     /// The number of the headline.
