@@ -16,6 +16,7 @@ use chromascope_core::query::DifferenceError;
 use chromascope_core::query::render::picture::{Pictures, PicturesQuery};
 use chromascope_core::render::{CameraImage, Picture};
 use clap::ArgMatches;
+use exr::prelude::LayerAttributes;
 use rayon::prelude::*;
 
 use self::arguments::{Format, RenderArguments};
@@ -24,7 +25,7 @@ use self::files::{file_names, patiently};
 use self::setup::Setup;
 use super::error::CliError;
 use super::outputs::{self, is_standard_output, put, show, write_to};
-use crate::export::render::{PictureError, Provenance, exr_bytes, png_bytes};
+use crate::export::render::{PictureError, exr_bytes, mesh_header, png_bytes};
 use crate::figures::render::headline::{Detail, Measure};
 use crate::figures::render::returned;
 use crate::profiler::plans;
@@ -111,12 +112,12 @@ impl<'a> Made<'a> {
         })
     }
 
-    fn content<'b>(
-        &'b self,
+    fn content(
+        &self,
         index: usize,
         arguments: &RenderArguments,
-        [illuminant, white]: &'b [String; 2],
-    ) -> Result<Content<'b>, CliError> {
+        conditions: &[String; 2],
+    ) -> Result<Content<'_>, CliError> {
         let name = &self.sources[index].name;
         let picture = self.pictures.pictures[index].as_ref();
         let picture = picture.map_err(|error| SceneError::Rendering { name: name.clone(), error: *error })?;
@@ -126,23 +127,9 @@ impl<'a> Made<'a> {
         let image = self.pictures.images[index].as_ref();
         let image = image.ok_or_else(|| CliError::File(format!("{name}: no picture")))?;
         let rendering = self.scene.rendered(&self.query.sources[index].rendering, name)?;
-        let shading = &self.query.shading;
-        let provenance = Provenance {
-            source: name,
-            balance: if rendering.is_rgb { white } else { "none" },
-            illuminant,
-            material: &self.scene.document.render.material,
-            garment: self.scene.document.render.worn(),
-            mesh: &self.setup.mesh_name,
-            quality: shading.quality,
-            lighting: shading.geometry.lighting,
-            viewpoint: self.setup.viewpoint,
-            surface: shading.surface,
-            reading: shading.reading,
-            sky: self.scene.document.render.sky,
-            thin: self.scene.document.render.thin,
-        };
-        Ok(Content::Exr { image, rendering: Box::new(rendering), provenance: Box::new(provenance) })
+        let subject = (&self.scene.document.render, self.setup.mesh_name.as_str());
+        let header = mesh_header(&rendering, name, conditions, subject, &self.query.shading);
+        Ok(Content::Exr { image, rendering: Box::new(rendering), header: Box::new(header) })
     }
 
     /// A line for each picture, and one for all.
@@ -196,14 +183,16 @@ impl<'a> Made<'a> {
 
 enum Content<'a> {
     Png(&'a Picture),
-    Exr { image: &'a CameraImage, rendering: Box<Rendering>, provenance: Box<Provenance<'a>> },
+    Exr { image: &'a CameraImage, rendering: Box<Rendering>, header: Box<LayerAttributes> },
 }
 
 impl Content<'_> {
     fn bytes(&self) -> Result<Vec<u8>, PictureError> {
         match self {
             Self::Png(picture) => png_bytes(picture),
-            Self::Exr { image, rendering, provenance } => exr_bytes(image, rendering, provenance),
+            Self::Exr { image, rendering, header } => {
+                exr_bytes(image.placed(), image.signals(), rendering, (**header).clone())
+            }
         }
     }
 }

@@ -19,7 +19,7 @@ use crate::cli::outputs::{self, show, write_to};
 use crate::cli::request::display_path;
 use crate::document::TransformChoice;
 use crate::document::render::RenderSettings;
-use crate::export::render::{ImageProvenance, image_exr_bytes, png_bytes};
+use crate::export::render::{exr_bytes, image_header, png_bytes};
 use crate::format::fixed;
 use crate::results::Results;
 use crate::scene::spectral_image::{ImagePictures, ImagePicturesError, ImageUse};
@@ -105,10 +105,8 @@ fn bytes(
     let written = if arguments.format == Format::Png {
         png_bytes(picture)
     } else {
-        let (illuminant, white) = (scene.light_name(), scene.document.white.name());
-        let balance = if rendering.is_rgb { white.as_str() } else { "none" };
-        let provenance = ImageProvenance { source: &source.name, balance, illuminant: &illuminant, image };
-        image_exr_bytes(made.placed(), made.signals(index).unwrap_or_default(), rendering, &provenance)
+        let header = image_header(rendering, &source.name, &[scene.light_name(), scene.document.white.name()], image);
+        exr_bytes(made.placed(), made.signals(index).unwrap_or_default(), rendering, header)
     };
     written.map_err(|error| CliError::Picture { path: PathBuf::from(image), error })
 }
