@@ -243,10 +243,6 @@ impl Pixel {
     pub const LARGEST: f64 = 1e9;
 
     /// The pixel as the core takes it.
-    ///
-    /// # Errors
-    ///
-    /// [`ElectronsError`] for numbers that describe no pixel.
     pub fn electrons(self) -> Result<Electrons, ElectronsError> {
         Electrons::new(self.full_well, self.read_noise)
     }

@@ -8,11 +8,9 @@
 
 mod executor;
 mod later;
-mod monitor;
 
-pub use executor::{Clock, Executor};
+pub use executor::{Clock, Executor, Monitor};
 pub use later::{Later, Waiting};
-pub use monitor::Monitor;
 
 use std::cell::Cell;
 use std::panic::{AssertUnwindSafe, catch_unwind};

@@ -113,34 +113,32 @@ pub enum Subject {
 impl Subject {
     pub const ALL: [Self; 2] = [Self::Integral, Self::Loci];
 
-    pub const fn title(self) -> &'static str {
+    const fn either(self, integral: &'static str, loci: &'static str) -> &'static str {
         match self {
-            Self::Integral => "Integral",
-            Self::Loci => "Loci",
+            Self::Integral => integral,
+            Self::Loci => loci,
         }
     }
 
+    pub const fn title(self) -> &'static str {
+        self.either("Integral", "Loci")
+    }
+
     pub const fn words(self) -> &'static str {
-        match self {
-            Self::Integral => "The diffuse spectral integral of the samples that the visible scene renders",
-            Self::Loci => "Planckian loci of the visible sensors",
-        }
+        self.either(
+            "The diffuse spectral integral of the samples that the visible scene renders",
+            "Planckian loci of the visible sensors",
+        )
     }
 
     /// Unit of work that a time refers to.
     pub const fn per(self) -> &'static str {
-        match self {
-            Self::Integral => "a sample through a sensor",
-            Self::Loci => "a temperature through a sensor",
-        }
+        self.either("a sample through a sensor", "a temperature through a sensor")
     }
 
     /// Quantity that an error is relative to.
     pub const fn error_of(self) -> &'static str {
-        match self {
-            Self::Integral => "of the peak J(κ, 0)",
-            Self::Loci => "of the largest signal",
-        }
+        self.either("of the peak J(κ, 0)", "of the largest signal")
     }
 }
 

@@ -2,7 +2,6 @@
 //!
 //! Used by panes, exports and the command line alike, so that they cannot disagree.
 
-pub mod channel_ratio;
 pub mod conditions;
 pub mod correction;
 pub mod light;
@@ -86,9 +85,7 @@ pub struct ComparedSensor {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Caution {
     /// The reference is an XYZ observer while Eq 13 takes RGB: no camera can be compared with it.
-    NotComparable {
-        reference: String,
-    },
+    NotComparable { reference: String },
     /// Cameras are fitted to another observer than they are compared with.
     FitDiffers {
         target: String,

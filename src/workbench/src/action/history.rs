@@ -51,12 +51,7 @@ impl History {
 
     /// Carries out an action. A change that changes nothing is no step.
     pub fn apply(&mut self, action: &Action) {
-        let before = self.document.clone();
-        action.apply(&mut self.document);
-        if before == self.document {
-            return;
-        }
-        self.redo.clear();
+        let Some(before) = self.change(action) else { return };
         let continues = self.gesture
             && self
                 .undo
@@ -72,6 +67,17 @@ impl History {
             self.push(Step { name: action.name(), document: before, action: kept, begins: false, reloads: false });
         }
         self.gesture = true;
+    }
+
+    /// The document before a change; none for one that changes nothing.
+    fn change(&mut self, action: &Action) -> Option<Document> {
+        let before = self.document.clone();
+        action.apply(&mut self.document);
+        let has_changed = before != self.document;
+        if has_changed {
+            self.redo.clear();
+        }
+        has_changed.then_some(before)
     }
 
     fn push(&mut self, step: Step) {
@@ -100,12 +106,7 @@ impl History {
 
     /// Carries out a reload of changed files: one undo reverts successive ones.
     pub fn reload(&mut self, action: &Action) {
-        let before = self.document.clone();
-        action.apply(&mut self.document);
-        if before == self.document {
-            return;
-        }
-        self.redo.clear();
+        let Some(before) = self.change(action) else { return };
         let name = action.name();
         match self.undo.back_mut().filter(|step| step.reloads) {
             Some(step) if step.name == name => {}

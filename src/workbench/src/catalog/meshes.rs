@@ -42,7 +42,37 @@ impl FromFile for LoadedMesh {
         unless: Option<Stamp>,
         stop: &dyn Fn() -> bool,
     ) -> Result<Option<(Self, Stamp)>, MeshFailure> {
-        read_unless(path, unless, stop)
+        let file = file_name(path);
+        let failed = |error: io::Error| match error.kind() {
+            io::ErrorKind::NotFound => {
+                let folder = path.parent().map_or_else(String::new, |folder| folder.display().to_string());
+                MeshFailure::Missing { file: file.clone(), folder }
+            }
+            _ => MeshFailure::Io { file: file.clone(), error },
+        };
+        // Opening a pipe would block until another process writes into it.
+        if !std::fs::metadata(path).map_err(failed)?.is_file() {
+            return Err(MeshFailure::NoFile(file));
+        }
+        let source = File::open(path).map_err(failed)?;
+        let known = source.metadata().map_err(failed)?;
+        let stamp = Stamp::of(&known);
+        if unless == Some(stamp) {
+            return Ok(None);
+        }
+        if stamp.bytes() > MAX_FILE_BYTES {
+            return Err(MeshFailure::TooLarge { file, bytes: stamp.bytes() });
+        }
+        let bytes = contents(source, stamp.bytes(), stop).map_err(|error| match error.kind() {
+            io::ErrorKind::OutOfMemory => MeshFailure::NoMemory { file: file.clone(), bytes: stamp.bytes() },
+            io::ErrorKind::Interrupted => MeshFailure::Stopped(file.clone()),
+            _ => failed(error),
+        })?;
+        match read_mesh(&bytes, path.extension().and_then(OsStr::to_str), stop) {
+            Ok(mesh) => Ok(Some((loaded(&file, mesh), stamp))),
+            Err(MeshReadError::Stopped) => Err(MeshFailure::Stopped(file)),
+            Err(error) => Err(MeshFailure::Mesh { file, error }),
+        }
     }
 
     fn bytes(&self) -> usize {
@@ -68,10 +98,7 @@ impl MeshStore {
 #[derive(Debug, thiserror::Error)]
 pub enum MeshFailure {
     #[error("{file} is not in {folder}")]
-    Missing {
-        file: String,
-        folder: String,
-    },
+    Missing { file: String, folder: String },
     #[error("{file}: {}", io_reason(.error))]
     Io { file: String, error: io::Error },
     #[error("{0} is not a file")]
@@ -85,10 +112,7 @@ pub enum MeshFailure {
     #[error("{file}: not enough memory for its {} MB; close other programs or simplify the mesh", .bytes / 1_000_000)]
     NoMemory { file: String, bytes: u64 },
     #[error("{file}{}{error}", joint(.error))]
-    Mesh {
-        file: String,
-        error: MeshReadError,
-    },
+    Mesh { file: String, error: MeshReadError },
     #[error("{0} could not be read because of an error in this program; please report it with the file")]
     Broken(String),
     #[error("reading {0} stopped")]
@@ -151,46 +175,9 @@ fn joint(error: &MeshReadError) -> &'static str {
 /// Reads a mesh file. `stop` is polled, and ends the reading with [`MeshFailure::Stopped`].
 pub fn read(path: &Path, stop: &dyn Fn() -> bool) -> Result<LoadedMesh, MeshFailure> {
     // Nothing to compare with, so there is always something.
-    read_unless(path, None, stop)?.map(|(mesh, _)| mesh).ok_or_else(|| MeshFailure::Stopped(file_name(path)))
-}
-
-/// Reads a file unless its stamp is still this one.
-fn read_unless(
-    path: &Path,
-    unless: Option<Stamp>,
-    stop: &dyn Fn() -> bool,
-) -> Result<Option<(LoadedMesh, Stamp)>, MeshFailure> {
-    let file = file_name(path);
-    let failed = |error: io::Error| match error.kind() {
-        io::ErrorKind::NotFound => {
-            let folder = path.parent().map_or_else(String::new, |folder| folder.display().to_string());
-            MeshFailure::Missing { file: file.clone(), folder }
-        }
-        _ => MeshFailure::Io { file: file.clone(), error },
-    };
-    // Opening a pipe would block until another process writes into it.
-    if !std::fs::metadata(path).map_err(failed)?.is_file() {
-        return Err(MeshFailure::NoFile(file));
-    }
-    let source = File::open(path).map_err(failed)?;
-    let known = source.metadata().map_err(failed)?;
-    let stamp = Stamp::of(&known);
-    if unless == Some(stamp) {
-        return Ok(None);
-    }
-    if stamp.bytes() > MAX_FILE_BYTES {
-        return Err(MeshFailure::TooLarge { file, bytes: stamp.bytes() });
-    }
-    let bytes = contents(source, stamp.bytes(), stop).map_err(|error| match error.kind() {
-        io::ErrorKind::OutOfMemory => MeshFailure::NoMemory { file: file.clone(), bytes: stamp.bytes() },
-        io::ErrorKind::Interrupted => MeshFailure::Stopped(file.clone()),
-        _ => failed(error),
-    })?;
-    match read_mesh(&bytes, path.extension().and_then(OsStr::to_str), stop) {
-        Ok(mesh) => Ok(Some((loaded(&file, mesh), stamp))),
-        Err(MeshReadError::Stopped) => Err(MeshFailure::Stopped(file)),
-        Err(error) => Err(MeshFailure::Mesh { file, error }),
-    }
+    LoadedMesh::read_unless(path, None, stop)?
+        .map(|(mesh, _)| mesh)
+        .ok_or_else(|| MeshFailure::Stopped(file_name(path)))
 }
 
 /// The bytes of a file, in pieces, for a disk can be slow.

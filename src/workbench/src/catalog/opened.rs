@@ -64,11 +64,7 @@ pub enum OpenedEvent {
         ticket: u64,
     },
     /// New contents of a file that could not be read before.
-    Replaced {
-        old: Fingerprint,
-        new: Fingerprint,
-        path: PathBuf,
-    },
+    Replaced { old: Fingerprint, new: Fingerprint, path: PathBuf },
     /// A mesh is to be opened, which is not read yet.
     Mesh(PathBuf),
     /// A spectral image is to be opened, which is not read yet.

@@ -194,10 +194,6 @@ pub(super) struct PixelArguments {
 
 impl PixelArguments {
     /// The pixel, if its full well is named.
-    ///
-    /// # Errors
-    ///
-    /// [`CliError::Argument`] for numbers that describe no pixel.
     pub(super) fn pixel(self) -> Result<Option<Pixel>, CliError> {
         let pixel = self.full_well.map(|full_well| Pixel { full_well, read_noise: self.read_noise });
         let valid = pixel.map_or(Ok(()), |pixel| pixel.electrons().map(drop));

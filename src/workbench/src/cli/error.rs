@@ -21,10 +21,7 @@ pub(super) enum CliError {
     #[error("{0}: Eq 13 takes RGB, not cone signals; add --transform fitted")]
     Cones(String),
     #[error("{argument}: {reason}")]
-    Argument {
-        argument: &'static str,
-        reason: String,
-    },
+    Argument { argument: &'static str, reason: String },
     #[error(transparent)]
     Correction(#[from] crate::export::profile::CorrectionFileError),
     #[error("{}: {error}", path.display())]

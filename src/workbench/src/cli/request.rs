@@ -234,7 +234,7 @@ impl Request {
     /// The name of an illuminant, of the file of one, or of a formula with its temperature.
     pub(super) fn light_named(&mut self, argument: &'static str, given: &OsStr) -> Result<String, CliError> {
         match radiator(argument, &given.to_string_lossy())? {
-            Some((light, kelvin)) => Ok(format!("{} {kelvin} K", light.name())),
+            Some((light, kelvin)) => Ok(format!("{light} {kelvin} K")),
             None => self.set_or_file(argument, &[SetKind::Illuminant], Role::Illuminant, given),
         }
     }
@@ -253,7 +253,7 @@ impl Request {
 
     pub(super) fn set_light(&mut self, given: &OsStr) -> Result<(), CliError> {
         if let Some((light, kelvin)) = radiator("--illuminant", &given.to_string_lossy())? {
-            self.document.light = if light == Radiator::Daylight { Light::Daylight } else { Light::BlackBody };
+            self.document.light = if light == "daylight" { Light::Daylight } else { Light::BlackBody };
             self.document.temperature_k = kelvin;
             return Ok(());
         }
@@ -326,8 +326,8 @@ impl Request {
 
     pub(super) fn set_white(&mut self, white: &str) -> Result<(), CliError> {
         self.document.white = match radiator("--white-balance", white)? {
-            Some((Radiator::Daylight, kelvin)) => WhiteBalanceChoice::Daylight(kelvin),
-            Some((Radiator::BlackBody, kelvin)) => WhiteBalanceChoice::BlackBody(kelvin),
+            Some(("daylight", kelvin)) => WhiteBalanceChoice::Daylight(kelvin),
+            Some((_, kelvin)) => WhiteBalanceChoice::BlackBody(kelvin),
             None if white.trim().eq_ignore_ascii_case("unity") => WhiteBalanceChoice::Unity,
             None => WhiteBalanceChoice::Light(self.illuminant("--white-balance", white)?),
         };
@@ -464,27 +464,12 @@ fn is_shells(_: &Path, _: &fs::Metadata) -> bool {
     false
 }
 
-/// A light that is a formula of temperature.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Radiator {
-    Daylight,
-    BlackBody,
-}
-
-impl Radiator {
-    const fn name(self) -> &'static str {
-        match self {
-            Self::Daylight => "daylight",
-            Self::BlackBody => "blackbody",
-        }
-    }
-}
-
-fn radiator(argument: &'static str, text: &str) -> Result<Option<(Radiator, f64)>, CliError> {
+/// The name of a formula for light and its temperature in kelvins, as `daylight:6504`.
+fn radiator(argument: &'static str, text: &str) -> Result<Option<(&'static str, f64)>, CliError> {
     let Some((name, kelvin)) = text.split_once(':') else { return Ok(None) };
     let radiator = match name.trim().to_ascii_lowercase().as_str() {
-        "daylight" => Radiator::Daylight,
-        "blackbody" | "black-body" => Radiator::BlackBody,
+        "daylight" => "daylight",
+        "blackbody" | "black-body" => "blackbody",
         _ => return Ok(None),
     };
     let number = kelvin.trim().trim_end_matches(['K', 'k']).trim();

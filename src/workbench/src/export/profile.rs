@@ -1,7 +1,5 @@
 //! Color corrections out of the program: text, DNG values, DCP, ICC, CLF.
 
-mod form;
-mod model;
 mod query;
 
 use std::fmt::Write as _;
@@ -22,12 +20,54 @@ use chromascope_profile::dcp::{Calibration, CalibrationIlluminant, Dcp};
 use chromascope_profile::icc::{D50, IccProfile, IccVersion};
 use chromascope_profile::{Matrix, ProfileError};
 
-pub use form::CorrectionForm;
-pub use model::unique_camera_model;
-pub use query::{CorrectionFileQuery, CorrectionRequest};
+pub use query::{CorrectionFileQuery, CorrectionRequest, unique_camera_model};
 
 use crate::format::slug;
 use crate::scene::correction::exif_light;
+
+/// A file that a correction is saved as.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CorrectionForm {
+    Dcp,
+    Icc(IccVersion),
+    Clf,
+    Dng,
+    Text,
+}
+
+impl CorrectionForm {
+    /// All forms, in the order of their buttons.
+    pub const ALL: [Self; 6] =
+        [Self::Dcp, Self::Icc(IccVersion::V4), Self::Icc(IccVersion::V2), Self::Clf, Self::Dng, Self::Text];
+
+    /// Ending of such files; what stands before it, so that no two forms of a correction share a name; label of the button; and what
+    /// it saves.
+    const fn all_words(self) -> [&'static str; 4] {
+        match self {
+            Self::Dcp => ["dcp", "", "DCP…", "DNG camera profile for raw developers: matrices of one light or two"],
+            Self::Icc(IccVersion::V4) => {
+                ["icc", "", "ICC v4…", "ICC matrix profile, version 4, for linear RGB balanced for the light"]
+            }
+            Self::Icc(IccVersion::V2) => {
+                let why = "ICC matrix profile, version 2, for programs that read no version 4, as ArgyllCMS";
+                ["icc", "-v2", "ICC v2…", why]
+            }
+            Self::Clf => ["clf", "", "ACES CLF…", "ACES input transform as rawtoaces defines it, in Common LUT Format"],
+            Self::Dng => ["txt", "-dng", "DNG text…", "DNG's matrices and AsShotNeutral as lines of text"],
+            Self::Text => ["txt", "", "Text…", "All matrices and errors as text"],
+        }
+    }
+
+    pub const fn ending(self) -> &'static str {
+        self.all_words()[0]
+    }
+
+    /// Label of the button, and the object it saves.
+    pub const fn words(self) -> (&'static str, &'static str) {
+        let [.., label, why] = self.all_words();
+        (label, why)
+    }
+}
 
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum CorrectionFileError {
@@ -338,7 +378,8 @@ pub fn check_lines(check: &StimulusCheck, metric: &str) -> [String; 2] {
 
 pub fn file_name(file: &CorrectionFile, form: CorrectionForm) -> String {
     let (camera, lights) = (slug(&file.camera), slug(&file.lights.join(" ")));
-    format!("{camera}-{lights}{}.{}", form.suffix(), form.ending())
+    let [ending, suffix, ..] = form.all_words();
+    format!("{camera}-{lights}{suffix}.{ending}")
 }
 
 fn polynomial_table(polynomial: &RootPolynomial) -> String {

@@ -67,14 +67,6 @@ pub struct SpectraFile {
     pub notes: Vec<Note>,
 }
 
-/// Curves, what they are, and what is known about them.
-struct Facts<'a> {
-    title: &'a str,
-    content: Content<'a>,
-    unit: Option<String>,
-    comments: Vec<(String, String)>,
-}
-
 /// True if a format suits such a set, by its kind and its number of curves.
 pub fn fits(entry: &Entry, form: Form) -> Result<(), WriteError> {
     let count = match &entry.place {
@@ -94,8 +86,13 @@ pub fn file(entry: &Entry, form: Form, ask: &impl Ask) -> Result<SpectraFile, Sp
         .iter()
         .map(|(name, curve)| Trace { name, wavelengths_nm: curve.wavelengths_nm(), values: curve.values() })
         .collect();
-    let Facts { title, content, unit, comments } = facts(entry);
-    let sheet = Sheet { title, content, curves: &traces, unit: unit.as_deref(), created: None, comments: &comments };
+    let (unit, comments) = match (&entry.header, &entry.place) {
+        (Some(header), _) => (Some(header.unit.clone()), header_comments(entry.kind, header)),
+        (None, Place::Own(set)) => (own_unit(set), own_comments(set)),
+        (None, Place::BuiltIn { .. }) => (None, Vec::new()),
+    };
+    let (title, content, unit) = (entry.name.as_str(), content(entry), unit.as_deref());
+    let sheet = Sheet { title, content, curves: &traces, unit, created: None, comments: &comments };
     let written = write(&sheet, form.format, form.grid)?;
     let name = fitting(&file_name(&entry.name), &format!(".{}", form.format.ending()));
     Ok(SpectraFile { name, text: written.text, notes: written.notes })
@@ -160,15 +157,6 @@ fn content(entry: &Entry) -> Content<'_> {
     }
 }
 
-fn facts(entry: &Entry) -> Facts<'_> {
-    let (unit, comments) = match (&entry.header, &entry.place) {
-        (Some(header), _) => (Some(header.unit.clone()), header_comments(entry.kind, header)),
-        (None, Place::Own(set)) => (own_unit(set), own_comments(set)),
-        (None, Place::BuiltIn { .. }) => (None, Vec::new()),
-    };
-    Facts { title: &entry.name, content: content(entry), unit, comments }
-}
-
 fn header_comments(kind: SetKind, header: &Header) -> Vec<(String, String)> {
     let mut comments =
         vec![("source".to_owned(), header.source.clone()), ("license".to_owned(), header.license.clone())];
@@ -200,26 +188,10 @@ fn own_unit(set: &ImportedSet) -> Option<String> {
 /// Maker and model of a camera, where its name begins with a maker. A final parenthesis distinguishes measurements, not
 /// cameras.
 fn maker_and_model(name: &str) -> (Option<&str>, Option<&str>) {
-    const MAKERS: [&str; 16] = [
-        "ARRI",
-        "Blackmagic",
-        "Canon",
-        "DJI",
-        "Fujifilm",
-        "Hasselblad",
-        "Kodak",
-        "Leica",
-        "Nikon",
-        "Olympus",
-        "Panasonic",
-        "Pentax",
-        "Phase One",
-        "RED",
-        "Sigma",
-        "Sony",
-    ];
+    const MAKERS: &str = "ARRI,Blackmagic,Canon,DJI,Fujifilm,Hasselblad,Kodak,Leica,Nikon,Olympus,Panasonic,Pentax,Phase One,RED,\
+                          Sigma,Sony";
     let name = model_of(name).trim();
-    let found = MAKERS.iter().find_map(|maker| {
+    let found = MAKERS.split(',').find_map(|maker| {
         let (start, rest) = name.split_at_checked(maker.len())?;
         (start.eq_ignore_ascii_case(maker) && rest.starts_with(' ')).then(|| (start, rest.trim()))
     });

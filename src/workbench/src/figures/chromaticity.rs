@@ -1,13 +1,10 @@
 //! The diagram: loci with temperature ticks, patches with tails to the reference's points, and what surrounds them.
 
 mod drawing;
-mod edges;
 mod fit;
-mod frame;
 mod ground;
 mod labels;
 mod loci;
-mod pixel;
 mod points;
 pub mod shown;
 mod whites;
@@ -28,9 +25,8 @@ use super::look::FigureLook;
 use crate::document::{Diagram, SetKind, TransformChoice};
 use crate::plot_item::PickIndex;
 use crate::scene::{ComparedSensor, Scene};
-use drawing::Drawing;
 pub use drawing::id;
-use frame::Frame;
+use drawing::{Drawing, Frame};
 use shown::{DiagramFit, Ranges};
 
 pub use fit::{fit_key, fitted};
@@ -67,7 +63,7 @@ pub fn build(scene: &Scene<'_>, look: &FigureLook, size: [f64; 2]) -> Built {
     let drawn = look.diagram.zoomed.map_or(frame, |ranges| Frame { ranges, ..frame });
     let mut drawing = draw(scene, look, drawn, place.is_some());
     if look.diagram.zoomed.is_none() {
-        edges::add(&mut drawing);
+        points::add_arrows(&mut drawing);
     }
     let lens = place.map(|area| {
         let frame = Frame::around(held.data, [area.width(), area.height()]);
@@ -101,7 +97,7 @@ fn draw<'a>(scene: &'a Scene<'a>, look: &'a FigureLook, frame: Frame, sketch: bo
         points::add(&mut drawing, &sources);
     }
     if let Some(pictures) = look.pictures.as_deref().filter(|_| !sketch) {
-        pixel::add(&mut drawing, pictures, &sources);
+        points::add_pixel(&mut drawing, pictures, &sources);
     }
     drawing
 }

@@ -15,7 +15,7 @@ use chromascope_core::units::Kelvin;
 use chromascope_text::choices;
 use serde::{Deserialize, Serialize};
 
-use super::channel_ratio::ChannelRatioQuery;
+use super::correction::ChannelRatioQuery;
 use super::{Scene, SceneError};
 use crate::catalog::load::{CurveSpreadQuery, LightQuery, LoadError, PatchesQuery, SensorQuery, response_evidence};
 use crate::catalog::{Entry, Place};

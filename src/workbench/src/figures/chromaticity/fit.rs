@@ -1,7 +1,6 @@
 //! The part of the diagram that is fitted into its pane.
 
-use super::drawing::id;
-use super::frame::{LEAST, place};
+use super::drawing::{LEAST, id, place};
 use super::shown::{DiagramFit, Fit, FitKey};
 use crate::document::{Diagram, SetKind};
 use crate::scene::{ComparedSensor, Scene};
