@@ -90,8 +90,8 @@ impl Entry {
 
     /// Words that find it beside its name: short name, gloss and kind.
     pub fn gloss(&self) -> String {
-        let kind = if self.kind == SetKind::Illuminant { "CIE light illuminant" } else { self.kind.singular() };
-        format!("{} {} {kind} {}", self.short, self.also.as_deref().unwrap_or_default(), self.kind.plural())
+        let kind = if self.kind == SetKind::Illuminant { "CIE light illuminant" } else { self.kind.label() };
+        format!("{} {} {kind} {}", self.short, self.also.as_deref().unwrap_or_default(), self.kind.key())
     }
 
     pub fn from_own(set: &Shared<ImportedSet>) -> Self {
@@ -123,8 +123,8 @@ impl Catalog {
     pub fn built_in_with(further: &[BuiltInFile]) -> Self {
         let mut entries = Vec::new();
         for kind in SetKind::ALL {
-            let built_in = chromascope_data::files(kind.plural()).map(|(path, text)| BuiltInFile { path, text });
-            let is_of_kind = |file: &BuiltInFile| file.path.split('/').next() == Some(kind.plural());
+            let built_in = chromascope_data::files(kind.key()).map(|(path, text)| BuiltInFile { path, text });
+            let is_of_kind = |file: &BuiltInFile| file.path.split('/').next() == Some(kind.key());
             for file in built_in.chain(further.iter().copied().filter(is_of_kind)) {
                 if let Ok(header) = Dataset::read_header(file.text) {
                     add_entries(&mut entries, kind, file, &header);

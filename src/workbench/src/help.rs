@@ -110,7 +110,7 @@ fn data_sets(catalog: &Catalog) -> Vec<Block> {
         let headers = catalog.of_kind(kind).filter_map(|entry| entry.header.as_ref());
         let new: Vec<_> = headers.filter(|header| listed.insert((kind, header.title.clone()))).collect();
         if !new.is_empty() {
-            blocks.push(heading(2, &crate::format::capitalized(kind.plural())));
+            blocks.push(heading(2, &crate::format::capitalized(kind.key())));
         }
         for header in new {
             blocks.push(heading(3, &header.title));

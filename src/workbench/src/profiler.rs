@@ -66,13 +66,8 @@ impl SceneRunJob {
         let settings = &scene.document.render;
         let orbit = orbit.unwrap_or_else(|| Orbit::of(&settings.mesh));
         let viewpoint = orbit.viewpoint(f64::from(WIDTH) / f64::from(HEIGHT))?;
-        let finish = Finish {
-            size: RasterSize { width: WIDTH, height: HEIGHT, samples: 1 }.clamped(),
-            quality,
-            shadows: Shadows::Full,
-            compared_samples: None,
-            open_sky: false,
-        };
+        let size = RasterSize { width: WIDTH, height: HEIGHT, samples: 1 }.clamped();
+        let finish = Finish { shadows: Shadows::Full, compared_samples: None, ..Finish::whole(size, quality) };
         if sources.is_empty() {
             return None;
         }

@@ -46,7 +46,7 @@ pub const LOCUS_POINTS: usize = 200;
 
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum SceneError {
-    #[error("no {kind} is named \"{name}\" here; open its file, or choose another", kind = kind.singular())]
+    #[error("no {kind} is named \"{name}\" here; open its file, or choose another", kind = kind.label())]
     NoSet { kind: SetKind, name: String },
     #[error("{name}: {error}")]
     Load { name: String, error: LoadError },

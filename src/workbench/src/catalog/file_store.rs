@@ -35,7 +35,7 @@ impl Stamp {
 }
 
 pub trait FromFile: Sized + Send + Sync + 'static {
-    type Failure: FileFailure;
+    type Failure: std::fmt::Display + Send + From<Unread>;
     /// State of a file by which it is known to have changed.
     type Version: Copy + Send + 'static;
     const THREAD: &'static str;
@@ -50,6 +50,16 @@ pub trait FromFile: Sized + Send + Sync + 'static {
     fn bytes(&self) -> usize;
 
     fn summary(&self) -> &str;
+
+    /// Message for the user who opened the file.
+    fn on_opening(failure: &Self::Failure) -> String {
+        failure.to_string()
+    }
+
+    /// Message for a picture that needs the file.
+    fn picture_message(failure: &Self::Failure) -> String {
+        failure.to_string()
+    }
 }
 
 /// Reason that a file was not read to its end, whatever it holds.
@@ -61,13 +71,6 @@ pub enum Unread {
     Broken(String),
     #[error("Reading {0} stopped")]
     Stopped(String),
-}
-
-/// Reason that a file gives no content, in sentences.
-pub trait FileFailure: std::fmt::Display + Send + From<Unread> {
-    fn on_opening(&self) -> String;
-    /// Message for a picture that needs the file.
-    fn picture_message(&self) -> String;
 }
 
 #[derive(Debug)]
@@ -246,8 +249,8 @@ impl<T: FromFile> State<T> {
             Ok(None) => {}
             Err(failure) => {
                 log::warn!("{failure}");
-                known.failure = Some(failure.picture_message());
-                sentence = Some(failure.on_opening());
+                known.failure = Some(T::picture_message(&failure));
+                sentence = Some(T::on_opening(&failure));
             }
         }
         if self.opening.as_deref() != Some(path) {
@@ -266,7 +269,7 @@ impl<T: FromFile> State<T> {
         let path = self.opening.take()?;
         let known = self.known_at(&path);
         known.stop();
-        known.failure = Some(T::Failure::from(Unread::Stopped(file_name(&path))).picture_message());
+        known.failure = Some(T::picture_message(&Unread::Stopped(file_name(&path)).into()));
         Some(path)
     }
 }

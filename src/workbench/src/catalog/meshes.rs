@@ -9,7 +9,7 @@ use chromascope_core::query::Shared;
 use chromascope_mesh::Mesh;
 use chromascope_mesh::reading::{MeshReadError, Note, ReadMesh, read_mesh};
 
-use super::file_store::{FileFailure, FileState, FileStore, FromFile, Stamp, Unread};
+use super::file_store::{FileState, FileStore, FromFile, Stamp, Unread};
 use crate::document::render::MeshChoice;
 use crate::format::{capitalized, file_name, io_reason};
 
@@ -82,6 +82,19 @@ impl FromFile for LoadedMesh {
     fn summary(&self) -> &str {
         &self.summary
     }
+
+    fn on_opening(failure: &MeshFailure) -> String {
+        format!("{}. Nothing was changed.", failure.beginning())
+    }
+
+    fn picture_message(failure: &MeshFailure) -> String {
+        let remedy = match failure {
+            MeshFailure::Missing { .. } => "; open it from where it is now, or choose Head or Fern.",
+            MeshFailure::Io { .. } | MeshFailure::Stopped(..) => "; open it again, or choose Head or Fern.",
+            _ => ". Open another mesh, or choose Head or Fern.",
+        };
+        failure.beginning() + remedy
+    }
 }
 
 impl MeshStore {
@@ -126,21 +139,6 @@ impl From<Unread> for MeshFailure {
             Unread::Broken(file) => Self::Broken(file),
             Unread::Stopped(file) => Self::Stopped(file),
         }
-    }
-}
-
-impl FileFailure for MeshFailure {
-    fn on_opening(&self) -> String {
-        format!("{}. Nothing was changed.", self.beginning())
-    }
-
-    fn picture_message(&self) -> String {
-        let remedy = match self {
-            Self::Missing { .. } => "; open it from where it is now, or choose Head or Fern.",
-            Self::Io { .. } | Self::Stopped(..) => "; open it again, or choose Head or Fern.",
-            _ => ". Open another mesh, or choose Head or Fern.",
-        };
-        self.beginning() + remedy
     }
 }
 

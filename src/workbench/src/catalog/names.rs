@@ -138,7 +138,6 @@ pub fn ranked<T, G: PartialEq>(
     groups
 }
 
-/// What lists say to a search for a phone.
 pub const NO_PHONES: &str = "No phone is among the built-in cameras";
 
 pub fn is_for_phone(text: &str) -> bool {
@@ -147,7 +146,6 @@ pub fn is_for_phone(text: &str) -> bool {
     typed_words(text).iter().any(is_phone)
 }
 
-/// What a list says that has nothing for a search.
 pub fn no_match(text: &str) -> String {
     let phones = format!("No match. {NO_PHONES}. Open a table of your own (Ctrl+O): wavelength, R, G, B.");
     if is_for_phone(text) { phones } else { "No match.".to_owned() }
@@ -164,10 +162,6 @@ pub struct Found<'a> {
 }
 
 impl<'a> Found<'a> {
-    fn exact(entry: &'a Entry) -> Self {
-        Self { entry, exact: true, others: Vec::new() }
-    }
-
     fn near(entry: &'a Entry) -> Self {
         Self { entry, exact: false, others: Vec::new() }
     }
@@ -226,7 +220,7 @@ pub fn find<'a>(
     if let Some(entry) = exact(&entries, &folded(name), &wanted) {
         // A short name is not listed, and may omit the words that distinguish two sets.
         let is_short = folded(&entry.name) != folded(name) && telling_words(&entry.name).concat() != wanted;
-        return Ok(if is_short { Found::near(entry) } else { Found::exact(entry) });
+        return Ok(Found { exact: !is_short, ..Found::near(entry) });
     }
     let all_in = |text: &str| {
         let words = words(text);

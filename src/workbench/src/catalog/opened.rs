@@ -112,6 +112,7 @@ struct State {
     lost: Vec<Fingerprint>,
 }
 
+#[derive(Default)]
 struct Job {
     name: Mutex<String>,
     share: AtomicU32,
@@ -273,7 +274,8 @@ impl Opened {
     }
 
     fn begin(&self, work: impl FnOnce(&Monitor, &Job) + Send + 'static) {
-        let job = Arc::new(Job::new(self.monitor.clock().now()));
+        let (begun, place) = (self.monitor.clock().now(), [1, 1].map(AtomicU32::new));
+        let job = Arc::new(Job { begun, place, ..Job::default() });
         self.monitor.lock().running.push(Arc::clone(&job));
         let monitor = Arc::clone(&self.monitor);
         let theirs = Arc::clone(&job);
@@ -324,16 +326,6 @@ impl State {
 }
 
 impl Job {
-    fn new(begun: Duration) -> Self {
-        Self {
-            name: Mutex::default(),
-            share: AtomicU32::new(0),
-            place: [AtomicU32::new(1), AtomicU32::new(1)],
-            stop: AtomicBool::new(false),
-            begun,
-        }
-    }
-
     /// Records the progress: file number `file` of `count`.
     fn at(&self, path: &Path, file: usize, count: usize) {
         *self.name.lock().unwrap_or_else(PoisonError::into_inner) = file_name(path);

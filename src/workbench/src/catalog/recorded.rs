@@ -118,7 +118,6 @@ fn number(cell: &str, delimiter: char) -> Option<f64> {
     cell.parse::<f64>().ok().filter(|value| value.is_finite())
 }
 
-/// Place of the three channels among the heads.
 fn channels(heads: &[String]) -> Option<[usize; 3]> {
     let at = |names: [&str; 3]| heads.iter().position(|head| names.contains(&folded(head).as_str()));
     Some([at(["r", "red", "rawr"])?, at(["g", "green", "rawg"])?, at(["b", "blue", "rawb"])?])

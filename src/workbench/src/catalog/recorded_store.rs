@@ -11,7 +11,7 @@ use chromascope_figure::Image;
 use spectral_file::{Certainty, ReadOptions, Role};
 
 use super::chart_picture::ChartPicture;
-use super::file_store::{FileFailure, FileStore, FromFile, Unread};
+use super::file_store::{FileStore, FromFile, Unread};
 use super::recorded::{self, Levels, RawRow};
 use crate::format::{file_name, io_reason};
 
@@ -72,16 +72,6 @@ pub struct RecordedFailure(String);
 impl From<Unread> for RecordedFailure {
     fn from(why: Unread) -> Self {
         Self(why.to_string())
-    }
-}
-
-impl FileFailure for RecordedFailure {
-    fn on_opening(&self) -> String {
-        self.0.clone()
-    }
-
-    fn picture_message(&self) -> String {
-        self.0.clone()
     }
 }
 

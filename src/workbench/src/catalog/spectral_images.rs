@@ -10,7 +10,7 @@ use std::sync::atomic::{AtomicU32, Ordering};
 use chromascope_core::render::{BandWeights, LitSamples, SpectralImageError, SpectralImageSignals, Stop};
 use spectral_image::{EnviHeader, EnviImage, ExrImage, ImageError, ImageInfo, ImageQuantity, SpectralImage};
 
-use super::file_store::{FileFailure, FileState, FileStore, FromFile, Stamp, Unread};
+use super::file_store::{FileState, FileStore, FromFile, Stamp, Unread};
 use crate::document::render::MeshChoice;
 use crate::format::{file_name, io_reason};
 
@@ -236,6 +236,14 @@ impl FromFile for LoadedImage {
     fn summary(&self) -> &str {
         &self.summary
     }
+
+    fn on_opening(failure: &ImageFailure) -> String {
+        format!("{failure}. Nothing was changed.")
+    }
+
+    fn picture_message(failure: &ImageFailure) -> String {
+        format!("{failure}. Open it from where it is now, or choose a mesh.")
+    }
 }
 
 /// Reason that a spectral image cannot be shown, as the beginning of a sentence.
@@ -260,16 +268,6 @@ impl ImageFailure {
 impl From<Unread> for ImageFailure {
     fn from(why: Unread) -> Self {
         Self(why.to_string())
-    }
-}
-
-impl FileFailure for ImageFailure {
-    fn on_opening(&self) -> String {
-        format!("{self}. Nothing was changed.")
-    }
-
-    fn picture_message(&self) -> String {
-        format!("{self}. Open it from where it is now, or choose a mesh.")
     }
 }
 

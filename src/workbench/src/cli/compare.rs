@@ -323,7 +323,7 @@ fn json(comparison: &Comparison) -> String {
             row.all.metrics.worst.iter().take(1).flatten().filter_map(|&patch| comparison.patches.get(patch)).collect();
         json!({
             "name": row.name,
-            "kind": row.kind.singular(),
+            "kind": row.kind.label(),
             "values": values.collect::<Map<String, Value>>(),
             "worst_patches": worst,
         })

@@ -324,7 +324,6 @@ struct Ranked<'a> {
 }
 
 impl Ranked<'_> {
-    /// The patch with the largest residuals.
     fn worst(&self) -> Option<(&str, f64)> {
         self.fit.worst_patches().first().map(|(patch, rms)| (self.patches[*patch].as_str(), *rms))
     }

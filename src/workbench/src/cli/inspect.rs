@@ -322,7 +322,6 @@ fn respond(table: &mut SpectralFile, per_photon: bool) -> Result<(), Failure> {
     Ok(())
 }
 
-/// The name that means no file.
 const STANDARD_INPUT: &str = "-";
 
 fn contents(file: &Path) -> io::Result<Vec<u8>> {

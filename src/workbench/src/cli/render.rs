@@ -169,7 +169,6 @@ impl<'a> Made<'a> {
         Some(planned.explanation.map_or_else(|| bounds.clone(), |explanation| format!("{explanation}; {bounds}")))
     }
 
-    /// Difference of a picture from the reference, in words.
     fn difference(&self, index: usize) -> String {
         match (&self.pictures.differences[index], self.not_comparable[index]) {
             _ if self.sources[index].is_reference => "the reference".to_owned(),

@@ -359,7 +359,7 @@ impl Request {
     /// The catalog's name for the typed one; a difference is reported.
     fn name(&self, argument: &str, kinds: &[SetKind], typed: &str) -> Result<String, CliError> {
         let sets = kinds.iter().flat_map(|kind| self.catalog.of_kind(*kind));
-        let found = find(sets, kinds.first().map_or("", |kind| kind.singular()), typed)?;
+        let found = find(sets, kinds.first().map_or("", |kind| kind.label()), typed)?;
         tell(argument, typed, &found);
         Ok(found.entry.name.clone())
     }
@@ -381,7 +381,6 @@ impl Request {
         Ok(set)
     }
 
-    /// Reads a file with all its curves; says what had to be guessed.
     pub(super) fn read(&mut self, path: &Path, role: Role) -> Result<ImportedSet, CliError> {
         let bytes = self.bytes(path)?;
         self.read_bytes(path, &bytes, role)

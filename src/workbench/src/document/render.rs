@@ -185,7 +185,6 @@ impl RenderSettings {
         self.worn().map_or_else(|| self.material.clone(), |garment| format!("{}, garment: {garment}", self.material))
     }
 
-    /// Exactness of the integrals once nothing moves.
     pub fn quality(&self) -> Quality {
         // Outside the range only until the session is validated.
         RelTolerance::new(self.tolerance).map_or(Quality::Reference, |tolerance| self.quality.quality(tolerance))
@@ -235,7 +234,6 @@ impl MeshChoice {
         }
     }
 
-    /// The file that it names, if it names one.
     pub fn file_mut(&mut self) -> Option<&mut PathBuf> {
         match self {
             Self::File(path) | Self::Image(path) => Some(path),

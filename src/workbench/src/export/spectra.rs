@@ -172,7 +172,6 @@ fn header_comments(kind: SetKind, header: &Header) -> Vec<(String, String)> {
     comments
 }
 
-/// Source of the set, and how its file was read.
 fn own_comments(set: &ImportedSet) -> Vec<(String, String)> {
     let mut comments = vec![("source".to_owned(), set.file.clone())];
     comments.extend(set.decisions.iter().map(|decision| ("reading".to_owned(), decision.clone())));

@@ -43,7 +43,6 @@ pub fn pair(ranked: &Ranked, scene: &Scene<'_>, look: &FigureLook) -> [Option<us
 pub static KIND: FigureKind =
     FigureKind::new("head-to-head", "All figures of merit of two cameras", figure).of_metrics();
 
-/// The table of two cameras; none where there are fewer than two.
 fn figure(scene: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Option<Figure> {
     let ranked = scene.ranked(look.cameras);
     let [Some(a), Some(b)] = pair(&ranked, scene, look) else { return None };

@@ -254,7 +254,6 @@ fn table(shot: &RenderedFrame, measure: &str) -> Table {
     table
 }
 
-/// The pixel at a place of a sensor's picture.
 pub fn pixel_of(scene: &Scene<'_>, shot: &RenderedFrame, place: &PixelPlace) -> Option<PixelReading> {
     pixel::read(shot, scene.results, index_of(shot, &place.source)?, place.at)
 }

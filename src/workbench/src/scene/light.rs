@@ -102,7 +102,6 @@ impl Scene<'_> {
         })
     }
 
-    /// Observers and samples of the indices.
     pub fn standards(&self) -> Result<Shared<Standards>, SceneError> {
         self.loaded(&StandardsQuery, "test samples")
     }

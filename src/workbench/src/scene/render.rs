@@ -25,6 +25,14 @@ pub struct Finish {
     pub open_sky: bool,
 }
 
+impl Finish {
+    /// Of pictures that are made at once, compared in all samples.
+    pub fn whole(size: RasterSize, quality: Quality) -> Self {
+        let shadows = if quality == Quality::Preview { Shadows::Coarse } else { Shadows::Full };
+        Self { size, quality, shadows, compared_samples: Some(usize::MAX), open_sky: false }
+    }
+}
+
 impl Scene<'_> {
     /// The material's reflectance: the first of a set of several.
     pub fn material(&self, name: &str) -> Result<Shared<GridSpectrum>, SceneError> {

@@ -18,7 +18,6 @@ use crate::format::{file_name, io_failure, io_reason};
 
 /// Number of bytes examined to distinguish a mesh from spectra.
 const LOOK: usize = 1 << 16;
-/// Largest number of files read from a folder.
 const MAX_FILES: usize = 1000;
 
 #[derive(Clone, Debug)]

@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 use chromascope_core::colorimetry::Metric;
 use chromascope_core::query::Shared;
 use chromascope_core::reflectance::SurfaceError;
-use chromascope_core::render::{Quality, RasterSize, Shadows};
+use chromascope_core::render::RasterSize;
 use chromascope_core::scene::Viewpoint;
 use chromascope_core::scene::viewpoint::ViewpointError;
 use chromascope_mesh::Mesh;
@@ -59,9 +59,7 @@ impl Setup {
             MeshChoice::File(path) => Some(read_mesh(path)?),
             _ => None,
         };
-        let quality = request.document.render.quality();
-        let shadows = if quality == Quality::Preview { Shadows::Coarse } else { Shadows::Full };
-        let finish = Finish { size, quality, shadows, compared_samples: Some(usize::MAX), open_sky: false };
+        let finish = Finish::whole(size, request.document.render.quality());
         let mesh_name = mesh_name(&request.document.render.mesh);
         Ok(Self { request, viewpoint, finish, own_mesh, mesh_name, reading: start.elapsed() })
     }

@@ -31,7 +31,6 @@ pub(super) struct Drawing<'a> {
     /// Positions of the markers halfway along the lines.
     pub(super) halfway: Vec<[f64; 2]>,
     pub(super) refused: Vec<String>,
-    /// Places among the marks of the lines of Planckian loci.
     pub(super) loci: BTreeSet<usize>,
 }
 

@@ -50,7 +50,6 @@ impl Measure {
         Self { metric: frame.query.metric(), by_eq_13, of_image: frame.query.image().is_some() }
     }
 
-    /// Meaning of the numbers, for hints.
     pub const fn meaning(self) -> &'static str {
         if self.of_image { IMAGE_MEANING } else { MEANING }
     }
