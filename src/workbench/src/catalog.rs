@@ -24,15 +24,11 @@ use crate::document::SetKind;
 use crate::document::imported::ImportedSet;
 use crate::document::names::{BuiltInNames, caseless};
 
-/// Location of a set's figures: a file of the program, or a set of the user's, held by value.
+/// Location of a set's figures: a file of the program, with the value column if it holds several sets; or a set of the user's, held by
+/// value.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub enum Place {
-    /// A built-in file; `column` for files that hold several sets.
-    BuiltIn {
-        file: BuiltInFile,
-        /// The value column, if the file holds several sets.
-        column: Option<usize>,
-    },
+    BuiltIn { file: BuiltInFile, column: Option<usize> },
     Own(Shared<ImportedSet>),
 }
 

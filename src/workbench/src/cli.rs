@@ -26,7 +26,7 @@ use std::path::{Path, PathBuf};
 
 use clap::{ArgMatches, CommandFactory as _, FromArgMatches as _, Parser};
 
-use error::CliError;
+use error::Result;
 use outputs::show;
 
 pub use self::list::list;
@@ -41,7 +41,7 @@ macro_rules! commands {
         }
 
         impl Command {
-            fn run(&self, matches: &ArgMatches) -> Result<(), CliError> {
+            fn run(&self, matches: &ArgMatches) -> Result<()> {
                 match self {
                     $(Self::$name(arguments) => $run(arguments, matches),)*
                 }

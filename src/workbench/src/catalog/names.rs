@@ -7,11 +7,7 @@ pub enum NameError {
     #[error("no {kind} is named \"{name}\"{}", suggest(.name, .nearest))]
     Unknown { kind: &'static str, name: String, nearest: Vec<String> },
     #[error("\"{name}\" could be {}; type more of the name", .candidates.join(", "))]
-    Ambiguous {
-        name: String,
-        /// The names that contain it, the first few.
-        candidates: Vec<String>,
-    },
+    Ambiguous { name: String, candidates: Vec<String> },
 }
 
 fn suggest(name: &str, nearest: &[String]) -> String {

@@ -44,25 +44,12 @@ pub struct Failing {
 
 #[derive(Debug)]
 pub enum OpenedEvent {
-    Read {
-        sets: Vec<Imported>,
-        /// Summary of the contents and the decisions, in one sentence.
-        message: String,
-        /// Number of further files that could not be read, and the reason for the first; may be empty.
-        failure: String,
-        /// The files on disk that they came from.
-        paths: Vec<PathBuf>,
-        /// Further files that could not be read, but whose text can be shown.
-        failed: Vec<Fingerprint>,
-    },
-    /// Sets were read again, for the given reason.
-    Reread {
-        /// The sets by the names they had: each as it is now, or why it stays as it was.
-        sets: Vec<(String, Result<Imported, String>)>,
-        why: Why,
-        /// A later reading has a larger number.
-        ticket: u64,
-    },
+    /// Files were read: a message that sums up contents and decisions in one sentence; the number of further files that could not be
+    /// read, with the reason for the first (may be empty); the files on disk; and the further ones whose text can be shown.
+    Read { sets: Vec<Imported>, message: String, failure: String, paths: Vec<PathBuf>, failed: Vec<Fingerprint> },
+    /// Sets were read again for a reason: by the names they had, each as it is now, or why it stays as it was. A later reading has a
+    /// larger ticket.
+    Reread { sets: Vec<(String, Result<Imported, String>)>, why: Why, ticket: u64 },
     /// New contents of a file that could not be read before.
     Replaced { old: Fingerprint, new: Fingerprint, path: PathBuf },
     /// A mesh is to be opened, which is not read yet.

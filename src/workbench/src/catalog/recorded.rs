@@ -62,12 +62,7 @@ pub enum RawTableError {
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum JoinError {
     #[error("line {line}: no spectrum is named \"{name}\"; there are {known}")]
-    Unknown {
-        line: usize,
-        name: String,
-        /// The first of the spectra's names.
-        known: String,
-    },
+    Unknown { line: usize, name: String, known: String },
     #[error("line {line}: \"{name}\" was named before; name each patch once")]
     Twice { line: usize, name: String },
     #[error(

@@ -12,7 +12,7 @@ use clap::{ArgMatches, Args};
 use serde_json::{Map, Value, json};
 
 use super::arguments::{ChartArguments, CommonArguments, Form, LOCUS_K, PixelArguments, form};
-use super::error::CliError;
+use super::error::{CliError, Result};
 use super::request::Request;
 use crate::document::SetKind;
 use crate::results::Results;
@@ -125,7 +125,7 @@ struct Row {
     rank: Option<[usize; 2]>,
 }
 
-pub(super) fn run(arguments: &CompareArguments, matches: &ArgMatches) -> Result<(), CliError> {
+pub(super) fn run(arguments: &CompareArguments, matches: &ArgMatches) -> Result<()> {
     let mut request = Request::new(&arguments.common, matches)?;
     arguments.chart.set(&mut request)?;
     if arguments.common.sources.names_no_sensor() {
@@ -150,7 +150,7 @@ pub(super) fn run(arguments: &CompareArguments, matches: &ArgMatches) -> Result<
     arguments.common.out.put(&text)
 }
 
-fn compared(scene: &Scene<'_>, request: &Request, arguments: &CompareArguments) -> Result<Comparison, CliError> {
+fn compared(scene: &Scene<'_>, request: &Request, arguments: &CompareArguments) -> Result<Comparison> {
     let named = |id: &str| CameraMetric::by_id(id);
     let metrics: Vec<CameraMetric> = match arguments.metrics.as_slice() {
         [] => USUAL.iter().filter_map(|id| named(id)).collect(),

@@ -7,6 +7,8 @@ use chromascope_core::camera::RenderingError;
 
 use crate::scene::SceneError;
 
+pub(super) type Result<T, E = CliError> = std::result::Result<T, E>;
+
 #[derive(Debug, thiserror::Error)]
 pub(super) enum CliError {
     #[error(transparent)]

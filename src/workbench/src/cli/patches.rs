@@ -11,7 +11,7 @@ use chromascope_figure::{Field, Table};
 use clap::{ArgMatches, Args};
 
 use super::arguments::{ChartArguments, CommonArguments};
-use super::error::CliError;
+use super::error::{CliError, Result};
 use super::request::{Request, display_path};
 use crate::catalog::names::{NameError, folded};
 use crate::document::imported::Role;
@@ -84,7 +84,7 @@ const COLUMNS: [Field<Row>; 17] = [
     Field::new("duv", |row| row.cct.map(|cct| cct.duv).into()),
 ];
 
-pub(super) fn run(arguments: &PatchesArguments, matches: &ArgMatches) -> Result<(), CliError> {
+pub(super) fn run(arguments: &PatchesArguments, matches: &ArgMatches) -> Result<()> {
     let mut request = Request::new(&arguments.common, matches)?;
     arguments.chart.set(&mut request)?;
     let radiances = match &arguments.radiance {
@@ -150,7 +150,7 @@ struct Radiances {
 }
 
 impl Radiances {
-    fn open(request: &mut Request, file: &Path, white: Option<&str>) -> Result<Self, CliError> {
+    fn open(request: &mut Request, file: &Path, white: Option<&str>) -> Result<Self> {
         let set = request.read(file, Role::Illuminant)?;
         let curves = set.curves_in_nm().map_err(|error| CliError::File(format!("{}: {error}", display_path(file))))?;
         let names: Vec<String> = curves.iter().map(|(name, _)| name.clone()).collect();

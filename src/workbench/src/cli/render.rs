@@ -23,7 +23,7 @@ use self::arguments::{Format, RenderArguments};
 pub(super) use self::files::make_folder;
 use self::files::{file_names, patiently};
 use self::setup::Setup;
-use super::error::CliError;
+use super::error::{CliError, Result};
 use super::outputs::{self, is_standard_output, put, show, write_to};
 use crate::export::render::{PictureError, exr_bytes, mesh_header, png_bytes};
 use crate::figures::render::headline::{Detail, Measure};
@@ -33,7 +33,7 @@ use crate::results::{Count, Results};
 use crate::scene::{ComparedSensor, Scene, SceneError};
 use crate::terminal::{say, shown_json};
 
-pub(super) fn run(arguments: &RenderArguments, matches: &ArgMatches) -> Result<(), CliError> {
+pub(super) fn run(arguments: &RenderArguments, matches: &ArgMatches) -> Result<()> {
     if let Some(path) = &arguments.image {
         return image::run(arguments, path, matches);
     }
@@ -78,7 +78,7 @@ struct Made<'a> {
 }
 
 impl<'a> Made<'a> {
-    fn new(arguments: &RenderArguments, setup: &'a Setup, results: &'a Results) -> Result<Self, CliError> {
+    fn new(arguments: &RenderArguments, setup: &'a Setup, results: &'a Results) -> Result<Self> {
         let document = &setup.request.document;
         let scene = Scene { document, catalog: &setup.request.catalog, results };
         let sources = scene.sources();
@@ -102,7 +102,7 @@ impl<'a> Made<'a> {
     }
 
     /// Writes the files side by side: encoding takes longer than the disk.
-    fn write(&self, arguments: &RenderArguments) -> Result<(), CliError> {
+    fn write(&self, arguments: &RenderArguments) -> Result<()> {
         let names = [self.scene.light_name(), self.scene.document.white.name()];
         let contents = (0..self.files.len()).map(|index| self.content(index, arguments, &names));
         let contents = contents.collect::<Result<Vec<_>, _>>()?;
@@ -112,12 +112,7 @@ impl<'a> Made<'a> {
         })
     }
 
-    fn content(
-        &self,
-        index: usize,
-        arguments: &RenderArguments,
-        conditions: &[String; 2],
-    ) -> Result<Content<'_>, CliError> {
+    fn content(&self, index: usize, arguments: &RenderArguments, conditions: &[String; 2]) -> Result<Content<'_>> {
         let name = &self.sources[index].name;
         let picture = self.pictures.pictures[index].as_ref();
         let picture = picture.map_err(|error| SceneError::Rendering { name: name.clone(), error: *error })?;

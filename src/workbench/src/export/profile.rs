@@ -71,7 +71,6 @@ impl CorrectionForm {
 
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum CorrectionFileError {
-    /// Files hold matrices.
     #[error(
         "{0} files hold a 3×3 matrix, which a root polynomial or a singular matrix is not; choose a matrix that is fitted"
     )]
@@ -84,12 +83,7 @@ pub enum CorrectionFileError {
         "{camera}: its channel ratio is {ratio}. DCP, DNG and CLF files hold that ratio: give AsShotNeutral of a raw file under \
          {light} (--neutral R,G,B; in the window the field Neutral). ICC files do without"
     )]
-    Ratio {
-        camera: String,
-        /// The light of the neutral.
-        light: String,
-        ratio: ChannelRatio,
-    },
+    Ratio { camera: String, light: String, ratio: ChannelRatio },
 }
 
 /// Color correction of a camera with the names that files need.

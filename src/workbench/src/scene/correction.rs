@@ -7,7 +7,7 @@ use chromascope_core::correction::aces::IdtExposure;
 use chromascope_core::query::correction::{CorrectionSheetQuery, IdtQuery};
 use chromascope_core::query::{Ask, CorrectionReportQuery, Query, RenderingQuery};
 
-use super::{Scene, SceneError};
+use super::{Result, Scene};
 use crate::catalog::load::{LightQuery, LoadError, SensorQuery};
 use crate::catalog::{Entry, Place};
 use crate::document::{CIE_1931, FIT_TARGET, SetKind, TRAINING, TransformChoice};
@@ -63,7 +63,7 @@ fn maker_of(name: &str) -> String {
 }
 
 impl Scene<'_> {
-    pub fn channel_ratio_query(&self, name: &str) -> Result<ChannelRatioQuery, SceneError> {
+    pub fn channel_ratio_query(&self, name: &str) -> Result<ChannelRatioQuery> {
         let own = self.entry(SetKind::Camera, name)?;
         let maker = maker_of(&own.name);
         let is_other = |other: &&Entry| other.place != own.place && maker_of(&other.name) == maker;
@@ -73,12 +73,12 @@ impl Scene<'_> {
     }
 
     /// Credibility of a camera's channel ratio. Loads the tables of its maker.
-    pub fn channel_ratio(&self, name: &str) -> Result<ChannelRatio, SceneError> {
+    pub fn channel_ratio(&self, name: &str) -> Result<ChannelRatio> {
         self.loaded(&self.channel_ratio_query(name)?, name)
     }
 
     /// Query for a sensor's color correction with all errors, under the light on the scene and the second of the document.
-    pub fn correction_sheet(&self, kind: SetKind, name: &str) -> Result<CorrectionSheetQuery, SceneError> {
+    pub fn correction_sheet(&self, kind: SetKind, name: &str) -> Result<CorrectionSheetQuery> {
         let first = self.rendering_of(kind, name)?;
         let metric = self.correction_metric();
         let second = match &self.document.correction.second_light {
@@ -96,12 +96,7 @@ impl Scene<'_> {
     }
 
     /// Query for a camera's ACES input transform under the light on the scene.
-    pub fn input_device_transform(
-        &self,
-        kind: SetKind,
-        name: &str,
-        exposure: IdtExposure,
-    ) -> Result<IdtQuery, SceneError> {
+    pub fn input_device_transform(&self, kind: SetKind, name: &str, exposure: IdtExposure) -> Result<IdtQuery> {
         Ok(IdtQuery {
             camera: self.sensor(kind, name)?,
             light: self.light()?.grid,

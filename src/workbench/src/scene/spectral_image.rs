@@ -15,7 +15,7 @@ use chromascope_core::spectral::{GridSpectrum, Sensor};
 use glam::DVec3;
 use spectral_image::{ImageInfo, ImageQuantity};
 
-use super::{ComparedSensor, Scene, SceneError};
+use super::{ComparedSensor, Result, Scene, SceneError};
 use crate::catalog::spectral_images::{ImageSource, ReadSignals, ReadSignalsError, read_signals};
 use crate::document::SetKind;
 
@@ -208,7 +208,7 @@ impl Scene<'_> {
         source: &ImageSource,
         sources: &[ComparedSensor],
         wanted: ImageUse,
-    ) -> Result<ImagePicturesQuery, SceneError> {
+    ) -> Result<ImagePicturesQuery> {
         let reference = self.rendering_of(SetKind::Observer, &self.document.reference)?;
         let is_compared = |source: &ComparedSensor| {
             Ok::<_, SceneError>(!source.is_reference && self.comparable(source.kind, &source.name)?.is_ok())
@@ -216,7 +216,7 @@ impl Scene<'_> {
         let queries = sources
             .iter()
             .map(|source| Ok((self.rendering_of(source.kind, &source.name)?, is_compared(source)?)))
-            .collect::<Result<Vec<_>, SceneError>>()?;
+            .collect::<Result<Vec<_>>>()?;
         let divisors = |query: &RenderingQuery| {
             let rendering = self.results.ask(query);
             let integrals = (*rendering).as_ref().map(|rendering| rendering.white_integrals);

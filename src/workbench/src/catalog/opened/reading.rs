@@ -22,13 +22,10 @@ const MAX_FILES: usize = 1000;
 
 #[derive(Clone, Debug)]
 pub enum Request {
+    /// A file or a folder on disk.
     Path(PathBuf),
-    /// Bytes from elsewhere: the clipboard, or a drop without a file.
-    Bytes {
-        /// Name of the files together.
-        name: String,
-        bytes: Arc<[u8]>,
-    },
+    /// Bytes from elsewhere, the clipboard or a drop without a file, with the name of the files together.
+    Bytes { name: String, bytes: Arc<[u8]> },
     /// A file whose contents are known, with the user's settings.
     Known(Fingerprint, Box<ImportOverrides>),
 }

@@ -12,7 +12,7 @@ use spectral_file::SpectralFile;
 
 use crate::catalog::import::{Origin, imported};
 use crate::catalog::spectral_images;
-use crate::cli::error::CliError;
+use crate::cli::error::{CliError, Result};
 use crate::cli::render::arguments::ViewpointArguments;
 use crate::cli::render::files::patiently;
 use crate::cli::render::setup::{mesh_choice, read_mesh, viewpoint};
@@ -42,7 +42,7 @@ pub(super) fn look(
     (kind, wanted): (&FigureKind, ViewpointArguments),
     scene: &Scene<'_>,
     (paper, recorded): (&Paper, Option<RecordedSet>),
-) -> Result<FigureLook, CliError> {
+) -> Result<FigureLook> {
     let is_picture = matches!(kind.needs, Need::Pictures(_));
     let is_of_mesh = is_picture && !matches!(scene.document.render.mesh, MeshChoice::Image(_));
     if !is_of_mesh && (wanted.orbit.is_some() || wanted.fov.is_some()) {
@@ -88,7 +88,7 @@ fn missing(reason: &str) -> CliError {
     CliError::Argument { argument: "FILE", reason: reason.to_owned() }
 }
 
-fn own_mesh(document: &Document) -> Result<Option<Shared<chromascope_mesh::Mesh>>, CliError> {
+fn own_mesh(document: &Document) -> Result<Option<Shared<chromascope_mesh::Mesh>>> {
     match &document.render.mesh {
         MeshChoice::File(path) => read_mesh(path).map(Some),
         _ => Ok(None),
@@ -96,12 +96,7 @@ fn own_mesh(document: &Document) -> Result<Option<Shared<chromascope_mesh::Mesh>
 }
 
 /// Pictures with as many pixels as the paper has where they stand.
-fn pictures(
-    scene: &Scene<'_>,
-    mode: RenderMode,
-    paper: &Paper,
-    wanted: ViewpointArguments,
-) -> Result<RenderedFrame, CliError> {
+fn pictures(scene: &Scene<'_>, mode: RenderMode, paper: &Paper, wanted: ViewpointArguments) -> Result<RenderedFrame> {
     let start = Instant::now();
     let sources = scene.rendered_sources();
     let count = sources.len() - usize::from(mode == RenderMode::Difference && sources.len() > 1);
@@ -129,7 +124,7 @@ fn pictures(
 }
 
 /// Sets the mesh that is rendered, with the paper's surface for the fern.
-pub(super) fn set_mesh(document: &mut Document, mesh: &OsStr) -> Result<(), CliError> {
+pub(super) fn set_mesh(document: &mut Document, mesh: &OsStr) -> Result<()> {
     let mesh = mesh_choice(mesh)?;
     let usual = if mesh == MeshChoice::Fern { RenderSettings::fern() } else { document.render.clone() };
     document.render = RenderSettings { mesh, ..usual };
@@ -137,7 +132,7 @@ pub(super) fn set_mesh(document: &mut Document, mesh: &OsStr) -> Result<(), CliE
 }
 
 /// Adds the curves of a file to the document's sets.
-pub(super) fn open_curves(request: &mut Request, path: &Path) -> Result<(), CliError> {
+pub(super) fn open_curves(request: &mut Request, path: &Path) -> Result<()> {
     let bytes = request.bytes(path)?;
     let mut overrides = ImportOverrides::default();
     let origin = Origin::on_disk(&display_path(path), path, &bytes);

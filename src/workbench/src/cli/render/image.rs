@@ -14,7 +14,7 @@ use super::arguments::{Format, RenderArguments};
 use super::files::{file_names, make_folder, patiently};
 use super::setup::compared_request;
 use crate::catalog::spectral_images::{self, OpenImageError, ReadSignalsError};
-use crate::cli::error::CliError;
+use crate::cli::error::{CliError, Result};
 use crate::cli::outputs::{self, show, write_to};
 use crate::cli::request::display_path;
 use crate::document::TransformChoice;
@@ -26,7 +26,7 @@ use crate::scene::spectral_image::{ImagePictures, ImagePicturesError, ImageUse};
 use crate::scene::{ComparedSensor, Scene, SceneError};
 use crate::terminal::say;
 
-pub(super) fn run(arguments: &RenderArguments, path: &Path, matches: &ArgMatches) -> Result<(), CliError> {
+pub(super) fn run(arguments: &RenderArguments, path: &Path, matches: &ArgMatches) -> Result<()> {
     let start = Instant::now();
     let settings = arguments.settings.applied_to(RenderSettings::default());
     let wanted = settings.image_quantity;
@@ -97,7 +97,7 @@ fn bytes(
     index: usize,
     arguments: &RenderArguments,
     image: &str,
-) -> Result<Vec<u8>, CliError> {
+) -> Result<Vec<u8>> {
     let refused = |error: &RenderingError| SceneError::Rendering { name: source.name.clone(), error: *error };
     let picture = made.pictures[index].as_ref().map_err(refused)?;
     let rendering = scene.results.ask(rendering);

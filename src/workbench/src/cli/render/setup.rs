@@ -15,7 +15,7 @@ use clap::ArgMatches;
 
 use super::arguments::{RenderArguments, ViewpointArguments};
 use crate::catalog::meshes;
-use crate::cli::error::CliError;
+use crate::cli::error::{CliError, Result};
 use crate::cli::request::Request;
 use crate::document::render::{BALANCE, MeshChoice, RenderSettings, SUN};
 use crate::document::{Compared, Light, SetKind, WhiteBalanceChoice};
@@ -36,7 +36,7 @@ pub(super) struct Setup {
 }
 
 impl Setup {
-    pub(super) fn new(arguments: &RenderArguments, matches: &ArgMatches) -> Result<Self, CliError> {
+    pub(super) fn new(arguments: &RenderArguments, matches: &ArgMatches) -> Result<Self> {
         let choice = mesh_choice(&arguments.mesh)?;
         // What only arguments decide comes before files are read.
         let [width, height] = arguments.size.map(f64::from);
@@ -66,7 +66,7 @@ impl Setup {
 }
 
 /// Sensors, reference, light, white balance and metric: all but the scene.
-pub(super) fn compared_request(arguments: &RenderArguments, matches: &ArgMatches) -> Result<Request, CliError> {
+pub(super) fn compared_request(arguments: &RenderArguments, matches: &ArgMatches) -> Result<Request> {
     let mut request = Request::of_sources(&arguments.sources, matches)?;
     if arguments.sources.names_no_sensor() {
         let Request { document, sources, .. } = &mut request;
@@ -106,7 +106,7 @@ const MESHES: [(&str, MeshChoice); 4] = [
     ("plane", MeshChoice::Plane),
 ];
 
-pub(in crate::cli) fn mesh_choice(given: &OsStr) -> Result<MeshChoice, CliError> {
+pub(in crate::cli) fn mesh_choice(given: &OsStr) -> Result<MeshChoice> {
     let typed = &*given.to_string_lossy();
     let known = MESHES.into_iter().find(|(name, _)| typed.trim().eq_ignore_ascii_case(name));
     if let Some((_, choice)) = known {
@@ -134,7 +134,7 @@ fn mesh_name(choice: &MeshChoice) -> String {
     }
 }
 
-pub(in crate::cli) fn read_mesh(path: &PathBuf) -> Result<Shared<Mesh>, CliError> {
+pub(in crate::cli) fn read_mesh(path: &PathBuf) -> Result<Shared<Mesh>> {
     // Whole, so that a complaint can say in which folder the file is not.
     let whole = std::path::absolute(path).unwrap_or_else(|_| path.clone());
     let read = meshes::read(&whole, &|| false).map_err(|failure| CliError::File(failure.to_string()))?;
@@ -145,7 +145,7 @@ pub(in crate::cli) fn read_mesh(path: &PathBuf) -> Result<Shared<Mesh>, CliError
 }
 
 /// Render settings: those of the paper's head or fern with the arguments applied.
-fn settings(arguments: &RenderArguments, mesh: MeshChoice, start: RenderSettings) -> Result<RenderSettings, CliError> {
+fn settings(arguments: &RenderArguments, mesh: MeshChoice, start: RenderSettings) -> Result<RenderSettings> {
     let usual = if mesh == MeshChoice::Fern { RenderSettings::fern() } else { RenderSettings::default() };
     let RenderSettings { garment, specular, sky, .. } = start;
     let usual = RenderSettings { mesh, garment, specular, sky, sunlight: false, ..usual };
@@ -180,11 +180,7 @@ fn surface_error(error: SurfaceError) -> CliError {
 }
 
 /// Viewpoint for a picture of some width over height, where not stated the usual one.
-pub(in crate::cli) fn viewpoint(
-    arguments: ViewpointArguments,
-    usual: Orbit,
-    aspect: f64,
-) -> Result<Viewpoint, CliError> {
+pub(in crate::cli) fn viewpoint(arguments: ViewpointArguments, usual: Orbit, aspect: f64) -> Result<Viewpoint> {
     let Some([yaw, pitch, distance]) = arguments.orbit else {
         let field = arguments.fov.unwrap_or(usual.field_of_view_deg);
         Viewpoint::new(0.0, 0.0, 1.0, field.to_radians()).map_err(viewpoint_error)?;
@@ -211,7 +207,7 @@ fn viewpoint_error(error: ViewpointError) -> CliError {
 /// Beyond this many samples memory runs out on small machines.
 const MOST_SAMPLES: u64 = 40_000_000;
 
-fn raster(arguments: &RenderArguments) -> Result<RasterSize, CliError> {
+fn raster(arguments: &RenderArguments) -> Result<RasterSize> {
     let [width, height] = arguments.size;
     let samples = arguments.samples;
     let size = RasterSize { width, height, samples };
