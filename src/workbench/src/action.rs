@@ -209,15 +209,13 @@ impl SceneAction {
             Self::SetPixel(Some(pixel)) => format!("Pixel: {}", pixel.describe()),
             Self::SetPixel(None) => "Pixel: not given".to_owned(),
             Self::SetChart(name) => format!("Patches: {name}"),
-            Self::SetSubset(Subset::Five) => "Patches: five".to_owned(),
-            Self::SetSubset(Subset::All) => "Patches: all".to_owned(),
+            Self::SetSubset(subset) => format!("Patches: {}", subset.key()),
             Self::SetWhite(white) => format!("White balance: {}", white.name()),
             Self::SetTransform(TransformChoice::Paper) => "Color transform: paper matrix".to_owned(),
             Self::SetTransform(TransformChoice::Observer(name)) => format!("Color transform: fitted to {name}"),
             Self::SetCorrection(correction) => format!("Color correction: {}", correction.method.label()),
             Self::SetDifference(metric) => format!("Difference: {}", metric.symbol),
-            Self::SetDiagram(Diagram::Xy) => "Diagram: xy".to_owned(),
-            Self::SetDiagram(Diagram::UvPrime) => "Diagram: u′v′".to_owned(),
+            Self::SetDiagram(diagram) => format!("Diagram: {}", diagram.label()),
             Self::SetOverlays(_) => "Overlays of the diagram".to_owned(),
         }
     }

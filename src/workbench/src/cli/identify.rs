@@ -277,7 +277,7 @@ fn chart_spectra(request: &Request) -> Result<Spectra> {
 }
 
 /// Radiances of a file's spectra: as they are, or reflectances under the light.
-fn file_spectra(request: &mut Request, path: &Path, text: Option<&str>, radiance: bool) -> Result<Spectra> {
+pub(super) fn file_spectra(request: &mut Request, path: &Path, text: Option<&str>, radiance: bool) -> Result<Spectra> {
     let role = if radiance { Role::Illuminant } else { Role::Reflectance };
     let set = match text {
         Some(text) => request.read_bytes(path, text.as_bytes(), role)?,

@@ -15,7 +15,7 @@ use crate::catalog::spectral_images;
 use crate::cli::error::{CliError, Result};
 use crate::cli::render::arguments::ViewpointArguments;
 use crate::cli::render::files::patiently;
-use crate::cli::render::setup::{mesh_choice, read_mesh, viewpoint};
+use crate::cli::render::setup::{mesh_choice, own_mesh, viewpoint};
 use crate::cli::request::{Request, display_path};
 use crate::document::Document;
 use crate::document::imported::ImportOverrides;
@@ -75,7 +75,7 @@ pub(super) fn look(
             look.curves = ImportSelection::of(scene, ImportItem::Set(set.name.clone()), None, None);
         }
         Need::Measured => {
-            let own = own_mesh(scene.document)?;
+            let own = own_mesh(&scene.document.render.mesh)?;
             let job = SceneRunJob::of(scene, own.as_ref(), None);
             look.measured.run = Some(patiently("measuring", || job.run(scene.results)));
             look.measured.is_current = true;
@@ -86,13 +86,6 @@ pub(super) fn look(
 
 fn missing(reason: &str) -> CliError {
     CliError::Argument { argument: "FILE", reason: reason.to_owned() }
-}
-
-fn own_mesh(document: &Document) -> Result<Option<Shared<chromascope_mesh::Mesh>>> {
-    match &document.render.mesh {
-        MeshChoice::File(path) => read_mesh(path).map(Some),
-        _ => Ok(None),
-    }
 }
 
 /// Pictures with as many pixels as the paper has where they stand.
@@ -110,7 +103,7 @@ fn pictures(scene: &Scene<'_>, mode: RenderMode, paper: &Paper, wanted: Viewpoin
         let (query, sources) = (PicturesOf::Image(query), sources.into());
         RenderedFrame { query, sources, answer, time: start.elapsed(), is_last: true, serial: 0 }
     } else {
-        let own = own_mesh(scene.document)?;
+        let own = own_mesh(&scene.document.render.mesh)?;
         let mesh = scene.mesh_of(own.as_ref()).ok_or_else(|| CliError::File("no mesh".to_owned()))?;
         let viewpoint = viewpoint(wanted, Orbit::of(&scene.document.render.mesh), 1.0)?;
         let frame = RenderedFrame::of_mesh(scene, mesh, viewpoint, side)?;

@@ -1,7 +1,7 @@
 //! From arguments to a document with a rendered scene, a place to look from, and the size of the pictures.
 
 use std::ffi::OsStr;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::time::{Duration, Instant};
 
 use chromascope_core::colorimetry::Metric;
@@ -55,10 +55,7 @@ impl Setup {
             request.document.render.garment = garment;
         }
         let start = Instant::now();
-        let own_mesh = match &request.document.render.mesh {
-            MeshChoice::File(path) => Some(read_mesh(path)?),
-            _ => None,
-        };
+        let own_mesh = own_mesh(&request.document.render.mesh)?;
         let finish = Finish::whole(size, request.document.render.quality());
         let mesh_name = mesh_name(&request.document.render.mesh);
         Ok(Self { request, viewpoint, finish, own_mesh, mesh_name, reading: start.elapsed() })
@@ -134,14 +131,16 @@ fn mesh_name(choice: &MeshChoice) -> String {
     }
 }
 
-pub(in crate::cli) fn read_mesh(path: &PathBuf) -> Result<Shared<Mesh>> {
+/// The mesh of the user's file, if one is chosen.
+pub(in crate::cli) fn own_mesh(choice: &MeshChoice) -> Result<Option<Shared<Mesh>>> {
+    let MeshChoice::File(path) = choice else { return Ok(None) };
     // Whole, so that a complaint can say in which folder the file is not.
     let whole = std::path::absolute(path).unwrap_or_else(|_| path.clone());
     let read = meshes::read(&whole, &|| false).map_err(|failure| CliError::File(failure.to_string()))?;
     for note in &read.notes {
         say(&format!("chromascope: {}: {note}\n", path.display()));
     }
-    Ok(read.mesh)
+    Ok(Some(read.mesh))
 }
 
 /// Render settings: those of the paper's head or fern with the arguments applied.
