@@ -3,7 +3,6 @@
 //! A run starts with an empty cache, so that cached answers do not distort its times. It is a [`Job`], not a `Query`: each
 //! request measures again.
 
-pub mod bench;
 mod conditions;
 mod integral;
 mod loci;
@@ -15,11 +14,11 @@ use std::time::Duration;
 
 use chromascope_core::query::render::picture::PicturesQuery;
 use chromascope_core::query::{Ask, Shared};
-use chromascope_core::render::{Quality, RasterSize, Shadows};
+use chromascope_core::render::{Quality, RasterSize, Shadows, Stop};
 use chromascope_core::spectral::Sensor;
 use chromascope_measure::harness::timed;
 use chromascope_measure::method::Point;
-use chromascope_measure::{Effort, Report, Workload};
+use chromascope_measure::{BenchError, Effort, Progress, Report, Workload};
 use chromascope_mesh::Mesh;
 use serde::{Deserialize, Serialize};
 
@@ -154,6 +153,23 @@ fn fresh(ask: &impl Ask) -> Results {
     Results::default().until(ask.stop())
 }
 
+/// The benchmark: measures workloads, telling of its progress, until it is done or stopped.
+pub type Bench = fn(&[Workload], Effort, &Stop, &mut dyn FnMut(Progress<'_>)) -> Result<Report, BenchError>;
+
+/// The command that runs the program with the benchmark.
+pub const BUILD: &str = "cargo run --release --features bench";
+
+#[cfg(feature = "bench")]
+pub fn bench() -> Option<Bench> {
+    Some(chromascope_measure::run)
+}
+
+/// Returns none: this build has no benchmark.
+#[cfg(not(feature = "bench"))]
+pub fn bench() -> Option<Bench> {
+    None
+}
+
 /// Measures the program on a benchmark workload, independent of the scene.
 #[derive(Clone, Debug, PartialEq, Eq)]
 struct BenchJob(Workload);
@@ -163,7 +179,7 @@ impl Job for BenchJob {
     const NAME: &'static str = "bench";
 
     fn run(&self, results: &Results) -> Arc<Self::Answer> {
-        let Some(bench) = bench::bench() else { return Arc::new(Err("this build has no benchmark".to_owned())) };
+        let Some(bench) = bench() else { return Arc::new(Err("this build has no benchmark".to_owned())) };
         let report = bench(&[self.0], Effort::Quick, &results.stop(), &mut |_| ());
         Arc::new(report.map_err(|error| error.to_string()))
     }

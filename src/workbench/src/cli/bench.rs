@@ -13,7 +13,7 @@ use super::error::{CliError, Result};
 use super::outputs::{show, write_to};
 use crate::export::{Paper, png, png_file, svg};
 use crate::palette::Colors;
-use crate::profiler::bench::bench;
+use crate::profiler::bench;
 use crate::terminal::say;
 
 const EXAMPLES: &str = "Examples:

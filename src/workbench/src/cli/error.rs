@@ -30,7 +30,7 @@ pub(super) enum CliError {
     Picture { path: PathBuf, error: crate::export::render::PictureError },
     #[error(transparent)]
     Bench(#[from] chromascope_measure::BenchError),
-    #[error("this build has no benchmark; build it with it: {} -- bench …", crate::profiler::bench::BUILD)]
+    #[error("this build has no benchmark; build it with it: {} -- bench …", crate::profiler::BUILD)]
     NoBench,
     #[error(transparent)]
     Report(#[from] chromascope_measure::ReportError),

@@ -5,6 +5,7 @@ mod fit;
 mod ground;
 mod labels;
 mod loci;
+mod pixel;
 mod points;
 pub mod shown;
 mod whites;
@@ -97,7 +98,7 @@ fn draw<'a>(scene: &'a Scene<'a>, look: &'a FigureLook, frame: Frame, sketch: bo
         points::add(&mut drawing, &sources);
     }
     if let Some(pictures) = look.pictures.as_deref().filter(|_| !sketch) {
-        points::add_pixel(&mut drawing, pictures, &sources);
+        pixel::add(&mut drawing, pictures, &sources);
     }
     drawing
 }

@@ -14,8 +14,8 @@ use chromascope_figure::{
 
 use self::content::Content;
 use super::chromaticity::{caption, key};
+use super::data_set::Name;
 use super::kind::FigureKind;
-use super::labels::Name;
 use super::look::{FigureLook, SpectraLayout};
 use crate::document::{FIT_TARGET, SetKind};
 use crate::plot_item::{PickIndex, PlotItem};

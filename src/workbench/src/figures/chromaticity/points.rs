@@ -1,5 +1,5 @@
 //! Patches as points, with tails from each camera's to the reference's, and the text under the pointer; arrows to
-//! patches outside the plot, and the pinned pixel.
+//! patches outside the plot.
 
 use chromascope_core::colorimetry::{Metric, UvPrime, Xy};
 use chromascope_core::query::{LocusPoint, PatchColor, Temperatures, compare};
@@ -9,13 +9,9 @@ use chromascope_figure::{Ink, InkRole, Label, Mark, Marker, Place, Shape};
 use super::drawing::{Drawing, Frame, id};
 use super::labels::{Rank, label as ranked};
 use crate::document::{Diagram, SetKind};
-use crate::figures::look::PixelPlace;
-use crate::figures::render::pixel_of;
 use crate::format::number;
 use crate::palette::LINE_TAIL;
 use crate::plot_item::{PlotItem, SensorId};
-use crate::render_service::RenderedFrame;
-use crate::render_service::pixel::PixelShows;
 use crate::scene::{ComparedSensor, Scene};
 
 /// Up to this many patches points are markers with names, of more they are dots.
@@ -316,23 +312,4 @@ pub(super) fn add_arrows(drawing: &mut Drawing<'_>) {
         }
     }
     drawing.small.append(&mut arrows);
-}
-
-/// Radius of the mark of a pixel in points.
-const PIXEL: f64 = 4.5;
-
-/// Adds a diamond at the pinned pixel for each sensor that has a picture, in whatever workspace that is.
-pub(super) fn add_pixel(drawing: &mut Drawing<'_>, pictures: &RenderedFrame, sources: &[ComparedSensor]) {
-    let Some(pinned) = drawing.look.pinned_pixel.clone() else { return };
-    for source in sources.iter().rev() {
-        let place = PixelPlace { source: id(source), ..pinned.clone() };
-        let Some(PixelShows::Lit(lit)) = pixel_of(drawing.scene, pictures, &place).map(|reading| reading.shows) else {
-            continue;
-        };
-        let Some(at) = lit.xy.and_then(|xy| drawing.place(xy)) else { continue };
-        let tag = drawing.things.tag(PlotItem::Sensor(id(source)));
-        let shape = Shape::Points { points: vec![at], marker: Marker::Diamond, radius: PIXEL };
-        let mark = Mark::new(tag, format!("{}, pixel", source.label), shape).with_stroke(source.role, 1.5);
-        drawing.small.push(mark.with_fill(source.role).with_halo(InkRole::Plot));
-    }
 }
