@@ -11,7 +11,7 @@ use crate::document::SetKind;
 use crate::document::start::Start;
 use crate::export::card::{self, Card};
 use crate::export::profile::{self, CorrectionFileQuery, CorrectionForm};
-use crate::export::render::{ImageProvenance, Provenance, exr_bytes, image_exr_bytes};
+use crate::export::render::{exr_bytes, image_header, mesh_header};
 use crate::export::spectra::{self, Form};
 use crate::figures::render::index_of;
 use crate::figures::{chromaticity, swatches};
@@ -141,32 +141,17 @@ impl ChromascopeApp {
         let rendering = (*rendering).as_ref().ok()?;
         let document = self.history.document();
         let scene = Scene { document, catalog: &self.catalog, results: &self.results };
-        let [light, white] = scene.rendered_conditions();
-        let balance = if rendering.is_rgb { &white } else { "none" };
-        if let Some(made) = shot.made()?.image() {
-            let (image, illuminant) = (document.render.mesh.name(), light.clone());
-            let provenance = ImageProvenance { source: &source.name, balance, illuminant: &illuminant, image: &image };
-            let bytes = image_exr_bytes(made.placed(), made.signals(index)?, rendering, &provenance);
-            return Some(bytes.map_err(|error| error.to_string()));
-        }
-        let image = shot.made()?.mesh()?.images.get(index)?.as_ref()?;
-        let shading = &shot.query.mesh()?.shading;
-        let provenance = Provenance {
-            source: &source.name,
-            balance,
-            illuminant: &light,
-            material: &document.render.material,
-            garment: document.render.worn(),
-            mesh: &document.render.mesh.name(),
-            quality: shading.quality,
-            lighting: shading.geometry.lighting,
-            viewpoint: shading.geometry.visibility.viewpoint,
-            surface: shading.surface,
-            reading: shading.reading,
-            sky: document.render.sky,
-            thin: document.render.thin,
+        let (conditions, subject) = (scene.rendered_conditions(), document.render.mesh.name());
+        let bytes = if let Some(made) = shot.made()?.image() {
+            let header = image_header(rendering, &source.name, &conditions, &subject);
+            exr_bytes(made.placed(), made.signals(index)?, rendering, header)
+        } else {
+            let image = shot.made()?.mesh()?.images.get(index)?.as_ref()?;
+            let (shading, subject) = (&shot.query.mesh()?.shading, (&document.render, subject.as_str()));
+            let header = mesh_header(rendering, &source.name, &conditions, subject, shading);
+            exr_bytes(image.placed(), image.signals(), rendering, header)
         };
-        Some(exr_bytes(image, rendering, &provenance).map_err(|error| error.to_string()))
+        Some(bytes.map_err(|error| error.to_string()))
     }
 }
 

@@ -12,7 +12,7 @@ use crate::figures::accuracy;
 use crate::paint::{self, PlotOptions};
 use crate::panes::widgets;
 use crate::panes::widgets::pick_list::{self, Line};
-use crate::profiler::bench::{BUILD, bench};
+use crate::profiler::{BUILD, bench};
 use crate::profiler::{Profiler, SceneRunJob, Subject};
 use crate::theme::UNIT;
 use crate::view::accuracy::Shows;

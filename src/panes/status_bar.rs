@@ -318,11 +318,11 @@ fn describe(thing: &PlotItem, context: &PaneContext<'_>) -> String {
     };
     match thing {
         PlotItem::Light => format!("The light: {}", scene.light_name()),
-        PlotItem::DataSet { kind, name } => format!("{} {name}", kind.singular()),
+        PlotItem::DataSet { kind, name } => format!("{} {name}", kind.label()),
         PlotItem::Sensor(id) => {
             let also = scene.entry(id.kind, &id.name).ok().and_then(|entry| entry.also);
             let also = also.map_or_else(String::new, |also| format!(", {also}"));
-            format!("{} {}{also}", id.kind.singular(), id.name)
+            format!("{} {}{also}", id.kind.label(), id.name)
         }
         PlotItem::Patch { source: None, patch } => format!("Patch {patch}"),
         PlotItem::Patch { source: Some(id), patch } => {

@@ -310,7 +310,7 @@ fn without_the_benchmark_its_place_says_how_to_get_it() {
     window.state_mut().view_mut().accuracy.shows = Shows::Bench(Workload::DiffuseSum);
     window.run_steps(3);
     let offered = window.query_by_label("Nothing measured yet. A quick run takes some seconds.").is_some();
-    let told = window.query_by_label(chromascope::profiler::bench::BUILD).is_some();
+    let told = window.query_by_label(chromascope::profiler::BUILD).is_some();
     assert_eq!((offered, told), (cfg!(feature = "bench"), cfg!(not(feature = "bench"))));
     // The scene can be measured in either build.
     window.state_mut().view_mut().accuracy.shows = Shows::Scene(Subject::Loci);

@@ -83,7 +83,7 @@ pub(super) fn one(ui: &mut Ui, id: &SensorId, patch: &str, context: &mut PaneCon
     let mut points = vec![Point::of_patch("reference", Some(seen))];
     if !is_reference {
         let value = difference_of(&scene, id, patch).and_then(Result::ok);
-        points.push(Point::of_patch(id.kind.singular(), Some(own)).with_difference(value));
+        points.push(Point::of_patch(id.kind.label(), Some(own)).with_difference(value));
     }
     let item = PlotItem::Patch { source: Some(id.clone()), patch: patch.to_owned() };
     points_table(ui, points, &item, context);

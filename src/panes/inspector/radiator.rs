@@ -31,7 +31,7 @@ pub(super) fn show(ui: &mut Ui, id: &SensorId, kelvin: f64, context: &mut PaneCo
     let mut points = vec![Point::of_blackbody("reference", Some(seen))];
     if !is_reference {
         distance(ui, id, &own, &seen, context);
-        points.push(Point::of_blackbody(id.kind.singular(), Some(own)));
+        points.push(Point::of_blackbody(id.kind.label(), Some(own)));
     }
     match scene.document.light {
         Light::BlackBody => widgets::note(ui, "The light on the scene is a blackbody of the marked temperature."),

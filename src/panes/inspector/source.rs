@@ -30,7 +30,7 @@ pub(super) fn show(ui: &mut Ui, id: &SensorId, context: &mut PaneContext<'_>) {
         Err(error) => return failure(ui, &theme, &error.to_string()),
     };
     let also = entry.also.as_ref().map_or_else(String::new, |also| format!(", {also}"));
-    widgets::note(ui, format!("{}: {}{also}", id.kind.singular(), entry.name));
+    widgets::note(ui, format!("{}: {}{also}", id.kind.label(), entry.name));
     let role = source_of(&scene, id).map_or(InkRole::Observer, |source| source.role);
     curves(ui, &entry, role, context);
     let mut measured = measures(&scene, id);
@@ -172,7 +172,7 @@ pub(super) fn set(ui: &mut Ui, kind: SetKind, name: &str, context: &mut PaneCont
     };
     ui.strong(&entry.name);
     let also = entry.also.as_ref().map_or_else(String::new, |also| format!(", {also}"));
-    widgets::note(ui, format!("{}{also}", kind.singular()));
+    widgets::note(ui, format!("{}{also}", kind.label()));
     curves(ui, &entry, InkRole::Text, context);
     let known = facts::of(&scene, &entry, true);
     facts::show(ui, &theme, &known);

@@ -62,7 +62,7 @@ pub(super) fn rows<'a>(context: &PaneContext<'a>) -> Vec<Row<'a>> {
     };
     let mut rows = Vec::new();
     for (kind, found) in groups.into_iter().filter(|(kind, found)| !found.is_empty() || *kind != SetKind::Unsorted) {
-        let open = searching || !context.view.saved.folded.contains(kind.plural());
+        let open = searching || !context.view.saved.folded.contains(kind.key());
         rows.push(Row::Group { kind, count: found.len(), open });
         if open {
             rows.extend(found);
@@ -113,8 +113,8 @@ fn group(ui: &mut Ui, kind: SetKind, count: usize, open: bool, context: &mut Pan
     lines::elided(ui, words, &format!("{title}  {count}"), TextStyle::Body, context.theme.text);
     if response.clicked() && context.view.search.trim().is_empty() {
         let folded = &mut context.view.saved.folded;
-        if !folded.remove(kind.plural()) {
-            folded.insert(kind.plural().to_owned());
+        if !folded.remove(kind.key()) {
+            folded.insert(kind.key().to_owned());
         }
     }
 }

@@ -70,7 +70,7 @@ fn picture(
             // Pixels of a small image stay squares.
             let sharp = [made.width, made.height] == layout.pixels.map(|side| side as usize)
                 || (shot.query.image().is_some() && made.width < layout.pixels[0] as usize / 2);
-            let name = format!("{} {}", source.kind.singular(), source.name);
+            let name = format!("{} {}", source.kind.label(), source.name);
             let textures = &mut context.states.of::<super::RenderPane>().textures;
             match scale {
                 None => {

@@ -33,20 +33,15 @@ pub enum Action {
     Reset,
 }
 
+/// Changes to the comparison. An empty label takes a renamed sensor's own back. A reference is added where it is not compared; a fitted
+/// color transform follows to one that counts in XYZ: whose color matching functions are XYZ, so that it can be fitted to.
 #[derive(Clone, Debug, PartialEq)]
 pub enum CompareAction {
     Add(SetKind, String),
     Remove(SetKind, String),
     SetVisible(SetKind, String, bool),
-    /// Gives a sensor another label; an empty one takes it back.
     Rename(SetKind, String, String),
-    /// Compares with another observer, adding it where it is not compared. A fitted color transform follows to an observer that
-    /// has XYZ color matching functions.
-    SetReference {
-        name: String,
-        /// True if its color matching functions are XYZ, so that it can be fitted to.
-        counts_in_xyz: bool,
-    },
+    SetReference { name: String, counts_in_xyz: bool },
 }
 
 #[derive(Clone, Debug, PartialEq)]
@@ -56,7 +51,6 @@ pub enum SceneAction {
     SetFilter(String, bool),
     ClearFilters,
     SetTemperature(f64),
-    /// Another full well and read noise, or none.
     SetPixel(Option<Pixel>),
     SetChart(String),
     SetSubset(Subset),
@@ -70,51 +64,29 @@ pub enum SceneAction {
 }
 
 /// Changes to the rendered scene. The settings are independent numbers, so that a change consists of the new settings and the
-/// name of the changed one.
+/// name of the changed one, as shown in the menu. A file is opened once it was read. The paper's Figures 8 and 9 are head and fern
+/// under sunlight, balanced to D55; in the paper's own setup the light is a point, and Eq 12 in the paper's normalization.
 #[derive(Clone, Debug, PartialEq)]
 pub enum RenderAction {
-    Set {
-        /// Name of the changed setting, as shown in the menu.
-        what: &'static str,
-        to: Box<RenderSettings>,
-    },
-    /// Selects the user's mesh file, which was read.
+    Set { what: &'static str, to: Box<RenderSettings> },
     Open(PathBuf),
     OpenImage(PathBuf),
-    /// The paper's Figure 8: the head under sunlight, balanced to D55.
     Figure8,
     Figure9,
-    /// Figure 8 in the paper's own setup: point light, Eq 12 in the paper's normalization.
     PaperFigure8,
-    /// Figure 9 in the paper's own setup.
     PaperFigure9,
 }
 
+/// Changes of the user's own sets. Imported cameras are added to the comparison, of several while the palette has room; light,
+/// filters and chart stay, and a name in use is replaced by a free one. A set is replaced by another version: another unit, role
+/// or name; several in a step of the given name, each with the name that it had, and those beside, whose file came back in another
+/// role, are added and not used. A set is used as the light, as the chart, as a filter, or in the comparison.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ImportedAction {
-    /// Adds imported sets. Cameras are added to the comparison, of several while the palette has room; light, filters and chart
-    /// stay. A name in use is replaced by a free one.
-    Import {
-        sets: Vec<ImportedSet>,
-        built_in: BuiltInNames,
-    },
-    /// Puts another version of a set in its place: another unit, role or name.
-    Replace {
-        name: String,
-        with: Box<ImportedSet>,
-        built_in: BuiltInNames,
-    },
-    /// Uses a set: as the light, as the chart, as a filter, in the comparison.
+    Import { sets: Vec<ImportedSet>, built_in: BuiltInNames },
+    Replace { name: String, with: Box<ImportedSet>, built_in: BuiltInNames },
     Use(SetKind, String),
-    /// Replaces some sets by other versions, as a step of the given name.
-    ReplaceAll {
-        what: String,
-        /// The names they had, and the sets as they are to be.
-        with: Vec<(String, ImportedSet)>,
-        /// Sets that are added and not used: a file came back in another role.
-        beside: Vec<ImportedSet>,
-        built_in: BuiltInNames,
-    },
+    ReplaceAll { what: String, with: Vec<(String, ImportedSet)>, beside: Vec<ImportedSet>, built_in: BuiltInNames },
     Remove(String),
 }
 
@@ -237,15 +209,13 @@ impl SceneAction {
             Self::SetPixel(Some(pixel)) => format!("Pixel: {}", pixel.describe()),
             Self::SetPixel(None) => "Pixel: not given".to_owned(),
             Self::SetChart(name) => format!("Patches: {name}"),
-            Self::SetSubset(Subset::Five) => "Patches: five".to_owned(),
-            Self::SetSubset(Subset::All) => "Patches: all".to_owned(),
+            Self::SetSubset(subset) => format!("Patches: {}", subset.key()),
             Self::SetWhite(white) => format!("White balance: {}", white.name()),
             Self::SetTransform(TransformChoice::Paper) => "Color transform: paper matrix".to_owned(),
             Self::SetTransform(TransformChoice::Observer(name)) => format!("Color transform: fitted to {name}"),
             Self::SetCorrection(correction) => format!("Color correction: {}", correction.method.label()),
             Self::SetDifference(metric) => format!("Difference: {}", metric.symbol),
-            Self::SetDiagram(Diagram::Xy) => "Diagram: xy".to_owned(),
-            Self::SetDiagram(Diagram::UvPrime) => "Diagram: u′v′".to_owned(),
+            Self::SetDiagram(diagram) => format!("Diagram: {}", diagram.label()),
             Self::SetOverlays(_) => "Overlays of the diagram".to_owned(),
         }
     }

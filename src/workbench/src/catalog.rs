@@ -24,16 +24,11 @@ use crate::document::SetKind;
 use crate::document::imported::ImportedSet;
 use crate::document::names::{BuiltInNames, caseless};
 
-/// Location of a set's figures: a file of the program, or a set of the user's, held by value.
+/// Location of a set's figures: a file of the program, with the value column if it holds several sets; or a set of the user's, held by
+/// value.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub enum Place {
-    /// A built-in file; `column` for files that hold several sets.
-    BuiltIn {
-        file: BuiltInFile,
-        /// The value column, if the file holds several sets.
-        column: Option<usize>,
-    },
-    /// One of the user's sets.
+    BuiltIn { file: BuiltInFile, column: Option<usize> },
     Own(Shared<ImportedSet>),
 }
 
@@ -91,8 +86,8 @@ impl Entry {
 
     /// Words that find it beside its name: short name, gloss and kind.
     pub fn gloss(&self) -> String {
-        let kind = if self.kind == SetKind::Illuminant { "CIE light illuminant" } else { self.kind.singular() };
-        format!("{} {} {kind} {}", self.short, self.also.as_deref().unwrap_or_default(), self.kind.plural())
+        let kind = if self.kind == SetKind::Illuminant { "CIE light illuminant" } else { self.kind.label() };
+        format!("{} {} {kind} {}", self.short, self.also.as_deref().unwrap_or_default(), self.kind.key())
     }
 
     pub fn from_own(set: &Shared<ImportedSet>) -> Self {
@@ -124,8 +119,8 @@ impl Catalog {
     pub fn built_in_with(further: &[BuiltInFile]) -> Self {
         let mut entries = Vec::new();
         for kind in SetKind::ALL {
-            let built_in = chromascope_data::files(kind.plural()).map(|(path, text)| BuiltInFile { path, text });
-            let is_of_kind = |file: &BuiltInFile| file.path.split('/').next() == Some(kind.plural());
+            let built_in = chromascope_data::files(kind.key()).map(|(path, text)| BuiltInFile { path, text });
+            let is_of_kind = |file: &BuiltInFile| file.path.split('/').next() == Some(kind.key());
             for file in built_in.chain(further.iter().copied().filter(is_of_kind)) {
                 if let Ok(header) = Dataset::read_header(file.text) {
                     add_entries(&mut entries, kind, file, &header);

@@ -26,7 +26,7 @@ use std::path::{Path, PathBuf};
 
 use clap::{ArgMatches, CommandFactory as _, FromArgMatches as _, Parser};
 
-use error::CliError;
+use error::Result;
 use outputs::show;
 
 pub use self::list::list;
@@ -41,7 +41,7 @@ macro_rules! commands {
         }
 
         impl Command {
-            fn run(&self, matches: &ArgMatches) -> Result<(), CliError> {
+            fn run(&self, matches: &ArgMatches) -> Result<()> {
                 match self {
                     $(Self::$name(arguments) => $run(arguments, matches),)*
                 }
@@ -97,15 +97,12 @@ Names are those of `chromascope list`. Case, punctuation and words such as CIE, 
 words, or any unambiguous part of one, match. A match that is not exact is reported on standard error.
 No command overwrites a file that it reads, or any other file without --force.";
 
-/// Action requested by the command line.
 pub enum Outcome {
-    /// A window with these files.
     Window(Vec<PathBuf>),
     /// It is done; end with this code.
     Done(u8),
 }
 
-/// Reads the arguments; runs a command if they name one.
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Outcome {
     let arguments: Vec<OsString> = arguments.into_iter().collect();
     let matches = match Arguments::command().try_get_matches_from(&arguments) {
@@ -141,7 +138,6 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Outcome {
     })
 }
 
-/// Refuses a word that is no command.
 fn unknown_command(word: &Path) -> u8 {
     say(&format!("chromascope: {}: no such command or file; see chromascope --help\n", word.display()));
     2

@@ -49,7 +49,6 @@ pub struct Document {
     pub pixel: Option<Pixel>,
     pub chart: String,
     pub subset: Subset,
-    /// The color a perfect white is to take.
     pub white: WhiteBalanceChoice,
     pub transform: TransformChoice,
     #[serde(skip_serializing_if = "CorrectionChoice::is_default")]
@@ -96,7 +95,6 @@ pub enum Light {
 }
 
 choices! {
-    /// Number of patches of a chart.
     #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
     #[serde(rename_all = "kebab-case")]
     pub enum Subset {
@@ -171,7 +169,6 @@ mod metric_id {
 }
 
 choices! {
-    /// The diagram's coordinates.
     #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
     #[serde(rename_all = "kebab-case")]
     pub enum Diagram {
@@ -246,10 +243,6 @@ impl Pixel {
     pub const LARGEST: f64 = 1e9;
 
     /// The pixel as the core takes it.
-    ///
-    /// # Errors
-    ///
-    /// [`ElectronsError`] for numbers that describe no pixel.
     pub fn electrons(self) -> Result<Electrons, ElectronsError> {
         Electrons::new(self.full_well, self.read_noise)
     }

@@ -1,7 +1,6 @@
 //! Figures out of the program: SVG and PDF from the figure, PNG from that SVG, all in the bundled fonts.
 
 pub mod card;
-pub mod form;
 pub mod page;
 pub mod paper;
 pub mod profile;
@@ -9,10 +8,12 @@ pub mod render;
 pub mod spectra;
 
 use std::io::Cursor;
+use std::path::Path;
 use std::sync::{Arc, LazyLock};
 
 use base64::{Engine as _, prelude::BASE64_STANDARD};
 use chromascope_figure::{CellValue, Figure, Image, Table, pdf, svg};
+use chromascope_text::{Choice as _, choices};
 use image::{
     ExtendedColorType, ImageEncoder as _, RgbaImage,
     codecs::png::{CompressionType, FilterType, PngEncoder},
@@ -22,31 +23,23 @@ use tiff::encoder::{Compression, DeflateLevel, Rational, TiffEncoder, colortype:
 use tiff::tags::ResolutionUnit;
 
 use crate::palette::{Colors, FONT, FONT_FAMILY, MONO_FAMILY, MONO_FONT};
-pub use form::FigureForm;
 pub use paper::Paper;
 
 /// The longest side of a picture in pixels.
 pub const MAX_SIDE: u32 = 16_384;
 
-/// Reason that there is no picture.
 #[derive(Debug, thiserror::Error)]
 pub enum ExportError {
-    /// The SVG could not be read.
     #[error("the figure could not be drawn: {0}")]
     Svg(#[from] usvg::Error),
-    /// The picture would be too large, or have no pixel.
     #[error("a picture of {width} × {height} pixels cannot be made; the longest side is {MAX_SIDE}")]
     Size { width: u32, height: u32 },
-    /// The picture could not be encoded.
     #[error("the picture could not be encoded: {0}")]
     Encode(#[from] image::ImageError),
-    /// The picture could not be encoded with its resolution.
     #[error("the picture could not be encoded: {0}")]
     Png(#[from] png::EncodingError),
-    /// The picture could not be written as TIFF.
     #[error("the picture could not be encoded: {0}")]
     Tiff(#[from] tiff::TiffError),
-    /// The figure could not be written as PDF.
     #[error(transparent)]
     Pdf(#[from] pdf::PdfError),
 }
@@ -75,7 +68,6 @@ pub fn svg(figure: &Figure, colors: &Colors, paper: Paper) -> String {
     svg::write(figure, colors, &style, &paper.page_style())
 }
 
-/// The figure as PDF, with its fonts in it.
 pub fn pdf(figure: &Figure, colors: &Colors, paper: Paper) -> Result<Vec<u8>, ExportError> {
     let fonts = pdf::PdfFonts { text: FONT, mono: MONO_FONT };
     Ok(pdf::write(figure, colors, fonts, &paper.page_style())?)
@@ -111,7 +103,6 @@ fn drawn(tree: &usvg::Tree, scale: f32) -> Result<RgbaImage, ExportError> {
     RgbaImage::from_raw(width, height, straight.collect()).ok_or_else(too_large)
 }
 
-/// The bytes of a PNG file.
 pub fn png_file(picture: &RgbaImage) -> Result<Vec<u8>, ExportError> {
     Ok(encoded(picture.as_raw(), picture.width(), picture.height(), CompressionType::Default)?)
 }
@@ -178,4 +169,51 @@ fn data_uri(image: &Image) -> Option<String> {
     let (width, height) = (u32::try_from(image.width).ok()?, u32::try_from(image.height).ok()?);
     let file = encoded(&image.rgba, width, height, CompressionType::Default).ok()?;
     Some(format!("data:image/png;base64,{}", BASE64_STANDARD.encode(&file)))
+}
+
+choices! {
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum FigureForm {
+        Pdf = "pdf", "PDF", "Vectors with embedded fonts";
+        Svg = "svg", "SVG", "Vectors";
+        Png = "png", "PNG", "Pixels";
+        Tiff = "tif" | "tiff", "TIFF", "Pixels, as some journals want them";
+        Csv = "csv", "CSV", "Numbers behind the figure";
+        Json = "json", "JSON", "Numbers behind the figure, for programs";
+    }
+}
+
+impl FigureForm {
+    pub const fn ending(self) -> &'static str {
+        self.key()
+    }
+
+    pub const fn name(self) -> &'static str {
+        self.label()
+    }
+
+    pub const fn is_numbers(self) -> bool {
+        matches!(self, Self::Csv | Self::Json)
+    }
+
+    /// Form that the ending of a path names.
+    pub fn of(path: &Path) -> Option<Self> {
+        Self::parse(&path.extension()?.to_str()?.to_ascii_lowercase())
+    }
+
+    /// Bytes of a figure's file, laid out for a paper; a table of numbers is written as it is.
+    pub fn bytes(self, figure: &Figure, numbers: &Table, paper: &Paper) -> Result<Vec<u8>, ExportError> {
+        let colors = paper.colors();
+        match self {
+            Self::Pdf => pdf(figure, &colors, *paper),
+            Self::Svg => Ok(svg(figure, &colors, *paper).into_bytes()),
+            Self::Png | Self::Tiff => {
+                let picture = png(&svg(figure, &colors, *paper), paper.pixels_per_point())?;
+                let file = if self == Self::Png { png_file_at } else { tiff_file_at };
+                file(&picture, paper.dpi)
+            }
+            Self::Csv => Ok(numbers.to_csv().into_bytes()),
+            Self::Json => Ok(json(&figure.title, numbers).into_bytes()),
+        }
+    }
 }

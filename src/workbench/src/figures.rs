@@ -34,7 +34,6 @@ pub mod curves;
 pub mod data_set;
 pub mod head_to_head;
 pub mod kind;
-mod labels;
 pub mod light;
 pub mod look;
 pub mod metrics;

@@ -14,7 +14,6 @@ pub fn rank_in_words(rank: Option<[usize; 2]>) -> String {
     }
 }
 
-/// A text with a capital at its start.
 pub fn capitalized(words: &str) -> String {
     let mut letters = words.chars();
     letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())

@@ -11,27 +11,13 @@ use crate::document::SetKind;
 use markdown::{Block, Inline};
 
 /// Pages in the order of the list: the file name without its ending, which is also the target of links.
-const ORDER: [&str; 14] = [
-    "getting-started",
-    "window",
-    "own-spectra",
-    "lights",
-    "command-line",
-    "keyboard",
-    "model",
-    "metrics",
-    "correction",
-    "accuracy",
-    "measured",
-    "paper",
-    "glossary",
-    "data",
-];
+const ORDER: &str = "getting-started window own-spectra lights command-line keyboard model metrics correction accuracy measured \
+                     paper glossary data";
 
 /// Pages for developers.
 const LAST: [&str; 2] = ["benchmark", "architecture"];
 
-pub const FIRST: &str = ORDER[0];
+pub const FIRST: &str = "getting-started";
 
 /// Characters of context on each side of a match.
 const CONTEXT: usize = 40;
@@ -46,10 +32,10 @@ pub struct Page {
 /// All pages in the order of the list. A page that cannot be parsed is absent; the tests parse each.
 pub fn pages() -> &'static [Page] {
     static PAGES: LazyLock<Vec<Page>> = LazyLock::new(|| {
-        let file = |name: &&'static str| markdown::parse(source(name)?).ok().map(|blocks| page(name, blocks));
-        let mut pages: Vec<Page> = ORDER.iter().filter_map(file).collect();
+        let file = |name: &'static str| markdown::parse(source(name)?).ok().map(|blocks| page(name, blocks));
+        let mut pages: Vec<Page> = ORDER.split(' ').filter_map(file).collect();
         pages.push(page("data-sets", data_sets(&Catalog::built_in())));
-        pages.extend(LAST.iter().filter_map(file));
+        pages.extend(LAST.into_iter().filter_map(file));
         pages.push(page("licenses", license_texts()));
         pages
     });
@@ -110,7 +96,7 @@ fn data_sets(catalog: &Catalog) -> Vec<Block> {
         let headers = catalog.of_kind(kind).filter_map(|entry| entry.header.as_ref());
         let new: Vec<_> = headers.filter(|header| listed.insert((kind, header.title.clone()))).collect();
         if !new.is_empty() {
-            blocks.push(heading(2, &crate::format::capitalized(kind.plural())));
+            blocks.push(heading(2, &crate::format::capitalized(kind.key())));
         }
         for header in new {
             blocks.push(heading(3, &header.title));

@@ -8,11 +8,9 @@
 
 mod executor;
 mod later;
-mod monitor;
 
-pub use executor::{Clock, Executor};
+pub use executor::{Clock, Executor, Monitor};
 pub use later::{Later, Waiting};
-pub use monitor::Monitor;
 
 use std::cell::Cell;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -31,7 +29,6 @@ pub const PATIENCE: Duration = Duration::from_millis(100);
 
 /// Work to be done in the background. Every [`Query`] is a job; so is a measurement, which is repeated at each request.
 pub trait Job: Clone + PartialEq + Send + Sync + 'static {
-    /// Its outcome.
     type Answer: Send + Sync + 'static;
     /// Name of its thread, and of its place in the queue of a driven executor.
     const NAME: &'static str;
@@ -65,7 +62,6 @@ struct State<J: Job> {
     stop: Arc<AtomicBool>,
     begun: Option<Duration>,
     shown: Option<Shown<J>>,
-    /// Number of answers so far.
     serial: u64,
     failure: Option<String>,
     closed: bool,
@@ -73,7 +69,6 @@ struct State<J: Job> {
 
 /// The latest answer.
 pub struct Shown<J: Job> {
-    /// Job that produced the answer.
     pub job: J,
     pub answer: Arc<J::Answer>,
     /// True if it is of the latest request.

@@ -13,9 +13,7 @@ pub const DIAGRAM_FILL: f32 = 0.1;
 pub const FONT_FAMILY: &str = "DejaVu Sans";
 /// Family of numbers in figures.
 pub const MONO_FAMILY: &str = "DejaVu Sans Mono";
-/// The text font.
 pub const FONT: &[u8] = include_bytes!("../../../assets/fonts/DejaVuSans.ttf");
-/// The font of numbers.
 pub const MONO_FONT: &[u8] = include_bytes!("../../../assets/fonts/DejaVuSansMono.ttf");
 
 /// The gray around swatches and renders.
@@ -33,7 +31,6 @@ pub enum Surround {
 impl Surround {
     pub const ALL: [Self; 3] = [Self::Middle, Self::Dark, Self::Light];
 
-    /// The name on screen.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Middle => "Middle gray, L* 50",
@@ -63,12 +60,22 @@ choices! {
     /// Colors of compared sources in a figure.
     #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
     pub enum SourceInks {
-        /// Those on screen, told apart in all kinds of color vision.
         #[default]
         Screen = "safe", "Color", "Colors told apart in all kinds of color vision";
-        /// Grays, told apart in print without color.
         Gray = "gray", "Gray", "Grays told apart in print without color";
     }
+}
+
+/// Bytes of colors that are written as on the web.
+const fn rgb<const N: usize>(colors: [u32; N]) -> [[u8; 3]; N] {
+    let mut bytes = [[0; 3]; N];
+    let mut place = 0;
+    while place < N {
+        let [_, red, green, blue] = colors[place].to_be_bytes();
+        bytes[place] = [red, green, blue];
+        place += 1;
+    }
+    bytes
 }
 
 /// The colors of figures in one theme.
@@ -98,7 +105,6 @@ pub struct Colors {
 }
 
 impl Colors {
-    /// Light on dark.
     pub const DARK: Self = Self {
         dark: true,
         panel: [0x26; 3],
@@ -111,16 +117,7 @@ impl Colors {
         surround: Surround::Middle,
         reference: [0xF2; 3],
         observer: [0x9A; 3],
-        sources: [
-            [0xD4, 0x89, 0x24],
-            [0x7F, 0xA9, 0xFF],
-            [0xB8, 0xEC, 0xA6],
-            [0xA0, 0x68, 0xA8],
-            [0xE7, 0xCC, 0x45],
-            [0x66, 0x70, 0xF4],
-            [0xD7, 0x49, 0x54],
-            [0x6B, 0xE6, 0xFE],
-        ],
+        sources: rgb([0xD48924, 0x7FA9FF, 0xB8ECA6, 0xA068A8, 0xE7CC45, 0x6670F4, 0xD74954, 0x6BE6FE]),
     };
 
     /// Dark on light. Figures are exported in it.
@@ -136,16 +133,7 @@ impl Colors {
         surround: Surround::Middle,
         reference: [0x14; 3],
         observer: [0x70; 3],
-        sources: [
-            [0x9B, 0x54, 0x02],
-            [0x29, 0x3C, 0x87],
-            [0x5A, 0xA2, 0x69],
-            [0xCF, 0x6E, 0xCA],
-            [0x9C, 0x8A, 0x08],
-            [0x5F, 0x50, 0xD3],
-            [0x7E, 0x1F, 0x2D],
-            [0x1F, 0x7B, 0x91],
-        ],
+        sources: rgb([0x9B5402, 0x293C87, 0x5AA269, 0xCF6ECA, 0x9C8A08, 0x5F50D3, 0x7E1F2D, 0x1F7B91]),
     };
 
     /// Black on white, for print.
@@ -198,17 +186,8 @@ impl Palette for Colors {
 
 /// Steps of the color scale of differences: uniform in L*, from blue through gray to yellow, distinguishable in all kinds
 /// of color vision.
-const DIFFERENCE_RAMP: [[u8; 3]; 9] = [
-    [0x00, 0x33, 0x78],
-    [0x2E, 0x48, 0x80],
-    [0x51, 0x5D, 0x88],
-    [0x6F, 0x74, 0x8F],
-    [0x90, 0x8D, 0x82],
-    [0xB1, 0xA4, 0x7B],
-    [0xD0, 0xBD, 0x73],
-    [0xEF, 0xD7, 0x68],
-    [0xFF, 0xF1, 0x59],
-];
+const DIFFERENCE_RAMP: [[u8; 3]; 9] =
+    rgb([0x003378, 0x2E4880, 0x515D88, 0x6F748F, 0x908D82, 0xB1A47B, 0xD0BD73, 0xEFD768, 0xFFF159]);
 
 /// The color of a share from 0 (no difference) to 1 (the scale's end).
 pub fn difference_ramp(share: f32) -> [u8; 3] {

@@ -8,27 +8,16 @@ use chromascope_figure::Tag;
 pub use crate::document::SensorId;
 use crate::document::SetKind;
 
-/// Something on screen that can be hovered, selected or pinned.
+/// Something on screen that can be hovered, selected or pinned: a camera or observer (its key, its locus, its curves); a patch,
+/// through one sensor or (a column head, a reflectance curve) through none; a blackbody through a sensor; the light; a set of the
+/// library that is no sensor (a chart, a light, a filter, a material).
 #[derive(Clone, Debug, PartialEq)]
 pub enum PlotItem {
-    /// A camera or observer: its key, its locus, its curves.
     Sensor(SensorId),
-    /// A patch, through one sensor or (a column head, a reflectance curve) through none.
-    Patch {
-        source: Option<SensorId>,
-        patch: String,
-    },
-    /// A blackbody through a sensor.
-    Radiator {
-        source: SensorId,
-        kelvin: f64,
-    },
+    Patch { source: Option<SensorId>, patch: String },
+    Radiator { source: SensorId, kelvin: f64 },
     Light,
-    /// A set of the library that is no sensor: a chart, a light, a filter, a material.
-    DataSet {
-        kind: SetKind,
-        name: String,
-    },
+    DataSet { kind: SetKind, name: String },
 }
 
 /// Relation of a drawn item to the hovered or selected one.
@@ -78,7 +67,6 @@ impl PlotItem {
         self == other || matches!((self, other), (Self::Patch { .. }, Self::Patch { .. }))
     }
 
-    /// Returns the relation of a drawn item to this one.
     pub fn relation_to(&self, drawn: &Self, reference: &str) -> Relation {
         let is_reference = |s: Option<&SensorId>| s.is_some_and(|s| s.kind == SetKind::Observer && s.name == reference);
         let same_source = |a: Option<&SensorId>, b: Option<&SensorId>| a.is_none() || b.is_none() || a == b;

@@ -3,7 +3,6 @@
 //! A run starts with an empty cache, so that cached answers do not distort its times. It is a [`Job`], not a `Query`: each
 //! request measures again.
 
-pub mod bench;
 mod conditions;
 mod integral;
 mod loci;
@@ -15,11 +14,11 @@ use std::time::Duration;
 
 use chromascope_core::query::render::picture::PicturesQuery;
 use chromascope_core::query::{Ask, Shared};
-use chromascope_core::render::{Quality, RasterSize, Shadows};
+use chromascope_core::render::{Quality, RasterSize, Shadows, Stop};
 use chromascope_core::spectral::Sensor;
 use chromascope_measure::harness::timed;
 use chromascope_measure::method::Point;
-use chromascope_measure::{Effort, Report, Workload};
+use chromascope_measure::{BenchError, Effort, Progress, Report, Workload};
 use chromascope_mesh::Mesh;
 use serde::{Deserialize, Serialize};
 
@@ -37,7 +36,6 @@ const HEIGHT: u32 = 360;
 /// Measures the cost of each method for a scene.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SceneRunJob {
-    /// Description of the rendered scene.
     pub scene: String,
     /// The pictures; none where there is nothing to render.
     pub pictures: Option<PicturesQuery>,
@@ -67,13 +65,8 @@ impl SceneRunJob {
         let settings = &scene.document.render;
         let orbit = orbit.unwrap_or_else(|| Orbit::of(&settings.mesh));
         let viewpoint = orbit.viewpoint(f64::from(WIDTH) / f64::from(HEIGHT))?;
-        let finish = Finish {
-            size: RasterSize { width: WIDTH, height: HEIGHT, samples: 1 }.clamped(),
-            quality,
-            shadows: Shadows::Full,
-            compared_samples: None,
-            open_sky: false,
-        };
+        let size = RasterSize { width: WIDTH, height: HEIGHT, samples: 1 }.clamped();
+        let finish = Finish { shadows: Shadows::Full, compared_samples: None, ..Finish::whole(size, quality) };
         if sources.is_empty() {
             return None;
         }
@@ -81,7 +74,6 @@ impl SceneRunJob {
     }
 }
 
-/// Measurements of a scene.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct SceneRun {
     #[serde(default)]
@@ -95,7 +87,6 @@ pub struct SceneRun {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Trial {
     pub subject: Subject,
-    /// Number of inputs measured on.
     pub inputs: usize,
     /// The methods, the reference first.
     pub points: Vec<Point>,
@@ -104,7 +95,6 @@ pub struct Trial {
     pub set: Option<usize>,
 }
 
-/// A kind of work.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum Subject {
     /// The spectral integral of the rendered samples.
@@ -117,34 +107,32 @@ pub enum Subject {
 impl Subject {
     pub const ALL: [Self; 2] = [Self::Integral, Self::Loci];
 
-    pub const fn title(self) -> &'static str {
+    const fn either(self, integral: &'static str, loci: &'static str) -> &'static str {
         match self {
-            Self::Integral => "Integral",
-            Self::Loci => "Loci",
+            Self::Integral => integral,
+            Self::Loci => loci,
         }
     }
 
+    pub const fn title(self) -> &'static str {
+        self.either("Integral", "Loci")
+    }
+
     pub const fn words(self) -> &'static str {
-        match self {
-            Self::Integral => "The diffuse spectral integral of the samples that the visible scene renders",
-            Self::Loci => "Planckian loci of the visible sensors",
-        }
+        self.either(
+            "The diffuse spectral integral of the samples that the visible scene renders",
+            "Planckian loci of the visible sensors",
+        )
     }
 
     /// Unit of work that a time refers to.
     pub const fn per(self) -> &'static str {
-        match self {
-            Self::Integral => "a sample through a sensor",
-            Self::Loci => "a temperature through a sensor",
-        }
+        self.either("a sample through a sensor", "a temperature through a sensor")
     }
 
     /// Quantity that an error is relative to.
     pub const fn error_of(self) -> &'static str {
-        match self {
-            Self::Integral => "of the peak J(κ, 0)",
-            Self::Loci => "of the largest signal",
-        }
+        self.either("of the peak J(κ, 0)", "of the largest signal")
     }
 }
 
@@ -165,6 +153,23 @@ fn fresh(ask: &impl Ask) -> Results {
     Results::default().until(ask.stop())
 }
 
+/// The benchmark: measures workloads, telling of its progress, until it is done or stopped.
+pub type Bench = fn(&[Workload], Effort, &Stop, &mut dyn FnMut(Progress<'_>)) -> Result<Report, BenchError>;
+
+/// The command that runs the program with the benchmark.
+pub const BUILD: &str = "cargo run --release --features bench";
+
+#[cfg(feature = "bench")]
+pub fn bench() -> Option<Bench> {
+    Some(chromascope_measure::run)
+}
+
+/// Returns none: this build has no benchmark.
+#[cfg(not(feature = "bench"))]
+pub fn bench() -> Option<Bench> {
+    None
+}
+
 /// Measures the program on a benchmark workload, independent of the scene.
 #[derive(Clone, Debug, PartialEq, Eq)]
 struct BenchJob(Workload);
@@ -174,7 +179,7 @@ impl Job for BenchJob {
     const NAME: &'static str = "bench";
 
     fn run(&self, results: &Results) -> Arc<Self::Answer> {
-        let Some(bench) = bench::bench() else { return Arc::new(Err("this build has no benchmark".to_owned())) };
+        let Some(bench) = bench() else { return Arc::new(Err("this build has no benchmark".to_owned())) };
         let report = bench(&[self.0], Effort::Quick, &results.stop(), &mut |_| ());
         Arc::new(report.map_err(|error| error.to_string()))
     }

@@ -8,7 +8,7 @@ use std::time::Duration;
 
 use chromascope_core::query::Ask as _;
 use chromascope_core::query::render::MeshQuery;
-use chromascope_core::render::{Quality, RasterSize, Shadows};
+use chromascope_core::render::RasterSize;
 use chromascope_core::scene::Viewpoint;
 
 use crate::jobs::{Background, Executor, Job, PATIENCE};
@@ -41,21 +41,14 @@ impl RenderedFrame {
     /// Square pictures of a mesh through a scene's sensors, made at once, with this many pixels along a side.
     pub fn of_mesh(scene: &Scene<'_>, mesh: MeshQuery, viewpoint: Viewpoint, side: u32) -> Result<Self, SceneError> {
         let sources = scene.rendered_sources();
-        let quality = scene.document.render.quality();
-        let finish = Finish {
-            size: RasterSize { width: side, height: side, samples: Self::SAMPLES }.clamped(),
-            quality,
-            shadows: if quality == Quality::Preview { Shadows::Coarse } else { Shadows::Full },
-            compared_samples: Some(usize::MAX),
-            open_sky: false,
-        };
+        let size = RasterSize { width: side, height: side, samples: Self::SAMPLES }.clamped();
+        let finish = Finish::whole(size, scene.document.render.quality());
         let query = scene.pictures_of(&sources, mesh, viewpoint, finish, None)?;
         let answer = Arc::new(PicturesAnswer::Mesh(scene.results.ask(&query)));
         let (query, sources) = (PicturesOf::Mesh(query), sources.into());
         Ok(Self { query, sources, answer, time: Duration::ZERO, is_last: true, serial: 0 })
     }
 
-    /// The pictures, or why there are none.
     pub fn pictures(&self) -> Result<MadePictures<'_>, NoPictures> {
         self.answer.pictures()
     }
@@ -70,7 +63,6 @@ impl RenderedFrame {
 struct PicturesJob {
     query: PicturesOf,
     sources: Arc<[ComparedSensor]>,
-    /// True if nothing finer is to come.
     is_last: bool,
     moving: bool,
 }
@@ -218,7 +210,6 @@ impl RenderService {
         self.frame.as_ref().is_some_and(|frame| self.wanted.as_ref() == Some(&frame.query))
     }
 
-    /// Running time of the latest request, if it is still running.
     pub fn busy(&self) -> Option<Duration> {
         self.worker.busy()
     }
@@ -228,7 +219,6 @@ impl RenderService {
         self.busy_then.is_some_and(|busy| busy >= PATIENCE)
     }
 
-    /// Reason that the latest request has no answer, if it failed.
     pub fn failure(&self) -> Option<String> {
         self.worker.failure()
     }

@@ -86,9 +86,7 @@ pub struct Judged {
     pub finding: Result<Finding, String>,
 }
 
-/// A file of a report.
 pub struct ReportFile {
-    /// Its name in the report's folder.
     pub name: String,
     pub bytes: Vec<u8>,
 }
@@ -136,7 +134,6 @@ impl Report {
         FIGURES.get(step).map_or_else(|| "claims".to_owned(), |figure| format!("Figure {}", figure.number))
     }
 
-    /// Names of the files of all steps.
     pub fn names() -> Vec<String> {
         let figures = FIGURES.iter().flat_map(|figure| FORMS.map(|form| file_name(figure, form)));
         figures.chain([NUMBERS, PAGE].map(str::to_owned)).collect()
@@ -159,7 +156,6 @@ impl Report {
         FORMS.into_iter().map(file).collect()
     }
 
-    /// The claims with their findings.
     pub fn judged(&self, results: &Results) -> Vec<Judged> {
         let subject = self.subject(results);
         claims()
@@ -197,7 +193,7 @@ pub fn numbers(judged: &[Judged]) -> Table {
             Field::new("claim", |(claim, ..)| claim.key.into()),
             Field::new("part", |(claim, ..)| claim.part.into()),
             Field::new("paper", |(claim, ..)| claim.paper.into()),
-            Field::new("verdict", |(_, verdict, _)| verdict.words().into()),
+            Field::new("verdict", |(_, verdict, _)| verdict.key().into()),
             Field::new("condition", |(claim, verdict, _)| claim.condition(*verdict).into()),
             Field::new("quantity", |(.., value)| value.quantity.as_str().into()),
             Field::new("sensor", |(.., value)| value.sensor.as_str().into()),
@@ -220,7 +216,6 @@ pub struct ReportJob {
 }
 
 impl ReportJob {
-    /// All steps.
     pub fn all(report: &Arc<Report>, folder: &std::path::Path) -> Vec<Self> {
         let job = |step| Self { report: Arc::clone(report), folder: folder.to_owned(), step };
         (0..Report::STEPS).map(job).collect()

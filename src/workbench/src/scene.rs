@@ -2,7 +2,6 @@
 //!
 //! Used by panes, exports and the command line alike, so that they cannot disagree.
 
-pub mod channel_ratio;
 pub mod conditions;
 pub mod correction;
 pub mod light;
@@ -45,10 +44,11 @@ use crate::results::Results;
 /// Number of points a locus on screen has.
 pub const LOCUS_POINTS: usize = 200;
 
-/// Reason that something of the scene cannot be shown.
+pub type Result<T, E = SceneError> = std::result::Result<T, E>;
+
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum SceneError {
-    #[error("no {kind} is named \"{name}\" here; open its file, or choose another", kind = kind.singular())]
+    #[error("no {kind} is named \"{name}\" here; open its file, or choose another", kind = kind.label())]
     NoSet { kind: SetKind, name: String },
     #[error("{name}: {error}")]
     Load { name: String, error: LoadError },
@@ -74,7 +74,6 @@ pub struct ComparedSensor {
     pub kind: SetKind,
     pub name: String,
     pub label: String,
-    /// Its color's role.
     pub role: InkRole,
     pub marker: Marker,
     /// The width of its lines in points.
@@ -88,17 +87,9 @@ pub struct ComparedSensor {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Caution {
     /// The reference is an XYZ observer while Eq 13 takes RGB: no camera can be compared with it.
-    NotComparable {
-        /// The reference, to which cameras can be fitted.
-        reference: String,
-    },
-    /// Cameras are fitted to another observer than they are compared with.
-    FitDiffers {
-        target: String,
-        reference: String,
-        /// True if the reference is an XYZ observer, so that it can be fitted to.
-        can_fit: bool,
-    },
+    NotComparable { reference: String },
+    /// Cameras are fitted to another observer than they are compared with, which can be fitted to if it is an XYZ observer.
+    FitDiffers { target: String, reference: String, can_fit: bool },
 }
 
 impl Caution {
@@ -138,12 +129,12 @@ impl<'a> Scene<'a> {
     }
 
     /// The set of this name; the user's own win.
-    pub fn entry(&self, kind: SetKind, name: &str) -> Result<Entry, SceneError> {
+    pub fn entry(&self, kind: SetKind, name: &str) -> Result<Entry> {
         self.find(kind, name).map(Cow::into_owned)
     }
 
     /// Finds a set without copying a built-in set's header, which may name thousands of columns.
-    fn find(&self, kind: SetKind, name: &str) -> Result<Cow<'a, Entry>, SceneError> {
+    fn find(&self, kind: SetKind, name: &str) -> Result<Cow<'a, Entry>> {
         let own = |is_it: &dyn Fn(&str) -> bool| {
             let mut sets = self.document.own.iter().filter(|set| SetKind::of_own(set) == kind);
             sets.find(|set| is_it(&set.name)).map(|set| Cow::Owned(Entry::from_own(set)))
@@ -158,24 +149,24 @@ impl<'a> Scene<'a> {
     }
 
     /// The chart or, failing that, the material set of this name. Transmittances can be seen as patches too.
-    pub fn chart_entry(&self, name: &str) -> Result<Entry, SceneError> {
+    pub fn chart_entry(&self, name: &str) -> Result<Entry> {
         self.find_chart(name).map(Cow::into_owned)
     }
 
-    fn find_chart(&self, name: &str) -> Result<Cow<'a, Entry>, SceneError> {
+    fn find_chart(&self, name: &str) -> Result<Cow<'a, Entry>> {
         let other = |kind| move |e| self.find(kind, name).map_err(|_| e);
         self.find(SetKind::Chart, name).or_else(other(SetKind::Material)).or_else(other(SetKind::Filter))
     }
 
-    pub fn sensor(&self, kind: SetKind, name: &str) -> Result<Shared<Sensor>, SceneError> {
+    pub fn sensor(&self, kind: SetKind, name: &str) -> Result<Shared<Sensor>> {
         self.loaded(&SensorQuery(self.find(kind, name)?.place.clone()), name)
     }
 
-    pub fn temperature(&self) -> Result<Kelvin, SceneError> {
+    pub fn temperature(&self) -> Result<Kelvin> {
         Ok(Kelvin::new(self.document.temperature_k)?)
     }
 
-    pub fn light(&self) -> Result<LoadedLight, SceneError> {
+    pub fn light(&self) -> Result<LoadedLight> {
         let (light, name) = match &self.document.light {
             Light::Set(name) => (LightQuery::Set(self.find(SetKind::Illuminant, name)?.place.clone()), name.as_str()),
             Light::BlackBody => (LightQuery::BlackBody(self.temperature()?), "blackbody"),
@@ -185,11 +176,11 @@ impl<'a> Scene<'a> {
     }
 
     /// An illuminant of the catalog, or one by formula such as `blackbody 3200 K`, through the document's filters.
-    pub(crate) fn illuminant(&self, name: &str) -> Result<LoadedLight, SceneError> {
+    pub(crate) fn illuminant(&self, name: &str) -> Result<LoadedLight> {
         self.filtered(self.light_of(name)?, name)
     }
 
-    fn light_of(&self, name: &str) -> Result<LightQuery, SceneError> {
+    fn light_of(&self, name: &str) -> Result<LightQuery> {
         let formula = name.strip_suffix(" K").and_then(|name| name.split_once(' '));
         let formula = formula.and_then(|(formula, kelvin)| Some((formula, Kelvin::new(kelvin.parse().ok()?).ok()?)));
         Ok(match formula {
@@ -199,7 +190,7 @@ impl<'a> Scene<'a> {
         })
     }
 
-    fn filtered(&self, light: LightQuery, name: &str) -> Result<LoadedLight, SceneError> {
+    fn filtered(&self, light: LightQuery, name: &str) -> Result<LoadedLight> {
         if self.document.filters.is_empty() {
             return self.loaded(&light, name);
         }
@@ -210,12 +201,12 @@ impl<'a> Scene<'a> {
         self.loaded(&FilteredLightQuery { light, filters }, &self.with_filters(name.to_owned()))
     }
 
-    pub fn filter(&self, name: &str) -> Result<Shared<GridSpectrum>, SceneError> {
+    pub fn filter(&self, name: &str) -> Result<Shared<GridSpectrum>> {
         self.loaded(&FilterQuery(self.entry(SetKind::Filter, name)?.place), name)
     }
 
     /// The data of a set of that name.
-    fn loaded<T: Clone>(&self, query: &impl Query<Answer = Result<T, LoadError>>, name: &str) -> Result<T, SceneError> {
+    fn loaded<T: Clone>(&self, query: &impl Query<Answer = Result<T, LoadError>>, name: &str) -> Result<T> {
         (*self.results.ask(query)).clone().map_err(|error| SceneError::Load { name: name.to_owned(), error })
     }
 
@@ -224,7 +215,7 @@ impl<'a> Scene<'a> {
         &self,
         query: &impl Query<Answer = Result<T, RenderingError>>,
         name: &str,
-    ) -> Result<T, SceneError> {
+    ) -> Result<T> {
         (*self.results.ask(query)).clone().map_err(|error| SceneError::Rendering { name: name.to_owned(), error })
     }
 
@@ -243,7 +234,7 @@ impl<'a> Scene<'a> {
         self.document.filters.iter().fold(light, |name, filter| format!("{name} × {filter}"))
     }
 
-    pub fn patches(&self) -> Result<Shared<PatchSet>, SceneError> {
+    pub fn patches(&self) -> Result<Shared<PatchSet>> {
         let five = self.document.subset == Subset::Five && self.has_five();
         self.patch_set(&self.document.chart, five.then_some(PAPER_FIVE.as_slice()))
     }
@@ -258,24 +249,20 @@ impl<'a> Scene<'a> {
         })
     }
 
-    pub(crate) fn patch_set(
-        &self,
-        name: &str,
-        names: Option<&'static [&'static str]>,
-    ) -> Result<Shared<PatchSet>, SceneError> {
+    pub(crate) fn patch_set(&self, name: &str, names: Option<&'static [&'static str]>) -> Result<Shared<PatchSet>> {
         self.loaded(&PatchesQuery { place: self.find_chart(name)?.place.clone(), names }, name)
     }
 
     /// The color that a perfect white is to take.
-    pub fn white(&self) -> Result<WhiteBalanceTarget, SceneError> {
+    pub fn white(&self) -> Result<WhiteBalanceTarget> {
         self.white_target(&self.document.white)
     }
 
-    fn built_in_light(&self, name: &str) -> Result<LoadedLight, SceneError> {
+    fn built_in_light(&self, name: &str) -> Result<LoadedLight> {
         self.loaded(&LightQuery::Set(self.find(SetKind::Illuminant, name)?.place.clone()), name)
     }
 
-    fn white_target(&self, choice: &WhiteBalanceChoice) -> Result<WhiteBalanceTarget, SceneError> {
+    fn white_target(&self, choice: &WhiteBalanceChoice) -> Result<WhiteBalanceTarget> {
         match choice {
             WhiteBalanceChoice::Unity => Ok(WhiteBalanceTarget::UNITY),
             WhiteBalanceChoice::Light(name) => self.white_of(&self.built_in_light(name)?, name),
@@ -291,13 +278,13 @@ impl<'a> Scene<'a> {
         }
     }
 
-    fn white_of(&self, light: &LoadedLight, name: &str) -> Result<WhiteBalanceTarget, SceneError> {
+    fn white_of(&self, light: &LoadedLight, name: &str) -> Result<WhiteBalanceTarget> {
         let observer = self.sensor(SetKind::Observer, FIT_TARGET)?;
         WhiteBalanceTarget::from_light(&light.measured, &observer)
             .ok_or_else(|| SceneError::WhiteBalanceTarget(name.to_owned()))
     }
 
-    pub fn transform(&self) -> Result<ColorTransformSpec, SceneError> {
+    pub fn transform(&self) -> Result<ColorTransformSpec> {
         match &self.document.transform {
             TransformChoice::Paper => Ok(ColorTransformSpec::Paper),
             TransformChoice::Observer(reference) => {
@@ -310,7 +297,7 @@ impl<'a> Scene<'a> {
     }
 
     /// Query for the conversion of a sensor's signals to chromaticities.
-    pub fn rendering_of(&self, kind: SetKind, name: &str) -> Result<RenderingQuery, SceneError> {
+    pub fn rendering_of(&self, kind: SetKind, name: &str) -> Result<RenderingQuery> {
         Ok(RenderingQuery {
             sensor: self.sensor(kind, name)?,
             light: self.light()?.grid,
@@ -319,44 +306,44 @@ impl<'a> Scene<'a> {
         })
     }
 
-    pub fn locus_temperatures() -> Result<Temperatures, SceneError> {
+    pub fn locus_temperatures() -> Result<Temperatures> {
         let [from, to] = LOCUS_RANGE_K;
         Ok(Temperatures::Range { from: Kelvin::new(from)?, to: Kelvin::new(to)?, count: LOCUS_POINTS })
     }
 
     /// A sensor's Planckian locus at the given temperatures.
-    pub fn locus_at(&self, kind: SetKind, name: &str, temperatures: Temperatures) -> Result<Arc<Locus>, SceneError> {
+    pub fn locus_at(&self, kind: SetKind, name: &str, temperatures: Temperatures) -> Result<Arc<Locus>> {
         let rendering = self.rendering_of(kind, name)?;
         let query = LocusQuery { rendering, temperatures, constants: RadiationConstants::Paper };
         // One copy of 200 points against a second layer of shared ownership in every caller.
         self.rendered(&query, name).map(Arc::new)
     }
 
-    pub fn locus(&self, kind: SetKind, name: &str) -> Result<Arc<Locus>, SceneError> {
+    pub fn locus(&self, kind: SetKind, name: &str) -> Result<Arc<Locus>> {
         self.locus_at(kind, name, Self::locus_temperatures()?)
     }
 
     /// A sensor's locus at the marked temperature alone.
-    pub fn locus_mark(&self, kind: SetKind, name: &str) -> Result<Arc<Locus>, SceneError> {
+    pub fn locus_mark(&self, kind: SetKind, name: &str) -> Result<Arc<Locus>> {
         self.locus_at(kind, name, Temperatures::List(vec![self.temperature()?]))
     }
 
-    pub fn patch_colors(&self, kind: SetKind, name: &str) -> Result<Vec<PatchColor>, SceneError> {
+    pub fn patch_colors(&self, kind: SetKind, name: &str) -> Result<Vec<PatchColor>> {
         let query = PatchColorsQuery { rendering: self.rendering_of(kind, name)?, patches: self.patches()? };
         self.rendered(&query, name)
     }
 
-    pub fn monochromatic(&self, kind: SetKind, name: &str) -> Result<Vec<SpectralPoint>, SceneError> {
+    pub fn monochromatic(&self, kind: SetKind, name: &str) -> Result<Vec<SpectralPoint>> {
         self.rendered(&MonochromaticQuery { rendering: self.rendering_of(kind, name)? }, name)
     }
 
     /// The outline of the diagram: monochromatic light for CIE 1931.
-    pub fn outline(&self) -> Result<Arc<Vec<SpectralPoint>>, SceneError> {
+    pub fn outline(&self) -> Result<Arc<Vec<SpectralPoint>>> {
         Ok(self.results.ask(&SpectralLocusQuery { observer: self.sensor(SetKind::Observer, FIT_TARGET)? }))
     }
 
     /// True if a sensor may be compared with the reference under this color transform.
-    pub fn comparable(&self, kind: SetKind, name: &str) -> Result<Result<(), DifferenceError>, SceneError> {
+    pub fn comparable(&self, kind: SetKind, name: &str) -> Result<Result<(), DifferenceError>> {
         if self.document.transform != TransformChoice::Paper {
             return Ok(Ok(()));
         }
@@ -384,7 +371,7 @@ impl<'a> Scene<'a> {
     }
 
     /// The difference of each patch from the reference, by the measure chosen; or why there is none.
-    pub fn differences(&self, kind: SetKind, name: &str) -> Result<Vec<Result<f64, DifferenceError>>, SceneError> {
+    pub fn differences(&self, kind: SetKind, name: &str) -> Result<Vec<Result<f64, DifferenceError>>> {
         let comparable = self.comparable(kind, name)?;
         let reference = self.patch_colors(SetKind::Observer, &self.document.reference)?;
         let own = self.patch_colors(kind, name)?;

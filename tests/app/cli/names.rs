@@ -7,14 +7,14 @@ use chromascope::document::SetKind;
 use super::{column, refused, run, table};
 
 fn found(catalog: &Catalog, kind: SetKind, name: &str) -> Result<(String, bool), NameError> {
-    let Found { entry, exact, .. } = find(catalog.of_kind(kind), kind.singular(), name)?;
+    let Found { entry, exact, .. } = find(catalog.of_kind(kind), kind.label(), name)?;
     Ok((entry.name.clone(), exact))
 }
 
 /// The name and what is said about it.
 fn taken(kind: SetKind, name: &str) -> (String, Option<String>) {
     let catalog = Catalog::built_in();
-    let found = find(catalog.of_kind(kind), kind.singular(), name).unwrap_or_else(|error| panic!("{name}: {error}"));
+    let found = find(catalog.of_kind(kind), kind.label(), name).unwrap_or_else(|error| panic!("{name}: {error}"));
     (found.entry.name.clone(), found.note())
 }
 

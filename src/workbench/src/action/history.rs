@@ -9,7 +9,6 @@ use crate::document::imported::ImportedSet;
 use crate::document::names::BuiltInNames;
 use crate::document::{Document, SessionFile};
 
-/// Largest number of steps.
 const DEPTH: usize = 10_000;
 /// Largest number of steps that are reloads: each holds another reading of a file.
 const RELOADS: usize = 20;
@@ -21,9 +20,7 @@ struct Step {
     document: Document,
     /// Action that later changes of the same gesture must extend to be merged into this step; `None` if not a gesture.
     action: Option<Action>,
-    /// True if another session begins with it.
     begins: bool,
-    /// True if it is a reload of changed files.
     reloads: bool,
 }
 
@@ -54,12 +51,7 @@ impl History {
 
     /// Carries out an action. A change that changes nothing is no step.
     pub fn apply(&mut self, action: &Action) {
-        let before = self.document.clone();
-        action.apply(&mut self.document);
-        if before == self.document {
-            return;
-        }
-        self.redo.clear();
+        let Some(before) = self.change(action) else { return };
         let continues = self.gesture
             && self
                 .undo
@@ -75,6 +67,17 @@ impl History {
             self.push(Step { name: action.name(), document: before, action: kept, begins: false, reloads: false });
         }
         self.gesture = true;
+    }
+
+    /// The document before a change; none for one that changes nothing.
+    fn change(&mut self, action: &Action) -> Option<Document> {
+        let before = self.document.clone();
+        action.apply(&mut self.document);
+        let has_changed = before != self.document;
+        if has_changed {
+            self.redo.clear();
+        }
+        has_changed.then_some(before)
     }
 
     fn push(&mut self, step: Step) {
@@ -103,12 +106,7 @@ impl History {
 
     /// Carries out a reload of changed files: one undo reverts successive ones.
     pub fn reload(&mut self, action: &Action) {
-        let before = self.document.clone();
-        action.apply(&mut self.document);
-        if before == self.document {
-            return;
-        }
-        self.redo.clear();
+        let Some(before) = self.change(action) else { return };
         let name = action.name();
         match self.undo.back_mut().filter(|step| step.reloads) {
             Some(step) if step.name == name => {}

@@ -18,7 +18,6 @@ use crate::jobs::{Executor, Monitor};
 /// Maximum bytes of unused files that stay cached, so that undo need not read them again.
 const REMEMBERED_BYTES: usize = 256_000_000;
 
-/// Modification time and length of a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Stamp {
     modified: Option<SystemTime>,
@@ -35,10 +34,8 @@ impl Stamp {
     }
 }
 
-/// Content of a file that is rendered.
 pub trait FromFile: Sized + Send + Sync + 'static {
-    /// Reason that a file gives none.
-    type Failure: FileFailure;
+    type Failure: std::fmt::Display + Send + From<Unread>;
     /// State of a file by which it is known to have changed.
     type Version: Copy + Send + 'static;
     const THREAD: &'static str;
@@ -52,8 +49,17 @@ pub trait FromFile: Sized + Send + Sync + 'static {
 
     fn bytes(&self) -> usize;
 
-    /// The file's name and counts.
     fn summary(&self) -> &str;
+
+    /// Message for the user who opened the file.
+    fn on_opening(failure: &Self::Failure) -> String {
+        failure.to_string()
+    }
+
+    /// Message for a picture that needs the file.
+    fn picture_message(failure: &Self::Failure) -> String {
+        failure.to_string()
+    }
 }
 
 /// Reason that a file was not read to its end, whatever it holds.
@@ -67,14 +73,6 @@ pub enum Unread {
     Stopped(String),
 }
 
-/// Reason that a file gives no content, in sentences.
-pub trait FileFailure: std::fmt::Display + Send + From<Unread> {
-    /// Message for the user who opened the file.
-    fn on_opening(&self) -> String;
-    /// Message for a picture that needs the file.
-    fn picture_message(&self) -> String;
-}
-
 #[derive(Debug)]
 pub enum FileState<T> {
     Loading,
@@ -83,11 +81,9 @@ pub enum FileState<T> {
     Failed(String),
 }
 
-/// Outcome of opening a file.
 #[derive(Debug)]
 pub struct Opened<T> {
     pub path: PathBuf,
-    /// Its content, or the reason that there is none.
     pub result: Result<Arc<T>, String>,
 }
 
@@ -253,8 +249,8 @@ impl<T: FromFile> State<T> {
             Ok(None) => {}
             Err(failure) => {
                 log::warn!("{failure}");
-                known.failure = Some(failure.picture_message());
-                sentence = Some(failure.on_opening());
+                known.failure = Some(T::picture_message(&failure));
+                sentence = Some(T::on_opening(&failure));
             }
         }
         if self.opening.as_deref() != Some(path) {
@@ -273,7 +269,7 @@ impl<T: FromFile> State<T> {
         let path = self.opening.take()?;
         let known = self.known_at(&path);
         known.stop();
-        known.failure = Some(T::Failure::from(Unread::Stopped(file_name(&path))).picture_message());
+        known.failure = Some(T::picture_message(&Unread::Stopped(file_name(&path)).into()));
         Some(path)
     }
 }

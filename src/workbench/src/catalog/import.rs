@@ -30,12 +30,10 @@ pub struct Origin {
 }
 
 impl Origin {
-    /// Of bytes that are not on disk.
     pub fn named(name: &str, bytes: &[u8]) -> Self {
         Self { name: name.to_owned(), path: None, fingerprint: Fingerprint::of(bytes), metadata: Arc::default() }
     }
 
-    /// Of a file on disk, called by a name.
     pub fn on_disk(name: &str, path: &Path, bytes: &[u8]) -> Self {
         Self { path: Some(path.to_owned()), metadata: metadata_beside(path), ..Self::named(name, bytes) }
     }

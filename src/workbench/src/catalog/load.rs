@@ -14,10 +14,8 @@ use chromascope_core::units::Kelvin;
 
 use super::{BuiltInFile, Place};
 
-/// The daylight basis among the built-in files.
 pub const DAYLIGHT_BASIS: &str = "illuminants/cie_daylight_basis.csv";
 
-/// The spread of sensitivities among them.
 pub const CURVE_SPREAD: &str = "uncertainty/curve_spread.csv";
 
 /// Reason that a set's figures cannot be computed with.
@@ -112,7 +110,6 @@ pub fn response_evidence(place: &Place, ask: &impl Ask) -> Evidence {
     }
 }
 
-/// The spread of sensitivities between laboratories.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct CurveSpreadQuery;
 
@@ -125,7 +122,6 @@ impl Query for CurveSpreadQuery {
     }
 }
 
-/// A light as measured and on the grid.
 #[derive(Clone, Debug)]
 pub struct LoadedLight {
     /// As measured, or as the formula gives it.
@@ -140,7 +136,6 @@ impl LoadedLight {
     }
 }
 
-/// Illuminant as a query to the catalog.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub enum LightQuery {
     Set(Place),
@@ -230,7 +225,6 @@ impl Query for StandardsQuery {
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct PatchesQuery {
     pub place: Place,
-    /// The selected patches; `None` for all.
     pub names: Option<&'static [&'static str]>,
 }
 

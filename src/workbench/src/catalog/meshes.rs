@@ -9,14 +9,13 @@ use chromascope_core::query::Shared;
 use chromascope_mesh::Mesh;
 use chromascope_mesh::reading::{MeshReadError, Note, ReadMesh, read_mesh};
 
-use super::file_store::{FileFailure, FileState, FileStore, FromFile, Stamp, Unread};
+use super::file_store::{FileState, FileStore, FromFile, Stamp, Unread};
 use crate::document::render::MeshChoice;
 use crate::format::{capitalized, file_name, io_reason};
 
 pub type MeshStore = FileStore<LoadedMesh>;
 pub type MeshState = FileState<LoadedMesh>;
 
-/// The largest mesh file that is read, in bytes.
 pub const MAX_FILE_BYTES: u64 = 1_000_000_000;
 /// Number of bytes read between two checks of the stop signal.
 const CHUNK_BYTES: u64 = 4 << 20;
@@ -43,7 +42,37 @@ impl FromFile for LoadedMesh {
         unless: Option<Stamp>,
         stop: &dyn Fn() -> bool,
     ) -> Result<Option<(Self, Stamp)>, MeshFailure> {
-        read_unless(path, unless, stop)
+        let file = file_name(path);
+        let failed = |error: io::Error| match error.kind() {
+            io::ErrorKind::NotFound => {
+                let folder = path.parent().map_or_else(String::new, |folder| folder.display().to_string());
+                MeshFailure::Missing { file: file.clone(), folder }
+            }
+            _ => MeshFailure::Io { file: file.clone(), error },
+        };
+        // Opening a pipe would block until another process writes into it.
+        if !std::fs::metadata(path).map_err(failed)?.is_file() {
+            return Err(MeshFailure::NoFile(file));
+        }
+        let source = File::open(path).map_err(failed)?;
+        let known = source.metadata().map_err(failed)?;
+        let stamp = Stamp::of(&known);
+        if unless == Some(stamp) {
+            return Ok(None);
+        }
+        if stamp.bytes() > MAX_FILE_BYTES {
+            return Err(MeshFailure::TooLarge { file, bytes: stamp.bytes() });
+        }
+        let bytes = contents(source, stamp.bytes(), stop).map_err(|error| match error.kind() {
+            io::ErrorKind::OutOfMemory => MeshFailure::NoMemory { file: file.clone(), bytes: stamp.bytes() },
+            io::ErrorKind::Interrupted => MeshFailure::Stopped(file.clone()),
+            _ => failed(error),
+        })?;
+        match read_mesh(&bytes, path.extension().and_then(OsStr::to_str), stop) {
+            Ok(mesh) => Ok(Some((loaded(&file, mesh), stamp))),
+            Err(MeshReadError::Stopped) => Err(MeshFailure::Stopped(file)),
+            Err(error) => Err(MeshFailure::Mesh { file, error }),
+        }
     }
 
     fn bytes(&self) -> usize {
@@ -52,6 +81,19 @@ impl FromFile for LoadedMesh {
 
     fn summary(&self) -> &str {
         &self.summary
+    }
+
+    fn on_opening(failure: &MeshFailure) -> String {
+        format!("{}. Nothing was changed.", failure.beginning())
+    }
+
+    fn picture_message(failure: &MeshFailure) -> String {
+        let remedy = match failure {
+            MeshFailure::Missing { .. } => "; open it from where it is now, or choose Head or Fern.",
+            MeshFailure::Io { .. } | MeshFailure::Stopped(..) => "; open it again, or choose Head or Fern.",
+            _ => ". Open another mesh, or choose Head or Fern.",
+        };
+        failure.beginning() + remedy
     }
 }
 
@@ -69,11 +111,7 @@ impl MeshStore {
 #[derive(Debug, thiserror::Error)]
 pub enum MeshFailure {
     #[error("{file} is not in {folder}")]
-    Missing {
-        file: String,
-        /// Folder that was searched.
-        folder: String,
-    },
+    Missing { file: String, folder: String },
     #[error("{file}: {}", io_reason(.error))]
     Io { file: String, error: io::Error },
     #[error("{0} is not a file")]
@@ -87,11 +125,7 @@ pub enum MeshFailure {
     #[error("{file}: not enough memory for its {} MB; close other programs or simplify the mesh", .bytes / 1_000_000)]
     NoMemory { file: String, bytes: u64 },
     #[error("{file}{}{error}", joint(.error))]
-    Mesh {
-        file: String,
-        /// Cause, with its position.
-        error: MeshReadError,
-    },
+    Mesh { file: String, error: MeshReadError },
     #[error("{0} could not be read because of an error in this program; please report it with the file")]
     Broken(String),
     #[error("reading {0} stopped")]
@@ -105,21 +139,6 @@ impl From<Unread> for MeshFailure {
             Unread::Broken(file) => Self::Broken(file),
             Unread::Stopped(file) => Self::Stopped(file),
         }
-    }
-}
-
-impl FileFailure for MeshFailure {
-    fn on_opening(&self) -> String {
-        format!("{}. Nothing was changed.", self.beginning())
-    }
-
-    fn picture_message(&self) -> String {
-        let remedy = match self {
-            Self::Missing { .. } => "; open it from where it is now, or choose Head or Fern.",
-            Self::Io { .. } | Self::Stopped(..) => "; open it again, or choose Head or Fern.",
-            _ => ". Open another mesh, or choose Head or Fern.",
-        };
-        self.beginning() + remedy
     }
 }
 
@@ -154,46 +173,9 @@ fn joint(error: &MeshReadError) -> &'static str {
 /// Reads a mesh file. `stop` is polled, and ends the reading with [`MeshFailure::Stopped`].
 pub fn read(path: &Path, stop: &dyn Fn() -> bool) -> Result<LoadedMesh, MeshFailure> {
     // Nothing to compare with, so there is always something.
-    read_unless(path, None, stop)?.map(|(mesh, _)| mesh).ok_or_else(|| MeshFailure::Stopped(file_name(path)))
-}
-
-/// Reads a file unless its stamp is still this one.
-fn read_unless(
-    path: &Path,
-    unless: Option<Stamp>,
-    stop: &dyn Fn() -> bool,
-) -> Result<Option<(LoadedMesh, Stamp)>, MeshFailure> {
-    let file = file_name(path);
-    let failed = |error: io::Error| match error.kind() {
-        io::ErrorKind::NotFound => {
-            let folder = path.parent().map_or_else(String::new, |folder| folder.display().to_string());
-            MeshFailure::Missing { file: file.clone(), folder }
-        }
-        _ => MeshFailure::Io { file: file.clone(), error },
-    };
-    // Opening a pipe would block until another process writes into it.
-    if !std::fs::metadata(path).map_err(failed)?.is_file() {
-        return Err(MeshFailure::NoFile(file));
-    }
-    let source = File::open(path).map_err(failed)?;
-    let known = source.metadata().map_err(failed)?;
-    let stamp = Stamp::of(&known);
-    if unless == Some(stamp) {
-        return Ok(None);
-    }
-    if stamp.bytes() > MAX_FILE_BYTES {
-        return Err(MeshFailure::TooLarge { file, bytes: stamp.bytes() });
-    }
-    let bytes = contents(source, stamp.bytes(), stop).map_err(|error| match error.kind() {
-        io::ErrorKind::OutOfMemory => MeshFailure::NoMemory { file: file.clone(), bytes: stamp.bytes() },
-        io::ErrorKind::Interrupted => MeshFailure::Stopped(file.clone()),
-        _ => failed(error),
-    })?;
-    match read_mesh(&bytes, path.extension().and_then(OsStr::to_str), stop) {
-        Ok(mesh) => Ok(Some((loaded(&file, mesh), stamp))),
-        Err(MeshReadError::Stopped) => Err(MeshFailure::Stopped(file)),
-        Err(error) => Err(MeshFailure::Mesh { file, error }),
-    }
+    LoadedMesh::read_unless(path, None, stop)?
+        .map(|(mesh, _)| mesh)
+        .ok_or_else(|| MeshFailure::Stopped(file_name(path)))
 }
 
 /// The bytes of a file, in pieces, for a disk can be slow.

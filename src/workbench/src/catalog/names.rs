@@ -7,11 +7,7 @@ pub enum NameError {
     #[error("no {kind} is named \"{name}\"{}", suggest(.name, .nearest))]
     Unknown { kind: &'static str, name: String, nearest: Vec<String> },
     #[error("\"{name}\" could be {}; type more of the name", .candidates.join(", "))]
-    Ambiguous {
-        name: String,
-        /// The names that contain it, the first few.
-        candidates: Vec<String>,
-    },
+    Ambiguous { name: String, candidates: Vec<String> },
 }
 
 fn suggest(name: &str, nearest: &[String]) -> String {
@@ -67,7 +63,6 @@ pub enum Fit {
     Similar,
 }
 
-/// The words of a search as they are compared.
 pub fn typed_words(text: &str) -> Vec<String> {
     text.split_whitespace().map(folded).filter(|word| !word.is_empty()).collect()
 }
@@ -139,7 +134,6 @@ pub fn ranked<T, G: PartialEq>(
     groups
 }
 
-/// What lists say to a search for a phone.
 pub const NO_PHONES: &str = "No phone is among the built-in cameras";
 
 pub fn is_for_phone(text: &str) -> bool {
@@ -148,7 +142,6 @@ pub fn is_for_phone(text: &str) -> bool {
     typed_words(text).iter().any(is_phone)
 }
 
-/// What a list says that has nothing for a search.
 pub fn no_match(text: &str) -> String {
     let phones = format!("No match. {NO_PHONES}. Open a table of your own (Ctrl+O): wavelength, R, G, B.");
     if is_for_phone(text) { phones } else { "No match.".to_owned() }
@@ -165,10 +158,6 @@ pub struct Found<'a> {
 }
 
 impl<'a> Found<'a> {
-    fn exact(entry: &'a Entry) -> Self {
-        Self { entry, exact: true, others: Vec::new() }
-    }
-
     fn near(entry: &'a Entry) -> Self {
         Self { entry, exact: false, others: Vec::new() }
     }
@@ -227,7 +216,7 @@ pub fn find<'a>(
     if let Some(entry) = exact(&entries, &folded(name), &wanted) {
         // A short name is not listed, and may omit the words that distinguish two sets.
         let is_short = folded(&entry.name) != folded(name) && telling_words(&entry.name).concat() != wanted;
-        return Ok(if is_short { Found::near(entry) } else { Found::exact(entry) });
+        return Ok(Found { exact: !is_short, ..Found::near(entry) });
     }
     let all_in = |text: &str| {
         let words = words(text);

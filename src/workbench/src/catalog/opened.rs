@@ -44,34 +44,14 @@ pub struct Failing {
 
 #[derive(Debug)]
 pub enum OpenedEvent {
-    Read {
-        /// The sets, each with its guesses.
-        sets: Vec<Imported>,
-        /// Summary of the contents and the decisions, in one sentence.
-        message: String,
-        /// Number of further files that could not be read, and the reason for the first; may be empty.
-        failure: String,
-        /// The files on disk that they came from.
-        paths: Vec<PathBuf>,
-        /// Further files that could not be read, but whose text can be shown.
-        failed: Vec<Fingerprint>,
-    },
-    /// Sets were read again, for the given reason.
-    Reread {
-        /// The sets by the names they had: each as it is now, or why it stays as it was.
-        sets: Vec<(String, Result<Imported, String>)>,
-        why: Why,
-        /// A later reading has a larger number.
-        ticket: u64,
-    },
+    /// Files were read: a message that sums up contents and decisions in one sentence; the number of further files that could not be
+    /// read, with the reason for the first (may be empty); the files on disk; and the further ones whose text can be shown.
+    Read { sets: Vec<Imported>, message: String, failure: String, paths: Vec<PathBuf>, failed: Vec<Fingerprint> },
+    /// Sets were read again for a reason: by the names they had, each as it is now, or why it stays as it was. A later reading has a
+    /// larger ticket.
+    Reread { sets: Vec<(String, Result<Imported, String>)>, why: Why, ticket: u64 },
     /// New contents of a file that could not be read before.
-    Replaced {
-        /// Fingerprint of the former contents.
-        old: Fingerprint,
-        /// Fingerprint of the present contents.
-        new: Fingerprint,
-        path: PathBuf,
-    },
+    Replaced { old: Fingerprint, new: Fingerprint, path: PathBuf },
     /// A mesh is to be opened, which is not read yet.
     Mesh(PathBuf),
     /// A spectral image is to be opened, which is not read yet.
@@ -119,6 +99,7 @@ struct State {
     lost: Vec<Fingerprint>,
 }
 
+#[derive(Default)]
 struct Job {
     name: Mutex<String>,
     share: AtomicU32,
@@ -280,7 +261,8 @@ impl Opened {
     }
 
     fn begin(&self, work: impl FnOnce(&Monitor, &Job) + Send + 'static) {
-        let job = Arc::new(Job::new(self.monitor.clock().now()));
+        let (begun, place) = (self.monitor.clock().now(), [1, 1].map(AtomicU32::new));
+        let job = Arc::new(Job { begun, place, ..Job::default() });
         self.monitor.lock().running.push(Arc::clone(&job));
         let monitor = Arc::clone(&self.monitor);
         let theirs = Arc::clone(&job);
@@ -331,16 +313,6 @@ impl State {
 }
 
 impl Job {
-    fn new(begun: Duration) -> Self {
-        Self {
-            name: Mutex::default(),
-            share: AtomicU32::new(0),
-            place: [AtomicU32::new(1), AtomicU32::new(1)],
-            stop: AtomicBool::new(false),
-            begun,
-        }
-    }
-
     /// Records the progress: file number `file` of `count`.
     fn at(&self, path: &Path, file: usize, count: usize) {
         *self.name.lock().unwrap_or_else(PoisonError::into_inner) = file_name(path);

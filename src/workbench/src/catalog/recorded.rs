@@ -13,7 +13,6 @@ use chromascope_core::spectral::GridSpectrum;
 
 use super::names::folded;
 
-/// Most rows of a table.
 const MAX_ROWS: usize = 100_000;
 
 #[derive(Clone, Debug, PartialEq)]
@@ -63,12 +62,7 @@ pub enum RawTableError {
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum JoinError {
     #[error("line {line}: no spectrum is named \"{name}\"; there are {known}")]
-    Unknown {
-        line: usize,
-        name: String,
-        /// The first of the spectra's names.
-        known: String,
-    },
+    Unknown { line: usize, name: String, known: String },
     #[error("line {line}: \"{name}\" was named before; name each patch once")]
     Twice { line: usize, name: String },
     #[error(
@@ -119,7 +113,6 @@ fn number(cell: &str, delimiter: char) -> Option<f64> {
     cell.parse::<f64>().ok().filter(|value| value.is_finite())
 }
 
-/// Place of the three channels among the heads.
 fn channels(heads: &[String]) -> Option<[usize; 3]> {
     let at = |names: [&str; 3]| heads.iter().position(|head| names.contains(&folded(head).as_str()));
     Some([at(["r", "red", "rawr"])?, at(["g", "green", "rawg"])?, at(["b", "blue", "rawb"])?])
@@ -133,7 +126,6 @@ fn name_column(heads: &[String], channels: [usize; 3], delimiter: char) -> Optio
     headed.or_else(|| (0..heads.len()).find(other))
 }
 
-/// Reads a table of raw values, with or without spectra.
 pub fn read_table(bytes: &[u8]) -> Result<RawTable, RawTableError> {
     let text = String::from_utf8_lossy(bytes);
     let text = text.trim_start_matches('\u{feff}');

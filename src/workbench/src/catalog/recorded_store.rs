@@ -11,17 +11,15 @@ use chromascope_figure::Image;
 use spectral_file::{Certainty, ReadOptions, Role};
 
 use super::chart_picture::ChartPicture;
-use super::file_store::{FileFailure, FileStore, FromFile, Unread};
+use super::file_store::{FileStore, FromFile, Unread};
 use super::recorded::{self, Levels, RawRow};
 use crate::format::{file_name, io_reason};
 
-/// Endings of pictures of charts.
 pub const PICTURES: [&str; 3] = ["tif", "tiff", "png"];
 const MAX_BYTES: u64 = 1 << 30;
 /// Longest side of a picture as it is shown.
 const SHOWN: usize = 1024;
 
-/// Spectra of the recorded patches.
 #[derive(Clone, Debug)]
 pub struct TableSpectra {
     /// By the names of their patches.
@@ -32,7 +30,6 @@ pub struct TableSpectra {
 
 #[derive(Debug)]
 pub enum RecordedContent {
-    /// A table, with spectra or without.
     Table(Vec<RawRow>, Option<TableSpectra>),
     /// A picture of a chart, and as it is shown.
     Picture(ChartPicture, Image),
@@ -75,16 +72,6 @@ pub struct RecordedFailure(String);
 impl From<Unread> for RecordedFailure {
     fn from(why: Unread) -> Self {
         Self(why.to_string())
-    }
-}
-
-impl FileFailure for RecordedFailure {
-    fn on_opening(&self) -> String {
-        self.0.clone()
-    }
-
-    fn picture_message(&self) -> String {
-        self.0.clone()
     }
 }
 

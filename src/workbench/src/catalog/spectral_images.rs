@@ -10,7 +10,7 @@ use std::sync::atomic::{AtomicU32, Ordering};
 use chromascope_core::render::{BandWeights, LitSamples, SpectralImageError, SpectralImageSignals, Stop};
 use spectral_image::{EnviHeader, EnviImage, ExrImage, ImageError, ImageInfo, ImageQuantity, SpectralImage};
 
-use super::file_store::{FileFailure, FileState, FileStore, FromFile, Stamp, Unread};
+use super::file_store::{FileState, FileStore, FromFile, Stamp, Unread};
 use crate::document::render::MeshChoice;
 use crate::format::{file_name, io_reason};
 
@@ -21,12 +21,10 @@ const TILE_BYTES: usize = 16 << 20;
 /// Most pixels of an image: the signals of each sensor take 12 bytes a pixel.
 const MOST_PIXELS: usize = 40_000_000;
 
-/// Largest header that is read.
 const MAX_HEADER: u64 = 16 << 20;
 /// Extensions of a header's data file.
 const DATA: [&str; 9] = ["img", "dat", "raw", "bil", "bip", "bsq", "bin", "cube", "sli"];
 
-/// Reason that a spectral image cannot be opened, with its file.
 #[derive(Debug, thiserror::Error)]
 pub enum OpenImageError {
     #[error("{}: {}", path.display(), crate::format::io_reason(error))]
@@ -65,7 +63,6 @@ pub fn is_spectral_image(path: &Path) -> bool {
     has_ending(path, "hdr") || has_ending(path, "exr") || (is_data() && header_of(path).is_ok())
 }
 
-/// True if a path ends as those of spectral images do.
 pub fn has_image_ending(path: &Path) -> bool {
     ENDINGS.iter().any(|ending| has_ending(path, ending))
 }
@@ -169,7 +166,6 @@ impl LoadedImage {
 pub type ImageStore = FileStore<LoadedImage>;
 pub type ImageState = FileState<LoadedImage>;
 
-/// Reads header and state of an image.
 pub fn load(path: &Path) -> Result<LoadedImage, OpenImageError> {
     let version = version(path)?;
     let image = open(path, None)?;
@@ -240,6 +236,14 @@ impl FromFile for LoadedImage {
     fn summary(&self) -> &str {
         &self.summary
     }
+
+    fn on_opening(failure: &ImageFailure) -> String {
+        format!("{failure}. Nothing was changed.")
+    }
+
+    fn picture_message(failure: &ImageFailure) -> String {
+        format!("{failure}. Open it from where it is now, or choose a mesh.")
+    }
 }
 
 /// Reason that a spectral image cannot be shown, as the beginning of a sentence.
@@ -264,16 +268,6 @@ impl ImageFailure {
 impl From<Unread> for ImageFailure {
     fn from(why: Unread) -> Self {
         Self(why.to_string())
-    }
-}
-
-impl FileFailure for ImageFailure {
-    fn on_opening(&self) -> String {
-        format!("{self}. Nothing was changed.")
-    }
-
-    fn picture_message(&self) -> String {
-        format!("{self}. Open it from where it is now, or choose a mesh.")
     }
 }
 

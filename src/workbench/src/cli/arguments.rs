@@ -11,7 +11,7 @@ use serde::de::value::{Error, StrDeserializer};
 use serde::de::{DeserializeOwned, IntoDeserializer as _};
 use spectral_file::Values;
 
-use super::error::CliError;
+use super::error::{CliError, Result};
 use super::outputs;
 use super::request::Request;
 use crate::document::Pixel;
@@ -82,11 +82,11 @@ pub(super) struct OutArguments {
 
 impl OutArguments {
     /// Refuses the file before anything is computed.
-    pub(super) fn check(&self, request: &Request) -> Result<(), CliError> {
+    pub(super) fn check(&self, request: &Request) -> Result<()> {
         outputs::check(self.path.as_deref(), &request.inputs(), self.force)
     }
 
-    pub(super) fn put(&self, text: &str) -> Result<(), CliError> {
+    pub(super) fn put(&self, text: &str) -> Result<()> {
         outputs::put(text, self.path.as_deref())
     }
 }
@@ -103,7 +103,7 @@ pub(super) struct ChartArguments {
 }
 
 impl ChartArguments {
-    pub(super) fn set(&self, request: &mut Request) -> Result<(), CliError> {
+    pub(super) fn set(&self, request: &mut Request) -> Result<()> {
         request.values = self.values;
         request.set_chart(self.chart.as_deref())
     }
@@ -194,11 +194,7 @@ pub(super) struct PixelArguments {
 
 impl PixelArguments {
     /// The pixel, if its full well is named.
-    ///
-    /// # Errors
-    ///
-    /// [`CliError::Argument`] for numbers that describe no pixel.
-    pub(super) fn pixel(self) -> Result<Option<Pixel>, CliError> {
+    pub(super) fn pixel(self) -> Result<Option<Pixel>> {
         let pixel = self.full_well.map(|full_well| Pixel { full_well, read_noise: self.read_noise });
         let valid = pixel.map_or(Ok(()), |pixel| pixel.electrons().map(drop));
         valid.map_err(|error| CliError::Argument { argument: "--full-well", reason: error.to_string() })?;

@@ -9,11 +9,11 @@ use chromascope_measure::pareto::duration;
 use chromascope_measure::{Effort, Measurement, Progress, Report, Workload};
 use clap::{ArgMatches, Args};
 
-use super::error::CliError;
+use super::error::{CliError, Result};
 use super::outputs::{show, write_to};
 use crate::export::{Paper, png, png_file, svg};
 use crate::palette::Colors;
-use crate::profiler::bench::bench;
+use crate::profiler::bench;
 use crate::terminal::say;
 
 const EXAMPLES: &str = "Examples:
@@ -25,10 +25,8 @@ Writes bench.json, bench.csv and, for each workload, a figure as SVG and PNG. Fi
 and an earlier run is overwritten only with --replace.
 A line gives: threads, median time per item, ratio to the case's first method, largest error, what it is an error of.";
 
-/// The file of all measurements.
 const JSON: &str = "bench.json";
 
-/// The table of all measurements.
 const CSV: &str = "bench.csv";
 
 /// Run time against error of every method, measured on this machine: figures, table and JSON
@@ -61,7 +59,7 @@ fn workload(name: &str) -> Result<Workload, String> {
     Workload::from_name(name).ok_or_else(|| format!("there are: {}", names()))
 }
 
-pub(super) fn run(arguments: &BenchArguments, _: &ArgMatches) -> Result<(), CliError> {
+pub(super) fn run(arguments: &BenchArguments, _: &ArgMatches) -> Result<()> {
     let (false, Some(folder)) = (arguments.list, &arguments.out) else {
         let lines = Workload::ALL.map(|workload| format!("{:<12} {}\n", workload.name(), workload.title()));
         return show(&lines.concat());
@@ -103,7 +101,7 @@ fn names(plan: &[Workload]) -> Vec<String> {
 }
 
 /// The folder, made if need be, in which a file can be made.
-fn make_folder(folder: &Path) -> Result<(), CliError> {
+fn make_folder(folder: &Path) -> Result<()> {
     if folder.exists() && !folder.is_dir() {
         let reason = format!("{} is a file; name a folder (files are named automatically)", folder.display());
         return Err(CliError::Argument { argument: "--out", reason });
@@ -149,7 +147,7 @@ fn line(m: &Measurement) -> String {
     )
 }
 
-fn files(report: &Report, folder: &Path) -> Result<Vec<(PathBuf, Vec<u8>)>, CliError> {
+fn files(report: &Report, folder: &Path) -> Result<Vec<(PathBuf, Vec<u8>)>> {
     let mut files = vec![
         (folder.join(JSON), report.to_json()?.into_bytes()),
         (folder.join(CSV), report.table().to_csv().into_bytes()),
@@ -161,7 +159,7 @@ fn files(report: &Report, folder: &Path) -> Result<Vec<(PathBuf, Vec<u8>)>, CliE
     Ok(files)
 }
 
-fn pictures(stem: &Path, figure: &Figure) -> Result<[(PathBuf, Vec<u8>); 2], CliError> {
+fn pictures(stem: &Path, figure: &Figure) -> Result<[(PathBuf, Vec<u8>); 2]> {
     let text = svg(figure, &Colors::LIGHT, Paper::default());
     let picture = png_file(&png(&text, 2.0)?)?;
     Ok([(stem.with_extension("svg"), text.into_bytes()), (stem.with_extension("png"), picture)])

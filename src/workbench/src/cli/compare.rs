@@ -12,7 +12,7 @@ use clap::{ArgMatches, Args};
 use serde_json::{Map, Value, json};
 
 use super::arguments::{ChartArguments, CommonArguments, Form, LOCUS_K, PixelArguments, form};
-use super::error::CliError;
+use super::error::{CliError, Result};
 use super::request::Request;
 use crate::document::SetKind;
 use crate::results::Results;
@@ -52,16 +52,8 @@ const FORMS: [&str; 3] = [
     "One object with conditions, metrics and values",
 ];
 
-const USUAL: [&str; 8] = [
-    "delta-e2000-mean",
-    "delta-e2000-p95",
-    "delta-e2000-max",
-    "metamerism-index",
-    "vora",
-    "luther",
-    "cct-error",
-    "noise-gain",
-];
+const USUAL: &str =
+    "delta-e2000-mean delta-e2000-p95 delta-e2000-max metamerism-index vora luther cct-error noise-gain";
 /// All metrics, in the place of their names.
 const ALL: &str = "all";
 /// The order of names, in the place of a metric.
@@ -125,7 +117,7 @@ struct Row {
     rank: Option<[usize; 2]>,
 }
 
-pub(super) fn run(arguments: &CompareArguments, matches: &ArgMatches) -> Result<(), CliError> {
+pub(super) fn run(arguments: &CompareArguments, matches: &ArgMatches) -> Result<()> {
     let mut request = Request::new(&arguments.common, matches)?;
     arguments.chart.set(&mut request)?;
     if arguments.common.sources.names_no_sensor() {
@@ -150,10 +142,10 @@ pub(super) fn run(arguments: &CompareArguments, matches: &ArgMatches) -> Result<
     arguments.common.out.put(&text)
 }
 
-fn compared(scene: &Scene<'_>, request: &Request, arguments: &CompareArguments) -> Result<Comparison, CliError> {
+fn compared(scene: &Scene<'_>, request: &Request, arguments: &CompareArguments) -> Result<Comparison> {
     let named = |id: &str| CameraMetric::by_id(id);
     let metrics: Vec<CameraMetric> = match arguments.metrics.as_slice() {
-        [] => USUAL.iter().filter_map(|id| named(id)).collect(),
+        [] => USUAL.split(' ').filter_map(named).collect(),
         ids if ids.iter().any(|id| id == ALL) => CameraMetric::ALL.to_vec(),
         ids => ids.iter().filter_map(|id| named(id)).collect(),
     };
@@ -323,7 +315,7 @@ fn json(comparison: &Comparison) -> String {
             row.all.metrics.worst.iter().take(1).flatten().filter_map(|&patch| comparison.patches.get(patch)).collect();
         json!({
             "name": row.name,
-            "kind": row.kind.singular(),
+            "kind": row.kind.label(),
             "values": values.collect::<Map<String, Value>>(),
             "worst_patches": worst,
         })

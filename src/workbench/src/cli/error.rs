@@ -7,6 +7,8 @@ use chromascope_core::camera::RenderingError;
 
 use crate::scene::SceneError;
 
+pub(super) type Result<T, E = CliError> = std::result::Result<T, E>;
+
 #[derive(Debug, thiserror::Error)]
 pub(super) enum CliError {
     #[error(transparent)]
@@ -21,18 +23,14 @@ pub(super) enum CliError {
     #[error("{0}: Eq 13 takes RGB, not cone signals; add --transform fitted")]
     Cones(String),
     #[error("{argument}: {reason}")]
-    Argument {
-        argument: &'static str,
-        /// Reason, with the remedy.
-        reason: String,
-    },
+    Argument { argument: &'static str, reason: String },
     #[error(transparent)]
     Correction(#[from] crate::export::profile::CorrectionFileError),
     #[error("{}: {error}", path.display())]
     Picture { path: PathBuf, error: crate::export::render::PictureError },
     #[error(transparent)]
     Bench(#[from] chromascope_measure::BenchError),
-    #[error("this build has no benchmark; build it with it: {} -- bench …", crate::profiler::bench::BUILD)]
+    #[error("this build has no benchmark; build it with it: {} -- bench …", crate::profiler::BUILD)]
     NoBench,
     #[error(transparent)]
     Report(#[from] chromascope_measure::ReportError),

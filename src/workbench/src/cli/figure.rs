@@ -11,7 +11,7 @@ use clap::ArgMatches;
 
 use self::arguments::{FigureArguments, Range};
 use super::arguments::LOCUS_K;
-use super::error::CliError;
+use super::error::{CliError, Result};
 use super::identify::recorded_table;
 use super::outputs::{self, Stop};
 use super::request::Request;
@@ -21,7 +21,7 @@ use crate::figures::kind::Need;
 use crate::results::Results;
 use crate::scene::Scene;
 
-pub(super) fn run(arguments: &FigureArguments, matches: &ArgMatches) -> Result<(), CliError> {
+pub(super) fn run(arguments: &FigureArguments, matches: &ArgMatches) -> Result<()> {
     let out = arguments.common.out.path.as_deref();
     let form = out.and_then(FigureForm::of).ok_or_else(|| {
         let reason = "a file that ends in .pdf, .svg, .png, .tif, .csv or .json is needed".to_owned();
@@ -51,7 +51,7 @@ pub(super) fn run(arguments: &FigureArguments, matches: &ArgMatches) -> Result<(
 }
 
 /// Completes the document: the session or the sensors compared, a file's content, the mesh. Returns recorded raw values.
-fn prepare(request: &mut Request, arguments: &FigureArguments) -> Result<Option<RecordedSet>, CliError> {
+fn prepare(request: &mut Request, arguments: &FigureArguments) -> Result<Option<RecordedSet>> {
     request.set_chart(arguments.chart.as_deref())?;
     if let Some(light) = &arguments.second_light {
         request.set_second_light(light)?;
@@ -83,7 +83,7 @@ fn prepare(request: &mut Request, arguments: &FigureArguments) -> Result<Option<
 }
 
 /// Chooses the temperature that marks the loci and that locus metrics are of.
-fn set_temperature(document: &mut Document, arguments: &FigureArguments) -> Result<(), CliError> {
+fn set_temperature(document: &mut Document, arguments: &FigureArguments) -> Result<()> {
     let refused = |reason: String| CliError::Argument { argument: "--temperature", reason };
     let [low, high] = LOCUS_RANGE_K;
     match (arguments.temperature, document.radiator_k()) {
@@ -106,7 +106,7 @@ fn set_temperature(document: &mut Document, arguments: &FigureArguments) -> Resu
 }
 
 /// Refuses a height that a figure cannot take, because its rows or pictures have theirs.
-fn check_height(figure: &Figure, paper: &Paper, form: FigureForm) -> Result<(), CliError> {
+fn check_height(figure: &Figure, paper: &Paper, form: FigureForm) -> Result<()> {
     let Some(wanted) = paper.height_mm.filter(|_| !form.is_numbers()) else { return Ok(()) };
     let height = Page::new(figure, &paper.page_style()).area.height() * paper.scale() / 72.0 * 25.4;
     if (height - wanted).abs() < 1.0 {
@@ -116,7 +116,7 @@ fn check_height(figure: &Figure, paper: &Paper, form: FigureForm) -> Result<(), 
     Err(CliError::Argument { argument: "--height", reason })
 }
 
-fn opened(request: &mut Request, path: &Path) -> Result<Document, CliError> {
+fn opened(request: &mut Request, path: &Path) -> Result<Document> {
     let failed = |reason: String| CliError::File(format!("{}: {reason}", super::request::display_path(path)));
     let text = String::from_utf8(request.bytes(path)?).map_err(|_| failed("it is not text".to_owned()))?;
     let mut document = session::from_json(&text).map_err(|error| failed(error.to_string()))?;

@@ -15,7 +15,7 @@ use serde_json::{Value, json};
 use spectral_file::Values;
 
 use super::arguments::{Form, Per, form, values};
-use super::error::CliError;
+use super::error::{CliError, Result};
 use super::outputs::{self, put};
 use super::request::{Request, display_path};
 use crate::catalog::chart_picture::ChartPicture;
@@ -140,7 +140,7 @@ fn grid(text: &str) -> Result<[usize; 2], String> {
 /// Spectra by the names of their patches.
 type Spectra = Vec<(String, GridSpectrum)>;
 
-pub(super) fn run(arguments: &IdentifyArguments, _: &ArgMatches) -> Result<(), CliError> {
+pub(super) fn run(arguments: &IdentifyArguments, _: &ArgMatches) -> Result<()> {
     let mut request = Request::of_cameras(Start::Colorimetry, "--camera", &arguments.camera, arguments.per)?;
     request.values = arguments.values;
     let levels = levels(arguments)?;
@@ -175,7 +175,7 @@ fn file_of(arguments: &IdentifyArguments) -> String {
     file.map_or_else(String::new, |path| display_path(path))
 }
 
-fn levels(arguments: &IdentifyArguments) -> Result<Levels, CliError> {
+fn levels(arguments: &IdentifyArguments) -> Result<Levels> {
     let levels = Levels { black: arguments.black, clip: arguments.clip.unwrap_or(f64::INFINITY) };
     if levels.black.is_finite() && levels.clip > levels.black {
         return Ok(levels);
@@ -184,7 +184,7 @@ fn levels(arguments: &IdentifyArguments) -> Result<Levels, CliError> {
     Err(CliError::Argument { argument: "--clip", reason })
 }
 
-fn recorded_set(request: &mut Request, arguments: &IdentifyArguments, levels: Levels) -> Result<RecordedSet, CliError> {
+fn recorded_set(request: &mut Request, arguments: &IdentifyArguments, levels: Levels) -> Result<RecordedSet> {
     if let Some(light) = &arguments.illuminant {
         request.set_light(light)?;
     }
@@ -229,7 +229,7 @@ fn recorded_set(request: &mut Request, arguments: &IdentifyArguments, levels: Le
 }
 
 /// Patches of one table with their raw values: its own spectra, else those of the chart, under the light.
-pub(super) fn recorded_table(request: &mut Request, path: &Path) -> Result<RecordedSet, CliError> {
+pub(super) fn recorded_table(request: &mut Request, path: &Path) -> Result<RecordedSet> {
     let RawTable { spectra, rows, .. } = raw_table(request, path)?;
     let spectra = match spectra {
         Some(text) => file_spectra(request, path, Some(&text), false)?,
@@ -239,13 +239,13 @@ pub(super) fn recorded_table(request: &mut Request, path: &Path) -> Result<Recor
     joined.map(Shared::new).map_err(|error| CliError::File(format!("{}: {error}", display_path(path))))
 }
 
-fn raw_table(request: &mut Request, path: &Path) -> Result<RawTable, CliError> {
+fn raw_table(request: &mut Request, path: &Path) -> Result<RawTable> {
     let bytes = request.bytes(path)?;
     recorded::read_table(&bytes).map_err(|error| CliError::File(format!("{}: {error}", display_path(path))))
 }
 
 /// Raw values of a table that has nothing else.
-fn raw_rows(request: &mut Request, path: &Path) -> Result<Vec<RawRow>, CliError> {
+fn raw_rows(request: &mut Request, path: &Path) -> Result<Vec<RawRow>> {
     let table = raw_table(request, path)?;
     if table.spectra.is_none() {
         return Ok(table.rows);
@@ -259,7 +259,7 @@ fn picture_rows(
     arguments: &IdentifyArguments,
     path: &Path,
     levels: Levels,
-) -> Result<Vec<RawRow>, CliError> {
+) -> Result<Vec<RawRow>> {
     let bytes = request.bytes(path)?;
     let said = |error: &dyn std::fmt::Display| CliError::File(format!("{}: {error}", display_path(path)));
     let corners = <[[f64; 2]; 4]>::try_from(arguments.corners.as_slice())
@@ -270,14 +270,14 @@ fn picture_rows(
     picture.rows(&grid, levels).map_err(|error| said(&error))
 }
 
-fn chart_spectra(request: &Request) -> Result<Spectra, CliError> {
+fn chart_spectra(request: &Request) -> Result<Spectra> {
     let results = Results::default();
     let scene = Scene { document: &request.document, catalog: &request.catalog, results: &results };
     Ok(scene.patch_radiances()?)
 }
 
 /// Radiances of a file's spectra: as they are, or reflectances under the light.
-fn file_spectra(request: &mut Request, path: &Path, text: Option<&str>, radiance: bool) -> Result<Spectra, CliError> {
+pub(super) fn file_spectra(request: &mut Request, path: &Path, text: Option<&str>, radiance: bool) -> Result<Spectra> {
     let role = if radiance { Role::Illuminant } else { Role::Reflectance };
     let set = match text {
         Some(text) => request.read_bytes(path, text.as_bytes(), role)?,
@@ -324,7 +324,6 @@ struct Ranked<'a> {
 }
 
 impl Ranked<'_> {
-    /// The patch with the largest residuals.
     fn worst(&self) -> Option<(&str, f64)> {
         self.fit.worst_patches().first().map(|(patch, rms)| (self.patches[*patch].as_str(), *rms))
     }

@@ -23,7 +23,7 @@ use spectral_file::{
 };
 
 use super::arguments::{named, values};
-use super::error::CliError;
+use super::error::{CliError, Result};
 use super::outputs::{self, Stop, is_standard_output, put, show, stream};
 use super::request::read;
 use crate::atomic::fitting;
@@ -159,7 +159,6 @@ impl InspectArguments {
         }
     }
 
-    /// True if sensitivities are to be taken as responses per photon.
     fn per_photon(&self) -> Option<bool> {
         self.per.as_ref().map(|per| per == "photon")
     }
@@ -210,7 +209,7 @@ impl Failure {
 }
 
 /// Reads the files one by one and writes the requested output of each. A failed file does not stop the others.
-pub(super) fn run(arguments: &InspectArguments, _: &ArgMatches) -> Result<(), CliError> {
+pub(super) fn run(arguments: &InspectArguments, _: &ArgMatches) -> Result<()> {
     let (files, several) = files(&arguments.files)?;
     let out = Out::new(arguments, &files, several)?;
     let mut failures = Vec::new();
@@ -239,12 +238,7 @@ pub(super) fn run(arguments: &InspectArguments, _: &ArgMatches) -> Result<(), Cl
 }
 
 /// Writes the requested output of a file. The outer error ends the whole run.
-fn answer(
-    file: &Path,
-    (index, end): (usize, &str),
-    out: &Out,
-    arguments: &InspectArguments,
-) -> Result<Result<(), CliError>, CliError> {
+fn answer(file: &Path, (index, end): (usize, &str), out: &Out, arguments: &InspectArguments) -> Result<Result<()>> {
     let name = if is_standard_input(file) { "standard input".to_owned() } else { file.display().to_string() };
     let told = spectral_file::on_one_line(&name);
     let table = inspect(file, &name, arguments);
@@ -323,7 +317,6 @@ fn respond(table: &mut SpectralFile, per_photon: bool) -> Result<(), Failure> {
     Ok(())
 }
 
-/// The name that means no file.
 const STANDARD_INPUT: &str = "-";
 
 fn contents(file: &Path) -> io::Result<Vec<u8>> {
@@ -375,7 +368,7 @@ fn name_the_only_curve(table: &mut SpectralFile, file: &str) {
 }
 
 /// The files that are meant, and whether there may be several: folders become what is in them, in order of name.
-fn files(named: &[PathBuf]) -> Result<(Vec<PathBuf>, bool), CliError> {
+fn files(named: &[PathBuf]) -> Result<(Vec<PathBuf>, bool)> {
     let mut files = Vec::new();
     let mut several = named.len() > 1;
     for path in named {
@@ -403,7 +396,7 @@ enum Out {
 impl Out {
     /// Writes the tables as requested; a missing folder is created. Nothing is created or written if one of the tables
     /// may not be.
-    fn new(arguments: &InspectArguments, files: &[PathBuf], several: bool) -> Result<Self, CliError> {
+    fn new(arguments: &InspectArguments, files: &[PathBuf], several: bool) -> Result<Self> {
         let wrong = |reason: &str| Err(CliError::Argument { argument: "--csv", reason: reason.to_owned() });
         let Some(path) = arguments.csv.as_deref() else { return Ok(Self::Nowhere) };
         if is_standard_output(path) {

@@ -12,7 +12,7 @@ use clap::{ArgMatches, Args};
 use serde_json::{Value, json};
 
 use super::arguments::{Form, OutArguments, SourceArguments, form};
-use super::error::CliError;
+use super::error::Result;
 use super::request::Request;
 use crate::document::SetKind;
 use crate::format::fixed;
@@ -85,7 +85,7 @@ impl Answer {
     }
 }
 
-pub(super) fn run(arguments: &LightArguments, matches: &ArgMatches) -> Result<(), CliError> {
+pub(super) fn run(arguments: &LightArguments, matches: &ArgMatches) -> Result<()> {
     let mut request = Request::of_sources(&arguments.sources, matches)?;
     request.set_chart(arguments.chart.as_deref())?;
     let results = Results::default();
@@ -115,7 +115,7 @@ pub(super) fn run(arguments: &LightArguments, matches: &ArgMatches) -> Result<()
     arguments.out.put(&if people { shown(&text).into_owned() } else { text })
 }
 
-fn answer(scene: &Scene<'_>, cameras: &[String], similar_to: Option<&str>) -> Result<Answer, CliError> {
+fn answer(scene: &Scene<'_>, cameras: &[String], similar_to: Option<&str>) -> Result<Answer> {
     let (patches, rendition) = (scene.patches()?, scene.rendition()?);
     let similarity = similar_to.map(|name| Ok::<_, SceneError>((name.to_owned(), scene.similarity_to(name)?)));
     Ok(Answer {

@@ -2,7 +2,7 @@
 
 use clap::{ArgMatches, Args};
 
-use super::error::CliError;
+use super::error::Result;
 use super::outputs::show;
 use crate::catalog::Catalog;
 use crate::document::{FIVE, SetKind};
@@ -15,7 +15,7 @@ pub(super) struct ListArguments {
     kind: Option<SetKind>,
 }
 
-pub(super) fn run(arguments: &ListArguments, _: &ArgMatches) -> Result<(), CliError> {
+pub(super) fn run(arguments: &ListArguments, _: &ArgMatches) -> Result<()> {
     show(&list(&Catalog::built_in(), arguments.kind))
 }
 

@@ -11,7 +11,7 @@ use chromascope_figure::{Field, Table};
 use clap::{ArgMatches, Args};
 
 use super::arguments::CommonArguments;
-use super::error::CliError;
+use super::error::{CliError, Result};
 use super::outputs::{self, Stop};
 use super::request::Request;
 use crate::document::{LOCUS_RANGE_K, SetKind};
@@ -86,7 +86,7 @@ fn table(scene: &Scene<'_>, rows: Vec<Row>) -> Table {
     Table::of(&COLUMNS, rows).with_constants(scene.conditions())
 }
 
-pub(super) fn run(arguments: &LocusArguments, matches: &ArgMatches) -> Result<(), CliError> {
+pub(super) fn run(arguments: &LocusArguments, matches: &ArgMatches) -> Result<()> {
     let temperatures = temperatures(arguments)?;
     let request = Request::new(&arguments.common, matches)?;
     arguments.common.out.check(&request)?;
@@ -147,7 +147,7 @@ fn locus_rows(
     Ok(())
 }
 
-fn temperatures(arguments: &LocusArguments) -> Result<Temperatures, CliError> {
+fn temperatures(arguments: &LocusArguments) -> Result<Temperatures> {
     let kelvin = |argument: &'static str, value: f64| {
         let reason = || format!("{value} is not a temperature; use kelvins from 1 to 1e15");
         let usable = Kelvin::new(value).ok().filter(|kelvin| (1.0..=1e15).contains(&kelvin.get()));

@@ -12,7 +12,7 @@ use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{ArgMatches, Args, ValueEnum};
 
 use super::arguments::{FitArguments, OutArguments, Per, method};
-use super::error::CliError;
+use super::error::{CliError, Result};
 use super::outputs;
 use super::request::{Request, say_light};
 use crate::document::start::Start;
@@ -102,7 +102,7 @@ enum Format {
     Clf,
 }
 
-pub(super) fn run(arguments: &MatrixArguments, _: &ArgMatches) -> Result<(), CliError> {
+pub(super) fn run(arguments: &MatrixArguments, _: &ArgMatches) -> Result<()> {
     let cameras = std::slice::from_ref(&arguments.camera);
     let mut request = Request::of_cameras(Start::Colorimetry, "CAMERA", cameras, arguments.per)?;
     request.set_light(&arguments.illuminant)?;
@@ -124,7 +124,7 @@ pub(super) fn run(arguments: &MatrixArguments, _: &ArgMatches) -> Result<(), Cli
     outputs::stream(arguments.out.path.as_deref(), |out| Ok(out.write_all(&bytes)?))
 }
 
-fn written(arguments: &MatrixArguments, request: &Request, scene: &Scene<'_>) -> Result<Vec<u8>, CliError> {
+fn written(arguments: &MatrixArguments, request: &Request, scene: &Scene<'_>) -> Result<Vec<u8>> {
     let [(kind, name)] = request.sources.as_slice() else { return Ok(Vec::new()) };
     let exposure = if arguments.white_at_one { IdtExposure::WhiteAtOne } else { IdtExposure::Rawtoaces };
     let neutral = arguments.neutral;

@@ -7,7 +7,7 @@ use std::fs;
 use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
 
-use super::error::CliError;
+use super::error::{CliError, Result};
 use crate::atomic::write_atomically_with;
 use crate::scene::SceneError;
 use crate::terminal;
@@ -44,11 +44,7 @@ impl Identity {
 }
 
 /// Refuses all outputs if one is an input, is named twice, or exists and is not to be replaced.
-pub(super) fn check<'a>(
-    outputs: impl IntoIterator<Item = &'a Path>,
-    inputs: &[PathBuf],
-    force: bool,
-) -> Result<(), CliError> {
+pub(super) fn check<'a>(outputs: impl IntoIterator<Item = &'a Path>, inputs: &[PathBuf], force: bool) -> Result<()> {
     let inputs: Vec<Identity> = inputs.iter().filter_map(|path| Identity::existing(path)).collect();
     let mut taken = Vec::new();
     for path in outputs.into_iter().filter(|path| !is_stream(path)) {
@@ -85,12 +81,12 @@ fn is_stream(path: &Path) -> bool {
     is_standard_output(path) || is_descriptor(path) || no_file()
 }
 
-pub(super) fn show(text: &str) -> Result<(), CliError> {
+pub(super) fn show(text: &str) -> Result<()> {
     put(&terminal::shown(text), None)
 }
 
 /// Writes a text to a file, whole or not at all, or to standard output.
-pub(super) fn put(text: &str, out: Option<&Path>) -> Result<(), CliError> {
+pub(super) fn put(text: &str, out: Option<&Path>) -> Result<()> {
     stream(out, |out| Ok(out.write_all(text.as_bytes())?))
 }
 
@@ -118,10 +114,7 @@ impl From<SceneError> for Stop {
 }
 
 /// Writes to a file, whole or not at all, or to standard output, as it is made: nothing is held until the end.
-pub(super) fn stream(
-    out: Option<&Path>,
-    write: impl FnOnce(&mut dyn io::Write) -> Result<(), Stop>,
-) -> Result<(), CliError> {
+pub(super) fn stream(out: Option<&Path>, write: impl FnOnce(&mut dyn io::Write) -> Result<(), Stop>) -> Result<()> {
     let path = out.filter(|path| !is_standard_output(path));
     let mut because = None;
     let written = |out: &mut dyn io::Write| {
@@ -150,7 +143,6 @@ pub(super) fn stream(
     }
 }
 
-/// Writes bytes to a path as [`write_with`] does.
 pub(super) fn write_to(path: &Path, bytes: &[u8]) -> io::Result<()> {
     write_with(path, |out| out.write_all(bytes))
 }

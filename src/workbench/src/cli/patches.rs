@@ -5,16 +5,16 @@ use std::path::{Path, PathBuf};
 use chromascope_core::colorimetry::{Lab, Metric};
 use chromascope_core::light::Cct;
 use chromascope_core::query::{PatchColor, RadianceColorsQuery, RenderingQuery, Shared, compare};
-use chromascope_core::spectral::{GridSpectrum, Primaries, Quantity};
+use chromascope_core::spectral::{GridSpectrum, Primaries};
 use chromascope_figure::number::significant;
 use chromascope_figure::{Field, Table};
 use clap::{ArgMatches, Args};
 
 use super::arguments::{ChartArguments, CommonArguments};
-use super::error::CliError;
-use super::request::{Request, display_path};
+use super::error::Result;
+use super::identify::file_spectra;
+use super::request::Request;
 use crate::catalog::names::{NameError, folded};
-use crate::document::imported::Role;
 use crate::document::{SetKind, TransformChoice};
 use crate::results::Results;
 use crate::scene::{Scene, SceneError};
@@ -84,7 +84,7 @@ const COLUMNS: [Field<Row>; 17] = [
     Field::new("duv", |row| row.cct.map(|cct| cct.duv).into()),
 ];
 
-pub(super) fn run(arguments: &PatchesArguments, matches: &ArgMatches) -> Result<(), CliError> {
+pub(super) fn run(arguments: &PatchesArguments, matches: &ArgMatches) -> Result<()> {
     let mut request = Request::new(&arguments.common, matches)?;
     arguments.chart.set(&mut request)?;
     let radiances = match &arguments.radiance {
@@ -150,13 +150,11 @@ struct Radiances {
 }
 
 impl Radiances {
-    fn open(request: &mut Request, file: &Path, white: Option<&str>) -> Result<Self, CliError> {
-        let set = request.read(file, Role::Illuminant)?;
-        let curves = set.curves_in_nm().map_err(|error| CliError::File(format!("{}: {error}", display_path(file))))?;
-        let names: Vec<String> = curves.iter().map(|(name, _)| name.clone()).collect();
+    fn open(request: &mut Request, file: &Path, white: Option<&str>) -> Result<Self> {
+        let curves = file_spectra(request, file, None, true)?.into_iter();
+        let (names, spectra): (Vec<String>, _) = curves.map(|(name, curve)| (name, Shared::new(curve))).unzip();
         let white = white.map(|white| index_of(&names, white)).transpose()?;
-        let on_grid = |(_, curve)| Shared::new(GridSpectrum::resample(&curve, Quantity::Light));
-        Ok(Self { spectra: curves.into_iter().map(on_grid).collect(), names, white })
+        Ok(Self { names, spectra, white })
     }
 
     /// The conditions' name for what the radiances are balanced to.

@@ -16,15 +16,16 @@ use chromascope_core::query::DifferenceError;
 use chromascope_core::query::render::picture::{Pictures, PicturesQuery};
 use chromascope_core::render::{CameraImage, Picture};
 use clap::ArgMatches;
+use exr::prelude::LayerAttributes;
 use rayon::prelude::*;
 
 use self::arguments::{Format, RenderArguments};
 pub(super) use self::files::make_folder;
 use self::files::{file_names, patiently};
 use self::setup::Setup;
-use super::error::CliError;
+use super::error::{CliError, Result};
 use super::outputs::{self, is_standard_output, put, show, write_to};
-use crate::export::render::{PictureError, Provenance, exr_bytes, png_bytes};
+use crate::export::render::{PictureError, exr_bytes, mesh_header, png_bytes};
 use crate::figures::render::headline::{Detail, Measure};
 use crate::figures::render::returned;
 use crate::profiler::plans;
@@ -32,8 +33,7 @@ use crate::results::{Count, Results};
 use crate::scene::{ComparedSensor, Scene, SceneError};
 use crate::terminal::{say, shown_json};
 
-/// Renders the pictures, writes them and reports the result.
-pub(super) fn run(arguments: &RenderArguments, matches: &ArgMatches) -> Result<(), CliError> {
+pub(super) fn run(arguments: &RenderArguments, matches: &ArgMatches) -> Result<()> {
     if let Some(path) = &arguments.image {
         return image::run(arguments, path, matches);
     }
@@ -78,7 +78,7 @@ struct Made<'a> {
 }
 
 impl<'a> Made<'a> {
-    fn new(arguments: &RenderArguments, setup: &'a Setup, results: &'a Results) -> Result<Self, CliError> {
+    fn new(arguments: &RenderArguments, setup: &'a Setup, results: &'a Results) -> Result<Self> {
         let document = &setup.request.document;
         let scene = Scene { document, catalog: &setup.request.catalog, results };
         let sources = scene.sources();
@@ -102,7 +102,7 @@ impl<'a> Made<'a> {
     }
 
     /// Writes the files side by side: encoding takes longer than the disk.
-    fn write(&self, arguments: &RenderArguments) -> Result<(), CliError> {
+    fn write(&self, arguments: &RenderArguments) -> Result<()> {
         let names = [self.scene.light_name(), self.scene.document.white.name()];
         let contents = (0..self.files.len()).map(|index| self.content(index, arguments, &names));
         let contents = contents.collect::<Result<Vec<_>, _>>()?;
@@ -112,12 +112,7 @@ impl<'a> Made<'a> {
         })
     }
 
-    fn content<'b>(
-        &'b self,
-        index: usize,
-        arguments: &RenderArguments,
-        [illuminant, white]: &'b [String; 2],
-    ) -> Result<Content<'b>, CliError> {
+    fn content(&self, index: usize, arguments: &RenderArguments, conditions: &[String; 2]) -> Result<Content<'_>> {
         let name = &self.sources[index].name;
         let picture = self.pictures.pictures[index].as_ref();
         let picture = picture.map_err(|error| SceneError::Rendering { name: name.clone(), error: *error })?;
@@ -127,23 +122,9 @@ impl<'a> Made<'a> {
         let image = self.pictures.images[index].as_ref();
         let image = image.ok_or_else(|| CliError::File(format!("{name}: no picture")))?;
         let rendering = self.scene.rendered(&self.query.sources[index].rendering, name)?;
-        let shading = &self.query.shading;
-        let provenance = Provenance {
-            source: name,
-            balance: if rendering.is_rgb { white } else { "none" },
-            illuminant,
-            material: &self.scene.document.render.material,
-            garment: self.scene.document.render.worn(),
-            mesh: &self.setup.mesh_name,
-            quality: shading.quality,
-            lighting: shading.geometry.lighting,
-            viewpoint: self.setup.viewpoint,
-            surface: shading.surface,
-            reading: shading.reading,
-            sky: self.scene.document.render.sky,
-            thin: self.scene.document.render.thin,
-        };
-        Ok(Content::Exr { image, rendering: Box::new(rendering), provenance: Box::new(provenance) })
+        let subject = (&self.scene.document.render, self.setup.mesh_name.as_str());
+        let header = mesh_header(&rendering, name, conditions, subject, &self.query.shading);
+        Ok(Content::Exr { image, rendering: Box::new(rendering), header: Box::new(header) })
     }
 
     /// A line for each picture, and one for all.
@@ -183,7 +164,6 @@ impl<'a> Made<'a> {
         Some(planned.explanation.map_or_else(|| bounds.clone(), |explanation| format!("{explanation}; {bounds}")))
     }
 
-    /// Difference of a picture from the reference, in words.
     fn difference(&self, index: usize) -> String {
         match (&self.pictures.differences[index], self.not_comparable[index]) {
             _ if self.sources[index].is_reference => "the reference".to_owned(),
@@ -197,14 +177,16 @@ impl<'a> Made<'a> {
 
 enum Content<'a> {
     Png(&'a Picture),
-    Exr { image: &'a CameraImage, rendering: Box<Rendering>, provenance: Box<Provenance<'a>> },
+    Exr { image: &'a CameraImage, rendering: Box<Rendering>, header: Box<LayerAttributes> },
 }
 
 impl Content<'_> {
     fn bytes(&self) -> Result<Vec<u8>, PictureError> {
         match self {
             Self::Png(picture) => png_bytes(picture),
-            Self::Exr { image, rendering, provenance } => exr_bytes(image, rendering, provenance),
+            Self::Exr { image, rendering, header } => {
+                exr_bytes(image.placed(), image.signals(), rendering, (**header).clone())
+            }
         }
     }
 }

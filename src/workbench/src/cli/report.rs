@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use clap::{ArgMatches, Args};
 
 use super::arguments::Per;
-use super::error::CliError;
+use super::error::{CliError, Result};
 use super::outputs::{self, show, write_to};
 use super::render::make_folder;
 use super::request::Request;
@@ -52,7 +52,7 @@ pub(super) struct ReportArguments {
     force: bool,
 }
 
-pub(super) fn run(arguments: &ReportArguments, _: &ArgMatches) -> Result<(), CliError> {
+pub(super) fn run(arguments: &ReportArguments, _: &ArgMatches) -> Result<()> {
     let mut request = Request::of_cameras(Start::Paper, "--camera", &arguments.camera, arguments.per)?;
     request.set_chart(arguments.chart.as_deref())?;
     if let Some(illuminant) = &arguments.illuminant {

@@ -12,7 +12,7 @@ use clap::ArgMatches;
 use spectral_file::{Certainty, MAX_BYTES, ReadError, SpectralFile, Values, Warning};
 
 use super::arguments::{CommonArguments, FitArguments, Per, SourceArguments, Transform};
-use super::error::CliError;
+use super::error::{CliError, Result};
 use super::outputs::is_descriptor;
 use crate::catalog::import::{Origin, imported};
 use crate::catalog::names::{Found, find, telling_words};
@@ -42,7 +42,7 @@ pub(super) struct Request {
 
 impl Request {
     /// Reads the arguments that both tables take. `matches` knows in which order sensors were named.
-    pub(super) fn new(arguments: &CommonArguments, matches: &ArgMatches) -> Result<Self, CliError> {
+    pub(super) fn new(arguments: &CommonArguments, matches: &ArgMatches) -> Result<Self> {
         let mut request = Self::of_sources(&arguments.sources, matches)?;
         if let Some(illuminant) = &arguments.illuminant {
             request.set_light(illuminant)?;
@@ -55,7 +55,7 @@ impl Request {
     }
 
     /// Reads sensors, reference and color transform; the rest is the preset's.
-    pub(super) fn of_sources(arguments: &SourceArguments, matches: &ArgMatches) -> Result<Self, CliError> {
+    pub(super) fn of_sources(arguments: &SourceArguments, matches: &ArgMatches) -> Result<Self> {
         let mut request = Self::of_preset(arguments.preset, arguments.per);
         request.sources = request.named_sources(arguments, matches)?;
         request.check_per("--camera")?;
@@ -72,10 +72,10 @@ impl Request {
         argument: &'static str,
         cameras: &[OsString],
         per: Option<Per>,
-    ) -> Result<Self, CliError> {
+    ) -> Result<Self> {
         let mut request = Self::of_preset(preset, per);
         let camera = |name: &OsString| Ok((SetKind::Camera, request.camera(argument, name)?));
-        request.sources = cameras.iter().map(camera).collect::<Result<_, CliError>>()?;
+        request.sources = cameras.iter().map(camera).collect::<Result<_>>()?;
         request.check_per(argument)?;
         Ok(request)
     }
@@ -88,7 +88,7 @@ impl Request {
     }
 
     /// Refuses a unit of sensitivities where none are from a file.
-    fn check_per(&self, cameras: &str) -> Result<(), CliError> {
+    fn check_per(&self, cameras: &str) -> Result<()> {
         if self.per.is_none() || !self.document.own.is_empty() {
             return Ok(());
         }
@@ -135,11 +135,7 @@ impl Request {
         Ok(())
     }
 
-    fn named_sources(
-        &mut self,
-        arguments: &SourceArguments,
-        matches: &ArgMatches,
-    ) -> Result<Vec<(SetKind, String)>, CliError> {
+    fn named_sources(&mut self, arguments: &SourceArguments, matches: &ArgMatches) -> Result<Vec<(SetKind, String)>> {
         let places = |id: &str| matches.indices_of(id).into_iter().flatten().collect::<Vec<usize>>();
         let observers = arguments.observer.iter().map(OsStr::new);
         let observers = places("observer").into_iter().zip(observers).map(|(at, name)| (at, SetKind::Observer, name));
@@ -159,7 +155,7 @@ impl Request {
             .collect()
     }
 
-    fn set_transform(&mut self, arguments: &SourceArguments) -> Result<(), CliError> {
+    fn set_transform(&mut self, arguments: &SourceArguments) -> Result<()> {
         if let Some(reference) = &arguments.reference {
             self.document.reference = self.name("--reference", &[SetKind::Observer], reference)?;
         }
@@ -187,18 +183,12 @@ impl Request {
         Ok(())
     }
 
-    fn camera(&mut self, argument: &'static str, given: &OsStr) -> Result<String, CliError> {
+    fn camera(&mut self, argument: &'static str, given: &OsStr) -> Result<String> {
         self.set_or_file(argument, &[SetKind::Camera], Role::Camera, given)
     }
 
     /// The name of a set of these kinds, or of the file of one.
-    fn set_or_file(
-        &mut self,
-        argument: &'static str,
-        kinds: &[SetKind],
-        role: Role,
-        given: &OsStr,
-    ) -> Result<String, CliError> {
+    fn set_or_file(&mut self, argument: &'static str, kinds: &[SetKind], role: Role, given: &OsStr) -> Result<String> {
         if self.means_file(argument, kinds, given) {
             return Ok(self.open(Path::new(given), role)?.name.clone());
         }
@@ -208,13 +198,13 @@ impl Request {
         }
     }
 
-    pub(super) fn set_fit_target(&mut self, target: &str) -> Result<(), CliError> {
+    pub(super) fn set_fit_target(&mut self, target: &str) -> Result<()> {
         let target = self.name("--fit-to", &[SetKind::Observer], target)?;
         self.document.set_transform(TransformChoice::Observer(target));
         Ok(())
     }
 
-    pub(super) fn set_correction(&mut self, method: CorrectionMethod, fit: &FitArguments) -> Result<(), CliError> {
+    pub(super) fn set_correction(&mut self, method: CorrectionMethod, fit: &FitArguments) -> Result<()> {
         let mut choice = CorrectionChoice { method, keeps_white: !fit.free_white, ..CorrectionChoice::default() };
         for (class, weight) in &fit.weights {
             choice.weights[*class as usize] = *weight;
@@ -226,15 +216,15 @@ impl Request {
         Ok(())
     }
 
-    pub(super) fn set_second_light(&mut self, given: &OsStr) -> Result<(), CliError> {
+    pub(super) fn set_second_light(&mut self, given: &OsStr) -> Result<()> {
         self.document.correction.second_light = Some(self.light_named("--second-illuminant", given)?);
         Ok(())
     }
 
     /// The name of an illuminant, of the file of one, or of a formula with its temperature.
-    pub(super) fn light_named(&mut self, argument: &'static str, given: &OsStr) -> Result<String, CliError> {
+    pub(super) fn light_named(&mut self, argument: &'static str, given: &OsStr) -> Result<String> {
         match radiator(argument, &given.to_string_lossy())? {
-            Some((light, kelvin)) => Ok(format!("{} {kelvin} K", light.name())),
+            Some((light, kelvin)) => Ok(format!("{light} {kelvin} K")),
             None => self.set_or_file(argument, &[SetKind::Illuminant], Role::Illuminant, given),
         }
     }
@@ -251,9 +241,9 @@ impl Request {
         !built_in && is_file(given)
     }
 
-    pub(super) fn set_light(&mut self, given: &OsStr) -> Result<(), CliError> {
+    pub(super) fn set_light(&mut self, given: &OsStr) -> Result<()> {
         if let Some((light, kelvin)) = radiator("--illuminant", &given.to_string_lossy())? {
-            self.document.light = if light == Radiator::Daylight { Light::Daylight } else { Light::BlackBody };
+            self.document.light = if light == "daylight" { Light::Daylight } else { Light::BlackBody };
             self.document.temperature_k = kelvin;
             return Ok(());
         }
@@ -262,7 +252,7 @@ impl Request {
         Ok(())
     }
 
-    pub(super) fn set_filters(&mut self, filters: &[OsString]) -> Result<(), CliError> {
+    pub(super) fn set_filters(&mut self, filters: &[OsString]) -> Result<()> {
         for given in filters {
             let name = self.set_or_file("--filter", &[SetKind::Filter], Role::Transmittance, given)?;
             if self.document.filters.contains(&name) {
@@ -274,7 +264,7 @@ impl Request {
         Ok(())
     }
 
-    pub(super) fn set_chart(&mut self, chart: Option<&OsStr>) -> Result<(), CliError> {
+    pub(super) fn set_chart(&mut self, chart: Option<&OsStr>) -> Result<()> {
         let Some(chart) = chart else { return Ok(()) };
         if self.means_file("--chart", &REFLECTANCES, chart) {
             self.document.subset = Subset::All;
@@ -294,7 +284,7 @@ impl Request {
     }
 
     /// The name of a reflectance of what is rendered.
-    pub(super) fn material(&mut self, argument: &'static str, given: &OsStr) -> Result<String, CliError> {
+    pub(super) fn material(&mut self, argument: &'static str, given: &OsStr) -> Result<String> {
         let material = &*given.to_string_lossy();
         Ok(match material.to_ascii_lowercase().as_str() {
             "skin" => SKIN.to_owned(),
@@ -312,7 +302,7 @@ impl Request {
     }
 
     /// The name of a chart or a material, or [`FIVE`].
-    fn chart_name(&self, typed: &str) -> Result<String, CliError> {
+    fn chart_name(&self, typed: &str) -> Result<String> {
         let five = self.catalog.get(SetKind::Chart, CHART).map(|chart| Entry {
             name: FIVE.to_owned(),
             short: FIVE.to_owned(),
@@ -324,10 +314,10 @@ impl Request {
         Ok(found.entry.name.clone())
     }
 
-    pub(super) fn set_white(&mut self, white: &str) -> Result<(), CliError> {
+    pub(super) fn set_white(&mut self, white: &str) -> Result<()> {
         self.document.white = match radiator("--white-balance", white)? {
-            Some((Radiator::Daylight, kelvin)) => WhiteBalanceChoice::Daylight(kelvin),
-            Some((Radiator::BlackBody, kelvin)) => WhiteBalanceChoice::BlackBody(kelvin),
+            Some(("daylight", kelvin)) => WhiteBalanceChoice::Daylight(kelvin),
+            Some((_, kelvin)) => WhiteBalanceChoice::BlackBody(kelvin),
             None if white.trim().eq_ignore_ascii_case("unity") => WhiteBalanceChoice::Unity,
             None => WhiteBalanceChoice::Light(self.illuminant("--white-balance", white)?),
         };
@@ -335,7 +325,7 @@ impl Request {
     }
 
     /// The catalog's name for an illuminant. A formula without its temperature is no name for a measured set.
-    fn illuminant(&self, argument: &'static str, typed: &str) -> Result<String, CliError> {
+    fn illuminant(&self, argument: &'static str, typed: &str) -> Result<String> {
         let number = typed.trim().trim_end_matches(['K', 'k']).trim_end();
         if let Some(kelvin) = number.parse::<f64>().ok().filter(|kelvin| *kelvin >= 500.0) {
             let reason = format!(
@@ -357,15 +347,15 @@ impl Request {
     }
 
     /// The catalog's name for the typed one; a difference is reported.
-    fn name(&self, argument: &str, kinds: &[SetKind], typed: &str) -> Result<String, CliError> {
+    fn name(&self, argument: &str, kinds: &[SetKind], typed: &str) -> Result<String> {
         let sets = kinds.iter().flat_map(|kind| self.catalog.of_kind(*kind));
-        let found = find(sets, kinds.first().map_or("", |kind| kind.singular()), typed)?;
+        let found = find(sets, kinds.first().map_or("", |kind| kind.label()), typed)?;
         tell(argument, typed, &found);
         Ok(found.entry.name.clone())
     }
 
     /// Reads a file as a set of the document's own, under a name that no other set has; says what had to be guessed.
-    fn open(&mut self, path: &Path, role: Role) -> Result<Shared<ImportedSet>, CliError> {
+    fn open(&mut self, path: &Path, role: Role) -> Result<Shared<ImportedSet>> {
         let known = self.document.own.iter().find(|own| own.path.as_deref() == Some(path) && own.role == role);
         if let Some(known) = known {
             return Ok(known.clone());
@@ -381,20 +371,19 @@ impl Request {
         Ok(set)
     }
 
-    /// Reads a file with all its curves; says what had to be guessed.
-    pub(super) fn read(&mut self, path: &Path, role: Role) -> Result<ImportedSet, CliError> {
+    pub(super) fn read(&mut self, path: &Path, role: Role) -> Result<ImportedSet> {
         let bytes = self.bytes(path)?;
         self.read_bytes(path, &bytes, role)
     }
 
     /// The bytes of a file that is then an input.
-    pub(super) fn bytes(&mut self, path: &Path) -> Result<Vec<u8>, CliError> {
+    pub(super) fn bytes(&mut self, path: &Path) -> Result<Vec<u8>> {
         self.read.push(path.to_owned());
         read(path).map_err(|error| CliError::File(format!("{}: {}", display_path(path), io_reason(&error))))
     }
 
     /// Reads bytes of a file with all its curves; says what had to be guessed.
-    pub(super) fn read_bytes(&mut self, path: &Path, bytes: &[u8], role: Role) -> Result<ImportedSet, CliError> {
+    pub(super) fn read_bytes(&mut self, path: &Path, bytes: &[u8], role: Role) -> Result<ImportedSet> {
         let file = display_path(path);
         let mut overrides = ImportOverrides::for_role(Some(role));
         overrides.options.values = self.values.filter(|_| role.is_fraction());
@@ -464,28 +453,12 @@ fn is_shells(_: &Path, _: &fs::Metadata) -> bool {
     false
 }
 
-/// A light that is a formula of temperature.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Radiator {
-    Daylight,
-    BlackBody,
-}
-
-impl Radiator {
-    /// Its name where it is named with its temperature.
-    const fn name(self) -> &'static str {
-        match self {
-            Self::Daylight => "daylight",
-            Self::BlackBody => "blackbody",
-        }
-    }
-}
-
-fn radiator(argument: &'static str, text: &str) -> Result<Option<(Radiator, f64)>, CliError> {
+/// The name of a formula for light and its temperature in kelvins, as `daylight:6504`.
+fn radiator(argument: &'static str, text: &str) -> Result<Option<(&'static str, f64)>> {
     let Some((name, kelvin)) = text.split_once(':') else { return Ok(None) };
     let radiator = match name.trim().to_ascii_lowercase().as_str() {
-        "daylight" => Radiator::Daylight,
-        "blackbody" | "black-body" => Radiator::BlackBody,
+        "daylight" => "daylight",
+        "blackbody" | "black-body" => "blackbody",
         _ => return Ok(None),
     };
     let number = kelvin.trim().trim_end_matches(['K', 'k']).trim();
@@ -517,7 +490,7 @@ pub(super) fn say_light(scene: &Scene<'_>) -> Result<(), SceneError> {
 
 /// Rejects a file that states another quantity than its option takes, values of unknown scale, and values that no such quantity has;
 /// reports the use of a file that states none.
-fn check_quantity(path: &str, role: Role, table: &SpectralFile) -> Result<(), CliError> {
+fn check_quantity(path: &str, role: Role, table: &SpectralFile) -> Result<()> {
     let refuse = |why: String| Err(CliError::File(format!("{path}: {why}")));
     let content = &table.reading.content_role;
     let other = content.value != role && !(content.value.is_fraction() && role.is_fraction());
@@ -556,7 +529,7 @@ fn check_quantity(path: &str, role: Role, table: &SpectralFile) -> Result<(), Cl
 }
 
 /// Refuses sensitivities of which nothing says which are red, green and blue.
-fn check_channels(path: &str, role: Role, table: &SpectralFile) -> Result<(), CliError> {
+fn check_channels(path: &str, role: Role, table: &SpectralFile) -> Result<()> {
     let count = table.curves.len();
     if role != Role::Camera || count <= 3 || table.reading.camera_columns.is_some() {
         return Ok(());
@@ -566,7 +539,7 @@ fn check_channels(path: &str, role: Role, table: &SpectralFile) -> Result<(), Cl
 }
 
 /// True if a file holds as many curves as its use takes.
-fn check_curves(set: &ImportedSet) -> Result<(), CliError> {
+fn check_curves(set: &ImportedSet) -> Result<()> {
     let wanted = match set.role {
         Role::Camera if set.curves.len() < 3 => "expected three for a camera: red, green and blue",
         Role::Transmittance if set.curves.len() > 1 => "expected exactly one curve for a filter",

@@ -7,7 +7,6 @@ use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::parser::ValueSource;
 use clap::{Arg, ArgAction, ArgMatches, Args, Command, Error, FromArgMatches};
 
-/// Parser of a choice by key.
 pub(super) fn choice<T: Choice>() -> impl TypedValueParser<Value = T> {
     choice_of(T::ALL)
 }
@@ -34,7 +33,6 @@ pub(super) struct Given<D> {
     of: PhantomData<D>,
 }
 
-/// A value of a setting.
 #[derive(Clone, Debug)]
 enum To {
     Numbers(Vec<f64>),
@@ -60,7 +58,6 @@ impl<D: Settings> Given<D> {
         to
     }
 
-    /// True if the flag of a key was given.
     pub(super) fn has(&self, key: &str) -> bool {
         self.given.iter().any(|(index, _)| D::ALL[*index].key == key)
     }
@@ -71,7 +68,6 @@ fn flagged<D: Settings>() -> impl Iterator<Item = (usize, &'static Setting<D>)> 
     D::ALL.iter().enumerate().filter(|(_, setting)| !setting.flag.long.is_empty() && !setting.flag.elsewhere)
 }
 
-/// The flag of a setting.
 fn argument<D: Settings>(setting: &'static Setting<D>) -> Arg {
     let flag = &setting.flag;
     let arg = Arg::new(flag.long).long(flag.long).help(format!("{}{}", setting.help, flag.note));

@@ -13,7 +13,6 @@ pub const TRAINING: &str = "Training reflectances (190)";
 pub struct CorrectionChoice {
     #[serde(with = "method_id")]
     pub method: CorrectionMethod,
-    /// True if a perfect diffuser's color is preserved.
     pub keeps_white: bool,
     pub training: String,
     /// Weights of neutrals, skin, foliage and sky.

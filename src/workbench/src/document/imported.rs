@@ -78,7 +78,6 @@ pub struct ImportedSet {
     pub unit: WavelengthUnit,
     /// True if the file's values are percent, as the user has it.
     pub percent: bool,
-    /// For a camera: whether it counts photons, not energy.
     #[serde(default)]
     pub per_photon: bool,
     /// For a camera: which curves are red, green and blue.
@@ -197,7 +196,6 @@ impl ImportedSet {
     }
 }
 
-/// Saves shared sets as plain values.
 pub(super) mod list {
     use super::{ImportedSet, Shared};
     use serde::{Deserialize, Deserializer, Serializer};

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::imported::{ImportedSet, Role};
 
 choices! {
-    /// Kind of a data set.
+    /// The key is the plural, as shown and as the command line takes it; the label is one of them.
     #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
     #[serde(rename_all = "kebab-case")]
     pub enum SetKind {
@@ -27,16 +27,6 @@ pub struct SensorId {
 }
 
 impl SetKind {
-    /// The plural, as shown and as the command line takes it.
-    pub const fn plural(self) -> &'static str {
-        self.key()
-    }
-
-    /// One of them.
-    pub const fn singular(self) -> &'static str {
-        self.label()
-    }
-
     pub const fn of_own(set: &ImportedSet) -> Self {
         match set.role {
             Role::Camera => Self::Camera,

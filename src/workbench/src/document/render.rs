@@ -43,7 +43,6 @@ pub fn decade(tolerance: f64) -> f64 {
     format!("1e{power}").parse().unwrap_or(TOLERANCE)
 }
 
-/// The settings of the rendered scene.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct RenderSettings {
@@ -65,9 +64,7 @@ pub struct RenderSettings {
     pub half_sides_um: [f64; 2],
     /// The area A that follows from them.
     pub area: IlluminatedArea,
-    /// Refractive index.
     pub index: f64,
-    /// Normalization of the reflectance (Eq 1).
     #[serde(rename = "reading")]
     pub normalization: Normalization,
     /// The reflectance factor of the coherent component.
@@ -86,7 +83,6 @@ pub struct RenderSettings {
     pub light_distance: Option<f64>,
     /// The light's angular radius in radians.
     pub light_radius: f64,
-    /// True if the light casts shadows.
     pub shadows: bool,
     /// Irradiance of a level surface by a uniform sky over that of a surface that faces the light; 0 without a sky.
     #[serde(default)]
@@ -189,7 +185,6 @@ impl RenderSettings {
         self.worn().map_or_else(|| self.material.clone(), |garment| format!("{}, garment: {garment}", self.material))
     }
 
-    /// Exactness of the integrals once nothing moves.
     pub fn quality(&self) -> Quality {
         // Outside the range only until the session is validated.
         RelTolerance::new(self.tolerance).map_or(Quality::Reference, |tolerance| self.quality.quality(tolerance))
@@ -213,19 +208,15 @@ impl RenderSettings {
     }
 }
 
-/// Mesh to render.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum MeshChoice {
-    /// The program's head.
     #[default]
     Head,
-    /// The program's fern.
     Fern,
     Sphere,
     /// A square.
     Plane,
-    /// A file of the user's.
     File(#[serde(with = "super::paths")] PathBuf),
     /// A spectral image in place of a mesh.
     Image(#[serde(with = "super::paths")] PathBuf),
@@ -243,7 +234,6 @@ impl MeshChoice {
         }
     }
 
-    /// The file that it names, if it names one.
     pub fn file_mut(&mut self) -> Option<&mut PathBuf> {
         match self {
             Self::File(path) | Self::Image(path) => Some(path),

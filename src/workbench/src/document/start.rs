@@ -8,7 +8,6 @@ use chromascope_text::choices;
 use serde::{Deserialize, Serialize};
 
 choices! {
-    /// A named start.
     #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
     #[serde(rename_all = "kebab-case")]
     pub enum Start {

@@ -23,11 +23,9 @@ const LINE: f64 = 16.0;
 /// Width of the figure beside the swatches.
 const FIGURE: f64 = 580.0;
 
-/// Contents of a card.
 pub struct Card {
     /// Figure; its title and caption are those of the card.
     pub figure: Figure,
-    /// Swatches beside it.
     pub swatches: Option<Figure>,
 }
 

@@ -14,7 +14,6 @@ use crate::jobs::Job;
 use crate::palette::Colors;
 use crate::results::Results;
 
-/// A page to be drawn as pixels.
 #[derive(Clone)]
 pub struct PageJob {
     pub figure: Arc<Figure>,
@@ -46,7 +45,6 @@ impl Job for PageJob {
 /// Measures of a figure on paper.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PageFacts {
-    /// Width and height in points.
     pub size_pt: [f64; 2],
     /// Smallest text in points; `None` without text.
     pub smallest_text_pt: Option<f64>,
@@ -54,9 +52,7 @@ pub struct PageFacts {
     pub thinnest_line_pt: Option<f64>,
     /// Least difference in lightness L* of two inks of the legend; `None` for fewer than two.
     pub lightness_apart: Option<f64>,
-    /// True if there is a legend to be placed.
     pub has_legend: bool,
-    /// True if an axis has a title.
     pub has_titles: bool,
 }
 
@@ -64,7 +60,6 @@ impl PageFacts {
     /// Least difference in L* that lines and markers are told apart by.
     pub const TOLD_APART: f64 = 8.0;
 
-    /// Measures a figure on paper.
     pub fn of(figure: &Figure, paper: &Paper) -> Self {
         let style = paper.page_style();
         let page = Page::new(figure, &style);

@@ -10,17 +10,13 @@ choices! {
     /// Colors of a figure apart from those of its sources.
     #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
     pub enum PaperStyle {
-        /// As on a light screen.
         #[default]
         Light = "light", "Light", "As on a light screen";
-        /// Black on white, for print.
         Print = "print", "Print", "Black on white";
-        /// Light on dark, for slides.
         Dark = "dark", "Dark", "Light on dark, for slides";
     }
 }
 
-/// Layout of a figure on paper.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Paper {
@@ -30,26 +26,19 @@ pub struct Paper {
     pub height_mm: Option<f64>,
     /// Size of tick labels, names and legend in points; notes and caption are an eighth smaller.
     pub font_pt: f64,
-    /// Factor on the widths of lines and on markers.
     pub line_scale: f64,
-    /// Colors of ground, text and frames.
     pub style: PaperStyle,
-    /// Colors of sources.
     pub inks: SourceInks,
     /// Position of the legend; `None` places it beside a wide figure and below a narrow one. Beside, it stands below
     /// where it would take half of the width.
     pub legend: Option<LegendPlace>,
-    /// Titles of the axes.
     pub axis_titles: AxisTitles,
     /// True if the conditions stand below the figure.
     pub caption: bool,
     /// True if the chromaticity diagram has its strip below.
     pub strip: bool,
-    /// Ranges of the axes of plots that can be zoomed.
     pub ranges: AxisRanges,
-    /// Extent of the numbers written as CSV.
     pub numbers: Numbers,
-    /// Resolution of pixels.
     pub dpi: f64,
 }
 
@@ -73,7 +62,6 @@ impl Default for Paper {
     }
 }
 
-/// Groups of settings.
 pub const SIZE: &str = "Size";
 pub const LOOK: &str = "Look";
 
@@ -133,21 +121,16 @@ impl Paper {
     pub const TWO_COLUMNS_MM: f64 = 174.0;
     /// Range of width and height in millimeters.
     pub const SIDE_MM: [f64; 2] = [20.0, 2000.0];
-    /// Range of the size of text in points.
     pub const FONT_PT: [f64; 2] = [3.0, 48.0];
-    /// Range of the factor on the widths of lines.
     pub const LINE_SCALE: [f64; 2] = [0.1, 10.0];
-    /// Range of resolutions.
     pub const DPI: [f64; 2] = [36.0, 2400.0];
     /// Below this width in millimeters the legend stands below.
     const NARROW_MM: f64 = 120.0;
 
-    /// Layout of the page.
     pub fn page_style(&self) -> PageStyle {
         PageStyle { width_mm: self.width_mm, line_scale: self.line_scale, axis_titles: self.axis_titles }
     }
 
-    /// Pixels per point of pictures.
     pub fn pixels_per_point(&self) -> f32 {
         (self.dpi / 72.0) as f32
     }

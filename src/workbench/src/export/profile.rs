@@ -1,7 +1,5 @@
 //! Color corrections out of the program: text, DNG values, DCP, ICC, CLF.
 
-mod form;
-mod model;
 mod query;
 
 use std::fmt::Write as _;
@@ -22,64 +20,90 @@ use chromascope_profile::dcp::{Calibration, CalibrationIlluminant, Dcp};
 use chromascope_profile::icc::{D50, IccProfile, IccVersion};
 use chromascope_profile::{Matrix, ProfileError};
 
-pub use form::CorrectionForm;
-pub use model::unique_camera_model;
-pub use query::{CorrectionFileQuery, CorrectionRequest};
+pub use query::{CorrectionFileQuery, CorrectionRequest, unique_camera_model};
 
 use crate::format::slug;
 use crate::scene::correction::exif_light;
 
-/// Reason that a correction has no file of a kind.
+/// A file that a correction is saved as.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CorrectionForm {
+    Dcp,
+    Icc(IccVersion),
+    Clf,
+    Dng,
+    Text,
+}
+
+impl CorrectionForm {
+    /// All forms, in the order of their buttons.
+    pub const ALL: [Self; 6] =
+        [Self::Dcp, Self::Icc(IccVersion::V4), Self::Icc(IccVersion::V2), Self::Clf, Self::Dng, Self::Text];
+
+    /// Ending of such files; what stands before it, so that no two forms of a correction share a name; label of the button; and what
+    /// it saves.
+    const fn all_words(self) -> [&'static str; 4] {
+        match self {
+            Self::Dcp => ["dcp", "", "DCP…", "DNG camera profile for raw developers: matrices of one light or two"],
+            Self::Icc(IccVersion::V4) => {
+                ["icc", "", "ICC v4…", "ICC matrix profile, version 4, for linear RGB balanced for the light"]
+            }
+            Self::Icc(IccVersion::V2) => {
+                let why = "ICC matrix profile, version 2, for programs that read no version 4, as ArgyllCMS";
+                ["icc", "-v2", "ICC v2…", why]
+            }
+            Self::Clf => ["clf", "", "ACES CLF…", "ACES input transform as rawtoaces defines it, in Common LUT Format"],
+            Self::Dng => ["txt", "-dng", "DNG text…", "DNG's matrices and AsShotNeutral as lines of text"],
+            Self::Text => ["txt", "", "Text…", "All matrices and errors as text"],
+        }
+    }
+
+    pub const fn ending(self) -> &'static str {
+        self.all_words()[0]
+    }
+
+    /// Label of the button, and the object it saves.
+    pub const fn words(self) -> (&'static str, &'static str) {
+        let [.., label, why] = self.all_words();
+        (label, why)
+    }
+}
+
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum CorrectionFileError {
-    /// Files hold matrices.
     #[error(
         "{0} files hold a 3×3 matrix, which a root polynomial or a singular matrix is not; choose a matrix that is fitted"
     )]
     NoMatrix(&'static str),
-    /// The camera has no ACES input transform under the light.
     #[error(transparent)]
     Idt(#[from] IdtError),
-    /// The format cannot hold it.
     #[error(transparent)]
     Profile(#[from] ProfileError),
-    /// The file holds the ratio between the channels, which the table does not.
     #[error(
         "{camera}: its channel ratio is {ratio}. DCP, DNG and CLF files hold that ratio: give AsShotNeutral of a raw file under \
          {light} (--neutral R,G,B; in the window the field Neutral). ICC files do without"
     )]
-    Ratio {
-        /// The camera.
-        camera: String,
-        /// The light of the neutral.
-        light: String,
-        /// What is known of the ratio.
-        ratio: ChannelRatio,
-    },
+    Ratio { camera: String, light: String, ratio: ChannelRatio },
 }
 
 /// Color correction of a camera with the names that files need.
 #[derive(Clone, Debug)]
 pub struct CorrectionFile {
-    /// The camera in the catalog.
     pub camera: String,
     /// Camera model as raw files call it.
     pub model: String,
     /// Correction in words.
     pub correction: String,
-    /// Names of the lights.
     pub lights: Vec<String>,
     /// Symbol of the metric of the errors.
     pub metric: &'static str,
     /// Names of the training reflectances.
     pub training: Vec<String>,
-    /// The correction.
     pub sheet: CorrectionSheet,
     /// ACES input transform under the first light.
     pub idt: Result<Idt, IdtError>,
     /// Names of the training reflectances of that transform.
     pub idt_training: Vec<String>,
-    /// Credibility of the ratio between the table's channels.
     pub ratio: ChannelRatio,
     /// Camera RGB of a neutral under the first light, given in place of the table's own.
     pub neutral: Option<Neutral>,
@@ -107,7 +131,6 @@ impl CorrectionFile {
         unders
     }
 
-    /// Bytes of a file.
     pub fn written(&self, form: CorrectionForm) -> Result<Vec<u8>, CorrectionFileError> {
         match form {
             CorrectionForm::Dcp => self.dcp(),
@@ -249,7 +272,6 @@ impl CorrectionFile {
         }
     }
 
-    /// The transform as aligned numbers.
     pub fn transform_text(&self, under: &CorrectionUnder) -> String {
         match &under.report.transform {
             RgbTransform::Matrix(matrix) => aligned(*matrix),
@@ -348,10 +370,10 @@ pub fn check_lines(check: &StimulusCheck, metric: &str) -> [String; 2] {
     [format!("{what:<8}XYZ {x:9.4}{y:9.4}{z:9.4}"), remark]
 }
 
-/// Name of a correction's file.
 pub fn file_name(file: &CorrectionFile, form: CorrectionForm) -> String {
     let (camera, lights) = (slug(&file.camera), slug(&file.lights.join(" ")));
-    format!("{camera}-{lights}{}.{}", form.suffix(), form.ending())
+    let [ending, suffix, ..] = form.all_words();
+    format!("{camera}-{lights}{suffix}.{ending}")
 }
 
 fn polynomial_table(polynomial: &RootPolynomial) -> String {

@@ -3,56 +3,24 @@
 use std::io::{Cursor, Seek, Write};
 
 use chromascope_core::camera::Rendering;
-use chromascope_core::reflectance::{Normalization, Surface};
-use chromascope_core::render::{CameraImage, LitSamples, Picture, Quality};
-use chromascope_core::scene::Viewpoint;
-use chromascope_core::scene::lighting::{Distance, Lighting};
+use chromascope_core::query::render::ShadingQuery;
+use chromascope_core::reflectance::Normalization;
+use chromascope_core::render::{LitSamples, Picture};
+use chromascope_core::scene::lighting::Distance;
 use exr::prelude::{
     AnyChannel, AnyChannels, AttributeValue, Blocks, Compression, Encoding, FlatSamples, Image, Layer, LayerAttributes,
     LineOrder, Text, WritableImage as _,
 };
 use image::codecs::png::CompressionType;
 
-/// Reason that there is no file.
+use crate::document::render::RenderSettings;
+
 #[derive(Debug, thiserror::Error)]
 pub enum PictureError {
-    /// The PNG could not be encoded.
     #[error("the picture could not be encoded: {0}")]
     Png(#[from] image::ImageError),
-    /// The OpenEXR could not be encoded.
     #[error("the picture could not be encoded: {0}")]
     Exr(#[from] exr::error::Error),
-}
-
-/// Conditions of a picture, for its file's header.
-#[derive(Clone, Copy, Debug)]
-pub struct Provenance<'a> {
-    /// The camera's or observer's name.
-    pub source: &'a str,
-    /// The name of the balance.
-    pub balance: &'a str,
-    /// The name of the light's spectrum.
-    pub illuminant: &'a str,
-    /// The name of the material.
-    pub material: &'a str,
-    /// The name of the garment's material, if one is worn.
-    pub garment: Option<&'a str>,
-    /// The mesh's name.
-    pub mesh: &'a str,
-    /// Method of integration.
-    pub quality: Quality,
-    /// Position of the light.
-    pub lighting: Lighting,
-    /// Position of the eye.
-    pub viewpoint: Viewpoint,
-    /// The roughness.
-    pub surface: Surface,
-    /// Normalization of Eq 1.
-    pub reading: Normalization,
-    /// Irradiance of a level surface by the sky over that of a surface that faces the light.
-    pub sky: f64,
-    /// True if light passes through as through a leaf.
-    pub thin: bool,
 }
 
 /// The bytes of a PNG file: eight bits, sRGB, with opacity.
@@ -68,55 +36,6 @@ pub fn png_bytes(picture: &Picture) -> Result<Vec<u8>, PictureError> {
 /// A pixel is the mean over all its samples, those outside the mesh counted as 0: colors are premultiplied by A, as
 /// usual in OpenEXR. The same picture gives the same bytes.
 pub fn exr_bytes(
-    image: &CameraImage,
-    rendering: &Rendering,
-    provenance: &Provenance<'_>,
-) -> Result<Vec<u8>, PictureError> {
-    exr_file(image.placed(), image.signals(), rendering, attributes(rendering, provenance))
-}
-
-/// Conditions of a spectral image's picture, for its file's header.
-#[derive(Clone, Copy, Debug)]
-pub struct ImageProvenance<'a> {
-    /// The camera's or observer's name.
-    pub source: &'a str,
-    /// The name of the balance.
-    pub balance: &'a str,
-    /// The name of the light's spectrum.
-    pub illuminant: &'a str,
-    /// The image's name.
-    pub image: &'a str,
-}
-
-/// The bytes of an OpenEXR file of a spectral image's signals, as [`exr_bytes`].
-pub fn image_exr_bytes(
-    placed: &LitSamples,
-    signals: &[[f32; 3]],
-    rendering: &Rendering,
-    provenance: &ImageProvenance<'_>,
-) -> Result<Vec<u8>, PictureError> {
-    let text = |value: &str| AttributeValue::Text(utf8(value));
-    let white = rendering.white.as_vec3();
-    let own = [
-        ("camera", text(provenance.source)),
-        ("balance", text(provenance.balance)),
-        ("balanceFactors", AttributeValue::FloatVec3((white.x, white.y, white.z))),
-        ("illuminant", text(provenance.illuminant)),
-        ("image", text(provenance.image)),
-    ];
-    let attributes = LayerAttributes {
-        software_name: Some(utf8(concat!("chromascope ", env!("CARGO_PKG_VERSION")))),
-        comments: Some(utf8(
-            "R G B: the image's spectra through the camera, balanced, before exposure; X Y Z: tristimulus values by the color \
-             transform; A: 0 where the image has no value.",
-        )),
-        other: own.into_iter().map(|(name, value)| (utf8(name), value)).collect(),
-        ..LayerAttributes::default()
-    };
-    exr_file(placed, signals, rendering, attributes)
-}
-
-fn exr_file(
     placed: &LitSamples,
     signals: &[[f32; 3]],
     rendering: &Rendering,
@@ -175,10 +94,45 @@ fn planes(geometry: &LitSamples, signals: &[[f32; 3]], rendering: &Rendering) ->
     planes
 }
 
-fn attributes(rendering: &Rendering, provenance: &Provenance<'_>) -> LayerAttributes {
-    let Provenance { surface, lighting, viewpoint, .. } = provenance;
-    let text = |value: &str| AttributeValue::Text(utf8(value));
-    let three = |[x, y, z]: [f64; 3]| AttributeValue::FloatVec3((x as f32, y as f32, z as f32));
+/// What every picture's header says: its sensor, the white if it is of RGB, the light, and `more`.
+fn header<'a>(
+    rendering: &Rendering,
+    source: &str,
+    [illuminant, white]: &[String; 2],
+    comments: &str,
+    more: impl IntoIterator<Item = (&'a str, AttributeValue)>,
+) -> LayerAttributes {
+    let own = [
+        ("camera", text(source)),
+        ("balance", text(if rendering.is_rgb { white } else { "none" })),
+        ("balanceFactors", three(rendering.white.to_array())),
+        ("illuminant", text(illuminant)),
+    ];
+    LayerAttributes {
+        software_name: Some(utf8(concat!("chromascope ", env!("CARGO_PKG_VERSION")))),
+        comments: Some(utf8(comments)),
+        other: own.into_iter().chain(more).map(|(name, value)| (utf8(name), value)).collect(),
+        ..LayerAttributes::default()
+    }
+}
+
+/// The header of a spectral image's picture through a sensor, under these names of light and white.
+pub fn image_header(rendering: &Rendering, source: &str, conditions: &[String; 2], image: &str) -> LayerAttributes {
+    let comments = "R G B: the image's spectra through the camera, balanced, before exposure; X Y Z: tristimulus values by the color \
+                    transform; A: 0 where the image has no value.";
+    header(rendering, source, conditions, comments, [("image", text(image))])
+}
+
+/// The header of a mesh's picture through a sensor, under these names of light and white.
+pub fn mesh_header(
+    rendering: &Rendering,
+    source: &str,
+    conditions: &[String; 2],
+    (settings, mesh): (&RenderSettings, &str),
+    shading: &ShadingQuery,
+) -> LayerAttributes {
+    let (surface, lighting, viewpoint) =
+        (shading.surface, shading.geometry.lighting, shading.geometry.visibility.viewpoint);
     let place = match lighting.distance() {
         Distance::Far => "lightDirection",
         Distance::Near => "lightPosition",
@@ -187,17 +141,13 @@ fn attributes(rendering: &Rendering, provenance: &Provenance<'_>) -> LayerAttrib
     let distance = if viewpoint.zoom().is_some() { 0.0 } else { viewpoint.distance() };
     let orbit = [viewpoint.yaw().to_degrees(), viewpoint.pitch().to_degrees(), distance];
     let own = [
-        ("camera", text(provenance.source)),
-        ("balance", text(provenance.balance)),
-        ("balanceFactors", three(rendering.white.to_array())),
-        ("illuminant", text(provenance.illuminant)),
-        ("material", text(provenance.material)),
-        ("mesh", text(provenance.mesh)),
-        ("quality", text(provenance.quality.level().key())),
-        ("reading", text(provenance.reading.key())),
+        ("material", text(&settings.material)),
+        ("mesh", text(mesh)),
+        ("quality", text(shading.quality.level().key())),
+        ("reading", text(shading.reading.key())),
         (place, three(lighting.place().to_array())),
-        ("sky", AttributeValue::F64(provenance.sky)),
-        ("leaf", text(if provenance.thin { "true" } else { "false" })),
+        ("sky", AttributeValue::F64(settings.sky)),
+        ("leaf", text(if settings.thin { "true" } else { "false" })),
         ("lightAngularRadius", AttributeValue::F64(lighting.angular_radius())),
         ("sigma", AttributeValue::F64(surface.sigma_m())),
         ("tau", AttributeValue::F64(surface.tau_m())),
@@ -210,24 +160,13 @@ fn attributes(rendering: &Rendering, provenance: &Provenance<'_>) -> LayerAttrib
         ("fieldOfView", AttributeValue::F64(viewpoint.field_of_view().to_degrees())),
     ];
     let zoom = viewpoint.zoom().map(|zoom| ("framedDistance", AttributeValue::F64(zoom)));
-    let garment = provenance.garment.map(|garment| ("garment", text(garment)));
-    let tolerance = provenance.quality.given_tolerance();
+    let garment = settings.worn().map(|garment| ("garment", text(garment)));
+    let tolerance = shading.quality.given_tolerance();
     let tolerance = tolerance.map(|tolerance| ("tolerance", AttributeValue::F64(tolerance.max_relative_error())));
-    LayerAttributes {
-        software_name: Some(utf8(concat!("chromascope ", env!("CARGO_PKG_VERSION")))),
-        comments: Some(utf8(comments(provenance.reading))),
-        other: own
-            .into_iter()
-            .chain(garment)
-            .chain(tolerance)
-            .chain(zoom)
-            .map(|(name, value)| (utf8(name), value))
-            .collect(),
-        ..LayerAttributes::default()
-    }
+    let own = own.into_iter().chain(garment).chain(tolerance).chain(zoom);
+    header(rendering, source, conditions, comments(shading.reading), own)
 }
 
-/// Meaning of the numbers.
 fn comments(reading: Normalization) -> &'static str {
     match reading {
         Normalization::Radiometric | Normalization::Microfacet => {
@@ -243,6 +182,14 @@ fn comments(reading: Normalization) -> &'static str {
              fills the picture)."
         }
     }
+}
+
+fn text(value: &str) -> AttributeValue {
+    AttributeValue::Text(utf8(value))
+}
+
+fn three([x, y, z]: [f64; 3]) -> AttributeValue {
+    AttributeValue::FloatVec3((x as f32, y as f32, z as f32))
 }
 
 /// Text as it is: the crate's own conversion knows no letters beyond Latin.

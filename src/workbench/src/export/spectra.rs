@@ -15,9 +15,7 @@ use crate::document::imported::{ImportedSet, Role};
 /// A format, and the wavelengths that curves are brought to.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Form {
-    /// The format.
     pub format: Format,
-    /// The wavelengths.
     pub grid: Grid,
 }
 
@@ -52,34 +50,21 @@ impl Form {
     }
 }
 
-/// Reason that a set cannot be saved.
 #[derive(Debug, thiserror::Error)]
 pub enum SpectraError {
-    /// Its curves cannot be had.
     #[error(transparent)]
     Load(#[from] LoadError),
-    /// The format does not take them.
     #[error(transparent)]
     Write(#[from] WriteError),
 }
 
-/// A set as a file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SpectraFile {
     /// The name offered for it.
     pub name: String,
-    /// Contents.
     pub text: String,
     /// Differences from the set.
     pub notes: Vec<Note>,
-}
-
-/// Curves, what they are, and what is known about them.
-struct Facts<'a> {
-    title: &'a str,
-    content: Content<'a>,
-    unit: Option<String>,
-    comments: Vec<(String, String)>,
 }
 
 /// True if a format suits such a set, by its kind and its number of curves.
@@ -95,15 +80,19 @@ pub fn fits(entry: &Entry, form: Form) -> Result<(), WriteError> {
     form.format.fits(&Sheet { content: content(entry), curves: &curves, ..Sheet::default() })
 }
 
-/// Writes a set in a form.
 pub fn file(entry: &Entry, form: Form, ask: &impl Ask) -> Result<SpectraFile, SpectraError> {
     let curves = curves(&entry.place, ask)?;
     let traces: Vec<Trace<'_>> = curves
         .iter()
         .map(|(name, curve)| Trace { name, wavelengths_nm: curve.wavelengths_nm(), values: curve.values() })
         .collect();
-    let Facts { title, content, unit, comments } = facts(entry);
-    let sheet = Sheet { title, content, curves: &traces, unit: unit.as_deref(), created: None, comments: &comments };
+    let (unit, comments) = match (&entry.header, &entry.place) {
+        (Some(header), _) => (Some(header.unit.clone()), header_comments(entry.kind, header)),
+        (None, Place::Own(set)) => (own_unit(set), own_comments(set)),
+        (None, Place::BuiltIn { .. }) => (None, Vec::new()),
+    };
+    let (title, content, unit) = (entry.name.as_str(), content(entry), unit.as_deref());
+    let sheet = Sheet { title, content, curves: &traces, unit, created: None, comments: &comments };
     let written = write(&sheet, form.format, form.grid)?;
     let name = fitting(&file_name(&entry.name), &format!(".{}", form.format.ending()));
     Ok(SpectraFile { name, text: written.text, notes: written.notes })
@@ -168,15 +157,6 @@ fn content(entry: &Entry) -> Content<'_> {
     }
 }
 
-fn facts(entry: &Entry) -> Facts<'_> {
-    let (unit, comments) = match (&entry.header, &entry.place) {
-        (Some(header), _) => (Some(header.unit.clone()), header_comments(entry.kind, header)),
-        (None, Place::Own(set)) => (own_unit(set), own_comments(set)),
-        (None, Place::BuiltIn { .. }) => (None, Vec::new()),
-    };
-    Facts { title: &entry.name, content: content(entry), unit, comments }
-}
-
 fn header_comments(kind: SetKind, header: &Header) -> Vec<(String, String)> {
     let mut comments =
         vec![("source".to_owned(), header.source.clone()), ("license".to_owned(), header.license.clone())];
@@ -192,7 +172,6 @@ fn header_comments(kind: SetKind, header: &Header) -> Vec<(String, String)> {
     comments
 }
 
-/// Source of the set, and how its file was read.
 fn own_comments(set: &ImportedSet) -> Vec<(String, String)> {
     let mut comments = vec![("source".to_owned(), set.file.clone())];
     comments.extend(set.decisions.iter().map(|decision| ("reading".to_owned(), decision.clone())));
@@ -208,26 +187,10 @@ fn own_unit(set: &ImportedSet) -> Option<String> {
 /// Maker and model of a camera, where its name begins with a maker. A final parenthesis distinguishes measurements, not
 /// cameras.
 fn maker_and_model(name: &str) -> (Option<&str>, Option<&str>) {
-    const MAKERS: [&str; 16] = [
-        "ARRI",
-        "Blackmagic",
-        "Canon",
-        "DJI",
-        "Fujifilm",
-        "Hasselblad",
-        "Kodak",
-        "Leica",
-        "Nikon",
-        "Olympus",
-        "Panasonic",
-        "Pentax",
-        "Phase One",
-        "RED",
-        "Sigma",
-        "Sony",
-    ];
+    const MAKERS: &str = "ARRI,Blackmagic,Canon,DJI,Fujifilm,Hasselblad,Kodak,Leica,Nikon,Olympus,Panasonic,Pentax,Phase One,RED,\
+                          Sigma,Sony";
     let name = model_of(name).trim();
-    let found = MAKERS.iter().find_map(|maker| {
+    let found = MAKERS.split(',').find_map(|maker| {
         let (start, rest) = name.split_at_checked(maker.len())?;
         (start.eq_ignore_ascii_case(maker) && rest.starts_with(' ')).then(|| (start, rest.trim()))
     });

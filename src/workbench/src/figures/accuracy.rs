@@ -13,7 +13,6 @@ use crate::format::number;
 use crate::profiler::{Conditions, SceneRun, Subject, Trial};
 use crate::scene::Scene;
 
-/// The size of a saved figure in points.
 const SIZE: [f64; 2] = [640.0, 420.0];
 
 /// The methods of a run on one subject.
@@ -21,7 +20,6 @@ pub fn trial(run: &SceneRun, subject: Subject) -> Option<&Trial> {
     run.trials.iter().find(|trial| trial.subject == subject)
 }
 
-/// The panel for an area of the given size.
 pub fn panel(trial: &Trial, is_current: bool, size: [f64; 2]) -> Panel {
     let place = |(index, point): (usize, &Point)| Place {
         name: trial.name(index),
@@ -92,7 +90,6 @@ pub static KIND: FigureKind =
     FigureKind::new("methods", "Run time of each method against its error, measured now", figure)
         .needing(Need::Measured);
 
-/// The figure as it is saved; none before anything was measured.
 fn figure(_: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Option<Figure> {
     let subject = match look.shows {
         Shows::Scene(subject) => subject,
@@ -139,16 +136,13 @@ fn with_conditions(table: Table, trial: &Trial, conditions: &Conditions) -> Tabl
 
 pub fn legend(trial: &Trial) -> Vec<LegendEntry> {
     let families: std::collections::BTreeSet<Family> = trial.points.iter().map(|point| point.family).collect();
-    families.into_iter().map(entry).collect()
-}
-
-fn entry(family: Family) -> LegendEntry {
-    LegendEntry {
+    let entry = |family: Family| LegendEntry {
         name: family.title().to_owned(),
         stroke: Some(Stroke { width: 0.0, ..Stroke::solid(role(family), 1.5) }),
         marker: Some(marker(family)),
         fill: Some(role(family).into()),
-    }
+    };
+    families.into_iter().map(entry).collect()
 }
 
 pub fn table(trial: &Trial) -> Table {

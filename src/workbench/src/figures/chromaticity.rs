@@ -1,9 +1,7 @@
 //! The diagram: loci with temperature ticks, patches with tails to the reference's points, and what surrounds them.
 
 mod drawing;
-mod edges;
 mod fit;
-mod frame;
 mod ground;
 mod labels;
 mod loci;
@@ -28,9 +26,8 @@ use super::look::FigureLook;
 use crate::document::{Diagram, SetKind, TransformChoice};
 use crate::plot_item::PickIndex;
 use crate::scene::{ComparedSensor, Scene};
-use drawing::Drawing;
 pub use drawing::id;
-use frame::Frame;
+use drawing::{Drawing, Frame};
 use shown::{DiagramFit, Ranges};
 
 pub use fit::{fit_key, fitted};
@@ -67,7 +64,7 @@ pub fn build(scene: &Scene<'_>, look: &FigureLook, size: [f64; 2]) -> Built {
     let drawn = look.diagram.zoomed.map_or(frame, |ranges| Frame { ranges, ..frame });
     let mut drawing = draw(scene, look, drawn, place.is_some());
     if look.diagram.zoomed.is_none() {
-        edges::add(&mut drawing);
+        points::add_arrows(&mut drawing);
     }
     let lens = place.map(|area| {
         let frame = Frame::around(held.data, [area.width(), area.height()]);
@@ -295,7 +292,6 @@ struct Point {
     sensor: String,
     /// Temperature in kelvins of a blackbody.
     kelvin: Option<f64>,
-    /// Name of a patch.
     patch: Option<String>,
     xy: Option<Xy>,
     uv: Option<UvPrime>,
@@ -328,7 +324,6 @@ const COLUMNS: [Field<Point>; 13] = [
     Field { decimals: Some(6), ..Field::quantity(["duv", "Duv", ""], |point| point.cct.map(|cct| cct.duv).into()) },
 ];
 
-/// All points as numbers.
 fn table(scene: &Scene<'_>) -> Table {
     let mut points = Vec::new();
     let reference_locus = scene.locus(SetKind::Observer, &scene.document.reference).ok();

@@ -28,7 +28,6 @@ pub static KIND: FigureKind =
     FigureKind::new("correction", "Error of a correction between its two lights; needs a second light", figure)
         .needing(Need::Correction);
 
-/// Errors over the temperature; `None` without two lights.
 fn figure(_: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Option<Figure> {
     let file = look.correction.as_ref()?;
     let mut figure = Figure::new(title(file), room.size(SIZE, 0.0));

@@ -20,7 +20,6 @@ use crate::format::number;
 use crate::plot_item::PickIndex;
 use crate::scene::Scene;
 
-/// The size of a saved figure in points.
 const SIZE: [f64; 2] = [640.0, 360.0];
 /// The height of a line of small text with its margins, and of what is below a plot.
 const TEXT: f64 = 18.0;
@@ -85,7 +84,6 @@ pub fn place(tag: Tag) -> Option<usize> {
     tag.0.checked_sub(1).map(|place| place as usize)
 }
 
-/// A curve.
 fn marks(curve: &Curve, points: Vec<[f64; 2]>, on: bool, count: usize) -> Vec<Mark> {
     let tag = tag(curve.place);
     let ink = ink(curve, count, on);
@@ -142,7 +140,6 @@ pub fn describe(curves: &Curves, place: usize, nm: f64) -> Vec<String> {
 
 pub static KIND: FigureKind = FigureKind::new("curves", "Curves of a file", figure).needing(Need::Curves);
 
-/// The figure as it is saved, with the values of all curves that are taken.
 fn figure(_: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Option<Figure> {
     let curves = Curves::of(look.curves.as_ref()?, usize::MAX).ok()?;
     let mut drawn = curves.clone();
@@ -206,7 +203,6 @@ pub fn numbers(curves: &Curves) -> Table {
 /// Maximum total number of points drawn on screen.
 const POINTS: usize = 80_000;
 
-/// The curves of the last selected item.
 #[derive(Clone, Debug)]
 pub struct CurveCache {
     of: ImportSelection,

@@ -1,11 +1,12 @@
-//! The curves of one set of the library in a small panel.
+//! The curves of one set of the library in a small panel, and the names of curves in such.
 
 use chromascope_core::query::Ask;
 use chromascope_core::spectral::SpectralDistribution;
 use chromascope_core::spectral::grid::{FIRST_NM, LAST_NM};
-use chromascope_figure::{Axis, Ink, InkRole, Labels, Mark, Panel, Rect, Shape, Ticks};
+use chromascope_figure::{
+    Anchor, Axis, Ink, InkRole, Label, Labels, Mark, Panel, Place as LabelPlace, Rect, Shape, Ticks,
+};
 
-use super::labels::{Name, channel_symbol};
 use crate::catalog::load::{LoadError, curves};
 use crate::catalog::{Entry, Place};
 use crate::document::SetKind;
@@ -72,4 +73,40 @@ fn drawn(entry: &Entry, all: &[(String, SpectralDistribution)]) -> Vec<(String, 
 fn at_peak(name: &str, points: &[[f64; 2]]) -> Option<Name> {
     let at = points.iter().copied().max_by(|a, b| a[1].total_cmp(&b[1]))?;
     Some(Name { text: channel_symbol(name), ink: Ink::new(InkRole::Text), points: vec![at] })
+}
+
+/// A text that names a curve.
+#[derive(Clone)]
+pub(super) struct Name {
+    pub(super) text: String,
+    pub(super) ink: Ink,
+    /// Points of the curve beside which it may stand, the best first.
+    pub(super) points: Vec<[f64; 2]>,
+}
+
+impl Name {
+    /// Places the text beside the first point with room, else above one and to its side.
+    pub(super) fn place(&self, labels: &mut Labels) -> bool {
+        let sides = [
+            (Anchor::BOTTOM, [0.0, -3.0]),
+            (Anchor::TOP, [0.0, 6.0]),
+            (Anchor::RIGHT_BOTTOM, [-4.0, -2.0]),
+            (Anchor::LEFT_BOTTOM, [4.0, -2.0]),
+            (Anchor::LEFT_BOTTOM, [9.0, -2.0]),
+        ];
+        let above = [8.0, -8.0, 16.0, -16.0, 24.0, -24.0, 32.0, -32.0].map(|x| (Anchor::BOTTOM, [x, -3.0]));
+        let at = |sides: &[(Anchor, [f64; 2])]| -> Vec<LabelPlace> {
+            let places = self.points.iter().flat_map(|at| sides.iter().map(|(anchor, offset)| (*at, *anchor, *offset)));
+            places.map(|(at, anchor, offset)| LabelPlace { at, anchor, offset }).collect()
+        };
+        labels.place(&Label::new(&self.text, self.ink, [at(&sides), at(&above)].concat()))
+    }
+}
+
+/// Symbol of a channel: the letter of a color, or the color-matching function's own.
+pub(super) fn channel_symbol(channel: &str) -> String {
+    match channel {
+        "red" | "green" | "blue" => channel[..1].to_uppercase(),
+        symbol => symbol.to_owned(),
+    }
 }

@@ -43,7 +43,6 @@ pub fn pair(ranked: &Ranked, scene: &Scene<'_>, look: &FigureLook) -> [Option<us
 pub static KIND: FigureKind =
     FigureKind::new("head-to-head", "All figures of merit of two cameras", figure).of_metrics();
 
-/// The table of two cameras; none where there are fewer than two.
 fn figure(scene: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Option<Figure> {
     let ranked = scene.ranked(look.cameras);
     let [Some(a), Some(b)] = pair(&ranked, scene, look) else { return None };
@@ -67,20 +66,21 @@ fn figure(scene: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Option<Figu
         })
         .collect();
     let mut line = 0.5;
+    let text = |words: &str, at, size| Mark::text(words, at, Anchor::LEFT, size, InkRole::Text);
     for (letter, name) in [("A", name_a), ("B", name_b)] {
-        panel.marks.push(text(&format!("{letter}: {name}"), [6.0, ROW * line], Anchor::LEFT, TextSize::Body));
+        panel.marks.push(text(&format!("{letter}: {name}"), [6.0, ROW * line], TextSize::Body));
         line += 1.0;
     }
     let heads = ["", "A", "B", "A − B", "better"];
     for (head, x) in heads.into_iter().zip(&lefts).skip(1) {
-        panel.marks.push(text(head, [*x, ROW * line], Anchor::LEFT, TextSize::Small));
+        panel.marks.push(text(head, [*x, ROW * line], TextSize::Small));
     }
     let rule = Shape::Segments { segments: vec![[[0.0, ROW * (line + 0.5)], [width, ROW * (line + 0.5)]]] };
     panel.marks.push(Mark::new(Tag::default(), "rule", rule).with_stroke(InkRole::Line, 1.0));
     for row in rows {
         line += 1.0;
         for (words, x) in row.iter().zip(&lefts) {
-            panel.marks.push(text(words, [*x, ROW * line], Anchor::LEFT, TextSize::Small));
+            panel.marks.push(text(words, [*x, ROW * line], TextSize::Small));
         }
     }
     figure.panels.push(panel);
@@ -111,9 +111,4 @@ fn numbers(ranked: &Ranked, cameras: [usize; 2], mut table: Table) -> Table {
         let values = cameras.map(|camera| value(ranked, camera, CameraMetric::ALL[row]));
         values.into_iter().flatten().filter_map(|value| value.uncertainty)
     })
-}
-
-fn text(words: &str, at: [f64; 2], anchor: Anchor, size: TextSize) -> Mark {
-    let (text, ink) = (words.to_owned(), Ink::new(InkRole::Text));
-    Mark::new(Tag::default(), words, Shape::Text { at, text, anchor, offset: [0.0; 2], size, ink })
 }

@@ -9,7 +9,6 @@ use crate::scene::Scene;
 /// Draws a figure; none where there is nothing to draw.
 type Draw = fn(&Scene<'_>, &FigureLook, FigureRoom) -> Option<Figure>;
 
-/// A kind of figure, declared in its file.
 #[derive(Debug)]
 pub struct FigureKind {
     /// Its word on the command line.
@@ -33,7 +32,6 @@ pub enum Need {
     /// A ranking by recorded raw values.
     Recorded,
     Curves,
-    /// Measured methods.
     Measured,
 }
 

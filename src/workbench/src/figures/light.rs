@@ -132,7 +132,6 @@ fn hue(bin: usize) -> [u8; 3] {
 
 pub static KIND: FigureKind = FigureKind::new("light", "Color rendering of the light", figure);
 
-/// The figure as it is saved; none while there is nothing to show.
 fn figure(scene: &Scene<'_>, _: &FigureLook, room: FigureRoom) -> Option<Figure> {
     let rendition = scene.rendition().ok()?;
     let [width, mut height] = room.size(SIZE, 0.0);

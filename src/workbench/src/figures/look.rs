@@ -39,9 +39,7 @@ pub struct FigureLook {
     pub mode: RenderMode,
     /// The gray around pictures.
     pub surround: Surround,
-    /// Cameras that are ranked.
     pub cameras: RankedCameras,
-    /// Order of the ranked cameras.
     pub sorting: Option<Sorting>,
     /// The two cameras of Head to head; `None` for the selected one and the first compared one.
     pub pair: [Option<SensorId>; 2],
@@ -60,7 +58,6 @@ pub struct FigureLook {
 }
 
 choices! {
-    /// Arrangement of swatches.
     #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
     pub enum SwatchLayout {
         #[default]
@@ -82,7 +79,6 @@ choices! {
 }
 
 choices! {
-    /// Arrangement of spectra.
     #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
     pub enum SpectraLayout {
         #[default]
@@ -92,7 +88,6 @@ choices! {
 }
 
 choices! {
-    /// Arrangement of pictures.
     #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
     pub enum RenderMode {
         #[default]
@@ -108,23 +103,18 @@ choices! {
 pub struct PixelPlace {
     /// Right and down, from 0 to 1.
     pub at: [f64; 2],
-    /// The sensor whose picture it was.
     pub source: SensorId,
 }
 
-/// Order of a table's rows.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Sorting {
-    /// Name of the column.
     pub column: String,
-    /// Largest first.
     pub descending: bool,
 }
 
 /// Measurement whose methods are shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Shows {
-    /// Those of the scene.
     Scene(Subject),
     /// Those of the program, on a workload of the bench.
     Bench(Workload),

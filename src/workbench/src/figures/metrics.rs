@@ -31,12 +31,10 @@ pub fn first(scene: &Scene<'_>) -> Option<CameraMetric> {
     CameraMetric::by_id(if scene.document.transform.is_eq_13() { FIRST_EQ_13 } else { FIRST })
 }
 
-/// Value of a metric for a ranked camera.
 pub fn value(ranked: &Ranked, camera: usize, metric: CameraMetric) -> Option<MetricValue> {
     figures(ranked, camera)?.of(metric)
 }
 
-/// Figures of merit of a ranked camera.
 pub fn figures(ranked: &Ranked, camera: usize) -> Option<&CameraFigures> {
     ranked.metrics.get(camera)?.as_ref()?.as_ref().ok()
 }
@@ -139,7 +137,6 @@ pub fn difference(a: MetricValue, b: MetricValue) -> Option<MetricValue> {
     Some(MetricValue { value: Ok(difference.value), uncertainty })
 }
 
-/// Width of a saved figure in points.
 const WIDTH: f64 = 640.0;
 const ROW: f64 = 16.0;
 

@@ -15,7 +15,6 @@ use crate::scene::recorded::{CHANNELS, RankedCamera, range_in_words};
 /// Markers and colors of the three channels.
 const MARKS: [(Marker, [u8; 3]); 3] =
     [(Marker::TriangleUp, [208, 64, 52]), (Marker::Circle, [44, 148, 72]), (Marker::Square, [58, 108, 214])];
-/// Size of a saved figure in points.
 const SIZE: [f64; 2] = [720.0, 320.0];
 
 /// The camera whose residuals are shown: the one chosen, or the best.

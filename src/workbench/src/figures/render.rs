@@ -31,7 +31,6 @@ const GAP: f64 = 8.0;
 /// A pixel of an image with a sample that is no number.
 pub const NO_VALUE: &str = "no value in some band";
 
-/// A sensor's index among the pictures.
 pub fn index_of(shot: &RenderedFrame, id: &SensorId) -> Option<usize> {
     shot.sources.iter().position(|source| source.kind == id.kind && source.name == id.name)
 }
@@ -255,7 +254,6 @@ fn table(shot: &RenderedFrame, measure: &str) -> Table {
     table
 }
 
-/// The pixel at a place of a sensor's picture.
 pub fn pixel_of(scene: &Scene<'_>, shot: &RenderedFrame, place: &PixelPlace) -> Option<PixelReading> {
     pixel::read(shot, scene.results, index_of(shot, &place.source)?, place.at)
 }

@@ -14,8 +14,8 @@ use chromascope_figure::{
 
 use self::content::Content;
 use super::chromaticity::{caption, key};
+use super::data_set::Name;
 use super::kind::FigureKind;
-use super::labels::Name;
 use super::look::{FigureLook, SpectraLayout};
 use crate::document::{FIT_TARGET, SetKind};
 use crate::plot_item::{PickIndex, PlotItem};
@@ -34,7 +34,6 @@ pub struct Built {
 /// The height of the band of colors with its labels.
 const FOOT: f64 = 4.0 + Projection::BOTTOM + Projection::TITLE;
 
-/// Builds the panels for an area of the given size.
 pub fn build(scene: &Scene<'_>, look: &FigureLook, size: [f64; 2]) -> Built {
     let mut built = Built { panels: Vec::new(), things: PickIndex::default(), refused: Vec::new() };
     let sources: Vec<ComparedSensor> = scene.sources().into_iter().filter(|source| source.visible).collect();
@@ -117,7 +116,6 @@ fn foot(scene: &Scene<'_>, area: Rect, large: bool) -> Panel {
     panel
 }
 
-/// The size of a saved figure in points.
 const SIZE: [f64; 2] = [640.0, 560.0];
 
 pub static KIND: FigureKind =

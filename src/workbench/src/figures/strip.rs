@@ -83,7 +83,6 @@ pub fn build(scene: &Scene<'_>, size: [f64; 2]) -> Option<Strip> {
     Some(Strip { panel, things })
 }
 
-/// Size of a saved figure in points.
 const SIZE: [f64; 2] = [640.0, 170.0];
 
 pub static KIND: FigureKind =

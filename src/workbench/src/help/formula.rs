@@ -15,32 +15,19 @@ pub struct Formula {
     display: bool,
 }
 
+/// A part of a formula. Scripts stand below and above a large operator; a space is horizontal, in em; what is fenced stands between
+/// delimiters of its height; columns of an array are centered or, where it is aligned, alternate between right and left without a gap.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Node {
     Row(Vec<Node>),
-    Symbol {
-        text: String,
-        kind: SymbolKind,
-    },
+    Symbol { text: String, kind: SymbolKind },
     Fraction(Box<Node>, Box<Node>),
     Root(Box<Node>),
-    /// Base with sub- and superscript, placed below and above a large operator.
-    Scripts {
-        base: Box<Node>,
-        lower: Option<Box<Node>>,
-        upper: Option<Box<Node>>,
-    },
+    Scripts { base: Box<Node>, lower: Option<Box<Node>>, upper: Option<Box<Node>> },
     Accent(Box<Node>, char),
-    /// Horizontal, in em.
     Space(f32),
-    /// Content between delimiters of its height.
     Fenced(char, Box<Node>, char),
-    /// Cells in columns; `relations` if columns meet at a relation sign, else centered.
-    Array {
-        rows: Vec<Vec<Node>>,
-        /// True if columns alternate between right and left alignment without a gap.
-        aligned: bool,
-    },
+    Array { rows: Vec<Vec<Node>>, aligned: bool },
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

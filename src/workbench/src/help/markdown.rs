@@ -5,20 +5,13 @@ use thiserror::Error;
 
 use super::formula::{Formula, FormulaError};
 
+/// A part of a page. Levels of headings are from 1, the page's title, to 3; a list with a start is numbered; the first row of a table
+/// is its head.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Block {
-    Heading {
-        /// From 1, the page's title, to 3.
-        level: u8,
-        content: Vec<Inline>,
-    },
+    Heading { level: u8, content: Vec<Inline> },
     Paragraph(Vec<Inline>),
-    /// A list; numbered from `start` if there is one.
-    List {
-        start: Option<u64>,
-        items: Vec<Vec<Block>>,
-    },
-    /// A table; the first row is its head.
+    List { start: Option<u64>, items: Vec<Vec<Block>> },
     Table(Vec<Vec<Vec<Inline>>>),
     Code(String),
     Formula(Formula),
@@ -84,7 +77,6 @@ pub fn plain(content: &[Inline]) -> String {
     words.collect()
 }
 
-/// Parses a page.
 pub fn parse(text: &str) -> Result<Vec<Block>, MarkdownError> {
     let mut events = Parser::new_ext(text, Options::ENABLE_TABLES | Options::ENABLE_MATH);
     blocks(&mut events, None)

@@ -1,4 +1,4 @@
-//! Threads for background work, the answers they share and the clock that times it; for tests, a queue and a clock that
+//! Threads for background work, the answers and the state they share and the clock that times it; for tests, a queue and a clock that
 //! they drive.
 
 use std::cell::RefCell;
@@ -6,7 +6,7 @@ use std::collections::VecDeque;
 use std::io;
 use std::rc::Rc;
 use std::sync::atomic::{AtomicU64, Ordering};
-use std::sync::{Arc, LazyLock};
+use std::sync::{Arc, Condvar, LazyLock, Mutex, MutexGuard, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
 
@@ -135,6 +135,57 @@ impl Clock {
     /// Time since an earlier reading.
     pub fn since(&self, earlier: Duration) -> Duration {
         self.now().saturating_sub(earlier)
+    }
+}
+
+/// State shared by the window and background threads, with a condition variable for waiting threads and a wake callback
+/// for the window.
+pub struct Monitor<S> {
+    state: Mutex<S>,
+    news: Condvar,
+    wake: Box<dyn Fn() + Send + Sync>,
+    clock: Clock,
+}
+
+impl<S> Monitor<S> {
+    /// Creates the initial state with an executor's clock. `wake` is called from the thread that changed the state.
+    pub fn new(executor: &Executor, state: S, wake: impl Fn() + Send + Sync + 'static) -> Self {
+        Self { state: Mutex::new(state), news: Condvar::new(), wake: Box::new(wake), clock: executor.clock() }
+    }
+
+    /// The state. A panic elsewhere leaves no partial state: it is only read and replaced under the lock.
+    pub fn lock(&self) -> MutexGuard<'_, S> {
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    pub fn clock(&self) -> &Clock {
+        &self.clock
+    }
+
+    /// Notifies waiting threads of a change.
+    pub fn notify(&self) {
+        self.news.notify_all();
+    }
+
+    /// Notifies waiting threads and the window.
+    pub fn tell(&self) {
+        self.notify();
+        (self.wake)();
+    }
+
+    /// Waits until the state satisfies a condition, and then reads it.
+    pub fn wait_for<R>(&self, is_wanted: impl Fn(&S) -> bool, read: impl FnOnce(&S) -> R) -> R {
+        let state = self.news.wait_while(self.lock(), |state| !is_wanted(state));
+        read(&state.unwrap_or_else(PoisonError::into_inner))
+    }
+
+    /// Waits until the state satisfies a condition: on a driven executor, by running its queued work. For tests.
+    pub fn settle(&self, executor: &Executor, is_wanted: impl Fn(&S) -> bool) {
+        if executor.is_driven() {
+            while !is_wanted(&self.lock()) && executor.run_next() {}
+        } else {
+            self.wait_for(is_wanted, |_| ());
+        }
     }
 }
 

@@ -24,7 +24,6 @@ type Slots = HashMap<(&'static str, TypeId), Box<dyn Slot>>;
 pub struct Waiting<J: Job> {
     /// The last answer with its question, which may be an earlier one.
     pub shown: Option<Shown<J>>,
-    /// Running time, while the request runs.
     pub busy: Option<Duration>,
     /// Reason that the request has no answer.
     pub failure: Option<String>,

@@ -61,11 +61,7 @@ impl Conditions {
 impl Trial {
     /// Number and kind of inputs, in words.
     pub fn inputs_in_words(&self) -> String {
-        let what = match self.subject {
-            Subject::Integral => "lit samples",
-            Subject::Loci => "temperatures",
-        };
-        format!("{} {what}", self.inputs)
+        format!("{} {}", self.inputs, self.subject.either("lit samples", "temperatures"))
     }
 
     /// A method's name, marked as the reference or the selected one.
@@ -83,10 +79,7 @@ impl Trial {
 impl Subject {
     /// Name of the computation, in a few words.
     pub const fn what(self) -> &'static str {
-        match self {
-            Self::Integral => "the diffuse spectral integral of rendered samples",
-            Self::Loci => "Planckian loci",
-        }
+        self.either("the diffuse spectral integral of rendered samples", "Planckian loci")
     }
 
     /// Explanation of the measurement, in full sentences.

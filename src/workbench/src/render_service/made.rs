@@ -102,7 +102,6 @@ pub enum PicturesAnswer {
 }
 
 impl PicturesAnswer {
-    /// The pictures, or why there are none.
     pub fn pictures(&self) -> Result<MadePictures<'_>, NoPictures> {
         match self {
             Self::Mesh(answer) => match &**answer {
@@ -166,7 +165,6 @@ impl<'a> MadePictures<'a> {
         }
     }
 
-    /// Factor on all signals at an exposure in EV.
     pub fn factor(self, ev: f64) -> f64 {
         match self.of {
             Made::Mesh(made) => made.facing.factor(ev),

@@ -5,6 +5,7 @@ use chromascope_core::patch_set::PatchSet;
 use chromascope_core::query::{Ask as _, PatchColor, PatchColorsQuery, RenderingQuery, Shared};
 use chromascope_core::spectral::SpectralDistribution;
 use chromascope_core::spectral::grid::{FIRST_NM, LAST_NM};
+use chromascope_text::choices;
 
 use crate::catalog::Catalog;
 use crate::catalog::names::model_of;
@@ -22,30 +23,19 @@ pub(super) const STAND_IN: &str = "Kodak DCS200 in place of the paper's DCS420";
 /// Part of the checks that go beyond the paper.
 pub const FURTHER: &str = "Further checks";
 
-/// Agreement of a claim with what is found.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Verdict {
-    Holds,
-    /// It holds within limits.
-    Partly,
-    Fails,
-    /// Its words have more than one meaning, and the verdict depends on which.
-    Ambiguous,
-    /// It is about cameras or patches that are not in this report.
-    Open,
+choices! {
+    /// Agreement of a claim with what is found.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum Verdict {
+        Holds = "holds", "", "";
+        Partly = "holds in part", "", "It holds within limits";
+        Fails = "does not hold", "", "";
+        Ambiguous = "ambiguous", "", "Its words have more than one meaning, and the verdict depends on which";
+        Open = "not judged", "", "It is about cameras or patches that are not in this report";
+    }
 }
 
 impl Verdict {
-    pub const fn words(self) -> &'static str {
-        match self {
-            Self::Holds => "holds",
-            Self::Partly => "holds in part",
-            Self::Fails => "does not hold",
-            Self::Ambiguous => "ambiguous",
-            Self::Open => "not judged",
-        }
-    }
-
     /// Verdict of a condition; none where what it is about is not there.
     pub(super) fn of(holds: Option<bool>) -> Self {
         match holds {
@@ -83,12 +73,10 @@ pub struct Claim {
     pub part: &'static str,
     /// The claim, paraphrased but for what stands between quotation marks.
     pub paper: &'static str,
-    /// Reason that it holds or not.
     pub why: &'static str,
     pub find: Find,
 }
 
-/// Judge of a claim.
 pub type Find = fn(&Subject<'_>) -> Result<Finding, SceneError>;
 
 impl Claim {

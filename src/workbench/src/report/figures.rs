@@ -18,44 +18,30 @@ use crate::scene::Scene;
 use crate::scene::orbit::Orbit;
 use chromascope_core::reflectance::Normalization;
 
+pub(super) type Pixels = u32;
+
+type Make = fn(&Subject<'_>, FigureRoom, Pixels) -> Option<Figure>;
+
 pub struct PaperFigure {
     pub number: u8,
     pub title: &'static str,
-    make: fn(&Subject<'_>, FigureRoom, Pixels) -> Option<Figure>,
+    make: Make,
 }
 
-pub(super) type Pixels = u32;
+const fn figure(number: u8, title: &'static str, make: Make) -> PaperFigure {
+    PaperFigure { number, title, make }
+}
 
 pub const FIGURES: [PaperFigure; 9] = [
-    PaperFigure {
-        number: 1,
-        title: "Geometry of the reflectance model",
-        make: |_, room, _| Some(geometry::figure(room)),
-    },
-    PaperFigure {
-        number: 2,
-        title: "Sensitivities of the cameras and the reference",
-        make: |subject, room, _| Some(sensitivities(subject, room)),
-    },
-    PaperFigure { number: 3, title: "Planckian loci", make: |subject, room, _| Some(loci(subject, room)) },
-    PaperFigure {
-        number: 4,
-        title: "Chromaticities of the patches",
-        make: |subject, room, _| Some(points(subject, room)),
-    },
-    PaperFigure { number: 5, title: "Colors of the patches", make: |subject, room, _| Some(patches(subject, room)) },
-    PaperFigure { number: 6, title: "Light and reflectances of the rendered scenes", make: materials },
-    PaperFigure { number: 7, title: "Meshes of head and fern", make: meshes },
-    PaperFigure {
-        number: 8,
-        title: "Head in sunlight",
-        make: |subject, room, pixels| scene(subject, &RenderAction::Figure8, room, pixels),
-    },
-    PaperFigure {
-        number: 9,
-        title: "Fern in sunlight",
-        make: |subject, room, pixels| scene(subject, &RenderAction::Figure9, room, pixels),
-    },
+    figure(1, "Geometry of the reflectance model", |_, room, _| Some(geometry::figure(room))),
+    figure(2, "Sensitivities of the cameras and the reference", |subject, room, _| Some(sensitivities(subject, room))),
+    figure(3, "Planckian loci", |subject, room, _| Some(loci(subject, room))),
+    figure(4, "Chromaticities of the patches", |subject, room, _| Some(points(subject, room))),
+    figure(5, "Colors of the patches", |subject, room, _| Some(patches(subject, room))),
+    figure(6, "Light and reflectances of the rendered scenes", materials),
+    figure(7, "Meshes of head and fern", meshes),
+    figure(8, "Head in sunlight", |subject, room, pixels| scene(subject, &RenderAction::Figure8, room, pixels)),
+    figure(9, "Fern in sunlight", |subject, room, pixels| scene(subject, &RenderAction::Figure9, room, pixels)),
 ];
 
 impl PaperFigure {

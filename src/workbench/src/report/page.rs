@@ -60,9 +60,9 @@ fn escaped(text: &str) -> String {
 /// Numbers of verdicts on the paper's claims in words.
 fn summary(judged: &[Judged]) -> String {
     let (claims, further): (Vec<&Judged>, Vec<&Judged>) = judged.iter().partition(|judged| judged.claim.is_of_paper());
-    let counts = [Verdict::Holds, Verdict::Partly, Verdict::Fails, Verdict::Ambiguous, Verdict::Open].map(|verdict| {
+    let counts = Verdict::ALL.map(|verdict| {
         let is_it = |judged: &&&Judged| judged.finding.as_ref().is_ok_and(|found| found.verdict == verdict);
-        format!("{} {}", verdict.words(), claims.iter().filter(is_it).count())
+        format!("{} {}", verdict.key(), claims.iter().filter(is_it).count())
     });
     let (count, checks) = (claims.len(), further.len());
     format!("Of {count} claims: {}. {checks} further checks are not claims of the paper.", counts.join(", "))
@@ -99,7 +99,7 @@ fn claims(out: &mut String, subject: &Subject<'_>, judged: &[Judged]) {
             let _ = writeln!(out, "<tr class=\"part\"><th colspan=\"4\">{}{beyond}</th></tr>", escaped(part));
         }
         let (found, verdict, condition) = match finding {
-            Ok(finding) => (found(subject, finding), finding.verdict.words(), claim.condition(finding.verdict)),
+            Ok(finding) => (found(subject, finding), finding.verdict.key(), claim.condition(finding.verdict)),
             Err(why) => (escaped(why), "cannot be computed", ""),
         };
         let condition =

@@ -20,7 +20,6 @@ pub(super) trait Kind: Any + Send + Sync {
     fn count(&self) -> (&'static str, Count);
 }
 
-/// Cached answers of one kind of query.
 pub(super) struct Answers<Q: Query> {
     table: Mutex<Table<Q>>,
     /// Notified when a computation has ended.

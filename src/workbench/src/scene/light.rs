@@ -14,7 +14,7 @@ use chromascope_core::rendition::{RenditionError, Standards, spectral_similarity
 use chromascope_core::spectral::grid::{GridSpectrum, wavelength_nm};
 use chromascope_core::spectral::{Sensor, SpectralDistribution};
 
-use super::{Scene, SceneError};
+use super::{Result, Scene, SceneError};
 use crate::catalog::load::StandardsQuery;
 use crate::document::{FIT_TARGET, Light, SetKind, TRAINING};
 use crate::format::fixed;
@@ -44,13 +44,13 @@ pub struct LightSheetQuery {
 
 /// Indices of a light, and the consistency of cameras under it.
 pub struct LightSheet {
-    pub rendition: Result<Arc<Rendition>, SceneError>,
+    pub rendition: Result<Arc<Rendition>>,
     /// Consistency of each camera of the question.
     pub cameras: Vec<Result<Consistency, NoConsistency>>,
 }
 
 impl LightSheetQuery {
-    fn rendition(&self, ask: &impl Ask) -> Result<Arc<Rendition>, SceneError> {
+    fn rendition(&self, ask: &impl Ask) -> Result<Arc<Rendition>> {
         let standards = (*ask.ask(&StandardsQuery)).clone();
         let standards = standards.map_err(|error| SceneError::Load { name: "test samples".to_owned(), error })?;
         Ok(ask.ask(&RenditionQuery { light: self.measured.clone(), standards }))
@@ -84,13 +84,13 @@ impl Query for LightSheetQuery {
 
 impl Scene<'_> {
     /// Question for the light with the compared cameras.
-    pub fn light_sheet_query(&self) -> Result<LightSheetQuery, SceneError> {
+    pub fn light_sheet_query(&self) -> Result<LightSheetQuery> {
         let sources = self.sources().into_iter().filter(|source| source.kind == SetKind::Camera);
         let cameras = sources.map(|source| Ok((source.label, self.sensor(source.kind, &source.name)?)));
-        self.light_query_of(cameras.collect::<Result<_, SceneError>>()?)
+        self.light_query_of(cameras.collect::<Result<_>>()?)
     }
 
-    fn light_query_of(&self, cameras: Vec<(String, Shared<Sensor>)>) -> Result<LightSheetQuery, SceneError> {
+    fn light_query_of(&self, cameras: Vec<(String, Shared<Sensor>)>) -> Result<LightSheetQuery> {
         let light = self.light()?;
         Ok(LightSheetQuery {
             measured: Shared::new(light.measured),
@@ -102,18 +102,17 @@ impl Scene<'_> {
         })
     }
 
-    /// Observers and samples of the indices.
-    pub fn standards(&self) -> Result<Shared<Standards>, SceneError> {
+    pub fn standards(&self) -> Result<Shared<Standards>> {
         self.loaded(&StandardsQuery, "test samples")
     }
 
-    pub fn rendition(&self) -> Result<Arc<Rendition>, SceneError> {
+    pub fn rendition(&self) -> Result<Arc<Rendition>> {
         let light = Shared::new(self.light()?.measured);
         Ok(self.results.ask(&RenditionQuery { light, standards: self.standards()? }))
     }
 
     /// Conditions under which indices of the light mean less than they seem, in sentences.
-    pub fn rendition_cautions(&self, rendition: &Rendition) -> Result<Vec<String>, SceneError> {
+    pub fn rendition_cautions(&self, rendition: &Rendition) -> Result<Vec<String>> {
         /// Temperatures that are one: the sums of the indices differ by 2 K.
         const SAME_K: f64 = 5.0;
         let (light, shown) = (self.light()?.measured, self.light_temperature()?.ok());
@@ -145,20 +144,20 @@ impl Scene<'_> {
     }
 
     /// Spectral similarity of the light to another illuminant by name, which is without filters.
-    pub fn similarity_to(&self, name: &str) -> Result<Result<f64, RenditionError>, SceneError> {
+    pub fn similarity_to(&self, name: &str) -> Result<Result<f64, RenditionError>> {
         let reference = self.loaded(&self.light_of(name)?, name)?.measured;
         Ok(spectral_similarity(&self.light()?.measured, &reference))
     }
 
     /// Tristimulus values of the light for the CIE 1931 observer, in its own units.
-    pub fn light_color(&self) -> Result<Xyz, SceneError> {
+    pub fn light_color(&self) -> Result<Xyz> {
         let observer = self.sensor(SetKind::Observer, FIT_TARGET)?;
         let [x, y, z] = observer.integrate(self.light()?.grid.values());
         Ok(Xyz { x, y, z })
     }
 
     /// Reason that colors under the light say next to nothing: one band carries it, or a body that does not glow.
-    pub fn light_caution(&self) -> Result<Option<String>, SceneError> {
+    pub fn light_caution(&self) -> Result<Option<String>> {
         /// Draper point in kelvins: colder bodies emit no visible light.
         const DRAPER_K: f64 = 798.0;
         let (name, kelvin) = (self.light_name(), self.document.temperature_k);
@@ -181,13 +180,13 @@ impl Scene<'_> {
     }
 
     /// Query of the nearest blackbody for the CIE 1931 observer.
-    pub fn nearest_blackbody_query(&self) -> Result<NearestBlackBodyQuery, SceneError> {
+    pub fn nearest_blackbody_query(&self) -> Result<NearestBlackBodyQuery> {
         let observer = self.sensor(SetKind::Observer, FIT_TARGET)?;
         Ok(NearestBlackBodyQuery { observer, constants: RadiationConstants::Paper })
     }
 
     /// Correlated color temperatures and Duv of many colors for the CIE 1931 observer. The locus is tabulated when first requested.
-    pub fn temperatures_of(&self, colors: &[Option<Xyz>]) -> Result<Vec<Result<Cct, CctError>>, SceneError> {
+    pub fn temperatures_of(&self, colors: &[Option<Xyz>]) -> Result<Vec<Result<Cct, CctError>>> {
         let locus = self.results.ask(&self.nearest_blackbody_query()?);
         let cct = |locus: &PlanckianLocus, color: &Option<Xyz>| {
             color.ok_or(CctError::NoChromaticity).and_then(|color| locus.cct_of_xyz(color))
@@ -199,14 +198,14 @@ impl Scene<'_> {
     }
 
     /// Correlated color temperature and Duv of one color for the CIE 1931 observer, without tabulating the locus.
-    pub fn temperature_of(&self, color: Option<Xyz>) -> Result<Result<Cct, CctError>, SceneError> {
+    pub fn temperature_of(&self, color: Option<Xyz>) -> Result<Result<Cct, CctError>> {
         let observer = self.sensor(SetKind::Observer, FIT_TARGET)?;
         let Some(uv) = color.and_then(Xyz::uv_prime) else { return Ok(Err(CctError::NoChromaticity)) };
         Ok(*self.results.ask(&CctQuery::new(observer, uv.uv60())))
     }
 
     /// Correlated color temperature and Duv of the light, filters included.
-    pub fn light_temperature(&self) -> Result<Result<Cct, CctError>, SceneError> {
+    pub fn light_temperature(&self) -> Result<Result<Cct, CctError>> {
         self.temperature_of(Some(self.light_color()?))
     }
 

@@ -15,8 +15,8 @@ use chromascope_core::units::Kelvin;
 use chromascope_text::choices;
 use serde::{Deserialize, Serialize};
 
-use super::channel_ratio::ChannelRatioQuery;
-use super::{Scene, SceneError};
+use super::correction::ChannelRatioQuery;
+use super::{Result, Scene, SceneError};
 use crate::catalog::load::{CurveSpreadQuery, LightQuery, LoadError, PatchesQuery, SensorQuery, response_evidence};
 use crate::catalog::{Entry, Place};
 use crate::document::{CHART, CIE_1931, Document, SensorId, SetKind};
@@ -39,7 +39,6 @@ pub struct MetricsConditions {
 }
 
 impl MetricsConditions {
-    /// The question for all figures of merit of a sensor.
     pub fn query(&self, sensor: Shared<Sensor>) -> CameraMetricsQuery {
         CameraMetricsQuery {
             rendering: RenderingQuery { sensor, ..self.reference.clone() },
@@ -123,7 +122,6 @@ fn uncertainties_query(
 }
 
 choices! {
-    /// A choice of cameras.
     #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
     pub enum RankedCameras {
         #[default]
@@ -282,7 +280,7 @@ pub struct FoundMetamers {
 
 impl CatalogMetamersQuery {
     /// The question with all sets loaded.
-    pub fn loaded(&self, ask: &impl Ask) -> Result<MetamersQuery, SceneError> {
+    pub fn loaded(&self, ask: &impl Ask) -> Result<MetamersQuery> {
         let load = |set: &SetPlace| {
             let patches = ask.ask(&PatchesQuery { place: set.place.clone(), names: None });
             (*patches).clone().map_err(|error| SceneError::Load { name: set.name.clone(), error })
@@ -323,17 +321,12 @@ impl Query for CatalogMetamersQuery {
 
 impl Scene<'_> {
     /// Query for all figures of merit of a sensor under the document's conditions, the locus at the marked temperature.
-    pub fn camera_metrics_query(&self, kind: SetKind, name: &str) -> Result<CameraMetricsQuery, SceneError> {
+    pub fn camera_metrics_query(&self, kind: SetKind, name: &str) -> Result<CameraMetricsQuery> {
         self.camera_metrics_query_at(kind, name, self.document.temperature_k)
     }
 
     /// Query for all figures of merit of a sensor, with the locus at a temperature in kelvins.
-    pub fn camera_metrics_query_at(
-        &self,
-        kind: SetKind,
-        name: &str,
-        temperature_k: f64,
-    ) -> Result<CameraMetricsQuery, SceneError> {
+    pub fn camera_metrics_query_at(&self, kind: SetKind, name: &str, temperature_k: f64) -> Result<CameraMetricsQuery> {
         Ok(self.metrics_conditions(temperature_k)?.query(self.sensor(kind, name)?))
     }
 
@@ -343,13 +336,13 @@ impl Scene<'_> {
         kind: SetKind,
         name: &str,
         metrics: CameraMetricsQuery,
-    ) -> Result<MetricUncertaintiesQuery, SceneError> {
+    ) -> Result<MetricUncertaintiesQuery> {
         let failed = |error| SceneError::Load { name: name.to_owned(), error };
         let ratio = self.channel_ratio_query(name).ok().filter(|_| kind == SetKind::Camera);
         uncertainties_query(metrics, &self.entry(kind, name)?.place, ratio.as_ref(), self.results).map_err(failed)
     }
 
-    pub fn camera_figures(&self, kind: SetKind, name: &str) -> Result<CameraFigures, SceneError> {
+    pub fn camera_figures(&self, kind: SetKind, name: &str) -> Result<CameraFigures> {
         let query = self.camera_metrics_query(kind, name)?;
         let metrics = self.results.ask(&query);
         let uncertainties = Some(self.results.ask(&self.metric_uncertainties_query(kind, name, query)?));
@@ -380,7 +373,7 @@ impl Scene<'_> {
     }
 
     /// Query for the figures of merit of a camera, which is loaded where it is answered.
-    pub fn card_query(&self, camera: &SensorId) -> Result<CatalogMetricsQuery, SceneError> {
+    pub fn card_query(&self, camera: &SensorId) -> Result<CatalogMetricsQuery> {
         let conditions = Shared::new(self.metrics_conditions(self.document.temperature_k)?);
         Ok(self.metrics_query_of(&self.entry(camera.kind, &camera.name)?, conditions))
     }
@@ -391,7 +384,7 @@ impl Scene<'_> {
     }
 
     /// Conditions of figures of merit, the locus at a temperature in kelvins. Loads no camera.
-    pub fn metrics_conditions(&self, temperature_k: f64) -> Result<MetricsConditions, SceneError> {
+    pub fn metrics_conditions(&self, temperature_k: f64) -> Result<MetricsConditions> {
         Ok(MetricsConditions {
             reference: self.rendering_of(SetKind::Observer, &self.document.reference)?,
             patches: self.patches()?,
@@ -402,12 +395,7 @@ impl Scene<'_> {
     }
 
     /// Query for metamers of a camera and the reference among all sets of reflectances. Loads none of them.
-    pub fn metamers_query(
-        &self,
-        kind: SetKind,
-        name: &str,
-        confusion: Confusion,
-    ) -> Result<CatalogMetamersQuery, SceneError> {
+    pub fn metamers_query(&self, kind: SetKind, name: &str, confusion: Confusion) -> Result<CatalogMetamersQuery> {
         let kinds = [SetKind::Chart, SetKind::Material].into_iter();
         Ok(CatalogMetamersQuery {
             rendering: self.rendering_of(kind, name)?,
@@ -425,7 +413,7 @@ impl Scene<'_> {
         own.chain(built_in).map(move |(name, place)| SetPlace { kind, name, place })
     }
 
-    fn index_conditions(&self) -> Result<IndexConditions, SceneError> {
+    fn index_conditions(&self) -> Result<IndexConditions> {
         let light = self.entry(SetKind::Illuminant, INDEX_LIGHT)?;
         Ok(IndexConditions {
             observer: self.sensor(SetKind::Observer, CIE_1931)?,

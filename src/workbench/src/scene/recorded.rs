@@ -9,7 +9,7 @@ use chromascope_core::query::{Ask, Query, RecordedFitQuery, RecordedSet};
 use chromascope_core::spectral::{GridSpectrum, Primaries};
 
 use super::metrics::SetPlace;
-use super::{Scene, SceneError};
+use super::{Result, Scene, SceneError};
 use crate::catalog::load::SensorQuery;
 use crate::catalog::recorded::lit;
 use crate::document::SetKind;
@@ -33,7 +33,7 @@ pub struct RecordedRankingQuery {
 }
 
 impl Query for RecordedRankingQuery {
-    type Answer = Result<Arc<Vec<RankedCamera>>, SceneError>;
+    type Answer = Result<Arc<Vec<RankedCamera>>>;
     const NAME: &'static str = "recorded ranking";
     const CAPACITY: usize = 4;
 
@@ -66,20 +66,20 @@ impl Scene<'_> {
         recorded: &RecordedSet,
         freedom: Freedom,
         names: &[String],
-    ) -> Result<RecordedRankingQuery, SceneError> {
+    ) -> Result<RecordedRankingQuery> {
         let kind = SetKind::Camera;
         let named =
             |name: &String| Ok(SetPlace { kind, name: name.clone(), place: self.find(kind, name)?.place.clone() });
         let cameras = if names.is_empty() {
             self.places(kind).collect()
         } else {
-            names.iter().map(named).collect::<Result<_, SceneError>>()?
+            names.iter().map(named).collect::<Result<_>>()?
         };
         Ok(RecordedRankingQuery { recorded: recorded.clone(), freedom, cameras })
     }
 
     /// Radiances `S_p L` of the chart's patches under the light, by name.
-    pub fn patch_radiances(&self) -> Result<Vec<(String, GridSpectrum)>, SceneError> {
+    pub fn patch_radiances(&self) -> Result<Vec<(String, GridSpectrum)>> {
         let light = self.light()?;
         let patches = self.patches()?;
         Ok(patches.patches().iter().map(|patch| (patch.name.clone(), lit(&patch.grid, &light.grid))).collect())

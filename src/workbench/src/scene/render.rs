@@ -8,7 +8,7 @@ use chromascope_core::scene::Viewpoint;
 use chromascope_core::spectral::GridSpectrum;
 use chromascope_mesh::Mesh;
 
-use super::{ComparedSensor, Scene, SceneError};
+use super::{ComparedSensor, Result, Scene, SceneError};
 use crate::catalog::load::PatchesQuery;
 use crate::document::render::{BALANCE, MeshChoice, SUN};
 use crate::document::{SetKind, WhiteBalanceChoice};
@@ -25,9 +25,17 @@ pub struct Finish {
     pub open_sky: bool,
 }
 
+impl Finish {
+    /// Of pictures that are made at once, compared in all samples.
+    pub fn whole(size: RasterSize, quality: Quality) -> Self {
+        let shadows = if quality == Quality::Preview { Shadows::Coarse } else { Shadows::Full };
+        Self { size, quality, shadows, compared_samples: Some(usize::MAX), open_sky: false }
+    }
+}
+
 impl Scene<'_> {
     /// The material's reflectance: the first of a set of several.
-    pub fn material(&self, name: &str) -> Result<Shared<GridSpectrum>, SceneError> {
+    pub fn material(&self, name: &str) -> Result<Shared<GridSpectrum>> {
         let no_set = || SceneError::NoSet { kind: SetKind::Material, name: name.to_owned() };
         let known = self.entry(SetKind::Material, name).or_else(|_| self.chart_entry(name)).map_err(|_| no_set())?;
         let set = self.loaded(&PatchesQuery { place: known.place, names: None }, name)?;
@@ -59,7 +67,7 @@ impl Scene<'_> {
     }
 
     /// A sensor under the rendered scene's light, balanced to its white.
-    pub fn rendered_through(&self, kind: SetKind, name: &str) -> Result<RenderingQuery, SceneError> {
+    pub fn rendered_through(&self, kind: SetKind, name: &str) -> Result<RenderingQuery> {
         let chosen = self.rendering_of(kind, name)?;
         if !self.is_sunlit() {
             return Ok(chosen);
@@ -93,7 +101,7 @@ impl Scene<'_> {
         viewpoint: Viewpoint,
         finish: Finish,
         background: Option<[f32; 3]>,
-    ) -> Result<PicturesQuery, SceneError> {
+    ) -> Result<PicturesQuery> {
         let settings = &self.document.render;
         let renderings = sources.iter().map(|source| self.rendered_through(source.kind, &source.name));
         let renderings: Vec<RenderingQuery> = renderings.collect::<Result<_, _>>()?;

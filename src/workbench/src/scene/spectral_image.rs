@@ -15,7 +15,7 @@ use chromascope_core::spectral::{GridSpectrum, Sensor};
 use glam::DVec3;
 use spectral_image::{ImageInfo, ImageQuantity};
 
-use super::{ComparedSensor, Scene, SceneError};
+use super::{ComparedSensor, Result, Scene, SceneError};
 use crate::catalog::spectral_images::{ImageSource, ReadSignals, ReadSignalsError, read_signals};
 use crate::document::SetKind;
 
@@ -52,11 +52,9 @@ pub struct ImageUse {
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct ImageSignalsQuery {
     pub source: ImageSource,
-    /// Quantity of the samples, overriding the file's.
     pub wanted: Option<ImageQuantity>,
     /// Value that represents 1, as bits.
     pub scale: u64,
-    /// Every how many rows and pixels are taken.
     pub step: usize,
     light: Shared<GridSpectrum>,
     /// Sensors with the divisors of their integrals, as bits.
@@ -122,7 +120,6 @@ pub struct ImagePicturesQuery {
 
 #[derive(Clone, Debug)]
 pub struct ImagePictures {
-    /// Pictures, or the reasons that there are none.
     pub pictures: Vec<Result<Arc<Picture>, RenderingError>>,
     /// Differences from the reference over all pixels with values; none for the reference, and where colors cannot be compared.
     pub differences: Vec<Option<Arc<Difference>>>,
@@ -206,13 +203,12 @@ fn difference(map: Vec<f32>) -> Difference {
 }
 
 impl Scene<'_> {
-    /// Query for an image through sensors.
     pub fn image_pictures(
         &self,
         source: &ImageSource,
         sources: &[ComparedSensor],
         wanted: ImageUse,
-    ) -> Result<ImagePicturesQuery, SceneError> {
+    ) -> Result<ImagePicturesQuery> {
         let reference = self.rendering_of(SetKind::Observer, &self.document.reference)?;
         let is_compared = |source: &ComparedSensor| {
             Ok::<_, SceneError>(!source.is_reference && self.comparable(source.kind, &source.name)?.is_ok())
@@ -220,7 +216,7 @@ impl Scene<'_> {
         let queries = sources
             .iter()
             .map(|source| Ok((self.rendering_of(source.kind, &source.name)?, is_compared(source)?)))
-            .collect::<Result<Vec<_>, SceneError>>()?;
+            .collect::<Result<Vec<_>>>()?;
         let divisors = |query: &RenderingQuery| {
             let rendering = self.results.ask(query);
             let integrals = (*rendering).as_ref().map(|rendering| rendering.white_integrals);
@@ -272,7 +268,6 @@ fn bright(rendering: &Rendering, signals: &[[f32; 3]]) -> Option<f64> {
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct PixelSpectrumQuery {
     pub source: ImageSource,
-    /// Quantity of the samples, overriding the file's.
     pub wanted: Option<ImageQuantity>,
     /// Value that represents 1, as bits.
     pub scale: u64,

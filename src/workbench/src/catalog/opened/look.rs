@@ -52,11 +52,9 @@ impl FilePreviewQuery {
     }
 }
 
-/// A file's text, its curves, and their places in the text.
 #[derive(Debug)]
 pub struct FilePreview {
     pub fingerprint: Fingerprint,
-    /// The switches it was read with.
     pub options: ReadOptions,
     /// Its text, where it is text.
     pub preview: Result<Arc<Preview>, ReadError>,

@@ -18,20 +18,14 @@ use crate::format::{file_name, io_failure, io_reason};
 
 /// Number of bytes examined to distinguish a mesh from spectra.
 const LOOK: usize = 1 << 16;
-/// Largest number of files read from a folder.
 const MAX_FILES: usize = 1000;
 
-/// Something to open.
 #[derive(Clone, Debug)]
 pub enum Request {
     /// A file or a folder on disk.
     Path(PathBuf),
-    /// Bytes from elsewhere: the clipboard, or a drop without a file.
-    Bytes {
-        /// Name of the files together.
-        name: String,
-        bytes: Arc<[u8]>,
-    },
+    /// Bytes from elsewhere, the clipboard or a drop without a file, with the name of the files together.
+    Bytes { name: String, bytes: Arc<[u8]> },
     /// A file whose contents are known, with the user's settings.
     Known(Fingerprint, Box<ImportOverrides>),
 }
@@ -46,7 +40,6 @@ struct Harvest {
     images: Vec<PathBuf>,
     documents: Vec<PathBuf>,
     notes: Vec<String>,
-    /// Number of files to be read.
     count: usize,
     /// True if they were known before, such as the parts of one.
     from_memory: bool,
@@ -141,11 +134,9 @@ pub fn files_of(folder: &Path) -> io::Result<Vec<PathBuf>> {
     Ok(files)
 }
 
-/// Reason for missing bytes.
 enum Unread {
     Mesh(PathBuf),
     Image(PathBuf),
-    /// It is a document of this program.
     Document(PathBuf),
     Because(String),
 }

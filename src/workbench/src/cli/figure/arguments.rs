@@ -94,14 +94,10 @@ impl PaperArguments {
     }
 }
 
-/// Ranges of the chromaticity diagram.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Range {
-    /// Those of the data.
     Data,
-    /// The whole diagram.
     Full,
-    /// These.
     Of(Ranges),
 }
 

@@ -12,10 +12,10 @@ use spectral_file::SpectralFile;
 
 use crate::catalog::import::{Origin, imported};
 use crate::catalog::spectral_images;
-use crate::cli::error::CliError;
+use crate::cli::error::{CliError, Result};
 use crate::cli::render::arguments::ViewpointArguments;
 use crate::cli::render::files::patiently;
-use crate::cli::render::setup::{mesh_choice, read_mesh, viewpoint};
+use crate::cli::render::setup::{mesh_choice, own_mesh, viewpoint};
 use crate::cli::request::{Request, display_path};
 use crate::document::Document;
 use crate::document::imported::ImportOverrides;
@@ -42,7 +42,7 @@ pub(super) fn look(
     (kind, wanted): (&FigureKind, ViewpointArguments),
     scene: &Scene<'_>,
     (paper, recorded): (&Paper, Option<RecordedSet>),
-) -> Result<FigureLook, CliError> {
+) -> Result<FigureLook> {
     let is_picture = matches!(kind.needs, Need::Pictures(_));
     let is_of_mesh = is_picture && !matches!(scene.document.render.mesh, MeshChoice::Image(_));
     if !is_of_mesh && (wanted.orbit.is_some() || wanted.fov.is_some()) {
@@ -75,7 +75,7 @@ pub(super) fn look(
             look.curves = ImportSelection::of(scene, ImportItem::Set(set.name.clone()), None, None);
         }
         Need::Measured => {
-            let own = own_mesh(scene.document)?;
+            let own = own_mesh(&scene.document.render.mesh)?;
             let job = SceneRunJob::of(scene, own.as_ref(), None);
             look.measured.run = Some(patiently("measuring", || job.run(scene.results)));
             look.measured.is_current = true;
@@ -88,21 +88,8 @@ fn missing(reason: &str) -> CliError {
     CliError::Argument { argument: "FILE", reason: reason.to_owned() }
 }
 
-/// The mesh of a file, if the document has one.
-fn own_mesh(document: &Document) -> Result<Option<Shared<chromascope_mesh::Mesh>>, CliError> {
-    match &document.render.mesh {
-        MeshChoice::File(path) => read_mesh(path).map(Some),
-        _ => Ok(None),
-    }
-}
-
 /// Pictures with as many pixels as the paper has where they stand.
-fn pictures(
-    scene: &Scene<'_>,
-    mode: RenderMode,
-    paper: &Paper,
-    wanted: ViewpointArguments,
-) -> Result<RenderedFrame, CliError> {
+fn pictures(scene: &Scene<'_>, mode: RenderMode, paper: &Paper, wanted: ViewpointArguments) -> Result<RenderedFrame> {
     let start = Instant::now();
     let sources = scene.rendered_sources();
     let count = sources.len() - usize::from(mode == RenderMode::Difference && sources.len() > 1);
@@ -116,7 +103,7 @@ fn pictures(
         let (query, sources) = (PicturesOf::Image(query), sources.into());
         RenderedFrame { query, sources, answer, time: start.elapsed(), is_last: true, serial: 0 }
     } else {
-        let own = own_mesh(scene.document)?;
+        let own = own_mesh(&scene.document.render.mesh)?;
         let mesh = scene.mesh_of(own.as_ref()).ok_or_else(|| CliError::File("no mesh".to_owned()))?;
         let viewpoint = viewpoint(wanted, Orbit::of(&scene.document.render.mesh), 1.0)?;
         let frame = RenderedFrame::of_mesh(scene, mesh, viewpoint, side)?;
@@ -130,7 +117,7 @@ fn pictures(
 }
 
 /// Sets the mesh that is rendered, with the paper's surface for the fern.
-pub(super) fn set_mesh(document: &mut Document, mesh: &OsStr) -> Result<(), CliError> {
+pub(super) fn set_mesh(document: &mut Document, mesh: &OsStr) -> Result<()> {
     let mesh = mesh_choice(mesh)?;
     let usual = if mesh == MeshChoice::Fern { RenderSettings::fern() } else { document.render.clone() };
     document.render = RenderSettings { mesh, ..usual };
@@ -138,7 +125,7 @@ pub(super) fn set_mesh(document: &mut Document, mesh: &OsStr) -> Result<(), CliE
 }
 
 /// Adds the curves of a file to the document's sets.
-pub(super) fn open_curves(request: &mut Request, path: &Path) -> Result<(), CliError> {
+pub(super) fn open_curves(request: &mut Request, path: &Path) -> Result<()> {
     let bytes = request.bytes(path)?;
     let mut overrides = ImportOverrides::default();
     let origin = Origin::on_disk(&display_path(path), path, &bytes);

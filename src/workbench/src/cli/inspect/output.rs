@@ -71,7 +71,6 @@ fn curves(curves: &[Curve]) -> String {
     format!("{}: {}{more}", curves.len(), names.join(", "))
 }
 
-/// One object: a file that could not be read or written, and why.
 pub(super) fn failure(name: &str, failure: &Failure) -> Value {
     json!({ "file": name, "error": error(failure) })
 }
@@ -205,7 +204,6 @@ pub(super) fn table(prepared: &mut Prepared<'_>, out: &mut dyn Write) -> Result<
     Ok(done?)
 }
 
-/// Kind of the curves for those who write them.
 pub(super) fn content(table: &SpectralFile) -> Content<'_> {
     match table.role.value {
         Role::Camera => table.reading.camera_columns.map_or(Content::Observer, |channels| Content::Camera {

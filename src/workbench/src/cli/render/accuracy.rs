@@ -141,7 +141,6 @@ impl Bench {
     }
 }
 
-/// Number of samples whose integral is a sum over wavelengths.
 fn sums(shading: &ShadingImage, plan: &Plan) -> u64 {
     let spectral = shading.shades().iter().filter(|shade| shade.kind == DiffuseKind::Spectral);
     spectral.filter(|shade| plan.method(shade.kappa, shade.beta).node_count() > 0).count() as u64

@@ -118,7 +118,6 @@ pub(super) enum Format {
 }
 
 impl Format {
-    /// The ending of such files.
     pub(super) fn ending(self) -> &'static str {
         match self {
             Self::Png => "png",
@@ -150,7 +149,6 @@ fn size(text: &str) -> Result<[u32; 2], String> {
     Ok([side(width).ok_or_else(remedy)?, side(height).ok_or_else(remedy)?])
 }
 
-/// Ids of the metrics.
 fn metrics() -> PossibleValuesParser {
     PossibleValuesParser::new(Metric::ALL.iter().map(|metric| PossibleValue::new(metric.id).help(metric.label)))
 }

@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 
 use super::arguments::RenderArguments;
 use crate::atomic::fitting;
-use crate::cli::error::CliError;
+use crate::cli::error::{CliError, Result};
 use crate::format::slug;
 use crate::scene::ComparedSensor;
 use crate::terminal::say;
@@ -33,7 +33,7 @@ pub(in crate::cli) fn patiently<T>(what: &'static str, work: impl FnOnce() -> T)
     result
 }
 
-pub(in crate::cli) fn make_folder(folder: &Path) -> Result<(), CliError> {
+pub(in crate::cli) fn make_folder(folder: &Path) -> Result<()> {
     if folder.as_os_str().is_empty() || folder.is_dir() {
         return Ok(());
     }

@@ -14,20 +14,19 @@ use super::arguments::{Format, RenderArguments};
 use super::files::{file_names, make_folder, patiently};
 use super::setup::compared_request;
 use crate::catalog::spectral_images::{self, OpenImageError, ReadSignalsError};
-use crate::cli::error::CliError;
+use crate::cli::error::{CliError, Result};
 use crate::cli::outputs::{self, show, write_to};
 use crate::cli::request::display_path;
 use crate::document::TransformChoice;
 use crate::document::render::RenderSettings;
-use crate::export::render::{ImageProvenance, image_exr_bytes, png_bytes};
+use crate::export::render::{exr_bytes, image_header, png_bytes};
 use crate::format::fixed;
 use crate::results::Results;
 use crate::scene::spectral_image::{ImagePictures, ImagePicturesError, ImageUse};
 use crate::scene::{ComparedSensor, Scene, SceneError};
 use crate::terminal::say;
 
-/// Computes the pictures of an image, writes them and reports the result.
-pub(super) fn run(arguments: &RenderArguments, path: &Path, matches: &ArgMatches) -> Result<(), CliError> {
+pub(super) fn run(arguments: &RenderArguments, path: &Path, matches: &ArgMatches) -> Result<()> {
     let start = Instant::now();
     let settings = arguments.settings.applied_to(RenderSettings::default());
     let wanted = settings.image_quantity;
@@ -98,7 +97,7 @@ fn bytes(
     index: usize,
     arguments: &RenderArguments,
     image: &str,
-) -> Result<Vec<u8>, CliError> {
+) -> Result<Vec<u8>> {
     let refused = |error: &RenderingError| SceneError::Rendering { name: source.name.clone(), error: *error };
     let picture = made.pictures[index].as_ref().map_err(refused)?;
     let rendering = scene.results.ask(rendering);
@@ -106,10 +105,8 @@ fn bytes(
     let written = if arguments.format == Format::Png {
         png_bytes(picture)
     } else {
-        let (illuminant, white) = (scene.light_name(), scene.document.white.name());
-        let balance = if rendering.is_rgb { white.as_str() } else { "none" };
-        let provenance = ImageProvenance { source: &source.name, balance, illuminant: &illuminant, image };
-        image_exr_bytes(made.placed(), made.signals(index).unwrap_or_default(), rendering, &provenance)
+        let header = image_header(rendering, &source.name, &[scene.light_name(), scene.document.white.name()], image);
+        exr_bytes(made.placed(), made.signals(index).unwrap_or_default(), rendering, header)
     };
     written.map_err(|error| CliError::Picture { path: PathBuf::from(image), error })
 }

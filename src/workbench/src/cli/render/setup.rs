@@ -1,13 +1,13 @@
 //! From arguments to a document with a rendered scene, a place to look from, and the size of the pictures.
 
 use std::ffi::OsStr;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::time::{Duration, Instant};
 
 use chromascope_core::colorimetry::Metric;
 use chromascope_core::query::Shared;
 use chromascope_core::reflectance::SurfaceError;
-use chromascope_core::render::{Quality, RasterSize, Shadows};
+use chromascope_core::render::RasterSize;
 use chromascope_core::scene::Viewpoint;
 use chromascope_core::scene::viewpoint::ViewpointError;
 use chromascope_mesh::Mesh;
@@ -15,7 +15,7 @@ use clap::ArgMatches;
 
 use super::arguments::{RenderArguments, ViewpointArguments};
 use crate::catalog::meshes;
-use crate::cli::error::CliError;
+use crate::cli::error::{CliError, Result};
 use crate::cli::request::Request;
 use crate::document::render::{BALANCE, MeshChoice, RenderSettings, SUN};
 use crate::document::{Compared, Light, SetKind, WhiteBalanceChoice};
@@ -24,12 +24,10 @@ use crate::scene::render::Finish;
 use crate::terminal::say;
 use chromascope_core::render::QualityLevel;
 
-/// Inputs of the pictures.
 pub(super) struct Setup {
     pub(super) request: Request,
     pub(super) viewpoint: Viewpoint,
     pub(super) finish: Finish,
-    /// The user's mesh, if it is one.
     pub(super) own_mesh: Option<Shared<Mesh>>,
     /// Name of the mesh in file names.
     pub(super) mesh_name: String,
@@ -38,7 +36,7 @@ pub(super) struct Setup {
 }
 
 impl Setup {
-    pub(super) fn new(arguments: &RenderArguments, matches: &ArgMatches) -> Result<Self, CliError> {
+    pub(super) fn new(arguments: &RenderArguments, matches: &ArgMatches) -> Result<Self> {
         let choice = mesh_choice(&arguments.mesh)?;
         // What only arguments decide comes before files are read.
         let [width, height] = arguments.size.map(f64::from);
@@ -57,20 +55,15 @@ impl Setup {
             request.document.render.garment = garment;
         }
         let start = Instant::now();
-        let own_mesh = match &request.document.render.mesh {
-            MeshChoice::File(path) => Some(read_mesh(path)?),
-            _ => None,
-        };
-        let quality = request.document.render.quality();
-        let shadows = if quality == Quality::Preview { Shadows::Coarse } else { Shadows::Full };
-        let finish = Finish { size, quality, shadows, compared_samples: Some(usize::MAX), open_sky: false };
+        let own_mesh = own_mesh(&request.document.render.mesh)?;
+        let finish = Finish::whole(size, request.document.render.quality());
         let mesh_name = mesh_name(&request.document.render.mesh);
         Ok(Self { request, viewpoint, finish, own_mesh, mesh_name, reading: start.elapsed() })
     }
 }
 
 /// Sensors, reference, light, white balance and metric: all but the scene.
-pub(super) fn compared_request(arguments: &RenderArguments, matches: &ArgMatches) -> Result<Request, CliError> {
+pub(super) fn compared_request(arguments: &RenderArguments, matches: &ArgMatches) -> Result<Request> {
     let mut request = Request::of_sources(&arguments.sources, matches)?;
     if arguments.sources.names_no_sensor() {
         let Request { document, sources, .. } = &mut request;
@@ -103,7 +96,6 @@ pub(super) fn compared_request(arguments: &RenderArguments, matches: &ArgMatches
     Ok(request)
 }
 
-/// The program's own meshes by name.
 const MESHES: [(&str, MeshChoice); 4] = [
     ("head", MeshChoice::Head),
     ("fern", MeshChoice::Fern),
@@ -111,7 +103,7 @@ const MESHES: [(&str, MeshChoice); 4] = [
     ("plane", MeshChoice::Plane),
 ];
 
-pub(in crate::cli) fn mesh_choice(given: &OsStr) -> Result<MeshChoice, CliError> {
+pub(in crate::cli) fn mesh_choice(given: &OsStr) -> Result<MeshChoice> {
     let typed = &*given.to_string_lossy();
     let known = MESHES.into_iter().find(|(name, _)| typed.trim().eq_ignore_ascii_case(name));
     if let Some((_, choice)) = known {
@@ -139,18 +131,20 @@ fn mesh_name(choice: &MeshChoice) -> String {
     }
 }
 
-pub(in crate::cli) fn read_mesh(path: &PathBuf) -> Result<Shared<Mesh>, CliError> {
+/// The mesh of the user's file, if one is chosen.
+pub(in crate::cli) fn own_mesh(choice: &MeshChoice) -> Result<Option<Shared<Mesh>>> {
+    let MeshChoice::File(path) = choice else { return Ok(None) };
     // Whole, so that a complaint can say in which folder the file is not.
     let whole = std::path::absolute(path).unwrap_or_else(|_| path.clone());
     let read = meshes::read(&whole, &|| false).map_err(|failure| CliError::File(failure.to_string()))?;
     for note in &read.notes {
         say(&format!("chromascope: {}: {note}\n", path.display()));
     }
-    Ok(read.mesh)
+    Ok(Some(read.mesh))
 }
 
 /// Render settings: those of the paper's head or fern with the arguments applied.
-fn settings(arguments: &RenderArguments, mesh: MeshChoice, start: RenderSettings) -> Result<RenderSettings, CliError> {
+fn settings(arguments: &RenderArguments, mesh: MeshChoice, start: RenderSettings) -> Result<RenderSettings> {
     let usual = if mesh == MeshChoice::Fern { RenderSettings::fern() } else { RenderSettings::default() };
     let RenderSettings { garment, specular, sky, .. } = start;
     let usual = RenderSettings { mesh, garment, specular, sky, sunlight: false, ..usual };
@@ -185,11 +179,7 @@ fn surface_error(error: SurfaceError) -> CliError {
 }
 
 /// Viewpoint for a picture of some width over height, where not stated the usual one.
-pub(in crate::cli) fn viewpoint(
-    arguments: ViewpointArguments,
-    usual: Orbit,
-    aspect: f64,
-) -> Result<Viewpoint, CliError> {
+pub(in crate::cli) fn viewpoint(arguments: ViewpointArguments, usual: Orbit, aspect: f64) -> Result<Viewpoint> {
     let Some([yaw, pitch, distance]) = arguments.orbit else {
         let field = arguments.fov.unwrap_or(usual.field_of_view_deg);
         Viewpoint::new(0.0, 0.0, 1.0, field.to_radians()).map_err(viewpoint_error)?;
@@ -216,7 +206,7 @@ fn viewpoint_error(error: ViewpointError) -> CliError {
 /// Beyond this many samples memory runs out on small machines.
 const MOST_SAMPLES: u64 = 40_000_000;
 
-fn raster(arguments: &RenderArguments) -> Result<RasterSize, CliError> {
+fn raster(arguments: &RenderArguments) -> Result<RasterSize> {
     let [width, height] = arguments.size;
     let samples = arguments.samples;
     let size = RasterSize { width, height, samples };

@@ -136,7 +136,7 @@ fn source(made: &Made<'_>, index: usize, accuracy: Option<&Measured>) -> Value {
     let of = |cost: &Cost| cost.errors[index].map(errors);
     json!({
         "name": source.name,
-        "kind": source.kind.singular(),
+        "kind": source.kind.label(),
         "file": made.files[index].display().to_string(),
         "is_reference": source.is_reference,
         "is_truth": source.is_reference,

@@ -10,16 +10,15 @@ use chromascope_core::query::correction::{CorrectionSheetQuery, IdtQuery};
 use chromascope_core::query::{Ask, Query, Shared};
 
 use super::CorrectionFile;
-use super::model::unique_camera_model;
 use crate::catalog::Entry;
+use crate::catalog::names::model_of;
 use crate::document::SetKind;
-use crate::scene::channel_ratio::ChannelRatioQuery;
+use crate::scene::correction::ChannelRatioQuery;
 use crate::scene::{Scene, SceneError};
 
 /// Camera whose correction is wanted, and what its files are to state.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct CorrectionRequest<'a> {
-    /// The camera in the catalog.
     pub camera: &'a str,
     /// Camera model as raw files call it; by [`unique_camera_model`] where none is given.
     pub model: Option<&'a str>,
@@ -45,7 +44,6 @@ pub struct CorrectionFileQuery {
 }
 
 impl CorrectionFileQuery {
-    /// Query for a camera.
     pub fn new(scene: &Scene<'_>, request: CorrectionRequest<'_>) -> Result<Self, SceneError> {
         let CorrectionRequest { camera, model, neutral, exposure } = request;
         if scene.document.transform.is_eq_13() {
@@ -101,4 +99,16 @@ impl Query for CorrectionFileQuery {
             terms: self.terms.clone(),
         }))
     }
+}
+
+/// Names of the library and `UniqueCameraModel` of raw files, as rows of a data file.
+const MODELS: &str = "models/unique_camera_model.csv";
+
+/// Camera model as its raw files state it (DNG's `UniqueCameraModel`), by which raw developers offer a profile: that of the table of
+/// names, else the camera's name without the parenthesis that distinguishes tables of one model.
+pub fn unique_camera_model(camera: &str) -> String {
+    let model = model_of(camera);
+    let rows = chromascope_data::text(MODELS).unwrap_or_default().lines();
+    let known = rows.filter_map(|row| row.split_once(',')).find(|(name, _)| *name == model);
+    known.map_or(model, |(_, known)| known).to_owned()
 }

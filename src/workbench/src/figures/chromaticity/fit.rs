@@ -1,14 +1,12 @@
 //! The part of the diagram that is fitted into its pane.
 
-use super::drawing::id;
-use super::frame::{LEAST, place};
+use super::drawing::{LEAST, id, place};
 use super::shown::{DiagramFit, Fit, FitKey};
 use crate::document::{Diagram, SetKind};
 use crate::scene::{ComparedSensor, Scene};
 
 /// Coordinates that the data's fit takes in; real colors lie between 0 and 0.85.
 const NEAR: std::ops::RangeInclusive<f64> = LEAST..=1.1;
-/// Right and upper ends of the whole diagram.
 const FULL_EXTENT: [[f64; 2]; 2] = [[0.76, 0.86], [0.65, 0.60]];
 
 /// Right and upper ends of the whole diagram in its coordinates.

@@ -1,12 +1,12 @@
-//! Patches as points, with tails from each camera's to the reference's, and the text under the pointer.
+//! Patches as points, with tails from each camera's to the reference's, and the text under the pointer; arrows to
+//! patches outside the plot.
 
 use chromascope_core::colorimetry::{Metric, UvPrime, Xy};
 use chromascope_core::query::{LocusPoint, PatchColor, Temperatures, compare};
 use chromascope_core::units::Kelvin;
-use chromascope_figure::{Ink, InkRole, Label, Mark, Place, Shape};
+use chromascope_figure::{Ink, InkRole, Label, Mark, Marker, Place, Shape};
 
-use super::drawing::{Drawing, id};
-use super::edges;
+use super::drawing::{Drawing, Frame, id};
 use super::labels::{Rank, label as ranked};
 use crate::document::{Diagram, SetKind};
 use crate::format::number;
@@ -116,7 +116,7 @@ fn add_names(drawing: &mut Drawing<'_>, names: &[&str], reference: &[PatchColor]
         let rank = if pointed(name) { Rank::Pointed } else { Rank::Patch };
         let Some(at) = at.filter(|_| few || rank == Rank::Pointed) else { continue };
         let is_fitted = drawing.look.diagram.zoomed.is_none();
-        let at = if is_fitted { edges::held_inside(at, &drawing.frame) } else { at };
+        let at = if is_fitted { held_inside(at, &drawing.frame) } else { at };
         // Away from the middle, where the others are.
         let up = if at[1] >= center[1] { -1.0 } else { 1.0 };
         let right = if at[0] >= center[0] - 0.02 { 1.0 } else { -1.0 };
@@ -263,4 +263,53 @@ pub const fn distance_symbol(diagram: Diagram) -> &'static str {
         Diagram::Xy => "Δxy",
         Diagram::UvPrime => "Δu′v′",
     }
+}
+
+/// Radius of an arrow in points.
+const ARROW: f64 = 5.0;
+/// Arrows of one sensor are at least this far apart.
+const APART: f64 = 8.0;
+
+/// The position of a point's arrow, or its own where it lies in the plot.
+fn inward(at: [f64; 2], frame: &Frame) -> [f64; 2] {
+    const INSET: f64 = ARROW + 3.0;
+    if frame.contains(at, 0.0) { at } else { [0, 1].map(|axis| at[axis].min(frame.size[axis] - INSET).max(INSET)) }
+}
+
+/// A point, or that of its arrow.
+fn held_inside(point: [f64; 2], frame: &Frame) -> [f64; 2] {
+    frame.value(inward(frame.at(point), frame))
+}
+
+/// Adds an arrow for each patch that lies outside the plot; those close together share one.
+pub(super) fn add_arrows(drawing: &mut Drawing<'_>) {
+    let frame = drawing.frame;
+    let mut arrows: Vec<Mark> = Vec::new();
+    let mut taken: Vec<([f64; 2], InkRole)> = Vec::new();
+    for mark in &drawing.points {
+        let Shape::Points { points, .. } = &mark.shape else { continue };
+        let Some(ink) = mark.stroke.map(|stroke| stroke.ink).or(mark.fill) else { continue };
+        for at in points.iter().map(|point| frame.at(*point)).filter(|at| !frame.contains(*at, 0.0)) {
+            let beyond = [0, 1].map(|axis| (-at[axis]).max(at[axis] - frame.size[axis]));
+            let axis = usize::from(beyond[1] > beyond[0]);
+            let marker = match (axis, at[axis] < 0.0) {
+                (0, true) => Marker::TriangleLeft,
+                (0, false) => Marker::TriangleRight,
+                (_, true) => Marker::TriangleUp,
+                (_, false) => Marker::TriangleDown,
+            };
+            let edge = inward(at, &frame);
+            let near = |(other, role): &([f64; 2], InkRole)| {
+                *role == ink.role && (other[0] - edge[0]).hypot(other[1] - edge[1]) < APART
+            };
+            if !edge.iter().all(|v| v.is_finite()) || taken.iter().any(near) {
+                continue;
+            }
+            taken.push((edge, ink.role));
+            let shape = Shape::Points { points: vec![frame.value(edge)], marker, radius: ARROW };
+            let arrow = Mark::new(mark.tag, format!("{}, outside", mark.name), shape);
+            arrows.push(arrow.with_fill(ink).with_halo(InkRole::Plot));
+        }
+    }
+    drawing.small.append(&mut arrows);
 }

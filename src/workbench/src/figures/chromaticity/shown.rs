@@ -27,7 +27,6 @@ const EASE: f64 = 0.15;
 #[derive(Clone, Debug, PartialEq)]
 pub struct FitKey {
     pub diagram: Diagram,
-    /// The data or the whole diagram.
     pub fit: DiagramFit,
     /// The sensors that are fitted, sorted.
     pub sensors: Vec<SensorId>,

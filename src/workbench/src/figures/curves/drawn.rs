@@ -9,10 +9,8 @@ use crate::catalog::import::taken;
 use crate::document::imported::ImportedSet;
 use crate::format::{capitalized, number, sentence};
 
-/// Maximum number of curves drawn.
 pub const DRAWN: usize = 200;
 
-/// A curve to draw.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Curve {
     /// Its place in the file, from 0.
@@ -26,7 +24,6 @@ pub struct Curve {
     pub points: Vec<[f64; 2]>,
 }
 
-/// The curves of a file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Curves {
     pub title: String,

@@ -97,7 +97,6 @@ impl ImportSelection {
         self.look.as_ref().is_some_and(|look| look.options == self.overrides.options)
     }
 
-    /// Table read from the contents.
     pub fn table(&self) -> Option<&SpectralFile> {
         self.look.as_ref()?.table.as_deref().ok()
     }

@@ -17,7 +17,6 @@ pub const MEANING: &str = "Facing the light: the flat material, or garment, unde
 /// Meaning of the numbers of a spectral image.
 pub const IMAGE_MEANING: &str = "Mean, median, 95 % and maximum over all pixels with a value in every band.";
 
-/// Amount of detail.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Detail {
     /// The number of the headline.
@@ -51,7 +50,6 @@ impl Measure {
         Self { metric: frame.query.metric(), by_eq_13, of_image: frame.query.image().is_some() }
     }
 
-    /// Meaning of the numbers, for hints.
     pub const fn meaning(self) -> &'static str {
         if self.of_image { IMAGE_MEANING } else { MEANING }
     }

@@ -7,7 +7,7 @@ use chromascope_figure::{Dash, Ink, InkRole, Mark, Shape, Tag};
 use super::Built;
 use crate::document::{SetKind, Subset};
 use crate::figures::chromaticity::id;
-use crate::figures::labels::{Name, channel_symbol};
+use crate::figures::data_set::{Name, channel_symbol};
 use crate::plot_item::PlotItem;
 use crate::scene::{ComparedSensor, Scene};
 

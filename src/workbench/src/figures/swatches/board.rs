@@ -77,7 +77,6 @@ impl<'a> Board<'a> {
         }
     }
 
-    /// Width of the widest number of a difference.
     fn widest_number(&self, rows: &[Row]) -> f64 {
         let metric = self.scene.document.difference;
         let numbers = rows.iter().flat_map(|row| row.colors.iter().flatten()).filter_map(|(_, difference)| *difference);
