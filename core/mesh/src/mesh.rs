@@ -5,32 +5,16 @@ use std::hash::{Hash, Hasher};
 
 /// Reason that vertices and triangles make no mesh.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, thiserror::Error)]
+#[allow(missing_docs, reason = "each variant says in its message what is wrong")]
 pub enum MeshError {
-    /// There is nothing to see.
     #[error("there are no triangles")]
     Empty,
-    /// Each vertex needs one normal.
     #[error("{positions} vertices but {normals} normals")]
-    Normals {
-        /// Number of positions.
-        positions: usize,
-        /// Number of normals.
-        normals: usize,
-    },
-    /// A triangle names a vertex that is not there.
+    Normals { positions: usize, normals: usize },
     #[error("triangle {triangle} names vertex {vertex}, which is not there")]
-    Vertex {
-        /// The triangle's index.
-        triangle: usize,
-        /// The index that is too large.
-        vertex: u32,
-    },
-    /// A position or normal is not a number or is infinite.
+    Vertex { triangle: usize, vertex: u32 },
     #[error("vertex {vertex} is not finite")]
-    NotFinite {
-        /// The vertex's index.
-        vertex: usize,
-    },
+    NotFinite { vertex: usize },
 }
 
 /// A box around a mesh, edges along the axes.

@@ -46,24 +46,17 @@ pub const MAX_TRIANGLES: usize = 10_000_000;
 const STOP_EVERY: usize = 4096;
 
 /// The format of a file.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, thiserror::Error)]
 pub enum Kind {
     /// Wavefront OBJ.
+    #[error("OBJ")]
     Obj,
     /// Stanford PLY.
+    #[error("PLY")]
     Ply,
     /// Stereolithography STL.
+    #[error("STL")]
     Stl,
-}
-
-impl std::fmt::Display for Kind {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(match self {
-            Self::Obj => "OBJ",
-            Self::Ply => "PLY",
-            Self::Stl => "STL",
-        })
-    }
 }
 
 /// Consecutive triangles under one name.

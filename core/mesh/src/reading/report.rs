@@ -2,7 +2,6 @@
 
 use super::Kind;
 use super::error::Place;
-use std::fmt::{Display, Formatter, Result};
 
 /// Number of occurrences, and the first place.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -25,33 +24,41 @@ impl Tally {
 }
 
 /// Statements that are read over, since nothing in a mesh answers to them.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, thiserror::Error)]
 pub enum Skipped {
     /// Materials: their names are stored with the groups, their properties are ignored.
+    #[error("material statements")]
     Materials,
     /// Texture coordinates and maps.
+    #[error("texture statements")]
     Textures,
     /// Colors or weights of vertices.
+    #[error("vertices with colors or weights")]
     VertexColors,
     /// Points.
+    #[error("point statements")]
     Points,
     /// Lines.
+    #[error("line statements")]
     Lines,
     /// Free-form curves and surfaces.
+    #[error("free-form curve and surface statements")]
     Curves,
     /// Instructions for display and rendering.
+    #[error("display statements")]
     Display,
     /// Elements that are neither vertices nor faces.
+    #[error("elements that are neither vertices nor faces")]
     Elements,
     /// Words that the format does not have.
+    #[error("unknown statements")]
     Unknown,
 }
 
 impl Skipped {
-    /// Number of kinds.
-    pub(super) const COUNT: usize = 9;
+    pub(super) const COUNT: usize = Self::ALL.len();
     /// All kinds, in their order.
-    const ALL: [Self; Self::COUNT] = [
+    const ALL: [Self; 9] = [
         Self::Materials,
         Self::Textures,
         Self::VertexColors,
@@ -62,21 +69,6 @@ impl Skipped {
         Self::Elements,
         Self::Unknown,
     ];
-
-    /// User-facing name of skipped content.
-    fn name(self) -> &'static str {
-        match self {
-            Self::Materials => "material statements",
-            Self::Textures => "texture statements",
-            Self::VertexColors => "vertices with colors or weights",
-            Self::Points => "point statements",
-            Self::Lines => "line statements",
-            Self::Curves => "free-form curve and surface statements",
-            Self::Display => "display statements",
-            Self::Elements => "elements that are neither vertices nor faces",
-            Self::Unknown => "unknown statements",
-        }
-    }
 }
 
 /// Origin of the mesh's normals.
@@ -172,79 +164,42 @@ impl Report {
     }
 }
 
-impl Display for Report {
-    fn fmt(&self, f: &mut Formatter<'_>) -> Result {
+impl std::fmt::Display for Report {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(f, "{}: {} vertices, {} faces, {} triangles", self.kind, self.vertices, self.polygons, self.triangles)
     }
 }
 
 /// A note for the user about a mesh that was read.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-#[expect(missing_docs, reason = "the fields count what the variant names, or give the first place")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, thiserror::Error)]
+#[expect(missing_docs, reason = "each says what it is in its text")]
 pub enum Note {
-    /// Polygons that cross themselves.
+    #[error("Polygons that cross themselves: {count}, first at {first}; triangulate before exporting")]
     Crossing { count: usize, first: Place },
-    /// A closed mesh whose triangles face inwards.
+    #[error("The mesh is inside out; flip its faces before exporting")]
     InsideOut,
-    /// Edges whose triangles disagree on which side is outside.
+    #[error("Neighboring faces wound against each other: {edges} edges, first at {first}")]
     Flipped { edges: usize, first: Place },
-    /// Normals that point to the opposite side of the winding order.
+    #[error("Normals point against the faces' winding in {triangles} of {of} triangles")]
     AgainstWinding { triangles: usize, of: usize },
-    /// Single precision shows.
+    #[error("Far from the origin for its size, details are lost; move it to the origin before exporting")]
     FarFromOrigin,
-    /// Triangles without area were omitted.
+    #[error("Triangles without area left out: {count}, first at {first}")]
     Degenerate { count: usize, first: Place },
-    /// Edges of more than two triangles.
+    #[error("Edges where more than two triangles meet: {edges}, first at {first}")]
     NonManifold { edges: usize, first: Place },
-    /// Triangles on the same three vertices.
+    #[error("Triangles on the same three vertices as another: {count}, first at {first}")]
     Duplicates { count: usize, first: Place },
-    /// The file has no normals.
+    #[error("No normals in the file; computed from the faces")]
     NormalsComputed,
-    /// Some corners have no normals.
+    #[error("Normals missing at {corners} corners; computed there")]
     NormalsMixed { corners: usize },
-    /// The mesh is not closed.
+    #[error("The surface is open: {edges} edges have a triangle on one side only")]
     Open { edges: usize },
-    /// Vertices without triangles.
+    #[error("Vertices that no triangle uses: {vertices}")]
     Unused { vertices: usize },
-    /// Names of groups past the limit.
+    #[error("Too many groups: {count} kept without their names")]
     UnnamedGroups { count: usize },
-    /// Statements that were read over.
+    #[error("Skipped {what}: {count}, first at {first}")]
     Skipped { what: Skipped, count: usize, first: Place },
-}
-
-impl Display for Note {
-    fn fmt(&self, f: &mut Formatter<'_>) -> Result {
-        match self {
-            Self::Crossing { count, first } => {
-                write!(f, "Polygons that cross themselves: {count}, first at {first}; triangulate before exporting")
-            }
-            Self::InsideOut => f.write_str("The mesh is inside out; flip its faces before exporting"),
-            Self::Flipped { edges, first } => {
-                write!(f, "Neighboring faces wound against each other: {edges} edges, first at {first}")
-            }
-            Self::AgainstWinding { triangles, of } => {
-                write!(f, "Normals point against the faces' winding in {triangles} of {of} triangles")
-            }
-            Self::FarFromOrigin => f.write_str(
-                "Far from the origin for its size, details are lost; move it to the origin before exporting",
-            ),
-            Self::Degenerate { count, first } => {
-                write!(f, "Triangles without area left out: {count}, first at {first}")
-            }
-            Self::NonManifold { edges, first } => {
-                write!(f, "Edges where more than two triangles meet: {edges}, first at {first}")
-            }
-            Self::Duplicates { count, first } => {
-                write!(f, "Triangles on the same three vertices as another: {count}, first at {first}")
-            }
-            Self::NormalsComputed => f.write_str("No normals in the file; computed from the faces"),
-            Self::NormalsMixed { corners } => write!(f, "Normals missing at {corners} corners; computed there"),
-            Self::Open { edges } => write!(f, "The surface is open: {edges} edges have a triangle on one side only"),
-            Self::Unused { vertices } => write!(f, "Vertices that no triangle uses: {vertices}"),
-            Self::UnnamedGroups { count } => write!(f, "Too many groups: {count} kept without their names"),
-            Self::Skipped { what, count, first } => {
-                write!(f, "Skipped {}: {count}, first at {first}", what.name())
-            }
-        }
-    }
 }
