@@ -34,14 +34,12 @@ fn read(path: &'static str) -> Result<Dataset, DataError> {
     Dataset::read(text).map_err(|error| DataError::File { path, error })
 }
 
-/// The first curve of a file on the grid.
 #[cfg(feature = "workloads")]
 pub(crate) fn curve(path: &'static str, quantity: Quantity) -> Result<GridSpectrum, DataError> {
     let data = read(path)?;
     Ok(GridSpectrum::resample(data.curves.first().ok_or(DataError::Missing(path))?, quantity))
 }
 
-/// A camera or an observer.
 #[cfg(feature = "workloads")]
 pub(crate) fn sensor(path: &'static str) -> Result<Sensor, DataError> {
     Sensor::from_dataset(&read(path)?).map_err(|error| DataError::Sensor { path, error })

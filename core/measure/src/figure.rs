@@ -90,7 +90,6 @@ fn entry(threads: usize) -> LegendEntry {
     LegendEntry { name, stroke: None, marker: Some(marker), fill: Some(role.into()) }
 }
 
-/// Marker and color by the number of threads.
 fn look(threads: usize) -> (Marker, InkRole) {
     let slot = threads.max(1).ilog2() as usize;
     (MARKERS[slot % MARKERS.len()], if slot.is_multiple_of(2) { InkRole::Text } else { InkRole::Weak })

@@ -92,7 +92,6 @@ pub fn shortest<T>(work: impl FnMut() -> T) -> f64 {
     shortest_of(3, work)
 }
 
-/// Seconds of the shortest of some runs.
 pub(crate) fn shortest_of<T>(runs: usize, mut work: impl FnMut() -> T) -> f64 {
     (0..runs).map(|_| timed(&mut work).1).fold(f64::INFINITY, f64::min)
 }

@@ -97,7 +97,6 @@ impl ErrorOf {
     }
 }
 
-/// Differences, gathered one by one.
 #[cfg(feature = "workloads")]
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Errors {
@@ -130,7 +129,6 @@ impl Errors {
         errors
     }
 
-    /// The differences as one error.
     pub(crate) fn sum_up(self, what: &str, scale: ErrorScale) -> ErrorOf {
         let [rms_abs, rms_rel] = self.squares.map(|sum| (sum / self.checked.max(1) as f64).sqrt());
         let [max_abs, max_rel] = self.max;

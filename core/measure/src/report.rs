@@ -76,7 +76,6 @@ impl Report {
     }
 }
 
-/// Columns of the measurements.
 const COLUMNS: [Field<Measurement>; 22] = [
     Field::new("workload", |m| m.workload.name().into()),
     Field::new("case", |m| m.case.as_str().into()),

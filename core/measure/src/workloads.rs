@@ -23,7 +23,6 @@ use self::timing::{Bench, Pools};
 use crate::harness::now;
 use crate::{BenchError, Effort, Machine, Progress, Report, Workload};
 
-/// The constants everything is computed with.
 const CONSTANTS: RadiationConstants = RadiationConstants::Paper;
 /// The observer of color temperatures.
 const OBSERVER: &str = "observers/cie_1931_2deg.csv";

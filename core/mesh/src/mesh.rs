@@ -123,7 +123,6 @@ impl Mesh {
     }
 }
 
-/// A vector brought to unit length; +z where it has none.
 fn unit(v: Vec3) -> Vec3 {
     // In double precision: the squares of a tiny mesh's areas underflow in single.
     v.as_dvec3().try_normalize().map_or(Vec3::Z, glam::DVec3::as_vec3)
@@ -146,7 +145,6 @@ pub fn smooth_normals(positions: &[Vec3], triangles: &[[u32; 3]]) -> Vec<Vec3> {
     sums.into_iter().map(|sum| sum.try_normalize().map_or(Vec3::Z, glam::DVec3::as_vec3)).collect()
 }
 
-/// That there are triangles, that their vertices exist, and that all positions are finite.
 fn check(positions: &[Vec3], triangles: &[[u32; 3]]) -> Result<(), MeshError> {
     if triangles.is_empty() {
         return Err(MeshError::Empty);
@@ -162,7 +160,6 @@ fn check(positions: &[Vec3], triangles: &[[u32; 3]]) -> Result<(), MeshError> {
     Ok(())
 }
 
-/// The box around all vertices that a triangle uses.
 fn bounds(positions: &[Vec3], triangles: &[[u32; 3]]) -> Bounds {
     let mut bounds = Bounds { min: Vec3::INFINITY, max: Vec3::NEG_INFINITY, radius: 0.0 };
     let corners = || triangles.iter().flatten().map(|&v| positions[v as usize]);

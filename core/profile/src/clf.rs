@@ -60,7 +60,6 @@ impl Clf {
     }
 }
 
-/// A text as XML writes it.
 fn escaped(value: &str) -> String {
     value.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }

@@ -53,7 +53,6 @@ const LONG: u16 = 4;
 const UNDEFINED: u16 = 7;
 const SRATIONAL: u16 = 10;
 
-/// A field of the directory.
 struct Field {
     tag: u16,
     kind: u16,

@@ -49,7 +49,6 @@ pub enum ProfileError {
 /// The longest text in bytes.
 pub const MOST_TEXT: usize = 1000;
 
-/// Checks a text field.
 fn text(field: &'static str, value: &str, may_be_empty: bool) -> Result<(), ProfileError> {
     if value.is_empty() && !may_be_empty {
         return Err(ProfileError::Empty { field });

@@ -55,7 +55,6 @@ pub enum BatchError {
 /// [`under_light`]: super::rendering::under_light
 #[derive(Clone, Debug, PartialEq)]
 pub struct Batch<T: Sample> {
-    /// Samples of a curve.
     length: usize,
     curves: Vec<T::Lanes>,
     channels: usize,

@@ -162,7 +162,6 @@ impl<S: Deref<Target = Sensor>> LocusEvaluator<S> {
         (Terms::own(&channels, self.anchor_nm), largest)
     }
 
-    /// One channel's rule with `count` nodes.
     fn channel(&self, channel: usize, count: usize) -> Channel {
         let masses = self.sensor.weighted(channel).as_slice();
         let points: Vec<f64> = (0..COUNT).map(wavelength_nm).collect();
@@ -177,7 +176,6 @@ impl<S: Deref<Target = Sensor>> LocusEvaluator<S> {
         nodes.into_iter().zip(weights).collect()
     }
 
-    /// The sums at temperatures in kelvins.
     fn sums_at(&self, kelvins: impl Iterator<Item = f64>) -> Vec<(Kelvin, [f64; 3])> {
         let temperatures = kelvins.filter_map(|kelvins| Kelvin::new(kelvins).ok());
         temperatures.map(|t| (t, self.all.sums(self.scale(t)))).collect()

@@ -144,7 +144,6 @@ struct Problem<'a> {
     basis: DMat3,
     /// Columns of the matrix in the basis.
     columns: [DVec3; 3],
-    /// The first column that is free.
     first: usize,
 }
 

@@ -56,7 +56,6 @@ impl Neutral {
 impl FromStr for Neutral {
     type Err = NeutralError;
 
-    /// Reads three numbers between commas or spaces.
     fn from_str(text: &str) -> Result<Self, NeutralError> {
         let numbers = text.split([',', ' ']).filter(|part| !part.is_empty()).map(str::parse);
         let numbers: Vec<f64> = numbers.collect::<Result<_, _>>().map_err(|_| NeutralError::Numbers)?;

@@ -202,7 +202,6 @@ impl Query for MonochromaticQuery {
     }
 }
 
-/// The largest of three magnitudes.
 fn magnitude(v: [f64; 3]) -> f64 {
     v.iter().fold(0.0, |m, x| x.abs().max(m))
 }

@@ -142,7 +142,6 @@ impl Query for PatchColorsQuery {
     }
 }
 
-/// The color of raw integrals.
 pub(super) fn color(rendering: &Rendering, raw: DVec3) -> PatchColor {
     let signals = rendering.patch_signals(raw.to_array());
     let xyz = rendering.xyz(signals);

@@ -305,7 +305,6 @@ impl Query for ShadingQuery {
 }
 
 impl ShadingQuery {
-    /// Visible shares of the sky.
     fn sky_image(&self) -> SkyImageQuery {
         SkyImageQuery {
             visibility: self.geometry.visibility.clone(),
@@ -317,7 +316,6 @@ impl ShadingQuery {
         }
     }
 
-    /// The shading by the light alone.
     fn lit(&self, ask: &impl Ask) -> Option<ShadingImage> {
         let geometry = ask.ask(&self.geometry);
         let geometry = (*geometry).as_ref()?;

@@ -112,7 +112,6 @@ struct View<'a> {
     cos_i: f64,
     /// λ0/λ.
     ratio: f64,
-    /// True if the direction is the viewer's.
     is_viewer: bool,
 }
 

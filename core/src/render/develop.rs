@@ -115,7 +115,6 @@ fn steps_of(matrix: &Mat3, signals: &[[f32; 3]], steps: &mut [[u32; RUN]; 3]) ->
     beyond.iter().take(signals.len()).map(|&b| u64::from(b)).sum()
 }
 
-/// Eight bits of a linear value.
 fn encode(linear: f32) -> u8 {
     ENCODED[step(linear) as usize]
 }
@@ -218,7 +217,6 @@ impl Task<'_> {
         clipped
     }
 
-    /// Means of several samples, over the background.
     fn mix(&self, sums: &[(Vec3, u32)], pixels: &mut [u8]) {
         let all = (self.size.samples * self.size.samples) as f32;
         let (pixels, _) = pixels.as_chunks_mut::<4>();

@@ -266,7 +266,6 @@ impl GeometryImage {
     }
 }
 
-/// Result of one task.
 #[derive(Default)]
 struct Part {
     samples: Vec<u32>,
@@ -312,7 +311,6 @@ impl SeenPlace {
     }
 }
 
-/// Places and normals of a triangle's corners.
 fn corners(mesh: &Mesh, hit: Hit) -> ([DVec3; 3], [DVec3; 3]) {
     let corners = mesh.triangles()[hit.triangle as usize];
     let of = |all: &[Vec3]| corners.map(|i| all[i as usize].as_dvec3());
@@ -479,7 +477,6 @@ fn mix(v: [DVec3; 3], weights: [f64; 3]) -> DVec3 {
     v[0] * weights[0] + v[1] * weights[1] + v[2] * weights[2]
 }
 
-/// A normal, bent until it is edge-on where it points away from the viewer.
 fn turned_to(normal: DVec3, to_viewer: DVec3) -> DVec3 {
     let cos = normal.dot(to_viewer);
     if cos >= EDGE {

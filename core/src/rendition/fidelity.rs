@@ -90,12 +90,10 @@ fn step(light: &SpectralDistribution) -> u16 {
     if five && light.range_nm()[0] % 5.0 == 0.0 { 5 } else { 1 }
 }
 
-/// Fidelity of a color difference.
 fn fidelity(difference: f64) -> f64 {
     10.0 * ((100.0 - 6.73 * difference) / 10.0).exp().ln_1p()
 }
 
-/// Colors of the samples under a light.
 fn colors(sums: &Sums, light: &[f64], reflectances: &[Vec<f64>]) -> Result<Vec<Cam02Ucs>, RenditionError> {
     let (light, white) = sums.unit(light)?;
     let model = Ciecam02::new(white).ok_or(RenditionError::Undefined { sample: 1 })?;

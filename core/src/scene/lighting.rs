@@ -116,7 +116,6 @@ impl Lighting {
     }
 }
 
-/// Direction of unit length; none for a zero vector.
 fn unit(v: DVec3) -> Option<DVec3> {
     let largest = v.abs().max_element();
     // Beyond these its squares leave the range of a double.

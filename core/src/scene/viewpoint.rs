@@ -36,7 +36,6 @@ pub struct Viewpoint {
 /// A picture that the mesh is to fill.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Frame {
-    /// Width over height.
     aspect: f64,
     /// Distance over the one from which the mesh fills the picture.
     zoom: f64,

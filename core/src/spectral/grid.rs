@@ -45,12 +45,10 @@ pub enum Quantity {
 }
 
 impl Quantity {
-    /// True if the quantity cannot be negative.
     fn clamps(self) -> bool {
         matches!(self, Self::Reflectance | Self::CameraSensitivity)
     }
 
-    /// True if the quantity counts as zero beyond the table.
     fn ends_in_zero(self) -> bool {
         matches!(self, Self::CameraSensitivity | Self::MatchingFunction)
     }

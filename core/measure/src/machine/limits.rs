@@ -12,11 +12,9 @@ use crate::workloads::timing::Pools;
 
 /// Doubles side by side in the widest register.
 const WIDTH: usize = 8;
-/// Doubles per piece of work of the memory's sum.
 const CHUNK: usize = 1 << 16;
 
 impl Machine {
-    /// Measures the most that the machine can do: the best of some rounds.
     pub(crate) fn measure(effort: Effort, pools: &Pools) -> Self {
         let (megabytes, rounds) = match effort {
             Effort::Trial => (8, 2),

@@ -147,7 +147,6 @@ fn eye(turns: usize) -> Result<Viewpoint, ViewpointError> {
     Viewpoint::new(0.3 + 2_f64.to_radians() * (turns % 16) as f64, 0.1, 3.6, 30_f64.to_radians())
 }
 
-/// The surface of all frames, at a roughness.
 fn surface(sigma_m: f64) -> Option<Surface> {
     Surface::new(sigma_m, 10e-6, 50e-6, 50e-6, 1.4).ok()
 }

@@ -26,7 +26,6 @@ use crate::{BenchError, ErrorOf, ErrorScale, Workload};
 type Pixel = (f64, f64);
 type Signals = [f64; 3];
 
-/// Tolerances of the plans.
 const TOLERANCES: [f64; 4] = [1e-3, 1e-5, 1e-8, 1e-10];
 
 pub(super) fn run(bench: &mut Bench<'_>) -> Result<(), BenchError> {

@@ -211,7 +211,6 @@ impl<T: Real> Product<T> {
     }
 }
 
-/// A sum of products, one after the other.
 fn plain<T: Real>(spectra: &[T], curves: &[T], samples: usize, responses: &mut [T]) {
     let channels = curves.len() / samples;
     for (spectrum, responses) in spectra.chunks_exact(samples).zip(responses.chunks_exact_mut(channels)) {

@@ -21,7 +21,6 @@ type Answer = [f64; 2];
 
 const NOTHING: Answer = [f64::NAN; 2];
 
-/// Part of an answer that is judged.
 #[derive(Clone, Copy)]
 enum Judged {
     Temperature,

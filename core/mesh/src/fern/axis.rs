@@ -27,7 +27,6 @@ impl Frame {
         Self::new(self.origin, turn * self.forward, turn * self.up)
     }
 
-    /// Axes at another place.
     pub(super) fn at(self, origin: Vec3) -> Self {
         Self { origin, ..self }
     }
@@ -49,7 +48,6 @@ pub(super) struct Arc {
 }
 
 impl Arc {
-    /// The frame at a share of the length.
     pub(super) fn frame(&self, u: f32) -> Frame {
         let Frame { origin, forward, side, up } = self.base;
         let bend = self.sweep * side - self.droop * up;

@@ -6,12 +6,10 @@
 pub(super) struct Chance(u32);
 
 impl Chance {
-    /// The source of a whole plant.
     pub(super) fn new(seed: u32) -> Self {
         Self(stir(seed ^ 0x3c6e_f35f))
     }
 
-    /// The source of the part with this index.
     pub(super) fn child(self, index: u32) -> Self {
         Self(stir(self.0.rotate_left(9) ^ index.wrapping_add(1).wrapping_mul(0x9e37_79b1)))
     }
@@ -21,7 +19,6 @@ impl Chance {
         (self.child(which).0 >> 8) as f32 / 16_777_216.0
     }
 
-    /// A number of [−1, 1).
     pub(super) fn spread(self, which: u32) -> f32 {
         2.0 * self.unit(which) - 1.0
     }

@@ -41,7 +41,6 @@ struct Station {
 }
 
 impl Leaf {
-    /// Number of triangles [`Leaf::build`] makes.
     pub(super) fn triangles(&self, cuts: Cuts) -> usize {
         4 * cuts.across * (2 * cuts.along - 1 - usize::from(self.base == 0.0))
     }
@@ -80,7 +79,6 @@ impl Leaf {
         }
     }
 
-    /// One half of one surface.
     fn patch(&self, across: usize, stations: &[Station], [hand, sheet]: [f32; 2], surface: &mut Surface) {
         let first = surface.triangles.len();
         let flipped = hand * sheet < 0.0;

@@ -4,7 +4,6 @@ use super::axis::{Arc, Frame, Spine};
 use super::surface::Surface;
 use std::f32::consts::TAU;
 
-/// The line of a stem.
 #[derive(Clone, Debug)]
 pub(super) enum Line {
     Rib(Arc),
@@ -27,7 +26,6 @@ pub(super) struct Stem {
     pub(super) radius: f32,
     /// The radius before the tip as a share of the base's.
     pub(super) taper: f32,
-    /// Number of sides and lengthwise pieces.
     pub(super) sides: usize,
     pub(super) pieces: usize,
 }

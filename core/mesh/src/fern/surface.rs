@@ -15,7 +15,6 @@ pub(super) struct Surface {
 }
 
 impl Surface {
-    /// The index that the next vertex will have.
     pub(super) fn next(&self) -> u32 {
         self.positions.len() as u32
     }
@@ -61,7 +60,6 @@ impl Surface {
         (b - a).cross(c - a)
     }
 
-    /// Adds all of another surface.
     pub(super) fn append(&mut self, other: &Self) {
         let offset = self.next();
         self.positions.extend_from_slice(&other.positions);

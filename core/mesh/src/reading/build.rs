@@ -162,7 +162,6 @@ fn is_far(mesh: &Mesh) -> bool {
     f64::from(far) > 1e4 * (bounds.max.as_dvec3() - bounds.min.as_dvec3()).max_element()
 }
 
-/// The groups that have triangles, in the file's order.
 fn groups(soup: &Soup, cut: &Cut) -> Vec<Group> {
     let start = |i: usize| {
         let first = soup.groups.get(i).map_or(u32::MAX, |(first, _)| *first);

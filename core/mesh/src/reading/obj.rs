@@ -22,7 +22,6 @@ struct Naming {
 }
 
 impl Naming {
-    /// The names as one group has them.
     fn names(&self) -> Names {
         let name = match (self.object.is_empty(), self.group.is_empty() || self.group == self.object) {
             (true, _) => self.group.clone(),
@@ -33,7 +32,6 @@ impl Naming {
     }
 }
 
-/// Reads the statements of an OBJ file.
 pub(super) fn read(bytes: &[u8], stop: &dyn Fn() -> bool) -> Result<Soup, MeshReadError> {
     let mut cursor = Cursor::new(bytes);
     let mut soup = Soup::new(Place::Line, 1);
@@ -56,7 +54,6 @@ pub(super) fn read(bytes: &[u8], stop: &dyn Fn() -> bool) -> Result<Soup, MeshRe
     Ok(soup)
 }
 
-/// Reads one statement after its keyword.
 fn statement(
     keyword: &[u8],
     cursor: &mut Cursor<'_>,
@@ -102,7 +99,6 @@ fn statement(
     Ok(())
 }
 
-/// The kind of a statement that is read over.
 fn skipped(keyword: &[u8]) -> Skipped {
     match keyword {
         b"mtllib" => Skipped::Materials,

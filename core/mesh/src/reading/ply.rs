@@ -25,7 +25,6 @@ pub(super) fn read(bytes: &[u8], stop: &dyn Fn() -> bool) -> Result<Soup, MeshRe
     Ok(soup)
 }
 
-/// Reads all records of an element.
 fn take(
     element: &Element,
     data: &mut Data<'_>,

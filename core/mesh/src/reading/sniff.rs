@@ -35,7 +35,6 @@ pub(super) fn kind(bytes: &[u8], extension_hint: Option<&str>) -> Result<Kind, M
     if hint("obj") || has_vertex(text) { Ok(Kind::Obj) } else { Err(MeshReadError::NotAMesh(Alien::Text)) }
 }
 
-/// True if a text begins as STL does.
 pub(super) fn is_text_stl(text: &[u8]) -> bool {
     let mut cursor = Cursor::new(&text[..text.len().min(LOOK)]);
     if cursor.word().is_none_or(|word| !word.text.eq_ignore_ascii_case(b"solid")) {
@@ -65,7 +64,6 @@ fn alien(bytes: &[u8], text: &[u8]) -> Option<Alien> {
     Some(looks_like)
 }
 
-/// True if some line is a vertex's.
 fn has_vertex(text: &[u8]) -> bool {
     let mut cursor = Cursor::new(text);
     while !cursor.is_done() {

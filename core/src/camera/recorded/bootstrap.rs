@@ -45,7 +45,6 @@ pub(super) fn rank_ranges(fits: &[Vec<[Option<f64>; 3]>], freedom: Freedom) -> V
     seen.into_iter().zip(ranks(&all)).map(range).collect()
 }
 
-/// Ranks from 1 by value, smallest first.
 fn ranks(values: &[f64]) -> Vec<usize> {
     let mut sorted = values.to_vec();
     sorted.sort_by(f64::total_cmp);

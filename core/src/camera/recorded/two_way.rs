@@ -35,7 +35,6 @@ impl Grid {
         Self { data, freedom }
     }
 
-    /// Number of values.
     pub(super) fn values(&self) -> usize {
         self.data.iter().flatten().flatten().count()
     }
@@ -126,13 +125,11 @@ impl Grid {
     }
 }
 
-/// Mean of those that are there.
 fn mean(values: impl Iterator<Item = Option<f64>>) -> Option<f64> {
     let (count, sum) = values.flatten().fold((0_usize, 0.0), |(n, sum), value| (n + 1, sum + value));
     (count > 0).then(|| sum / count as f64)
 }
 
-/// Root mean square; none of nothing.
 pub(super) fn rms(residuals: impl Iterator<Item = f64>) -> Option<f64> {
     let (count, squares) = residuals.fold((0_usize, 0.0), |(n, sum), value| (n + 1, sum + value * value));
     (count > 0).then(|| (squares / count as f64).sqrt())

@@ -78,7 +78,6 @@ impl Start {
         Place { column: column.to_bits() as u32 & 0xffff, row: row.to_bits() as u32 & 0xffff, right, up }
     }
 
-    /// The function of a cell.
     #[inline]
     pub(super) fn cell(&self, column: u32, row: u32) -> [f32; 4] {
         self.cells.get(row as usize * self.columns + column as usize).copied().unwrap_or_default()

@@ -51,9 +51,7 @@ pub(super) struct Stimuli {
     patches: Range<usize>,
     training: Range<usize>,
     index: Range<usize>,
-    /// Curves of the deviations.
     sites: Vec<[f64; COUNT]>,
-    /// Curves of the observer.
     matching: [Vec<f64>; 3],
 }
 
@@ -117,7 +115,6 @@ pub(super) struct Perturbed<'a> {
     of: &'a CameraMetricsQuery,
     stimuli: &'a Stimuli,
     peaks: DVec3,
-    /// Responses to the stimuli.
     raw: Vec<DVec3>,
     targets: Option<Arc<Result<FitTargets, RenderingError>>>,
     refit: Option<Refit>,
@@ -184,7 +181,6 @@ impl<'a> Perturbed<'a> {
         balanced(&raw[self.stimuli.index.clone()], raw[INDEX_LIGHT])
     }
 
-    /// Values of all metrics if the curves deviate, relative to their peaks.
     pub(super) fn values(&self, deviation: &Deviation) -> Vec<Result<f64, WhyNot>> {
         let evidence = self.evidence(deviation);
         CameraMetric::ALL.iter().map(|metric| metric.evaluate(&evidence)).collect()

@@ -75,7 +75,6 @@ pub struct CameraMetric {
     pub decimals: usize,
     /// Direction in which values improve.
     pub better: Better,
-    /// Place in [`Self::ALL`].
     pub(super) place: usize,
     evaluate: fn(&Evidence) -> Result<f64, WhyNot>,
 }
@@ -130,7 +129,6 @@ const STATISTICS: [[CameraMetric; 4]; 5] = [DELTA_E_2000, DELTA_E_1976, DELTA_E_
 // A metric that is added to the table of differences has its statistics here.
 const _: () = assert!(STATISTICS.len() == Metric::ALL.len());
 
-/// Metrics of single numbers.
 const SINGLE: [CameraMetric; 17] = [
     CameraMetric {
         id: "lightness",
@@ -311,7 +309,6 @@ const NOISE: CameraMetric = CameraMetric {
 
 const COUNT: usize = STATISTICS.as_flattened().len() + SINGLE.len() + 1;
 
-/// All metrics, joined when the program is compiled.
 static TABLE: [CameraMetric; COUNT] = table();
 
 const fn table() -> [CameraMetric; COUNT] {
@@ -337,7 +334,6 @@ impl CameraMetric {
         Self::ALL.iter().copied().find(|metric| metric.id == id)
     }
 
-    /// The value, or the reason for none.
     pub(super) fn evaluate(self, evidence: &Evidence) -> Result<f64, WhyNot> {
         (self.evaluate)(evidence)
     }

@@ -21,7 +21,6 @@ const T_95: f64 = 2.144_787;
 /// (its maximum), 1.14 (Vora) and 1.20 (Luther) times that predicted, and 83 to 94 % of the pairs of tables lie within 1.96 standard
 /// uncertainties of their difference. 1.96 / 1.15 = 1.70 covers 91 % of a normal distribution.
 const WIDENED: f64 = 1.15;
-/// Coverage factor for 95 %.
 const COVERAGE: f64 = WIDENED * T_95;
 
 /// Probability that a table is per photon although its use by the source's programs says per energy, or the reverse. An assumption:

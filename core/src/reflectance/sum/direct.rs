@@ -25,12 +25,10 @@ static LN_FACTORIALS: LazyLock<[f64; LISTED]> = LazyLock::new(|| {
     }
     listed
 });
-/// Number of the logarithms.
 const LISTED: usize = 352;
 
 /// More terms than any span has; a multiple of [`LANES`].
 const MOST: usize = 128;
-/// Partial sums.
 const LANES: usize = 8;
 
 /// For ln g + b/2 below this the first term is the largest, and all beyond the sixteenth are together below 1e-14 of it: the n-th

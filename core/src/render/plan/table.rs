@@ -42,17 +42,14 @@ impl Size {
         }
     }
 
-    /// Coefficients along ln κ and along v.
     pub(super) fn places(&self) -> [usize; 2] {
         self.intervals.map(|count| count + self.degree)
     }
 
-    /// Coefficients.
     pub(super) fn count(&self) -> usize {
         self.places().into_iter().product()
     }
 
-    /// A table of this size as a method.
     pub(super) fn method(&self, nodes: usize) -> IntegrationMethod {
         let [kappas, betas] = self.places();
         IntegrationMethod::Table { degree: self.degree, kappas, betas, nodes }
@@ -89,18 +86,15 @@ impl Table {
         self.surface.degree
     }
 
-    /// The table as a method.
     pub(super) fn method(&self) -> IntegrationMethod {
         let [kappas, betas] = self.surface.intervals.map(|count| count + self.surface.degree);
         IntegrationMethod::Table { degree: self.surface.degree, kappas, betas, nodes: self.nodes.len() }
     }
 
-    /// Returns true if a κ lies in the table.
     pub(super) fn holds(&self, kappa: f64) -> bool {
         self.extent.kappa[0] <= kappa && kappa <= self.extent.kappa[1]
     }
 
-    /// Smallest and largest κ.
     pub(super) fn kappa(&self) -> [f64; 2] {
         self.extent.kappa
     }

@@ -10,14 +10,11 @@ use crate::reading::lines::Cursor;
 pub(super) struct Record {
     /// x, y, z, and the normal's x, y, z.
     pub(super) values: [f64; 6],
-    /// The indices of a face's vertices.
     pub(super) corners: Vec<f64>,
 }
 
-/// The bytes after the header.
 pub(super) struct Data<'a> {
     encoding: Encoding,
-    /// The place in a text.
     cursor: Cursor<'a>,
     /// Unread rest of a binary file.
     rest: &'a [u8],
@@ -87,7 +84,6 @@ impl<'a> Data<'a> {
         Ok(())
     }
 
-    /// Advances to the next record.
     pub(super) fn next(&mut self) {
         if self.encoding == Encoding::Text {
             self.cursor.next_line();

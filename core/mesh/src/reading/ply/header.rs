@@ -3,7 +3,6 @@
 use crate::reading::error::{MeshReadError, Place};
 use crate::reading::lines::Cursor;
 
-/// Encoding of the values.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Encoding {
     /// Words, one record on a line.
@@ -43,7 +42,6 @@ impl Scalar {
     }
 }
 
-/// Kind of an element's records.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Content {
     Vertices,
@@ -51,12 +49,10 @@ pub(super) enum Content {
     Other,
 }
 
-/// Use of a value.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Role {
     /// One of x, y, z, and the normal's x, y, z.
     Value(usize),
-    /// The indices of a face's vertices.
     Corners,
     /// Read over.
     Other,
@@ -70,32 +66,26 @@ pub(super) struct Property {
     pub(super) scalar: Scalar,
 }
 
-/// A number of records of the same kind.
 pub(super) struct Element {
     pub(super) content: Content,
     pub(super) count: usize,
     pub(super) properties: Vec<Property>,
-    /// Line that announces the element.
     line: usize,
 }
 
 impl Element {
-    /// True if each record has a normal.
     pub(super) fn has_normals(&self) -> bool {
         (3..6).all(|i| self.has(Role::Value(i)))
     }
 
-    /// True if records have values that are read over.
     pub(super) fn has_more(&self) -> bool {
         self.has(Role::Other)
     }
 
-    /// True if there is a value for this.
     fn has(&self, role: Role) -> bool {
         self.properties.iter().any(|property| property.role == role)
     }
 
-    /// True if records have what makes them vertices or faces.
     fn is_complete(&self) -> bool {
         match self.content {
             Content::Vertices => (0..3).all(|i| self.has(Role::Value(i))),
@@ -105,7 +95,6 @@ impl Element {
     }
 }
 
-/// Contents of the header.
 pub(super) struct Header {
     pub(super) encoding: Encoding,
     pub(super) elements: Vec<Element>,
