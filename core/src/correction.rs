@@ -52,29 +52,24 @@ impl CorrectionMethod {
 
     /// Name in documents and on the command line.
     pub const fn id(self) -> &'static str {
-        match self {
-            Self::None => "none",
-            Self::LeastSquares => "matrix",
-            Self::Minimize(Objective::LabSquares) => "lab-least-squares",
-            Self::Minimize(Objective::DeltaE1976) => "min-delta-e-ab",
-            Self::Minimize(Objective::DeltaE2000) => "min-delta-e",
-            Self::RootPolynomial(Degree::Two) => "root-polynomial",
-            Self::RootPolynomial(Degree::Three) => "root-polynomial-3",
-            Self::RootPolynomial(Degree::Four) => "root-polynomial-4",
-        }
+        self.words().0
     }
 
     /// Name in words.
     pub const fn label(self) -> &'static str {
+        self.words().1
+    }
+
+    const fn words(self) -> (&'static str, &'static str) {
         match self {
-            Self::None => "None (RGB as sRGB)",
-            Self::LeastSquares => "Matrix by least squares in XYZ",
-            Self::Minimize(Objective::LabSquares) => "Matrix by least squares in L*a*b*",
-            Self::Minimize(Objective::DeltaE1976) => "Matrix by minimum mean ΔE*ab",
-            Self::Minimize(Objective::DeltaE2000) => "Matrix by minimum mean ΔE*00",
-            Self::RootPolynomial(Degree::Two) => "Root polynomial of degree 2 (6 terms)",
-            Self::RootPolynomial(Degree::Three) => "Root polynomial of degree 3 (13 terms)",
-            Self::RootPolynomial(Degree::Four) => "Root polynomial of degree 4 (22 terms)",
+            Self::None => ("none", "None (RGB as sRGB)"),
+            Self::LeastSquares => ("matrix", "Matrix by least squares in XYZ"),
+            Self::Minimize(Objective::LabSquares) => ("lab-least-squares", "Matrix by least squares in L*a*b*"),
+            Self::Minimize(Objective::DeltaE1976) => ("min-delta-e-ab", "Matrix by minimum mean ΔE*ab"),
+            Self::Minimize(Objective::DeltaE2000) => ("min-delta-e", "Matrix by minimum mean ΔE*00"),
+            Self::RootPolynomial(Degree::Two) => ("root-polynomial", "Root polynomial of degree 2 (6 terms)"),
+            Self::RootPolynomial(Degree::Three) => ("root-polynomial-3", "Root polynomial of degree 3 (13 terms)"),
+            Self::RootPolynomial(Degree::Four) => ("root-polynomial-4", "Root polynomial of degree 4 (22 terms)"),
         }
     }
 

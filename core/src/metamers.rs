@@ -2,7 +2,7 @@
 
 use crate::colorimetry::lab::lightness;
 use crate::colorimetry::{Lab, delta_e_2000};
-use std::hash::{Hash, Hasher};
+use crate::units::{bits, hash_by};
 
 /// The eye or the camera, whichever takes two colors for one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -36,13 +36,7 @@ pub struct MetamerLimits {
     separated: f64,
 }
 
-impl Eq for MetamerLimits {}
-
-impl Hash for MetamerLimits {
-    fn hash<H: Hasher>(&self, state: &mut H) {
-        (self.confused.to_bits(), self.separated.to_bits()).hash(state);
-    }
-}
+hash_by!(MetamerLimits, |of| [of.confused, of.separated].map(bits));
 
 /// Reason that numbers are no limits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, thiserror::Error)]

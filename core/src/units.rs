@@ -7,6 +7,41 @@ use std::fmt;
 
 use ordered_float::OrderedFloat;
 
+/// Bits by which a number that is never NaN is compared and hashed: negative zero equals zero, so it has zero's.
+pub(crate) fn bits(number: f64) -> u64 {
+    (number + 0.0).to_bits()
+}
+
+/// `Eq` and `Hash` of a type with numbers that are never NaN, from what is hashed in its place.
+macro_rules! hash_by {
+    ($Type:ty, |$of:ident| $key:expr) => {
+        impl Eq for $Type {}
+
+        impl std::hash::Hash for $Type {
+            fn hash<H: std::hash::Hasher>(&self, state: &mut H) {
+                let $of = self;
+                $key.hash(state);
+            }
+        }
+    };
+}
+pub(crate) use hash_by;
+
+/// `PartialEq`, `Eq` and `Hash` of a type from what stands for it.
+macro_rules! eq_by {
+    ($Type:ty, |$of:ident| $key:expr) => {
+        impl PartialEq for $Type {
+            fn eq(&self, other: &Self) -> bool {
+                let key = |$of: &Self| $key;
+                key(self) == key(other)
+            }
+        }
+
+        $crate::units::hash_by!($Type, |$of| $key);
+    };
+}
+pub(crate) use eq_by;
+
 /// Reason that a number is not a physical quantity of the wanted kind.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[error("{value} is not a positive, finite number of {unit}")]

@@ -6,26 +6,14 @@ use chromascope_core::spectral::{DatasetError, SensorError};
 
 /// A built-in data set that cannot be computed with.
 #[derive(Debug, thiserror::Error)]
+#[allow(missing_docs, reason = "each variant says in its message what is wrong")]
 pub enum DataError {
-    /// No curve is at the path.
     #[error("{0} is missing from this build")]
     Missing(&'static str),
-    /// A file cannot be read.
     #[error("{path}: {error}")]
-    File {
-        /// Path below `assets`.
-        path: &'static str,
-        /// The reason.
-        error: DatasetError,
-    },
-    /// The curves make no sensor.
+    File { path: &'static str, error: DatasetError },
     #[error("{path}: {error}")]
-    Sensor {
-        /// Path below `assets`.
-        path: &'static str,
-        /// The reason.
-        error: SensorError,
-    },
+    Sensor { path: &'static str, error: SensorError },
 }
 
 #[cfg(feature = "workloads")]

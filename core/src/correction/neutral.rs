@@ -1,7 +1,7 @@
 //! Camera RGB of a neutral, as raw files state it.
 
+use crate::units::{bits, hash_by};
 use glam::DVec3;
-use std::hash::{Hash, Hasher};
 use std::str::FromStr;
 
 /// Reason that numbers are no neutral.
@@ -21,13 +21,7 @@ pub enum NeutralError {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Neutral([f64; 3]);
 
-impl Eq for Neutral {}
-
-impl Hash for Neutral {
-    fn hash<H: Hasher>(&self, state: &mut H) {
-        self.0.iter().for_each(|v| v.to_bits().hash(state));
-    }
-}
+hash_by!(Neutral, |of| of.0.map(bits));
 
 impl Neutral {
     /// Takes camera RGB at any scale.

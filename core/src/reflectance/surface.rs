@@ -1,9 +1,9 @@
 //! A rough dielectric surface.
 
 use std::fmt;
-use std::hash::{Hash, Hasher};
 use std::ops::RangeInclusive;
 
+use crate::units::{bits, eq_by};
 use chromascope_text::choices;
 
 /// The largest height deviation, in meters.
@@ -250,23 +250,7 @@ impl fmt::Display for Caution {
     }
 }
 
-impl Surface {
-    fn key(&self) -> ([u64; 5], IlluminatedArea, Specular) {
-        let numbers = [self.sigma_m, self.tau_m, self.half_x_m, self.half_y_m, self.index];
-        (numbers.map(f64::to_bits), self.area, self.specular)
-    }
-}
-
-impl PartialEq for Surface {
-    fn eq(&self, other: &Self) -> bool {
-        self.key() == other.key()
-    }
-}
-
-impl Eq for Surface {}
-
-impl Hash for Surface {
-    fn hash<H: Hasher>(&self, state: &mut H) {
-        self.key().hash(state);
-    }
-}
+eq_by!(Surface, |of| {
+    let numbers = [of.sigma_m, of.tau_m, of.half_x_m, of.half_y_m, of.index];
+    (numbers.map(bits), of.area, of.specular)
+});

@@ -1,8 +1,8 @@
 //! Position of the light: far away in a direction, or at a point.
 
 use super::viewpoint::Eye;
+use crate::units::{bits, hash_by};
 use glam::DVec3;
-use std::hash::{Hash, Hasher};
 
 /// The Sun's angular radius in radians.
 pub const SUN_RADIUS: f64 = 4.65e-3;
@@ -38,15 +38,7 @@ pub struct Lighting {
     angular_radius: f64,
 }
 
-impl Eq for Lighting {}
-
-impl Hash for Lighting {
-    fn hash<H: Hasher>(&self, state: &mut H) {
-        self.distance.hash(state);
-        self.place.to_array().map(|v| (v + 0.0).to_bits()).hash(state);
-        (self.angular_radius + 0.0).to_bits().hash(state);
-    }
-}
+hash_by!(Lighting, |of| (of.distance, of.place.to_array().map(bits), bits(of.angular_radius)));
 
 impl Lighting {
     /// A light far away in a direction, its disk of an angular radius in radians.

@@ -6,7 +6,7 @@
 
 use crate::math::interpolation::{Sprague, linear};
 use crate::spectral::distribution::SpectralDistribution;
-use std::hash::{Hash, Hasher};
+use crate::units::{bits, hash_by};
 
 /// The first wavelength of the grid, in nanometers.
 pub const FIRST_NM: f64 = 380.0;
@@ -106,13 +106,7 @@ pub struct GridSpectrum {
     assumed: Assumed,
 }
 
-impl Eq for GridSpectrum {}
-
-impl Hash for GridSpectrum {
-    fn hash<H: Hasher>(&self, state: &mut H) {
-        self.values.iter().for_each(|v| v.to_bits().hash(state));
-    }
-}
+hash_by!(GridSpectrum, |of| of.values.map(bits));
 
 impl GridSpectrum {
     /// Brings a measured spectrum onto the grid by the convention of its quantity.

@@ -4,7 +4,7 @@ use super::dataset::Dataset;
 use super::distribution::{DistributionError, SpectralDistribution};
 use super::grid::{COUNT, FIRST_NM, GridSpectrum, LAST_NM, Quantity, wavelength_nm};
 use crate::math::dot::dot_each;
-use std::hash::{Hash, Hasher};
+use crate::units::hash_by;
 
 /// In what the three channels are counted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -114,14 +114,7 @@ pub struct Sensor {
     absolute: [f64; 3],
 }
 
-impl Eq for Sensor {}
-
-impl Hash for Sensor {
-    fn hash<H: Hasher>(&self, state: &mut H) {
-        self.primaries.hash(state);
-        self.curves.hash(state);
-    }
-}
+hash_by!(Sensor, |of| (of.primaries, &of.curves));
 
 impl Sensor {
     /// Takes the three curves as measured, in the order of [`Primaries::channels`].

@@ -1,6 +1,7 @@
 //! Noise that white balance and color matrix amplify.
 
 use crate::camera::rendering::Rendering;
+use crate::units::{bits, hash_by};
 use glam::{DMat3, DVec3};
 
 /// Reflectance of the gray whose noise is reported.
@@ -58,13 +59,7 @@ pub struct Electrons {
     read_noise: f64,
 }
 
-impl Eq for Electrons {}
-
-impl std::hash::Hash for Electrons {
-    fn hash<H: std::hash::Hasher>(&self, state: &mut H) {
-        (self.full_well.to_bits(), (self.read_noise + 0.0).to_bits()).hash(state);
-    }
-}
+hash_by!(Electrons, |of| [of.full_well, of.read_noise].map(bits));
 
 /// Reason that numbers describe no pixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, thiserror::Error)]

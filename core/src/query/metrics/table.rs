@@ -4,7 +4,7 @@ use super::differences::Statistic;
 use super::evidence::Evidence;
 use super::value::WhyNot;
 use crate::colorimetry::Metric;
-use std::hash::{Hash, Hasher};
+use crate::units::eq_by;
 
 /// Part of the table that a metric belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -79,19 +79,7 @@ pub struct CameraMetric {
     evaluate: fn(&Evidence) -> Result<f64, WhyNot>,
 }
 
-impl PartialEq for CameraMetric {
-    fn eq(&self, other: &Self) -> bool {
-        self.id == other.id
-    }
-}
-
-impl Eq for CameraMetric {}
-
-impl Hash for CameraMetric {
-    fn hash<H: Hasher>(&self, state: &mut H) {
-        self.id.hash(state);
-    }
-}
+eq_by!(CameraMetric, |metric| metric.id);
 
 /// The four statistics of one difference metric over the chart's patches.
 macro_rules! statistics {
