@@ -124,7 +124,7 @@ fn orthogonal(count: usize) -> Vec<Vec<f64>> {
     let mut rows: Vec<Vec<f64>> = Vec::with_capacity(count);
     while rows.len() < count {
         let row: Vec<f64> = (0..count).map(|_| number()).collect();
-        let rest = super::quality::space::remove(&super::quality::space::remove(&row, &rows), &rows);
+        let rest = super::quality::remove(&super::quality::remove(&row, &rows), &rows);
         let length = rest.iter().map(|v| v * v).sum::<f64>().sqrt();
         rows.push(rest.iter().map(|v| v / length).collect());
     }

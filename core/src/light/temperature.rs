@@ -15,7 +15,6 @@ pub mod published;
 mod result;
 pub mod single;
 mod start;
-pub mod tabulated;
 
 use rayon::prelude::*;
 

@@ -1,10 +1,9 @@
 //! Color rendering indices of CIE 13.3-1995.
 
 use super::reference;
-use super::standards::{RenditionError, Standards};
-use super::sums::{Sums, held, smooth, wavelengths};
+use super::standards::{RenditionError, Standards, Sums, held, smooth, wavelengths};
 use crate::colorimetry::{Uv60, Xyz};
-use crate::light::temperature::tabulated::Robertson;
+use crate::light::temperature::published::Robertson;
 use crate::light::{Cct, CctError};
 use crate::spectral::SpectralDistribution;
 

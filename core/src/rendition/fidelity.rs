@@ -1,8 +1,7 @@
 //! Color fidelity and gamut of ANSI/IES TM-30-20, whose Rf is that of CIE 224:2017.
 
 use super::reference;
-use super::standards::{RenditionError, Standards};
-use super::sums::{Sums, smooth, wavelengths, within};
+use super::standards::{RenditionError, Standards, Sums, smooth, wavelengths, within};
 use crate::colorimetry::ciecam02::{Cam02Ucs, Ciecam02};
 use crate::light::Cct;
 use crate::spectral::SpectralDistribution;

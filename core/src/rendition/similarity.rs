@@ -1,8 +1,7 @@
 //! Spectral similarity index of SMPTE ST 2122.
 
 use super::reference;
-use super::standards::{RenditionError, Standards};
-use super::sums::{wavelengths, within};
+use super::standards::{RenditionError, Standards, wavelengths, within};
 use crate::spectral::SpectralDistribution;
 use crate::units::Kelvin;
 

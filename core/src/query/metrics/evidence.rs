@@ -1,17 +1,15 @@
 //! Inputs of the metrics, as separate queries, so that each is computed once whatever else changes.
 
-use super::conditions::{CameraMetricsQuery, IndexConditions};
 use super::differences::{DifferenceConditions, PatchDifferences, Statistic};
-use super::value::WhyNot;
+use super::value::{CameraMetricsQuery, IndexConditions, WhyNot};
 use crate::camera::channel_ratio::has_equal_maxima;
 use crate::camera::quality::{Electrons, IndexSamples, MetamerismIndex, NoiseAmplification, SpaceQuality, gray_snr_db};
 use crate::camera::{LocusDeviation, ReferenceLocus, Rendering, RenderingError};
 use crate::light::RadiationConstants;
-use crate::query::ask::{Ask, Query};
+use crate::query::ask::{Ask, Query, Shared};
 use crate::query::compare::DifferenceError;
 use crate::query::loci::LocusRulesQuery;
 use crate::query::patches::{PatchColorsQuery, RenderingQuery};
-use crate::query::shared::Shared;
 use crate::spectral::{Primaries, Sensor};
 use crate::units::Kelvin;
 

@@ -1,15 +1,14 @@
 //! Uncertainty of metrics: the spread of sensitivities between laboratories, propagated through the camera's own curves.
 
-use super::conditions::CameraMetricsQuery;
 use super::perturbed::{Perturbed, StimuliQuery};
 use super::table::{CameraMetric, MetricGroup};
-use super::value::{Contributions, MetricUncertainty, UncertaintySource, WhyNot};
+use super::value::{CameraMetricsQuery, Contributions, MetricUncertainty, UncertaintySource, WhyNot};
 use crate::camera::curve_spread::{Deviation, at_sites};
 use crate::camera::{ChannelRatio, CurveSpread};
-use crate::light::{RadiationConstants, planckian::black_body};
-use crate::query::ask::{Ask, Query};
+use crate::light::RadiationConstants;
+use crate::light::planckian::black_body;
+use crate::query::ask::{Ask, Query, Shared};
 use crate::query::patches::RenderingQuery;
-use crate::query::shared::Shared;
 use crate::spectral::grid::COUNT;
 use crate::spectral::{Evidence, GridSpectrum, Primaries, Response, Sensor};
 
