@@ -5,15 +5,11 @@
 //! part that bears it.
 
 mod axis;
-mod chance;
 mod frond;
-mod leaf;
-mod stem;
 mod surface;
 
 use super::mesh::Mesh;
-use axis::Frame;
-use chance::Chance;
+use axis::{Chance, Frame};
 use frond::{Detail, Frond, Organ};
 use glam::Vec3;
 use rayon::prelude::*;

@@ -1,9 +1,7 @@
 //! Growth of a frond: a stalk, pinnae on both sides of it, leaflets on both sides of each pinna.
 
-use super::axis::{Arc, Frame, Spine};
-use super::chance::Chance;
-use super::leaf::{Cuts, Leaf};
-use super::stem::{Line, Stem};
+use super::axis::{Arc, Chance, Frame, Spine};
+use super::surface::{Cuts, Leaf, Line, Stem};
 use glam::Vec3;
 use std::f32::consts::TAU;
 

@@ -1,8 +1,7 @@
 //! Conversion of a file's contents to a mesh: vertices split where normals differ, missing normals computed.
 
 use super::edges::{Edges, survey};
-use super::error::MeshReadError;
-use super::report::{Normals, Report};
+use super::report::{MeshReadError, Normals, Report};
 use super::soup::{Corner, NONE, Soup};
 use super::triangulate::{Cut, cut};
 use super::{Group, Kind, ReadMesh};

@@ -1,8 +1,7 @@
 //! Edges of a mesh: open, doubled or flipped ones, and corners that share a computed normal.
 
 use super::build::usable;
-use super::error::MeshReadError;
-use super::report::Tally;
+use super::report::{MeshReadError, Tally};
 use super::soup::{NONE, Smoothing, Soup};
 use super::triangulate::Cut;
 use glam::Vec3;

@@ -1,6 +1,6 @@
 //! Words and numbers of a text, with their line and column, without a copy of the text.
 
-use super::error::MeshReadError;
+use super::report::MeshReadError;
 
 pub(super) const FARTHEST: f64 = 1e15;
 

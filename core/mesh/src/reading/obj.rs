@@ -5,9 +5,8 @@
 //! line and does not support continued ones; `wavefront_obj` 11 rejects unknown statements. None can be stopped.
 
 use super::STOP_EVERY;
-use super::error::{MeshReadError, Place};
 use super::lines::{Cursor, Word};
-use super::report::Skipped;
+use super::report::{MeshReadError, Place, Skipped};
 use super::soup::{Corner, NONE, Names, Smoothing, Soup};
 
 /// Maximum number of name changes that are stored.

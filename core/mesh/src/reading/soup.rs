@@ -1,8 +1,7 @@
 //! Contents of a file without its format: vertices, normals, polygons of any size.
 
-use super::error::{MeshReadError, Place, Quantity};
 use super::lines::FARTHEST;
-use super::report::{Skipped, Tally};
+use super::report::{MeshReadError, Place, Quantity, Skipped, Tally};
 use super::{MAX_TRIANGLES, MAX_VERTICES};
 use glam::Vec3;
 use rayon::prelude::*;

@@ -1,7 +1,6 @@
 //! Polygons cut into triangles, concave ones too.
 
-use super::error::MeshReadError;
-use super::report::Tally;
+use super::report::{MeshReadError, Tally};
 use super::soup::Soup;
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
