@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use super::Numbers;
 use super::exact;
 use super::timing::{Bench, Case, Room, each, spaced};
-use crate::measurement::Errors;
+use crate::workload::Errors;
 use crate::{ErrorScale, Workload};
 
 pub(super) fn run(bench: &mut Bench<'_>) {

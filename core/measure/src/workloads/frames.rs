@@ -20,7 +20,7 @@ use super::timing::{Bench, Candidate, Case};
 use super::{LIGHT, REFLECTANCE};
 use crate::data::{curve, sensor};
 use crate::harness::timed;
-use crate::measurement::Errors;
+use crate::workload::Errors;
 use crate::{BenchError, ErrorOf, ErrorScale, Workload};
 
 /// The reference and the cameras of the paper's third experiment.

@@ -19,7 +19,7 @@ use super::timing::{Bench, CHUNK, Candidate, Case, Room, each, spaced};
 use super::{CAMERA, LIGHT, Numbers, REFLECTANCE};
 use crate::data::{curve, sensor};
 use crate::harness::timed;
-use crate::measurement::Errors;
+use crate::workload::Errors;
 use crate::{BenchError, ErrorOf, ErrorScale, Workload};
 
 /// κ and β.

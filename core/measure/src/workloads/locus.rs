@@ -19,7 +19,7 @@ use super::{CAMERA, CONSTANTS, OBSERVER};
 use crate::data::sensor;
 use crate::harness::timed;
 use crate::loci::{CHECKED_NODES, LocusMethod, gauss_rule, locus_methods};
-use crate::measurement::Errors;
+use crate::workload::Errors;
 use crate::{BenchError, ErrorOf, ErrorScale, Workload};
 
 type Place = [f64; 2];

@@ -15,7 +15,7 @@ use super::Numbers;
 use super::timing::{Bench, Candidate, Case, Cost, Room};
 use crate::data::cameras;
 use crate::harness::timed;
-use crate::measurement::Errors;
+use crate::workload::Errors;
 use crate::{BenchError, ErrorOf, ErrorScale, Workload};
 
 /// Number of distinct reflectances, far larger than any cache; further ones repeat them.

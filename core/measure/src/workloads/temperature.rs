@@ -13,7 +13,7 @@ use super::timing::{Bench, Candidate, Case, Room, each, spaced};
 use super::{CONSTANTS, Numbers, OBSERVER};
 use crate::data::sensor;
 use crate::harness::timed;
-use crate::measurement::Errors;
+use crate::workload::Errors;
 use crate::{BenchError, ErrorOf, ErrorScale, Workload};
 
 /// Temperature in kelvins and Duv; NaN where a method has no answer, or gives none.
