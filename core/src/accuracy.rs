@@ -15,7 +15,6 @@ impl RelTolerance {
     /// Takes a relative error above 0 and below 1.
     ///
     /// # Errors
-    ///
     /// [`NotATolerance`] unless the number is positive and below 1.
     ///
     /// ```

@@ -130,7 +130,6 @@ impl Training<'_> {
     /// Fits a transform; `white` is the XYZ of a perfect diffuser.
     ///
     /// # Errors
-    ///
     /// [`FitError`] where the samples do not determine it.
     pub fn fit(self, correction: &Correction, white: Xyz) -> Result<RgbTransform, FitError> {
         let image = white.to_vector();
@@ -168,7 +167,6 @@ impl Training<'_> {
     /// Linear fits by the residual over one minus the leverage (Allen's PRESS 1974), which equals refitting; others are refitted.
     ///
     /// # Errors
-    ///
     /// [`FitError`] where all samples together do not determine a fit.
     pub fn leave_one_out(
         self,

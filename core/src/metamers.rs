@@ -50,7 +50,6 @@ impl MetamerLimits {
     /// Limits for the one that confuses and for the one that separates: ΔE*00 of the observer, lightness units of the camera's channels.
     ///
     /// # Errors
-    ///
     /// [`MetamerLimitsError`] unless both are positive and at most 1000.
     pub fn new(confused: f64, separated: f64) -> Result<Self, MetamerLimitsError> {
         let usable = |limit: f64| limit > 0.0 && limit <= 1000.0;

@@ -68,7 +68,6 @@ impl Kelvin {
     /// Takes a positive, finite number.
     ///
     /// # Errors
-    ///
     /// [`NotPositive`] otherwise.
     pub fn new(value: f64) -> Result<Self, NotPositive> {
         let usable = value.is_finite() && value > 0.0;
@@ -88,7 +87,6 @@ impl Kelvin {
     /// The temperature of a reciprocal temperature in mired.
     ///
     /// # Errors
-    ///
     /// [`NotPositive`] unless the number is positive and finite.
     pub fn from_mired(mired: f64) -> Result<Self, NotPositive> {
         Self::new(1e6 / mired)

@@ -28,7 +28,6 @@ impl Clf {
     /// XML of the file.
     ///
     /// # Errors
-    ///
     /// [`ProfileError`] for a text or number that the format cannot hold.
     pub fn to_xml(&self) -> Result<String, ProfileError> {
         text("id", &self.id, false)?;

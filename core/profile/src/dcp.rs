@@ -64,7 +64,6 @@ impl Dcp {
     /// Bytes of the file: a TIFF directory, little-endian, with the version "RC".
     ///
     /// # Errors
-    ///
     /// [`ProfileError`] for a text or number that the format cannot hold, and for no light or more than two.
     pub fn to_bytes(&self) -> Result<Vec<u8>, ProfileError> {
         text("UniqueCameraModel", &self.camera, false)?;

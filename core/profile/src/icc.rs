@@ -38,7 +38,6 @@ impl IccProfile {
     /// Bytes of the file. Its date is 2000-01-01, so that the same matrix gives the same file.
     ///
     /// # Errors
-    ///
     /// [`ProfileError`] for a text or number that the format cannot hold.
     pub fn to_bytes(&self, version: IccVersion) -> Result<Vec<u8>, ProfileError> {
         text("description", &self.description, false)?;

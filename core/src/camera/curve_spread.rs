@@ -54,7 +54,6 @@ impl CurveSpread {
     /// The spread of a data file with the columns `red_1` to `blue_8`, `rest`, `red_mean`, `green_mean` and `blue_mean`.
     ///
     /// # Errors
-    ///
     /// [`CurveSpreadError`] for other columns or wavelengths.
     pub fn from_dataset(dataset: &Dataset) -> Result<Self, CurveSpreadError> {
         let columns: Vec<[f64; SITES]> = dataset

@@ -108,7 +108,6 @@ impl LocusTable {
     /// The chromaticity of one blackbody.
     ///
     /// # Errors
-    ///
     /// [`LocusTableError`] where the temperature is outside the table, or in a piece that is omitted.
     #[inline]
     pub fn xy(&self, temperature: Kelvin) -> Result<Xy, LocusTableError> {

@@ -46,7 +46,6 @@ impl IndexSamples {
     /// Prepares the patches as an XYZ observer sees them under the light.
     ///
     /// # Errors
-    ///
     /// [`RenderingError`] where the observer does not respond to the light.
     pub fn new(observer: &Sensor, light: &GridSpectrum, patches: &PatchSet) -> Result<Self, RenderingError> {
         let divisors = white_divisors(observer, light)?;
@@ -59,7 +58,6 @@ impl IndexSamples {
     /// The index of a sensor under the same light and patches.
     ///
     /// # Errors
-    ///
     /// [`RenderingError`] where a channel does not respond to the light or the patches do not determine a matrix.
     pub fn index(
         &self,
@@ -84,7 +82,6 @@ impl IndexSamples {
     /// Transform of samples, balanced to unity, to the observer's colors.
     ///
     /// # Errors
-    ///
     /// [`FitError`] where the samples do not determine one.
     pub(crate) fn fit(&self, samples: &[DVec3], method: CorrectionMethod) -> Result<RgbTransform, FitError> {
         let correction = Correction { method, keeps_white: false, ..Correction::default() };
@@ -194,7 +191,6 @@ impl Electrons {
     /// Full-well capacity and RMS read noise in electrons.
     ///
     /// # Errors
-    ///
     /// [`ElectronsError`] unless 0 < full well ≤ 1e9 and 0 ≤ read noise ≤ full well.
     pub fn new(full_well: f64, read_noise: f64) -> Result<Self, ElectronsError> {
         if !(f64::MIN_POSITIVE..=1e9).contains(&full_well) {

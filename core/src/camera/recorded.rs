@@ -50,7 +50,6 @@ impl Signal {
     /// The value.
     ///
     /// # Errors
-    ///
     /// [`Exclusion`] where it takes no part in a fit.
     pub fn value(self) -> Result<f64, Exclusion> {
         self.0.map(f64::from_bits)
@@ -104,7 +103,6 @@ impl RecordedFit {
     /// Fits the free parameters by least squares of the logarithm over all usable values, each with weight 1 (the others with 0).
     ///
     /// # Errors
-    ///
     /// [`RecordedError::TooFew`] where values do not outnumber parameters.
     pub fn new(patches: &[RecordedPatch], sensor: &Sensor, freedom: Freedom) -> Result<Self, RecordedError> {
         let logs: Vec<[Result<f64, Exclusion>; 3]> = patches.iter().map(|patch| log_ratios(patch, sensor)).collect();

@@ -68,7 +68,6 @@ const GAIN: f64 = 1e-9;
 /// Free parameters: 6 with white kept, 9 without.
 ///
 /// # Errors
-///
 /// [`FitError`] where the samples do not determine a matrix, or the white has no L\*a\*b\*.
 pub fn minimize(
     training: Training<'_>,
@@ -83,7 +82,6 @@ pub fn minimize(
 /// required.
 ///
 /// # Errors
-///
 /// As [`minimize`].
 pub(super) fn minimize_near(
     training: Training<'_>,

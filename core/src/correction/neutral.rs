@@ -27,7 +27,6 @@ impl Neutral {
     /// Takes camera RGB at any scale.
     ///
     /// # Errors
-    ///
     /// [`NeutralError`] for a number that is not positive and finite, and where green is less than both others, which no sensor's green
     /// is under a light that people photograph in.
     pub fn new(rgb: [f64; 3]) -> Result<Self, NeutralError> {

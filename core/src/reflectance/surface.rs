@@ -118,7 +118,6 @@ impl Surface {
     /// A = 4XY and the paper's coherent component; takes σ from 0 to 1 m, τ and the half-widths X and Y from 1 nm to 1 m, and an index above 0 and up to 1000.
     ///
     /// # Errors
-    ///
     /// [`SurfaceError`] where a number is outside the model's range.
     ///
     /// ```

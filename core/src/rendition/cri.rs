@@ -50,7 +50,6 @@ pub struct RenderingIndices {
 /// observer. The same sums at 5 nm give Ra that are up to 0.1 lower for fluorescent lamps.
 ///
 /// # Errors
-///
 /// [`RenditionError`] where the light has no visible power, is mainly monochromatic, which CIE 13.3 excludes, or has no temperature
 /// from 1667 K to 25 000 K.
 pub fn rendering_indices(

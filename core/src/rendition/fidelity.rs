@@ -54,7 +54,6 @@ pub struct HueBin {
 /// wavelengths. The two differ by up to 0.1 in Rf and Rg for fluorescent lamps.
 ///
 /// # Errors
-///
 /// [`RenditionError`] where the light has no visible power or no temperature from 1000 K to 25 000 K.
 pub fn color_fidelity(light: &SpectralDistribution, standards: &Standards) -> Result<ColorFidelity, RenditionError> {
     let found = standards.evaluation_colors.patches().len();

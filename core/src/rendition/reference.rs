@@ -79,7 +79,6 @@ pub(super) fn mixed(standards: &Standards, temperature: Kelvin, sums: &Sums) -> 
 /// The reference illuminant of a light (TM-30-20, CIE 224:2017) on the standard grid, with its temperature and the light's Duv.
 ///
 /// # Errors
-///
 /// [`RenditionError`] where the light has no correlated color temperature from 1000 K to 25 000 K.
 pub fn reference_illuminant(
     light: &SpectralDistribution,

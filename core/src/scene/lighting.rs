@@ -44,7 +44,6 @@ impl Lighting {
     /// A light far away in a direction, its disk of an angular radius in radians.
     ///
     /// # Errors
-    ///
     /// [`LightingError`] where the direction has no length or the angular radius is out of range.
     pub fn far(direction: DVec3, angular_radius: f64) -> Result<Self, LightingError> {
         Self::new(Distance::Far, direction, angular_radius)
@@ -53,7 +52,6 @@ impl Lighting {
     /// A light at a place counted from the mesh's center in scene radii.
     ///
     /// # Errors
-    ///
     /// [`LightingError`] where the position is not finite or the angular radius is out of range.
     pub fn near(place: DVec3, angular_radius: f64) -> Result<Self, LightingError> {
         Self::new(Distance::Near, place, angular_radius)
@@ -76,7 +74,6 @@ impl Lighting {
     /// A light far away, by its angles from the view axis: up, and to the right (negative: left), in radians.
     ///
     /// # Errors
-    ///
     /// [`LightingError`] where an angle is not finite or out of range.
     pub fn from_angles(up: f64, right: f64, angular_radius: f64) -> Result<Self, LightingError> {
         let direction = DVec3::new(right.sin() * up.cos(), up.sin(), right.cos() * up.cos());

@@ -55,7 +55,6 @@ impl Viewpoint {
     /// Yaw is brought within half a turn; pitch is held within ±90°.
     ///
     /// # Errors
-    ///
     /// [`ViewpointError`] where a number is not finite or out of range.
     pub fn new(yaw: f64, pitch: f64, distance: f64, field_of_view: f64) -> Result<Self, ViewpointError> {
         if ![yaw, pitch, distance, field_of_view].iter().all(|v| v.is_finite()) {
@@ -75,7 +74,6 @@ impl Viewpoint {
     /// the distance; the distance in radii counts no more.
     ///
     /// # Errors
-    ///
     /// [`ViewpointError`] where a number is not finite or out of range.
     pub fn framed(self, aspect: f64, zoom: f64) -> Result<Self, ViewpointError> {
         if !(aspect.is_finite() && zoom.is_finite()) {

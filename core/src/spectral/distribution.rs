@@ -60,7 +60,6 @@ impl SpectralDistribution {
     /// Takes wavelengths in nanometers and values, one for each.
     ///
     /// # Errors
-    ///
     /// [`DistributionError`] unless there are as many values as wavelengths, at least two, finite and ascending.
     pub fn new(wavelengths: Vec<f64>, values: Vec<f64>) -> Result<Self, DistributionError> {
         if wavelengths.is_empty() {
@@ -111,7 +110,6 @@ impl SpectralDistribution {
     /// Spectrum with every value mapped by `f(wavelength, value)`, refused where the result is no spectrum.
     ///
     /// # Errors
-    ///
     /// [`DistributionError`] where a result is not finite.
     pub fn map(&self, f: impl Fn(f64, f64) -> f64) -> Result<Self, DistributionError> {
         let values = self.wavelengths.iter().zip(&self.values).map(|(&w, &v)| f(w, v)).collect();

@@ -120,7 +120,6 @@ impl Sensor {
     /// Takes the three curves as measured, in the order of [`Primaries::channels`].
     ///
     /// # Errors
-    ///
     /// [`SensorError`] where a channel has no sensitivity on the grid.
     pub fn new(
         primaries: Primaries,
@@ -146,7 +145,6 @@ impl Sensor {
     /// Sensor of a data file: primaries from its column heads, response from its header.
     ///
     /// # Errors
-    ///
     /// [`SensorError::NotThree`] unless the file has three curves; otherwise as [`Sensor::new`].
     pub fn from_dataset(dataset: &Dataset) -> Result<Self, SensorError> {
         let curves = <[SpectralDistribution; 3]>::try_from(dataset.curves.clone());

@@ -7,6 +7,7 @@ use super::result::{Cct, MAX_DUV, SLACK, is_in_range};
 use crate::colorimetry::Uv60;
 use crate::math::array::array;
 use crate::math::chebyshev::{coefficients, evaluate, nodes};
+use crate::math::exp::ROUNDER;
 use crate::units::Kelvin;
 
 /// Coefficients per polynomial: degree 6.
@@ -189,9 +190,6 @@ impl Piece {
 fn integral(derivative: &[f64; TERMS], t: f64) -> f64 {
     t * sum_in_pairs(&array(|k| derivative[k] * (1.0 / (k + 1) as f64)), t)
 }
-
-/// Adding this rounds a small double to an integer, in the low bits of its mantissa.
-pub(super) const ROUNDER: f64 = 6_755_399_441_055_744.0;
 
 /// The number of the piece of a reciprocal temperature; NaN gets the first.
 #[allow(clippy::manual_clamp, reason = "clamp keeps what is not a number")]

@@ -125,7 +125,6 @@ impl Robertson {
     /// For the CIE 1931 observer all 31 rows are those of his table. Indices that are defined by it need its errors too.
     ///
     /// # Errors
-    ///
     /// [`LocusError`] unless the observer counts in XYZ and sees blackbodies.
     pub fn as_printed(observer: &Sensor) -> Result<Self, LocusError> {
         if observer.primaries() != Primaries::Xyz {
@@ -134,11 +133,7 @@ impl Robertson {
         let isotherm = |index| {
             let mired = robertson_mired(index);
             let [at, before, after] = [0.0, -1e-3, 1e-3].map(|step| full_table(observer, mired + step));
-            let (at, before, after) = at
-                .zip(before)
-                .zip(after)
-                .map(|((at, before), after)| (at, before, after))
-                .ok_or(LocusError::NoChromaticity)?;
+            let ((at, before), after) = at.zip(before).zip(after).ok_or(LocusError::NoChromaticity)?;
             let slope = (before.u - after.u) / (after.v - before.v);
             let unit = 10_f64.powi(4 - slope.abs().log10().floor() as i32);
             let slope = (slope * unit).round() / unit;
@@ -271,14 +266,8 @@ impl Ohno {
         if duv.abs() > MAX_DUV {
             return Err(CctError::TooFar);
         }
-        let kelvins = kelvins * CORRECTION;
-        if kelvins < 1000.0 * (1.0 - ENDS) {
-            return Err(CctError::TooCold);
-        }
-        if kelvins > 20_000.0 * (1.0 + ENDS) {
-            return Err(CctError::TooHot);
-        }
-        Ok(Cct { temperature: Kelvin::new(kelvins).map_err(|_| CctError::TooFar)?, duv })
+        let temperature = within(kelvins * CORRECTION, 1000.0 * (1.0 - ENDS), 20_000.0 * (1.0 + ENDS))?;
+        Ok(Cct { temperature, duv })
     }
 }
 

@@ -6,6 +6,7 @@ use super::run::BLOCK;
 use super::spline::weights;
 use super::surface::{Cell, Surface};
 use crate::math::array::array;
+use crate::math::exp::ROUNDER;
 use crate::render::measure::Node;
 
 /// A table's fineness: each fourth step halves its cells.
@@ -163,9 +164,6 @@ impl<const N: usize> Around<N> {
     pub(super) const NOTHING: Self =
         Self { v: [0.0; BLOCK], start: [0; BLOCK], across: [[0.0; BLOCK]; N], along: [[0.0; BLOCK]; N] };
 }
-
-/// Adding and subtracting this rounds a double below 2⁵¹ to the nearest integer.
-const ROUNDER: f64 = 6_755_399_441_055_744.0;
 
 /// The cell of a place, not beyond the last. Which of two cells a knot belongs to does not matter.
 #[inline(always)]
