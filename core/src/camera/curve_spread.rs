@@ -4,7 +4,7 @@ use crate::math::interpolation::Sprague;
 use crate::math::random::SplitMix64;
 use crate::spectral::grid::{COUNT, FIRST_NM};
 use crate::spectral::{Dataset, Sensor};
-use std::hash::{Hash, Hasher};
+use crate::units::{bits, hash_by};
 
 /// Wavelengths that the spread is known at: 400, 410, …, 700 nm.
 pub const SITES: usize = 31;
@@ -39,13 +39,7 @@ pub struct CurveSpread {
 #[error("expected 8 modes of red, green and blue, the rest and the mean of each, at 400, 410, …, 700 nm")]
 pub struct CurveSpreadError;
 
-impl Eq for CurveSpread {}
-
-impl Hash for CurveSpread {
-    fn hash<H: Hasher>(&self, state: &mut H) {
-        self.modes.iter().flatten().flatten().for_each(|v| v.to_bits().hash(state));
-    }
-}
+hash_by!(CurveSpread, |of| of.modes.iter().flatten().flatten().map(|&v| bits(v)).collect::<Vec<_>>());
 
 impl CurveSpread {
     /// Degrees of freedom of the covariance: 24 tables less 10 means of models.

@@ -109,17 +109,17 @@ pub(super) fn minimize_near(
     if objective.squares() {
         (problem, _) = optimizer.with_tol(1e-15).minimize(problem);
     } else {
-        let (mut best, mut before) = (start_value, problem.params_now());
+        let (mut best, mut before) = (start_value, problem.params());
         for _ in 0..ROUNDS {
             problem.reweight(training.weights);
             (problem, _) = optimizer.with_tol(1e-12).with_patience(2).minimize(problem);
             let value = problem.value(training.weights);
             if value.is_nan() || value >= best {
-                problem.set(&before);
+                problem.set_params(&before);
                 break;
             }
             let gain = best - value;
-            (best, before) = (value, problem.params_now());
+            (best, before) = (value, problem.params());
             if gain <= GAIN * best {
                 break;
             }
@@ -173,16 +173,6 @@ impl<'a> Problem<'a> {
         DMat3::from_cols(x, y, z) * self.basis.transpose()
     }
 
-    fn params_now(&self) -> DVector<f64> {
-        DVector::from_iterator(3 * (3 - self.first), self.columns[self.first..].iter().flat_map(DVec3::to_array))
-    }
-
-    fn set(&mut self, params: &DVector<f64>) {
-        for (column, values) in self.columns[self.first..].iter_mut().zip(params.as_slice().chunks_exact(3)) {
-            *column = DVec3::new(values[0], values[1], values[2]);
-        }
-    }
-
     fn xyz(&self, sample: DVec3) -> DVec3 {
         let [x, y, z] = self.columns;
         x * sample.x + y * sample.y + z * sample.z
@@ -217,11 +207,13 @@ impl LeastSquaresProblem<f64, Dyn, Dyn> for Problem<'_> {
     type ParameterStorage = Owned<f64, Dyn>;
 
     fn set_params(&mut self, params: &DVector<f64>) {
-        self.set(params);
+        for (column, values) in self.columns[self.first..].iter_mut().zip(params.as_slice().chunks_exact(3)) {
+            *column = DVec3::from_slice(values);
+        }
     }
 
     fn params(&self) -> DVector<f64> {
-        self.params_now()
+        DVector::from_iterator(3 * (3 - self.first), self.columns[self.first..].iter().flat_map(DVec3::to_array))
     }
 
     fn residuals(&self) -> Option<DVector<f64>> {

@@ -1,6 +1,6 @@
 //! A spectrum as it was measured.
 
-use std::hash::{Hash, Hasher};
+use crate::units::{bits, hash_by};
 
 /// Reason that samples do not make a spectrum.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -48,13 +48,7 @@ pub struct SpectralDistribution {
     values: Vec<f64>,
 }
 
-impl Eq for SpectralDistribution {}
-
-impl Hash for SpectralDistribution {
-    fn hash<H: Hasher>(&self, state: &mut H) {
-        self.wavelengths.iter().chain(&self.values).for_each(|v| v.to_bits().hash(state));
-    }
-}
+hash_by!(SpectralDistribution, |of| of.wavelengths.iter().chain(&of.values).map(|&v| bits(v)).collect::<Vec<_>>());
 
 impl SpectralDistribution {
     /// Takes wavelengths in nanometers and values, one for each.
