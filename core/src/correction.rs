@@ -10,10 +10,6 @@ pub mod minimize;
 pub mod neutral;
 pub mod root_polynomial;
 
-use std::sync::Arc;
-
-use rayon::prelude::*;
-
 use crate::colorimetry::Xyz;
 use crate::colorimetry::adaptation::bradford;
 use crate::colorimetry::rgb::{XYZ_FROM_SRGB, srgb_white};
@@ -21,7 +17,9 @@ use crate::math::least_squares::{FitError, linear_fit, matrix_keeping};
 use classes::ClassWeights;
 use glam::{DMat3, DVec3};
 use minimize::{Objective, minimize, minimize_near};
+use rayon::prelude::*;
 use root_polynomial::{Degree, RootPolynomial};
+use std::sync::Arc;
 
 /// Method by which a color transform is found.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]

@@ -3,9 +3,8 @@
 //! A quantity that stands in a query must be comparable and hashable, which bare floats are not. A temperature is
 //! finite and positive by construction, so that NaN cannot enter a key.
 
-use std::fmt;
-
 use ordered_float::OrderedFloat;
+use std::fmt;
 
 /// Bits by which a number that is never NaN is compared and hashed: negative zero equals zero, so it has zero's.
 pub(crate) fn bits(number: f64) -> u64 {

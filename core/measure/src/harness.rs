@@ -1,10 +1,9 @@
 //! The stopwatch: pieces of work take turns, so that a slow moment of the machine falls on all of them.
 
-use std::hint::black_box;
-use std::time::{Instant, SystemTime, UNIX_EPOCH};
-
 use chromascope_core::render::Stop;
 use chromascope_math::quantile::quantile;
+use std::hint::black_box;
+use std::time::{Instant, SystemTime, UNIX_EPOCH};
 
 /// Rounds and time to spend on a comparison.
 #[derive(Clone, Copy, Debug)]

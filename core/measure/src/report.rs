@@ -1,10 +1,9 @@
 //! All that was measured in one run, as figures, a table and JSON.
 
-use chromascope_figure::{Field, Figure, InkRole, LegendEntry, LegendPlace, Marker, Panel, Rect, Table, Tag};
-use serde::{Deserialize, Serialize};
-
 use crate::pareto::{self, Place};
 use crate::{Effort, Machine, Measurement, Workload};
+use chromascope_figure::{Field, Figure, InkRole, LegendEntry, LegendPlace, Marker, Panel, Rect, Table, Tag};
+use serde::{Deserialize, Serialize};
 
 /// All that was measured in one run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -1,8 +1,7 @@
 //! Matrices in Common LUT Format (Academy S-2014-006, version 3.0; SMPTE ST 2136-1).
 
-use std::fmt::Write as _;
-
 use crate::{Matrix, ProfileError, numbers, text};
+use std::fmt::Write as _;
 
 /// CLF file with one matrix.
 #[derive(Clone, Debug, PartialEq)]

@@ -2,8 +2,6 @@
 
 mod terms;
 
-use std::ops::Deref;
-
 use self::terms::Terms;
 use crate::accuracy::{RelTolerance, Unmet};
 use crate::light::RadiationConstants;
@@ -11,6 +9,7 @@ use crate::math::gauss::{Rule, gauss_rule, interpolatory_rule};
 use crate::spectral::Sensor;
 use crate::spectral::grid::{COUNT, wavelength_nm};
 use crate::units::Kelvin;
+use std::ops::Deref;
 
 /// Below this temperature a few nodes no longer suffice and the full sum is taken.
 const NODES_FROM_K: f64 = 1000.0;

@@ -5,11 +5,10 @@
 
 mod ciede2000;
 
-use rayon::prelude::*;
-
 use super::lab::{Lab, lab_from_xyz};
 use super::tristimulus::{UvPrime, Xy, Xyz};
 use crate::units::eq_by;
+use rayon::prelude::*;
 
 /// A color-difference metric.
 ///

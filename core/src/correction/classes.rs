@@ -1,10 +1,9 @@
 //! Classes of training reflectances by their color, and their weights.
 
-use chromascope_text::choices;
-
 use crate::colorimetry::lab::lab_from_xyz;
 use crate::colorimetry::{Lab, Xyz};
 use crate::units::{bits, hash_by};
+use chromascope_text::choices;
 use glam::DVec3;
 
 choices! {

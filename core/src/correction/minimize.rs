@@ -1,14 +1,13 @@
 //! Matrices that minimize color differences, by Levenberg–Marquardt.
 
-use levenberg_marquardt::{LeastSquaresProblem, LevenbergMarquardt};
-use nalgebra::{DMatrix, DVector, Dyn, Owned};
-
 use super::{Correction, CorrectionMethod, RgbTransform, Training};
 use crate::colorimetry::difference::delta_e_2000_vector;
 use crate::colorimetry::lab::lab_from_xyz;
 use crate::colorimetry::{Lab, Xyz};
 use crate::math::least_squares::FitError;
 use glam::{DMat3, DVec3};
+use levenberg_marquardt::{LeastSquaresProblem, LevenbergMarquardt};
+use nalgebra::{DMatrix, DVector, Dyn, Owned};
 
 /// Quantity that a fit minimizes over its training samples.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

@@ -1,14 +1,12 @@
 //! The machine's limits: kernels that do nothing but read memory, or multiply and add.
 
-use std::hint::black_box;
-
-use multiversion::multiversion;
-use rayon::prelude::*;
-
 use super::Machine;
 use crate::Effort;
 use crate::harness::shortest_of;
 use crate::workloads::timing::Pools;
+use multiversion::multiversion;
+use rayon::prelude::*;
+use std::hint::black_box;
 
 /// Doubles side by side in the widest register.
 const WIDTH: usize = 8;

@@ -1,8 +1,11 @@
 //! Frames of the head under the sun through four sources, from visibility to signals.
 
-use std::hint::black_box;
-use std::sync::Arc;
-
+use super::timing::{Bench, Candidate, Case};
+use super::{LIGHT, REFLECTANCE};
+use crate::data::{curve, sensor};
+use crate::harness::timed;
+use crate::workload::Errors;
+use crate::{BenchError, ErrorOf, ErrorScale, Workload};
 use chromascope_core::accuracy::RelTolerance;
 use chromascope_core::camera::rendering::white_divisors;
 use chromascope_core::reflectance::{Normalization, Surface, wavelength_power};
@@ -15,13 +18,8 @@ use chromascope_core::scene::viewpoint::ViewpointError;
 use chromascope_core::scene::{Lighting, Viewpoint};
 use chromascope_core::spectral::Quantity;
 use chromascope_mesh::{Mesh, ShadowTree, head};
-
-use super::timing::{Bench, Candidate, Case};
-use super::{LIGHT, REFLECTANCE};
-use crate::data::{curve, sensor};
-use crate::harness::timed;
-use crate::workload::Errors;
-use crate::{BenchError, ErrorOf, ErrorScale, Workload};
+use std::hint::black_box;
+use std::sync::Arc;
 
 /// The reference and the cameras of the paper's third experiment.
 const SOURCES: [&str; 4] = [

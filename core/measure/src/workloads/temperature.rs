@@ -1,5 +1,11 @@
 //! Correlated color temperature and Duv: published approximations, and the nearest blackbody itself.
 
+use super::timing::{Bench, Candidate, Case, Room, each, spaced};
+use super::{CONSTANTS, Numbers, OBSERVER, exact};
+use crate::data::sensor;
+use crate::harness::timed;
+use crate::workload::Errors;
+use crate::{BenchError, ErrorOf, ErrorScale, Workload};
 use chromascope_core::colorimetry::{Uv60, UvPrime, Xy};
 use chromascope_core::light::PlanckianLocus;
 use chromascope_core::light::temperature::{Cct, CctError, published};
@@ -7,14 +13,6 @@ use chromascope_core::spectral::Sensor;
 use chromascope_core::units::Kelvin;
 use chromascope_math::double::Double;
 use rayon::prelude::*;
-
-use super::exact;
-use super::timing::{Bench, Candidate, Case, Room, each, spaced};
-use super::{CONSTANTS, Numbers, OBSERVER};
-use crate::data::sensor;
-use crate::harness::timed;
-use crate::workload::Errors;
-use crate::{BenchError, ErrorOf, ErrorScale, Workload};
 
 /// Temperature in kelvins and Duv; NaN where a method has no answer, or gives none.
 type Answer = [f64; 2];

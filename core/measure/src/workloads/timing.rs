@@ -1,16 +1,13 @@
 //! Timing of alternating candidates by their median.
 
+use crate::harness::{Budget, Times, take_turns, timed};
+use crate::{Effort, ErrorOf, Machine, Measurement, Progress, Roof, Workload};
+use chromascope_core::render::Stop;
+use rayon::prelude::*;
+use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
 use std::hint::black_box;
 use std::iter::successors;
 use std::sync::{Mutex, PoisonError};
-
-use rayon::prelude::*;
-use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
-
-use chromascope_core::render::Stop;
-
-use crate::harness::{Budget, Times, take_turns, timed};
-use crate::{Effort, ErrorOf, Machine, Measurement, Progress, Roof, Workload};
 
 /// Pools of one, two, four, … threads, up to all that the machine runs at a time.
 pub(crate) struct Pools(Vec<(usize, ThreadPool)>);

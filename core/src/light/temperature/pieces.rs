@@ -1,7 +1,5 @@
 //! The locus as polynomials in the reciprocal temperature, made so that the nearest point is the root of another.
 
-use rayon::prelude::*;
-
 use super::exact::{ExactLocus, Motion};
 use super::result::{Cct, MAX_DUV, SLACK, is_in_range};
 use crate::colorimetry::Uv60;
@@ -9,6 +7,7 @@ use crate::math::array::array;
 use crate::math::chebyshev::{coefficients, evaluate, nodes};
 use crate::math::exp::ROUNDER;
 use crate::units::Kelvin;
+use rayon::prelude::*;
 
 /// Coefficients per polynomial: degree 6.
 pub(super) const TERMS: usize = 7;

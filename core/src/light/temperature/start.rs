@@ -1,13 +1,12 @@
 //! Start values: reciprocal temperatures over a grid of chromaticities.
 
-use rayon::prelude::*;
-
 use super::nearest::Vertices;
 use super::pieces::Pieces;
 use super::result::{COLDEST_MIRED, HOTTEST_MIRED, MAX_DUV};
 use crate::colorimetry::Uv60;
 use crate::math::array::each;
 use crate::math::exp::ROUNDER;
+use rayon::prelude::*;
 
 /// The grid's spacing in u and v. Halving it costs the nearest cache, doubling it another step of Newton's.
 const PITCH: f64 = 0.002;

@@ -9,8 +9,7 @@
 
 use super::antiderivative;
 use super::rules::{LANES, Rule};
-use crate::math::exp::ROUNDER;
-use crate::math::exp::exp;
+use crate::math::exp::{ROUNDER, exp};
 use crate::reflectance::coherent::mean_sinc_squared;
 use multiversion::multiversion;
 use std::f64::consts::{FRAC_1_PI, PI};
