@@ -3,9 +3,8 @@
 //! A function that takes a [`RelTolerance`] uses the fastest method whose error it has checked, and returns [`Unmet`] if none
 //! is accurate enough. The scale of the relative error is documented there: a peak, a value, the largest of three signals.
 
-use std::fmt;
-
 use ordered_float::OrderedFloat;
+use std::fmt;
 
 /// The largest relative error that is allowed: above 0, below 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -15,7 +14,6 @@ impl RelTolerance {
     /// Takes a relative error above 0 and below 1.
     ///
     /// # Errors
-    ///
     /// [`NotATolerance`] unless the number is positive and below 1.
     ///
     /// ```

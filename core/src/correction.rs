@@ -10,10 +10,6 @@ pub mod minimize;
 pub mod neutral;
 pub mod root_polynomial;
 
-use std::sync::Arc;
-
-use rayon::prelude::*;
-
 use crate::colorimetry::Xyz;
 use crate::colorimetry::adaptation::bradford;
 use crate::colorimetry::rgb::{XYZ_FROM_SRGB, srgb_white};
@@ -21,7 +17,9 @@ use crate::math::least_squares::{FitError, linear_fit, matrix_keeping};
 use classes::ClassWeights;
 use glam::{DMat3, DVec3};
 use minimize::{Objective, minimize, minimize_near};
+use rayon::prelude::*;
 use root_polynomial::{Degree, RootPolynomial};
+use std::sync::Arc;
 
 /// Method by which a color transform is found.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -52,29 +50,24 @@ impl CorrectionMethod {
 
     /// Name in documents and on the command line.
     pub const fn id(self) -> &'static str {
-        match self {
-            Self::None => "none",
-            Self::LeastSquares => "matrix",
-            Self::Minimize(Objective::LabSquares) => "lab-least-squares",
-            Self::Minimize(Objective::DeltaE1976) => "min-delta-e-ab",
-            Self::Minimize(Objective::DeltaE2000) => "min-delta-e",
-            Self::RootPolynomial(Degree::Two) => "root-polynomial",
-            Self::RootPolynomial(Degree::Three) => "root-polynomial-3",
-            Self::RootPolynomial(Degree::Four) => "root-polynomial-4",
-        }
+        self.words().0
     }
 
     /// Name in words.
     pub const fn label(self) -> &'static str {
+        self.words().1
+    }
+
+    const fn words(self) -> (&'static str, &'static str) {
         match self {
-            Self::None => "None (RGB as sRGB)",
-            Self::LeastSquares => "Matrix by least squares in XYZ",
-            Self::Minimize(Objective::LabSquares) => "Matrix by least squares in L*a*b*",
-            Self::Minimize(Objective::DeltaE1976) => "Matrix by minimum mean ΔE*ab",
-            Self::Minimize(Objective::DeltaE2000) => "Matrix by minimum mean ΔE*00",
-            Self::RootPolynomial(Degree::Two) => "Root polynomial of degree 2 (6 terms)",
-            Self::RootPolynomial(Degree::Three) => "Root polynomial of degree 3 (13 terms)",
-            Self::RootPolynomial(Degree::Four) => "Root polynomial of degree 4 (22 terms)",
+            Self::None => ("none", "None (RGB as sRGB)"),
+            Self::LeastSquares => ("matrix", "Matrix by least squares in XYZ"),
+            Self::Minimize(Objective::LabSquares) => ("lab-least-squares", "Matrix by least squares in L*a*b*"),
+            Self::Minimize(Objective::DeltaE1976) => ("min-delta-e-ab", "Matrix by minimum mean ΔE*ab"),
+            Self::Minimize(Objective::DeltaE2000) => ("min-delta-e", "Matrix by minimum mean ΔE*00"),
+            Self::RootPolynomial(Degree::Two) => ("root-polynomial", "Root polynomial of degree 2 (6 terms)"),
+            Self::RootPolynomial(Degree::Three) => ("root-polynomial-3", "Root polynomial of degree 3 (13 terms)"),
+            Self::RootPolynomial(Degree::Four) => ("root-polynomial-4", "Root polynomial of degree 4 (22 terms)"),
         }
     }
 
@@ -135,7 +128,6 @@ impl Training<'_> {
     /// Fits a transform; `white` is the XYZ of a perfect diffuser.
     ///
     /// # Errors
-    ///
     /// [`FitError`] where the samples do not determine it.
     pub fn fit(self, correction: &Correction, white: Xyz) -> Result<RgbTransform, FitError> {
         let image = white.to_vector();
@@ -173,7 +165,6 @@ impl Training<'_> {
     /// Linear fits by the residual over one minus the leverage (Allen's PRESS 1974), which equals refitting; others are refitted.
     ///
     /// # Errors
-    ///
     /// [`FitError`] where all samples together do not determine a fit.
     pub fn leave_one_out(
         self,

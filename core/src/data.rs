@@ -27,7 +27,6 @@ pub enum DataError {
 /// Spectral sensitivities of a camera, per unit energy.
 ///
 /// # Errors
-///
 /// [`DataError::Unknown`] where no camera has the name.
 ///
 /// ```
@@ -48,7 +47,6 @@ pub fn camera(name: &str) -> Result<Sensor, DataError> {
 /// Color matching functions or cone fundamentals of an observer.
 ///
 /// # Errors
-///
 /// [`DataError::Unknown`] where no observer has the name.
 pub fn observer(name: &str) -> Result<Sensor, DataError> {
     Ok(Sensor::from_dataset(&find("observers", name)?.0)?)
@@ -57,7 +55,6 @@ pub fn observer(name: &str) -> Result<Sensor, DataError> {
 /// Reflectances of a chart or of materials.
 ///
 /// # Errors
-///
 /// [`DataError::Unknown`] where no chart has the name.
 pub fn chart(name: &str) -> Result<PatchSet, DataError> {
     Ok(PatchSet::from_dataset(&find("charts", name)?.0))
@@ -66,7 +63,6 @@ pub fn chart(name: &str) -> Result<PatchSet, DataError> {
 /// Relative spectral power of an illuminant on the 1 nm grid.
 ///
 /// # Errors
-///
 /// [`DataError::Unknown`] where no illuminant has the name.
 pub fn illuminant(name: &str) -> Result<GridSpectrum, DataError> {
     let (dataset, column) = find("illuminants", name)?;

@@ -2,7 +2,7 @@
 
 use crate::colorimetry::lab::lightness;
 use crate::colorimetry::{Lab, delta_e_2000};
-use std::hash::{Hash, Hasher};
+use crate::units::{bits, hash_by};
 
 /// The eye or the camera, whichever takes two colors for one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -36,13 +36,7 @@ pub struct MetamerLimits {
     separated: f64,
 }
 
-impl Eq for MetamerLimits {}
-
-impl Hash for MetamerLimits {
-    fn hash<H: Hasher>(&self, state: &mut H) {
-        (self.confused.to_bits(), self.separated.to_bits()).hash(state);
-    }
-}
+hash_by!(MetamerLimits, |of| [of.confused, of.separated].map(bits));
 
 /// Reason that numbers are no limits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, thiserror::Error)]
@@ -56,7 +50,6 @@ impl MetamerLimits {
     /// Limits for the one that confuses and for the one that separates: ΔE*00 of the observer, lightness units of the camera's channels.
     ///
     /// # Errors
-    ///
     /// [`MetamerLimitsError`] unless both are positive and at most 1000.
     pub fn new(confused: f64, separated: f64) -> Result<Self, MetamerLimitsError> {
         let usable = |limit: f64| limit > 0.0 && limit <= 1000.0;

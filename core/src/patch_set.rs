@@ -1,10 +1,10 @@
 //! Named reflectances: charts, training data, materials.
 
 use crate::spectral::{Dataset, GridSpectrum, Quantity, SpectralDistribution};
-use std::hash::{Hash, Hasher};
+use crate::units::hash_by;
 
 /// One reflectance with its name, measured and on the grid.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Patch {
     /// Its name, such as `orange yellow`.
     pub name: String,
@@ -14,12 +14,7 @@ pub struct Patch {
     pub grid: GridSpectrum,
 }
 
-impl Hash for Patch {
-    fn hash<H: Hasher>(&self, state: &mut H) {
-        self.name.hash(state);
-        self.measured.hash(state);
-    }
-}
+hash_by!(Patch, |of| (&of.name, &of.measured));
 
 /// A set of reflectances: a chart, training data, materials.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]

@@ -11,11 +11,9 @@ pub mod loci;
 pub mod metamers;
 pub mod metrics;
 pub mod patches;
-pub mod recorded;
 pub mod render;
-pub mod shared;
 
-pub use ask::{Ask, Direct, Query};
+pub use ask::{Ask, Direct, Query, Shared};
 pub use compare::DifferenceError;
 pub use correction::{
     CorrectionReport, CorrectionReportQuery, ErrorSummary, StimulusCheck, TwoLightPoint, TwoLightQuery,
@@ -31,7 +29,6 @@ pub use metrics::{
     MetricValue, WhyNot,
 };
 pub use patches::{
-    ColorTransformSpec, FitTargetsQuery, PatchColor, PatchColorsQuery, RadianceColorsQuery, RenderingQuery,
+    ColorTransformSpec, FitTargetsQuery, PatchColor, PatchColorsQuery, RadianceColorsQuery, RecordedFitQuery,
+    RecordedSet, RenderingQuery,
 };
-pub use recorded::{RecordedFitQuery, RecordedSet};
-pub use shared::Shared;

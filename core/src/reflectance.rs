@@ -19,7 +19,6 @@ pub mod fresnel;
 pub mod geometry;
 pub mod hemispherical;
 pub mod leaf;
-pub mod normalization;
 pub mod power;
 pub mod regimes;
 pub mod sum;
@@ -27,8 +26,7 @@ pub mod surface;
 
 pub use geometry::Geometry;
 pub use hemispherical::{HemisphericalReflectance, directional_hemispherical, hemispherical_directional};
-pub use normalization::Normalization;
 pub use power::{beta, coherent_prefactor, diffuse_prefactor, factor, factors, kappa, wavelength_power};
 pub use regimes::{Regime, diffuse_sum_by_regimes};
 pub use sum::{Precision, diffuse_sum, diffuse_sums_into, ln_diffuse_sum};
-pub use surface::{Caution, IlluminatedArea, Specular, Surface, SurfaceError};
+pub use surface::{Caution, IlluminatedArea, Normalization, Specular, Surface, SurfaceError};

@@ -15,7 +15,6 @@ pub mod fidelity;
 pub mod reference;
 pub mod similarity;
 mod standards;
-mod sums;
 
 pub use cri::RenderingIndices;
 pub use fidelity::{ColorFidelity, HueBin};

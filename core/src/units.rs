@@ -3,9 +3,43 @@
 //! A quantity that stands in a query must be comparable and hashable, which bare floats are not. A temperature is
 //! finite and positive by construction, so that NaN cannot enter a key.
 
+use ordered_float::OrderedFloat;
 use std::fmt;
 
-use ordered_float::OrderedFloat;
+/// Bits by which a number that is never NaN is compared and hashed: negative zero equals zero, so it has zero's.
+pub(crate) fn bits(number: f64) -> u64 {
+    (number + 0.0).to_bits()
+}
+
+/// `Eq` and `Hash` of a type with numbers that are never NaN, from what is hashed in its place.
+macro_rules! hash_by {
+    ($Type:ty, |$of:ident| $key:expr) => {
+        impl Eq for $Type {}
+
+        impl std::hash::Hash for $Type {
+            fn hash<H: std::hash::Hasher>(&self, state: &mut H) {
+                let $of = self;
+                $key.hash(state);
+            }
+        }
+    };
+}
+pub(crate) use hash_by;
+
+/// `PartialEq`, `Eq` and `Hash` of a type from what stands for it.
+macro_rules! eq_by {
+    ($Type:ty, |$of:ident| $key:expr) => {
+        impl PartialEq for $Type {
+            fn eq(&self, other: &Self) -> bool {
+                let key = |$of: &Self| $key;
+                key(self) == key(other)
+            }
+        }
+
+        $crate::units::hash_by!($Type, |$of| $key);
+    };
+}
+pub(crate) use eq_by;
 
 /// Reason that a number is not a physical quantity of the wanted kind.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -33,7 +67,6 @@ impl Kelvin {
     /// Takes a positive, finite number.
     ///
     /// # Errors
-    ///
     /// [`NotPositive`] otherwise.
     pub fn new(value: f64) -> Result<Self, NotPositive> {
         let usable = value.is_finite() && value > 0.0;
@@ -53,7 +86,6 @@ impl Kelvin {
     /// The temperature of a reciprocal temperature in mired.
     ///
     /// # Errors
-    ///
     /// [`NotPositive`] unless the number is positive and finite.
     pub fn from_mired(mired: f64) -> Result<Self, NotPositive> {
         Self::new(1e6 / mired)

@@ -2,8 +2,8 @@
 
 use chromascope_core::colorimetry::ciecam02::Ciecam02;
 use chromascope_core::colorimetry::{Uv60, Xyz};
+use chromascope_core::light::temperature::published::Robertson;
 use chromascope_core::light::temperature::single::nearest_blackbody;
-use chromascope_core::light::temperature::tabulated::Robertson;
 use chromascope_core::light::{
     Cct, CctError, DaylightBasis, PlanckianLocus, RadiationConstants, planckian::black_body,
 };

@@ -1,5 +1,7 @@
 //! An exponential that vectorizes.
 
+use crate::ln::{LN_2_HIGH, LN_2_LOW};
+
 /// `(e^r − 1 − r)/r²` for |r| ≤ ln 2 / 2, by powers of r: the polynomial through Chebyshev's points, from 60 digits.
 const CURVE: [f64; 10] = [
     0.500_000_000_000_000_1,
@@ -14,12 +16,8 @@ const CURVE: [f64; 10] = [
     2.510_038_549_551_032e-8,
 ];
 
-/// ln 2 in two parts, so that `x - n ln 2` is exact for |n| below 2¹¹ (Cody and Waite 1980).
-const LN_2_HIGH: f64 = 0.693_147_180_369_123_8;
-const LN_2_LOW: f64 = 1.908_214_929_270_587_7e-10;
-
 /// Adding this rounds a double below 2⁵¹ to the nearest integer, in the low bits of its mantissa.
-const ROUNDER: f64 = 6_755_399_441_055_744.0;
+pub const ROUNDER: f64 = 6_755_399_441_055_744.0;
 
 /// eˣ for |x| ≤ 700, without branches or calls, so that a loop over it vectorizes.
 ///

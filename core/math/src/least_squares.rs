@@ -35,7 +35,6 @@ pub enum FitError {
 /// Refuses with [`FitError::Dependent`] when a channel carries less than 1e-10 of new information, or none that is finite.
 ///
 /// # Errors
-///
 /// [`FitError`] where the samples do not determine a matrix.
 pub fn matrix_keeping(samples: &[DVec3], targets: &[DVec3], white: DVec3, image: DVec3) -> Result<DMat3, FitError> {
     // By its largest component, because the squares of a tiny white underflow.
@@ -83,7 +82,6 @@ pub struct LinearFit {
 /// the remaining columns and the targets together, which is backward stable (Björck 1967).
 ///
 /// # Errors
-///
 /// [`FitError`] where the samples do not determine the coefficients.
 pub fn linear_fit(rows: &[Vec<f64>], targets: &[DVec3], keep: Option<DVec3>) -> Result<LinearFit, FitError> {
     let terms = rows.first().map_or(0, Vec::len);

@@ -1,15 +1,17 @@
 //! Logarithms that vectorize.
 
 /// The bits of √½, from which on a mantissa counts to the next power of two.
-const ROOT_HALF: u64 = 0x3fe6_a09e_667f_3bcd;
-const ONE: u64 = 0x3ff0_0000_0000_0000;
-const MANTISSA: u64 = 0x000f_ffff_ffff_ffff;
+pub const ROOT_HALF: u64 = 0x3fe6_a09e_667f_3bcd;
+/// The bits of 1.
+pub const ONE: u64 = 0x3ff0_0000_0000_0000;
+/// The bits of a mantissa.
+pub const MANTISSA: u64 = 0x000f_ffff_ffff_ffff;
 /// 2⁵²: an integer below it, in the low bits of its mantissa, is added to it.
-const INTEGERS: u64 = 0x4330_0000_0000_0000;
+pub const INTEGERS: u64 = 0x4330_0000_0000_0000;
 
 /// ln 2 in two parts, so that `n ln 2` is exact in the first for |n| below 2¹¹ (Cody and Waite 1980).
-const LN_2_HIGH: f64 = 0.693_147_180_369_123_8;
-const LN_2_LOW: f64 = 1.908_214_929_270_587_7e-10;
+pub(crate) const LN_2_HIGH: f64 = 0.693_147_180_369_123_8;
+pub(crate) const LN_2_LOW: f64 = 1.908_214_929_270_587_7e-10;
 
 /// Twice the Taylor coefficients of `(artanh s / s - 1) / s²` in s²: `2/(2k + 3)`.
 const ARTANH: [f64; 10] = [

@@ -6,26 +6,14 @@ use chromascope_core::spectral::{DatasetError, SensorError};
 
 /// A built-in data set that cannot be computed with.
 #[derive(Debug, thiserror::Error)]
+#[allow(missing_docs, reason = "each variant says in its message what is wrong")]
 pub enum DataError {
-    /// No curve is at the path.
     #[error("{0} is missing from this build")]
     Missing(&'static str),
-    /// A file cannot be read.
     #[error("{path}: {error}")]
-    File {
-        /// Path below `assets`.
-        path: &'static str,
-        /// The reason.
-        error: DatasetError,
-    },
-    /// The curves make no sensor.
+    File { path: &'static str, error: DatasetError },
     #[error("{path}: {error}")]
-    Sensor {
-        /// Path below `assets`.
-        path: &'static str,
-        /// The reason.
-        error: SensorError,
-    },
+    Sensor { path: &'static str, error: SensorError },
 }
 
 #[cfg(feature = "workloads")]
@@ -34,14 +22,12 @@ fn read(path: &'static str) -> Result<Dataset, DataError> {
     Dataset::read(text).map_err(|error| DataError::File { path, error })
 }
 
-/// The first curve of a file on the grid.
 #[cfg(feature = "workloads")]
 pub(crate) fn curve(path: &'static str, quantity: Quantity) -> Result<GridSpectrum, DataError> {
     let data = read(path)?;
     Ok(GridSpectrum::resample(data.curves.first().ok_or(DataError::Missing(path))?, quantity))
 }
 
-/// A camera or an observer.
 #[cfg(feature = "workloads")]
 pub(crate) fn sensor(path: &'static str) -> Result<Sensor, DataError> {
     Sensor::from_dataset(&read(path)?).map_err(|error| DataError::Sensor { path, error })

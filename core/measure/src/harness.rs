@@ -1,9 +1,9 @@
 //! The stopwatch: pieces of work take turns, so that a slow moment of the machine falls on all of them.
 
+use chromascope_core::render::Stop;
+use chromascope_math::quantile::quantile;
 use std::hint::black_box;
 use std::time::{Instant, SystemTime, UNIX_EPOCH};
-
-use chromascope_core::render::Stop;
 
 /// Rounds and time to spend on a comparison.
 #[derive(Clone, Copy, Debug)]
@@ -92,7 +92,6 @@ pub fn shortest<T>(work: impl FnMut() -> T) -> f64 {
     shortest_of(3, work)
 }
 
-/// Seconds of the shortest of some runs.
 pub(crate) fn shortest_of<T>(runs: usize, mut work: impl FnMut() -> T) -> f64 {
     (0..runs).map(|_| timed(&mut work).1).fold(f64::INFINITY, f64::min)
 }
@@ -118,12 +117,7 @@ fn utc(seconds: u64) -> String {
 
 /// Quartiles and, between them, the median.
 fn quartiles(mut values: Vec<f64>) -> [f64; 3] {
-    values.sort_unstable_by(f64::total_cmp);
-    [0.25, 0.5, 0.75].map(|share| {
-        let place = share * values.len().saturating_sub(1) as f64;
-        let [a, b] = [place.floor(), place.ceil()].map(|index| values.get(index as usize).copied().unwrap_or(0.0));
-        a + (b - a) * place.fract()
-    })
+    [0.25, 0.5, 0.75].map(|share| quantile(&mut values, share).unwrap_or(0.0))
 }
 
 #[cfg(test)]

@@ -1,11 +1,9 @@
 #![doc = include_str!("../README.md")]
 
 mod data;
-mod figure;
 pub mod harness;
 pub mod loci;
 mod machine;
-mod measurement;
 pub mod method;
 pub mod pareto;
 mod report;
@@ -15,9 +13,8 @@ mod workloads;
 
 pub use data::DataError;
 pub use machine::Machine;
-pub use measurement::{ErrorOf, ErrorScale, Measurement, Roof};
 pub use report::{Report, ReportError};
-pub use workload::{BenchError, Effort, Progress, Workload};
+pub use workload::{BenchError, Effort, ErrorOf, ErrorScale, Measurement, Progress, Roof, Workload};
 #[cfg(feature = "workloads")]
 pub use workloads::{exact, run};
 

@@ -2,8 +2,7 @@
 //!
 //! Signals are up to a factor common to the three channels and all temperatures of a method, which no chromaticity shows.
 
-use std::sync::Arc;
-
+use crate::method::Family;
 use chromascope_core::accuracy::{RelTolerance, Unmet};
 use chromascope_core::camera::{LocusEvaluator, LocusMethod as CoreMethod};
 use chromascope_core::light::RadiationConstants;
@@ -12,8 +11,7 @@ use chromascope_core::spectral::grid::{COUNT, wavelength_nm};
 use chromascope_core::units::Kelvin;
 use chromascope_math::exp::exp;
 use chromascope_math::gauss;
-
-use crate::method::Family;
+use std::sync::Arc;
 
 /// Steps of the sums over the 1 nm grid, in nanometers.
 const STEPS: [usize; 5] = [1, 2, 5, 10, 20];

@@ -60,7 +60,6 @@ impl fmt::Display for Machine {
     }
 }
 
-/// The processor's name, where the system keeps it in a file.
 fn processor() -> Option<String> {
     let facts = std::fs::read_to_string("/proc/cpuinfo").ok()?;
     let line = facts.lines().find(|line| line.starts_with("model name"))?;

@@ -1,9 +1,8 @@
 //! Methods of one kind of work, measured side by side on the same inputs.
 
+use crate::harness::{Budget, take_turns, timed};
 use chromascope_core::render::Stop;
 use serde::{Deserialize, Serialize};
-
-use crate::harness::{Budget, take_turns, timed};
 
 /// A method that computes three numbers for each input.
 pub struct Method<'a> {

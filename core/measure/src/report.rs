@@ -1,9 +1,9 @@
 //! All that was measured in one run, as figures, a table and JSON.
 
-use chromascope_figure::{Field, Figure, Panel, Table};
+use crate::pareto::{self, Place};
+use crate::{Effort, Machine, Measurement, Workload};
+use chromascope_figure::{Field, Figure, InkRole, LegendEntry, LegendPlace, Marker, Panel, Rect, Table, Tag};
 use serde::{Deserialize, Serialize};
-
-use crate::{Effort, Machine, Measurement, Workload, figure};
 
 /// All that was measured in one run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -47,24 +47,79 @@ impl Report {
         found
     }
 
-    /// The run time of a workload's methods against their error; none if it was not measured.
+    /// The run time of a workload's methods against their error, a panel for each case: down and to the left is better. None if it
+    /// was not measured. The marks' tags are the places of measurements among those of the workload, from 1.
     pub fn figure(&self, workload: Workload) -> Option<Figure> {
-        figure::figure(self, workload, figure::PANEL)
+        self.sized(workload, PANEL)
     }
 
-    /// That figure in a width in points.
+    /// That figure in a width in points, with as many panels side by side as stay readable.
     pub fn figure_within(&self, workload: Workload, width: f64) -> Option<Figure> {
-        figure::figure_within(self, workload, width)
+        let cases = self.cases(workload);
+        let across = ((width / LEAST_WIDTH) as usize).clamp(1, cases.len().max(1));
+        let side = width / across as f64;
+        self.arranged(workload, &cases, [side, side * PANEL[1] / PANEL[0]], across)
     }
 
     /// The panels of that figure for areas of a size in points.
     pub fn panels(&self, workload: Workload, size: [f64; 2]) -> Vec<Panel> {
-        figure::figure(self, workload, size).map_or_else(Vec::new, |figure| figure.panels)
+        self.sized(workload, size).map_or_else(Vec::new, |figure| figure.panels)
+    }
+
+    fn sized(&self, workload: Workload, size: [f64; 2]) -> Option<Figure> {
+        let cases = self.cases(workload);
+        let across = if cases.len() < MANY { ACROSS.min(cases.len()) } else { ACROSS_OF_MANY };
+        self.arranged(workload, &cases, size, across)
+    }
+
+    /// Measurements with a place, by case.
+    fn cases(&self, workload: Workload) -> Vec<Vec<Numbered<'_>>> {
+        let mut cases: Vec<Vec<Numbered<'_>>> = Vec::new();
+        // What gives none of the values has no error, and so no place.
+        for numbered in self.of(workload).enumerate().filter(|(_, measurement)| measurement.error.checked > 0) {
+            match cases.iter_mut().find(|case| case[0].1.case == numbered.1.case) {
+                Some(case) => case.push(numbered),
+                None => cases.push(vec![numbered]),
+            }
+        }
+        cases
+    }
+
+    fn arranged(
+        &self,
+        workload: Workload,
+        cases: &[Vec<Numbered<'_>>],
+        size: [f64; 2],
+        across: usize,
+    ) -> Option<Figure> {
+        let what = &cases.first()?[0].1.error.what;
+        let down = cases.len().div_ceil(across);
+        let mut figure = Figure::new(workload.title(), [size[0] * across as f64, size[1] * down as f64]);
+        for (index, case) in cases.iter().enumerate() {
+            let corner = [size[0] * (index % across) as f64, size[1] * (index / across) as f64];
+            figure.panels.push(panel(case, Rect::from_min_size(corner, size)));
+        }
+        let threads = self.of(workload).map(|m| m.threads).collect::<std::collections::BTreeSet<_>>();
+        figure.legend = threads.iter().map(|&threads| entry(threads)).collect();
+        figure.legend_place = LegendPlace::Outside;
+        figure.caption = format!(
+            "Median time per item against the largest error of {what}; the line joins methods that no other surpasses in \
+             both. {}; {}, {}.",
+            self.machine, self.program, self.began
+        );
+        figure.table = self.table_of(self.of(workload));
+        Some(figure)
     }
 
     /// All measurements as a table, a row for each.
     pub fn table(&self) -> Table {
-        table(self, self.measurements.iter())
+        self.table_of(self.measurements.iter())
+    }
+
+    /// Measurements as a table, each row with what and when it was measured on.
+    fn table_of<'a>(&self, measurements: impl Iterator<Item = &'a Measurement>) -> Table {
+        let constants = [("machine", self.machine.to_string()), ("program", self.program.clone())];
+        Table::of(&COLUMNS, measurements).with_constants(constants).with_constants([("began", self.began.clone())])
     }
 
     /// The report as JSON, indented.
@@ -76,7 +131,6 @@ impl Report {
     }
 }
 
-/// Columns of the measurements.
 const COLUMNS: [Field<Measurement>; 22] = [
     Field::new("workload", |m| m.workload.name().into()),
     Field::new("case", |m| m.case.as_str().into()),
@@ -102,8 +156,53 @@ const COLUMNS: [Field<Measurement>; 22] = [
     Field::new("share of arithmetic limit", |m| m.roof.map(|roof| roof.arithmetic).into()),
 ];
 
-/// Measurements of a report as a table, each row with what and when it was measured on.
-pub(crate) fn table<'a>(report: &Report, measurements: impl Iterator<Item = &'a Measurement>) -> Table {
-    let constants = [("machine", report.machine.to_string()), ("program", report.program.clone())];
-    Table::of(&COLUMNS, measurements).with_constants(constants).with_constants([("began", report.began.clone())])
+/// The size of a panel on paper, in points.
+const PANEL: [f64; 2] = [420.0, 320.0];
+/// Panels side by side, and where there are many.
+const ACROSS: usize = 2;
+/// Width in points below which a panel is hard to read.
+const LEAST_WIDTH: f64 = 300.0;
+const ACROSS_OF_MANY: usize = 3;
+const MANY: usize = 7;
+/// Markers for 1, 2, 4 and more threads: distinct from those of cameras, so without their colors, and with those of the
+/// first three last.
+const MARKERS: [Marker; 8] = [
+    Marker::Diamond,
+    Marker::TriangleDown,
+    Marker::Hexagon,
+    Marker::TriangleRight,
+    Marker::TriangleLeft,
+    Marker::Circle,
+    Marker::Square,
+    Marker::TriangleUp,
+];
+/// A measurement with its place among those of its workload.
+type Numbered<'a> = (usize, &'a Measurement);
+
+fn entry(threads: usize) -> LegendEntry {
+    let (marker, role) = look(threads);
+    let name = if threads == 1 { "1 thread".to_owned() } else { format!("{threads} threads") };
+    LegendEntry { name, stroke: None, marker: Some(marker), fill: Some(role.into()) }
+}
+
+fn look(threads: usize) -> (Marker, InkRole) {
+    let slot = threads.max(1).ilog2() as usize;
+    (MARKERS[slot % MARKERS.len()], if slot.is_multiple_of(2) { InkRole::Text } else { InkRole::Weak })
+}
+
+fn panel(case: &[Numbered<'_>], area: Rect) -> Panel {
+    let place = |(index, measurement): &Numbered<'_>| {
+        let (marker, role) = look(measurement.threads);
+        let (name, tag) = (measurement.method.clone(), Tag(u32::try_from(index + 1).unwrap_or(u32::MAX)));
+        Place { name, tag, error: measurement.error.max(), seconds: measurement.seconds_per_item, marker, role }
+    };
+    let places: Vec<Place> = case.iter().map(place).collect();
+    let labels = [format!("error of {}", short(&case[0].1.error.what)), format!("time per {}", case[0].1.item)];
+    let name = &case[0].1.case;
+    pareto::panel(name, labels.each_ref().map(String::as_str), name.clone(), &places, area)
+}
+
+/// Part of a name before the first comma, semicolon or parenthesis: the rest is in the table.
+fn short(what: &str) -> &str {
+    what.split([',', '(', ';']).next().unwrap_or(what).trim_end()
 }

@@ -15,15 +15,13 @@ mod responses;
 mod temperature;
 pub(crate) mod timing;
 
+use self::timing::{Bench, Pools};
+use crate::harness::now;
+use crate::{BenchError, Effort, Machine, Progress, Report, Workload};
 use chromascope_core::light::RadiationConstants;
 use chromascope_core::render::Stop;
 use chromascope_math::random::SplitMix64;
 
-use self::timing::{Bench, Pools};
-use crate::harness::now;
-use crate::{BenchError, Effort, Machine, Progress, Report, Workload};
-
-/// The constants everything is computed with.
 const CONSTANTS: RadiationConstants = RadiationConstants::Paper;
 /// The observer of color temperatures.
 const OBSERVER: &str = "observers/cie_1931_2deg.csv";

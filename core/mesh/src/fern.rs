@@ -5,15 +5,11 @@
 //! part that bears it.
 
 mod axis;
-mod chance;
 mod frond;
-mod leaf;
-mod stem;
 mod surface;
 
 use super::mesh::Mesh;
-use axis::Frame;
-use chance::Chance;
+use axis::{Chance, Frame};
 use frond::{Detail, Frond, Organ};
 use glam::Vec3;
 use rayon::prelude::*;
@@ -96,7 +92,6 @@ impl Fern {
         }
     }
 
-    /// A frond that is still rolled up.
     fn young(&self, k: u32, chance: Chance) -> Frond {
         let azimuth = TAU * (k as f32 / self.fiddleheads.max(1) as f32 + 0.13 + 0.1 * chance.spread(0));
         let length = self.frond_mm as f32 / 1000.0 * (0.58 + 0.16 * chance.unit(1));

@@ -14,7 +14,6 @@ const CAGE: &str = include_str!("head.obj");
 /// Center of the left eyeball in meters; the right one is its mirror image.
 const EYE: Vec3 = Vec3::new(0.02994, 0.07713, 0.06958);
 
-/// Radius of an eyeball in meters.
 const EYE_RADIUS: f32 = 0.0162;
 
 /// The share of the triangles that one eyeball has.
@@ -26,7 +25,6 @@ const GARMENT_SHARE: usize = 5;
 /// Fewest triangles that a bare head and a clothed one are made of, about: two for each quadrilateral of the cages, and the eyes.
 pub const FEWEST: [usize; 2] = [10_000, 13_000];
 
-/// Most triangles that a head is made of.
 const MOST: usize = 2_000_000;
 
 /// The surface of a bald head with neck and shoulders as about `triangles` triangles, from [`FEWEST`] to 2 000 000.
@@ -58,7 +56,6 @@ fn surface(is_garment: bool, triangles: usize) -> Mesh {
     surface.expect("cages are closed and of quadrilaterals").limit(triangles).expect("cages are finite")
 }
 
-/// Several meshes, each moved, as one.
 fn joined(parts: &[(&Mesh, Vec3)]) -> Mesh {
     let (mut positions, mut normals, mut triangles) = (Vec::new(), Vec::new(), Vec::new());
     for &(mesh, by) in parts {

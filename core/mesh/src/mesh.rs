@@ -5,32 +5,16 @@ use std::hash::{Hash, Hasher};
 
 /// Reason that vertices and triangles make no mesh.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, thiserror::Error)]
+#[allow(missing_docs, reason = "each variant says in its message what is wrong")]
 pub enum MeshError {
-    /// There is nothing to see.
     #[error("there are no triangles")]
     Empty,
-    /// Each vertex needs one normal.
     #[error("{positions} vertices but {normals} normals")]
-    Normals {
-        /// Number of positions.
-        positions: usize,
-        /// Number of normals.
-        normals: usize,
-    },
-    /// A triangle names a vertex that is not there.
+    Normals { positions: usize, normals: usize },
     #[error("triangle {triangle} names vertex {vertex}, which is not there")]
-    Vertex {
-        /// The triangle's index.
-        triangle: usize,
-        /// The index that is too large.
-        vertex: u32,
-    },
-    /// A position or normal is not a number or is infinite.
+    Vertex { triangle: usize, vertex: u32 },
     #[error("vertex {vertex} is not finite")]
-    NotFinite {
-        /// The vertex's index.
-        vertex: usize,
-    },
+    NotFinite { vertex: usize },
 }
 
 /// A box around a mesh, edges along the axes.
@@ -139,7 +123,6 @@ impl Mesh {
     }
 }
 
-/// A vector brought to unit length; +z where it has none.
 fn unit(v: Vec3) -> Vec3 {
     // In double precision: the squares of a tiny mesh's areas underflow in single.
     v.as_dvec3().try_normalize().map_or(Vec3::Z, glam::DVec3::as_vec3)
@@ -162,7 +145,6 @@ pub fn smooth_normals(positions: &[Vec3], triangles: &[[u32; 3]]) -> Vec<Vec3> {
     sums.into_iter().map(|sum| sum.try_normalize().map_or(Vec3::Z, glam::DVec3::as_vec3)).collect()
 }
 
-/// That there are triangles, that their vertices exist, and that all positions are finite.
 fn check(positions: &[Vec3], triangles: &[[u32; 3]]) -> Result<(), MeshError> {
     if triangles.is_empty() {
         return Err(MeshError::Empty);
@@ -178,7 +160,6 @@ fn check(positions: &[Vec3], triangles: &[[u32; 3]]) -> Result<(), MeshError> {
     Ok(())
 }
 
-/// The box around all vertices that a triangle uses.
 fn bounds(positions: &[Vec3], triangles: &[[u32; 3]]) -> Bounds {
     let mut bounds = Bounds { min: Vec3::INFINITY, max: Vec3::NEG_INFINITY, radius: 0.0 };
     let corners = || triangles.iter().flatten().map(|&v| positions[v as usize]);

@@ -3,7 +3,7 @@
 //! [`read_mesh`] takes the bytes of a Wavefront OBJ, Stanford PLY or STL file, the latter two as text or binary.
 //! Coordinates are not converted: neither the unit nor the up axis is guessed.
 //!
-//! Pipeline of a file: `sniff` (detects the format), `obj`, `ply` or `stl` (to vertices, normals and polygons, the shared
+//! Pipeline of a file: the format is detected, `obj`, `ply` or `stl` (to vertices, normals and polygons, the shared
 //! `soup`; STL's corners are welded where they are equal), `triangulate` (polygons of any shape to triangles), `edges`
 //! (open, doubled or flipped edges, and corners that share a normal), `build` (vertices split where normals differ,
 //! missing normals computed).
@@ -18,20 +18,18 @@
 
 mod build;
 mod edges;
-mod error;
 mod lines;
 mod obj;
 mod ply;
 mod report;
-mod sniff;
 mod soup;
 mod stl;
 mod triangulate;
 
-pub use error::{Alien, MeshReadError, Place, Quantity};
-pub use report::{Normals, Note, Report, Skipped, Tally};
-
+use self::lines::Cursor;
 use super::mesh::Mesh;
+
+pub use report::{Alien, MeshReadError, Normals, Note, Place, Quantity, Report, Skipped, Tally};
 
 /// The largest file that is read, in bytes.
 pub const MAX_BYTES: usize = 1 << 31;
@@ -46,24 +44,17 @@ pub const MAX_TRIANGLES: usize = 10_000_000;
 const STOP_EVERY: usize = 4096;
 
 /// The format of a file.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, thiserror::Error)]
 pub enum Kind {
     /// Wavefront OBJ.
+    #[error("OBJ")]
     Obj,
     /// Stanford PLY.
+    #[error("PLY")]
     Ply,
     /// Stereolithography STL.
+    #[error("STL")]
     Stl,
-}
-
-impl std::fmt::Display for Kind {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(match self {
-            Self::Obj => "OBJ",
-            Self::Ply => "PLY",
-            Self::Stl => "STL",
-        })
-    }
 }
 
 /// Consecutive triangles under one name.
@@ -111,7 +102,7 @@ pub fn read_mesh(
     extension_hint: Option<&str>,
     stop: &dyn Fn() -> bool,
 ) -> Result<ReadMesh, MeshReadError> {
-    let kind = sniff::kind(bytes, extension_hint)?;
+    let kind = kind_of(bytes, extension_hint)?;
     if stop() {
         return Err(MeshReadError::Stopped);
     }
@@ -119,8 +110,79 @@ pub fn read_mesh(
     let soup = match kind {
         Kind::Obj => obj::read(text, stop)?,
         Kind::Ply => ply::read(text, stop)?,
-        Kind::Stl if !stl::is_whole_binary(bytes) && sniff::is_text_stl(text) => stl::read_text(text, stop)?,
+        Kind::Stl if !stl::is_whole_binary(bytes) && is_text_stl(text) => stl::read_text(text, stop)?,
         Kind::Stl => stl::read_binary(bytes, stop)?,
     };
     build::build(&soup, kind, stop)
+}
+
+/// Number of bytes searched for what no text has.
+const LOOK: usize = 4096;
+
+/// The format of a file, or why it is none that is read.
+fn kind_of(bytes: &[u8], extension_hint: Option<&str>) -> Result<Kind, MeshReadError> {
+    if bytes.len() > MAX_BYTES {
+        let place = Place::Line(1);
+        return Err(MeshReadError::TooLarge { quantity: Quantity::Bytes, limit: MAX_BYTES, place });
+    }
+    let text = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes).trim_ascii_start();
+    if text.is_empty() {
+        return Err(MeshReadError::Empty);
+    }
+    let hint = |extension: &str| extension_hint.is_some_and(|hint| hint.eq_ignore_ascii_case(extension));
+    if text.split(u8::is_ascii_whitespace).next() == Some(b"ply") {
+        return Ok(Kind::Ply);
+    }
+    if stl::is_whole_binary(bytes) || is_text_stl(text) {
+        return Ok(Kind::Stl);
+    }
+    if let Some(looks_like) = alien(bytes, text) {
+        // Only its name distinguishes a truncated binary STL from other binary data.
+        return if looks_like == Alien::Binary && hint("stl") {
+            Ok(Kind::Stl)
+        } else {
+            Err(MeshReadError::NotAMesh(looks_like))
+        };
+    }
+    if hint("obj") || has_vertex(text) { Ok(Kind::Obj) } else { Err(MeshReadError::NotAMesh(Alien::Text)) }
+}
+
+fn is_text_stl(text: &[u8]) -> bool {
+    let mut cursor = Cursor::new(&text[..text.len().min(LOOK)]);
+    if cursor.word().is_none_or(|word| !word.text.eq_ignore_ascii_case(b"solid")) {
+        return false;
+    }
+    cursor.next_line();
+    while !cursor.is_done() {
+        if let Some(word) = cursor.word() {
+            return [&b"facet"[..], b"endsolid"].iter().any(|known| word.text.eq_ignore_ascii_case(known));
+        }
+        cursor.next_line();
+    }
+    false
+}
+
+/// The kind of a file that is not read, by its first bytes.
+fn alien(bytes: &[u8], text: &[u8]) -> Option<Alien> {
+    let looks_like = match text {
+        [b'g', b'l', b'T', b'F', ..] | [b'{', ..] => Alien::Gltf,
+        [b'P', b'K', 3, 4, ..] | [0x1f, 0x8b, ..] => Alien::Compressed,
+        [b'<', ..] => Alien::Xml,
+        _ if text.starts_with(b"Kaydara FBX") || text.starts_with(b"; FBX") => Alien::Fbx,
+        _ if [&b"OFF"[..], b"COFF", b"NOFF"].contains(&text.split(u8::is_ascii_whitespace).next()?) => Alien::Off,
+        _ if bytes[..bytes.len().min(LOOK)].contains(&0) => Alien::Binary,
+        _ => return None,
+    };
+    Some(looks_like)
+}
+
+fn has_vertex(text: &[u8]) -> bool {
+    let mut cursor = Cursor::new(text);
+    while !cursor.is_done() {
+        if cursor.word().is_some_and(|word| word.text == b"v") {
+            return true;
+        }
+        cursor.next_line();
+    }
+    false
 }

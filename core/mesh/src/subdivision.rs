@@ -24,12 +24,10 @@ pub(crate) struct Surface {
     strip: Vec<u32>,
 }
 
-/// The next half-edge around a quadrilateral.
 fn next(half_edge: usize) -> usize {
     half_edge & !3 | (half_edge + 1) & 3
 }
 
-/// The previous half-edge around a quadrilateral.
 fn previous(half_edge: usize) -> usize {
     half_edge & !3 | (half_edge + 3) & 3
 }
@@ -190,7 +188,6 @@ impl Surface {
         std::iter::successors(Some(first), after)
     }
 
-    /// The most edges that meet at a vertex.
     fn valence(&self, outgoing: &[usize]) -> usize {
         outgoing.iter().map(|&h| self.around(h).count()).max().unwrap_or(0)
     }

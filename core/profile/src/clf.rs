@@ -1,8 +1,7 @@
 //! Matrices in Common LUT Format (Academy S-2014-006, version 3.0; SMPTE ST 2136-1).
 
-use std::fmt::Write as _;
-
 use crate::{Matrix, ProfileError, numbers, text};
+use std::fmt::Write as _;
 
 /// CLF file with one matrix.
 #[derive(Clone, Debug, PartialEq)]
@@ -28,7 +27,6 @@ impl Clf {
     /// XML of the file.
     ///
     /// # Errors
-    ///
     /// [`ProfileError`] for a text or number that the format cannot hold.
     pub fn to_xml(&self) -> Result<String, ProfileError> {
         text("id", &self.id, false)?;
@@ -60,7 +58,6 @@ impl Clf {
     }
 }
 
-/// A text as XML writes it.
 fn escaped(value: &str) -> String {
     value.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }

@@ -53,7 +53,6 @@ const LONG: u16 = 4;
 const UNDEFINED: u16 = 7;
 const SRATIONAL: u16 = 10;
 
-/// A field of the directory.
 struct Field {
     tag: u16,
     kind: u16,
@@ -65,7 +64,6 @@ impl Dcp {
     /// Bytes of the file: a TIFF directory, little-endian, with the version "RC".
     ///
     /// # Errors
-    ///
     /// [`ProfileError`] for a text or number that the format cannot hold, and for no light or more than two.
     pub fn to_bytes(&self) -> Result<Vec<u8>, ProfileError> {
         text("UniqueCameraModel", &self.camera, false)?;

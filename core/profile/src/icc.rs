@@ -1,8 +1,7 @@
 //! ICC matrix profiles of a camera (ICC.1:2022, version 4.4; ICC.1:2001-04, version 2.4): linear RGB to XYZ relative to D50.
 
-use md5::{Digest as _, Md5};
-
 use crate::{Matrix, ProfileError, numbers, text};
+use md5::{Digest as _, Md5};
 
 /// White of the profile connection space, as the header states it.
 pub const D50: [f64; 3] = [0.9642, 1.0, 0.8249];
@@ -38,7 +37,6 @@ impl IccProfile {
     /// Bytes of the file. Its date is 2000-01-01, so that the same matrix gives the same file.
     ///
     /// # Errors
-    ///
     /// [`ProfileError`] for a text or number that the format cannot hold.
     pub fn to_bytes(&self, version: IccVersion) -> Result<Vec<u8>, ProfileError> {
         text("description", &self.description, false)?;

@@ -12,36 +12,16 @@ pub type Matrix = [[f64; 3]; 3];
 
 /// Reason that a profile cannot be written.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[allow(missing_docs, reason = "each variant says in its message what is wrong")]
 pub enum ProfileError {
-    /// A name that must be there is empty.
     #[error("{field} is empty; give it a name")]
-    Empty {
-        /// Field of the format.
-        field: &'static str,
-    },
-    /// A character that the format cannot hold.
+    Empty { field: &'static str },
     #[error("{field} has a control character, which the format cannot hold; remove it")]
-    Control {
-        /// Field of the format.
-        field: &'static str,
-    },
-    /// A text longer than the format or its readers take.
+    Control { field: &'static str },
     #[error("{field} has {bytes} bytes; shorten it to {} or less", MOST_TEXT)]
-    Long {
-        /// Field of the format.
-        field: &'static str,
-        /// Its length.
-        bytes: usize,
-    },
-    /// A number that is not finite or beyond the format's range.
+    Long { field: &'static str, bytes: usize },
     #[error("{field} has a number that is not finite or beyond ±{limit}")]
-    Number {
-        /// Field of the format.
-        field: &'static str,
-        /// Largest magnitude that the format holds.
-        limit: u32,
-    },
-    /// A DCP has one calibration light or two.
+    Number { field: &'static str, limit: u32 },
     #[error("a DCP file holds the matrices of one light or two, not of {0}")]
     Lights(usize),
 }
@@ -49,7 +29,6 @@ pub enum ProfileError {
 /// The longest text in bytes.
 pub const MOST_TEXT: usize = 1000;
 
-/// Checks a text field.
 fn text(field: &'static str, value: &str, may_be_empty: bool) -> Result<(), ProfileError> {
     if value.is_empty() && !may_be_empty {
         return Err(ProfileError::Empty { field });

@@ -55,7 +55,6 @@ pub enum BatchError {
 /// [`under_light`]: super::rendering::under_light
 #[derive(Clone, Debug, PartialEq)]
 pub struct Batch<T: Sample> {
-    /// Samples of a curve.
     length: usize,
     curves: Vec<T::Lanes>,
     channels: usize,
@@ -65,7 +64,6 @@ impl<T: Sample> Batch<T> {
     /// Takes the curves of any number of channels one after the other, each of `length` samples.
     ///
     /// # Errors
-    ///
     /// [`BatchError`] where the numbers are no whole curves of that length.
     pub fn new(curves: &[T], length: usize) -> Result<Self, BatchError> {
         let channels = count(curves.len(), length)?;
@@ -89,7 +87,6 @@ impl<T: Sample> Batch<T> {
     /// The responses to spectra that lie one after the other: all channels of the first, all of the second, ….
     ///
     /// # Errors
-    ///
     /// [`BatchError`] where the numbers are no whole curves of the batch's length.
     pub fn responses(&self, spectra: &[T]) -> Result<Vec<T>, BatchError> {
         let mut answers = vec![T::ZERO; count(spectra.len(), self.length)? * self.channels];
@@ -100,7 +97,6 @@ impl<T: Sample> Batch<T> {
     /// Responses written into existing memory.
     ///
     /// # Errors
-    ///
     /// [`BatchError`] as [`Self::responses`], or where the answers do not fit.
     pub fn responses_into(&self, spectra: &[T], answers: &mut [T]) -> Result<(), BatchError> {
         let wanted = count(spectra.len(), self.length)? * self.channels;

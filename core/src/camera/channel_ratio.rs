@@ -5,8 +5,8 @@
 
 use crate::math::quantile::quantile;
 use crate::spectral::{GridSpectrum, Sensor};
+use crate::units::{bits, hash_by};
 use std::fmt;
-use std::hash::{Hash, Hasher};
 
 /// Relative difference within which three channel maxima are equal: agreement that no measurement shows by chance.
 pub const EQUAL_MAXIMA: f64 = 1e-6;
@@ -58,15 +58,7 @@ pub struct RatioDeviation {
     pub tables: usize,
 }
 
-impl Eq for RatioDeviation {}
-
-impl Hash for RatioDeviation {
-    fn hash<H: Hasher>(&self, state: &mut H) {
-        // Negative zero equals zero, so it must hash as zero.
-        self.deviation.iter().for_each(|v| (v + 0.0).to_bits().hash(state));
-        self.tables.hash(state);
-    }
-}
+hash_by!(RatioDeviation, |of| (of.deviation.map(bits), of.tables));
 
 /// Credibility of the ratio between a table's channels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

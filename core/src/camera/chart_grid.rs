@@ -75,7 +75,6 @@ impl ChartGrid {
     /// with (0, 0) at the picture's top left.
     ///
     /// # Errors
-    ///
     /// [`ChartGridError`] where the corners do not mark such a grid.
     pub fn new(corners: [[f64; 2]; 4], columns: usize, rows: usize) -> Result<Self, ChartGridError> {
         if !(1..=100).contains(&columns) || !(1..=100).contains(&rows) {
@@ -102,7 +101,6 @@ impl ChartGrid {
     /// Means of all patches, row by row from the first corner. `pixel(x, y)` is the linear RGB of a pixel.
     ///
     /// # Errors
-    ///
     /// [`ChartGridError`] where a corner lies outside the picture, or a patch has too few pixels.
     pub fn means(
         &self,

@@ -4,7 +4,7 @@ use crate::math::interpolation::Sprague;
 use crate::math::random::SplitMix64;
 use crate::spectral::grid::{COUNT, FIRST_NM};
 use crate::spectral::{Dataset, Sensor};
-use std::hash::{Hash, Hasher};
+use crate::units::{bits, hash_by};
 
 /// Wavelengths that the spread is known at: 400, 410, …, 700 nm.
 pub const SITES: usize = 31;
@@ -39,13 +39,7 @@ pub struct CurveSpread {
 #[error("expected 8 modes of red, green and blue, the rest and the mean of each, at 400, 410, …, 700 nm")]
 pub struct CurveSpreadError;
 
-impl Eq for CurveSpread {}
-
-impl Hash for CurveSpread {
-    fn hash<H: Hasher>(&self, state: &mut H) {
-        self.modes.iter().flatten().flatten().for_each(|v| v.to_bits().hash(state));
-    }
-}
+hash_by!(CurveSpread, |of| of.modes.iter().flatten().flatten().map(|&v| bits(v)).collect::<Vec<_>>());
 
 impl CurveSpread {
     /// Degrees of freedom of the covariance: 24 tables less 10 means of models.
@@ -54,7 +48,6 @@ impl CurveSpread {
     /// The spread of a data file with the columns `red_1` to `blue_8`, `rest`, `red_mean`, `green_mean` and `blue_mean`.
     ///
     /// # Errors
-    ///
     /// [`CurveSpreadError`] for other columns or wavelengths.
     pub fn from_dataset(dataset: &Dataset) -> Result<Self, CurveSpreadError> {
         let columns: Vec<[f64; SITES]> = dataset
@@ -124,7 +117,7 @@ fn orthogonal(count: usize) -> Vec<Vec<f64>> {
     let mut rows: Vec<Vec<f64>> = Vec::with_capacity(count);
     while rows.len() < count {
         let row: Vec<f64> = (0..count).map(|_| number()).collect();
-        let rest = super::quality::space::remove(&super::quality::space::remove(&row, &rows), &rows);
+        let rest = super::quality::remove(&super::quality::remove(&row, &rows), &rows);
         let length = rest.iter().map(|v| v * v).sum::<f64>().sqrt();
         rows.push(rest.iter().map(|v| v / length).collect());
     }

@@ -2,8 +2,6 @@
 
 mod terms;
 
-use std::ops::Deref;
-
 use self::terms::Terms;
 use crate::accuracy::{RelTolerance, Unmet};
 use crate::light::RadiationConstants;
@@ -11,6 +9,7 @@ use crate::math::gauss::{Rule, gauss_rule, interpolatory_rule};
 use crate::spectral::Sensor;
 use crate::spectral::grid::{COUNT, wavelength_nm};
 use crate::units::Kelvin;
+use std::ops::Deref;
 
 /// Below this temperature a few nodes no longer suffice and the full sum is taken.
 const NODES_FROM_K: f64 = 1000.0;
@@ -162,7 +161,6 @@ impl<S: Deref<Target = Sensor>> LocusEvaluator<S> {
         (Terms::own(&channels, self.anchor_nm), largest)
     }
 
-    /// One channel's rule with `count` nodes.
     fn channel(&self, channel: usize, count: usize) -> Channel {
         let masses = self.sensor.weighted(channel).as_slice();
         let points: Vec<f64> = (0..COUNT).map(wavelength_nm).collect();
@@ -177,7 +175,6 @@ impl<S: Deref<Target = Sensor>> LocusEvaluator<S> {
         nodes.into_iter().zip(weights).collect()
     }
 
-    /// The sums at temperatures in kelvins.
     fn sums_at(&self, kelvins: impl Iterator<Item = f64>) -> Vec<(Kelvin, [f64; 3])> {
         let temperatures = kelvins.filter_map(|kelvins| Kelvin::new(kelvins).ok());
         temperatures.map(|t| (t, self.all.sums(self.scale(t)))).collect()

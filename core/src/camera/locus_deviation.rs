@@ -74,7 +74,6 @@ impl<S: Deref<Target = Sensor>> ReferenceLocus<S> {
         })
     }
 
-    /// Temperature of the nearest point of the locus in u, v.
     fn nearest_k(&self, color: Uv60) -> Option<f64> {
         let away = |place: Uv60| (place.u - color.u).hypot(place.v - color.v);
         let distance = |place: &(f64, Uv60)| away(place.1);

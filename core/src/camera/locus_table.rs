@@ -5,8 +5,6 @@
 
 mod pieces;
 
-use rayon::prelude::*;
-
 use self::pieces::{Pieces, TERMS};
 use crate::accuracy::RelTolerance;
 use crate::camera::locus::LocusEvaluator;
@@ -16,6 +14,7 @@ use crate::light::RadiationConstants;
 use crate::spectral::Sensor;
 use crate::units::Kelvin;
 use glam::DVec3;
+use rayon::prelude::*;
 
 /// The coldest blackbody of a table, in kelvins.
 pub const COLDEST_K: f64 = 1.0;
@@ -108,7 +107,6 @@ impl LocusTable {
     /// The chromaticity of one blackbody.
     ///
     /// # Errors
-    ///
     /// [`LocusTableError`] where the temperature is outside the table, or in a piece that is omitted.
     #[inline]
     pub fn xy(&self, temperature: Kelvin) -> Result<Xy, LocusTableError> {

@@ -7,14 +7,12 @@
 //! (uneven illumination, shading, angle), r = residual. With the logarithm the model is linear: two-way and additive, so least squares
 //! have a closed form in one 3×3 system, whatever values are omitted.
 
-mod bootstrap;
 mod links;
 mod two_way;
 
 use crate::spectral::{GridSpectrum, Sensor};
-pub use bootstrap::{RESAMPLES, RankRange};
 pub use links::{Link, LinkKind};
-pub use two_way::Freedom;
+pub use two_way::{Freedom, RESAMPLES, RankRange};
 use two_way::{Grid, rms};
 
 /// Reason that a value takes no part in a fit.
@@ -52,7 +50,6 @@ impl Signal {
     /// The value.
     ///
     /// # Errors
-    ///
     /// [`Exclusion`] where it takes no part in a fit.
     pub fn value(self) -> Result<f64, Exclusion> {
         self.0.map(f64::from_bits)
@@ -106,7 +103,6 @@ impl RecordedFit {
     /// Fits the free parameters by least squares of the logarithm over all usable values, each with weight 1 (the others with 0).
     ///
     /// # Errors
-    ///
     /// [`RecordedError::TooFew`] where values do not outnumber parameters.
     pub fn new(patches: &[RecordedPatch], sensor: &Sensor, freedom: Freedom) -> Result<Self, RecordedError> {
         let logs: Vec<[Result<f64, Exclusion>; 3]> = patches.iter().map(|patch| log_ratios(patch, sensor)).collect();
@@ -165,7 +161,7 @@ impl RecordedFit {
 /// again, and the fits are ranked by RMS. Fits that tie share the better rank. One patch tells nothing: all ranks are then possible.
 pub fn rank_ranges(fits: &[&RecordedFit], freedom: Freedom) -> Vec<RankRange> {
     let residuals = |fit: &&RecordedFit| fit.residuals.iter().map(|row| row.map(Result::ok)).collect();
-    bootstrap::rank_ranges(&fits.iter().map(residuals).collect::<Vec<_>>(), freedom)
+    two_way::rank_ranges(&fits.iter().map(residuals).collect::<Vec<_>>(), freedom)
 }
 
 /// `ln m_pc − ln ∫ C_c S_p L dλ`.

@@ -120,7 +120,6 @@ impl Rendering {
     /// Prepares a sensor for a light, a white balance and a color transform.
     ///
     /// # Errors
-    ///
     /// [`RenderingError`] where white cannot be balanced or the transform does not apply to the sensor.
     pub fn new(
         sensor: &Sensor,
@@ -146,7 +145,6 @@ impl Rendering {
     /// [`Rendering::new`] with a transform fitted to an observer, given the part that other sensors share.
     ///
     /// # Errors
-    ///
     /// [`RenderingError`] where white cannot be balanced or the fit has no answer.
     pub fn by_targets(
         sensor: &Sensor,
@@ -172,7 +170,6 @@ impl Rendering {
     /// Rendering by Eq 13 of a sensor with these integrals `∫ C_c L dλ` and `∫ C_c dλ`.
     ///
     /// # Errors
-    ///
     /// [`RenderingError::GainOverflow`].
     pub(crate) fn by_paper(
         white: DVec3,
@@ -198,7 +195,6 @@ impl Rendering {
     /// Rendering of a sensor with these integrals `∫ C_c L dλ` through a transform that is fitted.
     ///
     /// # Errors
-    ///
     /// [`RenderingError::NoWhite`] and [`RenderingError::GainOverflow`].
     pub(crate) fn by_fit(
         targets: &FitTargets,
@@ -231,7 +227,6 @@ impl Rendering {
     /// Rendering under equal energy with unity white balance by Eq 13: the conditions of the paper's first two experiments.
     ///
     /// # Errors
-    ///
     /// As [`Rendering::new`].
     pub fn under_equal_energy(sensor: &Sensor) -> Result<Self, RenderingError> {
         Self::new(sensor, &GridSpectrum::constant(1.0), WhiteBalanceTarget::UNITY, ColorTransform::Paper)
@@ -286,7 +281,6 @@ fn white_integrals(sensor: &Sensor, light: &GridSpectrum) -> Result<(DVec3, f64)
 /// Divisors of `∫ C_c S L dλ`: `∫ C_c L dλ` of each channel (Eq 16), for tristimulus values that of Y.
 ///
 /// # Errors
-///
 /// [`RenderingError::BlindToLight`] where a channel does not respond to the light.
 pub fn white_divisors(sensor: &Sensor, light: &GridSpectrum) -> Result<DVec3, RenderingError> {
     if sensor.primaries() == Primaries::Xyz {
@@ -352,7 +346,6 @@ impl FitTargets {
     /// Prepares the targets; the reference must count in XYZ and see the light.
     ///
     /// # Errors
-    ///
     /// [`RenderingError`] unless the reference is an XYZ observer that responds to the light.
     pub fn new(reference: &Sensor, light: &GridSpectrum, training: &PatchSet) -> Result<Self, RenderingError> {
         if reference.primaries() != Primaries::Xyz {
@@ -368,7 +361,6 @@ impl FitTargets {
     /// Transform of balanced samples to the targets.
     ///
     /// # Errors
-    ///
     /// [`FitError`] where the samples do not determine it.
     pub fn fit(&self, samples: &[DVec3], correction: &Correction) -> Result<RgbTransform, FitError> {
         let weights = correction.weights.for_targets(&self.targets, self.reference.lab_white);
@@ -418,7 +410,6 @@ impl FitSamples {
     /// Samples of a sensor under a light.
     ///
     /// # Errors
-    ///
     /// [`RenderingError`] where white cannot be balanced, or the targets have an error.
     pub fn new(
         sensor: &Sensor,
@@ -457,7 +448,6 @@ fn fitted(
 /// Refuses roots for a sensor with a sensitivity below zero.
 ///
 /// # Errors
-///
 /// [`RenderingError::NegativeLobes`].
 pub fn check_lobes(sensor: &Sensor, method: CorrectionMethod) -> Result<(), RenderingError> {
     let negative = || (0..3).any(|channel| sensor.weighted(channel).iter().any(|&c| c < 0.0));

@@ -4,20 +4,13 @@ use crate::colorimetry::rgb::SRGB_FROM_XYZ_PUBLISHED;
 use crate::colorimetry::{Xyz, tristimulus::Xy};
 use crate::math::interpolation::linear;
 use crate::spectral::{Sensor, SpectralDistribution};
-use std::hash::{Hash, Hasher};
+use crate::units::{bits, hash_by};
 
 /// The color s that a perfect white takes, in balanced camera RGB: `I_c = s_c ∫C_c S L dλ / ∫C_c L dλ`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WhiteBalanceTarget(pub [f64; 3]);
 
-impl Eq for WhiteBalanceTarget {}
-
-impl Hash for WhiteBalanceTarget {
-    fn hash<H: Hasher>(&self, state: &mut H) {
-        // Negative zero equals zero, so it must hash as zero.
-        self.0.iter().for_each(|v| (v + 0.0).to_bits().hash(state));
-    }
-}
+hash_by!(WhiteBalanceTarget, |of| of.0.map(bits));
 
 impl WhiteBalanceTarget {
     /// Unity: the paper's first two experiments.

@@ -5,12 +5,10 @@
 
 mod ciede2000;
 
-use std::hash::{Hash, Hasher};
-
-use rayon::prelude::*;
-
 use super::lab::{Lab, lab_from_xyz};
 use super::tristimulus::{UvPrime, Xy, Xyz};
+use crate::units::eq_by;
+use rayon::prelude::*;
 
 /// A color-difference metric.
 ///
@@ -51,60 +49,41 @@ impl Metric {
     /// All metrics, in the order they are listed.
     pub const ALL: &[Self] = &[
         Self::DELTA_E_2000,
-        Self {
-            id: "delta-e1976",
-            column: "delta_e_1976",
-            label: "CIE 1976 formula",
-            symbol: "ΔE*ab",
-            decimals: 2,
-            full_scale: 20.0,
-            formula: Formula::Lab(delta_e_1976),
-        },
-        Self {
-            id: "delta-e1994",
-            column: "delta_e_1994",
-            label: "CIE 1994 formula for graphic arts",
-            symbol: "ΔE*94",
-            decimals: 2,
-            full_scale: 20.0,
-            formula: Formula::Lab(delta_e_1994),
-        },
+        Self::new(["delta-e1976", "delta_e_1976", "CIE 1976 formula", "ΔE*ab"], 2, 20.0, Formula::Lab(delta_e_1976)),
+        Self::new(
+            ["delta-e1994", "delta_e_1994", "CIE 1994 formula for graphic arts", "ΔE*94"],
+            2,
+            20.0,
+            Formula::Lab(delta_e_1994),
+        ),
         Self::UV_PRIME,
         Self::XY,
     ];
 
     /// CIEDE2000.
-    pub const DELTA_E_2000: Self = Self {
-        id: "delta-e2000",
-        column: "delta_e_2000",
-        label: "CIEDE2000 formula",
-        symbol: "ΔE*00",
-        decimals: 2,
-        full_scale: 20.0,
-        formula: Formula::Lab(delta_e_2000),
-    };
+    pub const DELTA_E_2000: Self =
+        Self::new(["delta-e2000", "delta_e_2000", "CIEDE2000 formula", "ΔE*00"], 2, 20.0, Formula::Lab(delta_e_2000));
 
     /// Distance in the CIE 1976 diagram.
-    pub const UV_PRIME: Self = Self {
-        id: "uv-prime",
-        column: "delta_uv_prime",
-        label: "Distance in the CIE 1976 u′, v′ diagram",
-        symbol: "Δu′v′",
-        decimals: 4,
-        full_scale: 0.1,
-        formula: Formula::UvPrime(UvPrime::distance),
-    };
+    pub const UV_PRIME: Self = Self::new(
+        ["uv-prime", "delta_uv_prime", "Distance in the CIE 1976 u′, v′ diagram", "Δu′v′"],
+        4,
+        0.1,
+        Formula::UvPrime(UvPrime::distance),
+    );
 
     /// Distance in the CIE 1931 diagram.
-    pub const XY: Self = Self {
-        id: "xy",
-        column: "delta_xy",
-        label: "Distance in the CIE 1931 x, y diagram",
-        symbol: "Δxy",
-        decimals: 4,
-        full_scale: 0.15,
-        formula: Formula::Xy(Xy::distance),
-    };
+    pub const XY: Self = Self::new(
+        ["xy", "delta_xy", "Distance in the CIE 1931 x, y diagram", "Δxy"],
+        4,
+        0.15,
+        Formula::Xy(Xy::distance),
+    );
+
+    const fn new(words: [&'static str; 4], decimals: usize, full_scale: f64, formula: Formula) -> Self {
+        let [id, column, label, symbol] = words;
+        Self { id, column, label, symbol, decimals, full_scale, formula }
+    }
 
     /// The metric of this id.
     pub fn by_id(id: &str) -> Option<Self> {
@@ -140,19 +119,7 @@ impl Metric {
     }
 }
 
-impl PartialEq for Metric {
-    fn eq(&self, other: &Self) -> bool {
-        self.id == other.id
-    }
-}
-
-impl Eq for Metric {}
-
-impl Hash for Metric {
-    fn hash<H: Hasher>(&self, state: &mut H) {
-        self.id.hash(state);
-    }
-}
+eq_by!(Metric, |metric| metric.id);
 
 /// Coordinates that metrics compare; none where they are undefined.
 pub trait Coordinates {

@@ -78,7 +78,6 @@ pub struct Idt {
 /// L\*a\*b\* relative to the ACES white; M is [`XYZ_FROM_ACES`] (rawtoaces 1.0, AMPAS). Outside a camera's table its sensitivity is 0.
 ///
 /// # Errors
-///
 /// [`IdtError`] where the sensor is no camera, does not see the light, or the samples determine no matrix.
 pub fn input_device_transform(
     camera: &Sensor,

@@ -1,10 +1,9 @@
 //! Classes of training reflectances by their color, and their weights.
 
-use chromascope_text::choices;
-use std::hash::{Hash, Hasher};
-
 use crate::colorimetry::lab::lab_from_xyz;
 use crate::colorimetry::{Lab, Xyz};
+use crate::units::{bits, hash_by};
+use chromascope_text::choices;
 use glam::DVec3;
 
 choices! {
@@ -68,13 +67,7 @@ impl Default for ClassWeights {
     }
 }
 
-impl Eq for ClassWeights {}
-
-impl Hash for ClassWeights {
-    fn hash<H: Hasher>(&self, state: &mut H) {
-        self.0.iter().for_each(|v| (v + 0.0).to_bits().hash(state));
-    }
-}
+hash_by!(ClassWeights, |of| of.0.map(bits));
 
 impl ClassWeights {
     /// The largest weight.

@@ -1,14 +1,13 @@
 //! Matrices that minimize color differences, by Levenberg–Marquardt.
 
-use levenberg_marquardt::{LeastSquaresProblem, LevenbergMarquardt};
-use nalgebra::{DMatrix, DVector, Dyn, Owned};
-
 use super::{Correction, CorrectionMethod, RgbTransform, Training};
 use crate::colorimetry::difference::delta_e_2000_vector;
 use crate::colorimetry::lab::lab_from_xyz;
 use crate::colorimetry::{Lab, Xyz};
 use crate::math::least_squares::FitError;
 use glam::{DMat3, DVec3};
+use levenberg_marquardt::{LeastSquaresProblem, LevenbergMarquardt};
+use nalgebra::{DMatrix, DVector, Dyn, Owned};
 
 /// Quantity that a fit minimizes over its training samples.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -68,7 +67,6 @@ const GAIN: f64 = 1e-9;
 /// Free parameters: 6 with white kept, 9 without.
 ///
 /// # Errors
-///
 /// [`FitError`] where the samples do not determine a matrix, or the white has no L\*a\*b\*.
 pub fn minimize(
     training: Training<'_>,
@@ -83,7 +81,6 @@ pub fn minimize(
 /// required.
 ///
 /// # Errors
-///
 /// As [`minimize`].
 pub(super) fn minimize_near(
     training: Training<'_>,
@@ -111,17 +108,17 @@ pub(super) fn minimize_near(
     if objective.squares() {
         (problem, _) = optimizer.with_tol(1e-15).minimize(problem);
     } else {
-        let (mut best, mut before) = (start_value, problem.params_now());
+        let (mut best, mut before) = (start_value, problem.params());
         for _ in 0..ROUNDS {
             problem.reweight(training.weights);
             (problem, _) = optimizer.with_tol(1e-12).with_patience(2).minimize(problem);
             let value = problem.value(training.weights);
             if value.is_nan() || value >= best {
-                problem.set(&before);
+                problem.set_params(&before);
                 break;
             }
             let gain = best - value;
-            (best, before) = (value, problem.params_now());
+            (best, before) = (value, problem.params());
             if gain <= GAIN * best {
                 break;
             }
@@ -144,7 +141,6 @@ struct Problem<'a> {
     basis: DMat3,
     /// Columns of the matrix in the basis.
     columns: [DVec3; 3],
-    /// The first column that is free.
     first: usize,
 }
 
@@ -174,16 +170,6 @@ impl<'a> Problem<'a> {
     fn matrix(&self) -> DMat3 {
         let [x, y, z] = self.columns;
         DMat3::from_cols(x, y, z) * self.basis.transpose()
-    }
-
-    fn params_now(&self) -> DVector<f64> {
-        DVector::from_iterator(3 * (3 - self.first), self.columns[self.first..].iter().flat_map(DVec3::to_array))
-    }
-
-    fn set(&mut self, params: &DVector<f64>) {
-        for (column, values) in self.columns[self.first..].iter_mut().zip(params.as_slice().chunks_exact(3)) {
-            *column = DVec3::new(values[0], values[1], values[2]);
-        }
     }
 
     fn xyz(&self, sample: DVec3) -> DVec3 {
@@ -220,11 +206,13 @@ impl LeastSquaresProblem<f64, Dyn, Dyn> for Problem<'_> {
     type ParameterStorage = Owned<f64, Dyn>;
 
     fn set_params(&mut self, params: &DVector<f64>) {
-        self.set(params);
+        for (column, values) in self.columns[self.first..].iter_mut().zip(params.as_slice().chunks_exact(3)) {
+            *column = DVec3::from_slice(values);
+        }
     }
 
     fn params(&self) -> DVector<f64> {
-        self.params_now()
+        DVector::from_iterator(3 * (3 - self.first), self.columns[self.first..].iter().flat_map(DVec3::to_array))
     }
 
     fn residuals(&self) -> Option<DVector<f64>> {

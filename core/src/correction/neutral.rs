@@ -1,7 +1,7 @@
 //! Camera RGB of a neutral, as raw files state it.
 
+use crate::units::{bits, hash_by};
 use glam::DVec3;
-use std::hash::{Hash, Hasher};
 use std::str::FromStr;
 
 /// Reason that numbers are no neutral.
@@ -21,19 +21,12 @@ pub enum NeutralError {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Neutral([f64; 3]);
 
-impl Eq for Neutral {}
-
-impl Hash for Neutral {
-    fn hash<H: Hasher>(&self, state: &mut H) {
-        self.0.iter().for_each(|v| v.to_bits().hash(state));
-    }
-}
+hash_by!(Neutral, |of| of.0.map(bits));
 
 impl Neutral {
     /// Takes camera RGB at any scale.
     ///
     /// # Errors
-    ///
     /// [`NeutralError`] for a number that is not positive and finite, and where green is less than both others, which no sensor's green
     /// is under a light that people photograph in.
     pub fn new(rgb: [f64; 3]) -> Result<Self, NeutralError> {
@@ -56,7 +49,6 @@ impl Neutral {
 impl FromStr for Neutral {
     type Err = NeutralError;
 
-    /// Reads three numbers between commas or spaces.
     fn from_str(text: &str) -> Result<Self, NeutralError> {
         let numbers = text.split([',', ' ']).filter(|part| !part.is_empty()).map(str::parse);
         let numbers: Vec<f64> = numbers.collect::<Result<_, _>>().map_err(|_| NeutralError::Numbers)?;

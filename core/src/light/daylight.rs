@@ -25,7 +25,6 @@ impl DaylightBasis {
     /// Takes the data set with the columns S0, S1 and S2.
     ///
     /// # Errors
-    ///
     /// [`DaylightError`] unless the data set holds the three functions S0, S1 and S2.
     pub fn new(dataset: &Dataset) -> Result<Self, DaylightError> {
         let curves: [SpectralDistribution; 3] = dataset.curves.clone().try_into().map_err(|_| DaylightError::Basis)?;
@@ -35,7 +34,6 @@ impl DaylightBasis {
     /// The relative spectral power of daylight (CIE 15:2004, 3.1).
     ///
     /// # Errors
-    ///
     /// [`DaylightError`] outside 4000 K to 25 000 K.
     ///
     /// ```text
@@ -52,7 +50,6 @@ impl DaylightBasis {
     /// [`Self::light`] with M₁ and M₂ rounded to three decimals, as in the tables of the CIE and in references of rendition indices.
     ///
     /// # Errors
-    ///
     /// As [`Self::light`].
     pub fn rounded(&self, temperature: Kelvin) -> Result<SpectralDistribution, DaylightError> {
         self.sum(temperature, |m| (m * 1e3).round() / 1e3)
@@ -72,7 +69,6 @@ impl DaylightBasis {
 /// The chromaticity of daylight of a correlated color temperature (CIE 15:2004, 3.1), from 4000 to 25000 K.
 ///
 /// # Errors
-///
 /// [`DaylightError`] outside 4000 K to 25 000 K.
 ///
 /// ```text

@@ -28,7 +28,6 @@ pub fn transmittance<'a>(filters: impl IntoIterator<Item = &'a GridSpectrum>) ->
 /// Beyond 380–780 nm the transmittance at the end holds. A transmittance of 1 throughout returns the light unchanged.
 ///
 /// # Errors
-///
 /// [`DistributionError`] where a product is beyond the range of a spectrum.
 pub fn filtered(
     light: &SpectralDistribution,

@@ -15,7 +15,6 @@ pub mod published;
 mod result;
 pub mod single;
 mod start;
-pub mod tabulated;
 
 use rayon::prelude::*;
 
@@ -62,7 +61,6 @@ impl PlanckianLocus {
     /// Tabulates the locus of an observer: some 2100 sums over its curves, then a search for each node of the table.
     ///
     /// # Errors
-    ///
     /// [`LocusError`] unless the observer's matching functions are XYZ with a locus that has one nearest point for each color.
     pub fn new(observer: &Sensor, constants: RadiationConstants) -> Result<Self, LocusError> {
         if observer.primaries() != Primaries::Xyz {
@@ -85,7 +83,6 @@ impl PlanckianLocus {
     /// hot or too cold.
     ///
     /// # Errors
-    ///
     /// [`CctError`] where the color is farther than [`MAX_DUV`] from the locus or outside its temperatures.
     #[inline]
     pub fn cct(&self, color: Uv60) -> Result<Cct, CctError> {
@@ -95,7 +92,6 @@ impl PlanckianLocus {
     /// Correlated color temperature and Duv of x and y.
     ///
     /// # Errors
-    ///
     /// As [`Self::cct`].
     pub fn cct_of_xy(&self, color: Xy) -> Result<Cct, CctError> {
         self.cct(color.uv_prime().ok_or(CctError::NoChromaticity)?.uv60())
@@ -104,7 +100,6 @@ impl PlanckianLocus {
     /// Correlated color temperature and Duv of tristimulus values.
     ///
     /// # Errors
-    ///
     /// As [`Self::cct`].
     pub fn cct_of_xyz(&self, color: Xyz) -> Result<Cct, CctError> {
         self.cct(color.uv_prime().ok_or(CctError::NoChromaticity)?.uv60())

@@ -25,7 +25,6 @@ pub enum DifferenceError {
 /// Checks that two sensors' colors may be compared under Eq 13.
 ///
 /// # Errors
-///
 /// [`DifferenceError`] where one sensor counts in RGB and the other in XYZ.
 pub fn comparable_by_paper(a: Primaries, b: Primaries) -> Result<(), DifferenceError> {
     let direct = |p: Primaries| p == Primaries::Xyz;
@@ -35,7 +34,6 @@ pub fn comparable_by_paper(a: Primaries, b: Primaries) -> Result<(), DifferenceE
 /// Difference of a color from the reference's: of one patch, or of one temperature on two loci.
 ///
 /// # Errors
-///
 /// [`DifferenceError`] where a color has no chromaticity, or no L\*a\*b\* where the metric needs it.
 pub fn difference<T: Coordinates>(metric: Metric, reference: &T, sample: &T) -> Result<f64, DifferenceError> {
     let undefined = if metric.needs_adopted_white() { DifferenceError::NoLab } else { DifferenceError::NoChromaticity };

@@ -1,6 +1,6 @@
 //! Queries about color corrections: their errors, what they do to white and to narrow blue lights, and their DNG matrices.
 
-use super::ask::{Ask, Query};
+use super::ask::{Ask, Query, Shared};
 use super::loci::CctQuery;
 use super::patches::{FitTargetsQuery, RenderingQuery};
 use crate::camera::rendering::check_lobes;
@@ -12,14 +12,13 @@ use crate::correction::classes::ColorClass;
 use crate::correction::dng::{D50, DngMatrices, first_weight, mixed};
 use crate::correction::neutral::Neutral;
 use crate::correction::{Correction, CorrectionMethod, RgbTransform, Training};
-use crate::light::{RadiationConstants, planckian::black_body};
+use crate::light::RadiationConstants;
+use crate::light::planckian::black_body;
 use crate::math::quantile::quantile;
 use crate::patch_set::PatchSet;
 use crate::spectral::{GridSpectrum, Sensor};
 use crate::units::Kelvin;
 use glam::{DMat3, DVec3};
-
-use super::shared::Shared;
 
 /// Mean, quantile and extreme of differences.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,9 +1,8 @@
 //! Queries about a light alone, and about cameras under it and under its reference illuminant.
 
-use super::ask::{Ask, Query};
+use super::ask::{Ask, Query, Shared};
 use super::correction::ErrorSummary;
 use super::patches::{ColorTransformSpec, RenderingQuery};
-use super::shared::Shared;
 use crate::camera::rendering::{raw, under_light, white_divisors};
 use crate::camera::{RenderingError, WhiteBalanceTarget};
 use crate::colorimetry::delta_e_2000;

@@ -1,8 +1,7 @@
 //! Queries on blackbodies and monochromatic light through a sensor.
 
-use super::ask::{Ask, Query};
+use super::ask::{Ask, Query, Shared};
 use super::patches::RenderingQuery;
-use super::shared::Shared;
 use crate::camera::{LocusEvaluator, LocusMethod, RenderingError};
 use crate::colorimetry::diagram::{SpectralPoint, spectral_locus};
 use crate::colorimetry::{Uv60, UvPrime, Xy, Xyz};
@@ -202,7 +201,6 @@ impl Query for MonochromaticQuery {
     }
 }
 
-/// The largest of three magnitudes.
 fn magnitude(v: [f64; 3]) -> f64 {
     v.iter().fold(0.0, |m, x| x.abs().max(m))
 }

@@ -1,10 +1,9 @@
 //! Query for metamers among sets of reflectances.
 
-use super::ask::{Ask, Query};
+use super::ask::{Ask, Query, Shared};
 use super::compare::DifferenceError;
 use super::metrics::WhyNot;
 use super::patches::{PatchColorsQuery, RenderingQuery};
-use super::shared::Shared;
 use crate::camera::RenderingError;
 use crate::camera::rendering::{raw, under_light, white_divisors};
 use crate::metamers::{Confusion, MetamerLimits, MetamerPair, Seen, search};

@@ -2,24 +2,22 @@
 //!
 //! A metric is one entry of [`CameraMetric::ALL`]. Documents, the command line, tables and the window list whatever stands there.
 
-mod conditions;
 mod differences;
 mod evidence;
 mod perturbed;
-mod ranks;
 mod table;
 mod uncertainty;
 mod value;
 
 use super::ask::{Ask, Query};
 
-pub use conditions::{CameraMetricsQuery, IndexConditions};
 pub use differences::{PatchDifferences, Statistic, WORST};
 pub use evidence::{LocusDeviationQuery, MetamerismIndexQuery, ReferenceLocusQuery, SpaceQualityQuery};
-pub use ranks::{Difference, rank_ranges};
-pub use table::{Better, CameraMetric, MetricGroup};
+pub use table::{Better, CameraMetric, Difference, MetricGroup, rank_ranges};
 pub use uncertainty::MetricUncertaintiesQuery;
-pub use value::{Contributions, MetricUncertainty, MetricValue, UncertaintySource, WhyNot};
+pub use value::{
+    CameraMetricsQuery, Contributions, IndexConditions, MetricUncertainty, MetricValue, UncertaintySource, WhyNot,
+};
 
 /// All figures of merit of one camera, without their uncertainties, which take longer: see [`MetricUncertaintiesQuery`].
 #[derive(Clone, Debug, PartialEq)]

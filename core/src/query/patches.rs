@@ -1,7 +1,7 @@
-//! Queries about reflectances under a light and about radiances, through a sensor.
+//! Queries about reflectances under a light, radiances, and raw RGB that a real camera recorded of them, through a sensor.
 
-use super::ask::{Ask, Query};
-use super::shared::Shared;
+use super::ask::{Ask, Query, Shared};
+use crate::camera::recorded::{Freedom, RecordedError, RecordedFit, RecordedPatch};
 use crate::camera::rendering::{raw, under_light};
 use crate::camera::{ColorTransform, FitTargets, Rendering, RenderingError, WhiteBalanceTarget};
 use crate::colorimetry::rgb::{EncodedSrgb, encode_srgb};
@@ -142,7 +142,6 @@ impl Query for PatchColorsQuery {
     }
 }
 
-/// The color of raw integrals.
 pub(super) fn color(rendering: &Rendering, raw: DVec3) -> PatchColor {
     let signals = rendering.patch_signals(raw.to_array());
     let xyz = rendering.xyz(signals);
@@ -189,5 +188,29 @@ impl Query for RadianceColorsQuery {
         let rendering = (*rendering).as_ref().map_err(|&e| e)?;
         let product = under_light(&self.rendering.sensor, &GridSpectrum::constant(1.0));
         Ok(self.radiances.iter().map(|radiance| color(rendering, raw(&product, radiance.values()))).collect())
+    }
+}
+
+/// Patches with their spectra and recorded RGB.
+pub type RecordedSet = Shared<Vec<RecordedPatch>>;
+
+/// Fit of a camera's sensitivities to recorded values.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct RecordedFitQuery {
+    /// The patches.
+    pub recorded: RecordedSet,
+    /// The camera.
+    pub sensor: Shared<Sensor>,
+    /// Parameters that are fitted.
+    pub freedom: Freedom,
+}
+
+impl Query for RecordedFitQuery {
+    type Answer = Result<RecordedFit, RecordedError>;
+    const NAME: &'static str = "recorded fit";
+    const ALWAYS_COMPLETE: bool = true;
+
+    fn answer(&self, _: &impl Ask) -> Self::Answer {
+        RecordedFit::new(&self.recorded, &self.sensor, self.freedom)
     }
 }

@@ -5,21 +5,19 @@
 
 pub mod difference;
 pub mod picture;
-pub mod plan;
 pub mod returned;
 
-use plan::PlanQuery;
-
-use super::ask::{Ask, Query};
-use super::shared::Shared;
-use crate::camera::{RenderingError, rendering::white_divisors};
+use super::ask::{Ask, Query, Shared};
+use crate::accuracy::RelTolerance;
+use crate::camera::RenderingError;
+use crate::camera::rendering::white_divisors;
 use crate::reflectance::leaf::{LeafModel, ScatteredShare};
 use crate::reflectance::{Normalization, Specular, Surface, wavelength_power};
 use crate::render::quality::SkyFineness;
 use crate::render::sky::SkyView;
 use crate::render::{
-    CameraImage, GeometryImage, Plan, Quality, RasterSize, Reach, ShadingImage, Shadows, Sky, SkyImage, SkyReflectance,
-    SkyVisibility, SpectralWeights, Transmitted, VertexImage, Visibility,
+    CameraImage, Demand, GeometryImage, Plan, Quality, RasterSize, Reach, ShadingImage, Shadows, Sky, SkyImage,
+    SkyReflectance, SkyVisibility, SpectralWeights, Transmitted, VertexImage, Visibility,
 };
 use crate::scene::roughness::{VertexRoughness, vertex_roughness};
 use crate::scene::{Lighting, Viewpoint};
@@ -305,7 +303,6 @@ impl Query for ShadingQuery {
 }
 
 impl ShadingQuery {
-    /// Visible shares of the sky.
     fn sky_image(&self) -> SkyImageQuery {
         SkyImageQuery {
             visibility: self.geometry.visibility.clone(),
@@ -317,7 +314,6 @@ impl ShadingQuery {
         }
     }
 
-    /// The shading by the light alone.
     fn lit(&self, ask: &impl Ask) -> Option<ShadingImage> {
         let geometry = ask.ask(&self.geometry);
         let geometry = (*geometry).as_ref()?;
@@ -507,5 +503,34 @@ impl CameraImageQuery {
         };
         let plan = ask.ask(&PlanQuery { measure: self.measure.clone(), tolerance, demand });
         (*plan).as_ref().map(Arc::clone).map_err(|&e| e)
+    }
+}
+
+/// The fastest method of a camera's spectral integral within a tolerance. Depends on no surface or angle: the demands of pictures
+/// are rounded out to a few ([`Demand::of_picture`]).
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct PlanQuery {
+    /// The camera under the light.
+    pub measure: SpectralWeightsQuery,
+    /// The allowed error.
+    pub tolerance: RelTolerance,
+    /// Range of κ and number of samples.
+    pub demand: Demand,
+}
+
+impl Query for PlanQuery {
+    type Answer = Result<Arc<Plan>, RenderingError>;
+    const NAME: &'static str = "plan";
+    const ALWAYS_COMPLETE: bool = true;
+    const CAPACITY: usize = 64;
+
+    fn bytes(plan: &Self::Answer) -> usize {
+        plan.as_ref().map_or(0, |plan| plan.bytes())
+    }
+
+    fn answer(&self, ask: &impl Ask) -> Self::Answer {
+        let measure = ask.ask(&self.measure);
+        let measure = (*measure).as_ref().map_err(|&e| e)?;
+        Ok(Arc::new(Plan::new(measure, self.tolerance, self.demand)?))
     }
 }

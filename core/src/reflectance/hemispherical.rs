@@ -11,10 +11,9 @@
 
 use super::coherent::GAUSS;
 use super::geometry::Geometry;
-use super::normalization::Normalization;
 use super::power::{LAMBDA_0_NM, coherent_prefactor, diffuse_prefactor, kappa, wavelength_power};
 use super::sum::{Precision, diffuse_sum};
-use super::surface::Surface;
+use super::surface::{Normalization, Surface};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 /// 2π/λ0, in 1/m.
@@ -112,7 +111,6 @@ struct View<'a> {
     cos_i: f64,
     /// λ0/λ.
     ratio: f64,
-    /// True if the direction is the viewer's.
     is_viewer: bool,
 }
 

@@ -10,9 +10,8 @@
 use super::coherent::rho0_squared;
 use super::fresnel::{reflectance, transmittance, transmittance_by_cosine};
 use super::geometry::Geometry;
-use super::normalization::Normalization;
 use super::sum::{Precision, diffuse_sum};
-use super::surface::{Specular, Surface};
+use super::surface::{Normalization, Specular, Surface};
 use std::f64::consts::{PI, TAU};
 
 /// λ0, in nanometers: κ is g at this wavelength.

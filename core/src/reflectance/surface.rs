@@ -1,10 +1,9 @@
-//! A rough dielectric surface.
+//! A rough dielectric surface, and what the paper leaves open: its area, its specular reflection, the meaning of its P.
 
-use std::fmt;
-use std::hash::{Hash, Hasher};
-use std::ops::RangeInclusive;
-
+use crate::units::{bits, eq_by};
 use chromascope_text::choices;
+use std::fmt;
+use std::ops::RangeInclusive;
 
 /// The largest height deviation, in meters.
 const SIGMA_M: RangeInclusive<f64> = 0.0..=1.0;
@@ -119,7 +118,6 @@ impl Surface {
     /// A = 4XY and the paper's coherent component; takes σ from 0 to 1 m, τ and the half-widths X and Y from 1 nm to 1 m, and an index above 0 and up to 1000.
     ///
     /// # Errors
-    ///
     /// [`SurfaceError`] where a number is outside the model's range.
     ///
     /// ```
@@ -250,23 +248,40 @@ impl fmt::Display for Caution {
     }
 }
 
-impl Surface {
-    fn key(&self) -> ([u64; 5], IlluminatedArea, Specular) {
-        let numbers = [self.sigma_m, self.tau_m, self.half_x_m, self.half_y_m, self.index];
-        (numbers.map(f64::to_bits), self.area, self.specular)
-    }
-}
+eq_by!(Surface, |of| {
+    let numbers = [of.sigma_m, of.tau_m, of.half_x_m, of.half_y_m, of.index];
+    (numbers.map(bits), of.area, of.specular)
+});
 
-impl PartialEq for Surface {
-    fn eq(&self, other: &Self) -> bool {
-        self.key() == other.key()
-    }
-}
-
-impl Eq for Surface {}
-
-impl Hash for Surface {
-    fn hash<H: Hasher>(&self, state: &mut H) {
-        self.key().hash(state);
+choices! {
+    /// Quantity that the scattered power P of Eq 12 stands for.
+    ///
+    /// P is Beckmann's power relative to that of a smooth mirror of the same patch: dimensionless, and no reflectance
+    /// distribution. Put into Eq 12 as it stands, it tints: on a rough surface P goes with λ², so that a white under D55 comes out
+    /// mustard.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
+    #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "kebab-case"))]
+    pub enum Normalization {
+        /// π f with the bidirectional reflectance `f = A/(λ² cos θs) (cos θi ρ0² e^-g + D)`, in 1/sr.
+        ///
+        /// The default: a smooth surface returns what its boundary reflects, no surface returns more than falls on it (to 0.4 % for indices from
+        /// 1.2 on), and rough surfaces scatter all wavelengths alike, as geometrical optics demands. Energy is not conserved: without multiple
+        /// scattering steep surfaces and grazing light lose most of it ([`super::directional_hemispherical`]).
+        #[default]
+        Radiometric = "radiometric", "Radiometric",
+            "A rough white surface remains white. Scattered radiance per incident irradiance: Eq 1 times A / (λ² cos θs).";
+        /// P itself, Eq 1–3 as printed but for A, which is 4XY or XY ([`super::IlluminatedArea`]): for reproducing the paper.
+        Paper = "paper", "Paper, Eq 1–12",
+            "Eq 4 is proportional to λ² without a compensating λ⁻², so rough surfaces turn yellow. Eq 1 to 12 as printed, except \
+             for A, which is set with X and Y: a white surface under D55 moves from xy (0.332, 0.347) to (0.373, 0.379).";
+        /// π f with the form factor cos θi in G² replaced by Beckmann's own, `4 (l·ĥ)⁴/(cos θi (cos θi + cos θs)²)`.
+        ///
+        /// The diffuse component is reciprocal (Helmholtz). The coherent one is not: X lies in the plane of incidence, which turns
+        /// when light and viewer are exchanged. On rough surfaces f equals a microfacet reflectance without shadowing, with
+        /// Beckmann's slope distribution of roughness 2σ/τ.
+        Microfacet = "microfacet", "Microfacet",
+            "Only the diffuse component is reciprocal (Helmholtz). Beckmann's own geometric factor in place of the cos θi of Eq 3.";
+        /// 1: a surface that scatters evenly, whatever its roughness.
+        Lambertian = "lambertian", "Lambertian", "The fastest, as a baseline. No model: equal in all directions.";
     }
 }

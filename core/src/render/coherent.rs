@@ -125,7 +125,6 @@ impl<'a> CoherentIntegral<'a> {
         [axis(0), axis(1)]
     }
 
-    /// The reference.
     fn over_grid(&self, coherent: &CoherentSample) -> [f64; 3] {
         let mut channels = [0.0; 3];
         for node in self.measure.dense() {

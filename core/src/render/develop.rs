@@ -11,7 +11,6 @@ use crate::correction::root_polynomial::RootPolynomial;
 use glam::{DMat3, DVec3, Mat3, Vec3};
 use multiversion::multiversion;
 use rayon::prelude::*;
-use std::hash::{Hash, Hasher};
 use std::sync::{Arc, LazyLock};
 
 /// Development from signals to light on a screen.
@@ -45,17 +44,6 @@ fn linear_part(rendering: &Rendering, factor: f64) -> (DMat3, Option<Arc<RootPol
 /// XYZ of signals, before the matrix.
 fn straightened(polynomial: &RootPolynomial, signal: [f32; 3]) -> [f32; 3] {
     polynomial.xyz(DVec3::from_array(signal.map(f64::from))).as_vec3().to_array()
-}
-
-impl Eq for Development {}
-
-impl Hash for Development {
-    fn hash<H: Hasher>(&self, state: &mut H) {
-        self.linear_from_signals.to_cols_array().map(|v| (v + 0.0).to_bits()).hash(state);
-        let coefficients = self.root_polynomial.iter().flat_map(|polynomial| polynomial.coefficients());
-        coefficients.for_each(|c| c.to_array().map(|v| (v + 0.0).to_bits()).hash(state));
-        self.background.map(|color| color.map(|v| (v + 0.0).to_bits())).hash(state);
-    }
 }
 
 /// Pixels for a screen.
@@ -115,7 +103,6 @@ fn steps_of(matrix: &Mat3, signals: &[[f32; 3]], steps: &mut [[u32; RUN]; 3]) ->
     beyond.iter().take(signals.len()).map(|&b| u64::from(b)).sum()
 }
 
-/// Eight bits of a linear value.
 fn encode(linear: f32) -> u8 {
     ENCODED[step(linear) as usize]
 }
@@ -218,7 +205,6 @@ impl Task<'_> {
         clipped
     }
 
-    /// Means of several samples, over the background.
     fn mix(&self, sums: &[(Vec3, u32)], pixels: &mut [u8]) {
         let all = (self.size.samples * self.size.samples) as f32;
         let (pixels, _) = pixels.as_chunks_mut::<4>();
@@ -267,21 +253,8 @@ impl ColorimetricScale {
     }
 }
 
-/// Differences of a picture from the reference's of the same geometry, and the reference's L*, at every `stride`-th lit sample;
-/// 0 where the coordinates are undefined; none if stopped.
-pub fn differences(
-    metric: Metric,
-    image: &CameraImage,
-    measured: &ColorimetricScale,
-    reference: &CameraImage,
-    measured_reference: &ColorimetricScale,
-    stride: usize,
-    stop: &Stop,
-) -> Option<(Vec<f32>, Vec<f32>)> {
-    signal_differences(metric, [image.signals(), reference.signals()], [measured, measured_reference], stride, stop)
-}
-
-/// [`differences`] of signals, a sensor's and then the reference's, with their scales.
+/// Differences of a picture from the reference's of the same geometry, and the reference's L*, at every `stride`-th lit sample, from
+/// the signals of a sensor and of the reference, with their scales; 0 where the coordinates are undefined; none if stopped.
 pub fn signal_differences(
     metric: Metric,
     [image, reference]: [&[[f32; 3]]; 2],

@@ -7,8 +7,7 @@ use super::stop::Stop;
 use super::visibility::{Hit, RasterSize, Rays, Visibility};
 use crate::reflectance::Geometry;
 use crate::scene::{Lighting, PlacedLight};
-use chromascope_mesh::Mesh;
-use chromascope_mesh::ShadowTree;
+use chromascope_mesh::{Mesh, ShadowTree};
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 use std::f64::consts::TAU;
@@ -266,7 +265,6 @@ impl GeometryImage {
     }
 }
 
-/// Result of one task.
 #[derive(Default)]
 struct Part {
     samples: Vec<u32>,
@@ -312,7 +310,6 @@ impl SeenPlace {
     }
 }
 
-/// Places and normals of a triangle's corners.
 fn corners(mesh: &Mesh, hit: Hit) -> ([DVec3; 3], [DVec3; 3]) {
     let corners = mesh.triangles()[hit.triangle as usize];
     let of = |all: &[Vec3]| corners.map(|i| all[i as usize].as_dvec3());
@@ -479,7 +476,6 @@ fn mix(v: [DVec3; 3], weights: [f64; 3]) -> DVec3 {
     v[0] * weights[0] + v[1] * weights[1] + v[2] * weights[2]
 }
 
-/// A normal, bent until it is edge-on where it points away from the viewer.
 fn turned_to(normal: DVec3, to_viewer: DVec3) -> DVec3 {
     let cos = normal.dot(to_viewer);
     if cos >= EDGE {

@@ -12,8 +12,7 @@ use crate::spectral::{GridSpectrum, Sensor};
 use glam::DVec3;
 use std::sync::{Arc, OnceLock};
 
-/// The wavelength that κ is g at, in nanometers.
-pub const LAMBDA_0_NM: f64 = 550.0;
+pub use crate::reflectance::power::LAMBDA_0_NM;
 
 /// Number of moments.
 pub const MOMENTS: usize = 8;

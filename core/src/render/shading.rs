@@ -7,7 +7,6 @@ use super::diffuse::{NEARLY_ROUGH, ROUGH};
 use super::geometry::{Angles, GeometryImage};
 use super::measure::LAMBDA_0_NM;
 use super::plan::{self, Demand, Plan};
-pub use super::quality::Quality;
 use super::sky::Sky;
 use super::stop::Stop;
 use super::vertices::VertexImage;
@@ -18,11 +17,12 @@ use crate::reflectance::{
 };
 use crate::scene::roughness::VertexRoughness;
 use crate::spectral::grid::{FIRST_NM, LAST_NM};
+use brightness::Brightness;
+use lobes::{Lobe, Lobes};
 use rayon::prelude::*;
 use std::sync::Arc;
 
-use brightness::Brightness;
-use lobes::{Lobe, Lobes};
+pub use super::quality::Quality;
 
 /// Reflectance of the darkest material that untinted lobes are weighed against: which one it is a surface does not know.
 const DARKEST: f64 = 1.0 / 64.0;

@@ -30,6 +30,7 @@ use glam::{DVec3, Vec3};
 use lobe::Lobe;
 use rayon::prelude::*;
 use std::sync::Arc;
+
 pub use visible::{SkyVisibility, VisibleCells, visible_share};
 
 /// Up to this cosine towards the viewer a normal may have been bent.

@@ -73,7 +73,6 @@ impl BandWeights {
     /// Samples finer than the grid's 1 nm are not averaged: bands between its wavelengths count by interpolation.
     ///
     /// # Errors
-    ///
     /// [`SpectralImageError`] where the bands are none, or lie outside the grid.
     pub fn new(
         wavelengths_nm: &[f64],
@@ -155,7 +154,6 @@ impl SpectralImageSignals {
     /// Begins an image.
     ///
     /// # Errors
-    ///
     /// [`SpectralImageError::Size`] for a side of 0 or more than [`MAX_SIDE`].
     pub fn new(weights: BandWeights, width: usize, height: usize) -> Result<Self, SpectralImageError> {
         let side = |pixels: usize| u32::try_from(pixels).ok().filter(|side| (1..=MAX_SIDE).contains(side));

@@ -54,7 +54,6 @@ impl RasterSize {
         self.height as usize * self.samples as usize
     }
 
-    /// Tiles across and down.
     fn tiles(self) -> [usize; 2] {
         [self.columns().div_ceil(TILE), self.rows().div_ceil(TILE)]
     }
@@ -297,7 +296,6 @@ impl Outline {
 
 /// The triangles of one run that each tile may show: those that face the eye, then the others, each in ascending order.
 struct Bins {
-    /// The run's first triangle.
     first: u32,
     outlines: Vec<Outline>,
     tiles: usize,
@@ -306,7 +304,6 @@ struct Bins {
 }
 
 impl Bins {
-    /// Sorts a run of triangles into tiles.
     fn new(first: usize, triangles: &[[u32; 3]], corners: &[Corner], size: RasterSize) -> Self {
         let [across, down] = size.tiles();
         let tiles = across * down;

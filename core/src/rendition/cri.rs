@@ -1,10 +1,9 @@
 //! Color rendering indices of CIE 13.3-1995.
 
 use super::reference;
-use super::standards::{RenditionError, Standards};
-use super::sums::{Sums, held, smooth, wavelengths};
+use super::standards::{RenditionError, Standards, Sums, held, smooth, wavelengths};
 use crate::colorimetry::{Uv60, Xyz};
-use crate::light::temperature::tabulated::Robertson;
+use crate::light::temperature::published::Robertson;
 use crate::light::{Cct, CctError};
 use crate::spectral::SpectralDistribution;
 
@@ -51,7 +50,6 @@ pub struct RenderingIndices {
 /// observer. The same sums at 5 nm give Ra that are up to 0.1 lower for fluorescent lamps.
 ///
 /// # Errors
-///
 /// [`RenditionError`] where the light has no visible power, is mainly monochromatic, which CIE 13.3 excludes, or has no temperature
 /// from 1667 K to 25 000 K.
 pub fn rendering_indices(

@@ -1,8 +1,7 @@
 //! Color fidelity and gamut of ANSI/IES TM-30-20, whose Rf is that of CIE 224:2017.
 
 use super::reference;
-use super::standards::{RenditionError, Standards};
-use super::sums::{Sums, smooth, wavelengths, within};
+use super::standards::{RenditionError, Standards, Sums, smooth, wavelengths, within};
 use crate::colorimetry::ciecam02::{Cam02Ucs, Ciecam02};
 use crate::light::Cct;
 use crate::spectral::SpectralDistribution;
@@ -55,7 +54,6 @@ pub struct HueBin {
 /// wavelengths. The two differ by up to 0.1 in Rf and Rg for fluorescent lamps.
 ///
 /// # Errors
-///
 /// [`RenditionError`] where the light has no visible power or no temperature from 1000 K to 25 000 K.
 pub fn color_fidelity(light: &SpectralDistribution, standards: &Standards) -> Result<ColorFidelity, RenditionError> {
     let found = standards.evaluation_colors.patches().len();
@@ -90,12 +88,10 @@ fn step(light: &SpectralDistribution) -> u16 {
     if five && light.range_nm()[0] % 5.0 == 0.0 { 5 } else { 1 }
 }
 
-/// Fidelity of a color difference.
 fn fidelity(difference: f64) -> f64 {
     10.0 * ((100.0 - 6.73 * difference) / 10.0).exp().ln_1p()
 }
 
-/// Colors of the samples under a light.
 fn colors(sums: &Sums, light: &[f64], reflectances: &[Vec<f64>]) -> Result<Vec<Cam02Ucs>, RenditionError> {
     let (light, white) = sums.unit(light)?;
     let model = Ciecam02::new(white).ok_or(RenditionError::Undefined { sample: 1 })?;

@@ -1,8 +1,6 @@
 //! Reference illuminants: blackbodies and daylight at the temperature of the test light.
 
-use super::standards::{RenditionError, Standards};
-use super::sums;
-use super::sums::{Sums, wavelengths};
+use super::standards::{RenditionError, Standards, Sums, wavelengths, within};
 use crate::colorimetry::{Uv60, Xyz};
 use crate::light::planckian::{RadiationConstants, relative_exitance};
 use crate::light::temperature::MAX_DUV;
@@ -23,7 +21,7 @@ pub(super) fn blackbody(temperature: Kelvin, nm: &[f64]) -> Vec<f64> {
 
 /// CIE daylight at some wavelengths, linear between those of its basis, with M₁ and M₂ rounded to three decimals.
 pub(super) fn daylight(basis: &DaylightBasis, temperature: Kelvin, nm: &[f64]) -> Result<Vec<f64>, RenditionError> {
-    Ok(sums::within(&basis.rounded(temperature)?, nm))
+    Ok(within(&basis.rounded(temperature)?, nm))
 }
 
 /// Correlated color temperature and Duv by the nearest point of the Planckian locus over 360–780 nm, as TM-30 takes them.
@@ -81,14 +79,13 @@ pub(super) fn mixed(standards: &Standards, temperature: Kelvin, sums: &Sums) -> 
 /// The reference illuminant of a light (TM-30-20, CIE 224:2017) on the standard grid, with its temperature and the light's Duv.
 ///
 /// # Errors
-///
 /// [`RenditionError`] where the light has no correlated color temperature from 1000 K to 25 000 K.
 pub fn reference_illuminant(
     light: &SpectralDistribution,
     standards: &Standards,
 ) -> Result<(GridSpectrum, Cct), RenditionError> {
     let sums = Sums::new(&standards.cie_1931, wavelengths(380, 780, 1))?;
-    let (_, seen) = sums.unit(&sums::within(light, &sums.nm))?;
+    let (_, seen) = sums.unit(&within(light, &sums.nm))?;
     let cct = nearest(standards, seen)?;
     let values = mixed(standards, cct.temperature, &sums)?;
     let spectrum = SpectralDistribution::new(sums.nm.clone(), values);

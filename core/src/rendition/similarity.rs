@@ -1,8 +1,7 @@
 //! Spectral similarity index of SMPTE ST 2122.
 
 use super::reference;
-use super::standards::{RenditionError, Standards};
-use super::sums::{wavelengths, within};
+use super::standards::{RenditionError, Standards, wavelengths, within};
 use crate::spectral::SpectralDistribution;
 use crate::units::Kelvin;
 
@@ -20,7 +19,6 @@ const BANDS: usize = 30;
 /// Source: SMPTE ST 2122:2020; Academy of Motion Picture Arts and Sciences, *Academy Spectral Similarity Index (SSI): Overview*, 2020.
 ///
 /// # Errors
-///
 /// [`RenditionError::NoPower`] where one of the two has no power in the range.
 pub fn spectral_similarity(
     light: &SpectralDistribution,
@@ -40,7 +38,6 @@ pub fn spectral_similarity(
 /// Light that a light of a temperature is compared with: a blackbody below 4000 K, CIE daylight from there on.
 ///
 /// # Errors
-///
 /// [`RenditionError::Daylight`] above 25 000 K.
 pub fn similarity_reference(
     temperature: Kelvin,

@@ -1,8 +1,8 @@
 //! Position of the light: far away in a direction, or at a point.
 
 use super::viewpoint::Eye;
+use crate::units::{bits, hash_by};
 use glam::DVec3;
-use std::hash::{Hash, Hasher};
 
 /// The Sun's angular radius in radians.
 pub const SUN_RADIUS: f64 = 4.65e-3;
@@ -38,21 +38,12 @@ pub struct Lighting {
     angular_radius: f64,
 }
 
-impl Eq for Lighting {}
-
-impl Hash for Lighting {
-    fn hash<H: Hasher>(&self, state: &mut H) {
-        self.distance.hash(state);
-        self.place.to_array().map(|v| (v + 0.0).to_bits()).hash(state);
-        (self.angular_radius + 0.0).to_bits().hash(state);
-    }
-}
+hash_by!(Lighting, |of| (of.distance, of.place.to_array().map(bits), bits(of.angular_radius)));
 
 impl Lighting {
     /// A light far away in a direction, its disk of an angular radius in radians.
     ///
     /// # Errors
-    ///
     /// [`LightingError`] where the direction has no length or the angular radius is out of range.
     pub fn far(direction: DVec3, angular_radius: f64) -> Result<Self, LightingError> {
         Self::new(Distance::Far, direction, angular_radius)
@@ -61,7 +52,6 @@ impl Lighting {
     /// A light at a place counted from the mesh's center in scene radii.
     ///
     /// # Errors
-    ///
     /// [`LightingError`] where the position is not finite or the angular radius is out of range.
     pub fn near(place: DVec3, angular_radius: f64) -> Result<Self, LightingError> {
         Self::new(Distance::Near, place, angular_radius)
@@ -84,7 +74,6 @@ impl Lighting {
     /// A light far away, by its angles from the view axis: up, and to the right (negative: left), in radians.
     ///
     /// # Errors
-    ///
     /// [`LightingError`] where an angle is not finite or out of range.
     pub fn from_angles(up: f64, right: f64, angular_radius: f64) -> Result<Self, LightingError> {
         let direction = DVec3::new(right.sin() * up.cos(), up.sin(), right.cos() * up.cos());
@@ -116,7 +105,6 @@ impl Lighting {
     }
 }
 
-/// Direction of unit length; none for a zero vector.
 fn unit(v: DVec3) -> Option<DVec3> {
     let largest = v.abs().max_element();
     // Beyond these its squares leave the range of a double.

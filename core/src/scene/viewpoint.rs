@@ -1,10 +1,10 @@
 //! Viewpoint of a mesh: an orbit around its center, through a lens.
 
+use crate::units::{bits, hash_by};
 use chromascope_mesh::{Bounds, Mesh};
 use glam::{DMat3, DVec3, Vec3};
 use rayon::prelude::*;
 use std::f64::consts::{FRAC_PI_2, PI};
-use std::hash::{Hash, Hasher};
 
 /// Reason that numbers are not an orbit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, thiserror::Error)]
@@ -36,7 +36,6 @@ pub struct Viewpoint {
 /// A picture that the mesh is to fill.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Frame {
-    /// Width over height.
     aspect: f64,
     /// Distance over the one from which the mesh fills the picture.
     zoom: f64,
@@ -45,14 +44,10 @@ struct Frame {
 /// Share of the picture that the mesh fills.
 const FILLED: f64 = 0.92;
 
-impl Eq for Viewpoint {}
-
-impl Hash for Viewpoint {
-    fn hash<H: Hasher>(&self, state: &mut H) {
-        [self.yaw, self.pitch, self.distance, self.field_of_view].map(|v| (v + 0.0).to_bits()).hash(state);
-        self.frame.map(|frame| [frame.aspect, frame.zoom].map(f64::to_bits)).hash(state);
-    }
-}
+hash_by!(Viewpoint, |of| {
+    let frame = of.frame.map(|frame| [frame.aspect, frame.zoom].map(bits));
+    ([of.yaw, of.pitch, of.distance, of.field_of_view].map(bits), frame)
+});
 
 impl Viewpoint {
     /// Takes yaw and pitch in radians, the distance in scene radii, and the vertical field of view in radians.
@@ -60,7 +55,6 @@ impl Viewpoint {
     /// Yaw is brought within half a turn; pitch is held within ±90°.
     ///
     /// # Errors
-    ///
     /// [`ViewpointError`] where a number is not finite or out of range.
     pub fn new(yaw: f64, pitch: f64, distance: f64, field_of_view: f64) -> Result<Self, ViewpointError> {
         if ![yaw, pitch, distance, field_of_view].iter().all(|v| v.is_finite()) {
@@ -80,7 +74,6 @@ impl Viewpoint {
     /// the distance; the distance in radii counts no more.
     ///
     /// # Errors
-    ///
     /// [`ViewpointError`] where a number is not finite or out of range.
     pub fn framed(self, aspect: f64, zoom: f64) -> Result<Self, ViewpointError> {
         if !(aspect.is_finite() && zoom.is_finite()) {

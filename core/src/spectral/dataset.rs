@@ -132,7 +132,6 @@ impl Dataset {
     /// Reads only the header and the column heads; the figures are not looked at.
     ///
     /// # Errors
-    ///
     /// [`DatasetError`] with the line.
     pub fn read_header(text: &str) -> Result<Header, DatasetError> {
         read_header(text).map(|(header, _)| header)
@@ -141,7 +140,6 @@ impl Dataset {
     /// Reads the whole file.
     ///
     /// # Errors
-    ///
     /// [`DatasetError`] with the line, and the column if a field is not a number.
     pub fn read(text: &str) -> Result<Self, DatasetError> {
         let (header, first) = read_header(text)?;

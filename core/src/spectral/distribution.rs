@@ -1,6 +1,6 @@
 //! A spectrum as it was measured.
 
-use std::hash::{Hash, Hasher};
+use crate::units::{bits, hash_by};
 
 /// Reason that samples do not make a spectrum.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -48,19 +48,12 @@ pub struct SpectralDistribution {
     values: Vec<f64>,
 }
 
-impl Eq for SpectralDistribution {}
-
-impl Hash for SpectralDistribution {
-    fn hash<H: Hasher>(&self, state: &mut H) {
-        self.wavelengths.iter().chain(&self.values).for_each(|v| v.to_bits().hash(state));
-    }
-}
+hash_by!(SpectralDistribution, |of| of.wavelengths.iter().chain(&of.values).map(|&v| bits(v)).collect::<Vec<_>>());
 
 impl SpectralDistribution {
     /// Takes wavelengths in nanometers and values, one for each.
     ///
     /// # Errors
-    ///
     /// [`DistributionError`] unless there are as many values as wavelengths, at least two, finite and ascending.
     pub fn new(wavelengths: Vec<f64>, values: Vec<f64>) -> Result<Self, DistributionError> {
         if wavelengths.is_empty() {
@@ -111,7 +104,6 @@ impl SpectralDistribution {
     /// Spectrum with every value mapped by `f(wavelength, value)`, refused where the result is no spectrum.
     ///
     /// # Errors
-    ///
     /// [`DistributionError`] where a result is not finite.
     pub fn map(&self, f: impl Fn(f64, f64) -> f64) -> Result<Self, DistributionError> {
         let values = self.wavelengths.iter().zip(&self.values).map(|(&w, &v)| f(w, v)).collect();

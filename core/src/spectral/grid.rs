@@ -6,7 +6,7 @@
 
 use crate::math::interpolation::{Sprague, linear};
 use crate::spectral::distribution::SpectralDistribution;
-use std::hash::{Hash, Hasher};
+use crate::units::{bits, hash_by};
 
 /// The first wavelength of the grid, in nanometers.
 pub const FIRST_NM: f64 = 380.0;
@@ -45,12 +45,10 @@ pub enum Quantity {
 }
 
 impl Quantity {
-    /// True if the quantity cannot be negative.
     fn clamps(self) -> bool {
         matches!(self, Self::Reflectance | Self::CameraSensitivity)
     }
 
-    /// True if the quantity counts as zero beyond the table.
     fn ends_in_zero(self) -> bool {
         matches!(self, Self::CameraSensitivity | Self::MatchingFunction)
     }
@@ -108,13 +106,7 @@ pub struct GridSpectrum {
     assumed: Assumed,
 }
 
-impl Eq for GridSpectrum {}
-
-impl Hash for GridSpectrum {
-    fn hash<H: Hasher>(&self, state: &mut H) {
-        self.values.iter().for_each(|v| v.to_bits().hash(state));
-    }
-}
+hash_by!(GridSpectrum, |of| of.values.map(bits));
 
 impl GridSpectrum {
     /// Brings a measured spectrum onto the grid by the convention of its quantity.

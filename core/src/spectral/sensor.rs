@@ -4,7 +4,7 @@ use super::dataset::Dataset;
 use super::distribution::{DistributionError, SpectralDistribution};
 use super::grid::{COUNT, FIRST_NM, GridSpectrum, LAST_NM, Quantity, wavelength_nm};
 use crate::math::dot::dot_each;
-use std::hash::{Hash, Hasher};
+use crate::units::hash_by;
 
 /// In what the three channels are counted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -114,20 +114,12 @@ pub struct Sensor {
     absolute: [f64; 3],
 }
 
-impl Eq for Sensor {}
-
-impl Hash for Sensor {
-    fn hash<H: Hasher>(&self, state: &mut H) {
-        self.primaries.hash(state);
-        self.curves.hash(state);
-    }
-}
+hash_by!(Sensor, |of| (of.primaries, &of.curves));
 
 impl Sensor {
     /// Takes the three curves as measured, in the order of [`Primaries::channels`].
     ///
     /// # Errors
-    ///
     /// [`SensorError`] where a channel has no sensitivity on the grid.
     pub fn new(
         primaries: Primaries,
@@ -153,7 +145,6 @@ impl Sensor {
     /// Sensor of a data file: primaries from its column heads, response from its header.
     ///
     /// # Errors
-    ///
     /// [`SensorError::NotThree`] unless the file has three curves; otherwise as [`Sensor::new`].
     pub fn from_dataset(dataset: &Dataset) -> Result<Self, SensorError> {
         let curves = <[SpectralDistribution; 3]>::try_from(dataset.curves.clone());

@@ -6,7 +6,7 @@ use chromascope_core::camera::{ColorTransform, Rendering, WhiteBalanceTarget};
 use chromascope_core::colorimetry::{Metric, Stimulus, Xyz};
 use chromascope_core::query::render::difference::BrightSamples;
 use chromascope_core::reflectance::{Normalization, Precision, Surface, wavelength_power};
-use chromascope_core::render::develop::differences;
+use chromascope_core::render::develop::signal_differences;
 use chromascope_core::render::diffuse::{by_moments, by_nodes, by_nodes_into, by_regimes, rough_basis};
 use chromascope_core::render::{
     CameraImage, ColorimetricScale, Development, GeometryImage, IntegrationMethod, Plan, Quality, RasterSize,
@@ -275,9 +275,14 @@ fn picture(&[key, sigma, tau, half, index, reading, quality, kind]: &Case, v: &m
         v.holds("no picture", develop(image, &development, &Stop::NEVER).is_some_and(|p| p.rgba.len() == 120));
     }
     let measured = ColorimetricScale::new(&scene.rendering, 1.0);
-    let (map, lightness) =
-        differences(Metric::DELTA_E_2000, &images[0], &measured, &images[1], &measured, 1, &Stop::NEVER)
-            .expect("never stopped");
+    let (map, lightness) = signal_differences(
+        Metric::DELTA_E_2000,
+        [images[0].signals(), images[1].signals()],
+        [&measured; 2],
+        1,
+        &Stop::NEVER,
+    )
+    .expect("never stopped");
     v.all_finite(BrightSamples::new(&map, &lightness).into_iter().flat_map(|bright| [bright.median, bright.p95]));
     v.all_finite(map.into_iter().chain(lightness).map(f64::from));
 }

@@ -1,12 +1,10 @@
 //! The approximations that others published: their own examples, how good they claim to be, and where they end.
 
-use chromascope_core::colorimetry::{Uv60, Xy};
-use chromascope_core::light::temperature::published::{hernandez_andres_1999, mccamy_1992};
-use chromascope_core::light::temperature::tabulated::{Ohno, Robertson};
-use chromascope_core::light::{CctError, LocusError, RadiationConstants};
-
 use super::{LOCUS, reference_colors};
 use crate::support::{CIE_1931, REFERENCE, assert_near, kelvin, sensor};
+use chromascope_core::colorimetry::{Uv60, Xy};
+use chromascope_core::light::temperature::published::{Ohno, Robertson, hernandez_andres_1999, mccamy_1992};
+use chromascope_core::light::{CctError, LocusError, RadiationConstants};
 
 const D65: Xy = Xy { x: 0.3127, y: 0.3290 };
 

@@ -1,22 +1,18 @@
 //! The machine's limits: kernels that do nothing but read memory, or multiply and add.
 
-use std::hint::black_box;
-
-use multiversion::multiversion;
-use rayon::prelude::*;
-
 use super::Machine;
 use crate::Effort;
 use crate::harness::shortest_of;
 use crate::workloads::timing::Pools;
+use multiversion::multiversion;
+use rayon::prelude::*;
+use std::hint::black_box;
 
 /// Doubles side by side in the widest register.
 const WIDTH: usize = 8;
-/// Doubles per piece of work of the memory's sum.
 const CHUNK: usize = 1 << 16;
 
 impl Machine {
-    /// Measures the most that the machine can do: the best of some rounds.
     pub(crate) fn measure(effort: Effort, pools: &Pools) -> Self {
         let (megabytes, rounds) = match effort {
             Effort::Trial => (8, 2),

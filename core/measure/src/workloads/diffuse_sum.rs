@@ -1,14 +1,12 @@
 //! The diffuse sum S(g, b): term by term, by the paper's three cases, by the program's uniform method.
 
+use super::timing::{Bench, Case, Room, each, spaced};
+use super::{Numbers, exact};
+use crate::workload::Errors;
+use crate::{ErrorScale, Workload};
 use chromascope_core::reflectance::{Precision, diffuse_sum, diffuse_sum_by_regimes};
 use chromascope_math::double::Double;
 use rayon::prelude::*;
-
-use super::Numbers;
-use super::exact;
-use super::timing::{Bench, Case, Room, each, spaced};
-use crate::measurement::Errors;
-use crate::{ErrorScale, Workload};
 
 pub(super) fn run(bench: &mut Bench<'_>) {
     let cases = [

@@ -1,8 +1,11 @@
 //! Frames of the head under the sun through four sources, from visibility to signals.
 
-use std::hint::black_box;
-use std::sync::Arc;
-
+use super::timing::{Bench, Candidate, Case};
+use super::{LIGHT, REFLECTANCE};
+use crate::data::{curve, sensor};
+use crate::harness::timed;
+use crate::workload::Errors;
+use crate::{BenchError, ErrorOf, ErrorScale, Workload};
 use chromascope_core::accuracy::RelTolerance;
 use chromascope_core::camera::rendering::white_divisors;
 use chromascope_core::reflectance::{Normalization, Surface, wavelength_power};
@@ -15,13 +18,8 @@ use chromascope_core::scene::viewpoint::ViewpointError;
 use chromascope_core::scene::{Lighting, Viewpoint};
 use chromascope_core::spectral::Quantity;
 use chromascope_mesh::{Mesh, ShadowTree, head};
-
-use super::timing::{Bench, Candidate, Case};
-use super::{LIGHT, REFLECTANCE};
-use crate::data::{curve, sensor};
-use crate::harness::timed;
-use crate::measurement::Errors;
-use crate::{BenchError, ErrorOf, ErrorScale, Workload};
+use std::hint::black_box;
+use std::sync::Arc;
 
 /// The reference and the cameras of the paper's third experiment.
 const SOURCES: [&str; 4] = [
@@ -147,7 +145,6 @@ fn eye(turns: usize) -> Result<Viewpoint, ViewpointError> {
     Viewpoint::new(0.3 + 2_f64.to_radians() * (turns % 16) as f64, 0.1, 3.6, 30_f64.to_radians())
 }
 
-/// The surface of all frames, at a roughness.
 fn surface(sigma_m: f64) -> Option<Surface> {
     Surface::new(sigma_m, 10e-6, 50e-6, 50e-6, 1.4).ok()
 }

@@ -1,7 +1,12 @@
 //! The diffuse part's spectral integral of a pixel: every wavelength, few wavelengths, tables and moments.
 
-use std::hint::black_box;
-
+use super::diffuse_sum::term_by_term;
+use super::timing::{Bench, CHUNK, Candidate, Case, Room, each, spaced};
+use super::{CAMERA, LIGHT, Numbers, REFLECTANCE, exact};
+use crate::data::{curve, sensor};
+use crate::harness::timed;
+use crate::workload::Errors;
+use crate::{BenchError, ErrorOf, ErrorScale, Workload};
 use chromascope_core::accuracy::RelTolerance;
 use chromascope_core::camera::rendering::white_divisors;
 use chromascope_core::reflectance::{Precision, diffuse_sum};
@@ -12,21 +17,12 @@ use chromascope_core::spectral::Quantity;
 use chromascope_math::double::Double;
 use chromascope_math::gauss::gauss_rule;
 use rayon::prelude::*;
-
-use super::diffuse_sum::term_by_term;
-use super::exact;
-use super::timing::{Bench, CHUNK, Candidate, Case, Room, each, spaced};
-use super::{CAMERA, LIGHT, Numbers, REFLECTANCE};
-use crate::data::{curve, sensor};
-use crate::harness::timed;
-use crate::measurement::Errors;
-use crate::{BenchError, ErrorOf, ErrorScale, Workload};
+use std::hint::black_box;
 
 /// κ and β.
 type Pixel = (f64, f64);
 type Signals = [f64; 3];
 
-/// Tolerances of the plans.
 const TOLERANCES: [f64; 4] = [1e-3, 1e-5, 1e-8, 1e-10];
 
 pub(super) fn run(bench: &mut Bench<'_>) -> Result<(), BenchError> {

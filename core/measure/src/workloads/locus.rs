@@ -1,7 +1,12 @@
 //! Chromaticities of blackbodies: sums of several steps, Gauss rules of several sizes, what the program takes.
 
-use std::hint::black_box;
-
+use super::timing::{Bench, Candidate, Case, Room, each, spaced};
+use super::{CAMERA, CONSTANTS, OBSERVER, exact};
+use crate::data::sensor;
+use crate::harness::timed;
+use crate::loci::{CHECKED_NODES, LocusMethod, gauss_rule, locus_methods};
+use crate::workload::Errors;
+use crate::{BenchError, ErrorOf, ErrorScale, Workload};
 use chromascope_core::camera::LocusEvaluator;
 use chromascope_core::camera::locus_table::{LocusTable, LocusTableError};
 use chromascope_core::colorimetry::Xy;
@@ -12,15 +17,7 @@ use chromascope_core::units::Kelvin;
 use chromascope_math::double::Double;
 use glam::{DMat3, DVec3};
 use rayon::prelude::*;
-
-use super::exact;
-use super::timing::{Bench, Candidate, Case, Room, each, spaced};
-use super::{CAMERA, CONSTANTS, OBSERVER};
-use crate::data::sensor;
-use crate::harness::timed;
-use crate::loci::{CHECKED_NODES, LocusMethod, gauss_rule, locus_methods};
-use crate::measurement::Errors;
-use crate::{BenchError, ErrorOf, ErrorScale, Workload};
+use std::hint::black_box;
 
 type Place = [f64; 2];
 

@@ -1,8 +1,11 @@
 //! Responses of many reflectances through many sensitivities: a matrix product, if one calls it so.
 
-use std::hint::black_box;
-use std::ops::{AddAssign, Mul};
-
+use super::Numbers;
+use super::timing::{Bench, Candidate, Case, Cost, Room};
+use crate::data::cameras;
+use crate::harness::timed;
+use crate::workload::Errors;
+use crate::{BenchError, ErrorOf, ErrorScale, Workload};
 use chromascope_core::camera::batch::{Batch, Sample};
 use chromascope_core::spectral::Sensor;
 use chromascope_math::dot::dot;
@@ -10,13 +13,8 @@ use chromascope_math::double::Double;
 use ndarray::linalg::general_mat_mul;
 use ndarray::{ArrayView2, ArrayViewMut2, LinalgScalar};
 use rayon::prelude::*;
-
-use super::Numbers;
-use super::timing::{Bench, Candidate, Case, Cost, Room};
-use crate::data::cameras;
-use crate::harness::timed;
-use crate::measurement::Errors;
-use crate::{BenchError, ErrorOf, ErrorScale, Workload};
+use std::hint::black_box;
+use std::ops::{AddAssign, Mul};
 
 /// Number of distinct reflectances, far larger than any cache; further ones repeat them.
 const DIFFERENT: usize = 16_000_000;
@@ -211,7 +209,6 @@ impl<T: Real> Product<T> {
     }
 }
 
-/// A sum of products, one after the other.
 fn plain<T: Real>(spectra: &[T], curves: &[T], samples: usize, responses: &mut [T]) {
     let channels = curves.len() / samples;
     for (spectrum, responses) in spectra.chunks_exact(samples).zip(responses.chunks_exact_mut(channels)) {

@@ -1,27 +1,24 @@
 //! Correlated color temperature and Duv: published approximations, and the nearest blackbody itself.
 
+use super::timing::{Bench, Candidate, Case, Room, each, spaced};
+use super::{CONSTANTS, Numbers, OBSERVER, exact};
+use crate::data::sensor;
+use crate::harness::timed;
+use crate::workload::Errors;
+use crate::{BenchError, ErrorOf, ErrorScale, Workload};
 use chromascope_core::colorimetry::{Uv60, UvPrime, Xy};
 use chromascope_core::light::PlanckianLocus;
-use chromascope_core::light::temperature::{Cct, CctError, published, tabulated};
+use chromascope_core::light::temperature::{Cct, CctError, published};
 use chromascope_core::spectral::Sensor;
 use chromascope_core::units::Kelvin;
 use chromascope_math::double::Double;
 use rayon::prelude::*;
-
-use super::exact;
-use super::timing::{Bench, Candidate, Case, Room, each, spaced};
-use super::{CONSTANTS, Numbers, OBSERVER};
-use crate::data::sensor;
-use crate::harness::timed;
-use crate::measurement::Errors;
-use crate::{BenchError, ErrorOf, ErrorScale, Workload};
 
 /// Temperature in kelvins and Duv; NaN where a method has no answer, or gives none.
 type Answer = [f64; 2];
 
 const NOTHING: Answer = [f64::NAN; 2];
 
-/// Part of an answer that is judged.
 #[derive(Clone, Copy)]
 enum Judged {
     Temperature,
@@ -40,8 +37,8 @@ fn one(bench: &mut Bench<'_>, observer: &Sensor, judged: Judged) {
     let items = bench.pick(300, 1_000_000, 1_000_000);
     let checked = bench.pick(6, 200, 2000);
     let (Ok(locus), locus_seconds) = timed(|| PlanckianLocus::new(observer, CONSTANTS)) else { return };
-    let robertson = timed(|| tabulated::Robertson::new(observer, CONSTANTS));
-    let ohno = timed(|| tabulated::Ohno::new(observer, CONSTANTS));
+    let robertson = timed(|| published::Robertson::new(observer, CONSTANTS));
+    let ohno = timed(|| published::Ohno::new(observer, CONSTANTS));
     let mut numbers = Numbers::new(6);
     let known: Vec<(f64, f64)> =
         (0..items).map(|_| (1e6 / numbers.between(50.5, 990.0), numbers.between(-0.045, 0.045))).collect();

@@ -1,16 +1,13 @@
 //! Timing of alternating candidates by their median.
 
+use crate::harness::{Budget, Times, take_turns, timed};
+use crate::{Effort, ErrorOf, Machine, Measurement, Progress, Roof, Workload};
+use chromascope_core::render::Stop;
+use rayon::prelude::*;
+use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
 use std::hint::black_box;
 use std::iter::successors;
 use std::sync::{Mutex, PoisonError};
-
-use rayon::prelude::*;
-use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
-
-use chromascope_core::render::Stop;
-
-use crate::harness::{Budget, Times, take_turns, timed};
-use crate::{Effort, ErrorOf, Machine, Measurement, Progress, Roof, Workload};
 
 /// Pools of one, two, four, … threads, up to all that the machine runs at a time.
 pub(crate) struct Pools(Vec<(usize, ThreadPool)>);
@@ -34,7 +31,6 @@ impl Pools {
         self.0.last().map_or(1, |(threads, _)| *threads)
     }
 
-    /// Runs work in a thread pool of the given size.
     pub(crate) fn on<T: Send>(&self, threads: usize, work: impl FnOnce() -> T + Send) -> T {
         match self.0.iter().find(|(count, _)| *count == threads) {
             Some((_, pool)) => pool.install(work),
@@ -50,7 +46,6 @@ pub(super) struct Cost {
     pub(super) flops: f64,
 }
 
-/// One method of a case.
 pub(super) struct Candidate<'a> {
     method: String,
     threads: usize,
@@ -82,7 +77,6 @@ impl<'a> Candidate<'a> {
         }
     }
 
-    /// Candidate on this many threads.
     pub(super) fn on(self, threads: usize) -> Self {
         Self { threads, ..self }
     }
@@ -97,12 +91,10 @@ impl<'a> Candidate<'a> {
         Self { least: items.min(self.items), ..self }
     }
 
-    /// Candidate with its preparation time.
     pub(super) fn built_in(self, build_seconds: f64) -> Self {
         Self { build_seconds, ..self }
     }
 
-    /// Candidate with the cost of an item.
     pub(super) fn costing(self, cost: Cost) -> Self {
         Self { cost: Some(cost), ..self }
     }
@@ -128,7 +120,6 @@ impl<'a> Candidate<'a> {
     }
 }
 
-/// Number of items timed together.
 #[derive(Clone, Copy)]
 struct Batch {
     items: usize,
@@ -234,7 +225,6 @@ impl<O: Clone + Send> Room<O> {
     }
 }
 
-/// Items per piece of parallel work.
 pub(super) const CHUNK: usize = 512;
 
 /// A candidate that answers item by item, in a plain loop or, on several threads, in pieces of it.

@@ -1,9 +1,7 @@
 //! Growth of a frond: a stalk, pinnae on both sides of it, leaflets on both sides of each pinna.
 
-use super::axis::{Arc, Frame, Spine};
-use super::chance::Chance;
-use super::leaf::{Cuts, Leaf};
-use super::stem::{Line, Stem};
+use super::axis::{Arc, Chance, Frame, Spine};
+use super::surface::{Cuts, Leaf, Line, Stem};
 use glam::Vec3;
 use std::f32::consts::TAU;
 
@@ -24,7 +22,6 @@ pub(super) struct Detail {
     pub(super) rib: (usize, usize),
 }
 
-/// One part of a plant.
 #[derive(Clone, Debug)]
 pub(super) enum Organ {
     Leaf {
@@ -38,7 +35,6 @@ pub(super) enum Organ {
 }
 
 impl Organ {
-    /// Number of triangles at a fineness.
     pub(super) fn triangles(&self, fineness: f32) -> usize {
         match self {
             Self::Leaf { leaf, share, dither } => leaf.triangles(cuts(fineness, leaf, *share, *dither)),
@@ -46,7 +42,6 @@ impl Organ {
         }
     }
 
-    /// Adds it to a surface.
     pub(super) fn build(&self, fineness: f32, surface: &mut super::surface::Surface) {
         match self {
             Self::Leaf { leaf, share, dither } => leaf.build(cuts(fineness, leaf, *share, *dither), surface),
@@ -62,7 +57,6 @@ fn cuts(fineness: f32, leaf: &Leaf, share: f32, dither: f32) -> Cuts {
     Cuts { along, across: ((along as f32 / slender + dither) as usize).max(1) }
 }
 
-/// One frond's shape.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Frond {
     /// Base at the ground; its up axis is where the upper surface looks.
@@ -177,7 +171,6 @@ impl Frond {
         Organ::Leaf { leaf, share: 0.3, dither: chance.unit(7) }
     }
 
-    /// The leaf at the very tip.
     fn tip(&self, spine: &Spine) -> Organ {
         let base = spine.frame(0.985);
         let axis = Arc { base, length: self.length * 0.03, sweep: 0.0, droop: 0.1, twist: 0.0 };
@@ -185,7 +178,6 @@ impl Frond {
     }
 }
 
-/// A pinna with leaflets.
 struct Pinna {
     axis: Arc,
     /// The length of the longest leaflet, in meters.
@@ -195,7 +187,6 @@ struct Pinna {
 }
 
 impl Pinna {
-    /// Leaflets on both sides and one at the end.
     fn leaflets(&self, organs: &mut Vec<Organ>) {
         let count = self.count as f32;
         for k in 0..self.count {

@@ -1,8 +1,7 @@
 //! Conversion of a file's contents to a mesh: vertices split where normals differ, missing normals computed.
 
 use super::edges::{Edges, survey};
-use super::error::MeshReadError;
-use super::report::{Normals, Report};
+use super::report::{MeshReadError, Normals, Report};
 use super::soup::{Corner, NONE, Soup};
 use super::triangulate::{Cut, cut};
 use super::{Group, Kind, ReadMesh};
@@ -162,7 +161,6 @@ fn is_far(mesh: &Mesh) -> bool {
     f64::from(far) > 1e4 * (bounds.max.as_dvec3() - bounds.min.as_dvec3()).max_element()
 }
 
-/// The groups that have triangles, in the file's order.
 fn groups(soup: &Soup, cut: &Cut) -> Vec<Group> {
     let start = |i: usize| {
         let first = soup.groups.get(i).map_or(u32::MAX, |(first, _)| *first);

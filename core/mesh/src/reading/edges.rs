@@ -1,8 +1,7 @@
 //! Edges of a mesh: open, doubled or flipped ones, and corners that share a computed normal.
 
 use super::build::usable;
-use super::error::MeshReadError;
-use super::report::Tally;
+use super::report::{MeshReadError, Tally};
 use super::soup::{NONE, Smoothing, Soup};
 use super::triangulate::Cut;
 use glam::Vec3;
@@ -15,13 +14,9 @@ const CREASE_COSINE: f32 = 0.5;
 const STOP_EVERY: usize = 1 << 16;
 
 pub(super) struct Edges {
-    /// Edges of more than two triangles.
     pub(super) non_manifold: Tally,
-    /// Triangles on the vertices of an earlier one.
     pub(super) duplicates: Tally,
-    /// Edges of one triangle.
     pub(super) boundary: usize,
-    /// Edges whose two triangles run along them in the same direction.
     pub(super) flipped: Tally,
     pub(super) unused: usize,
     /// For each corner of each triangle the parent in its fan's tree, in the end the root; empty where the file has all
@@ -76,7 +71,6 @@ pub(super) fn survey(soup: &Soup, cut: &Cut, stop: &dyn Fn() -> bool) -> Result<
 }
 
 impl Edges {
-    /// Examines the sides of one edge.
     fn look(&mut self, soup: &Soup, cut: &Cut, normals: &[Vec3], edge: &[Side], suspects: &mut Vec<u32>) {
         let place = |side: &Side| soup.place(cut.faces[side.1 as usize / 3] as usize);
         let agree = |a: &Side, b: &Side| position(soup, cut, a.1) != position(soup, cut, b.1);
@@ -106,12 +100,10 @@ impl Edges {
     }
 }
 
-/// The corner after this one in its triangle.
 fn next(corner: u32) -> u32 {
     if corner % 3 == 2 { corner - 2 } else { corner + 1 }
 }
 
-/// The position at a triangle's corner.
 fn position(soup: &Soup, cut: &Cut, corner: u32) -> u32 {
     soup.corners[cut.triangles.as_flattened()[corner as usize] as usize].position
 }
@@ -141,7 +133,6 @@ fn sides(soup: &Soup, cut: &Cut) -> (Vec<u32>, Vec<Side>) {
     (starts, sides)
 }
 
-/// Number of positions no triangle uses.
 fn unused(soup: &Soup, cut: &Cut) -> usize {
     let mut used = vec![false; soup.positions.len()];
     for &corner in cut.triangles.as_flattened() {
@@ -150,7 +141,6 @@ fn unused(soup: &Soup, cut: &Cut) -> usize {
     used.iter().filter(|used| !**used).count()
 }
 
-/// True if the normal goes on smoothly from one triangle to its neighbor.
 fn is_smooth(soup: &Soup, cut: &Cut, normals: &[Vec3], pair: [u32; 2]) -> bool {
     let [f, g] = pair.map(|t| cut.faces[t as usize]);
     if f == g {
@@ -196,7 +186,6 @@ fn duplicates(soup: &Soup, cut: &Cut, mut suspects: Vec<u32>) -> Tally {
     tally
 }
 
-/// The root of a corner's tree.
 fn root(parents: &[u32], mut corner: u32) -> u32 {
     while parents[corner as usize] != corner {
         corner = parents[corner as usize];

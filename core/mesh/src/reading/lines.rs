@@ -1,8 +1,7 @@
 //! Words and numbers of a text, with their line and column, without a copy of the text.
 
-use super::error::MeshReadError;
+use super::report::MeshReadError;
 
-/// The farthest coordinate that is read.
 pub(super) const FARTHEST: f64 = 1e15;
 
 /// A place in a text, which moves on word by word within a line and from line to line.
@@ -27,7 +26,6 @@ pub(super) struct Word<'a> {
 }
 
 impl<'a> Cursor<'a> {
-    /// The beginning of a text.
     pub(super) fn new(bytes: &'a [u8]) -> Self {
         Self { bytes, at: 0, line: 1, line_start: 0, first_line: 1 }
     }
@@ -37,7 +35,6 @@ impl<'a> Cursor<'a> {
         self.first_line
     }
 
-    /// True if all is read.
     pub(super) fn is_done(&self) -> bool {
         self.at >= self.bytes.len()
     }
@@ -71,7 +68,6 @@ impl<'a> Cursor<'a> {
         rest[..length].trim_ascii()
     }
 
-    /// Advances to the beginning of the next statement.
     #[inline]
     pub(super) fn next_line(&mut self) {
         self.skip_blanks();
@@ -120,7 +116,6 @@ impl<'a> Cursor<'a> {
         }
     }
 
-    /// Skips blanks and line continuations.
     #[inline]
     fn skip_blanks(&mut self) {
         while let Some(&byte) = self.bytes.get(self.at) {
@@ -135,7 +130,6 @@ impl<'a> Cursor<'a> {
         }
     }
 
-    /// Skips a line's end.
     fn end_line(&mut self) {
         self.at += line_end(&self.bytes[self.at..]);
         self.line += 1;

@@ -5,9 +5,8 @@
 //! line and does not support continued ones; `wavefront_obj` 11 rejects unknown statements. None can be stopped.
 
 use super::STOP_EVERY;
-use super::error::{MeshReadError, Place};
 use super::lines::{Cursor, Word};
-use super::report::Skipped;
+use super::report::{MeshReadError, Place, Skipped};
 use super::soup::{Corner, NONE, Names, Smoothing, Soup};
 
 /// Maximum number of name changes that are stored.
@@ -22,7 +21,6 @@ struct Naming {
 }
 
 impl Naming {
-    /// The names as one group has them.
     fn names(&self) -> Names {
         let name = match (self.object.is_empty(), self.group.is_empty() || self.group == self.object) {
             (true, _) => self.group.clone(),
@@ -33,7 +31,6 @@ impl Naming {
     }
 }
 
-/// Reads the statements of an OBJ file.
 pub(super) fn read(bytes: &[u8], stop: &dyn Fn() -> bool) -> Result<Soup, MeshReadError> {
     let mut cursor = Cursor::new(bytes);
     let mut soup = Soup::new(Place::Line, 1);
@@ -56,7 +53,6 @@ pub(super) fn read(bytes: &[u8], stop: &dyn Fn() -> bool) -> Result<Soup, MeshRe
     Ok(soup)
 }
 
-/// Reads one statement after its keyword.
 fn statement(
     keyword: &[u8],
     cursor: &mut Cursor<'_>,
@@ -102,7 +98,6 @@ fn statement(
     Ok(())
 }
 
-/// The kind of a statement that is read over.
 fn skipped(keyword: &[u8]) -> Skipped {
     match keyword {
         b"mtllib" => Skipped::Materials,

@@ -1,8 +1,6 @@
-//! Report on reading a mesh: findings, and faults that were tolerated.
+//! Report on reading a mesh: findings, faults that were tolerated, or the reason that there is no mesh: where, and what to do about it.
 
 use super::Kind;
-use super::error::Place;
-use std::fmt::{Display, Formatter, Result};
 
 /// Number of occurrences, and the first place.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -25,33 +23,41 @@ impl Tally {
 }
 
 /// Statements that are read over, since nothing in a mesh answers to them.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, thiserror::Error)]
 pub enum Skipped {
     /// Materials: their names are stored with the groups, their properties are ignored.
+    #[error("material statements")]
     Materials,
     /// Texture coordinates and maps.
+    #[error("texture statements")]
     Textures,
     /// Colors or weights of vertices.
+    #[error("vertices with colors or weights")]
     VertexColors,
     /// Points.
+    #[error("point statements")]
     Points,
     /// Lines.
+    #[error("line statements")]
     Lines,
     /// Free-form curves and surfaces.
+    #[error("free-form curve and surface statements")]
     Curves,
     /// Instructions for display and rendering.
+    #[error("display statements")]
     Display,
     /// Elements that are neither vertices nor faces.
+    #[error("elements that are neither vertices nor faces")]
     Elements,
     /// Words that the format does not have.
+    #[error("unknown statements")]
     Unknown,
 }
 
 impl Skipped {
-    /// Number of kinds.
-    pub(super) const COUNT: usize = 9;
+    pub(super) const COUNT: usize = Self::ALL.len();
     /// All kinds, in their order.
-    const ALL: [Self; Self::COUNT] = [
+    const ALL: [Self; 9] = [
         Self::Materials,
         Self::Textures,
         Self::VertexColors,
@@ -62,21 +68,6 @@ impl Skipped {
         Self::Elements,
         Self::Unknown,
     ];
-
-    /// User-facing name of skipped content.
-    fn name(self) -> &'static str {
-        match self {
-            Self::Materials => "material statements",
-            Self::Textures => "texture statements",
-            Self::VertexColors => "vertices with colors or weights",
-            Self::Points => "point statements",
-            Self::Lines => "line statements",
-            Self::Curves => "free-form curve and surface statements",
-            Self::Display => "display statements",
-            Self::Elements => "elements that are neither vertices nor faces",
-            Self::Unknown => "unknown statements",
-        }
-    }
 }
 
 /// Origin of the mesh's normals.
@@ -172,79 +163,159 @@ impl Report {
     }
 }
 
-impl Display for Report {
-    fn fmt(&self, f: &mut Formatter<'_>) -> Result {
+impl std::fmt::Display for Report {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(f, "{}: {} vertices, {} faces, {} triangles", self.kind, self.vertices, self.polygons, self.triangles)
     }
 }
 
 /// A note for the user about a mesh that was read.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-#[expect(missing_docs, reason = "the fields count what the variant names, or give the first place")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, thiserror::Error)]
+#[expect(missing_docs, reason = "each says what it is in its text")]
 pub enum Note {
-    /// Polygons that cross themselves.
+    #[error("Polygons that cross themselves: {count}, first at {first}; triangulate before exporting")]
     Crossing { count: usize, first: Place },
-    /// A closed mesh whose triangles face inwards.
+    #[error("The mesh is inside out; flip its faces before exporting")]
     InsideOut,
-    /// Edges whose triangles disagree on which side is outside.
+    #[error("Neighboring faces wound against each other: {edges} edges, first at {first}")]
     Flipped { edges: usize, first: Place },
-    /// Normals that point to the opposite side of the winding order.
+    #[error("Normals point against the faces' winding in {triangles} of {of} triangles")]
     AgainstWinding { triangles: usize, of: usize },
-    /// Single precision shows.
+    #[error("Far from the origin for its size, details are lost; move it to the origin before exporting")]
     FarFromOrigin,
-    /// Triangles without area were omitted.
+    #[error("Triangles without area left out: {count}, first at {first}")]
     Degenerate { count: usize, first: Place },
-    /// Edges of more than two triangles.
+    #[error("Edges where more than two triangles meet: {edges}, first at {first}")]
     NonManifold { edges: usize, first: Place },
-    /// Triangles on the same three vertices.
+    #[error("Triangles on the same three vertices as another: {count}, first at {first}")]
     Duplicates { count: usize, first: Place },
-    /// The file has no normals.
+    #[error("No normals in the file; computed from the faces")]
     NormalsComputed,
-    /// Some corners have no normals.
+    #[error("Normals missing at {corners} corners; computed there")]
     NormalsMixed { corners: usize },
-    /// The mesh is not closed.
+    #[error("The surface is open: {edges} edges have a triangle on one side only")]
     Open { edges: usize },
-    /// Vertices without triangles.
+    #[error("Vertices that no triangle uses: {vertices}")]
     Unused { vertices: usize },
-    /// Names of groups past the limit.
+    #[error("Too many groups: {count} kept without their names")]
     UnnamedGroups { count: usize },
-    /// Statements that were read over.
+    #[error("Skipped {what}: {count}, first at {first}")]
     Skipped { what: Skipped, count: usize, first: Place },
 }
 
-impl Display for Note {
-    fn fmt(&self, f: &mut Formatter<'_>) -> Result {
-        match self {
-            Self::Crossing { count, first } => {
-                write!(f, "Polygons that cross themselves: {count}, first at {first}; triangulate before exporting")
-            }
-            Self::InsideOut => f.write_str("The mesh is inside out; flip its faces before exporting"),
-            Self::Flipped { edges, first } => {
-                write!(f, "Neighboring faces wound against each other: {edges} edges, first at {first}")
-            }
-            Self::AgainstWinding { triangles, of } => {
-                write!(f, "Normals point against the faces' winding in {triangles} of {of} triangles")
-            }
-            Self::FarFromOrigin => f.write_str(
-                "Far from the origin for its size, details are lost; move it to the origin before exporting",
-            ),
-            Self::Degenerate { count, first } => {
-                write!(f, "Triangles without area left out: {count}, first at {first}")
-            }
-            Self::NonManifold { edges, first } => {
-                write!(f, "Edges where more than two triangles meet: {edges}, first at {first}")
-            }
-            Self::Duplicates { count, first } => {
-                write!(f, "Triangles on the same three vertices as another: {count}, first at {first}")
-            }
-            Self::NormalsComputed => f.write_str("No normals in the file; computed from the faces"),
-            Self::NormalsMixed { corners } => write!(f, "Normals missing at {corners} corners; computed there"),
-            Self::Open { edges } => write!(f, "The surface is open: {edges} edges have a triangle on one side only"),
-            Self::Unused { vertices } => write!(f, "Vertices that no triangle uses: {vertices}"),
-            Self::UnnamedGroups { count } => write!(f, "Too many groups: {count} kept without their names"),
-            Self::Skipped { what, count, first } => {
-                write!(f, "Skipped {}: {count}, first at {first}", what.name())
-            }
-        }
-    }
+/// Unsupported contents of a file: another kind of file, or an unsupported kind of mesh.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, thiserror::Error)]
+pub enum Alien {
+    /// glTF, as text or binary.
+    #[error("glTF")]
+    Gltf,
+    /// Autodesk FBX.
+    #[error("FBX")]
+    Fbx,
+    /// A compressed file or archive: zip, gzip, 3MF, USDZ.
+    #[error("compressed")]
+    Compressed,
+    /// XML: Collada, X3D, AMF.
+    #[error("XML")]
+    Xml,
+    /// Geomview OFF.
+    #[error("OFF")]
+    Off,
+    /// Bytes that are no text and carry no known mark.
+    #[error("binary data")]
+    Binary,
+    /// Text without a single vertex.
+    #[error("text without vertices")]
+    Text,
+}
+
+/// Quantity that has a limit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, thiserror::Error)]
+pub enum Quantity {
+    /// Bytes of the file.
+    #[error("bytes")]
+    Bytes,
+    /// Vertices or normals.
+    #[error("vertices")]
+    Vertices,
+    /// Triangles, polygons counted as what they are cut into.
+    #[error("triangles")]
+    Triangles,
+}
+
+/// Place in a file, counted from 1.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, thiserror::Error)]
+pub enum Place {
+    /// A line of a text file; of a statement continued over several lines, the first.
+    #[error("line {0}")]
+    Line(usize),
+    /// A face of a binary file.
+    #[error("face {0}")]
+    Face(usize),
+    /// A vertex of a binary file.
+    #[error("vertex {0}")]
+    Vertex(usize),
+}
+
+/// Reason that bytes give no mesh. Each message says where the error is and how to correct it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, thiserror::Error)]
+#[allow(
+    missing_docs,
+    reason = "each variant says in its message what is wrong; lines and columns (bytes) count from 1"
+)]
+pub enum MeshReadError {
+    #[error("the file is empty; export the mesh again")]
+    Empty,
+    #[error("this is no OBJ, PLY or STL file (it looks like {0}); export the mesh as OBJ")]
+    NotAMesh(Alien),
+    #[error("line {line}, column {column}: not a number; write numbers like 0.25 or 1e-3, with a decimal point")]
+    Number { line: usize, column: usize },
+    #[error("{0}: a coordinate is not finite; remove or repair that vertex")]
+    NotFinite(Place),
+    #[error("{0}: a coordinate is beyond ±1e15; rescale the mesh or repair that vertex")]
+    TooFar(Place),
+    #[error("line {line}: {found} numbers where three are needed (x y z); repair or remove that line")]
+    TooFewNumbers { line: usize, found: usize },
+    #[error(
+        "line {line}, column {column}: not a corner of a face; write 1, 1/1, 1//1 or 1/1/1, with indices other than 0"
+    )]
+    Index { line: usize, column: usize },
+    #[error("{place} names vertex {index}, but there are {count}; the file may be incomplete, export it again")]
+    NoSuchVertex {
+        place: Place,
+        index: i64,
+        /// Number of vertices the file has (before this line, where the index is counted back from it).
+        count: usize,
+    },
+    #[error("{place} names normal {index}, but there are {count}; export the mesh again, or without normals")]
+    NoSuchNormal {
+        place: Place,
+        index: i64,
+        /// Number of normals the file has (before this line, where the index is counted back from it).
+        count: usize,
+    },
+    #[error("{place}: a face of {corners} corners; a face needs at least three, remove it")]
+    FaceTooShort { place: Place, corners: usize },
+    #[error(
+        "{place}: a concave polygon of {corners} corners (at most {limit}); triangulate the mesh before exporting it"
+    )]
+    FaceTooLong { place: Place, corners: usize, limit: usize },
+    #[error("{0} vertices but no faces; export a surface, not a point cloud or curves")]
+    NoFaces(usize),
+    #[error("none of the {triangles} triangles has an area (the first at {place}); check the export's scale and axes")]
+    NoArea { triangles: usize, place: Place },
+    #[error("more than {limit} {quantity} (reached at {place}); simplify the mesh or export a part of it")]
+    TooLarge { quantity: Quantity, limit: usize, place: Place },
+    #[error("the file ends at {place} of {announced}; it was not copied whole, get it again")]
+    Truncated {
+        /// The first face or vertex that is not whole.
+        place: Place,
+        announced: usize,
+    },
+    #[error("the file ends within the face that begins on line {0}; it was not copied whole, get it again")]
+    Unfinished(usize),
+    #[error("{0}: not what the format has here; the file is damaged or of a rare variant, export it as OBJ")]
+    Syntax(Place),
+    #[error("stopped before the mesh was read")]
+    Stopped,
 }

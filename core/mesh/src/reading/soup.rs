@@ -1,8 +1,7 @@
 //! Contents of a file without its format: vertices, normals, polygons of any size.
 
-use super::error::{MeshReadError, Place, Quantity};
 use super::lines::FARTHEST;
-use super::report::{Skipped, Tally};
+use super::report::{MeshReadError, Place, Quantity, Skipped, Tally};
 use super::{MAX_TRIANGLES, MAX_VERTICES};
 use glam::Vec3;
 use rayon::prelude::*;
@@ -10,10 +9,8 @@ use rayon::prelude::*;
 /// No normal in the file.
 pub(super) const NONE: u32 = u32::MAX;
 
-/// One corner of a polygon.
 #[derive(Clone, Copy)]
 pub(super) struct Corner {
-    /// The position's index, from 0.
     pub(super) position: u32,
     /// The normal's index, from 0, or [`NONE`].
     pub(super) normal: u32,
@@ -24,7 +21,6 @@ pub(super) struct Corner {
 pub(super) enum Smoothing {
     /// Not specified in the file: smooth where faces meet at less than the crease angle.
     Auto,
-    /// Each face by itself.
     Flat,
     /// Smooth where both faces are of this group.
     Group(u32),
@@ -32,7 +28,6 @@ pub(super) enum Smoothing {
 
 #[derive(Clone, Default, PartialEq, Eq)]
 pub(super) struct Names {
-    /// The object's and group's name.
     pub(super) name: String,
     pub(super) material: String,
 }
@@ -62,7 +57,6 @@ pub(super) struct Soup {
     pub(super) groups: Vec<(u32, Names)>,
     /// Number of triangles the faces will make.
     triangles: usize,
-    /// Statements read over.
     pub(super) skipped: [Tally; Skipped::COUNT],
     pub(super) unnamed_groups: usize,
 }
@@ -90,7 +84,6 @@ impl Soup {
         self.ends.len()
     }
 
-    /// The range of a face's corners.
     pub(super) fn face(&self, face: usize) -> std::ops::Range<usize> {
         let start = if face == 0 { 0 } else { self.ends[face - 1] };
         start as usize..self.ends[face] as usize
@@ -102,7 +95,6 @@ impl Soup {
         self.ends.partition_point(|&end| end as usize <= reach).max(from + 1)
     }
 
-    /// Place of a face in the file.
     pub(super) fn place(&self, face: usize) -> Place {
         (self.place)(self.places[face] as usize)
     }
@@ -162,7 +154,6 @@ impl Soup {
         set_from(&mut self.groups, self.ends.len() as u32, names);
     }
 
-    /// Counts a statement read over.
     pub(super) fn skip(&mut self, what: Skipped, place: Place) {
         self.skipped[what as usize].add(place);
     }

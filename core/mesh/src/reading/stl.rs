@@ -3,8 +3,8 @@
 //! Own implementation, on the tokenizer and soup of the OBJ reader: `stl_io` 0.11 reports no lines. The facets' normals
 //! are ignored, as the order of the corners gives the same, and so are the two bytes after each facet of a binary file.
 
-use super::error::{MeshReadError, Place, Quantity};
 use super::lines::Cursor;
+use super::report::{MeshReadError, Place, Quantity};
 use super::soup::{Corner, NONE, Names, Soup};
 use super::{MAX_TRIANGLES, STOP_EVERY};
 

@@ -1,7 +1,6 @@
 //! Polygons cut into triangles, concave ones too.
 
-use super::error::MeshReadError;
-use super::report::Tally;
+use super::report::{MeshReadError, Tally};
 use super::soup::Soup;
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
@@ -29,7 +28,6 @@ pub(super) struct Cut {
     pub(super) faces: Vec<u32>,
     /// Omitted triangles, without area.
     pub(super) degenerate: Tally,
-    /// Polygons that cross themselves.
     pub(super) crossing: Tally,
 }
 
@@ -52,7 +50,6 @@ pub(super) fn cut(soup: &Soup, stop: &dyn Fn() -> bool) -> Result<Cut, MeshReadE
     Ok(cut)
 }
 
-/// Cuts some faces.
 fn piece(soup: &Soup, faces: Range<usize>) -> Result<Cut, MeshReadError> {
     let mut cut = Cut::default();
     let mut polygon = Polygon::default();
@@ -84,7 +81,6 @@ fn piece(soup: &Soup, faces: Range<usize>) -> Result<Cut, MeshReadError> {
 }
 
 impl Cut {
-    /// Appends what later faces were cut into.
     fn append(&mut self, later: &Self) {
         self.triangles.extend_from_slice(&later.triangles);
         self.faces.extend_from_slice(&later.faces);
@@ -245,7 +241,6 @@ impl Polygon {
         [before, at, after].map(|i| i as usize)
     }
 
-    /// The corners that are left, beginning with one of them.
     fn ring(&self, at: u32) -> impl Iterator<Item = u32> {
         let left = self.points.len() - self.triangles.len();
         successors(Some(at), |&i| Some(self.around[i as usize][1])).take(left)
@@ -274,7 +269,6 @@ impl Polygon {
         after
     }
 
-    /// Judges all corners that are left.
     fn judge_all(&mut self, at: u32) {
         let mut corner = at;
         loop {

@@ -1,10 +1,9 @@
 //! Planck's law at many wavelengths side by side, summed with the channels' weights.
 
-use multiversion::multiversion;
-
 use crate::math::array::{array, each};
 use crate::math::exp::{exp, exp_m1_near};
 use crate::spectral::grid::COUNT;
+use multiversion::multiversion;
 
 /// Sums that run side by side: any register's width. Lists are filled up to a multiple.
 const LANES: usize = 8;

@@ -1,12 +1,11 @@
 //! The pieces of a table of the locus: how they are made, and how a temperature finds its own.
 
-use multiversion::multiversion;
-use rayon::prelude::*;
-
 use super::{COLDEST_K, HOTTEST_K, LocusTable, LocusTableError};
 use crate::colorimetry::Xy;
 use crate::math::chebyshev::{coefficients, nodes};
 use crate::units::Kelvin;
+use multiversion::multiversion;
+use rayon::prelude::*;
 
 /// Coefficients per polynomial: degree 7.
 pub(super) const TERMS: usize = 8;

@@ -3,10 +3,9 @@
 //! Hues are represented as directions, not as angles: the mean hue bisects two of them, and the cosines of its multiples
 //! are polynomials. Differences are formed before anything is squared, so that small ones keep their digits.
 
-use multiversion::multiversion;
-
 use super::{Lab, bounded};
 use crate::math::exp::exp;
+use multiversion::multiversion;
 
 /// Pairs that are worked on side by side.
 const LANES: usize = 64;

@@ -12,7 +12,6 @@ const MIDDLE_NM: f64 = 560.0;
 /// A point of the Planckian locus and how fast it moves.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Motion {
-    /// Chromaticity in the 1960 diagram.
     pub(super) at: Uv60,
     /// The derivative of u and v by the reciprocal temperature, per mired.
     pub(super) per_mired: [f64; 2],

@@ -1,11 +1,10 @@
 //! Many colors side by side: what lies scattered in memory is fetched one by one, the arithmetic is done in wide registers.
 
-use multiversion::multiversion;
-
 use super::pieces::{Found, Pieces, Seen, TERMS, UNIT, index};
 use super::start::{Start, between};
 use crate::colorimetry::Uv60;
 use crate::math::array::{array, each};
+use multiversion::multiversion;
 
 /// Colors per run: enough for any register, few enough for the nearest cache beside the pieces.
 pub(super) const LANES: usize = 32;

@@ -18,7 +18,6 @@ const STEPS: usize = 60;
 pub(super) struct Nearest {
     /// Its reciprocal temperature in mired; beyond the pieces only the side is determined.
     pub(super) mired: f64,
-    /// Distance from the color.
     pub(super) distance: f64,
 }
 

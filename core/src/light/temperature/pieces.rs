@@ -1,17 +1,16 @@
 //! The locus as polynomials in the reciprocal temperature, made so that the nearest point is the root of another.
 
-use rayon::prelude::*;
-
 use super::exact::{ExactLocus, Motion};
 use super::result::{Cct, MAX_DUV, SLACK, is_in_range};
 use crate::colorimetry::Uv60;
 use crate::math::array::array;
 use crate::math::chebyshev::{coefficients, evaluate, nodes};
+use crate::math::exp::ROUNDER;
 use crate::units::Kelvin;
+use rayon::prelude::*;
 
 /// Coefficients per polynomial: degree 6.
 pub(super) const TERMS: usize = 7;
-/// Number of pieces.
 const PIECES: usize = 256;
 /// Ends of the pieces in mired: beyond 20000 K and 1000 K far enough that a search from a nearby start
 /// finds what lies just outside.
@@ -60,7 +59,6 @@ pub(super) struct Seen {
 /// The end of Newton's method.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Found {
-    /// The temperature in kelvins.
     pub(super) kelvins: f64,
     /// The distance from the tangent, positive above the locus.
     pub(super) duv: f64,
@@ -69,7 +67,6 @@ pub(super) struct Found {
 }
 
 impl Found {
-    /// As an answer.
     #[inline]
     pub(super) fn cct(&self) -> Option<Cct> {
         Some(Cct { temperature: Kelvin::new(self.kelvins).ok()?, duv: self.duv })
@@ -188,14 +185,10 @@ impl Piece {
     }
 }
 
-/// `∫₀ᵗ` of a polynomial.
 #[inline(always)]
 fn integral(derivative: &[f64; TERMS], t: f64) -> f64 {
     t * sum_in_pairs(&array(|k| derivative[k] * (1.0 / (k + 1) as f64)), t)
 }
-
-/// Adding this rounds a small double to an integer, in the low bits of its mantissa.
-pub(super) const ROUNDER: f64 = 6_755_399_441_055_744.0;
 
 /// The number of the piece of a reciprocal temperature; NaN gets the first.
 #[allow(clippy::manual_clamp, reason = "clamp keeps what is not a number")]

@@ -14,7 +14,6 @@ const STEP: f64 = 25.0;
 /// [`super::PlanckianLocus`] takes 2100 before its first answer. The two agree within 1e-6 mired and 1e-12 in Duv.
 ///
 /// # Errors
-///
 /// [`CctError`] as for [`super::PlanckianLocus::cct`]; [`CctError::NoChromaticity`] unless the observer counts in XYZ.
 pub fn nearest_blackbody(observer: &Sensor, constants: RadiationConstants, color: Uv60) -> Result<Cct, CctError> {
     if observer.primaries() != Primaries::Xyz || !(color.u.is_finite() && color.v.is_finite()) {

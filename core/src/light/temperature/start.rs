@@ -1,12 +1,12 @@
 //! Start values: reciprocal temperatures over a grid of chromaticities.
 
-use rayon::prelude::*;
-
 use super::nearest::Vertices;
-use super::pieces::{Pieces, ROUNDER};
+use super::pieces::Pieces;
 use super::result::{COLDEST_MIRED, HOTTEST_MIRED, MAX_DUV};
 use crate::colorimetry::Uv60;
 use crate::math::array::each;
+use crate::math::exp::ROUNDER;
+use rayon::prelude::*;
 
 /// The grid's spacing in u and v. Halving it costs the nearest cache, doubling it another step of Newton's.
 const PITCH: f64 = 0.002;
@@ -78,7 +78,6 @@ impl Start {
         Place { column: column.to_bits() as u32 & 0xffff, row: row.to_bits() as u32 & 0xffff, right, up }
     }
 
-    /// The function of a cell.
     #[inline]
     pub(super) fn cell(&self, column: u32, row: u32) -> [f32; 4] {
         self.cells.get(row as usize * self.columns + column as usize).copied().unwrap_or_default()

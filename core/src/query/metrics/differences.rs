@@ -55,7 +55,6 @@ impl DifferenceConditions {
         Self { comparable, by_eq_13: paper && of_sample != Primaries::Xyz }
     }
 
-    /// Differences of a color from the reference's.
     pub(super) fn differences(&self, reference: &PatchColor, sample: &PatchColor) -> PatchDifferences {
         let by_metric = |&metric: &Metric| {
             self.comparable?;
@@ -74,7 +73,6 @@ impl DifferenceConditions {
     }
 }
 
-/// ΔL*, ΔC*ab and ΔH*ab of a sample from a reference.
 fn lightness_chroma_hue(reference: Lab, sample: Lab) -> [f64; 3] {
     let [c1, c2] = [reference, sample].map(|lab| lab.a.hypot(lab.b));
     let cross = reference.a * sample.b - reference.b * sample.a;

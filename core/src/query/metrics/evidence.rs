@@ -1,17 +1,15 @@
 //! Inputs of the metrics, as separate queries, so that each is computed once whatever else changes.
 
-use super::conditions::{CameraMetricsQuery, IndexConditions};
 use super::differences::{DifferenceConditions, PatchDifferences, Statistic};
-use super::value::WhyNot;
+use super::value::{CameraMetricsQuery, IndexConditions, WhyNot};
 use crate::camera::channel_ratio::has_equal_maxima;
 use crate::camera::quality::{Electrons, IndexSamples, MetamerismIndex, NoiseAmplification, SpaceQuality, gray_snr_db};
 use crate::camera::{LocusDeviation, ReferenceLocus, Rendering, RenderingError};
 use crate::light::RadiationConstants;
-use crate::query::ask::{Ask, Query};
+use crate::query::ask::{Ask, Query, Shared};
 use crate::query::compare::DifferenceError;
 use crate::query::loci::LocusRulesQuery;
 use crate::query::patches::{PatchColorsQuery, RenderingQuery};
-use crate::query::shared::Shared;
 use crate::spectral::{Primaries, Sensor};
 use crate::units::Kelvin;
 
@@ -121,16 +119,12 @@ fn locus_signals(sensor: &Sensor, temperature: Kelvin) -> [f64; 3] {
 /// All that metrics of one sensor are computed from.
 pub(super) struct Evidence {
     pub(super) patches: Result<Vec<PatchDifferences>, WhyNot>,
-    /// Error of the locus.
     pub(super) locus: Result<LocusDeviation, WhyNot>,
-    /// Agreement with the reference's space.
     pub(super) space: Result<SpaceQuality, WhyNot>,
     pub(super) index: Result<MetamerismIndex, WhyNot>,
-    /// Noise gains.
     pub(super) noise: Result<NoiseAmplification, WhyNot>,
     /// Reason for no gains of raw channels.
     pub(super) scale: Result<(), WhyNot>,
-    /// Signal-to-noise ratio of a gray.
     pub(super) snr_db: Result<f64, WhyNot>,
 }
 
@@ -161,12 +155,10 @@ impl Evidence {
         of.over(values.collect::<Result<_, _>>()?).ok_or(WhyNot::NoPatches)
     }
 
-    /// Root mean square of a component of all patches' differences.
     pub(super) fn rms(&self, of: impl Fn(&PatchDifferences) -> Option<f64>) -> Result<f64, WhyNot> {
         self.mean(|patch| of(patch).map(|value| value * value)).map(f64::sqrt)
     }
 
-    /// Mean of a component of all patches' differences.
     pub(super) fn mean(&self, of: impl Fn(&PatchDifferences) -> Option<f64>) -> Result<f64, WhyNot> {
         let patches = self.patches.as_ref().map_err(|&e| e)?;
         let value = |patch: &PatchDifferences| {
@@ -185,7 +177,6 @@ impl Evidence {
     }
 }
 
-/// Differences of each patch from the reference.
 fn patch_differences(of: &CameraMetricsQuery, ask: &impl Ask) -> Result<Vec<PatchDifferences>, WhyNot> {
     let colors = |rendering: &RenderingQuery| {
         let (rendering, patches) = (rendering.clone(), of.patches.clone());
@@ -207,7 +198,6 @@ pub(super) fn channel_scale(sensor: &Sensor) -> Result<(), WhyNot> {
     }
 }
 
-/// Noise gains, and the signal-to-noise ratio of a gray.
 fn noise(of: &CameraMetricsQuery, scale: Result<(), WhyNot>, ask: &impl Ask) -> Noise {
     let rendering = ask.ask(&of.rendering);
     match (&*rendering, scale) {
@@ -220,7 +210,6 @@ fn noise(of: &CameraMetricsQuery, scale: Result<(), WhyNot>, ask: &impl Ask) -> 
 /// Noise gains, and the signal-to-noise ratio of a gray in decibels.
 type Noise = (Result<NoiseAmplification, WhyNot>, Result<f64, WhyNot>);
 
-/// Noise of a camera's rendering.
 pub(super) fn noise_of(rendering: &Rendering, electrons: Option<Electrons>, scale: Result<(), WhyNot>) -> Noise {
     let gains = NoiseAmplification::new(rendering).ok_or(WhyNot::Rendering(RenderingError::NoWhite));
     let snr = match electrons {

@@ -1,22 +1,20 @@
 //! Metrics of a camera whose curves deviate a little: from its linear responses alone, which deviate as the curves do.
 
-use super::conditions::{CameraMetricsQuery, IndexConditions};
 use super::differences::{DifferenceConditions, PatchDifferences};
 use super::evidence::{Evidence, IndexSamplesQuery, ReferenceLocusQuery, channel_scale, noise_of};
 use super::table::CameraMetric;
-use super::value::WhyNot;
+use super::value::{CameraMetricsQuery, IndexConditions, WhyNot};
 use crate::camera::curve_spread::{Deviation, SITE_RANGE, SITES, site_curve};
-use crate::camera::quality::space::curves;
-use crate::camera::quality::{IndexSamples, MetamerismIndex, SpaceQuality};
+use crate::camera::quality::{IndexSamples, MetamerismIndex, SpaceQuality, curves};
 use crate::camera::{FitTargets, LocusDeviation, ReferenceLocus, Rendering, RenderingError};
 use crate::correction::minimize::Refit;
 use crate::correction::{CorrectionMethod, RgbTransform};
-use crate::light::{RadiationConstants, planckian::black_body};
+use crate::light::RadiationConstants;
+use crate::light::planckian::black_body;
 use crate::math::dot::dot;
 use crate::patch_set::PatchSet;
-use crate::query::ask::{Ask, Query};
+use crate::query::ask::{Ask, Query, Shared};
 use crate::query::patches::{FitTargetsQuery, PatchColor, PatchColorsQuery, color};
-use crate::query::shared::Shared;
 use crate::spectral::grid::COUNT;
 use crate::spectral::{GridSpectrum, Sensor};
 use crate::units::Kelvin;
@@ -51,9 +49,7 @@ pub(super) struct Stimuli {
     patches: Range<usize>,
     training: Range<usize>,
     index: Range<usize>,
-    /// Curves of the deviations.
     sites: Vec<[f64; COUNT]>,
-    /// Curves of the observer.
     matching: [Vec<f64>; 3],
 }
 
@@ -117,7 +113,6 @@ pub(super) struct Perturbed<'a> {
     of: &'a CameraMetricsQuery,
     stimuli: &'a Stimuli,
     peaks: DVec3,
-    /// Responses to the stimuli.
     raw: Vec<DVec3>,
     targets: Option<Arc<Result<FitTargets, RenderingError>>>,
     refit: Option<Refit>,
@@ -184,7 +179,6 @@ impl<'a> Perturbed<'a> {
         balanced(&raw[self.stimuli.index.clone()], raw[INDEX_LIGHT])
     }
 
-    /// Values of all metrics if the curves deviate, relative to their peaks.
     pub(super) fn values(&self, deviation: &Deviation) -> Vec<Result<f64, WhyNot>> {
         let evidence = self.evidence(deviation);
         CameraMetric::ALL.iter().map(|metric| metric.evaluate(&evidence)).collect()

@@ -1,15 +1,14 @@
 //! Uncertainty of metrics: the spread of sensitivities between laboratories, propagated through the camera's own curves.
 
-use super::conditions::CameraMetricsQuery;
 use super::perturbed::{Perturbed, StimuliQuery};
 use super::table::{CameraMetric, MetricGroup};
-use super::value::{Contributions, MetricUncertainty, UncertaintySource, WhyNot};
+use super::value::{CameraMetricsQuery, Contributions, MetricUncertainty, UncertaintySource, WhyNot};
 use crate::camera::curve_spread::{Deviation, at_sites};
 use crate::camera::{ChannelRatio, CurveSpread};
-use crate::light::{RadiationConstants, planckian::black_body};
-use crate::query::ask::{Ask, Query};
+use crate::light::RadiationConstants;
+use crate::light::planckian::black_body;
+use crate::query::ask::{Ask, Query, Shared};
 use crate::query::patches::RenderingQuery;
-use crate::query::shared::Shared;
 use crate::spectral::grid::COUNT;
 use crate::spectral::{Evidence, GridSpectrum, Primaries, Response, Sensor};
 
@@ -21,7 +20,6 @@ const T_95: f64 = 2.144_787;
 /// (its maximum), 1.14 (Vora) and 1.20 (Luther) times that predicted, and 83 to 94 % of the pairs of tables lie within 1.96 standard
 /// uncertainties of their difference. 1.96 / 1.15 = 1.70 covers 91 % of a normal distribution.
 const WIDENED: f64 = 1.15;
-/// Coverage factor for 95 %.
 const COVERAGE: f64 = WIDENED * T_95;
 
 /// Probability that a table is per photon although its use by the source's programs says per energy, or the reverse. An assumption:

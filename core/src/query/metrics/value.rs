@@ -1,7 +1,13 @@
-//! Values of metrics with their uncertainties, and reasons for none.
+//! Conditions that metrics are computed under, their values with uncertainties, and reasons for none.
 
 use crate::camera::RenderingError;
+use crate::camera::quality::Electrons;
+use crate::patch_set::PatchSet;
+use crate::query::ask::Shared;
 use crate::query::compare::DifferenceError;
+use crate::query::patches::RenderingQuery;
+use crate::spectral::{GridSpectrum, Sensor};
+use crate::units::Kelvin;
 
 /// Reason for no value of a metric.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -109,4 +115,33 @@ pub struct MetricValue {
     pub value: Result<f64, WhyNot>,
     /// Uncertainty that the sensitivities cause; none where it is unknown, or not computed yet.
     pub uncertainty: Option<MetricUncertainty>,
+}
+
+/// Figures of merit of one camera under one set of conditions.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct CameraMetricsQuery {
+    /// The camera and its color transform.
+    pub rendering: RenderingQuery,
+    /// The reference observer under the same conditions.
+    pub reference: RenderingQuery,
+    /// The patches that differences are taken over.
+    pub patches: Shared<PatchSet>,
+    /// Temperature of the blackbody whose place on the locus is compared.
+    pub temperature: Kelvin,
+    /// Light and patches of the metamerism index.
+    pub index: IndexConditions,
+    /// The camera's full-well capacity and read noise, if known.
+    pub electrons: Option<Electrons>,
+}
+
+/// Conditions of the sensitivity metamerism index: by ISO 17321-1 the CIE 1931 observer, D55 and the 18 chromatic patches of the
+/// `ColorChecker`.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct IndexConditions {
+    /// The observer; counts in XYZ.
+    pub observer: Shared<Sensor>,
+    /// The light.
+    pub light: Shared<GridSpectrum>,
+    /// The patches.
+    pub patches: Shared<PatchSet>,
 }

@@ -7,10 +7,9 @@ use crate::colorimetry::Metric;
 use crate::math::quantile::quantile;
 use crate::query::ask::{Ask, Query};
 use crate::query::compare;
-use crate::query::patches::RenderingQuery;
-use crate::query::patches::patch_colors;
+use crate::query::patches::{RenderingQuery, patch_colors};
 use crate::render::ColorimetricScale;
-use crate::render::develop::differences;
+use crate::render::develop::signal_differences;
 use crate::spectral::GridSpectrum;
 use std::sync::Arc;
 
@@ -88,17 +87,20 @@ impl Query for DifferenceQuery {
         let facing = (*facing).as_ref().map_err(|&e| e)?;
         let [rendering, reference] = [&self.rendering, &self.exposure.reference].map(|of| ask.ask(of));
         let (rendering, reference) = ((*rendering).as_ref().map_err(|&e| e)?, (*reference).as_ref().map_err(|&e| e)?);
-        let measured = ColorimetricScale::new(rendering, facing.white);
-        let measured_reference = ColorimetricScale::new(reference, facing.white);
+        let scales = [rendering, reference].map(|rendering| ColorimetricScale::new(rendering, facing.white));
         let [image, reference_image] = [&self.image, &self.reference].map(|of| ask.ask(of));
         let (Some(image), Some(reference_image)) =
             ((*image).as_ref().map_err(|&e| e)?, (*reference_image).as_ref().map_err(|&e| e)?)
         else {
             return Ok(None);
         };
-        let Some((map, lightness)) =
-            differences(self.metric, image, &measured, reference_image, &measured_reference, self.stride, &ask.stop())
-        else {
+        let Some((map, lightness)) = signal_differences(
+            self.metric,
+            [image.signals(), reference_image.signals()],
+            scales.each_ref(),
+            self.stride,
+            &ask.stop(),
+        ) else {
             return Ok(None);
         };
         let mean = map.iter().map(|&d| f64::from(d)).sum::<f64>() / map.len().max(1) as f64;

@@ -9,6 +9,7 @@
 //! do for any m.
 
 use super::saddle::{Peak, roughly_ln};
+use crate::math::exp::ROUNDER;
 use chromascope_math::double::Double;
 use std::f64::consts::{LN_2, LOG2_E};
 use std::sync::LazyLock;
@@ -25,12 +26,10 @@ static LN_FACTORIALS: LazyLock<[f64; LISTED]> = LazyLock::new(|| {
     }
     listed
 });
-/// Number of the logarithms.
 const LISTED: usize = 352;
 
 /// More terms than any span has; a multiple of [`LANES`].
 const MOST: usize = 128;
-/// Partial sums.
 const LANES: usize = 8;
 
 /// For ln g + b/2 below this the first term is the largest, and all beyond the sixteenth are together below 1e-14 of it: the n-th
@@ -177,7 +176,6 @@ const EXPONENTIAL: [f64; 9] = [
 #[inline(always)]
 fn exp(x: f64) -> f64 {
     // Rounds to an integer, which is left in the low bits.
-    const ROUNDER: f64 = 6_755_399_441_055_744.0;
     let x = x.max(-700.0);
     let shifted = x * LOG2_E + ROUNDER;
     // The terms that weigh have small exponents, where ln 2 in one piece loses nothing that shows.

@@ -112,7 +112,6 @@ impl Place {
     }
 }
 
-/// The half octave of t.
 #[inline(always)]
 fn column(t: f64) -> usize {
     let bits = t.to_bits();
@@ -120,13 +119,11 @@ fn column(t: f64) -> usize {
     (2 * (bits >> 52).wrapping_sub(BIAS) + upper) as usize
 }
 
-/// The middle of an octave of g.
 #[inline(always)]
 fn middle_g(g: f64) -> f64 {
     f64::from_bits(g.to_bits() & !MANTISSA | ROOTS[1].to_bits() & MANTISSA)
 }
 
-/// The middle of half an octave of t.
 #[inline(always)]
 fn middle_t(t: f64) -> f64 {
     let bits = t.to_bits();

@@ -9,7 +9,7 @@
 
 use super::antiderivative;
 use super::rules::{LANES, Rule};
-use crate::math::exp::exp;
+use crate::math::exp::{ROUNDER, exp};
 use crate::reflectance::coherent::mean_sinc_squared;
 use multiversion::multiversion;
 use std::f64::consts::{FRAC_1_PI, PI};
@@ -251,8 +251,6 @@ fn squared_ratio(sin: f64, angle: f64) -> f64 {
 
 /// π in three parts, the first two short enough for exact products with integers below 2²⁰.
 const PI_PARTS: [f64; 3] = [3.141_592_653_468_251_2, 1.215_420_101_260_793_2e-10, 4.044_532_497_591_901e-21];
-/// Adding this rounds a double below 2⁵¹ to the nearest integer.
-const ROUNDER: f64 = 6_755_399_441_055_744.0;
 
 /// Sine and cosine of an angle less the nearest multiple of π, by powers: those of the angle but for a sign that both share.
 #[inline(always)]

@@ -17,17 +17,13 @@ type Row<T> = [T; LANES];
 /// Three coordinates for each sample, axis by axis.
 type Rows<T> = [Row<T>; 3];
 
-/// Inputs of the angles of some samples.
 pub(super) struct Given {
-    /// The sample's column in the picture.
     pub(super) columns: Row<u32>,
     /// x and y of the sample's ray, which goes one ahead.
     pub(super) rays: [Row<f64>; 2],
     /// The weights of the triangle's second and third corner.
     pub(super) weights: [Row<f32>; 2],
-    /// The triangle's corners.
     pub(super) points: [Rows<f32>; 3],
-    /// The normals at the corners.
     pub(super) normals: [Rows<f32>; 3],
     /// The unit vector towards the light.
     pub(super) to_light: Rows<f64>,
@@ -48,17 +44,14 @@ impl Given {
         [1.0 - b - c, b, c].map(f64::from)
     }
 
-    /// A place in the triangle.
     pub(super) fn point(&self, lane: usize) -> DVec3 {
         mix(self.points.each_ref().map(|rows| at(rows, lane)), self.weights(lane))
     }
 }
 
-/// Results for some samples.
 pub(super) struct Found {
     /// True if what follows holds; if not, the sample is one of the rare ones that need care.
     pub(super) plain: Row<bool>,
-    /// True if the triangle is seen from behind.
     pub(super) behind: Row<bool>,
     normals: Rows<f64>,
     angles: [Row<f32>; 7],

@@ -46,7 +46,6 @@ pub(super) struct Point {
     pub(super) kappa: f64,
     pub(super) beta: f64,
     pub(super) exact: [f64; 3],
-    /// Scale of errors.
     pub(super) scale: f64,
 }
 
@@ -126,7 +125,6 @@ impl Check {
         error_of_plan(&rows.concat(), plan)
     }
 
-    /// The wavelengths that stand for all.
     pub(super) fn nodes(&self) -> &[Node] {
         &self.nodes
     }
@@ -141,7 +139,6 @@ impl Check {
     }
 }
 
-/// The largest error of a plan at some points.
 fn error_of_plan(points: &[Point], plan: &Plan) -> f64 {
     // In runs: outside a table each point takes sums over wavelengths.
     let of_run = |points: &[Point]| {
@@ -198,7 +195,6 @@ fn off(point: &Point, found: [f64; 3]) -> f64 {
     if off == 0.0 { 0.0 } else { off / point.scale }
 }
 
-/// The largest difference of a channel.
 fn apart(a: [f64; 3], b: [f64; 3]) -> f64 {
     a.iter().zip(b).fold(0.0_f64, |most, (a, b)| most.max((a - b).abs()))
 }

@@ -60,7 +60,6 @@ impl Demand {
         f64::from(self.samples).exp2()
     }
 
-    /// Smallest and largest κ that are served.
     pub(super) fn held(self) -> [f64; 2] {
         let [from, to] = self.kappa();
         let is_at = |power: i16, end: i16| self.open && power == end;

@@ -2,6 +2,7 @@
 
 use super::domain::ln_last;
 use crate::math::chebyshev::{coefficients, nodes};
+use crate::math::ln::{INTEGERS, MANTISSA, ONE, ROOT_HALF};
 use std::f64::consts::LN_2;
 
 /// Terms of the polynomial that stands for `1/ln(1 + β_last)`.
@@ -64,12 +65,6 @@ impl Extent {
 
 /// Twice the coefficients of `(artanh s / s − 1) / s²` in s².
 const ARTANH: [f64; 7] = [2.0 / 3.0, 2.0 / 5.0, 2.0 / 7.0, 2.0 / 9.0, 2.0 / 11.0, 2.0 / 13.0, 2.0 / 15.0];
-/// The bits of √½, from which on a mantissa counts to the next power of two.
-const ROOT_HALF: u64 = 0x3fe6_a09e_667f_3bcd;
-const ONE: u64 = 0x3ff0_0000_0000_0000;
-const MANTISSA: u64 = 0x000f_ffff_ffff_ffff;
-/// 2⁵²: an integer below it, in the low bits of its mantissa, is added to it.
-const INTEGERS: u64 = 0x4330_0000_0000_0000;
 
 /// ln x within 2e-14 for what is positive, normal and finite; beyond that some number.
 ///

@@ -51,7 +51,6 @@ pub(super) fn for_each_node(
     }
 }
 
-/// The three integrals at many κ and β.
 pub(super) fn many_by_nodes(nodes: &[Node], points: &[[f64; 2]]) -> Vec<[f64; 3]> {
     let mut totals = vec![[0.0; 3]; points.len()];
     for_each_node(nodes, points, Precision::Full, |node, sums| {

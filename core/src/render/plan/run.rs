@@ -76,7 +76,6 @@ impl Chosen {
         chosen
     }
 
-    /// Number of blocks.
     fn blocks(&self) -> usize {
         self.count.div_ceil(BLOCK)
     }

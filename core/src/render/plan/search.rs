@@ -310,7 +310,6 @@ impl Search<'_> {
         }
     }
 
-    /// A plan with a single method.
     fn with(&self, below: Below) -> Plan {
         let chosen = Candidate::unseen(IntegrationMethod::Nothing);
         let (asked, demand) = (self.tolerance, self.demand);

@@ -91,7 +91,6 @@ impl Axis {
         axis
     }
 
-    /// Positions at which the spline is given, from 0 to 1.
     pub(super) fn sites(&self) -> &[f64] {
         &self.sites
     }

@@ -6,6 +6,7 @@ use super::run::BLOCK;
 use super::spline::weights;
 use super::surface::{Cell, Surface};
 use crate::math::array::array;
+use crate::math::exp::ROUNDER;
 use crate::render::measure::Node;
 
 /// A table's fineness: each fourth step halves its cells.
@@ -42,17 +43,14 @@ impl Size {
         }
     }
 
-    /// Coefficients along ln κ and along v.
     pub(super) fn places(&self) -> [usize; 2] {
         self.intervals.map(|count| count + self.degree)
     }
 
-    /// Coefficients.
     pub(super) fn count(&self) -> usize {
         self.places().into_iter().product()
     }
 
-    /// A table of this size as a method.
     pub(super) fn method(&self, nodes: usize) -> IntegrationMethod {
         let [kappas, betas] = self.places();
         IntegrationMethod::Table { degree: self.degree, kappas, betas, nodes }
@@ -89,18 +87,15 @@ impl Table {
         self.surface.degree
     }
 
-    /// The table as a method.
     pub(super) fn method(&self) -> IntegrationMethod {
         let [kappas, betas] = self.surface.intervals.map(|count| count + self.surface.degree);
         IntegrationMethod::Table { degree: self.surface.degree, kappas, betas, nodes: self.nodes.len() }
     }
 
-    /// Returns true if a κ lies in the table.
     pub(super) fn holds(&self, kappa: f64) -> bool {
         self.extent.kappa[0] <= kappa && kappa <= self.extent.kappa[1]
     }
 
-    /// Smallest and largest κ.
     pub(super) fn kappa(&self) -> [f64; 2] {
         self.extent.kappa
     }
@@ -169,9 +164,6 @@ impl<const N: usize> Around<N> {
     pub(super) const NOTHING: Self =
         Self { v: [0.0; BLOCK], start: [0; BLOCK], across: [[0.0; BLOCK]; N], along: [[0.0; BLOCK]; N] };
 }
-
-/// Adding and subtracting this rounds a double below 2⁵¹ to the nearest integer.
-const ROUNDER: f64 = 6_755_399_441_055_744.0;
 
 /// The cell of a place, not beyond the last. Which of two cells a knot belongs to does not matter.
 #[inline(always)]

@@ -15,7 +15,6 @@ const DEGREE: usize = 9;
 const LAST_STEP: u32 = 36;
 /// The largest: 32 MB.
 const MOST_CELLS: usize = 1 << 20;
-/// The most wavelengths.
 const MOST_NODES: usize = 24;
 /// Minimum number of digits by which a table's data are more accurate than the table.
 const SPARE: f64 = 0.6;

@@ -14,7 +14,6 @@ const LEAST_SCALE: f64 = -100.0;
 pub(super) struct Brightness {
     /// The largest, which the picture's is not below.
     pub(super) brightest: f64,
-    /// Largest brightness in the specular direction.
     pub(super) highest: f64,
 }
 

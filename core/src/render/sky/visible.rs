@@ -11,7 +11,6 @@ use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
-/// Cells along a side of the square.
 const SIDE: usize = 8;
 
 /// Distance from the surface at which rays begin, in scene radii.
@@ -81,7 +80,6 @@ impl SkyVisibility {
 #[derive(Clone, Copy)]
 struct Member {
     index: u32,
-    /// True if its normal is opposite to the neighborhood's.
     flipped: bool,
 }
 

@@ -2,8 +2,8 @@
 
 use chromascope_core::accuracy::RelTolerance;
 use chromascope_core::camera::RenderingError;
+use chromascope_core::query::render::PlanQuery;
 use chromascope_core::query::render::picture::{PicturesQuery, SourceOf};
-use chromascope_core::query::render::plan::PlanQuery;
 use chromascope_core::query::{Ask, Query};
 use chromascope_core::render::plan::Explanation;
 
