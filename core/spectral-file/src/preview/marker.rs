@@ -88,7 +88,7 @@ impl Marker {
         if !marks.is_empty() || !above || self.settings.binary_search(&(number as u32)).is_err() {
             return marks;
         }
-        let setting = Mark::new(cells::trimmed(line), What::Setting);
+        let setting = Mark { range: cells::trimmed(line), what: What::Setting };
         Some(setting).filter(|mark| cells::touches(&mark.range, window)).into_iter().collect()
     }
 }
@@ -100,7 +100,7 @@ fn placed(all: &[Place], start: usize, line: &str, window: &Range<usize>, file: 
     let marks = pieces.filter_map(|piece| {
         let range = (piece.start as usize).checked_sub(start)?..piece.end as usize - start;
         let written = line.get(range.clone())?;
-        Some(Mark::new(range, what(piece, written, file)?))
+        Some(Mark { range, what: what(piece, written, file)? })
     });
     marks.collect()
 }

@@ -101,7 +101,7 @@ impl Down {
                 (Some(curve), Cell::Number(written)) => value(written, curve, nm, file),
                 (Some(curve), Cell::Gap | Cell::Text) => What::Gap(curve),
             };
-            marks.push(Mark::new(range, what));
+            marks.push(Mark { range, what });
         }
         marks
     }
@@ -140,14 +140,14 @@ impl Down {
         let marks = cells.filter_map(|(index, cell)| {
             let range = cells::range(line, cell);
             let what = what(index + shift, cell).filter(|_| cells::touches(&range, window))?;
-            Some(Mark::new(range, what))
+            Some(Mark { range, what })
         });
         marks.collect()
     }
 }
 
 fn line_mark(line: &str, window: &Range<usize>, why: LeftOut) -> Vec<Mark> {
-    let mark = Mark::new(cells::trimmed(line), What::LeftOut(why));
+    let mark = Mark { range: cells::trimmed(line), what: What::LeftOut(why) };
     Some(mark).filter(|mark| cells::touches(&mark.range, window)).into_iter().collect()
 }
 
@@ -215,7 +215,7 @@ impl Across {
                     None => What::LeftOut(LeftOut::Column),
                 },
             };
-            Some(Mark::new(range, what))
+            Some(Mark { range, what })
         });
         marks.collect()
     }
@@ -235,7 +235,7 @@ impl Across {
                     (Some(_), Cell::Gap | Cell::Text) => What::Gap(curve),
                 },
             };
-            Some(Mark::new(range, what))
+            Some(Mark { range, what })
         });
         marks.collect()
     }
