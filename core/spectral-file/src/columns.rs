@@ -4,7 +4,7 @@ pub(super) mod axes;
 
 use crate::decision::{Decision, Dropped, WavelengthUnit};
 use crate::dialect::{Cell, Dialect};
-use crate::error::{MAX_CURVES, MAX_SAMPLES, ReadError};
+use crate::error::{MAX_CURVES, MAX_SAMPLES, ReadError, check_curves, check_samples};
 use crate::grid::{Grid, RawCurve};
 use crate::header::{self, Header};
 use crate::layout::Layout;
@@ -236,12 +236,8 @@ impl Columns {
         if cells < self.width {
             return Err(ReadError::UnevenRow { line: number, found: cells, expected: self.width });
         }
-        if self.width > MAX_CURVES + 1 {
-            return Err(ReadError::TooManyCurves(number));
-        }
-        if (rows + 1) * (self.width - 1) > MAX_SAMPLES {
-            return Err(ReadError::TooManySamples(number));
-        }
+        check_curves(self.width - 1, number)?;
+        check_samples((rows + 1) * (self.width - 1), number)?;
         if rows == 0 {
             self.reserve();
         }

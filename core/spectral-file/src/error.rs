@@ -17,6 +17,16 @@ pub(super) const MAX_DROPPED: usize = 1000;
 /// The most samples (curves times wavelengths) one table may hold.
 pub const MAX_SAMPLES: usize = 20_000_000;
 
+/// Refuses more curves than a table may hold.
+pub(super) fn check_curves(count: usize, line: usize) -> Result<(), ReadError> {
+    if count > MAX_CURVES { Err(ReadError::TooManyCurves(line)) } else { Ok(()) }
+}
+
+/// Refuses more samples than a table may hold.
+pub(super) fn check_samples(count: usize, line: usize) -> Result<(), ReadError> {
+    if count > MAX_SAMPLES { Err(ReadError::TooManySamples(line)) } else { Ok(()) }
+}
+
 /// Reason that a file could not be read: where, what, and what helps. Lines and columns count from 1; a
 /// number alone is a line.
 ///

@@ -4,7 +4,7 @@ use crate::bands::Group;
 use crate::decision::{Decided, Orientation, Part, Quantity, Role, Values};
 use crate::dialect::{Cell, Dialect};
 use crate::dialect_trial::Across;
-use crate::error::{MAX_CURVES, MAX_PARTS, MAX_SAMPLES, ReadError};
+use crate::error::{MAX_PARTS, ReadError, check_curves, check_samples};
 use crate::grid::{Grid, RawCurve};
 use crate::header::{self, Header};
 use crate::layout::Layout;
@@ -288,12 +288,8 @@ impl<'a> Rows<'a> {
             self.gaps += missing;
             self.gap_lines.add(number);
         }
-        if self.curves.len() >= MAX_CURVES {
-            return Err(ReadError::TooManyCurves(number));
-        }
-        if (self.curves.len() + 1) * wavelengths.len() > MAX_SAMPLES {
-            return Err(ReadError::TooManySamples(number));
-        }
+        check_curves(self.curves.len() + 1, number)?;
+        check_samples((self.curves.len() + 1) * wavelengths.len(), number)?;
         self.curves.push(curve);
         Ok(())
     }

@@ -3,7 +3,7 @@
 
 use crate::decision::{Decided, DecimalMark, Decision, Delimiter, Orientation, Reader, Role, WavelengthUnit};
 use crate::dialect::{Cell, Dialect};
-use crate::error::{MAX_CURVES, ReadError};
+use crate::error::{ReadError, check_curves};
 use crate::formats::Format;
 use crate::formats::spectra::Found;
 use crate::grid::{Grid, RawCurve};
@@ -77,9 +77,7 @@ fn read(text: &str, _: &ReadOptions, log: &mut Log<'_>) -> Result<Found, ReadErr
             values(text).ok_or(ReadError::UnevenRow { line: line.max(1), found, expected: BANDS })
         };
         cameras.push((name.trim().to_owned(), [channel()?, channel()?, channel()?]));
-        if cameras.len() > MAX_CURVES / CHANNELS.len() {
-            return Err(ReadError::TooManyCurves(first_line));
-        }
+        check_curves(cameras.len() * CHANNELS.len(), first_line)?;
     }
     let mut header = Header::default();
     if let [(only, _)] = cameras.as_slice() {

@@ -7,7 +7,7 @@ use crate::decision::{
     Decided, DecimalMark, Decision, Delimiter, Family, Orientation, Part, Reader, Role, Values, WavelengthUnit,
 };
 use crate::dialect::Dialect;
-use crate::error::{MAX_CURVES, MAX_PARTS, MAX_SAMPLES, ReadError};
+use crate::error::{MAX_PARTS, ReadError, check_curves, check_samples};
 use crate::formats::Format;
 use crate::formats::cgats::bands::{Bands, Declared};
 use crate::formats::cgats::tokens::Token;
@@ -173,9 +173,7 @@ impl File {
             let place = (!digits.is_empty()).then(|| places.add(PlaceKind::Wavelength, digits));
             self.field_places.push(place.unwrap_or_default());
         }
-        if self.fields.len() > MAX_CURVES {
-            return Err(ReadError::TooManyCurves(line));
-        }
+        check_curves(self.fields.len(), line)?;
         Ok(Place::Format)
     }
 
@@ -242,12 +240,8 @@ impl File {
     fn end_row(&mut self, line: usize) -> Result<(), ReadError> {
         self.at = 0;
         self.names.push(std::mem::take(&mut self.row_name));
-        if self.values.len() > MAX_SAMPLES {
-            return Err(ReadError::TooManySamples(line));
-        }
-        if self.names.len() > MAX_CURVES {
-            return Err(ReadError::TooManyCurves(line));
-        }
+        check_samples(self.values.len(), line)?;
+        check_curves(self.names.len(), line)?;
         let row = std::mem::take(&mut self.row_wavelengths);
         let agrees = self.bands.as_mut().is_none_or(|bands| bands.agrees(row));
         if agrees { Ok(()) } else { Err(ReadError::SecondTable(line)) }

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use crate::decimal::clean;
 use crate::decision::{Decided, DecimalMark, Delimiter, Reader, WavelengthUnit};
-use crate::error::{MAX_CURVES, MAX_SAMPLES, ReadError};
+use crate::error::{ReadError, check_curves, check_samples};
 use crate::formats::Format;
 use crate::formats::spectra::{self, Found, Sample, Spectrum};
 use crate::formats::xml::{self, Element, Step, Walk};
@@ -126,9 +126,7 @@ impl Content {
 
     fn spectrum(&mut self, element: &Element<'_>, log: &mut Log<'_>) -> Result<(), ReadError> {
         let Some(name) = self.objects.last().cloned() else { return Ok(()) };
-        if self.spectra.len() >= MAX_CURVES {
-            return Err(ReadError::TooManyCurves(element.line));
-        }
+        check_curves(self.spectra.len() + 1, element.line)?;
         let kind = element.name().trim_end_matches("Spectrum");
         let label = if kind == "Emissive" { "Emission" } else { kind.trim_start_matches("Custom") }.to_owned();
         let mut samples = std::mem::take(&mut self.points);
@@ -177,9 +175,7 @@ fn push(samples: &mut Vec<Sample>, total: &mut usize, sample: Sample) -> Result<
         return Ok(());
     }
     *total += 1;
-    if *total > MAX_SAMPLES {
-        return Err(ReadError::TooManySamples(sample.line));
-    }
+    check_samples(*total, sample.line)?;
     samples.push(sample);
     Ok(())
 }

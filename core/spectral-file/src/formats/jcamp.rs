@@ -5,7 +5,7 @@ mod counts;
 mod ordinates;
 
 use crate::decision::{Decided, DecimalMark, Decision, Delimiter, Family, Part, Reader};
-use crate::error::{MAX_CURVES, MAX_PARTS, MAX_SAMPLES, ReadError};
+use crate::error::{MAX_PARTS, MAX_SAMPLES, ReadError, check_curves};
 use crate::formats::Format;
 use crate::formats::jcamp::block::{Block, label};
 use crate::formats::spectra::{self, Found};
@@ -116,9 +116,7 @@ fn blocks(text: &str, log: &mut Log<'_>) -> Result<Vec<Block>, ReadError> {
             let key = label(key);
             if key == "TITLE" || all.is_empty() {
                 close(&mut all)?;
-                if all.len() >= MAX_CURVES {
-                    return Err(ReadError::TooManyCurves(number));
-                }
+                check_curves(all.len() + 1, number)?;
                 all.push(Block::default());
             }
             if let Some(block) = all.last_mut() {

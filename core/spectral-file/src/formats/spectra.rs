@@ -1,7 +1,7 @@
 //! What readers of formats give, and spectra that each have wavelengths of their own, brought onto one grid.
 
 use crate::decision::{Decided, DecimalMark, Decision, Delimiter, Orientation, Reader};
-use crate::error::{MAX_CURVES, MAX_SAMPLES, ReadError};
+use crate::error::{MAX_CURVES, ReadError, check_samples};
 use crate::grid::{Grid, RawCurve};
 use crate::header::Header;
 use crate::layout::Layout;
@@ -129,9 +129,7 @@ pub(crate) fn grid(mut spectra: Vec<Spectrum>, header: Header, log: &mut Log<'_>
     wavelengths.sort_unstable_by(f64::total_cmp);
     wavelengths.dedup();
     log.look(usize::MAX)?;
-    if wavelengths.len().saturating_mul(spectra.len()) > MAX_SAMPLES {
-        return Err(ReadError::TooManySamples(line));
-    }
+    check_samples(wavelengths.len().saturating_mul(spectra.len()), line)?;
     let mut lines = vec![line];
     if let [only] = spectra.as_slice() {
         lines = only.samples.iter().map(|sample| sample.line).collect();
