@@ -4,10 +4,10 @@ pub(super) mod axes;
 
 use crate::decision::{Decision, Dropped, WavelengthUnit};
 use crate::dialect::{Cell, Dialect};
+use crate::dialect_trial::Layout;
 use crate::error::{MAX_CURVES, MAX_SAMPLES, ReadError, check_curves, check_samples};
 use crate::grid::{Grid, RawCurve};
 use crate::header::{self, Header};
-use crate::layout::Layout;
 use crate::no_curve::is_empty;
 use crate::text::{Lines, Section, comment, excerpt};
 use crate::warning::{LineList, Warning};

@@ -5,7 +5,6 @@ mod cgats;
 #[cfg(feature = "xml")]
 mod cxf;
 mod jcamp;
-mod jcamp_asdf;
 #[cfg(feature = "json")]
 mod json;
 mod lamp_meter;

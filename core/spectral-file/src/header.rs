@@ -7,9 +7,9 @@ use std::fmt::Write as _;
 use crate::clues::{self, Clues};
 use crate::decision::{Delimiter, Medium, Orientation, Quantity, Role, Values, WavelengthUnit};
 use crate::dialect::{Cell, Dialect};
+use crate::dialect_trial::Layout;
 use crate::error::MAX_CURVES;
 use crate::header_terms::{self, UNSPECIFIED, XUnit};
-use crate::layout::Layout;
 use crate::text::{Lines, Section, comment, is_one};
 use crate::{unit_text, units};
 

@@ -1,16 +1,15 @@
 //! Decides how a text is laid out: separators, decimal mark, orientation, and the line where the numbers begin.
 
+use crate::bands;
 use crate::decision::{Decided, DecimalMark, Delimiter, Orientation};
-use crate::dialect::{Cell, Dialect};
-use crate::dialect_trial::{Shape, Trial};
-use crate::error::{NearMiss, ReadError};
-use crate::layout::Layout;
+use crate::dialect::{Cell, Dialect, may_be_thousands};
+use crate::dialect_trial::{Layout, Shape, Trial};
+use crate::error::{MAX_CURVES, NearMiss, ReadError};
 use crate::options::ReadOptions;
 use crate::text::{Lines, Section, comment, excerpt};
 use crate::units::plausible;
 use crate::warning::Warning;
 use crate::watch::Log;
-use crate::{bands, thousands};
 
 /// Lines that are tried before deciding, if enough of them are rows of numbers.
 const SAMPLE_LINES: usize = 200;
@@ -105,7 +104,7 @@ fn try_all(
     let dialects = dialects.chain(quoted.then_some(grouped));
     let look = if section.line == 1 { SAMPLE_BYTES } else { LONGEST_HEADER_LATER };
     let start = &section.text[..section.text.floor_char_boundary(look)];
-    let told = options.decimal_mark.is_none() && thousands::has_grouped(start);
+    let told = options.decimal_mark.is_none() && has_grouped(start);
     let others = CANDIDATES.iter().filter(|candidate| told && wanted(candidate) && candidate.0 != Delimiter::Comma);
     let others = others.filter(|candidate| candidate.0 != Delimiter::CommaSpace);
     let dialects = dialects.chain(others.map(|&(delimiter, mark)| Dialect { delimiter, mark, thousands: true }));
@@ -231,7 +230,7 @@ fn marks(
     }
     let delimiter = trial.dialect.delimiter;
     let seen = trial.dialect.thousands && delimiter != Delimiter::Comma;
-    if trial.has_fractions() && (seen || thousands::beside_fractions(section, delimiter, mark.value, from)) {
+    if trial.has_fractions() && (seen || beside_fractions(section, delimiter, mark.value, from)) {
         return (mark, true, None);
     }
     let sign = match mark.value {
@@ -240,7 +239,7 @@ fn marks(
         DecimalMark::Point => '.',
     };
     let possible = trial.marks == 0 || trial.only_grouped();
-    if trial.dialect.thousands || (possible && thousands::groups(section, (delimiter, sign), from, orientation)) {
+    if trial.dialect.thousands || (possible && is_grouped(section, (delimiter, sign), from, orientation)) {
         let (mark, fractions) = match sign {
             ',' => (DecimalMark::Point, DecimalMark::Comma),
             _ => (DecimalMark::Comma, DecimalMark::Point),
@@ -446,4 +445,113 @@ fn between(line: &str) -> Option<char> {
     let second = second.split(sign).next()?.trim();
     let plain = |text: &str| text.replace(',', ".").parse::<f64>().is_ok_and(f64::is_finite);
     (plain(&line[..end]) && plain(second)).then_some(sign)
+}
+
+/// Returns whether a mark groups thousands in the rows from a line on: each number that has it could be a whole one, and the
+/// whole numbers of three digits next to them are nearer to that than to a fraction.
+///
+/// ```text
+/// Σ |ln(p/f)| − |ln(p/1000 f)| > 0    over neighbors, a whole number p and one that would be the fraction f
+/// ```
+fn is_grouped(
+    section: Section<'_>,
+    (delimiter, mark): (Delimiter, char),
+    from: usize,
+    orientation: Orientation,
+) -> bool {
+    let dialect = Dialect::new(delimiter, DecimalMark::Point);
+    // Commas that separate stand in every line; one within a cell is quoted.
+    let sign = if delimiter == Delimiter::Comma && mark == ',' { '"' } else { mark };
+    let mut score = 0.0;
+    let mut before = (false, "");
+    for (number, line) in Lines::of(section) {
+        if number < from || line.trim_ascii().is_empty() || comment(line).is_some() {
+            continue;
+        }
+        let marked = line.contains(sign);
+        if marked {
+            for (index, cell) in dialect.cells(line).take(MAX_CURVES + 1).enumerate() {
+                let Some(cell) = Written::of(cell, mark) else { continue };
+                let too_large = matches!(cell, Written::Whole(value) if index > 0 && value >= 1000.0);
+                if too_large || matches!(cell, Written::Fraction) {
+                    return false;
+                }
+            }
+        }
+        if orientation == Orientation::Across && marked {
+            let cells = || dialect.cells(line).take(MAX_CURVES + 1);
+            score += cells().zip(cells().skip(1)).map(|(a, b)| votes(a, b, mark)).sum::<f64>();
+        } else if orientation == Orientation::Down && (marked || before.0) {
+            score += dialect.cells(before.1).zip(dialect.cells(line)).map(|(a, b)| votes(a, b, mark)).sum::<f64>();
+        }
+        before = (marked, line);
+    }
+    score > 0.0
+}
+
+/// Returns whether a mark that stands before no fraction groups thousands in the rows from a line on, `1,000` beside `0.390`: where
+/// fractions are seen to stand after the other mark, it can mean nothing else.
+fn beside_fractions(section: Section<'_>, delimiter: Delimiter, fractions: DecimalMark, from: usize) -> bool {
+    let other = if fractions == DecimalMark::Point { ',' } else { '.' };
+    let dialect = Dialect::new(delimiter, fractions);
+    let content = Lines::of(section).skip_while(|(number, _)| *number < from);
+    // Commas that separate stand in every line; one within a cell is quoted.
+    let sign = if delimiter == Delimiter::Comma && other == ',' { '"' } else { other };
+    if !section.text.contains(sign) {
+        return false;
+    }
+    let mut marked = content.filter(|(_, line)| line.contains(sign) && comment(line).is_none());
+    let grouped = |cell: &str| cell.contains(other) && may_be_thousands(cell);
+    marked.any(|(_, line)| dialect.cells(line).take(MAX_CURVES + 1).any(grouped))
+}
+
+/// Returns whether a text has a number such as `1,000` or `1.000` in it that no comma of a list makes.
+fn has_grouped(text: &str) -> bool {
+    let bytes = text.as_bytes();
+    let digit = |at: usize| bytes.get(at).is_some_and(u8::is_ascii_digit);
+    let mut signs = bytes.iter().enumerate().filter(|(_, byte)| matches!(byte, b',' | b'.'));
+    let commas_and_points = bytes.contains(&b',') && bytes.contains(&b'.');
+    commas_and_points
+        && signs
+            .any(|(at, _)| at > 0 && digit(at - 1) && digit(at + 1) && digit(at + 2) && digit(at + 3) && !digit(at + 4))
+}
+
+/// Form of a written number.
+enum Written {
+    /// Digits alone.
+    Whole(f64),
+    /// With a mark that may group thousands; the number that it is with a fraction.
+    Either(f64),
+    /// With a mark that can only stand before a fraction.
+    Fraction,
+}
+
+impl Written {
+    fn of(cell: &str, mark: char) -> Option<Self> {
+        const LONGEST: usize = 24;
+        let other = |c: char| !(c.is_ascii_digit() || c == mark || c == '-');
+        if cell.is_empty() || cell.len() > LONGEST || cell.contains(other) {
+            return None;
+        }
+        match cell.matches(mark).count() {
+            0 => cell.parse().ok().map(Self::Whole),
+            1 if may_be_thousands(cell) => cell.replace(mark, ".").parse().ok().map(Self::Either),
+            1 => Some(Self::Fraction),
+            _ => None,
+        }
+    }
+}
+
+/// Natural logarithm of how much nearer two neighbors are with thousands than with fractions.
+fn votes(a: &str, b: &str, mark: char) -> f64 {
+    let both = (Written::of(a, mark), Written::of(b, mark));
+    let ((Some(Written::Whole(plain)), Some(Written::Either(fraction)))
+    | (Some(Written::Either(fraction)), Some(Written::Whole(plain)))) = both
+    else {
+        return 0.0;
+    };
+    if !(100.0..1000.0).contains(&plain) || fraction <= 0.0 {
+        return 0.0;
+    }
+    (plain / fraction).ln().abs() - (plain / (1000.0 * fraction)).ln().abs()
 }

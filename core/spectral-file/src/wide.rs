@@ -3,11 +3,10 @@
 use crate::bands::Group;
 use crate::decision::{Decided, Orientation, Part, Quantity, Role, Values};
 use crate::dialect::{Cell, Dialect};
-use crate::dialect_trial::Across;
+use crate::dialect_trial::{Across, Layout};
 use crate::error::{MAX_PARTS, ReadError, check_curves, check_samples};
 use crate::grid::{Grid, RawCurve};
 use crate::header::{self, Header};
-use crate::layout::Layout;
 use crate::text::{Lines, Section, comment, excerpt, listed};
 use crate::warning::{LineList, Warning};
 use crate::watch::Log;

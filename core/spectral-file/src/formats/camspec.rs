@@ -3,12 +3,12 @@
 
 use crate::decision::{Decided, DecimalMark, Decision, Delimiter, Orientation, Reader, Role, WavelengthUnit};
 use crate::dialect::{Cell, Dialect};
+use crate::dialect_trial::Layout;
 use crate::error::{ReadError, check_curves};
 use crate::formats::Format;
 use crate::formats::spectra::Found;
 use crate::grid::{Grid, RawCurve};
 use crate::header::Header;
-use crate::layout::Layout;
 use crate::options::ReadOptions;
 use crate::text::Lines;
 use crate::watch::{Log, PlaceKind};

@@ -1,7 +1,6 @@
 //! JCAMP-DX: labeled records, blocks of blocks, points or compressed ordinates.
 
 mod block;
-mod counts;
 mod ordinates;
 
 use crate::decision::{Decided, DecimalMark, Decision, Delimiter, Family, Part, Reader};
@@ -29,7 +28,7 @@ fn read(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Result<Found, R
     blocks.retain(|block| !block.samples.is_empty());
     let parts: Vec<Part> = blocks.iter().take(MAX_PARTS).map(Block::part).collect();
     let mut notes = Vec::new();
-    let ratio = counts::settle(&mut blocks, options, log);
+    let ratio = block::settle(&mut blocks, options, log);
     let part = choose(&mut blocks, options, &mut notes)?;
     let part = leave_other_units(&mut blocks, part, &parts, log);
     let first_line = blocks.first().map(|block| block.data_line + 1).ok_or(ReadError::NoNumbers)?;

@@ -1,10 +1,10 @@
 //! What readers of formats give, and spectra that each have wavelengths of their own, brought onto one grid.
 
 use crate::decision::{Decided, DecimalMark, Decision, Delimiter, Orientation, Reader};
+use crate::dialect_trial::Layout;
 use crate::error::{MAX_CURVES, ReadError, check_samples};
 use crate::grid::{Grid, RawCurve};
 use crate::header::Header;
-use crate::layout::Layout;
 use crate::warning::Warning;
 use crate::watch::{Log, PlaceId, PlaceKind};
 

@@ -3,9 +3,8 @@
 use std::ops::Range;
 
 use crate::decision::{Orientation, Reader, WavelengthUnit};
+use crate::dialect_trial::Layout;
 use crate::grid::Grid;
-use crate::layout::Layout;
-use crate::preview::cells;
 use crate::preview::mark::{LeftOut, Mark, What};
 use crate::preview::tables::{self, Across, Down};
 use crate::report::SpectralFile;
@@ -88,8 +87,8 @@ impl Marker {
         if !marks.is_empty() || !above || self.settings.binary_search(&(number as u32)).is_err() {
             return marks;
         }
-        let setting = Mark { range: cells::trimmed(line), what: What::Setting };
-        Some(setting).filter(|mark| cells::touches(&mark.range, window)).into_iter().collect()
+        let setting = Mark { range: tables::trimmed(line), what: What::Setting };
+        Some(setting).filter(|mark| tables::touches(&mark.range, window)).into_iter().collect()
     }
 }
 
@@ -109,7 +108,7 @@ fn what(place: &Place, written: &str, file: &SpectralFile) -> Option<What> {
     let curve = place.origin as usize;
     Some(match place.kind {
         PlaceKind::Wavelength => What::Wavelength(place.wavelength),
-        PlaceKind::Value => tables::value(cells::number(written)?, curve, place.wavelength, file),
+        PlaceKind::Value => tables::value(tables::number(written)?, curve, place.wavelength, file),
         PlaceKind::Block | PlaceKind::Check => What::Block(curve),
         PlaceKind::Repeated => What::LeftOut(LeftOut::Repeated),
         PlaceKind::Averaged => What::LeftOut(LeftOut::Averaged),
