@@ -195,15 +195,11 @@ impl Brush<'_> {
 pub(crate) trait Canvas {
     /// Begins a named group; with a rectangle, its contents show inside that only.
     fn begin(&mut self, name: &str, clip: Option<Rect>);
-    /// Ends the group begun last.
     fn end(&mut self);
     /// Draws a path through at least two points.
     fn path(&mut self, points: &[[f64; 2]], closed: bool, stroke: Option<Stroke>, fill: Option<Ink>);
-    /// Draws a rectangle.
     fn rect(&mut self, area: Rect, stroke: Option<Stroke>, fill: Option<Ink>);
-    /// Draws a disk.
     fn disk(&mut self, center: [f64; 2], radius: f64, stroke: Option<Stroke>, fill: Option<Ink>);
-    /// Draws a line of text.
     fn text(&mut self, label: &TextLine<'_>);
     /// Draws a picture over a rectangle.
     fn image(&mut self, area: Rect, image: &Image);
@@ -212,17 +208,12 @@ pub(crate) trait Canvas {
 /// A line of text with its place.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct TextLine<'a> {
-    /// Its place.
     pub(crate) at: [f64; 2],
-    /// The text.
     pub(crate) text: &'a str,
     /// Point of the text that lies on the place.
     pub(crate) anchor: Anchor,
-    /// Size and face.
     pub(crate) size: TextSize,
-    /// Color.
     pub(crate) ink: Ink,
-    /// Color of the halo beneath.
     pub(crate) halo: Option<Ink>,
     /// True if the text runs upward.
     pub(crate) upward: bool,

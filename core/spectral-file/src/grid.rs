@@ -209,7 +209,7 @@ fn warn_gaps(gaps: &[u32], lines: &[usize], sentinel: Option<Sentinel>, log: &mu
     log.push(Warning::Gaps { cells, lines: gap_lines.into_iter().collect(), sentinel });
 }
 
-fn retain<T>(items: &mut Vec<T>, marked: &[bool]) {
+pub(super) fn retain<T>(items: &mut Vec<T>, marked: &[bool]) {
     let mut marks = marked.iter();
     items.retain(|_| !marks.next().copied().unwrap_or(false));
 }

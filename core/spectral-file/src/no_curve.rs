@@ -2,7 +2,7 @@
 //! instruments write beside the curve they made of them, and numbers that stand for missing values (−999, 9999, −1.23e34).
 
 use crate::decision::{Decided, Decision};
-use crate::grid::{Grid, RawCurve};
+use crate::grid::{Grid, RawCurve, retain};
 use crate::options::ReadOptions;
 use crate::text::is_one;
 use crate::warning::{LineList, Sentinel, Warning};
@@ -30,8 +30,7 @@ pub(super) fn leave_out(grid: &mut Grid, log: &mut Log<'_>) {
     }
     let Some(first) = marks.iter().position(|mark| *mark) else { return };
     log.push(Warning::NotSpectra { count, first: grid.curves[first].description() });
-    let mut marks = marks.into_iter();
-    grid.curves.retain(|_| !marks.next().unwrap_or(false));
+    retain(&mut grid.curves, &marks);
 }
 
 fn is_companion(curve: &RawCurve) -> bool {
@@ -111,8 +110,7 @@ pub(super) fn leave_out_raw(grid: &mut Grid, options: &ReadOptions) -> Option<De
     let decided = Decided::or_chosen(options.raw.map(|_| kept.clone()), || {
         Decided::certain(kept, format!("Its header calls {left} raw counts"))
     });
-    let mut marks = raw.iter();
-    grid.curves.retain(|_| !marks.next().copied().unwrap_or(false));
+    retain(&mut grid.curves, &raw);
     Some(Decision::new("Columns", &decided))
 }
 

@@ -61,10 +61,21 @@ impl Down {
 
     pub(super) fn marks(&self, number: usize, line: &str, window: &Range<usize>, file: &SpectralFile) -> Vec<Mark> {
         if self.names == Some(number) {
-            return self.header(line, window);
+            return self.above(line, self.shift, window, |column, cell| match self.curves.get(column) {
+                _ if self.axis(column).is_some() => {
+                    let unit = header_terms::x_unit(cell).is_some() || header_terms::names_wavelengths(cell);
+                    unit.then_some(What::Unit(None))
+                }
+                Some(Some(curve)) => Some(What::Name(*curve)),
+                _ => Some(What::LeftOut(LeftOut::Column)),
+            });
         }
         if self.units == Some(number) {
-            return self.units(line, window);
+            return self.above(line, 0, window, |column, _| match self.curves.get(column) {
+                _ if self.axis(column).is_some() => Some(What::Unit(None)),
+                Some(Some(curve)) => Some(What::Unit(Some(*curve))),
+                _ => Some(What::LeftOut(LeftOut::Column)),
+            });
         }
         if number < self.first_line || !is_content(line) {
             return Vec::new();
@@ -108,36 +119,15 @@ impl Down {
         marks
     }
 
-    fn header(&self, line: &str, window: &Range<usize>) -> Vec<Mark> {
-        let body = text::comment(line).unwrap_or(line);
-        self.pieces(line, body, self.shift, window, |column, cell| match self.curves.get(column) {
-            _ if self.axis(column).is_some() => {
-                let unit = header_terms::x_unit(cell).is_some() || header_terms::names_wavelengths(cell);
-                unit.then_some(What::Unit(None))
-            }
-            Some(Some(curve)) => Some(What::Name(*curve)),
-            _ => Some(What::LeftOut(LeftOut::Column)),
-        })
-    }
-
-    fn units(&self, line: &str, window: &Range<usize>) -> Vec<Mark> {
-        let body = text::comment(line).unwrap_or(line);
-        self.pieces(line, body, 0, window, |column, _| match self.curves.get(column) {
-            _ if self.axis(column).is_some() => Some(What::Unit(None)),
-            Some(Some(curve)) => Some(What::Unit(Some(*curve))),
-            _ => Some(What::LeftOut(LeftOut::Column)),
-        })
-    }
-
-    /// The cells of a line above the table that are something.
-    fn pieces(
+    /// Marks of the cells of a line above the table that are something, the first of them in a column.
+    fn above(
         &self,
         line: &str,
-        body: &str,
         shift: usize,
         window: &Range<usize>,
         what: impl Fn(usize, &str) -> Option<What>,
     ) -> Vec<Mark> {
+        let body = text::comment(line).unwrap_or(line);
         let cells = self.dialect.cells(body).enumerate().filter(|(_, cell)| !cell.is_empty());
         let marks = cells.filter_map(|(index, cell)| {
             let range = range(line, cell);
