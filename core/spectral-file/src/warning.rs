@@ -111,7 +111,7 @@ pub enum Warning {
     #[error("There is nothing between 380 and 780 nm, the light that is seen")]
     Invisible,
     /// Neighboring wavelengths far further apart than the others: more than 20 nm and ten times the median step.
-    #[error("{}nothing between {from_nm} and {to_nm} nm, far more than the other steps", both(*.lines))]
+    #[error("{}nothing between {from_nm} and {to_nm} nm, far more than the other steps", of(*.lines, |[a, b]| format!("lines {a} and {b}: ")))]
     Hole {
         from_nm: f64,
         to_nm: f64,
@@ -134,7 +134,7 @@ pub enum Warning {
     MoreGroups { count: usize, second: String },
     #[error("Nothing names the unit of wave numbers: if they are wavelengths, choose nanometers")]
     MaybeWavelengths,
-    #[error("{}{}", at(*.line), below_zero(*.count, .first, *.min))]
+    #[error("{}{}", of(*.line, |line| format!("line {line}: ")), below_zero(*.count, .first, *.min))]
     BelowZero {
         count: usize,
         first: String,
@@ -152,7 +152,7 @@ pub enum Warning {
     ShortLines(LineList),
     #[error("line {line}: {label} announces {announced}, but the data give {found}")]
     HeaderDiffers { line: usize, label: &'static str, announced: f64, found: f64 },
-    #[error("{named}: another scale than the wavelengths{}, no spectrum: left out", in_column(*.wavelength_column))]
+    #[error("{named}: another scale than the wavelengths{}, no spectrum: left out", of(*.wavelength_column, |column| format!(" in column {column}")))]
     OtherAxes {
         named: String,
         /// The column of the wavelengths, from 1, where they run down one.
@@ -240,16 +240,9 @@ fn grouped(fractions: DecimalMark) -> &'static str {
     if fractions == DecimalMark::Comma { "1,000" } else { "1.000" }
 }
 
-fn both(lines: Option<[usize; 2]>) -> String {
-    lines.map_or_else(String::new, |[a, b]| format!("lines {a} and {b}: "))
-}
-
-fn at(line: Option<usize>) -> String {
-    line.map_or_else(String::new, |line| format!("line {line}: "))
-}
-
-fn in_column(column: Option<usize>) -> String {
-    column.map_or_else(String::new, |column| format!(" in column {column}"))
+/// Words about a number, or none.
+fn of<T>(number: Option<T>, words: impl FnOnce(T) -> String) -> String {
+    number.map_or_else(String::new, words)
 }
 
 fn and_more(count: usize) -> String {
@@ -257,10 +250,9 @@ fn and_more(count: usize) -> String {
 }
 
 fn other_groups(count: usize) -> String {
-    if count == 2 {
-        ", another group of spectra".to_owned()
-    } else {
-        format!(" and {} more groups of spectra", count - 2)
+    match count {
+        2 => ", another group of spectra".to_owned(),
+        _ => format!(" and {} more groups of spectra", count - 2),
     }
 }
 

@@ -114,22 +114,17 @@ impl Filled<'_> {
             let first = ((row - self.rows.start) * self.info.width + at.position.x()) * bands;
             let pixels = samples[first..first + at.sample_count * bands].chunks_exact_mut(bands);
             let finite = |value: f32| if value.is_finite() { value } else { f32::NAN };
+            macro_rules! each {
+                ($type:ty, $value:expr) => {
+                    for (pixel, sample) in pixels.zip(line.read_samples::<$type>()) {
+                        pixel[place] = $value(sample?);
+                    }
+                };
+            }
             match self.channels.list[at.channel].sample_type {
-                SampleType::F32 => {
-                    for (pixel, value) in pixels.zip(line.read_samples::<f32>()) {
-                        pixel[place] = finite(value?);
-                    }
-                }
-                SampleType::F16 => {
-                    for (pixel, value) in pixels.zip(line.read_samples::<f16>()) {
-                        pixel[place] = finite(value?.to_f32());
-                    }
-                }
-                SampleType::U32 => {
-                    for (pixel, value) in pixels.zip(line.read_samples::<u32>()) {
-                        pixel[place] = value? as f32;
-                    }
-                }
+                SampleType::F32 => each!(f32, finite),
+                SampleType::F16 => each!(f16, |value: f16| finite(value.to_f32())),
+                SampleType::U32 => each!(u32, |value: u32| value as f32),
             }
         }
         Ok(())

@@ -110,30 +110,21 @@ impl<'a> Fields<'a> {
         rest = &rest[first.len()..];
         let mut fields = Vec::new();
         while !rest.is_empty() && fields.len() < MAX_FIELDS {
-            let end = rest.find('\n').map_or(rest.len(), |at| at + 1);
+            let line_end = |from: usize| rest[from..].find('\n').map_or(rest.len(), |at| from + at + 1);
+            let mut end = line_end(0);
             let row = rest[..end].trim();
-            if row.is_empty() || row.starts_with(';') {
-                line += usize::from(rest[..end].ends_with('\n'));
-                rest = &rest[end..];
-                continue;
+            if !(row.is_empty() || row.starts_with(';')) {
+                let (name, mut value) = rest[..end].split_once('=').ok_or(ImageError::Line { line })?;
+                let name = name.split_whitespace().collect::<Vec<_>>().join(" ").to_lowercase();
+                if value.trim_start().starts_with('{') {
+                    let open = rest.find('{').unwrap_or(0);
+                    let close = rest[open..].find('}').ok_or(ImageError::Open { line, field: name.clone() })? + open;
+                    (value, end) = (&rest[open + 1..close], line_end(close));
+                }
+                fields.push(Field { line, name, value: value.trim() });
             }
-            let (name, value) = rest[..end].split_once('=').ok_or(ImageError::Line { line })?;
-            let name = name.split_whitespace().collect::<Vec<_>>().join(" ").to_lowercase();
-            let start = line;
-            let value = if value.trim_start().starts_with('{') {
-                let open = rest.find('{').unwrap_or(0);
-                let close = rest[open..].find('}').ok_or(ImageError::Open { line, field: name.clone() })? + open;
-                let value = &rest[open + 1..close];
-                let end = rest[close..].find('\n').map_or(rest.len(), |at| close + at + 1);
-                line += rest[..end].matches('\n').count();
-                rest = &rest[end..];
-                value
-            } else {
-                line += usize::from(rest[..end].ends_with('\n'));
-                rest = &rest[end..];
-                value
-            };
-            fields.push(Field { line: start, name, value: value.trim() });
+            line += rest[..end].matches('\n').count();
+            rest = &rest[end..];
         }
         Ok(Self(fields))
     }

@@ -7,7 +7,7 @@ use std::borrow::Cow;
 use crate::error::MAX_SAMPLES;
 use crate::write::base::{self, Changes, SAME_NM, Sampling, multiples};
 use crate::write::format::{Format, Grid, Note, WriteError};
-use crate::write::sheet::{Content, Piece, Sheet, one_line, push_number, push_quoted};
+use crate::write::sheet::{Content, Piece, Sheet, one_line, push_comment, push_number, push_quoted};
 
 /// Block size of text; a longer row is written alone.
 const CHUNK: usize = 1 << 16;
@@ -165,11 +165,7 @@ fn part<'p>(
 }
 
 fn push_comments(out: &mut String, sheet: &Sheet<'_>, resampling: Option<&str>) {
-    let mut push = |key: &str, value: &str| {
-        for part in ["# ", key, ": ", value, "\n"] {
-            out.push_str(part);
-        }
-    };
+    let mut push = |key: &str, value: &str| push_comment(out, key, value);
     let title = sheet.title();
     if !title.is_empty() {
         push("title", &title);

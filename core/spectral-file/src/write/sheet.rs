@@ -253,6 +253,11 @@ fn check(trace: &Trace<'_>, curve: usize) -> Result<(), WriteError> {
 
 pub(super) use chromascope_text::on_one_line as one_line;
 
+/// Appends a comment on a line of its own.
+pub(super) fn push_comment(out: &mut String, key: &str, value: &str) {
+    push(out, format_args!("# {key}: {value}\n"));
+}
+
 /// Appends what a format string makes.
 pub(super) fn push(out: &mut String, arguments: Arguments<'_>) {
     out.write_fmt(arguments).expect("a text takes whatever is written to it");

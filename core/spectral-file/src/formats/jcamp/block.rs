@@ -99,11 +99,17 @@ impl Block {
         let broken = |text: &str| ReadError::NotANumber { line, column: 1, text: excerpt(text) };
         if self.form == Some(Form::Ordinates) {
             let Some(found) = ordinates::decode(text).map_err(broken)? else { return Ok(()) };
-            let head = Written { value: found.head.0, digit: found.head.1 };
             let places =
                 log.places.as_mut().map(|places| ordinates::record(text, found.values.len(), self.difference, places));
             let (place, block) = places.unwrap_or_default();
-            self.rows.push(Row { line, head, from: self.ordinates.len(), repeats: self.difference, place, block });
+            self.rows.push(Row {
+                line,
+                head: found.head,
+                from: self.ordinates.len(),
+                repeats: self.difference,
+                place,
+                block,
+            });
             self.difference = found.ends_in_difference;
             self.ordinates.extend(found.values);
             return Ok(());

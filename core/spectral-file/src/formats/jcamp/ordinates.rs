@@ -376,8 +376,8 @@ fn same(a: f64, b: f64) -> bool {
 
 #[derive(Debug, PartialEq)]
 pub(super) struct Ordinates {
-    /// The abscissa at its head, and the unit of its last digit.
-    pub(super) head: (f64, f64),
+    /// The abscissa at its head.
+    pub(super) head: Written,
     /// The values of the line, with one that only repeats the last of the line before.
     pub(super) values: Vec<f64>,
     /// True if the last value was written as a difference: the next line then begins by repeating it.
@@ -433,7 +433,8 @@ pub(super) fn decode(line: &str) -> Result<Option<Ordinates>, &str> {
     let digits = &start[..start.len() - body.len() + end(body)];
     // A first letter is a digit and no exponent.
     let plain = digits.trim_start_matches(|c: char| c.is_ascii_alphabetic());
-    Ok(Some(Ordinates { head: (abscissa, last_digit(plain)), values, ends_in_difference }))
+    let head = Written { value: abscissa, digit: last_digit(plain) };
+    Ok(Some(Ordinates { head, values, ends_in_difference }))
 }
 
 /// The entries of a line. Plain numbers may have exponents, which squeezed ones never have.
