@@ -93,7 +93,6 @@ impl Page {
     }
 }
 
-/// Draws a figure on a canvas, from back to front.
 pub(super) fn draw(figure: &Figure, page: &Page, style: &PageStyle, palette: &dyn Palette, canvas: &mut dyn Canvas) {
     let mut brush = Brush { canvas, palette, line_scale: style.line_scale };
     brush.rect(page.area, None, Some(InkRole::Plot.into()));
@@ -112,7 +111,6 @@ pub(super) fn draw(figure: &Figure, page: &Page, style: &PageStyle, palette: &dy
     }
 }
 
-/// A canvas with the widths of lines.
 struct Brush<'a> {
     canvas: &'a mut dyn Canvas,
     palette: &'a dyn Palette,
@@ -196,26 +194,21 @@ pub(crate) trait Canvas {
     /// Begins a named group; with a rectangle, its contents show inside that only.
     fn begin(&mut self, name: &str, clip: Option<Rect>);
     fn end(&mut self);
-    /// Draws a path through at least two points.
     fn path(&mut self, points: &[[f64; 2]], closed: bool, stroke: Option<Stroke>, fill: Option<Ink>);
     fn rect(&mut self, area: Rect, stroke: Option<Stroke>, fill: Option<Ink>);
     fn disk(&mut self, center: [f64; 2], radius: f64, stroke: Option<Stroke>, fill: Option<Ink>);
     fn text(&mut self, label: &TextLine<'_>);
-    /// Draws a picture over a rectangle.
     fn image(&mut self, area: Rect, image: &Image);
 }
 
-/// A line of text with its place.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct TextLine<'a> {
     pub(crate) at: [f64; 2],
     pub(crate) text: &'a str,
-    /// Point of the text that lies on the place.
     pub(crate) anchor: Anchor,
     pub(crate) size: TextSize,
     pub(crate) ink: Ink,
     pub(crate) halo: Option<Ink>,
-    /// True if the text runs upward.
     pub(crate) upward: bool,
 }
 

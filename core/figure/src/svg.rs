@@ -39,12 +39,10 @@ pub fn write(figure: &Figure, palette: &dyn Palette, style: &SvgStyle<'_>, layou
     canvas.out
 }
 
-/// A document being written.
 struct Svg<'a> {
     style: &'a SvgStyle<'a>,
     palette: &'a dyn Palette,
     out: String,
-    /// Number of clipping rectangles so far.
     clips: usize,
 }
 
@@ -73,7 +71,6 @@ impl Svg<'_> {
         format!("#{r:02x}{g:02x}{b:02x}")
     }
 
-    /// Presentation attributes.
     fn paint(&self, stroke: Option<Stroke>, fill: Option<Ink>) -> String {
         let opacity = |name: &str, ink: Ink| match ink.alpha {
             alpha if alpha < 1.0 => format!(" {name}-opacity=\"{}\"", coordinate(f64::from(alpha))),
@@ -176,7 +173,6 @@ impl Canvas for Svg<'_> {
     }
 }
 
-/// Attributes of a rectangle.
 fn place(area: Rect) -> String {
     let [x, y, width, height] = [area.min[0], area.min[1], area.width(), area.height()].map(coordinate);
     format!(" x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\"")

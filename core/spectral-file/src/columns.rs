@@ -19,11 +19,9 @@ pub(super) struct Read {
     /// The line after it, if another table follows.
     pub(super) next: Option<usize>,
     pub(super) bytes: usize,
-    /// Decision on its columns, if there was one.
     pub(super) note: Option<Decision>,
 }
 
-/// Reads the rows of a layout.
 pub(super) fn read(section: Section<'_>, layout: &Layout, log: &mut Log<'_>) -> Result<Read, ReadError> {
     let header = header::read(section, layout);
     let chosen = layout.wavelength_column.map(|column| column.saturating_sub(1));
@@ -78,7 +76,6 @@ struct Broken {
     line: usize,
     begins_with_number: bool,
     has_numbers: bool,
-    /// True if it is the line of names again.
     is_header: bool,
     /// Rows of numbers below it that do not fit this table.
     others: usize,
@@ -98,7 +95,6 @@ struct Columns {
     named: Option<usize>,
     label_unit: Option<WavelengthUnit>,
     broken: Option<Broken>,
-    /// Lines that are the line of names again.
     repeated_headers: LineList,
     /// The line after the last row, once another table is seen.
     next: Option<usize>,
@@ -385,7 +381,6 @@ impl Texts {
         Self { mask, columns: columns.map(|column| Text { column, unit: None, other: false }).collect() }
     }
 
-    /// Returns whether a column holds text, or numbers with units.
     #[inline]
     fn contains(&self, column: usize) -> bool {
         column < 128 && self.mask >> column & 1 == 1

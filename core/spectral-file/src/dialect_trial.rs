@@ -24,7 +24,6 @@ pub(super) struct Shape {
     pub(super) text: bool,
     /// Bit mask of the first columns that are text; all bits are set if a later one is.
     pub(super) texts: u128,
-    /// Bit mask of the first columns that are empty.
     gaps: u128,
     /// Texts that are a number with a unit.
     united: u128,
@@ -114,7 +113,6 @@ pub(super) struct Run {
 }
 
 impl Run {
-    /// Number of rows that continue in the main direction.
     pub(super) fn steady(&self) -> usize {
         self.rises.max(self.falls)
     }
@@ -219,7 +217,6 @@ pub(super) struct Trial {
     /// Those of them that may be thousands.
     grouped: usize,
     fractions: usize,
-    /// The first row with a cell like `05`.
     pub(super) padded_line: Option<usize>,
     /// Lines of a single number: how many, and the first.
     pub(super) single: usize,
@@ -343,7 +340,6 @@ pub(super) struct Layout {
     pub(super) thousands: bool,
     pub(super) orientation: Decided<Orientation>,
     pub(super) first_line: usize,
-    /// Bit mask of the columns that are text.
     pub(super) texts: u128,
     /// Columns, as far as seen.
     pub(super) width: usize,
@@ -356,7 +352,6 @@ pub(super) struct Layout {
 }
 
 impl Layout {
-    /// The layout of a family that leaves nothing to decide.
     pub(super) fn fixed(
         (delimiter, mark): (Delimiter, DecimalMark),
         orientation: Orientation,
@@ -382,7 +377,6 @@ impl Layout {
         Dialect { delimiter: self.delimiter.value, mark: self.decimal_mark.value, thousands: self.thousands }
     }
 
-    /// The line before which comments and names stand.
     pub(super) fn header_end(&self) -> usize {
         self.across.as_ref().map_or(self.first_line, |across| across.line)
     }

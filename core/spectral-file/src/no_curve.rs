@@ -18,7 +18,6 @@ const NAMES: &str = "temperature|temp|temp.|t_amb|ambient temperature|detector t
     exposure|exposure time|humidity|relative humidity|rel. humidity|rh|pressure|air pressure|voltage|battery|battery voltage|\
     altitude|latitude|longitude";
 
-/// Units that no spectrum has.
 const UNITS: &str = "°c|℃|deg c|degc|°f|℉|° c|celsius|kelvin|seconds|ms|hpa|mbar|kpa|%rh|% rh|rh";
 
 /// Removes curves that are no spectra, unless there are no others.
@@ -172,7 +171,6 @@ const HUGE: [f64; 13] =
 const HALF: [f64; 2] = [1.7e38, 1.701_411e38];
 const WRITTEN: f64 = 1e-6;
 
-/// Largest size of measured values beside them.
 const COMMON: f64 = 1e19;
 
 fn is_huge(size: f64) -> bool {
@@ -222,7 +220,6 @@ impl Others {
     }
 }
 
-/// Makes gaps of the numbers that stand for missing values.
 pub(super) fn take_sentinels(grid: &mut Grid, log: &mut Log<'_>) {
     let own_lines = grid.lines.len() == grid.wavelengths.len() && !grid.own_wavelengths;
     let mut cells = 0;

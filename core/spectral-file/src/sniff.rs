@@ -390,7 +390,6 @@ fn is_spoiled(trial: &Trial, shape: &Shape, line: &str) -> bool {
     whole && before && plausible(run.first, run.last, run.first.fract() != 0.0) && dialect.cells(line).all(begun)
 }
 
-/// Bytes of a text that are searched.
 const LOOK_NEAR: usize = 1 << 18;
 
 /// A line of more bytes is not looked at as a whole.
@@ -512,9 +511,7 @@ fn has_grouped(text: &str) -> bool {
             .any(|(at, _)| at > 0 && digit(at - 1) && digit(at + 1) && digit(at + 2) && digit(at + 3) && !digit(at + 4))
 }
 
-/// Form of a written number.
 enum Written {
-    /// Digits alone.
     Whole(f64),
     /// With a mark that may group thousands; the number that it is with a fraction.
     Either(f64),

@@ -128,7 +128,6 @@ pub(super) fn name_column(leading: &[&str]) -> usize {
     NAMES.iter().find_map(headed).unwrap_or(0)
 }
 
-/// The names of all parts but one, the first few.
 pub(super) fn other_names(parts: &[Part], but: usize) -> String {
     let others = parts.iter().enumerate().filter(|(at, _)| *at != but);
     listed(&others.map(|(_, part)| format!("“{}”", part.name)).collect::<Vec<_>>())

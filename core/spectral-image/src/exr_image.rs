@@ -134,7 +134,6 @@ impl Filled<'_> {
 /// Channels of a spectrum by their place in the layer, with their wavelengths.
 type Spectrum = (ImageQuantity, Vec<(usize, f64)>);
 
-/// Spectral channels of a layer; none without any.
 fn spectrum(header: &Header, wanted: Option<ImageQuantity>) -> Result<Option<Spectrum>, ImageError> {
     let name = |channel: &exr::meta::attribute::ChannelDescription| SpectralChannel::parse(&channel.name.to_string());
     let all: Vec<(usize, SpectralChannel)> =

@@ -143,7 +143,6 @@ impl<'a> Fields<'a> {
         field.value.parse().map(Some).map_err(|_| field.refuse(name, "expected a number"))
     }
 
-    /// Numbers of a list, one for each band.
     fn list(&self, name: &'static str, bands: usize) -> Result<Option<Vec<f64>>, ImageError> {
         let Some(field) = self.get(name) else { return Ok(None) };
         let parts = field.value.split(',').map(str::trim).filter(|part| !part.is_empty()).take(MAX_BANDS + 1);
@@ -270,7 +269,6 @@ fn big_endian(fields: &Fields<'_>, data_type: DataType) -> Result<bool, ImageErr
     }
 }
 
-/// Wavelengths of all bands in nanometers.
 fn wavelengths(fields: &Fields<'_>, bands: usize, notes: &mut Vec<Note>) -> Result<Vec<f64>, ImageError> {
     let list = fields.list("wavelength", bands)?;
     let list = list.ok_or(ImageError::Missing { field: "wavelength", example: "{400, 410, 420}" })?;
@@ -306,7 +304,6 @@ fn wavelengths(fields: &Fields<'_>, bands: usize, notes: &mut Vec<Note>) -> Resu
     }
 }
 
-/// Bands that are not marked as bad.
 fn good_bands(fields: &Fields<'_>, bands: usize, notes: &mut Vec<Note>) -> Result<Vec<usize>, ImageError> {
     let Some(list) = fields.list("bbl", bands)? else { return Ok((0..bands).collect()) };
     let good: Vec<usize> = (0..bands).filter(|&band| list[band] != 0.0).collect();

@@ -8,7 +8,6 @@ use crate::projection::Projection;
 use crate::rect::Rect;
 use crate::text::text_width;
 
-/// Room for the title of an axis.
 const TITLE: f64 = 18.0;
 
 /// A panel at its place on the page, with the titles that stand outside of it.
@@ -80,7 +79,6 @@ pub(super) fn spread(panels: &[Panel], titles: AxisTitles) -> Vec<Titled> {
     panels.iter().map(place).collect()
 }
 
-/// Draws a panel.
 pub(super) fn draw(brush: &mut Brush<'_>, titled: &Titled, projection: &Projection) {
     let (panel, plot) = (&titled.panel, projection.plot);
     brush.canvas.begin(&panel.name, Some(plot));

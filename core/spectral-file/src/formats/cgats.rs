@@ -31,7 +31,6 @@ pub(super) const FORMAT: Format = Format {
     read,
 };
 
-/// Reads the table with spectral fields that was chosen, else the first.
 fn read(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Result<Found, ReadError> {
     let mut file = File { wanted: options.part.unwrap_or(1), ..File::default() };
     let mut place = Place::Keywords;
@@ -74,7 +73,6 @@ fn read(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Result<Found, R
     file.finish(options, log)
 }
 
-/// Part of a file that a token stands in.
 #[derive(Clone, Copy)]
 enum Place {
     Keywords,
@@ -112,9 +110,7 @@ struct File {
     /// True if the selected table has begun, and whether it is the one being read.
     done: bool,
     open: bool,
-    /// All tables with spectral fields.
     parts: Vec<Part>,
-    /// Title that keywords give the next table.
     title: String,
     /// The values of a table that is not selected, which are only counted.
     counted: Option<usize>,
@@ -309,7 +305,6 @@ impl File {
 }
 
 impl File {
-    /// The list of tables, with a note on the omitted ones.
     fn settle_parts(&mut self, options: &ReadOptions, log: &mut Log<'_>) -> Result<Vec<Part>, ReadError> {
         let mut parts = std::mem::take(&mut self.parts);
         if let Some(part) = options.part.filter(|part| !parts.is_empty() && !(1..=parts.len()).contains(part)) {
@@ -330,7 +325,6 @@ fn by_norm(header: &Header, line: usize, norm: f64) -> Option<(usize, Role)> {
     header.comment("SPECTRAL_NORM").filter(|_| norm != 1.0 && norm != 100.0).map(|_| (line, Role::Illuminant))
 }
 
-/// Role of the curves of a kind of measurement, as Argyll names it.
 fn measured(kind: &str) -> Option<Role> {
     match kind.split('_').next() {
         Some("EMISSION" | "AMBIENT") => Some(Role::Illuminant),

@@ -20,7 +20,6 @@ impl Reader {
 pub(super) const FORMAT: Format =
     Format { reader: Reader::CXF, fits: |head| xml::fits(head, |root| root == "CxF"), read };
 
-/// Reads the spectra of all objects of a document.
 fn read(text: &str, _: &ReadOptions, log: &mut Log<'_>) -> Result<Found, ReadError> {
     let mut walk = Walk::new(text);
     let mut content = Content::default();
@@ -73,9 +72,7 @@ struct Content {
     header: Header,
     spectra: Vec<Spectrum>,
     total: usize,
-    /// The names of the objects that are open.
     objects: Vec<Option<String>>,
-    /// The points of the spectrum that is open.
     points: Vec<Sample>,
     /// Lists wait for the end: the specifications may stand below them.
     lists: Vec<List>,
@@ -145,7 +142,6 @@ impl Content {
         Ok(())
     }
 
-    /// Gives the values of lists their wavelengths.
     fn place_lists(&mut self, log: &Log<'_>) -> Result<(), ReadError> {
         self.ranges.sort_by(|a, b| a.0.cmp(&b.0));
         for list in &self.lists {
@@ -169,7 +165,6 @@ impl Content {
     }
 }
 
-/// Adds a sample that is none of a gap.
 fn push(samples: &mut Vec<Sample>, total: &mut usize, sample: Sample) -> Result<(), ReadError> {
     if !sample.wavelength.is_finite() || !sample.value.is_finite() {
         return Ok(());

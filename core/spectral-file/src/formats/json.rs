@@ -34,7 +34,6 @@ const FEWEST_BYTES: usize = 5;
 /// Content of a layout: its curves, and the decisions that only it needs.
 type Content = (Grid, Decided<Reader>, Vec<Decision>);
 
-/// Reads a document of any of the layouts.
 fn read(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Result<Found, ReadError> {
     // Every list and every text has a name of its own; hostile text, which has nothing else, would need many times its size.
     if text.bytes().filter(|byte| *byte == b'"').count() > text.len() / FEWEST_BYTES + 1000 {
@@ -328,7 +327,6 @@ fn note_lines(text: &str, header: &mut Header) {
     }
 }
 
-/// Wavelengths with a value for each curve.
 #[derive(Debug, Default)]
 struct Rows {
     wavelengths: Vec<f64>,

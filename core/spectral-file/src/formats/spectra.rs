@@ -29,7 +29,6 @@ impl Found {
     }
 }
 
-/// One sample and the line it stands in.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Sample {
     pub(crate) wavelength: f64,
@@ -48,7 +47,6 @@ pub(crate) struct Spectrum {
 }
 
 impl Spectrum {
-    /// The line where it begins.
     fn line(&self) -> usize {
         self.samples.first().map_or(1, |sample| sample.line)
     }

@@ -98,7 +98,6 @@ impl What {
     }
 }
 
-/// Conversion of a written number, in words.
 fn how(table: &SpectralFile) -> &'static str {
     match table.reading.values.value {
         Values::Plain => "",

@@ -46,7 +46,6 @@ impl Marker {
         Self { settings, first_line: layout.first_line, curves: 0, unit, plan }
     }
 
-    /// Completes it with the origins of the curves.
     pub(crate) fn take_curves(&mut self, origins: &[usize]) {
         self.curves = origins.len();
         let by_curve = origins.iter().enumerate().map(|(curve, origin)| (*origin, curve));

@@ -242,7 +242,6 @@ pub(super) fn range(line: &str, piece: &str) -> Range<usize> {
     start..start + piece.len()
 }
 
-/// The bytes of a line without the white space around it.
 pub(super) fn trimmed(line: &str) -> Range<usize> {
     range(line, line.trim())
 }

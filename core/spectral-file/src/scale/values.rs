@@ -176,14 +176,11 @@ pub(super) struct Evidence {
     pub(super) curves: Vec<Option<Span>>,
 }
 
-/// Scale of a curve of fractions of light, by its numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Looks {
     /// Fractions, but dark samples in percent look the same.
     Plain,
-    /// Percent.
     Percent,
-    /// Neither.
     Neither,
 }
 

@@ -31,7 +31,6 @@ impl Form {
     }
 }
 
-/// A block with, or without, data.
 #[derive(Debug, Default)]
 pub(super) struct Block {
     pub(super) title: String,
@@ -43,7 +42,6 @@ pub(super) struct Block {
     pub(super) announced: Vec<(&'static str, usize, Written)>,
     /// Scale of the values, where the units do not decide it.
     pub(super) values: Option<(usize, Values)>,
-    /// Form of the data that is being read.
     pub(super) form: Option<Form>,
     /// Form of the block's data, and the label that gives it.
     pub(super) written: Form,
@@ -159,7 +157,6 @@ impl Block {
         self.check()
     }
 
-    /// Returns whether this is a dark or a reference spectrum.
     pub(super) fn is_raw(&self) -> bool {
         Source::of(&self.title) != Source::Other
     }
@@ -290,7 +287,6 @@ const MOST_PERCENT: f64 = 200.0;
 /// A reference this much above the sample is not in the same unit.
 const MOST_TIMES: f64 = 4.0;
 
-/// Measured object of a block, by the end of its title.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Source {
     Dark,

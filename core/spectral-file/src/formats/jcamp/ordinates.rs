@@ -63,13 +63,11 @@ pub(super) fn record(line: &str, values: usize, repeats: bool, places: &mut Plac
 pub(super) struct Axis {
     pub(super) first: Written,
     pub(super) last: Option<Written>,
-    /// DELTAX and its line.
     pub(super) delta: Option<(usize, Written)>,
     pub(super) points: Option<usize>,
     pub(super) factor: f64,
 }
 
-/// Rounding of the abscissas at the heads of lines.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Digits {
     Rounded,
@@ -111,7 +109,6 @@ impl Data<'_> {
         self.ordinates.len() - if self.always_repeats() { again } else { 0 }
     }
 
-    /// Gives each ordinate its abscissa.
     pub(super) fn place(&self, axis: &Axis) -> Result<Placed, ReadError> {
         let line = self.rows.first().map_or(1, |row| row.line);
         let (steps, contradicted) = axis.steps(self.count());
@@ -222,7 +219,6 @@ impl Axis {
     }
 }
 
-/// Equal steps from the first abscissa on.
 struct Grid<'a> {
     axis: &'a Axis,
     step: f64,
@@ -376,7 +372,6 @@ fn same(a: f64, b: f64) -> bool {
 
 #[derive(Debug, PartialEq)]
 pub(super) struct Ordinates {
-    /// The abscissa at its head.
     pub(super) head: Written,
     /// The values of the line, with one that only repeats the last of the line before.
     pub(super) values: Vec<f64>,
@@ -388,9 +383,7 @@ pub(super) struct Ordinates {
 enum Kind {
     /// The abscissa or a value, with an ordinary sign or none, or the sign in its first letter.
     Value,
-    /// The difference from the value before.
     Difference,
-    /// Number of repetitions of the entry before.
     Repeat,
 }
 
@@ -462,7 +455,6 @@ fn separates(c: char) -> bool {
     c.is_whitespace() || c == ','
 }
 
-/// End of the digits after the first character.
 fn end(body: &str) -> usize {
     let bytes = body.as_bytes();
     let mut at = 0;
