@@ -1,19 +1,18 @@
 //! A figure laid out on a page, and the order in which its parts are drawn.
 
-mod canvas;
 mod ground;
 mod legend;
 mod marks;
 mod panels;
 
+use chromascope_text::choices;
+
 use super::ink::{Ink, InkRole, Palette};
-use super::mark::{Anchor, Mark, Marker, MarkerOutline, Stroke, TextSize};
+use super::mark::{Anchor, Image, Mark, Marker, MarkerOutline, Stroke, TextSize};
 use super::panel::{Figure, LegendPlace};
 use super::projection::Projection;
 use super::rect::Rect;
 use super::text::wrapped;
-pub(super) use canvas::{Canvas, TextLine};
-use chromascope_text::choices;
 
 choices! {
     /// Position of the titles of the axes.
@@ -94,7 +93,6 @@ impl Page {
     }
 }
 
-/// Draws a figure on a canvas, from back to front.
 pub(super) fn draw(figure: &Figure, page: &Page, style: &PageStyle, palette: &dyn Palette, canvas: &mut dyn Canvas) {
     let mut brush = Brush { canvas, palette, line_scale: style.line_scale };
     brush.rect(page.area, None, Some(InkRole::Plot.into()));
@@ -113,7 +111,6 @@ pub(super) fn draw(figure: &Figure, page: &Page, style: &PageStyle, palette: &dy
     }
 }
 
-/// A canvas with the widths of lines.
 struct Brush<'a> {
     canvas: &'a mut dyn Canvas,
     palette: &'a dyn Palette,
@@ -189,5 +186,50 @@ impl Brush<'_> {
                 }
             }
         }
+    }
+}
+
+/// A document being written. Lengths are the figure's points, y downward.
+pub(crate) trait Canvas {
+    /// Begins a named group; with a rectangle, its contents show inside that only.
+    fn begin(&mut self, name: &str, clip: Option<Rect>);
+    fn end(&mut self);
+    fn path(&mut self, points: &[[f64; 2]], closed: bool, stroke: Option<Stroke>, fill: Option<Ink>);
+    fn rect(&mut self, area: Rect, stroke: Option<Stroke>, fill: Option<Ink>);
+    fn disk(&mut self, center: [f64; 2], radius: f64, stroke: Option<Stroke>, fill: Option<Ink>);
+    fn text(&mut self, label: &TextLine<'_>);
+    fn image(&mut self, area: Rect, image: &Image);
+}
+
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct TextLine<'a> {
+    pub(crate) at: [f64; 2],
+    pub(crate) text: &'a str,
+    pub(crate) anchor: Anchor,
+    pub(crate) size: TextSize,
+    pub(crate) ink: Ink,
+    pub(crate) halo: Option<Ink>,
+    pub(crate) upward: bool,
+}
+
+impl<'a> TextLine<'a> {
+    /// Width of a halo's stroke, half of which shows on each side.
+    pub(crate) const HALO: f64 = 4.0;
+
+    /// Text without a halo, running to the right.
+    pub(crate) fn new(at: [f64; 2], text: &'a str, anchor: Anchor, size: TextSize, ink: Ink) -> Self {
+        Self { at, text, anchor, size, ink, halo: None, upward: false }
+    }
+
+    /// Distance from the place down to the baseline. The center is that of capital letters and digits.
+    pub(crate) fn baseline(&self) -> f64 {
+        let (top, middle, bottom) = (0.80, 0.36, -0.22);
+        let vertical = self.anchor.1;
+        let share = if vertical < 0.5 {
+            top + (middle - top) * 2.0 * vertical
+        } else {
+            middle + (bottom - middle) * (2.0 * vertical - 1.0)
+        };
+        share * f64::from(self.size.points())
     }
 }

@@ -85,7 +85,6 @@ pub fn write(figure: &Figure, palette: &dyn Palette, fonts: PdfFonts, layout: &P
     document.finish().map_err(|error| PdfError::Write(format!("{error:?}")))
 }
 
-/// A font to shape text with and to embed.
 struct Typeface {
     face: Face<'static>,
     font: Font,
@@ -118,7 +117,6 @@ impl Typeface {
     }
 }
 
-/// A page being written.
 struct Pdf<'a, 'b> {
     surface: &'a mut Surface<'b>,
     palette: &'a dyn Palette,

@@ -39,12 +39,10 @@ pub fn write(figure: &Figure, palette: &dyn Palette, style: &SvgStyle<'_>, layou
     canvas.out
 }
 
-/// A document being written.
 struct Svg<'a> {
     style: &'a SvgStyle<'a>,
     palette: &'a dyn Palette,
     out: String,
-    /// Number of clipping rectangles so far.
     clips: usize,
 }
 
@@ -73,7 +71,6 @@ impl Svg<'_> {
         format!("#{r:02x}{g:02x}{b:02x}")
     }
 
-    /// Presentation attributes.
     fn paint(&self, stroke: Option<Stroke>, fill: Option<Ink>) -> String {
         let opacity = |name: &str, ink: Ink| match ink.alpha {
             alpha if alpha < 1.0 => format!(" {name}-opacity=\"{}\"", coordinate(f64::from(alpha))),
@@ -103,12 +100,10 @@ impl Canvas for Svg<'_> {
         if let Some(clip) = clip {
             let index = self.clips;
             self.clips += 1;
-            let [x, y] = clip.min.map(coordinate);
-            let (width, height) = (coordinate(clip.width()), coordinate(clip.height()));
+            let place = place(clip);
             let _ = write!(
                 self.out,
-                "<clipPath id=\"panel{index}\"><rect x=\"{x}\" y=\"{y}\" width=\"{width}\" \
-                 height=\"{height}\"/></clipPath>\n<g clip-path=\"url(#panel{index})\">"
+                "<clipPath id=\"panel{index}\"><rect{place}/></clipPath>\n<g clip-path=\"url(#panel{index})\">"
             );
         } else {
             self.out.push_str("<g>");
@@ -135,10 +130,8 @@ impl Canvas for Svg<'_> {
     }
 
     fn rect(&mut self, area: Rect, stroke: Option<Stroke>, fill: Option<Ink>) {
-        let [x, y] = area.min.map(coordinate);
-        let (width, height) = (coordinate(area.width()), coordinate(area.height()));
         let paint = self.paint(stroke, fill);
-        let _ = writeln!(self.out, "<rect x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\"{paint}/>");
+        let _ = writeln!(self.out, "<rect{}{paint}/>", place(area));
     }
 
     fn disk(&mut self, center: [f64; 2], radius: f64, stroke: Option<Stroke>, fill: Option<Ink>) {
@@ -175,15 +168,14 @@ impl Canvas for Svg<'_> {
 
     fn image(&mut self, area: Rect, image: &Image) {
         let Some(uri) = (self.style.encode)(image) else { return };
-        let [x, y] = area.min.map(coordinate);
-        let (width, height) = (coordinate(area.width()), coordinate(area.height()));
-        let _ = writeln!(
-            self.out,
-            "<image x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\" \
-             preserveAspectRatio=\"none\" href=\"{}\"/>",
-            escape(&uri)
-        );
+        let (place, uri) = (place(area), escape(&uri));
+        let _ = writeln!(self.out, "<image{place} preserveAspectRatio=\"none\" href=\"{uri}\"/>");
     }
+}
+
+fn place(area: Rect) -> String {
+    let [x, y, width, height] = [area.min[0], area.min[1], area.width(), area.height()].map(coordinate);
+    format!(" x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\"")
 }
 
 /// A length to a hundredth of a point. Far outside the page it is held, as renderers count in `f32`.

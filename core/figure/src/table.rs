@@ -210,15 +210,18 @@ impl Cell {
     /// Text, or number with its uncertainty by its own decimals; a dash for nothing.
     pub fn in_words(&self) -> String {
         let note = self.note();
-        let value = match (&note.words, self.value()) {
+        let value = self.written(|value| note.own_decimals().map_or_else(|| number(value), |own| rounded(value, own)));
+        note.behind().map_or(value.clone(), |behind| format!("{value} {behind}"))
+    }
+
+    /// Its words or text, its number as it is to be written, or a dash for nothing.
+    fn written(&self, number: impl Fn(f64) -> String) -> String {
+        match (&self.note().words, self.value()) {
             (Some(words), _) => words.clone(),
-            (None, CellValue::Number(value)) => {
-                note.own_decimals().map_or_else(|| number(value), |own| rounded(value, own))
-            }
+            (None, CellValue::Number(value)) => number(value),
             (None, CellValue::Text(text)) => text.to_owned(),
             (None, CellValue::Nothing) => "–".to_owned(),
-        };
-        note.behind().map_or(value.clone(), |behind| format!("{value} {behind}"))
+        }
     }
 
     /// Explanation, or the reason that there is nothing; empty for none.
@@ -343,17 +346,7 @@ impl Table {
 
     /// The table as comma-separated values with numbers as they are to be written.
     pub fn csv(&self, number: fn(f64) -> String) -> String {
-        self.csv_head() + &self.csv_rows(number)
-    }
-
-    /// The header line of the CSV.
-    pub fn csv_head(&self) -> String {
-        self.head(',')
-    }
-
-    /// The rows of the CSV.
-    pub fn csv_rows(&self, number: fn(f64) -> String) -> String {
-        self.body(',', number)
+        self.head(',') + &self.body(',', number)
     }
 
     /// The table separated by tabs, for the clipboard.
@@ -361,11 +354,13 @@ impl Table {
         self.head('\t') + &self.body('\t', shortest)
     }
 
-    fn head(&self, separator: char) -> String {
+    /// The header line of the table in cells between separators.
+    pub fn head(&self, separator: char) -> String {
         line(self.keys().map(|key| cell(key, separator)), separator)
     }
 
-    fn body(&self, separator: char, number: fn(f64) -> String) -> String {
+    /// The rows of the table in cells between separators, with numbers as they are to be written.
+    pub fn body(&self, separator: char, number: fn(f64) -> String) -> String {
         let written = |value: CellValue<'_>| match value {
             CellValue::Number(value) if value.is_finite() => number(value),
             CellValue::Text(text) => cell(text, separator),
@@ -401,14 +396,8 @@ impl Table {
         let behind = |cell: &Cell| cell.note().behind().unwrap_or_default();
         let width = cells().map(|cell| behind(cell).chars().count()).max().unwrap_or(0);
         let written = |cell: &Cell| {
-            let value = match (&cell.note().words, cell.value()) {
-                (Some(words), _) => words.clone(),
-                (None, CellValue::Number(value)) => {
-                    own(cell).map_or_else(|| number(value), |own| aligned(value, own, ends))
-                }
-                (None, CellValue::Text(text)) => text.to_owned(),
-                (None, CellValue::Nothing) => "–".to_owned(),
-            };
+            let number = |value| own(cell).map_or_else(|| number(value), |own| aligned(value, own, ends));
+            let value = cell.written(number);
             if column.uncertainty.is_empty() { value } else { format!("{value} {:width$}", behind(cell)) }
         };
         let head =

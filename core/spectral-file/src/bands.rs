@@ -24,7 +24,6 @@ impl Band<'_> {
         (self.prefix, self.suffix, self.unit) == (other.prefix, other.suffix, other.unit)
     }
 
-    /// Returns whether nothing but a wavelength stands there.
     fn is_plain(&self) -> bool {
         self.prefix.is_empty() && self.suffix.is_empty()
     }
@@ -38,7 +37,6 @@ pub(super) struct Group {
     /// The wavelength of each column; NaN where none can be read.
     pub(super) wavelengths: Vec<f64>,
     pub(super) unit: Option<WavelengthUnit>,
-    /// Text before and behind the wavelengths.
     pub(super) prefix: String,
     pub(super) suffix: String,
 }
@@ -143,13 +141,11 @@ pub(super) fn groups(dialect: Dialect, line: &str) -> Vec<Group> {
     all
 }
 
-/// Relation of a band to those before it.
 enum Step {
     On,
     /// Out of order among those around it.
     Wrong,
     Anew,
-    /// Of another name.
     Other,
 }
 

@@ -13,7 +13,6 @@ pub(super) struct Clues {
     pub(super) ratio: Option<(usize, bool)>,
     /// A cosine receptor was attached: the values are irradiances.
     pub(super) cosine_receptor: Option<usize>,
-    /// The program writes ratios in percent.
     pub(super) ratios_in_percent: Option<(usize, &'static str)>,
     pub(super) role: Option<(usize, Role)>,
     pub(super) values: Option<(usize, Values)>,
@@ -21,12 +20,10 @@ pub(super) struct Clues {
     pub(super) absorbance: Option<usize>,
 }
 
-/// Keys of settings that name what is measured.
 pub(super) const MEASURED: &str = "quantity|spectral quantity|measured quantity|technique|mode|data mode|photometric mode|\
     measuring mode|measurement|measurement mode|measurement type|ordinate|ordinate mode|y axis|yaxis|y label";
 
 pub(super) struct Program {
-    /// Beginning and end of a line that it writes.
     start: &'static str,
     end: &'static str,
     pub(super) name: &'static str,
@@ -65,14 +62,12 @@ pub(super) fn program(line: &str) -> Option<&'static Program> {
 }
 
 impl Clues {
-    /// Takes what a title or a line of prose mentions.
     pub(super) fn mention(&mut self, line: usize, text: &str) {
         // The name of a file may join its words.
         let spaced = text.replace('_', " ");
         self.absorbance = self.absorbance.or_else(|| header_terms::mentions_absorbance(&spaced).then_some(line));
     }
 
-    /// Takes a setting from a line above the numbers.
     pub(super) fn take(&mut self, line: usize, text: &str) {
         if text.len() > LONGEST && !text.starts_with("Date,Mode,") {
             return;

@@ -4,10 +4,10 @@ pub(super) mod axes;
 
 use crate::decision::{Decision, Dropped, WavelengthUnit};
 use crate::dialect::{Cell, Dialect};
-use crate::error::{MAX_CURVES, MAX_SAMPLES, ReadError};
+use crate::dialect_trial::Layout;
+use crate::error::{MAX_CURVES, MAX_SAMPLES, ReadError, check_curves, check_samples};
 use crate::grid::{Grid, RawCurve};
 use crate::header::{self, Header};
-use crate::layout::Layout;
 use crate::no_curve::is_empty;
 use crate::text::{Lines, Section, comment, excerpt};
 use crate::warning::{LineList, Warning};
@@ -19,11 +19,9 @@ pub(super) struct Read {
     /// The line after it, if another table follows.
     pub(super) next: Option<usize>,
     pub(super) bytes: usize,
-    /// Decision on its columns, if there was one.
     pub(super) note: Option<Decision>,
 }
 
-/// Reads the rows of a layout.
 pub(super) fn read(section: Section<'_>, layout: &Layout, log: &mut Log<'_>) -> Result<Read, ReadError> {
     let header = header::read(section, layout);
     let chosen = layout.wavelength_column.map(|column| column.saturating_sub(1));
@@ -78,7 +76,6 @@ struct Broken {
     line: usize,
     begins_with_number: bool,
     has_numbers: bool,
-    /// True if it is the line of names again.
     is_header: bool,
     /// Rows of numbers below it that do not fit this table.
     others: usize,
@@ -98,7 +95,6 @@ struct Columns {
     named: Option<usize>,
     label_unit: Option<WavelengthUnit>,
     broken: Option<Broken>,
-    /// Lines that are the line of names again.
     repeated_headers: LineList,
     /// The line after the last row, once another table is seen.
     next: Option<usize>,
@@ -236,12 +232,8 @@ impl Columns {
         if cells < self.width {
             return Err(ReadError::UnevenRow { line: number, found: cells, expected: self.width });
         }
-        if self.width > MAX_CURVES + 1 {
-            return Err(ReadError::TooManyCurves(number));
-        }
-        if (rows + 1) * (self.width - 1) > MAX_SAMPLES {
-            return Err(ReadError::TooManySamples(number));
-        }
+        check_curves(self.width - 1, number)?;
+        check_samples((rows + 1) * (self.width - 1), number)?;
         if rows == 0 {
             self.reserve();
         }
@@ -389,7 +381,6 @@ impl Texts {
         Self { mask, columns: columns.map(|column| Text { column, unit: None, other: false }).collect() }
     }
 
-    /// Returns whether a column holds text, or numbers with units.
     #[inline]
     fn contains(&self, column: usize) -> bool {
         column < 128 && self.mask >> column & 1 == 1

@@ -12,7 +12,7 @@ macro_rules! choices {
         $(#[$about])*
         #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
         #[serde(rename_all = "kebab-case")]
-        pub enum $name { $($(#[$doc])* $variant,)+ }
+        pub enum $name { $(#[doc = concat!("In a sentence, “", $words, "”.")] $(#[$doc])* $variant,)+ }
 
         impl $name {
             /// Those that can be chosen, each with its label.
@@ -56,7 +56,6 @@ choices! {
 
     /// The unit in which wavelengths are written.
     WavelengthUnit {
-        /// nm.
         #[serde(alias = "nanometers")]
         Nanometer = "nanometers", "nm";
         /// µm: 1000 nm.
@@ -79,7 +78,6 @@ choices! {
         CommaSpace = "separated by comma and space", "Comma, space";
         /// `380;0.05`
         Semicolon = "semicolon separated", "Semicolon";
-        /// One tab character.
         Tab = "tab separated", "Tab";
         /// Any run of spaces and tabs.
         Spaces = "separated by spaces", "Spaces";
@@ -106,9 +104,7 @@ choices! {
     /// The physical quantity of values.
     #[non_exhaustive]
     Quantity {
-        /// Reflectance, or a reflectance factor.
         Reflectance = "reflectance";
-        /// Transmittance.
         Transmittance = "transmittance";
         /// Absorptance: the fraction that is neither reflected nor transmitted. (Absorbances are read as transmittances.)
         Absorptance = "absorptance";
@@ -130,7 +126,6 @@ choices! {
         Counts = "counts of a detector";
         /// A relative scale, without a word on what is compared.
         Relative = "a relative scale";
-        /// Not stated.
         Unknown = "a quantity that the file does not name";
     }
 
@@ -154,7 +149,6 @@ choices! {
         Xml = "XML";
         /// JSON, with or without comments.
         Json = "JSON";
-        /// JCAMP-DX.
         Jcamp = "JCAMP-DX";
         /// CGATS and its relatives, as Argyll and X-Rite write them.
         Cgats = "CGATS";
@@ -162,19 +156,14 @@ choices! {
 
     /// In what the wavelengths of a file are measured. They are taken as they are: the difference is 0.03 %.
     Medium {
-        /// Air.
         Air = "wavelengths in air, taken as they are";
-        /// Vacuum.
         Vacuum = "wavelengths in vacuum, taken as they are";
     }
 
     /// Reason that a row is in no curve.
     Dropped {
-        /// It has values but no wavelength.
         NoWavelength = "no wavelength";
-        /// It repeats an earlier row exactly.
         Repeated = "the same as an earlier row";
-        /// Another row has other values at its wavelength: their mean was taken.
         Averaged = "merged with rows of the same wavelength, of which the mean was taken";
     }
 
@@ -225,24 +214,16 @@ impl Certainty {
 /// Reader of a file format. Each stands, with its words, in the file of its format; `Reader::ALL` has them all.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Reader {
-    key: &'static str,
+    /// The word for it in sessions.
+    pub key: &'static str,
+    /// Its label in a list of choices.
+    pub label: &'static str,
     name: &'static str,
-    label: &'static str,
 }
 
 impl Reader {
     pub(super) const fn new(key: &'static str, name: &'static str, label: &'static str) -> Self {
-        Self { key, name, label }
-    }
-
-    /// The word for it in sessions.
-    pub fn key(self) -> &'static str {
-        self.key
-    }
-
-    /// Its label in a list of choices.
-    pub fn label(self) -> &'static str {
-        self.label
+        Self { key, label, name }
     }
 }
 

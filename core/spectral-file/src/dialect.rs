@@ -29,7 +29,6 @@ pub(super) fn may_be_thousands(cell: &str) -> bool {
         && digits(fraction)
 }
 
-/// The value that many instruments write for "not measured".
 const NOT_MEASURED: f64 = -9999.0;
 
 const GAPS: [&str; 15] =
@@ -56,7 +55,6 @@ impl Dialect {
         cells.quotes
     }
 
-    /// The notation of a single number, whichever its decimal mark.
     pub(super) fn of_number(text: &str) -> Self {
         Self::new(Delimiter::Spaces, if text.contains(',') { DecimalMark::Comma } else { DecimalMark::Point })
     }

@@ -1,10 +1,12 @@
-//! One way to split lines into cells, tried on the beginning of a file.
+//! One way to split lines into cells, tried on the beginning of a file, and the layout that follows: separators, decimal mark,
+//! orientation, and the line where the numbers begin.
 
 use crate::bands::{self, Group};
-use crate::decision::Orientation;
+use crate::decision::{Decided, DecimalMark, Delimiter, Orientation};
 use crate::dialect::{Cell, Dialect, may_be_thousands};
 use crate::error::MAX_CURVES;
 use crate::units::plausible;
+use crate::warning::Warning;
 
 /// Lines that may not fit below such a header before it is rejected: the reader then reports their errors.
 const MISSES: usize = 3;
@@ -22,7 +24,6 @@ pub(super) struct Shape {
     pub(super) text: bool,
     /// Bit mask of the first columns that are text; all bits are set if a later one is.
     pub(super) texts: u128,
-    /// Bit mask of the first columns that are empty.
     gaps: u128,
     /// Texts that are a number with a unit.
     united: u128,
@@ -112,7 +113,6 @@ pub(super) struct Run {
 }
 
 impl Run {
-    /// Number of rows that continue in the main direction.
     pub(super) fn steady(&self) -> usize {
         self.rises.max(self.falls)
     }
@@ -217,7 +217,6 @@ pub(super) struct Trial {
     /// Those of them that may be thousands.
     grouped: usize,
     fractions: usize,
-    /// The first row with a cell like `05`.
     pub(super) padded_line: Option<usize>,
     /// Lines of a single number: how many, and the first.
     pub(super) single: usize,
@@ -330,5 +329,55 @@ impl Trial {
     /// Rows below a header of wavelengths and the header itself, or none.
     pub(super) fn across_rows(&self) -> usize {
         self.across.as_ref().filter(|across| across.rows > 0).map_or(0, |across| across.rows + 1)
+    }
+}
+
+#[derive(Debug)]
+pub(super) struct Layout {
+    pub(super) delimiter: Decided<Delimiter>,
+    pub(super) decimal_mark: Decided<DecimalMark>,
+    /// True if the other mark groups thousands even where it stands once.
+    pub(super) thousands: bool,
+    pub(super) orientation: Decided<Orientation>,
+    pub(super) first_line: usize,
+    pub(super) texts: u128,
+    /// Columns, as far as seen.
+    pub(super) width: usize,
+    pub(super) across: Option<Across>,
+    /// The column of the wavelengths, from 1, if the caller chose one.
+    pub(super) wavelength_column: Option<usize>,
+    /// True if all other columns are curves, whatever they look like.
+    pub(super) every_column: bool,
+    pub(super) warnings: Vec<Warning>,
+}
+
+impl Layout {
+    pub(super) fn fixed(
+        (delimiter, mark): (Delimiter, DecimalMark),
+        orientation: Orientation,
+        first_line: usize,
+        why: &str,
+    ) -> Self {
+        Self {
+            delimiter: Decided::certain(delimiter, why),
+            decimal_mark: Decided::certain(mark, why),
+            thousands: false,
+            orientation: Decided::certain(orientation, why),
+            first_line,
+            texts: 0,
+            width: 0,
+            across: None,
+            wavelength_column: None,
+            every_column: false,
+            warnings: Vec::new(),
+        }
+    }
+
+    pub(super) fn dialect(&self) -> Dialect {
+        Dialect { delimiter: self.delimiter.value, mark: self.decimal_mark.value, thousands: self.thousands }
+    }
+
+    pub(super) fn header_end(&self) -> usize {
+        self.across.as_ref().map_or(self.first_line, |across| across.line)
     }
 }

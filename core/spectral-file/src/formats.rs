@@ -5,7 +5,6 @@ mod cgats;
 #[cfg(feature = "xml")]
 mod cxf;
 mod jcamp;
-mod jcamp_asdf;
 #[cfg(feature = "json")]
 mod json;
 mod lamp_meter;
@@ -31,10 +30,8 @@ struct Format {
     read: fn(&str, &ReadOptions, &mut Log<'_>) -> Result<Found, ReadError>,
 }
 
-/// A text that may be of a format.
 struct Head<'a> {
     text: &'a str,
-    /// The family that its beginning shows.
     family: Option<Family>,
     /// True if the format was chosen, so that less has to speak for it.
     chosen: bool,
@@ -121,7 +118,6 @@ fn recognize(text: &str) -> Result<&'static Format, ReadError> {
 /// Bytes of the text that are searched for the marks of a family.
 const LOOK: usize = 64 << 10;
 
-/// The line that begins the names of fields in CGATS.
 const CGATS_FORMAT: &str = "BEGIN_DATA_FORMAT";
 
 fn family(text: &str) -> Option<Family> {

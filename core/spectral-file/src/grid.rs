@@ -12,7 +12,6 @@ use crate::watch::Log;
 /// Numbers as they stand in the file, before units, order and scale are settled.
 #[derive(Debug, Default)]
 pub(super) struct Grid {
-    /// Wavelengths, finite.
     pub(super) wavelengths: Vec<f64>,
     /// The line of each wavelength; a single one if all stand in the same line.
     pub(super) lines: Vec<usize>,
@@ -47,7 +46,6 @@ pub(super) struct Grid {
 #[derive(Debug, Default)]
 pub(super) struct RawCurve {
     pub(super) name: String,
-    /// True if the name is from the file.
     pub(super) named: bool,
     /// The column it stands in, from 1, where wavelengths run down one.
     pub(super) column: Option<usize>,
@@ -55,7 +53,6 @@ pub(super) struct RawCurve {
     pub(super) origin: usize,
     /// The header's information about this curve: its name and its unit.
     pub(super) label: String,
-    /// The unit of the values as the file names it.
     pub(super) unit: Option<String>,
     pub(super) values: Vec<f64>,
 }
@@ -71,7 +68,6 @@ impl RawCurve {
 }
 
 impl Grid {
-    /// First and last wavelength of a sorted grid that has one.
     pub(super) fn range_nm(&self) -> [f64; 2] {
         [self.wavelengths[0], self.wavelengths[self.wavelengths.len() - 1]]
     }
@@ -209,7 +205,7 @@ fn warn_gaps(gaps: &[u32], lines: &[usize], sentinel: Option<Sentinel>, log: &mu
     log.push(Warning::Gaps { cells, lines: gap_lines.into_iter().collect(), sentinel });
 }
 
-fn retain<T>(items: &mut Vec<T>, marked: &[bool]) {
+pub(super) fn retain<T>(items: &mut Vec<T>, marked: &[bool]) {
     let mut marks = marked.iter();
     items.retain(|_| !marks.next().copied().unwrap_or(false));
 }

@@ -7,9 +7,9 @@ use std::fmt::Write as _;
 use crate::clues::{self, Clues};
 use crate::decision::{Delimiter, Medium, Orientation, Quantity, Role, Values, WavelengthUnit};
 use crate::dialect::{Cell, Dialect};
+use crate::dialect_trial::Layout;
 use crate::error::MAX_CURVES;
 use crate::header_terms::{self, UNSPECIFIED, XUnit};
-use crate::layout::Layout;
 use crate::text::{Lines, Section, comment, is_one};
 use crate::{unit_text, units};
 
@@ -23,28 +23,19 @@ pub(super) struct Header {
     pub(super) comments: Vec<(String, String)>,
     /// The lines of the comments, where they are known.
     pub(super) noted: Vec<u32>,
-    /// The line that names the columns.
     pub(super) line: Option<usize>,
     pub(super) names: Vec<String>,
-    /// The cells of a line of units below the names.
     pub(super) units: Vec<String>,
     pub(super) units_line: Option<usize>,
     /// True if the line of names omits that of the wavelengths.
     pub(super) shifted: bool,
-    /// The unit of the wavelengths and the line that gives it.
     pub(super) x_unit: Option<(usize, XUnit)>,
-    /// Scale of all values, and the line that gives it.
     pub(super) values: Option<(usize, Values)>,
-    /// The physical quantity of all values with the line that states it.
     pub(super) quantity: Option<(usize, Quantity)>,
     pub(super) unit: Option<String>,
-    /// The line which states that all values are photons.
     pub(super) photons: Option<usize>,
-    /// The line which states that sensitivities are responses per photon.
     pub(super) per_photon: Option<usize>,
-    /// Unit of the wavelengths, and the line that states it.
     pub(super) medium: Option<(usize, Medium)>,
-    /// Role that a comment or a unit line gives, and that line.
     pub(super) role: Option<(usize, Role)>,
     /// Role that free text mentions; only good for a guess.
     pub(super) mentioned: Option<(usize, Role)>,
@@ -284,7 +275,6 @@ impl Header {
     }
 }
 
-/// Content of a row above several curves, by its first cell.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum RowKey {
     Name,
@@ -439,7 +429,6 @@ const QUANTITIES: [(&str, Quantity); 13] = [
     (UNSPECIFIED, Quantity::Unknown),
 ];
 
-/// Name of the quantity of lights in a unit.
 pub(super) fn quantity_of_light(quantity: Quantity) -> &'static str {
     let mut named = QUANTITIES.iter().filter(|(_, known)| *known == quantity && quantity != Quantity::SpectralPower);
     named.next().map_or("spectral power", |(name, _)| name)

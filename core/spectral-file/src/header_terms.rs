@@ -291,10 +291,8 @@ pub(super) fn says_specular(text: &str) -> bool {
     has_word(&lower(text), "sci|sce|spin|spex")
 }
 
-/// Channel of a camera, by the form of its name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Channel {
-    /// By a letter alone, `R`.
     Letter(usize),
     /// By a word, `red`, which can also be the color of a thing, or by a part of the name.
     Word(usize),
@@ -312,7 +310,6 @@ pub(super) fn channel(name: &str) -> Option<Channel> {
     })
 }
 
-/// Quantity on the x axis, as a header may name it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum XUnit {
     Wavelength(WavelengthUnit),

@@ -5,7 +5,6 @@ use crate::decision::{Decided, Decision, Quantity, Role, Values};
 use crate::grid::Grid;
 use crate::text::Lines;
 
-/// Lines that are looked at for marks.
 const LOOK: usize = 60;
 
 /// Names the program that wrote a table, and takes over what only its own words say.

@@ -1,7 +1,6 @@
 //! Choices of the caller.
 
 use serde::{Deserialize, Serialize};
-use std::fmt;
 
 use crate::decision::{DecimalMark, Delimiter, Orientation, Reader, Role, Values, WavelengthUnit};
 
@@ -52,40 +51,25 @@ impl ReadOptions {
 }
 
 /// A setting that was chosen, not left to the content, and causes an error.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, thiserror::Error)]
+#[allow(missing_docs, reason = "each variant is named as the option it holds")]
 pub enum Switch {
-    /// Separator of cells.
+    #[error("{0}")]
     Delimiter(Delimiter),
-    /// Decimal mark.
+    #[error("{0}")]
     DecimalMark(DecimalMark),
-    /// Direction of the wavelengths: down a column or across a row.
+    #[error("{0}")]
     Orientation(Orientation),
-    /// Their unit.
+    #[error("{0}")]
     WavelengthUnit(WavelengthUnit),
-    /// Their column, from 1.
+    #[error("wavelengths in column {0}")]
     WavelengthColumn(usize),
-    /// Scale of the values.
+    #[error("values are {0}")]
     Values(Values),
-    /// The part of the file, from 1.
+    #[error("part {0}")]
     Part(usize),
-    /// Role of the curves.
+    #[error("{0}")]
     Role(Role),
-    /// The reader.
+    #[error("read as {0}")]
     Reader(Reader),
-}
-
-impl fmt::Display for Switch {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Delimiter(delimiter) => delimiter.fmt(f),
-            Self::DecimalMark(mark) => mark.fmt(f),
-            Self::Orientation(orientation) => orientation.fmt(f),
-            Self::WavelengthUnit(unit) => unit.fmt(f),
-            Self::WavelengthColumn(column) => write!(f, "wavelengths in column {column}"),
-            Self::Values(values) => write!(f, "values are {values}"),
-            Self::Part(part) => write!(f, "part {part}"),
-            Self::Role(role) => role.fmt(f),
-            Self::Reader(reader) => write!(f, "read as {reader}"),
-        }
-    }
 }

@@ -18,7 +18,6 @@
 //! # Ok::<(), spectral_file::ReadError>(())
 //! ```
 
-mod cells;
 mod mark;
 mod marker;
 mod tables;
@@ -57,7 +56,7 @@ impl Preview {
         let mut starts = Vec::new();
         let mut longest = 0;
         for (_, line) in Lines::new(&text) {
-            starts.push(cells::offset(&text, line) as u32);
+            starts.push(tables::offset(&text, line) as u32);
             // A line has at most as many characters as bytes, so that most lines need no count.
             if line.len() > longest {
                 longest = longest.max(line.chars().take(LONGEST_LINE).count());
@@ -121,7 +120,7 @@ impl Preview {
     /// `None` where the error is about the file as a whole.
     pub fn error_range(&self, error: &ReadError) -> Option<(usize, Range<usize>)> {
         let number = error.line()?;
-        Some((number, cells::of_error(self.line(number)?, error)))
+        Some((number, tables::of_error(self.line(number)?, error)))
     }
 
     fn start(&self, number: usize) -> Option<usize> {

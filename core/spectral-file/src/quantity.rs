@@ -215,7 +215,6 @@ pub(super) fn to_energy(
     Some(decision)
 }
 
-/// Name of the decision on the unit of lights.
 pub(super) const DECISION: &str = "Spectral unit";
 
 /// The guess that lights over frequencies or wave numbers are per nanometer, if no unit states otherwise.

@@ -10,7 +10,7 @@ use crate::preview::Marker;
 use crate::report::{ReadReport, SpectralFile, Steps};
 use crate::warning::Warning;
 use crate::watch::{Log, Places, Watch};
-use crate::{formats, gaps, no_curve, quantity, scale, text, wavelengths};
+use crate::{formats, no_curve, quantity, scale, text, wavelengths};
 
 /// Files up to this size are read again to find what an error is due to.
 const LONGEST: usize = 1 << 20;
@@ -133,7 +133,7 @@ fn finish(
     let (range_nm, step_nm) = (grid.range_nm(), Steps::of(&grid.wavelengths));
     wavelengths::warn(&grid, step_nm, &mut warnings);
     warnings.look(usize::MAX)?;
-    gaps::take(&mut grid, &mut warnings);
+    no_curve::take_sentinels(&mut grid, &mut warnings);
     quantity::suggest_role(&mut grid);
     if options.raw != Some(true) {
         no_curve::leave_out(&mut grid, &mut warnings);

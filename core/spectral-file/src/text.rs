@@ -192,7 +192,6 @@ pub(super) fn begins(lower: &str, parts: &str) -> bool {
     parts.any(|part| lower.match_indices(part).any(|(at, _)| is_start(at)))
 }
 
-/// Returns whether a word is one of those between bars.
 pub(super) fn is_one(word: &str, list: &str) -> bool {
     list.split('|').any(|listed| listed == word)
 }

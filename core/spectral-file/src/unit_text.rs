@@ -79,7 +79,6 @@ pub(super) fn unit_cell(cell: &str) -> Option<String> {
     usable.then(|| repaired(bare))
 }
 
-/// Longer texts are no units.
 const LONGEST_UNIT: usize = 40;
 
 fn is_unit(text: &str) -> bool {

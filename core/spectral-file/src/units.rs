@@ -18,7 +18,6 @@ pub(super) struct Unit {
     pub(super) steradian: bool,
     time: Option<&'static str>,
     pub(super) per: Per,
-    /// The power of ten before it.
     pub(super) ten: f64,
     /// The size of its energy in units of the symbol, as of an erg in joules.
     pub(super) size: f64,
@@ -28,13 +27,10 @@ pub(super) struct Unit {
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Amount {
-    /// Energy or power, as its symbol.
     Energy(&'static str),
-    /// Number of photons.
     Photons(f64),
 }
 
-/// The variable that a spectral unit is per.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Per {
     None,
@@ -43,7 +39,6 @@ pub(super) enum Per {
     Length(f64),
     /// A frequency in terahertz.
     Frequency(f64),
-    /// 1/cm.
     Wavenumber,
     /// The energy of a photon in electronvolts.
     Electronvolt,

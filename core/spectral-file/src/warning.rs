@@ -75,215 +75,105 @@ pub struct Sentinel {
 /// Warning about a file that was read. Plain numbers are lines, unless noted.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
+#[allow(missing_docs, reason = "each variant says in its message what is in doubt")]
 pub enum Warning {
-    /// Cells without a value: omitted from their curves.
     #[error("{}", gaps(*.cells, .lines, .sentinel.as_ref()))]
     Gaps {
-        /// Number of cells.
         cells: usize,
         /// Lines; empty where the rows of the file are curves, or unknown.
         lines: LineList,
         /// A number that was taken for a missing value.
         sentinel: Option<Sentinel>,
     },
-    /// Curves with fewer than two values: omitted.
     #[error("{}", empty_curves(*.count, .first))]
-    EmptyCurves {
-        /// Number.
-        count: usize,
-        /// The first: its name in quotes, and its column if it has one.
-        first: String,
-    },
+    EmptyCurves { count: usize, first: String },
     /// Columns before the wavelengths, such as a pixel number: omitted. Holds the column of the wavelengths, from 1.
     #[error("Wavelengths stand in column {0}: the columns before it are left out")]
     SkippedColumns(usize),
-    /// Columns that hold text: omitted.
     #[error("{}", text_columns(*.count, *.column, .name))]
-    TextColumns {
-        /// Number.
-        count: usize,
-        /// The first, from 1.
-        column: usize,
-        /// Its name, or an empty text.
-        name: String,
-    },
-    /// Rows were neither ascending nor descending: sorted. Holds the first line out of order.
+    TextColumns { count: usize, column: usize, name: String },
     #[error("line {0}: wavelengths out of order: sorted")]
     Sorted(usize),
-    /// Rows that repeat an earlier row exactly: counted once.
     #[error("{0}: the same as an earlier row: counted once")]
     RepeatedRows(LineList),
-    /// Rows with different values at one wavelength: their mean was taken.
     #[error("{0}: several rows with different values at one wavelength: their mean is taken")]
     AveragedRows(LineList),
-    /// Comments inside the table that look like rows: omitted.
     #[error("{0}: rows that begin with # in the table: left out as comments")]
     CommentedRows(LineList),
-    /// The line of names again, inside the table: omitted.
     #[error("{0}: the names of the columns again: left out")]
     RepeatedHeader(LineList),
-    /// All fractions have three digits, so that their marks may group thousands.
     #[error("Every fraction has three digits: if the marks group thousands, the values are wrong")]
     MaybeThousands,
     /// Marks before three digits were taken to group thousands, because whole numbers stand next to them.
     /// Holds the mark to choose if they have fractions.
     #[error("Numbers such as {} are read as thousands: if they have fractions, choose {}", grouped(*.0), .0)]
     GroupedThousands(DecimalMark),
-    /// All wavelengths are outside 380 to 780 nm.
     #[error("There is nothing between 380 and 780 nm, the light that is seen")]
     Invisible,
     /// Neighboring wavelengths far further apart than the others: more than 20 nm and ten times the median step.
-    #[error("{}nothing between {from_nm} and {to_nm} nm, far more than the other steps", both(*.lines))]
+    #[error("{}nothing between {from_nm} and {to_nm} nm, far more than the other steps", of(*.lines, |[a, b]| format!("lines {a} and {b}: ")))]
     Hole {
-        /// The wavelength before it, in nanometers.
         from_nm: f64,
-        /// The wavelength after it, in nanometers.
         to_nm: f64,
         /// The lines of both, where each wavelength has its own.
         lines: Option<[usize; 2]>,
     },
-    /// Rows without a wavelength: omitted.
     #[error("{0}: no wavelength: left out")]
     NoWavelength(LineList),
-    /// Numbers above the table that belong to no row.
     #[error("line {0}: numbers above the table: left out")]
     NumbersAbove(usize),
-    /// Text after the table: omitted. Holds its first line.
     #[error("line {0}: text after the table: left out")]
     TextBelow(usize),
-    /// No number has a decimal point, so the separating commas might be decimal marks.
     #[error("No number has a decimal point: if the commas mark fractions, choose decimal commas")]
     CommasOnly,
-    /// Several values at one wavelength of a curve: their mean was taken.
     #[error("{lines}: “{name}” has several values at one wavelength: their mean is taken")]
-    Averaged {
-        /// The curve.
-        name: String,
-        /// Lines of the repeated values.
-        lines: LineList,
-    },
-    /// Another table with spectra follows the one that was read. Holds its line.
+    Averaged { name: String, lines: LineList },
     #[error("line {0}: another table with spectra: left out")]
     MoreTables(usize),
-    /// Other spectra of the same samples stand beside those that were read.
     #[error("“{second}”{}: left out", other_groups(*.count))]
-    MoreGroups {
-        /// Number of groups of columns.
-        count: usize,
-        /// Name of the second.
-        second: String,
-    },
-    /// Numbers without a unit were read as wave numbers.
+    MoreGroups { count: usize, second: String },
     #[error("Nothing names the unit of wave numbers: if they are wavelengths, choose nanometers")]
     MaybeWavelengths,
-    /// A reflectance or a sensitivity is far below zero.
-    #[error("{}{}", at(*.line), below_zero(*.count, .first, *.min))]
+    #[error("{}{}", of(*.line, |line| format!("line {line}: ")), below_zero(*.count, .first, *.min))]
     BelowZero {
-        /// Number of such curves.
         count: usize,
-        /// The first of them: its name in quotes, and its column if it has one.
         first: String,
-        /// Its smallest value.
         min: f64,
         /// The line of that value, where each has its own.
         line: Option<usize>,
     },
-    /// The curves were declared to have another role than the file states.
     #[error("The numbers look like {quantity}, not like {role}")]
-    OtherQuantity {
-        /// Quantity that the file gives.
-        quantity: Quantity,
-        /// Chosen role.
-        role: Role,
-    },
-    /// Rows of numbers below the table make no table that can be read.
+    OtherQuantity { quantity: Quantity, role: Role },
     #[error("line {line}: another table that cannot be read: left out ({error})")]
-    BrokenTable {
-        /// Line where they begin.
-        line: usize,
-        /// Reason.
-        error: Box<ReadError>,
-    },
-    /// Lines out of place: their values are at the abscissas at their heads.
+    BrokenTable { line: usize, error: Box<ReadError> },
     #[error("{0}: not where the line before ends: placed by the wavelength at the head of the line")]
     PlacedByAbscissa(LineList),
-    /// Lines with fewer values than there are places before the next line: omitted.
     #[error("{0}: fewer values than places before the next line: left out. Which is missing is not known")]
     ShortLines(LineList),
-    /// A header announces another value than the data hold.
     #[error("line {line}: {label} announces {announced}, but the data give {found}")]
-    HeaderDiffers {
-        /// Line of the announcement.
-        line: usize,
-        /// The label.
-        label: &'static str,
-        /// As announced.
-        announced: f64,
-        /// As found.
-        found: f64,
-    },
-    /// Columns or rows that hold wavelengths again, another scale of them, or only count or time the others: omitted.
-    #[error("{named}: another scale than the wavelengths{}, no spectrum: left out", in_column(*.wavelength_column))]
+    HeaderDiffers { line: usize, label: &'static str, announced: f64, found: f64 },
+    #[error("{named}: another scale than the wavelengths{}, no spectrum: left out", of(*.wavelength_column, |column| format!(" in column {column}")))]
     OtherAxes {
-        /// Their names in quotes and their columns or lines, the first few.
         named: String,
         /// The column of the wavelengths, from 1, where they run down one.
         wavelength_column: Option<usize>,
     },
-    /// Rows of other quantities than those that were read.
     #[error("Rows of other quantities than “{taken}”: left out ({others}): choose the part to read them")]
-    MoreQuantities {
-        /// Value that was read.
-        taken: String,
-        /// The others, the first few.
-        others: String,
-    },
-    /// Columns with values whose names should be wavelengths and are none: omitted.
+    MoreQuantities { taken: String, others: String },
     #[error("line {line}: {named}: no wavelength there, so the column is left out")]
     BadWavelengths {
-        /// The line of the wavelengths.
         line: usize,
         /// The columns, from 1, and what stands there, the first few.
         named: String,
     },
-    /// The file announces another number of values than it holds.
     #[error("line {line} announces {expected} values, but there are {found}")]
-    CountDiffers {
-        /// Line of the announcement.
-        line: usize,
-        /// As announced.
-        expected: usize,
-        /// As found.
-        found: usize,
-    },
-    /// Curves that reach values no quantity of their role has.
+    CountDiffers { line: usize, expected: usize, found: usize },
     #[error("{}", not_reflectances(*.count, .first, *.max))]
-    NotReflectances {
-        /// Number.
-        count: usize,
-        /// The first: its name in quotes, and its column if it has one.
-        first: String,
-        /// Its largest value.
-        max: f64,
-    },
-    /// Columns of quantities other than spectra, such as temperatures: omitted.
+    NotReflectances { count: usize, first: String, max: f64 },
     #[error("{}", not_spectra(*.count, .first))]
-    NotSpectra {
-        /// Number.
-        count: usize,
-        /// The first: its name in quotes, and its column if it has one.
-        first: String,
-    },
-    /// Some curves were read as percent, others as written, each by its own numbers.
+    NotSpectra { count: usize, first: String },
     #[error("By their values {first}{} are read as percent, others such as {other} as written", and_more(*.percent))]
-    ScalesDiffer {
-        /// Number in percent.
-        percent: usize,
-        /// The first of them: its name in quotes, and its column if it has one.
-        first: String,
-        /// The first of the others.
-        other: String,
-    },
+    ScalesDiffer { percent: usize, first: String, other: String },
     /// The file states percent, but its values would be fractions. Holds the largest value as written, in words.
     #[error("The file says percent, but no value exceeds {0}: if they are fractions, choose plain numbers")]
     SmallPercent(String),
@@ -315,23 +205,7 @@ impl Warning {
             | Self::CountDiffers { line, .. } => Some(*line),
             Self::BelowZero { line, .. } => *line,
             Self::Hole { lines, .. } => lines.map(|[line, _]| line),
-            Self::EmptyCurves { .. }
-            | Self::MoreGroups { .. }
-            | Self::MaybeWavelengths
-            | Self::OtherQuantity { .. }
-            | Self::SkippedColumns(..)
-            | Self::OtherAxes { .. }
-            | Self::MoreQuantities { .. }
-            | Self::TextColumns { .. }
-            | Self::CommasOnly
-            | Self::MaybeThousands
-            | Self::Invisible
-            | Self::GroupedThousands(..)
-            | Self::NotReflectances { .. }
-            | Self::NotSpectra { .. }
-            | Self::ScalesDiffer { .. }
-            | Self::SmallPercent(..)
-            | Self::More(..) => None,
+            _ => None,
         }
     }
 }
@@ -366,16 +240,9 @@ fn grouped(fractions: DecimalMark) -> &'static str {
     if fractions == DecimalMark::Comma { "1,000" } else { "1.000" }
 }
 
-fn both(lines: Option<[usize; 2]>) -> String {
-    lines.map_or_else(String::new, |[a, b]| format!("lines {a} and {b}: "))
-}
-
-fn at(line: Option<usize>) -> String {
-    line.map_or_else(String::new, |line| format!("line {line}: "))
-}
-
-fn in_column(column: Option<usize>) -> String {
-    column.map_or_else(String::new, |column| format!(" in column {column}"))
+/// Words about a number, or none.
+fn of<T>(number: Option<T>, words: impl FnOnce(T) -> String) -> String {
+    number.map_or_else(String::new, words)
 }
 
 fn and_more(count: usize) -> String {
@@ -383,10 +250,9 @@ fn and_more(count: usize) -> String {
 }
 
 fn other_groups(count: usize) -> String {
-    if count == 2 {
-        ", another group of spectra".to_owned()
-    } else {
-        format!(" and {} more groups of spectra", count - 2)
+    match count {
+        2 => ", another group of spectra".to_owned(),
+        _ => format!(" and {} more groups of spectra", count - 2),
     }
 }
 

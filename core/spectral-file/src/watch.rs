@@ -27,13 +27,10 @@ impl<'a> Watch<'a> {
     }
 }
 
-/// Warnings and progress of a reader.
 pub(super) struct Log<'a> {
     pub(super) warnings: Vec<Warning>,
-    /// Places of samples, if they are recorded.
     pub(super) places: Option<Places<'a>>,
     watch: Watch<'a>,
-    /// Number of bytes to read.
     whole: usize,
     /// The watch is looked at again from this byte on.
     next: usize,
@@ -42,7 +39,6 @@ pub(super) struct Log<'a> {
 }
 
 impl<'a> Log<'a> {
-    /// Maximum number of listed warnings of one kind.
     const MOST_ALIKE: usize = 20;
 
     /// Bytes between two looks at the watch: some milliseconds of reading.
@@ -100,7 +96,6 @@ impl<'a> Log<'a> {
     }
 }
 
-/// A recorded place, or none.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) struct PlaceId(u32);
 
@@ -114,17 +109,14 @@ impl PlaceId {
 pub(super) enum PlaceKind {
     Wavelength,
     Value,
-    /// Compressed values.
     Block,
     /// A line that only repeats the last of the compressed values above it.
     Check,
-    /// A sample that repeats an earlier one.
     Repeated,
     /// One of several values at a wavelength, of which the mean is taken.
     Averaged,
 }
 
-/// Bytes of the text, and the sample that they hold.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Place {
     pub(super) start: u32,
@@ -136,10 +128,8 @@ pub(super) struct Place {
     pub(super) wavelength: f64,
 }
 
-/// The origin of a place that is in no curve.
 pub(super) const UNUSED: u32 = u32::MAX;
 
-/// The places recorded in a text, in the order of reading.
 #[derive(Debug)]
 pub(super) struct Places<'a> {
     text: &'a str,

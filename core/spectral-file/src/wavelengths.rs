@@ -83,7 +83,6 @@ pub(super) fn sort(grid: &mut Grid, log: &mut Log<'_>) -> bool {
     descending
 }
 
-/// Warns of invisible wavelengths, and of gaps among them.
 pub(super) fn warn(grid: &Grid, step: Steps, log: &mut Log<'_>) {
     const VISIBLE_NM: std::ops::RangeInclusive<f64> = 380.0..=780.0;
     const LEAST_NM: f64 = 20.0;

@@ -3,11 +3,10 @@
 use crate::bands::Group;
 use crate::decision::{Decided, Orientation, Part, Quantity, Role, Values};
 use crate::dialect::{Cell, Dialect};
-use crate::dialect_trial::Across;
-use crate::error::{MAX_CURVES, MAX_PARTS, MAX_SAMPLES, ReadError};
+use crate::dialect_trial::{Across, Layout};
+use crate::error::{MAX_PARTS, ReadError, check_curves, check_samples};
 use crate::grid::{Grid, RawCurve};
 use crate::header::{self, Header};
-use crate::layout::Layout;
 use crate::text::{Lines, Section, comment, excerpt, listed};
 use crate::warning::{LineList, Warning};
 use crate::watch::Log;
@@ -129,7 +128,6 @@ pub(super) fn name_column(leading: &[&str]) -> usize {
     NAMES.iter().find_map(headed).unwrap_or(0)
 }
 
-/// The names of all parts but one, the first few.
 pub(super) fn other_names(parts: &[Part], but: usize) -> String {
     let others = parts.iter().enumerate().filter(|(at, _)| *at != but);
     listed(&others.map(|(_, part)| format!("“{}”", part.name)).collect::<Vec<_>>())
@@ -288,12 +286,8 @@ impl<'a> Rows<'a> {
             self.gaps += missing;
             self.gap_lines.add(number);
         }
-        if self.curves.len() >= MAX_CURVES {
-            return Err(ReadError::TooManyCurves(number));
-        }
-        if (self.curves.len() + 1) * wavelengths.len() > MAX_SAMPLES {
-            return Err(ReadError::TooManySamples(number));
-        }
+        check_curves(self.curves.len() + 1, number)?;
+        check_samples((self.curves.len() + 1) * wavelengths.len(), number)?;
         self.curves.push(curve);
         Ok(())
     }

@@ -117,7 +117,6 @@ pub fn canonical_csv(sheet: &Sheet<'_>, grid: Grid) -> Result<Written, WriteErro
     Ok(Written { text, notes: prepared.notes() })
 }
 
-/// A text that is passed on in parts.
 fn collected(write: impl FnOnce(&mut dyn FnMut(&str) -> bool)) -> String {
     let mut text = String::new();
     write(&mut |part| {

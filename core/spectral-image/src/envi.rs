@@ -83,7 +83,6 @@ impl<R: Read + Seek> EnviImage<R> {
         Ok(())
     }
 
-    /// Reads rows of each band in turn.
     fn by_bands(&mut self, rows: &Range<usize>, samples: &mut [f32]) -> Result<(), ImageError> {
         let (width, height) = (self.header.info.width, self.header.info.height);
         let row_bytes = width * self.header.data_type.bytes();
@@ -102,7 +101,6 @@ impl<R: Read + Seek> EnviImage<R> {
         Ok(())
     }
 
-    /// Reads bytes of the file into the buffer.
     fn fill(&mut self, at: u64, count: usize) -> Result<(), ImageError> {
         self.buffer.resize(count, 0);
         self.data.seek(SeekFrom::Start(at))?;

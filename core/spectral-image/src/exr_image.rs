@@ -114,22 +114,17 @@ impl Filled<'_> {
             let first = ((row - self.rows.start) * self.info.width + at.position.x()) * bands;
             let pixels = samples[first..first + at.sample_count * bands].chunks_exact_mut(bands);
             let finite = |value: f32| if value.is_finite() { value } else { f32::NAN };
+            macro_rules! each {
+                ($type:ty, $value:expr) => {
+                    for (pixel, sample) in pixels.zip(line.read_samples::<$type>()) {
+                        pixel[place] = $value(sample?);
+                    }
+                };
+            }
             match self.channels.list[at.channel].sample_type {
-                SampleType::F32 => {
-                    for (pixel, value) in pixels.zip(line.read_samples::<f32>()) {
-                        pixel[place] = finite(value?);
-                    }
-                }
-                SampleType::F16 => {
-                    for (pixel, value) in pixels.zip(line.read_samples::<f16>()) {
-                        pixel[place] = finite(value?.to_f32());
-                    }
-                }
-                SampleType::U32 => {
-                    for (pixel, value) in pixels.zip(line.read_samples::<u32>()) {
-                        pixel[place] = value? as f32;
-                    }
-                }
+                SampleType::F32 => each!(f32, finite),
+                SampleType::F16 => each!(f16, |value: f16| finite(value.to_f32())),
+                SampleType::U32 => each!(u32, |value: u32| value as f32),
             }
         }
         Ok(())
@@ -139,7 +134,6 @@ impl Filled<'_> {
 /// Channels of a spectrum by their place in the layer, with their wavelengths.
 type Spectrum = (ImageQuantity, Vec<(usize, f64)>);
 
-/// Spectral channels of a layer; none without any.
 fn spectrum(header: &Header, wanted: Option<ImageQuantity>) -> Result<Option<Spectrum>, ImageError> {
     let name = |channel: &exr::meta::attribute::ChannelDescription| SpectralChannel::parse(&channel.name.to_string());
     let all: Vec<(usize, SpectralChannel)> =

@@ -110,30 +110,21 @@ impl<'a> Fields<'a> {
         rest = &rest[first.len()..];
         let mut fields = Vec::new();
         while !rest.is_empty() && fields.len() < MAX_FIELDS {
-            let end = rest.find('\n').map_or(rest.len(), |at| at + 1);
+            let line_end = |from: usize| rest[from..].find('\n').map_or(rest.len(), |at| from + at + 1);
+            let mut end = line_end(0);
             let row = rest[..end].trim();
-            if row.is_empty() || row.starts_with(';') {
-                line += usize::from(rest[..end].ends_with('\n'));
-                rest = &rest[end..];
-                continue;
+            if !(row.is_empty() || row.starts_with(';')) {
+                let (name, mut value) = rest[..end].split_once('=').ok_or(ImageError::Line { line })?;
+                let name = name.split_whitespace().collect::<Vec<_>>().join(" ").to_lowercase();
+                if value.trim_start().starts_with('{') {
+                    let open = rest.find('{').unwrap_or(0);
+                    let close = rest[open..].find('}').ok_or(ImageError::Open { line, field: name.clone() })? + open;
+                    (value, end) = (&rest[open + 1..close], line_end(close));
+                }
+                fields.push(Field { line, name, value: value.trim() });
             }
-            let (name, value) = rest[..end].split_once('=').ok_or(ImageError::Line { line })?;
-            let name = name.split_whitespace().collect::<Vec<_>>().join(" ").to_lowercase();
-            let start = line;
-            let value = if value.trim_start().starts_with('{') {
-                let open = rest.find('{').unwrap_or(0);
-                let close = rest[open..].find('}').ok_or(ImageError::Open { line, field: name.clone() })? + open;
-                let value = &rest[open + 1..close];
-                let end = rest[close..].find('\n').map_or(rest.len(), |at| close + at + 1);
-                line += rest[..end].matches('\n').count();
-                rest = &rest[end..];
-                value
-            } else {
-                line += usize::from(rest[..end].ends_with('\n'));
-                rest = &rest[end..];
-                value
-            };
-            fields.push(Field { line: start, name, value: value.trim() });
+            line += rest[..end].matches('\n').count();
+            rest = &rest[end..];
         }
         Ok(Self(fields))
     }
@@ -152,7 +143,6 @@ impl<'a> Fields<'a> {
         field.value.parse().map(Some).map_err(|_| field.refuse(name, "expected a number"))
     }
 
-    /// Numbers of a list, one for each band.
     fn list(&self, name: &'static str, bands: usize) -> Result<Option<Vec<f64>>, ImageError> {
         let Some(field) = self.get(name) else { return Ok(None) };
         let parts = field.value.split(',').map(str::trim).filter(|part| !part.is_empty()).take(MAX_BANDS + 1);
@@ -279,7 +269,6 @@ fn big_endian(fields: &Fields<'_>, data_type: DataType) -> Result<bool, ImageErr
     }
 }
 
-/// Wavelengths of all bands in nanometers.
 fn wavelengths(fields: &Fields<'_>, bands: usize, notes: &mut Vec<Note>) -> Result<Vec<f64>, ImageError> {
     let list = fields.list("wavelength", bands)?;
     let list = list.ok_or(ImageError::Missing { field: "wavelength", example: "{400, 410, 420}" })?;
@@ -315,7 +304,6 @@ fn wavelengths(fields: &Fields<'_>, bands: usize, notes: &mut Vec<Note>) -> Resu
     }
 }
 
-/// Bands that are not marked as bad.
 fn good_bands(fields: &Fields<'_>, bands: usize, notes: &mut Vec<Note>) -> Result<Vec<usize>, ImageError> {
     let Some(list) = fields.list("bbl", bands)? else { return Ok((0..bands).collect()) };
     let good: Vec<usize> = (0..bands).filter(|&band| list[band] != 0.0).collect();

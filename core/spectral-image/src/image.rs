@@ -25,27 +25,16 @@ choices! {
 
 /// Decision made on reading that the user should know of.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[allow(missing_docs, reason = "each variant says in its message what was done")]
 pub enum Note {
-    /// The header names no unit of wavelength.
     #[error("`wavelength units` is missing; {first} to {last} were taken as {unit}")]
-    Unit {
-        /// First wavelength as it stands.
-        first: f64,
-        /// Last wavelength as it stands.
-        last: f64,
-        /// Unit that was taken.
-        unit: &'static str,
-    },
-    /// Bands that the header marks as bad.
+    Unit { first: f64, last: f64, unit: &'static str },
     #[error("{0} bands that `bbl` marks as bad were skipped")]
     BadBands(usize),
-    /// Bands that were not in ascending order.
     #[error("bands were sorted by wavelength")]
     Sorted,
-    /// Samples are divided by the header's scale.
     #[error("samples were divided by the `reflectance scale factor` {0}")]
     Scale(f64),
-    /// Channels that are not part of the spectrum.
     #[error("{0} channels that are not spectral were skipped")]
     OtherChannels(usize),
 }

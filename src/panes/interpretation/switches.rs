@@ -128,7 +128,7 @@ fn format(ui: &mut Ui, shown: &ImportSelection, options: &mut ReadOptions, theme
             words: "Read by",
             wish: &mut options.reader,
             decided,
-            choices: &Reader::ALL.map(|reader| (reader, reader.label())),
+            choices: &Reader::ALL.map(|reader| (reader, reader.label)),
         }
         .show(ui, theme, half, false);
     });

@@ -57,13 +57,13 @@ fn every_format_is_recognized_and_has_words() {
     let table = "400,1\n410,2\n420,3\n";
     let readers: Vec<Reader> = FAMILIES.iter().chain(&[table]).map(|text| ok(text).reading.reader.value).collect();
     for reader in Reader::ALL {
-        let (key, label) = (reader.key(), reader.label());
+        let (key, label) = (reader.key, reader.label);
         assert!(readers.contains(&reader), "no file is {reader}");
         assert!(!label.is_empty() && !reader.to_string().is_empty() && key.bytes().all(|c| c.is_ascii_alphanumeric()));
         let word = serde_json::to_value(reader).unwrap();
         assert_eq!(word, key);
         assert_eq!(serde_json::from_value::<Reader>(word).unwrap(), reader);
-        let alike = |other: &&Reader| other.key() == key || other.label() == label;
+        let alike = |other: &&Reader| other.key == key || other.label == label;
         assert_eq!(Reader::ALL.iter().filter(alike).count(), 1, "{key}");
     }
     assert!(serde_json::from_str::<Reader>("\"word\"").is_err());

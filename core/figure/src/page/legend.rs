@@ -12,13 +12,10 @@ use crate::text::{text_width, wrapped};
 const ROW: f64 = 20.0;
 const KEY: f64 = 28.0;
 const PAD: f64 = 8.0;
-/// Most columns below a figure.
 const MOST_COLUMNS: usize = 6;
 /// Width below which a legend inside is small.
 const NARROW: f64 = 500.0;
-/// Least width of a line of a name.
 const LEAST: f64 = 60.0;
-/// Distance from the figure.
 const GAP: f64 = 12.0;
 
 /// Height of a further line of a long name.
@@ -29,7 +26,6 @@ const LINE: f64 = 15.0;
 struct Columns {
     widths: Vec<f64>,
     size: TextSize,
-    /// Lines of each name.
     names: Vec<Vec<String>>,
 }
 
@@ -80,7 +76,6 @@ impl Columns {
         [self.width() + PAD, self.heights().sum::<f64>() + PAD]
     }
 
-    /// Heights of the rows.
     fn heights(&self) -> impl Iterator<Item = f64> {
         let lines = self.names.chunks(self.widths.len()).map(|row| row.iter().map(Vec::len).max().unwrap_or(1));
         lines.map(|lines| ROW + LINE * (lines.max(1) - 1) as f64)

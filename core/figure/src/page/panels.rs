@@ -8,7 +8,6 @@ use crate::projection::Projection;
 use crate::rect::Rect;
 use crate::text::text_width;
 
-/// Room for the title of an axis.
 const TITLE: f64 = 18.0;
 
 /// A panel at its place on the page, with the titles that stand outside of it.
@@ -80,7 +79,6 @@ pub(super) fn spread(panels: &[Panel], titles: AxisTitles) -> Vec<Titled> {
     panels.iter().map(place).collect()
 }
 
-/// Draws a panel.
 pub(super) fn draw(brush: &mut Brush<'_>, titled: &Titled, projection: &Projection) {
     let (panel, plot) = (&titled.panel, projection.plot);
     brush.canvas.begin(&panel.name, Some(plot));
@@ -108,17 +106,13 @@ pub(super) fn draw(brush: &mut Brush<'_>, titled: &Titled, projection: &Projecti
 
 fn draw_grid(brush: &mut Brush<'_>, panel: &Panel, projection: &Projection) {
     let (plot, stroke) = (projection.plot, Some(Stroke::solid(InkRole::Grid, 1.0)));
-    if panel.x.grid {
-        for tick in &projection.x_ticks {
-            let x = projection.at([tick.value, projection.y[0]])[0];
-            brush.path(&[[x, plot.min[1]], [x, plot.max[1]]], false, stroke, None);
-        }
+    for tick in projection.x_ticks.iter().filter(|_| panel.x.grid) {
+        let x = projection.at([tick.value, projection.y[0]])[0];
+        brush.path(&[[x, plot.min[1]], [x, plot.max[1]]], false, stroke, None);
     }
-    if panel.y.grid {
-        for tick in &projection.y_ticks {
-            let y = projection.at([projection.x[0], tick.value])[1];
-            brush.path(&[[plot.min[0], y], [plot.max[0], y]], false, stroke, None);
-        }
+    for tick in projection.y_ticks.iter().filter(|_| panel.y.grid) {
+        let y = projection.at([projection.x[0], tick.value])[1];
+        brush.path(&[[plot.min[0], y], [plot.max[0], y]], false, stroke, None);
     }
 }
 

@@ -3,12 +3,12 @@
 
 use crate::decision::{Decided, DecimalMark, Decision, Delimiter, Orientation, Reader, Role, WavelengthUnit};
 use crate::dialect::{Cell, Dialect};
-use crate::error::{MAX_CURVES, ReadError};
+use crate::dialect_trial::Layout;
+use crate::error::{ReadError, check_curves};
 use crate::formats::Format;
 use crate::formats::spectra::Found;
 use crate::grid::{Grid, RawCurve};
 use crate::header::Header;
-use crate::layout::Layout;
 use crate::options::ReadOptions;
 use crate::text::Lines;
 use crate::watch::{Log, PlaceKind};
@@ -26,7 +26,6 @@ const BANDS: usize = 33;
 
 const CHANNELS: [&str; 3] = ["R", "G", "B"];
 
-/// Returns whether the text begins with a name and three lines of 33 numbers.
 fn recognize(text: &str) -> bool {
     let mut lines = Lines::new(text).map(|(_, line)| line).filter(|line| !line.trim().is_empty());
     lines.next().is_some_and(is_name) && (0..CHANNELS.len()).all(|_| lines.next().and_then(values).is_some())
@@ -37,7 +36,6 @@ fn is_name(line: &str) -> bool {
     line.len() <= LONGEST && line.contains(char::is_alphabetic)
 }
 
-/// The values of a line, if it has as many as it must.
 fn values(line: &str) -> Option<Vec<f64>> {
     let dialect = Dialect::new(Delimiter::Spaces, DecimalMark::Point);
     let number = |cell| match dialect.parse(cell) {
@@ -52,7 +50,6 @@ fn wavelength(band: usize) -> f64 {
     400.0 + 10.0 * band as f64
 }
 
-/// Records the values of a line as those of a curve.
 fn record(line: &str, origin: usize, log: &mut Log<'_>) {
     let Some(places) = &mut log.places else { return };
     for (band, cell) in line.split_ascii_whitespace().enumerate() {
@@ -61,7 +58,6 @@ fn record(line: &str, origin: usize, log: &mut Log<'_>) {
     }
 }
 
-/// Reads three curves for each camera.
 fn read(text: &str, _: &ReadOptions, log: &mut Log<'_>) -> Result<Found, ReadError> {
     let mut lines = Lines::new(text).filter(|(_, line)| !line.trim().is_empty()).peekable();
     let first_line = lines.peek().map_or(1, |(line, _)| line + 1);
@@ -77,9 +73,7 @@ fn read(text: &str, _: &ReadOptions, log: &mut Log<'_>) -> Result<Found, ReadErr
             values(text).ok_or(ReadError::UnevenRow { line: line.max(1), found, expected: BANDS })
         };
         cameras.push((name.trim().to_owned(), [channel()?, channel()?, channel()?]));
-        if cameras.len() > MAX_CURVES / CHANNELS.len() {
-            return Err(ReadError::TooManyCurves(first_line));
-        }
+        check_curves(cameras.len() * CHANNELS.len(), first_line)?;
     }
     let mut header = Header::default();
     if let [(only, _)] = cameras.as_slice() {

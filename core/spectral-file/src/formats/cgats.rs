@@ -1,20 +1,19 @@
 //! CGATS and its relatives (Argyll `.sp`, `.cmf`, `.ti3`, `.ccss`, X-Rite, `BabelColor`): keywords, named fields, sets.
 
-mod bands;
 mod tokens;
 
+use crate::decimal::clean;
 use crate::decision::{
     Decided, DecimalMark, Decision, Delimiter, Family, Orientation, Part, Reader, Role, Values, WavelengthUnit,
 };
 use crate::dialect::Dialect;
-use crate::error::{MAX_CURVES, MAX_PARTS, MAX_SAMPLES, ReadError};
+use crate::dialect_trial::Layout;
+use crate::error::{MAX_PARTS, ReadError, check_curves, check_samples};
 use crate::formats::Format;
-use crate::formats::cgats::bands::{Bands, Declared};
 use crate::formats::cgats::tokens::Token;
 use crate::formats::spectra::Found;
 use crate::grid::{Grid, RawCurve};
 use crate::header::Header;
-use crate::layout::Layout;
 use crate::options::ReadOptions;
 use crate::text::{Lines, comment, excerpt};
 use crate::warning::Warning;
@@ -32,7 +31,6 @@ pub(super) const FORMAT: Format = Format {
     read,
 };
 
-/// Reads the table with spectral fields that was chosen, else the first.
 fn read(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Result<Found, ReadError> {
     let mut file = File { wanted: options.part.unwrap_or(1), ..File::default() };
     let mut place = Place::Keywords;
@@ -75,7 +73,6 @@ fn read(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Result<Found, R
     file.finish(options, log)
 }
 
-/// Part of a file that a token stands in.
 #[derive(Clone, Copy)]
 enum Place {
     Keywords,
@@ -113,9 +110,7 @@ struct File {
     /// True if the selected table has begun, and whether it is the one being read.
     done: bool,
     open: bool,
-    /// All tables with spectral fields.
     parts: Vec<Part>,
-    /// Title that keywords give the next table.
     title: String,
     /// The values of a table that is not selected, which are only counted.
     counted: Option<usize>,
@@ -169,13 +164,11 @@ impl File {
     fn field(&mut self, line: usize, token: &Token, log: &mut Log<'_>) -> Result<Place, ReadError> {
         self.fields.push(token.text().into_owned());
         if let Some(places) = log.places.as_mut().filter(|_| !self.done) {
-            let digits = bands::digits(token.written());
+            let digits = digits(token.written());
             let place = (!digits.is_empty()).then(|| places.add(PlaceKind::Wavelength, digits));
             self.field_places.push(place.unwrap_or_default());
         }
-        if self.fields.len() > MAX_CURVES {
-            return Err(ReadError::TooManyCurves(line));
-        }
+        check_curves(self.fields.len(), line)?;
         Ok(Place::Format)
     }
 
@@ -242,12 +235,8 @@ impl File {
     fn end_row(&mut self, line: usize) -> Result<(), ReadError> {
         self.at = 0;
         self.names.push(std::mem::take(&mut self.row_name));
-        if self.values.len() > MAX_SAMPLES {
-            return Err(ReadError::TooManySamples(line));
-        }
-        if self.names.len() > MAX_CURVES {
-            return Err(ReadError::TooManyCurves(line));
-        }
+        check_samples(self.values.len(), line)?;
+        check_curves(self.names.len(), line)?;
         let row = std::mem::take(&mut self.row_wavelengths);
         let agrees = self.bands.as_mut().is_none_or(|bands| bands.agrees(row));
         if agrees { Ok(()) } else { Err(ReadError::SecondTable(line)) }
@@ -316,7 +305,6 @@ impl File {
 }
 
 impl File {
-    /// The list of tables, with a note on the omitted ones.
     fn settle_parts(&mut self, options: &ReadOptions, log: &mut Log<'_>) -> Result<Vec<Part>, ReadError> {
         let mut parts = std::mem::take(&mut self.parts);
         if let Some(part) = options.part.filter(|part| !parts.is_empty() && !(1..=parts.len()).contains(part)) {
@@ -337,7 +325,6 @@ fn by_norm(header: &Header, line: usize, norm: f64) -> Option<(usize, Role)> {
     header.comment("SPECTRAL_NORM").filter(|_| norm != 1.0 && norm != 100.0).map(|_| (line, Role::Illuminant))
 }
 
-/// Role of the curves of a kind of measurement, as Argyll names it.
 fn measured(kind: &str) -> Option<Role> {
     match kind.split('_').next() {
         Some("EMISSION" | "AMBIENT") => Some(Role::Illuminant),
@@ -375,4 +362,130 @@ fn number(token: &Token, line: usize, field: usize) -> Result<f64, ReadError> {
     let text = token.text();
     let value = Dialect::of_number(&text).value(&text);
     value.ok_or_else(|| ReadError::NotANumber { line, column: field + 1, text: excerpt(&text) })
+}
+
+/// Bands that keywords declare, in nanometers.
+#[derive(Debug, Clone, Copy, Default)]
+struct Declared {
+    bands: Option<f64>,
+    start: Option<f64>,
+    end: Option<f64>,
+}
+
+#[derive(Debug)]
+struct Bands {
+    wavelengths: Vec<f64>,
+    /// True if the name of the fields states percent.
+    percent: bool,
+    kinds: Vec<Kind>,
+    why: String,
+    in_rows: bool,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Kind {
+    Other,
+    Wavelength,
+    Value,
+}
+
+/// Prefixes of the wavelength in the name of a spectral field, in capitals.
+const PREFIXES: [&str; 6] = ["SPECTRAL_NM", "SPECTRAL_", "SPEC_", "NM", "R_", "S_"];
+
+impl Bands {
+    /// The spectral fields among the fields of a table, if there are any.
+    fn of(fields: &[String], declared: Declared) -> Option<Self> {
+        let named: Vec<Option<f64>> = fields.iter().map(|field| wavelength(field)).collect();
+        let names: Vec<f64> = named.iter().flatten().copied().collect();
+        if names.len() < 2 {
+            return Self::pairs(fields);
+        }
+        let kinds = named.iter().map(|named| if named.is_some() { Kind::Value } else { Kind::Other }).collect();
+        let (wavelengths, why) = match from_keywords(&names, declared) {
+            Some(exact) => (exact, "Keywords give first, last and number of bands".to_owned()),
+            None => (names, "The names of the fields give them".to_owned()),
+        };
+        Some(Self { wavelengths, percent: false, kinds, why, in_rows: false })
+    }
+
+    fn pairs(fields: &[String]) -> Option<Self> {
+        let mut kinds = vec![Kind::Other; fields.len()];
+        let mut percent = false;
+        for at in 1..fields.len() {
+            let value = fields[at].to_ascii_uppercase();
+            if fields[at - 1].eq_ignore_ascii_case("SPECTRAL_NM")
+                && matches!(value.as_str(), "SPECTRAL_PCT" | "SPECTRAL_DEC")
+            {
+                kinds[at - 1] = Kind::Wavelength;
+                kinds[at] = Kind::Value;
+                percent = value == "SPECTRAL_PCT";
+            }
+        }
+        let why = "Each value has its wavelength beside it".to_owned();
+        kinds.contains(&Kind::Value).then_some(Self { wavelengths: Vec::new(), percent, kinds, why, in_rows: true })
+    }
+
+    fn count(&self) -> usize {
+        self.kinds.iter().filter(|kind| **kind == Kind::Value).count()
+    }
+
+    fn is_value(&self, field: usize) -> bool {
+        self.kinds.get(field) == Some(&Kind::Value)
+    }
+
+    fn is_wavelength(&self, field: usize) -> bool {
+        self.kinds.get(field) == Some(&Kind::Wavelength)
+    }
+
+    /// Processes the wavelengths in a row; all rows must have the same.
+    fn agrees(&mut self, row: Vec<f64>) -> bool {
+        if !self.in_rows {
+            return true;
+        }
+        if self.wavelengths.is_empty() && row.iter().all(|wavelength| wavelength.is_finite()) {
+            self.wavelengths = row;
+            return true;
+        }
+        self.wavelengths == row
+    }
+
+    fn decision(&self) -> Decision {
+        let value = match (self.wavelengths.first(), self.wavelengths.last()) {
+            (Some(first), Some(last)) => format!("{} from {first} to {last} nm", self.wavelengths.len()),
+            _ => "none".to_owned(),
+        };
+        Decision::new("Bands", &Decided::certain(value, self.why.clone()))
+    }
+}
+
+/// The digits that the name of a spectral field ends with.
+fn digits(field: &str) -> &str {
+    let number = |c: char| c.is_ascii_digit() || c == '.';
+    &field[field.len() - field.chars().rev().take_while(|c| number(*c)).count()..]
+}
+
+fn wavelength(field: &str) -> Option<f64> {
+    const PLAUSIBLE: std::ops::RangeInclusive<f64> = 100.0..=20_000.0;
+    if field.len() > 32 || !field.is_ascii() {
+        return None;
+    }
+    let upper = field.to_ascii_uppercase();
+    let number = PREFIXES.iter().find_map(|prefix| upper.strip_prefix(prefix))?.trim_start_matches('_');
+    if !number.starts_with(|c: char| c.is_ascii_digit()) {
+        return None;
+    }
+    number.parse().ok().filter(|number| PLAUSIBLE.contains(number))
+}
+
+/// The wavelengths that keywords give. The names of the fields are rounded where the step is no whole number, so they
+/// only have to agree with them.
+fn from_keywords(names: &[f64], declared: Declared) -> Option<Vec<f64>> {
+    const ROUNDING: f64 = 1.0;
+    let Declared { bands: Some(bands), start: Some(start), end: Some(end) } = declared else { return None };
+    if bands != names.len() as f64 {
+        return None;
+    }
+    let step = (end - start) / (bands - 1.0);
+    let exact: Vec<f64> = (0..names.len()).map(|i| clean(start + step * i as f64)).collect();
+    exact.iter().zip(names).all(|(exact, name)| (exact - name).abs() <= ROUNDING).then_some(exact)
 }

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use crate::decimal::clean;
 use crate::decision::{Decided, DecimalMark, Delimiter, Reader, WavelengthUnit};
-use crate::error::{MAX_CURVES, MAX_SAMPLES, ReadError};
+use crate::error::{ReadError, check_curves, check_samples};
 use crate::formats::Format;
 use crate::formats::spectra::{self, Found, Sample, Spectrum};
 use crate::formats::xml::{self, Element, Step, Walk};
@@ -20,7 +20,6 @@ impl Reader {
 pub(super) const FORMAT: Format =
     Format { reader: Reader::CXF, fits: |head| xml::fits(head, |root| root == "CxF"), read };
 
-/// Reads the spectra of all objects of a document.
 fn read(text: &str, _: &ReadOptions, log: &mut Log<'_>) -> Result<Found, ReadError> {
     let mut walk = Walk::new(text);
     let mut content = Content::default();
@@ -73,9 +72,7 @@ struct Content {
     header: Header,
     spectra: Vec<Spectrum>,
     total: usize,
-    /// The names of the objects that are open.
     objects: Vec<Option<String>>,
-    /// The points of the spectrum that is open.
     points: Vec<Sample>,
     /// Lists wait for the end: the specifications may stand below them.
     lists: Vec<List>,
@@ -126,9 +123,7 @@ impl Content {
 
     fn spectrum(&mut self, element: &Element<'_>, log: &mut Log<'_>) -> Result<(), ReadError> {
         let Some(name) = self.objects.last().cloned() else { return Ok(()) };
-        if self.spectra.len() >= MAX_CURVES {
-            return Err(ReadError::TooManyCurves(element.line));
-        }
+        check_curves(self.spectra.len() + 1, element.line)?;
         let kind = element.name().trim_end_matches("Spectrum");
         let label = if kind == "Emissive" { "Emission" } else { kind.trim_start_matches("Custom") }.to_owned();
         let mut samples = std::mem::take(&mut self.points);
@@ -147,7 +142,6 @@ impl Content {
         Ok(())
     }
 
-    /// Gives the values of lists their wavelengths.
     fn place_lists(&mut self, log: &Log<'_>) -> Result<(), ReadError> {
         self.ranges.sort_by(|a, b| a.0.cmp(&b.0));
         for list in &self.lists {
@@ -171,15 +165,12 @@ impl Content {
     }
 }
 
-/// Adds a sample that is none of a gap.
 fn push(samples: &mut Vec<Sample>, total: &mut usize, sample: Sample) -> Result<(), ReadError> {
     if !sample.wavelength.is_finite() || !sample.value.is_finite() {
         return Ok(());
     }
     *total += 1;
-    if *total > MAX_SAMPLES {
-        return Err(ReadError::TooManySamples(sample.line));
-    }
+    check_samples(*total, sample.line)?;
     samples.push(sample);
     Ok(())
 }

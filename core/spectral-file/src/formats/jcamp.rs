@@ -1,11 +1,10 @@
 //! JCAMP-DX: labeled records, blocks of blocks, points or compressed ordinates.
 
 mod block;
-mod counts;
 mod ordinates;
 
 use crate::decision::{Decided, DecimalMark, Decision, Delimiter, Family, Part, Reader};
-use crate::error::{MAX_CURVES, MAX_PARTS, MAX_SAMPLES, ReadError};
+use crate::error::{MAX_PARTS, MAX_SAMPLES, ReadError, check_curves};
 use crate::formats::Format;
 use crate::formats::jcamp::block::{Block, label};
 use crate::formats::spectra::{self, Found};
@@ -29,7 +28,7 @@ fn read(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Result<Found, R
     blocks.retain(|block| !block.samples.is_empty());
     let parts: Vec<Part> = blocks.iter().take(MAX_PARTS).map(Block::part).collect();
     let mut notes = Vec::new();
-    let ratio = counts::settle(&mut blocks, options, log);
+    let ratio = block::settle(&mut blocks, options, log);
     let part = choose(&mut blocks, options, &mut notes)?;
     let part = leave_other_units(&mut blocks, part, &parts, log);
     let first_line = blocks.first().map(|block| block.data_line + 1).ok_or(ReadError::NoNumbers)?;
@@ -116,9 +115,7 @@ fn blocks(text: &str, log: &mut Log<'_>) -> Result<Vec<Block>, ReadError> {
             let key = label(key);
             if key == "TITLE" || all.is_empty() {
                 close(&mut all)?;
-                if all.len() >= MAX_CURVES {
-                    return Err(ReadError::TooManyCurves(number));
-                }
+                check_curves(all.len() + 1, number)?;
                 all.push(Block::default());
             }
             if let Some(block) = all.last_mut() {

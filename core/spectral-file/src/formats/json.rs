@@ -4,7 +4,7 @@ mod document;
 
 use crate::decimal::{self, clean};
 use crate::decision::{Decided, DecimalMark, Decision, Delimiter, Family, Part, Reader, Role, Values, WavelengthUnit};
-use crate::error::{MAX_CURVES, MAX_PARTS, MAX_SAMPLES, ReadError};
+use crate::error::{MAX_PARTS, MAX_SAMPLES, ReadError, check_curves, check_samples};
 use crate::formats::Format;
 use crate::formats::json::document::{Members, Value, without_comments};
 use crate::formats::spectra::{self, Found, Sample, Spectrum};
@@ -34,7 +34,6 @@ const FEWEST_BYTES: usize = 5;
 /// Content of a layout: its curves, and the decisions that only it needs.
 type Content = (Grid, Decided<Reader>, Vec<Decision>);
 
-/// Reads a document of any of the layouts.
 fn read(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Result<Found, ReadError> {
     // Every list and every text has a name of its own; hostile text, which has nothing else, would need many times its size.
     if text.bytes().filter(|byte| *byte == b'"').count() > text.len() / FEWEST_BYTES + 1000 {
@@ -42,11 +41,10 @@ fn read(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Result<Found, R
     }
     let bare = without_comments(text, log)?;
     log.look(0)?;
-    let members = Value::whole(&bare).members()?;
-    let content = layout(text, &members, options, log);
-    let (mut grid, reader, notes) = content.map_err(|error| match error {
+    let document = Document { text, members: Value::whole(&bare).members()?, options };
+    let (mut grid, reader, notes) = document.layout(log).map_err(|error| match error {
         ReadError::WrongCount { name, found, expected, .. } => {
-            ReadError::WrongCount { line: line_of(text, &name).unwrap_or(1), name, found, expected }
+            ReadError::WrongCount { line: document.line(&name), name, found, expected }
         }
         other => other,
     })?;
@@ -59,37 +57,263 @@ fn read(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Result<Found, R
     let unit = grid.header.unit.clone();
     grid.curves.iter_mut().for_each(|curve| curve.unit.clone_from(&unit));
     let first_line =
-        ["data", "ssf_bands", "bands", "processed"].iter().find_map(|name| line_of(text, name)).unwrap_or(1);
+        ["data", "ssf_bands", "bands", "processed"].iter().find_map(|name| document.line_of(name)).unwrap_or(1);
     let dialect = (Delimiter::Comma, DecimalMark::Point);
     Ok(Found::fixed(grid, reader, (dialect, first_line, "JSON prescribes it"), notes))
 }
 
-/// Reads the layout that the members are of.
-fn layout(text: &str, members: &Members<'_>, options: &ReadOptions, log: &mut Log<'_>) -> Result<Content, ReadError> {
-    let spectrum = members.get("spectrum");
-    let lists = ["ssf_bands", "red_ssf", "green_ssf", "blue_ssf"].map(|name| members.get(name));
-    if let Some(data) = members.get("spectral_data") {
-        aces(text, data, members, options, log)
-    } else if let [Some(bands), Some(r), Some(g), Some(b)] = lists {
-        camera(text, bands, [r, g, b], members, log)
-    } else if let Some(curves) = spectrum.filter(|spectrum| spectrum.written.starts_with('{')) {
-        enlighten(text, &curves.members()?, members, options, log)
-    } else if let (Some(bands), Some(values)) = (members.get("bands"), spectrum) {
-        light(text, bands, values, members, log)
-    } else {
-        Err(ReadError::Unsupported(Family::Json))
+/// A document, and what is asked of it.
+struct Document<'a> {
+    text: &'a str,
+    members: Members<'a>,
+    options: &'a ReadOptions,
+}
+
+impl Document<'_> {
+    /// Reads the layout that the members are of.
+    fn layout(&self, log: &mut Log<'_>) -> Result<Content, ReadError> {
+        let members = &self.members;
+        let spectrum = members.get("spectrum");
+        let lists = ["ssf_bands", "red_ssf", "green_ssf", "blue_ssf"].map(|name| members.get(name));
+        if let Some(data) = members.get("spectral_data") {
+            self.aces(data, log)
+        } else if let [Some(bands), Some(r), Some(g), Some(b)] = lists {
+            self.camera(bands, [r, g, b], log)
+        } else if let Some(curves) = spectrum.filter(|spectrum| spectrum.written.starts_with('{')) {
+            self.enlighten(&curves.members()?, log)
+        } else if let (Some(bands), Some(values)) = (members.get("bands"), spectrum) {
+            self.light(bands, values, log)
+        } else {
+            Err(ReadError::Unsupported(Family::Json))
+        }
     }
-}
 
-/// The line in which a name stands between quotes, if it does.
-fn line_of(text: &str, name: &str) -> Option<usize> {
-    let at = text.find(&format!("\"{name}\""))?;
-    Some(1 + text[..at].bytes().filter(|byte| *byte == b'\n').count())
-}
+    /// The line in which a name stands between quotes, if it does.
+    fn line_of(&self, name: &str) -> Option<usize> {
+        let at = self.text.find(&format!("\"{name}\""))?;
+        Some(1 + self.text[..at].bytes().filter(|byte| *byte == b'\n').count())
+    }
 
-/// Evidence: the line that has a member of this name.
-fn says(text: &str, name: &str) -> String {
-    line_of(text, name).map_or_else(|| format!("The document has “{name}”"), |line| format!("Line {line} has “{name}”"))
+    fn line(&self, name: &str) -> usize {
+        self.line_of(name).unwrap_or(1)
+    }
+
+    /// Evidence: the line that has a member of this name.
+    fn says(&self, name: &str) -> String {
+        let line = self.line_of(name);
+        line.map_or_else(|| format!("The document has “{name}”"), |line| format!("Line {line} has “{name}”"))
+    }
+
+    /// Stores the remarks on the values, in the words of this program's own files.
+    fn note_remarks<'r>(&self, header: &mut Header, remarks: impl Iterator<Item = &'r str>) {
+        for (key, value) in remarks.filter_map(|remark| remark.split_once(": ")) {
+            if matches!(key, "quantity" | "unit" | "response") {
+                header.take_comment(self.line("comments"), key, value);
+            }
+        }
+    }
+
+    /// Wavelengths are the keys of one object, each with a value for every name of the index.
+    fn aces(&self, aces: Value<'_>, log: &mut Log<'_>) -> Result<Content, ReadError> {
+        let data = aces.members()?;
+        let (mut header, mut notes) = (Header::default(), Vec::new());
+        if let Some(comments) = self.members.members("header")? {
+            comments.texts().for_each(|(key, value)| header.note(0, key, &value));
+            if let Some((_, remarks)) = comments.texts().find(|(key, _)| *key == "comments") {
+                self.note_remarks(&mut header, remarks.split("; "));
+            }
+        }
+        self.title(&mut header, &mut notes);
+        if let Some(units) = data.read::<String>("units")?.filter(|units| !units.is_empty()) {
+            let line = self.line("units");
+            header.note(0, "unit", &units);
+            header.unit = unit_text::unit_cell(&units);
+            header.values = header_terms::values(&units).map(|values| (line, values));
+            header.quantity = header_terms::quantity(&units).map(|quantity| (line, quantity));
+            notes.push(Decision::new("Unit", &Decided::certain(units, self.says("units"))));
+        }
+        let groups = data.members("data")?.ok_or_else(|| aces.lacks_member())?;
+        let mut all = Vec::with_capacity(groups.each().len());
+        for (name, group) in groups.each() {
+            all.push((name, group, Rows::of(group, log)?));
+        }
+        let list = all.iter().take(MAX_PARTS).map(|(name, _, rows)| Part {
+            line: self.line(name),
+            name: name.to_string(),
+            curves: rows.width,
+            rows: rows.wavelengths.len(),
+        });
+        let parts: Vec<Part> = list.collect();
+        let first = all.iter().position(|(name, ..)| *name == "main").map_or(1, |index| index + 1);
+        let part = self.options.part.unwrap_or(first);
+        let group = part.checked_sub(1).and_then(|at| all.into_iter().nth(at));
+        let (name, group, rows) = group.ok_or(match parts.len() {
+            0 => ReadError::NoNumbers,
+            parts => ReadError::NoSuchPart { part, parts },
+        })?;
+        if let Some(places) = &mut log.places {
+            record_rows(&group.members()?, group, places);
+        }
+        let names: Vec<String> = match data.members("index")? {
+            // Another name than the group's is better than none.
+            Some(index) => {
+                let named = index.get(name).or_else(|| index.each().next().map(|(_, names)| names));
+                named.map(Value::read).transpose()?.unwrap_or_default()
+            }
+            None => Vec::new(),
+        };
+        let mut grid = rows.grid(&names, header, log)?;
+        if names == ["power"] {
+            grid.role = Some(Decided::certain(Role::Illuminant, format!("{} as its only value", self.says("power"))));
+        }
+        let part = Decided::certain(part, format!("{} groups of data, of which “main” comes first", parts.len()));
+        (grid.parts, grid.part) = (parts, Some(part));
+        Ok((grid, Decided::certain(Reader::RAWTOACES, self.says("spectral_data")), notes))
+    }
+
+    /// The name of what was measured: a camera's maker and model, a light's type, else its description.
+    fn title(&self, header: &mut Header, notes: &mut Vec<Decision>) {
+        let (what, key, title) = match (header.comment("manufacturer"), header.comment("model")) {
+            (Some(maker), Some(model)) => ("Camera", "model", format!("{maker} {model}")),
+            (None, Some(model)) => ("Camera", "model", model.to_owned()),
+            _ => match (header.comment("type"), header.comment("description")) {
+                (Some(kind), _) => ("Name", "type", kind.to_owned()),
+                (None, Some(description)) => ("Name", "description", description.to_owned()),
+                (None, None) => return,
+            },
+        };
+        notes.push(Decision::new(what, &Decided::certain(title.clone(), self.says(key))));
+        header.note(0, "title", &title);
+    }
+
+    fn camera(&self, bands: Value<'_>, lists: [Value<'_>; 3], log: &mut Log<'_>) -> Result<Content, ReadError> {
+        let (wavelengths, note) = self.wavelengths(&bands.numbers(false, log)?, "ssf_bands")?;
+        let mut header = Header::default();
+        let mut notes = vec![note];
+        let name = self.members.read::<String>("camera_name")?;
+        if let Some(name) = &name {
+            notes.push(Decision::new("Camera", &Decided::certain(name, self.says("camera_name"))));
+        }
+        header.note(0, "title", &name.unwrap_or_default());
+        self.note_remarks(&mut header, self.comments().iter().map(String::as_str));
+        let mut all = Vec::with_capacity(3);
+        for (list, (short, long)) in lists.iter().zip([("R", "red_ssf"), ("G", "green_ssf"), ("B", "blue_ssf")]) {
+            let spectrum = on(&wavelengths, &list.numbers(false, log)?, long)?;
+            all.push(Spectrum { name: Some(short.to_owned()), label: short.to_owned(), ..spectrum });
+        }
+        record_lists(bands, &lists, log);
+        let mut grid = spectra::grid(all, header, log)?;
+        grid.role = Some(Decided::certain(Role::Camera, self.says("red_ssf")));
+        Ok((grid, Decided::certain(Reader::DCAMPROF, self.says("ssf_bands")), notes))
+    }
+
+    fn comments(&self) -> Vec<String> {
+        self.members.get("comments").map_or_else(Vec::new, Value::texts)
+    }
+
+    fn light(&self, bands: Value<'_>, list: Value<'_>, log: &mut Log<'_>) -> Result<Content, ReadError> {
+        let (wavelengths, note) = self.wavelengths(&bands.numbers(false, log)?, "bands")?;
+        let mut values = list.numbers(false, log)?;
+        let mut header = Header::default();
+        self.note_remarks(&mut header, self.comments().iter().map(String::as_str));
+        let mut notes = vec![note];
+        if let Some(scale) = self.members.read::<f64>("scale")?.filter(|scale| *scale > 0.0 && *scale != 1.0) {
+            values.iter_mut().for_each(|value| *value = decimal::divided(*value, scale));
+            notes.push(Decision::new("Scale", &Decided::certain(format!("divided by {scale}"), self.says("scale"))));
+        }
+        let spectrum = on(&wavelengths, &values, "spectrum")?;
+        header.note(
+            0,
+            "title",
+            self.members.get("name").map_or_else(Vec::new, Value::texts).first().map_or("", String::as_str),
+        );
+        record_lists(bands, &[list], log);
+        let grid = spectra::grid(vec![spectrum], header, log)?;
+        Ok((grid, Decided::certain(Reader::DCAMPROF, self.says("spectrum")), notes))
+    }
+
+    /// Three numbers are the ends of a range and its step, unless the third goes on from the second.
+    fn wavelengths(&self, bands: &[f64], key: &str) -> Result<(Vec<f64>, Decision), ReadError> {
+        let said = self.says(key);
+        let (grid, value, why) = match *bands {
+            [first, last, step] if step <= last && step > 0.0 => {
+                let grid = range(bands).ok_or(ReadError::NoWavelengths(1))?;
+                (
+                    grid,
+                    format!("{first} to {last} nm in steps of {step}"),
+                    format!("{said}, and three numbers are a range"),
+                )
+            }
+            _ => (bands.to_vec(), format!("{} wavelengths", bands.len()), said),
+        };
+        Ok((grid, Decision::new("Grid", &Decided::certain(value, why))))
+    }
+
+    /// A measurement of Wasatch ENLIGHTEN: curves by name, wavelengths among them or among the settings of the spectrometer. The
+    /// processed curve is read, or all of them where raw ones are requested.
+    fn enlighten(&self, spectrum: &Members<'_>, log: &mut Log<'_>) -> Result<Content, ReadError> {
+        let mut curves: Vec<(String, Vec<f64>)> = Vec::new();
+        for (name, list) in spectrum.each().filter(|(_, list)| list.written != "null") {
+            curves.push((name.to_string(), list.numbers(true, log)?));
+        }
+        let at = curves.iter().position(|(name, _)| name.to_lowercase().starts_with("wavelength"));
+        let wavelengths = match (
+            at,
+            self.members.members("spectrometerSettings")?.and_then(|settings| settings.get("wavelengths")),
+        ) {
+            (Some(at), _) => curves.remove(at).1,
+            (None, Some(list)) => list.numbers(false, log)?,
+            (None, None) => Vec::new(),
+        };
+        if wavelengths.is_empty() {
+            return Err(ReadError::NoWavelengths(self.line("spectrum")));
+        }
+        let mut header = Header::default();
+        if let Some(metadata) = self.members.members("metadata")? {
+            metadata.texts().for_each(|(key, value)| header.note(0, key, &value));
+        }
+        let program = Decided::certain("a file of Wasatch ENLIGHTEN", self.says("spectrum"));
+        let mut notes = vec![Decision::new("Program", &program)];
+        let label = header.comment("Label").map(str::to_owned);
+        header.note(0, "title", label.as_deref().unwrap_or_default());
+        let role = self.technique(&mut header);
+        let processed = curves.iter().position(|(name, _)| name.eq_ignore_ascii_case("processed"));
+        if let Some(processed) = processed.filter(|_| self.options.raw != Some(true)) {
+            let left: Vec<String> = curves.iter().map(|(name, _)| format!("“{name}”")).collect();
+            let left: Vec<&str> = left.iter().map(String::as_str).filter(|name| *name != "“processed”").collect();
+            curves = vec![curves.swap_remove(processed)];
+            if !left.is_empty() {
+                let why = format!("{} are raw counts", left.join(", "));
+                let decided = Decided::or_chosen(self.options.raw.map(|_| "“processed”"), || {
+                    Decided::certain("“processed”", why)
+                });
+                notes.push(Decision::new("Columns", &decided));
+            }
+        }
+        let label = label.filter(|_| curves.len() == 1);
+        let named = |(name, values): (String, Vec<f64>)| {
+            let spectrum = on(&wavelengths, &values, &name)?;
+            Ok(Spectrum { name: Some(label.clone().unwrap_or(name)), ..spectrum })
+        };
+        let all: Result<Vec<Spectrum>, ReadError> = curves.into_iter().map(named).collect();
+        let grid = Grid { role, ..spectra::grid(all?, header, log)? };
+        Ok((grid, Decided::certain(Reader::ENLIGHTEN, self.says("spectrometerSettings")), notes))
+    }
+
+    /// The role by the technique of the measurement.
+    fn technique(&self, header: &mut Header) -> Option<Decided<Role>> {
+        let technique = header.comment("Technique")?.to_owned();
+        let line = self.line("Technique");
+        let why = format!("Line {line} says {technique}");
+        match technique.to_lowercase().as_str() {
+            "absorbance" => {
+                header.values = Some((line, Values::Absorbance));
+                Some(Decided::guess(Role::Transmittance, why))
+            }
+            "scope" | "raman" | "fluorescence" => Some(Decided::certain(Role::Unknown, why)),
+            other => header_terms::role(other).map(|role| Decided::certain(role, why)),
+        }
+    }
 }
 
 /// Lines of a header's members, each sought behind the one before.
@@ -103,95 +327,6 @@ fn note_lines(text: &str, header: &mut Header) {
     }
 }
 
-/// Stores the remarks on the values, in the words of this program's own files.
-fn note_remarks<'a>(text: &str, header: &mut Header, remarks: impl Iterator<Item = &'a str>) {
-    for (key, value) in remarks.filter_map(|remark| remark.split_once(": ")) {
-        if matches!(key, "quantity" | "unit" | "response") {
-            header.take_comment(line_of(text, "comments").unwrap_or(1), key, value);
-        }
-    }
-}
-
-/// Wavelengths are the keys of one object, each with a value for every name of the index.
-fn aces(
-    text: &str,
-    aces: Value<'_>,
-    members: &Members<'_>,
-    options: &ReadOptions,
-    log: &mut Log<'_>,
-) -> Result<Content, ReadError> {
-    let data = aces.members()?;
-    let (mut header, mut notes) = (Header::default(), Vec::new());
-    if let Some(comments) = members.members("header")? {
-        comments.texts().for_each(|(key, value)| header.note(0, key, &value));
-        if let Some((_, remarks)) = comments.texts().find(|(key, _)| *key == "comments") {
-            note_remarks(text, &mut header, remarks.split("; "));
-        }
-    }
-    title(text, &mut header, &mut notes);
-    if let Some(units) = data.read::<String>("units")?.filter(|units| !units.is_empty()) {
-        let line = line_of(text, "units").unwrap_or(1);
-        header.note(0, "unit", &units);
-        header.unit = unit_text::unit_cell(&units);
-        header.values = header_terms::values(&units).map(|values| (line, values));
-        header.quantity = header_terms::quantity(&units).map(|quantity| (line, quantity));
-        notes.push(Decision::new("Unit", &Decided::certain(units, says(text, "units"))));
-    }
-    let groups = data.members("data")?.ok_or_else(|| aces.lacks_member())?;
-    let mut all = Vec::with_capacity(groups.each().len());
-    for (name, group) in groups.each() {
-        all.push((name, group, Rows::of(group, log)?));
-    }
-    let list = all.iter().take(MAX_PARTS).map(|(name, _, rows)| Part {
-        line: line_of(text, name).unwrap_or(1),
-        name: name.to_string(),
-        curves: rows.width,
-        rows: rows.wavelengths.len(),
-    });
-    let parts: Vec<Part> = list.collect();
-    let first = all.iter().position(|(name, ..)| *name == "main").map_or(1, |index| index + 1);
-    let part = options.part.unwrap_or(first);
-    let group = part.checked_sub(1).and_then(|at| all.into_iter().nth(at));
-    let (name, group, rows) = group.ok_or(match parts.len() {
-        0 => ReadError::NoNumbers,
-        parts => ReadError::NoSuchPart { part, parts },
-    })?;
-    if let Some(places) = &mut log.places {
-        record_rows(&group.members()?, group, places);
-    }
-    let names: Vec<String> = match data.members("index")? {
-        // Another name than the group's is better than none.
-        Some(index) => {
-            let named = index.get(name).or_else(|| index.each().next().map(|(_, names)| names));
-            named.map(Value::read).transpose()?.unwrap_or_default()
-        }
-        None => Vec::new(),
-    };
-    let mut grid = rows.grid(&names, header, log)?;
-    if names == ["power"] {
-        grid.role = Some(Decided::certain(Role::Illuminant, format!("{} as its only value", says(text, "power"))));
-    }
-    let part = Decided::certain(part, format!("{} groups of data, of which “main” comes first", parts.len()));
-    (grid.parts, grid.part) = (parts, Some(part));
-    Ok((grid, Decided::certain(Reader::RAWTOACES, says(text, "spectral_data")), notes))
-}
-
-/// The name of what was measured: a camera's maker and model, a light's type, else its description.
-fn title(text: &str, header: &mut Header, notes: &mut Vec<Decision>) {
-    let (what, key, title) = match (header.comment("manufacturer"), header.comment("model")) {
-        (Some(maker), Some(model)) => ("Camera", "model", format!("{maker} {model}")),
-        (None, Some(model)) => ("Camera", "model", model.to_owned()),
-        _ => match (header.comment("type"), header.comment("description")) {
-            (Some(kind), _) => ("Name", "type", kind.to_owned()),
-            (None, Some(description)) => ("Name", "description", description.to_owned()),
-            (None, None) => return,
-        },
-    };
-    notes.push(Decision::new(what, &Decided::certain(title.clone(), says(text, key))));
-    header.note(0, "title", &title);
-}
-
-/// Wavelengths with a value for each curve.
 #[derive(Debug, Default)]
 struct Rows {
     wavelengths: Vec<f64>,
@@ -236,12 +371,9 @@ impl Rows {
     /// Rows as their grid; wavelengths at which no curve has a value are omitted.
     fn grid(self, names: &[String], header: Header, log: &Log<'_>) -> Result<Grid, ReadError> {
         let Self { wavelengths, values, width, fault } = self;
-        match fault {
-            Some(error) => return Err(error),
-            None if width > MAX_CURVES => return Err(ReadError::TooManyCurves(1)),
-            None if values.len() > MAX_SAMPLES => return Err(ReadError::TooManySamples(1)),
-            None => {}
-        }
+        fault.map_or(Ok(()), Err)?;
+        check_curves(width, 1)?;
+        check_samples(values.len(), 1)?;
         let gaps: Vec<bool> = values.chunks(width.max(1)).map(|row| row.iter().all(|value| value.is_nan())).collect();
         let single = width == 1;
         let title = header.comment("title").filter(|_| single).map(str::to_owned);
@@ -275,60 +407,6 @@ impl Rows {
     }
 }
 
-fn camera(
-    text: &str,
-    bands: Value<'_>,
-    lists: [Value<'_>; 3],
-    members: &Members<'_>,
-    log: &mut Log<'_>,
-) -> Result<Content, ReadError> {
-    let (wavelengths, note) = wavelengths(text, &bands.numbers(false, log)?, "ssf_bands")?;
-    let mut header = Header::default();
-    let mut notes = vec![note];
-    let name = members.read::<String>("camera_name")?;
-    if let Some(name) = &name {
-        notes.push(Decision::new("Camera", &Decided::certain(name, says(text, "camera_name"))));
-    }
-    header.note(0, "title", &name.unwrap_or_default());
-    note_remarks(text, &mut header, comments(members).iter().map(String::as_str));
-    let mut all = Vec::with_capacity(3);
-    for (list, (short, long)) in lists.iter().zip([("R", "red_ssf"), ("G", "green_ssf"), ("B", "blue_ssf")]) {
-        let spectrum = on(&wavelengths, &list.numbers(false, log)?, long)?;
-        all.push(Spectrum { name: Some(short.to_owned()), label: short.to_owned(), ..spectrum });
-    }
-    record_lists(bands, &lists, log);
-    let mut grid = spectra::grid(all, header, log)?;
-    grid.role = Some(Decided::certain(Role::Camera, says(text, "red_ssf")));
-    Ok((grid, Decided::certain(Reader::DCAMPROF, says(text, "ssf_bands")), notes))
-}
-
-fn comments(members: &Members<'_>) -> Vec<String> {
-    members.get("comments").map_or_else(Vec::new, Value::texts)
-}
-
-fn light(
-    text: &str,
-    bands: Value<'_>,
-    list: Value<'_>,
-    members: &Members<'_>,
-    log: &mut Log<'_>,
-) -> Result<Content, ReadError> {
-    let (wavelengths, note) = wavelengths(text, &bands.numbers(false, log)?, "bands")?;
-    let mut values = list.numbers(false, log)?;
-    let mut header = Header::default();
-    note_remarks(text, &mut header, comments(members).iter().map(String::as_str));
-    let mut notes = vec![note];
-    if let Some(scale) = members.read::<f64>("scale")?.filter(|scale| *scale > 0.0 && *scale != 1.0) {
-        values.iter_mut().for_each(|value| *value = decimal::divided(*value, scale));
-        notes.push(Decision::new("Scale", &Decided::certain(format!("divided by {scale}"), says(text, "scale"))));
-    }
-    let spectrum = on(&wavelengths, &values, "spectrum")?;
-    header.note(0, "title", members.get("name").map_or_else(Vec::new, Value::texts).first().map_or("", String::as_str));
-    record_lists(bands, &[list], log);
-    let grid = spectra::grid(vec![spectrum], header, log)?;
-    Ok((grid, Decided::certain(Reader::DCAMPROF, says(text, "spectrum")), notes))
-}
-
 /// A curve of as many values as there are wavelengths, gaps among neither.
 fn on(wavelengths: &[f64], values: &[f64], name: &str) -> Result<Spectrum, ReadError> {
     if values.len() != wavelengths.len() {
@@ -346,88 +424,6 @@ fn range(bands: &[f64]) -> Option<Vec<f64>> {
     let steps = ((last - first) / step).round();
     let some = (1.0..=MAX_SAMPLES as f64).contains(&steps);
     some.then(|| (0..=steps as usize).map(|i| clean(first + step * i as f64)).collect())
-}
-
-/// Three numbers are the ends of a range and its step, unless the third goes on from the second.
-fn wavelengths(text: &str, bands: &[f64], key: &str) -> Result<(Vec<f64>, Decision), ReadError> {
-    let said = says(text, key);
-    let (grid, value, why) = match *bands {
-        [first, last, step] if step <= last && step > 0.0 => {
-            let grid = range(bands).ok_or(ReadError::NoWavelengths(1))?;
-            (grid, format!("{first} to {last} nm in steps of {step}"), format!("{said}, and three numbers are a range"))
-        }
-        _ => (bands.to_vec(), format!("{} wavelengths", bands.len()), said),
-    };
-    Ok((grid, Decision::new("Grid", &Decided::certain(value, why))))
-}
-
-/// A measurement of Wasatch ENLIGHTEN: curves by name, wavelengths among them or among the settings of the spectrometer. The
-/// processed curve is read, or all of them where raw ones are requested.
-fn enlighten(
-    text: &str,
-    spectrum: &Members<'_>,
-    members: &Members<'_>,
-    options: &ReadOptions,
-    log: &mut Log<'_>,
-) -> Result<Content, ReadError> {
-    let mut curves: Vec<(String, Vec<f64>)> = Vec::new();
-    for (name, list) in spectrum.each().filter(|(_, list)| list.written != "null") {
-        curves.push((name.to_string(), list.numbers(true, log)?));
-    }
-    let at = curves.iter().position(|(name, _)| name.to_lowercase().starts_with("wavelength"));
-    let wavelengths =
-        match (at, members.members("spectrometerSettings")?.and_then(|settings| settings.get("wavelengths"))) {
-            (Some(at), _) => curves.remove(at).1,
-            (None, Some(list)) => list.numbers(false, log)?,
-            (None, None) => Vec::new(),
-        };
-    if wavelengths.is_empty() {
-        return Err(ReadError::NoWavelengths(line_of(text, "spectrum").unwrap_or(1)));
-    }
-    let mut header = Header::default();
-    if let Some(metadata) = members.members("metadata")? {
-        metadata.texts().for_each(|(key, value)| header.note(0, key, &value));
-    }
-    let program = Decided::certain("a file of Wasatch ENLIGHTEN", says(text, "spectrum"));
-    let mut notes = vec![Decision::new("Program", &program)];
-    let label = header.comment("Label").map(str::to_owned);
-    header.note(0, "title", label.as_deref().unwrap_or_default());
-    let role = technique(text, &mut header);
-    let processed = curves.iter().position(|(name, _)| name.eq_ignore_ascii_case("processed"));
-    if let Some(processed) = processed.filter(|_| options.raw != Some(true)) {
-        let left: Vec<String> = curves.iter().map(|(name, _)| format!("“{name}”")).collect();
-        let left: Vec<&str> = left.iter().map(String::as_str).filter(|name| *name != "“processed”").collect();
-        curves = vec![curves.swap_remove(processed)];
-        if !left.is_empty() {
-            let why = format!("{} are raw counts", left.join(", "));
-            let decided =
-                Decided::or_chosen(options.raw.map(|_| "“processed”"), || Decided::certain("“processed”", why));
-            notes.push(Decision::new("Columns", &decided));
-        }
-    }
-    let label = label.filter(|_| curves.len() == 1);
-    let named = |(name, values): (String, Vec<f64>)| {
-        let spectrum = on(&wavelengths, &values, &name)?;
-        Ok(Spectrum { name: Some(label.clone().unwrap_or(name)), ..spectrum })
-    };
-    let all: Result<Vec<Spectrum>, ReadError> = curves.into_iter().map(named).collect();
-    let grid = Grid { role, ..spectra::grid(all?, header, log)? };
-    Ok((grid, Decided::certain(Reader::ENLIGHTEN, says(text, "spectrometerSettings")), notes))
-}
-
-/// The role by the technique of the measurement.
-fn technique(text: &str, header: &mut Header) -> Option<Decided<Role>> {
-    let technique = header.comment("Technique")?.to_owned();
-    let line = line_of(text, "Technique").unwrap_or(1);
-    let why = format!("Line {line} says {technique}");
-    match technique.to_lowercase().as_str() {
-        "absorbance" => {
-            header.values = Some((line, Values::Absorbance));
-            Some(Decided::guess(Role::Transmittance, why))
-        }
-        "scope" | "raman" | "fluorescence" => Some(Decided::certain(Role::Unknown, why)),
-        other => header_terms::role(other).map(|role| Decided::certain(role, why)),
-    }
 }
 
 /// Records lists of values and of their wavelengths, which may be a range.

@@ -24,7 +24,6 @@ impl Reader {
 pub(super) const FORMAT: Format =
     Format { reader: Reader::LABELS, fits: |head| head.is_plain() && recognize(head.text), read };
 
-/// A line that is a sample.
 struct Labeled<'a> {
     label: &'a str,
     wavelength: f64,
@@ -33,7 +32,6 @@ struct Labeled<'a> {
     value: &'a str,
 }
 
-/// Returns whether enough lines hold a label, a wavelength in nanometers and a value.
 fn recognize(text: &str) -> bool {
     let start = &text[..text.floor_char_boundary(LOOK)];
     // Most files have no `nm` in their rows; counting letters is many times faster than splitting lines.
@@ -117,7 +115,6 @@ fn blocks(text: &str, header: &mut Header, log: &mut Log<'_>) -> Result<Blocks, 
     Ok((all, delimiter, mark))
 }
 
-/// The parts of a line that is a sample.
 fn sample(line: &str) -> Option<Labeled<'_>> {
     const LONGEST: usize = 200;
     if line.len() > LONGEST {

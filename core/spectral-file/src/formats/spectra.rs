@@ -1,10 +1,10 @@
 //! What readers of formats give, and spectra that each have wavelengths of their own, brought onto one grid.
 
 use crate::decision::{Decided, DecimalMark, Decision, Delimiter, Orientation, Reader};
-use crate::error::{MAX_CURVES, MAX_SAMPLES, ReadError};
+use crate::dialect_trial::Layout;
+use crate::error::{MAX_CURVES, ReadError, check_samples};
 use crate::grid::{Grid, RawCurve};
 use crate::header::Header;
-use crate::layout::Layout;
 use crate::warning::Warning;
 use crate::watch::{Log, PlaceId, PlaceKind};
 
@@ -29,7 +29,6 @@ impl Found {
     }
 }
 
-/// One sample and the line it stands in.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Sample {
     pub(crate) wavelength: f64,
@@ -48,7 +47,6 @@ pub(crate) struct Spectrum {
 }
 
 impl Spectrum {
-    /// The line where it begins.
     fn line(&self) -> usize {
         self.samples.first().map_or(1, |sample| sample.line)
     }
@@ -129,9 +127,7 @@ pub(crate) fn grid(mut spectra: Vec<Spectrum>, header: Header, log: &mut Log<'_>
     wavelengths.sort_unstable_by(f64::total_cmp);
     wavelengths.dedup();
     log.look(usize::MAX)?;
-    if wavelengths.len().saturating_mul(spectra.len()) > MAX_SAMPLES {
-        return Err(ReadError::TooManySamples(line));
-    }
+    check_samples(wavelengths.len().saturating_mul(spectra.len()), line)?;
     let mut lines = vec![line];
     if let [only] = spectra.as_slice() {
         lines = only.samples.iter().map(|sample| sample.line).collect();

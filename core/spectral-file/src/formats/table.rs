@@ -1,11 +1,11 @@
 //! Numbers in rows and columns: what every text is that no other format takes.
 
 use crate::decision::{Decided, Decision, Orientation, Part, Reader};
+use crate::dialect_trial::Layout;
 use crate::error::{MAX_PARTS, ReadError};
 use crate::formats::Format;
 use crate::formats::spectra::Found;
 use crate::grid::Grid;
-use crate::layout::Layout;
 use crate::options::ReadOptions;
 use crate::text::Section;
 use crate::warning::Warning;

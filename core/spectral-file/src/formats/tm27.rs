@@ -1,7 +1,7 @@
 //! IES TM-27: spectra of light sources in XML, one element for each sample.
 
 use crate::decision::{Decided, DecimalMark, Delimiter, Part, Quantity, Reader, Role, WavelengthUnit};
-use crate::error::{MAX_CURVES, MAX_PARTS, ReadError};
+use crate::error::{MAX_PARTS, ReadError, check_curves};
 use crate::formats::Format;
 use crate::formats::spectra::{self, Found, Sample, Spectrum};
 use crate::formats::xml::{self, Element, Step, Walk};
@@ -81,9 +81,7 @@ impl Content {
                     self.spectra.push(spectrum);
                     self.quantities.push(quantity);
                 }
-                if self.spectra.len() > MAX_CURVES {
-                    return Err(ReadError::TooManyCurves(element.line));
-                }
+                check_curves(self.spectra.len(), element.line)?;
             }
             _ => {}
         }

@@ -25,7 +25,6 @@ pub(super) fn fits(head: &Head<'_>, is_root: impl FnOnce(&str) -> bool) -> bool 
     head.is(Family::Xml) && (root(head.text).is_some_and(is_root) || head.chosen && recognize(head.text).is_err())
 }
 
-/// The name of the root element.
 fn root(text: &str) -> Option<&str> {
     let mut parser = Parser::from_str(text);
     let tag = loop {
@@ -59,7 +58,6 @@ pub(super) struct Element<'a> {
 }
 
 impl Element<'_> {
-    /// The name without its namespace.
     pub(super) fn name(&self) -> &str {
         &self.tag.name().into_inner()[self.local..]
     }
@@ -118,7 +116,6 @@ impl Element<'_> {
     }
 }
 
-/// A number; NaN for a gap.
 fn number(text: &str, line: usize) -> Result<f64, ReadError> {
     let text = text.trim();
     parse(text).ok_or_else(|| not_a_number(text, line))
@@ -132,14 +129,12 @@ fn not_a_number(text: &str, line: usize) -> ReadError {
     ReadError::NotANumber { line, column: 1, text: excerpt(text) }
 }
 
-/// Number of line ends in a text.
 fn line_ends(text: &str) -> usize {
     let either = text.bytes().filter(|byte| matches!(byte, b'\n' | b'\r')).count();
     let pairs = text.as_bytes().windows(2).filter(|pair| *pair == b"\r\n").count();
     either - pairs
 }
 
-/// Step of a walk.
 pub(super) enum Step<'a> {
     /// An element begins: [`Walk::innermost`].
     Open,
@@ -164,12 +159,10 @@ impl<'a> Walk<'a> {
         Self { text, parser, open: Vec::new(), root: None, place: (0, 1) }
     }
 
-    /// The name of the root element, once it is met.
     pub(super) fn root(&self) -> &str {
         self.root.as_deref().unwrap_or_default()
     }
 
-    /// The innermost element that is open.
     pub(super) fn innermost(&self) -> Option<&Element<'a>> {
         self.open.last()
     }
@@ -224,7 +217,6 @@ impl<'a> Walk<'a> {
         Ok(())
     }
 
-    /// Returns whether a text only stands between elements.
     fn is_indent(&self, text: &str) -> bool {
         self.innermost().is_none_or(|element| element.text.is_empty()) && text.trim_ascii().is_empty()
     }
@@ -256,7 +248,6 @@ impl<'a> Walk<'a> {
     }
 }
 
-/// Text that a reference stands for.
 fn resolve(reference: &BytesRef<'_>) -> Option<String> {
     match reference.resolve_char_ref() {
         Ok(Some(character)) => Some(character.into()),

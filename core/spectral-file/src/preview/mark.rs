@@ -1,6 +1,5 @@
 //! Parts of a line: their meaning in words, and as they are drawn.
 
-use std::fmt;
 use std::ops::Range;
 
 use crate::decimal::short;
@@ -14,12 +13,6 @@ pub struct Mark {
     pub range: Range<usize>,
     /// Its meaning.
     pub what: What,
-}
-
-impl Mark {
-    pub(super) fn new(range: Range<usize>, what: What) -> Self {
-        Self { range, what }
-    }
 }
 
 /// Meaning of a piece of a line. Curves are indices in the table, from 0; wavelengths are in nanometers.
@@ -54,31 +47,21 @@ pub enum What {
 }
 
 /// Reason that something is in no curve.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
+#[allow(missing_docs, reason = "each variant says in its message what it stands for")]
 pub enum LeftOut {
-    /// A column that is no curve: pixel numbers, raw counts, an empty column.
+    #[error("a column that is in no curve")]
     Column,
-    /// A row equal to an earlier one.
+    #[error("the same as an earlier row")]
     Repeated,
-    /// A row at a wavelength at which another row has other values.
+    #[error("one of several values at this wavelength, of which the mean is taken")]
     Averaged,
-    /// A row with values but no wavelength.
+    #[error("no wavelength")]
     NoWavelength,
-    /// A line that is no row of the table: text below it, another table, a curve of fewer than two values.
+    /// Text below the table, another table, or a curve of fewer than two values.
+    #[error("no row of this table")]
     Line,
-}
-
-impl fmt::Display for LeftOut {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Column => "a column that is in no curve",
-            Self::Repeated => "the same as an earlier row",
-            Self::Averaged => "one of several values at this wavelength, of which the mean is taken",
-            Self::NoWavelength => "no wavelength",
-            Self::Line => "no row of this table",
-        })
-    }
 }
 
 impl What {
@@ -115,7 +98,6 @@ impl What {
     }
 }
 
-/// Conversion of a written number, in words.
 fn how(table: &SpectralFile) -> &'static str {
     match table.reading.values.value {
         Values::Plain => "",

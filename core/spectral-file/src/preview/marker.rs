@@ -3,9 +3,8 @@
 use std::ops::Range;
 
 use crate::decision::{Orientation, Reader, WavelengthUnit};
+use crate::dialect_trial::Layout;
 use crate::grid::Grid;
-use crate::layout::Layout;
-use crate::preview::cells;
 use crate::preview::mark::{LeftOut, Mark, What};
 use crate::preview::tables::{self, Across, Down};
 use crate::report::SpectralFile;
@@ -47,7 +46,6 @@ impl Marker {
         Self { settings, first_line: layout.first_line, curves: 0, unit, plan }
     }
 
-    /// Completes it with the origins of the curves.
     pub(crate) fn take_curves(&mut self, origins: &[usize]) {
         self.curves = origins.len();
         let by_curve = origins.iter().enumerate().map(|(curve, origin)| (*origin, curve));
@@ -88,8 +86,8 @@ impl Marker {
         if !marks.is_empty() || !above || self.settings.binary_search(&(number as u32)).is_err() {
             return marks;
         }
-        let setting = Mark::new(cells::trimmed(line), What::Setting);
-        Some(setting).filter(|mark| cells::touches(&mark.range, window)).into_iter().collect()
+        let setting = Mark { range: tables::trimmed(line), what: What::Setting };
+        Some(setting).filter(|mark| tables::touches(&mark.range, window)).into_iter().collect()
     }
 }
 
@@ -100,7 +98,7 @@ fn placed(all: &[Place], start: usize, line: &str, window: &Range<usize>, file: 
     let marks = pieces.filter_map(|piece| {
         let range = (piece.start as usize).checked_sub(start)?..piece.end as usize - start;
         let written = line.get(range.clone())?;
-        Some(Mark::new(range, what(piece, written, file)?))
+        Some(Mark { range, what: what(piece, written, file)? })
     });
     marks.collect()
 }
@@ -109,7 +107,7 @@ fn what(place: &Place, written: &str, file: &SpectralFile) -> Option<What> {
     let curve = place.origin as usize;
     Some(match place.kind {
         PlaceKind::Wavelength => What::Wavelength(place.wavelength),
-        PlaceKind::Value => tables::value(cells::number(written)?, curve, place.wavelength, file),
+        PlaceKind::Value => tables::value(tables::number(written)?, curve, place.wavelength, file),
         PlaceKind::Block | PlaceKind::Check => What::Block(curve),
         PlaceKind::Repeated => What::LeftOut(LeftOut::Repeated),
         PlaceKind::Averaged => What::LeftOut(LeftOut::Averaged),

@@ -1,16 +1,18 @@
-//! Marks of tables: wavelengths run down a column, or across a header row.
+//! Cells of a line with their places, the place at which reading failed, and marks of tables: wavelengths run down a column, or
+//! across a header row.
 
 use std::collections::BTreeSet;
 use std::ops::Range;
 
-use crate::decision::{Dropped, WavelengthUnit};
+use crate::decision::{DecimalMark, Delimiter, Dropped, WavelengthUnit};
 use crate::dialect::{Cell, Dialect};
+use crate::dialect_trial::Layout;
+use crate::error::ReadError;
 use crate::grid::Grid;
-use crate::layout::Layout;
-use crate::preview::cells;
 use crate::preview::mark::{LeftOut, Mark, What};
-use crate::report::SpectralFile;
-use crate::{dialect_trial, header_terms, text, wide};
+use crate::report::{Curve, SpectralFile};
+use crate::text::{self, excerpt};
+use crate::{dialect_trial, header_terms, wide};
 
 /// The columns and rows of a table that became curves.
 #[derive(Debug, Clone)]
@@ -59,12 +61,23 @@ impl Down {
 
     pub(super) fn marks(&self, number: usize, line: &str, window: &Range<usize>, file: &SpectralFile) -> Vec<Mark> {
         if self.names == Some(number) {
-            return self.header(line, window);
+            return self.above(line, self.shift, window, |column, cell| match self.curves.get(column) {
+                _ if self.axis(column).is_some() => {
+                    let unit = header_terms::x_unit(cell).is_some() || header_terms::names_wavelengths(cell);
+                    unit.then_some(What::Unit(None))
+                }
+                Some(Some(curve)) => Some(What::Name(*curve)),
+                _ => Some(What::LeftOut(LeftOut::Column)),
+            });
         }
         if self.units == Some(number) {
-            return self.units(line, window);
+            return self.above(line, 0, window, |column, _| match self.curves.get(column) {
+                _ if self.axis(column).is_some() => Some(What::Unit(None)),
+                Some(Some(curve)) => Some(What::Unit(Some(*curve))),
+                _ => Some(What::LeftOut(LeftOut::Column)),
+            });
         }
-        if number < self.first_line || !cells::is_content(line) {
+        if number < self.first_line || !is_content(line) {
             return Vec::new();
         }
         let find = |rows: &[(u32, LeftOut)]| rows.binary_search_by_key(&number, |(line, _)| *line as usize).ok();
@@ -82,18 +95,18 @@ impl Down {
         let mut nm = shared;
         let mut marks = Vec::new();
         for (column, cell) in self.dialect.cells(line).enumerate() {
-            let range = cells::range(line, cell);
+            let range = range(line, cell);
             if range.start >= window.end {
                 break;
             }
             let axis = self.axis(column);
             if let Some(unit) = axis.filter(|_| shared.is_nan()) {
-                nm = cells::wavelength(self.dialect, unit, cell).unwrap_or(f64::NAN);
+                nm = wavelength(self.dialect, unit, cell).unwrap_or(f64::NAN);
             }
-            if !cells::touches(&range, window) {
+            if !touches(&range, window) {
                 continue;
             }
-            let what = match (self.curves.get(column).copied().flatten(), cells::parse(self.dialect, cell)) {
+            let what = match (self.curves.get(column).copied().flatten(), parse(self.dialect, cell)) {
                 _ if axis.is_some() && nm.is_nan() => continue,
                 _ if axis.is_some() => What::Wavelength(nm),
                 (None, Cell::Gap) if cell.is_empty() => continue,
@@ -101,59 +114,38 @@ impl Down {
                 (Some(curve), Cell::Number(written)) => value(written, curve, nm, file),
                 (Some(curve), Cell::Gap | Cell::Text) => What::Gap(curve),
             };
-            marks.push(Mark::new(range, what));
+            marks.push(Mark { range, what });
         }
         marks
     }
 
-    fn header(&self, line: &str, window: &Range<usize>) -> Vec<Mark> {
-        let body = text::comment(line).unwrap_or(line);
-        self.pieces(line, body, self.shift, window, |column, cell| match self.curves.get(column) {
-            _ if self.axis(column).is_some() => {
-                let unit = header_terms::x_unit(cell).is_some() || header_terms::names_wavelengths(cell);
-                unit.then_some(What::Unit(None))
-            }
-            Some(Some(curve)) => Some(What::Name(*curve)),
-            _ => Some(What::LeftOut(LeftOut::Column)),
-        })
-    }
-
-    fn units(&self, line: &str, window: &Range<usize>) -> Vec<Mark> {
-        let body = text::comment(line).unwrap_or(line);
-        self.pieces(line, body, 0, window, |column, _| match self.curves.get(column) {
-            _ if self.axis(column).is_some() => Some(What::Unit(None)),
-            Some(Some(curve)) => Some(What::Unit(Some(*curve))),
-            _ => Some(What::LeftOut(LeftOut::Column)),
-        })
-    }
-
-    /// The cells of a line above the table that are something.
-    fn pieces(
+    /// Marks of the cells of a line above the table that are something, the first of them in a column.
+    fn above(
         &self,
         line: &str,
-        body: &str,
         shift: usize,
         window: &Range<usize>,
         what: impl Fn(usize, &str) -> Option<What>,
     ) -> Vec<Mark> {
+        let body = text::comment(line).unwrap_or(line);
         let cells = self.dialect.cells(body).enumerate().filter(|(_, cell)| !cell.is_empty());
         let marks = cells.filter_map(|(index, cell)| {
-            let range = cells::range(line, cell);
-            let what = what(index + shift, cell).filter(|_| cells::touches(&range, window))?;
-            Some(Mark::new(range, what))
+            let range = range(line, cell);
+            let what = what(index + shift, cell).filter(|_| touches(&range, window))?;
+            Some(Mark { range, what })
         });
         marks.collect()
     }
 }
 
 fn line_mark(line: &str, window: &Range<usize>, why: LeftOut) -> Vec<Mark> {
-    let mark = Mark::new(cells::trimmed(line), What::LeftOut(why));
-    Some(mark).filter(|mark| cells::touches(&mark.range, window)).into_iter().collect()
+    let mark = Mark { range: trimmed(line), what: What::LeftOut(why) };
+    Some(mark).filter(|mark| touches(&mark.range, window)).into_iter().collect()
 }
 
 /// A number of a curve; a gap where the curve has no value, such as at a number that stands for a missing one.
 pub(super) fn value(written: f64, curve: usize, nm: f64, file: &SpectralFile) -> What {
-    match file.curves.get(curve).and_then(|curve| cells::sample(curve, nm)) {
+    match file.curves.get(curve).and_then(|curve| sample(curve, nm)) {
         Some((nm, value)) => What::Value { curve, nm, value, written },
         None => What::Gap(curve),
     }
@@ -201,13 +193,13 @@ impl Across {
         }
         match self.rows.binary_search_by_key(&number, |(line, _)| *line) {
             Ok(at) => self.row(line, self.rows[at].1, window, file),
-            Err(_) if number > self.line && cells::is_content(line) => line_mark(line, window, LeftOut::Line),
+            Err(_) if number > self.line && is_content(line) => line_mark(line, window, LeftOut::Line),
             Err(_) => Vec::new(),
         }
     }
 
     fn header(&self, line: &str, window: &Range<usize>) -> Vec<Mark> {
-        let marks = cells::within(self.dialect, line, window).filter_map(|(column, range, cell)| {
+        let marks = within(self.dialect, line, window).filter_map(|(column, range, cell)| {
             let what = match column.checked_sub(self.start) {
                 None => What::Unit(header_terms::x_unit(cell).map(|_| None)?),
                 Some(index) => match self.wavelengths.get(index)? {
@@ -215,7 +207,7 @@ impl Across {
                     None => What::LeftOut(LeftOut::Column),
                 },
             };
-            Some(Mark::new(range, what))
+            Some(Mark { range, what })
         });
         marks.collect()
     }
@@ -224,7 +216,7 @@ impl Across {
         let mut leading = self.dialect.cells(line).take(self.start);
         let named = leading.clone().nth(self.names).is_some_and(|cell| !cell.is_empty());
         let name = if named { Some(self.names) } else { leading.position(|cell| !cell.is_empty()) };
-        let marks = cells::within(self.dialect, line, window).filter_map(|(column, range, cell)| {
+        let marks = within(self.dialect, line, window).filter_map(|(column, range, cell)| {
             let what = match column.checked_sub(self.start) {
                 None if name == Some(column) => What::Name(curve),
                 None if cell.is_empty() => return None,
@@ -235,8 +227,106 @@ impl Across {
                     (Some(_), Cell::Gap | Cell::Text) => What::Gap(curve),
                 },
             };
-            Some(Mark::new(range, what))
+            Some(Mark { range, what })
         });
         marks.collect()
     }
+}
+
+pub(super) fn offset(text: &str, piece: &str) -> usize {
+    piece.as_ptr().addr().saturating_sub(text.as_ptr().addr()).min(text.len())
+}
+
+pub(super) fn range(line: &str, piece: &str) -> Range<usize> {
+    let start = offset(line, piece);
+    start..start + piece.len()
+}
+
+pub(super) fn trimmed(line: &str) -> Range<usize> {
+    range(line, line.trim())
+}
+
+/// True for a line that can be a row: neither blank nor a comment.
+pub(super) fn is_content(line: &str) -> bool {
+    !line.trim_ascii().is_empty() && text::comment(line).is_none()
+}
+
+/// True for a range that touches a window; an empty range touches where it stands.
+pub(super) fn touches(range: &Range<usize>, window: &Range<usize>) -> bool {
+    range.start < window.end && range.end >= window.start
+}
+
+pub(super) fn within<'a>(
+    dialect: Dialect,
+    line: &'a str,
+    window: &Range<usize>,
+) -> impl Iterator<Item = (usize, Range<usize>, &'a str)> {
+    let cells = dialect.cells(line).enumerate().map(move |(column, cell)| (column, range(line, cell), cell));
+    cells.take_while(|(_, range, _)| range.start < window.end).filter(|(_, range, _)| range.end >= window.start)
+}
+
+pub(super) fn wavelength(dialect: Dialect, unit: WavelengthUnit, cell: &str) -> Option<f64> {
+    let written = match dialect.parse(cell) {
+        Cell::Number(value) => value,
+        Cell::Gap => return None,
+        Cell::Text => dialect.parse_label(cell)?.0,
+    };
+    Some(unit.nanometers(written)).filter(|nm| nm.is_finite())
+}
+
+/// The content of a cell, a unit beside its number aside.
+pub(super) fn parse(dialect: Dialect, cell: &str) -> Cell {
+    match dialect.parse(cell) {
+        Cell::Text => dialect.parse_united(cell).map_or(Cell::Text, |(value, _)| Cell::Number(value)),
+        other => other,
+    }
+}
+
+/// A number as written, with either decimal mark.
+pub(super) fn number(text: &str) -> Option<f64> {
+    Dialect::of_number(text).value(text).filter(|value| !value.is_nan())
+}
+
+/// The wavelength and the value of the sample nearest to a wavelength, if it is at that wavelength but for rounding.
+pub(super) fn sample(curve: &Curve, nm: f64) -> Option<(f64, f64)> {
+    const ROUNDING_NM: f64 = 1e-6;
+    let at = curve.wavelengths_nm.partition_point(|wavelength| *wavelength < nm - ROUNDING_NM);
+    let found = curve.wavelengths_nm.get(at).filter(|found| (**found - nm).abs() <= ROUNDING_NM)?;
+    Some((*found, *curve.values.get(at)?))
+}
+
+/// The bytes of a line that an error is about; the whole line where nothing closer is known.
+pub(super) fn of_error(line: &str, error: &ReadError) -> Range<usize> {
+    let found = match error {
+        ReadError::AsChosen { error, .. } => return of_error(line, error),
+        ReadError::NotANumber { column, text, .. } => cell(line, *column, text),
+        ReadError::Malformed { column, .. } => Some(word(line, *column)),
+        _ => None,
+    };
+    found.filter(|range| !range.is_empty()).unwrap_or_else(|| trimmed(line))
+}
+
+/// The cell of a column that begins with what the error quotes, or the first place where that stands.
+fn cell(line: &str, column: usize, quoted: &str) -> Option<Range<usize>> {
+    const ALL: [Delimiter; 5] =
+        [Delimiter::Semicolon, Delimiter::Tab, Delimiter::CommaSpace, Delimiter::Comma, Delimiter::Spaces];
+    let cells = ALL.iter().filter_map(|&delimiter| {
+        let dialect = Dialect::new(delimiter, DecimalMark::Point);
+        dialect.cells(line).nth(column.checked_sub(1)?)
+    });
+    let exact = cells.into_iter().find(|cell| excerpt(cell) == quoted);
+    let start = quoted.trim_end_matches('\u{2026}');
+    exact.map(|cell| range(line, cell)).or_else(|| {
+        let at = line.find(start).filter(|_| !start.is_empty())?;
+        Some(at..at + start.len())
+    })
+}
+
+/// The word that begins at a character, counted from 1, or the last character of a shorter line.
+fn word(line: &str, column: usize) -> Range<usize> {
+    let last = line.char_indices().next_back().map_or(0, |(at, _)| at);
+    let start = line.char_indices().nth(column.saturating_sub(1)).map_or(last, |(at, _)| at);
+    let first = line[start..].chars().next().map_or(0, char::len_utf8);
+    let rest = &line[start + first..];
+    start..start + first + rest.find(|c: char| !c.is_alphanumeric()).unwrap_or(rest.len())
 }

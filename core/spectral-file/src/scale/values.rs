@@ -28,17 +28,16 @@ pub(super) fn decide(
         return all(Decided::chosen(chosen));
     }
     let fraction = role.value.is_fraction();
-    if let Some((line, values)) = grid.header.values.filter(|(_, values)| fraction || is_power(*values)) {
-        doubt_percent(values, evidence, log);
-        return all(Decided::certain(values, format!("Line {line} says so")));
-    }
-    if let Some(headed) = by_headers(grid, role.value, evidence) {
-        doubt_percent(headed.0.value, evidence, log);
-        return headed;
-    }
-    if let Some((line, values)) = grid.header.clues.values.filter(|(_, values)| fraction || is_power(*values)) {
-        doubt_percent(values, evidence, log);
-        return all(Decided::certain(values, format!("Line {line} says so")));
+    let said = |said: Option<(usize, Values)>| {
+        let (line, values) = said.filter(|(_, values)| fraction || is_power(*values))?;
+        Some(all(Decided::certain(values, format!("Line {line} says so"))))
+    };
+    let said = said(grid.header.values)
+        .or_else(|| by_headers(grid, role.value, evidence))
+        .or_else(|| said(grid.header.clues.values));
+    if let Some(said) = said {
+        doubt_percent(said.0.value, evidence, log);
+        return said;
     }
     if !fraction {
         return all(match role.certainty {
@@ -177,14 +176,11 @@ pub(super) struct Evidence {
     pub(super) curves: Vec<Option<Span>>,
 }
 
-/// Scale of a curve of fractions of light, by its numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Looks {
     /// Fractions, but dark samples in percent look the same.
     Plain,
-    /// Percent.
     Percent,
-    /// Neither.
     Neither,
 }
 

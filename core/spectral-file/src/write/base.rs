@@ -17,12 +17,10 @@ pub(super) struct Draft<'a> {
     pub(super) notes: Vec<Note>,
 }
 
-/// Limits of a format, or of the program that reads it.
 struct Limits {
     format: Format,
     range_nm: [f64; 2],
     bands: usize,
-    /// True if wavelengths are ones that the program reads.
     reads: fn(&[f64]) -> bool,
 }
 
@@ -166,7 +164,6 @@ pub(super) fn check(grid: Grid) -> Result<(), WriteError> {
 /// Method for values at new wavelengths.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Sampling {
-    /// The value there.
     Points,
     /// The mean over a band of the given width in nanometers around it.
     Bands(f64),
@@ -258,7 +255,6 @@ pub(super) struct Between<'a> {
 }
 
 impl<'a> Between<'a> {
-    /// Prepares a curve by the convention for what it is.
     pub(super) fn new(piece: &'a Piece<'_>, content: Content<'_>) -> Self {
         const SMOOTH_FROM_NM: f64 = 5.0;
         let (wavelengths, values) = (piece.wavelengths.as_ref(), piece.values.as_ref());
@@ -301,14 +297,12 @@ fn finite_or(value: f64, other: impl FnOnce() -> f64) -> f64 {
     if value.is_finite() { value } else { other() }
 }
 
-/// Changes by resampling, over all curves.
 #[derive(Debug, Default)]
 pub(super) struct Changes {
     sampling: Option<Sampling>,
     interpolated: bool,
     smooth: bool,
     finest_nm: Option<f64>,
-    /// The first and the last wavelength of any curve.
     reach_nm: Option<[f64; 2]>,
 }
 
@@ -370,7 +364,6 @@ impl Changes {
     }
 }
 
-/// Half of a number without the noise of binary fractions.
 fn decimal_half(number: f64) -> f64 {
     clean(number / 2.0)
 }

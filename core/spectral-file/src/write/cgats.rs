@@ -2,7 +2,7 @@
 
 use crate::write::base::Draft;
 use crate::write::format::{Format, Note};
-use crate::write::sheet::{Content, one_line, push, push_quoted, push_real};
+use crate::write::sheet::{Content, one_line, push, push_comment, push_quoted, push_real};
 
 pub(super) fn write(draft: &mut Draft<'_>) -> String {
     let (format, cmf) = (draft.format, draft.format == Format::ArgyllCmf);
@@ -38,11 +38,11 @@ fn push_keywords(out: &mut String, draft: &Draft<'_>) {
     // Keywords are a closed list in CGATS; what is not in it stands in comments.
     for (key, value) in [("quantity", Some(sheet.quantity())), ("unit", unit), ("response", sheet.energy_response())] {
         if let Some(value) = value {
-            push_comment(out, key, value);
+            push_comment(out, key, &one_line(value));
         }
     }
     if let Some(resampling) = &draft.resampling {
-        push_comment(out, "resampling", resampling);
+        push_comment(out, "resampling", &one_line(resampling));
     }
     for (key, value) in sheet.comments() {
         push_comment(out, &key, &value);
@@ -70,8 +70,7 @@ fn measurement(content: Content<'_>) -> Option<&'static str> {
 }
 
 fn push_keyword(out: &mut String, key: &str, value: &str) {
-    out.push_str(key);
-    out.push(' ');
+    push(out, format_args!("{key} "));
     push_quoted(out, value);
     out.push('\n');
 }
@@ -80,12 +79,6 @@ fn push_keyword(out: &mut String, key: &str, value: &str) {
 fn push_own(out: &mut String, key: &str, value: &str) {
     push_keyword(out, "KEYWORD", key);
     push_keyword(out, key, value);
-}
-
-fn push_comment(out: &mut String, key: &str, value: &str) {
-    for part in ["# ", key, ": ", &one_line(value), "\n"] {
-        out.push_str(part);
-    }
 }
 
 fn push_format(out: &mut String, format: Format, named: bool, wavelengths: &[f64]) {

@@ -7,11 +7,10 @@ use std::borrow::Cow;
 use crate::error::MAX_SAMPLES;
 use crate::write::base::{self, Changes, SAME_NM, Sampling, multiples};
 use crate::write::format::{Format, Grid, Note, WriteError};
-use crate::write::sheet::{Content, Piece, Sheet, one_line, push_number, push_quoted};
+use crate::write::sheet::{Content, Piece, Sheet, one_line, push_comment, push_number, push_quoted};
 
 /// Block size of text; a longer row is written alone.
 const CHUNK: usize = 1 << 16;
-/// Number of cells resampled together.
 const CELLS: usize = 1 << 20;
 
 /// Curves on their way out, at their own wavelengths or at multiples of a step. What can be refused was refused.
@@ -21,7 +20,6 @@ pub struct Prepared<'a> {
     pieces: Vec<Piece<'a>>,
     step: Option<f64>,
     sampling: Sampling,
-    /// Every wavelength of any curve, ascending.
     rows: Vec<f64>,
     changes: Changes,
     renamed: Vec<Note>,
@@ -141,7 +139,6 @@ fn within(rows: &[f64], [first, last]: [f64; 2]) -> &[f64] {
     rows.get(from..to).unwrap_or_default()
 }
 
-/// Values of a curve at some of the written wavelengths.
 fn part<'p>(
     piece: &'p Piece<'_>,
     rows: &[f64],
@@ -165,11 +162,7 @@ fn part<'p>(
 }
 
 fn push_comments(out: &mut String, sheet: &Sheet<'_>, resampling: Option<&str>) {
-    let mut push = |key: &str, value: &str| {
-        for part in ["# ", key, ": ", value, "\n"] {
-            out.push_str(part);
-        }
-    };
+    let mut push = |key: &str, value: &str| push_comment(out, key, value);
     let title = sheet.title();
     if !title.is_empty() {
         push("title", &title);

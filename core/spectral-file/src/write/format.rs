@@ -81,50 +81,28 @@ impl fmt::Display for Format {
 
 /// Something in the text that is not as it was in the curves.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[allow(missing_docs, reason = "each variant says in its message what changed")]
 pub enum Note {
-    /// Values were interpolated at multiples of a step.
     #[error("resampled to {step_nm} nm, {}", if *.smooth { "by Sprague's interpolation" } else { "linearly" })]
-    Resampled {
-        /// The step in nanometers.
-        step_nm: f64,
-        /// True if some of them by Sprague's polynomials, not linearly.
-        smooth: bool,
-    },
-    /// The step is coarser than that of a curve: samples were picked, not averaged, and narrow lines may be lost.
+    Resampled { step_nm: f64, smooth: bool },
     #[error("steps of {} nm became {to_nm} nm without averaging: narrow lines may be lost", (.from_nm * 1e3).round() / 1e3)]
-    Thinned {
-        /// The finest mean step of a curve in nanometers.
-        from_nm: f64,
-        /// The step in nanometers.
-        to_nm: f64,
-    },
+    Thinned { from_nm: f64, to_nm: f64 },
     /// Values are means over bands around multiples of a step. Holds the step and the width of the bands, in nanometers.
     #[error("averaged over bands of {0} nm (means of the linear interpolant)")]
     Averaged(f64),
-    /// Some curves go on beyond what is written.
     #[error("only {from_nm} to {to_nm} nm is written")]
-    Clipped {
-        /// The first wavelength written, in nanometers.
-        from_nm: f64,
-        /// The last wavelength written, in nanometers.
-        to_nm: f64,
-    },
+    Clipped { from_nm: f64, to_nm: f64 },
     /// Sensitivities per photon were multiplied by λ / 550 nm, because the format means sensitivities per energy.
     #[error("sensitivities per photon became sensitivities per energy")]
     PerEnergy,
-    /// Curves other than red, green and blue are not in the file.
     #[error("{} beside red, green and blue {} not in the file", counted(*.0, "curve"), if *.0 == 1 { "is" } else { "are" })]
     LeftOut(usize),
-    /// Curves have no sample at any multiple of the step; their columns are blank.
     #[error("{0} of the columns are blank: no wavelength of the grid is in range")]
     Blank(usize),
-    /// Names of curves were blank, did not fit on a line, or would have been read as another quantity.
     #[error("{} {} blank, did not fit on a line or meant other values: {} replaced", counted(*.0, "name"), if *.0 == 1 { "was" } else { "were" }, if *.0 == 1 { "it was" } else { "they were" })]
     Renamed(usize),
-    /// The format has no place for the names of curves, or for one beside the title.
     #[error("names of curves are not in the file: the format has no place for them")]
     NoNames,
-    /// rawtoaces finds cameras by maker and model, which are not both known.
     #[error("rawtoaces finds a camera by maker and model, and both are not known")]
     Unidentified,
 }
@@ -135,63 +113,32 @@ fn counted(count: usize, noun: &str) -> String {
 
 /// Reason why curves cannot be written. Curves count from one.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[allow(missing_docs, reason = "each variant says in its message what is wrong")]
 pub enum WriteError {
-    /// There is nothing to write.
     #[error("there are no curves")]
     NoCurves,
-    /// A curve has more or fewer values than wavelengths.
     #[error("curve {0} has not one value for each wavelength")]
     Lengths(usize),
-    /// A curve has fewer than two samples.
     #[error("curve {0} has fewer than two samples")]
     TooShort(usize),
-    /// Wavelengths are not finite, not above zero or not ascending.
     #[error("the wavelengths of curve {0} do not ascend from above zero")]
     Wavelengths(usize),
-    /// A value is not finite.
     #[error("curve {0} has a value that is no finite number")]
     NotFinite(usize),
-    /// Red, green and blue are not three of the curves.
     #[error("red, green and blue are not three of the curves")]
     Channels,
-    /// The step of the grid is NaN, or below 0.001 nm.
     #[error("the step must be a number of at least 0.001 nm")]
     Step,
-    /// A format does not support this number of curves.
     #[error("{} takes {wanted} of such curves at once, not {found}", format.name())]
-    Count {
-        /// The format.
-        format: Format,
-        /// Number found.
-        found: usize,
-        /// Number that the format takes.
-        wanted: usize,
-    },
-    /// A format is for something else.
+    Count { format: Format, found: usize, wanted: usize },
     #[error("{} is not for curves of this kind", .0.name())]
     OtherContent(Format),
-    /// The program that the format is for would not read this step.
     #[error("{} cannot be written in steps of {step_nm} nm", format.name())]
-    StepOfFormat {
-        /// The format.
-        format: Format,
-        /// The step in nanometers.
-        step_nm: f64,
-    },
-    /// The program that the format is for would not read this number of bands.
+    StepOfFormat { format: Format, step_nm: f64 },
     #[error("{} has at most {most} bands, and these would be {found}", format.name())]
-    Bands {
-        /// The format.
-        format: Format,
-        /// Number there would be.
-        found: usize,
-        /// Largest number allowed.
-        most: usize,
-    },
-    /// There are not two wavelengths of the grid that every curve reaches and the format can hold.
+    Bands { format: Format, found: usize, most: usize },
     #[error("fewer than two wavelengths are in the range of the curves")]
     NoOverlap,
-    /// There would be more curves or samples than can be read back.
     #[error("the table would have too many cells")]
     TooLarge,
 }

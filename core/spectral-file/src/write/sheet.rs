@@ -151,7 +151,6 @@ impl<'a> Sheet<'a> {
         }
     }
 
-    /// Returns whether the curves are curves.
     pub(super) fn check(&self) -> Result<(), WriteError> {
         if self.curves.is_empty() {
             return Err(WriteError::NoCurves);
@@ -218,7 +217,6 @@ fn is_license(key: &str) -> bool {
 /// The wavelength in nanometers where sensitivities per photon and per energy have the same value.
 const PER_ENERGY_NM: f64 = 550.0;
 
-/// A curve on its way out.
 #[derive(Debug, Clone)]
 pub(super) struct Piece<'a> {
     pub(super) name: Cow<'a, str>,
@@ -227,7 +225,6 @@ pub(super) struct Piece<'a> {
 }
 
 impl Piece<'_> {
-    /// The first and the last wavelength.
     pub(super) fn range(&self) -> [f64; 2] {
         [self.wavelengths.first(), self.wavelengths.last()].map(|end| end.copied().unwrap_or(0.0))
     }
@@ -253,7 +250,10 @@ fn check(trace: &Trace<'_>, curve: usize) -> Result<(), WriteError> {
 
 pub(super) use chromascope_text::on_one_line as one_line;
 
-/// Appends what a format string makes.
+pub(super) fn push_comment(out: &mut String, key: &str, value: &str) {
+    push(out, format_args!("# {key}: {value}\n"));
+}
+
 pub(super) fn push(out: &mut String, arguments: Arguments<'_>) {
     out.write_fmt(arguments).expect("a text takes whatever is written to it");
 }

@@ -105,7 +105,7 @@ pub(super) struct InspectArguments {
     #[arg(long, value_name = "UNIT", value_parser = PossibleValuesParser::new(["energy", "photon"]), help_heading = READING)]
     per: Option<String>,
     /// Format of the file, overriding detection
-    #[arg(long, value_name = "READER", value_parser = named::<Reader>(Reader::ALL.map(Reader::key)), help_heading = READING)]
+    #[arg(long, value_name = "READER", value_parser = named::<Reader>(Reader::ALL.map(|reader| reader.key)), help_heading = READING)]
     reader: Option<Reader>,
     /// Imports raw counts and other quantities recorded with the spectra; with --wavelength-column, every other column
     #[arg(long, value_name = "BOOL", num_args = 0..=1, require_equals = true, default_missing_value = "true",

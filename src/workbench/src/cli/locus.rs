@@ -98,7 +98,7 @@ pub(super) fn run(arguments: &LocusArguments, matches: &ArgMatches) -> Result<()
         let _comparable = scene.comparable(*kind, name)?;
     }
     outputs::stream(arguments.common.out.path.as_deref(), |out| {
-        out.write_all(table(&scene, Vec::new()).csv_head().as_bytes())?;
+        out.write_all(table(&scene, Vec::new()).head(',').as_bytes())?;
         for (kind, name) in &request.sources {
             locus_rows(out, &scene, (*kind, name), &temperatures)?;
         }
@@ -140,7 +140,7 @@ fn locus_rows(
                 extrapolated: below.is_some_and(|below| point.temperature.get() < below),
             }
         });
-        out.write_all(table(scene, pairs.collect()).csv_rows(significant).as_bytes())?;
+        out.write_all(table(scene, pairs.collect()).body(',', significant).as_bytes())?;
         // Answers that were already written are dropped.
         scene.results.end_frame();
     }

@@ -13,10 +13,8 @@ use crate::watch::Log;
 /// Bytes between two looks at the watch: some milliseconds.
 const STRIDE: usize = 1 << 20;
 
-/// Maximum number of texts that are kept of an object or a list.
 const MAX_TEXTS: usize = 1000;
 
-/// A value and the document that it stands in.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Value<'a> {
     document: &'a str,
@@ -28,7 +26,6 @@ impl<'a> Value<'a> {
         Self { document, written: document }
     }
 
-    /// The byte of the document where a piece of it begins.
     pub(super) fn offset(self, piece: &str) -> usize {
         piece.as_ptr().addr().saturating_sub(self.document.as_ptr().addr())
     }
@@ -45,7 +42,6 @@ impl<'a> Value<'a> {
         })
     }
 
-    /// The error of an object without a member that it must have.
     pub(super) fn lacks_member(self) -> ReadError {
         self.malformed(true, self.offset(self.written) + self.written.len())
     }
@@ -65,7 +61,6 @@ impl<'a> Value<'a> {
         ReadError::Malformed { family: Family::Json, line, column: (before.len() - start).max(1) }
     }
 
-    /// The members of an object, in the order of the file.
     pub(super) fn members(self) -> Result<Members<'a>, ReadError> {
         let Entries(entries) = self.read()?;
         Ok(Members { whole: self, entries })
@@ -104,7 +99,6 @@ impl<'a> Value<'a> {
     }
 }
 
-/// The members of an object.
 pub(super) struct Members<'a> {
     whole: Value<'a>,
     entries: Vec<(Cow<'a, str>, &'a str)>,
@@ -119,17 +113,14 @@ impl<'a> Members<'a> {
         self.each().find(|(other, value)| *other == name && value.written != "null").map(|(_, value)| value)
     }
 
-    /// A member as a type.
     pub(super) fn read<T: Deserialize<'a>>(&self, name: &str) -> Result<Option<T>, ReadError> {
         self.get(name).map(Value::read).transpose()
     }
 
-    /// The members of a member.
     pub(super) fn members(&self, name: &str) -> Result<Option<Members<'a>>, ReadError> {
         self.get(name).map(Value::members).transpose()
     }
 
-    /// The members that are texts.
     pub(super) fn texts(&self) -> impl Iterator<Item = (&str, String)> {
         let texts = self.each().filter_map(|(name, value)| Some((&**name, serde_json::from_str(value.written).ok()?)));
         texts.take(MAX_TEXTS)
