@@ -77,7 +77,6 @@ impl ChromascopeApp {
         Self::on(&Executor::default(), ctx, history, saved, files)
     }
 
-    /// Creates the app with a document and an executor for background work.
     pub fn on(
         executor: &Executor,
         ctx: &egui::Context,
@@ -127,7 +126,6 @@ impl ChromascopeApp {
         app
     }
 
-    /// Restores the window's position and size from the last run.
     pub fn restore_place(&mut self, storage: Option<&dyn eframe::Storage>) {
         self.place = startup::WindowPlace::restored(storage);
     }
@@ -136,12 +134,10 @@ impl ChromascopeApp {
         &self.history
     }
 
-    /// Takes other data sets.
     pub fn set_catalog(&mut self, catalog: Catalog) {
         self.catalog = catalog;
     }
 
-    /// State of the view: selection, zoom, hover and the like.
     pub fn view(&self) -> &View {
         &self.view
     }
@@ -151,12 +147,10 @@ impl ChromascopeApp {
         &mut self.states
     }
 
-    /// Mutable state of the view, for tests to set up.
     pub fn view_mut(&mut self) -> &mut View {
         &mut self.view
     }
 
-    /// Part of the view that is saved between runs.
     pub fn saved_view(&self) -> SavedView {
         let mut saved = self.own_view().clone();
         saved.import.failing = self.opened.failing();

@@ -148,7 +148,6 @@ pub struct KeyBinding {
     pub shortcut: KeyboardShortcut,
     pub command: Command,
     pub words: &'static str,
-    /// True if it rests while text is typed.
     pub rests_while_typing: bool,
 }
 

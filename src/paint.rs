@@ -29,18 +29,15 @@ pub enum Emphasis {
     Selected,
     /// Part or whole of what is chosen: wider line.
     Related,
-    /// Something else is chosen.
     Faded,
 }
 
-/// Emphasis of each mark, by its tag.
 pub type EmphasisOf<'a> = &'a dyn Fn(Tag) -> Emphasis;
 
 #[derive(Clone, Copy)]
 pub struct PlotOptions<'a> {
     /// True if the user can zoom (wheel, pinch) and pan (drag). A double click shows the panel's ranges again.
     pub zoomable: bool,
-    /// Shows the panel's ranges again now.
     pub reset: bool,
     /// Plots with the same id share their horizontal range.
     pub link_x: Option<Id>,
@@ -56,7 +53,6 @@ impl Default for PlotOptions<'_> {
 #[derive(Debug, Clone)]
 pub struct PlotOutput {
     pub response: Response,
-    /// Map from data to the screen.
     pub view: View,
     pub hovered: Option<[f64; 2]>,
 }
@@ -76,7 +72,6 @@ impl PlotOutput {
 /// A rectangle of the screen with the data it shows.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct View {
-    /// The plot, without tick labels.
     pub rect: Rect,
     /// Values at the left and right ends.
     pub x: [f64; 2],
@@ -237,7 +232,6 @@ pub fn ramp(painter: &Painter, rect: Rect, color: &dyn Fn(f32) -> [u8; 3]) {
     }
 }
 
-/// Draws the key of a source, line and marker, across the middle of `rect`.
 pub fn key(painter: &Painter, rect: Rect, entry: &LegendEntry, theme: &Theme) {
     marks::key(painter, rect, entry, theme);
 }

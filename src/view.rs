@@ -53,7 +53,6 @@ pub struct View {
     pub selected: Option<PlotItem>,
     /// True if the selection belongs to a sensor that is not compared: nothing drawn is dimmed for it.
     pub selected_elsewhere: bool,
-    /// Pinned items, labeled A, B, …
     pub pinned: Vec<PlotItem>,
     pub search: String,
     pub maximized: Option<PaneKind>,
@@ -81,7 +80,6 @@ pub struct View {
     pub table_copies: bool,
     pub focus_temperature: bool,
     pub help: HelpView,
-    /// Step of the tour, while it is played.
     pub tour: Option<usize>,
     pub about: bool,
     /// Share of the loci that is drawn, while they draw in.
@@ -107,13 +105,10 @@ pub struct View {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ReportOn {
-    /// The paper's cameras and patches.
     Paper,
-    /// Cameras and patches of this document.
     Document,
 }
 
-/// The part of the view that is saved between runs.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct SavedView {
@@ -124,26 +119,20 @@ pub struct SavedView {
     /// Order and columns of tables, by table.
     pub looks: BTreeMap<String, TableLook>,
     pub metrics: MetricsLook,
-    /// The gray around swatches.
     pub surround: Surround,
     /// True if the diagram fits the data or shows all.
     pub diagram_fit: DiagramFit,
-    /// Arrangement of swatches: rows or charts.
     pub swatch_layout: SwatchLayout,
-    /// Arrangement of camera and reference within a swatch.
     pub swatch_style: SwatchStyle,
-    /// Arrangement of curves: in one plot or one plot per sensor.
     pub spectra_layout: SpectraLayout,
     pub difference_bars: bool,
     /// Nothing moves by itself.
     pub reduced_motion: bool,
     /// The loci are to draw in, as on the first start.
     pub draws_in: bool,
-    /// Groups of the library that are folded.
     pub folded: BTreeSet<String>,
     #[serde(with = "crate::document::paths::list")]
     pub recent: Vec<PathBuf>,
-    /// Viewpoint and arrangement of rendered pictures.
     pub render: RenderLook,
     pub import: ImportMemory,
     pub page: PageLook,
@@ -214,7 +203,6 @@ impl SavedView {
         Self { reduced_motion, draws_in: !reduced_motion, ..Self::default() }
     }
 
-    /// True if a choice is made.
     pub fn has(&self, choice: ViewChoice) -> bool {
         match choice {
             ViewChoice::Diagram(to) => self.diagram_fit == to,
@@ -229,7 +217,6 @@ impl SavedView {
 /// A message at the foot of the window.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Status {
-    /// Message text; empty for the default hint.
     pub text: String,
     pub weight: Weight,
     /// Import item and line that `[Change]` or `[Show line]` opens.
@@ -266,7 +253,6 @@ impl Status {
 pub enum Weight {
     #[default]
     Note,
-    /// Warning that the user should check.
     Warning,
     /// Something failed; nothing was changed.
     Error,
@@ -279,7 +265,6 @@ impl View {
         self.status.offers = offers;
     }
 
-    /// What a pane's figure takes from the view.
     pub fn look(&self, pane: PaneKind) -> FigureLook {
         let saved = &self.saved;
         FigureLook {
@@ -309,7 +294,6 @@ impl View {
         }
     }
 
-    /// Makes a choice of how plots and pictures stand.
     pub fn choose(&mut self, choice: ViewChoice) {
         let saved = &mut self.saved;
         match choice {
@@ -417,13 +401,11 @@ impl View {
         }
     }
 
-    /// Returns the emphasis of a figure's tagged mark.
     pub fn emphasis_of(&self, things: &PickIndex, tag: Tag, reference: &str) -> Emphasis {
         things.get(tag).map_or(Emphasis::Normal, |thing| self.emphasis(thing, reference))
     }
 }
 
-/// The text that is typed, and the highlighted line.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct PickState {
     pub text: String,

@@ -11,7 +11,6 @@ use crate::view::Status;
 use crate::view::import::ImportItem;
 
 impl ChromascopeApp {
-    /// Changes the document; the selection in Import follows sets to their new names.
     pub(super) fn change(&mut self, action: &Action) {
         self.step(|history| history.apply(action));
     }

@@ -228,7 +228,6 @@ impl ChromascopeApp {
         }
     }
 
-    /// True if a narrow window has no room for the library.
     fn library_left_out(&self) -> bool {
         self.arrangement.narrow && self.view.saved.workspace.keeps_right_column()
     }

@@ -9,14 +9,12 @@ use crate::format::file_name;
 use crate::workspaces::Workspace;
 
 impl ChromascopeApp {
-    /// Begins to read the header of a spectral image. The document stays as it is until that is done.
     pub(super) fn open_image(&mut self, path: &Path) {
         self.meshes.cancel();
         self.images.open(path);
         self.view.say(format!("Reading {}…", file_name(path)));
     }
 
-    /// Shows spectral images whose headers were read.
     pub(super) fn take_images(&mut self) {
         for opened in self.images.poll() {
             match opened.result {
@@ -43,7 +41,6 @@ impl ChromascopeApp {
         self.view.say(message);
     }
 
-    /// Begins to read a mesh. The document stays as it is until that is done.
     pub(super) fn open_mesh(&mut self, path: &Path) {
         let before = self.meshes.opening().filter(|before| before != path);
         self.images.cancel();

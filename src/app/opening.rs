@@ -58,7 +58,6 @@ impl Reread {
 }
 
 impl ChromascopeApp {
-    /// Begins to read. The document stays as it is until that is done.
     pub(super) fn open(&mut self, requests: Vec<Request>) {
         self.end_tour();
         let memory = self.view.saved.import.clone();
@@ -77,7 +76,6 @@ impl ChromascopeApp {
         self.open(paths.into_iter().map(Request::Path).collect());
     }
 
-    /// Files dropped on the window in one gesture.
     pub(super) fn take_dropped(&mut self, ctx: &egui::Context) {
         let dropped = ctx.input(|input| input.raw.dropped_files.clone());
         if dropped.is_empty() {
@@ -342,7 +340,6 @@ impl ChromascopeApp {
         }
     }
 
-    /// An item's file and how it is to be read.
     fn file_and_overrides(&self, item: &ImportItem) -> Option<(OpenFile, ImportOverrides)> {
         let pending = self.view.import.pending(item).cloned();
         match item {

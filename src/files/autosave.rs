@@ -216,7 +216,6 @@ impl Autosave {
         self.shared.lock().is_clean()
     }
 
-    /// The file in which the document is saved because another program wrote to the one before.
     pub(super) fn moved(&self) -> Option<PathBuf> {
         self.shared.lock().moved.clone()
     }

@@ -12,7 +12,6 @@ use crate::theme::{self, Theme};
 /// Distance of the ring around a chosen point from its marker.
 const RING: f32 = 5.0;
 
-/// Context in which a mark is drawn.
 struct Brush<'a> {
     painter: &'a Painter,
     view: &'a View,
@@ -204,7 +203,6 @@ impl Brush<'_> {
     }
 }
 
-/// The part of a straight line inside a rectangle.
 fn clipped(a: Pos2, b: Pos2, rect: Rect) -> Option<[Pos2; 2]> {
     let [a, b, min, max] = [a, b, rect.min, rect.max].map(|at| [f64::from(at.x), f64::from(at.y)]);
     let ends = clip_segment(chromascope_figure::Rect { min, max }, [a, b])?;
@@ -248,7 +246,6 @@ pub(super) fn key(painter: &Painter, rect: Rect, entry: &LegendEntry, theme: &Th
     }
 }
 
-/// Layout of a line of text.
 #[derive(Clone, Copy)]
 pub(super) struct TextStyle {
     pub(super) anchor: Anchor,

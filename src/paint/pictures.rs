@@ -19,7 +19,6 @@ struct Entry {
     used: u64,
 }
 
-/// Picture to be drawn, and its area.
 #[derive(Clone, Copy, Debug)]
 pub struct PictureQuery<'a> {
     pub name: &'a str,

@@ -20,7 +20,6 @@ const SETTINGS: f32 = 300.0;
 /// Panes whose figures follow from the document alone. The others ask for work in the background while they are shown.
 const OF_DOCUMENT: [PaneKind; 3] = [PaneKind::CHROMATICITY, PaneKind::SWATCHES, PaneKind::SPECTRA];
 
-/// Shows the page of a pane in its rectangle.
 pub fn show(ui: &mut Ui, rect: Rect, kind: PaneKind, context: &mut PaneContext<'_>) {
     let pressed = |input: &egui::InputState| {
         input.pointer.any_pressed() && input.pointer.interact_pos().is_some_and(|at| rect.contains(at))
@@ -79,7 +78,6 @@ fn small(words: impl Into<String>, context: &PaneContext<'_>) -> RichText {
     RichText::new(words).small().color(context.theme.weak)
 }
 
-/// The figure made last.
 #[derive(Default)]
 struct LastPage(Option<MadeFigure>);
 

@@ -15,14 +15,7 @@ use crate::theme::UNIT;
 use crate::view::table::Sorting;
 use crate::workspaces::PaneKind;
 
-pub const PANE: Pane = Pane {
-    kind: PaneKind::HEAD_TO_HEAD,
-    title: "Head to head",
-    show,
-    figure: Some(&figure::KIND),
-    under_conditions: true,
-    table: false,
-};
+pub const PANE: Pane = Pane::new(PaneKind::HEAD_TO_HEAD, "Head to head", show).figure(&figure::KIND).under_conditions();
 
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let body = widgets::body(ui, &PANE, rect, context, |_, _| {});

@@ -27,14 +27,7 @@ const CONTENT: &str = "Decided by content";
 /// First entry where room is short.
 const CONTENT_SHORT: &str = "By content";
 
-pub const PANE: Pane = Pane {
-    kind: PaneKind::INTERPRETATION,
-    title: "Interpretation",
-    show,
-    figure: None,
-    under_conditions: false,
-    table: false,
-};
+pub const PANE: Pane = Pane::new(PaneKind::INTERPRETATION, "Interpretation", show);
 
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let body = widgets::pane(ui, &PANE, rect, context, notes::button);

@@ -17,8 +17,7 @@ use crate::workspaces::PaneKind;
 /// Share of the pane's height for the compared sensors, and the least and most rows of it.
 const COMPARED: (f32, [f32; 2]) = (0.36, [3.0, 8.0]);
 
-pub const PANE: Pane =
-    Pane { kind: PaneKind::LIBRARY, title: "Library", show, figure: None, under_conditions: false, table: false };
+pub const PANE: Pane = Pane::new(PaneKind::LIBRARY, "Library", show);
 
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     ui.painter().rect_filled(rect, 0.0, context.theme.panel);

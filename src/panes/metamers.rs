@@ -15,14 +15,7 @@ use crate::scene::metrics::{FoundMetamers, MetamerRow};
 use crate::theme::UNIT;
 use crate::workspaces::PaneKind;
 
-pub const PANE: Pane = Pane {
-    kind: PaneKind::new("Metamers"),
-    title: "Metamers",
-    show,
-    figure: None,
-    under_conditions: true,
-    table: false,
-};
+pub const PANE: Pane = Pane::new(PaneKind::new("Metamers"), "Metamers", show).under_conditions();
 
 /// The pair that was clicked, as a row.
 #[derive(Default)]

@@ -27,14 +27,7 @@ const MARKS: &str = "Filled markers, joined by the dashed line: no other method 
 const BENCH: &str = "The program's methods on standard inputs, independent of the scene, against reference values \
                      computed by another method or with twice the digits. Point at a marker for its values.";
 
-pub const PANE: Pane = Pane {
-    kind: PaneKind::METHODS,
-    title: "Methods",
-    show,
-    figure: Some(&accuracy::KIND),
-    under_conditions: false,
-    table: true,
-};
+pub const PANE: Pane = Pane::new(PaneKind::METHODS, "Methods", show).figure(&accuracy::KIND).table();
 
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     refresh(context);
@@ -49,7 +42,6 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     }
 }
 
-/// Applies the measurements finished since the last frame.
 fn refresh(context: &mut PaneContext<'_>) {
     let own = context.meshes.chosen(&context.scene.document.render.mesh);
     let scene = SceneRunJob::of(&context.scene, own.as_ref(), context.view.saved.render.orbit);

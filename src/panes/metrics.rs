@@ -23,14 +23,7 @@ use crate::workspaces::PaneKind;
 /// Columns of differences that the table starts with; all other groups are shown whole.
 const SHOWN: [&str; 5] = ["delta-e2000-mean", "delta-e2000-p95", "delta-e2000-max", "uv-prime-mean", "xy-mean"];
 
-pub const PANE: Pane = Pane {
-    kind: PaneKind::METRICS,
-    title: "Metrics",
-    show,
-    figure: Some(&metrics::KIND),
-    under_conditions: true,
-    table: false,
-};
+pub const PANE: Pane = Pane::new(PaneKind::METRICS, "Metrics", show).figure(&metrics::KIND).under_conditions();
 
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let body = widgets::body(ui, &PANE, rect, context, switches);

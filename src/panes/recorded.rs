@@ -33,14 +33,8 @@ const ABOUT: &str = "Raw RGB that a camera recorded of known patches, against th
     table with columns patch, R, G, B (of the chart and light chosen above, or with spectra in further columns), or a linear 16-bit TIFF \
     or PNG of a 6 × 4 chart.";
 
-pub const PANE: Pane = Pane {
-    kind: PaneKind::RECORDED,
-    title: "Recorded",
-    show,
-    figure: Some(&recorded::KIND),
-    under_conditions: true,
-    table: true,
-};
+pub const PANE: Pane =
+    Pane::new(PaneKind::RECORDED, "Recorded", show).figure(&recorded::KIND).under_conditions().table();
 
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let body = widgets::body(ui, &PANE, rect, context, switches);

@@ -21,14 +21,8 @@ use crate::view::render::{PixelPlace, RenderMode};
 use crate::workspaces::PaneKind;
 use cells::PictureLayout;
 
-pub const PANE: Pane = Pane {
-    kind: PaneKind::RENDER,
-    title: "Render",
-    show,
-    figure: Some(&figures::render::KIND),
-    under_conditions: true,
-    table: true,
-};
+pub const PANE: Pane =
+    Pane::new(PaneKind::RENDER, "Render", show).figure(&figures::render::KIND).under_conditions().table();
 
 #[derive(Default)]
 struct RenderPane {

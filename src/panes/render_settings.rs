@@ -34,14 +34,7 @@ const SLIDER: f32 = 24.0;
 /// In a lower pane they are a group among the others.
 const WITH_PIXEL: f32 = 480.0;
 
-pub const PANE: Pane = Pane {
-    kind: PaneKind::RENDER_SETTINGS,
-    title: "Render settings",
-    show,
-    figure: None,
-    under_conditions: false,
-    table: false,
-};
+pub const PANE: Pane = Pane::new(PaneKind::RENDER_SETTINGS, "Render settings", show);
 
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let body = widgets::pane(ui, &PANE, rect, context, |_, _| {});
@@ -76,7 +69,6 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     }
 }
 
-/// A group that folds.
 fn group(ui: &mut Ui, words: &str, context: &mut PaneContext<'_>, content: impl FnOnce(&mut Ui, &mut PaneContext<'_>)) {
     CollapsingHeader::new(words).id_salt(words).default_open(true).show(ui, |ui| content(ui, context));
 }
@@ -101,7 +93,6 @@ fn controls(ui: &mut Ui, group: &str, context: &mut PaneContext<'_>) {
     }
 }
 
-/// The control of a setting.
 fn control(ui: &mut Ui, setting: &Setting<RenderSettings>, settings: &RenderSettings, context: &mut PaneContext<'_>) {
     let (name, hint) = (setting.name, setting.help);
     let is_enabled = (setting.idle)(settings).is_none();
@@ -156,7 +147,6 @@ fn control(ui: &mut Ui, setting: &Setting<RenderSettings>, settings: &RenderSett
     }
 }
 
-/// A number that is typed or dragged.
 fn field<D>(ui: &mut Ui, [name, hint]: [&str; 2], number: &Number<D>, settings: &mut D) {
     let now = (number.get)(settings);
     let mut value = now;
@@ -202,7 +192,6 @@ fn choice<D>(
     }
 }
 
-/// A small caption above a control.
 fn caption(ui: &mut Ui, words: &str, context: &PaneContext<'_>) {
     line(ui, words, words, context.theme.weak);
 }
@@ -295,7 +284,6 @@ fn list(
     pick_list::drop_down(ui, (name, hint), shown, width, &context.theme, lines)
 }
 
-/// A value as it is shown: three digits.
 fn short(value: f64) -> String {
     crate::format::number(short_value(value))
 }

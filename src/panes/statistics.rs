@@ -29,8 +29,7 @@ const STAGES: [(&str, &str); 14] = [
     ("patch colors", "patches"),
 ];
 
-pub const PANE: Pane =
-    Pane { kind: PaneKind::STATISTICS, title: "Statistics", show, figure: None, under_conditions: false, table: false };
+pub const PANE: Pane = Pane::new(PaneKind::STATISTICS, "Statistics", show);
 
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     widgets::scrolling_pane(ui, &PANE, rect, context, |ui, context| {

@@ -138,7 +138,6 @@ enum Press {
     Take(Vec<Offer>),
 }
 
-/// Buttons of a message: its offers, and where it leads.
 fn buttons(status: &Status) -> Vec<LineButton> {
     const LEAVES: &str = "Enter does it, Esc leaves it: until then nothing changes";
     let offers = match status.offers.as_slice() {

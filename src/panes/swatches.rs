@@ -14,14 +14,8 @@ use crate::workspaces::PaneKind;
 
 const FOOTER: f32 = 24.0;
 
-pub const PANE: Pane = Pane {
-    kind: PaneKind::SWATCHES,
-    title: "Swatches",
-    show,
-    figure: Some(&swatches::KIND),
-    under_conditions: true,
-    table: true,
-};
+pub const PANE: Pane =
+    Pane::new(PaneKind::SWATCHES, "Swatches", show).figure(&swatches::KIND).under_conditions().table();
 
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let body = widgets::body(ui, &PANE, rect, context, switches);

@@ -4,6 +4,5 @@ pub use crate::figures::look::Shows;
 
 #[derive(Clone, Debug, Default)]
 pub struct AccuracyView {
-    /// Selected measurement.
     pub shows: Shows,
 }

@@ -10,9 +10,7 @@ pub use crate::scene::metrics::RankedCameras;
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct MetricsLook {
-    /// Cameras that are ranked.
     pub cameras: RankedCameras,
-    /// Metamers that are searched for.
     pub confusion: Confuses,
     /// The two cameras of Head to head; `None` for the selected one and the first compared one.
     #[serde(skip)]
@@ -33,7 +31,6 @@ choices! {
 }
 
 impl Confuses {
-    /// Converts to the metamer search's type.
     pub const fn confusion(self) -> Confusion {
         match self {
             Self::Camera => Confusion::Camera,

@@ -6,12 +6,10 @@ use serde::{Deserialize, Serialize};
 use crate::export::Paper;
 use crate::workspaces::PaneKind;
 
-/// Settings of figures on paper, saved between runs.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct PageLook {
     pub paper: Paper,
-    /// Size of the page on screen.
     pub zoom: PageZoom,
     pub unit: LengthUnit,
 }
@@ -24,7 +22,6 @@ impl Default for PageLook {
 }
 
 choices! {
-    /// Size of a page on screen.
     #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
     pub enum PageZoom {
         #[default]

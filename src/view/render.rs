@@ -6,11 +6,9 @@ pub use crate::figures::look::{PixelPlace, RenderMode};
 use crate::plot_item::SensorId;
 pub use crate::scene::orbit::Orbit;
 
-/// The part that is saved between runs.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct RenderLook {
-    /// Arrangement of pictures.
     pub mode: RenderMode,
     /// Viewpoint; `None` for the mesh's own.
     pub orbit: Option<Orbit>,

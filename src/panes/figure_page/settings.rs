@@ -15,13 +15,10 @@ use crate::theme::{ROW, UNIT};
 use crate::view::page::{LengthUnit, PageLook};
 use crate::workspaces::PaneKind;
 
-/// Width of names before controls.
 const NAMES: f32 = 72.0;
-/// Widths of a journal's columns.
 const WIDTHS: [(f64, &str); 2] =
     [(Paper::ONE_COLUMN_MM, "One column, 85 mm"), (Paper::TWO_COLUMNS_MM, "Two columns, 174 mm")];
 
-/// Shows the settings in a rectangle.
 pub(super) fn show(
     ui: &mut Ui,
     rect: Rect,
@@ -168,7 +165,6 @@ fn in_words(facts: &PageFacts, paper: &Paper) -> String {
     format!("{}.{own_height}{apart}", measures.join(", "))
 }
 
-/// A control behind its name.
 fn row<R>(ui: &mut Ui, name: &str, context: &PaneContext<'_>, control: impl FnOnce(&mut Ui) -> R) -> R {
     ui.horizontal(|ui| {
         let (place, _) = ui.allocate_exact_size(egui::vec2(NAMES, ROW), egui::Sense::hover());
@@ -178,7 +174,6 @@ fn row<R>(ui: &mut Ui, name: &str, context: &PaneContext<'_>, control: impl FnOn
     .inner
 }
 
-/// A switch or a list behind its name.
 fn choice(ui: &mut Ui, setting: &Setting<Paper>, pick: &Pick<Paper>, paper: &mut Paper, context: &PaneContext<'_>) {
     let (all, now) = ((pick.all)(), (pick.get)(paper));
     let chosen = if pick.look == Look::List {
@@ -194,7 +189,6 @@ fn choice(ui: &mut Ui, setting: &Setting<Paper>, pick: &Pick<Paper>, paper: &mut
     }
 }
 
-/// A list that drops down, behind its name. Returns the control, and the line that was chosen.
 fn drop_down(
     ui: &mut Ui,
     words: (&str, &str),
@@ -208,7 +202,6 @@ fn drop_down(
     })
 }
 
-/// The field of a length, behind its name. Returns true if it was changed.
 fn length(ui: &mut Ui, name: &str, mm: &mut f64, unit: LengthUnit) -> bool {
     let (mut value, [low, high]) = (*mm / unit.mm(), Paper::SIDE_MM.map(|mm| mm / unit.mm()));
     let (speed, decimals) = if unit == LengthUnit::Inch { (0.01, 2) } else { (0.5, 1) };
@@ -227,7 +220,6 @@ fn length(ui: &mut Ui, name: &str, mm: &mut f64, unit: LengthUnit) -> bool {
     changed
 }
 
-/// The field of a number, behind its name.
 fn number(ui: &mut Ui, setting: &Setting<Paper>, number: &Number<Paper>, paper: &mut Paper) {
     let mut value = (number.get)(paper);
     let [low, high] = number.slider;
@@ -244,7 +236,6 @@ fn number(ui: &mut Ui, setting: &Setting<Paper>, number: &Number<Paper>, paper: 
     }
 }
 
-/// A number with two decimals at most.
 fn short(value: f64) -> String {
     format!("{}", (100.0 * value).round() / 100.0)
 }

@@ -25,7 +25,6 @@ pub(super) enum State {
 }
 
 impl State {
-    /// All of them, in the order of a legend.
     pub(super) const ALL: [Self; 6] = [Self::Certain, Self::Seen, Self::Unseen, Self::Open, Self::Unused, Self::Failed];
 
     /// Description for tooltips and screen readers.

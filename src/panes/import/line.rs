@@ -19,7 +19,6 @@ pub(super) struct Pen<'a> {
     pub(super) theme: &'a Theme,
     pub(super) understood: bool,
     pub(super) hovered: Option<usize>,
-    /// Flags for the imported curves, by index in the file.
     pub(super) taken: &'a [bool],
 }
 

@@ -56,7 +56,6 @@ const SCALES: [Answer; 2] = [
 /// Reflectances pass one by noise and fluorescence.
 const LARGEST_FRACTION: f64 = 1.2;
 
-/// Open question about the visible file, and the answers.
 fn question(table: &SpectralFile) -> Option<(&str, &'static [Answer])> {
     let open = |certainty| certainty == Certainty::Open;
     match (&table.role, &table.reading.values) {

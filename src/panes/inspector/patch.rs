@@ -122,7 +122,6 @@ fn difference(ui: &mut Ui, id: &SensorId, patch: &str, context: &PaneContext<'_>
     }
 }
 
-/// Rank of a difference among all of its sensor, from the largest.
 pub(super) fn rank(value: f64, all: &[Result<f64, DifferenceError>]) -> Option<String> {
     let known: Vec<f64> = all.iter().filter_map(|d| d.ok()).collect();
     if known.len() < 2 {

@@ -86,7 +86,6 @@ fn name(scene: &Scene<'_>, thing: &PlotItem) -> String {
     }
 }
 
-/// Pinned pixel, if pictures are visible.
 pub(super) fn pinned_pixel<'a>(context: &'a PaneContext<'_>) -> Option<&'a PixelPlace> {
     let (saved, render) = (&context.view.saved, &context.view.render);
     render.pinned.as_ref().filter(|_| saved.layout.shows(saved.workspace, PaneKind::RENDER))

@@ -6,7 +6,6 @@ fn first_switch() -> Id {
     Id::unique("keyboard to the first switch")
 }
 
-/// Has the first switch that is shown take the keyboard.
 pub(super) fn to_first(ui: &Ui) {
     ui.data_mut(|data| data.insert_temp(first_switch(), true));
 }

@@ -167,7 +167,6 @@ fn menu(ui: &mut Ui, source: &ComparedSensor, context: &mut PaneContext<'_>) {
     }
 }
 
-/// An entry of the menu. Returns whether it was chosen.
 fn offer(ui: &mut Ui, words: &str, enabled: bool) -> bool {
     let clicked = ui.add_enabled(enabled, egui::Button::new(words).frame_when_inactive(false)).clicked();
     if clicked {

@@ -13,7 +13,6 @@ const SCALE: f32 = 40.0;
 
 #[derive(Clone, Copy, Debug)]
 pub(super) struct PictureSlot {
-    /// Its sensor's index among those requested.
     pub(super) source: usize,
     pub(super) caption: Rect,
     pub(super) picture: Rect,
@@ -25,7 +24,6 @@ pub(super) struct PictureLayout {
     pub(super) sources: Vec<ComparedSensor>,
     /// The pictures; the two halves of a split one share their place.
     pub(super) cells: Vec<PictureSlot>,
-    /// Position of the divider of a split picture.
     pub(super) divider: Option<f32>,
     pub(super) scale: Option<Rect>,
     pub(super) pixels: [u32; 2],

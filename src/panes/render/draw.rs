@@ -160,7 +160,6 @@ fn marker(painter: &Painter, rect: Rect, source: &ComparedSensor, context: &Pane
     paint::still(painter, &panel, &context.theme, rect);
 }
 
-/// The ring around the pinned pixel, in every picture.
 fn ring(painter: &Painter, layout: &PictureLayout, cell: usize, context: &PaneContext<'_>) {
     let Some(pinned) = &context.view.render.pinned else { return };
     let picture = layout.cells[cell].picture;

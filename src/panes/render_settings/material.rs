@@ -9,12 +9,9 @@ use crate::panes::context::PaneContext;
 use crate::panes::widgets::facts;
 use crate::panes::widgets::pick_list::{self, Line};
 
-/// Part of a mesh that has a material.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Part {
-    /// All but the garment.
     Skin,
-    /// The head's garment.
     Garment,
 }
 

@@ -15,7 +15,6 @@ use crate::theme::UNIT;
 use crate::view::render::PixelPlace;
 use crate::workspaces::PaneKind;
 
-/// Shows the group.
 pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
     ui.spacing_mut().item_spacing.y = 0.5 * UNIT;
     ui.spacing_mut().interact_size.y = 14.0;

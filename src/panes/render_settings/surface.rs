@@ -10,7 +10,6 @@ use crate::document::render::{LEAF, RenderSettings, SKIN};
 use crate::figures::render::returned;
 use crate::panes::context::PaneContext;
 
-/// Shows the group.
 pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let settings = context.scene.document.render.clone();
     ui.add_enabled_ui(!settings.mesh.is_image(), |ui| presets(ui, context));
@@ -29,7 +28,6 @@ fn returned_light(ui: &mut Ui, settings: &RenderSettings, context: &PaneContext<
     line(ui, &text, &format!("{text}. {}", returned::meaning(settings.normalization)), color);
 }
 
-/// Surfaces to begin with.
 fn presets(ui: &mut Ui, context: &mut PaneContext<'_>) {
     ui.horizontal(|ui| {
         let rough = RenderSettings::default();

@@ -10,10 +10,8 @@ use crate::panes::context::PaneContext;
 use crate::panes::widgets;
 use crate::scene::orbit::Orbit;
 
-/// The lens's field of view.
 const FIELD: Number<Orbit> = Number { unit: "°", slider: [2.0, 120.0], ..Number::DEFAULT };
 
-/// Shows the group.
 pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
     controls(ui, VIEW, context);
     let is_image = context.scene.document.render.mesh.is_image();

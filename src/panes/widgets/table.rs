@@ -26,7 +26,6 @@ const LINE: f32 = 20.0;
 const COMPACT_LINE: f32 = 15.0;
 const HEAD_LINE: f32 = 15.0;
 
-/// A table as it is shown.
 pub struct DataTable<'a> {
     pane: PaneKind,
     id: &'a str,
@@ -40,7 +39,6 @@ pub struct DataTable<'a> {
 /// User actions on a table in a frame; rows are counted in the given order.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct TableOutput {
-    /// Row that was clicked.
     pub clicked: Option<usize>,
     /// Row that was clicked twice, or on which Enter was pressed.
     pub activated: Option<usize>,
