@@ -1,6 +1,5 @@
 //! View state: selection, panes and layout. Not part of the document, and not undoable.
 
-pub mod accuracy;
 pub mod correction;
 pub mod help;
 pub mod import;
@@ -23,19 +22,18 @@ use crate::document::{Compared, SetKind};
 use crate::figures::chromaticity::shown::DiagramView;
 pub use crate::figures::chromaticity::shown::{DiagramFit, Ranges};
 use crate::figures::look::FigureLook;
-pub use crate::figures::look::{SpectraLayout, SwatchLayout, SwatchStyle};
+pub use crate::figures::look::{Shows, SpectraLayout, SwatchLayout, SwatchStyle};
 use crate::figures::metrics::TABLE;
 use crate::paint::Emphasis;
 use crate::plot_item::{PickIndex, PlotItem, Relation, SensorId};
 use crate::theme::Surround;
 use crate::workspaces::{Layout, PaneKind, Workspace};
-use accuracy::AccuracyView;
 use chromascope_figure::Tag;
 use correction::CorrectionView;
 use help::HelpView;
 use import::{ImportItem, ImportMemory, ImportView};
 use metrics::MetricsLook;
-use page::{PageLook, PageView};
+use page::PageLook;
 use recorded::RecordedView;
 use render::{RenderLook, RenderMode, RenderView};
 use table::TableLook;
@@ -66,9 +64,10 @@ pub struct View {
     pub import: ImportView,
     pub render: RenderView,
     pub correction: CorrectionView,
-    pub accuracy: AccuracyView,
+    pub shows: Shows,
     pub recorded: RecordedView,
-    pub page: PageView,
+    /// The pane that is shown as a page; `None` while panes are shown.
+    pub page: Option<PaneKind>,
     /// Plots show their own ranges again in this frame.
     pub reset_plots: bool,
     /// True while B is held: the reference replaces every camera.
@@ -204,12 +203,18 @@ impl SavedView {
     }
 
     pub fn has(&self, choice: ViewChoice) -> bool {
+        let mut chosen = self.clone();
+        chosen.choose(choice);
+        chosen == *self
+    }
+
+    fn choose(&mut self, choice: ViewChoice) {
         match choice {
-            ViewChoice::Diagram(to) => self.diagram_fit == to,
-            ViewChoice::Swatches(to) => self.swatch_layout == to,
-            ViewChoice::SwatchStyle(to) => self.swatch_style == to,
-            ViewChoice::Spectra(to) => self.spectra_layout == to,
-            ViewChoice::Pictures(to) => self.render.mode == to,
+            ViewChoice::Diagram(to) => self.diagram_fit = to,
+            ViewChoice::Swatches(to) => self.swatch_layout = to,
+            ViewChoice::SwatchStyle(to) => self.swatch_style = to,
+            ViewChoice::Spectra(to) => self.spectra_layout = to,
+            ViewChoice::Pictures(to) => self.render.mode = to,
         }
     }
 }
@@ -234,19 +239,6 @@ pub struct Status {
 pub enum Offer {
     Use(SetKind, String),
     Open(PathBuf),
-}
-
-impl Status {
-    /// The message, unless it leads to an item.
-    fn leads_to(&self, item: &ImportItem) -> bool {
-        self.change.as_ref().is_some_and(|(led, _)| led == item)
-    }
-
-    /// Nothing, if the message only leads to an item; else the message.
-    #[must_use]
-    pub fn without(self, item: &ImportItem) -> Self {
-        if self.leads_to(item) { Self::default() } else { self }
-    }
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
@@ -287,7 +279,7 @@ impl View {
             pair: saved.metrics.pair.clone(),
             card: saved.metrics.card.clone(),
             residuals_of: self.recorded.camera.clone(),
-            shows: self.accuracy.shows,
+            shows: self.shows,
             correction: self.correction.shown.clone(),
             recorded: self.recorded.ranked.clone(),
             ..FigureLook::default()
@@ -295,23 +287,14 @@ impl View {
     }
 
     pub fn choose(&mut self, choice: ViewChoice) {
-        let saved = &mut self.saved;
-        match choice {
-            ViewChoice::Diagram(to) => {
-                saved.diagram_fit = to;
-                self.reset_plots = true;
-            }
-            ViewChoice::Swatches(to) => saved.swatch_layout = to,
-            ViewChoice::SwatchStyle(to) => saved.swatch_style = to,
-            ViewChoice::Spectra(to) => saved.spectra_layout = to,
-            ViewChoice::Pictures(to) => saved.render.mode = to,
-        }
+        self.reset_plots |= matches!(choice, ViewChoice::Diagram(_));
+        self.saved.choose(choice);
     }
 
     /// The pane that keys and menus mean: the one with the keyboard, else the first of the workspace.
     pub fn keyed(&self) -> PaneKind {
         let first = self.saved.layout.places(self.saved.workspace).iter().flatten().next().copied();
-        self.page.open.or(self.focused).or(first).unwrap_or(PaneKind::CHROMATICITY)
+        self.page.or(self.focused).or(first).unwrap_or(PaneKind::CHROMATICITY)
     }
 
     /// The pane whose figure a key or menu means: the wanted one if it has figures, else the first in the workspace that has.

@@ -20,7 +20,7 @@ use crate::profiler::{Profiler, SceneRunJob};
 use crate::scene::Scene;
 use crate::view::PickState;
 use crate::view::SavedView;
-use crate::view::accuracy::Shows;
+use crate::view::Shows;
 use crate::view::import::Stop;
 use crate::view::render::RenderMode;
 use crate::workspaces::{Layout, PaneKind, Workspace};
@@ -60,7 +60,7 @@ impl ChromascopeApp {
     fn carry_out_one(&mut self, ctx: &egui::Context, command: Command) {
         let is_library = matches!(command, Command::FocusSearch | Command::TogglePane(PaneKind::LIBRARY));
         if command.shows_panes() || (is_library && self.arrangement.narrow) {
-            self.view.page.open = None;
+            self.view.page = None;
         }
         match command {
             Command::Do(action) => {
@@ -297,7 +297,7 @@ impl ChromascopeApp {
         if view.palette.take().is_some() || view.help.escape() || std::mem::take(&mut view.about) {
             return;
         }
-        if view.page.open.take().is_some() || std::mem::take(&mut view.inspector_over) {
+        if view.page.take().is_some() || std::mem::take(&mut view.inspector_over) {
             return;
         }
         if rendering && self.render_service.is_waiting() && !view.render.cancelled {
@@ -333,8 +333,8 @@ impl ChromascopeApp {
         let own = self.meshes.chosen(&document.render.mesh);
         Profiler::run(&self.later, SceneRunJob::of(&scene, own.as_ref(), self.view.saved.render.orbit));
         self.view.saved.workspace = Workspace::Numerics;
-        if matches!(self.view.accuracy.shows, Shows::Bench(_)) {
-            self.view.accuracy.shows = Shows::default();
+        if matches!(self.view.shows, Shows::Bench(_)) {
+            self.view.shows = Shows::default();
         }
     }
 
@@ -408,8 +408,8 @@ impl ChromascopeApp {
 
     /// Shows a pane as the printed page, or goes back to where the page was opened.
     fn figure_page(&mut self, ctx: &egui::Context, pane: PaneKind) {
-        if self.view.page.open.take().is_none() && self.printed(pane).is_some() {
-            self.view.page.open = Some(pane);
+        if self.view.page.take().is_none() && self.printed(pane).is_some() {
+            self.view.page = Some(pane);
             self.view.say(format!("{} as it is printed. Esc goes back.", panes::title(pane)));
         }
         ctx.memory_mut(|memory| memory.focused().map(|id| memory.surrender_focus(id)));
@@ -456,7 +456,7 @@ impl ChromascopeApp {
 
     fn file_stem(&self, pane: PaneKind) -> String {
         let title = panes::title(pane).to_lowercase();
-        match (pane, self.view.accuracy.shows) {
+        match (pane, self.view.shows) {
             (PaneKind::METHODS, Shows::Bench(workload)) => workload.name().to_owned(),
             (PaneKind::METHODS, Shows::Scene(subject)) => format!("{title}-{}", subject.title().to_lowercase()),
             _ => title,

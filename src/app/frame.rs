@@ -57,7 +57,7 @@ impl ChromascopeApp {
             }
         }
         let saved = &context.view.saved;
-        let page = context.view.page.open;
+        let page = context.view.page;
         self.arrangement = match page {
             Some(pane) => arrange_page(pane, &saved.layout, area, self.arrangement.narrow),
             None => arrange(

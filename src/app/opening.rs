@@ -269,7 +269,9 @@ impl ChromascopeApp {
 
     pub(super) fn show_import(&mut self, item: ImportItem, line: Option<usize>) {
         // What the message was about is on show from now on.
-        self.view.status = std::mem::take(&mut self.view.status).without(&item);
+        if self.view.status.change.as_ref().is_some_and(|(led, _)| *led == item) {
+            self.view.status = Status::default();
+        }
         self.view.import.select(item);
         self.view.import.line = line;
         self.view.saved.workspace = Workspace::Import;

@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use egui::{Align2, Context, Key, RichText, TextEdit, Ui, Vec2, ViewportCommand, Window};
+use egui::{Align2, Context, Key, RichText, TextEdit, Ui, Vec2, ViewportCommand};
 
 use super::ChromascopeApp;
 use crate::action::history::History;
@@ -13,7 +13,7 @@ use crate::command::{Command, SessionCommand};
 use crate::document::imported::Fingerprint;
 use crate::document::{Document, SessionFile, session};
 use crate::files::{DocumentSource, FileForm, MakeBytes, OpenedDocument, SaveRequest, SavedFile, template_name};
-use crate::panes;
+use crate::panes::{self, widgets};
 use crate::theme::Theme;
 use crate::view::template::{TEMPLATES, Template};
 use crate::view::{Offer, SavedView, Weight};
@@ -428,12 +428,7 @@ fn session_name() -> String {
 }
 
 fn window<R>(ui: &Ui, id: &'static str, title: &str, content: impl FnOnce(&mut Ui) -> Option<R>) -> Option<R> {
-    let window = Window::new(title)
-        .id(egui::Id::unique(id))
-        .collapsible(false)
-        .resizable(false)
-        .anchor(Align2::CENTER_TOP, Vec2::new(0.0, 96.0));
-    let shown = window.show(ui.ctx(), |ui| {
+    let shown = widgets::window(title, id, (Align2::CENTER_TOP, Vec2::new(0.0, 96.0))).show(ui.ctx(), |ui| {
         ui.set_max_width(WIDTH);
         content(ui)
     });

@@ -7,11 +7,12 @@ mod text;
 pub mod tour;
 mod typeset;
 
-use egui::{Align2, Event, Key, Modifiers, Rect, RichText, ScrollArea, TextEdit, Ui, UiBuilder, Vec2, Window};
+use egui::{Align2, Event, Key, Modifiers, Rect, RichText, ScrollArea, TextEdit, Ui, UiBuilder, Vec2};
 
 use super::context::PaneContext;
 use crate::action::history::History;
 use crate::help::{Hit, Page, Target, find, pages, resolve, search, terms};
+use crate::panes::widgets;
 use crate::theme::{ROW, SMALL, UNIT};
 use crate::view::help::HelpView;
 use text::Ink;
@@ -34,14 +35,9 @@ fn window(ui: &Ui, page: &'static Page, context: &mut PaneContext<'_>) {
     let mut open = true;
     let screen = ui.ctx().content_rect();
     let size = Vec2::new(1040.0_f32.min(screen.width() - 48.0), 760.0_f32.min(screen.height() - 96.0));
-    Window::new("Help")
-        .id(egui::Id::unique("help"))
-        .open(&mut open)
-        .collapsible(false)
-        .resizable(false)
-        .anchor(Align2::CENTER_CENTER, Vec2::ZERO)
-        .fixed_size(size)
-        .show(ui.ctx(), |ui| {
+    widgets::window("Help", "help", (Align2::CENTER_CENTER, Vec2::ZERO)).open(&mut open).fixed_size(size).show(
+        ui.ctx(),
+        |ui| {
             let (all, _) = ui.allocate_exact_size(ui.available_size(), egui::Sense::hover());
             let split = all.left() + LIST;
             let mut left = ui.new_child(UiBuilder::new().id_salt("list").max_rect(all.with_max_x(split - 2.0 * UNIT)));
@@ -50,7 +46,8 @@ fn window(ui: &Ui, page: &'static Page, context: &mut PaneContext<'_>) {
             let right = Rect::from_min_max(egui::pos2(split + UNIT, all.top()), all.max);
             let mut right = ui.new_child(UiBuilder::new().id_salt(("page", page.name)).max_rect(right));
             content(&mut right, page, context);
-        });
+        },
+    );
     if !open {
         context.view.help = HelpView::default();
     }

@@ -20,11 +20,7 @@ const COMPARED: (f32, [f32; 2]) = (0.36, [3.0, 8.0]);
 pub const PANE: Pane = Pane::new(PaneKind::LIBRARY, "Library", show);
 
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
-    ui.painter().rect_filled(rect, 0.0, context.theme.panel);
-    if ui.input(|input| input.pointer.any_pressed() && input.pointer.interact_pos().is_some_and(|at| rect.contains(at)))
-    {
-        context.view.focused = Some(PaneKind::LIBRARY);
-    }
+    widgets::ground(ui, PaneKind::LIBRARY, rect, context);
     let inner = rect.shrink2(Vec2::new(2.0 * UNIT, UNIT));
     let mut column = ui.new_child(UiBuilder::new().id_salt("library").max_rect(inner));
     column.set_clip_rect(rect.intersect(ui.clip_rect()));

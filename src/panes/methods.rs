@@ -15,7 +15,7 @@ use crate::panes::widgets::pick_list::{self, Line};
 use crate::profiler::bench::{BUILD, bench};
 use crate::profiler::{Profiler, SceneRunJob, Subject};
 use crate::theme::UNIT;
-use crate::view::accuracy::Shows;
+use crate::view::Shows;
 use crate::workspaces::PaneKind;
 
 const REACH: f32 = 10.0;
@@ -36,7 +36,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
         failed(ui, body, &why, context);
         return;
     }
-    match context.view.accuracy.shows {
+    match context.view.shows {
         Shows::Scene(subject) => scene(ui, body, subject, context),
         Shows::Bench(workload) => benchmark(ui, body, workload, context),
     }
@@ -170,7 +170,7 @@ fn above(
 }
 
 fn switches(ui: &mut Ui, context: &mut PaneContext<'_>) {
-    let now = context.view.accuracy.shows;
+    let now = context.view.shows;
     run(ui, now, context);
     ui.add_space(UNIT);
     let choices = Subject::ALL.map(|subject| (Shows::Scene(subject), subject.title(), subject.words()));
@@ -185,7 +185,7 @@ fn switches(ui: &mut Ui, context: &mut PaneContext<'_>) {
         pick_list::drop_down(ui, hint, words, 96.0, &context.theme, || Workload::ALL.into_iter().map(line).collect());
     chosen = index.and_then(|index| Workload::ALL.into_iter().nth(index)).map(Shows::Bench).or(chosen);
     if let Some(shows) = chosen {
-        context.view.accuracy.shows = shows;
+        context.view.shows = shows;
         ui.ctx().request_repaint();
     }
 }

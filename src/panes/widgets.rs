@@ -48,11 +48,7 @@ pub fn pane(
     context: &mut PaneContext<'_>,
     switches: impl FnOnce(&mut Ui, &mut PaneContext<'_>),
 ) -> Rect {
-    ui.painter().rect_filled(rect, 0.0, context.theme.panel);
-    if ui.input(|input| input.pointer.any_pressed() && input.pointer.interact_pos().is_some_and(|at| rect.contains(at)))
-    {
-        context.view.focused = Some(pane.kind);
-    }
+    ground(ui, pane.kind, rect, context);
     let header = Rect::from_min_size(rect.min, Vec2::new(rect.width(), HEADER)).shrink2(Vec2::new(2.0 * UNIT, UNIT));
     let layout = Layout::left_to_right(Align::Center);
     let mut bar = ui.new_child(UiBuilder::new().id_salt(("header", pane.kind)).max_rect(header).layout(layout));
@@ -69,6 +65,15 @@ pub fn pane(
     let mut buttons = ui.new_child(UiBuilder::new().id_salt(("buttons", pane.kind)).max_rect(right).layout(to_left));
     header_buttons(&mut buttons, pane, context);
     Rect::from_min_max(egui::pos2(rect.left(), rect.top() + HEADER), rect.max)
+}
+
+/// The ground of a pane, which takes the keyboard where it is pressed.
+pub fn ground(ui: &Ui, pane: PaneKind, rect: Rect, context: &mut PaneContext<'_>) {
+    ui.painter().rect_filled(rect, 0.0, context.theme.panel);
+    if ui.input(|input| input.pointer.any_pressed() && input.pointer.interact_pos().is_some_and(|at| rect.contains(at)))
+    {
+        context.view.focused = Some(pane);
+    }
 }
 
 /// A pane's frame and header as [`pane`] draws them. Returns the rectangle below within the usual margins.
@@ -95,6 +100,12 @@ pub fn middle(ui: &mut Ui, salt: impl egui::AsIdSalt, body: Rect, size: Vec2) ->
     let place = Rect::from_center_size(body.center(), Vec2::new(body.width().min(size.x), size.y)).intersect(body);
     let layout = Layout::top_down(Align::Center);
     ui.new_child(UiBuilder::new().id_salt(salt).max_rect(place).layout(layout))
+}
+
+/// A window of a fixed place and size.
+pub fn window<'a>(title: impl egui::IntoAtoms<'a>, id: &'static str, place: (Align2, Vec2)) -> egui::Window<'a> {
+    let window = egui::Window::new(title).id(egui::Id::unique(id));
+    window.collapsible(false).resizable(false).anchor(place.0, place.1)
 }
 
 /// Draws a sentence in the middle of a rectangle.
@@ -424,9 +435,13 @@ pub fn read_at_pointer(response: &Response, lines: &[String]) {
 
 /// Selects all text of a field, so that typing replaces it.
 pub fn mark_all(ui: &Ui, id: egui::Id, text: &str) {
+    mark(ui, id, 0..text.chars().count());
+}
+
+/// Selects a part of the text of a field.
+pub fn mark(ui: &Ui, id: egui::Id, part: std::ops::Range<usize>) {
     use egui::text::{CCursor, CCursorRange};
     let mut state = egui::TextEdit::load_state(ui.ctx(), id).unwrap_or_default();
-    let all = CCursorRange::two(CCursor::new(0), CCursor::new(text.chars().count()));
-    state.cursor.set_char_range(Some(all));
+    state.cursor.set_char_range(Some(CCursorRange::two(CCursor::new(part.start), CCursor::new(part.end))));
     state.store(ui.ctx(), id);
 }

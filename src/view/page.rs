@@ -4,7 +4,6 @@ use chromascope_text::choices;
 use serde::{Deserialize, Serialize};
 
 use crate::export::Paper;
-use crate::workspaces::PaneKind;
 
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
@@ -66,10 +65,4 @@ impl LengthUnit {
             Self::Inch => "in",
         }
     }
-}
-
-#[derive(Debug, Default)]
-pub struct PageView {
-    /// The pane that is shown as a page; `None` while panes are shown.
-    pub open: Option<PaneKind>,
 }

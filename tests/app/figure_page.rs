@@ -38,7 +38,7 @@ fn page_of(pane: PaneKind) -> (Executor, Window) {
 }
 
 fn open(window: &Window) -> Option<PaneKind> {
-    window.state().view().page.open
+    window.state().view().page
 }
 
 #[test]

@@ -1,12 +1,12 @@
 //! The window about the program: a head through two sensors, what the program is, where its model and data come from.
 
-use egui::{Align2, Rect, RichText, Sense, Ui, Vec2, Window};
+use egui::{Align2, Rect, RichText, Sense, Ui, Vec2};
 
 use crate::command::{Command, TourMove};
 use crate::figures::portrait;
 use crate::paint;
 use crate::panes::context::PaneContext;
-use crate::panes::widgets::WHAT_YOU_SEE;
+use crate::panes::widgets::{self, WHAT_YOU_SEE};
 use crate::theme::UNIT;
 
 const PICTURE: Vec2 = Vec2::new(220.0, 240.0);
@@ -17,13 +17,8 @@ pub(super) fn show(ui: &Ui, context: &mut PaneContext<'_>) {
         return;
     }
     let mut open = true;
-    let window = Window::new("About Chromascope")
-        .id(egui::Id::unique("about"))
-        .open(&mut open)
-        .collapsible(false)
-        .resizable(false)
-        .anchor(Align2::CENTER_CENTER, Vec2::ZERO);
-    window.show(ui.ctx(), |ui| {
+    let window = widgets::window("About Chromascope", "about", (Align2::CENTER_CENTER, Vec2::ZERO));
+    window.open(&mut open).show(ui.ctx(), |ui| {
         ui.horizontal_top(|ui| {
             head(ui, context);
             ui.add_space(2.0 * UNIT);

@@ -3,13 +3,16 @@
 mod found;
 mod settings;
 
-use egui::{Align2, Id, Ui, Vec2, Window};
+use egui::{Align2, Id, Ui, Vec2};
 
 use crate::action::history::History;
 use crate::catalog::names::ranked;
 use crate::command::Command;
 use crate::panes::PaneContext;
-use crate::panes::widgets::pick_list::{Line, PickList};
+use crate::panes::widgets::{
+    self,
+    pick_list::{Line, PickList},
+};
 
 /// Group of places in the help, which stands last.
 const IN_HELP: &str = "In the help";
@@ -54,13 +57,9 @@ pub(super) fn show(ui: &Ui, history: &History, context: &mut PaneContext<'_>) {
     let mut chosen = None;
     let screen = ui.ctx().content_rect();
     let theme = context.theme;
-    let window = Window::new("Find anything")
-        .id(Id::unique("palette"))
-        .collapsible(false)
-        .resizable(false)
-        .anchor(Align2::CENTER_TOP, Vec2::new(0.0, 84.0))
-        .fixed_size(Vec2::new(520.0_f32.min(screen.width() - 40.0), HEIGHT + 40.0));
-    window.show(ui.ctx(), |ui| {
+    let window = widgets::window("Find anything", "palette", (Align2::CENTER_TOP, Vec2::new(0.0, 84.0)));
+    let size = Vec2::new(520.0_f32.min(screen.width() - 40.0), HEIGHT + 40.0);
+    window.fixed_size(size).show(ui.ctx(), |ui| {
         let list = PickList {
             id: Id::unique("palette search"),
             name: "Find anything",
