@@ -1,10 +1,8 @@
 //! The window: handles events, runs commands and shows panes.
 
-mod changes;
 mod commands;
 mod focus;
 mod frame;
-mod meshes;
 mod opening;
 mod path_prompt;
 mod saving;

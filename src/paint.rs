@@ -8,7 +8,6 @@ mod dense;
 mod hit;
 mod marks;
 mod pictures;
-mod texture;
 mod triangles;
 
 use chromascope_figure::{Image, LegendEntry, Panel, Projection, Tag, Ticks, fit_equal};
@@ -211,7 +210,7 @@ pub fn still(painter: &Painter, panel: &Panel, theme: &Theme, rect: Rect) -> Vie
 }
 
 pub fn picture(painter: &Painter, rect: Rect, image: &Image) {
-    texture::draw(painter, rect, image);
+    pictures::draw(painter, rect, image);
 }
 
 /// The two colors of a ring that is seen on any picture: the wider one below, the narrower one above.

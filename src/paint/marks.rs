@@ -6,7 +6,7 @@ use chromascope_figure::{
 };
 use egui::{Color32, Painter, Pos2, Rect, Shape, Stroke, StrokeKind, Vec2, epaint::PathStroke};
 
-use super::{Emphasis, View, dense, texture, triangles};
+use super::{Emphasis, View, dense, pictures, triangles};
 use crate::theme::{self, Theme};
 
 /// Distance of the ring around a chosen point from its marker.
@@ -41,7 +41,7 @@ pub(super) fn mark(painter: &Painter, mark: &Mark, view: &View, theme: &Theme, e
         Form::Polygon { points } => brush.polygon(mark, points),
         Form::Image { min, max, image } => {
             if [min, max].iter().all(|p| p.iter().all(|v| v.is_finite())) {
-                texture::draw(painter, brush.box_of(*min, *max), image);
+                pictures::draw(painter, brush.box_of(*min, *max), image);
             }
         }
         Form::Segments { segments } => {

@@ -13,6 +13,7 @@ use super::context::PaneContext;
 use super::{by_kind, show as show_pane};
 use crate::export::Paper;
 use crate::export::page::PageFacts;
+use crate::panes::widgets;
 use crate::theme::UNIT;
 use crate::workspaces::PaneKind;
 
@@ -21,14 +22,8 @@ const SETTINGS: f32 = 300.0;
 const OF_DOCUMENT: [PaneKind; 3] = [PaneKind::CHROMATICITY, PaneKind::SWATCHES, PaneKind::SPECTRA];
 
 pub fn show(ui: &mut Ui, rect: Rect, kind: PaneKind, context: &mut PaneContext<'_>) {
-    let pressed = |input: &egui::InputState| {
-        input.pointer.any_pressed() && input.pointer.interact_pos().is_some_and(|at| rect.contains(at))
-    };
-    if ui.input(pressed) {
-        context.view.focused = Some(kind);
-    }
+    widgets::ground(ui, kind, rect, context);
     keep_working(ui, rect, kind, context);
-    ui.painter().rect_filled(rect, 0.0, context.theme.panel);
     let figure = made(ui, kind, context);
     let facts = figure.as_deref().map(|figure| PageFacts::of(figure, &context.view.saved.page.paper));
     let cut = rect.right() - SETTINGS.min(0.5 * rect.width());

@@ -3,8 +3,6 @@
 mod numbers;
 mod patch;
 mod pinned;
-mod points;
-mod radiator;
 mod source;
 mod welcome;
 
@@ -40,7 +38,7 @@ fn content(ui: &mut Ui, context: &mut PaneContext<'_>) {
         None => welcome::show(ui, context),
         Some(PlotItem::Patch { source: Some(id), patch }) => patch::one(ui, &id, &patch, context),
         Some(PlotItem::Patch { source: None, patch }) => patch::across(ui, &patch, context),
-        Some(PlotItem::Radiator { source, kelvin }) => radiator::show(ui, &source, kelvin, context),
+        Some(PlotItem::Radiator { source, kelvin }) => patch::blackbody(ui, &source, kelvin, context),
         Some(PlotItem::Sensor(id)) => source::show(ui, &id, context),
         Some(PlotItem::Light) => source::light(ui, context),
         Some(PlotItem::DataSet { kind, name }) => source::set(ui, kind, &name, context),

@@ -4,9 +4,7 @@ mod buttons;
 mod camera;
 mod curves;
 mod keys;
-mod name;
 mod notes;
-mod parts;
 mod stored;
 mod switches;
 
@@ -64,11 +62,11 @@ fn content(ui: &mut Ui, shown: &ImportSelection, context: &mut PaneContext<'_>) 
         return;
     }
     if let Some(set) = &shown.set {
-        name::show(ui, set, context);
+        stored::name(ui, set, context);
     }
     let mut overrides = shown.overrides.clone();
     switches::show(ui, shown, &mut overrides, &context.theme);
-    parts::show(ui, shown, context);
+    switches::parts(ui, shown, context);
     // Below the switches, so that they stay where they are.
     if let Some(error) = shown.error() {
         trouble(ui, &error.to_string(), error.line(), shown, context);

@@ -6,7 +6,6 @@ pub mod lines;
 pub mod number_field;
 pub mod pick_list;
 pub mod pixel;
-pub mod pixel_spectrum;
 pub mod scroll;
 pub mod table;
 pub mod tolerance;

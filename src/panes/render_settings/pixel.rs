@@ -6,7 +6,7 @@ use egui::{RichText, Ui};
 use crate::figures::render::headline::Measure;
 use crate::figures::render::{NO_VALUE, facts, index_of, pixel_of};
 use crate::panes::context::PaneContext;
-use crate::panes::widgets::pixel_spectrum;
+use crate::panes::widgets;
 use crate::panes::widgets::table::{DataTable, show_pairs};
 use crate::plot_item::SensorId;
 use crate::render_service::RenderedFrame;
@@ -60,7 +60,7 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
                  white of the same roughness that faces the light has Y = 1. g: at 550 nm."
             });
             others(ui, &place, shot, context);
-            pixel_spectrum::show(ui, "spectrum in settings", shot, reading.at, context);
+            widgets::pixel::spectrum(ui, "spectrum in settings", shot, reading.at, context);
             if let Some((_, transform)) = lit.roughness {
                 ui.label(RichText::new(format!("g at 550 nm, {transform}")).small().color(weak));
             }

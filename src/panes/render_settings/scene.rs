@@ -4,15 +4,18 @@ use std::path::PathBuf;
 
 use egui::{RichText, Ui};
 
-use super::{caption, controls, line, list, material, set};
+use super::{caption, controls, line, list, set};
+use crate::catalog::Entry;
 use crate::catalog::meshes::{MeshState, is_mesh};
 use crate::catalog::spectral_images::{ImageState, has_image_ending};
 use crate::command::Command;
+use crate::document::SetKind;
 use crate::document::render::settings::IMAGE;
 use crate::document::render::{MeshChoice, RenderSettings};
 use crate::format::{capitalized, file_name};
 use crate::panes::context::PaneContext;
-use crate::panes::widgets::pick_list::Line;
+use crate::panes::widgets::facts;
+use crate::panes::widgets::pick_list::{self, Line};
 
 /// The control of a setting that is a set or a file.
 pub(super) fn own(ui: &mut Ui, key: &str, is_enabled: bool, context: &mut PaneContext<'_>) {
@@ -26,11 +29,11 @@ pub(super) fn own(ui: &mut Ui, key: &str, is_enabled: bool, context: &mut PaneCo
         "garment" => {
             let is_head = context.scene.document.render.mesh == MeshChoice::Head;
             caption(ui, if is_head { "Garment" } else { "Garment: only the head has one" }, context);
-            ui.add_enabled_ui(is_enabled, |ui| material::choice(ui, material::Part::Garment, context));
+            ui.add_enabled_ui(is_enabled, |ui| material(ui, Part::Garment, context));
         }
         _ => {
             caption(ui, "Material", context);
-            material::choice(ui, material::Part::Skin, context);
+            material(ui, Part::Skin, context);
         }
     }
 }
@@ -84,4 +87,57 @@ fn summary(ui: &mut Ui, settings: &RenderSettings, context: &PaneContext<'_>) {
     let [words, notes] =
         ready.map_or_else(<[String; 2]>::default, |mesh| [mesh.summary.clone(), mesh.notes.join("\n")]);
     line(ui, &words, if notes.is_empty() { &words } else { &notes }, context.theme.weak);
+}
+
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Part {
+    Skin,
+    Garment,
+}
+
+/// The head without a garment.
+const BARE: &str = "None: bare shoulders";
+
+/// A list of all reflectances that is filtered as one types: the user's own, then the built-in ones by file.
+fn material(ui: &mut Ui, part: Part, context: &mut PaneContext<'_>) {
+    let mut names = Vec::new();
+    let width = ui.available_width();
+    let settings = &context.scene.document.render;
+    let (what, hint, now) = match part {
+        Part::Skin => ("Material", "Reflectance of the surface", settings.material.clone()),
+        Part::Garment => {
+            let hint = "Reflectance of the head's garment; its surface is that of the rest. Figures 8 and 9 have none.";
+            ("Garment", hint, settings.garment.clone().unwrap_or_else(|| BARE.to_owned()))
+        }
+    };
+    let chosen = pick_list::drop_down(ui, (what, hint), &now, width, &context.theme, || {
+        let own = context.scene.entries(SetKind::Chart).filter(Entry::is_own);
+        let mut entries: Vec<Entry> = own.chain(context.scene.entries(SetKind::Material)).collect();
+        entries.sort_by_cached_key(|entry| (!entry.is_own(), entry.also.clone()));
+        let mut lines: Vec<Line> = Vec::new();
+        let mut last = None;
+        if part == Part::Garment {
+            lines.push(Line::new(BARE, now == BARE));
+            names.push(BARE.to_owned());
+        }
+        for entry in entries {
+            let facts = facts::provenance(&context.scene, &entry);
+            let Entry { name, short, also, .. } = entry;
+            let group = also.unwrap_or_else(|| "Others".to_owned());
+            if last.as_ref() != Some(&group) {
+                lines.push(Line::heading(&group));
+                names.push(String::new());
+            }
+            lines.push(Line { also: format!("{short} {group}"), facts, ..Line::new(&name, name == now) });
+            names.push(name);
+            last = Some(group);
+        }
+        lines
+    });
+    if let Some(name) = chosen.map(|index| names.swap_remove(index)) {
+        set(context, what, |settings| match part {
+            Part::Skin => settings.material = name,
+            Part::Garment => settings.garment = (name != BARE).then_some(name),
+        });
+    }
 }
