@@ -1,13 +1,9 @@
 //! View state: selection, panes and layout. Not part of the document, and not undoable.
 
 pub mod correction;
-pub mod help;
 pub mod import;
-pub mod metrics;
 pub mod page;
 pub mod recorded;
-pub mod render;
-pub mod table;
 pub mod template;
 pub mod tour;
 
@@ -15,28 +11,30 @@ use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::mem::take;
 use std::path::PathBuf;
 
-use chromascope_text::Settings as _;
+use chromascope_core::metamers::Confusion;
+use chromascope_figure::Tag;
+use chromascope_text::{Settings as _, choices};
+use correction::CorrectionView;
+use import::{ImportItem, ImportMemory, ImportView};
+use page::PageLook;
+use recorded::RecordedView;
 use serde::{Deserialize, Serialize};
 
 use crate::document::{Compared, SetKind};
 use crate::figures::chromaticity::shown::DiagramView;
-pub use crate::figures::chromaticity::shown::{DiagramFit, Ranges};
 use crate::figures::look::FigureLook;
-pub use crate::figures::look::{Shows, SpectraLayout, SwatchLayout, SwatchStyle};
 use crate::figures::metrics::TABLE;
 use crate::paint::Emphasis;
 use crate::plot_item::{PickIndex, PlotItem, Relation, SensorId};
 use crate::theme::Surround;
 use crate::workspaces::{Layout, PaneKind, Workspace};
-use chromascope_figure::Tag;
-use correction::CorrectionView;
-use help::HelpView;
-use import::{ImportItem, ImportMemory, ImportView};
-use metrics::MetricsLook;
-use page::PageLook;
-use recorded::RecordedView;
-use render::{RenderLook, RenderMode, RenderView};
-use table::TableLook;
+
+pub use crate::figures::chromaticity::shown::{DiagramFit, Ranges};
+pub use crate::figures::look::Sorting;
+pub use crate::figures::look::{PixelPlace, RenderMode};
+pub use crate::figures::look::{Shows, SpectraLayout, SwatchLayout, SwatchStyle};
+pub use crate::scene::metrics::RankedCameras;
+pub use crate::scene::orbit::Orbit;
 
 #[derive(Debug, Default)]
 #[expect(clippy::struct_excessive_bools, reason = "independent one-frame requests and switches")]
@@ -394,4 +392,143 @@ pub struct PickState {
     pub text: String,
     /// The highlighted line, counted among those that can be chosen; none for the one that is set.
     pub picked: Option<usize>,
+}
+
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct HelpView {
+    /// Name of the open page; none while the window is closed.
+    pub page: Option<&'static str>,
+    pub visited: Vec<&'static str>,
+    pub query: String,
+    pub picked: usize,
+    pub scroll_to: Option<usize>,
+    /// True if the search field takes the keyboard in the next frame.
+    pub focus_search: bool,
+}
+
+impl HelpView {
+    pub fn open(&mut self, page: &'static str, block: usize) {
+        if let Some(last) = self.page.replace(page).filter(|last| *last != page) {
+            self.visited.push(last);
+        }
+        self.scroll_to = Some(block);
+    }
+
+    pub fn back(&mut self) {
+        if let Some(page) = self.visited.pop() {
+            (self.page, self.scroll_to) = (Some(page), Some(0));
+        }
+    }
+
+    /// Clears the search, or else closes the window; returns whether there was anything to do.
+    pub fn escape(&mut self) -> bool {
+        if self.page.is_some() && !self.query.is_empty() {
+            self.query.clear();
+            return true;
+        }
+        self.visited.clear();
+        self.page.take().is_some()
+    }
+}
+
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct TableLook {
+    /// Column that rows are sorted by; none for the order as given.
+    pub sorting: Option<Sorting>,
+    /// Columns that the user shows or hides, by name; others keep the table's default.
+    pub columns: BTreeMap<String, bool>,
+    /// Words that a row must contain. Not saved between runs.
+    #[serde(skip)]
+    pub filter: String,
+    /// Row with the keyboard cursor where rows have no items, in the given order.
+    #[serde(skip)]
+    pub cursor: Option<usize>,
+    /// Selection that the table was scrolled to.
+    #[serde(skip)]
+    pub seen: Option<PlotItem>,
+}
+
+impl TableLook {
+    /// Sorts by a column that was clicked: in its preferred direction, then in the other, then as given.
+    pub fn sort_by(&mut self, column: &str, largest_first: bool) {
+        self.sorting = match self.sorting.take() {
+            Some(now) if now.column == column && now.descending == largest_first => {
+                Some(Sorting { descending: !largest_first, ..now })
+            }
+            Some(now) if now.column == column => None,
+            _ => Some(Sorting { column: column.to_owned(), descending: largest_first }),
+        };
+    }
+}
+
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct MetricsLook {
+    pub cameras: RankedCameras,
+    pub confusion: Confuses,
+    /// The two cameras of Head to head; `None` for the selected one and the first compared one.
+    #[serde(skip)]
+    pub pair: [Option<SensorId>; 2],
+    /// The camera of the report card; none for the selected one.
+    #[serde(skip)]
+    pub card: Option<SensorId>,
+}
+
+choices! {
+    /// The one that takes two reflectances for one.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+    pub enum Confuses {
+        #[default]
+        Camera = "camera", "Camera confuses", "Equal to the camera, different to the reference";
+        Reference = "reference", "Reference confuses", "Equal to the reference, different to the camera";
+    }
+}
+
+impl Confuses {
+    pub const fn confusion(self) -> Confusion {
+        match self {
+            Self::Camera => Confusion::Camera,
+            Self::Reference => Confusion::Observer,
+        }
+    }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct RenderLook {
+    pub mode: RenderMode,
+    /// Viewpoint; `None` for the mesh's own.
+    pub orbit: Option<Orbit>,
+    /// Position of the divider of the split picture, from 0 (left) to 1.
+    pub split: f32,
+}
+
+/// Where the divider begins: through the face of the head as it is first seen.
+const SPLIT: f32 = 0.62;
+
+impl Default for RenderLook {
+    fn default() -> Self {
+        Self { mode: RenderMode::Grid, orbit: None, split: SPLIT }
+    }
+}
+
+impl RenderLook {
+    /// Corrects values of a damaged file that are out of range.
+    pub fn mend(&mut self) {
+        if !(0.0..=1.0).contains(&self.split) {
+            self.split = Self::default().split;
+        }
+        self.orbit = self.orbit.filter(|orbit| orbit.viewpoint(1.0).is_some());
+    }
+}
+
+#[derive(Debug, Default)]
+pub struct RenderView {
+    pub pinned: Option<PixelPlace>,
+    pub hovered: Option<PixelPlace>,
+    /// The sensor shown alone or with the reference; `None` for the first camera.
+    pub chosen: Option<SensorId>,
+    /// True if finer pictures than the current ones are not wanted.
+    pub cancelled: bool,
 }

@@ -21,8 +21,8 @@ use crate::files::{DocumentSource, FileEvent, FileForm, SaveRequest};
 use crate::panes;
 use crate::profiler::{Profiler, SceneRunJob};
 use crate::scene::Scene;
+use crate::view::RenderMode;
 use crate::view::import::{ImportItem, Stop};
-use crate::view::render::RenderMode;
 use crate::view::{PickState, SavedView, Shows, Status};
 use crate::workspaces::{Layout, PaneKind, Workspace};
 

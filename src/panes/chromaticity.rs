@@ -33,7 +33,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     if widgets::figure_numbers(ui, &PANE, body, context) {
         return;
     }
-    let body = widgets::caution::show(ui, body, context);
+    let body = widgets::lines::caution(ui, body, context);
     let strip_height = if body.height() >= WITH_STRIP { STRIP } else { 0.0 };
     let cut = body.bottom() - strip_height;
     diagram(ui, Rect::from_min_max(body.min, Pos2::new(body.right(), cut)), context);

@@ -1,15 +1,15 @@
 //! Decisions made in reading a file, with switches to correct them.
 
 mod buttons;
-mod camera;
 mod curves;
-mod keys;
 mod notes;
 mod stored;
 mod switches;
 
 use egui::text::LayoutJob;
-use egui::{ComboBox, FontId, Rect, Response, RichText, ScrollArea, TextFormat, Ui, UiBuilder, Vec2};
+use egui::{
+    ComboBox, EventFilter, FontId, Id, Key, Rect, Response, RichText, ScrollArea, TextFormat, Ui, UiBuilder, Vec2,
+};
 
 use super::context::{Pane, PaneContext};
 use crate::command::Command;
@@ -37,7 +37,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     };
     context.view.import.unseen.remove(&shown.item);
     if context.view.import.takes_keyboard(Stop::Switches) {
-        keys::to_first(ui);
+        to_first(ui);
     }
     let foot = buttons::height(&shown, inner.width());
     let upper = Rect::from_min_max(inner.min, egui::pos2(inner.right(), inner.bottom() - foot));
@@ -71,7 +71,7 @@ fn content(ui: &mut Ui, shown: &ImportSelection, context: &mut PaneContext<'_>) 
     if let Some(error) = shown.error() {
         trouble(ui, &error.to_string(), error.line(), shown, context);
     }
-    camera::show(ui, shown, &mut overrides, &context.theme);
+    stored::channels(ui, shown, &mut overrides, &context.theme);
     curves::show(ui, shown, &mut overrides, context);
     if overrides != shown.overrides {
         wish(shown, overrides, context);
@@ -170,7 +170,7 @@ fn list(
                     let on = entries.iter().position(|(_, on)| *on).unwrap_or(0);
                     let shown: Vec<Response> =
                         entries.iter().map(|(entry, on)| ui.selectable_label(*on, entry)).collect();
-                    keys::within(ui, &shown, on);
+                    within(ui, &shown, on);
                     clicked = shown.iter().position(Response::clicked);
                     if clicked.is_some() {
                         // Enter is no click that would close the list by itself.
@@ -178,8 +178,8 @@ fn list(
                     }
                 })
                 .response;
-            let left = keys::closed(ui, response.id, ComboBox::is_open(ui.ctx(), response.id));
-            if clicked.is_some() || left || keys::first(ui) {
+            let left = is_left(ui, response.id, ComboBox::is_open(ui.ctx(), response.id));
+            if clicked.is_some() || left || first(ui) {
                 response.request_focus();
             }
             let label = format!("{words}: {}", closed.words());
@@ -193,4 +193,59 @@ fn list(
         });
     });
     clicked
+}
+
+fn first_switch() -> Id {
+    Id::unique("keyboard to the first switch")
+}
+
+fn to_first(ui: &Ui) {
+    ui.data_mut(|data| data.insert_temp(first_switch(), true));
+}
+
+/// True if this is the first switch and takes the keyboard.
+fn first(ui: &Ui) -> bool {
+    ui.data_mut(|data| data.remove_temp::<bool>(first_switch())).unwrap_or(false)
+}
+
+/// True if a list closed since the last frame by a click on another control.
+fn is_left(ui: &Ui, list: Id, open: bool) -> bool {
+    let key = list.with("was open");
+    let was: bool = ui.data(|data| data.get_temp(key)).unwrap_or(false);
+    if was != open {
+        ui.data_mut(|data| data.insert_temp(key, open));
+    }
+    was && !open && !ui.input(|input| input.pointer.any_click())
+}
+
+fn step(ui: &Ui) -> isize {
+    ui.input(|input| isize::from(input.key_pressed(Key::ArrowDown)) - isize::from(input.key_pressed(Key::ArrowUp)))
+}
+
+/// Prevents arrow keys from moving the focus to a neighboring control.
+fn hold(ui: &Ui, entry: &Response) {
+    let filter = EventFilter { vertical_arrows: true, ..EventFilter::default() };
+    ui.memory_mut(|memory| memory.set_focus_lock_filter(entry.id, filter));
+}
+
+/// The entries of an open list: the one that is on has the keyboard first.
+fn within(ui: &Ui, entries: &[Response], on: usize) {
+    let pass = ui.ctx().cumulative_pass_nr();
+    let left = Id::unique("list that was left");
+    if entries.iter().any(Response::clicked) {
+        ui.data_mut(|data| data.insert_temp(left, pass));
+    }
+    let Some(now) = entries.iter().position(Response::has_focus) else {
+        // A list in which something was chosen is drawn again before it closes.
+        let closes = ui.data(|data| data.get_temp::<u64>(left)).is_some_and(|left| pass <= left + 2);
+        if let Some(entry) = entries.get(on).filter(|_| !closes) {
+            entry.request_focus();
+        }
+        return;
+    };
+    hold(ui, &entries[now]);
+    if let Some(next) = now.checked_add_signed(step(ui)).and_then(|next| entries.get(next)).filter(|_| step(ui) != 0) {
+        next.request_focus();
+        next.scroll_to_me(None);
+    }
 }

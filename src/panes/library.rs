@@ -1,7 +1,6 @@
 //! Compared sensors, which are the only legend, above the search and all data sets.
 
 mod compared;
-mod save;
 mod sets;
 
 use std::collections::HashSet;

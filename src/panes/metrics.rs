@@ -17,7 +17,7 @@ use crate::plot_item::{PlotItem, SensorId};
 use crate::scene::metrics::{Ranked, RankedCameras, Ranking};
 use crate::scene::uncertainty::rank_cell;
 use crate::theme::UNIT;
-use crate::view::table::Sorting;
+use crate::view::Sorting;
 use crate::workspaces::PaneKind;
 
 /// Columns of differences that the table starts with; all other groups are shown whole.
@@ -27,7 +27,7 @@ pub const PANE: Pane = Pane::new(PaneKind::METRICS, "Metrics", show).figure(&met
 
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let body = widgets::body(ui, &PANE, rect, context, switches);
-    let body = widgets::caution::show(ui, body, context);
+    let body = widgets::lines::caution(ui, body, context);
     let which = context.view.saved.metrics.cameras;
     let ranked = context.states.of::<Ranking>().ask(context.later, &context.scene, which);
     if let Some(why) = Ranking::seen(context.later).failure {
@@ -52,7 +52,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
         None => shown,
     };
     let known: Vec<_> = metrics::uncertainties(&ranked, 0..ranked.cameras.len()).collect();
-    let body = widgets::caution::foot(ui, body, &context.scene.metrics_words_with(known), context);
+    let body = widgets::lines::foot(ui, body, &context.scene.metrics_words_with(known), context);
     if let Some(row) = shown.show(ui, body, context).activated {
         compare(&ranked.cameras[row].id, context);
     }

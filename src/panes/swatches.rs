@@ -22,7 +22,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     if widgets::figure_numbers(ui, &PANE, body, context) {
         return;
     }
-    let body = widgets::caution::show(ui, body, context);
+    let body = widgets::lines::caution(ui, body, context);
     ui.painter().rect_filled(body, 0.0, context.theme.surround);
     let (body, slot) = footer(ui, body, context);
     let size = [f64::from(body.width()), f64::from(body.height())];

@@ -1,6 +1,5 @@
 //! Parts that more than one pane uses.
 
-pub mod caution;
 pub mod facts;
 pub mod lines;
 pub mod number_field;

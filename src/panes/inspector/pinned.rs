@@ -16,7 +16,7 @@ use crate::plot_item::PlotItem;
 use crate::render_service::pixel::PixelShows;
 use crate::scene::Scene;
 use crate::theme::UNIT;
-use crate::view::render::PixelPlace;
+use crate::view::PixelPlace;
 use crate::workspaces::PaneKind;
 
 pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {

@@ -10,7 +10,7 @@ use crate::panes::widgets;
 use crate::theme::{ROW, UNIT};
 use crate::view::import::Stop;
 
-use super::keys;
+use super::{hold, step};
 
 const POINTER: &str = "pointer over curves taken";
 const ROWS: usize = 6;
@@ -74,7 +74,7 @@ pub(super) fn show(
                 response.request_focus();
             }
             if response.has_focus() {
-                keys::hold(ui, &response);
+                hold(ui, &response);
                 focused = Some(row);
             }
             if response.hovered() || response.has_focus() {
@@ -118,7 +118,7 @@ fn wanted_row(ui: &Ui, count: usize, context: &mut PaneContext<'_>) -> Option<us
         return (count > 0).then_some(0);
     }
     let row: usize = ui.data(|data| data.get_temp::<Option<usize>>(row_with_keyboard())).flatten()?;
-    let step = keys::step(ui);
+    let step = step(ui);
     row.checked_add_signed(step).filter(|row| step != 0 && *row < count)
 }
 

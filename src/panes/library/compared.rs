@@ -159,9 +159,9 @@ fn menu(ui: &mut Ui, source: &ComparedSensor, context: &mut PaneContext<'_>) {
     }
     if offer(ui, "Source", true) {
         context.view.selected = Some(thing(source));
-        super::save::show_inspector(context);
+        super::sets::show_inspector(context);
     }
-    super::save::save_as(ui, source.kind, &source.name, context);
+    super::sets::save_as(ui, source.kind, &source.name, context);
     if source.is_own && offer(ui, "Reading…", true) {
         context.push(Command::ShowImport(ImportItem::Set(source.name.clone()), None));
     }

@@ -5,7 +5,7 @@ use egui::{Pos2, Rect, Vec2};
 use crate::panes::context::PaneContext;
 use crate::plot_item::SensorId;
 use crate::scene::ComparedSensor;
-use crate::view::render::RenderMode;
+use crate::view::RenderMode;
 
 pub(super) const CAPTION: f32 = 24.0;
 const GAP: f32 = 8.0;

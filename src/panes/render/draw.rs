@@ -15,7 +15,7 @@ use crate::plot_item::PickIndex;
 use crate::render_service::RenderedFrame;
 use crate::scene::ComparedSensor;
 use crate::theme::TEXT;
-use crate::view::render::RenderMode;
+use crate::view::RenderMode;
 
 const WITH_NOTE: f32 = 150.0;
 const WITH_MEASURE: f32 = 270.0;

@@ -12,7 +12,7 @@ use crate::plot_item::SensorId;
 use crate::render_service::RenderedFrame;
 use crate::render_service::pixel::PixelShows;
 use crate::theme::UNIT;
-use crate::view::render::PixelPlace;
+use crate::view::PixelPlace;
 use crate::workspaces::PaneKind;
 
 pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {

@@ -10,7 +10,7 @@ use crate::panes::context::PaneContext;
 use crate::panes::widgets::{focus_rim, lines};
 use crate::plot_item::{PlotItem, Relation};
 use crate::theme::{Theme, UNIT};
-use crate::view::table::Sorting;
+use crate::view::Sorting;
 
 /// Largest share of a table that its first column takes where it stays in place.
 const WIDEST_FROZEN: f32 = 0.6;
