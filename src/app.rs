@@ -1,7 +1,6 @@
 //! The window: handles events, runs commands and shows panes.
 
 mod commands;
-mod focus;
 mod frame;
 mod opening;
 mod path_prompt;
@@ -38,7 +37,7 @@ const LAYOUT_KEY: &str = "layout";
 
 pub struct ChromascopeApp {
     history: History,
-    catalog: Catalog,
+    pub catalog: Catalog,
     results: Results,
     view: View,
     files: Files,
@@ -49,7 +48,7 @@ pub struct ChromascopeApp {
     later: Later,
     /// Subject of the report whose folder is asked for.
     report_on: Option<ReportOn>,
-    states: PaneStates,
+    pub states: PaneStates,
     render_service: RenderService,
     profiler: Profiler,
     commands: Vec<Command>,
@@ -132,19 +131,11 @@ impl ChromascopeApp {
         &self.history
     }
 
-    pub fn set_catalog(&mut self, catalog: Catalog) {
-        self.catalog = catalog;
-    }
-
     pub fn view(&self) -> &View {
         &self.view
     }
 
     /// What panes keep from frame to frame.
-    pub fn states_mut(&mut self) -> &mut PaneStates {
-        &mut self.states
-    }
-
     pub fn view_mut(&mut self) -> &mut View {
         &mut self.view
     }
@@ -215,8 +206,8 @@ impl ChromascopeApp {
         if ctx.input(|input| input.pointer.any_pressed()) {
             (self.view.by_keyboard, self.view.cursor) = (false, None);
         }
-        focus::leave_offer(ctx);
-        focus::enter_pane(ctx, &mut self.view);
+        frame::leave_offer(ctx);
+        frame::enter_pane(ctx, &mut self.view);
         let typing = ctx.text_edit_focused();
         let focused = self.view.keyed();
         // All keys belong to an open list or menu, which Escape closes.
@@ -302,7 +293,7 @@ impl eframe::App for ChromascopeApp {
         self.take_images();
         self.take_report();
         self.take_input(ctx);
-        focus::into_sight(ctx, &mut self.focus);
+        frame::into_sight(ctx, &mut self.focus);
         self.carry_out(ctx);
         self.autosave(ctx);
         self.show_title(ctx);

@@ -71,10 +71,6 @@ fn inside(ui: &mut Ui, salt: &'static str, rect: Rect) -> Ui {
     child
 }
 
-fn small(words: impl Into<String>, context: &PaneContext<'_>) -> RichText {
-    RichText::new(words).small().color(context.theme.weak)
-}
-
 #[derive(Default)]
 struct LastPage(Option<MadeFigure>);
 

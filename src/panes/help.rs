@@ -2,12 +2,11 @@
 
 mod blocks;
 mod palette;
-mod text;
 pub mod tour;
 mod typeset;
 
+use blocks::Ink;
 use egui::{Align2, Event, Key, Modifiers, Rect, RichText, ScrollArea, Sense, TextEdit, Ui, UiBuilder, Vec2};
-use text::Ink;
 
 use super::context::PaneContext;
 use crate::action::history::History;

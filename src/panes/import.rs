@@ -1,12 +1,11 @@
 //! The user's files, and the text of one with its interpretation.
 
-mod entries;
 mod files;
 mod line;
 mod text;
 
 use egui::{ProgressBar, Rect, RichText, Sense, Ui, Vec2};
-use entries::Entry;
+use files::Entry;
 use spectral_file::{Certainty, Role, SpectralFile, Values};
 
 use super::context::{Pane, PaneContext};
@@ -31,12 +30,12 @@ pub fn lists_files(pane: Rect) -> bool {
 
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let body = widgets::body(ui, &PANE, rect, context, switches);
-    let entries = entries::all(context);
+    let entries = files::all(context);
     if entries.is_empty() {
         nothing(ui, body, context);
         return;
     }
-    if widgets::numbers(ui, &PANE, body, context, |_| Some(entries::table(&entries))) {
+    if widgets::numbers(ui, &PANE, body, context, |_| Some(files::table(&entries))) {
         return;
     }
     keep_selected(ui, &entries, context);

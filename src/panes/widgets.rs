@@ -241,12 +241,7 @@ fn header_buttons(ui: &mut Ui, pane: &Pane, context: &mut PaneContext<'_>) {
 fn export_menu(ui: &mut Ui, &Pane { kind, title, .. }: &Pane, context: &mut PaneContext<'_>) {
     let response = icon_button(ui, Icon::Export, &format!("Export {title}"));
     egui::Popup::menu(&response).show(|ui| {
-        let mut item = |ui: &mut Ui, words: &str, command: Command| {
-            if ui.button(words).clicked() {
-                context.push(command);
-                ui.close();
-            }
-        };
+        let mut item = |ui: &mut Ui, words: &str, command: Command| context.item(ui, words, "", command);
         if kind == PaneKind::CORRECTION {
             for form in CorrectionForm::ALL {
                 item(ui, form.words().0, Command::SaveCorrection(form));
@@ -267,11 +262,8 @@ fn export_menu(ui: &mut Ui, &Pane { kind, title, .. }: &Pane, context: &mut Pane
         if let Some(shot) = context.render_service.frame().cloned().filter(|_| kind == PaneKind::RENDER) {
             ui.separator();
             for source in shot.sources.iter() {
-                if ui.button(format!("{} as OpenEXR…", source.label)).clicked() {
-                    let id = SensorId { kind: source.kind, name: source.name.clone() };
-                    context.push(Command::ExportExr(id));
-                    ui.close();
-                }
+                let id = SensorId { kind: source.kind, name: source.name.clone() };
+                context.item(ui, &format!("{} as OpenEXR…", source.label), "", Command::ExportExr(id));
             }
         }
     });

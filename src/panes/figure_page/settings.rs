@@ -3,7 +3,7 @@
 use chromascope_text::{Look, Number, Pick, Setting, Settings as _, Value};
 use egui::{DragValue, Rect, Response, ScrollArea, Ui};
 
-use super::{inside, small};
+use super::inside;
 use crate::command::Command;
 use crate::export::page::PageFacts;
 use crate::export::paper::{LOOK, SIZE};
@@ -43,7 +43,7 @@ pub(super) fn show(
         buttons(ui, kind, context);
         ui.add_space(UNIT);
         if let Some(facts) = facts {
-            ui.label(small(in_words(&facts, &look.paper), context));
+            widgets::note(ui, in_words(&facts, &look.paper));
         }
         ui.add_space(2.0 * UNIT);
     });
@@ -122,10 +122,7 @@ fn buttons(ui: &mut Ui, kind: PaneKind, context: &mut PaneContext<'_>) {
     ui.horizontal_wrapped(|ui| {
         let mut save = |ui: &mut Ui, words: &str, form: FigureForm| {
             let hint = if form.is_numbers() { "The numbers behind the figure" } else { "The figure as shown here" };
-            if ui.button(words).on_hover_text(hint).clicked() {
-                context.push(Command::Export(kind, form));
-                ui.close();
-            }
+            context.item(ui, words, hint, Command::Export(kind, form));
         };
         let [pdf, svg, png, rest @ ..] = FigureForm::ALL;
         save(ui, &format!("Save {}…", pdf.name()), pdf);
@@ -138,12 +135,8 @@ fn buttons(ui: &mut Ui, kind: PaneKind, context: &mut PaneContext<'_>) {
         });
     });
     ui.horizontal(|ui| {
-        if ui.button("Copy picture").on_hover_text("At this resolution (Ctrl+Shift+C)").clicked() {
-            context.push(Command::CopyPicture(kind));
-        }
-        if ui.button("Done").on_hover_text("Back to the panes (Esc)").clicked() {
-            context.push(Command::FigurePage(kind));
-        }
+        context.button(ui, "Copy picture", "At this resolution (Ctrl+Shift+C)", Command::CopyPicture(kind));
+        context.button(ui, "Done", "Back to the panes (Esc)", Command::FigurePage(kind));
     });
 }
 

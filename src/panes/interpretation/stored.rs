@@ -67,7 +67,7 @@ fn follow(before: &ImportedSet, changed: &mut ImportedSet) {
 }
 
 fn plain(value: &str) -> Closed {
-    Closed { value: value.to_owned(), how: String::new(), guess: false, why: String::new() }
+    Closed { value: value.to_owned(), ..Closed::default() }
 }
 
 fn choice<T: Copy + PartialEq>(ui: &mut Ui, theme: &Theme, words: &str, choices: &[(T, &str)], value: &mut T) {

@@ -11,7 +11,7 @@ use crate::command::Command;
 use crate::document::imported::ImportedSet;
 use crate::document::{Light, SetKind};
 use crate::export::spectra::{Form, fits};
-use crate::format::sentence;
+use crate::format::{capitalized, sentence};
 use crate::panes::context::PaneContext;
 use crate::panes::widgets::{focus_rim, lines};
 use crate::plot_item::PlotItem;
@@ -103,7 +103,7 @@ pub(super) fn list(ui: &mut Ui, rows: &[Row<'_>], context: &mut PaneContext<'_>)
 /// The head of a group; a click folds it.
 fn group(ui: &mut Ui, kind: SetKind, count: usize, open: bool, context: &mut PaneContext<'_>) {
     let (rect, response) = ui.allocate_exact_size(Vec2::new(ui.available_width(), ROW), Sense::click());
-    let title = title(kind);
+    let title = capitalized(kind.plural());
     let name = format!("{title} {count}");
     response.widget_info(|| egui::WidgetInfo::selected(egui::Role::DisclosureTriangle, true, open, &name));
     rim(ui, rect, &response, context);
@@ -118,18 +118,6 @@ fn group(ui: &mut Ui, kind: SetKind, count: usize, open: bool, context: &mut Pan
         if !folded.remove(kind.plural()) {
             folded.insert(kind.plural().to_owned());
         }
-    }
-}
-
-const fn title(kind: SetKind) -> &'static str {
-    match kind {
-        SetKind::Camera => "Cameras",
-        SetKind::Observer => "Observers",
-        SetKind::Chart => "Charts",
-        SetKind::Illuminant => "Illuminants",
-        SetKind::Filter => "Filters",
-        SetKind::Material => "Materials",
-        SetKind::Unsorted => "Unsorted",
     }
 }
 
@@ -275,9 +263,8 @@ fn menu(ui: &mut Ui, entry: &Entry, context: &mut PaneContext<'_>) {
         show_inspector(context);
         ui.close();
     }
-    if entry.is_own() && ui.button("Reading…").clicked() {
-        context.push(Command::ShowImport(ImportItem::Set(entry.name.clone()), None));
-        ui.close();
+    if entry.is_own() {
+        context.item(ui, "Reading…", "", Command::ShowImport(ImportItem::Set(entry.name.clone()), None));
     }
     context.item(
         ui,
@@ -286,9 +273,8 @@ fn menu(ui: &mut Ui, entry: &Entry, context: &mut PaneContext<'_>) {
         Command::CopySet(entry.kind, entry.name.clone()),
     );
     save_as(ui, entry.kind, &entry.name, context);
-    if entry.is_own() && ui.button("Remove").clicked() {
-        context.push(Action::Imported(ImportedAction::Remove(entry.name.clone())));
-        ui.close();
+    if entry.is_own() {
+        context.item(ui, "Remove", "", Action::Imported(ImportedAction::Remove(entry.name.clone())));
     }
 }
 
