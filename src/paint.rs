@@ -6,7 +6,6 @@
 mod dense;
 mod marks;
 mod pictures;
-mod triangles;
 
 use chromascope_figure::{
     Anchor, Annotation, Image, Ink, InkRole, LegendEntry, Mark, Panel, Projection, Rect as Area, Shape, Tag, TextSize,

@@ -49,7 +49,6 @@ pub struct Theme {
     pub on_surround: Color32,
 }
 
-/// A color of its bytes.
 pub const fn rgb([r, g, b]: [u8; 3]) -> Color32 {
     Color32::from_rgb(r, g, b)
 }

@@ -2,7 +2,6 @@
 
 pub mod correction;
 pub mod import;
-pub mod page;
 pub mod recorded;
 pub mod template;
 pub mod tour;
@@ -16,11 +15,11 @@ use chromascope_figure::Tag;
 use chromascope_text::{Settings as _, choices};
 use correction::CorrectionView;
 use import::{ImportItem, ImportMemory, ImportView};
-use page::PageLook;
 use recorded::RecordedView;
 use serde::{Deserialize, Serialize};
 
 use crate::document::{Compared, SetKind};
+use crate::export::Paper;
 use crate::figures::chromaticity::shown::DiagramView;
 use crate::figures::look::FigureLook;
 use crate::figures::metrics::TABLE;
@@ -173,7 +172,6 @@ pub enum ViewChoice {
 const OF_WINDOW: [&str; 5] = ["recent", "import", "reduced_motion", "draws_in", "folded"];
 
 impl SavedView {
-    /// The part that goes into a session's file.
     pub fn for_session(&self) -> serde_json::Value {
         let mut value = serde_json::to_value(self).unwrap_or_default();
         if let Some(fields) = value.as_object_mut() {
@@ -182,7 +180,6 @@ impl SavedView {
         value
     }
 
-    /// Takes the part of a session's file.
     pub fn take_session(&mut self, view: Self) {
         let (recent, import, folded) = (take(&mut self.recent), take(&mut self.import), take(&mut self.folded));
         *self = Self { recent, import, folded, draws_in: false, reduced_motion: self.reduced_motion, ..view };
@@ -531,4 +528,66 @@ pub struct RenderView {
     pub chosen: Option<SensorId>,
     /// True if finer pictures than the current ones are not wanted.
     pub cancelled: bool,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct PageLook {
+    pub paper: Paper,
+    pub zoom: PageZoom,
+    pub unit: LengthUnit,
+}
+
+impl Default for PageLook {
+    fn default() -> Self {
+        let paper = Paper { width_mm: Some(Paper::ONE_COLUMN_MM), ..Paper::default() };
+        Self { paper, zoom: PageZoom::default(), unit: LengthUnit::default() }
+    }
+}
+
+choices! {
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+    pub enum PageZoom {
+        #[default]
+        Fit = "fit", "Fit", "The whole page";
+        TrueSize = "true", "True size", "As large as on paper, where a screen has 96 points per inch";
+        Double = "double", "200 %", "Twice as large as on paper";
+    }
+}
+
+impl PageZoom {
+    /// Points on screen for each point on paper at true size: screens have 96 points per inch.
+    pub const TRUE: f64 = 96.0 / 72.0;
+
+    /// Points on screen for each point on paper, for a page that fits at `fit`.
+    pub fn scale(self, fit: f64) -> f64 {
+        match self {
+            Self::Fit => fit,
+            Self::TrueSize => Self::TRUE,
+            Self::Double => 2.0 * Self::TRUE,
+        }
+    }
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum LengthUnit {
+    #[default]
+    Millimeter,
+    Inch,
+}
+
+impl LengthUnit {
+    pub const fn mm(self) -> f64 {
+        match self {
+            Self::Millimeter => 1.0,
+            Self::Inch => 25.4,
+        }
+    }
+
+    pub const fn symbol(self) -> &'static str {
+        match self {
+            Self::Millimeter => "mm",
+            Self::Inch => "in",
+        }
+    }
 }

@@ -41,7 +41,7 @@ impl ChromascopeApp {
         let bar = |ui: &mut Ui, id, height, top| bar(ui, &theme, (id, height), top);
         let menu = bar(ui, "menu", 30.0, true);
         let conditions = bar(ui, "conditions", 48.0, true);
-        let tour = context.view.tour.map(|_| bar(ui, "tour", panes::help::tour::HEIGHT, true));
+        let tour = context.view.tour.map(|_| bar(ui, "tour", panes::help::TOUR, true));
         let standing: Vec<(PersistentMessage, Rect)> = self
             .files
             .standing()
@@ -54,7 +54,7 @@ impl ChromascopeApp {
         panes::menu::show(ui, menu, &self.history, &mut context);
         panes::scene_bar::show(ui, conditions, &mut context);
         if let Some(rect) = tour {
-            panes::help::tour::show(ui, rect, &mut context);
+            panes::help::tour(ui, rect, &mut context);
         }
         for (standing, rect) in standing {
             if notice(ui, rect, &standing, &theme) {

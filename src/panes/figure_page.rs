@@ -16,7 +16,7 @@ use crate::jobs::Job as _;
 use crate::paint;
 use crate::panes::widgets;
 use crate::theme::{self, UNIT};
-use crate::view::page::PageZoom;
+use crate::view::PageZoom;
 use crate::workspaces::PaneKind;
 
 const SETTINGS: f32 = 300.0;

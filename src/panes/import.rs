@@ -1,7 +1,6 @@
 //! The user's files, and the text of one with its interpretation.
 
 mod files;
-mod line;
 mod text;
 
 use egui::{ProgressBar, Rect, RichText, Sense, Ui, Vec2};

@@ -6,7 +6,6 @@ mod pinned;
 mod source;
 mod welcome;
 
-use chromascope_core::colorimetry::Metric;
 use chromascope_core::query::DifferenceError;
 use chromascope_core::spectral::{Assumed, Evidence, Sensor};
 use egui::{Rect, RichText, Ui};
@@ -14,7 +13,7 @@ use egui::{Rect, RichText, Ui};
 use super::context::{Pane, PaneContext};
 use crate::command::Command;
 use crate::document::SetKind;
-use crate::format::{fixed, number};
+use crate::format::number;
 use crate::panes::widgets;
 use crate::panes::widgets::facts::range_words;
 use crate::plot_item::{PlotItem, SensorId};
@@ -72,10 +71,6 @@ fn head(ui: &mut Ui, id: &SensorId, context: &PaneContext<'_>) {
 
 fn failure(ui: &mut Ui, theme: &Theme, words: &str) {
     ui.label(RichText::new(words).color(theme.error));
-}
-
-fn difference_words(metric: Metric, value: f64) -> String {
-    fixed(value, metric.decimals)
 }
 
 fn no_difference(reason: DifferenceError) -> String {

@@ -56,7 +56,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     if shown.current && widgets::numbers(ui, &PANE, body, context, |_| Some(light::table(&scene, &rendition))) {
         return;
     }
-    widgets::scroll::show(ui, (PANE.kind, "light"), body, context, |ui, context| {
+    widgets::scroll(ui, (PANE.kind, "light"), body, context, |ui, context| {
         summary(ui, &scene, &rendition, context);
         similarity(ui, &scene, context);
         pictures(ui, &rendition, context);

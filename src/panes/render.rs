@@ -1,12 +1,11 @@
 //! A mesh through each camera, side by side, from one orbit.
 
-mod cells;
 mod draw;
 mod request;
 
 use std::time::Duration;
 
-use cells::PictureLayout;
+use draw::PictureLayout;
 use egui::{Align2, EventFilter, FontId, Key, Modifiers, PointerButton, Rect, Response, Sense, Ui};
 
 use super::context::{Pane, PaneContext};

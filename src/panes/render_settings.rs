@@ -2,7 +2,6 @@
 
 mod pixel;
 mod scene;
-mod surface;
 
 use chromascope_text::{Look, Number, Pick, Setting, Settings as _, Value};
 use egui::{CollapsingHeader, DragValue, Rect, ScrollArea, Ui, UiBuilder, Vec2};
@@ -43,10 +42,10 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let foot = if kept { PIXEL + PIXEL_LINE * sources.min(PIXEL_LINES) as f32 + spectrum } else { NO_PIXEL };
     let below = if body.height() > WITH_PIXEL { foot } else { 0.0 };
     let groups = Rect::from_min_max(body.min, egui::pos2(body.right(), body.bottom() - below));
-    widgets::scroll::show(ui, (PANE.kind, "render setup"), groups, context, |ui, context| {
+    widgets::scroll(ui, (PANE.kind, "render setup"), groups, context, |ui, context| {
         ui.spacing_mut().item_spacing.y = 0.5 * UNIT;
         group(ui, LIGHT, context, |ui, context| controls(ui, LIGHT, context));
-        group(ui, SURFACE, context, surface::show);
+        group(ui, SURFACE, context, scene::surface);
         group(ui, VIEW, context, show_view);
         if below == 0.0 {
             group(ui, "Pixel", context, pixel::show);

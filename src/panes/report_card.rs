@@ -53,7 +53,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
         }
     }
     let body = body.expand2(Vec2::new(2.0 * UNIT, 0.0));
-    widgets::scroll::show(ui, (PANE.kind, "report card"), body, context, |ui, context| {
+    widgets::scroll(ui, (PANE.kind, "report card"), body, context, |ui, context| {
         ScrollArea::horizontal().auto_shrink([false, true]).show(ui, |ui| draw(ui, &page, moved, context));
     });
 }

@@ -34,7 +34,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
         board(ui, area, &built, context);
     });
     if height - shown.state.clamped_offset().y > body.height() + 1.0 {
-        widgets::scroll::more_below(ui, slot, context.theme.on_surround);
+        widgets::more_below(ui, slot, context.theme.on_surround);
     }
 }
 

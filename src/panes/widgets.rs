@@ -5,18 +5,19 @@ pub mod lines;
 pub mod number_field;
 pub mod pick_list;
 pub mod pixel;
-pub mod scroll;
 pub mod table;
 pub mod tolerance;
 pub mod walk;
-
-pub use lines::focus_rim;
 
 use std::time::Duration;
 
 use chromascope_figure::{FigureRoom, Ink, LegendEntry, Stroke, Table};
 use chromascope_text::Choice;
-use egui::{Align, Align2, Button, FontId, Layout, Rect, Response, RichText, Sense, Ui, UiBuilder, Vec2};
+use egui::{
+    Align, Align2, Button, Color32, FontId, Key, Layout, Modifiers, Rect, Response, RichText, ScrollArea, Sense, Shape,
+    Ui, UiBuilder, Vec2,
+};
+use pick_list::Line;
 
 use crate::command::Command;
 use crate::export::FigureForm;
@@ -28,7 +29,8 @@ use crate::plot_item::SensorId;
 use crate::scene::ComparedSensor;
 use crate::theme::{self, ROW, Theme, UNIT};
 use crate::workspaces::{PaneKind, Workspace};
-use pick_list::Line;
+
+pub use lines::focus_rim;
 
 pub const WHAT_YOU_SEE: &str = "A camera's spectral sensitivities differ from the eye's, so it records other colors \
                                 than a person sees. Chromascope shows how far off each camera is.";
@@ -112,7 +114,6 @@ pub fn say(ui: &Ui, body: Rect, words: impl ToString, color: egui::Color32) {
     ui.painter().text(body.center(), Align2::CENTER_CENTER, words, font, color);
 }
 
-/// A small line of less weight.
 pub fn note(ui: &mut Ui, words: impl Into<String>) {
     ui.label(RichText::new(words).small().weak());
 }
@@ -183,7 +184,7 @@ pub fn scrolling_pane(
     content: impl FnOnce(&mut Ui, &mut PaneContext<'_>),
 ) {
     let body = self::pane(ui, pane, rect, context, |_, _| {});
-    scroll::show(ui, (pane.kind, pane.title), body, context, content);
+    scroll(ui, (pane.kind, pane.title), body, context, content);
 }
 
 /// The title, which opens a menu of panes for this place.
@@ -214,7 +215,6 @@ fn title_menu(ui: &mut Ui, pane: &Pane, context: &mut PaneContext<'_>) {
     }
 }
 
-/// Table, export, maximize, close.
 fn header_buttons(ui: &mut Ui, pane: &Pane, context: &mut PaneContext<'_>) {
     let (kind, title) = (pane.kind, pane.title);
     let maximized = context.view.maximized == Some(kind);
@@ -285,10 +285,7 @@ pub fn busy_line(ui: &Ui, body: Rect, busy: Option<Duration>, color: egui::Color
 /// Small pictures drawn with lines, so that no font needs them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Icon {
-    Table {
-        /// Numbers are visible.
-        on: bool,
-    },
+    Table { on: bool },
     Export,
     Maximize,
     Close,
@@ -395,7 +392,6 @@ pub fn pressed<T: Copy + PartialEq>(ui: &mut Ui, choices: &[(T, &str, &str)], cu
     clicked
 }
 
-/// A source's key: its line and marker.
 pub fn legend_entry(source: &ComparedSensor) -> LegendEntry {
     LegendEntry {
         name: source.label.clone(),
@@ -434,4 +430,58 @@ pub fn mark(ui: &Ui, id: egui::Id, part: std::ops::Range<usize>) {
     let mut state = egui::TextEdit::load_state(ui.ctx(), id).unwrap_or_default();
     state.cursor.set_char_range(Some(CCursorRange::two(CCursor::new(part.start), CCursor::new(part.end))));
     state.store(ui.ctx(), id);
+}
+
+const HINT_LINE: f32 = 18.0;
+/// Share of the visible height that Page Up and Page Down move by.
+const PAGE: f32 = 0.9;
+
+/// Shows content that scrolls in a rectangle of a pane, also by Page Up and Page Down. Where it does not fit, a line below it is
+/// kept for the hint, so that nothing moves when the end is reached.
+pub fn scroll(
+    ui: &mut Ui,
+    (pane, name): (PaneKind, &str),
+    rect: Rect,
+    context: &mut PaneContext<'_>,
+    content: impl FnOnce(&mut Ui, &mut PaneContext<'_>),
+) {
+    let key = ui.scope_id().with((name, "height"));
+    let before: f32 = ui.data(|data| data.get_temp(key)).unwrap_or_default();
+    let kept = if before > rect.height() { HINT_LINE } else { 0.0 };
+    let (view, slot) = rect.split_top_bottom_at_y(rect.bottom() - kept);
+    let inner = view.shrink2(Vec2::new(2.0 * UNIT, 0.0));
+    let mut child = ui.new_child(UiBuilder::new().id_salt(name).max_rect(inner));
+    child.set_clip_rect(view.intersect(ui.clip_rect()));
+    let shown = ScrollArea::vertical().id_salt(name).auto_shrink(false).show(&mut child, |ui| {
+        ui.set_max_width(inner.width() - 2.0 * UNIT);
+        if walk::has_keys(ui, pane, context) {
+            let pressed = |key| ui.input_mut(|input| input.count_and_consume_key(Modifiers::NONE, key)) as f32;
+            let pages = pressed(Key::PageUp) - pressed(Key::PageDown);
+            if pages != 0.0 {
+                ui.scroll_with_delta(Vec2::new(0.0, pages * PAGE * view.height()));
+            }
+        }
+        content(ui, context);
+    });
+    let height = shown.content_size.y;
+    if (height > rect.height()) != (kept > 0.0) {
+        ui.ctx().request_repaint();
+    }
+    ui.data_mut(|data| data.insert_temp(key, height));
+    if kept > 0.0 && height - shown.state.clamped_offset().y > view.height() + 1.0 {
+        let slot = slot.shrink2(Vec2::new(2.0 * UNIT, 0.0));
+        more_below(&ui.new_child(UiBuilder::new().id_salt((name, "below")).max_rect(slot)), slot, context.theme.weak);
+    }
+}
+
+/// A hint at the left of a place that there is more to scroll to.
+pub fn more_below(ui: &Ui, slot: Rect, color: Color32) {
+    let font = FontId::proportional(crate::theme::SMALL);
+    let words = ui.painter().layout_no_wrap("more below".to_owned(), font, color);
+    let at = slot.left_center() + Vec2::new(14.0, -0.5 * words.size().y);
+    let tip = slot.left_center() + Vec2::new(6.0, 3.0);
+    ui.painter().galley(at, words, color);
+    let corners = vec![tip, tip + Vec2::new(-4.0, -5.0), tip + Vec2::new(4.0, -5.0)];
+    named(ui, slot, ui.scope_id().with("more below"), egui::Role::Label, "more below");
+    ui.painter().add(Shape::convex_polygon(corners, color, egui::Stroke::NONE));
 }

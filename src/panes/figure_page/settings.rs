@@ -12,7 +12,7 @@ use crate::panes::context::PaneContext;
 use crate::panes::widgets;
 use crate::panes::widgets::pick_list::{self, Line};
 use crate::theme::{ROW, UNIT};
-use crate::view::page::{LengthUnit, PageLook};
+use crate::view::{LengthUnit, PageLook};
 use crate::workspaces::PaneKind;
 
 const NAMES: f32 = 72.0;

@@ -8,8 +8,7 @@ use egui::{FontId, Rect, Sense, TextFormat, TextStyle, Ui, Vec2};
 
 use super::numbers::{self, Point, blackbody_of, color_of, difference_of, index_of, points_table};
 use super::{
-    assumptions, buttons, copy_text, difference_words, failure, head, held_words, label_of, no_difference,
-    reference_id, show_assumptions,
+    assumptions, buttons, copy_text, failure, head, held_words, label_of, no_difference, reference_id, show_assumptions,
 };
 use crate::document::Light;
 use crate::format::fixed;
@@ -111,7 +110,7 @@ fn difference(ui: &mut Ui, id: &SensorId, patch: &str, context: &PaneContext<'_>
                 };
                 let mut job = LayoutJob::default();
                 job.append(&format!("{} ", scene.difference_name()), 0.0, format(TEXT));
-                job.append(&difference_words(measure, value), 0.0, format(HEADING + 2.0));
+                job.append(&fixed(value, measure.decimals), 0.0, format(HEADING + 2.0));
                 ui.label(job);
                 ui.add_space(UNIT);
                 if let Some(rank) = rank(value, &differences) {
@@ -185,7 +184,7 @@ fn source_row(ui: &mut Ui, source: &ComparedSensor, patch: &str, seen: &PatchCol
     let (words, hint) = match (&own, difference) {
         (Err(error), _) => ("–".to_owned(), Some(error.to_string())),
         _ if source.is_reference => (String::new(), None),
-        (_, Some(Ok(value))) => (difference_words(scene.document.difference, value), None),
+        (_, Some(Ok(value))) => (fixed(value, scene.document.difference.decimals), None),
         (_, Some(Err(reason))) => ("–".to_owned(), Some(no_difference(reason))),
         _ => ("–".to_owned(), None),
     };

@@ -11,7 +11,7 @@ use chromascope_core::render::{Quality, RasterSize, Shadows};
 use chromascope_mesh::Mesh;
 use egui::Ui;
 
-use super::cells::PictureLayout;
+use super::draw::PictureLayout;
 use crate::catalog::meshes::MeshState;
 use crate::catalog::spectral_images::{ImageState, LoadedImage};
 use crate::document::render::{MeshChoice, RenderSettings};
