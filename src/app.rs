@@ -57,6 +57,7 @@ pub struct ChromascopeApp {
     /// The latest reading of each set that was read again.
     last_read: std::collections::HashMap<String, u64>,
     arrangement: Arrangement,
+    /// When the program began, until the time of the first frame is reported.
     first_frame: Option<std::time::Instant>,
     /// The control that had the keyboard in the last frame.
     focus: Option<egui::Id>,
@@ -123,10 +124,6 @@ impl ChromascopeApp {
         app
     }
 
-    pub fn restore_place(&mut self, storage: Option<&dyn eframe::Storage>) {
-        self.place = startup::WindowPlace::restored(storage);
-    }
-
     pub fn history(&self) -> &History {
         &self.history
     }
@@ -191,11 +188,6 @@ impl ChromascopeApp {
     /// Has something done in the next frame.
     pub fn push(&mut self, command: impl Into<Command>) {
         self.commands.push(command.into());
-    }
-
-    /// Reports when the first frame was complete, counted from `start`.
-    pub fn report_first_frame(&mut self, start: std::time::Instant) {
-        self.first_frame = Some(start);
     }
 
     /// Keys, clipboard and dropped files become commands.

@@ -8,15 +8,16 @@ mod marks;
 mod pictures;
 
 use chromascope_figure::{
-    Anchor, Annotation, Image, Ink, InkRole, LegendEntry, Mark, Panel, Projection, Rect as Area, Shape, Tag, TextSize,
-    Tick, Ticks, annotations, fit_equal,
+    Anchor, Annotation, Ink, InkRole, Mark, Panel, Projection, Rect as Area, Shape, Tag, TextSize, Tick, Ticks,
+    annotations, fit_equal,
 };
 use egui::{Id, Painter, Pos2, Rect, Response, Sense, Stroke, StrokeKind, Ui, Vec2};
 use egui_plot::{Plot, PlotUi};
 
 use crate::theme::Theme;
 
-pub use pictures::{PictureQuery, PictureTextures};
+pub use marks::key;
+pub use pictures::{PictureQuery, PictureTextures, draw as picture};
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Emphasis {
@@ -88,7 +89,6 @@ impl View {
         self.rect.left_bottom() + offset
     }
 
-    /// The data point at a place on screen.
     pub fn value(&self, at: Pos2) -> [f64; 2] {
         let u = f64::from((at.x - self.rect.left()) / self.rect.width().max(1.0));
         let v = f64::from((self.rect.bottom() - at.y) / self.rect.height().max(1.0));
@@ -209,14 +209,8 @@ pub fn still(painter: &Painter, panel: &Panel, theme: &Theme, rect: Rect) -> Vie
     view
 }
 
-pub fn picture(painter: &Painter, rect: Rect, image: &Image) {
-    pictures::draw(painter, rect, image);
-}
-
 /// The two colors of a ring that is seen on any picture: the wider one below, the narrower one above.
-pub const fn ring_colors() -> [egui::Color32; 2] {
-    [egui::Color32::WHITE, egui::Color32::BLACK]
-}
+pub const RING_COLORS: [egui::Color32; 2] = [egui::Color32::WHITE, egui::Color32::BLACK];
 
 /// Fills a rectangle with a ramp, from 0 at the left to 1 at the right.
 pub fn ramp(painter: &Painter, rect: Rect, color: &dyn Fn(f32) -> [u8; 3]) {
@@ -229,10 +223,6 @@ pub fn ramp(painter: &Painter, rect: Rect, color: &dyn Fn(f32) -> [u8; 3]) {
             Rect::from_min_max(Pos2::new(left, rect.top()), Pos2::new((left + 1.0).min(rect.right()), rect.bottom()));
         painter.rect_filled(strip, 0.0, egui::Color32::from_rgb(r, g, b));
     }
-}
-
-pub fn key(painter: &Painter, rect: Rect, entry: &LegendEntry, theme: &Theme) {
-    marks::key(painter, rect, entry, theme);
 }
 
 /// Draws a panel whose plot is `view` and whose outer box is `rect`.

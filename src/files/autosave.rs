@@ -421,7 +421,6 @@ pub fn save_on_exit() {
     LAST.with(|_| ());
 }
 
-/// Saves the document before a signal ends the program.
 #[cfg(unix)]
 pub fn save_on_signals() -> io::Result<()> {
     use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};

@@ -133,7 +133,6 @@ impl Files {
         self.autosave.watch(document, ctx);
     }
 
-    /// Saves the document now. The error says why not all of it is saved.
     pub fn save_document(&mut self, document: &Document) -> Result<(), String> {
         self.autosave.save(document)
     }

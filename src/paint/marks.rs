@@ -229,7 +229,8 @@ fn outline(painter: &Painter, at: Pos2, marker: Marker, radius: f32, fill: Color
     }
 }
 
-pub(super) fn key(painter: &Painter, rect: Rect, entry: &LegendEntry, theme: &Theme) {
+/// Draws the key of a source, line and marker, across the middle of `rect`.
+pub fn key(painter: &Painter, rect: Rect, entry: &LegendEntry, theme: &Theme) {
     let middle = rect.center();
     let view = View { rect, x: [0.0, 1.0], y: [0.0, 1.0] };
     let brush = Brush { painter, view: &view, theme, emphasis: Emphasis::Normal };

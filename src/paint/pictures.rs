@@ -87,7 +87,7 @@ struct Held {
     used: u64,
 }
 
-pub(super) fn draw(painter: &Painter, rect: Rect, image: &Image) {
+pub fn draw(painter: &Painter, rect: Rect, image: &Image) {
     if !image.is_drawable() {
         return;
     }

@@ -18,7 +18,6 @@ use crate::figures::look::FigureLook;
 use crate::jobs::Later;
 use crate::profiler::Profiler;
 use crate::render_service::RenderService;
-use crate::results::Count;
 use crate::scene::Scene;
 use crate::theme::Theme;
 use crate::view::View;
@@ -125,11 +124,6 @@ impl PaneContext<'_> {
     /// Has something done when the frame is over.
     pub fn push(&mut self, command: impl Into<Command>) {
         self.commands.push(command.into());
-    }
-
-    /// Hits, misses and times of each kind of query, the window's and the pictures'.
-    pub fn counts(&self) -> Vec<(&'static str, Count)> {
-        self.scene.results.counts().into_iter().collect()
     }
 }
 

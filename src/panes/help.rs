@@ -237,12 +237,10 @@ fn text(ui: &mut Ui, context: &mut PaneContext<'_>) {
          of digital cameras using spectroscopy data” (2007).",
     );
     ui.add_space(UNIT);
-    let small = |ui: &mut Ui, words: String| ui.label(RichText::new(words).small().color(context.theme.weak));
-    small(
-        ui,
-        format!("The head, as in its Figure 8: left through the reference, right through the {}.", portrait::CAMERA),
-    );
-    small(ui, format!("Program: {}. Each data set has its own source and terms.", env!("CARGO_PKG_LICENSE")));
+    let words =
+        format!("The head, as in its Figure 8: left through the reference, right through the {}.", portrait::CAMERA);
+    widgets::note(ui, words);
+    widgets::note(ui, format!("Program: {}. Each data set has its own source and terms.", env!("CARGO_PKG_LICENSE")));
     ui.add_space(UNIT);
     ui.horizontal_wrapped(|ui| {
         for (words, command) in [

@@ -74,13 +74,9 @@ fn content(ui: &mut Ui, shown: &ImportSelection, context: &mut PaneContext<'_>) 
     stored::channels(ui, shown, &mut overrides, &context.theme);
     curves::show(ui, shown, &mut overrides, context);
     if overrides != shown.overrides {
-        wish(shown, overrides, context);
+        context.push(Command::SetOverrides(shown.item.clone(), Box::new(overrides)));
     }
     notes::show(ui, shown, context);
-}
-
-fn wish(shown: &ImportSelection, overrides: ImportOverrides, context: &mut PaneContext<'_>) {
-    context.push(Command::SetOverrides(shown.item.clone(), Box::new(overrides)));
 }
 
 /// Reason that the file cannot be read with the settings, with a way to reset them.
@@ -303,12 +299,8 @@ fn foot(ui: &mut Ui, shown: &ImportSelection, context: &mut PaneContext<'_>) {
             if on_disk(shown) && ui.button("Reload").on_hover_text("Reload the file from disk").clicked() {
                 context.push(Command::ReadAgain(name.clone()));
             }
-            context.button(
-                ui,
-                "Remove",
-                "Remove the data set; can be undone",
-                Action::Imported(ImportedAction::Remove(name.clone())),
-            );
+            let remove = Action::Imported(ImportedAction::Remove(name.clone()));
+            context.button(ui, "Remove", "Remove the data set; can be undone", remove);
         }
     });
     ui.horizontal(|ui| {

@@ -36,7 +36,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     heading(&mut column, "Library", context);
     let rows = sets::rows(context);
     let chosen = search_field(&mut column, context);
-    if chosen && let Some(entry) = sets::first_match(&rows) {
+    if chosen && let Some(entry) = rows.iter().find_map(sets::Row::entry) {
         sets::choose(&entry, true, context);
     }
     sets::list(&mut column, &rows, context);

@@ -127,12 +127,8 @@ fn file(ui: &mut Ui, context: &mut PaneContext<'_>) {
             for (path, age) in kept {
                 let words = format!("Document of another window, {age}");
                 let menu = ui.menu_button(words, |ui| {
-                    context.item(
-                        ui,
-                        "Open",
-                        "The current document is saved here first",
-                        Command::OpenDocument(path.clone()),
-                    );
+                    let hint = "The current document is saved here first";
+                    context.item(ui, "Open", hint, Command::OpenDocument(path.clone()));
                     context.item(ui, "Delete", "", Command::RemoveDocument(path.clone()));
                 });
                 menu.response.on_hover_text(path.display().to_string());

@@ -72,12 +72,8 @@ fn switches(ui: &mut Ui, context: &mut PaneContext<'_>) {
         if ui.button(words).on_hover_text(hint).clicked() {
             compare(&id, context);
         }
-        context.button(
-            ui,
-            "Report card",
-            "The selected camera on one page (Esc returns)",
-            Command::Maximize(PaneKind::REPORT_CARD),
-        );
+        let hint = "The selected camera on one page (Esc returns)";
+        context.button(ui, "Report card", hint, Command::Maximize(PaneKind::REPORT_CARD));
     }
     let waiting = Ranking::seen(context.later);
     let slow = waiting.busy.is_some_and(|busy| busy >= PATIENCE);

@@ -106,12 +106,8 @@ fn patches(scene: &Scene<'_>, inputs: &RecordedInputs) -> Result<Vec<RecordedPat
 }
 
 fn switches(ui: &mut Ui, context: &mut PaneContext<'_>) {
-    context.button(
-        ui,
-        "Open…",
-        "Open raw values: a table, or a linear 16-bit picture of a chart",
-        Command::OpenRecorded,
-    );
+    let hint = "Open raw values: a table, or a linear 16-bit picture of a chart";
+    context.button(ui, "Open…", hint, Command::OpenRecorded);
     let view = &mut context.view.recorded;
     let file = view.path.as_ref().map(|path| context.recorded.get(path));
     let Some(FileState::Ready(file)) = file else { return };

@@ -359,7 +359,6 @@ pub fn segmented<T: Copy + PartialEq>(ui: &mut Ui, choices: &[(T, &str, &str)], 
     pressed(ui, choices, current).filter(|choice| *choice != current)
 }
 
-/// A switch that sets a value.
 pub fn switch<T: Choice>(ui: &mut Ui, value: &mut T) {
     if let Some(to) = choice(ui, *value) {
         *value = to;

@@ -271,13 +271,8 @@ impl View<'_> {
         let at = egui::pos2(x, (band.center().y - line.height() / 2.0).round());
         let error = self.error.filter(|(line, _)| *line == number).map(|(_, range)| range);
         line.paint(ui, at, error, &context.theme);
-        let response = widgets::named(
-            ui,
-            band,
-            Id::unique(("line of text", number)),
-            egui::Role::Label,
-            &format!("{number}: {said}"),
-        );
+        let (id, name) = (Id::unique(("line of text", number)), format!("{number}: {said}"));
+        let response = widgets::named(ui, band, id, egui::Role::Label, &name);
         let pointer = pointer?;
         if let (Some(_), Some(error)) = (error, self.shown.error()) {
             response.on_hover_text_at_pointer(sentence(&error.to_string()));

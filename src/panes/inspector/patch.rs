@@ -242,10 +242,9 @@ pub(super) fn blackbody(ui: &mut Ui, id: &SensorId, kelvin: f64, context: &mut P
     match scene.document.light {
         Light::BlackBody => widgets::note(ui, "The light on the scene is a blackbody of the marked temperature."),
         Light::Daylight => {
-            widgets::note(
-                ui,
-                "The light on the scene is daylight of the marked temperature; the locus is that of blackbodies.",
-            );
+            let words =
+                "The light on the scene is daylight of the marked temperature; the locus is that of blackbodies.";
+            widgets::note(ui, words);
         }
         Light::Set(_) => {}
     }

@@ -92,7 +92,7 @@ pub(super) fn show(
             }
         }
     });
-    keep_row(ui, focused);
+    ui.data_mut(|data| data.insert_temp(row_with_keyboard(), focused));
     let inside = focused.is_some() || ui.rect_contains_pointer(output.inner_rect);
     widgets::hover_curve(ui, POINTER, inside, under, context);
     if !taken.contains(&true) {
@@ -106,10 +106,6 @@ pub(super) fn show(
 
 fn row_with_keyboard() -> Id {
     Id::unique("curve with the keyboard")
-}
-
-fn keep_row(ui: &Ui, row: Option<usize>) {
-    ui.data_mut(|data| data.insert_temp(row_with_keyboard(), row));
 }
 
 /// The row that is to have the keyboard now: the next one by an arrow, or the first of all when the list is reached.

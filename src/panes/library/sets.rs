@@ -37,7 +37,7 @@ pub(super) enum Row<'a> {
 
 impl<'a> Row<'a> {
     /// The entry of a set, made for visible rows only.
-    fn entry(&self) -> Option<Cow<'a, Entry>> {
+    pub(super) fn entry(&self) -> Option<Cow<'a, Entry>> {
         match self {
             Self::Group { .. } => None,
             Self::BuiltIn(entry) => Some(Cow::Borrowed(entry)),
@@ -71,10 +71,6 @@ pub(super) fn rows<'a>(context: &PaneContext<'a>) -> Vec<Row<'a>> {
         }
     }
     rows
-}
-
-pub(super) fn first_match<'a>(rows: &[Row<'a>]) -> Option<Cow<'a, Entry>> {
-    rows.iter().find_map(Row::entry)
 }
 
 /// The list; only visible rows are laid out.
@@ -266,12 +262,8 @@ fn menu(ui: &mut Ui, entry: &Entry, context: &mut PaneContext<'_>) {
     if entry.is_own() {
         context.item(ui, "Reading…", "", Command::ShowImport(ImportItem::Set(entry.name.clone()), None));
     }
-    context.item(
-        ui,
-        "Copy curves",
-        "Tab-separated text, for a spreadsheet or for Paste data",
-        Command::CopySet(entry.kind, entry.name.clone()),
-    );
+    let hint = "Tab-separated text, for a spreadsheet or for Paste data";
+    context.item(ui, "Copy curves", hint, Command::CopySet(entry.kind, entry.name.clone()));
     save_as(ui, entry.kind, &entry.name, context);
     if entry.is_own() {
         context.item(ui, "Remove", "", Action::Imported(ImportedAction::Remove(entry.name.clone())));

@@ -135,13 +135,8 @@ fn caption(
     let left = Rect::from_min_max(rect.min + Vec2::new(20.0, 0.0), rect.max - Vec2::new(right, 0.0));
     let cut = lines::elided(ui, left, &words, TextStyle::Body, color);
     let said = note.map_or_else(|| words.clone(), |note| format!("{words}, {}", note.full));
-    let response = widgets::named(
-        ui,
-        cell.caption,
-        ui.scope_id().with(("caption", &words)),
-        egui::Role::Label,
-        &format!("Picture: {said}"),
-    );
+    let (id, name) = (ui.scope_id().with(("caption", &words)), format!("Picture: {said}"));
+    let response = widgets::named(ui, cell.caption, id, egui::Role::Label, &name);
     if let Some(note) = note {
         response.on_hover_text(format!("{said}. {}", note.meaning));
     } else if cut {
@@ -164,7 +159,7 @@ fn ring(painter: &Painter, layout: &PictureLayout, cell: usize, context: &PaneCo
     let picture = layout.cells[cell].picture;
     let at = picture.min + Vec2::new(pinned.at[0] as f32, pinned.at[1] as f32) * picture.size();
     let painter = painter.with_clip_rect(layout.visible(cell).intersect(painter.clip_rect()));
-    let [outer, inner] = paint::ring_colors();
+    let [outer, inner] = paint::RING_COLORS;
     painter.circle_stroke(at, RING, Stroke::new(3.0, outer));
     painter.circle_stroke(at, RING, Stroke::new(1.5, inner));
 }

@@ -1,7 +1,7 @@
 //! Values of the pinned pixel.
 
 use chromascope_figure::{Cell, Column, Table};
-use egui::{RichText, Ui};
+use egui::Ui;
 
 use crate::figures::render::headline::Measure;
 use crate::figures::render::{NO_VALUE, facts, index_of, pixel_of};
@@ -18,37 +18,24 @@ use crate::workspaces::PaneKind;
 pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
     ui.spacing_mut().item_spacing.y = 0.5 * UNIT;
     ui.spacing_mut().interact_size.y = 14.0;
-    let weak = context.theme.weak;
     let Some(pinned) = context.view.render.pinned.clone() else {
-        ui.label(
-            RichText::new("Point at a picture to read it; click to pin the pixel, Esc to unpin it.")
-                .small()
-                .color(weak),
-        );
-        return;
+        return widgets::note(ui, "Point at a picture to read it; click to pin the pixel, Esc to unpin it.");
     };
     let found = context.render_service.frame().and_then(|shot| {
         let place = shown(pinned, shot);
         Some((shot, pixel_of(&context.scene, shot, &place)?, place))
     });
     let Some((shot, reading, place)) = found else {
-        ui.label(RichText::new("No picture of this sensor yet.").small().color(weak));
-        return;
+        return widgets::note(ui, "No picture of this sensor yet.");
     };
     let label = index_of(shot, &place.source).map_or(&place.source.name, |index| &shot.sources[index].label);
     let measure = Measure::of_frame(shot);
     let [x, y] = reading.at;
     ui.label(format!("Pixel {x}, {y}   {label}"));
     match reading.shows {
-        PixelShows::Nothing => {
-            ui.label("Beside the mesh.");
-        }
-        PixelShows::NoValue => {
-            ui.label(NO_VALUE);
-        }
-        PixelShows::Unlit => {
-            ui.label("No light reaches it: facing away, or in shadow.");
-        }
+        PixelShows::Nothing => drop(ui.label("Beside the mesh.")),
+        PixelShows::NoValue => drop(ui.label(NO_VALUE)),
+        PixelShows::Unlit => drop(ui.label("No light reaches it: facing away, or in shadow.")),
         PixelShows::Lit(lit) => {
             let numbers =
                 ui.scope(|ui| show_pairs(ui, PaneKind::RENDER_SETTINGS, "pixel", &facts(&lit, measure), context));
@@ -62,7 +49,7 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
             others(ui, &place, shot, context);
             widgets::pixel::spectrum(ui, "spectrum in settings", shot, reading.at, context);
             if let Some((_, transform)) = lit.roughness {
-                ui.label(RichText::new(format!("g at 550 nm, {transform}")).small().color(weak));
+                widgets::note(ui, format!("g at 550 nm, {transform}"));
             }
         }
     }
