@@ -30,7 +30,7 @@ use crate::scene::ComparedSensor;
 use crate::theme::{self, ROW, Theme, UNIT};
 use crate::workspaces::{PaneKind, Workspace};
 
-pub use lines::focus_rim;
+pub use lines::{focus_rim, named};
 
 pub const WHAT_YOU_SEE: &str = "A camera's spectral sensitivities differ from the eye's, so it records other colors \
                                 than a person sees. Chromascope shows how far off each camera is.";
@@ -148,13 +148,6 @@ pub fn hover_curve(ui: &Ui, salt: &'static str, inside: bool, place: Option<usiz
         context.view.import.hovered_curve = place;
         ui.ctx().request_repaint();
     }
-}
-
-/// A drawn part that shows nothing else under the pointer, with its name for screen readers.
-pub fn named(ui: &Ui, rect: Rect, id: egui::Id, role: egui::Role, words: &str) -> Response {
-    let response = ui.interact(rect, id, Sense::hover());
-    response.widget_info(|| egui::WidgetInfo::labeled(role, true, words));
-    response
 }
 
 /// Has the control of a name take the keyboard as soon as it is drawn.

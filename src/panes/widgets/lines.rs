@@ -70,6 +70,13 @@ pub fn key_and_label(ui: &mut Ui, source: &ComparedSensor, theme: &Theme) -> Res
     if cut { response.on_hover_text(&source.label) } else { response }
 }
 
+/// A drawn part that shows nothing else under the pointer, with its name for screen readers.
+pub fn named(ui: &Ui, rect: Rect, id: egui::Id, role: egui::Role, words: &str) -> Response {
+    let response = ui.interact(rect, id, Sense::hover());
+    response.widget_info(|| egui::WidgetInfo::labeled(role, true, words));
+    response
+}
+
 pub fn focus_rim(response: &Response, theme: &Theme) -> egui::Stroke {
     if response.has_focus() { egui::Stroke::new(1.5, theme.text) } else { egui::Stroke::NONE }
 }
@@ -119,8 +126,7 @@ pub fn caution(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) -> Rect {
     warning_mark(ui.painter(), egui::pos2(rest.left() + 7.0, rest.center().y), context.theme.warning);
     rest.min.x += 5.0 * UNIT;
     elided(ui, rest, &sentence, TextStyle::Small, context.theme.warning);
-    let response =
-        super::named(ui, rest, ui.scope_id().with(("caution", rect.min.x as i32)), egui::Role::Alert, &sentence);
+    let response = named(ui, rest, ui.scope_id().with(("caution", rect.min.x as i32)), egui::Role::Alert, &sentence);
     response.on_hover_text(sentence);
     Rect::from_min_max(egui::pos2(rect.left(), line.bottom() + 0.5 * UNIT), rect.max)
 }
@@ -141,7 +147,7 @@ pub fn foot(ui: &Ui, rect: Rect, words: &str, context: &PaneContext<'_>) -> Rect
     } else {
         elided(ui, place, words, TextStyle::Small, context.theme.weak);
     }
-    let response = super::named(ui, place, ui.scope_id().with(("foot", rect.min.x as i32)), egui::Role::Label, words);
+    let response = named(ui, place, ui.scope_id().with(("foot", rect.min.x as i32)), egui::Role::Label, words);
     response.on_hover_text(words);
     Rect::from_min_max(rect.min, egui::pos2(rect.right(), place.top() - UNIT))
 }
