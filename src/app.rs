@@ -1,10 +1,7 @@
 //! The window: handles events, runs commands and shows panes.
 
-mod changes;
 mod commands;
-mod focus;
 mod frame;
-mod meshes;
 mod opening;
 mod path_prompt;
 mod saving;
@@ -40,7 +37,7 @@ const LAYOUT_KEY: &str = "layout";
 
 pub struct ChromascopeApp {
     history: History,
-    catalog: Catalog,
+    pub catalog: Catalog,
     results: Results,
     view: View,
     files: Files,
@@ -51,7 +48,7 @@ pub struct ChromascopeApp {
     later: Later,
     /// Subject of the report whose folder is asked for.
     report_on: Option<ReportOn>,
-    states: PaneStates,
+    pub states: PaneStates,
     render_service: RenderService,
     profiler: Profiler,
     commands: Vec<Command>,
@@ -60,6 +57,7 @@ pub struct ChromascopeApp {
     /// The latest reading of each set that was read again.
     last_read: std::collections::HashMap<String, u64>,
     arrangement: Arrangement,
+    /// When the program began, until the time of the first frame is reported.
     first_frame: Option<std::time::Instant>,
     /// The control that had the keyboard in the last frame.
     focus: Option<egui::Id>,
@@ -77,7 +75,6 @@ impl ChromascopeApp {
         Self::on(&Executor::default(), ctx, history, saved, files)
     }
 
-    /// Creates the app with a document and an executor for background work.
     pub fn on(
         executor: &Executor,
         ctx: &egui::Context,
@@ -127,36 +124,19 @@ impl ChromascopeApp {
         app
     }
 
-    /// Restores the window's position and size from the last run.
-    pub fn restore_place(&mut self, storage: Option<&dyn eframe::Storage>) {
-        self.place = startup::WindowPlace::restored(storage);
-    }
-
     pub fn history(&self) -> &History {
         &self.history
     }
 
-    /// Takes other data sets.
-    pub fn set_catalog(&mut self, catalog: Catalog) {
-        self.catalog = catalog;
-    }
-
-    /// State of the view: selection, zoom, hover and the like.
     pub fn view(&self) -> &View {
         &self.view
     }
 
     /// What panes keep from frame to frame.
-    pub fn states_mut(&mut self) -> &mut PaneStates {
-        &mut self.states
-    }
-
-    /// Mutable state of the view, for tests to set up.
     pub fn view_mut(&mut self) -> &mut View {
         &mut self.view
     }
 
-    /// Part of the view that is saved between runs.
     pub fn saved_view(&self) -> SavedView {
         let mut saved = self.own_view().clone();
         saved.import.failing = self.opened.failing();
@@ -210,11 +190,6 @@ impl ChromascopeApp {
         self.commands.push(command.into());
     }
 
-    /// Reports when the first frame was complete, counted from `start`.
-    pub fn report_first_frame(&mut self, start: std::time::Instant) {
-        self.first_frame = Some(start);
-    }
-
     /// Keys, clipboard and dropped files become commands.
     fn take_input(&mut self, ctx: &egui::Context) {
         if self.files.is_asking() {
@@ -223,8 +198,8 @@ impl ChromascopeApp {
         if ctx.input(|input| input.pointer.any_pressed()) {
             (self.view.by_keyboard, self.view.cursor) = (false, None);
         }
-        focus::leave_offer(ctx);
-        focus::enter_pane(ctx, &mut self.view);
+        frame::leave_offer(ctx);
+        frame::enter_pane(ctx, &mut self.view);
         let typing = ctx.text_edit_focused();
         let focused = self.view.keyed();
         // All keys belong to an open list or menu, which Escape closes.
@@ -310,7 +285,7 @@ impl eframe::App for ChromascopeApp {
         self.take_images();
         self.take_report();
         self.take_input(ctx);
-        focus::into_sight(ctx, &mut self.focus);
+        frame::into_sight(ctx, &mut self.focus);
         self.carry_out(ctx);
         self.autosave(ctx);
         self.show_title(ctx);

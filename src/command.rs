@@ -148,31 +148,22 @@ pub struct KeyBinding {
     pub shortcut: KeyboardShortcut,
     pub command: Command,
     pub words: &'static str,
-    /// True if it rests while text is typed.
     pub rests_while_typing: bool,
-}
-
-/// Ctrl (on a Mac, Command) and a key.
-const fn ctrl(key: Key) -> KeyboardShortcut {
-    KeyboardShortcut::new(Modifiers::COMMAND, key)
-}
-
-const fn plain(key: Key) -> KeyboardShortcut {
-    KeyboardShortcut::new(Modifiers::NONE, key)
 }
 
 const CTRL_SHIFT: Modifiers = Modifiers { shift: true, ..Modifiers::COMMAND };
 
 /// All keys. `focused` is the pane that exports and maximizing mean.
 pub fn key_bindings(focused: PaneKind) -> Vec<KeyBinding> {
-    let with_ctrl = |key, command, words| KeyBinding { shortcut: ctrl(key), command, words, rests_while_typing: false };
-    let letter = |key, command, words| KeyBinding { shortcut: plain(key), command, words, rests_while_typing: true };
-    let shifted = |key, command, words| KeyBinding {
-        shortcut: KeyboardShortcut::new(CTRL_SHIFT, key),
-        command,
-        words,
-        rests_while_typing: false,
+    let binding = |modifiers, rests_while_typing| {
+        move |key, command: Command, words: &'static str| {
+            let shortcut = KeyboardShortcut::new(modifiers, key);
+            KeyBinding { shortcut, command, words, rests_while_typing }
+        }
     };
+    // On a Mac, Command stands for Ctrl.
+    let (with_ctrl, shifted) = (binding(Modifiers::COMMAND, false), binding(CTRL_SHIFT, false));
+    let (letter, always) = (binding(Modifiers::NONE, true), binding(Modifiers::NONE, false));
     let mut keys = vec![
         // The longer combination first: egui's Ctrl+Z would also take Ctrl+Shift+Z.
         shifted(Key::Z, Command::Redo, "Redo"),
@@ -203,7 +194,6 @@ pub fn key_bindings(focused: PaneKind) -> Vec<KeyBinding> {
     for (index, key) in numbers.into_iter().enumerate() {
         keys.push(letter(key, Command::ToggleSource(index), "Show or hide a compared sensor"));
     }
-    let always = |key, command, words| KeyBinding { shortcut: plain(key), command, words, rests_while_typing: false };
     keys.extend([
         always(Key::F1, Command::Help(crate::help::FIRST, 0), "Help"),
         always(Key::F6, Command::NextPane, "Next pane"),

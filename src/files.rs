@@ -58,7 +58,6 @@ impl Files {
         Self::on(&Executor::default(), folder)
     }
 
-    /// Has an executor keep the document.
     pub fn on(executor: &Executor, folder: Option<PathBuf>) -> Self {
         let (sender, receiver) = channel();
         Self {

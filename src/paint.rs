@@ -3,21 +3,21 @@
 //! [`plot`] leaves zoom, pan and their memory to `egui_plot` and draws everything inside and around it itself, from the
 //! same geometry as the SVG. [`board`] draws a panel whose units are points.
 
-mod decoration;
 mod dense;
-mod hit;
 mod marks;
 mod pictures;
-mod texture;
-mod triangles;
 
-use chromascope_figure::{Image, LegendEntry, Panel, Projection, Tag, Ticks, fit_equal};
-use egui::{Id, Painter, Pos2, Rect, Response, Sense, Ui, Vec2};
+use chromascope_figure::{
+    Anchor, Annotation, Ink, InkRole, Mark, Panel, Projection, Rect as Area, Shape, Tag, TextSize, Tick, Ticks,
+    annotations, fit_equal,
+};
+use egui::{Id, Painter, Pos2, Rect, Response, Sense, Stroke, StrokeKind, Ui, Vec2};
 use egui_plot::{Plot, PlotUi};
 
 use crate::theme::Theme;
-pub use hit::{Hit, nearest};
-pub use pictures::{PictureQuery, PictureTextures};
+
+pub use marks::key;
+pub use pictures::{PictureQuery, PictureTextures, draw as picture};
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Emphasis {
@@ -29,18 +29,15 @@ pub enum Emphasis {
     Selected,
     /// Part or whole of what is chosen: wider line.
     Related,
-    /// Something else is chosen.
     Faded,
 }
 
-/// Emphasis of each mark, by its tag.
 pub type EmphasisOf<'a> = &'a dyn Fn(Tag) -> Emphasis;
 
 #[derive(Clone, Copy)]
 pub struct PlotOptions<'a> {
     /// True if the user can zoom (wheel, pinch) and pan (drag). A double click shows the panel's ranges again.
     pub zoomable: bool,
-    /// Shows the panel's ranges again now.
     pub reset: bool,
     /// Plots with the same id share their horizontal range.
     pub link_x: Option<Id>,
@@ -56,7 +53,6 @@ impl Default for PlotOptions<'_> {
 #[derive(Debug, Clone)]
 pub struct PlotOutput {
     pub response: Response,
-    /// Map from data to the screen.
     pub view: View,
     pub hovered: Option<[f64; 2]>,
 }
@@ -76,7 +72,6 @@ impl PlotOutput {
 /// A rectangle of the screen with the data it shows.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct View {
-    /// The plot, without tick labels.
     pub rect: Rect,
     /// Values at the left and right ends.
     pub x: [f64; 2],
@@ -94,7 +89,6 @@ impl View {
         self.rect.left_bottom() + offset
     }
 
-    /// The data point at a place on screen.
     pub fn value(&self, at: Pos2) -> [f64; 2] {
         let u = f64::from((at.x - self.rect.left()) / self.rect.width().max(1.0));
         let v = f64::from((self.rect.bottom() - at.y) / self.rect.height().max(1.0));
@@ -150,7 +144,7 @@ pub fn plot(ui: &mut Ui, id: Id, panel: &Panel, theme: &Theme, rect: Rect, optio
     };
     let view = View { rect: inner, x: directed(0, x), y: directed(1, y) };
     let painter = ui.painter().with_clip_rect(rect.intersect(ui.clip_rect()));
-    decoration::panel(&painter, panel, &view, rect, theme, options.emphasis);
+    draw_panel(&painter, panel, &view, rect, theme, options.emphasis);
     let response = named(shown.response, panel);
     let hovered = response.hover_pos().filter(|at| inner.contains(*at)).map(|at| view.value(at));
     PlotOutput { response, view, hovered }
@@ -200,7 +194,7 @@ pub fn board(ui: &mut Ui, id: Id, panel: &Panel, theme: &Theme, rect: Rect, emph
     let view = View { rect, x: [0.0, size[0]], y: [size[1], 0.0] };
     let response = named(ui.interact(rect, id, Sense::click()), panel);
     let painter = ui.painter().with_clip_rect(rect.intersect(ui.clip_rect()));
-    decoration::panel(&painter, panel, &view, rect, theme, emphasis);
+    draw_panel(&painter, panel, &view, rect, theme, emphasis);
     let hovered = response.hover_pos().map(|at| view.value(at));
     PlotOutput { response, view, hovered }
 }
@@ -211,18 +205,12 @@ pub fn still(painter: &Painter, panel: &Panel, theme: &Theme, rect: Rect) -> Vie
     let (x, y) = shown_ranges(panel, inner);
     let view = View { rect: inner, x, y };
     let painter = painter.with_clip_rect(rect.intersect(painter.clip_rect()));
-    decoration::panel(&painter, panel, &view, rect, theme, &|_| Emphasis::Normal);
+    draw_panel(&painter, panel, &view, rect, theme, &|_| Emphasis::Normal);
     view
 }
 
-pub fn picture(painter: &Painter, rect: Rect, image: &Image) {
-    texture::draw(painter, rect, image);
-}
-
 /// The two colors of a ring that is seen on any picture: the wider one below, the narrower one above.
-pub const fn ring_colors() -> [egui::Color32; 2] {
-    [egui::Color32::WHITE, egui::Color32::BLACK]
-}
+pub const RING_COLORS: [egui::Color32; 2] = [egui::Color32::WHITE, egui::Color32::BLACK];
 
 /// Fills a rectangle with a ramp, from 0 at the left to 1 at the right.
 pub fn ramp(painter: &Painter, rect: Rect, color: &dyn Fn(f32) -> [u8; 3]) {
@@ -237,7 +225,136 @@ pub fn ramp(painter: &Painter, rect: Rect, color: &dyn Fn(f32) -> [u8; 3]) {
     }
 }
 
-/// Draws the key of a source, line and marker, across the middle of `rect`.
-pub fn key(painter: &Painter, rect: Rect, entry: &LegendEntry, theme: &Theme) {
-    marks::key(painter, rect, entry, theme);
+/// Draws a panel whose plot is `view` and whose outer box is `rect`.
+fn draw_panel(painter: &Painter, panel: &Panel, view: &View, rect: Rect, theme: &Theme, emphasis: EmphasisOf<'_>) {
+    let inside = painter.with_clip_rect(view.rect.intersect(painter.clip_rect()));
+    inside.rect_filled(view.rect, 0.0, theme.ink(panel.background));
+    let x_ticks = panel.x.ticks_over(view.x, f64::from(view.rect.width()));
+    let y_ticks = panel.y.vertical_ticks_over(view.y, f64::from(view.rect.height()));
+    let thin = Stroke::new(crate::theme::LINE_GRID as f32, theme.grid);
+    if panel.x.grid {
+        for tick in &x_ticks {
+            let x = painter.round_to_pixel_center(view.at([tick.value, view.y[0]]).x);
+            inside.vline(x, view.rect.y_range(), thin);
+        }
+    }
+    if panel.y.grid {
+        for tick in &y_ticks {
+            let y = painter.round_to_pixel_center(view.at([view.x[0], tick.value]).y);
+            inside.hline(view.rect.x_range(), y, thin);
+        }
+    }
+    for mark in &panel.marks {
+        marks::mark(&inside, mark, view, theme, emphasis(mark.tag));
+    }
+    if panel.framed {
+        let stroke = Stroke::new(1.0, theme.line);
+        painter.rect_stroke(view.rect, 0.0, stroke, StrokeKind::Outside);
+    }
+    tick_labels(painter, view, rect, theme, &x_ticks, &y_ticks);
+    let plot = Area {
+        min: [f64::from(view.rect.left()), f64::from(view.rect.top())],
+        max: [f64::from(view.rect.right()), f64::from(view.rect.bottom())],
+    };
+    for Annotation { at, text, anchor } in annotations(panel, plot, 1.0) {
+        let at = Pos2::new(at[0] as f32, at[1] as f32);
+        let style =
+            marks::TextStyle { anchor, size: TextSize::Small, ink: InkRole::Weak.into(), halo: Some(panel.background) };
+        marks::text(painter, at, &text, style, theme);
+    }
+}
+
+fn tick_labels(painter: &Painter, view: &View, rect: Rect, theme: &Theme, x_ticks: &[Tick], y_ticks: &[Tick]) {
+    let style =
+        |anchor: Anchor| marks::TextStyle { anchor, size: TextSize::Body, ink: Ink::new(InkRole::Weak), halo: None };
+    for tick in x_ticks.iter().filter(|tick| !tick.label.is_empty()) {
+        let at = Pos2::new(view.at([tick.value, view.y[0]]).x, view.rect.bottom() + 4.0);
+        marks::text_inside(painter, at, &tick.label, style(Anchor::TOP), theme, rect);
+    }
+    for tick in y_ticks.iter().filter(|tick| !tick.label.is_empty()) {
+        let at = Pos2::new(view.rect.left() - 6.0, view.at([view.x[0], tick.value]).y);
+        marks::text_inside(painter, at, &tick.label, style(Anchor::RIGHT), theme, rect);
+    }
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Hit {
+    pub tag: Tag,
+    /// Its place among the panel's marks.
+    pub mark: usize,
+    /// The nearest of its points.
+    pub index: usize,
+    /// Its distance from the pointer in points; 0 inside an area.
+    pub distance: f32,
+}
+
+/// The nearest mark within `radius` points of the pointer: points before lines, lines before areas; among equals the
+/// one drawn last.
+pub fn nearest(panel: &Panel, view: &View, pointer: Pos2, radius: f32) -> Option<Hit> {
+    if !view.rect.contains(pointer) {
+        return None;
+    }
+    [points, lines, areas].into_iter().find_map(|distance_to| {
+        let hits = panel.marks.iter().enumerate().filter_map(|(mark, drawn)| {
+            let (index, distance) = distance_to(drawn, view, pointer)?;
+            Some(Hit { tag: drawn.tag, mark, index, distance })
+        });
+        hits.filter(|hit| hit.distance <= radius)
+            .reduce(|best, hit| if hit.distance <= best.distance { hit } else { best })
+    })
+}
+
+fn least(distances: impl Iterator<Item = (usize, f32)>) -> Option<(usize, f32)> {
+    distances.filter(|(_, d)| d.is_finite()).min_by(|a, b| a.1.total_cmp(&b.1))
+}
+
+fn is_finite(point: [f64; 2]) -> bool {
+    point.iter().all(|v| v.is_finite())
+}
+
+fn points(mark: &Mark, view: &View, pointer: Pos2) -> Option<(usize, f32)> {
+    let Shape::Points { points, .. } = &mark.shape else {
+        return None;
+    };
+    let finite = points.iter().enumerate().filter(|(_, p)| is_finite(**p));
+    least(finite.map(|(i, p)| (i, view.at(*p).distance(pointer))))
+}
+
+fn lines(mark: &Mark, view: &View, pointer: Pos2) -> Option<(usize, f32)> {
+    let segment = |i: usize, a: [f64; 2], b: [f64; 2]| {
+        let known = is_finite(a) && is_finite(b);
+        known.then(|| to_segment(i, view.at(a), view.at(b), pointer))
+    };
+    match &mark.shape {
+        Shape::Line { points, closed } => {
+            let last = points.len().checked_sub(1)?;
+            let back = segment(last, points[last], points[0]).filter(|_| *closed);
+            let there = points.windows(2).enumerate().filter_map(|(i, p)| segment(i, p[0], p[1]));
+            least(there.chain(back))
+        }
+        Shape::Gradient { points } => {
+            least(points.windows(2).enumerate().filter_map(|(i, p)| segment(i, p[0].0, p[1].0)))
+        }
+        Shape::Segments { segments } => least(
+            segments.iter().enumerate().filter_map(|(i, s)| segment(i, s[0], s[1]).map(|(_, distance)| (i, distance))),
+        ),
+        _ => None,
+    }
+}
+
+fn areas(mark: &Mark, view: &View, pointer: Pos2) -> Option<(usize, f32)> {
+    let Shape::Rect { min, max } = &mark.shape else {
+        return None;
+    };
+    let known = is_finite(*min) && is_finite(*max);
+    let area = egui::Rect::from_two_pos(view.at(*min), view.at(*max));
+    (known && area.contains(pointer)).then_some((0, 0.0))
+}
+
+/// Distance from a straight line, and which of its ends (`i` or the next) is nearer.
+fn to_segment(i: usize, a: Pos2, b: Pos2, pointer: Pos2) -> (usize, f32) {
+    let along = b - a;
+    let length = along.length_sq();
+    let t = if length > 0.0 { ((pointer - a).dot(along) / length).clamp(0.0, 1.0) } else { 0.0 };
+    (i + usize::from(t > 0.5), (a + t * along).distance(pointer))
 }

@@ -16,14 +16,7 @@
 //! +#[derive(Default)]
 //! +struct Chosen(Option<usize>);
 //! +
-//! +pub const PANE: Pane = Pane {
-//! +    kind: PaneKind::new("Gamut"),
-//! +    title: "Gamut",
-//! +    show,
-//! +    figure: None,
-//! +    under_conditions: false,
-//! +    table: false,
-//! +};
+//! +pub const PANE: Pane = Pane::new(PaneKind::new("Gamut"), "Gamut", show);
 //! +
 //! +fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
 //! +    let body = widgets::body(ui, &PANE, rect, context, |_, _| {});
@@ -108,7 +101,6 @@ pub fn by_kind(kind: PaneKind) -> Option<&'static Pane> {
     ALL.iter().copied().find(|pane| pane.kind == kind)
 }
 
-/// Title of a pane.
 pub fn title(kind: PaneKind) -> &'static str {
     by_kind(kind).map_or("", |pane| pane.title)
 }

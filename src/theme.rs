@@ -23,7 +23,6 @@ pub const LINE_GRID: f64 = 1.0;
 /// Opacity of unselected items while something is selected.
 pub const FADED: f32 = 0.35;
 
-/// Width of the ring around the control that has the keyboard.
 pub const FOCUS: f32 = 2.0;
 
 const CORNER: u8 = 3;
@@ -32,7 +31,6 @@ const CORNER: u8 = 3;
 pub struct Theme {
     /// Those of figures.
     pub colors: Colors,
-    /// True if text is light on dark.
     pub dark: bool,
     pub panel: Color32,
     pub plot: Color32,
@@ -43,7 +41,6 @@ pub struct Theme {
     pub grid: Color32,
     pub text: Color32,
     pub weak: Color32,
-    /// The ring around the control that has the keyboard.
     pub focus: Color32,
     pub warning: Color32,
     pub error: Color32,
@@ -52,7 +49,6 @@ pub struct Theme {
     pub on_surround: Color32,
 }
 
-/// A color of its bytes.
 pub const fn rgb([r, g, b]: [u8; 3]) -> Color32 {
     Color32::from_rgb(r, g, b)
 }
@@ -82,7 +78,6 @@ impl Theme {
         }
     }
 
-    /// The theme a [`egui::Ui`] or [`egui::Style`] with these visuals is drawn in.
     pub const fn of(visuals: &Visuals) -> Self {
         if visuals.dark_mode { Self::DARK } else { Self::LIGHT }
     }
@@ -106,7 +101,6 @@ impl Theme {
         self.role(ink.role).gamma_multiply(ink.alpha.clamp(0.0, 1.0))
     }
 
-    /// The style of the window in this theme.
     pub fn style(&self) -> Style {
         let mut style = Style { visuals: self.visuals(), animation_time: 0.0, ..Style::default() };
         style.text_styles = text_styles();
@@ -202,7 +196,6 @@ pub fn fonts() -> FontDefinitions {
     fonts
 }
 
-/// Gives the context the fonts and the style of both themes.
 pub fn apply(ctx: &egui::Context) {
     ctx.set_fonts(fonts());
     ctx.set_style_of(egui::Theme::Dark, Theme::DARK.style());

@@ -1,14 +1,8 @@
 //! View state: selection, panes and layout. Not part of the document, and not undoable.
 
-pub mod accuracy;
 pub mod correction;
-pub mod help;
 pub mod import;
-pub mod metrics;
-pub mod page;
 pub mod recorded;
-pub mod render;
-pub mod table;
 pub mod template;
 pub mod tour;
 
@@ -16,29 +10,30 @@ use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::mem::take;
 use std::path::PathBuf;
 
-use chromascope_text::Settings as _;
+use chromascope_core::metamers::Confusion;
+use chromascope_figure::Tag;
+use chromascope_text::{Settings as _, choices};
+use correction::CorrectionView;
+use import::{ImportItem, ImportMemory, ImportView};
+use recorded::RecordedView;
 use serde::{Deserialize, Serialize};
 
 use crate::document::{Compared, SetKind};
+use crate::export::Paper;
 use crate::figures::chromaticity::shown::DiagramView;
-pub use crate::figures::chromaticity::shown::{DiagramFit, Ranges};
 use crate::figures::look::FigureLook;
-pub use crate::figures::look::{SpectraLayout, SwatchLayout, SwatchStyle};
 use crate::figures::metrics::TABLE;
 use crate::paint::Emphasis;
 use crate::plot_item::{PickIndex, PlotItem, Relation, SensorId};
 use crate::theme::Surround;
 use crate::workspaces::{Layout, PaneKind, Workspace};
-use accuracy::AccuracyView;
-use chromascope_figure::Tag;
-use correction::CorrectionView;
-use help::HelpView;
-use import::{ImportItem, ImportMemory, ImportView};
-use metrics::MetricsLook;
-use page::{PageLook, PageView};
-use recorded::RecordedView;
-use render::{RenderLook, RenderMode, RenderView};
-use table::TableLook;
+
+pub use crate::figures::chromaticity::shown::{DiagramFit, Ranges};
+pub use crate::figures::look::Sorting;
+pub use crate::figures::look::{PixelPlace, RenderMode};
+pub use crate::figures::look::{Shows, SpectraLayout, SwatchLayout, SwatchStyle};
+pub use crate::scene::metrics::RankedCameras;
+pub use crate::scene::orbit::Orbit;
 
 #[derive(Debug, Default)]
 #[expect(clippy::struct_excessive_bools, reason = "independent one-frame requests and switches")]
@@ -53,7 +48,6 @@ pub struct View {
     pub selected: Option<PlotItem>,
     /// True if the selection belongs to a sensor that is not compared: nothing drawn is dimmed for it.
     pub selected_elsewhere: bool,
-    /// Pinned items, labeled A, B, …
     pub pinned: Vec<PlotItem>,
     pub search: String,
     pub maximized: Option<PaneKind>,
@@ -67,9 +61,10 @@ pub struct View {
     pub import: ImportView,
     pub render: RenderView,
     pub correction: CorrectionView,
-    pub accuracy: AccuracyView,
+    pub shows: Shows,
     pub recorded: RecordedView,
-    pub page: PageView,
+    /// The pane that is shown as a page; `None` while panes are shown.
+    pub page: Option<PaneKind>,
     /// Plots show their own ranges again in this frame.
     pub reset_plots: bool,
     /// True while B is held: the reference replaces every camera.
@@ -81,7 +76,6 @@ pub struct View {
     pub table_copies: bool,
     pub focus_temperature: bool,
     pub help: HelpView,
-    /// Step of the tour, while it is played.
     pub tour: Option<usize>,
     pub about: bool,
     /// Share of the loci that is drawn, while they draw in.
@@ -107,13 +101,10 @@ pub struct View {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ReportOn {
-    /// The paper's cameras and patches.
     Paper,
-    /// Cameras and patches of this document.
     Document,
 }
 
-/// The part of the view that is saved between runs.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct SavedView {
@@ -124,26 +115,20 @@ pub struct SavedView {
     /// Order and columns of tables, by table.
     pub looks: BTreeMap<String, TableLook>,
     pub metrics: MetricsLook,
-    /// The gray around swatches.
     pub surround: Surround,
     /// True if the diagram fits the data or shows all.
     pub diagram_fit: DiagramFit,
-    /// Arrangement of swatches: rows or charts.
     pub swatch_layout: SwatchLayout,
-    /// Arrangement of camera and reference within a swatch.
     pub swatch_style: SwatchStyle,
-    /// Arrangement of curves: in one plot or one plot per sensor.
     pub spectra_layout: SpectraLayout,
     pub difference_bars: bool,
     /// Nothing moves by itself.
     pub reduced_motion: bool,
     /// The loci are to draw in, as on the first start.
     pub draws_in: bool,
-    /// Groups of the library that are folded.
     pub folded: BTreeSet<String>,
     #[serde(with = "crate::document::paths::list")]
     pub recent: Vec<PathBuf>,
-    /// Viewpoint and arrangement of rendered pictures.
     pub render: RenderLook,
     pub import: ImportMemory,
     pub page: PageLook,
@@ -187,7 +172,6 @@ pub enum ViewChoice {
 const OF_WINDOW: [&str; 5] = ["recent", "import", "reduced_motion", "draws_in", "folded"];
 
 impl SavedView {
-    /// The part that goes into a session's file.
     pub fn for_session(&self) -> serde_json::Value {
         let mut value = serde_json::to_value(self).unwrap_or_default();
         if let Some(fields) = value.as_object_mut() {
@@ -196,7 +180,6 @@ impl SavedView {
         value
     }
 
-    /// Takes the part of a session's file.
     pub fn take_session(&mut self, view: Self) {
         let (recent, import, folded) = (take(&mut self.recent), take(&mut self.import), take(&mut self.folded));
         *self = Self { recent, import, folded, draws_in: false, reduced_motion: self.reduced_motion, ..view };
@@ -214,14 +197,19 @@ impl SavedView {
         Self { reduced_motion, draws_in: !reduced_motion, ..Self::default() }
     }
 
-    /// True if a choice is made.
     pub fn has(&self, choice: ViewChoice) -> bool {
+        let mut chosen = self.clone();
+        chosen.choose(choice);
+        chosen == *self
+    }
+
+    fn choose(&mut self, choice: ViewChoice) {
         match choice {
-            ViewChoice::Diagram(to) => self.diagram_fit == to,
-            ViewChoice::Swatches(to) => self.swatch_layout == to,
-            ViewChoice::SwatchStyle(to) => self.swatch_style == to,
-            ViewChoice::Spectra(to) => self.spectra_layout == to,
-            ViewChoice::Pictures(to) => self.render.mode == to,
+            ViewChoice::Diagram(to) => self.diagram_fit = to,
+            ViewChoice::Swatches(to) => self.swatch_layout = to,
+            ViewChoice::SwatchStyle(to) => self.swatch_style = to,
+            ViewChoice::Spectra(to) => self.spectra_layout = to,
+            ViewChoice::Pictures(to) => self.render.mode = to,
         }
     }
 }
@@ -229,7 +217,6 @@ impl SavedView {
 /// A message at the foot of the window.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Status {
-    /// Message text; empty for the default hint.
     pub text: String,
     pub weight: Weight,
     /// Import item and line that `[Change]` or `[Show line]` opens.
@@ -249,24 +236,10 @@ pub enum Offer {
     Open(PathBuf),
 }
 
-impl Status {
-    /// The message, unless it leads to an item.
-    fn leads_to(&self, item: &ImportItem) -> bool {
-        self.change.as_ref().is_some_and(|(led, _)| led == item)
-    }
-
-    /// Nothing, if the message only leads to an item; else the message.
-    #[must_use]
-    pub fn without(self, item: &ImportItem) -> Self {
-        if self.leads_to(item) { Self::default() } else { self }
-    }
-}
-
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Weight {
     #[default]
     Note,
-    /// Warning that the user should check.
     Warning,
     /// Something failed; nothing was changed.
     Error,
@@ -279,7 +252,6 @@ impl View {
         self.status.offers = offers;
     }
 
-    /// What a pane's figure takes from the view.
     pub fn look(&self, pane: PaneKind) -> FigureLook {
         let saved = &self.saved;
         FigureLook {
@@ -302,32 +274,22 @@ impl View {
             pair: saved.metrics.pair.clone(),
             card: saved.metrics.card.clone(),
             residuals_of: self.recorded.camera.clone(),
-            shows: self.accuracy.shows,
+            shows: self.shows,
             correction: self.correction.shown.clone(),
             recorded: self.recorded.ranked.clone(),
             ..FigureLook::default()
         }
     }
 
-    /// Makes a choice of how plots and pictures stand.
     pub fn choose(&mut self, choice: ViewChoice) {
-        let saved = &mut self.saved;
-        match choice {
-            ViewChoice::Diagram(to) => {
-                saved.diagram_fit = to;
-                self.reset_plots = true;
-            }
-            ViewChoice::Swatches(to) => saved.swatch_layout = to,
-            ViewChoice::SwatchStyle(to) => saved.swatch_style = to,
-            ViewChoice::Spectra(to) => saved.spectra_layout = to,
-            ViewChoice::Pictures(to) => saved.render.mode = to,
-        }
+        self.reset_plots |= matches!(choice, ViewChoice::Diagram(_));
+        self.saved.choose(choice);
     }
 
     /// The pane that keys and menus mean: the one with the keyboard, else the first of the workspace.
     pub fn keyed(&self) -> PaneKind {
         let first = self.saved.layout.places(self.saved.workspace).iter().flatten().next().copied();
-        self.page.open.or(self.focused).or(first).unwrap_or(PaneKind::CHROMATICITY)
+        self.page.or(self.focused).or(first).unwrap_or(PaneKind::CHROMATICITY)
     }
 
     /// The pane whose figure a key or menu means: the wanted one if it has figures, else the first in the workspace that has.
@@ -417,16 +379,215 @@ impl View {
         }
     }
 
-    /// Returns the emphasis of a figure's tagged mark.
     pub fn emphasis_of(&self, things: &PickIndex, tag: Tag, reference: &str) -> Emphasis {
         things.get(tag).map_or(Emphasis::Normal, |thing| self.emphasis(thing, reference))
     }
 }
 
-/// The text that is typed, and the highlighted line.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct PickState {
     pub text: String,
     /// The highlighted line, counted among those that can be chosen; none for the one that is set.
     pub picked: Option<usize>,
+}
+
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct HelpView {
+    /// Name of the open page; none while the window is closed.
+    pub page: Option<&'static str>,
+    pub visited: Vec<&'static str>,
+    pub query: String,
+    pub picked: usize,
+    pub scroll_to: Option<usize>,
+    /// True if the search field takes the keyboard in the next frame.
+    pub focus_search: bool,
+}
+
+impl HelpView {
+    pub fn open(&mut self, page: &'static str, block: usize) {
+        if let Some(last) = self.page.replace(page).filter(|last| *last != page) {
+            self.visited.push(last);
+        }
+        self.scroll_to = Some(block);
+    }
+
+    pub fn back(&mut self) {
+        if let Some(page) = self.visited.pop() {
+            (self.page, self.scroll_to) = (Some(page), Some(0));
+        }
+    }
+
+    /// Clears the search, or else closes the window; returns whether there was anything to do.
+    pub fn escape(&mut self) -> bool {
+        if self.page.is_some() && !self.query.is_empty() {
+            self.query.clear();
+            return true;
+        }
+        self.visited.clear();
+        self.page.take().is_some()
+    }
+}
+
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct TableLook {
+    /// Column that rows are sorted by; none for the order as given.
+    pub sorting: Option<Sorting>,
+    /// Columns that the user shows or hides, by name; others keep the table's default.
+    pub columns: BTreeMap<String, bool>,
+    /// Words that a row must contain. Not saved between runs.
+    #[serde(skip)]
+    pub filter: String,
+    /// Row with the keyboard cursor where rows have no items, in the given order.
+    #[serde(skip)]
+    pub cursor: Option<usize>,
+    /// Selection that the table was scrolled to.
+    #[serde(skip)]
+    pub seen: Option<PlotItem>,
+}
+
+impl TableLook {
+    /// Sorts by a column that was clicked: in its preferred direction, then in the other, then as given.
+    pub fn sort_by(&mut self, column: &str, largest_first: bool) {
+        self.sorting = match self.sorting.take() {
+            Some(now) if now.column == column && now.descending == largest_first => {
+                Some(Sorting { descending: !largest_first, ..now })
+            }
+            Some(now) if now.column == column => None,
+            _ => Some(Sorting { column: column.to_owned(), descending: largest_first }),
+        };
+    }
+}
+
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct MetricsLook {
+    pub cameras: RankedCameras,
+    pub confusion: Confuses,
+    /// The two cameras of Head to head; `None` for the selected one and the first compared one.
+    #[serde(skip)]
+    pub pair: [Option<SensorId>; 2],
+    /// The camera of the report card; none for the selected one.
+    #[serde(skip)]
+    pub card: Option<SensorId>,
+}
+
+choices! {
+    /// The one that takes two reflectances for one.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+    pub enum Confuses {
+        #[default]
+        Camera = "camera", "Camera confuses", "Equal to the camera, different to the reference";
+        Reference = "reference", "Reference confuses", "Equal to the reference, different to the camera";
+    }
+}
+
+impl Confuses {
+    pub const fn confusion(self) -> Confusion {
+        match self {
+            Self::Camera => Confusion::Camera,
+            Self::Reference => Confusion::Observer,
+        }
+    }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct RenderLook {
+    pub mode: RenderMode,
+    /// Viewpoint; `None` for the mesh's own.
+    pub orbit: Option<Orbit>,
+    /// Position of the divider of the split picture, from 0 (left) to 1.
+    pub split: f32,
+}
+
+/// Where the divider begins: through the face of the head as it is first seen.
+const SPLIT: f32 = 0.62;
+
+impl Default for RenderLook {
+    fn default() -> Self {
+        Self { mode: RenderMode::Grid, orbit: None, split: SPLIT }
+    }
+}
+
+impl RenderLook {
+    /// Corrects values of a damaged file that are out of range.
+    pub fn mend(&mut self) {
+        if !(0.0..=1.0).contains(&self.split) {
+            self.split = Self::default().split;
+        }
+        self.orbit = self.orbit.filter(|orbit| orbit.viewpoint(1.0).is_some());
+    }
+}
+
+#[derive(Debug, Default)]
+pub struct RenderView {
+    pub pinned: Option<PixelPlace>,
+    pub hovered: Option<PixelPlace>,
+    /// The sensor shown alone or with the reference; `None` for the first camera.
+    pub chosen: Option<SensorId>,
+    /// True if finer pictures than the current ones are not wanted.
+    pub cancelled: bool,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct PageLook {
+    pub paper: Paper,
+    pub zoom: PageZoom,
+    pub unit: LengthUnit,
+}
+
+impl Default for PageLook {
+    fn default() -> Self {
+        let paper = Paper { width_mm: Some(Paper::ONE_COLUMN_MM), ..Paper::default() };
+        Self { paper, zoom: PageZoom::default(), unit: LengthUnit::default() }
+    }
+}
+
+choices! {
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+    pub enum PageZoom {
+        #[default]
+        Fit = "fit", "Fit", "The whole page";
+        TrueSize = "true", "True size", "As large as on paper, where a screen has 96 points per inch";
+        Double = "double", "200 %", "Twice as large as on paper";
+    }
+}
+
+impl PageZoom {
+    /// Points on screen for each point on paper at true size: screens have 96 points per inch.
+    pub const TRUE: f64 = 96.0 / 72.0;
+
+    /// Points on screen for each point on paper, for a page that fits at `fit`.
+    pub fn scale(self, fit: f64) -> f64 {
+        match self {
+            Self::Fit => fit,
+            Self::TrueSize => Self::TRUE,
+            Self::Double => 2.0 * Self::TRUE,
+        }
+    }
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum LengthUnit {
+    #[default]
+    Millimeter,
+    Inch,
+}
+
+impl LengthUnit {
+    pub const fn mm(self) -> f64 {
+        match self {
+            Self::Millimeter => 1.0,
+            Self::Inch => 25.4,
+        }
+    }
+
+    pub const fn symbol(self) -> &'static str {
+        match self {
+            Self::Millimeter => "mm",
+            Self::Inch => "in",
+        }
+    }
 }

@@ -117,7 +117,6 @@ fn interned(id: String) -> PaneKind {
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 pub enum Workspace {
-    /// The diagram over swatches, inspector over spectra.
     #[default]
     Compare,
     Spectra,
@@ -159,7 +158,6 @@ pub enum Splitter {
     RightRows,
 }
 
-/// Sizes and places, saved between runs.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Layout {
@@ -236,7 +234,6 @@ impl Layout {
         }
     }
 
-    /// The workspace that a pane starts in, if it starts in one.
     pub fn home(pane: PaneKind) -> Option<Workspace> {
         let start = Self::default();
         Workspace::ALL.into_iter().find(|workspace| start.places(*workspace).contains(&Some(pane)))
@@ -283,7 +280,6 @@ pub struct Arrangement {
     pub splitters: Vec<(Splitter, Rect)>,
     /// A pane that overlaps the others.
     pub over: Option<(PaneKind, Rect)>,
-    /// The window is too narrow for one of the columns.
     pub narrow: bool,
 }
 

@@ -1,8 +1,10 @@
-//! Carrying out commands.
+//! Carrying out commands. Each change of the document passes here, forwards, back or to another document: what is selected
+//! follows to its new names.
 
 use std::cmp::Ordering;
 use std::sync::Arc;
 
+use chromascope_core::query::Shared;
 use chromascope_figure::{Figure, FigureRoom, Table};
 use egui::ViewportCommand;
 
@@ -12,17 +14,16 @@ use crate::action::{Action, CompareAction};
 use crate::catalog::opened::{CLIPBOARD, Request};
 use crate::command::Command;
 use crate::document::SetKind;
+use crate::document::imported::ImportedSet;
 use crate::export::{self, FigureForm};
 use crate::figures::look::FigureLook;
 use crate::files::{DocumentSource, FileEvent, FileForm, SaveRequest};
 use crate::panes;
 use crate::profiler::{Profiler, SceneRunJob};
 use crate::scene::Scene;
-use crate::view::PickState;
-use crate::view::SavedView;
-use crate::view::accuracy::Shows;
-use crate::view::import::Stop;
-use crate::view::render::RenderMode;
+use crate::view::RenderMode;
+use crate::view::import::{ImportItem, Stop};
+use crate::view::{PickState, SavedView, Shows, Status};
 use crate::workspaces::{Layout, PaneKind, Workspace};
 
 impl ChromascopeApp {
@@ -60,7 +61,7 @@ impl ChromascopeApp {
     fn carry_out_one(&mut self, ctx: &egui::Context, command: Command) {
         let is_library = matches!(command, Command::FocusSearch | Command::TogglePane(PaneKind::LIBRARY));
         if command.shows_panes() || (is_library && self.arrangement.narrow) {
-            self.view.page.open = None;
+            self.view.page = None;
         }
         match command {
             Command::Do(action) => {
@@ -228,7 +229,6 @@ impl ChromascopeApp {
         }
     }
 
-    /// True if a narrow window has no room for the library.
     fn library_left_out(&self) -> bool {
         self.arrangement.narrow && self.view.saved.workspace.keeps_right_column()
     }
@@ -298,7 +298,7 @@ impl ChromascopeApp {
         if view.palette.take().is_some() || view.help.escape() || std::mem::take(&mut view.about) {
             return;
         }
-        if view.page.open.take().is_some() || std::mem::take(&mut view.inspector_over) {
+        if view.page.take().is_some() || std::mem::take(&mut view.inspector_over) {
             return;
         }
         if rendering && self.render_service.is_waiting() && !view.render.cancelled {
@@ -334,8 +334,8 @@ impl ChromascopeApp {
         let own = self.meshes.chosen(&document.render.mesh);
         Profiler::run(&self.later, SceneRunJob::of(&scene, own.as_ref(), self.view.saved.render.orbit));
         self.view.saved.workspace = Workspace::Numerics;
-        if matches!(self.view.accuracy.shows, Shows::Bench(_)) {
-            self.view.accuracy.shows = Shows::default();
+        if matches!(self.view.shows, Shows::Bench(_)) {
+            self.view.shows = Shows::default();
         }
     }
 
@@ -409,8 +409,8 @@ impl ChromascopeApp {
 
     /// Shows a pane as the printed page, or goes back to where the page was opened.
     fn figure_page(&mut self, ctx: &egui::Context, pane: PaneKind) {
-        if self.view.page.open.take().is_none() && self.printed(pane).is_some() {
-            self.view.page.open = Some(pane);
+        if self.view.page.take().is_none() && self.printed(pane).is_some() {
+            self.view.page = Some(pane);
             self.view.say(format!("{} as it is printed. Esc goes back.", panes::title(pane)));
         }
         ctx.memory_mut(|memory| memory.focused().map(|id| memory.surrender_focus(id)));
@@ -457,7 +457,7 @@ impl ChromascopeApp {
 
     fn file_stem(&self, pane: PaneKind) -> String {
         let title = panes::title(pane).to_lowercase();
-        match (pane, self.view.accuracy.shows) {
+        match (pane, self.view.shows) {
             (PaneKind::METHODS, Shows::Bench(workload)) => workload.name().to_owned(),
             (PaneKind::METHODS, Shows::Scene(subject)) => format!("{title}-{}", subject.title().to_lowercase()),
             _ => title,
@@ -501,5 +501,52 @@ impl ChromascopeApp {
 
     pub fn compares(&self, kind: SetKind, name: &str) -> bool {
         self.history.document().compared(kind, name).is_some()
+    }
+}
+
+impl ChromascopeApp {
+    pub(super) fn change(&mut self, action: &Action) {
+        self.step(|history| history.apply(action));
+    }
+
+    /// Goes to another state of the document; the selection in Import follows sets to their new names, and sensors that are
+    /// no longer compared are deselected.
+    pub(super) fn step(&mut self, go: impl FnOnce(&mut History)) {
+        let before = self.history.document();
+        let (own, compared) = (before.own.clone(), before.compared.clone());
+        go(&mut self.history);
+        self.view.let_go_of_removed(&compared, &self.history.document().compared);
+        self.view.import.follow_names(&own, &self.history.document().own);
+        self.follow_selection(&own);
+    }
+
+    /// Keeps the same contents visible when a step turned the selected file into a set, or removed that set.
+    fn follow_selection(&mut self, before: &[Shared<ImportedSet>]) {
+        let own = &self.history.document().own;
+        let now = match &self.view.import.selected {
+            Some(ImportItem::Set(name)) if !own.iter().any(|set| set.name == *name) => {
+                let gone = before.iter().find(|set| set.name == *name).and_then(|set| set.fingerprint);
+                gone.filter(|file| self.opened.file(*file).is_some()).map(ImportItem::File)
+            }
+            Some(ImportItem::File(file)) => {
+                let made = own.iter().find(|set| set.fingerprint == Some(*file));
+                made.map(|set| ImportItem::Set(set.name.clone()))
+            }
+            _ => None,
+        };
+        if let Some(now) = now {
+            self.view.import.select(now);
+        }
+    }
+
+    /// Undoes or redoes a step. Messages about a step that was undone are cleared.
+    pub(super) fn travel(&mut self, go: impl FnOnce(&mut History), words: Option<String>) {
+        let before = self.history.document().clone();
+        self.step(go);
+        if before != *self.history.document() {
+            // Earlier messages may refer to something that no longer exists.
+            self.view.status = Status::default();
+            self.view.say(words.unwrap_or_default());
+        }
     }
 }

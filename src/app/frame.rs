@@ -1,14 +1,19 @@
-//! One frame: bars, panes, the borders between them, and overlays.
+//! One frame: bars, panes, the borders between them, and overlays; a ring around the focused control, which is scrolled into view.
 
-use egui::{Align2, Button, CentralPanel, CursorIcon, Frame, Panel, Rect, Sense, TextStyle, Ui, Vec2};
+use egui::accesskit::{ActionRequest, TreeId};
+use egui::{
+    Align2, Button, CentralPanel, Context, CursorIcon, Event, FocusDirection, Frame, Id, Key, Modifiers, Panel, Rect,
+    Sense, Stroke, StrokeKind, TextStyle, Ui, Vec2,
+};
 
-use super::{ChromascopeApp, focus, path_prompt};
+use super::{ChromascopeApp, path_prompt};
 use crate::files::{PersistentMessage, PersistentMessageKind};
 use crate::panes;
 use crate::panes::context::PaneContext;
 use crate::panes::widgets::lines;
 use crate::scene::Scene;
-use crate::theme::{self, Theme, UNIT};
+use crate::theme::{self, FOCUS, Theme, UNIT};
+use crate::view::View;
 use crate::workspaces::{Splitter, arrange, arrange_page};
 
 /// Height of a notice, and width of the button that takes it away.
@@ -36,7 +41,7 @@ impl ChromascopeApp {
         let bar = |ui: &mut Ui, id, height, top| bar(ui, &theme, (id, height), top);
         let menu = bar(ui, "menu", 30.0, true);
         let conditions = bar(ui, "conditions", 48.0, true);
-        let tour = context.view.tour.map(|_| bar(ui, "tour", panes::help::tour::HEIGHT, true));
+        let tour = context.view.tour.map(|_| bar(ui, "tour", panes::help::TOUR, true));
         let standing: Vec<(PersistentMessage, Rect)> = self
             .files
             .standing()
@@ -49,7 +54,7 @@ impl ChromascopeApp {
         panes::menu::show(ui, menu, &self.history, &mut context);
         panes::scene_bar::show(ui, conditions, &mut context);
         if let Some(rect) = tour {
-            panes::help::tour::show(ui, rect, &mut context);
+            panes::help::tour(ui, rect, &mut context);
         }
         for (standing, rect) in standing {
             if notice(ui, rect, &standing, &theme) {
@@ -57,7 +62,7 @@ impl ChromascopeApp {
             }
         }
         let saved = &context.view.saved;
-        let page = context.view.page.open;
+        let page = context.view.page;
         self.arrangement = match page {
             Some(pane) => arrange_page(pane, &saved.layout, area, self.arrangement.narrow),
             None => arrange(
@@ -95,16 +100,16 @@ impl ChromascopeApp {
         }
         let framed = context.view.focused.filter(|_| context.view.by_keyboard && context.view.palette.is_none());
         if let Some((_, rect)) = self.arrangement.panes.iter().find(|(pane, _)| Some(*pane) == framed) {
-            focus::frame(ui, *rect, &theme);
+            frame_pane(ui, *rect, &theme);
         }
-        focus::enter_by_arrows(ui.ctx(), context.view);
+        enter_by_arrows(ui.ctx(), context.view);
         panes::status_bar::show(ui, status, &self.arrangement, &mut context);
         panes::help::show(ui, &self.history, &mut context);
         path_prompt::show(ui, &theme, &mut self.files);
         context.render_service.end_frame();
         context.later.end_frame();
         self.ask_about_session(ui, &theme);
-        focus::ring(ui.ctx(), &theme);
+        ring(ui.ctx(), &theme);
         drop_veil(ui, theme);
     }
 }
@@ -185,4 +190,84 @@ fn notice(ui: &mut Ui, rect: Rect, standing: &PersistentMessage, theme: &Theme) 
     let file = standing.file.as_ref().map_or_else(String::new, |file| format!("\n{}", file.display()));
     response.on_hover_text(format!("{}{file}", standing.words));
     dismissed
+}
+
+/// Draws a ring around the control that has the keyboard, whatever draws the control. A second line of the ground's color
+/// within shows the ring on any color.
+fn ring(ctx: &Context, theme: &Theme) {
+    let focused = ctx.memory(egui::Memory::focused).filter(|_| ctx.input(|input| input.focused));
+    let Some(response) = focused.and_then(|id| ctx.read_response(id)) else { return };
+    let rect = response.interact_rect;
+    if !rect.is_positive() {
+        return;
+    }
+    let painter = ctx.layer_painter(response.layer_id);
+    painter.rect_stroke(rect.shrink(FOCUS), 2.0, Stroke::new(1.0, theme.panel), StrokeKind::Inside);
+    painter.rect_stroke(rect, 3.0, Stroke::new(FOCUS, theme.focus), StrokeKind::Inside);
+}
+
+/// Frames the pane that has the keyboard while one goes from pane to pane with it.
+fn frame_pane(ui: &Ui, rect: Rect, theme: &Theme) {
+    let painter = ui.painter();
+    painter.rect_stroke(rect.shrink(FOCUS), 0.0, Stroke::new(1.0, theme.panel), StrokeKind::Inside);
+    painter.rect_stroke(rect, 0.0, Stroke::new(FOCUS, theme.focus), StrokeKind::Inside);
+}
+
+/// Arrow keys that the pane with the keyboard has no use for lead into its controls in the next frame, as Tab does.
+fn enter_by_arrows(ctx: &Context, view: &mut View) {
+    let free = ctx.memory(|memory| memory.focused().is_none()) && !egui::Popup::is_any_open(ctx);
+    let pressed = ctx.input(|input| input.key_pressed(Key::ArrowDown) || input.key_pressed(Key::ArrowUp));
+    view.arrow_enters = free && pressed && view.by_keyboard && view.palette.is_none();
+    if view.arrow_enters {
+        ctx.request_repaint();
+    }
+}
+
+/// A letter or digit is a shortcut, not meant for the button of an offer that has the keyboard.
+pub(super) fn leave_offer(ctx: &Context) {
+    let offer: Option<Id> = ctx.data(|data| data.get_temp(Id::unique("offer")));
+    let is_shortcut = |event: &Event| matches!(event, Event::Key { key, pressed: true, .. } if key.name().len() == 1);
+    let Some(offer) = offer.filter(|offer| ctx.memory(|memory| memory.has_focus(*offer))) else { return };
+    if ctx.input(|input| input.events.iter().any(is_shortcut)) {
+        ctx.memory_mut(|memory| memory.surrender_focus(offer));
+    }
+}
+
+/// Tab leads into the pane that has the keyboard, not to the first control of the window.
+pub(super) fn enter_pane(ctx: &Context, view: &mut View) {
+    let free = ctx.memory(|memory| memory.focused().is_none());
+    view.tab_enters = free
+        && view.by_keyboard
+        && view.focused.is_some()
+        && view.palette.is_none()
+        && (std::mem::take(&mut view.arrow_enters)
+            || ctx.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Tab)));
+    if view.tab_enters {
+        ctx.memory_mut(|memory| memory.move_focus(FocusDirection::None));
+    }
+}
+
+/// Scrolls a newly focused control into view. Only its own scroll areas can do so: they receive the request that a screen
+/// reader would send.
+pub(super) fn into_sight(ctx: &Context, before: &mut Option<Id>) {
+    let focused = ctx.memory(egui::Memory::focused);
+    if *before == focused {
+        return;
+    }
+    let Some(response) = focused.and_then(|id| ctx.read_response(id)) else {
+        *before = focused;
+        return;
+    };
+    *before = focused;
+    if response.interact_rect.expand(0.5).contains_rect(response.rect) {
+        return;
+    }
+    let target_node = response.id.accesskit_id();
+    let request = ActionRequest {
+        action: egui::accesskit::Action::ScrollIntoView,
+        target_tree: TreeId::ROOT,
+        target_node,
+        data: None,
+    };
+    ctx.input_mut(|input| input.events.push(Event::AccessKitActionRequest(request)));
 }

@@ -1,19 +1,21 @@
-//! Opening the user's spectra: read first, then put to use; and reading them otherwise, or again because their files changed on
-//! disk.
+//! Opening the user's spectra, meshes and spectral images: read first, then put to use; and reading spectra otherwise, or again
+//! because their files changed on disk.
 
 use std::collections::BTreeSet;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use chromascope_core::query::Shared;
 
 use super::ChromascopeApp;
-use crate::action::{Action, ImportedAction};
+use crate::action::{Action, ImportedAction, RenderAction};
 use crate::catalog::import::{Imported, imported};
 use crate::catalog::likeness::Likeness;
 use crate::catalog::opened::{CLIPBOARD, OpenFile, OpenedEvent, Request, Why};
 use crate::command::Command;
 use crate::document::imported::{Fingerprint, ImportOverrides, ImportedSet, Role};
+use crate::document::render::MeshChoice;
 use crate::document::{Document, SetKind};
+use crate::format::file_name;
 use crate::panes::import;
 use crate::view::import::{ImportItem, of_a_kind};
 use crate::view::{Offer, Status, Weight};
@@ -58,7 +60,6 @@ impl Reread {
 }
 
 impl ChromascopeApp {
-    /// Begins to read. The document stays as it is until that is done.
     pub(super) fn open(&mut self, requests: Vec<Request>) {
         self.end_tour();
         let memory = self.view.saved.import.clone();
@@ -77,7 +78,6 @@ impl ChromascopeApp {
         self.open(paths.into_iter().map(Request::Path).collect());
     }
 
-    /// Files dropped on the window in one gesture.
     pub(super) fn take_dropped(&mut self, ctx: &egui::Context) {
         let dropped = ctx.input(|input| input.raw.dropped_files.clone());
         if dropped.is_empty() {
@@ -271,7 +271,9 @@ impl ChromascopeApp {
 
     pub(super) fn show_import(&mut self, item: ImportItem, line: Option<usize>) {
         // What the message was about is on show from now on.
-        self.view.status = std::mem::take(&mut self.view.status).without(&item);
+        if self.view.status.change.as_ref().is_some_and(|(led, _)| *led == item) {
+            self.view.status = Status::default();
+        }
         self.view.import.select(item);
         self.view.import.line = line;
         self.view.saved.workspace = Workspace::Import;
@@ -342,7 +344,6 @@ impl ChromascopeApp {
         }
     }
 
-    /// An item's file and how it is to be read.
     fn file_and_overrides(&self, item: &ImportItem) -> Option<(OpenFile, ImportOverrides)> {
         let pending = self.view.import.pending(item).cloned();
         match item {
@@ -493,4 +494,70 @@ fn put_to_use(before: &Document, after: &Document, brought: &[Shared<ImportedSet
         (shown, cameras) => format!("{shown} of {cameras} cameras added to the comparison"),
     };
     format!("{shown}; illuminant and patches are unchanged. Choose others in the Library.")
+}
+
+impl ChromascopeApp {
+    pub(super) fn open_image(&mut self, path: &Path) {
+        self.meshes.cancel();
+        self.images.open(path);
+        self.view.say(format!("Reading {}…", file_name(path)));
+    }
+
+    pub(super) fn take_images(&mut self) {
+        for opened in self.images.poll() {
+            match opened.result {
+                Ok(image) => {
+                    let message = image.message();
+                    self.show_scene(RenderAction::OpenImage(opened.path.clone()), opened.path, message);
+                }
+                Err(sentence) => self.view.fail(sentence),
+            }
+        }
+        let wanted = match &self.history.document().render.mesh {
+            MeshChoice::Image(path) => Some(path.as_path()),
+            _ => None,
+        };
+        self.images.keep(wanted);
+    }
+
+    fn show_scene(&mut self, action: RenderAction, path: PathBuf, message: String) {
+        self.view.remember_file(path);
+        self.history.apply(&Action::Render(action));
+        self.history.end_gesture();
+        self.view.saved.workspace = Workspace::Render;
+        self.view.maximized = None;
+        self.view.say(message);
+    }
+
+    pub(super) fn open_mesh(&mut self, path: &Path) {
+        let before = self.meshes.opening().filter(|before| before != path);
+        self.images.cancel();
+        self.meshes.open(path);
+        let given_up =
+            before.map(|before| format!(" {} was canceled: one mesh is shown at a time.", file_name(&before)));
+        self.view.say(format!("Reading {}… Esc stops.{}", file_name(path), given_up.unwrap_or_default()));
+    }
+
+    /// Shows meshes that were read, and stops reads that are no longer needed.
+    pub(super) fn take_meshes(&mut self) {
+        for opened in self.meshes.poll() {
+            match opened.result {
+                Ok(mesh) => {
+                    self.show_scene(RenderAction::Open(opened.path.clone()), opened.path, mesh.message.clone());
+                }
+                Err(sentence) => self.view.fail(sentence),
+            }
+        }
+        let wanted = match &self.history.document().render.mesh {
+            MeshChoice::File(path) => Some(path.as_path()),
+            _ => None,
+        };
+        self.meshes.keep(wanted);
+    }
+
+    pub(super) fn stop_opening(&mut self) -> bool {
+        let Some(path) = self.meshes.cancel().or_else(|| self.images.cancel()) else { return false };
+        self.view.say(format!("Reading {} stopped. Nothing was changed.", file_name(&path)));
+        true
+    }
 }

@@ -1,8 +1,9 @@
 //! A path to type, where the system has no file dialog.
 
-use egui::{Align2, Key, Modifiers, RichText, ScrollArea, TextEdit, Ui, Vec2, Window};
+use egui::{Align2, Key, Modifiers, RichText, ScrollArea, TextEdit, Ui, Vec2};
 
 use crate::files::{Files, PathPrompt};
+use crate::panes::widgets::{self, mark};
 use crate::theme::{ROW, Theme};
 
 const WIDTH: f32 = 420.0;
@@ -18,12 +19,8 @@ pub(super) fn show(ui: &Ui, theme: &Theme, files: &mut Files) {
     let Some(prompt) = files.prompt_mut() else { return };
     let title = prompt.save.as_ref().map_or_else(|| "Open".to_owned(), |request| format!("Save {}", request.what));
     let (mut step, mut open) = (None, true);
-    Window::new(title)
-        .id(egui::Id::unique("path prompt"))
+    widgets::window(title, "path prompt", (Align2::CENTER_TOP, Vec2::new(0.0, 96.0)))
         .open(&mut open)
-        .collapsible(false)
-        .resizable(false)
-        .anchor(Align2::CENTER_TOP, Vec2::new(0.0, 96.0))
         .show(ui.ctx(), |ui| step = content(ui, theme, prompt));
     // Esc is handled by the program: it closes the front overlay.
     match step {
@@ -75,7 +72,8 @@ fn field(ui: &mut Ui, prompt: &mut PathPrompt) -> Option<Step> {
         field.request_focus();
     }
     if std::mem::take(&mut prompt.to_end) || wanted {
-        cursor_to_end(ui, id, &prompt.text);
+        let end = prompt.text.chars().count();
+        mark(ui, id, end..end);
     }
     let clicked = ui.button(if prompt.save.is_some() { "Save" } else { "Open" }).clicked();
     match (clicked || entered, tab) {
@@ -106,11 +104,4 @@ fn candidates(ui: &mut Ui, prompt: &mut PathPrompt) {
         prompt.typed();
         prompt.focus = true;
     }
-}
-
-fn cursor_to_end(ui: &Ui, id: egui::Id, text: &str) {
-    use egui::text::{CCursor, CCursorRange};
-    let mut state = TextEdit::load_state(ui.ctx(), id).unwrap_or_default();
-    state.cursor.set_char_range(Some(CCursorRange::one(CCursor::new(text.chars().count()))));
-    state.store(ui.ctx(), id);
 }

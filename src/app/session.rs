@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use egui::{Align2, Context, Key, RichText, TextEdit, Ui, Vec2, ViewportCommand, Window};
+use egui::{Align2, Context, Key, RichText, TextEdit, Ui, Vec2, ViewportCommand};
 
 use super::ChromascopeApp;
 use crate::action::history::History;
@@ -13,7 +13,7 @@ use crate::command::{Command, SessionCommand};
 use crate::document::imported::Fingerprint;
 use crate::document::{Document, SessionFile, session};
 use crate::files::{DocumentSource, FileForm, MakeBytes, OpenedDocument, SaveRequest, SavedFile, template_name};
-use crate::panes;
+use crate::panes::{self, widgets};
 use crate::theme::Theme;
 use crate::view::template::{TEMPLATES, Template};
 use crate::view::{Offer, SavedView, Weight};
@@ -71,7 +71,6 @@ impl ChromascopeApp {
         self.interrupted.as_ref().map_or(&self.history, |own| &own.history).document()
     }
 
-    /// The history of the user's own document, also while the tour is played.
     fn own_history(&mut self) -> &mut History {
         self.interrupted.as_mut().map_or(&mut self.history, |own| &mut own.history)
     }
@@ -84,7 +83,6 @@ impl ChromascopeApp {
         }
     }
 
-    /// Notes the contents of a session's file.
     pub(super) fn know_session(&mut self, file: SessionFile, document: Arc<Document>) {
         self.session.known.insert(file.path, (file.fingerprint, document));
         self.session.compared = None;
@@ -289,7 +287,6 @@ impl ChromascopeApp {
         self.know_session(saved.file, document);
     }
 
-    /// Handles the end of writing the session's file.
     pub(super) fn wrote_session(&mut self, file: SessionFile, document: Arc<Document>) {
         if self.own_document().session.as_ref().is_some_and(|now| now.path == file.path) {
             self.own_history().set_session(&file);
@@ -319,7 +316,6 @@ impl ChromascopeApp {
         self.view.templates = self.files.templates();
     }
 
-    /// Shows the questions of closing and saving, if one is open.
     pub(super) fn ask_about_session(&mut self, ui: &Ui, theme: &Theme) {
         self.ask_about_closing(ui, theme);
         if let Some(path) = self.session.changed.clone() {
@@ -395,7 +391,6 @@ impl ChromascopeApp {
         ctx.send_viewport_cmd(ViewportCommand::Close);
     }
 
-    /// Asks about changes that are not saved while the window closes.
     fn ask_about_closing(&mut self, ui: &Ui, theme: &Theme) {
         if self.closing != Closing::Asked {
             return;
@@ -433,12 +428,7 @@ fn session_name() -> String {
 }
 
 fn window<R>(ui: &Ui, id: &'static str, title: &str, content: impl FnOnce(&mut Ui) -> Option<R>) -> Option<R> {
-    let window = Window::new(title)
-        .id(egui::Id::unique(id))
-        .collapsible(false)
-        .resizable(false)
-        .anchor(Align2::CENTER_TOP, Vec2::new(0.0, 96.0));
-    let shown = window.show(ui.ctx(), |ui| {
+    let shown = widgets::window(title, id, (Align2::CENTER_TOP, Vec2::new(0.0, 96.0))).show(ui.ctx(), |ui| {
         ui.set_max_width(WIDTH);
         content(ui)
     });

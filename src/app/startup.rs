@@ -70,8 +70,7 @@ pub fn run(paths: Vec<PathBuf>, start: Instant) -> Result<(), WindowError> {
             saved.mend();
             let history = History::new(kept.saved_document());
             let mut app = ChromascopeApp::new(&cc.egui_ctx, history, saved, kept);
-            app.restore_place(cc.storage);
-            app.report_first_frame(start);
+            (app.place, app.first_frame) = (WindowPlace::restored(cc.storage), Some(start));
             app.open_at_start(paths);
             Ok(Box::new(app))
         }),

@@ -38,7 +38,7 @@ impl ChromascopeApp {
             return;
         }
         let view = &mut self.view;
-        view.help = crate::view::help::HelpView::default();
+        view.help = crate::view::HelpView::default();
         self.interrupted = Some(Interrupted {
             history: std::mem::take(&mut self.history),
             saved: view.saved.clone(),
@@ -58,7 +58,7 @@ impl ChromascopeApp {
         view.saved.layout = Layout::default();
         view.saved.tables.clear();
         view.saved.diagram_fit = DiagramFit::Data;
-        view.saved.render = crate::view::render::RenderLook::default();
+        view.saved.render = crate::view::RenderLook::default();
         view.saved.workspace = step.workspace;
         view.maximized = step.maximized;
         view.selected = step.selected();

@@ -216,7 +216,6 @@ impl Autosave {
         self.shared.lock().is_clean()
     }
 
-    /// The file in which the document is saved because another program wrote to the one before.
     pub(super) fn moved(&self) -> Option<PathBuf> {
         self.shared.lock().moved.clone()
     }
@@ -422,7 +421,6 @@ pub fn save_on_exit() {
     LAST.with(|_| ());
 }
 
-/// Saves the document before a signal ends the program.
 #[cfg(unix)]
 pub fn save_on_signals() -> io::Result<()> {
     use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};

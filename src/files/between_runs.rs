@@ -50,34 +50,28 @@ impl Files {
     /// The persistent messages, the most severe first.
     pub fn standing(&self) -> Vec<PersistentMessage> {
         let Notices { complaint, copies, dismissed } = &self.standing;
+        let message = |kind, words, file| PersistentMessage { kind, words, file };
         let failure = self.autosave.failure().map(|why| {
             let words = if self.autosave.is_saved() {
                 format!("Saving is not possible: {why}. Changes will be lost when the window closes.")
             } else {
                 format!("Changes are not saved: {why}. Retrying.")
             };
-            PersistentMessage { kind: PersistentMessageKind::NotSaved, words, file: None }
+            message(PersistentMessageKind::NotSaved, words, None)
         });
-        let other = self.copy().map(|(words, file)| PersistentMessage {
-            kind: PersistentMessageKind::OtherWindow,
-            words,
-            file: Some(file),
-        });
-        let aside = complaint.clone().map(|(words, file)| PersistentMessage {
-            kind: PersistentMessageKind::SetAside,
-            words,
-            file: Some(file),
-        });
+        let other = self.copy().map(|(words, file)| message(PersistentMessageKind::OtherWindow, words, Some(file)));
+        let aside = complaint.clone();
+        let aside = aside.map(|(words, file)| message(PersistentMessageKind::SetAside, words, Some(file)));
         let moved = self.autosave.moved().map(|file| {
             let words = "Another program wrote to the document: changes here are saved in a copy.".to_owned();
-            PersistentMessage { kind: PersistentMessageKind::Moved, words, file: Some(file) }
+            message(PersistentMessageKind::Moved, words, Some(file))
         });
         let copies = (*copies > 0).then(|| {
             let words = match copies {
                 1 => "A document of another window was recovered: File, Recovered documents.".to_owned(),
                 many => format!("{many} documents of other windows were recovered: File, Recovered documents."),
             };
-            PersistentMessage { kind: PersistentMessageKind::Copies, words, file: None }
+            message(PersistentMessageKind::Copies, words, None)
         });
         let all = [failure, aside, moved, other, copies].into_iter().flatten();
         all.filter(|standing| !dismissed.contains(&standing.kind)).collect()
@@ -139,7 +133,6 @@ impl Files {
         self.autosave.watch(document, ctx);
     }
 
-    /// Saves the document now. The error says why not all of it is saved.
     pub fn save_document(&mut self, document: &Document) -> Result<(), String> {
         self.autosave.save(document)
     }

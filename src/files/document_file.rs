@@ -77,12 +77,10 @@ impl DocumentFile {
         (self.path, self.seen, self.tried) = (path, None, None);
     }
 
-    /// The file in which the document is saved because another program wrote to the one before.
     pub(super) fn moved(&self) -> Option<&PathBuf> {
         self.moved.as_ref()
     }
 
-    /// True if the file holds curves itself, as earlier versions wrote it.
     pub(super) fn is_by_value(&self) -> bool {
         self.by_value
     }

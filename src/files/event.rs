@@ -18,7 +18,6 @@ pub enum FileEvent {
     SessionSaved(SessionFile, Arc<Document>),
     /// A session was not written to its file, because another program wrote to that.
     SessionChanged(PathBuf),
-    /// A session was not written, for a reason in words.
     SessionFailed(String),
     /// The session that the program began with, as it is in its file.
     SessionKnown(SessionFile, Arc<Document>),
@@ -63,7 +62,6 @@ impl DocumentSource {
     }
 }
 
-/// A document that was opened in place of another one.
 #[derive(Debug)]
 pub struct OpenedDocument {
     pub source: DocumentSource,

@@ -165,7 +165,6 @@ pub(super) fn texts_of_documents(folder: &Path) -> Option<Vec<String>> {
     documents.map(|path| fs::read(path).ok().map(|bytes| String::from_utf8_lossy(&bytes).into_owned())).collect()
 }
 
-/// A free name for a document that is set aside.
 pub(super) fn free_aside(folder: &Path) -> PathBuf {
     free(folder, |number| format!("document-unreadable-{number}.json"))
 }

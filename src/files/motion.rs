@@ -17,7 +17,6 @@ pub fn reduces_motion() -> bool {
         || says("gsettings", &["get", "org.gnome.desktop.interface", "enable-animations"], "false")
 }
 
-/// True if a line of a settings file turns animations off.
 fn turns_off(text: &str) -> bool {
     let mut pairs = text.lines().filter_map(|line| line.split_once('=')).map(|(key, value)| (key.trim(), value.trim()));
     pairs.any(|(key, value)| match key {
@@ -27,7 +26,6 @@ fn turns_off(text: &str) -> bool {
     })
 }
 
-/// True if a program is there and answers with a word.
 fn says(program: &str, arguments: &[&str], word: &str) -> bool {
     let output = Command::new(program).args(arguments).stdin(Stdio::null()).stderr(Stdio::null()).output();
     output.is_ok_and(|output| output.stdout.trim_ascii() == word.as_bytes())

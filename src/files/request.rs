@@ -133,7 +133,6 @@ impl FileForm {
         Self { extension, make: Arc::new(make) }
     }
 
-    /// A form whose bytes are there.
     pub fn of_bytes(extension: &'static str, bytes: Vec<u8>) -> Self {
         Self::new(extension, move || Ok(bytes.clone()))
     }
@@ -145,7 +144,6 @@ impl fmt::Debug for FileForm {
     }
 }
 
-/// Something to save where the user says.
 #[derive(Clone, Debug)]
 pub struct SaveRequest {
     /// Its description, for the save prompt: `Nikon D70 as CSV, as measured`.

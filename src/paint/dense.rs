@@ -13,7 +13,6 @@ const RESTLESS: f32 = 20.0;
 /// A line as it goes to the screen.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Drawn {
-    /// Points to be joined.
     Line(Vec<Pos2>),
     /// A line so restless that it fills its columns.
     Filled(Vec<Column>),

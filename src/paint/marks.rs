@@ -1,18 +1,18 @@
-//! Marks as egui shapes.
+//! Marks as egui shapes. Polygons are filled here: egui itself fills convex ones only.
 
 use chromascope_figure::{
     Anchor, Ink, InkRole, LegendEntry, Mark, Marker, MarkerOutline, Rgb, Shape as Form, Stroke as Pen, TextSize,
     clip_segment, color_runs, finite_runs,
 };
-use egui::{Color32, Painter, Pos2, Rect, Shape, Stroke, StrokeKind, Vec2, epaint::PathStroke};
+use egui::epaint::PathStroke;
+use egui::{Color32, Mesh, Painter, Pos2, Rect, Shape, Stroke, StrokeKind, Vec2};
 
-use super::{Emphasis, View, dense, texture, triangles};
+use super::{Emphasis, View, dense, pictures};
 use crate::theme::{self, Theme};
 
 /// Distance of the ring around a chosen point from its marker.
 const RING: f32 = 5.0;
 
-/// Context in which a mark is drawn.
 struct Brush<'a> {
     painter: &'a Painter,
     view: &'a View,
@@ -42,7 +42,7 @@ pub(super) fn mark(painter: &Painter, mark: &Mark, view: &View, theme: &Theme, e
         Form::Polygon { points } => brush.polygon(mark, points),
         Form::Image { min, max, image } => {
             if [min, max].iter().all(|p| p.iter().all(|v| v.is_finite())) {
-                texture::draw(painter, brush.box_of(*min, *max), image);
+                pictures::draw(painter, brush.box_of(*min, *max), image);
             }
         }
         Form::Segments { segments } => {
@@ -196,7 +196,7 @@ impl Brush<'_> {
     fn polygon(&self, mark: &Mark, points: &[[f64; 2]]) {
         let placed: Vec<Pos2> = finite_runs(points).flatten().map(|p| self.view.at(*p)).collect();
         if let Some(ink) = mark.fill {
-            triangles::fill(self.painter, &placed, self.color(ink));
+            fill_polygon(self.painter, &placed, self.color(ink));
         }
         for pen in self.pens(mark) {
             self.path(&placed, true, pen);
@@ -204,7 +204,6 @@ impl Brush<'_> {
     }
 }
 
-/// The part of a straight line inside a rectangle.
 fn clipped(a: Pos2, b: Pos2, rect: Rect) -> Option<[Pos2; 2]> {
     let [a, b, min, max] = [a, b, rect.min, rect.max].map(|at| [f64::from(at.x), f64::from(at.y)]);
     let ends = clip_segment(chromascope_figure::Rect { min, max }, [a, b])?;
@@ -230,7 +229,8 @@ fn outline(painter: &Painter, at: Pos2, marker: Marker, radius: f32, fill: Color
     }
 }
 
-pub(super) fn key(painter: &Painter, rect: Rect, entry: &LegendEntry, theme: &Theme) {
+/// Draws the key of a source, line and marker, across the middle of `rect`.
+pub fn key(painter: &Painter, rect: Rect, entry: &LegendEntry, theme: &Theme) {
     let middle = rect.center();
     let view = View { rect, x: [0.0, 1.0], y: [0.0, 1.0] };
     let brush = Brush { painter, view: &view, theme, emphasis: Emphasis::Normal };
@@ -248,7 +248,6 @@ pub(super) fn key(painter: &Painter, rect: Rect, entry: &LegendEntry, theme: &Th
     }
 }
 
-/// Layout of a line of text.
 #[derive(Clone, Copy)]
 pub(super) struct TextStyle {
     pub(super) anchor: Anchor,
@@ -276,4 +275,66 @@ pub(super) fn text_inside(painter: &Painter, at: Pos2, words: &str, style: TextS
         }
     }
     painter.galley(min, galley, color);
+}
+
+fn fill_polygon(painter: &Painter, corners: &[Pos2], color: Color32) {
+    let mut corners = corners.to_vec();
+    corners.dedup();
+    if corners.len() < 3 {
+        return;
+    }
+    if is_convex(&corners) {
+        painter.add(Shape::convex_polygon(corners, color, Stroke::NONE));
+        return;
+    }
+    let mut mesh = Mesh::default();
+    for corner in &corners {
+        mesh.colored_vertex(*corner, color);
+    }
+    for [a, b, c] in ears(&corners) {
+        mesh.add_triangle(a, b, c);
+    }
+    painter.add(mesh);
+}
+
+fn cross(a: Pos2, b: Pos2, c: Pos2) -> f32 {
+    (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x)
+}
+
+fn is_convex(corners: &[Pos2]) -> bool {
+    let n = corners.len();
+    let turn = |i: usize| cross(corners[i], corners[(i + 1) % n], corners[(i + 2) % n]);
+    let (left, right) =
+        (0..n).map(turn).fold((true, true), |(left, right), turn| (left && turn >= 0.0, right && turn <= 0.0));
+    // A star that winds twice also turns one way only; figures draw no such outlines.
+    left || right
+}
+
+/// Cuts off ears until nothing is left. Outlines that cross themselves leave a rest unfilled.
+fn ears(corners: &[Pos2]) -> Vec<[u32; 3]> {
+    let n = corners.len();
+    let area: f32 = (0..n).map(|i| cross(Pos2::ZERO, corners[i], corners[(i + 1) % n])).sum();
+    let mut left: Vec<usize> = if area >= 0.0 { (0..n).collect() } else { (0..n).rev().collect() };
+    let mut triangles = Vec::with_capacity(n.saturating_sub(2));
+    while left.len() > 2 {
+        let Some(ear) = (0..left.len()).find(|i| is_ear(corners, &left, *i)) else {
+            break;
+        };
+        let [a, b, c] = around(&left, ear);
+        triangles.push([a as u32, b as u32, c as u32]);
+        left.remove(ear);
+    }
+    triangles
+}
+
+fn around(left: &[usize], i: usize) -> [usize; 3] {
+    let n = left.len();
+    [left[(i + n - 1) % n], left[i], left[(i + 1) % n]]
+}
+
+fn is_ear(corners: &[Pos2], left: &[usize], i: usize) -> bool {
+    let ear = around(left, i);
+    let [a, b, c] = ear.map(|j| corners[j]);
+    let inside = |p: Pos2| cross(a, b, p) >= 0.0 && cross(b, c, p) >= 0.0 && cross(c, a, p) >= 0.0;
+    cross(a, b, c) >= 0.0 && !left.iter().any(|j| !ear.contains(j) && cross(a, b, c) > 0.0 && inside(corners[*j]))
 }

@@ -24,14 +24,8 @@ const STRIP: f32 = 124.0;
 const WITH_STRIP: f32 = 350.0;
 const OVERVIEW: Vec2 = Vec2::new(96.0, 104.0);
 
-pub const PANE: Pane = Pane {
-    kind: PaneKind::CHROMATICITY,
-    title: "Chromaticity",
-    show,
-    figure: Some(&chromaticity::KIND),
-    under_conditions: true,
-    table: true,
-};
+pub const PANE: Pane =
+    Pane::new(PaneKind::CHROMATICITY, "Chromaticity", show).figure(&chromaticity::KIND).under_conditions().table();
 
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let body = widgets::pane(ui, &PANE, rect, context, switches);
@@ -39,7 +33,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     if widgets::figure_numbers(ui, &PANE, body, context) {
         return;
     }
-    let body = widgets::caution::show(ui, body, context);
+    let body = widgets::lines::caution(ui, body, context);
     let strip_height = if body.height() >= WITH_STRIP { STRIP } else { 0.0 };
     let cut = body.bottom() - strip_height;
     diagram(ui, Rect::from_min_max(body.min, Pos2::new(body.right(), cut)), context);

@@ -18,17 +18,15 @@ use crate::figures::look::FigureLook;
 use crate::jobs::Later;
 use crate::profiler::Profiler;
 use crate::render_service::RenderService;
-use crate::results::Count;
 use crate::scene::Scene;
 use crate::theme::Theme;
 use crate::view::View;
 use crate::workspaces::PaneKind;
 
 /// A pane: what its file says about it, in one constant.
+#[must_use]
 pub struct Pane {
-    /// Id in layouts.
     pub kind: PaneKind,
-    /// Title; its file has the same name.
     pub title: &'static str,
     pub show: fn(&mut Ui, Rect, &mut PaneContext<'_>),
     /// Its figure as it is saved; `None` for a pane without one.
@@ -37,6 +35,24 @@ pub struct Pane {
     pub under_conditions: bool,
     /// The pane can show its numbers as a table instead.
     pub table: bool,
+}
+
+impl Pane {
+    pub const fn new(kind: PaneKind, title: &'static str, show: fn(&mut Ui, Rect, &mut PaneContext<'_>)) -> Self {
+        Self { kind, title, show, figure: None, under_conditions: false, table: false }
+    }
+
+    pub const fn figure(self, kind: &'static FigureKind) -> Self {
+        Self { figure: Some(kind), ..self }
+    }
+
+    pub const fn under_conditions(self) -> Self {
+        Self { under_conditions: true, ..self }
+    }
+
+    pub const fn table(self) -> Self {
+        Self { table: true, ..self }
+    }
 }
 
 /// What panes keep from frame to frame: each a struct of its own, in its own file.
@@ -59,7 +75,6 @@ pub struct PaneContext<'a> {
     pub view: &'a mut View,
     pub meshes: &'a MeshStore,
     pub images: &'a ImageStore,
-    /// The spectral files that were opened.
     pub opened: &'a Opened,
     pub recorded: &'a RecordedStore,
     pub later: &'a Later,
@@ -109,11 +124,6 @@ impl PaneContext<'_> {
     /// Has something done when the frame is over.
     pub fn push(&mut self, command: impl Into<Command>) {
         self.commands.push(command.into());
-    }
-
-    /// Hits, misses and times of each kind of query, the window's and the pictures'.
-    pub fn counts(&self) -> Vec<(&'static str, Count)> {
-        self.scene.results.counts().into_iter().collect()
     }
 }
 

@@ -15,14 +15,7 @@ use crate::panes::widgets;
 use crate::theme::UNIT;
 use crate::workspaces::PaneKind;
 
-pub const PANE: Pane = Pane {
-    kind: PaneKind::CORRECTION,
-    title: "Correction",
-    show,
-    figure: Some(&figure::KIND),
-    under_conditions: true,
-    table: false,
-};
+pub const PANE: Pane = Pane::new(PaneKind::CORRECTION, "Correction", show).figure(&figure::KIND).under_conditions();
 
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     widgets::scrolling_pane(ui, &PANE, rect, context, |ui, context| {

@@ -12,14 +12,7 @@ use crate::workspaces::PaneKind;
 
 const REACH: f32 = 8.0;
 
-pub const PANE: Pane = Pane {
-    kind: PaneKind::CURVES,
-    title: "Curves",
-    show,
-    figure: Some(&curves::KIND),
-    under_conditions: false,
-    table: true,
-};
+pub const PANE: Pane = Pane::new(PaneKind::CURVES, "Curves", show).figure(&curves::KIND).table();
 
 #[derive(Default)]
 struct LastDrawn(Option<CurveCache>);

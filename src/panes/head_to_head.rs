@@ -12,17 +12,10 @@ use crate::panes::widgets::table::DataTable;
 use crate::plot_item::SensorId;
 use crate::scene::metrics::{Ranked, RankedCameras, Ranking};
 use crate::theme::UNIT;
-use crate::view::table::Sorting;
+use crate::view::Sorting;
 use crate::workspaces::PaneKind;
 
-pub const PANE: Pane = Pane {
-    kind: PaneKind::HEAD_TO_HEAD,
-    title: "Head to head",
-    show,
-    figure: Some(&figure::KIND),
-    under_conditions: true,
-    table: false,
-};
+pub const PANE: Pane = Pane::new(PaneKind::HEAD_TO_HEAD, "Head to head", show).figure(&figure::KIND).under_conditions();
 
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let body = widgets::body(ui, &PANE, rect, context, |_, _| {});
@@ -48,7 +41,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     };
     let top = child.min_rect().bottom() + UNIT;
     let known: Vec<_> = metrics::uncertainties(&ranked, [a, b]).collect();
-    let body = widgets::caution::foot(ui, body, &context.scene.metrics_words_with(known), context);
+    let body = widgets::lines::foot(ui, body, &context.scene.metrics_words_with(known), context);
     let table = metrics::head_to_head(&ranked, [a, b]);
     let shown = DataTable::new(PaneKind::HEAD_TO_HEAD, "Head to head", &table);
     // The table reaches to the pane's edge: a narrow pane shows the first three columns whole.

@@ -1,20 +1,30 @@
 //! The help window: list of pages, search and the page; the palette; the tour; the window about the program.
 
-mod about;
 mod blocks;
 mod palette;
-mod text;
-pub mod tour;
 mod typeset;
 
-use egui::{Align2, Event, Key, Modifiers, Rect, RichText, ScrollArea, TextEdit, Ui, UiBuilder, Vec2, Window};
+use blocks::Ink;
+use chromascope_core::query::DifferenceError;
+use egui::{
+    Align, Align2, Button, Event, Key, Layout, Modifiers, Rect, RichText, ScrollArea, Sense, TextEdit, Ui, UiBuilder,
+    Vec2,
+};
 
 use super::context::PaneContext;
 use crate::action::history::History;
+use crate::command::{Command, TourMove};
+use crate::document::{Diagram, SetKind};
+use crate::figures::portrait;
+use crate::figures::render::headline::{Detail, Measure};
+use crate::format::fixed;
 use crate::help::{Hit, Page, Target, find, pages, resolve, search, terms};
+use crate::paint;
+use crate::panes::widgets::{self, WHAT_YOU_SEE};
+use crate::scene::{ComparedSensor, Scene};
 use crate::theme::{ROW, SMALL, UNIT};
-use crate::view::help::HelpView;
-use text::Ink;
+use crate::view::HelpView;
+use crate::view::tour::{STEPS, TourNumbers, TourStep};
 
 const LIST: f32 = 224.0;
 const TEXT_WIDTH: f32 = 720.0;
@@ -27,21 +37,16 @@ pub fn show(ui: &mut Ui, history: &History, context: &mut PaneContext<'_>) {
     if context.view.palette.is_some() {
         palette::show(ui, history, context);
     }
-    about::show(ui, context);
+    about(ui, context);
 }
 
 fn window(ui: &Ui, page: &'static Page, context: &mut PaneContext<'_>) {
     let mut open = true;
     let screen = ui.ctx().content_rect();
     let size = Vec2::new(1040.0_f32.min(screen.width() - 48.0), 760.0_f32.min(screen.height() - 96.0));
-    Window::new("Help")
-        .id(egui::Id::unique("help"))
-        .open(&mut open)
-        .collapsible(false)
-        .resizable(false)
-        .anchor(Align2::CENTER_CENTER, Vec2::ZERO)
-        .fixed_size(size)
-        .show(ui.ctx(), |ui| {
+    widgets::window("Help", "help", (Align2::CENTER_CENTER, Vec2::ZERO)).open(&mut open).fixed_size(size).show(
+        ui.ctx(),
+        |ui| {
             let (all, _) = ui.allocate_exact_size(ui.available_size(), egui::Sense::hover());
             let split = all.left() + LIST;
             let mut left = ui.new_child(UiBuilder::new().id_salt("list").max_rect(all.with_max_x(split - 2.0 * UNIT)));
@@ -50,7 +55,8 @@ fn window(ui: &Ui, page: &'static Page, context: &mut PaneContext<'_>) {
             let right = Rect::from_min_max(egui::pos2(split + UNIT, all.top()), all.max);
             let mut right = ui.new_child(UiBuilder::new().id_salt(("page", page.name)).max_rect(right));
             content(&mut right, page, context);
-        });
+        },
+    );
     if !open {
         context.view.help = HelpView::default();
     }
@@ -184,4 +190,152 @@ fn scroll_by_keys(ui: &mut Ui) {
             ui.scroll_with_delta(Vec2::new(0.0, -distance));
         }
     }
+}
+
+const PICTURE: Vec2 = Vec2::new(220.0, 240.0);
+const ABOUT_TEXT: f32 = 320.0;
+
+fn about(ui: &Ui, context: &mut PaneContext<'_>) {
+    if !context.view.about {
+        return;
+    }
+    let mut open = true;
+    let window = widgets::window("About Chromascope", "about", (Align2::CENTER_CENTER, Vec2::ZERO));
+    window.open(&mut open).show(ui.ctx(), |ui| {
+        ui.horizontal_top(|ui| {
+            head(ui, context);
+            ui.add_space(2.0 * UNIT);
+            ui.vertical(|ui| text(ui, context));
+        });
+    });
+    context.view.about &= open;
+}
+
+fn head(ui: &mut Ui, context: &PaneContext<'_>) {
+    let (rect, response) = ui.allocate_exact_size(PICTURE, Sense::hover());
+    let name = format!("A head: left through the reference, right through the {}", portrait::CAMERA);
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, &name));
+    ui.painter().rect_filled(rect, 3.0, context.theme.surround);
+    let query = portrait::query(context.scene.catalog, context.scene.results);
+    let Some(shown) = context.later.ask("About", query.into_iter().collect()).shown else { return };
+    let size = [f64::from(PICTURE.x), f64::from(PICTURE.y)];
+    let pictures = (*shown.answer).as_ref().ok().and_then(Option::as_ref);
+    if let Some(panel) = pictures.and_then(|pictures| portrait::panel(pictures, size)) {
+        paint::still(ui.painter(), &panel, &context.theme, Rect::from_min_size(rect.min, PICTURE));
+    }
+}
+
+fn text(ui: &mut Ui, context: &mut PaneContext<'_>) {
+    ui.set_width(ABOUT_TEXT);
+    ui.heading("Chromascope");
+    ui.label(RichText::new(concat!("Version ", env!("CARGO_PKG_VERSION"))).color(context.theme.weak));
+    ui.add_space(UNIT);
+    ui.label(WHAT_YOU_SEE);
+    ui.add_space(UNIT);
+    ui.label(
+        "It carries out and extends C. P. Huynh and A. Robles-Kelly, “Comparative colorimetric simulation and evaluation \
+         of digital cameras using spectroscopy data” (2007).",
+    );
+    ui.add_space(UNIT);
+    let words =
+        format!("The head, as in its Figure 8: left through the reference, right through the {}.", portrait::CAMERA);
+    widgets::note(ui, words);
+    widgets::note(ui, format!("Program: {}. Each data set has its own source and terms.", env!("CARGO_PKG_LICENSE")));
+    ui.add_space(UNIT);
+    ui.horizontal_wrapped(|ui| {
+        for (words, command) in [
+            ("Take the tour", Command::Tour(TourMove::Begin)),
+            ("Data and sources", Command::Help("data", 0)),
+            ("Equations", Command::Help("model", 0)),
+        ] {
+            if ui.button(words).clicked() {
+                context.view.about = false;
+                context.push(command);
+            }
+        }
+    });
+}
+
+pub const TOUR: f32 = 100.0;
+const TOUR_BUTTONS: f32 = 216.0;
+
+pub fn tour(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
+    let Some((index, step)) = context.view.tour.and_then(|index| Some((index, STEPS.get(index)?))) else { return };
+    let theme = context.theme;
+    ui.painter().rect_filled(rect, 0.0, theme.plot);
+    let inner = rect.shrink2(Vec2::new(2.0 * UNIT, UNIT));
+    let words = inner.with_max_x(inner.right() - TOUR_BUTTONS - 4.0 * UNIT);
+    let mut left = ui.new_child(UiBuilder::new().id_salt("tour words").max_rect(words));
+    left.set_clip_rect(words.intersect(ui.clip_rect()));
+    left.spacing_mut().item_spacing.y = 2.0;
+    left.label(RichText::new(format!("{} of {}  {}", index + 1, STEPS.len(), step.title)).strong());
+    left.label(step.text);
+    left.label(RichText::new(numbers(step, context)).small());
+    let place = inner.with_min_x(inner.right() - TOUR_BUTTONS);
+    let to_left = Layout::right_to_left(Align::Center);
+    let mut right = ui.new_child(UiBuilder::new().id_salt("tour buttons").max_rect(place).layout(to_left));
+    let size = Vec2::new(64.0, ROW);
+    let last = index + 1 == STEPS.len();
+    let hint = "Your document and layout come back as they were (Esc)";
+    if right.add(Button::new("End").min_size(size)).on_hover_text(hint).clicked() {
+        context.push(Command::Tour(TourMove::End));
+    }
+    if right.add_enabled(!last, Button::new("Next").min_size(size)).clicked() {
+        context.push(Command::Tour(TourMove::Next));
+    }
+    if right.add_enabled(index > 0, Button::new("Back").min_size(size)).clicked() {
+        context.push(Command::Tour(TourMove::Back));
+    }
+}
+
+fn numbers(step: &TourStep, context: &PaneContext<'_>) -> String {
+    let scene = &context.scene;
+    let sources = scene.sources();
+    let cameras = || sources.iter().filter(|source| source.kind == SetKind::Camera && source.visible);
+    let list = |parts: Vec<String>| parts.join("   ");
+    match step.numbers {
+        TourNumbers::LocusLengths => {
+            let shown = sources.iter().filter(|source| source.is_reference).chain(cameras());
+            let length = |s: &ComparedSensor| {
+                let locus = scene.locus(s.kind, &s.name).ok()?;
+                Some(format!("{} {}", s.label, fixed(locus.length_xy(), 3)))
+            };
+            format!("Length in xy:   {}", list(shown.filter_map(length).collect()))
+        }
+        TourNumbers::NearestTemperatures => {
+            let nearest = |s: &ComparedSensor| {
+                let nearest = scene.nearest_to_reference(s.kind, &s.name, Diagram::Xy)?;
+                Some(format!("{} {} K", s.label, fixed(nearest.kelvin, 0)))
+            };
+            format!("Minimum at:   {}", list(cameras().filter_map(nearest).collect()))
+        }
+        TourNumbers::PatchDifferences => {
+            let words = cameras().filter_map(|camera| patches_of(scene, camera));
+            format!("{}:   {}", scene.difference_name(), words.collect::<Vec<_>>().join("\n"))
+        }
+        TourNumbers::RenderedDifferences => rendered(context),
+    }
+}
+
+/// Differences of the colored patches through a camera.
+fn patches_of(scene: &Scene<'_>, camera: &ComparedSensor) -> Option<String> {
+    let patches = scene.patches().ok()?;
+    let differences: Vec<Result<f64, DifferenceError>> = scene.differences(camera.kind, &camera.name).ok()?;
+    let decimals = scene.document.difference.decimals;
+    let colored = patches.patches().iter().zip(differences).filter(|(patch, _)| !patch.name.starts_with("white"));
+    let words = colored.filter_map(|(patch, value)| Some(format!("{} {}", patch.name, fixed(value.ok()?, decimals))));
+    Some(format!("{}: {}", camera.label, words.collect::<Vec<_>>().join(", ")))
+}
+
+/// Differences of the rendered material, once the pictures are there.
+fn rendered(context: &PaneContext<'_>) -> String {
+    let made = context.render_service.frame().and_then(|frame| Some((frame, frame.made()?)));
+    let Some((frame, made)) = made else { return "The pictures are being rendered.".to_owned() };
+    let measure = Measure::of_frame(frame);
+    let pairs = frame.sources.iter().zip(made.differences).filter(|(source, _)| !source.is_reference);
+    let words = pairs.filter_map(|(source, difference)| {
+        let difference = difference.as_ref()?;
+        Some(format!("{} {}", source.label, measure.words(difference, Detail::Number)))
+    });
+    format!("Facing the light:   {}", words.collect::<Vec<_>>().join("   "))
 }

@@ -3,12 +3,9 @@
 mod numbers;
 mod patch;
 mod pinned;
-mod points;
-mod radiator;
 mod source;
 mod welcome;
 
-use chromascope_core::colorimetry::Metric;
 use chromascope_core::query::DifferenceError;
 use chromascope_core::spectral::{Assumed, Evidence, Sensor};
 use egui::{Rect, RichText, Ui};
@@ -16,7 +13,7 @@ use egui::{Rect, RichText, Ui};
 use super::context::{Pane, PaneContext};
 use crate::command::Command;
 use crate::document::SetKind;
-use crate::format::{fixed, number};
+use crate::format::number;
 use crate::panes::widgets;
 use crate::panes::widgets::facts::range_words;
 use crate::plot_item::{PlotItem, SensorId};
@@ -24,8 +21,7 @@ use crate::scene::{ComparedSensor, Scene};
 use crate::theme::{Theme, UNIT};
 use crate::workspaces::{PaneKind, Workspace};
 
-pub const PANE: Pane =
-    Pane { kind: PaneKind::INSPECTOR, title: "Inspector", show, figure: None, under_conditions: false, table: false };
+pub const PANE: Pane = Pane::new(PaneKind::INSPECTOR, "Inspector", show);
 
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     widgets::scrolling_pane(ui, &PANE, rect, context, |ui, context| {
@@ -41,7 +37,7 @@ fn content(ui: &mut Ui, context: &mut PaneContext<'_>) {
         None => welcome::show(ui, context),
         Some(PlotItem::Patch { source: Some(id), patch }) => patch::one(ui, &id, &patch, context),
         Some(PlotItem::Patch { source: None, patch }) => patch::across(ui, &patch, context),
-        Some(PlotItem::Radiator { source, kelvin }) => radiator::show(ui, &source, kelvin, context),
+        Some(PlotItem::Radiator { source, kelvin }) => patch::blackbody(ui, &source, kelvin, context),
         Some(PlotItem::Sensor(id)) => source::show(ui, &id, context),
         Some(PlotItem::Light) => source::light(ui, context),
         Some(PlotItem::DataSet { kind, name }) => source::set(ui, kind, &name, context),
@@ -75,10 +71,6 @@ fn head(ui: &mut Ui, id: &SensorId, context: &PaneContext<'_>) {
 
 fn failure(ui: &mut Ui, theme: &Theme, words: &str) {
     ui.label(RichText::new(words).color(theme.error));
-}
-
-fn difference_words(metric: Metric, value: f64) -> String {
-    fixed(value, metric.decimals)
 }
 
 fn no_difference(reason: DifferenceError) -> String {

@@ -1,40 +1,31 @@
 //! Decisions made in reading a file, with switches to correct them.
 
-mod buttons;
-mod camera;
 mod curves;
-mod keys;
-mod name;
 mod notes;
-mod parts;
 mod stored;
 mod switches;
 
 use egui::text::LayoutJob;
-use egui::{ComboBox, FontId, Rect, Response, RichText, ScrollArea, TextFormat, Ui, UiBuilder, Vec2};
+use egui::{
+    ComboBox, EventFilter, FontId, Id, Key, Rect, Response, RichText, ScrollArea, TextFormat, Ui, UiBuilder, Vec2,
+};
 
 use super::context::{Pane, PaneContext};
+use crate::action::{Action, ImportedAction};
 use crate::command::Command;
 use crate::document::imported::ImportOverrides;
 use crate::figures::curves::ImportSelection;
 use crate::format::sentence;
 use crate::panes::widgets;
 use crate::theme::{ROW, SMALL, TEXT, Theme, UNIT};
-use crate::view::import::Stop;
+use crate::view::import::{ImportItem, Stop};
 use crate::workspaces::PaneKind;
 
 const CONTENT: &str = "Decided by content";
 /// First entry where room is short.
 const CONTENT_SHORT: &str = "By content";
 
-pub const PANE: Pane = Pane {
-    kind: PaneKind::INTERPRETATION,
-    title: "Interpretation",
-    show,
-    figure: None,
-    under_conditions: false,
-    table: false,
-};
+pub const PANE: Pane = Pane::new(PaneKind::INTERPRETATION, "Interpretation", show);
 
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let body = widgets::pane(ui, &PANE, rect, context, notes::button);
@@ -46,10 +37,10 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     };
     context.view.import.unseen.remove(&shown.item);
     if context.view.import.takes_keyboard(Stop::Switches) {
-        keys::to_first(ui);
+        to_first(ui);
     }
-    let foot = buttons::height(&shown, inner.width());
-    let upper = Rect::from_min_max(inner.min, egui::pos2(inner.right(), inner.bottom() - foot));
+    let below = foot_height(&shown, inner.width());
+    let upper = Rect::from_min_max(inner.min, egui::pos2(inner.right(), inner.bottom() - below));
     let mut child = ui.new_child(UiBuilder::new().id_salt("understood").max_rect(upper));
     child.set_clip_rect(upper.expand2(Vec2::new(2.0 * UNIT, 0.0)).intersect(ui.clip_rect()));
     let salt = format!("understood {:?}", shown.item);
@@ -62,7 +53,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     ui.painter().hline(inner.x_range(), upper.bottom() + 0.5, egui::Stroke::new(1.0, context.theme.line));
     let lower = Rect::from_min_max(egui::pos2(inner.left(), upper.bottom() + UNIT), inner.max);
     let mut child = ui.new_child(UiBuilder::new().id_salt("understood foot").max_rect(lower));
-    buttons::show(&mut child, &shown, context);
+    foot(&mut child, &shown, context);
 }
 
 fn content(ui: &mut Ui, shown: &ImportSelection, context: &mut PaneContext<'_>) {
@@ -71,25 +62,21 @@ fn content(ui: &mut Ui, shown: &ImportSelection, context: &mut PaneContext<'_>) 
         return;
     }
     if let Some(set) = &shown.set {
-        name::show(ui, set, context);
+        stored::name(ui, set, context);
     }
     let mut overrides = shown.overrides.clone();
     switches::show(ui, shown, &mut overrides, &context.theme);
-    parts::show(ui, shown, context);
+    switches::parts(ui, shown, context);
     // Below the switches, so that they stay where they are.
     if let Some(error) = shown.error() {
         trouble(ui, &error.to_string(), error.line(), shown, context);
     }
-    camera::show(ui, shown, &mut overrides, &context.theme);
+    stored::channels(ui, shown, &mut overrides, &context.theme);
     curves::show(ui, shown, &mut overrides, context);
     if overrides != shown.overrides {
-        wish(shown, overrides, context);
+        context.push(Command::SetOverrides(shown.item.clone(), Box::new(overrides)));
     }
     notes::show(ui, shown, context);
-}
-
-fn wish(shown: &ImportSelection, overrides: ImportOverrides, context: &mut PaneContext<'_>) {
-    context.push(Command::SetOverrides(shown.item.clone(), Box::new(overrides)));
 }
 
 /// Reason that the file cannot be read with the settings, with a way to reset them.
@@ -130,6 +117,7 @@ fn caption(ui: &mut Ui, theme: &Theme, words: &str, guess: bool) {
     }
 }
 
+#[derive(Default)]
 struct Closed {
     value: String,
     how: String,
@@ -179,7 +167,7 @@ fn list(
                     let on = entries.iter().position(|(_, on)| *on).unwrap_or(0);
                     let shown: Vec<Response> =
                         entries.iter().map(|(entry, on)| ui.selectable_label(*on, entry)).collect();
-                    keys::within(ui, &shown, on);
+                    within(ui, &shown, on);
                     clicked = shown.iter().position(Response::clicked);
                     if clicked.is_some() {
                         // Enter is no click that would close the list by itself.
@@ -187,8 +175,8 @@ fn list(
                     }
                 })
                 .response;
-            let left = keys::closed(ui, response.id, ComboBox::is_open(ui.ctx(), response.id));
-            if clicked.is_some() || left || keys::first(ui) {
+            let left = is_left(ui, response.id, ComboBox::is_open(ui.ctx(), response.id));
+            if clicked.is_some() || left || first(ui) {
                 response.request_focus();
             }
             let label = format!("{words}: {}", closed.words());
@@ -202,4 +190,139 @@ fn list(
         });
     });
     clicked
+}
+
+fn first_switch() -> Id {
+    Id::unique("keyboard to the first switch")
+}
+
+fn to_first(ui: &Ui) {
+    ui.data_mut(|data| data.insert_temp(first_switch(), true));
+}
+
+/// True if this is the first switch and takes the keyboard.
+fn first(ui: &Ui) -> bool {
+    ui.data_mut(|data| data.remove_temp::<bool>(first_switch())).unwrap_or(false)
+}
+
+/// True if a list closed since the last frame by a click on another control.
+fn is_left(ui: &Ui, list: Id, open: bool) -> bool {
+    let key = list.with("was open");
+    let was: bool = ui.data(|data| data.get_temp(key)).unwrap_or(false);
+    if was != open {
+        ui.data_mut(|data| data.insert_temp(key, open));
+    }
+    was && !open && !ui.input(|input| input.pointer.any_click())
+}
+
+fn step(ui: &Ui) -> isize {
+    ui.input(|input| isize::from(input.key_pressed(Key::ArrowDown)) - isize::from(input.key_pressed(Key::ArrowUp)))
+}
+
+/// Prevents arrow keys from moving the focus to a neighboring control.
+fn hold(ui: &Ui, entry: &Response) {
+    let filter = EventFilter { vertical_arrows: true, ..EventFilter::default() };
+    ui.memory_mut(|memory| memory.set_focus_lock_filter(entry.id, filter));
+}
+
+/// The entries of an open list: the one that is on has the keyboard first.
+fn within(ui: &Ui, entries: &[Response], on: usize) {
+    let pass = ui.ctx().cumulative_pass_nr();
+    let left = Id::unique("list that was left");
+    if entries.iter().any(Response::clicked) {
+        ui.data_mut(|data| data.insert_temp(left, pass));
+    }
+    let Some(now) = entries.iter().position(Response::has_focus) else {
+        // A list in which something was chosen is drawn again before it closes.
+        let closes = ui.data(|data| data.get_temp::<u64>(left)).is_some_and(|left| pass <= left + 2);
+        if let Some(entry) = entries.get(on).filter(|_| !closes) {
+            entry.request_focus();
+        }
+        return;
+    };
+    hold(ui, &entries[now]);
+    if let Some(next) = now.checked_add_signed(step(ui)).and_then(|next| entries.get(next)).filter(|_| step(ui) != 0) {
+        next.request_focus();
+        next.scroll_to_me(None);
+    }
+}
+
+/// Below this width the three buttons of a set take one more row.
+const SET: f32 = 290.0;
+/// Below these widths the four buttons of a file that is no set take one and two more.
+const FILE: [f32; 2] = [380.0, 270.0];
+
+fn foot_height(shown: &ImportSelection, width: f32) -> f32 {
+    let more = match shown.item {
+        ImportItem::Set(_) => usize::from(width < SET),
+        ImportItem::File(_) => FILE.into_iter().filter(|least| width < *least).count(),
+    };
+    let rows = 2 + usize::from(on_disk(shown)) + more;
+    rows as f32 * (ROW + UNIT) + 2.0 * UNIT
+}
+
+/// True if there is a file to look after.
+fn on_disk(shown: &ImportSelection) -> bool {
+    match (&shown.set, &shown.file) {
+        (Some(set), _) => set.path.is_some(),
+        (None, file) => file.as_ref().is_some_and(|file| file.origin.path.is_some()),
+    }
+}
+
+fn foot(ui: &mut Ui, shown: &ImportSelection, context: &mut PaneContext<'_>) {
+    ui.spacing_mut().item_spacing.x = UNIT;
+    ui.horizontal_wrapped(|ui| match &shown.item {
+        ImportItem::File(fingerprint) => {
+            let reads = shown.is_fresh() && shown.table().is_some();
+            let none = shown.taken().is_empty();
+            let button = ui.add_enabled(reads && !none, egui::Button::new("Use"));
+            let hint = "Import it and use it; can be undone";
+            let why = if reads { "No curve is selected" } else { "Not readable with these settings" };
+            if button.on_hover_text(hint).on_disabled_hover_text(why).clicked() {
+                context.push(Command::UseFile(*fingerprint, Box::new(shown.overrides.clone())));
+            }
+            alike(ui, shown, context);
+            if let Some(path) = shown.file.as_ref().and_then(|file| file.origin.path.clone())
+                && ui.button("Reload").on_hover_text("Reload the file from disk").clicked()
+            {
+                context.push(Command::OpenPath(path));
+            }
+            if ui.button("Do not import").on_hover_text("Remove from the list").clicked() {
+                context.push(Command::ForgetFile(*fingerprint));
+                context.view.import.selected = None;
+            }
+        }
+        ImportItem::Set(name) => {
+            if shown.file.is_some() {
+                alike(ui, shown, context);
+            }
+            if on_disk(shown) && ui.button("Reload").on_hover_text("Reload the file from disk").clicked() {
+                context.push(Command::ReadAgain(name.clone()));
+            }
+            let remove = Action::Imported(ImportedAction::Remove(name.clone()));
+            context.button(ui, "Remove", "Remove the data set; can be undone", remove);
+        }
+    });
+    ui.horizontal(|ui| {
+        let chosen = shown.overrides != ImportOverrides::default();
+        let hint = "Decide by content again, for this file and others like it; can be undone";
+        let button = ui.add_enabled(chosen, egui::Button::new("Forget choices")).on_hover_text(hint);
+        if button.on_disabled_hover_text("Nothing was chosen for it").clicked() {
+            context.push(Command::ForgetChoices(shown.item.clone()));
+        }
+    });
+    if on_disk(shown) {
+        ui.checkbox(&mut context.view.saved.import.watch, "Reload when the file changes").on_hover_text(
+            "Files are reloaded when they change on disk, including files that failed to load; can be \
+                            undone",
+        );
+    }
+}
+
+fn alike(ui: &mut Ui, shown: &ImportSelection, context: &mut PaneContext<'_>) {
+    let hint = "Use these settings for all open files of this kind, and for files like it from now on";
+    let reads = shown.is_fresh() && shown.table().is_some();
+    if ui.add_enabled(reads, egui::Button::new("Use for all like it")).on_hover_text(hint).clicked() {
+        context.push(Command::UseForAlike(shown.item.clone()));
+    }
 }

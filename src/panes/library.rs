@@ -1,7 +1,6 @@
 //! Compared sensors, which are the only legend, above the search and all data sets.
 
 mod compared;
-mod save;
 mod sets;
 
 use std::collections::HashSet;
@@ -17,15 +16,10 @@ use crate::workspaces::PaneKind;
 /// Share of the pane's height for the compared sensors, and the least and most rows of it.
 const COMPARED: (f32, [f32; 2]) = (0.36, [3.0, 8.0]);
 
-pub const PANE: Pane =
-    Pane { kind: PaneKind::LIBRARY, title: "Library", show, figure: None, under_conditions: false, table: false };
+pub const PANE: Pane = Pane::new(PaneKind::LIBRARY, "Library", show);
 
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
-    ui.painter().rect_filled(rect, 0.0, context.theme.panel);
-    if ui.input(|input| input.pointer.any_pressed() && input.pointer.interact_pos().is_some_and(|at| rect.contains(at)))
-    {
-        context.view.focused = Some(PaneKind::LIBRARY);
-    }
+    widgets::ground(ui, PaneKind::LIBRARY, rect, context);
     let inner = rect.shrink2(Vec2::new(2.0 * UNIT, UNIT));
     let mut column = ui.new_child(UiBuilder::new().id_salt("library").max_rect(inner));
     column.set_clip_rect(rect.intersect(ui.clip_rect()));
@@ -42,7 +36,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     heading(&mut column, "Library", context);
     let rows = sets::rows(context);
     let chosen = search_field(&mut column, context);
-    if chosen && let Some(entry) = sets::first_match(&rows) {
+    if chosen && let Some(entry) = rows.iter().find_map(sets::Row::entry) {
         sets::choose(&entry, true, context);
     }
     sets::list(&mut column, &rows, context);

@@ -22,14 +22,7 @@ use crate::scene::light::LightSheetQuery;
 use crate::theme::UNIT;
 use crate::workspaces::PaneKind;
 
-pub const PANE: Pane = Pane {
-    kind: PaneKind::LIGHT,
-    title: "Light",
-    show,
-    figure: Some(&light::KIND),
-    under_conditions: true,
-    table: true,
-};
+pub const PANE: Pane = Pane::new(PaneKind::LIGHT, "Light", show).figure(&light::KIND).under_conditions().table();
 
 const LIST: f32 = 220.0;
 /// Minimum width for bars and vectors side by side.
@@ -63,7 +56,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     if shown.current && widgets::numbers(ui, &PANE, body, context, |_| Some(light::table(&scene, &rendition))) {
         return;
     }
-    widgets::scroll::show(ui, (PANE.kind, "light"), body, context, |ui, context| {
+    widgets::scroll(ui, (PANE.kind, "light"), body, context, |ui, context| {
         summary(ui, &scene, &rendition, context);
         similarity(ui, &scene, context);
         pictures(ui, &rendition, context);

@@ -84,13 +84,17 @@ fn item(ui: &mut Ui, words: &str, command: Command, context: &mut PaneContext<'_
 }
 
 fn enabled_item(ui: &mut Ui, enabled: bool, words: &str, command: Command, context: &mut PaneContext<'_>) {
-    let mut button = Button::new(words);
-    if let Some(shortcut) = shortcut_of(&command, focused(context)) {
-        button = button.shortcut_text(ui.ctx().format_shortcut(&shortcut));
-    }
+    let button = keyed(ui, Button::new(words), &command, context);
     if ui.add_enabled(enabled, button).clicked() {
         context.push(command);
         ui.close();
+    }
+}
+
+fn keyed<'a>(ui: &Ui, button: Button<'a>, command: &Command, context: &PaneContext<'_>) -> Button<'a> {
+    match shortcut_of(command, focused(context)) {
+        Some(shortcut) => button.shortcut_text(ui.ctx().format_shortcut(&shortcut)),
+        None => button,
     }
 }
 
@@ -123,12 +127,8 @@ fn file(ui: &mut Ui, context: &mut PaneContext<'_>) {
             for (path, age) in kept {
                 let words = format!("Document of another window, {age}");
                 let menu = ui.menu_button(words, |ui| {
-                    context.item(
-                        ui,
-                        "Open",
-                        "The current document is saved here first",
-                        Command::OpenDocument(path.clone()),
-                    );
+                    let hint = "The current document is saved here first";
+                    context.item(ui, "Open", hint, Command::OpenDocument(path.clone()));
                     context.item(ui, "Delete", "", Command::RemoveDocument(path.clone()));
                 });
                 menu.response.on_hover_text(path.display().to_string());
@@ -233,10 +233,7 @@ fn gutter(on: bool) -> Atom<'static> {
 
 fn ticked(ui: &mut Ui, on: bool, words: &str, hint: &str, command: impl Into<Command>, context: &mut PaneContext<'_>) {
     let command = command.into();
-    let mut button = Button::new((gutter(on), words));
-    if let Some(shortcut) = shortcut_of(&command, focused(context)) {
-        button = button.shortcut_text(ui.ctx().format_shortcut(&shortcut));
-    }
+    let button = keyed(ui, Button::new((gutter(on), words)), &command, context);
     let mut response = ui.add(button);
     response.widget_info(|| egui::WidgetInfo::selected(egui::Role::Button, true, on, words));
     if !hint.is_empty() {

@@ -15,14 +15,7 @@ use crate::scene::metrics::{FoundMetamers, MetamerRow};
 use crate::theme::UNIT;
 use crate::workspaces::PaneKind;
 
-pub const PANE: Pane = Pane {
-    kind: PaneKind::new("Metamers"),
-    title: "Metamers",
-    show,
-    figure: None,
-    under_conditions: true,
-    table: false,
-};
+pub const PANE: Pane = Pane::new(PaneKind::new("Metamers"), "Metamers", show).under_conditions();
 
 /// The pair that was clicked, as a row.
 #[derive(Default)]
@@ -55,7 +48,8 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
             return;
         }
     };
-    let words = format!("{}: {} of {} reflectances", camera.name, count(found.rows.len()), found.searched);
+    let (count, noun) = (found.rows.len(), if found.rows.len() == 1 { "pair" } else { "pairs" });
+    let words = format!("{}: {count} {noun} of {} reflectances", camera.name, found.searched);
     widgets::note(&mut child, words);
     let chosen = context.states.of::<ClickedPair>().0.filter(|row| *row < found.rows.len());
     if let Some(row) = chosen {
@@ -64,10 +58,6 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let top = child.min_rect().bottom() + UNIT;
     let place = Rect::from_min_max(egui::pos2(body.left(), top.min(body.bottom())), body.max);
     pairs(ui, place, &camera, found, context);
-}
-
-fn count(pairs: usize) -> String {
-    if pairs == 1 { "1 pair".to_owned() } else { format!("{pairs} pairs") }
 }
 
 fn switches(ui: &mut Ui, context: &mut PaneContext<'_>) {

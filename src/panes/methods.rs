@@ -15,7 +15,7 @@ use crate::panes::widgets::pick_list::{self, Line};
 use crate::profiler::{BUILD, bench};
 use crate::profiler::{Profiler, SceneRunJob, Subject};
 use crate::theme::UNIT;
-use crate::view::accuracy::Shows;
+use crate::view::Shows;
 use crate::workspaces::PaneKind;
 
 const REACH: f32 = 10.0;
@@ -27,14 +27,7 @@ const MARKS: &str = "Filled markers, joined by the dashed line: no other method 
 const BENCH: &str = "The program's methods on standard inputs, independent of the scene, against reference values \
                      computed by another method or with twice the digits. Point at a marker for its values.";
 
-pub const PANE: Pane = Pane {
-    kind: PaneKind::METHODS,
-    title: "Methods",
-    show,
-    figure: Some(&accuracy::KIND),
-    under_conditions: false,
-    table: true,
-};
+pub const PANE: Pane = Pane::new(PaneKind::METHODS, "Methods", show).figure(&accuracy::KIND).table();
 
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     refresh(context);
@@ -43,13 +36,12 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
         failed(ui, body, &why, context);
         return;
     }
-    match context.view.accuracy.shows {
+    match context.view.shows {
         Shows::Scene(subject) => scene(ui, body, subject, context),
         Shows::Bench(workload) => benchmark(ui, body, workload, context),
     }
 }
 
-/// Applies the measurements finished since the last frame.
 fn refresh(context: &mut PaneContext<'_>) {
     let own = context.meshes.chosen(&context.scene.document.render.mesh);
     let scene = SceneRunJob::of(&context.scene, own.as_ref(), context.view.saved.render.orbit);
@@ -178,7 +170,7 @@ fn above(
 }
 
 fn switches(ui: &mut Ui, context: &mut PaneContext<'_>) {
-    let now = context.view.accuracy.shows;
+    let now = context.view.shows;
     run(ui, now, context);
     ui.add_space(UNIT);
     let choices = Subject::ALL.map(|subject| (Shows::Scene(subject), subject.title(), subject.words()));
@@ -193,7 +185,7 @@ fn switches(ui: &mut Ui, context: &mut PaneContext<'_>) {
         pick_list::drop_down(ui, hint, words, 96.0, &context.theme, || Workload::ALL.into_iter().map(line).collect());
     chosen = index.and_then(|index| Workload::ALL.into_iter().nth(index)).map(Shows::Bench).or(chosen);
     if let Some(shows) = chosen {
-        context.view.accuracy.shows = shows;
+        context.view.shows = shows;
         ui.ctx().request_repaint();
     }
 }

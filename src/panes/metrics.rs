@@ -17,24 +17,17 @@ use crate::plot_item::{PlotItem, SensorId};
 use crate::scene::metrics::{Ranked, RankedCameras, Ranking};
 use crate::scene::uncertainty::rank_cell;
 use crate::theme::UNIT;
-use crate::view::table::Sorting;
+use crate::view::Sorting;
 use crate::workspaces::PaneKind;
 
 /// Columns of differences that the table starts with; all other groups are shown whole.
 const SHOWN: [&str; 5] = ["delta-e2000-mean", "delta-e2000-p95", "delta-e2000-max", "uv-prime-mean", "xy-mean"];
 
-pub const PANE: Pane = Pane {
-    kind: PaneKind::METRICS,
-    title: "Metrics",
-    show,
-    figure: Some(&metrics::KIND),
-    under_conditions: true,
-    table: false,
-};
+pub const PANE: Pane = Pane::new(PaneKind::METRICS, "Metrics", show).figure(&metrics::KIND).under_conditions();
 
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let body = widgets::body(ui, &PANE, rect, context, switches);
-    let body = widgets::caution::show(ui, body, context);
+    let body = widgets::lines::caution(ui, body, context);
     let which = context.view.saved.metrics.cameras;
     let ranked = context.states.of::<Ranking>().ask(context.later, &context.scene, which);
     if let Some(why) = Ranking::seen(context.later).failure {
@@ -59,7 +52,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
         None => shown,
     };
     let known: Vec<_> = metrics::uncertainties(&ranked, 0..ranked.cameras.len()).collect();
-    let body = widgets::caution::foot(ui, body, &context.scene.metrics_words_with(known), context);
+    let body = widgets::lines::foot(ui, body, &context.scene.metrics_words_with(known), context);
     if let Some(row) = shown.show(ui, body, context).activated {
         compare(&ranked.cameras[row].id, context);
     }
@@ -79,12 +72,8 @@ fn switches(ui: &mut Ui, context: &mut PaneContext<'_>) {
         if ui.button(words).on_hover_text(hint).clicked() {
             compare(&id, context);
         }
-        context.button(
-            ui,
-            "Report card",
-            "The selected camera on one page (Esc returns)",
-            Command::Maximize(PaneKind::REPORT_CARD),
-        );
+        let hint = "The selected camera on one page (Esc returns)";
+        context.button(ui, "Report card", hint, Command::Maximize(PaneKind::REPORT_CARD));
     }
     let waiting = Ranking::seen(context.later);
     let slow = waiting.busy.is_some_and(|busy| busy >= PATIENCE);

@@ -33,14 +33,8 @@ const ABOUT: &str = "Raw RGB that a camera recorded of known patches, against th
     table with columns patch, R, G, B (of the chart and light chosen above, or with spectra in further columns), or a linear 16-bit TIFF \
     or PNG of a 6 × 4 chart.";
 
-pub const PANE: Pane = Pane {
-    kind: PaneKind::RECORDED,
-    title: "Recorded",
-    show,
-    figure: Some(&recorded::KIND),
-    under_conditions: true,
-    table: true,
-};
+pub const PANE: Pane =
+    Pane::new(PaneKind::RECORDED, "Recorded", show).figure(&recorded::KIND).under_conditions().table();
 
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let body = widgets::body(ui, &PANE, rect, context, switches);
@@ -112,12 +106,8 @@ fn patches(scene: &Scene<'_>, inputs: &RecordedInputs) -> Result<Vec<RecordedPat
 }
 
 fn switches(ui: &mut Ui, context: &mut PaneContext<'_>) {
-    context.button(
-        ui,
-        "Open…",
-        "Open raw values: a table, or a linear 16-bit picture of a chart",
-        Command::OpenRecorded,
-    );
+    let hint = "Open raw values: a table, or a linear 16-bit picture of a chart";
+    context.button(ui, "Open…", hint, Command::OpenRecorded);
     let view = &mut context.view.recorded;
     let file = view.path.as_ref().map(|path| context.recorded.get(path));
     let Some(FileState::Ready(file)) = file else { return };

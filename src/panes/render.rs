@@ -1,13 +1,12 @@
 //! A mesh through each camera, side by side, from one orbit.
 
-mod cells;
 mod draw;
-mod orbit;
 mod request;
 
 use std::time::Duration;
 
-use egui::{Align2, FontId, Rect, Sense, Ui};
+use draw::PictureLayout;
+use egui::{Align2, EventFilter, FontId, Key, Modifiers, PointerButton, Rect, Response, Sense, Ui};
 
 use super::context::{Pane, PaneContext};
 use crate::action::{Action, RenderAction};
@@ -16,19 +15,13 @@ use crate::figures;
 use crate::paint::PictureTextures;
 use crate::panes::widgets;
 use crate::render_service::REST_AFTER;
+use crate::scene::orbit::Orbit;
 use crate::theme::{HEADING, UNIT};
-use crate::view::render::{PixelPlace, RenderMode};
+use crate::view::{PixelPlace, RenderMode};
 use crate::workspaces::PaneKind;
-use cells::PictureLayout;
 
-pub const PANE: Pane = Pane {
-    kind: PaneKind::RENDER,
-    title: "Render",
-    show,
-    figure: Some(&figures::render::KIND),
-    under_conditions: true,
-    table: true,
-};
+pub const PANE: Pane =
+    Pane::new(PaneKind::RENDER, "Render", show).figure(&figures::render::KIND).under_conditions().table();
 
 #[derive(Default)]
 struct RenderPane {
@@ -57,8 +50,8 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let response = ui.interact(body, id, Sense::click_and_drag());
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Canvas, true, "Rendered pictures"));
     if !context.scene.document.render.mesh.is_image() {
-        orbit::by_pointer(ui, &response, context);
-        orbit::by_keys(ui, &response, context);
+        by_pointer(ui, &response, context);
+        by_keys(ui, &response, context);
     }
     if let Err(words) = asked {
         context.render_service.hide();
@@ -171,4 +164,68 @@ fn switches(ui: &mut Ui, context: &mut PaneContext<'_>) {
 fn set_up(action: RenderAction, context: &mut PaneContext<'_>) {
     context.view.saved.render.orbit = None;
     context.push(Action::Render(action));
+}
+
+const DRAG: f64 = 0.4;
+const STEP: f64 = 5.0;
+const NEARER: f64 = 0.9;
+
+/// Drag turns, wheel and pinch approach.
+fn by_pointer(ui: &Ui, response: &Response, context: &mut PaneContext<'_>) {
+    if response.clicked() || response.drag_started() {
+        // Keys act on this pane now, not on an earlier text field; letters are free unless a control has the focus.
+        ui.memory_mut(|memory| {
+            if let Some(other) = memory.focused() {
+                memory.surrender_focus(other);
+            }
+        });
+    }
+    if response.dragged_by(PointerButton::Primary) {
+        let moved = response.drag_delta();
+        if moved != egui::Vec2::ZERO {
+            change(ui, context, |orbit| orbit.turned(-DRAG * f64::from(moved.x), DRAG * f64::from(moved.y)));
+        }
+    }
+    if response.contains_pointer() {
+        let (scroll, zoom) = ui.input(|input| (input.smooth_scroll_delta().y, input.zoom_delta()));
+        if scroll != 0.0 || zoom != 1.0 {
+            let factor = (-0.003 * f64::from(scroll)).exp() / f64::from(zoom.max(0.01));
+            change(ui, context, |orbit| orbit.at_distance(factor));
+        }
+    }
+}
+
+/// Arrows turn, + and − approach, while the pictures have the keyboard, or nothing else has.
+fn by_keys(ui: &Ui, response: &Response, context: &mut PaneContext<'_>) {
+    if response.has_focus() {
+        let arrows = EventFilter { horizontal_arrows: true, vertical_arrows: true, ..EventFilter::default() };
+        ui.memory_mut(|memory| memory.set_focus_lock_filter(response.id, arrows));
+    }
+    let idle = context.view.focused == Some(PaneKind::RENDER) && ui.memory(|memory| memory.focused().is_none());
+    if !response.has_focus() && !idle {
+        return;
+    }
+    let (x, y, nearer) = ui.input_mut(|input| {
+        if !input.modifiers.is_none() && !input.modifiers.shift_only() {
+            return (0.0, 0.0, 0.0);
+        }
+        let mut presses = |key: Key| input.count_and_consume_key(Modifiers::NONE, key) as f64;
+        (
+            presses(Key::ArrowRight) - presses(Key::ArrowLeft),
+            presses(Key::ArrowUp) - presses(Key::ArrowDown),
+            presses(Key::Plus) + presses(Key::Equals) - presses(Key::Minus),
+        )
+    });
+    if x != 0.0 || y != 0.0 {
+        change(ui, context, |orbit| orbit.turned(STEP * x, STEP * y));
+    }
+    if nearer != 0.0 {
+        change(ui, context, |orbit| orbit.at_distance(NEARER.powf(nearer)));
+    }
+}
+
+fn change(ui: &Ui, context: &mut PaneContext<'_>, to: impl FnOnce(Orbit) -> Orbit) {
+    let now = context.view.saved.render.orbit.unwrap_or_else(|| Orbit::of(&context.scene.document.render.mesh));
+    context.view.saved.render.orbit = Some(to(now));
+    ui.ctx().request_repaint();
 }

@@ -1,21 +1,18 @@
 //! Settings of the render: mesh, material, surface, light, view; and the pixel that is read.
 
-mod material;
 mod pixel;
 mod scene;
-mod surface;
-mod view;
 
 use chromascope_text::{Look, Number, Pick, Setting, Settings as _, Value};
 use egui::{CollapsingHeader, DragValue, Rect, ScrollArea, Ui, UiBuilder, Vec2};
 
-use super::context::{Pane, PaneContext, set_render as set};
+use super::context::{Pane, set_render as set};
 use crate::document::render::RenderSettings;
 use crate::document::render::settings::{LIGHT, SURFACE, VIEW};
-use crate::panes::widgets::{
-    self,
-    pick_list::{self, Line},
-};
+use crate::panes::context::PaneContext;
+use crate::panes::widgets;
+use crate::panes::widgets::pick_list::{self, Line};
+use crate::scene::orbit::Orbit;
 use crate::theme::UNIT;
 use crate::workspaces::PaneKind;
 
@@ -34,29 +31,22 @@ const SLIDER: f32 = 24.0;
 /// In a lower pane they are a group among the others.
 const WITH_PIXEL: f32 = 480.0;
 
-pub const PANE: Pane = Pane {
-    kind: PaneKind::RENDER_SETTINGS,
-    title: "Render settings",
-    show,
-    figure: None,
-    under_conditions: false,
-    table: false,
-};
+pub const PANE: Pane = Pane::new(PaneKind::RENDER_SETTINGS, "Render settings", show);
 
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let body = widgets::pane(ui, &PANE, rect, context, |_, _| {});
     let sources = context.scene.rendered_sources().len();
     let kept = context.view.render.pinned.is_some();
     let spectrum =
-        if context.scene.document.render.mesh.is_image() { widgets::pixel_spectrum::HEIGHT + UNIT } else { 0.0 };
+        if context.scene.document.render.mesh.is_image() { widgets::pixel::SPECTRUM_HEIGHT + UNIT } else { 0.0 };
     let foot = if kept { PIXEL + PIXEL_LINE * sources.min(PIXEL_LINES) as f32 + spectrum } else { NO_PIXEL };
     let below = if body.height() > WITH_PIXEL { foot } else { 0.0 };
     let groups = Rect::from_min_max(body.min, egui::pos2(body.right(), body.bottom() - below));
-    widgets::scroll::show(ui, (PANE.kind, "render setup"), groups, context, |ui, context| {
+    widgets::scroll(ui, (PANE.kind, "render setup"), groups, context, |ui, context| {
         ui.spacing_mut().item_spacing.y = 0.5 * UNIT;
         group(ui, LIGHT, context, |ui, context| controls(ui, LIGHT, context));
-        group(ui, SURFACE, context, surface::show);
-        group(ui, VIEW, context, view::show);
+        group(ui, SURFACE, context, scene::surface);
+        group(ui, VIEW, context, show_view);
         if below == 0.0 {
             group(ui, "Pixel", context, pixel::show);
         }
@@ -76,7 +66,6 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     }
 }
 
-/// A group that folds.
 fn group(ui: &mut Ui, words: &str, context: &mut PaneContext<'_>, content: impl FnOnce(&mut Ui, &mut PaneContext<'_>)) {
     CollapsingHeader::new(words).id_salt(words).default_open(true).show(ui, |ui| content(ui, context));
 }
@@ -101,13 +90,12 @@ fn controls(ui: &mut Ui, group: &str, context: &mut PaneContext<'_>) {
     }
 }
 
-/// The control of a setting.
 fn control(ui: &mut Ui, setting: &Setting<RenderSettings>, settings: &RenderSettings, context: &mut PaneContext<'_>) {
     let (name, hint) = (setting.name, setting.help);
     let is_enabled = (setting.idle)(settings).is_none();
     let mut to = settings.clone();
     match &setting.value {
-        _ if setting.key == "tolerance" => view::tolerance(ui, is_enabled, settings, context),
+        _ if setting.key == "tolerance" => tolerance(ui, is_enabled, settings, context),
         Value::Number(number) if number.field => {
             caption(ui, name, context);
             field(ui, [name, hint], number, &mut to);
@@ -152,11 +140,10 @@ fn control(ui: &mut Ui, setting: &Setting<RenderSettings>, settings: &RenderSett
         line(ui, words.brief(), words.why, context.theme.weak);
     }
     if setting.key == "exposure_ev" {
-        view::lens(ui, settings, context);
+        lens(ui, settings, context);
     }
 }
 
-/// A number that is typed or dragged.
 fn field<D>(ui: &mut Ui, [name, hint]: [&str; 2], number: &Number<D>, settings: &mut D) {
     let now = (number.get)(settings);
     let mut value = now;
@@ -202,7 +189,6 @@ fn choice<D>(
     }
 }
 
-/// A small caption above a control.
 fn caption(ui: &mut Ui, words: &str, context: &PaneContext<'_>) {
     line(ui, words, words, context.theme.weak);
 }
@@ -295,7 +281,6 @@ fn list(
     pick_list::drop_down(ui, (name, hint), shown, width, &context.theme, lines)
 }
 
-/// A value as it is shown: three digits.
 fn short(value: f64) -> String {
     crate::format::number(short_value(value))
 }
@@ -314,4 +299,54 @@ fn parsed(text: &str) -> Option<f64> {
     let number: String =
         text.replace('−', "-").chars().take_while(|c| c.is_ascii_digit() || "+-.eE".contains(*c)).collect();
     number.trim().parse().ok()
+}
+
+const FIELD: Number<Orbit> = Number { unit: "°", slider: [2.0, 120.0], ..Number::DEFAULT };
+
+fn show_view(ui: &mut Ui, context: &mut PaneContext<'_>) {
+    controls(ui, VIEW, context);
+    let is_image = context.scene.document.render.mesh.is_image();
+    let reset = ui.add_enabled(!is_image, egui::Button::new("Reset view"));
+    if reset.on_hover_text("Initial view of the mesh (Home)").clicked() {
+        context.view.saved.render.orbit = None;
+        ui.ctx().request_repaint();
+    }
+    without_picture(ui, context);
+}
+
+/// The field of view, which is no part of the document.
+fn lens(ui: &mut Ui, settings: &RenderSettings, context: &mut PaneContext<'_>) {
+    let orbit = context.view.saved.render.orbit.unwrap_or_else(|| Orbit::of(&settings.mesh));
+    let hint =
+        "Of the lens; the viewpoint moves so that the mesh keeps its size. Wide lenses fall off with cos⁴ (Eq 12)";
+    let is_enabled = !settings.mesh.is_image();
+    let dial = Dial { name: "Field of view", hint, number: &FIELD, is_enabled };
+    if let Some(to) = dial.show(ui, orbit.field_of_view_deg, context) {
+        context.view.saved.render.orbit = Some(orbit.with_field_of_view(to));
+        ui.ctx().request_repaint();
+    }
+}
+
+fn tolerance(ui: &mut Ui, is_enabled: bool, settings: &RenderSettings, context: &mut PaneContext<'_>) {
+    let hint = "Largest error of a picture, relative to its brightest sample, with the quality Within a tolerance. The \
+                Numerics workspace shows the method for each camera.";
+    caption(ui, "Tolerance", context);
+    let id = ui.make_persistent_id("tolerance field");
+    let field = |ui: &mut Ui| widgets::tolerance::field(ui, id, settings.tolerance, "", hint, context);
+    if let Some(to) = ui.add_enabled_ui(is_enabled, field).inner {
+        set(context, "Tolerance", |settings| settings.tolerance = to);
+    }
+}
+
+/// Lists the compared sensors that have no picture.
+fn without_picture(ui: &mut Ui, context: &PaneContext<'_>) {
+    let rendered = context.scene.rendered_sources();
+    let skipped_work = context.scene.sources().into_iter().filter(|source| source.visible);
+    let skipped_work =
+        skipped_work.filter(|source| !rendered.iter().any(|r| (r.kind, &r.name) == (source.kind, &source.name)));
+    let names: Vec<String> = skipped_work.map(|source| source.label).collect();
+    let words = if names.is_empty() { String::new() } else { format!("No picture: {}", names.join(", ")) };
+    let why =
+        "Eq 13 takes the signals of cameras and of Stiles & Burch; with a fitted color transform all have pictures.";
+    line(ui, &words, &format!("{words}. {why}"), context.theme.weak);
 }

@@ -19,14 +19,8 @@ const NARROWEST: f32 = 300.0;
 
 const BARS: &str = "patches";
 
-pub const PANE: Pane = Pane {
-    kind: PaneKind::REPORT_CARD,
-    title: "Report card",
-    show,
-    figure: Some(&report_card::KIND),
-    under_conditions: true,
-    table: true,
-};
+pub const PANE: Pane =
+    Pane::new(PaneKind::REPORT_CARD, "Report card", show).figure(&report_card::KIND).under_conditions().table();
 
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let body = widgets::body(ui, &PANE, rect, context, choose);
@@ -59,7 +53,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
         }
     }
     let body = body.expand2(Vec2::new(2.0 * UNIT, 0.0));
-    widgets::scroll::show(ui, (PANE.kind, "report card"), body, context, |ui, context| {
+    widgets::scroll(ui, (PANE.kind, "report card"), body, context, |ui, context| {
         ScrollArea::horizontal().auto_shrink([false, true]).show(ui, |ui| draw(ui, &page, moved, context));
     });
 }

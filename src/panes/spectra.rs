@@ -13,14 +13,7 @@ use crate::workspaces::PaneKind;
 const LEAST: f32 = 64.0;
 const REACH: f32 = 8.0;
 
-pub const PANE: Pane = Pane {
-    kind: PaneKind::SPECTRA,
-    title: "Spectra",
-    show,
-    figure: Some(&spectra::KIND),
-    under_conditions: false,
-    table: true,
-};
+pub const PANE: Pane = Pane::new(PaneKind::SPECTRA, "Spectra", show).figure(&spectra::KIND).table();
 
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let body = widgets::pane(ui, &PANE, rect, context, |ui, context| {

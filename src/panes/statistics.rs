@@ -29,8 +29,7 @@ const STAGES: [(&str, &str); 14] = [
     ("patch colors", "patches"),
 ];
 
-pub const PANE: Pane =
-    Pane { kind: PaneKind::STATISTICS, title: "Statistics", show, figure: None, under_conditions: false, table: false };
+pub const PANE: Pane = Pane::new(PaneKind::STATISTICS, "Statistics", show);
 
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     widgets::scrolling_pane(ui, &PANE, rect, context, |ui, context| {
@@ -73,11 +72,11 @@ fn pictures(ui: &mut Ui, context: &mut PaneContext<'_>) {
 }
 
 fn stages(ui: &mut Ui, context: &mut PaneContext<'_>) {
-    let counts = context.counts();
+    let counts = context.scene.results.counts();
     let each = Column { decimals: Some(1), ..Column::in_unit("each", "ms") };
     let mut table = Table::new(["since the start".into(), "computed".into(), "reused".into(), each]);
     for (name, words) in STAGES {
-        if let Some((_, count)) = counts.iter().find(|(counted, _)| *counted == name) {
+        if let Some(count) = counts.get(name) {
             let each = count.own_time.as_secs_f64() * 1e3 / count.misses.max(1) as f64;
             let each = if context.view.fixed_clock { Cell::Empty } else { each.into() };
             table.push([words.into(), Cell::Number(count.misses as f64), Cell::Number(count.hits as f64), each]);

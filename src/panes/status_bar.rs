@@ -78,22 +78,11 @@ fn selection(context: &PaneContext<'_>) -> Option<String> {
 fn show_facts(ui: &mut Ui, rect: Rect, arrangement: &Arrangement, context: &PaneContext<'_>) {
     let words = facts(arrangement, context).join("   ");
     let width = lines::right_aligned(ui, rect, &words, TextStyle::Small, context.theme.weak);
-    let response = widgets::named(
-        ui,
-        rect.with_min_x(rect.right() - width),
-        ui.scope_id().with("facts"),
-        egui::Role::Label,
-        &words,
-    );
-    response.on_hover_text(
-        if context.render_service.frame().is_some()
-            && arrangement.panes.iter().any(|(pane, _)| *pane == PaneKind::RENDER)
-        {
-            RENDER_FACTS
-        } else {
-            FACTS
-        },
-    );
+    let (place, id) = (rect.with_min_x(rect.right() - width), ui.scope_id().with("facts"));
+    let response = widgets::named(ui, place, id, egui::Role::Label, &words);
+    let shows_pictures = arrangement.panes.iter().any(|(pane, _)| *pane == PaneKind::RENDER);
+    let is_of_pictures = shows_pictures && context.render_service.frame().is_some();
+    response.on_hover_text(if is_of_pictures { RENDER_FACTS } else { FACTS });
 }
 
 /// The files being read, else the last message while it lasts. Returns whether there is one.
@@ -138,7 +127,6 @@ enum Press {
     Take(Vec<Offer>),
 }
 
-/// Buttons of a message: its offers, and where it leads.
 fn buttons(status: &Status) -> Vec<LineButton> {
     const LEAVES: &str = "Enter does it, Esc leaves it: until then nothing changes";
     let offers = match status.offers.as_slice() {

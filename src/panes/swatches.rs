@@ -14,21 +14,15 @@ use crate::workspaces::PaneKind;
 
 const FOOTER: f32 = 24.0;
 
-pub const PANE: Pane = Pane {
-    kind: PaneKind::SWATCHES,
-    title: "Swatches",
-    show,
-    figure: Some(&swatches::KIND),
-    under_conditions: true,
-    table: true,
-};
+pub const PANE: Pane =
+    Pane::new(PaneKind::SWATCHES, "Swatches", show).figure(&swatches::KIND).under_conditions().table();
 
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let body = widgets::body(ui, &PANE, rect, context, switches);
     if widgets::figure_numbers(ui, &PANE, body, context) {
         return;
     }
-    let body = widgets::caution::show(ui, body, context);
+    let body = widgets::lines::caution(ui, body, context);
     ui.painter().rect_filled(body, 0.0, context.theme.surround);
     let (body, slot) = footer(ui, body, context);
     let size = [f64::from(body.width()), f64::from(body.height())];
@@ -40,7 +34,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
         board(ui, area, &built, context);
     });
     if height - shown.state.clamped_offset().y > body.height() + 1.0 {
-        widgets::scroll::more_below(ui, slot, context.theme.on_surround);
+        widgets::more_below(ui, slot, context.theme.on_surround);
     }
 }
 

@@ -15,8 +15,7 @@ use crate::scene::ComparedSensor;
 use crate::theme::UNIT;
 use crate::workspaces::PaneKind;
 
-pub const PANE: Pane =
-    Pane { kind: PaneKind::TOLERANCE, title: "Tolerance", show, figure: None, under_conditions: false, table: false };
+pub const PANE: Pane = Pane::new(PaneKind::TOLERANCE, "Tolerance", show);
 
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     widgets::scrolling_pane(ui, &PANE, rect, context, |ui, context| {
@@ -54,7 +53,6 @@ fn choice(ui: &mut Ui, context: &mut PaneContext<'_>) {
     widgets::note(ui, words);
 }
 
-/// Reason that there are no plans.
 struct NothingRendered;
 
 /// The plan of each rendered sensor, as pictures within the document's tolerance would take it; `Ok(None)` until one is

@@ -1,24 +1,23 @@
 //! Parts that more than one pane uses.
 
-pub mod caution;
 pub mod facts;
 pub mod lines;
 pub mod number_field;
 pub mod pick_list;
 pub mod pixel;
-pub mod pixel_spectrum;
-pub mod scroll;
 pub mod table;
 pub mod tolerance;
 pub mod walk;
-
-pub use lines::focus_rim;
 
 use std::time::Duration;
 
 use chromascope_figure::{FigureRoom, Ink, LegendEntry, Stroke, Table};
 use chromascope_text::Choice;
-use egui::{Align, Align2, Button, FontId, Layout, Rect, Response, RichText, Sense, Ui, UiBuilder, Vec2};
+use egui::{
+    Align, Align2, Button, Color32, FontId, Key, Layout, Modifiers, Rect, Response, RichText, ScrollArea, Sense, Shape,
+    Ui, UiBuilder, Vec2,
+};
+use pick_list::Line;
 
 use crate::command::Command;
 use crate::export::FigureForm;
@@ -30,7 +29,8 @@ use crate::plot_item::SensorId;
 use crate::scene::ComparedSensor;
 use crate::theme::{self, ROW, Theme, UNIT};
 use crate::workspaces::{PaneKind, Workspace};
-use pick_list::Line;
+
+pub use lines::{focus_rim, named};
 
 pub const WHAT_YOU_SEE: &str = "A camera's spectral sensitivities differ from the eye's, so it records other colors \
                                 than a person sees. Chromascope shows how far off each camera is.";
@@ -48,11 +48,7 @@ pub fn pane(
     context: &mut PaneContext<'_>,
     switches: impl FnOnce(&mut Ui, &mut PaneContext<'_>),
 ) -> Rect {
-    ui.painter().rect_filled(rect, 0.0, context.theme.panel);
-    if ui.input(|input| input.pointer.any_pressed() && input.pointer.interact_pos().is_some_and(|at| rect.contains(at)))
-    {
-        context.view.focused = Some(pane.kind);
-    }
+    ground(ui, pane.kind, rect, context);
     let header = Rect::from_min_size(rect.min, Vec2::new(rect.width(), HEADER)).shrink2(Vec2::new(2.0 * UNIT, UNIT));
     let layout = Layout::left_to_right(Align::Center);
     let mut bar = ui.new_child(UiBuilder::new().id_salt(("header", pane.kind)).max_rect(header).layout(layout));
@@ -69,6 +65,15 @@ pub fn pane(
     let mut buttons = ui.new_child(UiBuilder::new().id_salt(("buttons", pane.kind)).max_rect(right).layout(to_left));
     header_buttons(&mut buttons, pane, context);
     Rect::from_min_max(egui::pos2(rect.left(), rect.top() + HEADER), rect.max)
+}
+
+/// The ground of a pane, which takes the keyboard where it is pressed.
+pub fn ground(ui: &Ui, pane: PaneKind, rect: Rect, context: &mut PaneContext<'_>) {
+    ui.painter().rect_filled(rect, 0.0, context.theme.panel);
+    if ui.input(|input| input.pointer.any_pressed() && input.pointer.interact_pos().is_some_and(|at| rect.contains(at)))
+    {
+        context.view.focused = Some(pane);
+    }
 }
 
 /// A pane's frame and header as [`pane`] draws them. Returns the rectangle below within the usual margins.
@@ -97,13 +102,18 @@ pub fn middle(ui: &mut Ui, salt: impl egui::AsIdSalt, body: Rect, size: Vec2) ->
     ui.new_child(UiBuilder::new().id_salt(salt).max_rect(place).layout(layout))
 }
 
+/// A window of a fixed place and size.
+pub fn window<'a>(title: impl egui::IntoAtoms<'a>, id: &'static str, place: (Align2, Vec2)) -> egui::Window<'a> {
+    let window = egui::Window::new(title).id(egui::Id::unique(id));
+    window.collapsible(false).resizable(false).anchor(place.0, place.1)
+}
+
 /// Draws a sentence in the middle of a rectangle.
 pub fn say(ui: &Ui, body: Rect, words: impl ToString, color: egui::Color32) {
     let font = FontId::proportional(theme::TEXT);
     ui.painter().text(body.center(), Align2::CENTER_CENTER, words, font, color);
 }
 
-/// A small line of less weight.
 pub fn note(ui: &mut Ui, words: impl Into<String>) {
     ui.label(RichText::new(words).small().weak());
 }
@@ -140,13 +150,6 @@ pub fn hover_curve(ui: &Ui, salt: &'static str, inside: bool, place: Option<usiz
     }
 }
 
-/// A drawn part that shows nothing else under the pointer, with its name for screen readers.
-pub fn named(ui: &Ui, rect: Rect, id: egui::Id, role: egui::Role, words: &str) -> Response {
-    let response = ui.interact(rect, id, Sense::hover());
-    response.widget_info(|| egui::WidgetInfo::labeled(role, true, words));
-    response
-}
-
 /// Has the control of a name take the keyboard as soon as it is drawn.
 pub fn seek(ctx: &egui::Context, name: &'static str) {
     let until = ctx.cumulative_pass_nr() + SOUGHT;
@@ -174,7 +177,7 @@ pub fn scrolling_pane(
     content: impl FnOnce(&mut Ui, &mut PaneContext<'_>),
 ) {
     let body = self::pane(ui, pane, rect, context, |_, _| {});
-    scroll::show(ui, (pane.kind, pane.title), body, context, content);
+    scroll(ui, (pane.kind, pane.title), body, context, content);
 }
 
 /// The title, which opens a menu of panes for this place.
@@ -205,7 +208,6 @@ fn title_menu(ui: &mut Ui, pane: &Pane, context: &mut PaneContext<'_>) {
     }
 }
 
-/// Table, export, maximize, close.
 fn header_buttons(ui: &mut Ui, pane: &Pane, context: &mut PaneContext<'_>) {
     let (kind, title) = (pane.kind, pane.title);
     let maximized = context.view.maximized == Some(kind);
@@ -232,12 +234,7 @@ fn header_buttons(ui: &mut Ui, pane: &Pane, context: &mut PaneContext<'_>) {
 fn export_menu(ui: &mut Ui, &Pane { kind, title, .. }: &Pane, context: &mut PaneContext<'_>) {
     let response = icon_button(ui, Icon::Export, &format!("Export {title}"));
     egui::Popup::menu(&response).show(|ui| {
-        let mut item = |ui: &mut Ui, words: &str, command: Command| {
-            if ui.button(words).clicked() {
-                context.push(command);
-                ui.close();
-            }
-        };
+        let mut item = |ui: &mut Ui, words: &str, command: Command| context.item(ui, words, "", command);
         if kind == PaneKind::CORRECTION {
             for form in CorrectionForm::ALL {
                 item(ui, form.words().0, Command::SaveCorrection(form));
@@ -258,11 +255,8 @@ fn export_menu(ui: &mut Ui, &Pane { kind, title, .. }: &Pane, context: &mut Pane
         if let Some(shot) = context.render_service.frame().cloned().filter(|_| kind == PaneKind::RENDER) {
             ui.separator();
             for source in shot.sources.iter() {
-                if ui.button(format!("{} as OpenEXR…", source.label)).clicked() {
-                    let id = SensorId { kind: source.kind, name: source.name.clone() };
-                    context.push(Command::ExportExr(id));
-                    ui.close();
-                }
+                let id = SensorId { kind: source.kind, name: source.name.clone() };
+                context.item(ui, &format!("{} as OpenEXR…", source.label), "", Command::ExportExr(id));
             }
         }
     });
@@ -284,10 +278,7 @@ pub fn busy_line(ui: &Ui, body: Rect, busy: Option<Duration>, color: egui::Color
 /// Small pictures drawn with lines, so that no font needs them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Icon {
-    Table {
-        /// Numbers are visible.
-        on: bool,
-    },
+    Table { on: bool },
     Export,
     Maximize,
     Close,
@@ -361,7 +352,6 @@ pub fn segmented<T: Copy + PartialEq>(ui: &mut Ui, choices: &[(T, &str, &str)], 
     pressed(ui, choices, current).filter(|choice| *choice != current)
 }
 
-/// A switch that sets a value.
 pub fn switch<T: Choice>(ui: &mut Ui, value: &mut T) {
     if let Some(to) = choice(ui, *value) {
         *value = to;
@@ -394,7 +384,6 @@ pub fn pressed<T: Copy + PartialEq>(ui: &mut Ui, choices: &[(T, &str, &str)], cu
     clicked
 }
 
-/// A source's key: its line and marker.
 pub fn legend_entry(source: &ComparedSensor) -> LegendEntry {
     LegendEntry {
         name: source.label.clone(),
@@ -424,9 +413,67 @@ pub fn read_at_pointer(response: &Response, lines: &[String]) {
 
 /// Selects all text of a field, so that typing replaces it.
 pub fn mark_all(ui: &Ui, id: egui::Id, text: &str) {
+    mark(ui, id, 0..text.chars().count());
+}
+
+/// Selects a part of the text of a field.
+pub fn mark(ui: &Ui, id: egui::Id, part: std::ops::Range<usize>) {
     use egui::text::{CCursor, CCursorRange};
     let mut state = egui::TextEdit::load_state(ui.ctx(), id).unwrap_or_default();
-    let all = CCursorRange::two(CCursor::new(0), CCursor::new(text.chars().count()));
-    state.cursor.set_char_range(Some(all));
+    state.cursor.set_char_range(Some(CCursorRange::two(CCursor::new(part.start), CCursor::new(part.end))));
     state.store(ui.ctx(), id);
+}
+
+const HINT_LINE: f32 = 18.0;
+/// Share of the visible height that Page Up and Page Down move by.
+const PAGE: f32 = 0.9;
+
+/// Shows content that scrolls in a rectangle of a pane, also by Page Up and Page Down. Where it does not fit, a line below it is
+/// kept for the hint, so that nothing moves when the end is reached.
+pub fn scroll(
+    ui: &mut Ui,
+    (pane, name): (PaneKind, &str),
+    rect: Rect,
+    context: &mut PaneContext<'_>,
+    content: impl FnOnce(&mut Ui, &mut PaneContext<'_>),
+) {
+    let key = ui.scope_id().with((name, "height"));
+    let before: f32 = ui.data(|data| data.get_temp(key)).unwrap_or_default();
+    let kept = if before > rect.height() { HINT_LINE } else { 0.0 };
+    let (view, slot) = rect.split_top_bottom_at_y(rect.bottom() - kept);
+    let inner = view.shrink2(Vec2::new(2.0 * UNIT, 0.0));
+    let mut child = ui.new_child(UiBuilder::new().id_salt(name).max_rect(inner));
+    child.set_clip_rect(view.intersect(ui.clip_rect()));
+    let shown = ScrollArea::vertical().id_salt(name).auto_shrink(false).show(&mut child, |ui| {
+        ui.set_max_width(inner.width() - 2.0 * UNIT);
+        if walk::has_keys(ui, pane, context) {
+            let pressed = |key| ui.input_mut(|input| input.count_and_consume_key(Modifiers::NONE, key)) as f32;
+            let pages = pressed(Key::PageUp) - pressed(Key::PageDown);
+            if pages != 0.0 {
+                ui.scroll_with_delta(Vec2::new(0.0, pages * PAGE * view.height()));
+            }
+        }
+        content(ui, context);
+    });
+    let height = shown.content_size.y;
+    if (height > rect.height()) != (kept > 0.0) {
+        ui.ctx().request_repaint();
+    }
+    ui.data_mut(|data| data.insert_temp(key, height));
+    if kept > 0.0 && height - shown.state.clamped_offset().y > view.height() + 1.0 {
+        let slot = slot.shrink2(Vec2::new(2.0 * UNIT, 0.0));
+        more_below(&ui.new_child(UiBuilder::new().id_salt((name, "below")).max_rect(slot)), slot, context.theme.weak);
+    }
+}
+
+/// A hint at the left of a place that there is more to scroll to.
+pub fn more_below(ui: &Ui, slot: Rect, color: Color32) {
+    let font = FontId::proportional(crate::theme::SMALL);
+    let words = ui.painter().layout_no_wrap("more below".to_owned(), font, color);
+    let at = slot.left_center() + Vec2::new(14.0, -0.5 * words.size().y);
+    let tip = slot.left_center() + Vec2::new(6.0, 3.0);
+    ui.painter().galley(at, words, color);
+    let corners = vec![tip, tip + Vec2::new(-4.0, -5.0), tip + Vec2::new(4.0, -5.0)];
+    named(ui, slot, ui.scope_id().with("more below"), egui::Role::Label, "more below");
+    ui.painter().add(Shape::convex_polygon(corners, color, egui::Stroke::NONE));
 }

@@ -16,7 +16,6 @@ pub struct RecordedView {
     /// True while the open file dialog is for recorded values.
     pub opening: bool,
     pub path: Option<PathBuf>,
-    /// Parameters that are fitted.
     pub freedom: Freedom,
     /// Corners of the chart in the picture that were clicked, in its pixels.
     pub corners: Vec<[f64; 2]>,

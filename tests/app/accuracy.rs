@@ -10,7 +10,7 @@ use chromascope::document::render::RenderSettings;
 use chromascope::panes;
 use chromascope::profiler::{Profiler, SceneRun, Subject};
 use chromascope::scene::Scene;
-use chromascope::view::accuracy::Shows;
+use chromascope::view::Shows;
 use chromascope::workspaces::{PaneKind, Workspace};
 use chromascope_core::accuracy::RelTolerance;
 use chromascope_core::reflectance::Normalization;
@@ -278,7 +278,7 @@ fn a_report_of_the_bench_is_shown_and_exported() {
     let mut window = open([1280.0, 800.0], egui::Theme::Light);
     let view = window.state_mut().view_mut();
     view.saved.workspace = Workspace::Numerics;
-    view.accuracy.shows = Shows::Bench(Workload::DiffuseSum);
+    view.shows = Shows::Bench(Workload::DiffuseSum);
     let measured = &mut window.state_mut().profiler_mut().measured;
     measured.reports.insert(Workload::DiffuseSum, Arc::new(Ok(report.clone())));
     window.run_steps(3);
@@ -307,13 +307,13 @@ fn a_report_of_the_bench_is_shown_and_exported() {
 fn without_the_benchmark_its_place_says_how_to_get_it() {
     let mut window = open([900.0, 600.0], egui::Theme::Light);
     window.state_mut().push(Command::Show(Workspace::Numerics));
-    window.state_mut().view_mut().accuracy.shows = Shows::Bench(Workload::DiffuseSum);
+    window.state_mut().view_mut().shows = Shows::Bench(Workload::DiffuseSum);
     window.run_steps(3);
     let offered = window.query_by_label("Nothing measured yet. A quick run takes some seconds.").is_some();
     let told = window.query_by_label(chromascope::profiler::BUILD).is_some();
     assert_eq!((offered, told), (cfg!(feature = "bench"), cfg!(not(feature = "bench"))));
     // The scene can be measured in either build.
-    window.state_mut().view_mut().accuracy.shows = Shows::Scene(Subject::Loci);
+    window.state_mut().view_mut().shows = Shows::Scene(Subject::Loci);
     window.run_steps(3);
     assert!(window.query_all_by_label("Run").next().is_some());
 }

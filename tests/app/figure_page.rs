@@ -8,7 +8,7 @@ use chromascope::export::page::PageJob;
 use chromascope::export::{self, Paper};
 use chromascope::jobs::{Executor, Job as _};
 use chromascope::theme::SourceInks;
-use chromascope::view::page::{LengthUnit, PageLook, PageZoom};
+use chromascope::view::{LengthUnit, PageLook, PageZoom};
 use chromascope::view::{SavedView, Weight};
 use chromascope::workspaces::PaneKind;
 use egui::accesskit::Role;
@@ -38,7 +38,7 @@ fn page_of(pane: PaneKind) -> (Executor, Window) {
 }
 
 fn open(window: &Window) -> Option<PaneKind> {
-    window.state().view().page.open
+    window.state().view().page
 }
 
 #[test]

@@ -153,7 +153,7 @@ fn letters_in_an_open_list_or_menu_are_its_own() {
         }
         assert_eq!(state(&window), before, "{opens}");
         let view = window.state().view();
-        assert!(view.palette.is_none() && view.page.open.is_none() && view.saved.workspace == workspace, "{opens}");
+        assert!(view.palette.is_none() && view.page.is_none() && view.saved.workspace == workspace, "{opens}");
     }
 }
 
@@ -206,7 +206,7 @@ fn ctrl_e_prints_a_pane_that_has_a_figure() {
         window.key_press_modifiers(Modifiers::COMMAND, Key::E);
         window.run_steps(3);
         let view = window.state().view();
-        assert_eq!(view.page.open, Some(printed), "{workspace:?}: {}", view.status.text);
+        assert_eq!(view.page, Some(printed), "{workspace:?}: {}", view.status.text);
         assert_ne!(view.status.weight, Weight::Error);
     }
 }

@@ -485,7 +485,7 @@ fn metamers_are_found_marked_and_put_on_the_mesh() {
     assert!(row.accesskit_node().label().unwrap_or_default().starts_with(&first), "{first}");
     row.click();
     window.run_steps(3);
-    let clicked = window.state_mut().states_mut().of::<ClickedPair>().0;
+    let clicked = window.state_mut().states.of::<ClickedPair>().0;
     let view = window.state().view();
     assert_eq!((clicked, view.pinned.len()), (Some(0), 2), "both are marked");
     assert_eq!(view.selected.as_ref().and_then(PlotItem::patch), Some(first.as_str()));

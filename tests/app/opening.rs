@@ -14,7 +14,7 @@ use chromascope::document::render::MeshChoice;
 use chromascope::document::{Document, Light, SetKind, session};
 use chromascope::files::Files;
 use chromascope::jobs::Executor;
-use chromascope::view::metrics::RankedCameras;
+use chromascope::view::RankedCameras;
 use chromascope::view::{DiagramFit, Offer, SavedView, Weight};
 use chromascope::workspaces::Workspace;
 use egui::accesskit::Role;

@@ -12,7 +12,7 @@ use chromascope::document::{Document, Light, SetKind, WhiteBalanceChoice, sessio
 use chromascope::panes;
 use chromascope::plot_item::SensorId;
 use chromascope::scene::Scene;
-use chromascope::view::render::{PixelPlace, RenderMode};
+use chromascope::view::{PixelPlace, RenderMode};
 use chromascope::workspaces::{PaneKind, Workspace};
 use chromascope_core::reflectance::{IlluminatedArea, Normalization, Specular};
 use chromascope_core::render::QualityLevel;

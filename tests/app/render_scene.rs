@@ -10,7 +10,7 @@ use chromascope::document::render::{BALANCE, GARMENT, LEAF, MeshChoice, RenderSe
 use chromascope::document::{Document, Light, session};
 use chromascope::results::Results;
 use chromascope::scene::Scene;
-use chromascope::view::render::PixelPlace;
+use chromascope::view::PixelPlace;
 use chromascope::workspaces::Workspace;
 use chromascope_core::query::render::MeshQuery;
 use chromascope_core::reflectance::Normalization;

@@ -11,7 +11,7 @@ use chromascope::document::{Document, SetKind};
 use chromascope::export::FigureForm;
 use chromascope::export::spectra::Form;
 use chromascope::files::Files;
-use chromascope::view::accuracy::Shows;
+use chromascope::view::Shows;
 use chromascope::view::{SavedView, Weight};
 use chromascope::workspaces::PaneKind;
 use chromascope_measure::Workload;
@@ -133,7 +133,7 @@ fn another_kind_of_file_takes_its_own_ending() {
 fn a_workload_is_offered_by_its_name() {
     let report = crate::bench::report();
     let mut window = window();
-    window.state_mut().view_mut().accuracy.shows = Shows::Bench(Workload::DiffuseSum);
+    window.state_mut().view_mut().shows = Shows::Bench(Workload::DiffuseSum);
     let measured = &mut window.state_mut().profiler_mut().measured;
     measured.reports.insert(Workload::DiffuseSum, std::sync::Arc::new(Ok(report)));
     window.state_mut().push(Command::Export(PaneKind::METHODS, FigureForm::Csv));

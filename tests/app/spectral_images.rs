@@ -15,7 +15,7 @@ use chromascope::plot_item::SensorId;
 use chromascope::render_service::pixel::PixelShows;
 use chromascope::scene::Scene;
 use chromascope::scene::spectral_image::screen_steps;
-use chromascope::view::render::{PixelPlace, RenderMode};
+use chromascope::view::{PixelPlace, RenderMode};
 use chromascope::workspaces::{PaneKind, Workspace};
 use chromascope_core::render::{BandWeights, ImageSensor, SampleQuantity, Stop};
 use chromascope_core::spectral::{Dataset, GridSpectrum, Sensor};

@@ -3,7 +3,7 @@
 use chromascope::app::ChromascopeApp;
 use chromascope::command::Command;
 use chromascope::plot_item::{PlotItem, SensorId};
-use chromascope::view::table::{Sorting, TableLook};
+use chromascope::view::{Sorting, TableLook};
 use chromascope::workspaces::PaneKind;
 use egui::accesskit::Role;
 use egui_kittest::Harness;

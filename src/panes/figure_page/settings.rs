@@ -3,7 +3,7 @@
 use chromascope_text::{Look, Number, Pick, Setting, Settings as _, Value};
 use egui::{DragValue, Rect, Response, ScrollArea, Ui};
 
-use super::{inside, small};
+use super::inside;
 use crate::command::Command;
 use crate::export::page::PageFacts;
 use crate::export::paper::{LOOK, SIZE};
@@ -12,16 +12,13 @@ use crate::panes::context::PaneContext;
 use crate::panes::widgets;
 use crate::panes::widgets::pick_list::{self, Line};
 use crate::theme::{ROW, UNIT};
-use crate::view::page::{LengthUnit, PageLook};
+use crate::view::{LengthUnit, PageLook};
 use crate::workspaces::PaneKind;
 
-/// Width of names before controls.
 const NAMES: f32 = 72.0;
-/// Widths of a journal's columns.
 const WIDTHS: [(f64, &str); 2] =
     [(Paper::ONE_COLUMN_MM, "One column, 85 mm"), (Paper::TWO_COLUMNS_MM, "Two columns, 174 mm")];
 
-/// Shows the settings in a rectangle.
 pub(super) fn show(
     ui: &mut Ui,
     rect: Rect,
@@ -46,7 +43,7 @@ pub(super) fn show(
         buttons(ui, kind, context);
         ui.add_space(UNIT);
         if let Some(facts) = facts {
-            ui.label(small(in_words(&facts, &look.paper), context));
+            widgets::note(ui, in_words(&facts, &look.paper));
         }
         ui.add_space(2.0 * UNIT);
     });
@@ -125,10 +122,7 @@ fn buttons(ui: &mut Ui, kind: PaneKind, context: &mut PaneContext<'_>) {
     ui.horizontal_wrapped(|ui| {
         let mut save = |ui: &mut Ui, words: &str, form: FigureForm| {
             let hint = if form.is_numbers() { "The numbers behind the figure" } else { "The figure as shown here" };
-            if ui.button(words).on_hover_text(hint).clicked() {
-                context.push(Command::Export(kind, form));
-                ui.close();
-            }
+            context.item(ui, words, hint, Command::Export(kind, form));
         };
         let [pdf, svg, png, rest @ ..] = FigureForm::ALL;
         save(ui, &format!("Save {}…", pdf.name()), pdf);
@@ -141,12 +135,8 @@ fn buttons(ui: &mut Ui, kind: PaneKind, context: &mut PaneContext<'_>) {
         });
     });
     ui.horizontal(|ui| {
-        if ui.button("Copy picture").on_hover_text("At this resolution (Ctrl+Shift+C)").clicked() {
-            context.push(Command::CopyPicture(kind));
-        }
-        if ui.button("Done").on_hover_text("Back to the panes (Esc)").clicked() {
-            context.push(Command::FigurePage(kind));
-        }
+        context.button(ui, "Copy picture", "At this resolution (Ctrl+Shift+C)", Command::CopyPicture(kind));
+        context.button(ui, "Done", "Back to the panes (Esc)", Command::FigurePage(kind));
     });
 }
 
@@ -168,7 +158,6 @@ fn in_words(facts: &PageFacts, paper: &Paper) -> String {
     format!("{}.{own_height}{apart}", measures.join(", "))
 }
 
-/// A control behind its name.
 fn row<R>(ui: &mut Ui, name: &str, context: &PaneContext<'_>, control: impl FnOnce(&mut Ui) -> R) -> R {
     ui.horizontal(|ui| {
         let (place, _) = ui.allocate_exact_size(egui::vec2(NAMES, ROW), egui::Sense::hover());
@@ -178,7 +167,6 @@ fn row<R>(ui: &mut Ui, name: &str, context: &PaneContext<'_>, control: impl FnOn
     .inner
 }
 
-/// A switch or a list behind its name.
 fn choice(ui: &mut Ui, setting: &Setting<Paper>, pick: &Pick<Paper>, paper: &mut Paper, context: &PaneContext<'_>) {
     let (all, now) = ((pick.all)(), (pick.get)(paper));
     let chosen = if pick.look == Look::List {
@@ -194,7 +182,6 @@ fn choice(ui: &mut Ui, setting: &Setting<Paper>, pick: &Pick<Paper>, paper: &mut
     }
 }
 
-/// A list that drops down, behind its name. Returns the control, and the line that was chosen.
 fn drop_down(
     ui: &mut Ui,
     words: (&str, &str),
@@ -208,7 +195,6 @@ fn drop_down(
     })
 }
 
-/// The field of a length, behind its name. Returns true if it was changed.
 fn length(ui: &mut Ui, name: &str, mm: &mut f64, unit: LengthUnit) -> bool {
     let (mut value, [low, high]) = (*mm / unit.mm(), Paper::SIDE_MM.map(|mm| mm / unit.mm()));
     let (speed, decimals) = if unit == LengthUnit::Inch { (0.01, 2) } else { (0.5, 1) };
@@ -227,7 +213,6 @@ fn length(ui: &mut Ui, name: &str, mm: &mut f64, unit: LengthUnit) -> bool {
     changed
 }
 
-/// The field of a number, behind its name.
 fn number(ui: &mut Ui, setting: &Setting<Paper>, number: &Number<Paper>, paper: &mut Paper) {
     let mut value = (number.get)(paper);
     let [low, high] = number.slider;
@@ -244,7 +229,6 @@ fn number(ui: &mut Ui, setting: &Setting<Paper>, number: &Number<Paper>, paper: 
     }
 }
 
-/// A number with two decimals at most.
 fn short(value: f64) -> String {
     format!("{}", (100.0 * value).round() / 100.0)
 }

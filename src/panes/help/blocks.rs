@@ -1,12 +1,17 @@
-//! Blocks of a help page: headings, paragraphs, lists, tables, code and formulas.
+//! Blocks of a help page: headings, paragraphs, lists, tables, code and formulas; words in several styles and formulas, broken
+//! into lines on a common baseline.
 
-use egui::{Color32, Rect, ScrollArea, Sense, Stroke, Ui, UiBuilder, Vec2};
+use std::sync::Arc;
 
-use super::text::{Flow, Ink};
-use super::typeset;
+use egui::text::LayoutJob;
+use egui::{
+    Color32, CursorIcon, FontId, Galley, Pos2, Rect, ScrollArea, Sense, Stroke, TextFormat, Ui, UiBuilder, Vec2,
+};
+
+use super::typeset::{self, Typeset};
 use crate::help::formula::Formula;
-use crate::help::markdown::{Block, Inline};
-use crate::theme::{HEADING, MONO, TEXT, UNIT};
+use crate::help::markdown::{self, Block, Inline, Style};
+use crate::theme::{HEADING, MONO, TEXT, Theme, UNIT};
 
 const FORMULA: f32 = 16.0;
 const INDENT: f32 = 5.0 * UNIT;
@@ -126,4 +131,235 @@ fn display(ui: &mut Ui, formula: &Formula, color: Color32) -> Option<String> {
         set.paint(ui.painter(), rect.min + Vec2::new(INDENT, UNIT + set.ascent), color);
     });
     None
+}
+
+const CODE: f32 = 0.93;
+const LEADING: f32 = 0.28;
+const SPACE: f32 = 0.32;
+
+pub(super) struct Ink<'a> {
+    pub(super) theme: Theme,
+    pub(super) terms: &'a [String],
+}
+
+/// A paragraph in pieces that are not broken.
+pub(super) struct Flow {
+    pieces: Vec<Piece>,
+    size: f32,
+    words: String,
+}
+
+struct Piece {
+    what: What,
+    width: f32,
+    ascent: f32,
+    descent: f32,
+    /// True if a line may begin here, after a space.
+    after_space: bool,
+    style: Style,
+    highlighted: bool,
+    link: Option<String>,
+}
+
+enum What {
+    Word(Arc<Galley>),
+    Formula(Typeset),
+}
+
+/// A piece's place relative to the paragraph's top left corner.
+struct Placed {
+    piece: usize,
+    x: f32,
+    baseline: f32,
+}
+
+impl Flow {
+    pub(super) fn new(ui: &Ui, content: &[Inline], size: f32, strong: bool, ink: &Ink<'_>) -> Self {
+        let mut flow = Self { pieces: Vec::new(), size, words: markdown::plain(content) };
+        let mut after_space = true;
+        for part in content {
+            match part {
+                Inline::Text { text, style, link } => {
+                    for (index, word) in text.split(' ').enumerate() {
+                        after_space |= index > 0;
+                        if !word.is_empty() {
+                            let mut piece = word_piece(ui, word, size, *style, ink);
+                            (piece.after_space, piece.link) = (after_space, link.clone());
+                            piece.style.strong |= strong;
+                            flow.pieces.push(piece);
+                            after_space = false;
+                        }
+                    }
+                }
+                Inline::Formula(formula) => {
+                    let set = typeset::typeset(ui.painter(), formula.root(), size + 0.5, formula.is_display());
+                    flow.pieces.push(Piece { after_space, ..formula_piece(set) });
+                    after_space = false;
+                }
+            }
+        }
+        flow
+    }
+
+    pub(super) fn width(&self) -> f32 {
+        self.place(f32::INFINITY).2
+    }
+
+    pub(super) fn narrowest(&self) -> f32 {
+        self.place(1.0).2
+    }
+
+    pub(super) fn height(&self, width: f32) -> f32 {
+        self.place(width).1
+    }
+
+    /// Places of pieces, height, and width of the longest line.
+    fn place(&self, width: f32) -> (Vec<Placed>, f32, f32) {
+        let mut placed: Vec<Placed> = Vec::with_capacity(self.pieces.len());
+        let (mut x, mut y, mut longest) = (0.0_f32, 0.0_f32, 0.0_f32);
+        let mut first = 0;
+        let mut index = 0;
+        while index < self.pieces.len() {
+            // Pieces without a space between them stay together.
+            let end = (index + 1..self.pieces.len()).find(|&i| self.pieces[i].after_space).unwrap_or(self.pieces.len());
+            let chunk: f32 = self.pieces[index..end].iter().map(|piece| piece.width).sum();
+            let space = if index > first { SPACE * self.size } else { 0.0 };
+            if index > first && x + space + chunk > width {
+                y = self.end_line(&mut placed, first, y);
+                (first, x) = (index, 0.0);
+            } else {
+                x += space;
+            }
+            for piece in index..end {
+                placed.push(Placed { piece, x, baseline: 0.0 });
+                x += self.pieces[piece].width;
+            }
+            longest = longest.max(x);
+            index = end;
+        }
+        let bottom = self.end_line(&mut placed, first, y);
+        (placed, bottom, longest)
+    }
+
+    /// Sets the baseline of the line that begins with piece `first`, and returns the line's bottom.
+    fn end_line(&self, placed: &mut [Placed], first: usize, top: f32) -> f32 {
+        let line = &self.pieces[first..placed.len()];
+        let usual = [0.93 * self.size, 0.24 * self.size];
+        let most = |usual: f32, extent: fn(&Piece) -> f32| line.iter().map(extent).fold(usual, f32::max);
+        let ascent = most(usual[0], |piece| piece.ascent);
+        let descent = most(usual[1], |piece| piece.descent);
+        for place in &mut placed[first..] {
+            place.baseline = top + ascent;
+        }
+        top + ascent + descent + LEADING * self.size
+    }
+
+    /// Draws the paragraph at a place and returns a clicked link. A screen reader gets it as one label.
+    pub(super) fn show_at(&self, ui: &Ui, at: Pos2, width: f32, color: Color32, ink: &Ink<'_>) -> Option<String> {
+        let (placed, height, longest) = self.place(width);
+        // The place on the page, which scrolling does not change.
+        let corner = (at - ui.min_rect().min).round();
+        let id = ui.scope_id().with((corner.x as i32, corner.y as i32));
+        let rect = Rect::from_min_size(at, Vec2::new(longest, height));
+        let label = ui.interact(rect, id, Sense::empty());
+        label.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, &self.words));
+        let mut clicked = None;
+        let mut before: Option<&str> = None;
+        for Placed { piece, x, baseline } in placed {
+            let place = egui::pos2(at.x + x, at.y + baseline);
+            let piece = &self.pieces[piece];
+            if ui.is_rect_visible(rect) {
+                self.paint(ui, piece, place, color, ink);
+            }
+            if let Some(link) = &piece.link {
+                // The first piece of a link takes the keyboard, the others only clicks.
+                let sense = if before == Some(link) { Sense::CLICK } else { Sense::click() };
+                let area = Rect::from_min_max(
+                    place - Vec2::new(0.0, piece.ascent),
+                    place + Vec2::new(piece.width, piece.descent),
+                );
+                let response = ui.interact(area, id.with((x.to_bits(), baseline.to_bits())), sense);
+                response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Link, true, self.link_words(link)));
+                if response.has_focus() {
+                    ui.painter().rect_stroke(area, 0.0, Stroke::new(1.0, ink.theme.focus), egui::StrokeKind::Outside);
+                }
+                if response.on_hover_cursor(CursorIcon::PointingHand).on_hover_text(link).clicked() {
+                    clicked = Some(link.clone());
+                }
+            }
+            before = piece.link.as_deref();
+        }
+        clicked
+    }
+
+    fn link_words(&self, link: &str) -> String {
+        let words = self.pieces.iter().filter(|piece| piece.link.as_deref() == Some(link));
+        let words = words.filter_map(|piece| match &piece.what {
+            What::Word(galley) => Some(galley.text().to_owned()),
+            What::Formula(_) => None,
+        });
+        words.collect::<Vec<_>>().join(" ")
+    }
+
+    fn paint(&self, ui: &Ui, piece: &Piece, place: Pos2, color: Color32, ink: &Ink<'_>) {
+        let area = Rect::from_min_max(
+            place - Vec2::new(0.0, 0.9 * self.size),
+            place + Vec2::new(piece.width, 0.25 * self.size),
+        );
+        if piece.highlighted {
+            ui.painter().rect_filled(area.expand(1.0), 2.0, ink.theme.chosen);
+        } else if piece.style.code {
+            ui.painter().rect_filled(area.expand(1.0), 2.0, ink.theme.plot);
+        }
+        match &piece.what {
+            What::Word(galley) => {
+                let top = place - Vec2::new(0.0, typeset::baseline(galley));
+                ui.painter().galley_with_override_text_color(top, galley.clone(), color);
+                if piece.style.strong {
+                    // The bundled fonts have no bold face: drawn twice, one pixel apart.
+                    let pixel = 1.0 / ui.ctx().pixels_per_point();
+                    ui.painter().galley_with_override_text_color(top + Vec2::new(pixel, 0.0), galley.clone(), color);
+                }
+            }
+            What::Formula(set) => set.paint(ui.painter(), place, color),
+        }
+        if piece.link.is_some() {
+            let y = place.y + 2.5;
+            ui.painter().hline(area.x_range(), y, Stroke::new(1.0, color));
+        }
+    }
+}
+
+fn word_piece(ui: &Ui, word: &str, size: f32, style: Style, ink: &Ink<'_>) -> Piece {
+    let font = if style.code { FontId::monospace(CODE * size) } else { FontId::proportional(size) };
+    let format = TextFormat { italics: style.emphasis, font_id: font, ..TextFormat::default() };
+    let mut job = LayoutJob::single_section(word.to_owned(), format);
+    job.wrap.max_width = f32::INFINITY;
+    let galley = ui.painter().layout_job(job);
+    let folded = if ink.terms.is_empty() { String::new() } else { word.to_lowercase() };
+    let width = galley.size().x + if style.strong { 0.6 } else { 0.0 };
+    let ascent = typeset::baseline(&galley);
+    Piece {
+        width,
+        ascent,
+        descent: galley.size().y - ascent,
+        after_space: false,
+        style,
+        highlighted: ink.terms.iter().any(|term| folded.contains(term.as_str())),
+        link: None,
+        what: What::Word(galley),
+    }
+}
+
+fn formula_piece(set: Typeset) -> Piece {
+    Piece {
+        width: set.width,
+        ascent: set.ascent,
+        descent: set.descent,
+        after_space: false,
+        style: Style::default(),
+        highlighted: false,
+        link: None,
+        what: What::Formula(set),
+    }
 }

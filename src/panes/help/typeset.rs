@@ -90,7 +90,6 @@ impl Setter<'_> {
         }
     }
 
-    /// Characters with the extents of their ink.
     fn glyphs(&self, text: &str, size: f32, italics: bool) -> Typeset {
         let format = TextFormat { italics, font_id: FontId::proportional(size), ..TextFormat::default() };
         let mut job = LayoutJob::single_section(text.to_owned(), format);
@@ -127,7 +126,6 @@ impl Setter<'_> {
         row
     }
 
-    /// A sum or integral, centered on the axis.
     fn large(&self, text: &str, size: f32, display: bool) -> Typeset {
         let glyph = self.glyphs(text, (size * if display { 1.6 } else { 1.15 }).round(), false);
         centered(glyph, size)
@@ -265,7 +263,6 @@ fn centered(part: Typeset, size: f32) -> Typeset {
     moved
 }
 
-/// A large operator with its limits above and below.
 fn with_limits(base: Typeset, lower: Option<Typeset>, upper: Option<Typeset>, size: f32) -> Typeset {
     let width = [&lower, &upper].into_iter().flatten().fold(base.width, |most, limit| most.max(limit.width));
     let (ascent, descent, gap) = (base.ascent, base.descent, 0.15 * size);
@@ -292,7 +289,6 @@ fn kind_of(node: &Node) -> Option<SymbolKind> {
     }
 }
 
-/// Space between two parts, in em.
 fn gap(before: Option<SymbolKind>, after: Option<SymbolKind>) -> f32 {
     use SymbolKind::{Function, Large, Punctuation, Relation};
     match (before, after) {

@@ -1,16 +1,17 @@
-//! Patch through one sensor compared with the reference, or through all.
+//! Patch through one sensor compared with the reference, or through all; a blackbody through a sensor.
 
-use chromascope_core::query::{DifferenceError, PatchColor};
+use chromascope_core::colorimetry::Metric;
+use chromascope_core::query::{DifferenceError, LocusPoint, PatchColor, compare};
 use chromascope_figure::InkRole;
 use egui::text::LayoutJob;
 use egui::{FontId, Rect, Sense, TextFormat, TextStyle, Ui, Vec2};
 
-use super::numbers::Point;
-use super::points::{color_of, difference_of, index_of, points_table};
+use super::numbers::{self, Point, blackbody_of, color_of, difference_of, index_of, points_table};
 use super::{
-    assumptions, buttons, copy_text, difference_words, failure, head, held_words, label_of, no_difference, numbers,
-    reference_id, show_assumptions,
+    assumptions, buttons, copy_text, failure, head, held_words, label_of, no_difference, reference_id, show_assumptions,
 };
+use crate::document::Light;
+use crate::format::fixed;
 use crate::panes::context::PaneContext;
 use crate::panes::widgets::{self, focus_rim, lines};
 use crate::plot_item::{PlotItem, SensorId};
@@ -109,7 +110,7 @@ fn difference(ui: &mut Ui, id: &SensorId, patch: &str, context: &PaneContext<'_>
                 };
                 let mut job = LayoutJob::default();
                 job.append(&format!("{} ", scene.difference_name()), 0.0, format(TEXT));
-                job.append(&difference_words(measure, value), 0.0, format(HEADING + 2.0));
+                job.append(&fixed(value, measure.decimals), 0.0, format(HEADING + 2.0));
                 ui.label(job);
                 ui.add_space(UNIT);
                 if let Some(rank) = rank(value, &differences) {
@@ -122,7 +123,6 @@ fn difference(ui: &mut Ui, id: &SensorId, patch: &str, context: &PaneContext<'_>
     }
 }
 
-/// Rank of a difference among all of its sensor, from the largest.
 pub(super) fn rank(value: f64, all: &[Result<f64, DifferenceError>]) -> Option<String> {
     let known: Vec<f64> = all.iter().filter_map(|d| d.ok()).collect();
     if known.len() < 2 {
@@ -184,7 +184,7 @@ fn source_row(ui: &mut Ui, source: &ComparedSensor, patch: &str, seen: &PatchCol
     let (words, hint) = match (&own, difference) {
         (Err(error), _) => ("–".to_owned(), Some(error.to_string())),
         _ if source.is_reference => (String::new(), None),
-        (_, Some(Ok(value))) => (difference_words(scene.document.difference, value), None),
+        (_, Some(Ok(value))) => (fixed(value, scene.document.difference.decimals), None),
         (_, Some(Err(reason))) => ("–".to_owned(), Some(no_difference(reason))),
         _ => ("–".to_owned(), None),
     };
@@ -216,5 +216,52 @@ fn source_row(ui: &mut Ui, source: &ComparedSensor, patch: &str, seen: &PatchCol
     }
     if let Some(hint) = hint {
         response.on_hover_text(hint);
+    }
+}
+
+pub(super) fn blackbody(ui: &mut Ui, id: &SensorId, kelvin: f64, context: &mut PaneContext<'_>) {
+    let (scene, theme) = (context.scene, context.theme);
+    head(ui, id, context);
+    widgets::note(ui, format!("blackbody, {} K = {} mired", fixed(kelvin, 0), fixed(1e6 / kelvin, 1)));
+    let reference = reference_id(&scene);
+    let is_reference = reference == *id;
+    let points = blackbody_of(&scene, id, kelvin).and_then(|own| Ok((own, blackbody_of(&scene, &reference, kelvin)?)));
+    let (own, seen) = match points {
+        Ok((Some(own), Some(seen))) => (own, seen),
+        Ok(_) => return,
+        Err(error) => return failure(ui, &theme, &error.to_string()),
+    };
+    if own.xy.is_none() {
+        widgets::note(ui, "Chromaticity undefined (X + Y + Z = 0).");
+    }
+    let mut points = vec![Point::of_blackbody("reference", Some(seen))];
+    if !is_reference {
+        distance(ui, id, &own, &seen, context);
+        points.push(Point::of_blackbody(id.kind.label(), Some(own)));
+    }
+    match scene.document.light {
+        Light::BlackBody => widgets::note(ui, "The light on the scene is a blackbody of the marked temperature."),
+        Light::Daylight => {
+            let words =
+                "The light on the scene is daylight of the marked temperature; the locus is that of blackbodies.";
+            widgets::note(ui, words);
+        }
+        Light::Set(_) => {}
+    }
+    points_table(ui, points, &PlotItem::Radiator { source: id.clone(), kelvin }, context);
+    let label = label_of(&scene, id);
+    show_assumptions(ui, assumptions(&scene, id, &label));
+}
+
+fn distance(ui: &mut Ui, id: &SensorId, own: &LocusPoint, seen: &LocusPoint, context: &PaneContext<'_>) {
+    let comparable = context.scene.comparable(id.kind, &id.name).unwrap_or(Ok(()));
+    let xy = comparable.and_then(|()| compare::difference(Metric::XY, seen, own));
+    let uv = comparable.and_then(|()| compare::difference(Metric::UV_PRIME, seen, own));
+    match (xy, uv) {
+        (Ok(xy), Ok(uv)) => {
+            ui.label(format!("Δxy {}   Δu′v′ {}", fixed(xy, 4), fixed(uv, 4)))
+                .on_hover_text("Distance from the reference at the same temperature");
+        }
+        (Err(reason), _) | (_, Err(reason)) => widgets::note(ui, no_difference(reason)),
     }
 }

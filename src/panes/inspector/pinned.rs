@@ -2,8 +2,7 @@
 
 use egui::Ui;
 
-use super::numbers::Point;
-use super::points::{letter, point_of, points_of};
+use super::numbers::{Point, letter, point_of, points_of};
 use super::{label_of, numbers, reference_id};
 use crate::figures::chromaticity::id;
 use crate::figures::render::headline::{Detail, Measure};
@@ -11,14 +10,13 @@ use crate::figures::render::{NO_VALUE, facts, index_of, pixel_of};
 use crate::format::fixed;
 use crate::panes::context::PaneContext;
 use crate::panes::widgets::lines::key_and_label;
-use crate::panes::widgets::pixel_spectrum;
 use crate::panes::widgets::table::show_pairs;
 use crate::panes::widgets::{self, Icon, icon_button};
 use crate::plot_item::PlotItem;
 use crate::render_service::pixel::PixelShows;
 use crate::scene::Scene;
 use crate::theme::UNIT;
-use crate::view::render::PixelPlace;
+use crate::view::PixelPlace;
 use crate::workspaces::PaneKind;
 
 pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
@@ -86,7 +84,6 @@ fn name(scene: &Scene<'_>, thing: &PlotItem) -> String {
     }
 }
 
-/// Pinned pixel, if pictures are visible.
 pub(super) fn pinned_pixel<'a>(context: &'a PaneContext<'_>) -> Option<&'a PixelPlace> {
     let (saved, render) = (&context.view.saved, &context.view.render);
     render.pinned.as_ref().filter(|_| saved.layout.shows(saved.workspace, PaneKind::RENDER))
@@ -98,7 +95,7 @@ pub(super) fn pixel(ui: &mut Ui, context: &PaneContext<'_>) {
     ui.strong("Pinned pixel");
     let measure = Measure::of_frame(shot);
     if let Some(reading) = pixel_of(&context.scene, shot, pinned) {
-        pixel_spectrum::show(ui, "spectrum in inspector", shot, reading.at, context);
+        widgets::pixel::spectrum(ui, "spectrum in inspector", shot, reading.at, context);
     }
     for source in shot.sources.iter() {
         let place = PixelPlace { source: id(source), ..pinned.clone() };

@@ -5,8 +5,8 @@ use chromascope_figure::InkRole;
 use egui::{Rect, Sense, Ui, Vec2};
 
 use super::{
-    assumptions, buttons, copy_text, difference_words, failure, head, held_words, label_of, measured_words,
-    no_difference, reference_id, show_assumptions, source_of,
+    assumptions, buttons, copy_text, failure, head, held_words, label_of, measured_words, no_difference, reference_id,
+    show_assumptions, source_of,
 };
 use crate::catalog::{Entry, Place};
 use crate::command::Command;
@@ -77,7 +77,7 @@ fn measures(scene: &Scene<'_>, id: &SensorId) -> Vec<Fact> {
             let words = format!(
                 "{} {}, mean of {} patches",
                 scene.difference_name(),
-                difference_words(measure, mean),
+                fixed(mean, measure.decimals),
                 known.len()
             );
             facts.push(("Difference", words));

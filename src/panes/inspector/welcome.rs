@@ -33,11 +33,8 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
         fill: Some(role.into()),
     };
     let thick = line(InkRole::Reference, Marker::Plus, 4.0);
-    entry(
-        ui,
-        "thick line: the reference observer's Planckian locus, from 20000 K (blue) to 1000 K (red)",
-        |ui, rect| paint::key(ui.painter(), rect, &thick, &theme),
-    );
+    let words = "thick line: the reference observer's Planckian locus, from 20000 K (blue) to 1000 K (red)";
+    entry(ui, words, |ui, rect| paint::key(ui.painter(), rect, &thick, &theme));
     let colored = line(InkRole::Sensor(0), Marker::Circle, 2.0);
     entry(ui, "colored lines: the Planckian locus of each camera", |ui, rect| {
         paint::key(ui.painter(), rect, &colored, &theme);

@@ -10,7 +10,7 @@ use crate::panes::widgets;
 use crate::theme::{ROW, UNIT};
 use crate::view::import::Stop;
 
-use super::keys;
+use super::{hold, step};
 
 const POINTER: &str = "pointer over curves taken";
 const ROWS: usize = 6;
@@ -74,7 +74,7 @@ pub(super) fn show(
                 response.request_focus();
             }
             if response.has_focus() {
-                keys::hold(ui, &response);
+                hold(ui, &response);
                 focused = Some(row);
             }
             if response.hovered() || response.has_focus() {
@@ -92,7 +92,7 @@ pub(super) fn show(
             }
         }
     });
-    keep_row(ui, focused);
+    ui.data_mut(|data| data.insert_temp(row_with_keyboard(), focused));
     let inside = focused.is_some() || ui.rect_contains_pointer(output.inner_rect);
     widgets::hover_curve(ui, POINTER, inside, under, context);
     if !taken.contains(&true) {
@@ -108,17 +108,13 @@ fn row_with_keyboard() -> Id {
     Id::unique("curve with the keyboard")
 }
 
-fn keep_row(ui: &Ui, row: Option<usize>) {
-    ui.data_mut(|data| data.insert_temp(row_with_keyboard(), row));
-}
-
 /// The row that is to have the keyboard now: the next one by an arrow, or the first of all when the list is reached.
 fn wanted_row(ui: &Ui, count: usize, context: &mut PaneContext<'_>) -> Option<usize> {
     if context.view.import.takes_keyboard(Stop::Picker) {
         return (count > 0).then_some(0);
     }
     let row: usize = ui.data(|data| data.get_temp::<Option<usize>>(row_with_keyboard())).flatten()?;
-    let step = keys::step(ui);
+    let step = step(ui);
     row.checked_add_signed(step).filter(|row| step != 0 && *row < count)
 }
 

@@ -1,22 +1,23 @@
-//! A set whose file is not available: what can be changed by its values alone.
+//! Channels of a camera; name of a set; and a set whose file is not available: what can be changed by its values alone.
 
-use egui::{RichText, Ui};
-use spectral_file::{Values, WavelengthUnit};
+use egui::{Id, RichText, TextEdit, Ui};
+use spectral_file::{Certainty, Values, WavelengthUnit};
 
-use super::camera::RESPONSES;
-use super::{Closed, caption, list, name};
+use super::{Closed, caption, list};
 use crate::action::{Action, ImportedAction};
 use crate::document::SetKind;
-use crate::document::imported::{ImportedSet, Role};
-use crate::figures::curves::places;
+use crate::document::imported::{ImportOverrides, ImportedSet, Role};
+use crate::document::names::Holder;
+use crate::figures::curves::{ImportSelection, places};
 use crate::panes::context::PaneContext;
 use crate::panes::widgets::{self, segmented};
+use crate::plot_item::PlotItem;
 use crate::theme::{Theme, UNIT};
 
 /// Shows the set with controls; every change is one step of undo.
 pub(super) fn show(ui: &mut Ui, set: &ImportedSet, context: &mut PaneContext<'_>) {
     let theme = context.theme;
-    name::show(ui, set, context);
+    name(ui, set, context);
     let curves = match set.curves.len() {
         1 => "curve is".to_owned(),
         count => format!("{count} curves are"),
@@ -66,7 +67,7 @@ fn follow(before: &ImportedSet, changed: &mut ImportedSet) {
 }
 
 fn plain(value: &str) -> Closed {
-    Closed { value: value.to_owned(), how: String::new(), guess: false, why: String::new() }
+    Closed { value: value.to_owned(), ..Closed::default() }
 }
 
 fn choice<T: Copy + PartialEq>(ui: &mut Ui, theme: &Theme, words: &str, choices: &[(T, &str)], value: &mut T) {
@@ -114,4 +115,120 @@ fn trouble(set: &ImportedSet, context: &PaneContext<'_>) -> Option<String> {
             Err(error) => Some(format!("{}: {error}", set.name)),
         },
     }
+}
+
+pub(super) fn name(ui: &mut Ui, set: &ImportedSet, context: &mut PaneContext<'_>) {
+    let theme = context.theme;
+    let id = Id::unique("name of the set that is read");
+    let kept: Option<(String, String)> = ui.data(|data| data.get_temp(id));
+    let mut text = kept.filter(|(of, _)| *of == set.name).map_or_else(|| set.name.clone(), |(_, text)| text);
+    let document = context.scene.document;
+    let index = document.own.iter().position(|other| other.name == set.name);
+    let kind = SetKind::of_own(set);
+    let built_in = context.scene.catalog.names();
+    let holder = |name: &str| document.holder_of(kind, name, index, built_in).filter(|_| name != set.name);
+    caption(ui, &theme, "Name", false);
+    let field = ui.add(TextEdit::singleline(&mut text).id(id.with("field")).desired_width(f32::INFINITY));
+    field.widget_info(|| egui::WidgetInfo::labeled(egui::Role::TextInput, true, "Name of the set"));
+    let sentence = match holder(text.trim()) {
+        None => "",
+        Some(Holder::Own) => "Another imported data set has this name.",
+        Some(Holder::BuiltIn) => "A built-in data set has this name; choose another.",
+    };
+    if !sentence.is_empty() {
+        ui.label(RichText::new(sentence).color(theme.error));
+    }
+    let mut accepted = None;
+    if field.lost_focus() {
+        accepted = Some(text.trim().to_owned()).filter(|name| !name.is_empty() && sentence.is_empty());
+        if !sentence.is_empty() {
+            context.view.fail(format!("{}: {sentence} It is still called {}.", text.trim(), set.name));
+        }
+        text = accepted.clone().unwrap_or_else(|| set.name.clone());
+    }
+    ui.data_mut(|data| data.insert_temp(id, (set.name.clone(), text)));
+    if let Some(name) = accepted.filter(|name| *name != set.name) {
+        let with = ImportedSet { name: name.clone(), ..set.clone() };
+        let built_in = built_in.clone();
+        context.push(Action::Imported(ImportedAction::Replace {
+            name: set.name.clone(),
+            with: Box::new(with),
+            built_in,
+        }));
+        follow_name(&set.name, &name, context);
+    }
+}
+
+fn follow_name(old: &str, new: &str, context: &mut PaneContext<'_>) {
+    if let Some(PlotItem::Sensor(id)) = &mut context.view.selected
+        && id.kind == SetKind::Camera
+        && id.name == old
+    {
+        new.clone_into(&mut id.name);
+    }
+}
+
+const LISTED: usize = 500;
+
+/// Responses per energy and per photon.
+const RESPONSES: [(bool, &str, &str); 2] = [
+    (false, "per energy", "To equal power at each wavelength"),
+    (true, "per photon", "To equal numbers of photons, as quantum efficiencies are given"),
+];
+
+pub(super) fn channels(ui: &mut Ui, shown: &ImportSelection, overrides: &mut ImportOverrides, theme: &Theme) {
+    let Some(table) = shown.table().filter(|table| table.role.value == Role::Camera) else { return };
+    let found = table.reading.camera_columns;
+    let mut channels = overrides.channels.or(found).unwrap_or([0, 1, 2]);
+    let width = ((ui.available_width() - 2.0 - 4.0 * UNIT) / 3.0).floor();
+    let mut chosen = None;
+    ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = 2.0 * UNIT;
+        for (channel, color) in ["Red", "Green", "Blue"].into_iter().enumerate() {
+            let name = table.curves.get(channels[channel]).map_or("missing", |curve| curve.name.as_str());
+            let guess = overrides.channels.is_none() && found.is_none();
+            let how = if guess { "guess" } else { "" };
+            let why = if overrides.channels.is_some() {
+                "Chosen by hand"
+            } else {
+                "From the names or the peaks of the curves"
+            };
+            let closed = Closed { value: name.to_owned(), how: how.to_owned(), guess, why: why.to_owned() };
+            let entries: Vec<(String, bool)> = table
+                .curves
+                .iter()
+                .take(LISTED)
+                .enumerate()
+                .map(|(place, curve)| (curve.name.clone(), place == channels[channel]))
+                .collect();
+            if let Some(place) = list(ui, theme, color, &closed, &entries, width) {
+                chosen = Some((channel, place));
+            }
+        }
+    });
+    if let Some((channel, place)) = chosen {
+        // Two channels change places rather than being the same curve.
+        if let Some(other) = channels.iter().position(|known| *known == place) {
+            channels[other] = channels[channel];
+        }
+        channels[channel] = place;
+        overrides.channels = Some(channels).filter(|channels| Some(*channels) != found);
+        let mut taken = shown.taken();
+        if !taken.contains(&place) {
+            taken.push(place);
+            taken.sort_unstable();
+            overrides.taken = Some(taken);
+        }
+    }
+    let said = table.reading.per_photon.as_ref();
+    let before = || shown.set.as_ref().is_some_and(|set| set.per_photon);
+    let per_photon = overrides.per_photon.or(said.map(|said| said.value)).unwrap_or_else(before);
+    let guess = overrides.per_photon.is_none() && said.is_none_or(|said| said.certainty == Certainty::Guess);
+    ui.horizontal(|ui| {
+        caption(ui, theme, if guess { "Response (guess)" } else { "Response" }, guess);
+        ui.add_space(3.0 * UNIT);
+        if let Some(per_photon) = segmented(ui, &RESPONSES, per_photon) {
+            overrides.per_photon = Some(per_photon);
+        }
+    });
 }

@@ -1,15 +1,21 @@
-//! Settings of the reader: each shows the decision with its confidence, and accepts another choice.
+//! Settings of the reader: each shows the decision with its confidence, and accepts another choice. Tables of a file that
+//! contains several: each ticked one is imported as a set of its own.
 
-use egui::{CollapsingHeader, RichText, Ui};
+use std::collections::BTreeSet;
+
+use egui::{Checkbox, CollapsingHeader, RichText, ScrollArea, Ui};
 use spectral_file::{
-    Certainty, Decided, DecimalMark, Delimiter, Orientation, ReadOptions, ReadReport, Reader, Role, SpectralFile,
+    Certainty, Decided, DecimalMark, Delimiter, Orientation, Part, ReadOptions, ReadReport, Reader, Role, SpectralFile,
     Values, WavelengthUnit,
 };
 
-use super::{CONTENT, CONTENT_SHORT, Closed, list, parts};
+use super::{CONTENT, CONTENT_SHORT, Closed, list};
+use crate::command::Command;
 use crate::document::imported::ImportOverrides;
 use crate::figures::curves::ImportSelection;
-use crate::theme::{Theme, UNIT};
+use crate::panes::context::PaneContext;
+use crate::panes::widgets;
+use crate::theme::{ROW, Theme, UNIT};
 
 /// Head of the switches of a file's format where none of them is in doubt.
 const SETTLED: &str = "File format: all certain";
@@ -17,28 +23,26 @@ const SETTLED: &str = "File format: all certain";
 const COLUMNS: usize = 60;
 const PARTS: usize = 1000;
 
-/// A setting: the user's choice, the automatic decision, and the options.
-struct Switch<'a, T> {
-    words: &'a str,
-    wish: &'a mut Option<T>,
-    decided: Option<&'a Decided<T>>,
-    choices: &'a [(T, &'a str)],
-}
-
-impl<T: Copy + PartialEq> Switch<'_, T> {
-    fn show(self, ui: &mut Ui, theme: &Theme, width: f32, wordy: bool) {
-        let name = |value: T| {
-            let known = self.choices.iter().find(|(choice, _)| *choice == value);
-            known.map_or_else(|| "Other".to_owned(), |(_, words)| (*words).to_owned())
-        };
-        // In a narrow pane, the first word or two distinguish the choices.
-        let name = |value: T| if wordy { name(value) } else { short(&name(value)).to_owned() };
-        let closed = closed(self.wish.map(name), self.decided, name, wordy);
-        let mut entries = vec![(CONTENT.to_owned(), self.wish.is_none())];
-        entries.extend(self.choices.iter().map(|(choice, words)| ((*words).to_owned(), *self.wish == Some(*choice))));
-        if let Some(index) = list(ui, theme, self.words, &closed, &entries, width) {
-            *self.wish = index.checked_sub(1).and_then(|index| self.choices.get(index)).map(|(choice, _)| *choice);
-        }
+/// The list of a setting: the user's choice, the automatic decision, and the options.
+fn switch<T: Copy + PartialEq>(
+    ui: &mut Ui,
+    theme: &Theme,
+    (words, width, wordy): (&str, f32, bool),
+    wish: &mut Option<T>,
+    decided: Option<&Decided<T>>,
+    choices: &[(T, &str)],
+) {
+    let name = |value: T| {
+        let known = choices.iter().find(|(choice, _)| *choice == value);
+        known.map_or_else(|| "Other".to_owned(), |(_, words)| (*words).to_owned())
+    };
+    // In a narrow pane, the first word or two distinguish the choices.
+    let name = |value: T| if wordy { name(value) } else { short(&name(value)).to_owned() };
+    let closed = closed(wish.map(name), decided, name, wordy);
+    let mut entries = vec![(CONTENT.to_owned(), wish.is_none())];
+    entries.extend(choices.iter().map(|(choice, words)| ((*words).to_owned(), *wish == Some(*choice))));
+    if let Some(index) = list(ui, theme, words, &closed, &entries, width) {
+        *wish = index.checked_sub(1).and_then(|index| choices.get(index)).map(|(choice, _)| *choice);
     }
 }
 
@@ -54,7 +58,7 @@ fn closed<T: Copy>(
     }
     let Some(decided) = decided.filter(|decided| decided.certainty != Certainty::Chosen) else {
         let value = if wordy { CONTENT } else { CONTENT_SHORT };
-        return Closed { value: value.to_owned(), how: String::new(), guess: false, why: String::new() };
+        return Closed { value: value.to_owned(), ..Closed::default() };
     };
     let guess = decided.certainty.is_doubtful();
     let sure = match decided.certainty {
@@ -75,16 +79,10 @@ pub(super) fn show(ui: &mut Ui, shown: &ImportSelection, overrides: &mut ImportO
     let reading = table.map(|table| &table.reading);
     let options = &mut overrides.options;
     let whole = ui.available_width() - 2.0;
-    Switch {
-        words: "This is a",
-        wish: &mut options.role,
-        decided: table.map(|table| &table.role),
-        choices: Role::CHOICES,
-    }
-    .show(ui, theme, whole, true);
+    let decided = table.map(|table| &table.role);
+    switch(ui, theme, ("This is a", whole, true), &mut options.role, decided, Role::CHOICES);
     let decided = reading.map(|reading| &reading.values);
-    Switch { words: "Values are", wish: &mut options.values, decided, choices: Values::CHOICES }
-        .show(ui, theme, whole, true);
+    switch(ui, theme, ("Values are", whole, true), &mut options.values, decided, Values::CHOICES);
     let is_settled = shown.error().is_none() && reading.is_some_and(|reading| is_certain(reading, options));
     if is_settled {
         let head = RichText::new(SETTLED).small();
@@ -116,35 +114,22 @@ fn format(ui: &mut Ui, shown: &ImportSelection, options: &mut ReadOptions, theme
     let unit = reading.map(|reading| &reading.wavelength_unit);
     let columns = columns(table, options.reader);
     pair(ui, gap, |ui| {
-        Switch {
-            words: "Wavelengths in",
-            wish: &mut options.wavelength_unit,
-            decided: unit,
-            choices: WavelengthUnit::CHOICES,
-        }
-        .show(ui, theme, half, false);
+        switch(ui, theme, ("Wavelengths in", half, false), &mut options.wavelength_unit, unit, WavelengthUnit::CHOICES);
         let decided = reading.map(|reading| &reading.reader);
-        Switch {
-            words: "Read by",
-            wish: &mut options.reader,
-            decided,
-            choices: &Reader::ALL.map(|reader| (reader, reader.label)),
-        }
-        .show(ui, theme, half, false);
+        let readers = Reader::ALL.map(|reader| (reader, reader.label));
+        switch(ui, theme, ("Read by", half, false), &mut options.reader, decided, &readers);
     });
     if columns {
         pair(ui, gap, |ui| {
             let decided = reading.map(|reading| &reading.decimal_mark);
-            Switch { words: "Decimal mark", wish: &mut options.decimal_mark, decided, choices: DecimalMark::CHOICES }
-                .show(ui, theme, half, false);
+            switch(ui, theme, ("Decimal mark", half, false), &mut options.decimal_mark, decided, DecimalMark::CHOICES);
             let decided = reading.map(|reading| &reading.delimiter);
-            Switch { words: "Columns split by", wish: &mut options.delimiter, decided, choices: Delimiter::CHOICES }
-                .show(ui, theme, half, false);
+            switch(ui, theme, ("Columns split by", half, false), &mut options.delimiter, decided, Delimiter::CHOICES);
         });
         pair(ui, gap, |ui| {
             let decided = reading.map(|reading| &reading.orientation);
-            Switch { words: "Wavelengths run", wish: &mut options.orientation, decided, choices: Orientation::CHOICES }
-                .show(ui, theme, half, false);
+            let words = ("Wavelengths run", half, false);
+            switch(ui, theme, words, &mut options.orientation, decided, Orientation::CHOICES);
             let across = options.orientation == Some(Orientation::Across)
                 || (options.orientation.is_none() && decided.is_some_and(|d| d.value == Orientation::Across));
             if !across {
@@ -188,12 +173,8 @@ fn column(ui: &mut Ui, shown: &ImportSelection, wish: &mut Option<usize>, theme:
         _ => format!("Column {column}"),
     };
     let value = wish.or(decided);
-    let closed = Closed {
-        value: value.map_or_else(|| CONTENT_SHORT.to_owned(), name),
-        how: if wish.is_some() { "chosen".to_owned() } else { String::new() },
-        guess: false,
-        why: String::new(),
-    };
+    let how = if wish.is_some() { "chosen".to_owned() } else { String::new() };
+    let closed = Closed { value: value.map_or_else(|| CONTENT_SHORT.to_owned(), name), how, ..Closed::default() };
     let mut entries = vec![(CONTENT.to_owned(), wish.is_none())];
     entries.extend((1..=last).map(|column| (name(column), *wish == Some(column))));
     if let Some(index) = list(ui, theme, "Wavelength column", &closed, &entries, width) {
@@ -227,7 +208,7 @@ fn part(ui: &mut Ui, table: Option<&SpectralFile>, wish: &mut Option<usize>, the
     }
     let name = |part: usize| match part.checked_sub(1) {
         None => "All, side by side".to_owned(),
-        Some(place) => parts::name(part, known.get(place)),
+        Some(place) => name_of(part, known.get(place)),
     };
     let told = |part: usize| {
         let one = part.checked_sub(1).and_then(|place| known.get(place));
@@ -244,4 +225,62 @@ fn part(ui: &mut Ui, table: Option<&SpectralFile>, wish: &mut Option<usize>, the
 
 fn count(number: usize, word: &str) -> String {
     if number == 1 { format!("1 {word}") } else { format!("{number} {word}s") }
+}
+
+const ROWS: usize = 5;
+
+fn name_of(part: usize, known: Option<&Part>) -> String {
+    match known {
+        Some(known) if !known.name.is_empty() => format!("{part}: {}", known.name),
+        Some(known) => format!("{part}: line {}", known.line),
+        None => format!("Part {part}"),
+    }
+}
+
+pub(super) fn parts(ui: &mut Ui, shown: &ImportSelection, context: &mut PaneContext<'_>) {
+    let (Some(table), Some(file)) = (shown.table(), &shown.file) else { return };
+    let parts = &table.reading.parts;
+    if parts.len() < 2 {
+        return;
+    }
+    let fingerprint = file.origin.fingerprint;
+    let own = context.scene.document.own.iter().filter(|set| set.fingerprint == Some(fingerprint));
+    let used: BTreeSet<usize> = own.filter_map(|set| set.overrides.options.part).collect();
+    widgets::note(ui, "Parts, each as a separate data set");
+    let mut ticked = std::mem::take(&mut context.view.import.parts);
+    ticked.retain(|part| *part <= parts.len() && !used.contains(part));
+    let free = (1..=parts.len()).filter(|part| !used.contains(part));
+    let height = (ROW + ui.spacing().item_spacing.y) * parts.len().min(ROWS) as f32;
+    let area = ScrollArea::vertical().id_salt("parts").max_height(height).auto_shrink([false, true]);
+    ui.spacing_mut().interact_size.y = ROW;
+    let free: Vec<usize> = free.collect();
+    area.show_rows(ui, ROW, parts.len(), |ui, rows| {
+        for row in rows {
+            let part = row + 1;
+            let mut on = used.contains(&part) || ticked.contains(&part);
+            let words = name_of(part, parts.get(row));
+            let response = ui.add_enabled(!used.contains(&part), Checkbox::new(&mut on, words));
+            if response.changed() && !ticked.remove(&part) {
+                ticked.insert(part);
+            }
+            response.on_disabled_hover_text("Already imported");
+        }
+    });
+    ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = UNIT;
+        if ui.button("All parts").on_hover_text("Tick all parts that are not imported yet").clicked() {
+            ticked.extend(&free);
+        }
+        let words = match ticked.len() {
+            1 => "Import 1 part".to_owned(),
+            count => format!("Import {count} parts"),
+        };
+        let hint = "Import each ticked part; can be undone";
+        let button = ui.add_enabled(!ticked.is_empty(), egui::Button::new(words)).on_hover_text(hint);
+        if button.on_disabled_hover_text("No part is ticked").clicked() {
+            let taken: Vec<usize> = std::mem::take(&mut ticked).into_iter().collect();
+            context.push(Command::UseParts(fingerprint, taken, Box::new(shown.overrides.clone())));
+        }
+    });
+    context.view.import.parts = ticked;
 }

@@ -159,15 +159,14 @@ fn menu(ui: &mut Ui, source: &ComparedSensor, context: &mut PaneContext<'_>) {
     }
     if offer(ui, "Source", true) {
         context.view.selected = Some(thing(source));
-        super::save::show_inspector(context);
+        super::sets::show_inspector(context);
     }
-    super::save::save_as(ui, source.kind, &source.name, context);
+    super::sets::save_as(ui, source.kind, &source.name, context);
     if source.is_own && offer(ui, "Reading…", true) {
         context.push(Command::ShowImport(ImportItem::Set(source.name.clone()), None));
     }
 }
 
-/// An entry of the menu. Returns whether it was chosen.
 fn offer(ui: &mut Ui, words: &str, enabled: bool) -> bool {
     let clicked = ui.add_enabled(enabled, egui::Button::new(words).frame_when_inactive(false)).clicked();
     if clicked {

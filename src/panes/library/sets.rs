@@ -1,21 +1,23 @@
-//! All data sets in folding groups.
+//! All data sets in folding groups; the menu of a set: its source, its reading, its removal, and the forms in which it can be saved.
 
 use std::borrow::Cow;
 
 use chromascope_core::query::Shared;
-use egui::{Rect, Response, ScrollArea, Sense, TextStyle, Ui, Vec2};
+use egui::{Key, Modifiers, Popup, Rect, Response, ScrollArea, Sense, TextStyle, Ui, Vec2};
 
-use super::save;
-use crate::action::{Action, CompareAction, SceneAction};
+use crate::action::{Action, CompareAction, ImportedAction, SceneAction};
 use crate::catalog::{Entry, names};
 use crate::command::Command;
 use crate::document::imported::ImportedSet;
 use crate::document::{Light, SetKind};
+use crate::export::spectra::{Form, fits};
+use crate::format::{capitalized, sentence};
 use crate::panes::context::PaneContext;
 use crate::panes::widgets::{focus_rim, lines};
 use crate::plot_item::PlotItem;
 use crate::theme::{ROW, UNIT};
 use crate::view::import::ImportItem;
+use crate::workspaces::PaneKind;
 
 pub(super) const SCROLL_BAR: f32 = 10.0;
 
@@ -35,7 +37,7 @@ pub(super) enum Row<'a> {
 
 impl<'a> Row<'a> {
     /// The entry of a set, made for visible rows only.
-    fn entry(&self) -> Option<Cow<'a, Entry>> {
+    pub(super) fn entry(&self) -> Option<Cow<'a, Entry>> {
         match self {
             Self::Group { .. } => None,
             Self::BuiltIn(entry) => Some(Cow::Borrowed(entry)),
@@ -71,10 +73,6 @@ pub(super) fn rows<'a>(context: &PaneContext<'a>) -> Vec<Row<'a>> {
     rows
 }
 
-pub(super) fn first_match<'a>(rows: &[Row<'a>]) -> Option<Cow<'a, Entry>> {
-    rows.iter().find_map(Row::entry)
-}
-
 /// The list; only visible rows are laid out.
 pub(super) fn list(ui: &mut Ui, rows: &[Row<'_>], context: &mut PaneContext<'_>) {
     if rows.is_empty() {
@@ -101,7 +99,7 @@ pub(super) fn list(ui: &mut Ui, rows: &[Row<'_>], context: &mut PaneContext<'_>)
 /// The head of a group; a click folds it.
 fn group(ui: &mut Ui, kind: SetKind, count: usize, open: bool, context: &mut PaneContext<'_>) {
     let (rect, response) = ui.allocate_exact_size(Vec2::new(ui.available_width(), ROW), Sense::click());
-    let title = title(kind);
+    let title = capitalized(kind.key());
     let name = format!("{title} {count}");
     response.widget_info(|| egui::WidgetInfo::selected(egui::Role::DisclosureTriangle, true, open, &name));
     rim(ui, rect, &response, context);
@@ -116,18 +114,6 @@ fn group(ui: &mut Ui, kind: SetKind, count: usize, open: bool, context: &mut Pan
         if !folded.remove(kind.key()) {
             folded.insert(kind.key().to_owned());
         }
-    }
-}
-
-const fn title(kind: SetKind) -> &'static str {
-    match kind {
-        SetKind::Camera => "Cameras",
-        SetKind::Observer => "Observers",
-        SetKind::Chart => "Charts",
-        SetKind::Illuminant => "Illuminants",
-        SetKind::Filter => "Filters",
-        SetKind::Material => "Materials",
-        SetKind::Unsorted => "Unsorted",
     }
 }
 
@@ -179,7 +165,7 @@ fn set(ui: &mut Ui, entry: &Entry, context: &mut PaneContext<'_>) {
     draw_mark(ui, mark, ticks, on, enabled, context);
     let mut words = Rect::from_min_max(row.min + Vec2::new(6.0 * UNIT, 0.0), row.max);
     let place = egui::pos2(rect.right() - SCROLL_BAR - lines::DOTS, row.top());
-    let shown = save::menu_of(ui, Rect::from_min_size(place, Vec2::new(lines::DOTS, ROW)), &response, entry, context);
+    let shown = menu_of(ui, Rect::from_min_size(place, Vec2::new(lines::DOTS, ROW)), &response, entry, context);
     if entry.is_own() {
         words.max.x -= lines::right_aligned(ui, words, "yours", TextStyle::Small, context.theme.weak) + UNIT;
     } else if shown {
@@ -232,4 +218,82 @@ fn draw_mark(ui: &Ui, at: egui::Pos2, ticks: bool, on: bool, enabled: bool, cont
             painter.circle_filled(at, 3.5, color);
         }
     }
+}
+
+/// The dots at the end of a row and their menu, which a right click on the row and the menu key open, too. The row of a
+/// built-in set shows its dots while it is hovered or focused. Returns whether they are visible.
+fn menu_of(ui: &Ui, rect: Rect, row: &Response, entry: &Entry, context: &mut PaneContext<'_>) -> bool {
+    let id = row.id.with("dots");
+    let whose = if entry.is_own() { "Menu of your" } else { "Menu in the library of" };
+    let name = format!("{whose} {}", entry.name);
+    let popup = Popup::default_response_id(row).with("menu");
+    let shown = entry.is_own()
+        || row.contains_pointer()
+        || row.has_focus()
+        || ui.memory(|memory| memory.has_focus(id))
+        || Popup::is_id_open(ui.ctx(), popup)
+        || ui.rect_contains_pointer(rect);
+    let button = if shown {
+        lines::dots(ui, rect, id, &name)
+    } else {
+        // Invisible, but accessible to keyboards and screen readers.
+        let button = ui.interact(rect, id, Sense::click());
+        button.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &name));
+        button
+    };
+    let focused = row.has_focus() || button.has_focus();
+    let key = focused
+        && ui.input_mut(|i| i.consume_key(Modifiers::NONE, Key::Menu) || i.consume_key(Modifiers::SHIFT, Key::F10));
+    let toggled = button.clicked() || key;
+    Popup::menu(&button)
+        .id(popup)
+        .open_memory(toggled.then_some(egui::SetOpenCommand::Toggle))
+        .show(|ui| menu(ui, entry, context));
+    row.context_menu(|ui| menu(ui, entry, context));
+    shown
+}
+
+fn menu(ui: &mut Ui, entry: &Entry, context: &mut PaneContext<'_>) {
+    if ui.button("Source").on_hover_text("Source, terms and curve in the Inspector").clicked() {
+        context.view.selected = Some(PlotItem::of_set(entry.kind, &entry.name));
+        show_inspector(context);
+        ui.close();
+    }
+    if entry.is_own() {
+        context.item(ui, "Reading…", "", Command::ShowImport(ImportItem::Set(entry.name.clone()), None));
+    }
+    let hint = "Tab-separated text, for a spreadsheet or for Paste data";
+    context.item(ui, "Copy curves", hint, Command::CopySet(entry.kind, entry.name.clone()));
+    save_as(ui, entry.kind, &entry.name, context);
+    if entry.is_own() {
+        context.item(ui, "Remove", "", Action::Imported(ImportedAction::Remove(entry.name.clone())));
+    }
+}
+
+/// Brings the inspector on, if the workspace does not show it.
+pub(super) fn show_inspector(context: &mut PaneContext<'_>) {
+    let saved = &context.view.saved;
+    if !saved.layout.shows(saved.workspace, PaneKind::INSPECTOR) {
+        context.view.saved.layout.toggle(context.view.saved.workspace, PaneKind::INSPECTOR);
+    }
+    // Only a narrow window looks at this.
+    context.view.inspector_over = true;
+}
+
+/// The forms a set can be saved in; those that are not for such a set say why.
+pub(super) fn save_as(ui: &mut Ui, kind: SetKind, name: &str, context: &mut PaneContext<'_>) {
+    ui.menu_button("Save as", |ui| {
+        let Ok(entry) = context.scene.entry(kind, name) else { return };
+        for form in Form::ALL {
+            let fitting = fits(&entry, form);
+            let button = ui.add_enabled(fitting.is_ok(), egui::Button::new(form.name()));
+            if button.clicked() {
+                context.push(Command::SaveSet(kind, name.to_owned(), form));
+                ui.close();
+            }
+            if let Err(error) = fitting {
+                button.on_disabled_hover_text(sentence(&error.to_string()));
+            }
+        }
+    });
 }

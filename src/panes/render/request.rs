@@ -11,7 +11,7 @@ use chromascope_core::render::{Quality, RasterSize, Shadows};
 use chromascope_mesh::Mesh;
 use egui::Ui;
 
-use super::cells::PictureLayout;
+use super::draw::PictureLayout;
 use crate::catalog::meshes::MeshState;
 use crate::catalog::spectral_images::{ImageState, LoadedImage};
 use crate::document::render::{MeshChoice, RenderSettings};
@@ -20,7 +20,7 @@ use crate::render_service::made::{NoPictures, PicturesOf};
 use crate::scene::orbit::Orbit;
 use crate::scene::render::Finish;
 use crate::scene::spectral_image::{ImagePicturesError, screen_steps};
-use crate::view::render::RenderMode;
+use crate::view::RenderMode;
 use chromascope_core::render::QualityLevel;
 
 /// Total number of pixels above which pictures of a moving scene have half the resolution.

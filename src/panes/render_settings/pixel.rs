@@ -1,55 +1,41 @@
 //! Values of the pinned pixel.
 
 use chromascope_figure::{Cell, Column, Table};
-use egui::{RichText, Ui};
+use egui::Ui;
 
 use crate::figures::render::headline::Measure;
 use crate::figures::render::{NO_VALUE, facts, index_of, pixel_of};
 use crate::panes::context::PaneContext;
-use crate::panes::widgets::pixel_spectrum;
+use crate::panes::widgets;
 use crate::panes::widgets::table::{DataTable, show_pairs};
 use crate::plot_item::SensorId;
 use crate::render_service::RenderedFrame;
 use crate::render_service::pixel::PixelShows;
 use crate::theme::UNIT;
-use crate::view::render::PixelPlace;
+use crate::view::PixelPlace;
 use crate::workspaces::PaneKind;
 
-/// Shows the group.
 pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
     ui.spacing_mut().item_spacing.y = 0.5 * UNIT;
     ui.spacing_mut().interact_size.y = 14.0;
-    let weak = context.theme.weak;
     let Some(pinned) = context.view.render.pinned.clone() else {
-        ui.label(
-            RichText::new("Point at a picture to read it; click to pin the pixel, Esc to unpin it.")
-                .small()
-                .color(weak),
-        );
-        return;
+        return widgets::note(ui, "Point at a picture to read it; click to pin the pixel, Esc to unpin it.");
     };
     let found = context.render_service.frame().and_then(|shot| {
         let place = shown(pinned, shot);
         Some((shot, pixel_of(&context.scene, shot, &place)?, place))
     });
     let Some((shot, reading, place)) = found else {
-        ui.label(RichText::new("No picture of this sensor yet.").small().color(weak));
-        return;
+        return widgets::note(ui, "No picture of this sensor yet.");
     };
     let label = index_of(shot, &place.source).map_or(&place.source.name, |index| &shot.sources[index].label);
     let measure = Measure::of_frame(shot);
     let [x, y] = reading.at;
     ui.label(format!("Pixel {x}, {y}   {label}"));
     match reading.shows {
-        PixelShows::Nothing => {
-            ui.label("Beside the mesh.");
-        }
-        PixelShows::NoValue => {
-            ui.label(NO_VALUE);
-        }
-        PixelShows::Unlit => {
-            ui.label("No light reaches it: facing away, or in shadow.");
-        }
+        PixelShows::Nothing => drop(ui.label("Beside the mesh.")),
+        PixelShows::NoValue => drop(ui.label(NO_VALUE)),
+        PixelShows::Unlit => drop(ui.label("No light reaches it: facing away, or in shadow.")),
         PixelShows::Lit(lit) => {
             let numbers =
                 ui.scope(|ui| show_pairs(ui, PaneKind::RENDER_SETTINGS, "pixel", &facts(&lit, measure), context));
@@ -61,9 +47,9 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
                  white of the same roughness that faces the light has Y = 1. g: at 550 nm."
             });
             others(ui, &place, shot, context);
-            pixel_spectrum::show(ui, "spectrum in settings", shot, reading.at, context);
+            widgets::pixel::spectrum(ui, "spectrum in settings", shot, reading.at, context);
             if let Some((_, transform)) = lit.roughness {
-                ui.label(RichText::new(format!("g at 550 nm, {transform}")).small().color(weak));
+                widgets::note(ui, format!("g at 550 nm, {transform}"));
             }
         }
     }

@@ -46,7 +46,6 @@ pub fn resampling_words(curve: &SpectralDistribution, quantity: Quantity) -> Str
     format!("{steps}; {beyond} outside {}", range_words(range))
 }
 
-/// Words for a response basis, with the assumption made if it is not stated.
 pub const fn response_words(response: Response) -> &'static str {
     match response {
         Response::PerEnergy => "per energy",

@@ -1,11 +1,17 @@
 //! One line of text that never runs over its place, keys of sources, small marks, numbers.
 
 use chromascope_figure::{Ink, LegendEntry, Stroke};
-use egui::{Color32, Painter, Pos2, Rect, Response, Sense, Shape, TextStyle, TextWrapMode, Ui, Vec2, WidgetText};
+use egui::{
+    Align, Color32, Layout, Painter, Pos2, Rect, Response, Sense, Shape, TextStyle, TextWrapMode, Ui, UiBuilder, Vec2,
+    WidgetText,
+};
 
+use crate::action::{Action, SceneAction};
+use crate::document::TransformChoice;
 use crate::paint;
+use crate::panes::context::PaneContext;
 use crate::scene::ComparedSensor;
-use crate::theme::{FADED, ROW, Theme};
+use crate::theme::{FADED, ROW, Theme, UNIT};
 
 pub const KEY: f32 = 26.0;
 pub const DOTS: f32 = 18.0;
@@ -64,6 +70,13 @@ pub fn key_and_label(ui: &mut Ui, source: &ComparedSensor, theme: &Theme) -> Res
     if cut { response.on_hover_text(&source.label) } else { response }
 }
 
+/// A drawn part that shows nothing else under the pointer, with its name for screen readers.
+pub fn named(ui: &Ui, rect: Rect, id: egui::Id, role: egui::Role, words: &str) -> Response {
+    let response = ui.interact(rect, id, Sense::hover());
+    response.widget_info(|| egui::WidgetInfo::labeled(role, true, words));
+    response
+}
+
 pub fn focus_rim(response: &Response, theme: &Theme) -> egui::Stroke {
     if response.has_focus() { egui::Stroke::new(1.5, theme.text) } else { egui::Stroke::NONE }
 }
@@ -90,4 +103,51 @@ pub fn warning_mark(painter: &Painter, center: Pos2, color: Color32) {
     painter.add(Shape::closed_line(vec![at(0.0, -6.0), at(6.5, 5.0), at(-6.5, 5.0)], stroke));
     painter.line_segment([at(0.0, -2.5), at(0.0, 1.5)], stroke);
     painter.circle_filled(at(0.0, 3.3), 0.8, color);
+}
+
+/// Shows the scene's caution, if there is one, with its remedy as a button. Returns the rectangle that remains below.
+pub fn caution(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) -> Rect {
+    let Some(caution) = context.scene.caution() else { return rect };
+    let line = Rect::from_min_size(rect.min, Vec2::new(rect.width(), ROW));
+    let layout = Layout::right_to_left(Align::Center);
+    let mut row = ui.new_child(UiBuilder::new().id_salt("caution").max_rect(line).layout(layout));
+    row.set_clip_rect(line.intersect(ui.clip_rect()));
+    if let Some(observer) = caution.fit_to() {
+        let words = format!("Fit 3×3 to {observer}");
+        let hint = "Color transform: a 3×3 matrix for each camera, fitted to this observer";
+        let transform = TransformChoice::Observer(observer.to_owned());
+        context.button(&mut row, &words, hint, Action::Scene(SceneAction::SetTransform(transform)));
+    }
+    let sentence = caution.sentence();
+    let mut rest = Rect::from_min_max(line.min, egui::pos2(row.min_rect().left() - 2.0 * UNIT, line.bottom()));
+    if caution.fit_to().is_none() {
+        rest.max.x = line.right();
+    }
+    warning_mark(ui.painter(), egui::pos2(rest.left() + 7.0, rest.center().y), context.theme.warning);
+    rest.min.x += 5.0 * UNIT;
+    elided(ui, rest, &sentence, TextStyle::Small, context.theme.warning);
+    let response = named(ui, rest, ui.scope_id().with(("caution", rect.min.x as i32)), egui::Role::Alert, &sentence);
+    response.on_hover_text(sentence);
+    Rect::from_min_max(egui::pos2(rect.left(), line.bottom() + 0.5 * UNIT), rect.max)
+}
+
+/// Largest share of a pane's height that sentences at its foot take; longer ones are cut and stand under the pointer.
+const FOOT: f32 = 0.3;
+
+/// Writes sentences at the foot of a pane. Returns the rectangle that remains above.
+pub fn foot(ui: &Ui, rect: Rect, words: &str, context: &PaneContext<'_>) -> Rect {
+    let font = TextStyle::Small.resolve(ui.style());
+    let galley = ui.painter().layout(words.to_owned(), font, context.theme.weak, rect.width());
+    let line = galley.rows.first().map_or(0.0, |row| row.height());
+    let fits = galley.size().y <= FOOT * rect.height();
+    let height = if fits { galley.size().y } else { line };
+    let place = Rect::from_min_max(egui::pos2(rect.left(), rect.bottom() - height), rect.max);
+    if fits {
+        ui.painter().galley(place.min, galley, context.theme.weak);
+    } else {
+        elided(ui, place, words, TextStyle::Small, context.theme.weak);
+    }
+    let response = named(ui, place, ui.scope_id().with(("foot", rect.min.x as i32)), egui::Role::Label, words);
+    response.on_hover_text(words);
+    Rect::from_min_max(rect.min, egui::pos2(rect.right(), place.top() - UNIT))
 }

@@ -5,7 +5,6 @@ use egui::{Id, Key, RichText, Role, Slider, TextEdit, Ui, WidgetInfo};
 use crate::document::render::{TOLERANCES, decade};
 use crate::panes::context::PaneContext;
 
-/// Description of valid input.
 const TAKES: &str = "From 1e−13 to 0.1, such as 5e-10; the slider moves in powers of ten";
 const TEXT: f32 = 72.0;
 
@@ -70,7 +69,6 @@ fn shown(tolerance: f64) -> String {
     format!("{tolerance:e}").replace('-', "−")
 }
 
-/// The tolerance of a text, or the error in it.
 fn tolerance(text: &str) -> Result<f64, String> {
     let text = text.trim();
     let (least, largest) = (shown(*TOLERANCES.start()), TOLERANCES.end());

@@ -13,7 +13,7 @@ use crate::document::{Diagram, Light, SetKind, Subset, TransformChoice, WhiteBal
 use crate::panes::PaneContext;
 use crate::panes::widgets::pixel::PIXEL;
 use crate::theme::Surround;
-use crate::view::render::RenderMode;
+use crate::view::RenderMode;
 use crate::view::{DiagramFit, SpectraLayout, SwatchLayout, SwatchStyle, ViewChoice};
 use crate::workspaces::PaneKind;
 

@@ -10,7 +10,7 @@ use crate::panes::context::PaneContext;
 use crate::panes::widgets::{focus_rim, lines};
 use crate::plot_item::{PlotItem, Relation};
 use crate::theme::{Theme, UNIT};
-use crate::view::table::Sorting;
+use crate::view::Sorting;
 
 /// Largest share of a table that its first column takes where it stays in place.
 const WIDEST_FROZEN: f32 = 0.6;
@@ -18,9 +18,8 @@ const WIDEST_FROZEN: f32 = 0.6;
 pub(super) struct Body<'a> {
     of: &'a DataTable<'a>,
     layouts: Vec<Layout>,
-    /// Columns as shown, counted as given.
+    /// Columns and rows as shown, counted as given.
     pub(super) shown: Vec<usize>,
-    /// Rows as shown, counted as given.
     pub(super) order: Vec<usize>,
     theme: Theme,
     sorting: Option<Sorting>,
@@ -97,12 +96,10 @@ impl<'a> Body<'a> {
         lines * HEAD_LINE + air
     }
 
-    /// Rows that fit on the screen.
     pub(super) fn page(&self, ui: &Ui) -> usize {
         ui.data(|data| data.get_temp::<usize>(self.id)).unwrap_or(1).max(1)
     }
 
-    /// Draws the table.
     pub(super) fn show(&mut self, ui: &mut Ui, rect: Rect, scroll_to: Option<usize>) {
         let mut child = cut(ui, self.id.with("body"), rect);
         let mut widths: Vec<f32> = self.shown.iter().map(|&column| self.layouts[column].width).collect();

@@ -42,7 +42,7 @@ pub(super) struct Layout {
 impl Layout {
     pub(super) const HIDDEN: Self = Self { form: Form::Text, width: 0.0, uncertainty: 0.0, shades: None };
 
-    /// Layout of a column. Rows of a compact table hold quantities of their own.
+    /// Rows of a compact table hold quantities of their own.
     pub(super) fn of(table: &Table, index: usize, compact: bool) -> Self {
         let column = &table.columns[index];
         let size = if compact { TextSize::Small } else { TextSize::Body };

@@ -4,7 +4,7 @@ use std::cmp::Ordering;
 
 use chromascope_figure::{Cell, CellValue, Column, Table};
 
-use crate::view::table::{Sorting, TableLook};
+use crate::view::{Sorting, TableLook};
 
 /// Columns that are shown, the first always.
 pub(super) fn columns(columns: &[Column], look: &TableLook) -> Vec<usize> {

@@ -1,9 +1,0 @@
-//! View state of the Numerics workspace.
-
-pub use crate::figures::look::Shows;
-
-#[derive(Clone, Debug, Default)]
-pub struct AccuracyView {
-    /// Selected measurement.
-    pub shows: Shows,
-}
