@@ -38,7 +38,8 @@
 #![doc = include_str!("sources.md")]
 #![allow(
     clippy::inline_always,
-    reason = "only inside the caller is a kernel compiled for the caller's instruction set"
+    clippy::needless_range_loop,
+    reason = "only inside the caller is a kernel compiled for the caller's instruction set, and iterators call functions outside"
 )]
 
 pub use chromascope_math as math;

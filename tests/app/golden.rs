@@ -183,7 +183,8 @@ fn without_times(text: &str) -> String {
     let column = text.lines().next().and_then(|head| head.split(',').position(|name| name == "time_ms"));
     let line = |line: &str| match column {
         Some(column) => {
-            line.split(',').enumerate().filter(|(at, _)| *at != column).map(|(_, cell)| format!("{cell},")).collect()
+            let cells = line.split(',').enumerate().filter(|(at, _)| *at != column);
+            cells.map(|(_, cell)| cell).collect::<Vec<_>>().join(",")
         }
         None => line.split(" samples lit: ").next().unwrap_or_default().to_owned(),
     };
@@ -242,7 +243,8 @@ fn thinned(text: &str) -> String {
         return text.to_owned();
     }
     let kept = lines.iter().enumerate().filter(|(index, _)| *index < BEGINNING || index % 20 == 0);
-    kept.map(|(_, line)| format!("{line}\n")).collect::<String>() + &format!("{} lines\n", lines.len())
+    let kept: Vec<&str> = kept.map(|(_, line)| *line).collect();
+    format!("{}\n{} lines\n", kept.join("\n"), lines.len())
 }
 
 /// Compares a text with its file, or writes it.

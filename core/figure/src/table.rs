@@ -379,7 +379,9 @@ impl Table {
             for (column, (is_text, cells)) in self.columns.iter().zip(&columns) {
                 let width = cells.iter().map(|cell| cell.chars().count()).fold(column.width, usize::max);
                 let cell = &cells[row];
-                text += &if *is_text { format!("{cell:<width$}  ") } else { format!("{cell:>width$}  ") };
+                let padding = " ".repeat(width.saturating_sub(cell.chars().count()));
+                let [left, right] = if *is_text { ["", &*padding] } else { [&*padding, ""] };
+                text.extend([left, cell, right, "  "]);
             }
             text.truncate(start + text[start..].trim_end().len());
             text.push('\n');

@@ -6,6 +6,7 @@
 
 /// The array of the values of 0 … N − 1.
 #[inline(always)]
+#[expect(clippy::needless_range_loop, reason = "an iterator's adapters are functions of another codegen unit")]
 pub fn array<T: Copy + Default, const N: usize>(mut of: impl FnMut(usize) -> T) -> [T; N] {
     let mut values = [T::default(); N];
     for k in 0..N {

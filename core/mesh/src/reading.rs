@@ -29,7 +29,7 @@ mod triangulate;
 use self::lines::Cursor;
 use super::mesh::Mesh;
 
-pub use report::{Alien, MeshReadError, Normals, Note, Place, Quantity, Report, Skipped, Tally};
+pub use report::{Alien, Kind, MeshReadError, Normals, Note, Place, Quantity, Report, Skipped, Tally};
 
 /// The largest file that is read, in bytes.
 pub const MAX_BYTES: usize = 1 << 31;
@@ -42,20 +42,6 @@ pub const MAX_TRIANGLES: usize = 10_000_000;
 
 /// Statements, faces or vertices between two looks at whether to stop.
 const STOP_EVERY: usize = 4096;
-
-/// The format of a file.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, thiserror::Error)]
-pub enum Kind {
-    /// Wavefront OBJ.
-    #[error("OBJ")]
-    Obj,
-    /// Stanford PLY.
-    #[error("PLY")]
-    Ply,
-    /// Stereolithography STL.
-    #[error("STL")]
-    Stl,
-}
 
 /// Consecutive triangles under one name.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -82,11 +82,11 @@ pub(super) fn unit_cell(cell: &str) -> Option<String> {
 const LONGEST_UNIT: usize = 40;
 
 fn is_unit(text: &str) -> bool {
+    const WHOLE: &str = "a.u.|au|a. u.|arb. units|arb.u.|relative|rel.|fraction|dbm|db|dn|dl";
     if text.is_empty() || text.chars().count() > LONGEST_UNIT {
         return false;
     }
     let lower = text.to_lowercase();
-    const WHOLE: &str = "a.u.|au|a. u.|arb. units|arb.u.|relative|rel.|fraction|dbm|db|dn|dl";
     // `10%` is a figure, `%` a unit.
     (text.contains('%') && header_terms::says_percent(text))
         || is_light_unit(text)

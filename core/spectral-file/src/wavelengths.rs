@@ -135,7 +135,9 @@ fn merge_repeats(grid: &mut Grid, log: &mut Log<'_>) {
     for (mut lines, why) in [(same, Dropped::Repeated), (averaged, Dropped::Averaged)] {
         lines.sort_unstable();
         let list: LineList = lines.iter().copied().collect();
-        lines.into_iter().for_each(|line| grid.drop_row(line, why));
+        for line in lines {
+            grid.drop_row(line, why);
+        }
         match why {
             _ if list.is_empty() => {}
             Dropped::Averaged => log.push(Warning::AveragedRows(list)),

@@ -1,5 +1,7 @@
 //! Colors of figures as bytes, and the bundled fonts: the same on screen and in files.
 
+#![allow(clippy::unreadable_literal, reason = "colors have six hexadecimal digits, as everywhere")]
+
 use chromascope_figure::{InkRole, Palette};
 use chromascope_text::choices;
 use serde::{Deserialize, Serialize};

@@ -1,6 +1,18 @@
 //! Report on reading a mesh: findings, faults that were tolerated, or the reason that there is no mesh: where, and what to do about it.
 
-use super::Kind;
+/// The format of a file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, thiserror::Error)]
+pub enum Kind {
+    /// Wavefront OBJ.
+    #[error("OBJ")]
+    Obj,
+    /// Stanford PLY.
+    #[error("PLY")]
+    Ply,
+    /// Stereolithography STL.
+    #[error("STL")]
+    Stl,
+}
 
 /// Number of occurrences, and the first place.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]

@@ -218,7 +218,9 @@ impl Document<'_> {
         self.note_remarks(&mut header, self.comments().iter().map(String::as_str));
         let mut notes = vec![note];
         if let Some(scale) = self.members.read::<f64>("scale")?.filter(|scale| *scale > 0.0 && *scale != 1.0) {
-            values.iter_mut().for_each(|value| *value = decimal::divided(*value, scale));
+            for value in &mut values {
+                *value = decimal::divided(*value, scale);
+            }
             notes.push(Decision::new("Scale", &Decided::certain(format!("divided by {scale}"), self.says("scale"))));
         }
         let spectrum = on(&wavelengths, &values, "spectrum")?;

@@ -262,7 +262,7 @@ impl Opened {
 
     fn begin(&self, work: impl FnOnce(&Monitor, &Job) + Send + 'static) {
         let (begun, place) = (self.monitor.clock().now(), [1, 1].map(AtomicU32::new));
-        let job = Arc::new(Job { begun, place, ..Job::default() });
+        let job = Arc::new(Job { place, begun, ..Job::default() });
         self.monitor.lock().running.push(Arc::clone(&job));
         let monitor = Arc::clone(&self.monitor);
         let theirs = Arc::clone(&job);

@@ -165,7 +165,7 @@ const COLUMNS: [Field<Answer>; 9] = [
 /// Place of R1 to R14 among them.
 const SPECIAL: usize = 3;
 
-fn numbers<'a>(answers: impl IntoIterator<Item = &'a Answer> + Clone) -> Table {
+fn numbers<'a>(answers: &(impl IntoIterator<Item = &'a Answer> + Clone)) -> Table {
     let mut table = Table::of(&COLUMNS, answers.clone());
     for index in 0..14 {
         let special = |answer: &Answer| answer.rendition.rendering.as_ref().ok().map(|indices| indices.special[index]);
@@ -179,7 +179,7 @@ fn csv(answers: &[Answer]) -> String {
     let cameras = |answer: &Answer| answer.cameras.len().max(1);
     let rows: Vec<(&Answer, usize)> =
         answers.iter().flat_map(|answer| (0..cameras(answer)).map(move |camera| (answer, camera))).collect();
-    let mut table = numbers(rows.iter().map(|(answer, _)| *answer));
+    let mut table = numbers(&rows.iter().map(|(answer, _)| *answer));
     table.insert(0, "light", rows.iter().map(|(answer, _)| answer.name.as_str().into()));
     let mut push = |head: &str, cell: &dyn Fn(&Answer, usize) -> Cell| {
         let cells: Vec<Cell> = rows.iter().map(|(answer, camera)| cell(answer, *camera)).collect();
@@ -198,7 +198,7 @@ fn csv(answers: &[Answer]) -> String {
 }
 
 fn object(answer: &Answer) -> Value {
-    let table = numbers([answer]);
+    let table = numbers(&[answer]);
     let indices: serde_json::Map<String, Value> =
         table.keys().zip(&table.rows[0]).map(|(head, cell)| (head.to_owned(), json!(cell.number()))).collect();
     let bins = answer.rendition.fidelity.as_ref().map_or_else(
@@ -225,7 +225,7 @@ fn object(answer: &Answer) -> Value {
 fn text(answers: &[Answer]) -> String {
     let mut text = String::new();
     for answer in answers {
-        let table = numbers([answer]);
+        let table = numbers(&[answer]);
         let number = |key: &str| table.cell(0, table.place(key)?).number();
         let cell = |key: &str, decimals| number(key).map_or_else(|| "\u{2013}".to_owned(), |v| fixed(v, decimals));
         let [cct, ra, rf] = [("cct_k", 0), ("ra", 1), ("rf", 1)].map(|(key, decimals)| cell(key, decimals));

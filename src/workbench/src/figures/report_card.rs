@@ -192,12 +192,11 @@ fn patches(scene: &Scene<'_>, metrics: &CameraMetrics, area: Rect) -> Panel {
         let places = [(Anchor::BOTTOM, 0.0), (Anchor::LEFT_BOTTOM, -4.0), (Anchor::RIGHT_BOTTOM, 4.0)].map(place);
         Some(Label { starts: vec![at], ..Label::new(words, InkRole::Text, places.to_vec()) })
     });
-    named(panel, &labels.collect::<Vec<_>>())
+    named(&panel, &labels.collect::<Vec<_>>())
 }
 
 /// A panel with labels above its bars: beside the bar's end or at a leader, else higher above it.
-fn named(panel: Panel, labels: &[Label]) -> Panel {
-    const LIFTS: [f64; 4] = [16.0, 30.0, 44.0, 58.0];
+fn named(panel: &Panel, labels: &[Label]) -> Panel {
     let raised = |label: &Label, lift: f64| {
         label.places.iter().map(move |place| Place { offset: [place.offset[0], -lift], ..*place }).collect::<Vec<_>>()
     };
@@ -205,7 +204,8 @@ fn named(panel: Panel, labels: &[Label]) -> Panel {
         let mut panel = panel.clone().with_headroom(room);
         let mut texts = Labels::new(&panel);
         let all = labels.iter().filter(|label| {
-            let places = LIFTS.into_iter().flat_map(|lift| raised(label, lift)).collect();
+            let lifts = (1..16).map(|line| 2.0 + 14.0 * f64::from(line));
+            let places = lifts.flat_map(|lift| raised(label, lift)).collect();
             texts.place(label) || texts.place(&Label { places, starts: Vec::new(), ..(*label).clone() })
         });
         let all = all.count() == labels.len();

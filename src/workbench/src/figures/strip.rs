@@ -72,13 +72,18 @@ pub fn build(scene: &Scene<'_>, size: [f64; 2]) -> Option<Strip> {
     panel.marks.push(cursor(scene.document.temperature_k, highest));
     panel.marks.extend(content.signs);
     panel.marks.extend(cut(&panel.marks, top, Projection::new(&panel, 1.0).plot.height()));
-    let mut labels = Labels::new(&panel);
-    // The temperature is written nowhere else in the figure.
-    labels.place(&cursor_text(scene.document.temperature_k, top));
+    let cursor = cursor_text(scene.document.temperature_k, top);
+    let minima: Vec<Label> = content.minima.iter().map(|(source, at)| minimum_text(source, *at)).collect();
+    let placed = |order: Vec<&Label>| {
+        let mut labels = Labels::new(&panel);
+        let count = order.into_iter().filter(|label| labels.place(label)).count();
+        (count, labels)
+    };
+    // The temperature is written nowhere else, so it stands first unless more numbers fit where it stands last.
+    let first = placed(std::iter::once(&cursor).chain(&minima).collect());
+    let last = placed(minima.iter().chain([&cursor]).collect());
+    let mut labels = if last.0 > first.0 { last.1 } else { first.1 };
     labels.place(&just_visible);
-    for (source, at) in &content.minima {
-        labels.place(&minimum_text(source, *at));
-    }
     panel.marks.extend(labels.into_marks());
     Some(Strip { panel, things })
 }

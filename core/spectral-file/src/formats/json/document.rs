@@ -57,7 +57,7 @@ impl<'a> Value<'a> {
         }
         let before = &self.document.as_bytes()[..end.min(self.document.len())];
         let start = before.iter().rposition(|byte| *byte == b'\n').map_or(0, |at| at + 1);
-        let line = 1 + before.iter().filter(|byte| **byte == b'\n').count();
+        let line = before.split(|byte| *byte == b'\n').count();
         ReadError::Malformed { family: Family::Json, line, column: (before.len() - start).max(1) }
     }
 
