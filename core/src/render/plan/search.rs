@@ -1,8 +1,8 @@
 //! Search for the fastest method within a tolerance.
 //!
 //! Cost and error of a method do not depend on the tolerance. A method is skipped only if it costs more than one that meets
-//! the tolerance, or certainly does not meet it. So the fastest method for a smaller tolerance never has a larger error than
-//! the fastest for a larger one.
+//! the tolerance, or certainly does not meet it. So the fastest method for a smaller tolerance rarely has a larger error than
+//! the fastest for a larger one; where a candidate is missed it can (`tests/core/accuracy.rs` names a scene).
 
 use super::candidate::{Candidate, Explanation, IntegrationMethod, Verdict};
 pub(super) use super::check::REFERENCE;
