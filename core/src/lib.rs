@@ -4,23 +4,12 @@
 //! colors differ from what an observer sees, in ways that can be computed. This crate does that and nothing else: same input,
 //! same output. It opens no file, reads no clock, environment or locale, and knows nothing of windows.
 //!
+//! It is the face of three crates, which can be had alone:
+//!
 //! ```text
-//! spectral::dataset          bytes → curves with units
-//! spectral                   curves → the 1 nm grid, with what was assumed
-//! light · patch_set · camera    L, S, C
-//! correction                 fits of XYZ to RGB: 3×3, root polynomial; DNG and ACES matrices
-//! camera::rendering          ∫ C S L dλ → balanced RGB → XYZ           Eq 11, 13, 16
-//! camera::locus              ∫ C E(T) dλ                                Eq 14, 15
-//! colorimetry                XYZ → xy, u′v′, L*a*b*, ΔE, sRGB
-//! light::temperature         XYZ → nearest blackbody, Duv
-//! rendition                  light → Ra, Rf and Rg, SSI
-//! camera::locus_table        blackbodies → xy, for very many temperatures
-//! camera::quality            Vora, Luther, metamerism index, noise
-//! metamers                   pairs that a camera confuses
-//! camera::batch              ∫ C S L dλ for very many S and C
-//! reflectance                Fresnel, geometric attenuation, mean scattered power      Eq 1-4
-//! scene · render             mesh × viewpoint × light → pictures through each camera
-//! query                      each of these as a value that holds all it depends on
+//! chromascope-color     spectra, lights, cameras, corrections, metrics: no mesh
+//! chromascope-render    reflectance of rough surfaces; mesh × viewpoint × light → pictures through each camera
+//! chromascope-query     each of these as a value that holds all it depends on
 //! ```
 //!
 //! # Conventions
@@ -35,34 +24,11 @@
 //!
 //! Fluorescence, polarization, lenses. Bytes of camera profiles (DCP, ICC) are written by `chromascope-profile`.
 //!
-#![doc = include_str!("sources.md")]
-#![allow(
-    clippy::inline_always,
-    clippy::needless_range_loop,
-    reason = "only inside the caller is a kernel compiled for the caller's instruction set, and iterators call functions outside"
-)]
+#![doc = include_str!("../color/src/sources.md")]
 
-pub use chromascope_math as math;
+pub use chromascope_color::*;
 pub use chromascope_mesh as mesh;
-pub use glam;
+pub use chromascope_query as query;
+pub use chromascope_render::{reflectance, render, scene};
 
-pub mod accuracy;
-pub mod camera;
-pub mod colorimetry;
-pub mod correction;
-#[cfg(feature = "data")]
-pub mod data;
-
-pub mod light;
-pub mod metamers;
-
-pub mod patch_set;
 pub mod prelude;
-pub mod query;
-pub mod reflectance;
-pub mod render;
-pub mod rendition;
-pub mod scene;
-pub mod spectral;
-
-pub mod units;

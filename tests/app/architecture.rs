@@ -16,7 +16,7 @@ use std::{
 
 use rust_text::{code, functions, paths};
 
-/// Modules of `chromascope-core` in their order: each uses only those before it.
+/// Modules of `chromascope-color`, then of `chromascope-render`, in their order: each uses only those before it.
 const CORE_LAYERS: &[&str] = &[
     "accuracy",
     "units",
@@ -28,12 +28,10 @@ const CORE_LAYERS: &[&str] = &[
     "rendition",
     "camera",
     "metamers",
+    "data",
     "reflectance",
     "scene",
     "render",
-    "query",
-    "data",
-    "prelude",
 ];
 
 /// Modules of the app in their order, those of the workbench first: each uses only those before it. The pictures are in
@@ -70,8 +68,8 @@ const APP_LAYERS: &[&str] = &[
 /// Uses against that order, which can only become fewer.
 const AGAINST_ORDER: &[(&str, &str)] = &[];
 
-/// Other crates under the names that `chromascope-core` gives them.
-const REEXPORTED: &[&str] = &["math", "mesh"];
+/// Other crates under the names that `chromascope-color` gives them.
+const REEXPORTED: &[&str] = &["math"];
 
 /// Names that the core never uses, as equal input must give equal output.
 const NOT_IN_THE_CORE: &[&str] =
@@ -94,16 +92,20 @@ const APP_FUNCTION_LINES: usize = 120;
 
 #[test]
 fn core_modules_use_only_what_is_above_them() {
-    hold(sources("core/src").iter().flat_map(|(path, text)| core_layers(path, text)));
+    for krate in ["core/color", "core/render"] {
+        hold(sources(&format!("{krate}/src")).iter().flat_map(|(path, text)| core_layers(path, text)));
+    }
 }
 
 #[test]
 fn crates_of_the_core_are_functions_of_their_arguments() {
     for krate in [
+        "core",
         "core/figure",
         "core/math",
         "core/mesh",
         "core/profile",
+        "core/query",
         "core/spectral-file",
         "core/spectral-image",
         "core/text",
@@ -378,7 +380,7 @@ fn walk(folder: &Path, visit: &mut impl FnMut(&str)) {
     }
 }
 
-/// The module that a file is: `core/src/light/planck.rs` is `light::planck`. Empty for the root of a crate. The window knows the
+/// The module that a file is: `core/color/src/light/planck.rs` is `light::planck`. Empty for the root of a crate. The window knows the
 /// modules of the workbench under the names that they have there.
 fn module(file: &str) -> Vec<String> {
     let below = file.rsplit_once("src/").map_or(file, |(_, below)| below);
@@ -412,19 +414,19 @@ mod inner { use super::super::super::scene::Mesh; }
     let rule = "may not use";
     let only = "only accuracy, units, spectral";
     let expected = [
-        format!("core/src/colorimetry/lab.rs:4: `colorimetry` {rule} `light`, {only}"),
-        format!("core/src/colorimetry/lab.rs:8: `colorimetry` {rule} `patch_set`, {only}"),
-        "core/src/colorimetry/lab.rs:9: `crate::*` names no module of the core: write the path through its module"
+        format!("core/color/src/colorimetry/lab.rs:4: `colorimetry` {rule} `light`, {only}"),
+        format!("core/color/src/colorimetry/lab.rs:8: `colorimetry` {rule} `patch_set`, {only}"),
+        "core/color/src/colorimetry/lab.rs:9: `crate::*` names no module of the core: write the path through its module"
             .to_owned(),
-        "core/src/colorimetry/lab.rs:10: `crate::Xyz` names no module of the core: write the path through its module"
+        "core/color/src/colorimetry/lab.rs:10: `crate::Xyz` names no module of the core: write the path through its module"
             .to_owned(),
-        format!("core/src/colorimetry/lab.rs:13: `colorimetry` {rule} `scene`, {only}"),
+        format!("core/color/src/colorimetry/lab.rs:13: `colorimetry` {rule} `scene`, {only}"),
     ];
-    assert_eq!(found(&core_layers("core/src/colorimetry/lab.rs", text)), expected);
-    let expected = ["core/src/colorimetry.rs:1: `colorimetry` may not use `camera`, only accuracy, units, spectral"];
-    assert_eq!(found(&core_layers("core/src/colorimetry.rs", "use super::camera::Response;")), expected);
-    assert_eq!(found(&core_layers("core/src/lib.rs", "pub mod camera; pub use crate::camera::Way;")), [""; 0]);
-    let unknown = core_layers("core/src/shiny.rs", "");
+    assert_eq!(found(&core_layers("core/color/src/colorimetry/lab.rs", text)), expected);
+    let expected = ["core/color/src/colorimetry.rs:1: `colorimetry` may not use `camera`, only accuracy, units, spectral"];
+    assert_eq!(found(&core_layers("core/color/src/colorimetry.rs", "use super::camera::Response;")), expected);
+    assert_eq!(found(&core_layers("core/color/src/lib.rs", "pub mod camera; pub use crate::camera::Way;")), [""; 0]);
+    let unknown = core_layers("core/color/src/shiny.rs", "");
     assert!(unknown[0].rule.contains("`shiny` has no layer"));
 }
 
@@ -438,12 +440,12 @@ fn f() { ::std::fs::read(\"x\"); let _: std::thread::JoinHandle<()>; }
 use egui;
 ";
     let expected = [
-        "core/src/math.rs:3: the core never uses `std::time`",
-        "core/src/math.rs:5: the core never uses `std::fs`",
-        "core/src/math.rs:5: the core never uses `std::thread`",
-        "core/src/math.rs:6: the core never uses `egui`",
+        "core/color/src/math.rs:3: the core never uses `std::time`",
+        "core/color/src/math.rs:5: the core never uses `std::fs`",
+        "core/color/src/math.rs:5: the core never uses `std::thread`",
+        "core/color/src/math.rs:6: the core never uses `egui`",
     ];
-    assert_eq!(found(&pure("core/src/math.rs", text)), expected);
+    assert_eq!(found(&pure("core/color/src/math.rs", text)), expected);
 }
 
 #[test]
@@ -501,9 +503,9 @@ fn what_has_grown_too_long_is_found() {
         let body = "    let brace = ('{', \"{\", r#\"}\"{\"#, b'{'); // {\n".repeat(lines - 2);
         format!("/* fn no() {{ /* */ */\nfn long<const N: usize>(_: [u8; {{ 3 }}]) -> u8 {{\n{body}}}\nfn short();\n")
     };
-    assert_eq!(budgets("core/src/math.rs", &function(80)), []);
-    let expected = ["core/src/math.rs:2: `long` has 81 lines, at most 80"];
-    assert_eq!(found(&budgets("core/src/math.rs", &function(81))), expected);
+    assert_eq!(budgets("core/color/src/math.rs", &function(80)), []);
+    let expected = ["core/color/src/math.rs:2: `long` has 81 lines, at most 80"];
+    assert_eq!(found(&budgets("core/color/src/math.rs", &function(81))), expected);
     assert_eq!(budgets("src/app.rs", &function(120)), []);
     assert_eq!(found(&budgets("src/app.rs", &function(121))), ["src/app.rs:2: `long` has 121 lines, at most 120"]);
 

@@ -24,6 +24,9 @@ pub enum FitError {
     /// All weights are 0.
     #[error("all training samples have weight 0; give at least one class a weight above 0")]
     NoWeight,
+    /// The fit is a search, and the program is built without it.
+    #[error("this program is built without the search for a minimum color difference (feature `fits`)")]
+    NoOptimizer,
 }
 
 /// The matrix M that minimizes `Σ |Mᵢⱼ aₖ − bₖ|²` among all with `M white = image`.

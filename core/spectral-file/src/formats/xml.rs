@@ -59,7 +59,7 @@ pub(super) struct Element<'a> {
 
 impl Element<'_> {
     pub(super) fn name(&self) -> &str {
-        &self.tag.name().into_inner()[self.local..]
+        utf8(&self.tag.name().into_inner()[self.local..])
     }
 
     /// The value of an attribute without a namespace.
@@ -186,9 +186,9 @@ impl<'a> Walk<'a> {
                 }
                 Event::Eof if self.open.is_empty() && self.root.is_some() => return Ok(None),
                 Event::Eof => return Err(self.malformed(self.text.len())),
-                Event::Text(text) if self.is_indent(&text) => {}
-                Event::Text(text) => self.add(text.xml10_content(), from)?,
-                Event::CData(text) => self.add(text.xml10_content(), from)?,
+                Event::Text(text) if self.is_indent(utf8(&text)) => {}
+                Event::Text(text) => self.add(text.xml10_content().map_err(|_| self.malformed(from))?, from)?,
+                Event::CData(text) => self.add(text.xml10_content().map_err(|_| self.malformed(from))?, from)?,
                 Event::GeneralRef(reference) => {
                     log.at(from)?;
                     let text = resolve(&reference).ok_or_else(|| self.malformed(from))?;
@@ -209,7 +209,7 @@ impl<'a> Walk<'a> {
             return Err(ReadError::Unsupported(Family::Xml));
         }
         let line = self.line(from);
-        let name = tag.name().into_inner();
+        let name = utf8(tag.name().into_inner());
         let local = name.len() - local(name).len();
         let element = Element { tag, local, line, text: Cow::Borrowed(""), text_from: (from, line) };
         self.root.get_or_insert_with(|| element.name().to_owned());
@@ -248,10 +248,15 @@ impl<'a> Walk<'a> {
     }
 }
 
+/// Part of a text that was read from a `str`, cut at ASCII characters.
+fn utf8(part: &[u8]) -> &str {
+    std::str::from_utf8(part).unwrap_or_default()
+}
+
 fn resolve(reference: &BytesRef<'_>) -> Option<String> {
     match reference.resolve_char_ref() {
         Ok(Some(character)) => Some(character.into()),
-        Ok(None) => resolve_predefined_entity(reference).map(str::to_owned),
+        Ok(None) => resolve_predefined_entity(utf8(reference)).map(str::to_owned),
         Err(_) => None,
     }
 }

@@ -1,0 +1,114 @@
+//! Differences of patches from the reference, with their statistics.
+
+use super::value::WhyNot;
+use crate::compare::{comparable_by_paper, difference};
+use crate::patches::{ColorTransformSpec, PatchColor, RenderingQuery};
+use chromascope_color::colorimetry::{Lab, Metric};
+use chromascope_color::spectral::Primaries;
+use chromascope_math::quantile::quantile;
+use glam::DVec3;
+
+/// Number of patches that are named as the worst.
+pub const WORST: usize = 5;
+
+/// A statistic over patches.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Statistic {
+    /// Arithmetic mean.
+    Mean,
+    /// Median; the mean of the two middle values of an even number.
+    Median,
+    /// 95th percentile, linear between the order statistics (Hyndman and Fan's type 7).
+    Percentile95,
+    /// Largest value.
+    Maximum,
+}
+
+/// Differences of one patch from the reference.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PatchDifferences {
+    /// By each metric of `Metric::ALL`, in its order.
+    pub by_metric: Vec<Result<f64, WhyNot>>,
+    /// Lightness difference ΔL*, chroma difference ΔC*ab and hue difference ΔH*ab, sample minus reference (CIE 15:2004, 8.2.1.3);
+    /// none where L*a*b* is undefined.
+    ///
+    /// ```text
+    /// ΔH*ab = 2 √(C₁C₂) sin(Δh/2),   ΔE*ab² = ΔL*² + ΔC*ab² + ΔH*ab²
+    /// ```
+    pub lch: Option<[f64; 3]>,
+    /// Angle between the linear sRGB vectors of sample and reference, in degrees; none for a vector of length zero.
+    pub angle_deg: Option<f64>,
+}
+
+/// Conditions under which differences have a meaning.
+pub(super) struct DifferenceConditions {
+    pub(super) comparable: Result<(), WhyNot>,
+    by_eq_13: bool,
+}
+
+impl DifferenceConditions {
+    pub(super) fn new(sample: &RenderingQuery, reference: &RenderingQuery) -> Self {
+        let [of_reference, of_sample] = [reference, sample].map(|rendering| rendering.sensor.primaries());
+        let paper = sample.transform == ColorTransformSpec::Paper;
+        let comparable =
+            if paper { comparable_by_paper(of_reference, of_sample).map_err(WhyNot::from) } else { Ok(()) };
+        Self { comparable, by_eq_13: paper && of_sample != Primaries::Xyz }
+    }
+
+    pub(super) fn differences(&self, reference: &PatchColor, sample: &PatchColor) -> PatchDifferences {
+        let by_metric = |&metric: &Metric| {
+            self.comparable?;
+            if self.by_eq_13 && metric.needs_adopted_white() {
+                return Err(WhyNot::Eq13);
+            }
+            Ok(difference(metric, reference, sample)?)
+        };
+        let comparable = self.comparable.is_ok();
+        let labs = reference.lab.zip(sample.lab).filter(|_| comparable && !self.by_eq_13);
+        PatchDifferences {
+            by_metric: Metric::ALL.iter().map(by_metric).collect(),
+            lch: labs.map(|(reference, sample)| lightness_chroma_hue(reference, sample)),
+            angle_deg: angle_deg(reference.linear, sample.linear).filter(|_| comparable),
+        }
+    }
+}
+
+fn lightness_chroma_hue(reference: Lab, sample: Lab) -> [f64; 3] {
+    let [c1, c2] = [reference, sample].map(|lab| lab.a.hypot(lab.b));
+    let cross = reference.a * sample.b - reference.b * sample.a;
+    let dot = reference.a * sample.a + reference.b * sample.b;
+    let hue = cross.atan2(dot);
+    [sample.l - reference.l, c2 - c1, 2.0 * (c1 * c2).sqrt() * (hue / 2.0).sin()]
+}
+
+/// Angle between two vectors in degrees, exact for small ones too.
+fn angle_deg(a: [f64; 3], b: [f64; 3]) -> Option<f64> {
+    let [a, b] = [a, b].map(DVec3::from_array).map(DVec3::try_normalize);
+    let (a, b) = (a?, b?);
+    // Kahan's form: the arc cosine loses half the digits of a small angle.
+    Some(2.0 * (a - b).length().atan2((a + b).length()).to_degrees())
+}
+
+impl Statistic {
+    /// The statistic of some values, in any order; none of nothing.
+    pub fn over(self, mut values: Vec<f64>) -> Option<f64> {
+        match self {
+            Self::Mean => (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64),
+            Self::Median => quantile(&mut values, 0.5),
+            Self::Percentile95 => quantile(&mut values, 0.95),
+            Self::Maximum => values.into_iter().max_by(f64::total_cmp),
+        }
+    }
+}
+
+/// For each metric the patches with the largest differences, largest first.
+pub(super) fn worst(patches: &[PatchDifferences]) -> Vec<Vec<usize>> {
+    let of_metric = |metric: usize| {
+        let value = |patch: &PatchDifferences| patch.by_metric.get(metric).and_then(|value| value.ok());
+        let mut found: Vec<(usize, f64)> =
+            patches.iter().enumerate().filter_map(|(at, patch)| Some((at, value(patch)?))).collect();
+        found.sort_by(|a, b| b.1.total_cmp(&a.1));
+        found.into_iter().take(WORST).map(|(at, _)| at).collect()
+    };
+    (0..Metric::ALL.len()).map(of_metric).collect()
+}

@@ -1,0 +1,536 @@
+//! Queries about pictures of meshes, split where the inputs split.
+//!
+//! A viewpoint depends on no light, a light's position on no spectrum, a surface on no camera, a camera's signals on no white
+//! balance: moving a slider recomputes only what depends on it.
+
+pub mod difference;
+pub mod picture;
+pub mod returned;
+
+use super::ask::{Ask, Query, Shared};
+use chromascope_color::accuracy::RelTolerance;
+use chromascope_color::camera::RenderingError;
+use chromascope_color::camera::rendering::white_divisors;
+use chromascope_color::spectral::{GridSpectrum, Sensor};
+use chromascope_mesh::{Mesh, ShadowTree, fern, head, shapes};
+use chromascope_render::reflectance::leaf::{LeafModel, ScatteredShare};
+use chromascope_render::reflectance::{Normalization, Specular, Surface, wavelength_power};
+use chromascope_render::render::quality::SkyFineness;
+use chromascope_render::render::sky::SkyView;
+use chromascope_render::render::{
+    CameraImage, Demand, GeometryImage, Plan, Quality, RasterSize, Reach, ShadingImage, Shadows, Sky, SkyImage,
+    SkyReflectance, SkyVisibility, SpectralWeights, Transmitted, VertexImage, Visibility,
+};
+use chromascope_render::scene::roughness::{VertexRoughness, vertex_roughness};
+use chromascope_render::scene::{Lighting, Viewpoint};
+use chromascope_text::choices;
+use std::sync::Arc;
+
+/// A mesh.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub enum MeshQuery {
+    /// The head, with about this many triangles.
+    Head(usize),
+    /// The head in a garment.
+    ClothedHead(usize),
+    /// The fern.
+    Fern(usize),
+    /// A sphere.
+    Sphere(usize),
+    /// A square that faces the front.
+    Plane,
+    /// The user's own.
+    Own(Shared<Mesh>),
+}
+
+impl Query for MeshQuery {
+    type Answer = Shared<Mesh>;
+    const NAME: &'static str = "mesh";
+    const ALWAYS_COMPLETE: bool = true;
+    const CAPACITY: usize = 3;
+
+    fn bytes(mesh: &Self::Answer) -> usize {
+        size_of_val(mesh.positions()) + size_of_val(mesh.normals()) + size_of_val(mesh.triangles())
+    }
+
+    fn answer(&self, _: &impl Ask) -> Self::Answer {
+        match self {
+            Self::Head(triangles) => Shared::new(head::head(*triangles)),
+            Self::ClothedHead(triangles) => Shared::new(head::clothed(*triangles)),
+            Self::Fern(triangles) => Shared::new(fern::fern(*triangles)),
+            Self::Sphere(triangles) => Shared::new(shapes::sphere(*triangles)),
+            Self::Plane => Shared::new(shapes::plane(2)),
+            Self::Own(mesh) => mesh.clone(),
+        }
+    }
+}
+
+/// Shadow tree of a mesh.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct ShadowTreeQuery(pub MeshQuery);
+
+impl Query for ShadowTreeQuery {
+    type Answer = ShadowTree;
+    const NAME: &'static str = "shadow tree";
+    const ALWAYS_COMPLETE: bool = true;
+    const CAPACITY: usize = 3;
+
+    fn answer(&self, ask: &impl Ask) -> Self::Answer {
+        ShadowTree::new(&ask.ask(&self.0))
+    }
+}
+
+/// Triangle that each sample sees. None if stopped.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct VisibilityQuery {
+    /// The mesh.
+    pub mesh: MeshQuery,
+    /// Viewpoint.
+    pub viewpoint: Viewpoint,
+    /// Number of samples.
+    pub size: RasterSize,
+}
+
+impl Query for VisibilityQuery {
+    type Answer = Option<Visibility>;
+    const NAME: &'static str = "visibility";
+    const CAPACITY: usize = 6;
+
+    fn bytes(visibility: &Self::Answer) -> usize {
+        visibility.as_ref().map_or(0, |visibility| size_of_val(visibility.hits()))
+    }
+
+    fn answer(&self, ask: &impl Ask) -> Self::Answer {
+        let mesh = ask.ask(&self.mesh);
+        Visibility::new(&mesh, self.viewpoint.eye_before(&mesh), self.size, &ask.stop())
+    }
+}
+
+/// Angles at each lit sample. None if stopped.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct GeometryQuery {
+    /// Visibility.
+    pub visibility: VisibilityQuery,
+    /// Position of the light.
+    pub lighting: Lighting,
+    /// Fineness of shadows.
+    pub shadows: Shadows,
+    /// Samples that are listed beside those that the light reaches from before.
+    pub reach: Reach,
+}
+
+impl Query for GeometryQuery {
+    type Answer = Option<Arc<GeometryImage>>;
+    const NAME: &'static str = "geometry";
+    const CAPACITY: usize = 6;
+
+    fn bytes(geometry: &Self::Answer) -> usize {
+        let of = |geometry: &Arc<GeometryImage>| {
+            size_of_val(geometry.angles()) + size_of_val(geometry.samples()) + size_of_val(geometry.placed().seen())
+        };
+        geometry.as_ref().map_or(0, of)
+    }
+
+    fn answer(&self, ask: &impl Ask) -> Self::Answer {
+        let mesh = ask.ask(&self.visibility.mesh);
+        let tree = (self.shadows != Shadows::Off).then(|| ask.ask(&ShadowTreeQuery(self.visibility.mesh.clone())));
+        let shadows = tree.as_deref().map(|tree| (tree, self.shadows));
+        let visibility = ask.ask(&self.visibility);
+        let visibility = (*visibility).as_ref()?;
+        GeometryImage::within(&mesh, visibility, &self.lighting, shadows, self.reach, &ask.stop()).map(Arc::new)
+    }
+}
+
+/// Cells of the sky that each vertex sees. None if stopped.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct SkyVisibilityQuery {
+    /// The mesh.
+    pub mesh: MeshQuery,
+    /// True if the mesh hides the sky from itself.
+    pub shadows: bool,
+    /// True if the other side of its surface matters: light passes through it.
+    pub through: bool,
+}
+
+impl Query for SkyVisibilityQuery {
+    type Answer = Option<SkyVisibility>;
+    const NAME: &'static str = "sky visibility";
+    const CAPACITY: usize = 3;
+
+    fn bytes(sky: &Self::Answer) -> usize {
+        sky.as_ref().map_or(0, |sky| size_of_val(sky.cells()))
+    }
+
+    fn answer(&self, ask: &impl Ask) -> Self::Answer {
+        let mesh = ask.ask(&self.mesh);
+        if !self.shadows {
+            return Some(SkyVisibility::open(&mesh));
+        }
+        let is_closed = matches!(self.mesh, MeshQuery::Head(_) | MeshQuery::ClothedHead(_) | MeshQuery::Sphere(_));
+        let tree = ask.ask(&ShadowTreeQuery(self.mesh.clone()));
+        SkyVisibility::new(&mesh, &tree, self.through || !is_closed, &ask.stop())
+    }
+}
+
+/// Visible shares of the sky at each sample that sees the mesh. None if stopped.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct SkyImageQuery {
+    /// Visibility.
+    pub visibility: VisibilityQuery,
+    /// The surface.
+    pub surface: Surface,
+    /// Normalization of Eq 1.
+    pub reading: Normalization,
+    /// Exactness.
+    pub fineness: SkyFineness,
+    /// True if light shines through from behind.
+    pub through: bool,
+    /// True if the mesh hides the sky from itself.
+    pub shadows: bool,
+}
+
+impl Query for SkyImageQuery {
+    type Answer = Option<Arc<SkyImage>>;
+    const NAME: &'static str = "sky";
+    const CAPACITY: usize = 6;
+
+    fn bytes(image: &Self::Answer) -> usize {
+        image.as_ref().map_or(0, |image| size_of_val(image.samples()))
+    }
+
+    fn answer(&self, ask: &impl Ask) -> Self::Answer {
+        let Self { surface, reading, fineness, through, shadows, .. } = self;
+        let sky =
+            ask.ask(&SkyVisibilityQuery { mesh: self.visibility.mesh.clone(), shadows: *shadows, through: *through });
+        let (mesh, visibility) = (ask.ask(&self.visibility.mesh), ask.ask(&self.visibility));
+        let view = SkyView { surface, reading: *reading, fineness: *fineness, through: *through };
+        SkyImage::new(&mesh, (*visibility).as_ref()?, (*sky).as_ref()?, view, &ask.stop()).map(Arc::new)
+    }
+}
+
+/// Hemispherical-directional reflectance of a surface over angle and wavelength.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct SkyReflectanceQuery {
+    /// The surface.
+    pub surface: Surface,
+    /// Normalization of Eq 1.
+    pub reading: Normalization,
+}
+
+impl Query for SkyReflectanceQuery {
+    type Answer = SkyReflectance;
+    const NAME: &'static str = "sky reflectance";
+    const ALWAYS_COMPLETE: bool = true;
+    const CAPACITY: usize = 16;
+
+    fn bytes(reflectance: &Self::Answer) -> usize {
+        reflectance.bytes()
+    }
+
+    fn answer(&self, _: &impl Ask) -> Self::Answer {
+        SkyReflectance::new(self.surface, self.reading)
+    }
+}
+
+/// Roughness of a mesh at each of its vertices.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct MeshRoughnessQuery(pub MeshQuery);
+
+impl Query for MeshRoughnessQuery {
+    type Answer = Vec<VertexRoughness>;
+    const NAME: &'static str = "mesh roughness";
+    const ALWAYS_COMPLETE: bool = true;
+    const CAPACITY: usize = 3;
+
+    fn answer(&self, ask: &impl Ask) -> Self::Answer {
+        vertex_roughness(&ask.ask(&self.0))
+    }
+}
+
+choices! {
+    /// Origin of σ and τ.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "kebab-case"))]
+    pub enum Roughness {
+        /// The surface's own, the same everywhere.
+        #[default]
+        Surface = "surface", "Of the surface", "σ and τ as they are set, the same everywhere";
+        /// Heights and radius of each vertex's neighborhood in the mesh; P is interpolated between vertices. The paper's.
+        Mesh = "mesh", "From the mesh",
+            "As in the paper: at each vertex σ from the heights of its neighbors about the tangent plane, τ from the radius of that \
+             neighborhood; P at the vertices, interpolated. These are lengths of the mesh, not of the material: tenths of \
+             millimeters and millimeters, so g is tens of millions, and the width of the specular lobe, 2σ/τ, is the angle between \
+             neighboring triangles. It narrows with more triangles.";
+    }
+}
+
+/// Factors of the reflectance model at each lit sample. None if stopped.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct ShadingQuery {
+    /// The angles.
+    pub geometry: GeometryQuery,
+    /// The surface.
+    pub surface: Surface,
+    /// Origin of σ and τ.
+    pub roughness: Roughness,
+    /// Normalization of Eq 1.
+    pub reading: Normalization,
+    /// Accuracy of the integrals.
+    pub quality: Quality,
+    /// Irradiance of a level surface by a uniform sky over that of a surface that faces the light, as bits; none without a sky. Its
+    /// light needs a geometry that lists all samples ([`Reach::everywhere`]).
+    pub sky: Option<u64>,
+    /// True if the mesh hides no part of the sky: before it is known which.
+    pub open_sky: bool,
+}
+
+impl Query for ShadingQuery {
+    type Answer = Option<ShadingImage>;
+    const NAME: &'static str = "shading";
+    const CAPACITY: usize = 6;
+
+    fn bytes(shading: &Self::Answer) -> usize {
+        shading.as_ref().map_or(0, |shading| size_of_val(shading.shades()) + size_of_val(shading.coherent_samples()))
+    }
+
+    fn answer(&self, ask: &impl Ask) -> Self::Answer {
+        let shading = self.lit(ask)?;
+        let Some(share) = self.sky.filter(|_| self.geometry.reach.everywhere) else { return Some(shading) };
+        let image = ask.ask(&self.sky_image());
+        let image = Arc::clone((*image).as_ref()?);
+        Some(shading.under(Sky { image, share: f64::from_bits(share) }))
+    }
+}
+
+impl ShadingQuery {
+    fn sky_image(&self) -> SkyImageQuery {
+        SkyImageQuery {
+            visibility: self.geometry.visibility.clone(),
+            surface: self.surface,
+            reading: self.reading,
+            fineness: self.quality.sky_fineness(self.geometry.visibility.size.clamped().samples),
+            through: self.geometry.reach.through,
+            shadows: self.geometry.shadows != Shadows::Off && !self.open_sky,
+        }
+    }
+
+    fn lit(&self, ask: &impl Ask) -> Option<ShadingImage> {
+        let geometry = ask.ask(&self.geometry);
+        let geometry = (*geometry).as_ref()?;
+        if self.roughness == Roughness::Mesh {
+            let GeometryQuery { visibility: seen, lighting, .. } = &self.geometry;
+            let (mesh, roughness) = (ask.ask(&seen.mesh), ask.ask(&MeshRoughnessQuery(seen.mesh.clone())));
+            let visibility = ask.ask(seen);
+            let visibility = (*visibility).as_ref()?;
+            let vertices = VertexImage::new(&mesh, visibility, Arc::clone(geometry), lighting, &ask.stop())?;
+            let (surface, reading, quality) = (self.surface, self.reading, self.quality);
+            return ShadingImage::by_vertices(Arc::new(vertices), &roughness, surface, reading, quality, &ask.stop());
+        }
+        ShadingImage::new(Arc::clone(geometry), self.surface, self.reading, self.quality, &ask.stop())
+    }
+}
+
+/// Spectral weights of a camera under a light, for a reflectance.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct SpectralWeightsQuery {
+    /// The camera or observer.
+    pub sensor: Shared<Sensor>,
+    /// The light.
+    pub light: Shared<GridSpectrum>,
+    /// The reflectance.
+    pub reflectance: Shared<GridSpectrum>,
+    /// Normalization of Eq 1.
+    pub reading: Normalization,
+}
+
+impl Query for SpectralWeightsQuery {
+    type Answer = Result<SpectralWeights, RenderingError>;
+    const NAME: &'static str = "measure";
+    const ALWAYS_COMPLETE: bool = true;
+
+    fn answer(&self, _: &impl Ask) -> Self::Answer {
+        let divisors = white_divisors(&self.sensor, &self.light)?;
+        Ok(SpectralWeights::new(&self.sensor, &self.light, &self.reflectance, divisors, wavelength_power(self.reading)))
+    }
+}
+
+impl SpectralWeightsQuery {
+    /// The measure that a shaded mesh takes: where lobes are untinted, with the weights of a white for them.
+    pub fn in_picture(&self, shading: &ShadingImage, ask: &impl Ask) -> Arc<<Self as Query>::Answer> {
+        let surface = shading.surface();
+        let sky = shading.sky().map(|_| *surface);
+        let lobes = sky.is_some() || !shading.coherent_samples().is_empty();
+        let untinted = surface.specular() == Specular::Fresnel && lobes;
+        let through = shading.geometry().reach().through.then_some(*surface);
+        if !untinted && through.is_none() && sky.is_none() {
+            return ask.ask(self);
+        }
+        ask.ask(&PictureWeightsQuery { own: self.clone(), untinted, through, sky })
+    }
+}
+
+/// Spectral weights with those of all that a picture has beside the light on a surface of the material's color.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+struct PictureWeightsQuery {
+    own: SpectralWeightsQuery,
+    /// True if the coherent component takes the weights of a white.
+    untinted: bool,
+    /// The surface, where light passes through as through a leaf.
+    through: Option<Surface>,
+    /// The surface, under a sky.
+    sky: Option<Surface>,
+}
+
+impl Query for PictureWeightsQuery {
+    type Answer = <SpectralWeightsQuery as Query>::Answer;
+    const NAME: &'static str = "measure in a picture";
+    const ALWAYS_COMPLETE: bool = true;
+    const CAPACITY: usize = 64;
+
+    fn answer(&self, ask: &impl Ask) -> Self::Answer {
+        let of = |query: &SpectralWeightsQuery| (*ask.ask(query)).clone();
+        let mut own = of(&self.own)?;
+        if self.untinted {
+            let reflectance = Shared::new(GridSpectrum::constant(1.0));
+            own = own.with_untinted(Arc::new(of(&SpectralWeightsQuery { reflectance, ..self.own.clone() })?));
+        }
+        if let Some(surface) = self.through {
+            let reflectance = (*ask.ask(&LeafTransmittanceQuery(self.own.reflectance.clone()))).clone();
+            let reading = Normalization::Lambertian;
+            let signals = of(&SpectralWeightsQuery { reflectance, reading, ..self.own.clone() })?.totals();
+            let share = ask.ask(&ScatteredShareQuery { surface, reading: self.own.reading });
+            own = own.with_transmitted(Transmitted { signals, share });
+        }
+        if let Some(surface) = self.sky {
+            let reflectance = ask.ask(&SkyReflectanceQuery { surface, reading: self.own.reading });
+            let signals = reflectance.signals(&own);
+            own = own.with_sky(Arc::new(signals));
+        }
+        Ok(own)
+    }
+}
+
+/// Share of light that a leaf's surface scatters ([`ScatteredShare`]).
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+struct ScatteredShareQuery {
+    surface: Surface,
+    reading: Normalization,
+}
+
+impl Query for ScatteredShareQuery {
+    type Answer = ScatteredShare;
+    const NAME: &'static str = "leaf surface";
+    const ALWAYS_COMPLETE: bool = true;
+    const CAPACITY: usize = 16;
+
+    fn answer(&self, _: &impl Ask) -> Self::Answer {
+        ScatteredShare::new(&self.surface, self.reading)
+    }
+}
+
+/// Transmittance of a leaf of a reflectance ([`LeafModel`]).
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct LeafTransmittanceQuery(pub Shared<GridSpectrum>);
+
+impl Query for LeafTransmittanceQuery {
+    type Answer = Shared<GridSpectrum>;
+    const NAME: &'static str = "leaf transmittance";
+    const ALWAYS_COMPLETE: bool = true;
+    const CAPACITY: usize = 16;
+
+    fn answer(&self, _: &impl Ask) -> Self::Answer {
+        let (leaf, mut values) = (LeafModel::new(), self.0.values().iter());
+        Shared::new(GridSpectrum::from_fn(|_| values.next().map_or(0.0, |&value| leaf.transmittance(value))))
+    }
+}
+
+/// Signals of a camera at each lit sample of a mesh. None inside if stopped.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct CameraImageQuery {
+    /// The shaded mesh.
+    pub shading: ShadingQuery,
+    /// The camera under the light.
+    pub measure: SpectralWeightsQuery,
+    /// Reflectance of the mesh's garment; none for that of the rest.
+    pub garment: Option<Shared<GridSpectrum>>,
+}
+
+impl Query for CameraImageQuery {
+    type Answer = Result<Option<CameraImage>, RenderingError>;
+    const NAME: &'static str = "camera image";
+    const CAPACITY: usize = 64;
+
+    fn bytes(image: &Self::Answer) -> usize {
+        let of = |image: &CameraImage| size_of_val(image.signals()) + size_of_val(image.placed().samples());
+        image.as_ref().ok().and_then(Option::as_ref).map_or(0, of)
+    }
+
+    fn answer(&self, ask: &impl Ask) -> Self::Answer {
+        let shading = ask.ask(&self.shading);
+        let Some(shading) = (*shading).as_ref() else { return Ok(None) };
+        let image = |of: &Self, part: Option<&[bool]>| {
+            let measure = of.measure.in_picture(shading, ask);
+            let measure = (*measure).as_ref().map_err(|&e| e)?;
+            let plan = of.plan(shading, measure, ask)?;
+            Ok(CameraImage::of_part(shading, measure, plan, part, &ask.stop()))
+        };
+        let Some(garment) = &self.garment else { return image(self, None) };
+        let visibility = &self.shading.geometry.visibility;
+        let (mesh, visibility) = (ask.ask(&visibility.mesh), ask.ask(visibility));
+        let Some(visibility) = (*visibility).as_ref() else { return Ok(None) };
+        let samples = shading.geometry().samples().iter();
+        let bare: Vec<bool> = samples.map(|&at| !mesh.is_garment(visibility.hits()[at as usize].triangle)).collect();
+        let worn: Vec<bool> = bare.iter().map(|bare| !bare).collect();
+        let measure = SpectralWeightsQuery { reflectance: garment.clone(), ..self.measure.clone() };
+        let garment = image(&Self { measure, ..self.clone() }, Some(&worn))?;
+        Ok(image(self, Some(&bare))?.zip(garment).map(|(skin, garment)| skin.with(&garment, &worn)))
+    }
+}
+
+impl CameraImageQuery {
+    /// The plan that the image is made by, where its shading and measure are known.
+    ///
+    /// # Errors
+    /// [`RenderingError`] if no plan exists for the camera's spectral weights.
+    pub fn plan(
+        &self,
+        shading: &ShadingImage,
+        measure: &SpectralWeights,
+        ask: &impl Ask,
+    ) -> Result<Arc<Plan>, RenderingError> {
+        let Some((tolerance, demand)) = shading.plan_request() else {
+            return Ok(Arc::new(Plan::fixed(measure, shading.fixed_quality())));
+        };
+        let plan = ask.ask(&PlanQuery { measure: self.measure.clone(), tolerance, demand });
+        (*plan).as_ref().map(Arc::clone).map_err(|&e| e)
+    }
+}
+
+/// The fastest method of a camera's spectral integral within a tolerance. Depends on no surface or angle: the demands of pictures
+/// are rounded out to a few ([`Demand::of_picture`]).
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct PlanQuery {
+    /// The camera under the light.
+    pub measure: SpectralWeightsQuery,
+    /// The allowed error.
+    pub tolerance: RelTolerance,
+    /// Range of κ and number of samples.
+    pub demand: Demand,
+}
+
+impl Query for PlanQuery {
+    type Answer = Result<Arc<Plan>, RenderingError>;
+    const NAME: &'static str = "plan";
+    const ALWAYS_COMPLETE: bool = true;
+    const CAPACITY: usize = 64;
+
+    fn bytes(plan: &Self::Answer) -> usize {
+        plan.as_ref().map_or(0, |plan| plan.bytes())
+    }
+
+    fn answer(&self, ask: &impl Ask) -> Self::Answer {
+        let measure = ask.ask(&self.measure);
+        let measure = (*measure).as_ref().map_err(|&e| e)?;
+        Ok(Arc::new(Plan::new(measure, self.tolerance, self.demand)?))
+    }
+}

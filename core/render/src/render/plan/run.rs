@@ -1,0 +1,304 @@
+//! Batch evaluation of samples: those without a sum over wavelengths are evaluated together, so that the loop
+//! vectorizes.
+
+use super::Plan;
+use super::table::{Around, Table};
+use crate::render::diffuse::{FEW_MOMENTS, by_nodes_into, rough_basis_of};
+use crate::render::measure::MOMENTS;
+use chromascope_math::exp::exp;
+use multiversion::multiversion;
+
+/// Samples that are sorted by method together.
+pub(in crate::render) const RUN: usize = 64;
+/// Samples that a quick method serves together.
+pub(super) const BLOCK: usize = 16;
+
+/// From this β on moments give nothing: e^-60 of the peak, beyond which the polynomials overflow.
+pub(super) const LAST_BETA: f64 = 60.0;
+
+/// The places of a run of samples.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::render) struct Places {
+    pub(in crate::render) kappa: [f64; RUN],
+    pub(in crate::render) beta: [f64; RUN],
+    /// Samples wanted; the others had better be [`Self::UNWANTED`].
+    pub(in crate::render) wanted: [bool; RUN],
+    pub(in crate::render) count: usize,
+}
+
+impl Places {
+    /// κ and β that take the least work.
+    pub(in crate::render) const UNWANTED: (f64, f64) = (1e100, 0.0);
+    pub(in crate::render) const EMPTY: Self =
+        Self { kappa: [1.0; RUN], beta: [0.0; RUN], wanted: [true; RUN], count: 0 };
+}
+
+/// Fast method of a sample.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum FastMethod {
+    Moments,
+    Table,
+    Dark,
+    Neither,
+}
+
+pub(super) fn fill(plan: &Plan, points: &[[f64; 2]], sums: &mut [[f64; 3]]) {
+    let (mut places, mut found) = (Places::EMPTY, [[0.0; RUN]; 3]);
+    for (points, sums) in points.chunks(RUN).zip(sums.chunks_mut(RUN)) {
+        places.count = points.len().min(sums.len());
+        for (i, &[kappa, beta]) in points.iter().enumerate() {
+            (places.kappa[i], places.beta[i]) = (kappa, beta.max(0.0));
+        }
+        plan.run(&places, &mut found);
+        for (i, sum) in sums.iter_mut().enumerate().take(places.count) {
+            *sum = [found[0][i], found[1][i], found[2][i]];
+        }
+    }
+}
+
+/// Samples of a run with one method, side by side.
+struct Chosen {
+    which: [u8; RUN],
+    count: usize,
+    kappa: [f64; RUN],
+    beta: [f64; RUN],
+}
+
+impl Chosen {
+    fn of(ways: &[FastMethod; RUN], method: FastMethod, places: &Places) -> Self {
+        let mut chosen = Self { which: [0; RUN], count: 0, kappa: [1.0; RUN], beta: [0.0; RUN] };
+        for (i, &way) in ways.iter().enumerate() {
+            // The next one takes the place of one that does not count.
+            let at = chosen.count;
+            (chosen.which[at], chosen.kappa[at], chosen.beta[at]) = (i as u8, places.kappa[i], places.beta[i]);
+            chosen.count += usize::from(way == method);
+        }
+        chosen
+    }
+
+    fn blocks(&self) -> usize {
+        self.count.div_ceil(BLOCK)
+    }
+
+    fn put(&self, found: &[[f64; RUN]; 3], sums: &mut [[f64; RUN]; 3]) {
+        for (sums, found) in sums.iter_mut().zip(found) {
+            for (&i, value) in self.which[..self.count].iter().zip(found) {
+                sums[usize::from(i)] = *value;
+            }
+        }
+    }
+}
+
+impl Plan {
+    /// The three channels of the wanted samples of a run; those of others are left with any value.
+    pub(in crate::render) fn run(&self, places: &Places, sums: &mut [[f64; RUN]; 3]) {
+        let ([from, to], (rough, orders), moments) = (self.held, self.rough, (&self.moments, self.few));
+        let is_rough = |i: usize| rough.max(from) <= places.kappa[i] && places.kappa[i] <= to;
+        if places.count == RUN && (0..RUN).fold(true, |all, i| all & (!places.wanted[i] | is_rough(i))) {
+            by_moments(moments, orders, (&places.kappa, &places.beta, RUN / BLOCK), sums);
+            return;
+        }
+        let mut ways = [FastMethod::Dark; RUN];
+        let table = self.table();
+        let [first, last] = table.map_or([f64::INFINITY, 0.0], Table::kappa);
+        let mut counts = [0_usize; 4];
+        for (i, way) in ways.iter_mut().enumerate().take(places.count) {
+            let kappa = places.kappa[i];
+            let by_table = first <= kappa && kappa <= last;
+            let quick = if by_table { FastMethod::Table } else { FastMethod::Neither };
+            let quick = if is_rough(i) { FastMethod::Moments } else { quick };
+            *way = if places.wanted[i] { quick } else { FastMethod::Dark };
+            counts[*way as usize] += 1;
+        }
+        let mut found = [[0.0; RUN]; 3];
+        if counts[FastMethod::Moments as usize] > 0 {
+            let chosen = Chosen::of(&ways, FastMethod::Moments, places);
+            by_moments(moments, orders, (&chosen.kappa, &chosen.beta, chosen.blocks()), &mut found);
+            chosen.put(&found, sums);
+        }
+        if let (Some(table), 1..) = (table, counts[FastMethod::Table as usize]) {
+            let chosen = Chosen::of(&ways, FastMethod::Table, places);
+            by_table(table, &chosen, &mut found);
+            chosen.put(&found, sums);
+        }
+        if counts[FastMethod::Neither as usize] > 0 {
+            self.slow(places, &Chosen::of(&ways, FastMethod::Neither, places), sums);
+        }
+    }
+
+    /// Samples that neither moments nor table serve: together where wavelengths are in common.
+    fn slow(&self, places: &Places, chosen: &Chosen, sums: &mut [[f64; RUN]; 3]) {
+        let (mut which, mut kappa, mut beta, mut count) = ([0; RUN], [0.0; RUN], [0.0; RUN], 0);
+        let common = self.common();
+        for i in chosen.which[..chosen.count].iter().map(|&i| usize::from(i)) {
+            if common.is_some() && self.holds(places.kappa[i]) {
+                (which[count], kappa[count], beta[count]) = (i, places.kappa[i], places.beta[i]);
+                count += 1;
+            } else {
+                let slow = self.by_remaining_method(places.kappa[i], places.beta[i]);
+                (sums[0][i], sums[1][i], sums[2][i]) = (slow[0], slow[1], slow[2]);
+            }
+        }
+        let Some((nodes, precision)) = common else { return };
+        let mut answers = [[0.0; 3]; RUN];
+        by_nodes_into(nodes, &kappa[..count], &beta, precision, &mut answers);
+        for (&i, slow) in which[..count].iter().zip(answers) {
+            (sums[0][i], sums[1][i], sums[2][i]) = (slow[0], slow[1], slow[2]);
+        }
+    }
+}
+
+/// Moments in blocks, with the κ from which on few of them suffice. Compiled for several instruction sets, the best chosen at run
+/// time; no operation is fused, so that all of them give the same bits.
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl+avx512bw+avx512cd", "x86_64+avx2", "aarch64+neon"))]
+fn by_moments(
+    moments: (&[[f64; MOMENTS]; 3], f64),
+    orders: usize,
+    places: (&[f64; RUN], &[f64; RUN], usize),
+    sums: &mut [[f64; RUN]; 3],
+) {
+    by_moments_portable(moments, orders, places, sums);
+}
+
+/// Table, compiled as moments are.
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl+avx512bw+avx512cd", "x86_64+avx2", "aarch64+neon"))]
+fn by_table(table: &Table, chosen: &Chosen, sums: &mut [[f64; RUN]; 3]) {
+    by_table_portable(table, chosen, sums);
+}
+
+/// Portable form for any processor.
+#[inline(always)]
+fn by_moments_portable(
+    (moments, few): (&[[f64; MOMENTS]; 3], f64),
+    orders: usize,
+    (kappa, beta, blocks): (&[f64; RUN], &[f64; RUN], usize),
+    sums: &mut [[f64; RUN]; 3],
+) {
+    let mut kept = *moments;
+    for moments in &mut kept {
+        moments[orders..].fill(0.0);
+    }
+    for first in (0..RUN).step_by(BLOCK).take(blocks) {
+        let (mut k, mut b) = ([0.0; BLOCK], [0.0; BLOCK]);
+        k.copy_from_slice(&kappa[first..first + BLOCK]);
+        b.copy_from_slice(&beta[first..first + BLOCK]);
+        let least = k.iter().fold(f64::INFINITY, |least, &kappa| least.min(kappa));
+        // To what takes few, the others add nothing.
+        let found = if orders <= FEW_MOMENTS || least >= few {
+            block::<FEW_MOMENTS>(&kept, f64::INFINITY, &k, &b)
+        } else {
+            block::<MOMENTS>(&kept, few, &k, &b)
+        };
+        for (sums, found) in sums.iter_mut().zip(&found) {
+            sums[first..first + BLOCK].copy_from_slice(found);
+        }
+    }
+}
+
+#[inline(always)]
+fn block<const N: usize>(
+    moments: &[[f64; MOMENTS]; 3],
+    few: f64,
+    kappa: &[f64; BLOCK],
+    beta: &[f64; BLOCK],
+) -> [[f64; BLOCK]; 3] {
+    let mut found = [[0.0; BLOCK]; 3];
+    for i in 0..BLOCK {
+        let mut basis = rough_basis_of::<N>(kappa[i], beta[i].min(LAST_BETA));
+        let rest = if kappa[i] >= few { 0.0 } else { 1.0 };
+        for value in basis.iter_mut().skip(FEW_MOMENTS) {
+            *value *= rest;
+        }
+        for c in 0..3 {
+            let mut sum = 0.0;
+            for k in 0..N {
+                sum += moments[c][k] * basis[k];
+            }
+            found[c][i] = sum;
+        }
+    }
+    found
+}
+
+/// Portable form for any processor.
+#[inline(always)]
+fn by_table_portable(table: &Table, chosen: &Chosen, sums: &mut [[f64; RUN]; 3]) {
+    match table.degree() {
+        3 => read::<4>(table, chosen, sums),
+        5 => read::<6>(table, chosen, sums),
+        7 => read::<8>(table, chosen, sums),
+        _ => read::<10>(table, chosen, sums),
+    }
+}
+
+#[inline(always)]
+fn read<const N: usize>(table: &Table, chosen: &Chosen, sums: &mut [[f64; RUN]; 3]) {
+    let mut around = Around::<N>::NOTHING;
+    for first in (0..RUN).step_by(BLOCK).take(chosen.blocks()) {
+        let (mut kappa, mut beta, mut peaks) = ([0.0; BLOCK], [0.0; BLOCK], [0.0; BLOCK]);
+        kappa.copy_from_slice(&chosen.kappa[first..first + BLOCK]);
+        beta.copy_from_slice(&chosen.beta[first..first + BLOCK]);
+        table.around(&kappa, &beta, &mut around);
+        for i in 0..BLOCK.min(chosen.count - first) {
+            // Written so that NaN is dark.
+            let lit = around.v[i] <= 1.0;
+            let [peak, channels @ ..] = if lit { table.read(&around, i) } else { [0.0; 4] };
+            peaks[i] = peak;
+            for (sums, channel) in sums.iter_mut().zip(channels) {
+                sums[first + i] = channel;
+            }
+        }
+        for peak in &mut peaks {
+            *peak = exp(*peak);
+        }
+        for sums in sums.iter_mut() {
+            for (sum, peak) in sums[first..first + BLOCK].iter_mut().zip(&peaks) {
+                *sum *= peak;
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::extent::Extent;
+    use super::super::surface::Surface;
+    use super::*;
+    use crate::reflectance::Precision;
+    use crate::render::measure::Node;
+
+    #[test]
+    fn every_instruction_set_gives_the_same_bits() {
+        let node = |scale: f64| Node {
+            wavelength_nm: 550.0 / scale.sqrt(),
+            scale,
+            weights: [0.3 * scale, 0.4, -0.1 / scale],
+            reference: 0.5,
+        };
+        let moments = [1.0, 0.4, -0.1].map(|m: f64| std::array::from_fn(|k| m * 1.1_f64.powf(k as f64)));
+        let kappa = [0.01, 64.0];
+        for degree in [3, 5, 7, 9] {
+            let (extent, nodes) = (Extent::new(kappa), vec![node(0.7), node(1.4)]);
+            let surface = Surface::filled(&extent, degree, [12, 10], &nodes, Precision::Fine);
+            let table = Table::new(&extent, surface, nodes);
+            let mut places = Places::EMPTY;
+            places.count = RUN;
+            let mut ways = [FastMethod::Table; RUN];
+            for (i, way) in ways.iter_mut().enumerate() {
+                places.kappa[i] = 0.01 * 1.14_f64.powf(i as f64);
+                places.beta[i] = 0.3 * ((i * 37) % RUN) as f64;
+                if i % 7 == 6 {
+                    *way = FastMethod::Moments;
+                }
+            }
+            let (mut chosen, mut portable) = ([[0.0; RUN]; 3], [[0.0; RUN]; 3]);
+            let (rough, tabulated) = ((&places.kappa, &places.beta, 2), Chosen::of(&ways, FastMethod::Table, &places));
+            by_table(&table, &tabulated, &mut chosen);
+            by_table_portable(&table, &tabulated, &mut portable);
+            by_moments((&moments, 1.0), MOMENTS, rough, &mut chosen);
+            by_moments_portable((&moments, 1.0), MOMENTS, rough, &mut portable);
+            assert_eq!(chosen.map(|c| c.map(f64::to_bits)), portable.map(|c| c.map(f64::to_bits)), "{degree}");
+            assert!(chosen[0].iter().all(|sum| sum.is_finite()) && chosen[0][0] > 0.0);
+        }
+    }
+}
