@@ -423,7 +423,8 @@ mod inner { use super::super::super::scene::Mesh; }
         format!("core/color/src/colorimetry/lab.rs:13: `colorimetry` {rule} `scene`, {only}"),
     ];
     assert_eq!(found(&core_layers("core/color/src/colorimetry/lab.rs", text)), expected);
-    let expected = ["core/color/src/colorimetry.rs:1: `colorimetry` may not use `camera`, only accuracy, units, spectral"];
+    let expected =
+        ["core/color/src/colorimetry.rs:1: `colorimetry` may not use `camera`, only accuracy, units, spectral"];
     assert_eq!(found(&core_layers("core/color/src/colorimetry.rs", "use super::camera::Response;")), expected);
     assert_eq!(found(&core_layers("core/color/src/lib.rs", "pub mod camera; pub use crate::camera::Way;")), [""; 0]);
     let unknown = core_layers("core/color/src/shiny.rs", "");
