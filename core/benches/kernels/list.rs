@@ -253,7 +253,7 @@ fn light_changed() -> Work {
     let shadings = CHANGED.map(|sigma_m| shading(Arc::clone(&geometry), sigma_m));
     Box::new(move || {
         let (_, measure) = measure();
-        let plan = |shading: &ShadingImage| Arc::new(Plan::for_picture(shading, &measure).unwrap());
+        let plan = |shading: &ShadingImage| Arc::new(shading.plan(&measure).unwrap());
         shadings.iter().map(|shading| signals(shading, &measure, &plan(shading))).sum()
     })
 }
@@ -261,7 +261,7 @@ fn light_changed() -> Work {
 /// From a roughness to signals, the plans made once, as a slider has them.
 fn roughness_changed() -> Work {
     let (geometry, (_, measure)) = (Arc::new(angles()()), measure());
-    let plan = |sigma_m| Arc::new(Plan::for_picture(&shading(Arc::clone(&geometry), sigma_m), &measure).unwrap());
+    let plan = |sigma_m| Arc::new(shading(Arc::clone(&geometry), sigma_m).plan(&measure).unwrap());
     let plans = CHANGED.map(plan);
     Box::new(move || {
         let frame = |(&sigma_m, plan)| signals(&shading(Arc::clone(&geometry), sigma_m), &measure, plan);
@@ -275,7 +275,7 @@ fn sphere(sigma_m: f64) -> Work {
     let angles = angles();
     Box::new(move || {
         let shading = shading(Arc::new(angles()), sigma_m);
-        let plan = Arc::new(Plan::for_picture(&shading, &measure).unwrap());
+        let plan = Arc::new(shading.plan(&measure).unwrap());
         let image = CameraImage::new(&shading, &measure, plan, &Stop::NEVER).unwrap();
         let development = Development::new(&rendering, 1.0, None);
         develop(&image, &development, &Stop::NEVER).unwrap().rgba.iter().map(|&v| f64::from(v)).sum()

@@ -1,7 +1,7 @@
 //! Named reflectances: charts, training data, materials.
 
-use crate::hash_by;
 use crate::spectral::{Dataset, GridSpectrum, Quantity, SpectralDistribution};
+use crate::units::hash_by;
 
 /// One reflectance with its name, measured and on the grid.
 #[derive(Clone, Debug, PartialEq)]

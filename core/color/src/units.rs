@@ -40,7 +40,7 @@ macro_rules! eq_by {
             }
         }
 
-        $crate::hash_by!($Type, |$of| $key);
+        $crate::units::hash_by!($Type, |$of| $key);
     };
 }
 pub use eq_by;

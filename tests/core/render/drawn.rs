@@ -7,7 +7,7 @@ use chromascope_core::accuracy::RelTolerance;
 use chromascope_core::camera::rendering::white_divisors;
 use chromascope_core::reflectance::{Normalization, Surface, wavelength_power};
 use chromascope_core::render::{
-    CameraImage, GeometryImage, Plan, Quality, RasterSize, ShadingImage, SpectralWeights, Stop, Visibility,
+    CameraImage, GeometryImage, Quality, RasterSize, ShadingImage, SpectralWeights, Stop, Visibility,
 };
 use chromascope_core::scene::lighting::SUN_RADIUS;
 use chromascope_core::scene::{Lighting, Viewpoint};
@@ -82,7 +82,7 @@ impl Drawn {
         let surface = Surface::new(sigma, tau, half, half, self.index).unwrap();
         let shading = |quality| ShadingImage::new(geometry.clone(), surface, reading, quality, &Stop::NEVER).unwrap();
         let image = |shading: &ShadingImage| {
-            let plan = Arc::new(Plan::for_picture(shading, measure).unwrap());
+            let plan = Arc::new(shading.plan(measure).unwrap());
             CameraImage::new(shading, measure, plan, &Stop::NEVER)
         };
         let exact = image(&shading(Quality::Reference)).unwrap();

@@ -7,7 +7,7 @@ mod ciede2000;
 
 use super::lab::{Lab, lab_from_xyz};
 use super::tristimulus::{UvPrime, Xy, Xyz};
-use crate::eq_by;
+use crate::units::eq_by;
 use rayon::prelude::*;
 
 /// A color-difference metric.

@@ -3,8 +3,8 @@
 use super::dataset::Dataset;
 use super::distribution::{DistributionError, SpectralDistribution};
 use super::grid::{COUNT, FIRST_NM, GridSpectrum, LAST_NM, Quantity, wavelength_nm};
-use crate::hash_by;
 use crate::math::dot::dot_each;
+use crate::units::hash_by;
 
 /// In what the three channels are counted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

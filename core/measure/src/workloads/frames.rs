@@ -118,7 +118,7 @@ impl FrameCase {
     /// The plans of a frame of this size, one for each sensor; `None` if the tolerance cannot be met, or if stopped.
     fn plans(&self, side: u32, quality: Quality, stop: &Stop) -> Option<Vec<Arc<Plan>>> {
         let shading = self.shading(side, quality, stop)?;
-        let plans = self.sources.iter().map(|measure| Plan::for_picture(&shading, measure).ok().map(Arc::new));
+        let plans = self.sources.iter().map(|measure| shading.plan(measure).ok().map(Arc::new));
         plans.collect()
     }
 
@@ -164,7 +164,7 @@ impl KnownPlans {
         let index = if let Some(index) = found {
             index
         } else {
-            let plan = |measure: &SpectralWeights| Plan::for_picture(shading, measure).ok().map(Arc::new);
+            let plan = |measure: &SpectralWeights| shading.plan(measure).ok().map(Arc::new);
             self.0.push((request, sources.iter().map(plan).collect::<Option<_>>()?));
             self.0.len() - 1
         };

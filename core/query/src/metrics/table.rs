@@ -4,7 +4,7 @@ use super::differences::Statistic;
 use super::evidence::Evidence;
 use super::value::{MetricUncertainty, MetricValue, WhyNot};
 use chromascope_color::colorimetry::Metric;
-use chromascope_color::eq_by;
+use chromascope_color::units::eq_by;
 
 /// Part of the table that a metric belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

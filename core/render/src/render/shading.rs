@@ -2,74 +2,36 @@
 
 mod brightness;
 mod lobes;
+mod sample;
 
 use super::diffuse::{NEARLY_ROUGH, ROUGH};
 use super::geometry::{Angles, GeometryImage};
-use super::measure::LAMBDA_0_NM;
+use super::measure::{LAMBDA_0_NM, SpectralWeights};
 use super::plan::{self, Demand, Plan};
 use super::sky::Sky;
 use super::stop::Stop;
 use super::vertices::VertexImage;
 use crate::reflectance::coherent::rho0_squared_bound;
 use crate::reflectance::{
-    Geometry, Normalization, Precision, Specular, Surface, beta, coherent_prefactor, diffuse_prefactor, kappa,
+    Normalization, Precision, Specular, Surface, beta, coherent_prefactor, diffuse_prefactor, kappa,
 };
 use crate::scene::roughness::VertexRoughness;
 use brightness::Brightness;
-use chromascope_color::accuracy::RelTolerance;
+use chromascope_color::accuracy::{RelTolerance, Unmet};
 use chromascope_color::spectral::grid::{FIRST_NM, LAST_NM};
 use lobes::{Lobe, Lobes};
 use rayon::prelude::*;
+use sample::Place;
 use std::sync::Arc;
 
 pub use super::quality::Quality;
+pub use sample::{CoherentSample, DiffuseKind, Shade};
 
 /// Reflectance of the darkest material that untinted lobes are weighed against: which one it is a surface does not know.
 const DARKEST: f64 = 1.0 / 64.0;
 
 /// κ beyond which there is no coherent component, as for most surfaces: at the reddest light e^-100 of it is left.
 const LAST_KAPPA: f64 = 100.0 * (LAST_NM / LAMBDA_0_NM) * (LAST_NM / LAMBDA_0_NM);
-
-/// Spectral dependence of a sample's diffuse component.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum DiffuseKind {
-    /// No light, or below e^-30 of its peak.
-    Dark,
-    /// All wavelengths are scattered alike.
-    Flat,
-    /// An integral over wavelengths, by the method that each camera's [`plan::Plan`] has for it.
-    Spectral,
-}
-
-/// One lit sample of a surface.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Shade {
-    /// Factor beside J: `cos θi cos⁴α` and the normalization's factor.
-    pub front: f64,
-    /// g at 550 nm.
-    pub kappa: f64,
-    /// b / g.
-    pub beta: f64,
-    /// Spectral dependence.
-    pub kind: DiffuseKind,
-}
-
-impl Shade {
-    const DARK: Self = Self { front: 0.0, kappa: 0.0, beta: 0.0, kind: DiffuseKind::Dark };
-}
-
-/// A sample with a coherent component worth having.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct CoherentSample {
-    /// The sample's place among the lit ones.
-    pub index: u32,
-    /// The factor beside `ρ0² e^-g`.
-    pub front: f64,
-    /// g at 550 nm.
-    pub kappa: f64,
-    /// `v_x / k` and `v_y / k`.
-    pub v: [f64; 2],
-}
 
 /// Number of samples of each kind.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -269,6 +231,17 @@ impl ShadingImage {
         let is_searched = Plan::is_searched(self.quality, tolerance, range.below);
         is_searched.then(|| (tolerance, Demand::of_picture(range.kappa, range.below[1])))
     }
+
+    /// The plan for a camera: found by search if [`Self::plan_request`] requires it.
+    ///
+    /// # Errors
+    /// See [`Plan::new`].
+    pub fn plan(&self, measure: &SpectralWeights) -> Result<Plan, Unmet> {
+        match self.plan_request() {
+            Some((tolerance, demand)) => Plan::new(measure, tolerance, demand),
+            None => Ok(Plan::fixed(measure, self.fixed_quality())),
+        }
+    }
 }
 
 impl KappaRange {
@@ -297,14 +270,6 @@ impl KappaRange {
         let (range, counts) = runs.reduce(|| (Self::NONE, [0; 3]), both);
         ((counts[DiffuseKind::Spectral as usize] > 0).then_some(range), counts)
     }
-}
-
-/// A lit sample, or a vertex in its place.
-struct Place {
-    geometry: Geometry,
-    /// Factor beside the reflectance.
-    light: f64,
-    surface: Surface,
 }
 
 /// One reading of the model.

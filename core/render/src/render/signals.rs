@@ -20,7 +20,7 @@ pub struct CameraImage {
 }
 
 impl CameraImage {
-    /// Integrates at every lit sample by the methods of a plan, [`Plan::for_picture`] or another; none if stopped.
+    /// Integrates at every lit sample by the methods of a plan, [`ShadingImage::plan`] or another; none if stopped.
     pub fn new(shading: &ShadingImage, measure: &SpectralWeights, plan: Arc<Plan>, stop: &Stop) -> Option<Self> {
         Self::of_part(shading, measure, plan, None, stop)
     }

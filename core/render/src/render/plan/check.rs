@@ -1,9 +1,8 @@
 //! Fixed set of (κ, β) with reference values of the integral, against which every method is checked.
 
-use super::Plan;
 use super::domain::{Demand, beta_at};
 use super::nodes::many_by_nodes;
-use super::run::RUN;
+use super::run::{Plan, RUN};
 use crate::reflectance::Precision;
 use crate::render::diffuse::by_nodes;
 use crate::render::measure::{Node, SpectralWeights};

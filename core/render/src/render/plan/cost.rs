@@ -2,7 +2,7 @@
 //!
 //! Measured on an AVX2 Xeon; ratios hold better than times.
 
-use super::candidate::IntegrationMethod;
+use super::method::IntegrationMethod;
 use crate::reflectance::Precision;
 
 /// One S(g, b) among many.

@@ -1,17 +1,20 @@
 //! Batch evaluation of samples: those without a sum over wavelengths are evaluated together, so that the loop
 //! vectorizes.
 
-use super::Plan;
+use super::candidate::Explanation;
+use super::domain::{Demand, is_lit};
+use super::method::IntegrationMethod;
+use super::nodes::{OwnRule, by_own};
+use super::spline::BLOCK;
 use super::table::{Around, Table};
-use crate::render::diffuse::{FEW_MOMENTS, by_nodes_into, rough_basis_of};
-use crate::render::measure::MOMENTS;
+use crate::reflectance::Precision;
+use crate::render::diffuse::{FEW_MOMENTS, by_nodes, by_nodes_into, by_regimes, rough_basis_of};
+use crate::render::measure::{MOMENTS, Node, SpectralWeights};
 use chromascope_math::exp::exp;
 use multiversion::multiversion;
 
 /// Samples that are sorted by method together.
 pub(in crate::render) const RUN: usize = 64;
-/// Samples that a quick method serves together.
-pub(super) const BLOCK: usize = 16;
 
 /// From this β on moments give nothing: e^-60 of the peak, beyond which the polynomials overflow.
 pub(super) const LAST_BETA: f64 = 60.0;
@@ -40,6 +43,36 @@ enum FastMethod {
     Table,
     Dark,
     Neither,
+}
+
+/// A method of integration with all that it needs.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Plan {
+    pub(super) demand: Demand,
+    /// Range of κ that is served.
+    pub(super) held: [f64; 2],
+    /// True if places below e^-30 of the peak are omitted.
+    pub(super) leaves_dark: bool,
+    /// κ from which on the first moments suffice, and their number; infinite if none are accurate enough.
+    pub(super) rough: (f64, usize),
+    /// κ from which on [`FEW_MOMENTS`] of these serve.
+    pub(super) few: f64,
+    pub(super) moments: [[f64; MOMENTS]; 3],
+    pub(super) below: Below,
+    /// All wavelengths, for κ that are not served.
+    pub(super) every: Vec<Node>,
+    pub(super) explanation: Explanation,
+}
+
+/// Method below the rough.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Below {
+    Nothing,
+    Table(Table),
+    Shared(Vec<Node>, Precision),
+    Own([OwnRule; 3], Precision),
+    Every(Precision),
+    Regimes,
 }
 
 pub(super) fn fill(plan: &Plan, points: &[[f64; 2]], sums: &mut [[f64; 3]]) {
@@ -90,6 +123,99 @@ impl Chosen {
 }
 
 impl Plan {
+    /// The demand it was made for.
+    pub fn demand(&self) -> Demand {
+        self.demand
+    }
+
+    /// Memory in bytes.
+    pub fn bytes(&self) -> usize {
+        size_of_val(self.every.as_slice()) + self.table().map_or(0, Table::bytes)
+    }
+
+    /// The methods and the reasons for them.
+    pub fn explanation(&self) -> &Explanation {
+        &self.explanation
+    }
+
+    /// The method that evaluates the integral at (κ, β).
+    pub fn method(&self, kappa: f64, beta: f64) -> IntegrationMethod {
+        let Explanation { rough, chosen, .. } = &self.explanation;
+        let is_dark = self.leaves_dark && !is_lit(kappa, beta);
+        match (rough, self.table()) {
+            _ if kappa.is_nan() || kappa <= 0.0 || is_dark => IntegrationMethod::Nothing,
+            _ if !self.holds(kappa) => IntegrationMethod::Every { precision: Precision::Full },
+            (Some(rough), _) if kappa >= self.rough.0 => rough.method,
+            (_, Some(table)) if !table.holds(kappa) => {
+                IntegrationMethod::Shared { nodes: table.nodes().len(), precision: Precision::Full }
+            }
+            _ => chosen.method,
+        }
+    }
+
+    /// The wavelengths that integrals below the rough rest on, in each sample or in the table; for rules of each channel's own, as
+    /// many for all.
+    pub fn nodes(&self, measure: &SpectralWeights) -> Vec<Node> {
+        match &self.below {
+            Below::Table(table) => table.nodes().to_vec(),
+            Below::Shared(nodes, _) => nodes.clone(),
+            Below::Own(rules, _) => measure.shared(rules.iter().map(Vec::len).sum()),
+            Below::Nothing | Below::Every(_) | Below::Regimes => measure.dense().to_vec(),
+        }
+    }
+
+    /// The three integrals. Outside the demanded κ by the sum over all wavelengths: exact and slow. 0 where κ is not above 0;
+    /// a β below 0 counts as 0.
+    pub fn at(&self, kappa: f64, beta: f64) -> [f64; 3] {
+        let mut sums = [[0.0; 3]];
+        self.fill(&[[kappa, beta]], &mut sums);
+        sums[0]
+    }
+
+    /// The three integrals at each `[κ, β]`, as many as both have. Much faster than one by one.
+    pub fn fill(&self, points: &[[f64; 2]], sums: &mut [[f64; 3]]) {
+        fill(self, points, sums);
+    }
+
+    /// Number of samples that take about a millisecond: between two looks at a stop signal.
+    pub(in crate::render) fn chunk(&self) -> usize {
+        let samples = 1e6 / self.explanation.chosen.sample_ns.max(1.0);
+        (samples as usize).next_multiple_of(RUN).clamp(RUN, 4096)
+    }
+
+    fn holds(&self, kappa: f64) -> bool {
+        let [from, to] = self.held;
+        from <= kappa && kappa <= to
+    }
+
+    /// The integral at a place that neither moments nor table serve.
+    fn by_remaining_method(&self, kappa: f64, beta: f64) -> [f64; 3] {
+        match &self.below {
+            _ if !self.holds(kappa) => by_nodes(&self.every, kappa, beta, Precision::Full),
+            Below::Own(rules, precision) => by_own(rules, kappa, beta, *precision),
+            Below::Regimes => by_regimes(&self.every, kappa, beta),
+            _ => {
+                let (nodes, precision) = self.common().unwrap_or((&self.every, Precision::Full));
+                by_nodes(nodes, kappa, beta, precision)
+            }
+        }
+    }
+
+    /// The wavelengths of such an integral, where all channels have them in common.
+    fn common(&self) -> Option<(&[Node], Precision)> {
+        match &self.below {
+            Below::Nothing => Some((&self.every, Precision::Full)),
+            Below::Table(table) => Some((table.nodes(), Precision::Full)),
+            Below::Shared(nodes, precision) => Some((nodes, *precision)),
+            Below::Own(..) | Below::Regimes => None,
+            Below::Every(precision) => Some((&self.every, *precision)),
+        }
+    }
+
+    fn table(&self) -> Option<&Table> {
+        if let Below::Table(table) = &self.below { Some(table) } else { None }
+    }
+
     /// The three channels of the wanted samples of a run; those of others are left with any value.
     pub(in crate::render) fn run(&self, places: &Places, sums: &mut [[f64; RUN]; 3]) {
         let ([from, to], (rough, orders), moments) = (self.held, self.rough, (&self.moments, self.few));
@@ -255,6 +381,21 @@ fn read<const N: usize>(table: &Table, chosen: &Chosen, sums: &mut [[f64; RUN]; 
             for (sum, peak) in sums[first..first + BLOCK].iter_mut().zip(&peaks) {
                 *sum *= peak;
             }
+        }
+    }
+}
+
+impl Below {
+    pub(super) fn method(&self) -> IntegrationMethod {
+        match self {
+            Self::Nothing => IntegrationMethod::Nothing,
+            Self::Table(table) => table.method(),
+            Self::Shared(nodes, precision) => IntegrationMethod::Shared { nodes: nodes.len(), precision: *precision },
+            Self::Own(rules, precision) => {
+                IntegrationMethod::Own { nodes: rules.iter().map(Vec::len).sum(), precision: *precision }
+            }
+            Self::Every(precision) => IntegrationMethod::Every { precision: *precision },
+            Self::Regimes => IntegrationMethod::Regimes,
         }
     }
 }

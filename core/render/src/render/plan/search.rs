@@ -4,13 +4,15 @@
 //! the tolerance, or certainly does not meet it. So the fastest method for a smaller tolerance rarely has a larger error than
 //! the fastest for a larger one; where a candidate is missed it can (`tests/core/accuracy.rs` names a scene).
 
-use super::candidate::{Candidate, Explanation, IntegrationMethod, Verdict};
+use super::candidate::{Candidate, Explanation, Verdict};
 pub(super) use super::check::REFERENCE;
 use super::check::{Check, Point};
+use super::domain::Demand;
+use super::method::IntegrationMethod;
 use super::nodes::{by_own, carried, own_rules};
+use super::run::{self, Below, Plan};
 use super::table::Size;
 use super::tables::Makings;
-use super::{Below, Demand, Plan, run};
 use crate::reflectance::{Precision, diffuse_sum};
 use crate::render::diffuse::{FEW_MOMENTS, by_moments, by_nodes, rough_basis};
 use crate::render::measure::{MOMENTS, Node, SpectralWeights};
@@ -261,7 +263,7 @@ impl Search<'_> {
         let samples = self.demand.samples();
         // The cheapest first, so that none is filled that is dearer than the one taken.
         while !next.is_empty() {
-            let candidates: Vec<Candidate> = next.iter().map(|size| Candidate::table(size, &mut makings)).collect();
+            let candidates: Vec<Candidate> = next.iter().map(|size| makings.candidate(size)).collect();
             let total = |&i: &usize| candidates[i].total_ns(samples);
             let Some(cheapest) = (0..next.len()).min_by(|a, b| total(a).total_cmp(&total(b))) else { return };
             if !self.may_win(&candidates[cheapest]) {

@@ -6,7 +6,8 @@
 //! Next to the interpolation of degree p = 3, 5, 7, 9 by the polynomial through the p + 1 places around, the error is 9, 75, 650,
 //! 5700 times smaller, at the same cost of reading (Schoenberg 1946).
 
-use super::run::BLOCK;
+/// Samples that a quick method serves together.
+pub(super) const BLOCK: usize = 16;
 
 /// The coefficients of `w_k` in powers of 2t − 1, for t from 0 to 1.
 const fn curves<const N: usize>() -> [[f64; N]; N] {

@@ -1,9 +1,8 @@
 //! ln J over (ln κ, v) by splines of odd degree, as fine as is wanted.
 
-use super::candidate::IntegrationMethod;
 use super::extent::Extent;
-use super::run::BLOCK;
-use super::spline::weights;
+use super::method::IntegrationMethod;
+use super::spline::{BLOCK, weights};
 use super::surface::{Cell, Surface};
 use crate::render::measure::Node;
 use chromascope_math::array::array;

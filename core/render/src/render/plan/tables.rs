@@ -1,5 +1,6 @@
 //! Sources of tables: splines of the highest degree through few sums over wavelengths, as exact as the tables need.
 
+use super::candidate::Candidate;
 use super::check::Check;
 use super::cost;
 use super::extent::Extent;
@@ -68,11 +69,17 @@ impl<'a> Makings<'a> {
     }
 
     /// Number of wavelengths a table is made of, and what making it costs in nanoseconds.
-    pub(super) fn cost(&mut self, size: &Size) -> (usize, f64) {
+    fn cost(&mut self, size: &Size) -> (usize, f64) {
         let (level, source) = (level(size), self.source(size));
         let nodes = self.nodes(level);
         let sums = (nodes * source.count()) as f64 * cost::sum_ns(precision(level));
         (nodes, sums + size.count() as f64 * cost::PLACE_NS)
+    }
+
+    /// A table that is not made yet, as a candidate.
+    pub(super) fn candidate(&mut self, size: &Size) -> Candidate {
+        let (nodes, making_ns) = self.cost(size);
+        Candidate { making_ns, ..Candidate::unseen(size.method(nodes)) }
     }
 
     /// Source of the table: one of degree 9 itself, others another that is more exact.

@@ -1,6 +1,6 @@
 //! Brightness of a picture, for errors that are relative to something in it.
 
-use super::{DiffuseKind, Shade};
+use super::sample::{DiffuseKind, Shade};
 use crate::reflectance::{Precision, diffuse_sum};
 use rayon::prelude::*;
 

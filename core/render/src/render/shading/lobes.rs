@@ -1,7 +1,7 @@
 //! Coherent terms that count next to the brightest sample of the picture.
 
 use super::brightness::{self, Brightness};
-use super::{CoherentSample, Place};
+use super::sample::{CoherentSample, Place};
 use crate::reflectance::coherent::rho0_squared;
 use crate::reflectance::power::LAMBDA_0_NM;
 use rayon::prelude::*;
