@@ -9,7 +9,7 @@ use chromascope_measure::pareto::duration;
 use chromascope_measure::{Effort, Measurement, Progress, Report, Workload};
 use clap::{ArgMatches, Args};
 
-use super::error::{CliError, Result};
+use super::error::{CliError, Result, refused};
 use super::outputs::{show, write_to};
 use crate::export::{Paper, png, png_file, svg};
 use crate::palette::Colors;
@@ -104,7 +104,7 @@ fn names(plan: &[Workload]) -> Vec<String> {
 fn make_folder(folder: &Path) -> Result<()> {
     if folder.exists() && !folder.is_dir() {
         let reason = format!("{} is a file; name a folder (files are named automatically)", folder.display());
-        return Err(CliError::Argument { argument: "--out", reason });
+        return refused("--out", reason);
     }
     let failed = |error| CliError::Output { path: folder.to_owned(), error };
     fs::create_dir_all(folder).map_err(failed)?;

@@ -16,7 +16,7 @@ use super::setup::compared_request;
 use crate::catalog::spectral_images::{self, OpenImageError, ReadSignalsError};
 use crate::cli::error::{CliError, Result};
 use crate::cli::outputs::{self, show, write_to};
-use crate::cli::request::display_path;
+use crate::cli::request::{display_path, in_file};
 use crate::document::TransformChoice;
 use crate::document::render::RenderSettings;
 use crate::export::render::{exr_bytes, image_header, png_bytes};
@@ -86,7 +86,7 @@ fn failure(path: &Path, error: &ImagePicturesError) -> CliError {
         ImagePicturesError::Quantity => {
             CliError::File(format!("{}: {error}; add --image-quantity reflectance or radiance", display_path(path)))
         }
-        other => CliError::File(format!("{}: {other}", display_path(path))),
+        other => in_file(path, other),
     }
 }
 
