@@ -86,7 +86,7 @@ fn draw<'a>(scene: &'a Scene<'a>, look: &'a FigureLook, frame: Frame, sketch: bo
     if !sketch {
         whites::add(&mut drawing);
     }
-    let sources: Vec<ComparedSensor> = scene.sources().into_iter().filter(|source| source.visible).collect();
+    let sources = scene.visible_sources();
     if scene.document.overlays.camera_spectral_loci {
         loci::add_monochromatic(&mut drawing, &sources);
     }
@@ -219,7 +219,7 @@ pub fn figure_sized(scene: &Scene<'_>, look: &FigureLook, room: FigureRoom, size
         figure.size[1] += STRIP;
         figure.panels.push(strip.panel);
     }
-    figure.legend = scene.sources().iter().filter(|source| source.visible).map(legend_entry).collect();
+    figure.legend = scene.visible_sources().iter().map(legend_entry).collect();
     figure.legend_place = LegendPlace::Outside;
     figure.caption = caption(scene);
     figure.table = table(scene);
@@ -328,8 +328,8 @@ fn table(scene: &Scene<'_>) -> Table {
     let mut points = Vec::new();
     let reference_locus = scene.locus(SetKind::Observer, &scene.document.reference).ok();
     let reference_patches = scene.patch_colors(SetKind::Observer, &scene.document.reference).unwrap_or_default();
-    for source in scene.sources().iter().filter(|source| source.visible) {
-        let comparable = matches!(scene.comparable(source.kind, &source.name), Ok(Ok(())));
+    for source in &scene.visible_sources() {
+        let comparable = scene.is_comparable(source.kind, &source.name);
         let below = scene.extrapolated_below(source.kind, &source.name).map_or(0.0, |(below, _)| below);
         let sensor = || source.label.clone();
         if let Ok(locus) = scene.locus(source.kind, &source.name) {

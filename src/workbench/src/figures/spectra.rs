@@ -19,7 +19,7 @@ use super::kind::FigureKind;
 use super::look::{FigureLook, SpectraLayout};
 use crate::document::{FIT_TARGET, SetKind};
 use crate::plot_item::{PickIndex, PlotItem};
-use crate::scene::{ComparedSensor, Scene};
+use crate::scene::Scene;
 
 /// The panels with the items of their curves.
 #[derive(Clone, Debug)]
@@ -36,7 +36,7 @@ const FOOT: f64 = 4.0 + Projection::BOTTOM + Projection::TITLE;
 
 pub fn build(scene: &Scene<'_>, look: &FigureLook, size: [f64; 2]) -> Built {
     let mut built = Built { panels: Vec::new(), things: PickIndex::default(), refused: Vec::new() };
-    let sources: Vec<ComparedSensor> = scene.sources().into_iter().filter(|source| source.visible).collect();
+    let sources = scene.visible_sources();
     let mut contents: Vec<Content> = content::light(scene, &mut built).into_iter().collect();
     contents.extend(content::patches(scene, &mut built));
     if look.spectra_layout == SpectraLayout::Each {
@@ -129,9 +129,7 @@ pub fn figure(scene: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Figure 
     let built = build(scene, look, size);
     let mut figure = Figure::new("Spectra", size);
     figure.panels = built.panels;
-    let sources = scene.sources();
-    let shown = sources.iter().filter(|source| source.visible);
-    figure.legend = shown.map(|source| key(source, source.label.clone())).collect();
+    figure.legend = scene.visible_sources().iter().map(|source| key(source, source.label.clone())).collect();
     figure.legend_place = LegendPlace::Outside;
     figure.caption = format!("Dotted: beyond the data, the end value is held. {}", caption(scene));
     figure.table = table(scene);
@@ -152,7 +150,7 @@ fn table(scene: &Scene<'_>) -> Table {
             columns.push(patch.grid.values().to_vec());
         }
     }
-    for source in scene.sources().iter().filter(|source| source.visible) {
+    for source in &scene.visible_sources() {
         let Ok(sensor) = scene.sensor(source.kind, &source.name) else { continue };
         for (channel, letter) in sensor.primaries().channels().iter().enumerate() {
             names.push(format!("{} {letter}", source.label).into());

@@ -75,7 +75,7 @@ fn rows(scene: &Scene<'_>) -> Vec<Row> {
             !matches!(scene.comparable(source.kind, &source.name), Ok(Err(_)))
         }
     };
-    let visible = scene.sources().into_iter().filter(|source| source.visible && compares(source));
+    let visible = scene.visible_sources().into_iter().filter(|source| compares(source));
     visible
         .map(|source| {
             let colors =

@@ -7,11 +7,12 @@ use std::time::Instant;
 use chromascope_core::camera::RenderingError;
 use chromascope_core::colorimetry::Metric;
 use chromascope_core::query::render::difference::Difference;
-use chromascope_core::query::{Ask as _, DifferenceError, RenderingQuery};
+use chromascope_core::query::{Ask as _, RenderingQuery};
 use clap::ArgMatches;
 
 use super::arguments::{Format, RenderArguments};
 use super::files::{file_names, make_folder, patiently};
+use super::no_difference;
 use super::setup::compared_request;
 use crate::catalog::spectral_images::{self, OpenImageError, ReadSignalsError};
 use crate::cli::error::{CliError, Result};
@@ -128,10 +129,6 @@ fn difference(scene: &Scene<'_>, source: &ComparedSensor, difference: Option<&Di
                 number(difference.max)
             )
         }
-        None => match scene.comparable(source.kind, &source.name) {
-            Ok(Err(DifferenceError::Ways)) => "no difference by Eq 13; add --transform fitted to compare".to_owned(),
-            Ok(Err(other)) => format!("no difference: {other}"),
-            _ => "no difference".to_owned(),
-        },
+        None => no_difference(scene.comparable(source.kind, &source.name).ok().and_then(Result::err)),
     }
 }

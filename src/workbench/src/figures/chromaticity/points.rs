@@ -49,7 +49,7 @@ pub(super) fn add(drawing: &mut Drawing<'_>, sources: &[ComparedSensor]) {
             continue;
         }
         let Ok(colors) = drawing.scene.patch_colors(source.kind, &source.name) else { continue };
-        let comparable = matches!(drawing.scene.comparable(source.kind, &source.name), Ok(Ok(())));
+        let comparable = drawing.scene.is_comparable(source.kind, &source.name);
         if !drawing.sketch && !source.is_reference && comparable {
             add_tails(drawing, source, &names, &colors, &reference);
         }

@@ -32,9 +32,9 @@ pub enum Detail {
 /// Metric of pictures' differences, and whether they are of Eq 13 colors.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Measure {
-    metric: Metric,
-    by_eq_13: bool,
-    of_image: bool,
+    pub metric: Metric,
+    pub by_eq_13: bool,
+    pub of_image: bool,
 }
 
 impl Measure {
