@@ -3,7 +3,6 @@
 mod drawing;
 mod fit;
 mod ground;
-mod labels;
 mod loci;
 mod pixel;
 mod points;
@@ -110,7 +109,7 @@ fn finish(drawing: Drawing<'_>, name: &str, area: Rect, frame: Frame) -> Built {
     let mut panel = Panel::new(name, area, Axis::new(x, x_range), Axis::new(y, y_range));
     panel.equal_aspect = true;
     panel.marks = marks;
-    let texts = labels::placed(labels, &panel);
+    let texts = drawing::placed(labels, &panel);
     panel.marks.extend(texts);
     [panel.x.range, panel.y.range] = frame.ranges;
     Built { panel, things, refused, loci, lens: None }

@@ -7,7 +7,6 @@ use std::time::{Duration, Instant};
 use chromascope_core::colorimetry::Metric;
 use chromascope_core::query::Shared;
 use chromascope_core::reflectance::SurfaceError;
-use chromascope_core::render::RasterSize;
 use chromascope_core::scene::Viewpoint;
 use chromascope_core::scene::viewpoint::ViewpointError;
 use chromascope_mesh::Mesh;
@@ -22,7 +21,7 @@ use crate::document::{Compared, Light, SetKind, WhiteBalanceChoice};
 use crate::scene::orbit::Orbit;
 use crate::scene::render::Finish;
 use crate::terminal::say;
-use chromascope_core::render::QualityLevel;
+use chromascope_core::render::{QualityLevel, RasterSize};
 
 pub(super) struct Setup {
     pub(super) request: Request,

@@ -6,8 +6,7 @@ use chromascope_core::query::{LocusPoint, PatchColor, Temperatures, compare};
 use chromascope_core::units::Kelvin;
 use chromascope_figure::{Ink, InkRole, Label, Mark, Marker, Place, Shape};
 
-use super::drawing::{Drawing, Frame, id};
-use super::labels::{Rank, label as ranked};
+use super::drawing::{Drawing, Frame, Rank, id, label as ranked};
 use crate::document::{Diagram, SetKind};
 use crate::format::number;
 use crate::palette::LINE_TAIL;
