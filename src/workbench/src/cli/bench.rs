@@ -89,7 +89,7 @@ pub(super) fn run(arguments: &BenchArguments, _: &ArgMatches) -> Result<()> {
     let report = measure(&plan, effort, &Stop::NEVER, &mut |progress| tell(progress, &mut case))?;
     let files = files(&report, folder)?;
     for (path, bytes) in &files {
-        write_to(path, bytes).map_err(|error| CliError::Output { path: path.clone(), error })?;
+        write_to(path, bytes)?;
     }
     let count = report.measurements.len();
     show(&format!("{count} measurements in {} files in {}\n", files.len(), folder.display()))

@@ -108,7 +108,7 @@ impl<'a> Made<'a> {
         let contents = contents.collect::<Result<Vec<_>, _>>()?;
         contents.par_iter().zip(&self.files).try_for_each(|(content, path)| {
             let bytes = content.bytes().map_err(|error| CliError::Picture { path: path.clone(), error })?;
-            write_to(path, &bytes).map_err(|error| CliError::Output { path: path.clone(), error })
+            write_to(path, &bytes)
         })
     }
 

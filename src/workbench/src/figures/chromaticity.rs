@@ -183,15 +183,12 @@ const SIZE: [f64; 2] = [640.0, 480.0];
 /// Height in points of the strip below it.
 pub const STRIP: f64 = 136.0;
 
-pub static KIND: FigureKind =
-    FigureKind::new("chromaticity", "The chromaticity diagram with loci and patches", |scene, look, room| {
-        Some(figure(scene, look, room))
-    });
+pub static KIND: FigureKind = FigureKind::new("chromaticity", "The chromaticity diagram with loci and patches", figure);
 
 /// The figure as it is saved: diagram, strip, legend, caption, and the numbers of all points.
-pub fn figure(scene: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Figure {
+fn figure(scene: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Option<Figure> {
     let strip = room.strip && super::strip::build(scene, [SIZE[0], STRIP]).is_some();
-    figure_sized(scene, look, room, room.size(SIZE, if strip { STRIP } else { 0.0 }))
+    Some(figure_sized(scene, look, room, room.size(SIZE, if strip { STRIP } else { 0.0 })))
 }
 
 /// The figure with a diagram of a size in points.

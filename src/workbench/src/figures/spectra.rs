@@ -118,13 +118,10 @@ fn foot(scene: &Scene<'_>, area: Rect, large: bool) -> Panel {
 
 const SIZE: [f64; 2] = [640.0, 560.0];
 
-pub static KIND: FigureKind =
-    FigureKind::new("spectra", "Light, patches and sensitivities over wavelength", |scene, look, room| {
-        Some(figure(scene, look, room))
-    });
+pub static KIND: FigureKind = FigureKind::new("spectra", "Light, patches and sensitivities over wavelength", figure);
 
 /// The figure as it is saved, with all values on the 1 nm grid.
-pub fn figure(scene: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Figure {
+fn figure(scene: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Option<Figure> {
     let size = room.size(SIZE, 0.0);
     let built = build(scene, look, size);
     let mut figure = Figure::new("Spectra", size);
@@ -133,7 +130,7 @@ pub fn figure(scene: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Figure 
     figure.legend_place = LegendPlace::Outside;
     figure.caption = format!("Dotted: beyond the data, the end value is held. {}", caption(scene));
     figure.table = table(scene);
-    figure
+    Some(figure)
 }
 
 /// Everything on the grid, as it is integrated.

@@ -96,7 +96,7 @@ pub static KIND: FigureKind =
 /// The strip as a figure of its own, with its numbers; none where no sensor can be compared with the reference.
 fn figure(scene: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Option<Figure> {
     let size = room.size(SIZE, 0.0);
-    let whole = chromaticity::figure(scene, look, room);
+    let whole = chromaticity::KIND.figure(scene, look, room)?;
     let mut figure = Figure::new("Distance to the reference over temperature", size);
     figure.panels.push(build(scene, size)?.panel);
     let is_locus = |row: &Vec<Cell>| row.get(1) == Some(&Cell::from("locus"));

@@ -60,7 +60,7 @@ pub(super) fn run(arguments: &RenderArguments, path: &Path, matches: &ArgMatches
     let mut lines = String::new();
     for (index, file) in files.iter().enumerate() {
         let bytes = bytes(&scene, (&sources[index], &query.sources[index].0), made, index, arguments, &name)?;
-        write_to(file, &bytes).map_err(|error| CliError::Output { path: file.clone(), error })?;
+        write_to(file, &bytes)?;
         let words = difference(&scene, &sources[index], made.differences[index].as_deref());
         let _ = writeln!(lines, "{}: {words}", file.display());
     }
