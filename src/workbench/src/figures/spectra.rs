@@ -19,7 +19,7 @@ use super::kind::FigureKind;
 use super::look::{FigureLook, SpectraLayout};
 use crate::document::{FIT_TARGET, SetKind};
 use crate::plot_item::{PickIndex, PlotItem};
-use crate::scene::Scene;
+use crate::scene::{Scene, SceneError};
 
 /// The panels with the items of their curves.
 #[derive(Clone, Debug)]
@@ -29,6 +29,13 @@ pub struct Built {
     pub things: PickIndex,
     /// Items that could not be drawn, with the reasons.
     pub refused: Vec<String>,
+}
+
+impl Built {
+    /// What is drawn; where there is nothing, the reason is noted.
+    fn known<T>(&mut self, answer: Result<T, SceneError>) -> Option<T> {
+        answer.map_err(|error| self.refused.push(error.to_string())).ok()
+    }
 }
 
 /// The height of the band of colors with its labels.
