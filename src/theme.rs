@@ -74,7 +74,7 @@ impl Theme {
             warning: rgb(colors.warning),
             error: rgb(error),
             surround: rgb(colors.surround.color()),
-            on_surround: rgb(colors.surround.label()),
+            on_surround: rgb(colors.surround.ink()),
         }
     }
 
@@ -85,7 +85,7 @@ impl Theme {
     #[must_use]
     pub const fn with_surround(self, surround: Surround) -> Self {
         let colors = Colors { surround, ..self.colors };
-        Self { colors, surround: rgb(surround.color()), on_surround: rgb(surround.label()), ..self }
+        Self { colors, surround: rgb(surround.color()), on_surround: rgb(surround.ink()), ..self }
     }
 
     pub fn role(&self, role: InkRole) -> Color32 {

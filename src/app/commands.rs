@@ -448,10 +448,10 @@ impl ChromascopeApp {
         let forms = std::iter::once(form).chain(others).map(|form| {
             let shared = Arc::clone(&shared);
             let make = move || form.bytes(&shared.0, &shared.1, &paper).map_err(|error| error.to_string());
-            FileForm::new(form.ending(), make)
+            FileForm::new(form.key(), make)
         });
-        let name = format!("{}.{}", self.file_stem(pane), form.ending());
-        let what = format!("{} as {}", panes::title(pane), form.name());
+        let name = format!("{}.{}", self.file_stem(pane), form.key());
+        let what = format!("{} as {}", panes::title(pane), form.label());
         self.files.ask_to_save(SaveRequest::new(what, name, forms.collect()));
     }
 

@@ -69,7 +69,7 @@ impl ChromascopeApp {
         self.files.make_to_save(move || {
             let file = query.and_then(|query| (*Results::default().ask(&query)).clone()).map_err(|e| e.to_string())?;
             let bytes = file.written(form).map_err(|error| error.to_string())?;
-            let (what, name) = (format!("{}, color correction", file.camera), profile::file_name(&file, form));
+            let (what, name) = (format!("{}, color correction", file.of.camera), profile::file_name(&file, form));
             let forms = vec![FileForm::of_bytes(form.ending(), bytes)];
             Ok(SaveRequest::new(what, name, forms))
         });

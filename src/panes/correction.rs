@@ -23,7 +23,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
         let Some(camera) = controls::camera(ui, context) else { return };
         controls::files(ui, context);
         let answer = refreshed(&camera, context);
-        let ratio = answer.as_ref().ok().and_then(|file| file.as_ref()).filter(|file| file.camera == camera);
+        let ratio = answer.as_ref().ok().and_then(|file| file.as_ref()).filter(|file| file.of.camera == camera);
         controls::stated(ui, &camera, ratio.map(|file| file.ratio), context);
         controls::method(ui, context);
         controls::training(ui, context);
@@ -94,7 +94,7 @@ fn under_light(ui: &mut Ui, file: &CorrectionFile, name: &str, under: &Correctio
     mono(ui, &file.errors_text(under));
     section(ui, "White, and narrow blue LEDs (20 nm)", None, "");
     for check in std::iter::once(&under.report.white).chain(&under.report.blue) {
-        let [numbers, remark] = check_lines(check, file.metric);
+        let [numbers, remark] = check_lines(check, file.of.metric);
         mono(ui, &numbers);
         let color = if check.is_negative() { theme.warning } else { theme.weak };
         ui.add(Label::new(RichText::new(remark).small().color(color)).wrap());

@@ -149,7 +149,7 @@ fn file(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let words = format!("Figure page of {}", context.title(pane));
     item(ui, &words, Command::FigurePage(pane), context);
     for form in [FigureForm::Pdf, FigureForm::Svg, FigureForm::Png] {
-        let words = format!("Export {} as {}…", context.title(pane), form.name());
+        let words = format!("Export {} as {}…", context.title(pane), form.label());
         item(ui, &words, Command::Export(pane, form), context);
     }
     item(ui, &format!("Export numbers of {}…", context.title(pane)), Command::Export(pane, FigureForm::Csv), context);
@@ -320,7 +320,7 @@ fn view(ui: &mut Ui, context: &mut PaneContext<'_>) {
     ui.menu_button((gutter(false), "Surround of swatches"), |ui| {
         for surround in Surround::ALL {
             let on = context.view.saved.surround == surround;
-            ticked(ui, on, surround.name(), "", Command::SetSurround(surround), context);
+            ticked(ui, on, surround.label(), "", Command::SetSurround(surround), context);
         }
     });
 }

@@ -245,7 +245,7 @@ fn export_menu(ui: &mut Ui, &Pane { kind, title, .. }: &Pane, context: &mut Pane
         ui.separator();
         for form in FigureForm::ALL {
             let what = if form.is_numbers() { "Numbers" } else { "Figure" };
-            item(ui, &format!("{what} as {}…", form.name()), Command::Export(kind, form));
+            item(ui, &format!("{what} as {}…", form.label()), Command::Export(kind, form));
         }
         item(ui, "Card as PNG…", Command::SaveCard(kind));
         ui.separator();

@@ -76,7 +76,7 @@ fn tooltip_caption_and_table_say_what_is_extrapolated() {
         assert!(told(D70, 1000.0).contains(words) && told(D70, 2499.0).contains(words));
         assert!(!told(D70, 2500.0).contains("extrapolated"));
         assert!(!told("Nikon D70 (A.M.P.A.S.)", 1000.0).contains("extrapolated"));
-        let figure = chromaticity::figure(scene, &FigureLook::default(), FigureRoom::default());
+        let figure = chromaticity::KIND.figure(scene, &FigureLook::default(), FigureRoom::default()).unwrap();
         let cut =
             "Dotted below 2500 K, where the sensitivity table ends too early: Canon 10D (2007), Nikon D70 (2007).";
         assert!(figure.caption.contains(cut), "{}", figure.caption);

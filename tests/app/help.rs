@@ -88,7 +88,7 @@ fn constructs_that_the_viewer_does_not_draw_are_errors() {
 
 #[test]
 fn formulas_have_words_for_search_and_screen_readers() {
-    let words = |tex| Formula::parse(tex, false).unwrap().words().to_owned();
+    let words = |tex| Formula::parse(tex, false).unwrap().words;
     assert_eq!(words(r"\frac{a}{b+1}"), "a/(b + 1)");
     assert_eq!(words(r"x_i^2 = \sqrt{y}"), "x_i^2 = √y");
     assert_eq!(words(r"\int_0^\infty f\,d\lambda"), "∫_0^∞f dλ");

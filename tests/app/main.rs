@@ -17,6 +17,7 @@ mod doubt;
 mod exports;
 mod figure;
 mod figure_page;
+mod figure_words;
 mod finding;
 mod focus;
 #[cfg(target_os = "linux")]
@@ -50,6 +51,7 @@ mod reducer;
 mod render;
 mod render_scene;
 mod report;
+mod results;
 mod same_file;
 mod save_prompt;
 mod save_set;

@@ -112,7 +112,7 @@ fn another_kind_of_file_takes_its_own_ending() {
     let mut window = window();
     let ask = |window: &mut Window, form: FigureForm| {
         window.state_mut().push(Command::Export(PaneKind::SPECTRA, form));
-        until_asked(window, &format!("Save Spectra as {}", form.name()));
+        until_asked(window, &format!("Save Spectra as {}", form.label()));
     };
     ask(&mut window, FigureForm::Svg);
     type_path(&mut window, path.to_str().unwrap());

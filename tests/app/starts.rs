@@ -166,7 +166,8 @@ fn under_eq_13_no_figure_says_delta_e_00() {
     document.difference = Metric::DELTA_E_2000;
     let (catalog, results) = (Catalog::built_in(), Results::default());
     let scene = Scene { document: &document, catalog: &catalog, results: &results };
-    let figure = chromascope::figures::swatches::figure(&scene, &FigureLook::default(), FigureRoom::default());
+    let figure =
+        chromascope::figures::swatches::KIND.figure(&scene, &FigureLook::default(), FigureRoom::default()).unwrap();
     assert!(figure.caption.contains("Δ of Eq 13 colors") && !figure.caption.contains("ΔE"), "{}", figure.caption);
     let mut window = open_with(document, SIZE, egui::Theme::Light);
     window.run();

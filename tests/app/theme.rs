@@ -106,7 +106,7 @@ fn text_is_legible_everywhere() {
         }
     }
     for surround in [Surround::Middle, Surround::Dark, Surround::Light] {
-        assert!(contrast(theme::rgb(surround.color()), theme::rgb(surround.label())) >= 4.5);
+        assert!(contrast(theme::rgb(surround.color()), theme::rgb(surround.ink())) >= 4.5);
     }
 }
 

@@ -125,12 +125,12 @@ fn buttons(ui: &mut Ui, kind: PaneKind, context: &mut PaneContext<'_>) {
             context.item(ui, words, hint, Command::Export(kind, form));
         };
         let [pdf, svg, png, rest @ ..] = FigureForm::ALL;
-        save(ui, &format!("Save {}…", pdf.name()), pdf);
-        save(ui, &format!("{}…", svg.name()), svg);
-        save(ui, &format!("{}…", png.name()), png);
+        save(ui, &format!("Save {}…", pdf.label()), pdf);
+        save(ui, &format!("{}…", svg.label()), svg);
+        save(ui, &format!("{}…", png.label()), png);
         ui.menu_button("More", |ui| {
             for form in rest {
-                save(ui, &format!("{}…", form.name()), form);
+                save(ui, &format!("{}…", form.label()), form);
             }
         });
     });

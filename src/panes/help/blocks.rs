@@ -122,12 +122,12 @@ fn code(ui: &mut Ui, text: &str, ink: &Ink<'_>) -> Option<String> {
 }
 
 fn display(ui: &mut Ui, formula: &Formula, color: Color32) -> Option<String> {
-    let set = typeset::typeset(ui.painter(), formula.root(), FORMULA, true);
+    let set = typeset::typeset(ui.painter(), &formula.root, FORMULA, true);
     let id = ui.next_auto_id();
     ScrollArea::horizontal().id_salt(id).auto_shrink([false, true]).show(ui, |ui| {
         let size = Vec2::new(INDENT + set.width, set.ascent + set.descent + 2.0 * UNIT);
         let (rect, response) = ui.allocate_exact_size(size, Sense::empty());
-        response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, formula.words()));
+        response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, formula.words.as_str()));
         set.paint(ui.painter(), rect.min + Vec2::new(INDENT, UNIT + set.ascent), color);
     });
     None
@@ -192,7 +192,7 @@ impl Flow {
                     }
                 }
                 Inline::Formula(formula) => {
-                    let set = typeset::typeset(ui.painter(), formula.root(), size + 0.5, formula.is_display());
+                    let set = typeset::typeset(ui.painter(), &formula.root, size + 0.5, formula.display);
                     flow.pieces.push(Piece { after_space, ..formula_piece(set) });
                     after_space = false;
                 }

@@ -213,7 +213,7 @@ fn saves(context: &PaneContext<'_>) -> Vec<Found> {
         found.push(page.also("print paper export PDF journal"));
         for form in FigureForm::ALL {
             let numbers = if form.is_numbers() { "numbers " } else { "" };
-            let words = format!("Save {} {numbers}as {}…", pane.title, form.name());
+            let words = format!("Save {} {numbers}as {}…", pane.title, form.label());
             found.push(Found::new("Save", words, Command::Export(pane.kind, form)).also("export figure picture file"));
         }
     }

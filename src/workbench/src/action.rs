@@ -2,21 +2,20 @@
 
 pub mod history;
 
+use std::mem::discriminant;
 use std::path::PathBuf;
 
 use chromascope_core::colorimetry::Metric;
 use chromascope_core::query::Shared;
 
-use crate::document::Pixel;
 use crate::document::correction::CorrectionChoice;
 use crate::document::imported::ImportedSet;
-use crate::document::names::BuiltInNames;
-use crate::document::names::PLACES;
+use crate::document::names::{BuiltInNames, PLACES};
 use crate::document::render::{BALANCE, MeshChoice, RenderSettings, SUN};
 use crate::document::start::Start;
 use crate::document::{
-    Diagram, Document, FIT_TARGET, LOCUS_RANGE_K, Light, MOST_COMPARED, Overlays, SetKind, Subset, TransformChoice,
-    WhiteBalanceChoice,
+    Compared, Diagram, Document, FIT_TARGET, LOCUS_RANGE_K, Light, MOST_COMPARED, Overlays, Pixel, SetKind, Subset,
+    TransformChoice, WhiteBalanceChoice,
 };
 
 #[derive(Clone, Debug, PartialEq)]
@@ -109,21 +108,18 @@ impl Action {
 
     /// True if a change during the same drag belongs to the same step.
     pub fn is_same_gesture(&self, next: &Self) -> bool {
-        if let (Self::Render(RenderAction::Set { what, .. }), Self::Render(RenderAction::Set { what: next, .. })) =
-            (self, next)
-        {
-            return what == next;
+        use SceneAction::{SetCorrection, SetPixel, SetTemperature, SetWhite};
+        match (self, next) {
+            (Self::Render(RenderAction::Set { what, .. }), Self::Render(RenderAction::Set { what: next, .. })) => {
+                what == next
+            }
+            (Self::ForPictures(action), Self::ForPictures(next)) => action.is_same_gesture(next),
+            (
+                Self::Scene(action @ (SetTemperature(_) | SetPixel(_) | SetWhite(_) | SetCorrection(_))),
+                Self::Scene(next),
+            ) => discriminant(action) == discriminant(next),
+            _ => false,
         }
-        if let (Self::ForPictures(action), Self::ForPictures(next)) = (self, next) {
-            return action.is_same_gesture(next);
-        }
-        matches!(
-            (self, next),
-            (Self::Scene(SceneAction::SetTemperature(_)), Self::Scene(SceneAction::SetTemperature(_)))
-                | (Self::Scene(SceneAction::SetPixel(_)), Self::Scene(SceneAction::SetPixel(_)))
-                | (Self::Scene(SceneAction::SetWhite(_)), Self::Scene(SceneAction::SetWhite(_)))
-                | (Self::Scene(SceneAction::SetCorrection(_)), Self::Scene(SceneAction::SetCorrection(_)))
-        )
     }
 
     /// Changes the document. Pure: depends on the document and the action alone.
@@ -150,6 +146,10 @@ fn begin(document: &mut Document, start: Start) {
     *document = Document { own, session, unknown, ..start.document() };
 }
 
+fn named<'a>(document: &'a mut Document, kind: SetKind, name: &'a str) -> impl Iterator<Item = &'a mut Compared> {
+    document.compared.iter_mut().filter(move |compared| compared.kind == kind && compared.name == name)
+}
+
 impl CompareAction {
     fn name(&self) -> String {
         match self {
@@ -171,15 +171,12 @@ impl CompareAction {
                 }
             }
             Self::SetVisible(kind, name, visible) => {
-                for compared in document.compared.iter_mut().filter(|c| c.kind == *kind && c.name == *name) {
-                    compared.visible = *visible;
-                }
+                named(document, *kind, name).for_each(|compared| compared.visible = *visible);
             }
             Self::Rename(kind, name, label) => {
                 let label = label.trim();
-                for compared in document.compared.iter_mut().filter(|c| c.kind == *kind && c.name == *name) {
-                    compared.label = (!label.is_empty() && label != *name).then(|| label.to_owned());
-                }
+                let label = (!label.is_empty() && label != *name).then(|| label.to_owned());
+                named(document, *kind, name).for_each(|compared| compared.label.clone_from(&label));
             }
             Self::SetReference { name, counts_in_xyz } => {
                 document.compare(name, SetKind::Observer);
@@ -187,10 +184,7 @@ impl CompareAction {
                 if *counts_in_xyz && matches!(document.transform, TransformChoice::Observer(_)) {
                     document.set_transform(TransformChoice::Observer(name.clone()));
                 }
-                for compared in document.compared.iter_mut().filter(|c| c.kind == SetKind::Observer && c.name == *name)
-                {
-                    compared.visible = true;
-                }
+                named(document, SetKind::Observer, name).for_each(|compared| compared.visible = true);
             }
         }
     }
@@ -269,18 +263,9 @@ impl RenderAction {
 
     fn apply(&self, document: &mut Document) {
         let figure = match self {
-            Self::Set { to, .. } => {
-                document.render.clone_from(to);
-                return;
-            }
-            Self::Open(path) => {
-                document.render.mesh = MeshChoice::File(path.clone());
-                return;
-            }
-            Self::OpenImage(path) => {
-                document.render.mesh = MeshChoice::Image(path.clone());
-                return;
-            }
+            Self::Set { to, .. } => return document.render.clone_from(to),
+            Self::Open(path) => return document.render.mesh = MeshChoice::File(path.clone()),
+            Self::OpenImage(path) => return document.render.mesh = MeshChoice::Image(path.clone()),
             Self::Figure8 => {
                 RenderSettings { specular: document.start.specular(), sky: 0.0, ..RenderSettings::default() }
             }

@@ -184,14 +184,6 @@ choices! {
 }
 
 impl FigureForm {
-    pub const fn ending(self) -> &'static str {
-        self.key()
-    }
-
-    pub const fn name(self) -> &'static str {
-        self.label()
-    }
-
     pub const fn is_numbers(self) -> bool {
         matches!(self, Self::Csv | Self::Json)
     }

@@ -77,19 +77,3 @@ pub fn slug(name: &str) -> String {
     let slug = words.map(str::to_lowercase).collect::<Vec<_>>().join("-");
     if slug.is_empty() { "unnamed".to_owned() } else { slug }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn merged_rows_are_not_left_out() {
-        let row = |line, why| DroppedRow { line, why };
-        let rows = [row(4, Dropped::Averaged), row(5, Dropped::NoWavelength), row(7, Dropped::Averaged)];
-        let merged = "2 rows merged with others of the same wavelength (mean): lines 4, 7";
-        assert_eq!(dropped_rows(&rows, 5), [merged, "1 row skipped: line 5 (no wavelength)"]);
-        let many: Vec<DroppedRow> = (1..=82).map(|line| row(line, Dropped::Repeated)).collect();
-        assert_eq!(dropped_rows(&many, 1), ["82 rows skipped: line 1 (the same as an earlier row) and 81 more"]);
-        assert!(dropped_rows(&[], 5).is_empty());
-    }
-}

@@ -18,29 +18,18 @@ pub const MONO_FAMILY: &str = "DejaVu Sans Mono";
 pub const FONT: &[u8] = include_bytes!("../../../assets/fonts/DejaVuSans.ttf");
 pub const MONO_FONT: &[u8] = include_bytes!("../../../assets/fonts/DejaVuSansMono.ttf");
 
-/// The gray around swatches and renders.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
-pub enum Surround {
-    /// 777777, L* 50.
-    #[default]
-    Middle,
-    /// 3A3A3A.
-    Dark,
-    /// BABABA.
-    Light,
+choices! {
+    /// The gray around swatches and renders: 777777 (L* 50), 3A3A3A, BABABA.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
+    pub enum Surround {
+        #[default]
+        Middle = "middle", "Middle gray, L* 50", "";
+        Dark = "dark", "Dark gray", "";
+        Light = "light", "Light gray", "";
+    }
 }
 
 impl Surround {
-    pub const ALL: [Self; 3] = [Self::Middle, Self::Dark, Self::Light];
-
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Middle => "Middle gray, L* 50",
-            Self::Dark => "Dark gray",
-            Self::Light => "Light gray",
-        }
-    }
-
     pub const fn color(self) -> [u8; 3] {
         match self {
             Self::Middle => [0x77; 3],
@@ -49,8 +38,8 @@ impl Surround {
         }
     }
 
-    /// Labels on it.
-    pub const fn label(self) -> [u8; 3] {
+    /// Color of labels on it.
+    pub const fn ink(self) -> [u8; 3] {
         match self {
             Self::Dark => [0xFF; 3],
             Self::Middle | Self::Light => [0; 3],
@@ -179,7 +168,7 @@ impl Palette for Colors {
             InkRole::Plot => self.plot,
             InkRole::Panel => self.panel,
             InkRole::Surround => self.surround.color(),
-            InkRole::OnSurround => self.surround.label(),
+            InkRole::OnSurround => self.surround.ink(),
             InkRole::Warning => self.warning,
             InkRole::Rgb(rgb) => rgb,
         }

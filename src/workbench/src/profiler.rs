@@ -45,12 +45,11 @@ pub struct SceneRunJob {
 impl SceneRunJob {
     /// The measurement job of a scene; `own` is a file's mesh, once it was read.
     pub fn of(scene: &Scene<'_>, own: Option<&Shared<Mesh>>, orbit: Option<Orbit>) -> Self {
-        let sources = scene.sources();
-        let sources = sources.iter().filter(|source| source.visible);
+        let sources = scene.visible_sources();
         Self {
             scene: conditions::words(scene, scene.rendered_sources().len()),
             pictures: Self::pictures_of(scene, own, orbit, scene.document.render.quality()),
-            sensors: sources.filter_map(|source| scene.sensor(source.kind, &source.name).ok()).collect(),
+            sensors: sources.iter().filter_map(|source| scene.sensor(source.kind, &source.name).ok()).collect(),
         }
     }
 

@@ -175,7 +175,7 @@ impl Report {
 }
 
 fn file_name(figure: &PaperFigure, form: FigureForm) -> String {
-    format!("figure{}.{}", figure.number, form.ending())
+    format!("figure{}.{}", figure.number, form.key())
 }
 
 /// A number found for a claim.

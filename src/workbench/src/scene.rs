@@ -352,6 +352,10 @@ impl<'a> Scene<'a> {
         Ok(compare::comparable_by_paper(reference.primaries(), sensor.primaries()))
     }
 
+    pub fn is_comparable(&self, kind: SetKind, name: &str) -> bool {
+        matches!(self.comparable(kind, name), Ok(Ok(())))
+    }
+
     /// The condition to warn of, if there is one.
     pub fn caution(&self) -> Option<Caution> {
         let reference = self.document.reference.clone();
@@ -377,6 +381,13 @@ impl<'a> Scene<'a> {
         let own = self.patch_colors(kind, name)?;
         let pairs = reference.iter().zip(&own);
         Ok(pairs.map(|(a, b)| comparable.and_then(|()| compare::difference(self.document.difference, a, b))).collect())
+    }
+
+    /// The compared sensors that are drawn, the reference first.
+    pub fn visible_sources(&self) -> Vec<ComparedSensor> {
+        let mut sources = self.sources();
+        sources.retain(|source| source.visible);
+        sources
     }
 
     /// The compared sensors with how they are drawn, the reference first, hidden ones included.

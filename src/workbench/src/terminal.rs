@@ -76,16 +76,3 @@ pub fn report_panic(info: &std::panic::PanicHookInfo<'_>) {
         say(&format!("{}\n", std::backtrace::Backtrace::capture()));
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn nothing_is_an_order_to_the_terminal() {
-        assert_eq!(shown("a\u{1b}[31mb\u{7}"), "a\\u{1b}[31mb\\u{7}");
-        assert_eq!(shown("a\u{9b}2Jb\rc\u{7f}"), "a\\u{9b}2Jb\\u{d}c\\u{7f}");
-        assert_eq!(shown("\u{202e}gpj.exe\u{2066}"), "\\u{202e}gpj.exe\\u{2066}");
-        assert!(matches!(shown("two lines\n\twith \u{394}E\u{2a}\n"), Cow::Borrowed(_)));
-    }
-}

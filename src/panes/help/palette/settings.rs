@@ -132,7 +132,7 @@ pub(super) fn view(context: &PaneContext<'_>) -> Vec<Found> {
         found.push(line.on(on).also("mode appearance"));
     }
     for surround in Surround::ALL {
-        let words = format!("Surround of swatches: {}", surround.name().to_lowercase());
+        let words = format!("Surround of swatches: {}", surround.label().to_lowercase());
         let line = Found::new(SETTINGS, words, Command::SetSurround(surround));
         found.push(line.on(saved.surround == surround).also("background grey"));
     }

@@ -9,7 +9,7 @@ use chromascope_measure::pareto::duration;
 use chromascope_measure::{Effort, Measurement, Progress, Report, Workload};
 use clap::{ArgMatches, Args};
 
-use super::error::{CliError, Result};
+use super::error::{CliError, Result, refused};
 use super::outputs::{show, write_to};
 use crate::export::{Paper, png, png_file, svg};
 use crate::palette::Colors;
@@ -89,7 +89,7 @@ pub(super) fn run(arguments: &BenchArguments, _: &ArgMatches) -> Result<()> {
     let report = measure(&plan, effort, &Stop::NEVER, &mut |progress| tell(progress, &mut case))?;
     let files = files(&report, folder)?;
     for (path, bytes) in &files {
-        write_to(path, bytes).map_err(|error| CliError::Output { path: path.clone(), error })?;
+        write_to(path, bytes)?;
     }
     let count = report.measurements.len();
     show(&format!("{count} measurements in {} files in {}\n", files.len(), folder.display()))
@@ -104,7 +104,7 @@ fn names(plan: &[Workload]) -> Vec<String> {
 fn make_folder(folder: &Path) -> Result<()> {
     if folder.exists() && !folder.is_dir() {
         let reason = format!("{} is a file; name a folder (files are named automatically)", folder.display());
-        return Err(CliError::Argument { argument: "--out", reason });
+        return refused("--out", reason);
     }
     let failed = |error| CliError::Output { path: folder.to_owned(), error };
     fs::create_dir_all(folder).map_err(failed)?;

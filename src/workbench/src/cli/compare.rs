@@ -12,7 +12,7 @@ use clap::{ArgMatches, Args};
 use serde_json::{Map, Value, json};
 
 use super::arguments::{ChartArguments, CommonArguments, Form, LOCUS_K, PixelArguments, form};
-use super::error::{CliError, Result};
+use super::error::{Result, refused};
 use super::request::Request;
 use crate::document::SetKind;
 use crate::results::Results;
@@ -126,8 +126,7 @@ pub(super) fn run(arguments: &CompareArguments, matches: &ArgMatches) -> Result<
     }
     request.document.pixel = arguments.pixel.pixel()?;
     if let Some(wrong) = arguments.temperature.filter(|kelvin| !(1.0..=1e15).contains(kelvin)) {
-        let reason = format!("{wrong} is not a temperature; use kelvins from 1 to 1e15");
-        return Err(CliError::Argument { argument: "--temperature", reason });
+        return refused("--temperature", format!("{wrong} is not a temperature; use kelvins from 1 to 1e15"));
     }
     arguments.common.out.check(&request)?;
     let results = Results::default();

@@ -53,6 +53,11 @@ impl CliError {
     }
 }
 
+/// Refuses an argument.
+pub(super) fn refused<T>(argument: &'static str, reason: impl Into<String>) -> Result<T> {
+    Err(CliError::Argument { argument, reason: reason.into() })
+}
+
 impl From<SceneError> for CliError {
     /// The scene's remedies are the window's; the one that is called otherwise here is put in this one's words.
     fn from(error: SceneError) -> Self {

@@ -11,10 +11,10 @@ use clap::ArgMatches;
 
 use self::arguments::{FigureArguments, Range};
 use super::arguments::LOCUS_K;
-use super::error::{CliError, Result};
+use super::error::{Result, refused};
 use super::identify::recorded_table;
 use super::outputs::{self, Stop};
-use super::request::Request;
+use super::request::{Request, in_file};
 use crate::document::{Document, LOCUS_RANGE_K, session};
 use crate::export::{FigureForm, Paper};
 use crate::figures::kind::Need;
@@ -23,28 +23,25 @@ use crate::scene::Scene;
 
 pub(super) fn run(arguments: &FigureArguments, matches: &ArgMatches) -> Result<()> {
     let out = arguments.common.out.path.as_deref();
-    let form = out.and_then(FigureForm::of).ok_or_else(|| {
-        let reason = "a file that ends in .pdf, .svg, .png, .tif, .csv or .json is needed".to_owned();
-        CliError::Argument { argument: "--out", reason }
-    })?;
+    let Some(form) = out.and_then(FigureForm::of) else {
+        return refused("--out", "a file that ends in .pdf, .svg, .png, .tif, .csv or .json is needed");
+    };
     let mut request = Request::new(&arguments.common, matches)?;
     let recorded = prepare(&mut request, arguments)?;
     arguments.common.out.check(&request)?;
     let results = Results::default();
     let scene = Scene { document: &request.document, catalog: &request.catalog, results: &results };
     let paper = arguments.paper.paper();
-    let kind = arguments.kind.0.ok_or_else(|| {
-        let reason = "skipped work is a table: `chromascope render --stats -`, or Statistics in Numerics".to_owned();
-        CliError::Argument { argument: "KIND", reason }
-    })?;
+    let Some(kind) = arguments.kind.0 else {
+        return refused("KIND", "skipped work is a table: `chromascope render --stats -`, or Statistics in Numerics");
+    };
     let mut look = made::look((kind, arguments.viewpoint), &scene, (&paper, recorded))?;
     if let Range::Of(ranges) = arguments.paper.range {
         look.diagram.zoomed = Some(ranges);
     }
-    let figure = kind.on_paper(&paper, &scene, &look).ok_or_else(|| {
-        let reason = "there is nothing to draw: no camera is compared, or it cannot be computed".to_owned();
-        CliError::Argument { argument: "KIND", reason }
-    })?;
+    let Some(figure) = kind.on_paper(&paper, &scene, &look) else {
+        return refused("KIND", "there is nothing to draw: no camera is compared, or it cannot be computed");
+    };
     check_height(&figure, &paper, form)?;
     let bytes = form.bytes(&figure, &figure.table.clone().with_constants(scene.conditions()), &paper)?;
     outputs::stream(out, |out| out.write_all(&bytes).map_err(Stop::Output))
@@ -75,23 +72,20 @@ fn prepare(request: &mut Request, arguments: &FigureArguments) -> Result<Option<
         (None, _) => Ok(None),
         (Some(path), Some(Need::Recorded)) => recorded_table(request, path).map(Some),
         (Some(path), Some(Need::Curves)) => made::open_curves(request, path).map(|()| None),
-        (Some(_), _) => {
-            let reason = "only `curves` and `recorded` are of a file".to_owned();
-            Err(CliError::Argument { argument: "FILE", reason })
-        }
+        (Some(_), _) => refused("FILE", "only `curves` and `recorded` are of a file"),
     }
 }
 
 /// Chooses the temperature that marks the loci and that locus metrics are of.
 fn set_temperature(document: &mut Document, arguments: &FigureArguments) -> Result<()> {
-    let refused = |reason: String| CliError::Argument { argument: "--temperature", reason };
+    let refused = |reason: String| refused("--temperature", reason);
     let [low, high] = LOCUS_RANGE_K;
     match (arguments.temperature, document.radiator_k()) {
         (Some(wanted), _) if !(low..=high).contains(&wanted) => {
-            Err(refused(format!("{wanted} is out of range; use kelvins from {low} to {high}")))
+            refused(format!("{wanted} is out of range; use kelvins from {low} to {high}"))
         }
         (Some(wanted), Some(of_light)) if wanted != of_light => {
-            Err(refused(format!("the light's own temperature, {of_light} K, marks the loci; leave --temperature out")))
+            refused(format!("the light's own temperature, {of_light} K, marks the loci; leave --temperature out"))
         }
         (Some(wanted), _) => {
             document.temperature_k = wanted;
@@ -113,13 +107,12 @@ fn check_height(figure: &Figure, paper: &Paper, form: FigureForm) -> Result<()> 
         return Ok(());
     }
     let reason = format!("at this width and size of text the figure is {height:.0} mm high; leave --height out");
-    Err(CliError::Argument { argument: "--height", reason })
+    refused("--height", reason)
 }
 
 fn opened(request: &mut Request, path: &Path) -> Result<Document> {
-    let failed = |reason: String| CliError::File(format!("{}: {reason}", super::request::display_path(path)));
-    let text = String::from_utf8(request.bytes(path)?).map_err(|_| failed("it is not text".to_owned()))?;
-    let mut document = session::from_json(&text).map_err(|error| failed(error.to_string()))?;
+    let text = String::from_utf8(request.bytes(path)?).map_err(|_| in_file(path, "it is not text"))?;
+    let mut document = session::from_json(&text).map_err(|error| in_file(path, error))?;
     // A session names a mesh without its folder: it is beside it.
     if let (Some(mesh), Some(folder)) = (document.render.mesh.file_mut(), path.parent()) {
         *mesh = folder.join(&*mesh);

@@ -15,9 +15,9 @@ use serde_json::{Value, json};
 use spectral_file::Values;
 
 use super::arguments::{Form, Per, form, values};
-use super::error::{CliError, Result};
+use super::error::{CliError, Result, refused};
 use super::outputs::{self, put};
-use super::request::{Request, display_path};
+use super::request::{Request, display_path, in_file};
 use crate::catalog::chart_picture::ChartPicture;
 use crate::catalog::recorded::{self, Levels, RawRow, RawTable, lit};
 use crate::document::imported::Role;
@@ -180,8 +180,7 @@ fn levels(arguments: &IdentifyArguments) -> Result<Levels> {
     if levels.black.is_finite() && levels.clip > levels.black {
         return Ok(levels);
     }
-    let reason = format!("{} is not above the black level {}", levels.clip, levels.black);
-    Err(CliError::Argument { argument: "--clip", reason })
+    refused("--clip", format!("{} is not above the black level {}", levels.clip, levels.black))
 }
 
 fn recorded_set(request: &mut Request, arguments: &IdentifyArguments, levels: Levels) -> Result<RecordedSet> {
@@ -194,7 +193,7 @@ fn recorded_set(request: &mut Request, arguments: &IdentifyArguments, levels: Le
         (Some(_), Some(file)) if own => {
             let reason =
                 format!("spectra come from --chart and raw values from elsewhere; leave out {}", display_path(file));
-            return Err(CliError::Argument { argument: "FILE", reason });
+            return refused("FILE", reason);
         }
         (Some(chart), file) => {
             request.set_chart(Some(chart))?;
@@ -206,13 +205,12 @@ fn recorded_set(request: &mut Request, arguments: &IdentifyArguments, levels: Le
             let table = raw_table(request, file)?;
             let Some(text) = &table.spectra else {
                 let why = "raw values without spectra; add --chart NAME|FILE, or columns headed by wavelengths";
-                return Err(CliError::File(format!("{}: {why}", display_path(file))));
+                return Err(in_file(file, why));
             };
             (file_spectra(request, file, Some(text), arguments.radiance)?, Some(table.rows))
         }
         (None, None) => {
-            let reason = "name the patches' reflectances, a chart or a file".to_owned();
-            return Err(CliError::Argument { argument: "--chart", reason });
+            return refused("--chart", "name the patches' reflectances, a chart or a file");
         }
     };
     let rows = match (rows, &arguments.raw, &arguments.image) {
@@ -220,8 +218,7 @@ fn recorded_set(request: &mut Request, arguments: &IdentifyArguments, levels: Le
         (None, Some(raw), _) => raw_rows(request, raw)?,
         (None, None, Some(image)) => picture_rows(request, arguments, image, levels)?,
         (None, None, None) => {
-            let reason = "name a table of raw values, or a picture with --image".to_owned();
-            return Err(CliError::Argument { argument: "--raw", reason });
+            return refused("--raw", "name a table of raw values, or a picture with --image");
         }
     };
     let joined = recorded::join(&spectra, &rows, levels);
@@ -236,12 +233,12 @@ pub(super) fn recorded_table(request: &mut Request, path: &Path) -> Result<Recor
         None => chart_spectra(request)?,
     };
     let joined = recorded::join(&spectra, &rows, Levels { black: 0.0, clip: f64::INFINITY });
-    joined.map(Shared::new).map_err(|error| CliError::File(format!("{}: {error}", display_path(path))))
+    joined.map(Shared::new).map_err(|error| in_file(path, error))
 }
 
 fn raw_table(request: &mut Request, path: &Path) -> Result<RawTable> {
     let bytes = request.bytes(path)?;
-    recorded::read_table(&bytes).map_err(|error| CliError::File(format!("{}: {error}", display_path(path))))
+    recorded::read_table(&bytes).map_err(|error| in_file(path, error))
 }
 
 /// Raw values of a table that has nothing else.
@@ -251,7 +248,7 @@ fn raw_rows(request: &mut Request, path: &Path) -> Result<Vec<RawRow>> {
         return Ok(table.rows);
     }
     let why = "spectra beside the raw values, but they are taken from elsewhere; leave out --chart or --raw";
-    Err(CliError::File(format!("{}: {why}", display_path(path))))
+    Err(in_file(path, why))
 }
 
 fn picture_rows(
@@ -261,13 +258,12 @@ fn picture_rows(
     levels: Levels,
 ) -> Result<Vec<RawRow>> {
     let bytes = request.bytes(path)?;
-    let said = |error: &dyn std::fmt::Display| CliError::File(format!("{}: {error}", display_path(path)));
     let corners = <[[f64; 2]; 4]>::try_from(arguments.corners.as_slice())
-        .map_err(|_| CliError::Argument { argument: "--corners", reason: "expected four corners".to_owned() })?;
+        .or_else(|_| refused("--corners", "expected four corners"))?;
     let [columns, rows] = arguments.grid;
-    let grid = ChartGrid::new(corners, columns, rows).map_err(|error| said(&error))?;
-    let picture = ChartPicture::decode(&bytes).map_err(|error| said(&error))?;
-    picture.rows(&grid, levels).map_err(|error| said(&error))
+    let grid = ChartGrid::new(corners, columns, rows).map_err(|error| in_file(path, error))?;
+    let picture = ChartPicture::decode(&bytes).map_err(|error| in_file(path, error))?;
+    picture.rows(&grid, levels).map_err(|error| in_file(path, error))
 }
 
 fn chart_spectra(request: &Request) -> Result<Spectra> {
@@ -283,7 +279,7 @@ pub(super) fn file_spectra(request: &mut Request, path: &Path, text: Option<&str
         Some(text) => request.read_bytes(path, text.as_bytes(), role)?,
         None => request.read(path, role)?,
     };
-    let curves = set.curves_in_nm().map_err(|error| CliError::File(format!("{}: {error}", display_path(path))))?;
+    let curves = set.curves_in_nm().map_err(|error| in_file(path, error))?;
     if radiance {
         let on_grid = |(name, curve)| (name, GridSpectrum::resample(&curve, Quantity::Light));
         return Ok(curves.into_iter().map(on_grid).collect());

@@ -23,7 +23,7 @@ use spectral_file::{
 };
 
 use super::arguments::{named, values};
-use super::error::{CliError, Result};
+use super::error::{CliError, Result, refused};
 use super::outputs::{self, Stop, is_standard_output, put, show, stream};
 use super::request::read;
 use crate::atomic::fitting;
@@ -170,40 +170,29 @@ impl InspectArguments {
 
 #[derive(Clone)]
 enum Failure {
-    Disk(String),
     Read(ReadError),
-    /// Only sensitivities are responses to something.
-    NoCamera(Role),
-    Write(spectral_file::write::WriteError),
+    Other(String),
 }
 
 impl Failure {
     /// Reason without the file's name.
     fn reason(&self) -> String {
         match self {
-            Self::Disk(reason) => reason.clone(),
             Self::Read(error) => error.to_string(),
-            Self::NoCamera(role) => format!(
-                "read as {role}, but --per applies to camera sensitivities; add --role \
-                                             camera"
-            ),
-            Self::Write(error) => error.to_string(),
+            Self::Other(reason) => reason.clone(),
         }
     }
 
     /// One sentence: where, what, and what helps.
     fn sentence(&self, name: &str) -> String {
-        match self {
-            Self::Disk(_) | Self::Write(_) | Self::NoCamera(_) => format!("{name}: {}", self.reason()),
-            Self::Read(error) => {
-                let text = error.to_string();
-                let line = error.line().map(|line| format!("line {line}"));
-                let rest = line.as_ref().and_then(|line| Some((line, text.strip_prefix(line.as_str())?)));
-                match rest {
-                    Some((line, rest)) => format!("{name}, {line}{rest}"),
-                    None => format!("{name}: {text}"),
-                }
-            }
+        let text = self.reason();
+        let line = match self {
+            Self::Read(error) => error.line().map(|line| format!("line {line}")),
+            Self::Other(_) => None,
+        };
+        match line.filter(|line| text.starts_with(line)) {
+            Some(_) => format!("{name}, {text}"),
+            None => format!("{name}: {text}"),
         }
     }
 }
@@ -246,7 +235,8 @@ fn answer(file: &Path, (index, end): (usize, &str), out: &Out, arguments: &Inspe
     let wanted = arguments.csv.is_some() || arguments.step.is_some();
     let prepared = table.as_ref().map_err(Clone::clone).and_then(|table| {
         let sheet = Sheet { content: output::content(table), curves: &curves, ..Sheet::default() };
-        let prepared = wanted.then(|| Prepared::new(&sheet, arguments.grid())).transpose().map_err(Failure::Write)?;
+        let prepared = wanted.then(|| Prepared::new(&sheet, arguments.grid())).transpose();
+        let prepared = prepared.map_err(|error| Failure::Other(error.to_string()))?;
         Ok((table, prepared))
     });
     let (table, mut prepared) = match prepared {
@@ -279,7 +269,7 @@ fn answer(file: &Path, (index, end): (usize, &str), out: &Out, arguments: &Inspe
 }
 
 fn inspect(file: &Path, name: &str, arguments: &InspectArguments) -> Result<SpectralFile, Failure> {
-    let bytes = contents(file).map_err(|error| Failure::Disk(io_reason(&error)))?;
+    let bytes = contents(file).map_err(|error| Failure::Other(io_reason(&error)))?;
     let origin = Origin::on_disk(name, file, &bytes);
     let mut table = spectral_file::read(origin.source(&bytes), &arguments.options()).map_err(Failure::Read)?;
     name_the_only_curve(&mut table, name);
@@ -310,7 +300,9 @@ fn question(table: &SpectralFile) -> Option<String> {
 /// Takes sensitivities as responses per photon or per energy, whatever the file says.
 fn respond(table: &mut SpectralFile, per_photon: bool) -> Result<(), Failure> {
     if table.role.value != Role::Camera {
-        return Err(Failure::NoCamera(table.role.value));
+        let role = table.role.value;
+        let reason = format!("read as {role}, but --per applies to camera sensitivities; add --role camera");
+        return Err(Failure::Other(reason));
     }
     let why = "Set by --per".to_owned();
     table.reading.per_photon = Some(Decided { value: per_photon, certainty: Certainty::Chosen, why });
@@ -397,7 +389,7 @@ impl Out {
     /// Writes the tables as requested; a missing folder is created. Nothing is created or written if one of the tables
     /// may not be.
     fn new(arguments: &InspectArguments, files: &[PathBuf], several: bool) -> Result<Self> {
-        let wrong = |reason: &str| Err(CliError::Argument { argument: "--csv", reason: reason.to_owned() });
+        let wrong = |reason: &str| refused("--csv", reason);
         let Some(path) = arguments.csv.as_deref() else { return Ok(Self::Nowhere) };
         if is_standard_output(path) {
             return match (arguments.json, several) {

@@ -12,7 +12,7 @@ use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{ArgMatches, Args, ValueEnum};
 
 use super::arguments::{FitArguments, OutArguments, Per, method};
-use super::error::{CliError, Result};
+use super::error::{Result, refused};
 use super::outputs;
 use super::request::{Request, say_light};
 use crate::document::start::Start;
@@ -112,7 +112,7 @@ pub(super) fn run(arguments: &MatrixArguments, _: &ArgMatches) -> Result<()> {
     if let Some(light) = &arguments.second_illuminant {
         if matches!(arguments.format, Format::Icc | Format::Clf) {
             let reason = "ICC and CLF files hold one light; leave it out, or write dcp, dng or text".to_owned();
-            return Err(CliError::Argument { argument: "--second-illuminant", reason });
+            return refused("--second-illuminant", reason);
         }
         request.set_second_light(light)?;
     }

@@ -143,8 +143,9 @@ pub(super) fn stream(out: Option<&Path>, write: impl FnOnce(&mut dyn io::Write) 
     }
 }
 
-pub(super) fn write_to(path: &Path, bytes: &[u8]) -> io::Result<()> {
-    write_with(path, |out| out.write_all(bytes))
+pub(super) fn write_to(path: &Path, bytes: &[u8]) -> Result<()> {
+    let written = write_with(path, |out| out.write_all(bytes));
+    written.map_err(|error| CliError::Output { path: path.to_owned(), error })
 }
 
 /// A file is replaced whole, behind a link if it is one; a stream is written into.

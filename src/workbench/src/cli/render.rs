@@ -108,7 +108,7 @@ impl<'a> Made<'a> {
         let contents = contents.collect::<Result<Vec<_>, _>>()?;
         contents.par_iter().zip(&self.files).try_for_each(|(content, path)| {
             let bytes = content.bytes().map_err(|error| CliError::Picture { path: path.clone(), error })?;
-            write_to(path, &bytes).map_err(|error| CliError::Output { path: path.clone(), error })
+            write_to(path, &bytes)
         })
     }
 
@@ -167,11 +167,17 @@ impl<'a> Made<'a> {
     fn difference(&self, index: usize) -> String {
         match (&self.pictures.differences[index], self.not_comparable[index]) {
             _ if self.sources[index].is_reference => "the reference".to_owned(),
-            (_, Some(DifferenceError::Ways)) => "no difference by Eq 13; add --transform fitted to compare".to_owned(),
-            (_, Some(other)) => format!("no difference: {other}"),
             (Some(difference), None) => Measure::of(&self.query).words(difference, Detail::Largest),
-            (None, None) => "no difference".to_owned(),
+            (_, why) => no_difference(why),
         }
+    }
+}
+
+fn no_difference(why: Option<DifferenceError>) -> String {
+    match why {
+        Some(DifferenceError::Ways) => "no difference by Eq 13; add --transform fitted to compare".to_owned(),
+        Some(other) => format!("no difference: {other}"),
+        None => "no difference".to_owned(),
     }
 }
 

@@ -1,7 +1,6 @@
 //! `report`: the paper's figures and claims with public data, as files in a folder.
 
 use std::ffi::OsString;
-use std::io;
 use std::path::PathBuf;
 
 use clap::{ArgMatches, Args};
@@ -69,8 +68,7 @@ pub(super) fn run(arguments: &ReportArguments, _: &ArgMatches) -> Result<()> {
         draw_progress(step, Report::STEPS, &Report::name(step));
         let files = report.make(step, &results).map_err(CliError::File)?;
         for file in files {
-            let path = folder.join(&file.name);
-            write_to(&path, &file.bytes).map_err(|error: io::Error| CliError::Output { path, error })?;
+            write_to(&folder.join(&file.name), &file.bytes)?;
         }
     }
     draw_progress(Report::STEPS, Report::STEPS, "");

@@ -1,6 +1,7 @@
 //! Conversion of arguments to a document: names and files become sensors and conditions.
 
 use std::ffi::{OsStr, OsString};
+use std::fmt::Display;
 use std::fs;
 use std::io::{self, Read as _};
 use std::path::{Path, PathBuf};
@@ -12,7 +13,7 @@ use clap::ArgMatches;
 use spectral_file::{Certainty, MAX_BYTES, ReadError, SpectralFile, Values, Warning};
 
 use super::arguments::{CommonArguments, FitArguments, Per, SourceArguments, Transform};
-use super::error::{CliError, Result};
+use super::error::{CliError, Result, refused};
 use super::outputs::is_descriptor;
 use crate::catalog::import::{Origin, imported};
 use crate::catalog::names::{Found, find, telling_words};
@@ -92,8 +93,7 @@ impl Request {
         if self.per.is_none() || !self.document.own.is_empty() {
             return Ok(());
         }
-        let reason = format!("only sensitivities from a file can be taken otherwise; give {cameras} a file");
-        Err(CliError::Argument { argument: "--per", reason })
+        refused("--per", format!("only sensitivities from a file can be taken otherwise; give {cameras} a file"))
     }
 
     /// The preset's sensors, with the reference that was named in the place of the preset's.
@@ -162,8 +162,7 @@ impl Request {
         let names_fit = arguments.names_fit();
         let fitted = match (arguments.transform, names_fit) {
             (Some(Transform::Paper), Some(argument)) => {
-                let reason = "the paper's matrix is not fitted; add --transform fitted".to_owned();
-                return Err(CliError::Argument { argument, reason });
+                return refused(argument, "the paper's matrix is not fitted; add --transform fitted");
             }
             (Some(transform), _) => transform == Transform::Fitted,
             (None, Some(_)) => true,
@@ -256,8 +255,7 @@ impl Request {
         for given in filters {
             let name = self.set_or_file("--filter", &[SetKind::Filter], Role::Transmittance, given)?;
             if self.document.filters.contains(&name) {
-                let reason = format!("{name} is there already; a filter can be used once");
-                return Err(CliError::Argument { argument: "--filter", reason });
+                return refused("--filter", format!("{name} is there already; a filter can be used once"));
             }
             self.document.filters.push(name);
         }
@@ -331,7 +329,7 @@ impl Request {
             let reason = format!(
                 "\"{typed}\" is a temperature, which many lights have; write daylight:{kelvin} or blackbody:{kelvin}"
             );
-            return Err(CliError::Argument { argument, reason });
+            return refused(argument, reason);
         }
         let formula = match telling_words(typed).concat().as_str() {
             "daylight" => "daylight",
@@ -342,8 +340,7 @@ impl Request {
         let sets: Vec<&str> = sets.filter(|name| name.to_lowercase().starts_with(formula)).collect();
         let or =
             if sets.is_empty() { String::new() } else { format!(", or the full name of a set: {}", sets.join(", ")) };
-        let reason = format!("\"{typed}\" needs a temperature; write {formula}:5500{or}");
-        Err(CliError::Argument { argument, reason })
+        refused(argument, format!("\"{typed}\" needs a temperature; write {formula}:5500{or}"))
     }
 
     /// The catalog's name for the typed one; a difference is reported.
@@ -379,7 +376,7 @@ impl Request {
     /// The bytes of a file that is then an input.
     pub(super) fn bytes(&mut self, path: &Path) -> Result<Vec<u8>> {
         self.read.push(path.to_owned());
-        read(path).map_err(|error| CliError::File(format!("{}: {}", display_path(path), io_reason(&error))))
+        read(path).map_err(|error| in_file(path, io_reason(&error)))
     }
 
     /// Reads bytes of a file with all its curves; says what had to be guessed.
@@ -388,10 +385,9 @@ impl Request {
         let mut overrides = ImportOverrides::for_role(Some(role));
         overrides.options.values = self.values.filter(|_| role.is_fraction());
         let origin = Origin::on_disk(&file, path, bytes);
-        let table = spectral_file::read(origin.source(bytes), &overrides.options)
-            .map_err(|error| CliError::File(format!("{file}: {error}")))?;
+        let table = spectral_file::read(origin.source(bytes), &overrides.options).map_err(|why| in_file(path, why))?;
         check_quantity(&file, role, &table)?;
-        let table = table.usable().map_err(|error| CliError::File(format!("{file}: {error}")))?;
+        let table = table.usable().map_err(|why| in_file(path, why))?;
         check_channels(&file, role, &table)?;
         overrides.taken = Some((0..table.curves.len()).collect());
         if role == Role::Camera {
@@ -410,6 +406,11 @@ impl Request {
         }
         Ok(imported.set)
     }
+}
+
+/// Reason that a file is of no use, after its path.
+pub(super) fn in_file(path: &Path, why: impl Display) -> CliError {
+    CliError::File(format!("{}: {why}", display_path(path)))
 }
 
 /// A path for people, on one line.

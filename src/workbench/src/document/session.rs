@@ -10,11 +10,10 @@ use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
-use super::SetKind;
 use super::imported::{ImportedCurve, ImportedSet, Role, same_but_folders};
 use super::names::BuiltInNames;
 use super::start::Start;
-use super::{Document, MOST_COMPARED, VERSION};
+use super::{Document, MOST_COMPARED, SetKind, VERSION};
 
 pub const ENDING: &str = "chromascope";
 /// Key of the view in a session file.

@@ -1,8 +1,7 @@
 //! Named starts: the comparison and its conditions on the first screen and after a reset.
 
-use super::SetKind;
 use super::render::GARMENT;
-use super::{CHART, CIE_1931, Document, Light, PAPER_REFERENCE, Subset, TransformChoice};
+use super::{CHART, CIE_1931, Document, Light, PAPER_REFERENCE, SetKind, Subset, TransformChoice};
 use chromascope_core::reflectance::Specular;
 use chromascope_text::choices;
 use serde::{Deserialize, Serialize};

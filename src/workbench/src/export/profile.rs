@@ -12,6 +12,7 @@ use chromascope_core::correction::dng::{DngMatrices, ProfileMatrix};
 use chromascope_core::correction::neutral::Neutral;
 use chromascope_core::correction::root_polynomial::RootPolynomial;
 use chromascope_core::glam::{DMat3, DVec3};
+use chromascope_core::patch_set::PatchSet;
 use chromascope_core::query::ErrorSummary;
 use chromascope_core::query::correction::{CorrectionSheet, CorrectionUnder, StimulusCheck};
 use chromascope_core::units::Kelvin;
@@ -86,36 +87,21 @@ pub enum CorrectionFileError {
     Ratio { camera: String, light: String, ratio: ChannelRatio },
 }
 
-/// Color correction of a camera with the names that files need.
+/// Color correction of a camera, with the question that has the names that files need.
 #[derive(Clone, Debug)]
 pub struct CorrectionFile {
-    pub camera: String,
-    /// Camera model as raw files call it.
-    pub model: String,
-    /// Correction in words.
-    pub correction: String,
-    pub lights: Vec<String>,
-    /// Symbol of the metric of the errors.
-    pub metric: &'static str,
-    /// Names of the training reflectances.
-    pub training: Vec<String>,
+    pub of: CorrectionFileQuery,
     pub sheet: CorrectionSheet,
     /// ACES input transform under the first light.
     pub idt: Result<Idt, IdtError>,
-    /// Names of the training reflectances of that transform.
-    pub idt_training: Vec<String>,
     pub ratio: ChannelRatio,
-    /// Camera RGB of a neutral under the first light, given in place of the table's own.
-    pub neutral: Option<Neutral>,
-    /// Terms of the table, for the files' copyright.
-    pub terms: String,
 }
 
 impl CorrectionFile {
     /// Lights with the correction under each.
     pub fn unders(&self) -> impl Iterator<Item = (&String, &CorrectionUnder)> {
         let second = self.sheet.second.as_ref().and_then(|second| second.as_ref().ok());
-        self.lights.iter().zip(std::iter::once(&self.sheet.first).chain(second))
+        self.of.lights.iter().zip(std::iter::once(&self.sheet.first).chain(second))
     }
 
     fn name(&self) -> String {
@@ -143,14 +129,14 @@ impl CorrectionFile {
 
     /// Checks that the ratio between the channels is credible, or a neutral is given in its place.
     pub fn has_ratio(&self) -> Result<(), CorrectionFileError> {
-        let light = self.lights.first().map_or("", String::as_str);
-        has_ratio(&self.camera, light, self.ratio, self.neutral)
+        let light = self.of.lights.first().map_or("", String::as_str);
+        has_ratio(&self.of.camera, light, self.ratio, self.of.idt.neutral)
     }
 
     /// DNG matrices of a light; with a given neutral, the camera's channels are scaled to it under the first light.
     pub fn dng_matrices(&self, under: &CorrectionUnder) -> Option<DngMatrices> {
         let dng = under.report.dng?;
-        let Some(neutral) = self.neutral else { return Some(dng) };
+        let Some(neutral) = self.of.idt.neutral else { return Some(dng) };
         dng.with_gains(neutral.to_vector() / self.sheet.first.report.dng?.neutral())
     }
 
@@ -167,7 +153,8 @@ impl CorrectionFile {
         let calibrations: Option<Vec<Calibration>> = self.warmer_first().iter().map(calibration).collect();
         let calibrations = calibrations.ok_or(CorrectionFileError::NoMatrix("DCP"))?;
         self.has_ratio()?;
-        let dcp = Dcp { camera: self.model.clone(), name: self.name(), copyright: self.terms.clone(), calibrations };
+        let dcp =
+            Dcp { camera: self.of.model.clone(), name: self.name(), copyright: self.of.terms.clone(), calibrations };
         Ok(dcp.to_bytes()?)
     }
 
@@ -179,8 +166,8 @@ impl CorrectionFile {
         let profile = ProfileMatrix::new(*matrix, report.adopted_white, to);
         let profile = profile.ok_or(CorrectionFileError::NoMatrix("ICC"))?;
         let icc = IccProfile {
-            description: format!("{}, {}", self.camera, self.name()),
-            copyright: self.terms.clone(),
+            description: format!("{}, {}", self.of.camera, self.name()),
+            copyright: self.of.terms.clone(),
             xyz_from_rgb: rows(profile.xyz_from_rgb),
             adaptation: rows(profile.adaptation),
         };
@@ -189,7 +176,7 @@ impl CorrectionFile {
 
     /// DNG's matrices as `Tag: values` lines; of two lights, the warmer first.
     pub fn dng(&self) -> Result<String, CorrectionFileError> {
-        let mut text = format!("UniqueCameraModel: {}\n", self.model);
+        let mut text = format!("UniqueCameraModel: {}\n", self.of.model);
         for (index, (name, under)) in self.warmer_first().into_iter().enumerate() {
             let number = index + 1;
             let dng = self.dng_matrices(under).ok_or(CorrectionFileError::NoMatrix("DNG"))?;
@@ -207,17 +194,17 @@ impl CorrectionFile {
 
     /// ACES input transform in Common LUT Format. Its description states balance multipliers, which are the channel ratio.
     fn clf(&self) -> Result<String, CorrectionFileError> {
-        let light = self.lights.first().map_or("", String::as_str);
+        let light = self.of.lights.first().map_or("", String::as_str);
         let idt = self.idt.as_ref().map_err(|error| *error)?;
         self.has_ratio()?;
-        clf(&self.camera, light, idt)
+        clf(&self.of.camera, light, idt)
     }
 
     /// Everything in words and aligned numbers.
     pub fn text(&self) -> String {
-        let mut text = format!("{}\n{}\nChannel ratio {}\n", self.camera, self.correction, self.ratio);
-        if let Some(DVec3 { x, y, z }) = self.neutral.map(Neutral::to_vector) {
-            let _ = writeln!(text, "Given neutral under {}: {x:.6} {y:.6} {z:.6}", self.lights[0]);
+        let mut text = format!("{}\n{}\nChannel ratio {}\n", self.of.camera, self.of.correction, self.ratio);
+        if let Some(DVec3 { x, y, z }) = self.of.idt.neutral.map(Neutral::to_vector) {
+            let _ = writeln!(text, "Given neutral under {}: {x:.6} {y:.6} {z:.6}", self.of.lights[0]);
         }
         for (name, under) in self.unders() {
             let kelvin = under.temperature.map_or(String::new(), |kelvin| format!(", {:.0} K", kelvin.get()));
@@ -251,7 +238,7 @@ impl CorrectionFile {
         let errors: Vec<Option<f64>> = idt.errors.iter().copied().map(Some).collect();
         let summary = ErrorSummary::new(&errors);
         let rows = [("training", summary)];
-        let table = error_table(&format!("\u{394}E*00 of {}", errors.len()), &rows, &self.idt_training);
+        let table = error_table(&format!("\u{394}E*00 of {}", errors.len()), &rows, &self.of.idt.training);
         let note = idt_note(idt).map_or(String::new(), |note| format!("\n{note}"));
         format!("{balance}{}\n\n{IDT_FIT}\n{table}{note}", aligned(idt.matrix))
     }
@@ -261,7 +248,7 @@ impl CorrectionFile {
         let _ = writeln!(text, "XYZ from balanced RGB\n{}\n", self.transform_text(under));
         let _ = writeln!(text, "{}\n", self.errors_text(under));
         for check in std::iter::once(&report.white).chain(&report.blue) {
-            let _ = writeln!(text, "{}", check_lines(check, self.metric).join("  "));
+            let _ = writeln!(text, "{}", check_lines(check, self.of.metric).join("  "));
         }
         if let Some(dng) = self.dng_matrices(under) {
             let [r, g, b] = dng.balance;
@@ -283,7 +270,7 @@ impl CorrectionFile {
     pub fn errors_text(&self, under: &CorrectionUnder) -> String {
         let report = &under.report;
         let rows = [("uncorrected", report.before), ("training", report.training), ("leave-one-out", report.left_out)];
-        error_table(&format!("{} of {}", self.metric, report.count), &rows, &self.training)
+        error_table(&format!("{} of {}", self.of.metric, report.count), &rows, &self.of.training)
     }
 }
 
@@ -303,12 +290,12 @@ pub fn has_ratio(
     Err(CorrectionFileError::Ratio { camera: camera.to_owned(), light: light.to_owned(), ratio })
 }
 
-/// Summaries of errors as aligned lines; `names` are those of the reflectances.
-fn error_table(head: &str, rows: &[(&str, Option<ErrorSummary>)], names: &[String]) -> String {
+/// Summaries of errors as aligned lines; `of` are the reflectances.
+fn error_table(head: &str, rows: &[(&str, Option<ErrorSummary>)], of: &PatchSet) -> String {
     let line = |(label, summary): &(&str, Option<ErrorSummary>)| match summary {
         None => format!("{label:<16}undefined"),
         Some(ErrorSummary { mean, p95, max, worst }) => {
-            let worst = names.get(*worst).map_or("", String::as_str);
+            let worst = of.patches().get(*worst).map_or("", |patch| &patch.name);
             format!("{label:<16}{mean:8.3}{p95:8.3}{max:8.3}  {worst}")
         }
     };
@@ -371,7 +358,7 @@ pub fn check_lines(check: &StimulusCheck, metric: &str) -> [String; 2] {
 }
 
 pub fn file_name(file: &CorrectionFile, form: CorrectionForm) -> String {
-    let (camera, lights) = (slug(&file.camera), slug(&file.lights.join(" ")));
+    let (camera, lights) = (slug(&file.of.camera), slug(&file.of.lights.join(" ")));
     let [ending, suffix, ..] = form.all_words();
     format!("{camera}-{lights}{suffix}.{ending}")
 }

@@ -3,7 +3,6 @@
 mod drawing;
 mod fit;
 mod ground;
-mod labels;
 mod loci;
 mod pixel;
 mod points;
@@ -86,7 +85,7 @@ fn draw<'a>(scene: &'a Scene<'a>, look: &'a FigureLook, frame: Frame, sketch: bo
     if !sketch {
         whites::add(&mut drawing);
     }
-    let sources: Vec<ComparedSensor> = scene.sources().into_iter().filter(|source| source.visible).collect();
+    let sources = scene.visible_sources();
     if scene.document.overlays.camera_spectral_loci {
         loci::add_monochromatic(&mut drawing, &sources);
     }
@@ -110,7 +109,7 @@ fn finish(drawing: Drawing<'_>, name: &str, area: Rect, frame: Frame) -> Built {
     let mut panel = Panel::new(name, area, Axis::new(x, x_range), Axis::new(y, y_range));
     panel.equal_aspect = true;
     panel.marks = marks;
-    let texts = labels::placed(labels, &panel);
+    let texts = drawing::placed(labels, &panel);
     panel.marks.extend(texts);
     [panel.x.range, panel.y.range] = frame.ranges;
     Built { panel, things, refused, loci, lens: None }
@@ -184,15 +183,12 @@ const SIZE: [f64; 2] = [640.0, 480.0];
 /// Height in points of the strip below it.
 pub const STRIP: f64 = 136.0;
 
-pub static KIND: FigureKind =
-    FigureKind::new("chromaticity", "The chromaticity diagram with loci and patches", |scene, look, room| {
-        Some(figure(scene, look, room))
-    });
+pub static KIND: FigureKind = FigureKind::new("chromaticity", "The chromaticity diagram with loci and patches", figure);
 
 /// The figure as it is saved: diagram, strip, legend, caption, and the numbers of all points.
-pub fn figure(scene: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Figure {
+fn figure(scene: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Option<Figure> {
     let strip = room.strip && super::strip::build(scene, [SIZE[0], STRIP]).is_some();
-    figure_sized(scene, look, room, room.size(SIZE, if strip { STRIP } else { 0.0 }))
+    Some(figure_sized(scene, look, room, room.size(SIZE, if strip { STRIP } else { 0.0 })))
 }
 
 /// The figure with a diagram of a size in points.
@@ -219,7 +215,7 @@ pub fn figure_sized(scene: &Scene<'_>, look: &FigureLook, room: FigureRoom, size
         figure.size[1] += STRIP;
         figure.panels.push(strip.panel);
     }
-    figure.legend = scene.sources().iter().filter(|source| source.visible).map(legend_entry).collect();
+    figure.legend = scene.visible_sources().iter().map(legend_entry).collect();
     figure.legend_place = LegendPlace::Outside;
     figure.caption = caption(scene);
     figure.table = table(scene);
@@ -328,8 +324,8 @@ fn table(scene: &Scene<'_>) -> Table {
     let mut points = Vec::new();
     let reference_locus = scene.locus(SetKind::Observer, &scene.document.reference).ok();
     let reference_patches = scene.patch_colors(SetKind::Observer, &scene.document.reference).unwrap_or_default();
-    for source in scene.sources().iter().filter(|source| source.visible) {
-        let comparable = matches!(scene.comparable(source.kind, &source.name), Ok(Ok(())));
+    for source in &scene.visible_sources() {
+        let comparable = scene.is_comparable(source.kind, &source.name);
         let below = scene.extrapolated_below(source.kind, &source.name).map_or(0.0, |(below, _)| below);
         let sensor = || source.label.clone();
         if let Ok(locus) = scene.locus(source.kind, &source.name) {

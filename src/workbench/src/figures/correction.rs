@@ -46,7 +46,7 @@ fn figure(_: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Option<Figure> 
 }
 
 fn title(file: &CorrectionFile) -> String {
-    format!("{}: mean ΔE*00 between {}", file.camera, file.lights.join(" and "))
+    format!("{}: mean ΔE*00 between {}", file.of.camera, file.of.lights.join(" and "))
 }
 
 const COLUMNS: [Field<TwoLightPoint>; 5] = [

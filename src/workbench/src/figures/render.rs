@@ -68,7 +68,7 @@ fn figure(scene: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Option<Figu
     let measure = Measure::of_frame(shot);
     let maps = (look.mode == RenderMode::Difference).then(|| difference::Scale::of(shot));
     // The gray that the pictures were made on, whatever paper they go to.
-    let [ground, ink] = [look.surround.color(), look.surround.label()].map(Ink::rgb);
+    let [ground, ink] = [look.surround.color(), look.surround.ink()].map(Ink::rgb);
     let shown = shown(shot, look.mode);
     let columns = columns(shown.len());
     let shape = made.pictures.iter().flatten().next().map_or([1, 1], |picture| [picture.width, picture.height]);

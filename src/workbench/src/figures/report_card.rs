@@ -147,7 +147,7 @@ fn locus(scene: &Scene<'_>, id: &SensorId, area: Rect) -> Panel {
     let pair = scene
         .locus(id.kind, &id.name)
         .and_then(|own| Ok((own, scene.locus(SetKind::Observer, &scene.document.reference)?)));
-    let comparable = matches!(scene.comparable(id.kind, &id.name), Ok(Ok(())));
+    let comparable = scene.is_comparable(id.kind, &id.name);
     let points: Vec<[f64; 2]> = pair.ok().filter(|_| comparable).map_or_else(Vec::new, |(own, reference)| {
         let pairs = own.points.iter().zip(&reference.points);
         pairs.filter_map(|(a, b)| Some([a.temperature.mired(), distance(a, b, diagram)?])).collect()

@@ -19,7 +19,7 @@ use super::kind::FigureKind;
 use super::look::{FigureLook, SpectraLayout};
 use crate::document::{FIT_TARGET, SetKind};
 use crate::plot_item::{PickIndex, PlotItem};
-use crate::scene::{ComparedSensor, Scene};
+use crate::scene::{Scene, SceneError};
 
 /// The panels with the items of their curves.
 #[derive(Clone, Debug)]
@@ -31,12 +31,19 @@ pub struct Built {
     pub refused: Vec<String>,
 }
 
+impl Built {
+    /// What is drawn; where there is nothing, the reason is noted.
+    fn known<T>(&mut self, answer: Result<T, SceneError>) -> Option<T> {
+        answer.map_err(|error| self.refused.push(error.to_string())).ok()
+    }
+}
+
 /// The height of the band of colors with its labels.
 const FOOT: f64 = 4.0 + Projection::BOTTOM + Projection::TITLE;
 
 pub fn build(scene: &Scene<'_>, look: &FigureLook, size: [f64; 2]) -> Built {
     let mut built = Built { panels: Vec::new(), things: PickIndex::default(), refused: Vec::new() };
-    let sources: Vec<ComparedSensor> = scene.sources().into_iter().filter(|source| source.visible).collect();
+    let sources = scene.visible_sources();
     let mut contents: Vec<Content> = content::light(scene, &mut built).into_iter().collect();
     contents.extend(content::patches(scene, &mut built));
     if look.spectra_layout == SpectraLayout::Each {
@@ -118,24 +125,19 @@ fn foot(scene: &Scene<'_>, area: Rect, large: bool) -> Panel {
 
 const SIZE: [f64; 2] = [640.0, 560.0];
 
-pub static KIND: FigureKind =
-    FigureKind::new("spectra", "Light, patches and sensitivities over wavelength", |scene, look, room| {
-        Some(figure(scene, look, room))
-    });
+pub static KIND: FigureKind = FigureKind::new("spectra", "Light, patches and sensitivities over wavelength", figure);
 
 /// The figure as it is saved, with all values on the 1 nm grid.
-pub fn figure(scene: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Figure {
+fn figure(scene: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Option<Figure> {
     let size = room.size(SIZE, 0.0);
     let built = build(scene, look, size);
     let mut figure = Figure::new("Spectra", size);
     figure.panels = built.panels;
-    let sources = scene.sources();
-    let shown = sources.iter().filter(|source| source.visible);
-    figure.legend = shown.map(|source| key(source, source.label.clone())).collect();
+    figure.legend = scene.visible_sources().iter().map(|source| key(source, source.label.clone())).collect();
     figure.legend_place = LegendPlace::Outside;
     figure.caption = format!("Dotted: beyond the data, the end value is held. {}", caption(scene));
     figure.table = table(scene);
-    figure
+    Some(figure)
 }
 
 /// Everything on the grid, as it is integrated.
@@ -152,7 +154,7 @@ fn table(scene: &Scene<'_>) -> Table {
             columns.push(patch.grid.values().to_vec());
         }
     }
-    for source in scene.sources().iter().filter(|source| source.visible) {
+    for source in &scene.visible_sources() {
         let Ok(sensor) = scene.sensor(source.kind, &source.name) else { continue };
         for (channel, letter) in sensor.primaries().channels().iter().enumerate() {
             names.push(format!("{} {letter}", source.label).into());

@@ -96,7 +96,7 @@ pub static KIND: FigureKind =
 /// The strip as a figure of its own, with its numbers; none where no sensor can be compared with the reference.
 fn figure(scene: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Option<Figure> {
     let size = room.size(SIZE, 0.0);
-    let whole = chromaticity::figure(scene, look, room);
+    let whole = chromaticity::KIND.figure(scene, look, room)?;
     let mut figure = Figure::new("Distance to the reference over temperature", size);
     figure.panels.push(build(scene, size)?.panel);
     let is_locus = |row: &Vec<Cell>| row.get(1) == Some(&Cell::from("locus"));
@@ -108,11 +108,9 @@ fn figure(scene: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Option<Figu
 fn content(scene: &Scene<'_>, reference: &Locus, things: &mut PickIndex) -> Option<Content> {
     let diagram = scene.document.diagram;
     let mut content = Content::default();
-    let sources = scene.sources();
-    for source in sources.iter().filter(|source| source.visible && !source.is_reference) {
-        if !matches!(scene.comparable(source.kind, &source.name), Ok(Ok(()))) {
-            continue;
-        }
+    let mut sources = scene.visible_sources();
+    sources.retain(|source| !source.is_reference && scene.is_comparable(source.kind, &source.name));
+    for source in &sources {
         let Ok(locus) = scene.locus(source.kind, &source.name) else { continue };
         let pairs = locus.points.iter().zip(&reference.points);
         let points: Vec<[f64; 2]> =

@@ -75,7 +75,7 @@ fn rows(scene: &Scene<'_>) -> Vec<Row> {
             !matches!(scene.comparable(source.kind, &source.name), Ok(Err(_)))
         }
     };
-    let visible = scene.sources().into_iter().filter(|source| source.visible && compares(source));
+    let visible = scene.visible_sources().into_iter().filter(|source| compares(source));
     visible
         .map(|source| {
             let colors =
@@ -112,17 +112,14 @@ const NARROW: f64 = 500.0;
 /// Height of the line below it that says how long bars are.
 const KEY: f64 = 18.0;
 
-pub static KIND: FigureKind =
-    FigureKind::new("swatches", "Patches as each sensor renders them", |scene, look, room| {
-        Some(figure(scene, look, room))
-    });
+pub static KIND: FigureKind = FigureKind::new("swatches", "Patches as each sensor renders them", figure);
 
 /// The figure as it is saved (in rows with the five patches, the paper's Figure 5), with all numbers.
-pub fn figure(scene: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Figure {
+fn figure(scene: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Option<Figure> {
     let [width, height] = room.size(SIZE, KEY);
     // On a narrow page charts stand below each other.
     let least = if room.height.is_none() && width < NARROW { 0.8 * width } else { 0.0 };
-    figure_sized(scene, look, [width, height.max(least)])
+    Some(figure_sized(scene, look, [width, height.max(least)]))
 }
 
 /// The figure in a width, and at least a height, in points.

@@ -10,9 +10,11 @@ use thiserror::Error;
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Formula {
-    root: Node,
-    words: String,
-    display: bool,
+    pub root: Node,
+    /// The formula in one line of text, for search and screen readers.
+    pub words: String,
+    /// True for display style, on a separate line.
+    pub display: bool,
 }
 
 /// A part of a formula. Scripts stand below and above a large operator; a space is horizontal, in em; what is fenced stands between
@@ -59,20 +61,6 @@ impl Formula {
         let mut words = String::new();
         root.say(&mut words);
         Ok(Self { root, words, display })
-    }
-
-    pub const fn root(&self) -> &Node {
-        &self.root
-    }
-
-    /// The formula in one line of text, for search and screen readers.
-    pub fn words(&self) -> &str {
-        &self.words
-    }
-
-    /// True for display style, on a separate line.
-    pub const fn is_display(&self) -> bool {
-        self.display
     }
 }
 

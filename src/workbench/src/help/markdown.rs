@@ -64,7 +64,7 @@ impl Block {
                 rows.iter().map(row).collect::<Vec<_>>().join("\n")
             }
             Self::Code(text) => text.clone(),
-            Self::Formula(formula) => formula.words().to_owned(),
+            Self::Formula(formula) => formula.words.clone(),
         }
     }
 }
@@ -72,7 +72,7 @@ impl Block {
 pub fn plain(content: &[Inline]) -> String {
     let words = content.iter().map(|part| match part {
         Inline::Text { text, .. } => text.as_str(),
-        Inline::Formula(formula) => formula.words(),
+        Inline::Formula(formula) => &formula.words,
     });
     words.collect()
 }

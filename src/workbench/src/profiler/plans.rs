@@ -127,31 +127,3 @@ pub fn planned(pictures: &PicturesQuery, source: &SourceOf, ask: &impl Ask) -> P
     let bounds = ErrorBounds::of(explanation.as_ref(), shading.counts().coherent_samples, tolerance);
     Ok(Some(Planned { explanation, bounds }))
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn each_error_is_said_with_what_it_is_relative_to() {
-        let words = |diffuse, coherent| ErrorBounds { diffuse, coherent }.words();
-        assert_eq!(
-            words(Some(3.4e-10), Some(1e-9)),
-            "diffuse component: estimated error bound 3.4e-10 of the peak; specular lobes within 1e-9 of the brightest sample; \
-             stored in single precision (6e-8)"
-        );
-        assert_eq!(
-            words(Some(4.3e-8), None),
-            "diffuse component: estimated error bound 4.3e-8 of the peak; stored in single precision (6e-8)"
-        );
-        assert_eq!(
-            words(Some(4.3e-8), Some(1e-3)),
-            "diffuse component: estimated error bound 4.3e-8 of the peak; specular lobes within 1e-3 of the brightest sample"
-        );
-        assert_eq!(words(None, None), "no sample takes a spectral integral");
-        assert_eq!(
-            words(None, Some(1e-5)),
-            "no sample takes a spectral integral; specular lobes within 1e-5 of the brightest sample"
-        );
-    }
-}

@@ -27,17 +27,13 @@ impl PicturesOf {
     }
 
     pub fn metric(&self) -> Metric {
-        match self {
-            Self::Mesh(query) => query.metric,
-            Self::Image(query) => query.metric,
-        }
+        let (Self::Mesh(PicturesQuery { metric, .. }) | Self::Image(ImagePicturesQuery { metric, .. })) = self;
+        *metric
     }
 
     pub fn reference(&self) -> &RenderingQuery {
-        match self {
-            Self::Mesh(query) => &query.reference,
-            Self::Image(query) => &query.reference,
-        }
+        let (Self::Mesh(PicturesQuery { reference, .. }) | Self::Image(ImagePicturesQuery { reference, .. })) = self;
+        reference
     }
 
     /// Color transform of one of the sensors.
@@ -53,10 +49,8 @@ impl PicturesOf {
     }
 
     pub fn ev(&self) -> f64 {
-        f64::from_bits(match self {
-            Self::Mesh(query) => query.ev,
-            Self::Image(query) => query.ev,
-        })
+        let (Self::Mesh(PicturesQuery { ev, .. }) | Self::Image(ImagePicturesQuery { ev, .. })) = self;
+        f64::from_bits(*ev)
     }
 
     /// True if another query is of the same mesh, material, sensors and light, however they are viewed and made; images count as

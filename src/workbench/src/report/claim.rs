@@ -35,17 +35,6 @@ choices! {
     }
 }
 
-impl Verdict {
-    /// Verdict of a condition; none where what it is about is not there.
-    pub(super) fn of(holds: Option<bool>) -> Self {
-        match holds {
-            Some(true) => Self::Holds,
-            Some(false) => Self::Fails,
-            None => Self::Open,
-        }
-    }
-}
-
 #[derive(Clone, Debug, PartialEq)]
 pub struct Value {
     pub quantity: String,
@@ -58,11 +47,31 @@ pub struct Value {
     pub unit: &'static str,
 }
 
+impl Value {
+    pub(super) fn new(
+        quantity: impl Into<String>,
+        sensor: &str,
+        number: f64,
+        unit: &'static str,
+        decimals: usize,
+    ) -> Self {
+        Self { quantity: quantity.into(), sensor: sensor.to_owned(), number, decimals, unit }
+    }
+}
+
 /// Numbers found for a claim, with the verdict.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Finding {
     pub values: Vec<Value>,
     pub verdict: Verdict,
+}
+
+impl Finding {
+    /// Finding on a condition; not judged where what it is about is not there.
+    pub(super) fn on(holds: Option<bool>, values: impl IntoIterator<Item = Value>) -> Self {
+        let verdict = holds.map_or(Verdict::Open, |holds| if holds { Verdict::Holds } else { Verdict::Fails });
+        Self { values: values.into_iter().collect(), verdict }
+    }
 }
 
 /// A claim of the paper, or a further check that it suggests.
@@ -100,14 +109,7 @@ impl Series {
 
     /// The numbers with what they are.
     pub(super) fn values(&self, quantity: &str, unit: &'static str, decimals: usize) -> Vec<Value> {
-        let value = |(sensor, number): &(String, f64)| Value {
-            quantity: quantity.to_owned(),
-            sensor: sensor.clone(),
-            number: *number,
-            decimals,
-            unit,
-        };
-        self.0.iter().map(value).collect()
+        self.0.iter().map(|(sensor, number)| Value::new(quantity, sensor, *number, unit, decimals)).collect()
     }
 }
 
@@ -148,12 +150,10 @@ impl Subject<'_> {
         let tables = self.catalog.of_kind(SetKind::Camera).filter(|entry| model_of(&entry.name) == model);
         let numbers = tables.map(|entry| number(&entry.name)).collect::<Result<Vec<f64>, _>>()?;
         let among = format!("among {} tables of one {model}", numbers.len());
-        let end = |end: &str, number| {
-            Series(vec![(String::new(), number)]).values(&format!("{quantity}, {end} {among}"), unit, decimals)
-        };
+        let end = |end: &str, number| Value::new(format!("{quantity}, {end} {among}"), "", number, unit, decimals);
         let [least, most] =
             [f64::min as fn(f64, f64) -> f64, f64::max].map(|fold| numbers.iter().copied().fold(f64::NAN, fold));
-        Ok([end("least", least), end("most", most)].concat())
+        Ok(vec![end("least", least), end("most", most)])
     }
 
     /// A number for the reference of a document and for each camera.

@@ -34,10 +34,10 @@ const fn figure(number: u8, title: &'static str, make: Make) -> PaperFigure {
 
 pub const FIGURES: [PaperFigure; 9] = [
     figure(1, "Geometry of the reflectance model", |_, room, _| Some(geometry::figure(room))),
-    figure(2, "Sensitivities of the cameras and the reference", |subject, room, _| Some(sensitivities(subject, room))),
-    figure(3, "Planckian loci", |subject, room, _| Some(loci(subject, room))),
-    figure(4, "Chromaticities of the patches", |subject, room, _| Some(points(subject, room))),
-    figure(5, "Colors of the patches", |subject, room, _| Some(patches(subject, room))),
+    figure(2, "Sensitivities of the cameras and the reference", sensitivities),
+    figure(3, "Planckian loci", loci),
+    figure(4, "Chromaticities of the patches", points),
+    figure(5, "Colors of the patches", patches),
     figure(6, "Light and reflectances of the rendered scenes", materials),
     figure(7, "Meshes of head and fern", meshes),
     figure(8, "Head in sunlight", |subject, room, pixels| scene(subject, &RenderAction::Figure8, room, pixels)),
@@ -52,15 +52,15 @@ impl PaperFigure {
     }
 }
 
-fn sensitivities(subject: &Subject<'_>, room: FigureRoom) -> Figure {
+fn sensitivities(subject: &Subject<'_>, room: FigureRoom, _: Pixels) -> Option<Figure> {
     let scene = subject.scene(subject.document);
     let look = FigureLook { spectra_layout: SpectraLayout::Each, ..FigureLook::default() };
-    let figure = spectra::figure(&scene, &look, room);
+    let figure = spectra::KIND.figure(&scene, &look, room)?;
     let table = without(&figure.table, &spectra_but_sensitivities(&scene));
     // The light and the patches come first.
     let panels = figure.panels.iter().skip(2).cloned().collect();
     let caption = "Relative sensitivities, each sensor scaled to peak 1. Dotted: beyond the data.".to_owned();
-    Figure { table, caption, legend: Vec::new(), ..stacked(figure, panels) }
+    Some(Figure { table, caption, legend: Vec::new(), ..stacked(figure, panels) })
 }
 
 /// Number of columns of a table of spectra before those of sensitivities, without the wavelengths.
@@ -87,8 +87,8 @@ fn stacked(figure: Figure, panels: Vec<Panel>) -> Figure {
     Figure { size: [figure.size[0], top - 4.0], panels, ..figure }
 }
 
-fn diagram(subject: &Subject<'_>, room: FigureRoom, document: &Document) -> Figure {
-    chromaticity::figure(&subject.scene(document), &FigureLook::default(), room)
+fn diagram(subject: &Subject<'_>, room: FigureRoom, document: &Document) -> Option<Figure> {
+    chromaticity::KIND.figure(&subject.scene(document), &FigureLook::default(), room)
 }
 
 fn of_kind(mut table: Table, kind: &str) -> Table {
@@ -97,24 +97,24 @@ fn of_kind(mut table: Table, kind: &str) -> Table {
     table
 }
 
-fn loci(subject: &Subject<'_>, room: FigureRoom) -> Figure {
+fn loci(subject: &Subject<'_>, room: FigureRoom, _: Pixels) -> Option<Figure> {
     let overlays = Overlays { patches: false, ..subject.document.overlays };
-    let figure = diagram(subject, room, &Document { overlays, ..subject.document.clone() });
-    Figure { table: of_kind(figure.table.clone(), "locus"), ..figure }
+    let figure = diagram(subject, room, &Document { overlays, ..subject.document.clone() })?;
+    Some(Figure { table: of_kind(figure.table.clone(), "locus"), ..figure })
 }
 
-fn points(subject: &Subject<'_>, room: FigureRoom) -> Figure {
+fn points(subject: &Subject<'_>, room: FigureRoom, _: Pixels) -> Option<Figure> {
     let overlays = Overlays { loci: false, ..subject.document.overlays };
     let mut document = Document { overlays, ..subject.document.clone() };
     // By Eq 13 no CIE observer can be compared.
     document.compared.retain(|compared| compared.kind == SetKind::Camera || compared.name == document.reference);
-    let figure = diagram(subject, FigureRoom { strip: false, ..room }, &document);
+    let figure = diagram(subject, FigureRoom { strip: false, ..room }, &document)?;
     let caption = chromaticity::conditions(&subject.scene(subject.document));
-    Figure { table: of_kind(figure.table.clone(), "patch"), caption, ..figure }
+    Some(Figure { table: of_kind(figure.table.clone(), "patch"), caption, ..figure })
 }
 
-fn patches(subject: &Subject<'_>, room: FigureRoom) -> Figure {
-    swatches::figure(&subject.scene(subject.document), &FigureLook::default(), room)
+fn patches(subject: &Subject<'_>, room: FigureRoom, _: Pixels) -> Option<Figure> {
+    swatches::KIND.figure(&subject.scene(subject.document), &FigureLook::default(), room)
 }
 
 fn materials(subject: &Subject<'_>, room: FigureRoom, _: Pixels) -> Option<Figure> {
@@ -123,8 +123,9 @@ fn materials(subject: &Subject<'_>, room: FigureRoom, _: Pixels) -> Option<Figur
     let room = FigureRoom { height: room.width.map(|width| SHAPE * width), ..room };
     let [skin, leaf] = [SKIN, LEAF].map(|material| {
         let document = Document { compared: Vec::new(), ..subject.in_sun(material) };
-        spectra::figure(&subject.scene(&document), &FigureLook::default(), room)
+        spectra::KIND.figure(&subject.scene(&document), &FigureLook::default(), room)
     });
+    let (skin, leaf) = (skin?, leaf?);
     // Light, skin; leaf, wavelengths.
     let panels = skin.panels.iter().take(2).chain(leaf.panels.iter().skip(1)).cloned().collect();
     let mut table = skin.table.clone();

@@ -3,7 +3,7 @@
 use chromascope_core::query::Temperatures;
 use chromascope_core::units::Kelvin;
 
-use super::claim::{CANON, Finding, KODAK, NIKON, Series, Subject, Value, Verdict};
+use super::claim::{CANON, Finding, KODAK, NIKON, Subject, Value};
 use crate::document::{Diagram, LOCUS_RANGE_K, SetKind};
 use crate::scene::locus::distance;
 use crate::scene::{Scene, SceneError};
@@ -22,7 +22,7 @@ pub(super) fn lengths(subject: &Subject<'_>) -> Result<Finding, SceneError> {
         lengths.get(KODAK).map(|kodak| lengths.0.iter().all(|(name, length)| name == KODAK || *length > kodak));
     let mut values = lengths.values("length in xy", "", 3);
     values.extend(subject.spread("length in xy", "", 3, |name| length(SetKind::Camera, name))?);
-    Ok(Finding { values, verdict: Verdict::of(shortest) })
+    Ok(Finding::on(shortest, values))
 }
 
 /// Temperature at which a camera's locus is nearest to the reference's.
@@ -37,7 +37,7 @@ pub(super) fn minima(subject: &Subject<'_>) -> Result<Finding, SceneError> {
     let around = minima.0.iter().all(|(_, kelvin)| DAYLIGHT.contains(kelvin));
     let mut values = minima.values("nearest at", "K", 0);
     values.extend(subject.spread("nearest at", "K", 0, |camera| Ok(minimum(&scene, camera)))?);
-    Ok(Finding { values, verdict: Verdict::of(Some(around)) })
+    Ok(Finding::on(Some(around), values))
 }
 
 pub(super) fn minima_under_a(subject: &Subject<'_>) -> Result<Finding, SceneError> {
@@ -50,9 +50,9 @@ pub(super) fn minima_under_a(subject: &Subject<'_>) -> Result<Finding, SceneErro
     let library = subject.catalog.of_kind(SetKind::Camera).map(|camera| minimum(&scene, &camera.name));
     let [least, most] = library.fold([f64::INFINITY, 0.0], |[least, most]: [f64; 2], at| [least.min(at), most.max(at)]);
     for (quantity, number) in [("least of the library, by Eq 15", least), ("most of the library, by Eq 15", most)] {
-        values.extend(Series(vec![(String::new(), number)]).values(quantity, "K", 0));
+        values.push(Value::new(quantity, "", number, "K", 0));
     }
-    Ok(Finding { values, verdict: Verdict::of(Some(!moved)) })
+    Ok(Finding::on(Some(!moved), values))
 }
 
 fn in_logarithm() -> Result<Vec<Kelvin>, SceneError> {
@@ -82,7 +82,7 @@ pub(super) fn means(subject: &Subject<'_>) -> Result<Finding, SceneError> {
     values.extend(subject.spread("mean distance in xy over log T", "", 3, of)?);
     let named = [CANON, NIKON].map(|camera| means.get(camera)).into_iter().collect::<Option<Vec<f64>>>();
     let Some((kodak, others)) = means.get(KODAK).zip(named) else {
-        return Ok(Finding { values, verdict: Verdict::Open });
+        return Ok(Finding::on(None, values));
     };
     let kodaks = distances(&scene, KODAK, &temperatures)?;
     let canons = distances(&scene, CANON, &temperatures)?;
@@ -98,13 +98,7 @@ pub(super) fn means(subject: &Subject<'_>) -> Result<Finding, SceneError> {
     for (quantity, kelvin) in
         [("nearer than the Canon from", nearer.first()), ("nearer than the Canon to", nearer.last())]
     {
-        values.extend(kelvin.map(|kelvin| Value {
-            quantity: quantity.to_owned(),
-            sensor: KODAK.to_owned(),
-            number: *kelvin,
-            decimals: 0,
-            unit: "K",
-        }));
+        values.extend(kelvin.map(|kelvin| Value::new(quantity, KODAK, *kelvin, "K", 0)));
     }
-    Ok(Finding { values, verdict: Verdict::of(Some(others.iter().all(|mean| *mean < kodak))) })
+    Ok(Finding::on(Some(others.iter().all(|mean| *mean < kodak)), values))
 }

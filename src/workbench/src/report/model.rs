@@ -10,7 +10,7 @@ use chromascope_core::scene::lighting::Lighting;
 use chromascope_core::spectral::SpectralDistribution;
 use chromascope_core::spectral::grid::{COUNT, wavelength_nm};
 
-use super::claim::{Finding, Series, Subject, Verdict};
+use super::claim::{Finding, Subject, Value};
 use crate::document::render::{BALANCE, RenderSettings, SKIN};
 use crate::document::{Document, Light, SetKind};
 use crate::scene::SceneError;
@@ -20,11 +20,9 @@ pub(super) fn balance(subject: &Subject<'_>) -> Result<Finding, SceneError> {
     let document = subject.in_sun(SKIN);
     let target = subject.scene(&document).white()?.0;
     let channels = ["R", "G", "B"].into_iter().zip(target);
-    let values = channels.flat_map(|(channel, number)| {
-        Series(vec![(String::new(), number)]).values(&format!("{channel} of {BALANCE}"), "", 4)
-    });
+    let values = channels.map(|(channel, number)| Value::new(format!("{channel} of {BALANCE}"), "", number, "", 4));
     let same = target.iter().zip(PRINTED).all(|(own, printed)| (own - printed).abs() <= 0.5e-4);
-    Ok(Finding { values: values.collect(), verdict: Verdict::of(Some(same)) })
+    Ok(Finding::on(Some(same), values))
 }
 
 pub(super) fn falloff(subject: &Subject<'_>) -> Result<Finding, SceneError> {
@@ -33,7 +31,7 @@ pub(super) fn falloff(subject: &Subject<'_>) -> Result<Finding, SceneError> {
     let field = FIELD_DEG.to_radians();
     // So near that the square fills the picture.
     let Ok(viewpoint) = Viewpoint::new(0.0, 0.0, 1.05, field) else {
-        return Ok(Finding { values: Vec::new(), verdict: Verdict::Open });
+        return Ok(Finding::on(None, []));
     };
     let size = RasterSize { width: SIDE, height: SIDE, samples: 1 };
     let visibility = VisibilityQuery { mesh: MeshQuery::Plane, viewpoint, size };
@@ -46,8 +44,8 @@ pub(super) fn falloff(subject: &Subject<'_>) -> Result<Finding, SceneError> {
     let tangent = (field / 2.0).tan() * (1.0 - 1.0 / f64::from(SIDE)) * std::f64::consts::SQRT_2;
     let expected = tangent.atan().cos().powi(4);
     let name = format!("cos⁴ α in the corner of a picture of {FIELD_DEG:.0}°");
-    let values = Series(vec![(String::new(), corner)]).values(&name, "", 3);
-    Ok(Finding { values, verdict: Verdict::of(Some((corner - expected).abs() < 1e-4)) })
+    let values = [Value::new(name, "", corner, "", 3)];
+    Ok(Finding::on(Some((corner - expected).abs() < 1e-4), values))
 }
 
 pub(super) fn tint(subject: &Subject<'_>) -> Result<Finding, SceneError> {
@@ -71,11 +69,11 @@ pub(super) fn tint(subject: &Subject<'_>) -> Result<Finding, SceneError> {
         let Some(xy) = subject.colors(rendering, patches)?.first().and_then(|color| color.xy) else { continue };
         for (coordinate, number) in [("x", xy.x), ("y", xy.y)] {
             let quantity = format!("{coordinate} of a rough white under {BALANCE}, {name}");
-            values.extend(Series(vec![(String::new(), number)]).values(&quantity, "", 3));
+            values.push(Value::new(quantity, "", number, "", 3));
         }
         places.push(xy);
     }
     let white = subject.white(&document)?;
     let stays = places.first().zip(white).map(|(printed, white)| printed.distance(white) < 1e-3);
-    Ok(Finding { values, verdict: Verdict::of(stays) })
+    Ok(Finding::on(stays, values))
 }

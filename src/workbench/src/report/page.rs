@@ -172,7 +172,7 @@ fn figures<'a>(out: &mut String, drawn: &dyn Fn(usize) -> Option<&'a str>) {
     for (place, figure) in FIGURES.iter().enumerate() {
         let Some(svg) = drawn(place) else { continue };
         let links: Vec<String> = FORMS
-            .map(|form| format!("<a href=\"{}\">{}</a>", file_name(figure, form), form.ending().to_uppercase()))
+            .map(|form| format!("<a href=\"{}\">{}</a>", file_name(figure, form), form.key().to_uppercase()))
             .into();
         let _ = writeln!(
             out,

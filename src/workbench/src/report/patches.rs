@@ -25,20 +25,14 @@ type OfCameras = Vec<(String, Series)>;
 fn table(subject: &Subject<'_>, document: &Document) -> Result<(Vec<Value>, OfCameras), SceneError> {
     const MANY: usize = 6;
     let metric = document.difference;
-    let (unit, name) = ("", metric.name(document.transform.is_eq_13()));
+    let name = metric.name(document.transform.is_eq_13());
     let cameras = subject.cameras().into_iter();
     let all = cameras.map(|name| Ok((name.clone(), differences(subject, document, &name)?)));
     let all: OfCameras = all.collect::<Result<_, SceneError>>()?;
     let mut values = Vec::new();
     for (camera, series) in &all {
         let count = series.0.len();
-        let row = |quantity: String, number: f64| Value {
-            quantity,
-            sensor: camera.clone(),
-            number,
-            decimals: metric.decimals,
-            unit,
-        };
+        let row = |quantity: String, number: f64| Value::new(quantity, camera, number, "", metric.decimals);
         if count > MANY {
             let sum: f64 = series.0.iter().map(|(_, number)| number).sum();
             values.push(row(format!("{name}, mean of {count} patches"), sum / count as f64));
@@ -62,7 +56,7 @@ fn red_is_nearer(all: &[(String, Series)]) -> Option<bool> {
 pub(super) fn white(subject: &Subject<'_>) -> Result<Finding, SceneError> {
     let scene = subject.scene(subject.document);
     let Some(at) = scene.patches()?.patches().iter().position(|patch| patch.name == "white") else {
-        return Ok(Finding { values: Vec::new(), verdict: Verdict::Open });
+        return Ok(Finding::on(None, []));
     };
     let blue = |kind, name: &str| {
         let color = scene.patch_colors(kind, name)?[at];
@@ -83,13 +77,13 @@ pub(super) fn in_diagram(subject: &Subject<'_>) -> Result<Finding, SceneError> {
         values.extend(found);
         holds = holds.zip(red_is_nearer(&all)).map(|(before, now)| before && now);
     }
-    Ok(Finding { values, verdict: Verdict::of(holds) })
+    Ok(Finding::on(holds, values))
 }
 
 pub(super) fn by_eye(subject: &Subject<'_>) -> Result<Finding, SceneError> {
     let document = Document { difference: Metric::DELTA_E_2000, ..subject.fitted("D65") };
     let (values, all) = table(subject, &document)?;
-    Ok(Finding { values, verdict: Verdict::of(red_is_nearer(&all)) })
+    Ok(Finding::on(red_is_nearer(&all), values))
 }
 
 pub(super) fn farthest(subject: &Subject<'_>) -> Result<Finding, SceneError> {
@@ -112,5 +106,5 @@ pub(super) fn farthest(subject: &Subject<'_>) -> Result<Finding, SceneError> {
         let cameras = all.iter().filter_map(|(name, _)| Some((name.clone(), least(name, fold)?)));
         Series(cameras.collect()).values(quantity, "", 3)
     });
-    Ok(Finding { values: values.collect(), verdict: Verdict::of(holds) })
+    Ok(Finding::on(holds, values))
 }

@@ -31,10 +31,7 @@ pub(super) fn brighter(subject: &Subject<'_>) -> Result<Finding, SceneError> {
     let ratios = subject.cameras().into_iter().filter_map(|name| Some((name.clone(), relative(&luminances, &name)?)));
     let ratios = Series(ratios.collect());
     let holds = ratios.get(KODAK).map(|ratio| ratio > 1.0);
-    Ok(Finding {
-        values: ratios.values("Y of the skin, relative to the reference", "", 2),
-        verdict: Verdict::of(holds),
-    })
+    Ok(Finding::on(holds, ratios.values("Y of the skin, relative to the reference", "", 2)))
 }
 
 /// Saturation of HSV in linear RGB.
@@ -62,7 +59,7 @@ fn to_white(subject: &Subject<'_>, material: &str) -> Result<Series, SceneError>
 pub(super) fn fern_white(subject: &Subject<'_>) -> Result<Finding, SceneError> {
     let distances = to_white(subject, LEAF)?;
     let holds = relative(&distances, KODAK).map(|ratio| ratio < 1.0);
-    Ok(Finding { values: distances.values("distance of the leaf to white, xy", "", 3), verdict: Verdict::of(holds) })
+    Ok(Finding::on(holds, distances.values("distance of the leaf to white, xy", "", 3)))
 }
 
 pub(super) fn greener(subject: &Subject<'_>) -> Result<Finding, SceneError> {
@@ -120,7 +117,7 @@ fn compared(subject: &Subject<'_>, name: &str, conditions: impl Fn(&str) -> Docu
         rows.iter().flat_map(|(what, series)| series.values(&format!("{name}, {what}"), "", 2)).collect();
     let worse = |camera: &str| Some(leaf_50.get(camera)? > skin_50.get(camera)?);
     let holds = worse(CANON).zip(worse(NIKON)).map(|(canon, nikon)| canon && nikon);
-    Ok(Finding { values, verdict: Verdict::of(holds) })
+    Ok(Finding::on(holds, values))
 }
 
 pub(super) fn skin_and_leaf(subject: &Subject<'_>) -> Result<Finding, SceneError> {

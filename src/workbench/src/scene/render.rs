@@ -46,9 +46,8 @@ impl Scene<'_> {
     /// The rendered sensors: those compared, the reference first, without those for which Eq 13 is undefined.
     pub fn rendered_sources(&self) -> Vec<ComparedSensor> {
         let mut sources = self.sources();
-        sources.retain(|source| {
-            source.is_reference || (source.visible && matches!(self.comparable(source.kind, &source.name), Ok(Ok(()))))
-        });
+        sources
+            .retain(|source| source.is_reference || (source.visible && self.is_comparable(source.kind, &source.name)));
         sources
     }
 

@@ -12,11 +12,11 @@ use spectral_file::SpectralFile;
 
 use crate::catalog::import::{Origin, imported};
 use crate::catalog::spectral_images;
-use crate::cli::error::{CliError, Result};
+use crate::cli::error::{CliError, Result, refused};
 use crate::cli::render::arguments::ViewpointArguments;
 use crate::cli::render::files::patiently;
 use crate::cli::render::setup::{mesh_choice, own_mesh, viewpoint};
-use crate::cli::request::{Request, display_path};
+use crate::cli::request::{Request, display_path, in_file};
 use crate::document::Document;
 use crate::document::imported::ImportOverrides;
 use crate::document::render::{MeshChoice, RenderSettings};
@@ -46,9 +46,8 @@ pub(super) fn look(
     let is_picture = matches!(kind.needs, Need::Pictures(_));
     let is_of_mesh = is_picture && !matches!(scene.document.render.mesh, MeshChoice::Image(_));
     if !is_of_mesh && (wanted.orbit.is_some() || wanted.fov.is_some()) {
-        let reason = "only pictures of a mesh have a viewpoint".to_owned();
         let argument = if wanted.orbit.is_some() { "--orbit" } else { "--fov" };
-        return Err(CliError::Argument { argument, reason });
+        return refused(argument, "only pictures of a mesh have a viewpoint");
     }
     let mut look = FigureLook::default();
     match kind.needs {
@@ -65,13 +64,13 @@ pub(super) fn look(
             }
         }
         Need::Recorded => {
-            let set = recorded.ok_or_else(|| missing("name the file with the raw values"))?;
+            let Some(set) = recorded else { return refused("FILE", "name the file with the raw values") };
             let ranking = scene.recorded_ranking(&set, Freedom::default(), &[])?;
             let ranked = patiently("fitting", || (*scene.results.ask(&ranking)).clone())?;
             look.recorded = Some((set, ranked));
         }
         Need::Curves => {
-            let set = scene.document.own.last().ok_or_else(|| missing("name the file"))?;
+            let Some(set) = scene.document.own.last() else { return refused("FILE", "name the file") };
             look.curves = ImportSelection::of(scene, ImportItem::Set(set.name.clone()), None, None);
         }
         Need::Measured => {
@@ -82,10 +81,6 @@ pub(super) fn look(
         }
     }
     Ok(look)
-}
-
-fn missing(reason: &str) -> CliError {
-    CliError::Argument { argument: "FILE", reason: reason.to_owned() }
 }
 
 /// Pictures with as many pixels as the paper has where they stand.
@@ -109,11 +104,8 @@ fn pictures(scene: &Scene<'_>, mode: RenderMode, paper: &Paper, wanted: Viewpoin
         let frame = RenderedFrame::of_mesh(scene, mesh, viewpoint, side)?;
         RenderedFrame { time: start.elapsed(), ..frame }
     };
-    match frame.pictures() {
-        Ok(_) => {}
-        Err(why) => return Err(CliError::File(format!("no picture: {why}"))),
-    }
-    Ok(frame)
+    let failed = frame.pictures().err().map(|why| CliError::File(format!("no picture: {why}")));
+    failed.map_or(Ok(frame), Err)
 }
 
 /// Sets the mesh that is rendered, with the paper's surface for the fern.
@@ -130,7 +122,7 @@ pub(super) fn open_curves(request: &mut Request, path: &Path) -> Result<()> {
     let mut overrides = ImportOverrides::default();
     let origin = Origin::on_disk(&display_path(path), path, &bytes);
     let table = spectral_file::read(origin.source(&bytes), &overrides.options).and_then(SpectralFile::usable);
-    let table = table.map_err(|error| CliError::File(format!("{}: {error}", display_path(path))))?;
+    let table = table.map_err(|error| in_file(path, error))?;
     overrides.taken = Some((0..table.curves.len()).collect());
     request.document.own.push(Shared::new(imported(&origin, &table, &overrides).set));
     Ok(())

@@ -183,7 +183,7 @@ fn reading(reading: &ReadReport) -> Value {
 fn error(failure: &Failure) -> Value {
     let (line, column) = match failure {
         Failure::Read(error) => (error.line(), ReadError::column(error)),
-        Failure::Disk(_) | Failure::Write(_) | Failure::NoCamera(_) => (None, None),
+        Failure::Other(_) => (None, None),
     };
     let text = failure.reason();
     json!({ "line": line, "column": column, "text": text })

@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 
 use super::arguments::RenderArguments;
 use crate::atomic::fitting;
-use crate::cli::error::{CliError, Result};
+use crate::cli::error::{CliError, Result, refused};
 use crate::format::slug;
 use crate::scene::ComparedSensor;
 use crate::terminal::say;
@@ -34,12 +34,12 @@ pub(in crate::cli) fn patiently<T>(what: &'static str, work: impl FnOnce() -> T)
 }
 
 pub(in crate::cli) fn make_folder(folder: &Path) -> Result<()> {
-    if folder.as_os_str().is_empty() || folder.is_dir() {
+    if folder.as_os_str().is_empty() {
         return Ok(());
     }
-    if folder.exists() {
+    if folder.exists() && !folder.is_dir() {
         let reason = format!("{} is a file; name a folder (pictures are named automatically)", folder.display());
-        return Err(CliError::Argument { argument: "--out", reason });
+        return refused("--out", reason);
     }
     fs::create_dir_all(folder).map_err(|error| CliError::Output { path: folder.to_owned(), error })
 }

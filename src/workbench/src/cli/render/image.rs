@@ -7,16 +7,17 @@ use std::time::Instant;
 use chromascope_core::camera::RenderingError;
 use chromascope_core::colorimetry::Metric;
 use chromascope_core::query::render::difference::Difference;
-use chromascope_core::query::{Ask as _, DifferenceError, RenderingQuery};
+use chromascope_core::query::{Ask as _, RenderingQuery};
 use clap::ArgMatches;
 
 use super::arguments::{Format, RenderArguments};
 use super::files::{file_names, make_folder, patiently};
+use super::no_difference;
 use super::setup::compared_request;
 use crate::catalog::spectral_images::{self, OpenImageError, ReadSignalsError};
 use crate::cli::error::{CliError, Result};
 use crate::cli::outputs::{self, show, write_to};
-use crate::cli::request::display_path;
+use crate::cli::request::{display_path, in_file};
 use crate::document::TransformChoice;
 use crate::document::render::RenderSettings;
 use crate::export::render::{exr_bytes, image_header, png_bytes};
@@ -59,7 +60,7 @@ pub(super) fn run(arguments: &RenderArguments, path: &Path, matches: &ArgMatches
     let mut lines = String::new();
     for (index, file) in files.iter().enumerate() {
         let bytes = bytes(&scene, (&sources[index], &query.sources[index].0), made, index, arguments, &name)?;
-        write_to(file, &bytes).map_err(|error| CliError::Output { path: file.clone(), error })?;
+        write_to(file, &bytes)?;
         let words = difference(&scene, &sources[index], made.differences[index].as_deref());
         let _ = writeln!(lines, "{}: {words}", file.display());
     }
@@ -86,7 +87,7 @@ fn failure(path: &Path, error: &ImagePicturesError) -> CliError {
         ImagePicturesError::Quantity => {
             CliError::File(format!("{}: {error}; add --image-quantity reflectance or radiance", display_path(path)))
         }
-        other => CliError::File(format!("{}: {other}", display_path(path))),
+        other => in_file(path, other),
     }
 }
 
@@ -128,10 +129,6 @@ fn difference(scene: &Scene<'_>, source: &ComparedSensor, difference: Option<&Di
                 number(difference.max)
             )
         }
-        None => match scene.comparable(source.kind, &source.name) {
-            Ok(Err(DifferenceError::Ways)) => "no difference by Eq 13; add --transform fitted to compare".to_owned(),
-            Ok(Err(other)) => format!("no difference: {other}"),
-            _ => "no difference".to_owned(),
-        },
+        None => no_difference(scene.comparable(source.kind, &source.name).ok().and_then(Result::err)),
     }
 }

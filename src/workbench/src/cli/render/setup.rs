@@ -7,7 +7,6 @@ use std::time::{Duration, Instant};
 use chromascope_core::colorimetry::Metric;
 use chromascope_core::query::Shared;
 use chromascope_core::reflectance::SurfaceError;
-use chromascope_core::render::RasterSize;
 use chromascope_core::scene::Viewpoint;
 use chromascope_core::scene::viewpoint::ViewpointError;
 use chromascope_mesh::Mesh;
@@ -15,14 +14,14 @@ use clap::ArgMatches;
 
 use super::arguments::{RenderArguments, ViewpointArguments};
 use crate::catalog::meshes;
-use crate::cli::error::{CliError, Result};
+use crate::cli::error::{CliError, Result, refused};
 use crate::cli::request::Request;
 use crate::document::render::{BALANCE, MeshChoice, RenderSettings, SUN};
 use crate::document::{Compared, Light, SetKind, WhiteBalanceChoice};
 use crate::scene::orbit::Orbit;
 use crate::scene::render::Finish;
 use crate::terminal::say;
-use chromascope_core::render::QualityLevel;
+use chromascope_core::render::{QualityLevel, RasterSize};
 
 pub(super) struct Setup {
     pub(super) request: Request,
@@ -81,7 +80,7 @@ pub(super) fn compared_request(arguments: &RenderArguments, matches: &ArgMatches
     if let Some(metric) = arguments.difference.as_deref().and_then(Metric::by_id) {
         if !request.document.transform.metrics().contains(&metric) {
             let reason = format!("{} has no meaning with the paper's matrix; add --transform fitted", metric.symbol);
-            return Err(CliError::Argument { argument: "--difference", reason });
+            return refused("--difference", reason);
         }
         request.document.difference = metric;
     }
@@ -96,38 +95,30 @@ pub(super) fn compared_request(arguments: &RenderArguments, matches: &ArgMatches
     Ok(request)
 }
 
-const MESHES: [(&str, MeshChoice); 4] = [
-    ("head", MeshChoice::Head),
-    ("fern", MeshChoice::Fern),
-    ("sphere", MeshChoice::Sphere),
-    ("plane", MeshChoice::Plane),
-];
+const MESHES: [MeshChoice; 4] = [MeshChoice::Head, MeshChoice::Fern, MeshChoice::Sphere, MeshChoice::Plane];
 
 pub(in crate::cli) fn mesh_choice(given: &OsStr) -> Result<MeshChoice> {
     let typed = &*given.to_string_lossy();
-    let known = MESHES.into_iter().find(|(name, _)| typed.trim().eq_ignore_ascii_case(name));
-    if let Some((_, choice)) = known {
-        return Ok(choice);
+    if let Some(known) = MESHES.into_iter().find(|mesh| typed.trim().eq_ignore_ascii_case(&mesh.name())) {
+        return Ok(known);
     }
     let path = Path::new(given);
     if path.is_file() || path.extension().is_some() || typed.contains(['/', '\\']) {
         return Ok(MeshChoice::File(path.to_owned()));
     }
-    let alike = MESHES.map(|(name, _)| (strsim::jaro_winkler(&typed.to_lowercase(), name), name));
+    let alike = MESHES.map(|mesh| (strsim::jaro_winkler(&typed.to_lowercase(), &mesh.name()), mesh.name()));
     let nearest = alike.into_iter().filter(|(score, _)| *score > 0.7).max_by(|a, b| a.0.total_cmp(&b.0));
     let hint = nearest.map_or_else(String::new, |(_, name)| format!("did you mean {name}? "));
     let reason = format!(
         "no mesh is named \"{typed}\"; {hint}use head, fern, sphere, plane, or the path of an OBJ, PLY or STL file"
     );
-    Err(CliError::Argument { argument: "--mesh", reason })
+    refused("--mesh", reason)
 }
 
 fn mesh_name(choice: &MeshChoice) -> String {
     match choice {
         MeshChoice::File(path) => path.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned()),
-        own => {
-            MESHES.into_iter().find(|(_, choice)| choice == own).map_or_else(String::new, |(name, _)| name.to_owned())
-        }
+        own => own.name(),
     }
 }
 
@@ -143,6 +134,9 @@ pub(in crate::cli) fn own_mesh(choice: &MeshChoice) -> Result<Option<Shared<Mesh
     Ok(Some(read.mesh))
 }
 
+const NO_DIRECTION: &str =
+    "a direction of zero length; use one such as -0.4,0.5,1: 0.4 to the left, 0.5 up, 1 toward the viewer";
+
 /// Render settings: those of the paper's head or fern with the arguments applied.
 fn settings(arguments: &RenderArguments, mesh: MeshChoice, start: RenderSettings) -> Result<RenderSettings> {
     let usual = if mesh == MeshChoice::Fern { RenderSettings::fern() } else { RenderSettings::default() };
@@ -155,10 +149,7 @@ fn settings(arguments: &RenderArguments, mesh: MeshChoice, start: RenderSettings
     if let Some([x, y, z]) = arguments.light {
         let length = x.hypot(y).hypot(z);
         if !(length > 0.0 && length.is_finite()) {
-            let reason =
-                "a direction of zero length; use one such as -0.4,0.5,1: 0.4 to the left, 0.5 up, 1 toward the viewer"
-                    .to_owned();
-            return Err(CliError::Argument { argument: "--light", reason });
+            return refused("--light", NO_DIRECTION);
         }
         settings.light_up_deg = y.atan2(x.hypot(z)).to_degrees();
         settings.light_right_deg = x.atan2(z).to_degrees();
@@ -187,8 +178,7 @@ pub(in crate::cli) fn viewpoint(arguments: ViewpointArguments, usual: Orbit, asp
         return framed.viewpoint(aspect).ok_or_else(|| viewpoint_error(ViewpointError::Distance));
     };
     if pitch.abs() > 90.0 {
-        let reason = format!("{pitch}° is beyond the poles; use a pitch from -90 to 90");
-        return Err(CliError::Argument { argument: "--orbit", reason });
+        return refused("--orbit", format!("{pitch}° is beyond the poles; use a pitch from -90 to 90"));
     }
     let as_shown = || usual.viewpoint(aspect).map_or(usual.field_of_view_deg.to_radians(), |v| v.field_of_view());
     let field = arguments.fov.map_or_else(as_shown, f64::to_radians);
@@ -219,7 +209,7 @@ fn raster(arguments: &RenderArguments) -> Result<RasterSize> {
             MOST_SAMPLES / 1_000_000,
             chromascope_core::render::visibility::MAX_SIDE
         );
-        return Err(CliError::Argument { argument: "--size", reason });
+        return refused("--size", reason);
     }
     Ok(size)
 }

@@ -31,16 +31,20 @@ pub struct CorrectionRequest<'a> {
 /// Query for the color correction of a camera of the scene, with its ACES input transform.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct CorrectionFileQuery {
-    camera: String,
-    model: String,
-    correction: String,
-    lights: Vec<String>,
-    metric: &'static str,
-    training: Shared<PatchSet>,
+    pub camera: String,
+    /// Camera model as raw files call it.
+    pub(super) model: String,
+    /// Correction in words.
+    pub(super) correction: String,
+    pub lights: Vec<String>,
+    /// Symbol of the metric of the errors.
+    pub metric: &'static str,
+    pub(super) training: Shared<PatchSet>,
     sheet: CorrectionSheetQuery,
-    idt: IdtQuery,
+    pub(super) idt: IdtQuery,
     ratio: ChannelRatioQuery,
-    terms: String,
+    /// Terms of the table, for the files' copyright.
+    pub(super) terms: String,
 }
 
 impl CorrectionFileQuery {
@@ -83,21 +87,7 @@ impl Query for CorrectionFileQuery {
         let name = || self.camera.clone();
         let sheet = (*ask.ask(&self.sheet)).clone().map_err(|error| SceneError::Rendering { name: name(), error })?;
         let ratio = (*ask.ask(&self.ratio)).clone().map_err(|error| SceneError::Load { name: name(), error })?;
-        let names = |patches: &PatchSet| patches.patches().iter().map(|patch| patch.name.clone()).collect();
-        Ok(Arc::new(CorrectionFile {
-            camera: self.camera.clone(),
-            model: self.model.clone(),
-            correction: self.correction.clone(),
-            lights: self.lights.clone(),
-            metric: self.metric,
-            training: names(&self.training),
-            sheet,
-            idt: (*ask.ask(&self.idt)).clone(),
-            idt_training: names(&self.idt.training),
-            ratio,
-            neutral: self.idt.neutral,
-            terms: self.terms.clone(),
-        }))
+        Ok(Arc::new(CorrectionFile { of: self.clone(), sheet, idt: (*ask.ask(&self.idt)).clone(), ratio }))
     }
 }
 

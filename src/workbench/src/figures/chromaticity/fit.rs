@@ -17,7 +17,7 @@ pub(super) fn full_extent(diagram: Diagram) -> [f64; 2] {
 /// Choices that the fit belongs to: the reference and the sensors that can be compared with it, all if none can.
 pub fn fit_key(scene: &Scene<'_>, fit: DiagramFit) -> FitKey {
     let sources = scene.sources();
-    let compared = |source: &ComparedSensor| matches!(scene.comparable(source.kind, &source.name), Ok(Ok(())));
+    let compared = |source: &ComparedSensor| scene.is_comparable(source.kind, &source.name);
     let (fitted, other): (Vec<_>, Vec<_>) = sources.iter().partition(|source| source.is_reference || compared(source));
     let all = fitted.iter().all(|source| source.is_reference);
     let mut sensors: Vec<_> = fitted.into_iter().chain(other.into_iter().filter(|_| all)).map(id).collect();
@@ -49,7 +49,7 @@ pub fn fitted(scene: &Scene<'_>, key: &FitKey) -> Fit {
 fn points(scene: &Scene<'_>, key: &FitKey) -> Vec<[f64; 2]> {
     let overlays = scene.document.overlays;
     let mut points = Vec::new();
-    for source in scene.sources().iter().filter(|source| source.visible && key.sensors.contains(&id(source))) {
+    for source in scene.visible_sources().iter().filter(|source| key.sensors.contains(&id(source))) {
         if let Some(locus) = scene.locus(source.kind, &source.name).ok().filter(|_| overlays.loci) {
             points.extend(locus.points.iter().filter_map(|p| place(key.diagram, p.xy, p.uv)));
         }

@@ -9,8 +9,7 @@ use chromascope_core::light::daylight;
 use chromascope_core::units::Kelvin;
 use chromascope_figure::{Dash, Image, InkRole, Mark, Place, Shape};
 
-use super::drawing::Drawing;
-use super::labels::{Rank, label};
+use super::drawing::{Drawing, Rank, label};
 use crate::document::{Diagram, FIT_TARGET, SetKind};
 use crate::plot_item::PickIndex;
 

@@ -4,8 +4,7 @@ use chromascope_core::query::{LocusPoint, Temperatures};
 use chromascope_core::units::Kelvin;
 use chromascope_figure::{Dash, Ink, InkRole, Label, Mark, Marker, Place, Shape, TextSize};
 
-use super::drawing::{Drawing, id};
-use super::labels::{Rank, label};
+use super::drawing::{Drawing, Rank, id, label};
 use crate::plot_item::{PickIndex, PlotItem, SensorId};
 use crate::scene::locus::split;
 use crate::scene::{ComparedSensor, Scene};

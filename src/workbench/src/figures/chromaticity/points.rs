@@ -6,8 +6,7 @@ use chromascope_core::query::{LocusPoint, PatchColor, Temperatures, compare};
 use chromascope_core::units::Kelvin;
 use chromascope_figure::{Ink, InkRole, Label, Mark, Marker, Place, Shape};
 
-use super::drawing::{Drawing, Frame, id};
-use super::labels::{Rank, label as ranked};
+use super::drawing::{Drawing, Frame, Rank, id, label as ranked};
 use crate::document::{Diagram, SetKind};
 use crate::format::number;
 use crate::palette::LINE_TAIL;
@@ -49,7 +48,7 @@ pub(super) fn add(drawing: &mut Drawing<'_>, sources: &[ComparedSensor]) {
             continue;
         }
         let Ok(colors) = drawing.scene.patch_colors(source.kind, &source.name) else { continue };
-        let comparable = matches!(drawing.scene.comparable(source.kind, &source.name), Ok(Ok(())));
+        let comparable = drawing.scene.is_comparable(source.kind, &source.name);
         if !drawing.sketch && !source.is_reference && comparable {
             add_tails(drawing, source, &names, &colors, &reference);
         }

@@ -6,8 +6,7 @@ use chromascope_core::query::Ask;
 use chromascope_core::units::Kelvin;
 use chromascope_figure::{InkRole, Label, Mark, Marker, Place, Shape};
 
-use super::drawing::Drawing;
-use super::labels::{Rank, label};
+use super::drawing::{Drawing, Rank, label};
 use crate::catalog::load::LightQuery;
 use crate::document::{FIT_TARGET, Light, SetKind};
 use crate::plot_item::{PickIndex, PlotItem};

@@ -20,29 +20,12 @@ pub struct Scale {
 }
 
 impl Scale {
-    /// Possible upper limits of the scale for a metric of two decimals, with the number of equal steps: close to each
-    /// other, so that the data reach near the end.
-    const ENDS: [(f32, u8); 20] = [
-        (0.2, 4),
-        (0.3, 3),
-        (0.4, 4),
-        (0.5, 5),
-        (0.6, 3),
-        (0.8, 4),
-        (1.0, 5),
-        (1.5, 3),
-        (2.0, 4),
-        (3.0, 3),
-        (4.0, 4),
-        (5.0, 5),
-        (6.0, 3),
-        (8.0, 4),
-        (10.0, 5),
-        (12.0, 4),
-        (15.0, 3),
-        (20.0, 4),
-        (30.0, 3),
-        (50.0, 5),
+    /// Numbers of equal steps, with the possible upper limits that have so many, for a metric of two decimals: close to each other, so
+    /// that the data reach near the end.
+    const ENDS: [(u8, &[f32]); 3] = [
+        (3, &[0.3, 0.6, 1.5, 3.0, 6.0, 15.0, 30.0]),
+        (4, &[0.2, 0.4, 0.8, 2.0, 4.0, 8.0, 12.0, 20.0]),
+        (5, &[0.5, 1.0, 5.0, 10.0, 50.0]),
     ];
 
     /// Scale of all maps: the least that holds 95 % of the samples bright enough to be judged, with a fifth to spare, so
@@ -59,8 +42,9 @@ impl Scale {
 
     fn holding(most: f32, largest: f32, metric: Metric) -> Self {
         let unit = 0.1_f32.powi(i32::try_from(metric.decimals).unwrap_or(2) - 2);
-        let fits = |end: &&(f32, u8)| end.0 * unit >= most;
-        let &(end, steps) = Self::ENDS.iter().find(fits).unwrap_or(&(100.0, 5));
+        let ends = Self::ENDS.iter().flat_map(|(steps, ends)| ends.iter().map(|end| (*end, *steps)));
+        let least = ends.filter(|(end, _)| end * unit >= most).min_by(|a, b| a.0.total_cmp(&b.0));
+        let (end, steps) = least.unwrap_or((100.0, 5));
         Self { end: end * unit, exceeded: largest > end * unit, steps, unit }
     }
 

@@ -32,9 +32,9 @@ pub enum Detail {
 /// Metric of pictures' differences, and whether they are of Eq 13 colors.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Measure {
-    metric: Metric,
-    by_eq_13: bool,
-    of_image: bool,
+    pub metric: Metric,
+    pub by_eq_13: bool,
+    pub of_image: bool,
 }
 
 impl Measure {
@@ -104,60 +104,5 @@ impl Measure {
             Detail::Quantiles => quantiles(),
             Detail::Largest => format!("{}, max {}", quantiles(), self.number(difference.max)),
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use chromascope_core::query::render::difference::BrightSamples;
-
-    #[test]
-    fn a_picture_without_light_has_no_difference() {
-        let measure = Measure { metric: Metric::DELTA_E_2000, by_eq_13: false, of_image: false };
-        let bright = Some(BrightSamples { count: 2, median: 2.0, p95: 4.0 });
-        let some =
-            Difference { stride: 1, map: vec![1.0; 3], mean: 1.0, max: 5.0, facing: Some(3.12), garment: None, bright };
-        let said = [Detail::Number, Detail::Metric, Detail::Quantiles, Detail::Largest];
-        assert_eq!(
-            said.map(|detail| measure.words(&some, detail)),
-            [
-                "ΔE 3.1",
-                "ΔE*00 3.1",
-                "ΔE*00 3.1 facing light, median 2.0, 95 % 4.0",
-                "ΔE*00 3.1 facing light, median 2.0, 95 % 4.0, max 5.0"
-            ]
-        );
-        let clothed = Difference { garment: Some(2.04), ..some.clone() };
-        let words = "ΔE*00 3.1 (garment 2.0) facing light, median 2.0, 95 % 4.0";
-        assert_eq!(measure.words(&clothed, Detail::Quantiles), words);
-        let dark = Difference { bright: None, ..some.clone() };
-        let unlit = Difference { map: Vec::new(), mean: 0.0, max: 0.0, ..dark.clone() };
-        assert_eq!(measure.words(&dark, Detail::Number), "ΔE 3.1");
-        let whole = measure.words(&dark, Detail::Quantiles);
-        assert_eq!(whole, "ΔE*00 3.1 facing light, all other samples too dark");
-        assert!(said.iter().all(|&detail| measure.words(&unlit, detail) == "no light"));
-        let image = Measure { of_image: true, ..measure };
-        let words = image.words(&Difference { facing: None, ..some }, Detail::Largest);
-        assert_eq!(words, "ΔE*00 mean 1.0, median 2.0, 95 % 4.0, max 5.0");
-    }
-
-    #[test]
-    fn names_and_decimals_are_the_metrics() {
-        let facing = Difference {
-            stride: 1,
-            map: vec![0.02],
-            mean: 0.02,
-            max: 0.02,
-            facing: Some(0.0213),
-            garment: None,
-            bright: None,
-        };
-        let of = |metric, by_eq_13| Measure { metric, by_eq_13, of_image: false }.words(&facing, Detail::Metric);
-        assert_eq!(of(Metric::DELTA_E_2000, true), "Δ of Eq 13 colors 0.0");
-        assert_eq!(of(Metric::XY, true), "Δxy 0.021");
-        let number =
-            Measure { metric: Metric::UV_PRIME, by_eq_13: false, of_image: false }.words(&facing, Detail::Number);
-        assert_eq!(number, "Δu′v′ 0.021");
     }
 }

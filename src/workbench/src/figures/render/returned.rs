@@ -72,39 +72,3 @@ fn sentence(light: ReturnedLight, reading: Normalization) -> Words {
     }
     Words { text, is_warning: light.exceeds_one_from_deg.is_some() }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::catalog::Catalog;
-    use crate::document::Document;
-    use crate::results::Results;
-
-    fn said(change: impl FnOnce(&mut Document)) -> Option<Words> {
-        let mut document = Document::colorimetry();
-        change(&mut document);
-        let (catalog, results) = (Catalog::built_in(), Results::default());
-        words(&Scene { document: &document, catalog: &catalog, results: &results })
-    }
-
-    #[test]
-    fn the_default_skin_returns_half_of_the_light() {
-        let words = said(|_| ()).expect("a sentence");
-        assert_eq!(words.text, "Returns 0.49 of the light at normal incidence (0.03 at 85°)");
-        assert!(!words.is_warning);
-    }
-
-    #[test]
-    fn more_light_than_comes_is_a_warning() {
-        let words = said(|document| document.render.normalization = Normalization::Microfacet).expect("a sentence");
-        assert!(words.is_warning && words.text.contains("; more than 1 from 7"), "{}", words.text);
-        let words = said(|document| document.render.normalization = Normalization::Paper).expect("a sentence");
-        assert!(!words.is_warning && words.text.contains("e-6 of the light") && words.text.ends_with("with P as π f"));
-    }
-
-    #[test]
-    fn without_one_surface_nothing_is_said() {
-        assert_eq!(said(|document| document.render.normalization = Normalization::Lambertian), None);
-        assert_eq!(said(|document| document.render.roughness = Roughness::Mesh), None);
-    }
-}

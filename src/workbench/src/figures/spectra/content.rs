@@ -30,13 +30,7 @@ pub(super) struct Content {
 
 /// The light, to its largest value.
 pub(super) fn light(scene: &Scene<'_>, built: &mut Built) -> Option<Content> {
-    let light = match scene.light() {
-        Ok(light) => light,
-        Err(error) => {
-            built.refused.push(error.to_string());
-            return None;
-        }
-    };
+    let light = built.known(scene.light())?;
     let tag = built.things.tag(PlotItem::Light);
     let within = |nm: f64| (FIRST_NM..=LAST_NM).contains(&nm);
     let samples = light.measured.wavelengths_nm().iter().zip(light.measured.values());
@@ -56,13 +50,7 @@ pub(super) fn light(scene: &Scene<'_>, built: &mut Built) -> Option<Content> {
 
 /// The patches, each in the color that the reference sees.
 pub(super) fn patches(scene: &Scene<'_>, built: &mut Built) -> Option<Content> {
-    let patches = match scene.patches() {
-        Ok(patches) => patches,
-        Err(error) => {
-            built.refused.push(error.to_string());
-            return None;
-        }
-    };
+    let patches = built.known(scene.patches())?;
     let colors = scene.patch_colors(SetKind::Observer, &scene.document.reference).unwrap_or_default();
     let mut top = 1.0_f64;
     let (mut marks, mut names) = (Vec::new(), Vec::new());
@@ -123,13 +111,7 @@ pub(super) fn sensitivities(
     for (source, is_ghost) in
         ghost.map(|ghost| (ghost, true)).into_iter().chain(sources.iter().rev().map(|s| (s, false)))
     {
-        let sensor = match scene.sensor(source.kind, &source.name) {
-            Ok(sensor) => sensor,
-            Err(error) => {
-                built.refused.push(error.to_string());
-                continue;
-            }
-        };
+        let Some(sensor) = built.known(scene.sensor(source.kind, &source.name)) else { continue };
         let tag = built.things.tag(PlotItem::Sensor(id(source)));
         for (channel, spectrum) in sensor.primaries().channels().iter().zip(sensor.curves()) {
             let peak = spectrum.values().iter().copied().fold(0.0, f64::max).max(f64::MIN_POSITIVE);

@@ -1,0 +1,175 @@
+//! Words and numbers beside figures, on the terminal and in messages, and the part of a diagram that is shown.
+
+use std::borrow::Cow;
+
+use chromascope::catalog::Catalog;
+use chromascope::document::{Diagram, Document, SetKind};
+use chromascope::figures::chromaticity::shown::{DiagramFit, DiagramView, Fit, FitKey};
+use chromascope::figures::render::headline::{Detail, Measure};
+use chromascope::figures::render::returned::{self, Words};
+use chromascope::plot_item::SensorId;
+use chromascope::profiler::plans::ErrorBounds;
+use chromascope::results::Results;
+use chromascope::scene::Scene;
+use chromascope::terminal::shown;
+use chromascope_core::colorimetry::Metric;
+use chromascope_core::query::render::Roughness;
+use chromascope_core::query::render::difference::{BrightSamples, Difference};
+use chromascope_core::reflectance::Normalization;
+use chromascope_workbench::format::dropped_rows;
+use spectral_file::{Dropped, DroppedRow};
+
+#[test]
+fn a_picture_without_light_has_no_difference() {
+    let measure = Measure { metric: Metric::DELTA_E_2000, by_eq_13: false, of_image: false };
+    let bright = Some(BrightSamples { count: 2, median: 2.0, p95: 4.0 });
+    let some =
+        Difference { stride: 1, map: vec![1.0; 3], mean: 1.0, max: 5.0, facing: Some(3.12), garment: None, bright };
+    let said = [Detail::Number, Detail::Metric, Detail::Quantiles, Detail::Largest];
+    assert_eq!(
+        said.map(|detail| measure.words(&some, detail)),
+        [
+            "ΔE 3.1",
+            "ΔE*00 3.1",
+            "ΔE*00 3.1 facing light, median 2.0, 95 % 4.0",
+            "ΔE*00 3.1 facing light, median 2.0, 95 % 4.0, max 5.0"
+        ]
+    );
+    let clothed = Difference { garment: Some(2.04), ..some.clone() };
+    let words = "ΔE*00 3.1 (garment 2.0) facing light, median 2.0, 95 % 4.0";
+    assert_eq!(measure.words(&clothed, Detail::Quantiles), words);
+    let dark = Difference { bright: None, ..some.clone() };
+    let unlit = Difference { map: Vec::new(), mean: 0.0, max: 0.0, ..dark.clone() };
+    assert_eq!(measure.words(&dark, Detail::Number), "ΔE 3.1");
+    let whole = measure.words(&dark, Detail::Quantiles);
+    assert_eq!(whole, "ΔE*00 3.1 facing light, all other samples too dark");
+    assert!(said.iter().all(|&detail| measure.words(&unlit, detail) == "no light"));
+    let image = Measure { of_image: true, ..measure };
+    let words = image.words(&Difference { facing: None, ..some }, Detail::Largest);
+    assert_eq!(words, "ΔE*00 mean 1.0, median 2.0, 95 % 4.0, max 5.0");
+}
+
+#[test]
+fn names_and_decimals_are_the_metrics() {
+    let facing = Difference {
+        stride: 1,
+        map: vec![0.02],
+        mean: 0.02,
+        max: 0.02,
+        facing: Some(0.0213),
+        garment: None,
+        bright: None,
+    };
+    let of = |metric, by_eq_13| Measure { metric, by_eq_13, of_image: false }.words(&facing, Detail::Metric);
+    assert_eq!(of(Metric::DELTA_E_2000, true), "Δ of Eq 13 colors 0.0");
+    assert_eq!(of(Metric::XY, true), "Δxy 0.021");
+    let number = Measure { metric: Metric::UV_PRIME, by_eq_13: false, of_image: false }.words(&facing, Detail::Number);
+    assert_eq!(number, "Δu′v′ 0.021");
+}
+
+fn said_of_light(change: impl FnOnce(&mut Document)) -> Option<Words> {
+    let mut document = Document::colorimetry();
+    change(&mut document);
+    let (catalog, results) = (Catalog::built_in(), Results::default());
+    returned::words(&Scene { document: &document, catalog: &catalog, results: &results })
+}
+
+#[test]
+fn the_default_skin_returns_half_of_the_light() {
+    let words = said_of_light(|_| ()).expect("a sentence");
+    assert_eq!(words.text, "Returns 0.49 of the light at normal incidence (0.03 at 85°)");
+    assert!(!words.is_warning);
+}
+
+#[test]
+fn more_light_than_comes_is_a_warning() {
+    let words =
+        said_of_light(|document| document.render.normalization = Normalization::Microfacet).expect("a sentence");
+    assert!(words.is_warning && words.text.contains("; more than 1 from 7"), "{}", words.text);
+    let words = said_of_light(|document| document.render.normalization = Normalization::Paper).expect("a sentence");
+    assert!(!words.is_warning && words.text.contains("e-6 of the light") && words.text.ends_with("with P as π f"));
+}
+
+#[test]
+fn without_one_surface_nothing_is_said_of_light() {
+    assert_eq!(said_of_light(|document| document.render.normalization = Normalization::Lambertian), None);
+    assert_eq!(said_of_light(|document| document.render.roughness = Roughness::Mesh), None);
+}
+
+#[test]
+fn each_error_is_said_with_what_it_is_relative_to() {
+    let words = |diffuse, coherent| ErrorBounds { diffuse, coherent }.words();
+    assert_eq!(
+        words(Some(3.4e-10), Some(1e-9)),
+        "diffuse component: estimated error bound 3.4e-10 of the peak; specular lobes within 1e-9 of the brightest sample; \
+         stored in single precision (6e-8)"
+    );
+    assert_eq!(
+        words(Some(4.3e-8), None),
+        "diffuse component: estimated error bound 4.3e-8 of the peak; stored in single precision (6e-8)"
+    );
+    assert_eq!(
+        words(Some(4.3e-8), Some(1e-3)),
+        "diffuse component: estimated error bound 4.3e-8 of the peak; specular lobes within 1e-3 of the brightest sample"
+    );
+    assert_eq!(words(None, None), "no sample takes a spectral integral");
+    assert_eq!(
+        words(None, Some(1e-5)),
+        "no sample takes a spectral integral; specular lobes within 1e-5 of the brightest sample"
+    );
+}
+
+fn key(names: &[&str]) -> FitKey {
+    let sensors = names.iter().map(|name| SensorId { kind: SetKind::Camera, name: (*name).to_owned() }).collect();
+    FitKey { diagram: Diagram::Xy, fit: DiagramFit::Data, sensors, patches: Default::default() }
+}
+
+const SMALL: Fit = Fit { shown: [[0.2, 0.4]; 2], data: [[0.2, 0.4]; 2] };
+const LARGE: Fit = Fit { shown: [[0.0, 0.8]; 2], data: [[0.2, 0.4]; 2] };
+
+#[test]
+fn a_fit_is_held_until_the_sensors_change_or_home() {
+    let mut view = DiagramView::default();
+    assert!(!view.hold(key(&["a"]), false, 0.0, |_| SMALL), "the first fit does not move");
+    assert!(!view.hold(key(&["a"]), false, 1.0, |_| panic!("the sensors are the same")));
+    assert_eq!(view.fit(), Some(SMALL));
+    assert!(view.hold(key(&["a", "b"]), false, 2.0, |_| LARGE));
+    assert_eq!(view.fit(), Some(SMALL), "it starts where it was");
+    assert!(view.hold(key(&["a", "b"]), false, 2.075, |_| panic!("it is on its way")));
+    let [left, right] = view.fit().expect("a fit").shown[0];
+    assert!((left - 0.025).abs() < 1e-9 && (right - 0.75).abs() < 1e-9, "{left} {right}");
+    assert!(!view.hold(key(&["a", "b"]), false, 2.151, |_| panic!("it has arrived")));
+    assert_eq!(view.fit(), Some(LARGE));
+    assert!(view.hold(key(&["a", "b"]), true, 3.0, |_| SMALL), "Home");
+}
+
+#[test]
+fn home_starts_from_what_was_zoomed_to_and_other_coordinates_at_once() {
+    let mut view = DiagramView::default();
+    view.hold(key(&["a"]), false, 0.0, |_| SMALL);
+    view.zoomed = Some(LARGE.shown);
+    assert!(view.hold(key(&["a"]), true, 1.0, |_| SMALL));
+    assert_eq!((view.fit(), view.zoomed), (Some(LARGE), None), "it starts where it was");
+    let other = FitKey { diagram: Diagram::UvPrime, ..key(&["a"]) };
+    assert!(!view.hold(other, false, 1.05, |_| SMALL));
+    assert_eq!(view.fit(), Some(SMALL));
+}
+
+#[test]
+fn merged_rows_are_not_left_out() {
+    let row = |line, why| DroppedRow { line, why };
+    let rows = [row(4, Dropped::Averaged), row(5, Dropped::NoWavelength), row(7, Dropped::Averaged)];
+    let merged = "2 rows merged with others of the same wavelength (mean): lines 4, 7";
+    assert_eq!(dropped_rows(&rows, 5), [merged, "1 row skipped: line 5 (no wavelength)"]);
+    let many: Vec<DroppedRow> = (1..=82).map(|line| row(line, Dropped::Repeated)).collect();
+    assert_eq!(dropped_rows(&many, 1), ["82 rows skipped: line 1 (the same as an earlier row) and 81 more"]);
+    assert!(dropped_rows(&[], 5).is_empty());
+}
+
+#[test]
+fn nothing_is_an_order_to_the_terminal() {
+    assert_eq!(shown("a\u{1b}[31mb\u{7}"), "a\\u{1b}[31mb\\u{7}");
+    assert_eq!(shown("a\u{9b}2Jb\rc\u{7f}"), "a\\u{9b}2Jb\\u{d}c\\u{7f}");
+    assert_eq!(shown("\u{202e}gpj.exe\u{2066}"), "\\u{202e}gpj.exe\\u{2066}");
+    assert!(matches!(shown("two lines\n\twith \u{394}E\u{2a}\n"), Cow::Borrowed(_)));
+}
