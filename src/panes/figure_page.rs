@@ -142,7 +142,7 @@ fn sheet(ui: &mut Ui, rect: Rect, (kind, figure): (PaneKind, Option<Arc<Figure>>
         let room = (size + Vec2::splat(2.0 * AROUND)).max(ui.available_size());
         let (place, response) = ui.allocate_exact_size(room, Sense::hover());
         let words = format!("{} on paper: {}", context.title(kind), figure.title);
-        response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, &words));
+        widgets::labeled(&response, egui::Role::Image, &words);
         let corner = (place.center() - 0.5 * size).round();
         let page = Rect::from_min_size(corner, size);
         match shown.as_ref().map(|shown| shown.answer.as_ref()) {

@@ -41,7 +41,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
         if context.scene.document.render.mesh.is_image() { widgets::pixel::SPECTRUM_HEIGHT + UNIT } else { 0.0 };
     let foot = if kept { PIXEL + PIXEL_LINE * sources.min(PIXEL_LINES) as f32 + spectrum } else { NO_PIXEL };
     let below = if body.height() > WITH_PIXEL { foot } else { 0.0 };
-    let groups = Rect::from_min_max(body.min, egui::pos2(body.right(), body.bottom() - below));
+    let groups = body.with_max_y(body.bottom() - below);
     widgets::scroll(ui, (PANE.kind, "render setup"), groups, context, |ui, context| {
         ui.spacing_mut().item_spacing.y = 0.5 * UNIT;
         group(ui, LIGHT, context, |ui, context| controls(ui, LIGHT, context));
@@ -200,7 +200,7 @@ fn line(ui: &mut Ui, words: &str, meaning: &str, color: egui::Color32) {
         return;
     }
     let cut = widgets::lines::elided(ui, rect, words, egui::TextStyle::Small, color);
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, words));
+    widgets::labeled(&response, egui::Role::Label, words);
     if cut || meaning != words {
         response.on_hover_text(meaning);
     }

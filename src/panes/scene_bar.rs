@@ -157,7 +157,7 @@ fn choice(
         return pick_list::drop_down(ui, (name, hint), shown, width, &context.theme, lines);
     }
     let (button, chosen) = pick_list::menu(ui, ("⋯", name, &format!("{name}: {shown}\n{hint}")), &context.theme, lines);
-    button.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, format!("{name}: {shown}")));
+    widgets::labeled(&button, egui::Role::Button, format!("{name}: {shown}"));
     chosen
 }
 

@@ -65,7 +65,7 @@ fn until_shown(window: &mut Window, what: &str, shown: impl Fn(&Window) -> bool)
             return Ok(());
         }
         window.run_steps(1);
-        Err(window.state().view().status.text.clone())
+        Err(window.state().view.status.text.clone())
     });
     window.run_steps(2);
 }
@@ -99,7 +99,7 @@ fn enter(window: &mut Window) {
 }
 
 fn said(window: &mut Window, what: &str) {
-    until(window, what, |app| app.view().status.text.starts_with(what));
+    until(window, what, |app| app.view.status.text.starts_with(what));
 }
 
 /// The form of a file by its first bytes.
@@ -223,7 +223,7 @@ fn keys_go_nowhere_while_the_box_is_on_its_way() {
     let mut window = window(Files::new(None).with_dialogs(dialogs));
     window.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::O);
     window.run_steps(2);
-    let before = (window.state().history().document().clone(), window.state().view().saved.clone());
+    let before = (window.state().history.document().clone(), window.state().view.saved.clone());
     let press_all = |window: &mut Window| {
         for key in [egui::Key::F, egui::Key::L, egui::Key::I, egui::Key::D, egui::Key::T, egui::Key::Num1] {
             window.key_press(key);
@@ -237,9 +237,9 @@ fn keys_go_nowhere_while_the_box_is_on_its_way() {
         window.run_steps(3);
     };
     press_all(&mut window);
-    let now = |window: &Window| (window.state().history().document().clone(), window.state().view().saved.clone());
+    let now = |window: &Window| (window.state().history.document().clone(), window.state().view.saved.clone());
     assert_eq!(now(&window), before);
-    let view = window.state().view();
+    let view = &window.state().view;
     assert!(view.maximized.is_none() && view.palette.is_none() && view.status.text.is_empty());
     answer.send(Answer::Missing).unwrap();
     until_box(&mut window);
@@ -291,7 +291,7 @@ fn a_wrong_path_stays_to_be_mended_and_tilde_is_home() {
     window.run_steps(2);
     assert_eq!(text(&window), "~/leaf.csv");
     enter(&mut window);
-    until(&mut window, "leaf", |app| app.history().document().own.iter().any(|set| set.name == "leaf"));
+    until(&mut window, "leaf", |app| app.history.document().own.iter().any(|set| set.name == "leaf"));
     assert!(!has_box(&window));
 }
 
@@ -319,7 +319,7 @@ fn tab_completes_a_path() {
     window.run_steps(3);
     assert_eq!(text(&window), "~/spectra/leaf two.csv");
     enter(&mut window);
-    until(&mut window, "leaf two", |app| app.history().document().own.iter().any(|set| set.name == "leaf two"));
+    until(&mut window, "leaf two", |app| app.history.document().own.iter().any(|set| set.name == "leaf two"));
 }
 
 #[test]

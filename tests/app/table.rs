@@ -14,9 +14,9 @@ use crate::screenshots::open;
 /// The window with the numbers of the swatches in place of their picture.
 fn numbers() -> Harness<'static, ChromascopeApp> {
     let mut window = open([1280.0, 800.0], egui::Theme::Dark);
-    window.state_mut().view_mut().saved.tables.insert(PaneKind::SWATCHES);
+    window.state_mut().view.saved.tables.insert(PaneKind::SWATCHES);
     window.state_mut().push(Command::Maximize(PaneKind::SWATCHES));
-    window.state_mut().view_mut().focused = Some(PaneKind::SWATCHES);
+    window.state_mut().view.focused = Some(PaneKind::SWATCHES);
     window.run_steps(3);
     window
 }
@@ -36,7 +36,7 @@ fn head(window: &Harness<'static, ChromascopeApp>, name: &str) -> egui::Rect {
 }
 
 fn look(window: &Harness<'static, ChromascopeApp>) -> TableLook {
-    window.state().view().saved.looks.get("Swatches").cloned().unwrap_or_default()
+    window.state().view.saved.looks.get("Swatches").cloned().unwrap_or_default()
 }
 
 fn patch(name: &str, sensor: &str) -> PlotItem {
@@ -102,18 +102,18 @@ fn rows_are_linked_with_all_panes() {
     let at = window.query_all_by_role(Role::Row).nth(row).expect("its row").rect();
     window.hover_at(at.left_center() + egui::vec2(4.0, 0.0));
     window.run_steps(3);
-    assert!(window.state().view().hovered.is_some(), "under the pointer in all panes");
+    assert!(window.state().view.hovered.is_some(), "under the pointer in all panes");
     window.query_all_by_role(Role::Row).nth(row).expect("its row").click();
     window.run_steps(3);
-    assert_eq!(window.state().view().selected, Some(patch("red", "Kodak DCS200")));
+    assert_eq!(window.state().view.selected, Some(patch("red", "Kodak DCS200")));
     for key in [egui::Key::ArrowDown, egui::Key::ArrowDown, egui::Key::ArrowUp] {
         window.key_press(key);
         window.run_steps(2);
     }
-    assert_eq!(window.state().view().selected, Some(patch("green", "Kodak DCS200")));
+    assert_eq!(window.state().view.selected, Some(patch("green", "Kodak DCS200")));
     window.key_press(egui::Key::End);
     window.run_steps(2);
-    let last = window.state().view().selected.clone();
+    let last = window.state().view.selected.clone();
     assert!(last.is_some() && last != Some(patch("green", "Kodak DCS200")));
 }
 
@@ -124,8 +124,7 @@ fn rows_are_copied_as_shown_with_their_conditions() {
     window.run_steps(2);
     window.get_by_role_and_label(Role::TextInput, "Filter rows").type_text("D70");
     window.run_steps(2);
-    window.state_mut().view_mut().saved.looks.get_mut("Swatches").unwrap().columns =
-        [("srgb_r".to_owned(), false)].into();
+    window.state_mut().view.saved.looks.get_mut("Swatches").unwrap().columns = [("srgb_r".to_owned(), false)].into();
     // The field has the keyboard no longer.
     window.key_press(egui::Key::Tab);
     window.run_steps(2);
@@ -145,14 +144,14 @@ fn rows_are_copied_as_shown_with_their_conditions() {
 #[test]
 fn only_rows_in_sight_are_laid_out() {
     let mut window = numbers();
-    window.state_mut().view_mut().saved.tables.insert(PaneKind::CHROMATICITY);
+    window.state_mut().view.saved.tables.insert(PaneKind::CHROMATICITY);
     window.state_mut().push(Command::Maximize(PaneKind::SWATCHES));
     window.state_mut().push(Command::Maximize(PaneKind::CHROMATICITY));
     window.run_steps(3);
     let laid_out = rows(&window).len();
     assert!((20..60).contains(&laid_out), "{laid_out}");
     let top = head(&window, "sensor").top();
-    window.state_mut().view_mut().focused = Some(PaneKind::CHROMATICITY);
+    window.state_mut().view.focused = Some(PaneKind::CHROMATICITY);
     let first = rows(&window);
     window.key_press(egui::Key::End);
     window.run_steps(4);
