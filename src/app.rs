@@ -236,8 +236,7 @@ impl eframe::App for ChromascopeApp {
         self.take_files(ctx);
         self.take_dropped(ctx);
         self.take_opened();
-        self.take_meshes();
-        self.take_images();
+        self.take_scenes();
         self.take_report();
         self.take_input(ctx);
         frame::into_sight(ctx, &mut self.focus);

@@ -229,36 +229,6 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_lock_of_a_window_that_ended_is_taken_over() {
-        let folder = tempfile::tempdir().expect("a folder");
-        let claim = || Folder::claim(Some(folder.path().to_owned()));
-        // Remains of a killed process: a file without a lock.
-        fs::write(folder.path().join(LOCK), "4711").expect("written");
-        let first = claim();
-        assert_eq!(first.other, None);
-        assert_eq!(fs::read_to_string(folder.path().join(LOCK)).ok(), Some(std::process::id().to_string()));
-        let second = claim();
-        assert_eq!(second.other, Some(OtherWindow { process: Some(std::process::id()) }));
-        let third = claim();
-        assert!(third.file != second.file && second.file != first.file);
-        drop(first);
-        assert_eq!(claim().other, None);
-    }
-
-    #[test]
-    fn only_documents_of_windows_that_ended_are_copies() {
-        let folder = tempfile::tempdir().expect("a folder");
-        let claim = || Folder::claim(Some(folder.path().to_owned()));
-        let first = claim();
-        let second = claim();
-        let copy = second.file.clone().expect("it has a copy");
-        fs::write(&copy, "{}").expect("written");
-        assert_eq!(first.copies(None), [], "its window is open");
-        drop(second);
-        assert_eq!(first.copies(None).into_iter().map(|copy| copy.path).collect::<Vec<_>>(), [copy]);
-    }
-
-    #[test]
     fn curves_that_no_document_names_are_removed_once_no_other_window_is_open() {
         let folder = tempfile::tempdir().expect("a folder");
         let curves = folder.path().join(CURVES);

@@ -190,7 +190,7 @@ fn title_menu(ui: &mut Ui, pane: &Pane, context: &mut PaneContext<'_>) {
         let mut lines = Vec::new();
         for group in Workspace::ALL {
             let others = panes.iter().filter(|other| other.kind != PaneKind::LIBRARY && other.kind.group() == group);
-            lines.push(Line::heading(group.title()));
+            lines.push(Line::heading(group.label()));
             kinds.push(None);
             for other in others {
                 lines.push(Line::new(other.title, other.kind == pane.kind));

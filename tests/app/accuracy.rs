@@ -205,8 +205,13 @@ fn a_typed_tolerance_is_taken_as_it_is_and_ticks_nothing() {
     window.state_mut().push(Command::Show(Workspace::Numerics));
     window.run_steps(3);
     let render = |window: &Window| window.state().history.document().render.clone();
-    for (typed, taken, shown) in [("5e-10", 5e-10, "5e−10"), ("2.5e−4", 2.5e-4, "2.5e−4"), ("1e−6", 1e-6, "1e−6")]
-    {
+    for (typed, taken, shown) in [
+        ("5e-10", 5e-10, "5e−10"),
+        ("2.5e−4", 2.5e-4, "2.5e−4"),
+        ("0.1", 0.1, "1e−1"),
+        ("1.5E-4", 1.5e-4, "1.5e−4"),
+        (" 1e−6 ", 1e-6, "1e−6"),
+    ] {
         type_tolerance(&mut window, typed, egui::Key::Enter);
         assert_eq!((render(&window).tolerance, render(&window).quality), (taken, QualityLevel::Full));
         let text = window.get_by_role_and_label(Role::TextInput, "Tolerance").value();
@@ -225,6 +230,32 @@ fn type_tolerance(window: &mut Window, text: &str, key: egui::Key) {
     window.run_steps(2);
     window.key_press(key);
     window.run_steps(2);
+}
+
+#[test]
+fn a_tolerance_is_refused_with_a_reason() {
+    let mut window = open([1280.0, 1000.0], egui::Theme::Light);
+    window.state_mut().push(Command::Show(Workspace::Numerics));
+    window.run_steps(3);
+    for (typed, words) in [
+        (" ", "Enter a number"),
+        ("10 %", "“10 %” is not a number"),
+        ("nan", "is not a number"),
+        ("inf", "too large"),
+        ("0.5", "too large: range 1e−13 to 0.1"),
+        ("7", "too large: range 1e−13 to 0.1"),
+        ("1e-14", "too small: range 1e−13 to 0.1; S itself is accurate to 1e−13"),
+        ("1,5e-4", "“1,5e-4” is not a number"),
+        ("0.1%", "“0.1%” is not a number"),
+        ("abc", "“abc” is not a number"),
+        ("-1", "above 0; range 1e−13 to 0.1"),
+        ("0", "above 0"),
+        ("−3", "above 0"),
+    ] {
+        type_tolerance(&mut window, typed, egui::Key::Enter);
+        assert_eq!(window.state().history.document().render.tolerance, 1e-6, "{typed}");
+        assert!(window.query_by_label_contains(words).is_some(), "nothing is said of {typed}");
+    }
 }
 
 #[test]

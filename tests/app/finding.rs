@@ -4,6 +4,7 @@ use chromascope::app::ChromascopeApp;
 use chromascope::catalog::names::{Fit, fit, typed_words};
 use chromascope::command::Command;
 use chromascope::document::{Diagram, Document, Light, Overlays, SetKind};
+use chromascope::panes::widgets::pick_list::{Line, found};
 use chromascope::plot_item::{PlotItem, SensorId};
 use chromascope::view::DiagramFit;
 use chromascope::view::import::ImportItem;
@@ -343,4 +344,19 @@ fn controls_that_do_nothing_in_a_workspace_are_dim() {
 fn layouts_of_the_workspace_once_named_accuracy_open() {
     let old = "\"Accuracy\"";
     assert_eq!(serde_json::from_str::<Workspace>(old).unwrap(), Workspace::Numerics);
+}
+
+#[test]
+fn groups_without_a_match_are_left_out() {
+    let all = [
+        Line::heading("Blackbodies"),
+        Line::new("A", true),
+        Line::heading("Daylight"),
+        Line::new("D50", false),
+        Line { also: "noon daylight".to_owned(), ..Line::new("D65", false) },
+    ];
+    assert_eq!(found(&all, "noon d6"), [2, 4]);
+    assert_eq!(found(&all, " "), [0, 1, 2, 3, 4]);
+    assert!(found(&all, "zeiss").is_empty());
+    assert_eq!(found(&all, "a"), [0, 1, 2, 4], "the name before what only contains it");
 }

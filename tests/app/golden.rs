@@ -137,7 +137,7 @@ fn workspaces_say_what_they_said() {
                     writeln!(text, "{:?}: {label} = {value}", node.role()).unwrap();
                 }
             }
-            check(&format!("window_{start}_{}", file_name(workspace.title())), &text);
+            check(&format!("window_{start}_{}", file_name(workspace.label())), &text);
         }
     }
 }

@@ -592,3 +592,33 @@ fn the_layout_is_the_first_windows_and_written_whole() {
     assert_eq!(saved, first.state().saved_view());
     assert!(values.contains_key("egui"));
 }
+
+#[test]
+fn the_lock_of_a_window_that_ended_is_taken_over() {
+    let (_around, folder) = profile();
+    let copy = |files: &Files| files.copy().map(|(_, file)| file);
+    // Remains of a killed process: a file without a lock.
+    fs::write(folder.join("window.lock"), "4711").unwrap();
+    let first = open(&folder);
+    assert_eq!(copy(&first), None);
+    assert_eq!(fs::read_to_string(folder.join("window.lock")).unwrap(), std::process::id().to_string());
+    let second = open(&folder);
+    let (words, _) = second.copy().expect("another window has the folder");
+    assert!(words.contains(&format!("(process {})", std::process::id())), "{words}");
+    let third = open(&folder);
+    assert!(copy(&third).is_some() && copy(&third) != copy(&second));
+    assert_ne!(copy(&second), Some(folder.join("document.json")));
+    drop(first);
+    assert_eq!(copy(&open(&folder)), None);
+}
+
+#[test]
+fn only_documents_of_windows_that_ended_are_copies() {
+    let (_around, folder) = profile();
+    let (first, second) = (open(&folder), open(&folder));
+    let (_, copy) = second.copy().expect("it has a copy");
+    fs::write(&copy, "{}").unwrap();
+    assert_eq!(first.other_documents(), [], "its window is open");
+    drop(second);
+    assert_eq!(first.other_documents().into_iter().map(|(path, _)| path).collect::<Vec<_>>(), [copy]);
+}

@@ -195,7 +195,7 @@ fn panes(context: &PaneContext<'_>) -> Vec<Found> {
         let command = Command::Show(workspace);
         let key = keys.iter().find(|binding| binding.command == command);
         let key = key.map_or_else(String::new, |binding| key_name(binding.shortcut));
-        let words = format!("Workspace {}", workspace.title());
+        let words = format!("Workspace {}", workspace.label());
         found.push(Found::new("Workspaces and panes", words, command).note(key).on(workspace == now));
     }
     for pane in context.panes {

@@ -258,23 +258,3 @@ fn within(ui: &mut Ui, key: Id, name: &str, theme: &Theme, all: &[Line]) -> Opti
     }
     chosen.and_then(|index| places.get(index).copied())
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn groups_without_a_match_are_left_out() {
-        let all = [
-            Line::heading("Blackbodies"),
-            Line::new("A", true),
-            Line::heading("Daylight"),
-            Line::new("D50", false),
-            Line { also: "noon daylight".to_owned(), ..Line::new("D65", false) },
-        ];
-        assert_eq!(found(&all, "noon d6"), [2, 4]);
-        assert_eq!(found(&all, " "), [0, 1, 2, 3, 4]);
-        assert!(found(&all, "zeiss").is_empty());
-        assert_eq!(found(&all, "a"), [0, 1, 2, 4], "the name before what only contains it");
-    }
-}
