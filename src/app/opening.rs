@@ -114,7 +114,11 @@ impl ChromascopeApp {
                     self.view.import.follow(&ImportItem::File(old), &now);
                 }
                 OpenedEvent::Mesh(path) => self.open_mesh(&path),
-                OpenedEvent::Image(path) => self.open_image(&path),
+                OpenedEvent::Image(path) => {
+                    self.meshes.cancel();
+                    self.images.open(&path);
+                    self.view.say(format!("Reading {}…", file_name(&path)));
+                }
                 OpenedEvent::Document(path) => self.push(Command::OpenDocument(path)),
                 OpenedEvent::Failed(message, files) => {
                     let first = files.first().map(|file| ImportItem::File(*file));
@@ -497,12 +501,6 @@ fn put_to_use(before: &Document, after: &Document, brought: &[Shared<ImportedSet
 }
 
 impl ChromascopeApp {
-    pub(super) fn open_image(&mut self, path: &Path) {
-        self.meshes.cancel();
-        self.images.open(path);
-        self.view.say(format!("Reading {}…", file_name(path)));
-    }
-
     /// Shows meshes and images that were read, and stops reads that are no longer needed.
     pub(super) fn take_scenes(&mut self) {
         let meshes = self.meshes.poll().into_iter().map(|opened| {

@@ -70,7 +70,9 @@ impl Folder {
             }
             Err(TryLockError::WouldBlock) => {
                 let process = fs::read_to_string(folder.join(LOCK)).ok().and_then(|text| text.trim().parse().ok());
-                Self { first, other: Some(OtherWindow { process }), ..Self::default() }.with_copy(&folder)
+                let copy = free_copy(&folder);
+                let lock = Some(Lock::of_copy(&copy));
+                Self { file: Some(copy), first, other: Some(OtherWindow { process }), closed: None, lock }
             }
             // Some network folders have no locks: better one document for all than none.
             Err(TryLockError::Error(error)) => {
@@ -78,14 +80,6 @@ impl Folder {
                 of_first
             }
         }
-    }
-
-    /// Saves the document in a file that no window uses or used.
-    fn with_copy(mut self, folder: &Path) -> Self {
-        let file = free_copy(folder);
-        self.lock = Some(Lock::of_copy(&file));
-        self.file = Some(file);
-        self
     }
 
     /// Saves this window's document in a copy from now on, because the first window's file must not be changed.

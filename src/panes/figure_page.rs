@@ -114,10 +114,7 @@ fn sheet(ui: &mut Ui, rect: Rect, (kind, figure): (PaneKind, Option<Arc<Figure>>
     let Some(figure) = figure else {
         title(ui, head, kind, None, context);
         let words = format!("{} has no figure now.", context.title(kind));
-        let font = egui::TextStyle::Body.resolve(ui.style());
-        let color = context.theme.on_surround;
-        ui.painter().text(ground.center(), egui::Align2::CENTER_CENTER, words, font, color);
-        return;
+        return widgets::say(ui, ground, words, context.theme.on_surround);
     };
     let paper = context.view.saved.page.paper;
     let pixels = f64::from(ui.ctx().pixels_per_point());

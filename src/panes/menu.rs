@@ -153,7 +153,7 @@ fn file(ui: &mut Ui, context: &mut PaneContext<'_>) {
         item(ui, &words, Command::Export(pane, form), context);
     }
     item(ui, &format!("Export numbers of {}…", context.title(pane)), Command::Export(pane, FigureForm::Csv), context);
-    if let Some(camera) = context.correction_camera() {
+    if let Some(camera) = context.view.correction.camera(&context.scene) {
         ui.menu_button(format!("Color correction of {camera}"), |ui| {
             for form in CorrectionForm::ALL {
                 item(ui, form.words().0, Command::SaveCorrection(form), context);

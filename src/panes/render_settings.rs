@@ -9,6 +9,7 @@ use egui::{CollapsingHeader, DragValue, Rect, ScrollArea, Ui, UiBuilder, Vec2};
 use super::context::{Pane, set_render as set};
 use crate::document::render::RenderSettings;
 use crate::document::render::settings::{LIGHT, SURFACE, VIEW};
+use crate::format::number;
 use crate::panes::context::PaneContext;
 use crate::panes::widgets;
 use crate::panes::widgets::pick_list::{self, Line};
@@ -259,7 +260,7 @@ impl<D> Dial<'_, D> {
             // Typing is one step when it is done, not one for each key.
             .update_while_editing(false)
             .speed(0.0)
-            .custom_formatter(move |value, _| format!("{}{unit}", short(value)))
+            .custom_formatter(move |value, _| format!("{}{unit}", number(short_value(value))))
             .custom_parser(parsed);
         if self.number.typed.is_none() {
             field = field.range(self.range());
@@ -279,10 +280,6 @@ fn list(
     caption(ui, name, context);
     let width = ui.available_width();
     pick_list::drop_down(ui, (name, hint), shown, width, &context.theme, lines)
-}
-
-fn short(value: f64) -> String {
-    crate::format::number(short_value(value))
 }
 
 /// Three digits: the precision of a drag and of reading.

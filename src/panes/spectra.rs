@@ -86,7 +86,7 @@ fn one_panel(
     let shown = {
         let view = &*context.view;
         let emphasis = |tag| view.emphasis_of(&built.things, tag, &reference);
-        let options = PlotOptions { zoomable: false, reset: view.reset_plots, link_x: None, emphasis: &emphasis };
+        let options = PlotOptions { zoomable: false, reset: view.reset_plots, emphasis: &emphasis };
         paint::plot(ui, Id::unique(("spectra", &panel.name)), panel, &context.theme, place, options)
     };
     let hit = shown.response.hover_pos().and_then(|at| paint::nearest(panel, &shown.view, at, REACH));

@@ -225,12 +225,9 @@ fn row(ui: &mut Ui, rect: Rect, index: usize, entries: &[Entry], context: &mut P
     }
     response.on_hover_ui(|ui| {
         ui.label(&entry.name);
-        let small = |ui: &mut Ui, words: String| {
-            widgets::note(ui, words);
-        };
-        small(ui, format!("{}; {}", entry.note, entry.state.words()));
+        widgets::note(ui, format!("{}; {}", entry.note, entry.state.words()));
         if let Some(path) = &entry.path {
-            small(ui, path.display().to_string());
+            widgets::note(ui, path.display().to_string());
         }
     });
 }

@@ -78,8 +78,8 @@ pub(super) fn one(ui: &mut Ui, id: &SensorId, patch: &str, context: &mut PaneCon
     }
     let mut points = vec![Point::of_patch("reference", Some(seen))];
     if !is_reference {
-        let value = difference_of(&scene, id, patch).and_then(Result::ok);
-        points.push(Point::of_patch(id.kind.label(), Some(own)).with_difference(value));
+        let difference = difference_of(&scene, id, patch).and_then(Result::ok);
+        points.push(Point { difference, ..Point::of_patch(id.kind.label(), Some(own)) });
     }
     let item = PlotItem::Patch { source: Some(id.clone()), patch: patch.to_owned() };
     points_table(ui, points, &item, context);
@@ -163,7 +163,7 @@ fn buttons_without_copy(ui: &mut Ui, context: &mut PaneContext<'_>) {
         let point = |s: &ComparedSensor| {
             let id = SensorId { kind: s.kind, name: s.name.clone() };
             let difference = difference_of(&scene, &id, &patch).and_then(Result::ok).filter(|_| !s.is_reference);
-            Point::of_patch(&s.label, color_of(&scene, &id, &patch).ok().flatten()).with_difference(difference)
+            Point { difference, ..Point::of_patch(&s.label, color_of(&scene, &id, &patch).ok().flatten()) }
         };
         let points: Vec<Point> = shown.iter().map(point).collect();
         copy_text(ui, numbers::to_tsv(&numbers::heads(&points), &numbers::rows_of(&scene, &points)), context);
