@@ -77,7 +77,7 @@ impl NumberField<'_> {
             edit = edit.text_color(context.theme.error);
         }
         let response = ui.put(rect, edit.desired_width(rect.width()));
-        super::labeled(&response, Role::TextInput, self.name);
+        super::lines::labeled(&response, Role::TextInput, self.name);
         if response.changed() {
             typed.wrong = None;
         }

@@ -317,7 +317,7 @@ impl DataTable<'_> {
             .hint_text("Filter")
             .desired_width((ui.available_width() - BESIDE).clamp(FILTER[1], FILTER[0]));
         let response = ui.add(edit.align(egui::Align2::LEFT_CENTER).margin(egui::Margin::symmetric(4, 3)));
-        super::labeled(&response, egui::Role::TextInput, "Filter rows");
+        super::lines::labeled(&response, egui::Role::TextInput, "Filter rows");
         let escaped = response.lost_focus() && ui.input(|input| input.key_down(egui::Key::Escape));
         if escaped {
             look.filter.clear();

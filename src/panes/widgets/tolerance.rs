@@ -36,7 +36,7 @@ pub fn field(ui: &mut Ui, id: Id, now: f64, words: &str, hint: &str, context: &m
             edit = edit.text_color(theme.error);
         }
         let text = ui.add(edit).on_hover_text(format!("{TAKES}.\n{hint}"));
-        super::labeled(&text, Role::TextInput, "Tolerance");
+        super::lines::labeled(&text, Role::TextInput, "Tolerance");
         if text.changed() {
             typed.wrong = None;
         }
