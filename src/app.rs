@@ -36,21 +36,21 @@ pub use startup::{WindowError, run};
 const LAYOUT_KEY: &str = "layout";
 
 pub struct ChromascopeApp {
-    history: History,
+    pub history: History,
     pub catalog: Catalog,
-    results: Results,
-    view: View,
+    pub results: Results,
+    pub view: View,
     files: Files,
-    meshes: MeshStore,
-    images: ImageStore,
-    opened: Opened,
+    pub meshes: MeshStore,
+    pub images: ImageStore,
+    pub opened: Opened,
     recorded: RecordedStore,
-    later: Later,
+    pub later: Later,
     /// Subject of the report whose folder is asked for.
     report_on: Option<ReportOn>,
     pub states: PaneStates,
-    render_service: RenderService,
-    profiler: Profiler,
+    pub render_service: RenderService,
+    pub profiler: Profiler,
     commands: Vec<Command>,
     /// Files named at the start that are not read yet: a single one is put to use.
     at_start: std::collections::BTreeSet<std::path::PathBuf>,
@@ -124,19 +124,6 @@ impl ChromascopeApp {
         app
     }
 
-    pub fn history(&self) -> &History {
-        &self.history
-    }
-
-    pub fn view(&self) -> &View {
-        &self.view
-    }
-
-    /// What panes keep from frame to frame.
-    pub fn view_mut(&mut self) -> &mut View {
-        &mut self.view
-    }
-
     pub fn saved_view(&self) -> SavedView {
         let mut saved = self.own_view().clone();
         saved.import.failing = self.opened.failing();
@@ -149,40 +136,8 @@ impl ChromascopeApp {
         saved
     }
 
-    pub fn results(&self) -> &Results {
-        &self.results
-    }
-
-    pub fn meshes(&self) -> &MeshStore {
-        &self.meshes
-    }
-
-    pub fn images(&self) -> &ImageStore {
-        &self.images
-    }
-
-    pub fn opened(&self) -> &Opened {
-        &self.opened
-    }
-
     pub fn is_asking(&self) -> bool {
         self.files.is_asking()
-    }
-
-    pub fn render_service(&self) -> &RenderService {
-        &self.render_service
-    }
-
-    pub fn profiler(&self) -> &Profiler {
-        &self.profiler
-    }
-
-    pub fn later(&self) -> &Later {
-        &self.later
-    }
-
-    pub fn profiler_mut(&mut self) -> &mut Profiler {
-        &mut self.profiler
     }
 
     /// Has something done in the next frame.
@@ -281,8 +236,7 @@ impl eframe::App for ChromascopeApp {
         self.take_files(ctx);
         self.take_dropped(ctx);
         self.take_opened();
-        self.take_meshes();
-        self.take_images();
+        self.take_scenes();
         self.take_report();
         self.take_input(ctx);
         frame::into_sight(ctx, &mut self.focus);

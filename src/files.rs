@@ -89,8 +89,8 @@ impl Files {
     }
 
     #[must_use]
-    pub fn with_home(self, home: PathBuf) -> Self {
-        Self { home: Some(home), ..self }
+    pub fn with_home(self, home: Option<PathBuf>) -> Self {
+        Self { home, ..self }
     }
 
     /// Has the window drawn when something comes back.

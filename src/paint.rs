@@ -39,14 +39,12 @@ pub struct PlotOptions<'a> {
     /// True if the user can zoom (wheel, pinch) and pan (drag). A double click shows the panel's ranges again.
     pub zoomable: bool,
     pub reset: bool,
-    /// Plots with the same id share their horizontal range.
-    pub link_x: Option<Id>,
     pub emphasis: EmphasisOf<'a>,
 }
 
 impl Default for PlotOptions<'_> {
     fn default() -> Self {
-        Self { zoomable: true, reset: false, link_x: None, emphasis: &|_| Emphasis::Normal }
+        Self { zoomable: true, reset: false, emphasis: &|_| Emphasis::Normal }
     }
 }
 
@@ -124,9 +122,6 @@ pub fn plot(ui: &mut Ui, id: Id, panel: &Panel, theme: &Theme, rect: Rect, optio
         .invert_y(y[0] > y[1]);
     if panel.equal_aspect {
         plot = plot.data_aspect(1.0);
-    }
-    if let Some(group) = options.link_x {
-        plot = plot.link_axis(group, [true, false]);
     }
     if options.reset {
         plot = plot.reset();

@@ -569,11 +569,13 @@ impl PageZoom {
     }
 }
 
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub enum LengthUnit {
-    #[default]
-    Millimeter,
-    Inch,
+choices! {
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+    pub enum LengthUnit {
+        #[default]
+        Millimeter = "mm", "mm", "Millimeters";
+        Inch = "in", "in", "Inches, 25.4 mm each";
+    }
 }
 
 impl LengthUnit {
@@ -581,13 +583,6 @@ impl LengthUnit {
         match self {
             Self::Millimeter => 1.0,
             Self::Inch => 25.4,
-        }
-    }
-
-    pub const fn symbol(self) -> &'static str {
-        match self {
-            Self::Millimeter => "mm",
-            Self::Inch => "in",
         }
     }
 }

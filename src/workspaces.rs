@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 use std::fmt::{self, Formatter};
 use std::sync::{Mutex, PoisonError};
 
+use chromascope_text::choices;
 use egui::{Pos2, Rect, Vec2};
 use serde::de::{DeserializeSeed, EnumAccess, VariantAccess as _, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
@@ -115,35 +116,23 @@ fn interned(id: String) -> PaneKind {
     }))
 }
 
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
-pub enum Workspace {
-    #[default]
-    Compare,
-    Spectra,
-    Render,
-    Metrics,
-    Import,
-    /// Run time and error of each method on the scene, the skipped work, the statistics of the pictures.
-    #[serde(alias = "Accuracy")]
-    Numerics,
+choices! {
+    /// The workspaces, in the order of their tabs and keys.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+    pub enum Workspace {
+        #[default]
+        Compare = "compare", "Compare", "Diagram, swatches and spectra of the compared sensors";
+        Spectra = "spectra", "Spectra", "Light, patches and sensitivities";
+        Render = "render", "Render", "Pictures through each camera";
+        Metrics = "metrics", "Metrics", "Cameras ranked, their corrections, the light judged";
+        Import = "import", "Import", "Files, and how they are read";
+        /// Run time and error of each method on the scene, the skipped work, the statistics of the pictures.
+        #[serde(alias = "Accuracy")]
+        Numerics = "numerics", "Numerics", "Run time and error of each method";
+    }
 }
 
 impl Workspace {
-    /// All workspaces, in the order of their tabs and keys.
-    pub const ALL: [Self; 6] =
-        [Self::Compare, Self::Spectra, Self::Render, Self::Metrics, Self::Import, Self::Numerics];
-
-    pub const fn title(self) -> &'static str {
-        match self {
-            Self::Compare => "Compare",
-            Self::Spectra => "Spectra",
-            Self::Render => "Render",
-            Self::Metrics => "Metrics",
-            Self::Import => "Import",
-            Self::Numerics => "Numerics",
-        }
-    }
-
     /// True where a narrow window hides the library instead of the right column.
     pub const fn keeps_right_column(self) -> bool {
         matches!(self, Self::Render | Self::Metrics | Self::Import | Self::Numerics)

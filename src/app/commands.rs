@@ -7,6 +7,7 @@ use std::sync::Arc;
 use chromascope_core::query::Shared;
 use chromascope_figure::{Figure, FigureRoom, Table};
 use egui::ViewportCommand;
+use image::RgbaImage;
 
 use super::ChromascopeApp;
 use crate::action::history::History;
@@ -15,7 +16,7 @@ use crate::catalog::opened::{CLIPBOARD, Request};
 use crate::command::Command;
 use crate::document::SetKind;
 use crate::document::imported::ImportedSet;
-use crate::export::{self, FigureForm};
+use crate::export::{self, ExportError, FigureForm};
 use crate::figures::look::FigureLook;
 use crate::files::{DocumentSource, FileEvent, FileForm, SaveRequest};
 use crate::panes;
@@ -120,7 +121,11 @@ impl ChromascopeApp {
             Command::SaveSet(kind, name, form) => self.save_set(kind, &name, form),
             Command::SaveCorrection(form) => self.save_correction(form),
             Command::CopyPicture(pane) => self.copy_picture(ctx, self.pictured(pane)),
-            Command::CopyCard(pane) => self.copy_card(ctx, pane),
+            Command::CopyCard(pane) => {
+                if let Some(card) = self.card(pane) {
+                    self.copy_image(ctx, pane, "card", card.picture());
+                }
+            }
             Command::SaveCard(pane) => self.save_card(pane),
             Command::CopyNumbers(pane) => self.copy_numbers(ctx, self.pictured(pane)),
             Command::Show(workspace) => self.show_workspace(workspace),
@@ -467,12 +472,18 @@ impl ChromascopeApp {
     fn copy_picture(&mut self, ctx: &egui::Context, pane: PaneKind) {
         let Some(figure) = self.printed(pane) else { return };
         let paper = self.view.saved.page.paper;
-        match export::png(&export::svg(&figure, &paper.colors(), paper), paper.pixels_per_point()) {
+        let picture = export::png(&export::svg(&figure, &paper.colors(), paper), paper.pixels_per_point());
+        self.copy_image(ctx, pane, "picture", picture);
+    }
+
+    /// Puts a picture of a pane on the clipboard, and says so.
+    fn copy_image(&mut self, ctx: &egui::Context, pane: PaneKind, what: &str, made: Result<RgbaImage, ExportError>) {
+        match made {
             Ok(picture) => {
                 let size = [picture.width() as usize, picture.height() as usize];
                 ctx.copy_image(egui::ColorImage::from_rgba_unmultiplied(size, picture.as_raw()));
-                let pixels = format!("{} × {} pixels", size[0], size[1]);
-                self.view.say(format!("{}: picture copied, {pixels}.", panes::title(pane)));
+                let [width, height] = size;
+                self.view.say(format!("{}: {what} copied, {width} × {height} pixels.", panes::title(pane)));
             }
             Err(error) => self.view.fail(error.to_string()),
         }

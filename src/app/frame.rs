@@ -183,10 +183,10 @@ fn notice(ui: &mut Ui, rect: Rect, standing: &PersistentMessage, theme: &Theme) 
         dismissed = ui.put(place, Button::new("Dismiss").small()).clicked();
         right = place.left() - 2.0 * UNIT;
     }
-    let text = Rect::from_min_max(egui::pos2(left, inner.top()), egui::pos2(right, inner.bottom()));
+    let text = Rect::from_x_y_ranges(left..=right, inner.y_range());
     lines::elided(ui, text, &standing.words, TextStyle::Body, color);
     let response = ui.interact(text, ui.scope_id().with(("standing", standing.kind)), Sense::hover());
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Status, true, &standing.words));
+    lines::labeled(&response, egui::Role::Status, &standing.words);
     let file = standing.file.as_ref().map_or_else(String::new, |file| format!("\n{}", file.display()));
     response.on_hover_text(format!("{}{file}", standing.words));
     dismissed

@@ -114,7 +114,11 @@ impl ChromascopeApp {
                     self.view.import.follow(&ImportItem::File(old), &now);
                 }
                 OpenedEvent::Mesh(path) => self.open_mesh(&path),
-                OpenedEvent::Image(path) => self.open_image(&path),
+                OpenedEvent::Image(path) => {
+                    self.meshes.cancel();
+                    self.images.open(&path);
+                    self.view.say(format!("Reading {}…", file_name(&path)));
+                }
                 OpenedEvent::Document(path) => self.push(Command::OpenDocument(path)),
                 OpenedEvent::Failed(message, files) => {
                     let first = files.first().map(|file| ImportItem::File(*file));
@@ -497,36 +501,36 @@ fn put_to_use(before: &Document, after: &Document, brought: &[Shared<ImportedSet
 }
 
 impl ChromascopeApp {
-    pub(super) fn open_image(&mut self, path: &Path) {
-        self.meshes.cancel();
-        self.images.open(path);
-        self.view.say(format!("Reading {}…", file_name(path)));
-    }
-
-    pub(super) fn take_images(&mut self) {
-        for opened in self.images.poll() {
-            match opened.result {
-                Ok(image) => {
-                    let message = image.message();
-                    self.show_scene(RenderAction::OpenImage(opened.path.clone()), opened.path, message);
+    /// Shows meshes and images that were read, and stops reads that are no longer needed.
+    pub(super) fn take_scenes(&mut self) {
+        let meshes = self.meshes.poll().into_iter().map(|opened| {
+            let message = opened.result.map(|mesh| mesh.message.clone());
+            (RenderAction::Open(opened.path.clone()), opened.path, message)
+        });
+        let images = self.images.poll().into_iter().map(|opened| {
+            let message = opened.result.map(|image| image.message());
+            (RenderAction::OpenImage(opened.path.clone()), opened.path, message)
+        });
+        for (action, path, message) in meshes.chain(images).collect::<Vec<_>>() {
+            match message {
+                Ok(message) => {
+                    self.view.remember_file(path);
+                    self.history.apply(&Action::Render(action));
+                    self.history.end_gesture();
+                    self.view.saved.workspace = Workspace::Render;
+                    self.view.maximized = None;
+                    self.view.say(message);
                 }
                 Err(sentence) => self.view.fail(sentence),
             }
         }
-        let wanted = match &self.history.document().render.mesh {
-            MeshChoice::Image(path) => Some(path.as_path()),
-            _ => None,
+        let (mesh, image) = match &self.history.document().render.mesh {
+            MeshChoice::File(path) => (Some(path.as_path()), None),
+            MeshChoice::Image(path) => (None, Some(path.as_path())),
+            _ => (None, None),
         };
-        self.images.keep(wanted);
-    }
-
-    fn show_scene(&mut self, action: RenderAction, path: PathBuf, message: String) {
-        self.view.remember_file(path);
-        self.history.apply(&Action::Render(action));
-        self.history.end_gesture();
-        self.view.saved.workspace = Workspace::Render;
-        self.view.maximized = None;
-        self.view.say(message);
+        self.meshes.keep(mesh);
+        self.images.keep(image);
     }
 
     pub(super) fn open_mesh(&mut self, path: &Path) {
@@ -536,23 +540,6 @@ impl ChromascopeApp {
         let given_up =
             before.map(|before| format!(" {} was canceled: one mesh is shown at a time.", file_name(&before)));
         self.view.say(format!("Reading {}… Esc stops.{}", file_name(path), given_up.unwrap_or_default()));
-    }
-
-    /// Shows meshes that were read, and stops reads that are no longer needed.
-    pub(super) fn take_meshes(&mut self) {
-        for opened in self.meshes.poll() {
-            match opened.result {
-                Ok(mesh) => {
-                    self.show_scene(RenderAction::Open(opened.path.clone()), opened.path, mesh.message.clone());
-                }
-                Err(sentence) => self.view.fail(sentence),
-            }
-        }
-        let wanted = match &self.history.document().render.mesh {
-            MeshChoice::File(path) => Some(path.as_path()),
-            _ => None,
-        };
-        self.meshes.keep(wanted);
     }
 
     pub(super) fn stop_opening(&mut self) -> bool {

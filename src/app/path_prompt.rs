@@ -60,7 +60,7 @@ fn field(ui: &mut Ui, prompt: &mut PathPrompt) -> Option<Step> {
     // Tab stays here instead of going to the next control.
     let edit = TextEdit::singleline(&mut prompt.text).id(id).desired_width(WIDTH).lock_focus(true);
     let field = ui.add(edit);
-    field.widget_info(|| egui::WidgetInfo::labeled(egui::Role::TextInput, true, "Path"));
+    widgets::labeled(&field, egui::Role::TextInput, "Path");
     if field.changed() {
         prompt.typed();
     }

@@ -75,7 +75,7 @@ impl ChromascopeApp {
         });
     }
 
-    fn card(&mut self, pane: PaneKind) -> Option<Card> {
+    pub(super) fn card(&mut self, pane: PaneKind) -> Option<Card> {
         let shown = self.figure(pane)?;
         let scene = Scene { document: self.history.document(), catalog: &self.catalog, results: &self.results };
         let beside = pane != PaneKind::SWATCHES && pane != PaneKind::METRICS;
@@ -90,18 +90,6 @@ impl ChromascopeApp {
             shown
         };
         Some(Card { figure, swatches })
-    }
-
-    pub(super) fn copy_card(&mut self, ctx: &egui::Context, pane: PaneKind) {
-        let Some(card) = self.card(pane) else { return };
-        match card.picture() {
-            Ok(picture) => {
-                let size = [picture.width() as usize, picture.height() as usize];
-                ctx.copy_image(egui::ColorImage::from_rgba_unmultiplied(size, picture.as_raw()));
-                self.view.say(format!("{}: card copied, {} × {} pixels.", panes::title(pane), size[0], size[1]));
-            }
-            Err(error) => self.view.fail(error.to_string()),
-        }
     }
 
     pub(super) fn save_card(&mut self, pane: PaneKind) {

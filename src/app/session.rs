@@ -344,7 +344,7 @@ impl ChromascopeApp {
         let own: Vec<String> = self.view.templates.iter().map(|(name, _)| name.clone()).collect();
         let answer = window(ui, "session", "Save as a template", |ui| {
             let field = ui.add(TextEdit::singleline(&mut name).hint_text("Name").desired_width(WIDTH));
-            field.widget_info(|| egui::WidgetInfo::labeled(egui::Role::TextInput, true, "Name of the template"));
+            widgets::labeled(&field, egui::Role::TextInput, "Name of the template");
             let entered = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
             if !entered && ui.memory(|memory| memory.focused().is_none()) {
                 field.request_focus();

@@ -98,7 +98,7 @@ impl Autosave {
             Some(why) => Err(Unread::Because(format!("{why} Update to open it"))),
             None => Ok(kept),
         });
-        let is_by_value = file.is_by_value();
+        let is_by_value = file.by_value;
         drop(file);
         let is_others = self.folder.other.is_some();
         let (document, complaint) = match read {
@@ -262,9 +262,9 @@ impl State {
         self.ended = Some(now);
         let before = self.failure.take();
         // After a move to another file, nothing counts as saved there yet.
-        if self.moved.as_ref() != file.moved() {
+        if self.moved != file.moved {
             self.saved = None;
-            self.moved = file.moved().cloned();
+            self.moved = file.moved.clone();
         }
         match result {
             Ok(()) => self.saved = Some(document),
@@ -357,7 +357,7 @@ impl Shared {
             is_saved = result.as_ref().err().is_none_or(|unwritten| unwritten.is_rest_written);
             within_moments(&self.state)?.written(document, result, &file, self.clock.now());
         }
-        is_saved.then(|| file.path().to_owned())
+        is_saved.then(|| file.path.clone())
     }
 }
 

@@ -42,7 +42,7 @@ pub(super) enum Unread {
 /// Writes one document, again and again.
 #[derive(Debug, Default)]
 pub(super) struct DocumentFile {
-    path: PathBuf,
+    pub(super) path: PathBuf,
     /// Contents of that file as this window read or wrote them. Others are another program's.
     seen: Option<Fingerprint>,
     /// Contents that this window tried to write, which may be there although that failed.
@@ -54,11 +54,11 @@ pub(super) struct DocumentFile {
     /// Files of those curves, the oldest first.
     order: Vec<String>,
     /// True if the file on disk holds curves itself, which are lost with it.
-    by_value: bool,
+    pub(super) by_value: bool,
     /// True if the file on disk is known to be in the present format, or backed up.
     is_present: bool,
     /// The file in which the document is saved because another program wrote to the one before.
-    moved: Option<PathBuf>,
+    pub(super) moved: Option<PathBuf>,
     lock: Option<Lock>,
 }
 
@@ -67,22 +67,10 @@ impl DocumentFile {
         Self { path, ..Self::default() }
     }
 
-    pub(super) fn path(&self) -> &Path {
-        &self.path
-    }
-
     /// Continues in another file, which is this window's.
     pub(super) fn move_to(&mut self, path: PathBuf) {
         self.lock = Some(Lock::of_copy(&path));
         (self.path, self.seen, self.tried) = (path, None, None);
-    }
-
-    pub(super) fn moved(&self) -> Option<&PathBuf> {
-        self.moved.as_ref()
-    }
-
-    pub(super) fn is_by_value(&self) -> bool {
-        self.by_value
     }
 
     /// Reads a document, this one's or another window's.

@@ -70,7 +70,9 @@ impl Folder {
             }
             Err(TryLockError::WouldBlock) => {
                 let process = fs::read_to_string(folder.join(LOCK)).ok().and_then(|text| text.trim().parse().ok());
-                Self { first, other: Some(OtherWindow { process }), ..Self::default() }.with_copy(&folder)
+                let copy = free_copy(&folder);
+                let lock = Some(Lock::of_copy(&copy));
+                Self { file: Some(copy), first, other: Some(OtherWindow { process }), closed: None, lock }
             }
             // Some network folders have no locks: better one document for all than none.
             Err(TryLockError::Error(error)) => {
@@ -78,14 +80,6 @@ impl Folder {
                 of_first
             }
         }
-    }
-
-    /// Saves the document in a file that no window uses or used.
-    fn with_copy(mut self, folder: &Path) -> Self {
-        let file = free_copy(folder);
-        self.lock = Some(Lock::of_copy(&file));
-        self.file = Some(file);
-        self
     }
 
     /// Saves this window's document in a copy from now on, because the first window's file must not be changed.
@@ -227,36 +221,6 @@ fn entries(folder: &Path) -> impl Iterator<Item = PathBuf> {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn the_lock_of_a_window_that_ended_is_taken_over() {
-        let folder = tempfile::tempdir().expect("a folder");
-        let claim = || Folder::claim(Some(folder.path().to_owned()));
-        // Remains of a killed process: a file without a lock.
-        fs::write(folder.path().join(LOCK), "4711").expect("written");
-        let first = claim();
-        assert_eq!(first.other, None);
-        assert_eq!(fs::read_to_string(folder.path().join(LOCK)).ok(), Some(std::process::id().to_string()));
-        let second = claim();
-        assert_eq!(second.other, Some(OtherWindow { process: Some(std::process::id()) }));
-        let third = claim();
-        assert!(third.file != second.file && second.file != first.file);
-        drop(first);
-        assert_eq!(claim().other, None);
-    }
-
-    #[test]
-    fn only_documents_of_windows_that_ended_are_copies() {
-        let folder = tempfile::tempdir().expect("a folder");
-        let claim = || Folder::claim(Some(folder.path().to_owned()));
-        let first = claim();
-        let second = claim();
-        let copy = second.file.clone().expect("it has a copy");
-        fs::write(&copy, "{}").expect("written");
-        assert_eq!(first.copies(None), [], "its window is open");
-        drop(second);
-        assert_eq!(first.copies(None).into_iter().map(|copy| copy.path).collect::<Vec<_>>(), [copy]);
-    }
 
     #[test]
     fn curves_that_no_document_names_are_removed_once_no_other_window_is_open() {

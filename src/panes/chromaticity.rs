@@ -36,9 +36,9 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let body = widgets::lines::caution(ui, body, context);
     let strip_height = if body.height() >= WITH_STRIP { STRIP } else { 0.0 };
     let cut = body.bottom() - strip_height;
-    diagram(ui, Rect::from_min_max(body.min, Pos2::new(body.right(), cut)), context);
+    diagram(ui, body.with_max_y(cut), context);
     if strip_height > 0.0 {
-        show_strip(ui, Rect::from_min_max(Pos2::new(body.left(), cut + UNIT), body.max), context);
+        show_strip(ui, body.with_min_y(cut + UNIT), context);
     }
 }
 

@@ -93,11 +93,6 @@ impl PaneContext<'_> {
         self.pane(kind).map_or("", |pane| pane.title)
     }
 
-    /// The camera whose color correction is shown and saved.
-    pub fn correction_camera(&self) -> Option<String> {
-        self.view.correction.camera(&self.scene)
-    }
-
     pub fn look(&self, pane: PaneKind) -> FigureLook {
         look(pane, (&self.scene, self.view), self.render_service, self.profiler, self.opened)
     }

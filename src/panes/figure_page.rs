@@ -114,10 +114,7 @@ fn sheet(ui: &mut Ui, rect: Rect, (kind, figure): (PaneKind, Option<Arc<Figure>>
     let Some(figure) = figure else {
         title(ui, head, kind, None, context);
         let words = format!("{} has no figure now.", context.title(kind));
-        let font = egui::TextStyle::Body.resolve(ui.style());
-        let color = context.theme.on_surround;
-        ui.painter().text(ground.center(), egui::Align2::CENTER_CENTER, words, font, color);
-        return;
+        return widgets::say(ui, ground, words, context.theme.on_surround);
     };
     let paper = context.view.saved.page.paper;
     let pixels = f64::from(ui.ctx().pixels_per_point());
@@ -142,7 +139,7 @@ fn sheet(ui: &mut Ui, rect: Rect, (kind, figure): (PaneKind, Option<Arc<Figure>>
         let room = (size + Vec2::splat(2.0 * AROUND)).max(ui.available_size());
         let (place, response) = ui.allocate_exact_size(room, Sense::hover());
         let words = format!("{} on paper: {}", context.title(kind), figure.title);
-        response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, &words));
+        widgets::labeled(&response, egui::Role::Image, &words);
         let corner = (place.center() - 0.5 * size).round();
         let page = Rect::from_min_size(corner, size);
         match shown.as_ref().map(|shown| shown.answer.as_ref()) {

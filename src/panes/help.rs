@@ -52,7 +52,7 @@ fn window(ui: &Ui, page: &'static Page, context: &mut PaneContext<'_>) {
             let mut left = ui.new_child(UiBuilder::new().id_salt("list").max_rect(all.with_max_x(split - 2.0 * UNIT)));
             list(&mut left, page, &mut context.view.help);
             ui.painter().vline(split - UNIT, all.y_range(), egui::Stroke::new(1.0, context.theme.line));
-            let right = Rect::from_min_max(egui::pos2(split + UNIT, all.top()), all.max);
+            let right = all.with_min_x(split + UNIT);
             let mut right = ui.new_child(UiBuilder::new().id_salt(("page", page.name)).max_rect(right));
             content(&mut right, page, context);
         },
@@ -83,7 +83,7 @@ fn list(ui: &mut Ui, page: &'static Page, help: &mut HelpView) {
     help.picked = help.picked.min(hits.len().saturating_sub(1));
     let field = TextEdit::singleline(&mut help.query).id(id).hint_text("Search ( / )").desired_width(f32::INFINITY);
     let field = ui.add(field);
-    field.widget_info(|| egui::WidgetInfo::labeled(egui::Role::TextInput, true, "Search help"));
+    widgets::labeled(&field, egui::Role::TextInput, "Search help");
     if field.changed() {
         help.picked = 0;
     }
@@ -214,7 +214,7 @@ fn about(ui: &Ui, context: &mut PaneContext<'_>) {
 fn head(ui: &mut Ui, context: &PaneContext<'_>) {
     let (rect, response) = ui.allocate_exact_size(PICTURE, Sense::hover());
     let name = format!("A head: left through the reference, right through the {}", portrait::CAMERA);
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, &name));
+    widgets::labeled(&response, egui::Role::Image, &name);
     ui.painter().rect_filled(rect, 3.0, context.theme.surround);
     let query = portrait::query(context.scene.catalog, context.scene.results);
     let Some(shown) = context.later.ask("About", query.into_iter().collect()).shown else { return };

@@ -44,9 +44,9 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
         below
     } else {
         let cut = body.left() + FILES;
-        let column = Rect::from_min_max(body.min, egui::pos2(cut, body.bottom()));
+        let column = body.with_max_x(cut);
         files::column(ui, column, &entries, context);
-        Rect::from_min_max(egui::pos2(cut + 2.0 * UNIT, body.top()), body.max)
+        body.with_min_x(cut + 2.0 * UNIT)
     };
     match context.import_selection() {
         Some(shown) => {
@@ -87,7 +87,7 @@ fn switches(ui: &mut Ui, context: &mut PaneContext<'_>) {
     } else {
         format!("reading {}… {percent:.0} %", progress.name)
     };
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::ProgressIndicator, true, &words));
+    widgets::labeled(&response, egui::Role::ProgressIndicator, &words);
     ui.add(egui::Label::new(RichText::new(words).small().color(context.theme.weak)).truncate());
 }
 
@@ -196,5 +196,5 @@ fn ask(ui: &mut Ui, rect: Rect, shown: &ImportSelection, context: &mut PaneConte
     });
     let bottom = child.min_rect().bottom() + UNIT;
     ui.painter().hline(rect.x_range(), bottom, egui::Stroke::new(1.0, context.theme.line));
-    Rect::from_min_max(egui::pos2(rect.left(), (bottom + UNIT).min(rect.bottom())), rect.max)
+    rect.with_min_y((bottom + UNIT).min(rect.bottom()))
 }

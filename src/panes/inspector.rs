@@ -13,6 +13,7 @@ use egui::{Rect, RichText, Ui};
 use super::context::{Pane, PaneContext};
 use crate::command::Command;
 use crate::document::SetKind;
+use crate::figures::chromaticity::label as label_of;
 use crate::format::number;
 use crate::panes::widgets;
 use crate::panes::widgets::facts::range_words;
@@ -48,10 +49,6 @@ fn content(ui: &mut Ui, context: &mut PaneContext<'_>) {
 
 fn source_of(scene: &Scene<'_>, id: &SensorId) -> Option<ComparedSensor> {
     scene.sources().into_iter().find(|source| source.kind == id.kind && source.name == id.name)
-}
-
-fn label_of(scene: &Scene<'_>, id: &SensorId) -> String {
-    source_of(scene, id).map_or_else(|| id.name.clone(), |source| source.label)
 }
 
 fn reference_id(scene: &Scene<'_>) -> SensorId {

@@ -29,7 +29,7 @@ pub const PANE: Pane = Pane::new(PaneKind::INTERPRETATION, "Interpretation", sho
 
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let body = widgets::pane(ui, &PANE, rect, context, notes::button);
-    let inner = Rect::from_min_max(body.min + Vec2::new(2.0 * UNIT, 0.0), body.max - Vec2::new(2.0 * UNIT, 0.0));
+    let inner = body.shrink2(Vec2::new(2.0 * UNIT, 0.0));
     let Some(shown) = context.import_selection() else {
         let mut child = ui.new_child(UiBuilder::new().id_salt("nothing recognized").max_rect(inner));
         widgets::note(&mut child, "Drop files here.");
@@ -40,7 +40,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
         to_first(ui);
     }
     let below = foot_height(&shown, inner.width());
-    let upper = Rect::from_min_max(inner.min, egui::pos2(inner.right(), inner.bottom() - below));
+    let upper = inner.with_max_y(inner.bottom() - below);
     let mut child = ui.new_child(UiBuilder::new().id_salt("understood").max_rect(upper));
     child.set_clip_rect(upper.expand2(Vec2::new(2.0 * UNIT, 0.0)).intersect(ui.clip_rect()));
     let salt = format!("understood {:?}", shown.item);
@@ -51,7 +51,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
         ui.add_space(2.0 * UNIT);
     });
     ui.painter().hline(inner.x_range(), upper.bottom() + 0.5, egui::Stroke::new(1.0, context.theme.line));
-    let lower = Rect::from_min_max(egui::pos2(inner.left(), upper.bottom() + UNIT), inner.max);
+    let lower = inner.with_min_y(upper.bottom() + UNIT);
     let mut child = ui.new_child(UiBuilder::new().id_salt("understood foot").max_rect(lower));
     foot(&mut child, &shown, context);
 }
@@ -180,7 +180,7 @@ fn list(
                 response.request_focus();
             }
             let label = format!("{words}: {}", closed.words());
-            response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::ComboBox, true, &label));
+            widgets::labeled(&response, egui::Role::ComboBox, &label);
             response.on_hover_ui(|ui| {
                 ui.strong(closed.words());
                 if !closed.why.is_empty() {

@@ -76,7 +76,7 @@ fn compared(ui: &mut Ui, height: f32, context: &mut PaneContext<'_>) {
 
 fn heading(ui: &mut Ui, words: &str, context: &PaneContext<'_>) {
     let (rect, response) = ui.allocate_exact_size(Vec2::new(ui.available_width(), ROW - UNIT), egui::Sense::hover());
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, words));
+    widgets::labeled(&response, egui::Role::Label, words);
     widgets::lines::elided(ui, rect, words, egui::TextStyle::Body, context.theme.text);
 }
 
@@ -88,7 +88,7 @@ fn search_field(ui: &mut Ui, context: &mut PaneContext<'_>) -> bool {
     let search = &mut context.view.search;
     let field = TextEdit::singleline(search).id(id).hint_text(hint).margin(egui::Margin::symmetric(6, 4));
     let response = ui.add_sized([ui.available_width(), ROW], field);
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::TextInput, true, "Search the library"));
+    widgets::labeled(&response, egui::Role::TextInput, "Search the library");
     if std::mem::take(&mut context.view.focus_search) {
         response.request_focus();
         mark_all(ui, id, &context.view.search);

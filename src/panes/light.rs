@@ -146,9 +146,7 @@ fn pictures(ui: &mut Ui, rendition: &Rendition, context: &PaneContext<'_>) {
         return;
     }
     let (rect, response) = ui.allocate_exact_size(total, Sense::hover());
-    response.widget_info(|| {
-        egui::WidgetInfo::labeled(egui::Role::Image, true, "Color rendering indices as bars, and color vectors")
-    });
+    widgets::labeled(&response, egui::Role::Image, "Color rendering indices as bars, and color vectors");
     let below = if wide { Vec2::new(sizes[0].x, 0.0) } else { Vec2::new(0.0, BARS) };
     let places = [Rect::from_min_size(rect.min, sizes[0]), Rect::from_min_size(rect.min + below, sizes[1])];
     for (panel, place) in panels.iter().zip(places) {

@@ -44,7 +44,7 @@ fn tabs(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
         let on = context.view.saved.workspace == workspace;
         let fill = if on { theme.control } else { theme.panel };
         let response =
-            ui.add(Button::selectable(on, workspace.title()).fill(fill).min_size(Vec2::new(72.0, rect.height())));
+            ui.add(Button::selectable(on, workspace.label()).fill(fill).min_size(Vec2::new(72.0, rect.height())));
         if workspace == Workspace::Import {
             unseen_dot(ui, &response, context);
         }
@@ -65,7 +65,7 @@ fn unseen_dot(ui: &Ui, tab: &egui::Response, context: &PaneContext<'_>) {
     ui.painter().circle_filled(tab.rect.right_top() + Vec2::new(-7.0, 9.0), 3.0, context.theme.warning);
     let files = if count == 1 { "1 file".to_owned() } else { format!("{count} files") };
     let words = format!("Import: {files} to check");
-    tab.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &words));
+    widgets::labeled(&tab, egui::Role::Button, &words);
     tab.clone().on_hover_text(words);
 }
 
@@ -153,7 +153,7 @@ fn file(ui: &mut Ui, context: &mut PaneContext<'_>) {
         item(ui, &words, Command::Export(pane, form), context);
     }
     item(ui, &format!("Export numbers of {}…", context.title(pane)), Command::Export(pane, FigureForm::Csv), context);
-    if let Some(camera) = context.correction_camera() {
+    if let Some(camera) = context.view.correction.camera(&context.scene) {
         ui.menu_button(format!("Color correction of {camera}"), |ui| {
             for form in CorrectionForm::ALL {
                 item(ui, form.words().0, Command::SaveCorrection(form), context);
@@ -263,7 +263,7 @@ fn panes(ui: &mut Ui, context: &mut PaneContext<'_>) {
             || PaneLayout::default().shows(workspace, pane.kind)
             || context.view.saved.layout.shows(workspace, pane.kind)
     };
-    heading(ui, &format!("Panes of {}", workspace.title()));
+    heading(ui, &format!("Panes of {}", workspace.label()));
     for pane in context.panes.iter().filter(|pane| is_here(pane, context)).collect::<Vec<_>>() {
         line(ui, pane, context);
     }
@@ -272,7 +272,7 @@ fn panes(ui: &mut Ui, context: &mut PaneContext<'_>) {
             let others = context.panes.iter().filter(|pane| pane.kind.group() == group && !is_here(pane, context));
             let others: Vec<_> = others.collect();
             if !others.is_empty() {
-                heading(ui, group.title());
+                heading(ui, group.label());
             }
             for pane in others {
                 line(ui, pane, context);

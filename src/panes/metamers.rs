@@ -56,7 +56,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
         buttons(&mut child, &found.rows[row], context);
     }
     let top = child.min_rect().bottom() + UNIT;
-    let place = Rect::from_min_max(egui::pos2(body.left(), top.min(body.bottom())), body.max);
+    let place = body.with_min_y(top.min(body.bottom()));
     pairs(ui, place, &camera, found, context);
 }
 

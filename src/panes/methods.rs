@@ -76,9 +76,7 @@ fn scene(ui: &mut Ui, body: Rect, subject: Subject, context: &mut PaneContext<'_
     let id = Id::unique(("run time against error", subject.title()));
     let shown = paint::plot(ui, id, &panel, &context.theme, body, options);
     context.view.note_zoom(PaneKind::METHODS, accuracy::title(subject), shown.zoomed(&panel));
-    shown.response.widget_info(|| {
-        egui::WidgetInfo::labeled(egui::Role::Canvas, true, format!("Run time against error: {}", subject.title()))
-    });
+    widgets::labeled(&shown.response, egui::Role::Canvas, format!("Run time against error: {}", subject.title()));
     let hit = shown.response.hover_pos().and_then(|at| paint::nearest(&panel, &shown.view, at, REACH));
     if let Some(point) = hit.and_then(|hit| accuracy::point(trial, hit.tag)) {
         let lines = accuracy::describe(trial, point);
@@ -166,7 +164,7 @@ fn above(
         ui.add(Label::new(what).extend()).on_hover_text(about);
     });
     let top = (child.min_rect().bottom() + UNIT).min(body.bottom());
-    Rect::from_min_max(egui::pos2(body.left(), top), body.max)
+    body.with_min_y(top)
 }
 
 fn switches(ui: &mut Ui, context: &mut PaneContext<'_>) {

@@ -140,7 +140,7 @@ fn corners(ui: &mut Ui, body: Rect, size: [usize; 2], shown: &Image, context: &m
         format!("Click the {} corner of the grid of patches ({} of 4).", CORNERS[clicked.len()], clicked.len() + 1);
     let head = Rect::from_min_size(body.min, Vec2::new(body.width(), ROW));
     ui.put(head, Label::new(words));
-    let place = Rect::from_min_max(egui::pos2(body.left(), head.bottom() + UNIT), body.max);
+    let place = body.with_min_y(head.bottom() + UNIT);
     let [width, height] = size.map(|side| side as f64);
     let mut panel = Panel::new(
         "picture",
@@ -155,7 +155,7 @@ fn corners(ui: &mut Ui, body: Rect, size: [usize; 2], shown: &Image, context: &m
     panel.marks.push(Mark::new(Tag::default(), "corners", points).with_stroke(InkRole::Warning, 2.0));
     let options = PlotOptions { zoomable: true, reset: context.view.reset_plots, ..PlotOptions::default() };
     let plot = paint::plot(ui, Id::unique("picture of a chart"), &panel, &context.theme, place, options);
-    plot.response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Canvas, true, "Picture of the chart"));
+    widgets::labeled(&plot.response, egui::Role::Canvas, "Picture of the chart");
     if plot.response.clicked()
         && let Some(at) = plot.response.interact_pointer_pos()
     {
@@ -175,7 +175,7 @@ fn ranking_and_residuals(
 ) {
     let names: Vec<String> = set.iter().map(|patch| patch.name.clone()).collect();
     let top = words(ui, body, file, (name, fit, rank), &names, context);
-    let body = Rect::from_min_max(egui::pos2(body.left(), top), body.max);
+    let body = body.with_min_y(top);
     let (plot, list) = body.split_top_bottom_at_fraction(0.55);
     if !widgets::figure_numbers(ui, &PANE, plot, context) {
         let size = [plot.width(), plot.height()].map(f64::from);
@@ -183,15 +183,13 @@ fn ranking_and_residuals(
         let options = PlotOptions { zoomable: true, reset: context.view.reset_plots, ..PlotOptions::default() };
         let shown = paint::plot(ui, Id::unique("residuals"), &panel, &context.theme, plot, options);
         context.view.note_zoom(PaneKind::RECORDED, recorded::title(name), shown.zoomed(&panel));
-        shown
-            .response
-            .widget_info(|| egui::WidgetInfo::labeled(egui::Role::Canvas, true, format!("Residuals of {name}")));
+        widgets::labeled(&shown.response, egui::Role::Canvas, format!("Residuals of {name}"));
         let hit = shown.response.hover_pos().and_then(|at| paint::nearest(&panel, &shown.view, at, REACH));
         if let Some(mark) = hit.and_then(|hit| panel.marks.iter().find(|mark| mark.tag == hit.tag && hit.tag.0 > 0)) {
             widgets::read_at_pointer(&shown.response, std::slice::from_ref(&mark.name));
         }
     }
-    let list = Rect::from_min_max(list.min + Vec2::new(0.0, UNIT), list.max);
+    let list = list.with_min_y(list.top() + UNIT);
     if let Some(camera) = ranking(ui, list, ranked, &names, context) {
         context.view.recorded.camera = Some(camera);
     }

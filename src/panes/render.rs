@@ -48,7 +48,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     painter.rect_filled(body, 0.0, context.theme.surround);
     let id = ui.scope_id().with("render orbit");
     let response = ui.interact(body, id, Sense::click_and_drag());
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Canvas, true, "Rendered pictures"));
+    widgets::labeled(&response, egui::Role::Canvas, "Rendered pictures");
     if !context.scene.document.render.mesh.is_image() {
         by_pointer(ui, &response, context);
         by_keys(ui, &response, context);
@@ -87,7 +87,7 @@ fn mark_old(ui: &Ui, painter: &egui::Painter, response: &egui::Response, context
     let words = format!("Rendering {}, {light}…", context.scene.document.render.mesh.name());
     painter.rect_filled(response.rect, 0.0, context.theme.surround.gamma_multiply(0.6));
     say(painter, response.rect, &words, context);
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Canvas, true, &words));
+    widgets::labeled(&response, egui::Role::Canvas, &words);
 }
 
 fn say(painter: &egui::Painter, body: Rect, words: &str, context: &PaneContext<'_>) {
@@ -157,7 +157,7 @@ fn switches(ui: &mut Ui, context: &mut PaneContext<'_>) {
             }
         }
     });
-    menu.response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, "Figures as in the paper"));
+    widgets::labeled(&menu.response, egui::Role::Button, "Figures as in the paper");
     menu.response.on_hover_text("Figures 8 and 9 as in the paper: point light, the paper's normalization");
 }
 

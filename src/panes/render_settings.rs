@@ -9,6 +9,7 @@ use egui::{CollapsingHeader, DragValue, Rect, ScrollArea, Ui, UiBuilder, Vec2};
 use super::context::{Pane, set_render as set};
 use crate::document::render::RenderSettings;
 use crate::document::render::settings::{LIGHT, SURFACE, VIEW};
+use crate::format::number;
 use crate::panes::context::PaneContext;
 use crate::panes::widgets;
 use crate::panes::widgets::pick_list::{self, Line};
@@ -41,7 +42,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
         if context.scene.document.render.mesh.is_image() { widgets::pixel::SPECTRUM_HEIGHT + UNIT } else { 0.0 };
     let foot = if kept { PIXEL + PIXEL_LINE * sources.min(PIXEL_LINES) as f32 + spectrum } else { NO_PIXEL };
     let below = if body.height() > WITH_PIXEL { foot } else { 0.0 };
-    let groups = Rect::from_min_max(body.min, egui::pos2(body.right(), body.bottom() - below));
+    let groups = body.with_max_y(body.bottom() - below);
     widgets::scroll(ui, (PANE.kind, "render setup"), groups, context, |ui, context| {
         ui.spacing_mut().item_spacing.y = 0.5 * UNIT;
         group(ui, LIGHT, context, |ui, context| controls(ui, LIGHT, context));
@@ -200,7 +201,7 @@ fn line(ui: &mut Ui, words: &str, meaning: &str, color: egui::Color32) {
         return;
     }
     let cut = widgets::lines::elided(ui, rect, words, egui::TextStyle::Small, color);
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, words));
+    widgets::labeled(&response, egui::Role::Label, words);
     if cut || meaning != words {
         response.on_hover_text(meaning);
     }
@@ -259,7 +260,7 @@ impl<D> Dial<'_, D> {
             // Typing is one step when it is done, not one for each key.
             .update_while_editing(false)
             .speed(0.0)
-            .custom_formatter(move |value, _| format!("{}{unit}", short(value)))
+            .custom_formatter(move |value, _| format!("{}{unit}", number(short_value(value))))
             .custom_parser(parsed);
         if self.number.typed.is_none() {
             field = field.range(self.range());
@@ -279,10 +280,6 @@ fn list(
     caption(ui, name, context);
     let width = ui.available_width();
     pick_list::drop_down(ui, (name, hint), shown, width, &context.theme, lines)
-}
-
-fn short(value: f64) -> String {
-    crate::format::number(short_value(value))
 }
 
 /// Three digits: the precision of a drag and of reading.

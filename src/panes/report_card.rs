@@ -75,7 +75,7 @@ fn draw(ui: &mut Ui, page: &Figure, follow: bool, context: &PaneContext<'_>) {
         let id = Id::unique(("report card", &panel.name));
         let shown = paint::plot(ui, id, panel, &context.theme, Rect::from_min_max(min, max), options);
         let said = format!("{}: {}", page.title, panel.name);
-        shown.response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Canvas, true, &said));
+        widgets::labeled(&shown.response, egui::Role::Canvas, &said);
         if follow && panel.name == BARS {
             shown.response.scroll_to_me(None);
         }

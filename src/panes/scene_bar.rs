@@ -137,7 +137,7 @@ fn field(
     body.spacing_mut().item_spacing.x = UNIT;
     if !matters {
         body.set_opacity(DIM);
-        let name = context.view.saved.workspace.title();
+        let name = context.view.saved.workspace.label();
         let place = ui.interact(rect, ui.scope_id().with((&id, "dim")), Sense::hover());
         place.on_hover_text(format!("{caption}: no effect on the panes of {name}"));
     }
@@ -157,7 +157,7 @@ fn choice(
         return pick_list::drop_down(ui, (name, hint), shown, width, &context.theme, lines);
     }
     let (button, chosen) = pick_list::menu(ui, ("⋯", name, &format!("{name}: {shown}\n{hint}")), &context.theme, lines);
-    button.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, format!("{name}: {shown}")));
+    widgets::labeled(&button, egui::Role::Button, format!("{name}: {shown}"));
     chosen
 }
 
@@ -320,7 +320,7 @@ fn temperature(ui: &mut Ui, slider_width: f32, context: &mut PaneContext<'_>) {
 
 /// Reason that the temperature changes nothing in the workspace, with the remedy.
 fn without_effect(context: &PaneContext<'_>) -> String {
-    let words = format!("The temperature has no effect on the panes of {}", context.view.saved.workspace.title());
+    let words = format!("The temperature has no effect on the panes of {}", context.view.saved.workspace.label());
     let light = match &context.scene.document.light {
         _ if shows_sunlight(context) => SUN,
         Light::Set(name) if Condition::Light.matters(context) => name,

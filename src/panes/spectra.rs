@@ -19,7 +19,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let body = widgets::pane(ui, &PANE, rect, context, |ui, context| {
         widgets::switch(ui, &mut context.view.saved.spectra_layout);
     });
-    let body = Rect::from_min_max(body.min + Vec2::new(2.0 * UNIT, 0.0), body.max - Vec2::new(2.0 * UNIT, 0.0));
+    let body = body.shrink2(Vec2::new(2.0 * UNIT, 0.0));
     if widgets::figure_numbers(ui, &PANE, body, context) {
         return;
     }
@@ -86,7 +86,7 @@ fn one_panel(
     let shown = {
         let view = &*context.view;
         let emphasis = |tag| view.emphasis_of(&built.things, tag, &reference);
-        let options = PlotOptions { zoomable: false, reset: view.reset_plots, link_x: None, emphasis: &emphasis };
+        let options = PlotOptions { zoomable: false, reset: view.reset_plots, emphasis: &emphasis };
         paint::plot(ui, Id::unique(("spectra", &panel.name)), panel, &context.theme, place, options)
     };
     let hit = shown.response.hover_pos().and_then(|at| paint::nearest(panel, &shown.view, at, REACH));

@@ -293,11 +293,7 @@ fn progress_words(progress: &Progress) -> String {
 
 fn describe(thing: &PlotItem, context: &PaneContext<'_>) -> String {
     let scene = &context.scene;
-    let label = |id: &SensorId| {
-        let sources = scene.sources();
-        let found = sources.into_iter().find(|source| source.kind == id.kind && source.name == id.name);
-        found.map_or_else(|| id.name.clone(), |source| source.label)
-    };
+    let label = |id: &SensorId| chromaticity::label(scene, id);
     let at = |xy: Option<chromascope_core::colorimetry::Xy>| {
         xy.map_or_else(
             || "chromaticity undefined".to_owned(),

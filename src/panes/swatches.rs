@@ -65,7 +65,7 @@ fn footer(ui: &mut Ui, body: Rect, context: &mut PaneContext<'_>) -> (Rect, Rect
         let at = egui::Pos2::new(body.right() - 2.0 * UNIT - scale.size().x, middle - 0.5 * scale.size().y);
         ui.painter().galley(at, scale, color);
     }
-    let rest = Rect::from_min_max(body.min, egui::Pos2::new(body.right(), top));
+    let rest = body.with_max_y(top);
     let beside_button = egui::Pos2::new(place.right() + 2.0 * UNIT, place.top());
     (rest, Rect::from_min_size(beside_button, Vec2::new(body.right() - beside_button.x, place.height())))
 }

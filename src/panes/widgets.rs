@@ -30,7 +30,7 @@ use crate::scene::ComparedSensor;
 use crate::theme::{self, ROW, Theme, UNIT};
 use crate::workspaces::{PaneKind, Workspace};
 
-pub use lines::{focus_rim, named};
+pub use lines::{focus_rim, labeled, named};
 
 pub const WHAT_YOU_SEE: &str = "A camera's spectral sensitivities differ from the eye's, so it records other colors \
                                 than a person sees. Chromascope shows how far off each camera is.";
@@ -60,11 +60,11 @@ pub fn pane(
     let mut left = ui.new_child(UiBuilder::new().id_salt(("switches", pane.kind)).max_rect(room).layout(layout));
     left.set_clip_rect(room.expand(2.0).intersect(ui.clip_rect()));
     switches(&mut left, context);
-    let right = Rect::from_min_max(egui::pos2(header.right() - buttons_width, header.top()), header.max);
+    let right = header.with_min_x(header.right() - buttons_width);
     let to_left = Layout::right_to_left(Align::Center);
     let mut buttons = ui.new_child(UiBuilder::new().id_salt(("buttons", pane.kind)).max_rect(right).layout(to_left));
     header_buttons(&mut buttons, pane, context);
-    Rect::from_min_max(egui::pos2(rect.left(), rect.top() + HEADER), rect.max)
+    rect.with_min_y(rect.top() + HEADER)
 }
 
 /// The ground of a pane, which takes the keyboard where it is pressed.
@@ -190,7 +190,7 @@ fn title_menu(ui: &mut Ui, pane: &Pane, context: &mut PaneContext<'_>) {
         let mut lines = Vec::new();
         for group in Workspace::ALL {
             let others = panes.iter().filter(|other| other.kind != PaneKind::LIBRARY && other.kind.group() == group);
-            lines.push(Line::heading(group.title()));
+            lines.push(Line::heading(group.label()));
             kinds.push(None);
             for other in others {
                 lines.push(Line::new(other.title, other.kind == pane.kind));

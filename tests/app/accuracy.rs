@@ -37,12 +37,12 @@ fn measured() -> Window {
 }
 
 fn take_in(window: &mut Window) {
-    window.state().later().wait();
+    window.state().later.wait();
     window.run_steps(3);
 }
 
 fn run(window: &Window) -> std::sync::Arc<SceneRun> {
-    window.state().profiler().measured.run.clone().expect("something was measured")
+    window.state().profiler.measured.run.clone().expect("something was measured")
 }
 
 #[test]
@@ -50,8 +50,8 @@ fn nothing_is_measured_unasked() {
     let mut window = open([1280.0, 800.0], egui::Theme::Light);
     window.state_mut().push(Command::Show(Workspace::Numerics));
     window.run_steps(3);
-    assert!(Profiler::busy(window.state().later()).is_none());
-    assert!(window.state().profiler().measured.run.is_none());
+    assert!(Profiler::busy(&window.state().later).is_none());
+    assert!(window.state().profiler.measured.run.is_none());
     assert!(window.query_by_label("Nothing measured yet.").is_some());
 }
 
@@ -70,9 +70,9 @@ fn a_run_has_times_errors_and_figures() {
         }
     }
     assert!(window.query_by_label("Run again").is_some());
-    assert!(window.state().profiler().measured.is_current);
+    assert!(window.state().profiler.measured.is_current);
     let (catalog, results) = (chromascope::catalog::Catalog::built_in(), chromascope::results::Results::default());
-    let scene = Scene { document: window.state().history().document(), catalog: &catalog, results: &results };
+    let scene = Scene { document: window.state().history.document(), catalog: &catalog, results: &results };
     let figure = panes::figure(
         PaneKind::METHODS,
         &scene,
@@ -92,11 +92,11 @@ fn a_run_has_times_errors_and_figures() {
         assert!(csv.contains(part), "{part}");
     }
     assert!(csv.contains("largest error (of the peak J(κ, 0))") && csv.contains(" (reference)"), "{csv}");
-    let to = RenderSettings { sky: 0.3, ..window.state().history().document().render.clone() };
+    let to = RenderSettings { sky: 0.3, ..window.state().history.document().render.clone() };
     window.state_mut().push(Action::Render(RenderAction::Set { what: "Sky", to: Box::new(to) }));
     window.run_steps(3);
-    assert!(!window.state().profiler().measured.is_current, "the scene has another sky than the run");
-    let scene = Scene { document: window.state().history().document(), catalog: &catalog, results: &results };
+    assert!(!window.state().profiler.measured.is_current, "the scene has another sky than the run");
+    let scene = Scene { document: window.state().history.document(), catalog: &catalog, results: &results };
     let figure = panes::figure(
         PaneKind::METHODS,
         &scene,
@@ -106,7 +106,7 @@ fn a_run_has_times_errors_and_figures() {
     .expect("measured");
     assert!(!figure.title.contains("on show") && !figure.caption.contains("on show"), "{}", figure.caption);
     assert!(figure.caption.contains("under Direct sun"), "the light that it was measured under");
-    assert!(window.state().profiler().measured.run.is_some());
+    assert!(window.state().profiler.measured.run.is_some());
 }
 
 #[test]
@@ -133,7 +133,7 @@ fn methods_say_what_was_measured_and_what_marks_stand_for() {
 #[test]
 fn a_hidden_camera_is_told_of() {
     let mut window = open([1280.0, 800.0], egui::Theme::Dark);
-    let mut settings = window.state().history().document().render.clone();
+    let mut settings = window.state().history.document().render.clone();
     (settings.quality, settings.tolerance) = (QualityLevel::Tolerance, 5e-10);
     window.state_mut().push(Action::Render(RenderAction::Set { what: "Quality", to: Box::new(settings) }));
     let hide = CompareAction::SetVisible(SetKind::Camera, "Nikon D70 (2007 figure)".to_owned(), false);
@@ -141,7 +141,7 @@ fn a_hidden_camera_is_told_of() {
     window.run_steps(2);
     window.state_mut().push(Command::MeasureScene);
     window.run_steps(2);
-    assert_eq!(window.state().view().saved.workspace, Workspace::Numerics, "what is measured is shown");
+    assert_eq!(window.state().view.saved.workspace, Workspace::Numerics, "what is measured is shown");
     take_in(&mut window);
     let run = run(&window);
     let trial = &run.trials[0];
@@ -154,7 +154,7 @@ fn a_tolerance_is_kept_by_pictures_and_each_source_says_how() {
     let mut window = open([1280.0, 800.0], egui::Theme::Light);
     window.state_mut().push(Command::Show(Workspace::Numerics));
     window.run_steps(2);
-    let render = |window: &Window| window.state().history().document().render.clone();
+    let render = |window: &Window| window.state().history.document().render.clone();
     assert_eq!(render(&window).quality, QualityLevel::Full);
     window.get_by_label("Apply to renders").click();
     window.run_steps(2);
@@ -167,9 +167,9 @@ fn a_tolerance_is_kept_by_pictures_and_each_source_says_how() {
     );
     window.state_mut().push(Command::Show(Workspace::Render));
     window.run_steps(2);
-    window.state().render_service().wait();
+    window.state().render_service.wait();
     window.run_steps(3);
-    let shot = window.state().render_service().frame().cloned().expect("pictures");
+    let shot = window.state().render_service.frame().cloned().expect("pictures");
     assert_eq!(
         shot.query.mesh().unwrap().shading.quality.given_tolerance().map(RelTolerance::max_relative_error),
         Some(1e-6)
@@ -178,17 +178,15 @@ fn a_tolerance_is_kept_by_pictures_and_each_source_says_how() {
     window.state_mut().push(Command::Undo);
     window.run_steps(2);
     assert_eq!(render(&window).quality, QualityLevel::Full);
-    assert!(window.state().view().status.text.starts_with("Undone: "), "{}", window.state().view().status.text);
+    assert!(window.state().view.status.text.starts_with("Undone: "), "{}", window.state().view.status.text);
 }
 
 #[test]
 fn a_source_without_a_plan_says_why() {
     let mut window = open([1280.0, 1000.0], egui::Theme::Light);
     window.state_mut().push(Command::Show(Workspace::Numerics));
-    let flat = RenderSettings {
-        normalization: Normalization::Lambertian,
-        ..window.state().history().document().render.clone()
-    };
+    let flat =
+        RenderSettings { normalization: Normalization::Lambertian, ..window.state().history.document().render.clone() };
     window.state_mut().push(Action::Render(RenderAction::Set { what: "Normalization", to: Box::new(flat) }));
     window.run_steps(2);
     take_in(&mut window);
@@ -206,9 +204,14 @@ fn a_typed_tolerance_is_taken_as_it_is_and_ticks_nothing() {
     let mut window = open([1280.0, 1000.0], egui::Theme::Light);
     window.state_mut().push(Command::Show(Workspace::Numerics));
     window.run_steps(3);
-    let render = |window: &Window| window.state().history().document().render.clone();
-    for (typed, taken, shown) in [("5e-10", 5e-10, "5e−10"), ("2.5e−4", 2.5e-4, "2.5e−4"), ("1e−6", 1e-6, "1e−6")]
-    {
+    let render = |window: &Window| window.state().history.document().render.clone();
+    for (typed, taken, shown) in [
+        ("5e-10", 5e-10, "5e−10"),
+        ("2.5e−4", 2.5e-4, "2.5e−4"),
+        ("0.1", 0.1, "1e−1"),
+        ("1.5E-4", 1.5e-4, "1.5e−4"),
+        (" 1e−6 ", 1e-6, "1e−6"),
+    ] {
         type_tolerance(&mut window, typed, egui::Key::Enter);
         assert_eq!((render(&window).tolerance, render(&window).quality), (taken, QualityLevel::Full));
         let text = window.get_by_role_and_label(Role::TextInput, "Tolerance").value();
@@ -230,15 +233,41 @@ fn type_tolerance(window: &mut Window, text: &str, key: egui::Key) {
 }
 
 #[test]
+fn a_tolerance_is_refused_with_a_reason() {
+    let mut window = open([1280.0, 1000.0], egui::Theme::Light);
+    window.state_mut().push(Command::Show(Workspace::Numerics));
+    window.run_steps(3);
+    for (typed, words) in [
+        (" ", "Enter a number"),
+        ("10 %", "“10 %” is not a number"),
+        ("nan", "is not a number"),
+        ("inf", "too large"),
+        ("0.5", "too large: range 1e−13 to 0.1"),
+        ("7", "too large: range 1e−13 to 0.1"),
+        ("1e-14", "too small: range 1e−13 to 0.1; S itself is accurate to 1e−13"),
+        ("1,5e-4", "“1,5e-4” is not a number"),
+        ("0.1%", "“0.1%” is not a number"),
+        ("abc", "“abc” is not a number"),
+        ("-1", "above 0; range 1e−13 to 0.1"),
+        ("0", "above 0"),
+        ("−3", "above 0"),
+    ] {
+        type_tolerance(&mut window, typed, egui::Key::Enter);
+        assert_eq!(window.state().history.document().render.tolerance, 1e-6, "{typed}");
+        assert!(window.query_by_label_contains(words).is_some(), "nothing is said of {typed}");
+    }
+}
+
+#[test]
 fn a_tolerance_that_cannot_be_is_refused_beside_its_field() {
     for workspace in [Workspace::Numerics, Workspace::Render] {
         let mut window = open([1280.0, 1000.0], egui::Theme::Light);
-        let mut settings = window.state().history().document().render.clone();
+        let mut settings = window.state().history.document().render.clone();
         settings.quality = QualityLevel::Tolerance;
         window.state_mut().push(Action::Render(RenderAction::Set { what: "Quality", to: Box::new(settings) }));
         window.state_mut().push(Command::Show(workspace));
         window.run_steps(3);
-        let tolerance = |window: &Window| window.state().history().document().render.tolerance;
+        let tolerance = |window: &Window| window.state().history.document().render.tolerance;
         let text = |window: &Window| window.get_by_role_and_label(Role::TextInput, "Tolerance").value();
         for (typed, words) in [
             ("a bit", "“a bit” is not a number"),
@@ -263,29 +292,29 @@ fn escape_stops_measuring() {
     let (executor, mut window) = driven([1280.0, 800.0], egui::Theme::Dark);
     window.state_mut().push(Command::MeasureScene);
     window.run_steps(1);
-    assert!(Profiler::busy(window.state().later()).is_some());
+    assert!(Profiler::busy(&window.state().later).is_some());
     window.key_press(egui::Key::Escape);
     window.run_steps(2);
-    assert!(Profiler::busy(window.state().later()).is_none());
+    assert!(Profiler::busy(&window.state().later).is_none());
     executor.run_all();
     window.run_steps(2);
-    assert!(window.state().profiler().measured.run.is_none());
+    assert!(window.state().profiler.measured.run.is_none());
 }
 
 #[test]
 fn a_report_of_the_bench_is_shown_and_exported() {
     let report = crate::bench::report();
     let mut window = open([1280.0, 800.0], egui::Theme::Light);
-    let view = window.state_mut().view_mut();
+    let view = &mut window.state_mut().view;
     view.saved.workspace = Workspace::Numerics;
     view.shows = Shows::Bench(Workload::DiffuseSum);
-    let measured = &mut window.state_mut().profiler_mut().measured;
+    let measured = &mut window.state_mut().profiler.measured;
     measured.reports.insert(Workload::DiffuseSum, Arc::new(Ok(report.clone())));
     window.run_steps(3);
     assert!(window.query_by_label("Nothing measured yet. A quick run takes a few seconds.").is_none());
     assert_eq!(window.query_by_label("Run again").is_some(), cfg!(feature = "bench"));
     let (catalog, results) = (chromascope::catalog::Catalog::built_in(), chromascope::results::Results::default());
-    let scene = Scene { document: window.state().history().document(), catalog: &catalog, results: &results };
+    let scene = Scene { document: window.state().history.document(), catalog: &catalog, results: &results };
     let figure = panes::figure(
         PaneKind::METHODS,
         &scene,
@@ -307,13 +336,13 @@ fn a_report_of_the_bench_is_shown_and_exported() {
 fn without_the_benchmark_its_place_says_how_to_get_it() {
     let mut window = open([900.0, 600.0], egui::Theme::Light);
     window.state_mut().push(Command::Show(Workspace::Numerics));
-    window.state_mut().view_mut().shows = Shows::Bench(Workload::DiffuseSum);
+    window.state_mut().view.shows = Shows::Bench(Workload::DiffuseSum);
     window.run_steps(3);
     let offered = window.query_by_label("Nothing measured yet. A quick run takes some seconds.").is_some();
     let told = window.query_by_label(chromascope::profiler::BUILD).is_some();
     assert_eq!((offered, told), (cfg!(feature = "bench"), cfg!(not(feature = "bench"))));
     // The scene can be measured in either build.
-    window.state_mut().view_mut().shows = Shows::Scene(Subject::Loci);
+    window.state_mut().view.shows = Shows::Scene(Subject::Loci);
     window.run_steps(3);
     assert!(window.query_all_by_label("Run").next().is_some());
 }

@@ -124,7 +124,7 @@ fn each_kind_of_file_is_saved_from_the_pane() {
 /// Opens the pane with a camera that is not compared.
 fn pane_of(camera: &str, size: [f32; 2]) -> Harness<'static, ChromascopeApp> {
     let mut harness = open_with(Document::colorimetry(), size, egui::Theme::Dark);
-    harness.state_mut().view_mut().correction.camera = Some(camera.to_owned());
+    harness.state_mut().view.correction.camera = Some(camera.to_owned());
     harness.state_mut().push(Command::Maximize(PANE));
     harness
 }

@@ -272,12 +272,12 @@ fn what_is_chosen_takes_its_own_color_and_only_it_a_ring() {
 fn the_diagram_holds_still_while_data_move() {
     let (_executor, mut window) = driven_with(Document::paper(), [1280.0, 800.0], egui::Theme::Dark);
     let shown = |window: &egui_kittest::Harness<'_, chromascope::app::ChromascopeApp>| {
-        window.state().view().diagram.fit().expect("a fit").shown
+        window.state().view.diagram.fit().expect("a fit").shown
     };
     let before = shown(&window);
     window.key_down(egui::Key::B);
     window.run_steps(2);
-    assert!(window.state().view().blink);
+    assert!(window.state().view.blink);
     assert_eq!(shown(&window), before, "B");
     window.key_up(egui::Key::B);
     for action in [SceneAction::SetLight(Light::BlackBody), SceneAction::SetTemperature(1390.0)] {
@@ -285,8 +285,8 @@ fn the_diagram_holds_still_while_data_move() {
         window.run_steps(2);
     }
     assert_eq!(shown(&window), before, "a dragged temperature");
-    let document = window.state().history().document().clone();
-    let marks = built(&document, window.state().view(), [680.0, 350.0]).panel.marks;
+    let document = window.state().history.document().clone();
+    let marks = built(&document, &window.state().view, [680.0, 350.0]).panel.marks;
     assert!(marks.iter().any(|mark| mark.name == "S&B 1955 green, outside"), "points that leave have arrows");
     window.state_mut().push(chromascope::command::Command::ResetView);
     window.run_steps(3);
@@ -303,10 +303,10 @@ fn the_diagram_holds_still_while_data_move() {
 #[test]
 fn the_pointer_reads_name_and_difference_unless_it_is_pressed() {
     let (_executor, mut window) = driven_with(Document::paper(), [1280.0, 800.0], egui::Theme::Dark);
-    let document = window.state().history().document().clone();
+    let document = window.state().history.document().clone();
     let rect = window.get_by_role_and_label(egui::Role::Canvas, "Chromaticity").rect();
     let size = [f64::from(rect.width()) + 45.0, f64::from(rect.height()) + 25.0];
-    let panel = built(&document, window.state().view(), size).panel;
+    let panel = built(&document, &window.state().view, size).panel;
     let mark = panel.marks.iter().find(|mark| mark.name == "Kodak DCS200 red").expect("a patch");
     let Shape::Points { points, .. } = &mark.shape else { panic!("a point") };
     let [x, y] = at(&panel, size, points[0]);

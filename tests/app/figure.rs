@@ -382,7 +382,7 @@ fn the_pointer_reads_the_nearest_black_body() {
         window.run_steps(1);
         executor.run_all();
         window.run_steps(1);
-        let read = window.state().view().point.clone().unwrap_or_default();
+        let read = window.state().view.point.clone().unwrap_or_default();
         if read.contains("Duv +0.00") || read.contains("Duv −0.00") {
             break read;
         }

@@ -31,14 +31,14 @@ fn settle(executor: &Executor, window: &mut Window) {
 /// A window with the page of a pane.
 fn page_of(pane: PaneKind) -> (Executor, Window) {
     let (executor, mut window) = driven([1280.0, 800.0], egui::Theme::Dark);
-    window.state_mut().view_mut().focused = Some(pane);
+    window.state_mut().view.focused = Some(pane);
     window.key_press_modifiers(Modifiers::COMMAND, Key::E);
     settle(&executor, &mut window);
     (executor, window)
 }
 
 fn open(window: &Window) -> Option<PaneKind> {
-    window.state().view().page
+    window.state().view.page
 }
 
 #[test]
@@ -46,9 +46,9 @@ fn the_page_shows_the_picture_that_is_saved() {
     let (_executor, window) = page_of(PaneKind::CHROMATICITY);
     let app = window.state();
     assert_eq!(open(&window), Some(PaneKind::CHROMATICITY));
-    let shown = app.later().seen::<PageJob>(PageJob::NAME).shown.expect("a page");
+    let shown = app.later.seen::<PageJob>(PageJob::NAME).shown.expect("a page");
     let job = &shown.job;
-    assert!(shown.current && job.paper == app.view().saved.page.paper);
+    assert!(shown.current && job.paper == app.view.saved.page.paper);
     let svg = export::svg(&job.figure, &job.paper.colors(), job.paper);
     assert!(svg.contains("width=\"85mm\""), "one column");
     let picture = export::png(&svg, job.scale).expect("a picture");
@@ -65,13 +65,13 @@ fn escape_and_ctrl_e_go_back_to_where_one_was() {
     let (executor, mut window) = page_of(PaneKind::SPECTRA);
     window.key_press(Key::Escape);
     settle(&executor, &mut window);
-    assert_eq!((open(&window), window.state().view().focused), (None, Some(PaneKind::SPECTRA)));
-    window.state_mut().view_mut().maximized = Some(PaneKind::SPECTRA);
+    assert_eq!((open(&window), window.state().view.focused), (None, Some(PaneKind::SPECTRA)));
+    window.state_mut().view.maximized = Some(PaneKind::SPECTRA);
     for expected in [Some(PaneKind::SPECTRA), None] {
         window.key_press_modifiers(Modifiers::COMMAND, Key::E);
         settle(&executor, &mut window);
         assert_eq!(open(&window), expected);
-        assert_eq!(window.state().view().maximized, Some(PaneKind::SPECTRA));
+        assert_eq!(window.state().view.maximized, Some(PaneKind::SPECTRA));
     }
     window.get_by_label("Close Spectra");
     window.state_mut().push(Command::FigurePage(PaneKind::SPECTRA));
@@ -89,19 +89,19 @@ fn a_figure_that_cannot_be_made_now_says_so() {
     window.key_press_modifiers(Modifiers::COMMAND, Key::E);
     settle(&executor, &mut window);
     assert_eq!(open(&window), None);
-    let status = &window.state().view().status;
+    let status = &window.state().view.status;
     assert!(status.weight == Weight::Error && status.text.starts_with("Recorded has no figure"), "{}", status.text);
 }
 
 #[test]
 fn settings_change_the_page_and_are_remembered() {
     let (executor, mut window) = page_of(PaneKind::CHROMATICITY);
-    let first = window.state().later().seen::<PageJob>(PageJob::NAME).shown.expect("a page").job;
+    let first = window.state().later.seen::<PageJob>(PageJob::NAME).shown.expect("a page").job;
     for switch in ["Gray", "200 %", "in", "Caption with the conditions"] {
         window.get_by_label(switch).click();
         settle(&executor, &mut window);
     }
-    let job = window.state().later().seen::<PageJob>(PageJob::NAME).shown.expect("a page").job;
+    let job = window.state().later.seen::<PageJob>(PageJob::NAME).shown.expect("a page").job;
     assert_eq!((job.paper.inks, job.paper.caption), (SourceInks::Gray, false));
     assert!(!first.figure.caption.is_empty() && job.figure.caption.is_empty());
     let saved = window.state().saved_view();
@@ -116,7 +116,7 @@ fn settings_change_the_page_and_are_remembered() {
 #[test]
 fn an_idle_page_draws_nothing_and_the_document_changes_it() {
     let (executor, mut window) = page_of(PaneKind::CHROMATICITY);
-    let serial = |window: &Window| window.state().later().seen::<PageJob>(PageJob::NAME).shown.expect("a page").serial;
+    let serial = |window: &Window| window.state().later.seen::<PageJob>(PageJob::NAME).shown.expect("a page").serial;
     let before = serial(&window);
     for step in 0..8 {
         window.hover_at(egui::pos2(300.0 + 10.0 * step as f32, 300.0));
@@ -133,7 +133,7 @@ fn the_keyboard_reaches_the_settings_and_escape_leaves_a_field_first() {
     let (executor, mut window) = page_of(PaneKind::CHROMATICITY);
     window.state_mut().push(Command::NextPane);
     settle(&executor, &mut window);
-    while window.state().view().focused != Some(PaneKind::CHROMATICITY) {
+    while window.state().view.focused != Some(PaneKind::CHROMATICITY) {
         window.key_press(Key::F6);
         settle(&executor, &mut window);
     }
@@ -146,7 +146,7 @@ fn the_keyboard_reaches_the_settings_and_escape_leaves_a_field_first() {
     window.event(egui::Event::Text("120".to_owned()));
     window.key_press(Key::Enter);
     settle(&executor, &mut window);
-    let paper = window.state().view().saved.page.paper;
+    let paper = window.state().view.saved.page.paper;
     assert_eq!(paper.width_mm, Some(120.0));
     window.get_by_label("Width").focus();
     settle(&executor, &mut window);
@@ -159,7 +159,7 @@ fn the_keyboard_reaches_the_settings_and_escape_leaves_a_field_first() {
 
 /// The figure of the page that is shown.
 fn figure(window: &Window) -> std::sync::Arc<chromascope_figure::Figure> {
-    std::sync::Arc::clone(&window.state().later().seen::<PageJob>(PageJob::NAME).shown.expect("a page").job.figure)
+    std::sync::Arc::clone(&window.state().later.seen::<PageJob>(PageJob::NAME).shown.expect("a page").job.figure)
 }
 
 /// Turns the wheel over a plot.
@@ -198,10 +198,10 @@ fn the_page_has_the_ranges_of_the_diagram_on_screen() {
     };
     settle(&executor, &mut window);
     // The fit is held while the data move.
-    let held = window.state().view().diagram.fit().expect("a fit").shown;
+    let held = window.state().view.diagram.fit().expect("a fit").shown;
     window.state_mut().push(Action::Scene(SceneAction::SetWhite(WhiteBalanceChoice::BlackBody(2856.0))));
     settle(&executor, &mut window);
-    assert_eq!(window.state().view().diagram.fit().expect("a fit").shown, held);
+    assert_eq!(window.state().view.diagram.fit().expect("a fit").shown, held);
     for (paper, screen) in page(&mut window).into_iter().zip(held) {
         assert!(paper[0] <= screen[0] + 1e-9 && paper[1] >= screen[1] - 1e-9, "{paper:?} does not hold {screen:?}");
         let is_least = (paper[0] + 0.02).abs() < 1e-9;
@@ -210,7 +210,7 @@ fn the_page_has_the_ranges_of_the_diagram_on_screen() {
     // Farther out than any color is, and nearer.
     for points in [-200.0, 400.0] {
         wheel(&mut window, "Chromaticity", points);
-        let zoomed = window.state().view().diagram.zoomed.expect("zoomed");
+        let zoomed = window.state().view.diagram.zoomed.expect("zoomed");
         assert!((zoomed[0][0] < -0.02) == (points < 0.0), "{zoomed:?}");
         page(&mut window).into_iter().zip(zoomed).for_each(|(paper, screen)| holds(paper, screen));
     }
@@ -233,7 +233,7 @@ fn the_page_has_the_ranges_of_curves_on_screen_or_its_own() {
         if there { Ok(()) } else { Err("no curves".to_owned()) }
     });
     wheel(&mut window, "curves of the file", 200.0);
-    let (_, [x, y]) = window.state().view().zoomed[&PaneKind::CURVES].clone();
+    let (_, [x, y]) = window.state().view.zoomed[&PaneKind::CURVES].clone();
     assert!(x[0] > 400.0 && x[1] < 700.0, "{x:?}");
     window.state_mut().push(Command::FigurePage(PaneKind::CURVES));
     settle(&executor, &mut window);

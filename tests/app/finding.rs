@@ -4,6 +4,7 @@ use chromascope::app::ChromascopeApp;
 use chromascope::catalog::names::{Fit, fit, typed_words};
 use chromascope::command::Command;
 use chromascope::document::{Diagram, Document, Light, Overlays, SetKind};
+use chromascope::panes::widgets::pick_list::{Line, found};
 use chromascope::plot_item::{PlotItem, SensorId};
 use chromascope::view::DiagramFit;
 use chromascope::view::import::ImportItem;
@@ -35,7 +36,7 @@ pub(crate) fn find(window: &mut Window, text: &str, down: usize) {
     }
     window.key_press(Key::Enter);
     window.run_steps(3);
-    assert!(window.state().view().palette.is_none(), "{text}: closed");
+    assert!(window.state().view.palette.is_none(), "{text}: closed");
 }
 
 /// Words of the highlighted line.
@@ -51,22 +52,22 @@ fn picked(window: &Window) -> String {
 fn settings_and_numbers_are_found() {
     let mut window = window();
     find(&mut window, "uv", 0);
-    assert_eq!(window.state().history().document().diagram, Diagram::UvPrime);
+    assert_eq!(window.state().history.document().diagram, Diagram::UvPrime);
     find(&mut window, "full diagram", 0);
-    assert_eq!(window.state().view().saved.diagram_fit, DiagramFit::Whole);
+    assert_eq!(window.state().view.saved.diagram_fit, DiagramFit::Whole);
     find(&mut window, "fit to data", 0);
-    assert_eq!(window.state().view().saved.diagram_fit, DiagramFit::Data);
+    assert_eq!(window.state().view.saved.diagram_fit, DiagramFit::Data);
     find(&mut window, "theme light", 0);
     assert_eq!(window.ctx.options(|options| options.theme_preference), egui::ThemePreference::Light);
     find(&mut window, "daylight locus", 0);
-    assert_eq!(window.state().history().document().overlays, Overlays { daylight: true, ..Overlays::default() });
+    assert_eq!(window.state().history.document().overlays, Overlays { daylight: true, ..Overlays::default() });
     for text in ["3200", "3300 K", "3400k"] {
         find(&mut window, text, 0);
         let kelvin: String = text.chars().filter(char::is_ascii_digit).collect();
-        assert_eq!(window.state().history().document().temperature_k.to_string(), kelvin);
+        assert_eq!(window.state().history.document().temperature_k.to_string(), kelvin);
     }
     find(&mut window, "planckian locus red", 0);
-    assert!(window.state().view().help.page.is_some(), "what only the help says opens there");
+    assert!(window.state().view.help.page.is_some(), "what only the help says opens there");
 }
 
 #[test]
@@ -84,7 +85,7 @@ fn each_slider_that_is_found_takes_the_keyboard() {
     ] {
         let mut window = window();
         find(&mut window, name, 0);
-        assert_eq!(window.state().view().saved.workspace, Workspace::Render, "{name}");
+        assert_eq!(window.state().view.saved.workspace, Workspace::Render, "{name}");
         window.run_steps(2);
         let focused = window.get_by(|node| node.is_focused() && !node.is_hidden());
         assert_eq!(focused.accesskit_node().role(), Role::Slider, "{name}");
@@ -109,12 +110,12 @@ fn arrows_move_the_highlight_and_compared_cameras_are_ticked() {
     assert!(window.query_by_label("Cameras").is_some(), "a heading");
     window.key_press(Key::Escape);
     window.run_steps(2);
-    let compared = window.state().history().document().compared.clone();
+    let compared = window.state().history.document().compared.clone();
     let camera = compared.iter().find(|sensor| sensor.kind == SetKind::Camera).expect("one is compared");
     find(&mut window, &camera.name, 0);
     let id = SensorId { kind: SetKind::Camera, name: camera.name.clone() };
-    assert_eq!(window.state().view().selected, Some(PlotItem::Sensor(id)), "a compared camera is selected");
-    assert_eq!(window.state().history().document().compared, compared, "and stays");
+    assert_eq!(window.state().view.selected, Some(PlotItem::Sensor(id)), "a compared camera is selected");
+    assert_eq!(window.state().history.document().compared, compared, "and stays");
 }
 
 #[test]
@@ -128,7 +129,7 @@ fn a_long_list_filters_as_one_types() {
     assert!(window.query_by_label_contains("D50").is_none(), "filtered");
     window.key_press(Key::Enter);
     window.run_steps(3);
-    assert_eq!(window.state().history().document().light, Light::Set("D55".to_owned()));
+    assert_eq!(window.state().history.document().light, Light::Set("D55".to_owned()));
     assert!(window.query_by_label("Filter Light").is_none(), "closed");
     window.get_by_label_contains("Patches: ").click();
     window.run_steps(3);
@@ -137,11 +138,7 @@ fn a_long_list_filters_as_one_types() {
     window.key_press(Key::ArrowDown);
     window.key_press(Key::Enter);
     window.run_steps(3);
-    assert!(
-        window.state().history().document().chart.contains("leaf"),
-        "{}",
-        window.state().history().document().chart
-    );
+    assert!(window.state().history.document().chart.contains("leaf"), "{}", window.state().history.document().chart);
 }
 
 /// Words of the lines in sight that a palette or list shows, from above.
@@ -173,7 +170,7 @@ fn exact_names_win_in_lists_and_in_the_palette() {
         window.key_press(Key::Enter);
         window.run_steps(3);
         let name = first.split(", ").next().unwrap().to_owned();
-        assert_eq!(window.state().history().document().light, Light::Set(name), "{typed}");
+        assert_eq!(window.state().history.document().light, Light::Set(name), "{typed}");
         let mut window = self::window();
         window.state_mut().push(Command::FindAnything);
         window.run_steps(3);
@@ -200,7 +197,7 @@ fn a_search_for_a_phone_says_that_there_is_none() {
         assert!(says(&window, "No phone is among the built-in cameras"), "{typed}");
         window.key_press(Key::Escape);
         window.run_steps(2);
-        window.state_mut().view_mut().search = typed.to_owned();
+        window.state_mut().view.search = typed.to_owned();
         window.run_steps(2);
         assert!(says(&window, "Open a table of your own (Ctrl+O)"), "{typed}");
     }
@@ -210,7 +207,7 @@ fn a_search_for_a_phone_says_that_there_is_none() {
 fn the_library_ranks_as_all_searches_do() {
     let mut window = window();
     for (search, first) in [("A", "A"), ("d200", "Nikon D200"), ("camera d200", "Nikon D200"), ("nikkon d90", "")] {
-        window.state_mut().view_mut().search = search.to_owned();
+        window.state_mut().view.search = search.to_owned();
         window.run_steps(3);
         let sets = window.query_all_by(|node| {
             matches!(node.role(), Role::CheckBox | Role::RadioButton) && node.toggled().is_some() && !node.is_hidden()
@@ -243,13 +240,13 @@ fn names_are_ranked_by_how_much_of_them_was_typed() {
 #[test]
 fn f6_frames_a_pane_and_arrows_walk_its_items() {
     let mut window = window();
-    window.state_mut().view_mut().focused = Some(PaneKind::LIBRARY);
-    window.state_mut().view_mut().fixed_clock = true;
+    window.state_mut().view.focused = Some(PaneKind::LIBRARY);
+    window.state_mut().view.fixed_clock = true;
     window.run_steps(2);
     let before = window.render().expect("drawn");
     window.key_press(Key::F6);
     window.run_steps(3);
-    assert_eq!(window.state().view().focused, Some(PaneKind::CHROMATICITY));
+    assert_eq!(window.state().view.focused, Some(PaneKind::CHROMATICITY));
     let after = window.render().expect("drawn");
     // The left edge of the pane, far from its header.
     let white = egui::Color32::WHITE.to_array();
@@ -257,21 +254,21 @@ fn f6_frames_a_pane_and_arrows_walk_its_items() {
     assert!(framed(&after) >= framed(&before) + 2, "{} {}", framed(&before), framed(&after));
     window.key_press(Key::ArrowRight);
     window.run_steps(2);
-    let first = window.state().view().cursor.clone().expect("the first point");
+    let first = window.state().view.cursor.clone().expect("the first point");
     window.key_press(Key::ArrowRight);
     window.run_steps(2);
-    let second = window.state().view().cursor.clone().expect("the next point");
+    let second = window.state().view.cursor.clone().expect("the next point");
     assert_ne!(first, second);
-    assert_eq!(window.state().view().hovered, Some(second.clone()), "marked and read as under the pointer");
+    assert_eq!(window.state().view.hovered, Some(second.clone()), "marked and read as under the pointer");
     assert_eq!(first.source(), second.source());
     window.key_press(Key::ArrowDown);
     window.run_steps(2);
-    let below = window.state().view().cursor.clone().expect("the same patch of the next sensor");
+    let below = window.state().view.cursor.clone().expect("the same patch of the next sensor");
     assert_eq!(below.patch(), second.patch());
     assert_ne!(below.source(), second.source());
     window.key_press(Key::Enter);
     window.run_steps(2);
-    assert_eq!(window.state().view().selected, Some(below));
+    assert_eq!(window.state().view.selected, Some(below));
     window.key_press(Key::Tab);
     window.run_steps(3);
     let focused = window.get_by(|node| node.is_focused() && !node.is_hidden());
@@ -294,7 +291,7 @@ fn the_library_is_walked_by_arrows() {
     assert_ne!(label(&window), first);
     window.key_press(Key::Enter);
     window.run_steps(3);
-    assert!(window.state().view().selected.is_some());
+    assert!(window.state().view.selected.is_some());
 }
 
 #[test]
@@ -306,17 +303,17 @@ fn a_file_that_fails_is_told_of_in_the_list_and_at_the_text() {
     window.state_mut().push(Command::OpenPath(path));
     for _ in 0..3 {
         window.run_steps(3);
-        window.state().opened().wait();
+        window.state().opened.wait();
     }
-    assert!(window.state().view().status.text.contains("line 3"), "elsewhere the status line says it");
-    let (item, line) = window.state().view().status.change.clone().expect("a way there");
+    assert!(window.state().view.status.text.contains("line 3"), "elsewhere the status line says it");
+    let (item, line) = window.state().view.status.change.clone().expect("a way there");
     assert!(matches!(item, ImportItem::File(_)));
     window.state_mut().push(Command::ShowImport(item, line));
     for _ in 0..3 {
         window.run_steps(3);
-        window.state().opened().wait();
+        window.state().opened.wait();
     }
-    assert!(window.state().view().status.text.is_empty(), "{}", window.state().view().status.text);
+    assert!(window.state().view.status.text.is_empty(), "{}", window.state().view.status.text);
     let told = window.query_all_by(|node| {
         let label = node.label().unwrap_or_default();
         label.contains("a curve needs values") && !node.is_hidden()
@@ -347,4 +344,19 @@ fn controls_that_do_nothing_in_a_workspace_are_dim() {
 fn layouts_of_the_workspace_once_named_accuracy_open() {
     let old = "\"Accuracy\"";
     assert_eq!(serde_json::from_str::<Workspace>(old).unwrap(), Workspace::Numerics);
+}
+
+#[test]
+fn groups_without_a_match_are_left_out() {
+    let all = [
+        Line::heading("Blackbodies"),
+        Line::new("A", true),
+        Line::heading("Daylight"),
+        Line::new("D50", false),
+        Line { also: "noon daylight".to_owned(), ..Line::new("D65", false) },
+    ];
+    assert_eq!(found(&all, "noon d6"), [2, 4]);
+    assert_eq!(found(&all, " "), [0, 1, 2, 3, 4]);
+    assert!(found(&all, "zeiss").is_empty());
+    assert_eq!(found(&all, "a"), [0, 1, 2, 4], "the name before what only contains it");
 }

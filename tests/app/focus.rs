@@ -50,15 +50,15 @@ fn changed_along(rect: egui::Rect, a: &RgbaImage, b: &RgbaImage) -> f64 {
 /// Traverses the window with Tab, and compares each control with and without the focus.
 fn tab_through(workspace: Workspace, theme: egui::Theme, size: [f32; 2], least: usize) {
     let mut window = open(size, theme);
-    window.state_mut().view_mut().saved.workspace = workspace;
-    window.state_mut().view_mut().fixed_clock = true;
+    window.state_mut().view.saved.workspace = workspace;
+    window.state_mut().view.fixed_clock = true;
     // Charts stand for the rows of all groups: 58 cameras more would be as many pictures of the same widget.
     let folded = ["cameras", "observers", "illuminants", "materials"].map(str::to_owned);
-    window.state_mut().view_mut().saved.folded = folded.into();
+    window.state_mut().view.saved.folded = folded.into();
     for _ in 0..4 {
         window.run_steps(2);
-        window.state().render_service().wait();
-        window.state().later().wait();
+        window.state().render_service.wait();
+        window.state().later.wait();
     }
     let (mut seen, mut hidden) = (BTreeSet::new(), Vec::new());
     loop {

@@ -39,7 +39,7 @@ fn all_cpu_ms() -> f64 {
 /// Prints the CPU time of the window's thread in each frame, and of the others for each picture.
 fn measure(name: &str, mut window: Window, mut change: impl FnMut(&mut Window, f64)) {
     window.run_steps(3);
-    window.state().render_service().wait();
+    window.state().render_service.wait();
     window.run_steps(3);
     let (mut frames, mut serials) = (Vec::new(), BTreeSet::new());
     let (start, before) = (Instant::now(), all_cpu_ms());
@@ -50,7 +50,7 @@ fn measure(name: &str, mut window: Window, mut change: impl FnMut(&mut Window, f
         let shapes = window.output().shapes.clone();
         window.ctx.tessellate(shapes, 1.0);
         frames.push(cpu_ms("/proc/thread-self/schedstat") - cpu);
-        serials.extend(window.state().render_service().frame().map(|frame| frame.serial));
+        serials.extend(window.state().render_service.frame().map(|frame| frame.serial));
         thread::sleep(REFRESH.saturating_sub(begun.elapsed()));
     }
     let (own, pictures) = (frames.iter().sum::<f64>(), serials.len());
@@ -66,7 +66,7 @@ fn measure(name: &str, mut window: Window, mut change: impl FnMut(&mut Window, f
 
 fn opened(document: Document, workspace: Workspace) -> Window {
     let mut window = open_with(document, [1280.0, 800.0], egui::Theme::Light);
-    window.state_mut().view_mut().saved.workspace = workspace;
+    window.state_mut().view.saved.workspace = workspace;
     window
 }
 
@@ -84,7 +84,7 @@ fn frames_while_the_head_turns() {
         let name = format!("orbit, 100 000 triangles, {sensors} pictures, \u{3c3} {sigma_um} µm, sky {sky}");
         measure(&name, opened(document, Workspace::Render), |window, degrees| {
             let orbit = Orbit { yaw_deg: degrees - 25.0, ..Orbit::default() };
-            window.state_mut().view_mut().saved.render.orbit = Some(orbit);
+            window.state_mut().view.saved.render.orbit = Some(orbit);
         });
     }
 }

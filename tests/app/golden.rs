@@ -122,8 +122,8 @@ fn workspaces_say_what_they_said() {
         for workspace in Workspace::ALL {
             let size = [1280.0, 800.0];
             let (executor, mut harness) = crate::screenshots::driven_with(document.clone(), size, egui::Theme::Dark);
-            harness.state_mut().view_mut().saved.workspace = workspace;
-            harness.state_mut().view_mut().fixed_clock = true;
+            harness.state_mut().view.saved.workspace = workspace;
+            harness.state_mut().view.fixed_clock = true;
             for _ in 0..4 {
                 harness.run_steps(3);
                 executor.run_all();
@@ -137,7 +137,7 @@ fn workspaces_say_what_they_said() {
                     writeln!(text, "{:?}: {label} = {value}", node.role()).unwrap();
                 }
             }
-            check(&format!("window_{start}_{}", file_name(workspace.title())), &text);
+            check(&format!("window_{start}_{}", file_name(workspace.label())), &text);
         }
     }
 }

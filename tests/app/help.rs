@@ -132,7 +132,7 @@ fn the_keyboard_page_lists_every_key() {
 fn every_page_is_laid_out() {
     let mut window = open_with(Document::colorimetry(), [900.0, 600.0], egui::Theme::Light);
     for page in pages() {
-        window.state_mut().view_mut().help.open(page.name, 0);
+        window.state_mut().view.help.open(page.name, 0);
         window.run();
         let mut titles = window.query_all_by_role_and_label(Role::Label, &page.title);
         assert!(titles.next().is_some(), "{} stands above its text", page.title);
@@ -144,26 +144,26 @@ fn help_opens_searches_follows_links_and_closes_by_keyboard() {
     let mut window = open_with(Document::colorimetry(), [1280.0, 800.0], egui::Theme::Dark);
     window.key_press(egui::Key::F1);
     window.run();
-    assert_eq!(window.state_mut().view_mut().help.page, Some(FIRST));
+    assert_eq!(window.state_mut().view.help.page, Some(FIRST));
     window.key_press(egui::Key::Slash);
     window.run();
     window.get_by_role_and_label(Role::TextInput, "Search help").type_text("pairs that a camera confuses");
     window.run();
     window.key_press(egui::Key::Enter);
     window.run();
-    assert_eq!(window.state_mut().view_mut().help.page, Some("metrics"));
+    assert_eq!(window.state_mut().view.help.page, Some("metrics"));
     window.key_press(egui::Key::Escape);
     window.run();
-    assert_eq!(window.state_mut().view_mut().help.query, "");
+    assert_eq!(window.state_mut().view.help.query, "");
     window.get_by_label("← Back").click();
     window.run();
-    assert_eq!(window.state_mut().view_mut().help.page, Some(FIRST));
+    assert_eq!(window.state_mut().view.help.page, Some(FIRST));
     window.get_by_role_and_label(Role::Link, "Glossary").click_accesskit();
     window.run();
-    assert_eq!(window.state_mut().view_mut().help.page, Some("glossary"));
+    assert_eq!(window.state_mut().view.help.page, Some("glossary"));
     window.key_press(egui::Key::Escape);
     window.run();
-    assert_eq!(window.state_mut().view_mut().help.page, None);
+    assert_eq!(window.state_mut().view.help.page, None);
 }
 
 #[test]
@@ -175,11 +175,11 @@ fn a_hit_on_another_page_is_scrolled_to() {
     window.run();
     window.get_by_role_and_label(Role::TextInput, "Search help").focus();
     window.run();
-    window.state_mut().view_mut().help.query = query.to_owned();
+    window.state_mut().view.help.query = query.to_owned();
     window.run();
     window.key_press(egui::Key::Enter);
     window.run();
-    assert_eq!(window.state().view().help.page, Some(hit.page));
+    assert_eq!(window.state().view.help.page, Some(hit.page));
     assert!(hit.block > 0 && hit.page != FIRST, "elsewhere than at the top of the page that is open");
     let place = window.query_all_by_role_and_label(Role::Label, query).map(|node| node.rect()).next_back();
     let top = place.expect("drawn").top();

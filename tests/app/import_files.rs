@@ -28,32 +28,30 @@ const BROKEN: &str = "nm;leaf (%)\n400;5,0\n500;10,0\n600;oops\n700;50,0\n";
 
 fn window() -> Window {
     let mut window = open([1280.0, 1000.0], egui::Theme::Dark);
-    window.state_mut().view_mut().saved.workspace = Workspace::Import;
+    window.state_mut().view.saved.workspace = Workspace::Import;
     window.run();
     window
 }
 
 fn open_path(window: &mut Window, path: &Path) {
-    window.state_mut().view_mut().status = chromascope::view::Status::default();
+    window.state_mut().view.status = chromascope::view::Status::default();
     window.state_mut().push(Command::OpenPath(path.to_owned()));
     window.run_steps(2);
     // In Import the list says what failed, elsewhere the status line.
     let failed = |app: &ChromascopeApp| {
-        app.opened().files().iter().any(|file| file.failure.is_some() && file.origin.path.as_deref() == Some(path))
+        app.opened.files().iter().any(|file| file.failure.is_some() && file.origin.path.as_deref() == Some(path))
     };
-    until(window, "a file", |app| {
-        (!app.view().status.text.is_empty() || failed(app)) && app.opened().progress().is_none()
-    });
+    until(window, "a file", |app| (!app.view.status.text.is_empty() || failed(app)) && app.opened.progress().is_none());
     settle(window);
 }
 
 fn status(window: &Window) -> (String, Weight) {
-    let status = &window.state().view().status;
+    let status = &window.state().view.status;
     (status.text.clone(), status.weight)
 }
 
 fn selected(window: &Window) -> Option<ImportItem> {
-    window.state().view().import.selected.clone()
+    window.state().view.import.selected.clone()
 }
 
 fn set(name: &str) -> ImportItem {
@@ -128,7 +126,7 @@ fn the_selection_follows_a_set_to_its_new_name_and_back() {
     // A role under which the name is taken gives the set another one.
     rename(&mut window, "D65");
     choose(&mut window, "This is a", "Illuminant");
-    until(&mut window, "a role", |app| app.history().document().own[1].role == Kinds::Illuminant);
+    until(&mut window, "a role", |app| app.history.document().own[1].role == Kinds::Illuminant);
     assert_eq!(selected(&window), Some(set("D65 (own)")));
 }
 
@@ -154,7 +152,7 @@ fn several_files_at_once_leave_light_and_patches() {
     }
     let mut window = window();
     open_path(&mut window, folder.path());
-    let document = window.state().history().document().clone();
+    let document = window.state().history.document().clone();
     assert_eq!(document.own.len(), 3);
     assert_eq!((&document.light, &document.chart), (&Document::paper().light, &Document::paper().chart));
     assert!(window.state().compares(SetKind::Camera, "a"));
@@ -162,14 +160,14 @@ fn several_files_at_once_leave_light_and_patches() {
     assert!(said.contains("3 files read. 1 added to the comparison; illuminant and patches are unchanged."), "{said}");
     assert!(said.starts_with("2 of 5 files could not be read: d.csv, line 4") && weight == Weight::Warning, "{said}");
     undo(&mut window);
-    assert_eq!(*window.state().history().document(), Document::paper());
+    assert_eq!(*window.state().history.document(), Document::paper());
     assert_eq!(status(&window).0, "Undone: Open 3 sets.", "what was taken back is no longer said");
     // One alone waits for the user's word.
     open_path(&mut window, &folder.path().join("b.csv"));
-    assert_eq!(window.state().history().document().light, Document::paper().light);
+    assert_eq!(window.state().history.document().light, Document::paper().light);
     window.key_press(egui::Key::Enter);
     settle(&mut window);
-    assert_eq!(window.state().history().document().light, Light::Set("Lamp".to_owned()));
+    assert_eq!(window.state().history.document().light, Light::Set("Lamp".to_owned()));
 }
 
 #[test]
@@ -177,7 +175,7 @@ fn what_is_tried_on_a_file_stays_with_it() {
     let mut window = window();
     drop_file(&mut window, "broken.csv", BROKEN);
     drop_file(&mut window, "leaf.csv", LEAF);
-    let broken = window.state().opened().files()[0].origin.fingerprint;
+    let broken = window.state().opened.files()[0].origin.fingerprint;
     let broken = ImportItem::File(broken);
     let tried = ImportOverrides {
         options: ReadOptions { delimiter: Some(Delimiter::Tab), ..ReadOptions::default() },
@@ -187,7 +185,7 @@ fn what_is_tried_on_a_file_stays_with_it() {
         window.state_mut().push(Command::ShowImport(item.clone(), None));
         settle(&mut window);
         choose(&mut window, "Columns split by", "Tab");
-        assert_eq!(window.state().view().import.pending(&item), Some(&tried));
+        assert_eq!(window.state().view.import.pending(&item), Some(&tried));
     }
     window.state_mut().push(Command::ShowImport(broken.clone(), None));
     settle(&mut window);
@@ -201,15 +199,15 @@ fn what_is_tried_on_a_file_stays_with_it() {
     assert_eq!(closed(&window, "Columns split by"), "Tab (chosen)");
     window.get_by_role_and_label(Role::Button, "Forget choices").click();
     settle(&mut window);
-    assert_eq!(window.state().view().import.pending(&set("leaf")), None);
-    assert_eq!(window.state().view().import.pending(&broken), Some(&tried));
+    assert_eq!(window.state().view.import.pending(&set("leaf")), None);
+    assert_eq!(window.state().view.import.pending(&broken), Some(&tried));
     // Choices that hold are taken back as one step.
     choose(&mut window, "This is a", "Illuminant");
-    until(&mut window, "a role", |app| app.history().document().own[0].role == Kinds::Illuminant);
+    until(&mut window, "a role", |app| app.history.document().own[0].role == Kinds::Illuminant);
     window.get_by_role_and_label(Role::Button, "Forget choices").click();
     settle(&mut window);
     assert_eq!(own(&window)[0].overrides, ImportOverrides::default());
-    assert!(window.state().view().saved.import.remembered.is_empty());
+    assert!(window.state().view.saved.import.remembered.is_empty());
     undo(&mut window);
     assert_eq!(own(&window)[0].role, Kinds::Illuminant);
 }
@@ -222,27 +220,27 @@ fn a_failing_file_is_one_entry_and_is_read_once_it_is_mended() {
     let mut window = window();
     open_path(&mut window, &path);
     assert!(says(&window, "Reload when the file changes"));
-    let first = window.state().opened().files()[0].origin.fingerprint;
+    let first = window.state().opened.files()[0].origin.fingerprint;
     assert_eq!(selected(&window), Some(ImportItem::File(first)));
     fs::write(&path, BROKEN.replace("oops", "oops;oops")).unwrap();
     until(&mut window, "another failure", |app| {
-        app.opened().files().first().is_some_and(|file| file.origin.fingerprint != first)
+        app.opened.files().first().is_some_and(|file| file.origin.fingerprint != first)
     });
     settle(&mut window);
-    let files = window.state().opened().files();
+    let files = window.state().opened.files();
     assert_eq!(files.len(), 1);
     assert_eq!(selected(&window), Some(ImportItem::File(files[0].origin.fingerprint)));
     fs::write(&path, LEAF).unwrap();
-    until(&mut window, "the file mended", |app| !app.history().document().own.is_empty());
+    until(&mut window, "the file mended", |app| !app.history.document().own.is_empty());
     settle(&mut window);
-    assert_eq!((window.state().opened().files().len(), selected(&window)), (1, Some(set("leaf"))));
+    assert_eq!((window.state().opened.files().len(), selected(&window)), (1, Some(set("leaf"))));
     // A set whose file fails and is then corrected has one entry.
     fs::write(&path, BROKEN).unwrap();
-    until(&mut window, "a failure", |app| app.view().status.weight == Weight::Error);
+    until(&mut window, "a failure", |app| app.view.status.weight == Weight::Error);
     fs::write(&path, LEAF.replace("5,0", "6,0")).unwrap();
-    until(&mut window, "mended", |app| app.history().document().own[0].curves[0].values[0] == 0.06);
+    until(&mut window, "mended", |app| app.history.document().own[0].curves[0].values[0] == 0.06);
     settle(&mut window);
-    assert!(window.state().opened().failing().is_empty());
+    assert!(window.state().opened.failing().is_empty());
     assert_eq!(window.query_all_by(|node| node.role() == Role::ListItem).count(), 1);
 }
 
@@ -262,10 +260,10 @@ fn a_folder_that_is_made_again_is_watched_again() {
         fs::create_dir(&within).unwrap();
         fs::write(&path, LEAF.replace("5,0", value)).unwrap();
         let wanted = value[..1].parse::<f64>().unwrap() / 100.0;
-        until(&mut window, value, |app| app.history().document().own[0].curves[0].values[0] == wanted);
+        until(&mut window, value, |app| app.history.document().own[0].curves[0].values[0] == wanted);
     }
     fs::write(&path, LEAF.replace("5,0", "9,0")).unwrap();
-    until(&mut window, "9,0", |app| app.history().document().own[0].curves[0].values[0] == 0.09);
+    until(&mut window, "9,0", |app| app.history.document().own[0].curves[0].values[0] == 0.09);
 }
 
 #[test]
@@ -275,7 +273,7 @@ fn failing_files_and_marks_outlive_the_run() {
     fs::write(&path, BROKEN).unwrap();
     fs::write(&gone, format!("{BROKEN}\n")).unwrap();
     let mut first = window();
-    first.state_mut().view_mut().saved.workspace = Workspace::Compare;
+    first.state_mut().view.saved.workspace = Workspace::Compare;
     open_path(&mut first, &gone);
     open_path(&mut first, &path);
     let saved = first.state().saved_view();
@@ -286,16 +284,16 @@ fn failing_files_and_marks_outlive_the_run() {
         .with_size([1280.0, 800.0])
         .renderer(Cpu::default())
         .build_eframe(|cc| ChromascopeApp::new(&cc.egui_ctx, History::new(Document::paper()), saved, Files::new(None)));
-    until(&mut second, "recalled", |app| app.opened().failing().len() == 1);
-    assert_eq!(second.state().view().status.text, "");
-    let known = second.state().opened().failing();
+    until(&mut second, "recalled", |app| app.opened.failing().len() == 1);
+    assert_eq!(second.state().view.status.text, "");
+    let known = second.state().opened.failing();
     assert!(known[0].why.starts_with("broken.csv, line 4"), "{}", known[0].why);
     let item = ImportItem::File(known[0].fingerprint);
-    assert!(second.state().view().import.unseen.contains(&item));
+    assert!(second.state().view.import.unseen.contains(&item));
     // It is watched as before.
     fs::write(&path, LEAF).unwrap();
-    until(&mut second, "mended", |app| !app.history().document().own.is_empty());
-    assert!(!second.state().view().import.unseen.contains(&item));
+    until(&mut second, "mended", |app| !app.history.document().own.is_empty());
+    assert!(!second.state().view.import.unseen.contains(&item));
 }
 
 #[test]
@@ -315,7 +313,7 @@ fn none_of_the_curves_means_none() {
     let names: Vec<String> = own(&window)[0].curves.iter().map(|curve| curve.name.clone()).collect();
     assert_eq!(names, ["red", "blue"]);
     // A file that is no set yet cannot be made one of nothing.
-    let file = window.state().opened().files()[0].origin.fingerprint;
+    let file = window.state().opened.files()[0].origin.fingerprint;
     window
         .state_mut()
         .push(chromascope::action::Action::Imported(chromascope::action::ImportedAction::Remove("zoo".to_owned())));
@@ -329,7 +327,7 @@ fn none_of_the_curves_means_none() {
     window.get_by_role_and_label(Role::Button, "All").click();
     settle(&mut window);
     window.get_by_role_and_label(Role::Button, "Use").click();
-    until(&mut window, "a set", |app| !app.history().document().own.is_empty());
+    until(&mut window, "a set", |app| !app.history.document().own.is_empty());
     assert_eq!(own(&window)[0].curves.len(), 3);
 }
 
@@ -357,7 +355,7 @@ fn parts_of_a_file_are_taken_side_by_side() {
         settle(&mut window);
     }
     window.get_by_role_and_label(Role::Button, "Import 2 parts").click();
-    until(&mut window, "parts", |app| app.history().document().own.len() == 3);
+    until(&mut window, "parts", |app| app.history.document().own.len() == 3);
     let sets = own(&window);
     assert_eq!(sets[0], before[0]);
     let firsts: Vec<f64> = sets[1..].iter().map(|set| set.curves[0].values[0]).collect();

@@ -23,7 +23,7 @@ fn press(window: &mut Window, key: Key) {
 fn go_to(window: &mut Window, stop: Stop) {
     for _ in 0..8 {
         press(window, Key::F6);
-        if window.state().view().import.stop == Some(stop) {
+        if window.state().view.import.stop == Some(stop) {
             return;
         }
     }
@@ -44,17 +44,17 @@ fn files_switches_and_curves_are_reached_and_changed_by_keys_alone() {
     }
     window.key_press_modifiers(egui::Modifiers::COMMAND, Key::Num5);
     settle(&mut window);
-    assert_eq!(window.state().view().saved.workspace, Workspace::Import);
+    assert_eq!(window.state().view.saved.workspace, Workspace::Import);
 
     go_to(&mut window, Stop::Files);
-    assert_eq!(window.state().view().focused, Some(PaneKind::IMPORT));
+    assert_eq!(window.state().view.focused, Some(PaneKind::IMPORT));
     for _ in 0..3 {
         press(&mut window, Key::ArrowUp);
     }
-    assert_eq!(window.state().view().import.selected, Some(ImportItem::Set("a".to_owned())));
+    assert_eq!(window.state().view.import.selected, Some(ImportItem::Set("a".to_owned())));
     assert!(focus(&window).starts_with("a: 3 curves"), "{}", focus(&window));
     press(&mut window, Key::ArrowDown);
-    assert_eq!(window.state().view().import.selected, Some(ImportItem::Set("c".to_owned())));
+    assert_eq!(window.state().view.import.selected, Some(ImportItem::Set("c".to_owned())));
 
     go_to(&mut window, Stop::Switches);
     assert!(focus(&window).starts_with("This is a: "), "{}", focus(&window));
@@ -64,7 +64,7 @@ fn files_switches_and_curves_are_reached_and_changed_by_keys_alone() {
     }
     assert_eq!(focus(&window), "Illuminant");
     press(&mut window, Key::Enter);
-    until(&mut window, "a role", |app| app.history().document().own[1].role == Kinds::Illuminant);
+    until(&mut window, "a role", |app| app.history.document().own[1].role == Kinds::Illuminant);
     assert!(focus(&window).starts_with("This is a: "), "the list has the keyboard again: {}", focus(&window));
 
     press(&mut window, Key::Enter);
@@ -76,12 +76,12 @@ fn files_switches_and_curves_are_reached_and_changed_by_keys_alone() {
     press(&mut window, Key::ArrowDown);
     assert_eq!(focus(&window), "bark");
     press(&mut window, Key::Enter);
-    until(&mut window, "a curve left out", |app| app.history().document().own[1].curves.len() == 1);
+    until(&mut window, "a curve left out", |app| app.history.document().own[1].curves.len() == 1);
 
     // What failed is tried otherwise, and taken with Enter in the list.
     go_to(&mut window, Stop::Files);
     press(&mut window, Key::ArrowDown);
-    let Some(ImportItem::File(_)) = window.state().view().import.selected else { panic!("the file that failed") };
+    let Some(ImportItem::File(_)) = window.state().view.import.selected else { panic!("the file that failed") };
     press(&mut window, Key::Enter);
     assert_eq!(own(&window).len(), 2);
     go_to(&mut window, Stop::Switches);
@@ -95,7 +95,7 @@ fn files_switches_and_curves_are_reached_and_changed_by_keys_alone() {
     }
     press(&mut window, Key::Enter);
     assert_eq!(closed(&window, "Columns split by"), "Semicolon (chosen)");
-    let tried = window.state().view().import.tried.values().next().cloned().expect("a try");
+    let tried = window.state().view.import.tried.values().next().cloned().expect("a try");
     assert_eq!(tried.options.delimiter, Some(Delimiter::Semicolon));
     assert!(window.query_by_role_and_label(Role::Button, "Forget choices").is_some());
 }
@@ -110,6 +110,6 @@ fn enter_takes_a_file_that_is_no_set_yet() {
     settle(&mut window);
     go_to(&mut window, Stop::Files);
     press(&mut window, Key::Enter);
-    until(&mut window, "a set", |app| app.history().document().own.len() == 1);
-    assert_eq!(window.state().view().import.selected, Some(ImportItem::Set("a".to_owned())));
+    until(&mut window, "a set", |app| app.history.document().own.len() == 1);
+    assert_eq!(window.state().view.import.selected, Some(ImportItem::Set("a".to_owned())));
 }

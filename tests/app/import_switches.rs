@@ -32,12 +32,12 @@ fn window(name: &str, text: &str) -> Window {
 }
 
 pub(crate) fn drop_file(window: &mut Window, name: &str, text: &str) {
-    let known = window.state().opened().files().len();
+    let known = window.state().opened.files().len();
     let file = Dropped(name.into(), text.as_bytes().to_vec());
     window.input_mut().dropped_files.push(Arc::new(file));
     window.run_steps(1);
-    until(window, "a file", |app| app.opened().files().len() > known && app.opened().progress().is_none());
-    window.state_mut().view_mut().saved.workspace = Workspace::Import;
+    until(window, "a file", |app| app.opened.files().len() > known && app.opened.progress().is_none());
+    window.state_mut().view.saved.workspace = Workspace::Import;
     settle(window);
 }
 
@@ -48,7 +48,7 @@ pub(crate) fn until(window: &mut Window, what: &str, holds: impl Fn(&Chromascope
             return Ok(());
         }
         window.run_steps(1);
-        Err(window.state().view().status.text.clone())
+        Err(window.state().view.status.text.clone())
     });
     window.run_steps(2);
 }
@@ -57,13 +57,13 @@ pub(crate) fn until(window: &mut Window, what: &str, holds: impl Fn(&Chromascope
 pub(crate) fn settle(window: &mut Window) {
     for _ in 0..3 {
         window.run_steps(2);
-        window.state().opened().wait();
+        window.state().opened.wait();
     }
     window.run_steps(2);
 }
 
 pub(crate) fn own(window: &Window) -> Vec<ImportedSet> {
-    window.state().history().document().own.iter().map(|set| (**set).clone()).collect()
+    window.state().history.document().own.iter().map(|set| (**set).clone()).collect()
 }
 
 fn numbers(window: &Window) -> Vec<(Vec<f64>, Vec<f64>)> {
@@ -186,14 +186,14 @@ fn two_wrong_choices_are_mended_one_by_one() {
 fn a_file_that_failed_is_used_once_it_reads() {
     let mut window = window("waves.csv", "x;a\n20000;1,5\n16000;2,5\n12500;3,5\n10000;4,5\n");
     assert!(own(&window).is_empty());
-    let file = window.state().opened().files()[0].origin.fingerprint;
+    let file = window.state().opened.files()[0].origin.fingerprint;
     window.state_mut().push(Command::ShowImport(ImportItem::File(file), None));
     settle(&mut window);
     assert!(says(&window, "ångströms or wave numbers"));
     choose(&mut window, "Wavelengths in", "1/cm");
     assert!(own(&window).is_empty(), "it is only used when that is asked for");
     window.get_by_role_and_label(Role::Button, "Use").click();
-    until(&mut window, "use", |app| !app.history().document().own.is_empty());
+    until(&mut window, "use", |app| !app.history.document().own.is_empty());
     assert_eq!(numbers(&window)[0].0[0], 500.0);
     undo(&mut window);
     assert!(own(&window).is_empty());
@@ -202,17 +202,17 @@ fn a_file_that_failed_is_used_once_it_reads() {
 #[test]
 fn a_file_that_failed_is_looked_at_and_left_out() {
     let mut window = window("broken.csv", "nm;a\n400;1,5\n500;2,5\n600;3,5\n700;x\n");
-    assert_eq!(window.state().view().status.weight, Weight::Error);
-    window.state_mut().view_mut().saved.workspace = Workspace::Compare;
+    assert_eq!(window.state().view.status.weight, Weight::Error);
+    window.state_mut().view.saved.workspace = Workspace::Compare;
     window.run_steps(2);
     window.get_by_role_and_label(Role::Button, "Show line").click();
     settle(&mut window);
-    assert!(matches!(window.state().view().import.selected, Some(ImportItem::File(_))));
-    assert!(window.state().view().import.unseen.is_empty(), "it was looked at");
+    assert!(matches!(window.state().view.import.selected, Some(ImportItem::File(_))));
+    assert!(window.state().view.import.unseen.is_empty(), "it was looked at");
     assert!(says(&window, "Line 5: no number in column 2"));
     window.get_by_role_and_label(Role::Button, "Do not import").click();
     settle(&mut window);
-    assert!(window.state().opened().files().is_empty());
+    assert!(window.state().opened.files().is_empty());
 }
 
 #[test]
@@ -220,7 +220,7 @@ fn the_numbers_of_the_result_are_those_that_are_read() {
     let mut window = window("leaf.csv", LEAF);
     window.state_mut().push(Command::CopyNumbers(PaneKind::CURVES));
     settle(&mut window);
-    assert_eq!(window.state().view().status.text, "Curves: 4 rows of numbers copied.");
+    assert_eq!(window.state().view.status.text, "Curves: 4 rows of numbers copied.");
 }
 
 #[test]
@@ -243,12 +243,12 @@ fn curves_are_picked() {
     let row = |nm: u32| format!("{nm}{}\n", ",0.5".repeat(30));
     let mut window = window("many.csv", &format!("nm{head}\n{}", [400, 500, 600].map(row).concat()));
     assert!(says(&window, "30 of 30 imported"));
-    window.state_mut().view_mut().import.search = "leaf 2".to_owned();
+    window.state_mut().view.import.search = "leaf 2".to_owned();
     settle(&mut window);
     window.get_by_role_and_label(Role::CheckBox, "leaf 21").click();
     settle(&mut window);
     assert!(says(&window, "29 of 30 imported"));
-    window.state_mut().view_mut().import.search.clear();
+    window.state_mut().view.import.search.clear();
     settle(&mut window);
     window.get_by_role_and_label(Role::Button, "None").click();
     settle(&mut window);
@@ -272,7 +272,7 @@ fn others_like_it_follow() {
     choose(&mut window, "This is a", "Illuminant");
     window.get_by_role_and_label(Role::Button, "Use for all like it").click();
     settle(&mut window);
-    until(&mut window, "alike", |app| app.history().document().own.iter().all(|set| set.role == Kinds::Illuminant));
+    until(&mut window, "alike", |app| app.history.document().own.iter().all(|set| set.role == Kinds::Illuminant));
     assert_eq!(own(&window).len(), 2);
 }
 
@@ -286,7 +286,7 @@ fn a_set_is_renamed_and_stays_in_sight() {
     window.run_steps(2);
     window.key_press(egui::Key::Enter);
     settle(&mut window);
-    assert_eq!(window.state().view().import.selected, Some(ImportItem::Set("Park".to_owned())));
+    assert_eq!(window.state().view.import.selected, Some(ImportItem::Set("Park".to_owned())));
     assert!(window.state().compares(SetKind::Camera, "Park"));
 }
 
@@ -364,15 +364,15 @@ fn reflectances_by_choice_are_asked_for_their_scale() {
 #[test]
 fn the_foot_leads_to_what_was_guessed() {
     let mut window = window("leaf.csv", LEAF);
-    window.state_mut().view_mut().saved.workspace = Workspace::Compare;
+    window.state_mut().view.saved.workspace = Workspace::Compare;
     let item = ImportItem::Set("leaf".to_owned());
-    window.state_mut().view_mut().import.unseen.insert(item.clone());
-    window.state_mut().view_mut().say("Values reach 98: read as percent.");
-    window.state_mut().view_mut().status.change = Some((item, None));
+    window.state_mut().view.import.unseen.insert(item.clone());
+    window.state_mut().view.say("Values reach 98: read as percent.");
+    window.state_mut().view.status.change = Some((item, None));
     window.run_steps(2);
     assert!(says(&window, "Import: 1 file to check"));
     window.get_by_role_and_label(Role::Button, "Change").click();
     settle(&mut window);
-    assert_eq!(window.state().view().saved.workspace, Workspace::Import);
+    assert_eq!(window.state().view.saved.workspace, Workspace::Import);
     assert!(!says(&window, "to check"));
 }

@@ -28,7 +28,7 @@ pub(crate) fn patch(source: &str, name: &str) -> PlotItem {
 }
 
 fn select(window: &mut Window, thing: PlotItem) {
-    window.state_mut().view_mut().selected = Some(thing);
+    window.state_mut().view.selected = Some(thing);
     window.run();
 }
 
@@ -57,7 +57,7 @@ fn a_patch_shows_the_difference_that_the_scene_computes() {
     let mut window = window();
     select(&mut window, patch("Kodak DCS200", "blue"));
     let (catalog, results) = (Catalog::built_in(), Results::default());
-    let document = window.state().history().document().clone();
+    let document = window.state().history.document().clone();
     let scene = Scene { document: &document, catalog: &catalog, results: &results };
     let differences = scene.differences(SetKind::Camera, "Kodak DCS200").expect("the camera is there");
     let blue = differences[2].expect("comparable");
@@ -129,12 +129,12 @@ fn pinned_things_stand_side_by_side() {
         select(&mut window, patch(source, "blue"));
         press(&mut window, Role::Button, "Pin");
     }
-    assert_eq!(window.state().view().pinned.len(), 2);
-    window.state_mut().view_mut().selected = None;
+    assert_eq!(window.state().view.pinned.len(), 2);
+    window.state_mut().view.selected = None;
     window.run();
     assert!(says(&window, "x: reference 0.2020, A 0.2534, B "));
     press(&mut window, Role::Button, "Unpin A");
-    assert_eq!(window.state().view().pinned, [patch("Nikon D70 (2007 figure)", "blue")]);
+    assert_eq!(window.state().view.pinned, [patch("Nikon D70 (2007 figure)", "blue")]);
 }
 
 #[test]
@@ -149,14 +149,14 @@ fn a_sensor_that_is_removed_leaves_the_inspector() {
     for by_undo in [false, true] {
         window.state_mut().push(add.clone());
         window.run();
-        let view = window.state_mut().view_mut();
+        let view = &mut window.state_mut().view;
         view.selected = Some(PlotItem::Sensor(camera(name)));
         view.pinned = vec![patch(name, "blue"), other.clone(), patch(name, "red")];
         view.hovered = Some(PlotItem::Radiator { source: camera(name), kelvin: 5500.0 });
         window.state_mut().push(if by_undo { Command::Undo } else { remove.clone().into() });
         window.run();
         assert!(!window.state().compares(SetKind::Camera, name));
-        let view = window.state().view();
+        let view = &window.state().view;
         assert_eq!((&view.selected, &view.hovered), (&None, &None), "by undo: {by_undo}");
         assert_eq!(view.pinned, std::slice::from_ref(&other));
         assert!(!says(&window, name) || !says(&window, "Unpin B"));
@@ -166,7 +166,7 @@ fn a_sensor_that_is_removed_leaves_the_inspector() {
         }
         window.state_mut().push(remove.clone());
         window.run();
-        window.state_mut().view_mut().pinned.clear();
+        window.state_mut().view.pinned.clear();
     }
     // What stays compared stays selected.
     select(&mut window, patch("Kodak DCS200", "blue"));
@@ -174,5 +174,5 @@ fn a_sensor_that_is_removed_leaves_the_inspector() {
     window.run();
     window.state_mut().push(remove);
     window.run();
-    assert_eq!(window.state().view().selected, Some(other));
+    assert_eq!(window.state().view.selected, Some(other));
 }

@@ -298,7 +298,7 @@ fn a_sentence_about_the_document_stays_until_it_is_dismissed() {
     fs::write(folder.join("document.json"), b"\xff").unwrap();
     let (_executor, mut window) = window(&folder);
     let sentence = "The last document could not be read";
-    window.state_mut().view_mut().say("Something else.");
+    window.state_mut().view.say("Something else.");
     window.run_steps(2);
     assert!(says(&window, sentence));
     window.get_by_role_and_label(Role::Button, "Dismiss").click();
@@ -444,7 +444,7 @@ fn what_cannot_be_saved_is_saved_elsewhere_and_opened_from_there() {
         window.step();
         if sent(&window, &ViewportCommand::Close) { Ok(()) } else { Err("it is open".to_owned()) }
     });
-    let document = window.state().history().document().clone();
+    let document = window.state().history.document().clone();
     assert_eq!(session::from_json(&fs::read_to_string(&path).unwrap()).unwrap(), document);
     drop(window);
     come_back(&folder, &away);
@@ -459,8 +459,8 @@ fn opens(executor: &Executor, window: &mut Window, document: &Document) {
     until("the document", || {
         executor.run_all();
         window.run_steps(1);
-        let now = Document { session: None, ..window.state().history().document().clone() };
-        if now == *document { Ok(()) } else { Err(window.state().view().status.text.clone()) }
+        let now = Document { session: None, ..window.state().history.document().clone() };
+        if now == *document { Ok(()) } else { Err(window.state().view.status.text.clone()) }
     });
 }
 
@@ -497,15 +497,15 @@ fn two_windows_lose_nothing_in_any_order_of_closing() {
         window.state_mut().push(Command::OpenDocument(copies[0].0.clone()));
         opens(&executor, &mut window, &with_leaf);
         // The document before it is kept as well, and undo brings it back.
-        assert_eq!(window.state().view().other_documents.len(), 2);
+        assert_eq!(window.state().view.other_documents.len(), 2);
         window.state_mut().push(Command::Undo);
         window.run_steps(2);
-        assert_eq!(*window.state().history().document(), of(3000.0));
+        assert_eq!(*window.state().history.document(), of(3000.0));
         window.state_mut().push(Command::Redo);
         window.run_steps(2);
         window.state_mut().push(Command::RemoveDocument(copies[0].0.clone()));
         window.run_steps(2);
-        assert_eq!(window.state().view().other_documents.len(), 1);
+        assert_eq!(window.state().view.other_documents.len(), 1);
         drop(window);
         assert_eq!(saved_document(&folder), with_leaf);
     }
@@ -591,4 +591,34 @@ fn the_layout_is_the_first_windows_and_written_whole() {
     let saved: SavedView = ron::from_str(&values["layout"]).unwrap();
     assert_eq!(saved, first.state().saved_view());
     assert!(values.contains_key("egui"));
+}
+
+#[test]
+fn the_lock_of_a_window_that_ended_is_taken_over() {
+    let (_around, folder) = profile();
+    let copy = |files: &Files| files.copy().map(|(_, file)| file);
+    // Remains of a killed process: a file without a lock.
+    fs::write(folder.join("window.lock"), "4711").unwrap();
+    let first = open(&folder);
+    assert_eq!(copy(&first), None);
+    assert_eq!(fs::read_to_string(folder.join("window.lock")).unwrap(), std::process::id().to_string());
+    let second = open(&folder);
+    let (words, _) = second.copy().expect("another window has the folder");
+    assert!(words.contains(&format!("(process {})", std::process::id())), "{words}");
+    let third = open(&folder);
+    assert!(copy(&third).is_some() && copy(&third) != copy(&second));
+    assert_ne!(copy(&second), Some(folder.join("document.json")));
+    drop(first);
+    assert_eq!(copy(&open(&folder)), None);
+}
+
+#[test]
+fn only_documents_of_windows_that_ended_are_copies() {
+    let (_around, folder) = profile();
+    let (first, second) = (open(&folder), open(&folder));
+    let (_, copy) = second.copy().expect("it has a copy");
+    fs::write(&copy, "{}").unwrap();
+    assert_eq!(first.other_documents(), [], "its window is open");
+    drop(second);
+    assert_eq!(first.other_documents().into_iter().map(|(path, _)| path).collect::<Vec<_>>(), [copy]);
 }

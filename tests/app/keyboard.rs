@@ -43,8 +43,8 @@ fn window(workspace: Workspace, size: [f32; 2]) -> Window {
 
 /// What a key can change, in words.
 fn state(window: &Window) -> String {
-    let document = window.state().history().document();
-    let View { saved, maximized, inspector_over, focus_temperature, status, .. } = window.state().view();
+    let document = window.state().history.document();
+    let View { saved, maximized, inspector_over, focus_temperature, status, .. } = &window.state().view;
     let bars = saved.difference_bars;
     format!("{document:?} {:?} {maximized:?} {inspector_over} {focus_temperature} {bars} {}", saved.layout, status.text)
 }
@@ -65,7 +65,7 @@ fn each_letter_does_what_it_says_and_types_nothing() {
         let mut window = window(Workspace::Compare, SIZE);
         let before = state(&window);
         press_like_keyboard(&mut window, &key.to_string());
-        let sensors = window.state().history().document().compared.len();
+        let sensors = window.state().history.document().compared.len();
         let is_there = !matches!(command, Command::ToggleSource(index) if index >= sensors);
         let field = window.query_by_role_and_label(Role::TextInput, "Temperature in kelvins");
         assert_eq!(field.is_some(), command == Command::FocusTemperature, "{key}");
@@ -73,7 +73,7 @@ fn each_letter_does_what_it_says_and_types_nothing() {
             Some(field) => assert_eq!(field.value().as_deref(), Some("5500"), "the key itself is not typed"),
             None => assert_eq!(state(&window) != before, is_there, "{key}: {command:?}"),
         }
-        assert_eq!(window.state().view().search, "");
+        assert_eq!(window.state().view.search, "");
     }
 }
 
@@ -87,8 +87,8 @@ fn what_comes_with_the_key_t_in_a_slow_frame_goes_into_the_field() {
     press_like_keyboard(&mut window, "00");
     window.key_press(Key::Enter);
     window.run_steps(3);
-    assert_eq!(window.state().history().document().temperature_k, 4200.0);
-    assert!(window.state().history().document().compared.iter().all(|sensor| sensor.visible), "no sensor was hidden");
+    assert_eq!(window.state().history.document().temperature_k, 4200.0);
+    assert!(window.state().history.document().compared.iter().all(|sensor| sensor.visible), "no sensor was hidden");
 }
 
 #[test]
@@ -106,7 +106,7 @@ fn a_number_that_was_refused_goes_with_escape_from_anywhere() {
     window.key_press(Key::Escape);
     window.run_steps(3);
     assert!(!says(&window, "1000 to 20000 K"));
-    assert!(window.state().view().help.page.is_some(), "it did nothing else");
+    assert!(window.state().view.help.page.is_some(), "it did nothing else");
 }
 
 #[test]
@@ -117,15 +117,15 @@ fn a_temperature_without_effect_says_why() {
     ] {
         let mut window = window(workspace, SIZE);
         press_like_keyboard(&mut window, "t");
-        assert!(says(&window, why), "{}", window.state().view().status.text);
+        assert!(says(&window, why), "{}", window.state().view.status.text);
         assert!(!window.ctx.text_edit_focused(), "letters go on to be keys");
         window.get_by_role_and_label(Role::Slider, "Temperature in kelvins").click();
         window.run_steps(2);
-        window.state_mut().view_mut().say("");
+        window.state_mut().view.say("");
         press_like_keyboard(&mut window, "4321");
         window.key_press(Key::Enter);
         window.run_steps(3);
-        assert_eq!(window.state().history().document().temperature_k, 4321.0);
+        assert_eq!(window.state().history.document().temperature_k, 4321.0);
         assert!(says(&window, why));
     }
 }
@@ -152,7 +152,7 @@ fn letters_in_an_open_list_or_menu_are_its_own() {
             window.run_steps(2);
         }
         assert_eq!(state(&window), before, "{opens}");
-        let view = window.state().view();
+        let view = &window.state().view;
         assert!(view.palette.is_none() && view.page.is_none() && view.saved.workspace == workspace, "{opens}");
     }
 }
@@ -168,12 +168,12 @@ fn short_lists_are_filtered_as_one_types() {
         window.run_steps(4);
     };
     choose(&mut window, "Mesh: ", "fern");
-    assert_eq!(window.state().history().document().render.mesh, MeshChoice::Fern);
-    assert_eq!(window.state().view().maximized, None);
+    assert_eq!(window.state().history.document().render.mesh, MeshChoice::Fern);
+    assert_eq!(window.state().view.maximized, None);
     window.state_mut().push(Command::FigurePage(PaneKind::CHROMATICITY));
     window.run_steps(3);
     choose(&mut window, "Size: ", "two");
-    assert_eq!(window.state().view().saved.page.paper.width_mm, Some(174.0));
+    assert_eq!(window.state().view.saved.page.paper.width_mm, Some(174.0));
 }
 
 #[test]
@@ -184,7 +184,7 @@ fn panes_of_controls_do_not_fill_the_window() {
     window.state_mut().push(Command::GoTo(PaneKind::RENDER_SETTINGS));
     window.run_steps(3);
     press_like_keyboard(&mut window, "f");
-    assert_eq!(window.state().view().maximized, None);
+    assert_eq!(window.state().view.maximized, None);
     assert!(says(&window, "Render settings keeps its size"));
 }
 
@@ -198,14 +198,14 @@ fn ctrl_e_prints_a_pane_that_has_a_figure() {
         let mut window = window(Workspace::Compare, size);
         window.get_by_role_and_label(Role::TextInput, "Search the library").click();
         window.run_steps(2);
-        assert_eq!(window.state().view().focused, Some(PaneKind::LIBRARY));
+        assert_eq!(window.state().view.focused, Some(PaneKind::LIBRARY));
         window.state_mut().push(Command::Show(workspace));
         window.run_steps(3);
-        window.state().render_service().wait();
+        window.state().render_service.wait();
         window.run_steps(3);
         window.key_press_modifiers(Modifiers::COMMAND, Key::E);
         window.run_steps(3);
-        let view = window.state().view();
+        let view = &window.state().view;
         assert_eq!(view.page, Some(printed), "{workspace:?}: {}", view.status.text);
         assert_ne!(view.status.weight, Weight::Error);
     }
@@ -216,12 +216,12 @@ fn the_keyboard_leaves_a_pane_that_leaves_the_screen() {
     let mut window = window(Workspace::Compare, SIZE);
     window.state_mut().push(Command::GoTo(PaneKind::SWATCHES));
     window.run_steps(3);
-    assert_eq!(window.state().view().focused, Some(PaneKind::SWATCHES));
+    assert_eq!(window.state().view.focused, Some(PaneKind::SWATCHES));
     window.state_mut().push(Command::TogglePane(PaneKind::SWATCHES));
     window.run_steps(3);
-    assert_eq!(window.state().view().focused, None);
+    assert_eq!(window.state().view.focused, None);
     press_like_keyboard(&mut window, "f");
-    assert_eq!(window.state().view().maximized, Some(PaneKind::CHROMATICITY));
+    assert_eq!(window.state().view.maximized, Some(PaneKind::CHROMATICITY));
 }
 
 #[test]
@@ -232,7 +232,7 @@ fn a_number_in_the_palette_sets_the_temperature() {
     press_like_keyboard(&mut window, "3200");
     window.key_press(Key::Enter);
     window.run_steps(3);
-    assert_eq!(window.state().history().document().temperature_k, 3200.0);
+    assert_eq!(window.state().history.document().temperature_k, 3200.0);
 }
 
 #[test]
@@ -245,6 +245,6 @@ fn a_narrow_window_still_offers_the_difference() {
     press_like_keyboard(&mut window, "1976");
     window.key_press(Key::Enter);
     window.run_steps(3);
-    assert_eq!(window.state().history().document().difference.id, "delta-e1976");
-    assert_eq!(window.state().history().document().light, Light::Set("D65".to_owned()));
+    assert_eq!(window.state().history.document().difference.id, "delta-e1976");
+    assert_eq!(window.state().history.document().light, Light::Set("D65".to_owned()));
 }

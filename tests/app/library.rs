@@ -54,34 +54,34 @@ fn search_shows_matches_and_enter_ticks_the_first() {
     search(&mut window, "nothing like it");
     window.get_by_label("No match.");
     press(&mut window, Role::Button, "Clear search");
-    assert_eq!(window.state().view().search, "");
+    assert_eq!(window.state().view.search, "");
 }
 
 #[test]
 fn escape_clears_the_search_and_keeps_the_selection() {
     let mut window = window();
     let thing = PlotItem::Sensor(SensorId { kind: SetKind::Camera, name: "Nikon D70 (2007 figure)".to_owned() });
-    window.state_mut().view_mut().selected = Some(thing.clone());
+    window.state_mut().view.selected = Some(thing.clone());
     search(&mut window, "canon");
     window.key_press(egui::Key::Escape);
     window.run();
-    assert_eq!(window.state().view().search, "");
-    assert_eq!(window.state().view().selected, Some(thing));
+    assert_eq!(window.state().view.search, "");
+    assert_eq!(window.state().view.selected, Some(thing));
     window.key_press(egui::Key::Escape);
     window.run();
-    assert_eq!(window.state().view().selected, None);
+    assert_eq!(window.state().view.selected, None);
 }
 
 #[test]
 fn the_key_hides_and_the_name_selects() {
     let mut window = window();
     press(&mut window, Role::Button, "Hide Nikon D70 (2007)");
-    let compared = window.state().history().document().compared(SetKind::Camera, "Nikon D70 (2007 figure)").cloned();
+    let compared = window.state().history.document().compared(SetKind::Camera, "Nikon D70 (2007 figure)").cloned();
     assert!(compared.is_some_and(|compared| !compared.visible));
     press(&mut window, Role::Button, "Show Nikon D70 (2007)");
     press(&mut window, Role::Button, "Nikon D70 (2007)");
     let wanted = PlotItem::Sensor(SensorId { kind: SetKind::Camera, name: "Nikon D70 (2007 figure)".to_owned() });
-    assert_eq!(window.state().view().selected, Some(wanted));
+    assert_eq!(window.state().view.selected, Some(wanted));
 }
 
 #[test]
@@ -89,8 +89,8 @@ fn another_observer_becomes_the_truth() {
     let mut window = window();
     press(&mut window, Role::Button, "Menu of CIE 1931 2°");
     press(&mut window, Role::Button, "Make reference");
-    assert_eq!(window.state().history().document().reference, "CIE 1931 2°");
-    window.state_mut().view_mut().search = "1931".to_owned();
+    assert_eq!(window.state().history.document().reference, "CIE 1931 2°");
+    window.state_mut().view.search = "1931".to_owned();
     window.run();
     let reference = window.get_by_role_and_label(Role::CheckBox, "CIE 1931 2°");
     assert!(reference.accesskit_node().is_disabled(), "the truth stays");
@@ -120,11 +120,11 @@ fn a_label_is_renamed_in_its_place() {
 fn lights_charts_and_materials_are_chosen() {
     let mut window = window();
     for (search, name) in [("D65", "D65"), ("190", "Training reflectances (190)")] {
-        window.state_mut().view_mut().search = search.to_owned();
+        window.state_mut().view.search = search.to_owned();
         window.run();
         press(&mut window, Role::RadioButton, name);
     }
-    let document = window.state().history().document();
+    let document = window.state().history.document();
     assert_eq!(document.light, Light::Set("D65".to_owned()));
     assert_eq!(document.chart, "Training reflectances (190)");
 }
@@ -143,13 +143,13 @@ fn own_sets_come_first_and_can_be_removed() {
     assert!(own.top() < first.top());
     press(&mut window, Role::Button, "Menu of your Zoo");
     press(&mut window, Role::Button, "Remove");
-    assert!(window.state().history().document().own.is_empty());
+    assert!(window.state().history.document().own.is_empty());
 }
 
 #[test]
 fn a_source_that_cannot_be_computed_says_why() {
     let mut window = window();
-    window.state_mut().view_mut().search = "cone".to_owned();
+    window.state_mut().view.search = "cone".to_owned();
     window.run();
     press(&mut window, Role::CheckBox, "CIE 2006 2° cone fundamentals");
     let warnings = window
@@ -159,7 +159,7 @@ fn a_source_that_cannot_be_computed_says_why() {
 
 /// The cameras compared, in order of name.
 fn cameras(window: &Window) -> Vec<String> {
-    let compared = &window.state().history().document().compared;
+    let compared = &window.state().history.document().compared;
     let mut names: Vec<String> =
         compared.iter().filter(|source| source.kind == SetKind::Camera).map(|source| source.name.clone()).collect();
     names.sort();

@@ -112,10 +112,10 @@ fn filters_are_ticked_in_the_library_and_removed_beside_the_light() {
     window.run();
     window.get_by_role_and_label(Kind::CheckBox, "ND 0.6").click();
     window.run();
-    assert_eq!(window.state().history().document().filters, ["ND 0.6"]);
+    assert_eq!(window.state().history.document().filters, ["ND 0.6"]);
     window.get_by_role_and_label(Kind::CheckBox, "ND 0.6").click();
     window.run();
-    assert!(window.state().history().document().filters.is_empty());
+    assert!(window.state().history.document().filters.is_empty());
 }
 
 #[test]
@@ -141,8 +141,8 @@ fn whites_and_isotherms_are_drawn_where_they_belong() {
 fn the_pane_says_all_and_why_not() {
     let shown = |document: Document| {
         let mut window = open_with(document, [1280.0, 800.0], egui::Theme::Dark);
-        let workspace = window.state().view().saved.workspace;
-        window.state_mut().view_mut().saved.layout.replace(workspace, PaneKind::SPECTRA, PaneKind::new("Light"));
+        let workspace = window.state().view.saved.workspace;
+        window.state_mut().view.saved.layout.replace(workspace, PaneKind::SPECTRA, PaneKind::new("Light"));
         window.run();
         window
     };

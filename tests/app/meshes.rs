@@ -83,14 +83,14 @@ fn until_opened(harness: &mut Harness<'static, ChromascopeApp>) -> (String, Weig
     harness.run_steps(1);
     wait("a word about the mesh", || {
         harness.run_steps(1);
-        let status = &harness.state().view().status;
-        let done = !status.text.is_empty() && harness.state().meshes().opening().is_none();
+        let status = &harness.state().view.status;
+        let done = !status.text.is_empty() && harness.state().meshes.opening().is_none();
         (done && !status.text.starts_with("Reading")).then(|| (status.text.clone(), status.weight))
     })
 }
 
 fn mesh_shown(harness: &Harness<'static, ChromascopeApp>) -> MeshChoice {
-    harness.state().history().document().render.mesh.clone()
+    harness.state().history.document().render.mesh.clone()
 }
 
 #[test]
@@ -102,12 +102,12 @@ fn a_dropped_mesh_is_looked_at_in_one_step() {
     assert_eq!(text, "square.obj: 4 vertices, 2 triangles, open edges 4.");
     assert_eq!(weight, Weight::Note);
     assert_eq!(mesh_shown(&harness), MeshChoice::File(path.clone()));
-    assert_eq!(harness.state().view().saved.recent, [path]);
-    assert_eq!(harness.state().view().saved.workspace, Workspace::Render);
-    assert_eq!(harness.state().history().undo_name(), Some("Open square.obj"));
+    assert_eq!(harness.state().view.saved.recent, [path]);
+    assert_eq!(harness.state().view.saved.workspace, Workspace::Render);
+    assert_eq!(harness.state().history.undo_name(), Some("Open square.obj"));
     harness.state_mut().push(Command::Undo);
     harness.run_steps(2);
-    assert_eq!(*harness.state().history().document(), Document::paper());
+    assert_eq!(*harness.state().history.document(), Document::paper());
 }
 
 #[test]
@@ -129,9 +129,9 @@ fn a_mesh_that_cannot_be_read_changes_nothing() {
     assert!(text.starts_with("broken.obj, line 2, column 5: not a number"), "{text}");
     assert!(text.ends_with("Nothing was changed."), "{text}");
     assert_eq!(weight, Weight::Error);
-    assert_eq!(*harness.state().history().document(), Document::paper());
-    assert!(harness.state().view().saved.recent.is_empty());
-    assert_eq!(harness.state().view().saved.workspace, Workspace::default());
+    assert_eq!(*harness.state().history.document(), Document::paper());
+    assert!(harness.state().view.saved.recent.is_empty());
+    assert_eq!(harness.state().view.saved.workspace, Workspace::default());
 }
 
 #[test]
@@ -184,7 +184,7 @@ fn a_mesh_that_is_nowhere_on_disk_is_refused() {
     harness.input_mut().dropped_files.push(Arc::new(nowhere));
     let (text, weight) = until_opened(&mut harness);
     assert!(text.contains("save it first") && weight == Weight::Error, "{text}");
-    assert_eq!(*harness.state().history().document(), Document::paper());
+    assert_eq!(*harness.state().history.document(), Document::paper());
 }
 
 #[test]
@@ -213,7 +213,7 @@ fn a_session_with_a_missing_mesh_opens() {
         ChromascopeApp::new(&cc.egui_ctx, History::new(document), saved, Files::new(None))
     });
     harness.run_steps(3);
-    let MeshState::Failed(_) = settled(harness.state().meshes(), Path::new("/no/such/head.obj")) else {
+    let MeshState::Failed(_) = settled(&harness.state().meshes, Path::new("/no/such/head.obj")) else {
         panic!("there is no such file");
     };
     harness.run_steps(3);
@@ -291,14 +291,14 @@ fn escape_stops_opening() {
     harness.run_steps(1);
     assert!(executor.run_one("files"), "it is told from spectra");
     harness.run_steps(1);
-    assert_eq!(harness.state().meshes().opening(), Some(path));
-    assert!(harness.state().view().status.text.starts_with("Reading sheet.obj… Esc stops."));
+    assert_eq!(harness.state().meshes.opening(), Some(path));
+    assert!(harness.state().view.status.text.starts_with("Reading sheet.obj… Esc stops."));
     harness.state_mut().push(Command::Escape);
     harness.run_steps(2);
     executor.run_all();
     harness.run_steps(2);
-    assert_eq!(harness.state().view().status.text, "Reading sheet.obj stopped. Nothing was changed.");
-    assert_eq!(*harness.state().history().document(), Document::paper());
+    assert_eq!(harness.state().view.status.text, "Reading sheet.obj stopped. Nothing was changed.");
+    assert_eq!(*harness.state().history.document(), Document::paper());
 }
 
 #[test]

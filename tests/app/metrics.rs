@@ -41,7 +41,7 @@ fn open() -> (Executor, Window) {
 /// The window with the Metrics workspace, all cameras ranked.
 fn ranked() -> (Executor, Window) {
     let (executor, mut window) = open();
-    window.state().later().wait();
+    window.state().later.wait();
     window.run_steps(3);
     (executor, window)
 }
@@ -77,19 +77,19 @@ fn number(row: &str, column: &str) -> Option<f64> {
 fn the_library_is_ranked_beside_the_window_with_progress() {
     let (executor, mut window) = open();
     let all = Catalog::built_in().of_kind(SetKind::Camera).count();
-    assert_eq!(Ranking::seen(window.state().later()).progress(), Some((0, all)));
+    assert_eq!(Ranking::seen(&window.state().later).progress(), Some((0, all)));
     assert!(rows(&window).iter().all(|(row, _)| number(row, "ΔE*00 mean").is_none()), "{:?}", rows(&window));
     assert!(executor.run_one("ranking"));
     window.run_steps(3);
-    let (done, of) = Ranking::seen(window.state().later()).progress().expect("not all");
+    let (done, of) = Ranking::seen(&window.state().later).progress().expect("not all");
     assert!(0 < done && done < of && of == all, "{done} of {of}");
-    window.state().later().wait();
+    window.state().later.wait();
     window.run_steps(3);
-    assert_eq!(Ranking::seen(window.state().later()).progress(), None);
+    assert_eq!(Ranking::seen(&window.state().later).progress(), None);
     let shown = rows(&window);
     assert!(shown.len() > 30 && shown.iter().all(|(row, _)| number(row, "ΔE*00 mean").is_some()), "{shown:?}");
     let (catalog, results) = (Catalog::built_in(), Results::default());
-    let document = window.state().history().document().clone();
+    let document = window.state().history.document().clone();
     let scene = Scene { document: &document, catalog: &catalog, results: &results };
     let metric = CameraMetric::by_id("delta-e2000-mean").unwrap();
     let value = |row: &str| {
@@ -102,7 +102,7 @@ fn the_library_is_ranked_beside_the_window_with_progress() {
 #[test]
 fn values_do_not_wait_for_their_uncertainties() {
     let (executor, mut window) = open();
-    while Ranking::seen(window.state().later()).progress().is_some() {
+    while Ranking::seen(&window.state().later).progress().is_some() {
         assert!(executor.run_one("ranking"));
         window.run_steps(3);
     }
@@ -110,7 +110,7 @@ fn values_do_not_wait_for_their_uncertainties() {
     let row = first(&window);
     assert!(number(&row, "ΔE*00 mean").is_some() && !row.contains('±'), "{row}");
     assert!(!row.contains(": rank 1"), "no rank is claimed before: {row}");
-    window.state().later().wait();
+    window.state().later.wait();
     window.run_steps(3);
     let row = first(&window);
     assert!(row.contains('±') && row.contains(": rank 1"), "{row}");
@@ -129,13 +129,13 @@ fn the_library_is_parsed_beside_the_window() {
     window.run_steps(3);
     let (shown, all) = (parsed(&executor), Catalog::built_in().of_kind(SetKind::Camera).count() as u64);
     assert!(shown - before < 8, "the window parsed {} files before it drew", shown - before);
-    window.state().later().wait();
+    window.state().later.wait();
     let ranked = parsed(&executor);
     assert!(ranked - shown >= all - 8, "the worker parsed {} of {all} cameras", ranked - shown);
     window.state_mut().push(Command::Maximize(PaneKind::new("Metamers")));
     window.run_steps(3);
     assert_eq!(parsed(&executor), ranked, "no reflectances yet");
-    window.state().later().wait();
+    window.state().later.wait();
     assert!(parsed(&executor) > ranked);
 }
 
@@ -143,7 +143,7 @@ fn the_library_is_parsed_beside_the_window() {
 fn values_are_those_that_the_scene_computes() {
     let (_executor, window) = ranked();
     let (catalog, results) = (Catalog::built_in(), Results::default());
-    let document = window.state().history().document().clone();
+    let document = window.state().history.document().clone();
     let scene = Scene { document: &document, catalog: &catalog, results: &results };
     let metric = CameraMetric::by_id("delta-e2000-mean").unwrap();
     for (row, _) in rows(&window).iter().take(3) {
@@ -164,12 +164,12 @@ fn the_latest_conditions_win_and_the_last_answer_stays_meanwhile() {
     assert_eq!(rows(&window), before, "rows move only when all are done");
     window.state_mut().push(Action::Scene(SceneAction::SetLight(Light::Set("FL2".to_owned()))));
     window.run_steps(3);
-    window.state().later().wait();
+    window.state().later.wait();
     window.run_steps(3);
     let after = rows(&window);
     assert_ne!(after, before);
-    let results = window.state().results();
-    let scene = Scene { document: window.state().history().document(), catalog: &Catalog::built_in(), results };
+    let results = &window.state().results;
+    let scene = Scene { document: window.state().history.document(), catalog: &Catalog::built_in(), results };
     let query = scene.camera_metrics_query(SetKind::Camera, name(&after[0].0)).unwrap();
     let value = results.ask(&query).of(CameraMetric::by_id("delta-e2000-mean").unwrap()).unwrap().unwrap();
     assert!((number(&after[0].0, "ΔE*00 mean").unwrap() - value).abs() < 0.0051, "of the latest light");
@@ -179,15 +179,15 @@ fn the_latest_conditions_win_and_the_last_answer_stays_meanwhile() {
 fn nothing_is_ranked_while_hidden() {
     let (executor, mut window) = driven_with(Document::colorimetry(), [1280.0, 800.0], egui::Theme::Dark);
     window.run_steps(3);
-    assert_eq!(Ranking::seen(window.state().later()).progress(), None);
+    assert_eq!(Ranking::seen(&window.state().later).progress(), None);
     assert!(!executor.run_one("ranking"), "nobody looks");
     window.state_mut().push(Command::Show(Workspace::Metrics));
     window.run_steps(3);
-    assert!(Ranking::seen(window.state().later()).progress().is_some());
+    assert!(Ranking::seen(&window.state().later).progress().is_some());
     window.state_mut().push(Command::Show(Workspace::Compare));
     window.run_steps(3);
     let computed =
-        |window: &Window| window.state().results().counts().get("camera metrics").map_or(0, |count| count.misses);
+        |window: &Window| window.state().results.counts().get("camera metrics").map_or(0, |count| count.misses);
     executor.run_all();
     let at_first = computed(&window);
     for light in ["A", "D65"] {
@@ -205,11 +205,11 @@ fn a_row_selects_in_all_panes_and_enter_compares() {
     let id = camera(name(&row));
     window.hover_at(at.left_center() + egui::vec2(6.0, 0.0));
     window.run_steps(3);
-    assert_eq!(window.state().view().hovered, Some(PlotItem::Sensor(id.clone())));
+    assert_eq!(window.state().view.hovered, Some(PlotItem::Sensor(id.clone())));
     window.query_all_by_role(Role::Row).find(|node| node.rect() == at).expect("row").click_accesskit();
     window.run_steps(3);
-    assert_eq!(window.state().view().selected, Some(PlotItem::Sensor(id.clone())));
-    window.state_mut().view_mut().focused = Some(PaneKind::METRICS);
+    assert_eq!(window.state().view.selected, Some(PlotItem::Sensor(id.clone())));
+    window.state_mut().view.focused = Some(PaneKind::METRICS);
     window.run_steps(1);
     window.key_press(egui::Key::Enter);
     window.run_steps(3);
@@ -224,16 +224,16 @@ fn the_compared_and_the_users_cameras_are_a_switch() {
     let (_executor, mut window) = ranked();
     let compared: Vec<String> = window
         .state()
-        .history()
+        .history
         .document()
         .compared
         .iter()
         .filter(|c| c.kind == SetKind::Camera)
         .map(|c| c.name.clone())
         .collect();
-    window.state_mut().view_mut().saved.metrics.cameras = RankedCameras::Compared;
+    window.state_mut().view.saved.metrics.cameras = RankedCameras::Compared;
     window.run_steps(3);
-    window.state().later().wait();
+    window.state().later.wait();
     window.run_steps(3);
     let mut shown: Vec<String> = rows(&window).iter().map(|(row, _)| name(row).to_owned()).collect();
     shown.sort();
@@ -242,25 +242,25 @@ fn the_compared_and_the_users_cameras_are_a_switch() {
     assert_eq!(shown, expected);
     window.state_mut().push(Action::Compare(CompareAction::Remove(SetKind::Camera, compared[0].clone())));
     window.run_steps(3);
-    window.state().later().wait();
+    window.state().later.wait();
     window.run_steps(3);
     assert_eq!(rows(&window).len(), compared.len() - 1);
-    window.state_mut().view_mut().saved.metrics.cameras = RankedCameras::Yours;
+    window.state_mut().view.saved.metrics.cameras = RankedCameras::Yours;
     window.run_steps(3);
-    assert!(Ranking::seen(window.state().later()).progress().is_none() && rows(&window).is_empty());
+    assert!(Ranking::seen(&window.state().later).progress().is_none() && rows(&window).is_empty());
 }
 
 #[test]
 fn two_cameras_stand_head_to_head() {
     let (_executor, mut window) = ranked();
     let pair = ["Nikon D70 (2007 figure)", "Kodak DCS200"].map(camera);
-    window.state_mut().view_mut().saved.metrics.pair = pair.clone().map(Some);
+    window.state_mut().view.saved.metrics.pair = pair.clone().map(Some);
     window.run_steps(3);
     assert!(window.query_by_role_and_label(Role::ComboBox, "Camera A: Nikon D70 (2007 figure)").is_some());
     let said = window.query_all_by_role(Role::Row).filter_map(|row| row.accesskit_node().label());
     let row = said.into_iter().find(|row| row.starts_with("ΔE*00 mean: ")).expect("a row for each metric");
     let (catalog, results) = (Catalog::built_in(), Results::default());
-    let document = window.state().history().document().clone();
+    let document = window.state().history.document().clone();
     let scene = Scene { document: &document, catalog: &catalog, results: &results };
     let metric = CameraMetric::by_id("delta-e2000-mean").unwrap();
     let values = pair.map(|id| scene.camera_figures(id.kind, &id.name).unwrap().of(metric).unwrap());
@@ -368,7 +368,7 @@ fn names_of_the_worst_patches_stand_apart_at_any_width() {
 fn a_report_card_is_made_beside_the_window() {
     let (executor, mut window) = driven_with(Document::colorimetry(), [1280.0, 800.0], egui::Theme::Dark);
     let made = || executor.results().counts().get("camera metrics").map_or(0, |count| count.misses);
-    window.state_mut().view_mut().saved.metrics.card = Some(camera("Kodak DCS200"));
+    window.state_mut().view.saved.metrics.card = Some(camera("Kodak DCS200"));
     window.state_mut().push(Command::Maximize(PaneKind::REPORT_CARD));
     window.run_steps(3);
     let page = "Report card: Kodak DCS200: patches";
@@ -434,14 +434,14 @@ fn full_well_and_read_noise_are_settings_that_give_the_snr() {
     type_in(&mut window, "Full-well capacity", "40000");
     type_in(&mut window, "Read noise (RMS)", "3");
     let pixel = Pixel { full_well: 40_000.0, read_noise: 3.0 };
-    assert_eq!(window.state().history().document().pixel, Some(pixel));
-    window.state().later().wait();
+    assert_eq!(window.state().history.document().pixel, Some(pixel));
+    window.state().later.wait();
     window.run_steps(3);
     assert!(snr(&window) > 30, "{:?}", rows(&window).first());
     let action = Action::Scene(SceneAction::SetPixel(Some(pixel)));
     assert_eq!(action.name(), "Pixel: full well 40000 electrons, read noise 3 electrons");
     // A session keeps them; numbers that describe no pixel are refused by actions and sessions.
-    let document = window.state().history().document().clone();
+    let document = window.state().history.document().clone();
     let text = session::to_json(&document).unwrap();
     assert_eq!(session::from_json(&text).unwrap().pixel, Some(pixel));
     let spoiled = text.replace("\"read-noise\": 3.0", "\"read-noise\": -3.0");
@@ -449,7 +449,7 @@ fn full_well_and_read_noise_are_settings_that_give_the_snr() {
     let wrong = Pixel { full_well: 10.0, read_noise: 11.0 };
     window.state_mut().push(Action::Scene(SceneAction::SetPixel(Some(wrong))));
     window.run_steps(2);
-    assert_eq!(window.state().history().document().pixel, None);
+    assert_eq!(window.state().history.document().pixel, None);
 }
 
 #[test]
@@ -465,14 +465,14 @@ fn layouts_from_before_the_workspace_open_with_it() {
 fn metamers_are_found_marked_and_put_on_the_mesh() {
     let (executor, mut window) = open();
     assert!(!executor.run_one(CatalogMetamersQuery::NAME), "nobody looks");
-    window.state_mut().view_mut().saved.metrics.card = Some(camera("Kodak DCS200"));
+    window.state_mut().view.saved.metrics.card = Some(camera("Kodak DCS200"));
     window.state_mut().push(Command::Maximize(PaneKind::new("Metamers")));
     window.run_steps(3);
     assert!(window.query_by_label("Searching…").is_some());
-    window.state().later().wait();
+    window.state().later.wait();
     window.run_steps(3);
     let (catalog, results) = (Catalog::built_in(), Results::default());
-    let document = window.state().history().document().clone();
+    let document = window.state().history.document().clone();
     let scene = Scene { document: &document, catalog: &catalog, results: &results };
     let confusion = chromascope_core::metamers::Confusion::Camera;
     let query = scene.metamers_query(SetKind::Camera, "Kodak DCS200", confusion).unwrap();
@@ -486,7 +486,7 @@ fn metamers_are_found_marked_and_put_on_the_mesh() {
     row.click();
     window.run_steps(3);
     let clicked = window.state_mut().states.of::<ClickedPair>().0;
-    let view = window.state().view();
+    let view = &window.state().view;
     assert_eq!((clicked, view.pinned.len()), (Some(0), 2), "both are marked");
     assert_eq!(view.selected.as_ref().and_then(PlotItem::patch), Some(first.as_str()));
     let is_material = |place: usize| {
@@ -497,7 +497,7 @@ fn metamers_are_found_marked_and_put_on_the_mesh() {
     if let Some(name) = names.into_iter().flatten().next() {
         window.get_by_role_and_label(Role::Button, &format!("{name} on the mesh")).click();
         window.run_steps(3);
-        assert_eq!(window.state().history().document().render.material, name);
+        assert_eq!(window.state().history.document().render.material, name);
     } else {
         window
             .query_all_by_role(Role::Button)
@@ -505,6 +505,6 @@ fn metamers_are_found_marked_and_put_on_the_mesh() {
             .expect("a chart")
             .click();
         window.run_steps(3);
-        assert!(sets.contains(&window.state().history().document().chart));
+        assert!(sets.contains(&window.state().history.document().chart));
     }
 }

@@ -51,15 +51,15 @@ fn a_folder_is_one_step_and_what_fails_is_named() {
     fs::create_dir(folder.path().join("within")).unwrap();
     let mut window = window();
     open_path(&mut window, folder.path());
-    until(&mut window, "a folder", |app| !app.view().status.text.is_empty());
+    until(&mut window, "a folder", |app| !app.view.status.text.is_empty());
     let names: Vec<String> = own(&window).into_iter().map(|set| set.name).collect();
     assert_eq!(names, ["a", "b"]);
-    let said = window.state().view().status.text.clone();
+    let said = window.state().view.status.text.clone();
     assert!(said.starts_with("1 of 3 files could not be read: c.csv, line 4: no number in column 2"), "{said}");
     assert!(said.contains("2 files read."), "{said}");
     window.state_mut().push(Command::Undo);
     window.run();
-    assert_eq!(*window.state().history().document(), Document::paper());
+    assert_eq!(*window.state().history.document(), Document::paper());
 }
 
 #[test]
@@ -67,14 +67,14 @@ fn a_file_that_fails_is_known_and_reads_once_it_is_mended() {
     let mut window = window();
     window.state_mut().push(Command::Paste("nm;a\n400;0,1\n500;0,2\n600;x\n700;0,4\n".to_owned()));
     window.run_steps(2);
-    until(&mut window, "a failure", |app| !app.view().status.text.is_empty());
-    assert_eq!(window.state().view().status.weight, Weight::Error);
-    let files = window.state().opened().files();
+    until(&mut window, "a failure", |app| !app.view.status.text.is_empty());
+    assert_eq!(window.state().view.status.weight, Weight::Error);
+    let files = window.state().opened.files();
     assert_eq!(files.len(), 1);
     assert!(files[0].failure.as_ref().is_some_and(|failure| failure.starts_with("clipboard, line 4")));
     let item = ImportItem::File(files[0].origin.fingerprint);
-    assert_eq!(window.state().view().status.change, Some((item.clone(), None)));
-    assert_eq!(window.state().view().import.selected, Some(item), "a pasted table is shown in Import");
+    assert_eq!(window.state().view.status.change, Some((item.clone(), None)));
+    assert_eq!(window.state().view.import.selected, Some(item), "a pasted table is shown in Import");
     assert!(own(&window).is_empty());
 }
 
@@ -89,15 +89,15 @@ fn what_was_wished_is_done_as_one_step_and_remembered_for_the_kind() {
     }
     let mut window = window();
     open_path(&mut window, &folder.path().join("one.csv"));
-    until(&mut window, "a file", |app| !app.history().document().own.is_empty());
+    until(&mut window, "a file", |app| !app.history.document().own.is_empty());
     let before = own(&window);
     let options =
         ReadOptions { role: Some(Role::Reflectance), values: Some(Values::Percent), ..ReadOptions::default() };
     wish(&mut window, "one", options.clone());
-    until(&mut window, "a wish", |app| app.history().document().own[0].overrides.options.role.is_some());
+    until(&mut window, "a wish", |app| app.history.document().own[0].overrides.options.role.is_some());
     assert_eq!(own(&window)[0].curves[0].values[1], 0.01);
     open_path(&mut window, &folder.path().join("two.csv"));
-    until(&mut window, "another file", |app| app.history().document().own.len() == 2);
+    until(&mut window, "another file", |app| app.history.document().own.len() == 2);
     let two = &own(&window)[1];
     assert_eq!((two.overrides.options.clone(), two.role, two.curves[0].values[0]), (options, Role::Reflectance, 0.07));
     for _ in 0..2 {
@@ -111,17 +111,17 @@ fn what_was_wished_is_done_as_one_step_and_remembered_for_the_kind() {
 fn a_wish_that_cannot_be_met_changes_nothing() {
     let mut window = window();
     window.state_mut().push(Command::Paste(LEAF.to_owned()));
-    until(&mut window, "a file", |app| !app.history().document().own.is_empty());
+    until(&mut window, "a file", |app| !app.history.document().own.is_empty());
     let before = own(&window);
     let delimiter = Some(spectral_file::Delimiter::Tab);
     wish(&mut window, "clipboard", ReadOptions { delimiter, ..ReadOptions::default() });
-    window.state().opened().wait();
+    window.state().opened.wait();
     window.run_steps(3);
     assert_eq!(own(&window), before);
-    assert!(!window.state().view().import.tried.is_empty());
+    assert!(!window.state().view.import.tried.is_empty());
     window.state_mut().push(Command::DiscardOverrides);
     window.run_steps(2);
-    assert_eq!((own(&window), window.state().view().import.tried.len()), (before, 0));
+    assert_eq!((own(&window), window.state().view.import.tried.len()), (before, 0));
 }
 
 #[test]
@@ -134,12 +134,12 @@ fn files_of_a_kind_are_read_alike_in_one_step() {
     fs::write(folder.path().join("other.csv"), LEAF).unwrap();
     let mut window = window();
     open_path(&mut window, folder.path());
-    until(&mut window, "a folder", |app| app.history().document().own.len() == 4);
+    until(&mut window, "a folder", |app| app.history.document().own.len() == 4);
     let before = own(&window);
     wish(&mut window, "0", ReadOptions { role: Some(Role::Illuminant), ..ReadOptions::default() });
-    until(&mut window, "a wish", |app| app.history().document().own[0].role == Role::Illuminant);
+    until(&mut window, "a wish", |app| app.history.document().own[0].role == Role::Illuminant);
     window.state_mut().push(Command::UseForAlike(ImportItem::Set("0".to_owned())));
-    until(&mut window, "alike", |app| app.history().document().own[2].role == Role::Illuminant);
+    until(&mut window, "alike", |app| app.history.document().own[2].role == Role::Illuminant);
     let roles: Vec<Role> = own(&window).iter().map(|set| set.role).collect();
     assert_eq!(roles[..3], [Role::Illuminant; 3]);
     assert_eq!(roles[3], Role::Reflectance);
@@ -155,14 +155,14 @@ fn a_file_that_changes_on_disk_is_read_again_and_a_broken_one_is_not() {
     fs::write(&path, LEAF).unwrap();
     let mut window = window();
     open_path(&mut window, &path);
-    until(&mut window, "a file", |app| !app.history().document().own.is_empty());
+    until(&mut window, "a file", |app| !app.history.document().own.is_empty());
     fs::write(&path, LEAF.replace("5,0", "7,0")).unwrap();
-    until(&mut window, "a change", |app| app.history().document().own[0].curves[0].values[0] == 0.07);
-    assert!(window.state().view().status.text.contains("changed on disk"), "{}", window.state().view().status.text);
+    until(&mut window, "a change", |app| app.history.document().own[0].curves[0].values[0] == 0.07);
+    assert!(window.state().view.status.text.contains("changed on disk"), "{}", window.state().view.status.text);
     let before = own(&window);
     fs::write(&path, LEAF.replace("20,0", "oops")).unwrap();
-    until(&mut window, "a failure", |app| app.view().status.weight == Weight::Error);
-    assert!(window.state().view().status.text.contains("line 4"), "{}", window.state().view().status.text);
+    until(&mut window, "a failure", |app| app.view.status.weight == Weight::Error);
+    assert!(window.state().view.status.text.contains("line 4"), "{}", window.state().view.status.text);
     assert_eq!(own(&window), before);
     window.state_mut().push(Command::Undo);
     window.run();
@@ -251,18 +251,18 @@ fn what_was_remembered_is_told_and_given_up_where_it_does_not_fit() {
     fs::write(folder.path().join("three.csv"), commas).unwrap();
     let mut window = window();
     open_path(&mut window, &folder.path().join("one.csv"));
-    until(&mut window, "a file", |app| !app.history().document().own.is_empty());
+    until(&mut window, "a file", |app| !app.history.document().own.is_empty());
     let delimiter = Some(spectral_file::Delimiter::Semicolon);
     let options = ReadOptions { role: Some(Role::Illuminant), delimiter, ..ReadOptions::default() };
     wish(&mut window, "one", options);
-    until(&mut window, "a wish", |app| app.history().document().own[0].role == Role::Illuminant);
+    until(&mut window, "a wish", |app| app.history.document().own[0].role == Role::Illuminant);
     open_path(&mut window, &folder.path().join("two.csv"));
-    until(&mut window, "another", |app| app.history().document().own.len() == 2);
+    until(&mut window, "another", |app| app.history.document().own.len() == 2);
     assert_eq!(own(&window)[1].role, Role::Illuminant);
-    let status = &window.state().view().status;
+    let status = &window.state().view.status;
     assert!(status.text.contains("with your settings") && status.change.is_some(), "{}", status.text);
     open_path(&mut window, &folder.path().join("three.csv"));
-    until(&mut window, "a third", |app| app.history().document().own.len() == 3);
+    until(&mut window, "a third", |app| app.history.document().own.len() == 3);
     assert_eq!(own(&window)[2].overrides, ImportOverrides::default());
 }
 
@@ -273,11 +273,11 @@ fn a_file_that_changes_again_and_again_is_one_step() {
     fs::write(&path, LEAF).unwrap();
     let mut window = window();
     open_path(&mut window, &path);
-    until(&mut window, "a file", |app| !app.history().document().own.is_empty());
+    until(&mut window, "a file", |app| !app.history.document().own.is_empty());
     for value in ["7,0", "8,0", "9,0"] {
         fs::write(&path, LEAF.replace("5,0", value)).unwrap();
         let wanted: f64 = value[..1].parse().unwrap();
-        until(&mut window, value, |app| app.history().document().own[0].curves[0].values[0] == wanted / 100.0);
+        until(&mut window, value, |app| app.history.document().own[0].curves[0].values[0] == wanted / 100.0);
     }
     window.state_mut().push(Command::Undo);
     window.run();

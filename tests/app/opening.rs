@@ -36,7 +36,7 @@ fn window() -> Window {
 }
 
 fn document(window: &Window) -> Document {
-    window.state().history().document().clone()
+    window.state().history.document().clone()
 }
 
 /// The conditions, without the library.
@@ -66,7 +66,7 @@ fn rewrite(window: &mut Window, path: &Path, text: &str, set: &str) {
 }
 
 fn undo(window: &mut Window) -> String {
-    let name = window.state().history().undo_name().unwrap_or_default().to_owned();
+    let name = window.state().history.undo_name().unwrap_or_default().to_owned();
     window.state_mut().push(Command::Undo);
     settle(window);
     name
@@ -87,7 +87,7 @@ fn a_light_a_chart_and_a_filter_wait_for_one_enter() {
         press(&mut window, Key::Enter);
         let set = own(&window)[0].clone();
         assert!(document(&window).uses(SetKind::of_own(&set), &set.name), "{file}");
-        assert!(window.state().view().status.offers.is_empty());
+        assert!(window.state().view.status.offers.is_empty());
         assert_eq!(undo(&mut window), step);
         assert_eq!(conditions(&document(&window)), before);
         // Opened again it is offered again; Esc leaves it in the library.
@@ -96,7 +96,7 @@ fn a_light_a_chart_and_a_filter_wait_for_one_enter() {
         press(&mut window, Key::Escape);
         press(&mut window, Key::Enter);
         assert_eq!(conditions(&document(&window)), before, "{file}");
-        assert!(window.query_by_label(button).is_none() && window.state().view().status.text.is_empty());
+        assert!(window.query_by_label(button).is_none() && window.state().view.status.text.is_empty());
     }
 }
 
@@ -122,8 +122,8 @@ fn an_offer_stays_until_it_is_taken_and_a_field_that_is_typed_into_keeps_the_key
     drop_file(&mut window, "leaf.csv", LEAF);
     assert!(has_keyboard(&window, "Use as chart"));
     press(&mut window, Key::F);
-    assert!(window.state().view().maximized.is_some());
-    assert_eq!(window.state().view().status.offers.len(), 1);
+    assert!(window.state().view.maximized.is_some());
+    assert_eq!(window.state().view.status.offers.len(), 1);
 }
 
 #[test]
@@ -131,7 +131,7 @@ fn pasted_tables_and_several_files_wait_too() {
     let mut window = window();
     let before = document(&window);
     window.event(egui::Event::Paste(LEAF.to_owned()));
-    until(&mut window, "the table", |app| !app.history().document().own.is_empty());
+    until(&mut window, "the table", |app| !app.history.document().own.is_empty());
     settle(&mut window);
     assert!(conditions(&document(&window)) == before && has_keyboard(&window, "Use as chart"));
     press(&mut window, Key::Enter);
@@ -147,13 +147,13 @@ fn pasted_tables_and_several_files_wait_too() {
     assert!(opened.compared(SetKind::Camera, "d").is_some(), "a camera is compared at once");
     let compared = before.compared.clone();
     assert_eq!(Document { compared, ..conditions(&opened) }, before);
-    assert_eq!(window.state().view().status.offers.len(), 3);
+    assert_eq!(window.state().view.status.offers.len(), 3);
     assert!(has_keyboard(&window, "Use as…"));
     press(&mut window, Key::Enter);
     window.get_by_label("Use c as filter").click();
     settle(&mut window);
     assert_eq!(document(&window).filters, ["c"]);
-    assert_eq!(window.state().view().status.offers.len(), 2, "the others still wait");
+    assert_eq!(window.state().view.status.offers.len(), 2, "the others still wait");
 }
 
 #[test]
@@ -163,7 +163,7 @@ fn a_file_named_at_the_start_is_the_users_word() {
     fs::write(&path, LAMP).unwrap();
     let mut window = window();
     window.state_mut().open_at_start(vec![path.clone()]);
-    until(&mut window, "the lamp", |app| app.history().document().light == Light::Set("Lamp".to_owned()));
+    until(&mut window, "the lamp", |app| app.history.document().light == Light::Set("Lamp".to_owned()));
     assert_eq!(undo(&mut window), "Use Lamp as light");
     open_path(&mut window, &path);
     assert_ne!(document(&window).light, Light::Set("Lamp".to_owned()), "opened later it waits");
@@ -182,11 +182,11 @@ fn a_file_that_comes_back_as_something_else_is_offered_and_the_last_reading_stay
         let mut window = window();
         window.state_mut().open_at_start(vec![path.clone()]);
         until(&mut window, "the file", |app| {
-            app.history()
+            app.history
                 .document()
                 .own
                 .first()
-                .is_some_and(|set| app.history().document().uses(SetKind::of_own(set), &set.name))
+                .is_some_and(|set| app.history.document().uses(SetKind::of_own(set), &set.name))
         });
         let before = document(&window);
         rewrite(&mut window, &path, second, used);
@@ -212,13 +212,13 @@ fn a_reload_out_of_range_is_refused_with_the_reason() {
     fs::write(&path, LEAF).unwrap();
     let mut window = window();
     window.state_mut().open_at_start(vec![path.clone()]);
-    until(&mut window, "the leaf", |app| app.history().document().chart == "leaf");
+    until(&mut window, "the leaf", |app| app.history.document().chart == "leaf");
     let before = document(&window);
     for value in ["-7.2", "1e9"] {
         rewrite(&mut window, &path, &LEAF.replace("0.1\n", &format!("{value}\n")), "leaf");
         assert_eq!(document(&window), before, "{value}");
-        assert!(says(&window, "The earlier data are unchanged"), "{:?}", window.state().view().status);
-        assert_eq!(window.state().view().status.weight, Weight::Error);
+        assert!(says(&window, "The earlier data are unchanged"), "{:?}", window.state().view.status);
+        assert_eq!(window.state().view.status.weight, Weight::Error);
     }
     rewrite(&mut window, &path, &LEAF.replace("0.1\n", "0.3\n"), "leaf");
     assert_eq!(document(&window).own[0].curves[0].values[1], 0.3);
@@ -309,14 +309,14 @@ fn a_failed_file_is_selected_at_once_with_its_reason() {
     fs::write(&good, LEAF).unwrap();
     fs::write(&bad, LEAF.replace("0.2", "oops")).unwrap();
     let mut window = window();
-    window.state_mut().view_mut().saved.workspace = Workspace::Import;
+    window.state_mut().view.saved.workspace = Workspace::Import;
     open_path(&mut window, &good);
     assert!(says(&window, "good.csv: 1 curve"));
     open_path(&mut window, &bad);
-    let selected = window.state().view().import.selected.clone();
+    let selected = window.state().view.import.selected.clone();
     assert_eq!(
         selected,
-        Some(chromascope::view::import::ImportItem::File(window.state().opened().failing()[0].fingerprint))
+        Some(chromascope::view::import::ImportItem::File(window.state().opened.failing()[0].fingerprint))
     );
     assert!(!says(&window, "good.csv: 1 curve"), "an older success goes");
     let row = window.get_by(|node| {
@@ -324,10 +324,10 @@ fn a_failed_file_is_selected_at_once_with_its_reason() {
     });
     assert!(row.rect().height() > 45.0, "two lines for the reason");
     // Elsewhere it is said, in place of the success.
-    window.state_mut().view_mut().saved.workspace = Workspace::Compare;
+    window.state_mut().view.saved.workspace = Workspace::Compare;
     open_path(&mut window, &good);
     open_path(&mut window, &bad);
-    let status = &window.state().view().status;
+    let status = &window.state().view.status;
     assert!(status.weight == Weight::Error && status.text.starts_with("bad.csv, line"), "{status:?}");
 }
 
@@ -339,13 +339,13 @@ fn a_filter_stands_in_the_lights_control_with_a_way_to_take_it_off() {
         window.state_mut().push(Action::Scene(SceneAction::SetLight(Light::Set("A".to_owned()))));
         drop_file(&mut window, "glass.csv", GLASS);
         press(&mut window, Key::Enter);
-        window.state_mut().view_mut().saved.workspace = Workspace::Compare;
+        window.state_mut().view.saved.workspace = Workspace::Compare;
         window.run_steps(2);
         assert!(says(&window, "Light: A × glass"), "{before:?}");
         window.get_by_role_and_label(Role::Button, "Remove glass").click();
         window.run_steps(3);
         assert!(document(&window).filters.is_empty() && window.query_by_label("Remove glass").is_none());
-        assert_eq!(window.state().history().undo_name(), Some("Remove all filters"));
+        assert_eq!(window.state().history.undo_name(), Some("Remove all filters"));
     }
 }
 
@@ -372,7 +372,7 @@ fn a_light_chosen_in_compare_leaves_renders_own() {
 #[test]
 fn data_fits_the_data_again() {
     let mut window = window();
-    let fit = |window: &Window| window.state().view().diagram.fit().unwrap().shown;
+    let fit = |window: &Window| window.state().view.diagram.fit().unwrap().shown;
     let whole = fit(&window);
     let seconds = |window: &mut Window| (0..30).for_each(|_| window.step());
     window.state_mut().push(Action::Scene(SceneAction::SetChart("Training reflectances (190)".to_owned())));
@@ -383,7 +383,7 @@ fn data_fits_the_data_again() {
     window.state_mut().push(Action::Scene(SceneAction::SetLight(Light::Set("A".to_owned()))));
     seconds(&mut window);
     let held = fit(&window);
-    assert_eq!(window.state().view().saved.diagram_fit, DiagramFit::Data);
+    assert_eq!(window.state().view.saved.diagram_fit, DiagramFit::Data);
     window.get_by_role_and_label(Role::Button, "Data").click();
     seconds(&mut window);
     assert!(fit(&window) != held, "pressed again it fits again");
@@ -392,11 +392,11 @@ fn data_fits_the_data_again() {
 #[test]
 fn a_template_sets_the_views_that_its_question_needs() {
     let mut window = window();
-    window.state_mut().view_mut().saved.metrics.cameras = RankedCameras::Compared;
+    window.state_mut().view.saved.metrics.cameras = RankedCameras::Compared;
     window.state_mut().push(SessionCommand::New(Some("Best camera for skin")));
-    until(&mut window, "the template", |app| app.history().document().chart.starts_with("Skin"));
+    until(&mut window, "the template", |app| app.history.document().chart.starts_with("Skin"));
     window.run_steps(2);
-    assert_eq!(window.state().view().saved.metrics.cameras, RankedCameras::Library);
+    assert_eq!(window.state().view.saved.metrics.cameras, RankedCameras::Library);
     assert_eq!(document(&window).subset, chromascope::document::Subset::All);
 }
 
@@ -434,12 +434,12 @@ fn a_session_carries_no_folders_and_keeps_its_curves() {
     fs::write(&leaf, LEAF.replace("0.05", "0.07")).unwrap();
     let mut window = at_home(&folder.join("profile"));
     open_path(&mut window, &old);
-    until(&mut window, "the session", |app| app.history().document().session.is_some());
+    until(&mut window, "the session", |app| app.history.document().session.is_some());
     settle(&mut window);
     let opened = self::document(&window);
     assert_eq!((opened.own[0].path.as_ref(), &opened.own[0].curves), (None, &document.own[0].curves));
     assert!(says(&window, "leaf.csv differs here: the session's own curves are used."));
-    assert_eq!(window.state().view().status.offers, [Offer::Open(leaf.clone())]);
+    assert_eq!(window.state().view.status.offers, [Offer::Open(leaf.clone())]);
     press(&mut window, Key::Enter);
     let sets = own(&window);
     assert_eq!(sets.iter().map(|set| set.curves[0].values[0]).collect::<Vec<_>>(), [0.05, 0.07]);
@@ -450,7 +450,7 @@ fn a_session_carries_no_folders_and_keeps_its_curves() {
     fs::write(&new, &text).unwrap();
     let mut window = at_home(&folder.join("other profile"));
     open_path(&mut window, &new);
-    until(&mut window, "the session", |app| app.history().document().session.is_some());
+    until(&mut window, "the session", |app| app.history.document().session.is_some());
     settle(&mut window);
     assert_eq!(self::document(&window).own[0].path, Some(leaf));
     assert_eq!(window.state().title(), "new – Chromascope");

@@ -34,10 +34,10 @@ const LEAF: &str = "nm;leaf (%)\n400;5,0\n500;10,0\n600;20,0\n700;50,0\n";
 fn until_said(harness: &mut Harness<'static, ChromascopeApp>) -> (String, Weight) {
     until("a word at the foot of the window", || {
         harness.run_steps(1);
-        if harness.state().view().status.text.is_empty() { Err("nothing was said".to_owned()) } else { Ok(()) }
+        if harness.state().view.status.text.is_empty() { Err("nothing was said".to_owned()) } else { Ok(()) }
     });
     harness.run_steps(2);
-    let status = &harness.state().view().status;
+    let status = &harness.state().view.status;
     (status.text.clone(), status.weight)
 }
 
@@ -53,10 +53,10 @@ fn a_dropped_file_is_shown_and_undone() {
     harness.run_steps(1);
     let (text, weight) = until_said(&mut harness);
     assert!(text.starts_with("leaf.csv: 1 curve") && weight == Weight::Note, "{text}");
-    assert_eq!(harness.state().history().document().own[0].name, "leaf");
+    assert_eq!(harness.state().history.document().own[0].name, "leaf");
     harness.state_mut().push(Command::Undo);
     harness.run();
-    assert_eq!(*harness.state().history().document(), Document::paper());
+    assert_eq!(*harness.state().history.document(), Document::paper());
 }
 
 #[test]
@@ -65,7 +65,7 @@ fn pasted_numbers_are_read_as_a_file() {
     harness.event(egui::Event::Paste(LEAF.to_owned()));
     harness.run_steps(1);
     until_said(&mut harness);
-    let document = harness.state().history().document();
+    let document = harness.state().history.document();
     assert_eq!(document.own.len(), 1);
     assert_eq!(document.own[0].curves_in_nm().unwrap()[0].1.values(), [0.05, 0.1, 0.2, 0.5]);
 }
@@ -79,7 +79,7 @@ fn a_file_that_cannot_be_read_changes_nothing() {
     let (text, weight) = until_said(&mut harness);
     assert!(text.starts_with("broken.csv, line 4") && text.ends_with("Nothing was changed."), "{text}");
     assert_eq!(weight, Weight::Error);
-    assert_eq!(*harness.state().history().document(), Document::paper());
+    assert_eq!(*harness.state().history.document(), Document::paper());
 }
 
 #[test]
@@ -219,7 +219,7 @@ fn the_second_window_says_so_as_long_as_it_is_open() {
                 ChromascopeApp::new(&cc.egui_ctx, history, chromascope::view::SavedView::default(), files)
             });
         window.run();
-        window.state_mut().view_mut().say("Something else.");
+        window.state_mut().view.say("Something else.");
         window.run();
         assert!(crate::import_switches::says(&window, "is open: changes here are saved in a copy"));
     }

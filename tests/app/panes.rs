@@ -17,6 +17,7 @@ use chromascope::scene::Scene;
 use chromascope::theme::{self, Theme};
 use chromascope::view::View;
 use chromascope::workspaces::{Layout, PaneKind, Workspace};
+use egui::Ui;
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
 
@@ -117,18 +118,21 @@ mod doubling {
     }
 }
 
-#[test]
-fn a_pane_with_a_slow_answer_is_one_file() {
-    let executor = Executor::driven();
+/// A window that shows one thing, in a context of its own.
+pub(crate) fn window_of(
+    executor: &Executor,
+    mut view: View,
+    mut show: impl FnMut(&mut Ui, &mut PaneContext<'_>) + 'static,
+) -> Harness<'static> {
     let (document, catalog, results) = (Document::colorimetry(), Catalog::built_in(), executor.results());
     let (meshes, images, recorded) =
-        (FileStore::on(&executor, || {}), FileStore::on(&executor, || {}), FileStore::on(&executor, || {}));
-    let (opened, later) = (Opened::on(&executor, || {}), Later::on(&executor, || {}));
-    let (mut view, mut states, mut commands) = (View::default(), PaneStates::default(), Vec::new());
-    let mut render_service = RenderService::on(&executor, || {});
+        (FileStore::on(executor, || {}), FileStore::on(executor, || {}), FileStore::on(executor, || {}));
+    let (opened, later) = (Opened::on(executor, || {}), Later::on(executor, || {}));
+    let (mut states, mut commands) = (PaneStates::default(), Vec::new());
+    let mut render_service = RenderService::on(executor, || {});
     let mut profiler = Profiler { measured: Measured::default() };
     let mut has_fonts = false;
-    let mut window = Harness::new_ui(|ui| {
+    let mut window = Harness::new_ui(move |ui| {
         if !std::mem::replace(&mut has_fonts, true) {
             return theme::apply(ui.ctx());
         }
@@ -147,10 +151,19 @@ fn a_pane_with_a_slow_answer_is_one_file() {
             profiler: &mut profiler,
             commands: &mut commands,
         };
-        (doubling::PANE.show)(ui, ui.max_rect(), &mut context);
+        show(ui, &mut context);
         later.end_frame();
     });
     window.run_steps(2);
+    window
+}
+
+#[test]
+fn a_pane_with_a_slow_answer_is_one_file() {
+    let executor = Executor::driven();
+    let mut window = window_of(&executor, View::default(), |ui, context| {
+        (doubling::PANE.show)(ui, ui.max_rect(), context);
+    });
     window.get_by_label("computing…");
     assert!(executor.run_one("doubled"));
     window.run_steps(2);

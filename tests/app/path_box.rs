@@ -2,6 +2,7 @@
 //! paths are completed, and a rejected path stays to be corrected.
 
 use std::fs;
+use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::sync::{Arc, Mutex};
 
@@ -10,7 +11,7 @@ use chromascope::app::ChromascopeApp;
 use chromascope::command::Command;
 use chromascope::document::Document;
 use chromascope::export::FigureForm;
-use chromascope::files::{Answer, Dialogs, Files, Question};
+use chromascope::files::{Answer, Dialogs, FileEvent, FileForm, Files, Question, SaveRequest};
 use chromascope::view::SavedView;
 use chromascope::workspaces::PaneKind;
 use egui::accesskit::Role;
@@ -65,7 +66,7 @@ fn until_shown(window: &mut Window, what: &str, shown: impl Fn(&Window) -> bool)
             return Ok(());
         }
         window.run_steps(1);
-        Err(window.state().view().status.text.clone())
+        Err(window.state().view.status.text.clone())
     });
     window.run_steps(2);
 }
@@ -99,7 +100,7 @@ fn enter(window: &mut Window) {
 }
 
 fn said(window: &mut Window, what: &str) {
-    until(window, what, |app| app.view().status.text.starts_with(what));
+    until(window, what, |app| app.view.status.text.starts_with(what));
 }
 
 /// The form of a file by its first bytes.
@@ -223,7 +224,7 @@ fn keys_go_nowhere_while_the_box_is_on_its_way() {
     let mut window = window(Files::new(None).with_dialogs(dialogs));
     window.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::O);
     window.run_steps(2);
-    let before = (window.state().history().document().clone(), window.state().view().saved.clone());
+    let before = (window.state().history.document().clone(), window.state().view.saved.clone());
     let press_all = |window: &mut Window| {
         for key in [egui::Key::F, egui::Key::L, egui::Key::I, egui::Key::D, egui::Key::T, egui::Key::Num1] {
             window.key_press(key);
@@ -237,9 +238,9 @@ fn keys_go_nowhere_while_the_box_is_on_its_way() {
         window.run_steps(3);
     };
     press_all(&mut window);
-    let now = |window: &Window| (window.state().history().document().clone(), window.state().view().saved.clone());
+    let now = |window: &Window| (window.state().history.document().clone(), window.state().view.saved.clone());
     assert_eq!(now(&window), before);
-    let view = window.state().view();
+    let view = &window.state().view;
     assert!(view.maximized.is_none() && view.palette.is_none() && view.status.text.is_empty());
     answer.send(Answer::Missing).unwrap();
     until_box(&mut window);
@@ -274,7 +275,7 @@ fn escape_brings_the_box_where_a_dialog_hangs() {
 fn a_wrong_path_stays_to_be_mended_and_tilde_is_home() {
     let home = tempfile::tempdir().unwrap();
     fs::write(home.path().join("leaf.csv"), LEAF).unwrap();
-    let mut window = window(Files::new(None).without_dialogs().with_home(home.path().to_owned()));
+    let mut window = window(Files::new(None).without_dialogs().with_home(Some(home.path().to_owned())));
     open_box(&mut window);
     enter(&mut window);
     assert!(says(&window, "Type a path."));
@@ -291,7 +292,7 @@ fn a_wrong_path_stays_to_be_mended_and_tilde_is_home() {
     window.run_steps(2);
     assert_eq!(text(&window), "~/leaf.csv");
     enter(&mut window);
-    until(&mut window, "leaf", |app| app.history().document().own.iter().any(|set| set.name == "leaf"));
+    until(&mut window, "leaf", |app| app.history.document().own.iter().any(|set| set.name == "leaf"));
     assert!(!has_box(&window));
 }
 
@@ -302,7 +303,7 @@ fn tab_completes_a_path() {
     for name in ["leaf one.csv", "leaf two.csv"] {
         fs::write(home.path().join("spectra").join(name), LEAF).unwrap();
     }
-    let mut window = window(Files::new(None).without_dialogs().with_home(home.path().to_owned()));
+    let mut window = window(Files::new(None).without_dialogs().with_home(Some(home.path().to_owned())));
     open_box(&mut window);
     let complete_to = |window: &mut Window, wanted: &str| {
         window.key_press(egui::Key::Tab);
@@ -319,7 +320,7 @@ fn tab_completes_a_path() {
     window.run_steps(3);
     assert_eq!(text(&window), "~/spectra/leaf two.csv");
     enter(&mut window);
-    until(&mut window, "leaf two", |app| app.history().document().own.iter().any(|set| set.name == "leaf two"));
+    until(&mut window, "leaf two", |app| app.history.document().own.iter().any(|set| set.name == "leaf two"));
 }
 
 #[test]
@@ -330,4 +331,110 @@ fn what_fails_before_the_question_lets_keys_through_again() {
     let mut window = window(files);
     said(&mut window, "It cannot be.");
     assert!(!window.state().is_asking());
+}
+
+/// Files without a window, with the box open for reading.
+fn asked(home: Option<&Path>) -> Files {
+    let mut files = Files::new(None).without_dialogs().with_home(home.map(Path::to_owned));
+    files.ask_to_open();
+    files.poll();
+    files
+}
+
+/// What comes of what was typed, once it is there.
+fn outcome<T>(files: &mut Files, found: impl Fn(&mut Files, Vec<FileEvent>) -> Option<T>) -> T {
+    waiting::until("what was typed", || {
+        let events = files.poll();
+        found(files, events).ok_or_else(|| "nothing".to_owned())
+    })
+}
+
+#[test]
+fn paths_are_completed_as_far_as_names_agree() {
+    let home = tempfile::tempdir().unwrap();
+    let path = home.path();
+    for folder in ["spectra", "spectra/deep"] {
+        fs::create_dir(path.join(folder)).unwrap();
+    }
+    for file in ["leaf one.csv", "leaf two.csv", ".hidden", "spectra/Älg.csv"] {
+        fs::write(path.join(file), "x").unwrap();
+    }
+    let mut files = asked(Some(path));
+    let mut complete = |text: &str| {
+        let prompt = files.prompt_mut().as_mut().unwrap();
+        (prompt.text, prompt.to_end) = (text.to_owned(), false);
+        files.complete_prompt();
+        outcome(&mut files, |files, _| {
+            let prompt = files.prompt_mut().as_ref().filter(|prompt| prompt.to_end)?;
+            Some((prompt.text.clone(), prompt.candidates.join("|")))
+        })
+    };
+    let is = |text: &str, candidates: &str| (text.to_owned(), candidates.to_owned());
+    assert_eq!(complete("~"), is("~/", ""));
+    assert_eq!(complete("~/l"), is("~/leaf ", "leaf one.csv|leaf two.csv"));
+    assert_eq!(complete("~/leaf t"), is("~/leaf two.csv", ""));
+    assert_eq!(complete("~/s"), is("~/spectra/", ""));
+    assert_eq!(complete("~/spectra/Ä"), is("~/spectra/Älg.csv", ""));
+    assert_eq!(complete("~/spectra/"), is("~/spectra/", "deep/|Älg.csv"));
+    assert_eq!(complete("~/."), is("~/.hidden", ""));
+    assert_eq!(complete("~/none"), is("~/none", ""));
+    let full = format!("{}/sp", path.display());
+    assert_eq!(complete(&full), is(&format!("{}/spectra/", path.display()), ""));
+}
+
+#[test]
+fn the_home_folder_is_written_as_a_tilde() {
+    let home = Some(Path::new("/no home/me"));
+    for (text, home, path) in [
+        ("~", home, "/no home/me"),
+        ("~/x y", home, "/no home/me/x y"),
+        ("~you/x", home, "~you/x"),
+        ("/a/~", home, "/a/~"),
+        ("no b", home, "no b"),
+        ("~/x", None, "~/x"),
+    ] {
+        let mut files = asked(home);
+        files.prompt_mut().as_mut().unwrap().text = text.to_owned();
+        files.take_prompt();
+        let failure = files.prompt_mut().as_ref().unwrap().failure.clone().unwrap();
+        let (of, _) = failure.split_once(": no such file").expect("it is not there");
+        assert_eq!(Path::new(of), Path::new(path), "{text}");
+    }
+}
+
+#[test]
+fn the_ending_decides_and_its_lack_takes_the_offered_one() {
+    let folder = tempfile::tempdir().unwrap();
+    for inner in ["b", "in.folder"] {
+        fs::create_dir(folder.path().join(inner)).unwrap();
+    }
+    let save = |typed: &str| {
+        let mut files = Files::new(None).without_dialogs();
+        let forms = ["svg", "png", "csv"].map(|ending| FileForm::of_bytes(ending, ending.into())).to_vec();
+        files.ask_to_save(SaveRequest::new("", "x.svg", forms));
+        files.poll();
+        files.prompt_mut().as_mut().unwrap().text = folder.path().join(typed).display().to_string();
+        files.take_prompt();
+        outcome(&mut files, |files, events| match events.into_iter().next() {
+            Some(FileEvent::Saved(saved)) => Some(Ok(saved.file.path)),
+            _ => files.prompt_mut().as_ref()?.failure.clone().map(Err),
+        })
+    };
+    for (typed, path, ending) in [
+        ("a.png", "a.png", "png"),
+        ("b/c.CSV", "b/c.CSV", "csv"),
+        ("plain", "plain.svg", "svg"),
+        ("figure 2.1", "figure 2.1.svg", "svg"),
+        ("Dr. Smith", "Dr. Smith.svg", "svg"),
+        ("in.folder/x", "in.folder/x.svg", "svg"),
+        ("two.pdf.png", "two.pdf.png", "png"),
+    ] {
+        let to: PathBuf = save(typed).expect("it can be written");
+        assert_eq!(to, folder.path().join(path));
+        assert_eq!(fs::read_to_string(to).unwrap(), ending, "{typed}");
+    }
+    for typed in ["a.pdf", "b.TIFF", "c.xyz"] {
+        let refused = save(typed).expect_err("it cannot be written");
+        assert!(refused.contains(".svg, .png or .csv") && refused.contains(&typed[1..]), "{refused}");
+    }
 }

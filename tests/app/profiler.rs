@@ -70,23 +70,23 @@ fn what_is_measured_is_of_the_scene_that_it_was_measured_on() {
     // Without spectral integrals there is little to measure.
     let flat =
         |settings: &RenderSettings| RenderSettings { normalization: Normalization::Lambertian, ..settings.clone() };
-    let to = Box::new(flat(&window.state().history().document().render));
+    let to = Box::new(flat(&window.state().history.document().render));
     window.state_mut().push(Action::Render(RenderAction::Set { what: "Normalization", to }));
     window.state_mut().push(Command::MeasureScene);
     window.run_steps(2);
-    window.state().later().wait();
+    window.state().later.wait();
     window.run_steps(3);
     let is_current = |window: &egui_kittest::Harness<'static, chromascope::app::ChromascopeApp>| {
-        assert!(window.state().profiler().measured.run.is_some());
-        window.state().profiler().measured.is_current
+        assert!(window.state().profiler.measured.run.is_some());
+        window.state().profiler.measured.is_current
     };
     assert!(is_current(&window));
-    let to = RenderSettings { sky: 0.3, ..window.state().history().document().render.clone() };
+    let to = RenderSettings { sky: 0.3, ..window.state().history.document().render.clone() };
     window.state_mut().push(Action::Render(RenderAction::Set { what: "Sky", to: Box::new(to) }));
     window.run_steps(2);
     window.state_mut().push(Command::MeasureScene);
     window.run_steps(1);
-    assert!(Profiler::busy(window.state().later()).is_some());
+    assert!(Profiler::busy(&window.state().later).is_some());
     window.state_mut().push(Command::StopMeasuring);
     window.run_steps(1);
     executor.run_all();

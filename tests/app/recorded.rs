@@ -69,7 +69,7 @@ fn open(window: &mut Window) {
 /// Waits until the cameras are fitted, if there is something to fit.
 fn fitted(window: &mut Window) {
     window.run_steps(2);
-    window.state().later().wait();
+    window.state().later.wait();
     window.run_steps(2);
 }
 
@@ -120,7 +120,7 @@ fn a_table_is_opened_ranked_and_drawn() {
         let app = window.state();
         let catalog = chromascope::catalog::Catalog::built_in();
         let scene =
-            chromascope::scene::Scene { document: app.history().document(), catalog: &catalog, results: app.results() };
+            chromascope::scene::Scene { document: app.history.document(), catalog: &catalog, results: &app.results };
         panes::figure(PaneKind::RECORDED, &scene, &app.look(PaneKind::RECORDED, &scene), FigureRoom::default()).unwrap()
     };
     let shown = figure(&window);
@@ -134,7 +134,7 @@ fn a_table_is_opened_ranked_and_drawn() {
     // With one gain for all channels the gains that were put in are the residuals.
     window.get_by_label("Channel gains").click();
     window.run_steps(3);
-    assert!(!window.state().view().recorded.freedom.gains);
+    assert!(!window.state().view.recorded.freedom.gains);
     fitted(&mut window);
     assert!(window.query_by_label_contains("recorded.csv: Nikon D70 (A.M.P.A.S.), RMS 0.").is_none());
 }
@@ -187,7 +187,7 @@ fn corners_of_a_picture_are_clicked() {
     image::ImageBuffer::<image::Rgb<u16>, Vec<u16>>::from_fn(600, 400, pixel).save(&path).unwrap();
     let mut window = window(&path, [1280.0, 800.0], egui::Theme::Light);
     // As chosen for a table before: no level of pixels.
-    window.state_mut().view_mut().recorded.clip = 100.0;
+    window.state_mut().view.recorded.clip = 100.0;
     open(&mut window);
     assert!(window.query_by_label_contains("top left").is_some());
     let plot = window.get_by_label("Picture of the chart").rect();
@@ -203,7 +203,7 @@ fn corners_of_a_picture_are_clicked() {
         }
         window.run_steps(3);
     }
-    let corners = &window.state().view().recorded.corners;
+    let corners = &window.state().view.recorded.corners;
     for (corner, wanted) in corners.iter().zip([[60.0, 40.0], [540.0, 40.0], [540.0, 360.0], [60.0, 360.0]]) {
         assert!((corner[0] - wanted[0]).hypot(corner[1] - wanted[1]) < 6.0, "{corners:?}");
     }

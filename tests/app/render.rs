@@ -31,13 +31,13 @@ type Window = Harness<'static, ChromascopeApp>;
 fn settle(window: &mut Window) {
     for _ in 0..3 {
         window.run_steps(2);
-        window.state().render_service().wait();
+        window.state().render_service.wait();
     }
     window.run_steps(2);
 }
 
 fn render(window: &mut Window, change: impl FnOnce(&mut RenderSettings)) {
-    let mut to = window.state().history().document().render.clone();
+    let mut to = window.state().history.document().render.clone();
     change(&mut to);
     window.state_mut().push(Action::Render(RenderAction::Set { what: "Test", to: Box::new(to) }));
     window.run_steps(1);
@@ -49,7 +49,7 @@ fn window(size: [f32; 2], theme: egui::Theme) -> Window {
 }
 
 fn in_render(mut window: Window) -> Window {
-    window.state_mut().view_mut().saved.workspace = Workspace::Render;
+    window.state_mut().view.saved.workspace = Workspace::Render;
     render(&mut window, |settings| settings.triangles = 4000);
     settle(&mut window);
     window
@@ -61,12 +61,12 @@ fn small() -> Window {
 
 /// Number of computations of a kind of query.
 fn made(window: &Window, name: &str) -> u64 {
-    window.state().results().counts().get(name).map_or(0, |count| count.misses)
+    window.state().results.counts().get(name).map_or(0, |count| count.misses)
 }
 
 /// Number of computations of each kind of query.
 fn computed(window: &Window) -> Vec<(&'static str, u64)> {
-    window.state().results().counts().into_iter().map(|(name, count)| (name, count.misses)).collect()
+    window.state().results.counts().into_iter().map(|(name, count)| (name, count.misses)).collect()
 }
 
 /// The captions of the visible pictures.
@@ -76,7 +76,7 @@ fn captions(window: &Window) -> Vec<String> {
 }
 
 fn document(window: &Window) -> &Document {
-    window.state().history().document()
+    window.state().history.document()
 }
 
 #[test]
@@ -89,7 +89,7 @@ fn the_truth_and_three_cameras_stand_side_by_side() {
         captions[1..].iter().all(|caption| caption.contains("Δxy 0.0") && caption.contains(" facing light, median ")),
         "{captions:?}"
     );
-    let shot = window.state().render_service().frame().cloned().unwrap();
+    let shot = window.state().render_service.frame().cloned().unwrap();
     assert!(shot.is_last && shot.query.mesh().unwrap().shading.geometry.visibility.size.samples == 3);
     let pixels = &shot.made().unwrap().pictures[0].as_ref().unwrap().rgba;
     assert!(pixels.chunks_exact(4).any(|pixel| pixel[0] > 200), "it is lit");
@@ -103,7 +103,7 @@ fn a_figure_sets_light_and_white_in_one_step() {
     window.run_steps(2);
     assert_eq!(document(&window).light, Light::Set(SUN.to_owned()));
     assert_eq!(document(&window).white, WhiteBalanceChoice::Light(BALANCE.to_owned()));
-    assert_eq!(window.state().history().undo_name(), Some("Figure 9"));
+    assert_eq!(window.state().history.undo_name(), Some("Figure 9"));
     window.state_mut().push(Command::Undo);
     window.run_steps(2);
     assert_eq!(*document(&window), before);
@@ -182,20 +182,20 @@ fn the_surface_says_its_limits_where_it_is_chosen() {
 fn a_mesh_that_is_gone_is_said_in_place_of_pictures() {
     let mut window = small();
     render(&mut window, |settings| settings.mesh = MeshChoice::File("/nowhere/bust.obj".into()));
-    until("a word about the mesh", || match window.state().meshes().get(Path::new("/nowhere/bust.obj")) {
+    until("a word about the mesh", || match window.state().meshes.get(Path::new("/nowhere/bust.obj")) {
         MeshState::Loading => Err("it is being read".to_owned()),
         MeshState::Ready(_) | MeshState::Failed(_) => Ok(()),
     });
     window.run_steps(2);
     assert!(captions(&window).is_empty());
-    assert!(window.state().render_service().frame().is_none() && window.state().render_service().busy().is_none());
+    assert!(window.state().render_service.frame().is_none() && window.state().render_service.busy().is_none());
 }
 
 #[test]
 fn dragging_orbits_and_changes_nothing_else() {
     let mut window = small();
     let before = document(&window).clone();
-    let step = window.state().history().undo_name().map(str::to_owned);
+    let step = window.state().history.undo_name().map(str::to_owned);
     let [from, to] = [egui::pos2(150.0, 250.0), egui::pos2(200.0, 250.0)];
     window.hover_at(from);
     window.drag_at(from);
@@ -204,14 +204,14 @@ fn dragging_orbits_and_changes_nothing_else() {
     window.run_steps(2);
     window.drop_at(to);
     settle(&mut window);
-    let orbit = window.state().view().saved.render.orbit.expect("it was turned");
+    let orbit = window.state().view.saved.render.orbit.expect("it was turned");
     assert!((orbit.yaw_deg + 45.0).abs() < 4.1 && orbit.pitch_deg == 5.0, "{orbit:?}");
     assert_eq!(*document(&window), before);
-    assert_eq!(window.state().history().undo_name().map(str::to_owned), step);
-    assert!(window.state().view().render.pinned.is_none(), "a drag is no click");
+    assert_eq!(window.state().history.undo_name().map(str::to_owned), step);
+    assert!(window.state().view.render.pinned.is_none(), "a drag is no click");
     window.key_press(egui::Key::Home);
     window.run_steps(2);
-    assert!(window.state().view().saved.render.orbit.is_none());
+    assert!(window.state().view.saved.render.orbit.is_none());
 }
 
 #[test]
@@ -246,7 +246,7 @@ fn a_hidden_camera_is_not_computed() {
     render(&mut window, |settings| settings.exposure_ev = 0.5);
     settle(&mut window);
     assert_eq!(made(&window, "picture"), pictures + 3);
-    let shot = window.state().render_service().frame().cloned().unwrap();
+    let shot = window.state().render_service.frame().cloned().unwrap();
     assert!(shot.sources.iter().all(|source| source.name != "Nikon D70 (2007 figure)"));
     assert_eq!(shot.sources.len(), 3);
 }
@@ -260,18 +260,18 @@ fn a_hidden_workspace_asks_nothing() {
     render(&mut window, |settings| settings.sigma_um = 3.0);
     settle(&mut window);
     assert_eq!(computed(&window), before);
-    assert!(window.state().render_service().busy().is_none());
+    assert!(window.state().render_service.busy().is_none());
 }
 
 #[test]
 fn nothing_moves_when_nothing_changes() {
     let mut window = small();
-    let serial = window.state().render_service().frame().unwrap().serial;
+    let serial = window.state().render_service.frame().unwrap().serial;
     let before = computed(&window);
     window.run_steps(4);
     assert!(!window.ctx.has_requested_repaint());
     assert_eq!(computed(&window), before);
-    assert_eq!(window.state().render_service().frame().unwrap().serial, serial);
+    assert_eq!(window.state().render_service.frame().unwrap().serial, serial);
 }
 
 #[test]
@@ -303,20 +303,20 @@ fn a_double_click_shows_one_picture_and_all_again() {
     click(&mut window, at);
     click(&mut window, at);
     window.run_steps(3);
-    assert_eq!(window.state().view().saved.render.mode, RenderMode::One);
-    let chosen = window.state().view().render.chosen.clone().expect("the picture's source");
+    assert_eq!(window.state().view.saved.render.mode, RenderMode::One);
+    let chosen = window.state().view.render.chosen.clone().expect("the picture's source");
     assert_eq!(chosen.kind, SetKind::Camera);
     window.key_press(egui::Key::Escape);
     window.run_steps(2);
-    assert_eq!(window.state().view().saved.render.mode, RenderMode::Grid);
+    assert_eq!(window.state().view.saved.render.mode, RenderMode::Grid);
     press_like_keyboard(&mut window, "d");
-    assert_eq!(window.state().view().saved.render.mode, RenderMode::Difference);
+    assert_eq!(window.state().view.saved.render.mode, RenderMode::Difference);
 }
 
 #[test]
 fn the_divider_moves_by_drag_and_by_keys() {
     let mut window = small();
-    window.state_mut().view_mut().saved.render.mode = RenderMode::Split;
+    window.state_mut().view.saved.render.mode = RenderMode::Split;
     settle(&mut window);
     let divider = "Divider between reference and sensor";
     let start = window.get_by_role_and_label(Role::Slider, divider).rect().center();
@@ -327,14 +327,14 @@ fn the_divider_moves_by_drag_and_by_keys() {
     window.run_steps(2);
     window.drop_at(start + egui::vec2(60.0, 0.0));
     window.run_steps(2);
-    let dragged = window.state().view().saved.render.split;
+    let dragged = window.state().view.saved.render.split;
     assert!(dragged > 0.55, "{dragged}");
-    assert!(window.state().view().saved.render.orbit.is_none(), "the mesh stays");
+    assert!(window.state().view.saved.render.orbit.is_none(), "the mesh stays");
     window.get_by_role_and_label(Role::Slider, divider).focus();
     window.run_steps(2);
     window.key_press(egui::Key::ArrowLeft);
     window.run_steps(2);
-    assert!((window.state().view().saved.render.split - (dragged - 0.02)).abs() < 1e-5);
+    assert!((window.state().view.saved.render.split - (dragged - 0.02)).abs() < 1e-5);
 }
 
 #[test]
@@ -374,14 +374,14 @@ fn a_material_is_found_by_typing() {
 #[test]
 fn escape_closes_a_list_before_anything_else() {
     let mut window = small();
-    window.state_mut().view_mut().saved.render.mode = RenderMode::One;
+    window.state_mut().view.saved.render.mode = RenderMode::One;
     window.get_by_label_contains("Mesh: ").click();
     window.run_steps(2);
     assert!(window.query_by_label("Plane").is_some());
     window.key_press(egui::Key::Escape);
     window.run_steps(3);
     assert!(window.query_by_label("Plane").is_none());
-    assert_eq!(window.state().view().saved.render.mode, RenderMode::One);
+    assert_eq!(window.state().view.saved.render.mode, RenderMode::One);
 }
 
 #[test]
@@ -391,34 +391,34 @@ fn a_click_keeps_a_pixel_and_escape_lets_go() {
     let at = egui::pos2(420.0, 190.0);
     window.hover_at(at);
     window.run_steps(2);
-    let point = window.state().view().point.clone().expect("the pointer reads");
+    let point = window.state().view.point.clone().expect("the pointer reads");
     assert!(point.contains("pixel") && point.contains("Δxy 0.0"), "{point}");
     window.drag_at(at);
     window.drop_at(at);
     settle(&mut window);
-    let pinned = window.state().view().render.pinned.clone().expect("it is kept");
+    let pinned = window.state().view.render.pinned.clone().expect("it is kept");
     assert_eq!(pinned.source.kind, SetKind::Camera);
     assert!(window.query_by(|node| node.value().is_some_and(|text| text.starts_with("Pixel "))).is_some());
     assert!(window.query_by(|node| node.value().is_some_and(|text| text.contains("moments"))).is_some());
     window.key_press(egui::Key::Escape);
     window.run_steps(2);
-    assert!(window.state().view().render.pinned.is_none());
+    assert!(window.state().view.render.pinned.is_none());
 }
 
 #[test]
 fn every_way_to_stand_makes_its_pictures() {
     let mut window = small();
     for (mode, pictures) in [(RenderMode::Split, 2), (RenderMode::One, 2), (RenderMode::Difference, 4)] {
-        window.state_mut().view_mut().saved.render.mode = mode;
+        window.state_mut().view.saved.render.mode = mode;
         settle(&mut window);
-        let shot = window.state().render_service().frame().cloned().unwrap();
+        let shot = window.state().render_service.frame().cloned().unwrap();
         assert_eq!(shot.sources.len(), pictures, "{mode:?}");
         let differences = shot.made().unwrap().differences.iter().flatten();
         assert!(mode != RenderMode::Difference || differences.into_iter().all(|difference| difference.stride == 1));
     }
     window.key_press(egui::Key::Escape);
     window.run_steps(2);
-    assert_eq!(window.state().view().saved.render.mode, RenderMode::Grid);
+    assert_eq!(window.state().view.saved.render.mode, RenderMode::Grid);
 }
 
 #[test]
@@ -444,41 +444,41 @@ fn escape_stops_what_takes_long_and_keeps_what_was_made() {
     window.run_steps(2);
     assert!(executor.run_one("pictures"));
     window.run_steps(1);
-    let shot = window.state().render_service().frame().cloned().unwrap();
+    let shot = window.state().render_service.frame().cloned().unwrap();
     assert!(!shot.is_last, "the first of several stages");
-    assert!(!window.state().render_service().is_waiting(), "nobody has waited yet");
+    assert!(!window.state().render_service.is_waiting(), "nobody has waited yet");
     executor.advance(Duration::from_secs(1));
     window.run_steps(1);
-    assert!(window.state().render_service().is_waiting());
+    assert!(window.state().render_service.is_waiting());
     window.key_press(egui::Key::Escape);
     // What was made before the key is still taken in with it.
     window.run_steps(2);
-    assert!(window.state().render_service().busy().is_none());
-    let before = window.state().render_service().frame().cloned().unwrap();
+    assert!(window.state().render_service.busy().is_none());
+    let before = window.state().render_service.frame().cloned().unwrap();
     assert_eq!(before.serial, shot.serial);
     let computed = made(&window, "shading");
     executor.run_all();
     window.run_steps(3);
     assert_eq!(made(&window, "shading"), computed, "nothing more was computed");
-    assert!(window.state().render_service().busy().is_none());
-    let after = window.state().render_service().frame().cloned().unwrap();
+    assert!(window.state().render_service.busy().is_none());
+    let after = window.state().render_service.frame().cloned().unwrap();
     assert_eq!(after.serial, before.serial);
     assert_eq!(captions(&window).len(), 4);
-    assert_eq!(window.state().history().undo_name(), Some("Test"), "the choice stays");
+    assert_eq!(window.state().history.undo_name(), Some("Test"), "the choice stays");
 }
 
 /// Number of computations of the stages of a mesh after a change of the mesh, with another pane next to the pictures.
 fn made_for_a_mesh(beside: PaneKind) -> [u64; 4] {
     const STAGES: [&str; 4] = ["mesh", "shadow tree", "visibility", "geometry"];
     let mut window = open([1280.0, 800.0], egui::Theme::Dark);
-    window.state_mut().view_mut().saved.layout.render[2] = Some(beside);
+    window.state_mut().view.saved.layout.render[2] = Some(beside);
     let mut window = in_render(window);
     let before = STAGES.map(|stage| made(&window, stage));
     let shadings = made(&window, "shading");
     render(&mut window, |settings| settings.mesh = MeshChoice::Sphere);
     for _ in 0..3 {
         settle(&mut window);
-        window.state().later().wait();
+        window.state().later.wait();
     }
     assert_eq!(made(&window, "shading") > shadings + 3, beside == PaneKind::TOLERANCE, "plans are of shaded samples");
     std::array::from_fn(|stage| made(&window, STAGES[stage]) - before[stage])
@@ -495,7 +495,7 @@ fn tolerance_builds_nothing_that_the_pictures_have() {
 #[test]
 fn a_pixel_is_marked_in_the_diagram_beside_the_pictures() {
     let mut window = window([1280.0, 800.0], egui::Theme::Light);
-    window.state_mut().view_mut().saved.layout.render[1] = Some(PaneKind::CHROMATICITY);
+    window.state_mut().view.saved.layout.render[1] = Some(PaneKind::CHROMATICITY);
     settle(&mut window);
     let (catalog, results) = (chromascope::catalog::Catalog::built_in(), chromascope::results::Results::default());
     let document = document(&window).clone();
@@ -507,6 +507,6 @@ fn a_pixel_is_marked_in_the_diagram_beside_the_pictures() {
     };
     assert_eq!(diamonds(window.state()), 0);
     let source = SensorId { kind: SetKind::Camera, name: "Nikon D70 (2007 figure)".to_owned() };
-    window.state_mut().view_mut().render.pinned = Some(PixelPlace { at: [0.45, 0.3], source });
+    window.state_mut().view.render.pinned = Some(PixelPlace { at: [0.45, 0.3], source });
     assert_eq!(diamonds(window.state()), 4, "one for each source");
 }

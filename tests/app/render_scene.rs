@@ -100,7 +100,7 @@ fn another_mesh_comes_with_its_own_material_unless_one_was_chosen() {
 }
 
 fn render(window: &mut Window, change: impl FnOnce(&mut RenderSettings)) {
-    let mut to = window.state().history().document().render.clone();
+    let mut to = window.state().history.document().render.clone();
     change(&mut to);
     window.state_mut().push(Action::Render(RenderAction::Set { what: "Test", to: Box::new(to) }));
     window.run_steps(2);
@@ -139,7 +139,7 @@ fn nothing_in_the_settings_jumps_when_values_change() {
     window.state_mut().push(Command::Show(Workspace::Render));
     render(&mut window, |settings| settings.mesh = MeshChoice::Sphere);
     render(&mut window, |settings| settings.triangles = 2000);
-    window.state().render_service().wait();
+    window.state().render_service.wait();
     window.run_steps(2);
     let before = places(&window);
     assert_eq!(before.len(), 16, "{before:?}");
@@ -161,11 +161,11 @@ fn nothing_in_the_settings_jumps_when_values_change() {
         render(&mut window, change);
         assert_eq!(places(&window), before, "change {index}");
     }
-    window.state().render_service().wait();
+    window.state().render_service.wait();
     window.run_steps(2);
-    let source = window.state().render_service().frame().map(|frame| frame.sources[0].clone()).unwrap();
+    let source = window.state().render_service.frame().map(|frame| frame.sources[0].clone()).unwrap();
     let source = chromascope::plot_item::SensorId { kind: source.kind, name: source.name };
-    window.state_mut().view_mut().render.pinned = Some(PixelPlace { at: [0.5, 0.5], source });
+    window.state_mut().view.render.pinned = Some(PixelPlace { at: [0.5, 0.5], source });
     window.run_steps(2);
     assert_eq!(places(&window), before, "a pinned pixel");
 }
@@ -174,7 +174,7 @@ fn nothing_in_the_settings_jumps_when_values_change() {
 fn pictures_of_what_moves_do_not_wait_until_it_is_known_where_the_mesh_hides_the_sky() {
     let (executor, mut window) =
         crate::screenshots::driven_with(Document::colorimetry(), [1280.0, 800.0], egui::Theme::Light);
-    window.state_mut().view_mut().saved.workspace = Workspace::Render;
+    window.state_mut().view.saved.workspace = Workspace::Render;
     window.run_steps(3);
     let known = |executor: &chromascope::jobs::Executor| {
         executor.results().counts().get("sky visibility").map_or(0, |count| count.misses)
@@ -182,7 +182,7 @@ fn pictures_of_what_moves_do_not_wait_until_it_is_known_where_the_mesh_hides_the
     // The open sky is one answer, the sky that the mesh hides another.
     assert!(executor.run_one("pictures"));
     window.run_steps(2);
-    assert!(window.state().render_service().frame().is_some() && known(&executor) == 1);
+    assert!(window.state().render_service.frame().is_some() && known(&executor) == 1);
     executor.run_all();
     assert_eq!(known(&executor), 2);
     render(&mut window, |settings| settings.triangles = 50_000);
@@ -195,7 +195,7 @@ fn the_scene_bar_tells_the_light_that_the_pictures_are_under() {
     let mut window = crate::screenshots::open_with(Document::colorimetry(), [1280.0, 800.0], egui::Theme::Light);
     let shows = |window: &Window, words: &str| window.query_all_by_label_contains(words).next().is_some();
     assert!(!shows(&window, "Render's own light"), "panes beside the pictures have the light of the scene bar");
-    window.state_mut().view_mut().saved.workspace = Workspace::Render;
+    window.state_mut().view.saved.workspace = Workspace::Render;
     window.run_steps(3);
     let [light, white] = [format!("Light: {SUN}"), format!("White balance: {BALANCE}")];
     assert!(shows(&window, "Render's own light") && shows(&window, &light) && shows(&window, &white));

@@ -239,7 +239,7 @@ fn a_report_of_the_window_shows_its_progress_and_can_be_stopped() {
     assert!(folder.join("figure2.pdf").is_file() && !folder.join("figure3.pdf").exists());
     window.get_by_label("Stop").click();
     window.run_steps(3);
-    assert!(window.state().view().status.text.starts_with("Report stopped after 2 of 10 steps"));
+    assert!(window.state().view.status.text.starts_with("Report stopped after 2 of 10 steps"));
     executor.run_all();
     assert!(!folder.join("figure3.pdf").exists());
     // Another one has a folder of its own, and its last step needs none before it.
@@ -247,7 +247,7 @@ fn a_report_of_the_window_shows_its_progress_and_can_be_stopped() {
     assert!(parent.path().join("Chromascope report 2/figure1.svg").is_file());
     window.key_press(egui::Key::Escape);
     window.run_steps(2);
-    assert!(window.state().view().status.text.contains("Chromascope report 2"));
+    assert!(window.state().view.status.text.contains("Chromascope report 2"));
 }
 
 #[test]
@@ -258,7 +258,7 @@ fn a_report_that_cannot_be_written_says_why() {
     std::fs::remove_dir_all(parent.path().join("Chromascope report")).unwrap();
     executor.run_one("report");
     window.run_steps(2);
-    let said = window.state().view().status.text.clone();
+    let said = window.state().view.status.text.clone();
     assert!(said.contains("not finished") && said.contains("figure2.pdf"), "{said}");
     executor.run_all();
     assert!(!parent.path().join("Chromascope report").exists());
@@ -271,7 +271,7 @@ fn a_report_of_the_window_is_whole() {
     let mut window = begun(&executor, parent.path());
     executor.run_all();
     window.run_steps(2);
-    let said = window.state().view().status.text.clone();
+    let said = window.state().view.status.text.clone();
     let folder = parent.path().join("Chromascope report");
     assert!(said.starts_with("Report saved") && said.contains(PAGE), "{said}");
     for name in Report::names() {

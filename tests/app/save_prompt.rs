@@ -64,7 +64,7 @@ fn type_path(window: &mut Window, path: &str) {
 }
 
 fn said(window: &mut Window, what: &str) {
-    until(window, what, |app| app.view().status.text.starts_with(what));
+    until(window, what, |app| app.view.status.text.starts_with(what));
 }
 
 #[test]
@@ -133,8 +133,8 @@ fn another_kind_of_file_takes_its_own_ending() {
 fn a_workload_is_offered_by_its_name() {
     let report = crate::bench::report();
     let mut window = window();
-    window.state_mut().view_mut().shows = Shows::Bench(Workload::DiffuseSum);
-    let measured = &mut window.state_mut().profiler_mut().measured;
+    window.state_mut().view.shows = Shows::Bench(Workload::DiffuseSum);
+    let measured = &mut window.state_mut().profiler.measured;
     measured.reports.insert(Workload::DiffuseSum, std::sync::Arc::new(Ok(report)));
     window.state_mut().push(Command::Export(PaneKind::METHODS, FigureForm::Csv));
     window.run_steps(8);
@@ -150,7 +150,7 @@ fn what_could_not_be_written_can_be_typed_again() {
     type_path(&mut window, wrong.to_str().unwrap());
     window.key_press(egui::Key::Enter);
     said(&mut window, "Cannot write ");
-    assert_eq!(window.state().view().status.weight, Weight::Error);
+    assert_eq!(window.state().view.status.weight, Weight::Error);
     assert_eq!(typed(&window), wrong.to_str().unwrap());
     let right = folder.path().join("x.csv");
     type_path(&mut window, right.to_str().unwrap());

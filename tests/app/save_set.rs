@@ -161,7 +161,7 @@ fn every_row_has_a_menu_with_all_forms() {
         assert!(window.query_by_role_and_label(accesskit::Role::Button, "CSV, as measured").is_none());
     }
     // The menu key opens it too; a light does not fit everywhere.
-    window.state_mut().view_mut().search = "D65".to_owned();
+    window.state_mut().view.search = "D65".to_owned();
     window.run();
     window.get_by_role_and_label(accesskit::Role::RadioButton, "D65").focus();
     window.run();

@@ -70,7 +70,7 @@ fn open_on(
 
 /// Compares the window with its picture. The time of the last update is masked: it is never the same twice.
 fn check(mut harness: Harness<'static, ChromascopeApp>, name: &str) {
-    harness.state_mut().view_mut().fixed_clock = true;
+    harness.state_mut().view.fixed_clock = true;
     harness.run();
     let image = harness.render().expect("the renderer draws");
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("screenshots").join(name);
@@ -79,7 +79,7 @@ fn check(mut harness: Harness<'static, ChromascopeApp>, name: &str) {
 
 fn select(harness: &mut Harness<'static, ChromascopeApp>, source: &str, patch: &str) {
     let source = Some(SensorId { kind: SetKind::Camera, name: source.to_owned() });
-    harness.state_mut().view_mut().selected = Some(PlotItem::Patch { source, patch: patch.to_owned() });
+    harness.state_mut().view.selected = Some(PlotItem::Patch { source, patch: patch.to_owned() });
     harness.run();
 }
 
@@ -101,9 +101,9 @@ fn compare_small() {
 #[test]
 fn metrics() {
     let mut harness = open_with(Document::colorimetry(), [1280.0, 800.0], egui::Theme::Light);
-    harness.state_mut().view_mut().saved.workspace = Workspace::Metrics;
+    harness.state_mut().view.saved.workspace = Workspace::Metrics;
     harness.run_steps(3);
-    harness.state().later().wait();
+    harness.state().later.wait();
     check(harness, "metrics.png");
 }
 
@@ -136,7 +136,7 @@ fn whole_diagram() {
     for action in [SceneAction::SetDiagram(Diagram::UvPrime), SceneAction::SetOverlays(overlays)] {
         harness.state_mut().push(Action::Scene(action));
     }
-    harness.state_mut().view_mut().saved.diagram_fit = DiagramFit::Whole;
+    harness.state_mut().view.saved.diagram_fit = DiagramFit::Whole;
     harness.state_mut().push(Command::Maximize(PaneKind::CHROMATICITY));
     check(harness, "whole_diagram.png");
 }
@@ -144,7 +144,7 @@ fn whole_diagram() {
 #[test]
 fn spectra() {
     let mut harness = open([1280.0, 800.0], egui::Theme::Light);
-    harness.state_mut().view_mut().saved.workspace = Workspace::Spectra;
+    harness.state_mut().view.saved.workspace = Workspace::Spectra;
     harness.run();
     check(harness, "spectra.png");
 }
@@ -156,11 +156,11 @@ fn render(
     change: impl FnOnce(&mut ChromascopeApp),
 ) -> Harness<'static, ChromascopeApp> {
     let mut harness = open(size, theme);
-    harness.state_mut().view_mut().saved.workspace = Workspace::Render;
+    harness.state_mut().view.saved.workspace = Workspace::Render;
     change(harness.state_mut());
     for _ in 0..4 {
         harness.run_steps(2);
-        harness.state().render_service().wait();
+        harness.state().render_service.wait();
     }
     harness
 }
@@ -185,7 +185,7 @@ fn render_fern() {
 fn render_difference() {
     let difference = |app: &mut ChromascopeApp| {
         app.push(Action::Render(RenderAction::Figure8));
-        app.view_mut().saved.render.mode = RenderMode::Difference;
+        app.view.saved.render.mode = RenderMode::Difference;
     };
     check(render([1280.0, 800.0], egui::Theme::Dark, difference), "render_difference.png");
 }
@@ -217,13 +217,13 @@ fn import() {
     harness.state_mut().push(Command::OpenPath(folder.path().to_owned()));
     harness.run_steps(2);
     for _ in 0..3 {
-        harness.state().opened().wait();
+        harness.state().opened.wait();
         harness.run_steps(3);
     }
     harness.state_mut().push(Command::ShowImport(ImportItem::Set("oak leaf".to_owned()), None));
     for _ in 0..3 {
         harness.run_steps(2);
-        harness.state().opened().wait();
+        harness.state().opened.wait();
     }
     check(harness, "import.png");
 }
@@ -242,9 +242,9 @@ impl Measured {
             let mut harness = open([1280.0, 800.0], egui::Theme::Dark);
             harness.state_mut().push(Command::MeasureScene);
             harness.run_steps(2);
-            harness.state().later().wait();
+            harness.state().later.wait();
             harness.run_steps(3);
-            let measured = &harness.state().profiler().measured;
+            let measured = &harness.state().profiler.measured;
             let run = SceneRun::clone(measured.run.as_ref().expect("measured"));
             let measured = Self { run };
             std::fs::write(&path, serde_json::to_string_pretty(&measured).unwrap() + "\n").unwrap();
@@ -257,15 +257,15 @@ impl Measured {
 pub(crate) fn accuracy(size: [f32; 2], theme: egui::Theme) -> Harness<'static, ChromascopeApp> {
     let mut harness = open(size, theme);
     let Measured { run } = Measured::kept();
-    let view = harness.state_mut().view_mut();
+    let view = &mut harness.state_mut().view;
     view.saved.workspace = Workspace::Numerics;
     view.fixed_clock = true;
-    let measured = &mut harness.state_mut().profiler_mut().measured;
+    let measured = &mut harness.state_mut().profiler.measured;
     measured.run = Some(std::sync::Arc::new(run));
     measured.is_current = true;
     for _ in 0..3 {
         harness.run_steps(2);
-        harness.state().later().wait();
+        harness.state().later.wait();
     }
     harness
 }

@@ -87,19 +87,19 @@ fn open(window: &mut Window, path: &Path) {
     push(window, Command::OpenPath(path.to_owned()));
     let path = path.to_owned();
     until(window, "the session", move |app| {
-        let session = &app.history().document().session;
-        session.as_ref().is_some_and(|session| session.path == path) || app.view().status.weight != Weight::Note
+        let session = &app.history.document().session;
+        session.as_ref().is_some_and(|session| session.path == path) || app.view.status.weight != Weight::Note
     });
     window.run_steps(2);
 }
 
 fn saved(window: &mut Window) {
-    until(window, "the file", |app| app.view().status.text.starts_with("Saved "));
+    until(window, "the file", |app| app.view.status.text.starts_with("Saved "));
     window.run_steps(2);
 }
 
 fn document(window: &Window) -> Document {
-    window.state().history().document().clone()
+    window.state().history.document().clone()
 }
 
 /// A document without the file that it is saved in.
@@ -125,7 +125,7 @@ fn a_session_made_here_opens_in_a_fresh_home() {
     let mut here = window(&folder.join("here"));
     assert_eq!(here.state().title(), "Chromascope");
     push(&mut here, Command::OpenPath(leaf.clone()));
-    until(&mut here, "the leaf", |app| !app.history().document().own.is_empty());
+    until(&mut here, "the leaf", |app| !app.history.document().own.is_empty());
     push(&mut here, temperature(3210.0));
     push(&mut here, Command::Show(Workspace::Spectra));
     push(&mut here, Command::Look(ViewChoice::Spectra(chromascope::view::SpectraLayout::Each)));
@@ -149,7 +149,7 @@ fn a_session_made_here_opens_in_a_fresh_home() {
     open(&mut there, &path);
     assert!(document(&there).is_same_session(&document(&here)), "all but the folder of the leaf");
     assert_eq!(document(&there).own[0].path, None);
-    let saved = &there.state().view().saved;
+    let saved = &there.state().view.saved;
     assert_eq!((saved.workspace, saved.spectra_layout), (Workspace::Spectra, chromascope::view::SpectraLayout::Each));
     assert_eq!(saved.recent, [path]);
     assert_eq!(there.state().title(), "fig3 – Chromascope");
@@ -209,7 +209,7 @@ fn a_session_of_a_newer_version_opens_as_far_as_it_is_understood() {
     fs::write(&path, value.to_string()).unwrap();
     let mut window = window(&folder.join("profile"));
     open(&mut window, &path);
-    let status = &window.state().view().status;
+    let status = &window.state().view.status;
     for words in ["newer version", "format 99", "kept: hologram", "skipped: compared, light", "workspace"] {
         assert!(status.text.contains(words), "{words}: {}", status.text);
     }
@@ -246,7 +246,7 @@ fn two_windows_never_overwrite_each_other() {
     push(&mut one, SessionCommand::Save);
     until_asked(&mut one);
     one.get_by_label("Open that version").click();
-    until(&mut one, "the other's", |app| app.history().document().temperature_k == 9000.0);
+    until(&mut one, "the other's", |app| app.history.document().temperature_k == 9000.0);
     assert_eq!(one.state().title(), "shared – Chromascope");
     push(&mut one, Command::Undo);
     assert_eq!(document(&one).temperature_k, 3100.0);
@@ -256,7 +256,7 @@ fn two_windows_never_overwrite_each_other() {
 fn until_asked(window: &mut Window) {
     crate::waiting::until("the question", || {
         window.run_steps(1);
-        if says(window, "wrote to") { Ok(()) } else { Err(window.state().view().status.text.clone()) }
+        if says(window, "wrote to") { Ok(()) } else { Err(window.state().view.status.text.clone()) }
     });
 }
 
@@ -274,8 +274,8 @@ fn where_nothing_can_be_written_that_is_said_and_the_work_stays() {
     // The drive is gone.
     fs::rename(&drive, folder.join("elsewhere")).unwrap();
     push(&mut window, SessionCommand::Save);
-    until(&mut window, "the failure", |app| app.view().status.weight == Weight::Error);
-    let said = window.state().view().status.text.clone();
+    until(&mut window, "the failure", |app| app.view.status.weight == Weight::Error);
+    let said = window.state().view.status.text.clone();
     assert!(
         said.starts_with("Cannot write ") && said.contains("Your work is safe") && said.contains("Save as"),
         "{said}"
@@ -300,9 +300,9 @@ fn undo_goes_back_across_sessions_by_the_names_of_its_steps() {
     push(&mut window, SessionCommand::Save);
     saved(&mut window);
     push(&mut window, SessionCommand::New(None));
-    until(&mut window, "a new session", |app| app.history().document().session.is_none());
+    until(&mut window, "a new session", |app| app.history.document().session.is_none());
     let undo = |window: &mut Window| {
-        let name = window.state().history().undo_name().unwrap_or_default().to_owned();
+        let name = window.state().history.undo_name().unwrap_or_default().to_owned();
         push(window, Command::Undo);
         (name, window.state().title().to_owned())
     };
@@ -369,12 +369,12 @@ fn each_template_is_a_document_of_its_own_that_its_pane_shows() {
     let sorting = Some(Sorting { column: "max".to_owned(), descending: true });
     let worst_first = TableLook { sorting, ..TableLook::default() };
     for template in &TEMPLATES {
-        window.state_mut().view_mut().saved.looks.insert("ranking".to_owned(), worst_first.clone());
+        window.state_mut().view.saved.looks.insert("ranking".to_owned(), worst_first.clone());
         push(&mut window, SessionCommand::New(Some(template.name)));
         let wanted = template.document();
-        until(&mut window, template.name, move |app| *app.history().document() == wanted);
+        until(&mut window, template.name, move |app| *app.history.document() == wanted);
         window.run_steps(2);
-        let saved = &window.state().view().saved;
+        let saved = &window.state().view.saved;
         assert!(saved.layout.shows(saved.workspace, template.pane), "{}", template.name);
         assert_eq!(saved.looks["ranking"].sorting, None, "{}: the order of the session before", template.name);
     }
@@ -392,18 +392,18 @@ fn own_templates_are_kept_by_name_and_stay_as_they_are() {
     one.run_steps(2);
     one.key_press(egui::Key::Enter);
     one.run_steps(3);
-    let templates = one.state().view().templates.clone();
+    let templates = one.state().view.templates.clone();
     assert_eq!(templates.iter().map(|(name, _)| name.as_str()).collect::<Vec<_>>(), ["Lamps-LED"]);
     drop(one);
     let mut next = window(&profile);
-    let (_, path) = next.state().view().templates[0].clone();
+    let (_, path) = next.state().view.templates[0].clone();
     push(&mut next, SessionCommand::NewFrom(path.clone()));
-    until(&mut next, "the template", |app| app.history().document().temperature_k == 3456.0);
+    until(&mut next, "the template", |app| app.history.document().temperature_k == 3456.0);
     next.run_steps(2);
-    assert_eq!(next.state().view().saved.workspace, Workspace::Spectra);
+    assert_eq!(next.state().view.saved.workspace, Workspace::Spectra);
     assert_eq!((next.state().title(), document(&next).session), ("*Untitled – Chromascope", None));
     push(&mut next, SessionCommand::RemoveTemplate(path.clone()));
-    assert!(!path.exists() && next.state().view().templates.is_empty());
+    assert!(!path.exists() && next.state().view.templates.is_empty());
 }
 
 #[test]
@@ -424,7 +424,7 @@ fn a_damaged_session_changes_nothing() {
     let mut window = window(&folder.join("profile"));
     let before = document(&window);
     open(&mut window, &path);
-    assert!(window.state().view().status.text.starts_with("half.chromascope could not be opened: EOF"));
+    assert!(window.state().view.status.text.starts_with("half.chromascope could not be opened: EOF"));
     assert_eq!(document(&window), before);
 }
 
@@ -436,10 +436,10 @@ fn a_table_from_a_spreadsheet_opens_in_import_and_curves_are_copied_as_text() {
         &mut window,
         Command::Paste("nm\tleaf\tbark\n400\t0.05\t0.1\n500\t0.1\t\n600\t0.2\t0.3\n700\t0.5\t0.4\n".to_owned()),
     );
-    until(&mut window, "the set", |app| !app.history().document().own.is_empty());
-    assert_eq!(window.state().view().saved.workspace, Workspace::Import);
+    until(&mut window, "the set", |app| !app.history.document().own.is_empty());
+    assert_eq!(window.state().view.saved.workspace, Workspace::Import);
     let set = document(&window).own[0].clone();
-    assert_eq!(window.state().view().import.selected, Some(ImportItem::Set(set.name.clone())));
+    assert_eq!(window.state().view.import.selected, Some(ImportItem::Set(set.name.clone())));
     window.state_mut().push(Command::CopySet(SetKind::of_own(&set), set.name.clone()));
     window.run_steps(1);
     let commands = &window.output().platform_output.commands;
@@ -452,7 +452,7 @@ fn a_table_from_a_spreadsheet_opens_in_import_and_curves_are_copied_as_text() {
     // One that cannot be read is shown there too.
     let mut other = self::window(&folder.join("other"));
     push(&mut other, Command::Paste("no numbers at all".to_owned()));
-    until(&mut other, "the failure", |app| app.view().saved.workspace == Workspace::Import);
+    until(&mut other, "the failure", |app| app.view.saved.workspace == Workspace::Import);
 }
 
 #[test]

@@ -143,7 +143,7 @@ fn each_has_a_control_a_line_in_the_palette_and_an_undo_step() {
     let mut window = open_with(Document::colorimetry(), [1280.0, 1700.0], egui::Theme::Dark);
     window.state_mut().push(Command::Show(Workspace::Render));
     window.run_steps(3);
-    let settings = |window: &Window| window.state().history().document().render.clone();
+    let settings = |window: &Window| window.state().history.document().render.clone();
     let begun = settings(&window);
     for setting in RenderSettings::ALL {
         let name = setting.name;
@@ -170,7 +170,7 @@ fn each_has_a_control_a_line_in_the_palette_and_an_undo_step() {
         if let Value::Pair(_) = setting.value {
             continue;
         }
-        assert_eq!(window.state().history().undo_name(), Some(name), "{text}");
+        assert_eq!(window.state().history.undo_name(), Some(name), "{text}");
         window.state_mut().push(Command::Undo);
         window.run_steps(2);
         assert_eq!(settings(&window), begun, "{name}");

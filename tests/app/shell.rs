@@ -35,7 +35,7 @@ fn wait(window: &mut Window, seconds: f64) {
 }
 
 fn row(window: &mut Window, name: &str) -> egui::Rect {
-    name.clone_into(&mut window.state_mut().view_mut().search);
+    name.clone_into(&mut window.state_mut().view.search);
     window.run();
     window.get_by_role_and_label(Role::CheckBox, name).rect()
 }
@@ -43,14 +43,14 @@ fn row(window: &mut Window, name: &str) -> egui::Rect {
 #[test]
 fn a_message_fades_after_six_seconds_and_an_error_stays() {
     let mut window = open(SIZE, egui::Theme::Dark);
-    window.state_mut().view_mut().say("Something was done.");
+    window.state_mut().view.say("Something was done.");
     window.step();
     wait(&mut window, 5.0);
     assert!(says(&window, "Something was done."));
     wait(&mut window, 1.5);
-    assert!(!says(&window, "Something was done.") && window.state().view().status.text.is_empty());
+    assert!(!says(&window, "Something was done.") && window.state().view.status.text.is_empty());
     assert!(says(&window, "cameras computed"), "facts return to their place");
-    window.state_mut().view_mut().fail("Something failed.");
+    window.state_mut().view.fail("Something failed.");
     wait(&mut window, 20.0);
     assert!(says(&window, "Something failed."));
 }
@@ -58,7 +58,7 @@ fn a_message_fades_after_six_seconds_and_an_error_stays() {
 #[test]
 fn the_reading_under_the_pointer_is_never_covered_by_a_message() {
     let mut window = open(SIZE, egui::Theme::Dark);
-    window.state_mut().view_mut().say("Undone: Difference.");
+    window.state_mut().view.say("Undone: Difference.");
     let at = row(&mut window, OTHER).center();
     window.hover_at(at);
     window.run();
@@ -77,10 +77,10 @@ fn a_set_of_the_library_is_seen_before_it_is_ticked() {
     let ghost = |window: &Window| {
         let app = window.state();
         let (catalog, results) = (chromascope::catalog::Catalog::built_in(), chromascope::results::Results::default());
-        let document = app.history().document();
+        let document = app.history.document();
         let scene = chromascope::scene::Scene { document, catalog: &catalog, results: &results };
         let built =
-            chromascope::figures::chromaticity::build(&scene, &app.view().look(PaneKind::CHROMATICITY), [640.0, 480.0]);
+            chromascope::figures::chromaticity::build(&scene, &app.view.look(PaneKind::CHROMATICITY), [640.0, 480.0]);
         (built.panel.marks.iter().any(|mark| mark.name.contains("(not compared)")), built.panel.x.range)
     };
     let before = ghost(&window);
@@ -106,19 +106,19 @@ fn every_kind_of_set_shows_its_curves_source_and_terms() {
         [SetKind::Camera, SetKind::Observer, SetKind::Chart, SetKind::Illuminant, SetKind::Filter, SetKind::Material]
     {
         let entry = catalog.of_kind(kind).last().expect("there are such sets");
-        window.state_mut().view_mut().selected = Some(PlotItem::of_set(kind, &entry.name));
+        window.state_mut().view.selected = Some(PlotItem::of_set(kind, &entry.name));
         window.run();
         for words in [&format!("Curves of {}", entry.name), "Source", "Terms"] {
             assert!(says(&window, words), "{kind:?}: {words}");
         }
-        assert!(window.state().view().selected_elsewhere || window.state().compares(kind, &entry.name));
+        assert!(window.state().view.selected_elsewhere || window.state().compares(kind, &entry.name));
     }
 }
 
 #[test]
 fn pinned_items_are_columns_of_the_selected_items_table() {
     let mut window = open([1280.0, 1000.0], egui::Theme::Dark);
-    let view = window.state_mut().view_mut();
+    let view = &mut window.state_mut().view;
     view.pinned = vec![patch("Kodak DCS200", "blue"), patch("Nikon D70 (2007 figure)", "blue")];
     view.selected = Some(patch("Canon EOS 10D (2007 figure)", "blue"));
     window.run();
@@ -142,11 +142,11 @@ fn the_tour_plays_five_scenes_on_live_data_and_leaves_the_document_as_it_was() {
     window.state_mut().push(Action::Scene(SceneAction::SetTemperature(3210.0)));
     window.run();
     let selected = Some(patch("Kodak DCS200", "red"));
-    let view = window.state_mut().view_mut();
+    let view = &mut window.state_mut().view;
     view.selected.clone_from(&selected);
     view.saved.workspace = Workspace::Metrics;
     window.run_steps(2);
-    let before = window.state().history().document().clone();
+    let before = window.state().history.document().clone();
     let saved = window.state().saved_view();
     window.state_mut().push(Command::Tour(TourMove::Begin));
     window.run_steps(3);
@@ -159,7 +159,7 @@ fn the_tour_plays_five_scenes_on_live_data_and_leaves_the_document_as_it_was() {
         ("5 of 5", "The pictures are being rendered."),
     ] {
         assert!(says(&window, title) && says(&window, numbers), "{title}: {numbers}");
-        assert_ne!(*window.state().history().document(), before);
+        assert_ne!(*window.state().history.document(), before);
         assert_eq!(window.state().saved_view(), saved, "what is kept is the user's");
         if title == "4 of 5" {
             assert!(says(&window, "red 3.04, green 1.11, blue 0.92, orange yellow 0.90"));
@@ -168,18 +168,18 @@ fn the_tour_plays_five_scenes_on_live_data_and_leaves_the_document_as_it_was() {
             press(&mut window, "Next");
         }
     }
-    window.state().render_service().wait();
+    window.state().render_service.wait();
     window.run_steps(2);
     assert!(says(&window, "Facing the light:"));
     press(&mut window, "Back");
     assert!(says(&window, "4 of 5"));
     press(&mut window, "End");
-    assert_eq!(*window.state().history().document(), before);
-    assert_eq!((&window.state().view().selected, window.state().saved_view()), (&selected, saved));
+    assert_eq!(*window.state().history.document(), before);
+    assert_eq!((&window.state().view.selected, window.state().saved_view()), (&selected, saved));
     assert!(!says(&window, "of 5  "));
     window.state_mut().push(Command::Undo);
     window.run_steps(2);
-    assert_eq!(*window.state().history().document(), Document::colorimetry(), "its steps are there too");
+    assert_eq!(*window.state().history.document(), Document::colorimetry(), "its steps are there too");
 }
 
 #[test]
@@ -213,16 +213,16 @@ fn work_on_the_users_document_ends_the_tour() {
     window.run_steps(2);
     window.state_mut().push(Action::Start(Start::Colorimetry));
     window.run_steps(2);
-    assert_eq!(window.state().view().tour, None);
-    assert_eq!(window.state().history().document().start, Start::Colorimetry);
+    assert_eq!(window.state().view.tour, None);
+    assert_eq!(window.state().history.document().start, Start::Colorimetry);
     window.state_mut().push(Command::Tour(TourMove::Begin));
     window.run_steps(2);
     for _ in 0..3 {
         window.state_mut().push(Command::Escape);
         window.run_steps(2);
     }
-    assert_eq!(window.state().view().tour, None);
-    assert_eq!(window.state().history().document().start, Start::Colorimetry);
+    assert_eq!(window.state().view.tour, None);
+    assert_eq!(window.state().history.document().start, Start::Colorimetry);
 }
 
 #[test]
@@ -234,7 +234,7 @@ fn loci_draw_in_once_on_the_first_start_and_never_with_reduced_motion() {
         });
         let mut shares = Vec::new();
         for _ in 0..20 {
-            shares.push(window.state().view().locus_share);
+            shares.push(window.state().view.locus_share);
             window.step();
         }
         (shares, window)
@@ -291,11 +291,11 @@ fn about_shows_a_head_and_leads_on() {
     window.run_steps(3);
     assert!(says(&window, "A head: left through the reference") && says(&window, "MIT OR Apache-2.0"));
     press(&mut window, "Data and sources");
-    assert!(!window.state().view().about && window.state().view().help.page == Some("data"));
+    assert!(!window.state().view.about && window.state().view.help.page == Some("data"));
     window.state_mut().push(Command::Escape);
     window.state_mut().push(Command::ToggleAbout);
     window.run_steps(3);
     window.state_mut().push(Command::Escape);
     window.run_steps(2);
-    assert!(!window.state().view().about);
+    assert!(!window.state().view.about);
 }

@@ -56,16 +56,16 @@ fn bytes_image(path: &Path, [width, height]: [usize; 2], nm: &[u32], sample: imp
 }
 
 fn mesh(window: &Window) -> MeshChoice {
-    window.state().history().document().render.mesh.clone()
+    window.state().history.document().render.mesh.clone()
 }
 
 /// Waits for the pictures and shows them.
 fn settle(window: &mut Window) {
     until("pictures", || {
         window.run_steps(2);
-        window.state().render_service().wait();
+        window.state().render_service.wait();
         window.run_steps(2);
-        let is_there = window.state().render_service().is_settled();
+        let is_there = window.state().render_service.is_settled();
         is_there.then_some(()).ok_or_else(|| "not yet".to_owned())
     });
 }
@@ -76,7 +76,7 @@ fn opened(document: Document, path: &Path, size: [f32; 2]) -> Window {
     window.state_mut().push(Command::OpenPath(path.to_owned()));
     until("opening", || {
         window.run_steps(2);
-        if mesh(&window).is_image() { Ok(()) } else { Err(format!("{:?}", window.state().view().status)) }
+        if mesh(&window).is_image() { Ok(()) } else { Err(format!("{:?}", window.state().view.status)) }
     });
     settle(&mut window);
     window
@@ -98,10 +98,10 @@ fn pixels_of_a_chart_image_equal_its_patches() {
     let mut document = Document::colorimetry();
     document.chart = CHART.to_owned();
     let window = opened(document, &folder.join("chart.img"), [1280.0, 800.0]);
-    assert_eq!(window.state().view().saved.workspace, Workspace::Render);
+    assert_eq!(window.state().view.saved.workspace, Workspace::Render);
     let (app, catalog) = (window.state(), Catalog::built_in());
-    let scene = Scene { document: app.history().document(), catalog: &catalog, results: app.results() };
-    let shot = app.render_service().frame().cloned().expect("pictures");
+    let scene = Scene { document: app.history.document(), catalog: &catalog, results: &app.results };
+    let shot = app.render_service.frame().cloned().expect("pictures");
     for source in shot.sources.iter().filter(|source| !source.is_reference) {
         let differences = scene.differences(source.kind, &source.name).unwrap();
         let id = SensorId { kind: source.kind, name: source.name.clone() };
@@ -125,8 +125,8 @@ fn an_image_is_undone_kept_in_a_session_and_missed() {
     chart_image(&folder, "bsq", "reflectance scale factor = 1\n");
     let path = folder.join("chart.hdr");
     let mut window = opened(Document::colorimetry(), &path, [1280.0, 800.0]);
-    assert_eq!(window.state().history().undo_name(), Some("Open chart.hdr"));
-    let document = window.state().history().document().clone();
+    assert_eq!(window.state().history.undo_name(), Some("Open chart.hdr"));
+    let document = window.state().history.document().clone();
     window.state_mut().push(Command::Undo);
     window.run_steps(3);
     assert_eq!(mesh(&window), MeshChoice::Head);
@@ -141,7 +141,7 @@ fn an_image_is_undone_kept_in_a_session_and_missed() {
     window.state_mut().push(Command::Show(Workspace::Render));
     until("the reason", || {
         window.run_steps(2);
-        match window.state().images().get(&path) {
+        match window.state().images.get(&path) {
             chromascope::catalog::spectral_images::ImageState::Failed(why) => {
                 assert!(why.contains("chart.hdr is not in") && why.ends_with("choose a mesh."), "{why}");
                 Ok(())
@@ -150,7 +150,7 @@ fn an_image_is_undone_kept_in_a_session_and_missed() {
         }
     });
     window.run_steps(3);
-    assert!(window.state().render_service().frame().is_none());
+    assert!(window.state().render_service.frame().is_none());
 }
 
 #[test]
@@ -159,8 +159,8 @@ fn header_and_data_dropped_together_are_one_image() {
     chart_image(&folder, "bip", "reflectance scale factor = 1\n");
     let window = opened(Document::colorimetry(), &folder, [900.0, 600.0]);
     assert!(mesh(&window).is_image());
-    assert_eq!(window.state().history().undo_name(), Some("Open chart.hdr"));
-    assert!(window.state().history().document().own.is_empty());
+    assert_eq!(window.state().history.undo_name(), Some("Open chart.hdr"));
+    assert!(window.state().history.document().own.is_empty());
 }
 
 #[test]
@@ -173,14 +173,14 @@ fn a_large_image_is_decimated_and_says_so() {
     let mut window = opened(Document::colorimetry(), &path, [1280.0, 800.0]);
     // The message about the opened file fades.
     window.run_steps(40);
-    let shot = window.state().render_service().frame().cloned().unwrap();
+    let shot = window.state().render_service.frame().cloned().unwrap();
     let made = shot.made().unwrap().image().unwrap();
     assert_eq!((made.placed().size().width, made.placed().size().height), (1050, 500));
     assert!(made.image.read.tile_bytes < 1 << 20, "one row at a time: {}", made.image.read.tile_bytes);
     let words = "2100 × 1000 pixels, every second pixel across and down, 3 bands";
     assert!(window.query_by_label_contains(words).is_some());
     let (app, catalog) = (window.state(), Catalog::built_in());
-    let scene = Scene { document: app.history().document(), catalog: &catalog, results: app.results() };
+    let scene = Scene { document: app.history.document(), catalog: &catalog, results: &app.results };
     let source = SensorId { kind: SetKind::Observer, name: "CIE 1931 2°".to_owned() };
     let reading = pixel_of(&scene, &shot, &PixelPlace { at: [0.5, 0.5], source }).unwrap();
     assert_eq!(reading.at, [1050, 500], "as in the file");
@@ -229,7 +229,7 @@ fn controls_that_do_nothing_are_dim_with_a_reason() {
     }
     assert!(!dim(&window, "Exposure"));
     assert_eq!(window.query_all_by_label_contains("These do nothing to a spectral image").count(), 2);
-    let mut to = window.state().history().document().render.clone();
+    let mut to = window.state().history.document().render.clone();
     to.mesh = MeshChoice::Sphere;
     to.triangles = 2000;
     window.state_mut().push(Action::Render(RenderAction::Set { what: "Mesh", to: Box::new(to) }));
@@ -248,14 +248,14 @@ fn an_unstated_quantity_is_asked_for_and_radiances_take_no_light() {
     window.state_mut().push(Command::Show(Workspace::Render));
     until("the question", || {
         window.run_steps(2);
-        window.state().render_service().wait();
-        let frame = window.state().render_service().has_made();
+        window.state().render_service.wait();
+        let frame = window.state().render_service.has_made();
         frame.then_some(()).ok_or_else(|| "nothing was asked".to_owned())
     });
     window.run_steps(2);
-    assert!(window.state().render_service().frame().is_none(), "no picture without a quantity");
+    assert!(window.state().render_service.frame().is_none(), "no picture without a quantity");
     let xy = |window: &mut Window, quantity: ImageQuantity, light: &str| {
-        let mut to = window.state().history().document().render.clone();
+        let mut to = window.state().history.document().render.clone();
         to.image_quantity = Some(quantity);
         window.state_mut().push(Action::Render(RenderAction::Set { what: "Quantity", to: Box::new(to) }));
         let light = Light::Set(light.to_owned());
@@ -263,8 +263,8 @@ fn an_unstated_quantity_is_asked_for_and_radiances_take_no_light() {
         window.run_steps(3);
         settle(window);
         let (app, catalog) = (window.state(), Catalog::built_in());
-        let scene = Scene { document: app.history().document(), catalog: &catalog, results: app.results() };
-        let shot = app.render_service().frame().cloned().unwrap();
+        let scene = Scene { document: app.history.document(), catalog: &catalog, results: &app.results };
+        let shot = app.render_service.frame().cloned().unwrap();
         let source = SensorId { kind: SetKind::Observer, name: "CIE 1931 2°".to_owned() };
         let reading = pixel_of(&scene, &shot, &PixelPlace { at: [18.5 / 24.0, 0.5], source }).unwrap();
         let PixelShows::Lit(lit) = reading.shows else { panic!("{:?}", reading.shows) };
@@ -281,16 +281,16 @@ fn pictures_maps_and_spectra_of_an_image_look_right() {
     let folder = folder("looks");
     chart_image(&folder, "bip", "reflectance scale factor = 1\n");
     let mut window = opened(Document::colorimetry(), &folder.join("chart.hdr"), [1280.0, 800.0]);
-    let source = window.state().render_service().frame().unwrap().sources[1].clone();
+    let source = window.state().render_service.frame().unwrap().sources[1].clone();
     let source = SensorId { kind: source.kind, name: source.name };
-    window.state_mut().view_mut().render.pinned = Some(PixelPlace { at: [14.5 / 24.0, 0.5], source });
-    window.state_mut().view_mut().saved.render.mode = RenderMode::Difference;
+    window.state_mut().view.render.pinned = Some(PixelPlace { at: [14.5 / 24.0, 0.5], source });
+    window.state_mut().view.saved.render.mode = RenderMode::Difference;
     window.run_steps(3);
     settle(&mut window);
     window.run_steps(3);
     let app = window.state();
     let catalog = Catalog::built_in();
-    let scene = Scene { document: app.history().document(), catalog: &catalog, results: app.results() };
+    let scene = Scene { document: app.history.document(), catalog: &catalog, results: &app.results };
     let figure = panes::figure(PaneKind::RENDER, &scene, &app.look(PaneKind::RENDER, &scene), FigureRoom::default())
         .expect("a figure");
     assert!(

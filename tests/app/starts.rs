@@ -25,7 +25,7 @@ use crate::screenshots::open_with;
 const SIZE: [f32; 2] = [1280.0, 800.0];
 
 fn document(window: &Harness<'static, ChromascopeApp>) -> Document {
-    window.state().history().document().clone()
+    window.state().history.document().clone()
 }
 
 fn refer_to(name: &str, counts_in_xyz: bool) -> Action {

@@ -38,7 +38,7 @@ fn settle(executor: &Executor, window: &mut Window) {
     for _ in 0..4 {
         window.run_steps(3);
         executor.run_all();
-        window.state().later().wait();
+        window.state().later.wait();
     }
     window.run_steps(3);
 }
@@ -49,7 +49,7 @@ fn press(window: &mut Window, key: Key) {
 }
 
 fn selected(window: &Window) -> Option<&PlotItem> {
-    window.state().view().selected.as_ref()
+    window.state().view.selected.as_ref()
 }
 
 #[test]
@@ -58,7 +58,7 @@ fn arrows_walk_the_patches_of_the_report_card() {
     let before = window.render().expect("drawn");
     press(&mut window, Key::ArrowRight);
     press(&mut window, Key::ArrowRight);
-    let cursor = window.state().view().cursor.clone();
+    let cursor = window.state().view.cursor.clone();
     assert!(matches!(&cursor, Some(PlotItem::Patch { source: Some(_), patch }) if patch == "light skin"), "{cursor:?}");
     assert_ne!(window.render().expect("drawn"), before, "the bar is marked");
     press(&mut window, Key::Enter);
@@ -76,7 +76,7 @@ fn arrows_walk_the_cameras_of_the_light() {
     press(&mut window, Key::ArrowDown);
     press(&mut window, Key::ArrowDown);
     press(&mut window, Key::Enter);
-    let second = window.state().history().document().compared.iter().filter(|set| set.kind == SetKind::Camera).nth(1);
+    let second = window.state().history.document().compared.iter().filter(|set| set.kind == SetKind::Camera).nth(1);
     let name = selected(&window).and_then(PlotItem::source).map(|source| source.name.clone());
     assert_eq!(name.as_ref(), second.map(|set| &set.name));
     for _ in 0..9 {
@@ -92,7 +92,7 @@ fn enter_in_head_to_head_sorts_metrics_by_the_row() {
     press(&mut window, Key::ArrowDown);
     press(&mut window, Key::ArrowDown);
     press(&mut window, Key::Enter);
-    let sorting = window.state().view().saved.looks[TABLE].sorting.clone().expect("sorted");
+    let sorting = window.state().view.saved.looks[TABLE].sorting.clone().expect("sorted");
     assert_eq!((sorting.column.as_str(), sorting.descending), (CameraMetric::ALL[1].symbol, false));
 }
 
@@ -119,7 +119,7 @@ fn the_correction_says_that_it_goes_on() {
     let (executor, mut window) = pane(PaneKind::CORRECTION, SIZE);
     window.state_mut().push(SessionCommand::New(Some("Will a matrix fix it?")));
     settle(&executor, &mut window);
-    assert_eq!(window.state().view().maximized, Some(PaneKind::CORRECTION), "matrix and errors are in sight");
+    assert_eq!(window.state().view.maximized, Some(PaneKind::CORRECTION), "matrix and errors are in sight");
 }
 
 #[test]
@@ -140,7 +140,7 @@ fn a_first_click_on_a_head_shows_the_best_first() {
             .expect("in sight")
             .click();
         window.run_steps(3);
-        let sorting = window.state().view().saved.looks[TABLE].sorting.clone().expect("sorted");
+        let sorting = window.state().view.saved.looks[TABLE].sorting.clone().expect("sorted");
         assert_eq!((sorting.column.as_str(), sorting.descending), (metric.symbol, metric.better == Better::Higher));
         seen += 1;
     }
@@ -153,7 +153,7 @@ fn progress_of_the_ranking_is_worded_as_such() {
     window.state_mut().push(Command::Show(Workspace::Metrics));
     window.run_steps(3);
     assert!(says(&window, "Computing: 0 of 5"));
-    window.state().later().wait();
+    window.state().later.wait();
     window.run_steps(3);
     assert!(!says(&window, "Computing: "));
 }
@@ -164,7 +164,7 @@ fn pictures_of_something_else_are_marked_unless_the_new_ones_come_at_once() {
     window.state_mut().push(Command::Show(Workspace::Render));
     settle(&executor, &mut window);
     assert!(!says(&window, "Rendering fern"));
-    let settings = window.state().history().document().render.clone();
+    let settings = window.state().history.document().render.clone();
     let to = Box::new(chromascope::document::render::RenderSettings { mesh: MeshChoice::Fern, ..settings });
     window.state_mut().push(Action::Render(RenderAction::Set { what: "Mesh", to }));
     window.step();
@@ -182,7 +182,7 @@ fn an_idle_window_asks_for_no_frame() {
     for workspace in Workspace::ALL {
         window.state_mut().push(Command::Show(workspace));
         settle(&executor, &mut window);
-        window.state_mut().view_mut().say("Something was done.");
+        window.state_mut().view.say("Something was done.");
         window.run_steps(2);
         // The next frame is wanted where the message begins to fade.
         assert!(delay(&window) > Duration::from_secs(4), "{workspace:?}: {:?}", delay(&window));
@@ -213,6 +213,6 @@ fn the_temperature_keeps_the_keyboard_while_the_start_is_still_loading() {
             window.step();
         }
         press(&mut window, Key::Enter);
-        assert_eq!(window.state().history().document().temperature_k, 4321.0, "{by_tab}");
+        assert_eq!(window.state().history.document().temperature_k, 4321.0, "{by_tab}");
     }
 }

@@ -19,7 +19,7 @@ fn window() -> Window {
 }
 
 fn kelvin(window: &Window) -> f64 {
-    window.state().history().document().temperature_k
+    window.state().history.document().temperature_k
 }
 
 fn text(window: &Window) -> Option<String> {
@@ -62,19 +62,19 @@ fn what_is_typed_after_t_replaces_the_text() {
 #[test]
 fn what_is_no_temperature_is_refused_and_stays() {
     let mut window = window();
-    let before = window.state().history().document().clone();
+    let before = window.state().history.document().clone();
     for words in ["999", "20001", "50000", "-5", "warm", "nan", "inf", ""] {
         type_temperature(&mut window, "1");
         press(&mut window, egui::Key::Backspace);
         type_on(&mut window, words);
         press(&mut window, egui::Key::Enter);
-        assert_eq!(*window.state().history().document(), before, "{words}");
+        assert_eq!(*window.state().history.document(), before, "{words}");
         assert_eq!(text(&window).as_deref(), Some(words), "it can be mended");
         assert!(says(&window, "1000 to 20000 K"), "{words}");
         press(&mut window, egui::Key::Escape);
         assert_eq!(text(&window), None, "Esc gives it up");
         assert!(!says(&window, "1000 to 20000 K"));
-        assert_eq!(*window.state().history().document(), before);
+        assert_eq!(*window.state().history.document(), before);
     }
     // The corrected text is accepted.
     type_temperature(&mut window, "320");
@@ -90,11 +90,11 @@ fn daylight_begins_at_4000() {
     let mut window = window();
     window.state_mut().push(Action::Scene(SceneAction::SetLight(Light::Daylight)));
     window.run();
-    let before = window.state().history().document().clone();
+    let before = window.state().history.document().clone();
     type_temperature(&mut window, "3200");
     press(&mut window, egui::Key::Enter);
     assert!(says(&window, "4000 to 20000 K"));
-    assert_eq!(*window.state().history().document(), before);
+    assert_eq!(*window.state().history.document(), before);
 }
 
 #[test]

@@ -19,7 +19,7 @@ const CAPTION: f32 = 78.0;
 
 /// The camera that is corrected, of the whole library; none where none is chosen or compared.
 pub(super) fn camera(ui: &mut Ui, context: &mut PaneContext<'_>) -> Option<String> {
-    let now = context.correction_camera();
+    let now = context.view.correction.camera(&context.scene);
     let mut names = Vec::new();
     let hint = "The camera that is corrected, of the whole library";
     let shown = now.clone().unwrap_or_else(|| "Choose a camera".to_owned());

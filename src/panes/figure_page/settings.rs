@@ -68,8 +68,8 @@ fn size(ui: &mut Ui, look: &mut PageLook, facts: Option<PageFacts>, context: &mu
         if length(ui, "Width", &mut width, look.unit) {
             paper.width_mm = Some(width);
         }
-        for unit in [LengthUnit::Millimeter, LengthUnit::Inch] {
-            ui.selectable_value(&mut look.unit, unit, unit.symbol());
+        for unit in LengthUnit::ALL {
+            ui.selectable_value(&mut look.unit, unit, unit.label());
         }
     });
     ui.horizontal(|ui| {
@@ -203,7 +203,7 @@ fn length(ui: &mut Ui, name: &str, mm: &mut f64, unit: LengthUnit) -> bool {
         .speed(speed)
         .max_decimals(decimals)
         .custom_formatter(|value, _| short(value))
-        .suffix(format!(" {}", unit.symbol()))
+        .suffix(format!(" {}", unit.label()))
         .update_while_editing(false);
     let label = ui.label(name);
     let changed = ui.add(field).labelled_by(label.id).changed();

@@ -11,6 +11,7 @@ use egui::{
 use super::typeset::{self, Typeset};
 use crate::help::formula::Formula;
 use crate::help::markdown::{self, Block, Inline, Style};
+use crate::panes::widgets;
 use crate::theme::{HEADING, MONO, TEXT, Theme, UNIT};
 
 const FORMULA: f32 = 16.0;
@@ -127,7 +128,7 @@ fn display(ui: &mut Ui, formula: &Formula, color: Color32) -> Option<String> {
     ScrollArea::horizontal().id_salt(id).auto_shrink([false, true]).show(ui, |ui| {
         let size = Vec2::new(INDENT + set.width, set.ascent + set.descent + 2.0 * UNIT);
         let (rect, response) = ui.allocate_exact_size(size, Sense::empty());
-        response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, formula.words.as_str()));
+        widgets::labeled(&response, egui::Role::Label, formula.words.as_str());
         set.paint(ui.painter(), rect.min + Vec2::new(INDENT, UNIT + set.ascent), color);
     });
     None
@@ -262,7 +263,7 @@ impl Flow {
         let id = ui.scope_id().with((corner.x as i32, corner.y as i32));
         let rect = Rect::from_min_size(at, Vec2::new(longest, height));
         let label = ui.interact(rect, id, Sense::empty());
-        label.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, &self.words));
+        widgets::labeled(&label, egui::Role::Label, &self.words);
         let mut clicked = None;
         let mut before: Option<&str> = None;
         for Placed { piece, x, baseline } in placed {
@@ -279,7 +280,7 @@ impl Flow {
                     place + Vec2::new(piece.width, piece.descent),
                 );
                 let response = ui.interact(area, id.with((x.to_bits(), baseline.to_bits())), sense);
-                response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Link, true, self.link_words(link)));
+                widgets::labeled(&response, egui::Role::Link, self.link_words(link));
                 if response.has_focus() {
                     ui.painter().rect_stroke(area, 0.0, Stroke::new(1.0, ink.theme.focus), egui::StrokeKind::Outside);
                 }

@@ -195,7 +195,7 @@ fn panes(context: &PaneContext<'_>) -> Vec<Found> {
         let command = Command::Show(workspace);
         let key = keys.iter().find(|binding| binding.command == command);
         let key = key.map_or_else(String::new, |binding| key_name(binding.shortcut));
-        let words = format!("Workspace {}", workspace.title());
+        let words = format!("Workspace {}", workspace.label());
         found.push(Found::new("Workspaces and panes", words, command).note(key).on(workspace == now));
     }
     for pane in context.panes {
@@ -221,7 +221,7 @@ fn saves(context: &PaneContext<'_>) -> Vec<Found> {
         let words = format!("Report on the paper: {}", words.to_lowercase());
         found.push(Found::new("Save", words, Command::Report(on)).also("figures claims export pdf html"));
     }
-    for form in context.correction_camera().map_or(&[][..], |_| &CorrectionForm::ALL) {
+    for form in context.view.correction.camera(&context.scene).map_or(&[][..], |_| &CorrectionForm::ALL) {
         let (words, hint) = form.words();
         let words = format!("Save the color correction as {words}");
         let also = format!("{hint} export matrix camera profile DCP ICC CLF");

@@ -31,7 +31,7 @@ pub(super) fn column(ui: &mut Ui, rect: Rect, entries: &[Entry], context: &mut P
     let response = widgets::named(ui, caption, Id::unique("legend of files"), egui::Role::Label, &count);
     let theme = context.theme;
     response.on_hover_ui(|ui| legend(ui, &theme));
-    let list = Rect::from_min_max(egui::pos2(rect.left(), caption.bottom()), rect.max);
+    let list = rect.with_min_y(caption.bottom());
     let mut moved = keys(ui, entries, context).or_else(|| led_to(ui, list, entries, context));
     if context.view.import.takes_keyboard(Stop::Files)
         && let Some(index) = entries.iter().position(|entry| Some(&entry.item) == context.view.import.selected.as_ref())
@@ -92,7 +92,7 @@ fn led_to(ui: &Ui, list: Rect, entries: &[Entry], context: &PaneContext<'_>) -> 
 pub(super) fn drop_down(ui: &mut Ui, rect: Rect, entries: &[Entry], context: &mut PaneContext<'_>) -> Rect {
     keys(ui, entries, context);
     let head = Rect::from_min_size(rect.min, Vec2::new(rect.width(), ROW));
-    let below = Rect::from_min_max(egui::pos2(rect.left(), head.bottom() + UNIT), rect.max);
+    let below = rect.with_min_y(head.bottom() + UNIT);
     let selected = context.view.import.selected.clone();
     let Some(index) = entries.iter().position(|entry| Some(&entry.item) == selected.as_ref()) else { return below };
     let entry = &entries[index];
@@ -113,14 +113,14 @@ pub(super) fn drop_down(ui: &mut Ui, rect: Rect, entries: &[Entry], context: &mu
         }
     });
     let name = format!("Visible file: {}, {}", entry.name, entry.state.words());
-    response.response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::ComboBox, true, &name));
+    widgets::labeled(&response.response, egui::Role::ComboBox, &name);
     if context.view.import.takes_keyboard(Stop::Files) {
         response.response.request_focus();
     }
     if let Some(index) = chosen {
         select(ui, entries, index, context);
     }
-    let dots = Rect::from_min_max(egui::pos2(head.right() - lines::DOTS, head.top()), head.max);
+    let dots = head.with_min_x(head.right() - lines::DOTS);
     menu(ui, dots, index, entries, context);
     below
 }
@@ -225,12 +225,9 @@ fn row(ui: &mut Ui, rect: Rect, index: usize, entries: &[Entry], context: &mut P
     }
     response.on_hover_ui(|ui| {
         ui.label(&entry.name);
-        let small = |ui: &mut Ui, words: String| {
-            widgets::note(ui, words);
-        };
-        small(ui, format!("{}; {}", entry.note, entry.state.words()));
+        widgets::note(ui, format!("{}; {}", entry.note, entry.state.words()));
         if let Some(path) = &entry.path {
-            small(ui, path.display().to_string());
+            widgets::note(ui, path.display().to_string());
         }
     });
 }

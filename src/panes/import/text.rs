@@ -35,8 +35,8 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, shown: &ImportSelection, context: &m
         return;
     };
     let head = Rect::from_min_size(rect.min, Vec2::new(rect.width(), ROW));
-    let foot = Rect::from_min_max(egui::pos2(rect.left(), rect.bottom() - LEGEND), rect.max);
-    let body = Rect::from_min_max(egui::pos2(rect.left(), head.bottom()), egui::pos2(rect.right(), foot.top()));
+    let foot = rect.with_min_y(rect.bottom() - LEGEND);
+    let body = Rect::from_x_y_ranges(rect.x_range(), head.bottom()..=foot.top());
     let preview = shown.look.as_ref().map(|look| &look.preview);
     let mut words = format!("{}, {}", file.origin.name, size(file.bytes.len()));
     if let Some(Ok(preview)) = preview {
@@ -68,7 +68,7 @@ fn wrong(ui: &Ui, body: Rect, shown: &ImportSelection, context: &mut PaneContext
     lines::warning_mark(ui.painter(), place.left_top() + Vec2::new(2.0 * UNIT, 0.5 * ROW), theme.error);
     ui.painter().galley(egui::pos2(left, place.top() + 0.5 * UNIT), galley, theme.error);
     let response = ui.interact(place, Id::unique("reason below the text"), Sense::click());
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &words));
+    widgets::labeled(&response, egui::Role::Button, &words);
     if let Some(line) = error.line().filter(|_| response.clicked()) {
         context.view.import.line = Some(line);
         ui.ctx().request_repaint();
@@ -214,7 +214,7 @@ impl View<'_> {
         let text_state: TextState = ui.data(|data| data.get_temp(id).unwrap_or_default());
         let asked = text_state.line.filter(|(of, _)| *of == self.look.fingerprint).map(|(_, line)| line);
         let gutter = Rect::from_min_size(place.rect.min, Vec2::new(place.gutter, place.rect.height()));
-        let text = Rect::from_min_max(egui::pos2(gutter.right(), place.rect.top()), place.rect.max);
+        let text = place.rect.with_min_x(gutter.right());
         let clip = ui.clip_rect();
         let pointer = ui.input(|input| input.pointer.hover_pos()).filter(|at| text.contains(*at));
         let pointer = pointer.filter(|_| ui.rect_contains_pointer(text));
@@ -230,7 +230,7 @@ impl View<'_> {
             let is_wrong = self.error.is_some_and(|(line, _)| *line == number);
             let color = if is_wrong { theme.error } else { theme.weak };
             let words = number.to_string();
-            let label = Rect::from_min_max(band.min, egui::pos2(gutter.right() - 2.0 * UNIT, band.bottom()));
+            let label = band.with_max_x(gutter.right() - 2.0 * UNIT);
             lines::right_aligned(ui, label, &words, TextStyle::Monospace, color);
             ui.set_clip_rect(clip.intersect(text));
             let under = pointer.filter(|at| band.y_range().contains(at.y) && at.y < band.bottom());

@@ -23,14 +23,14 @@ pub(super) struct Row {
 /// Color of a patch or a blackbody through one sensor, under its head.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Point {
-    head: String,
-    rgb: Option<[f64; 3]>,
-    lab: Option<Lab>,
-    xyz: Option<Xyz>,
-    xy: Option<Xy>,
-    uv: Option<UvPrime>,
+    pub(super) head: String,
+    pub(super) rgb: Option<[f64; 3]>,
+    pub(super) lab: Option<Lab>,
+    pub(super) xyz: Option<Xyz>,
+    pub(super) xy: Option<Xy>,
+    pub(super) uv: Option<UvPrime>,
     /// Difference from the reference by the document's metric.
-    difference: Option<f64>,
+    pub(super) difference: Option<f64>,
 }
 
 impl Point {
@@ -43,14 +43,6 @@ impl Point {
     pub(super) fn of_blackbody(head: impl Into<String>, point: Option<LocusPoint>) -> Self {
         let point = point.map(|p| Self { xyz: Some(p.xyz), xy: p.xy, uv: p.uv, ..Self::default() });
         Self { head: head.into(), ..point.unwrap_or_default() }
-    }
-
-    pub(super) fn with_head(self, head: impl Into<String>) -> Self {
-        Self { head: head.into(), ..self }
-    }
-
-    pub(super) fn with_difference(self, difference: Option<f64>) -> Self {
-        Self { difference, ..self }
     }
 }
 
@@ -133,7 +125,7 @@ pub(super) fn points_table(ui: &mut Ui, mut points: Vec<Point>, page: &PlotItem,
 /// Columns of pinned items, lettered; the page's own is omitted.
 pub(super) fn points_of(scene: &Scene<'_>, pinned: &[PlotItem], page: Option<&PlotItem>) -> Vec<Point> {
     let columns = pinned.iter().enumerate().filter(|(_, item)| Some(*item) != page);
-    columns.filter_map(|(index, item)| Some(point_of(scene, item)?.with_head(letter(index)))).collect()
+    columns.filter_map(|(index, item)| Some(Point { head: letter(index), ..point_of(scene, item)? })).collect()
 }
 
 /// Color of an item with its difference from the reference; none of items that have no color.
@@ -142,7 +134,7 @@ pub(super) fn point_of(scene: &Scene<'_>, item: &PlotItem) -> Option<Point> {
         PlotItem::Patch { source: Some(id), patch } => {
             let difference = difference_of(scene, id, patch).and_then(Result::ok);
             let difference = difference.filter(|_| *id != reference_id(scene));
-            Some(Point::of_patch("", color_of(scene, id, patch).ok().flatten()).with_difference(difference))
+            Some(Point { difference, ..Point::of_patch("", color_of(scene, id, patch).ok().flatten()) })
         }
         PlotItem::Radiator { source, kelvin } => {
             Some(Point::of_blackbody("", blackbody_of(scene, source, *kelvin).ok().flatten()))

@@ -40,16 +40,11 @@ fn title(scene: &Scene<'_>, patch: &str) -> String {
 
 fn pair(ui: &mut Ui, theme: &Theme, left: &PatchColor, right: Option<&PatchColor>, height: f32, width: f32) {
     let (rect, response) = ui.allocate_exact_size(Vec2::new(width, height), Sense::hover());
-    response.widget_info(|| {
-        egui::WidgetInfo::labeled(egui::Role::Image, true, "Swatches: left the reference, right the sensor")
-    });
+    widgets::labeled(&response, egui::Role::Image, "Swatches: left the reference, right the sensor");
     ui.painter().rect_filled(rect, 0.0, theme.surround);
     let inner = rect.shrink(if height > 30.0 { 1.5 * UNIT } else { 3.0 });
     let middle = inner.center().x;
-    let halves = [
-        Rect::from_min_max(inner.min, egui::pos2(middle, inner.bottom())),
-        Rect::from_min_max(egui::pos2(middle, inner.top()), inner.max),
-    ];
+    let halves = [inner.with_max_x(middle), inner.with_min_x(middle)];
     for (half, color) in halves.into_iter().zip([left, right.unwrap_or(left)]) {
         ui.painter().rect_filled(half, 0.0, theme.role(InkRole::Rgb(color.srgb.bytes)));
         if color.srgb.clipped {
@@ -83,8 +78,8 @@ pub(super) fn one(ui: &mut Ui, id: &SensorId, patch: &str, context: &mut PaneCon
     }
     let mut points = vec![Point::of_patch("reference", Some(seen))];
     if !is_reference {
-        let value = difference_of(&scene, id, patch).and_then(Result::ok);
-        points.push(Point::of_patch(id.kind.label(), Some(own)).with_difference(value));
+        let difference = difference_of(&scene, id, patch).and_then(Result::ok);
+        points.push(Point { difference, ..Point::of_patch(id.kind.label(), Some(own)) });
     }
     let item = PlotItem::Patch { source: Some(id.clone()), patch: patch.to_owned() };
     points_table(ui, points, &item, context);
@@ -168,7 +163,7 @@ fn buttons_without_copy(ui: &mut Ui, context: &mut PaneContext<'_>) {
         let point = |s: &ComparedSensor| {
             let id = SensorId { kind: s.kind, name: s.name.clone() };
             let difference = difference_of(&scene, &id, &patch).and_then(Result::ok).filter(|_| !s.is_reference);
-            Point::of_patch(&s.label, color_of(&scene, &id, &patch).ok().flatten()).with_difference(difference)
+            Point { difference, ..Point::of_patch(&s.label, color_of(&scene, &id, &patch).ok().flatten()) }
         };
         let points: Vec<Point> = shown.iter().map(point).collect();
         copy_text(ui, numbers::to_tsv(&numbers::heads(&points), &numbers::rows_of(&scene, &points)), context);
@@ -188,9 +183,7 @@ fn source_row(ui: &mut Ui, source: &ComparedSensor, patch: &str, seen: &PatchCol
         (_, Some(Err(reason))) => ("–".to_owned(), Some(no_difference(reason))),
         _ => ("–".to_owned(), None),
     };
-    response.widget_info(|| {
-        egui::WidgetInfo::labeled(egui::Role::Button, true, format!("{}, {patch} {words}", source.label))
-    });
+    widgets::labeled(&response, egui::Role::Button, format!("{}, {patch} {words}", source.label));
     if response.hovered() || response.has_focus() {
         let rim = focus_rim(&response, &theme);
         ui.painter().rect(rect, 3.0, theme.control, rim, egui::StrokeKind::Inside);
@@ -199,10 +192,7 @@ fn source_row(ui: &mut Ui, source: &ComparedSensor, patch: &str, seen: &PatchCol
     lines::key(ui.painter(), key, source, &theme);
     let swatches =
         Rect::from_min_max(egui::pos2(rect.right() - 122.0, rect.top() + 1.0), rect.max - Vec2::new(62.0, 1.0));
-    let label = Rect::from_min_max(
-        egui::pos2(key.right() + 2.0 * UNIT, rect.top()),
-        egui::pos2(swatches.left() - UNIT, rect.bottom()),
-    );
+    let label = Rect::from_x_y_ranges(key.right() + 2.0 * UNIT..=swatches.left() - UNIT, rect.y_range());
     lines::elided(ui, label, &source.label, TextStyle::Body, theme.text);
     if let Ok(Some(own)) = &own {
         let mut place =

@@ -70,7 +70,8 @@ fn reference_of(scene: &Scene<'_>, pinned: &[PlotItem]) -> Option<Point> {
     };
     let mut all = pinned.iter().filter_map(seen);
     let first = all.next()?;
-    if all.all(|other| other == first) { Some(point_of(scene, &first)?.with_head("reference")) } else { None }
+    let head = "reference".to_owned();
+    if all.all(|other| other == first) { Some(Point { head, ..point_of(scene, &first)? }) } else { None }
 }
 
 fn name(scene: &Scene<'_>, thing: &PlotItem) -> String {

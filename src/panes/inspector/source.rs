@@ -190,7 +190,7 @@ fn curves(ui: &mut Ui, entry: &Entry, role: InkRole, context: &PaneContext<'_>) 
         Err(error) => return failure(ui, &context.theme, &error.to_string()),
     };
     let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, format!("Curves of {}", entry.name)));
+    widgets::labeled(&response, egui::Role::Image, format!("Curves of {}", entry.name));
     paint::still(ui.painter(), &panel, &context.theme, Rect::from_min_size(rect.min, size));
     ui.add_space(UNIT);
 }

@@ -39,7 +39,7 @@ pub(super) fn show(
     if count >= SEARCHED {
         let field = TextEdit::singleline(&mut context.view.import.search).hint_text("Search curves");
         let field = ui.add(field.desired_width(f32::INFINITY));
-        field.widget_info(|| egui::WidgetInfo::labeled(egui::Role::TextInput, true, "Search curves"));
+        widgets::labeled(&field, egui::Role::TextInput, "Search curves");
     }
     let wanted = context.view.import.search.trim().to_lowercase();
     let names = table.curves.iter().enumerate();

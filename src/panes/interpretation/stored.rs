@@ -129,7 +129,7 @@ pub(super) fn name(ui: &mut Ui, set: &ImportedSet, context: &mut PaneContext<'_>
     let holder = |name: &str| document.holder_of(kind, name, index, built_in).filter(|_| name != set.name);
     caption(ui, &theme, "Name", false);
     let field = ui.add(TextEdit::singleline(&mut text).id(id.with("field")).desired_width(f32::INFINITY));
-    field.widget_info(|| egui::WidgetInfo::labeled(egui::Role::TextInput, true, "Name of the set"));
+    widgets::labeled(&field, egui::Role::TextInput, "Name of the set");
     let sentence = match holder(text.trim()) {
         None => "",
         Some(Holder::Own) => "Another imported data set has this name.",

@@ -35,11 +35,8 @@ pub(super) fn row(ui: &mut Ui, source: &ComparedSensor, context: &mut PaneContex
     let (rect, _) = ui.allocate_exact_size(Vec2::new(ui.available_width(), ROW), Sense::hover());
     let id = id(source);
     key(ui, Rect::from_min_size(rect.min, Vec2::new(lines::KEY + UNIT, ROW)), id, source, context);
-    let dots = Rect::from_min_max(egui::pos2(rect.right() - lines::DOTS, rect.top()), rect.max);
-    let mut words = Rect::from_min_max(
-        egui::pos2(rect.left() + lines::KEY + 2.0 * UNIT, rect.top()),
-        egui::pos2(dots.left() - UNIT, rect.bottom()),
-    );
+    let dots = rect.with_min_x(rect.right() - lines::DOTS);
+    let mut words = Rect::from_x_y_ranges(rect.left() + lines::KEY + 2.0 * UNIT..=dots.left() - UNIT, rect.y_range());
     let renaming: Renaming = ui.data(|data| data.get_temp(renaming_id())).unwrap_or_default();
     if renaming.kind == Some(source.kind) && renaming.name == source.name {
         rename_field(ui, words, id, renaming, context);
@@ -64,7 +61,7 @@ fn key(ui: &Ui, rect: Rect, id: Id, source: &ComparedSensor, context: &mut PaneC
     let response = ui.interact(rect, id.with("key"), Sense::click());
     let verb = if source.visible { "Hide" } else { "Show" };
     let name = format!("{verb} {}", source.label);
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &name));
+    widgets::labeled(&response, egui::Role::Button, &name);
     if response.hovered() || response.has_focus() {
         let rim = focus_rim(&response, &context.theme);
         ui.painter().rect(rect, 3.0, context.theme.control, rim, egui::StrokeKind::Inside);
@@ -179,7 +176,7 @@ fn offer(ui: &mut Ui, words: &str, enabled: bool) -> bool {
 fn rename_field(ui: &mut Ui, rect: Rect, id: Id, mut renaming: Renaming, context: &mut PaneContext<'_>) {
     let field = TextEdit::singleline(&mut renaming.text).id(id.with("rename")).margin(egui::Margin::symmetric(4, 3));
     let response = ui.put(rect, field);
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::TextInput, true, "Label of the sensor"));
+    widgets::labeled(&response, egui::Role::TextInput, "Label of the sensor");
     context.view.keeps_escape = true;
     if response.lost_focus() {
         let given_up = ui.input(|input| input.key_down(Key::Escape));

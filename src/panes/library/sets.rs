@@ -13,7 +13,7 @@ use crate::document::{Light, SetKind};
 use crate::export::spectra::{Form, fits};
 use crate::format::{capitalized, sentence};
 use crate::panes::context::PaneContext;
-use crate::panes::widgets::{focus_rim, lines};
+use crate::panes::widgets::{focus_rim, labeled, lines};
 use crate::plot_item::PlotItem;
 use crate::theme::{ROW, UNIT};
 use crate::view::import::ImportItem;
@@ -107,7 +107,7 @@ fn group(ui: &mut Ui, kind: SetKind, count: usize, open: bool, context: &mut Pan
     let points = if open { [(-4.0, -2.0), (4.0, -2.0), (0.0, 3.0)] } else { [(-2.0, -4.0), (3.0, 0.0), (-2.0, 4.0)] };
     let points = points.map(|(x, y)| center + Vec2::new(x, y)).to_vec();
     ui.painter().add(egui::Shape::convex_polygon(points, context.theme.text, egui::Stroke::NONE));
-    let words = Rect::from_min_max(rect.min + Vec2::new(4.0 * UNIT, 0.0), rect.max);
+    let words = rect.with_min_x(rect.left() + 4.0 * UNIT);
     lines::elided(ui, words, &format!("{title}  {count}"), TextStyle::Body, context.theme.text);
     if response.clicked() && context.view.search.trim().is_empty() {
         let folded = &mut context.view.saved.folded;
@@ -153,7 +153,7 @@ fn set(ui: &mut Ui, entry: &Entry, context: &mut PaneContext<'_>) {
     let ticks = matches!(entry.kind, SetKind::Camera | SetKind::Observer | SetKind::Filter);
     let (rect, _) = ui.allocate_exact_size(Vec2::new(ui.available_width(), ROW), Sense::hover());
     let id = ui.scope_id().with(("set", entry.kind, &entry.name, entry.is_own()));
-    let mut row = Rect::from_min_max(rect.min + Vec2::new(2.0 * UNIT, 0.0), rect.max);
+    let mut row = rect.with_min_x(rect.left() + 2.0 * UNIT);
     if entry.is_own() {
         row.max.x -= lines::DOTS + UNIT + SCROLL_BAR;
     }
@@ -163,7 +163,7 @@ fn set(ui: &mut Ui, entry: &Entry, context: &mut PaneContext<'_>) {
     rim(ui, row, &response, context);
     let mark = egui::pos2(row.left() + 11.0, row.center().y);
     draw_mark(ui, mark, ticks, on, enabled, context);
-    let mut words = Rect::from_min_max(row.min + Vec2::new(6.0 * UNIT, 0.0), row.max);
+    let mut words = row.with_min_x(row.left() + 6.0 * UNIT);
     let place = egui::pos2(rect.right() - SCROLL_BAR - lines::DOTS, row.top());
     let shown = menu_of(ui, Rect::from_min_size(place, Vec2::new(lines::DOTS, ROW)), &response, entry, context);
     if entry.is_own() {
@@ -238,7 +238,7 @@ fn menu_of(ui: &Ui, rect: Rect, row: &Response, entry: &Entry, context: &mut Pan
     } else {
         // Invisible, but accessible to keyboards and screen readers.
         let button = ui.interact(rect, id, Sense::click());
-        button.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &name));
+        labeled(&button, egui::Role::Button, &name);
         button
     };
     let focused = row.has_focus() || button.has_focus();

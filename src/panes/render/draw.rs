@@ -168,7 +168,7 @@ fn ring(painter: &Painter, layout: &PictureLayout, cell: usize, context: &PaneCo
 pub(super) fn divider(ui: &mut Ui, layout: &PictureLayout, context: &mut PaneContext<'_>) {
     let (Some(x), Some(cell)) = (layout.divider, layout.cells.first()) else { return };
     let picture = cell.picture;
-    let line = Rect::from_min_max(Pos2::new(x - 6.0, picture.top()), Pos2::new(x + 6.0, picture.bottom()));
+    let line = Rect::from_x_y_ranges(x - 6.0..=x + 6.0, picture.y_range());
     let response = ui.interact(line, ui.scope_id().with("divider"), Sense::click_and_drag());
     let share = f64::from(context.view.saved.render.split);
     response.widget_info(|| egui::WidgetInfo::slider(true, 100.0 * share, "Divider between reference and sensor"));
@@ -242,7 +242,7 @@ pub(super) fn choosers(ui: &mut Ui, layout: &PictureLayout, sources: &[ComparedS
         context.view.render.chosen = Some(id(source));
     }
     let made = shot.as_deref().and_then(|shot| index_of(shot, &id(&now)));
-    let rest = Rect::from_min_max(Pos2::new(place.right() + 8.0, row.top()), row.max);
+    let rest = row.with_min_x(place.right() + 8.0);
     let made = shot.as_deref().zip(made).and_then(|(shot, at)| note(shot, at, rest.width() + 90.0));
     if let Some(note) = made.and_then(|note| note.short)
         && rest.width() > 90.0
@@ -330,8 +330,8 @@ impl PictureLayout {
                 (sources, shown.collect())
             }
         };
-        let scale = (mode == RenderMode::Difference && !shown.is_empty())
-            .then(|| Rect::from_min_max(Pos2::new(body.left(), body.bottom() - SCALE), body.max));
+        let scale =
+            (mode == RenderMode::Difference && !shown.is_empty()).then(|| body.with_min_y(body.bottom() - SCALE));
         let area = Rect::from_min_max(body.min, body.max - Vec2::new(0.0, scale.map_or(0.0, |s| s.height())));
         let overlaid = mode == RenderMode::Split;
         let image = context.images.chosen(&context.scene.document.render.mesh);

@@ -100,10 +100,7 @@ fn mesh(context: &PaneContext<'_>) -> Result<MeshQuery, String> {
     let own: Option<Shared<Mesh>> = match &context.scene.document.render.mesh {
         MeshChoice::File(path) => match context.meshes.get(path) {
             MeshState::Ready(mesh) => Some(mesh.mesh.clone()),
-            MeshState::Loading => {
-                let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
-                return Err(format!("Reading {name}…"));
-            }
+            MeshState::Loading => return Err(format!("Reading {}…", crate::format::file_name(path))),
             MeshState::Failed(why) => return Err(why),
         },
         _ => None,

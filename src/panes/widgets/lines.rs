@@ -64,9 +64,9 @@ pub fn key(painter: &Painter, rect: Rect, source: &ComparedSensor, theme: &Theme
 pub fn key_and_label(ui: &mut Ui, source: &ComparedSensor, theme: &Theme) -> Response {
     let (rect, response) = ui.allocate_exact_size(Vec2::new(ui.available_width(), ROW), Sense::hover());
     key(ui.painter(), Rect::from_min_size(rect.min, Vec2::new(KEY, ROW)), source, theme);
-    let words = Rect::from_min_max(rect.min + Vec2::new(KEY + 8.0, 0.0), rect.max);
+    let words = rect.with_min_x(rect.left() + KEY + 8.0);
     let cut = elided(ui, words, &source.label, TextStyle::Body, theme.text);
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, &source.label));
+    labeled(&response, egui::Role::Label, &source.label);
     if cut { response.on_hover_text(&source.label) } else { response }
 }
 
@@ -77,6 +77,11 @@ pub fn named(ui: &Ui, rect: Rect, id: egui::Id, role: egui::Role, words: &str) -
     response
 }
 
+/// Names a control for screen readers.
+pub fn labeled(response: &Response, role: egui::Role, words: impl ToString) {
+    response.widget_info(|| egui::WidgetInfo::labeled(role, true, words.to_string()));
+}
+
 pub fn focus_rim(response: &Response, theme: &Theme) -> egui::Stroke {
     if response.has_focus() { egui::Stroke::new(1.5, theme.text) } else { egui::Stroke::NONE }
 }
@@ -85,7 +90,7 @@ pub fn focus_rim(response: &Response, theme: &Theme) -> egui::Stroke {
 pub fn dots(ui: &Ui, rect: Rect, id: egui::Id, name: &str) -> Response {
     let theme = Theme::of(ui.visuals());
     let response = ui.interact(rect, id, Sense::click());
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, name));
+    labeled(&response, egui::Role::Button, name);
     if response.hovered() || response.has_focus() {
         ui.painter().rect(rect, 3.0, theme.hover, focus_rim(&response, &theme), egui::StrokeKind::Inside);
     }
@@ -119,7 +124,7 @@ pub fn caution(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) -> Rect {
         context.button(&mut row, &words, hint, Action::Scene(SceneAction::SetTransform(transform)));
     }
     let sentence = caution.sentence();
-    let mut rest = Rect::from_min_max(line.min, egui::pos2(row.min_rect().left() - 2.0 * UNIT, line.bottom()));
+    let mut rest = line.with_max_x(row.min_rect().left() - 2.0 * UNIT);
     if caution.fit_to().is_none() {
         rest.max.x = line.right();
     }
@@ -128,7 +133,7 @@ pub fn caution(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) -> Rect {
     elided(ui, rest, &sentence, TextStyle::Small, context.theme.warning);
     let response = named(ui, rest, ui.scope_id().with(("caution", rect.min.x as i32)), egui::Role::Alert, &sentence);
     response.on_hover_text(sentence);
-    Rect::from_min_max(egui::pos2(rect.left(), line.bottom() + 0.5 * UNIT), rect.max)
+    rect.with_min_y(line.bottom() + 0.5 * UNIT)
 }
 
 /// Largest share of a pane's height that sentences at its foot take; longer ones are cut and stand under the pointer.
@@ -141,7 +146,7 @@ pub fn foot(ui: &Ui, rect: Rect, words: &str, context: &PaneContext<'_>) -> Rect
     let line = galley.rows.first().map_or(0.0, |row| row.height());
     let fits = galley.size().y <= FOOT * rect.height();
     let height = if fits { galley.size().y } else { line };
-    let place = Rect::from_min_max(egui::pos2(rect.left(), rect.bottom() - height), rect.max);
+    let place = rect.with_min_y(rect.bottom() - height);
     if fits {
         ui.painter().galley(place.min, galley, context.theme.weak);
     } else {
@@ -149,5 +154,5 @@ pub fn foot(ui: &Ui, rect: Rect, words: &str, context: &PaneContext<'_>) -> Rect
     }
     let response = named(ui, place, ui.scope_id().with(("foot", rect.min.x as i32)), egui::Role::Label, words);
     response.on_hover_text(words);
-    Rect::from_min_max(rect.min, egui::pos2(rect.right(), place.top() - UNIT))
+    rect.with_max_y(place.top() - UNIT)
 }

@@ -77,7 +77,7 @@ impl NumberField<'_> {
             edit = edit.text_color(context.theme.error);
         }
         let response = ui.put(rect, edit.desired_width(rect.width()));
-        response.widget_info(|| WidgetInfo::labeled(Role::TextInput, true, self.name));
+        super::lines::labeled(&response, Role::TextInput, self.name);
         if response.changed() {
             typed.wrong = None;
         }

@@ -93,7 +93,7 @@ impl PickList<'_> {
         // In a menu the field is higher than its text.
         let field = TextEdit::singleline(&mut state.text).id(self.id).align(Align2::LEFT_CENTER);
         let field = ui.add(field.hint_text(self.hint).desired_width(f32::INFINITY));
-        field.widget_info(|| WidgetInfo::labeled(Role::TextInput, true, self.name));
+        lines::labeled(&field, Role::TextInput, self.name);
         if field.changed() {
             state.picked = None;
         }
@@ -155,7 +155,7 @@ fn row(ui: &mut Ui, line: &Line, picked: bool, theme: &Theme) -> bool {
         let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
         let place = rect.shrink2(Vec2::new(UNIT, 0.0));
         lines::elided(ui, place, &line.words, TextStyle::Small, theme.weak);
-        response.widget_info(|| WidgetInfo::labeled(Role::Label, true, &line.words));
+        lines::labeled(&response, Role::Label, &line.words);
         return false;
     }
     let (rect, response) = ui.allocate_exact_size(size, Sense::click() - Sense::FOCUSABLE);
@@ -220,7 +220,7 @@ pub fn combo(
         ui.data_mut(|data| data.remove::<PickState>(key));
     }
     let response = opened.response;
-    response.widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, format!("{name}: {shown}")));
+    lines::labeled(&response, Role::ComboBox, format!("{name}: {shown}"));
     (response.on_hover_text(format!("{hint}\nNow: {shown}")), opened.inner.flatten())
 }
 
@@ -257,24 +257,4 @@ fn within(ui: &mut Ui, key: Id, name: &str, theme: &Theme, all: &[Line]) -> Opti
         ui.close();
     }
     chosen.and_then(|index| places.get(index).copied())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn groups_without_a_match_are_left_out() {
-        let all = [
-            Line::heading("Blackbodies"),
-            Line::new("A", true),
-            Line::heading("Daylight"),
-            Line::new("D50", false),
-            Line { also: "noon daylight".to_owned(), ..Line::new("D65", false) },
-        ];
-        assert_eq!(found(&all, "noon d6"), [2, 4]);
-        assert_eq!(found(&all, " "), [0, 1, 2, 3, 4]);
-        assert!(found(&all, "zeiss").is_empty());
-        assert_eq!(found(&all, "a"), [0, 1, 2, 4], "the name before what only contains it");
-    }
 }

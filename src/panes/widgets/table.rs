@@ -78,7 +78,7 @@ impl<'a> DataTable<'a> {
         if look.filter.is_empty() && order.len() < self.table.rows.len() {
             order = order::rows(self.table, &look);
         }
-        let below = Rect::from_min_max(egui::pos2(rect.left(), bar.bottom() + UNIT), rect.max);
+        let below = rect.with_min_y(bar.bottom() + UNIT);
         let mut body = self.body(shown, order, &look, context);
         let scroll = self.keys(ui, &mut look, &mut body, context);
         if copy || self.copies(ui, context) {
@@ -317,7 +317,7 @@ impl DataTable<'_> {
             .hint_text("Filter")
             .desired_width((ui.available_width() - BESIDE).clamp(FILTER[1], FILTER[0]));
         let response = ui.add(edit.align(egui::Align2::LEFT_CENTER).margin(egui::Margin::symmetric(4, 3)));
-        response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::TextInput, true, "Filter rows"));
+        super::lines::labeled(&response, egui::Role::TextInput, "Filter rows");
         let escaped = response.lost_focus() && ui.input(|input| input.key_down(egui::Key::Escape));
         if escaped {
             look.filter.clear();

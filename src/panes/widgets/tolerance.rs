@@ -36,7 +36,7 @@ pub fn field(ui: &mut Ui, id: Id, now: f64, words: &str, hint: &str, context: &m
             edit = edit.text_color(theme.error);
         }
         let text = ui.add(edit).on_hover_text(format!("{TAKES}.\n{hint}"));
-        text.widget_info(|| WidgetInfo::labeled(Role::TextInput, true, "Tolerance"));
+        super::lines::labeled(&text, Role::TextInput, "Tolerance");
         if text.changed() {
             typed.wrong = None;
         }
@@ -80,36 +80,5 @@ fn tolerance(text: &str) -> Result<f64, String> {
         Ok(number) if number <= 0.0 => Err(format!("The tolerance must be above 0; {give}.")),
         _ if text.is_empty() => Err(format!("Enter a number; {give}.")),
         _ => Err(format!("“{text}” is not a number; write one like 1e-6, {least} to {largest}.")),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn texts_are_taken_or_refused_with_a_reason() {
-        assert_eq!(tolerance(" 1e−6 "), Ok(1e-6));
-        assert_eq!(tolerance("0.1"), Ok(0.1));
-        assert_eq!(tolerance("5e-10"), Ok(5e-10));
-        assert_eq!(tolerance("1.5E-4"), Ok(1.5e-4));
-        for (text, words) in [
-            ("", "Enter a number"),
-            ("10 %", "“10 %” is not a number"),
-            ("nan", "is not a number"),
-            ("inf", "too large"),
-            ("0.5", "too large: range 1e−13 to 0.1"),
-            ("7", "too large: range 1e−13 to 0.1"),
-            ("1e-14", "too small: range 1e−13 to 0.1; S itself is accurate to 1e−13"),
-            ("1,5e-4", "“1,5e-4” is not a number"),
-            ("0.1%", "“0.1%” is not a number"),
-            ("abc", "“abc” is not a number"),
-            ("-1", "above 0; range 1e−13 to 0.1"),
-            ("0", "above 0"),
-            ("−3", "above 0"),
-        ] {
-            let said = tolerance(text).expect_err("refused");
-            assert!(said.contains(words), "{text}: {said}");
-        }
     }
 }

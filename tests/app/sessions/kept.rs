@@ -32,7 +32,7 @@ fn what_is_written_during_the_tour_is_the_users_document() {
     window.state_mut().push(SessionCommand::Save);
     push(&mut window, Command::Tour(TourMove::Begin));
     until(&mut window, "the second write", |app| app.title() == "a – Chromascope");
-    assert_eq!((window.state().view().tour, kelvin_in(&path)), (Some(0), 3100.0));
+    assert_eq!((window.state().view.tour, kelvin_in(&path)), (Some(0), 3100.0));
     push(&mut window, Command::Tour(TourMove::End));
     assert!(document(&window).temperature_k == 3100.0 && knows_its_file(&window, &path));
     // So is what is saved under a name that was asked for before it.
@@ -41,7 +41,7 @@ fn what_is_written_during_the_tour_is_the_users_document() {
     push(&mut window, Command::Tour(TourMove::Begin));
     answer(&mut window, &other);
     saved(&mut window);
-    assert_eq!(window.state().view().tour, Some(0));
+    assert_eq!(window.state().view.tour, Some(0));
     push(&mut window, Command::Tour(TourMove::End));
     assert_eq!((window.state().title(), kelvin_in(&other)), ("b – Chromascope", 3100.0));
 }
@@ -80,14 +80,14 @@ fn a_template_of_a_name_that_is_taken_asks() {
         window.run_steps(2);
         window.key_press(egui::Key::Enter);
         window.run_steps(3);
-        let (_, path) = window.state().view().templates[0].clone();
+        let (_, path) = window.state().view.templates[0].clone();
         (says(&window, "A template has this name"), kelvin_in(&path))
     };
     assert_eq!(save(3000.0, "Lamps/LED"), (false, 3000.0));
     assert_eq!(save(3100.0, "Lamps-LED "), (true, 3000.0));
     window.get_by_label("Replace").click();
     window.run_steps(3);
-    let templates = &window.state().view().templates;
+    let templates = &window.state().view.templates;
     assert_eq!((templates.len(), kelvin_in(&templates[0].1)), (1, 3100.0));
 }
 
@@ -140,8 +140,8 @@ fn a_full_or_read_only_disk_is_told_and_the_work_stays() {
     let before = fs::read(&path).unwrap();
     let fails = |window: &mut Window, reason: &str| {
         push(window, SessionCommand::Save);
-        until(window, "the failure", |app| app.view().status.weight == Weight::Error);
-        let said = window.state().view().status.text.clone();
+        until(window, "the failure", |app| app.view.status.weight == Weight::Error);
+        let said = window.state().view.status.text.clone();
         assert!(said.contains(reason) && said.contains("Your work is safe in this window; File, Save as"), "{said}");
         assert_eq!((document(window).temperature_k, window.state().title()), (3100.0, "*a – Chromascope"));
         assert_eq!(fs::read(&path).unwrap(), before, "the file is as it was");

@@ -225,7 +225,7 @@ impl<'a> Body<'a> {
             lines::right_aligned(ui, place, written, TextStyle::Monospace, ink);
         }
         let Some(behind) = note.behind() else { return };
-        place = Rect::from_min_max(egui::pos2(place.max.x + UNIT, rect.top()), rect.max);
+        place = rect.with_min_x(place.max.x + UNIT);
         lines::elided(ui, place, &behind, TextStyle::Small, self.theme.weak);
     }
 }
@@ -276,7 +276,7 @@ impl Body<'_> {
         let rect = ui.max_rect();
         let sense = if self.of.compact { Sense::hover() } else { Sense::click() };
         let response = ui.interact(rect, self.id.with(("head", index)), sense);
-        response.widget_info(|| WidgetInfo::labeled(Role::ColumnHeader, true, column.full_name()));
+        lines::labeled(&response, Role::ColumnHeader, column.full_name());
         if response.hovered() && !self.of.compact || response.has_focus() {
             let rim = focus_rim(&response, &self.theme);
             ui.painter().rect(rect.shrink(1.0), 3.0, self.theme.control, rim, StrokeKind::Inside);
@@ -363,7 +363,7 @@ impl Body<'_> {
             }
         };
         let response = ui.interact(whole, self.id.with(("cell", row, column)), Sense::hover());
-        response.widget_info(|| WidgetInfo::labeled(Role::Cell, true, &said));
+        lines::labeled(&response, Role::Cell, &said);
         if !cell.hint().is_empty() {
             response.on_hover_text(cell.hint());
         } else if cut {

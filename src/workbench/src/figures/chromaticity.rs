@@ -30,7 +30,7 @@ use drawing::{Drawing, Frame};
 use shown::{DiagramFit, Ranges};
 
 pub use fit::{fit_key, fitted};
-pub use points::{blackbody_distance, brief, describe, distance_symbol};
+pub use points::{blackbody_distance, brief, describe, distance_symbol, label};
 
 /// The diagram with the items of its marks.
 #[derive(Clone, Debug)]

@@ -161,7 +161,8 @@ pub fn describe(scene: &Scene<'_>, thing: &PlotItem) -> Vec<String> {
     }
 }
 
-fn label(scene: &Scene<'_>, id: &SensorId) -> String {
+/// Label of a sensor where it is compared, else its name.
+pub fn label(scene: &Scene<'_>, id: &SensorId) -> String {
     let found = scene.sources().into_iter().find(|source| super::drawing::id(source) == *id);
     found.map_or_else(|| id.name.clone(), |source| source.label)
 }
