@@ -336,7 +336,7 @@ fn peak(wavelengths: &[f64], values: &[f64]) -> (f64, f64) {
 }
 
 /// Returns whether exactly three curves look like the channels of a camera: small at both ends, with peaks in order.
-pub(super) fn bells(grid: &Grid) -> Option<()> {
+fn bells(grid: &Grid) -> Option<()> {
     const ENDS: f64 = 0.3;
     const PEAKS_NM: [std::ops::RangeInclusive<f64>; 3] = [410.0..=500.0, 500.0..=580.0, 570.0..=680.0];
     if grid.curves.len() != 3 || grid.wavelengths.len() < 8 {

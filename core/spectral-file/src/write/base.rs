@@ -247,39 +247,34 @@ pub(super) fn mean_step(wavelengths: &[f64]) -> f64 {
     }
 }
 
-pub(super) struct Between<'a> {
-    wavelengths: &'a [f64],
-    values: &'a [f64],
+struct Between<'a> {
+    piece: &'a Piece<'a>,
     sprague: Option<Sprague>,
     clamps: bool,
 }
 
 impl<'a> Between<'a> {
-    pub(super) fn new(piece: &'a Piece<'_>, content: Content<'_>) -> Self {
+    fn new(piece: &'a Piece<'_>, content: Content<'_>) -> Self {
         const SMOOTH_FROM_NM: f64 = 5.0;
-        let (wavelengths, values) = (piece.wavelengths.as_ref(), piece.values.as_ref());
         let known = !matches!(content, Content::Illuminant | Content::Other);
-        let step = even_step(wavelengths).filter(|step| known && *step >= SMOOTH_FROM_NM);
-        let sprague = step.and_then(|step| Sprague::new(piece.range()[0], step, values));
-        Self { wavelengths, values, sprague, clamps: content != Content::Observer }
-    }
-
-    pub(super) fn is_smooth(&self) -> bool {
-        self.sprague.is_some()
+        let step = even_step(&piece.wavelengths).filter(|step| known && *step >= SMOOTH_FROM_NM);
+        let sprague = step.and_then(|step| Sprague::new(piece.range()[0], step, &piece.values));
+        Self { piece, sprague, clamps: content != Content::Observer }
     }
 
     /// The value at a wavelength, and whether it is a sample; none outside the curve's range.
-    pub(super) fn at(&self, x: f64) -> Option<(f64, bool)> {
-        if let Ok(sample) = self.wavelengths.binary_search_by(|w| w.total_cmp(&x)) {
-            return Some((self.values[sample], true));
+    fn at(&self, x: f64) -> Option<(f64, bool)> {
+        let Piece { wavelengths, values, .. } = self.piece;
+        if let Ok(sample) = wavelengths.binary_search_by(|w| w.total_cmp(&x)) {
+            return Some((values[sample], true));
         }
-        let above = self.wavelengths.partition_point(|&w| w <= x + SAME_NM);
+        let above = wavelengths.partition_point(|&w| w <= x + SAME_NM);
         let below = above.checked_sub(1)?;
-        let (x0, y0) = (self.wavelengths[below], self.values[below]);
+        let (x0, y0) = (wavelengths[below], values[below]);
         if (x - x0).abs() <= SAME_NM {
             return Some((y0, true));
         }
-        let (&x1, &y1) = (self.wavelengths.get(above)?, self.values.get(above)?);
+        let (&x1, &y1) = (wavelengths.get(above)?, values.get(above)?);
         let straight = finite_or(linear(&[x0, x1], &[y0, y1], x), || {
             // The difference of huge values overflows; halves of them do not.
             let t = (x - x0) / (x1 - x0);
@@ -328,7 +323,7 @@ impl Changes {
         };
         let values = wavelengths.iter().map(value).collect();
         self.interpolated |= interpolated;
-        self.smooth |= interpolated && between.is_smooth();
+        self.smooth |= interpolated && between.sprague.is_some();
         values
     }
 
@@ -338,7 +333,7 @@ impl Changes {
         Some(match self.sampling {
             Some(Sampling::Bands(width)) => format!(
                 "band averages every {step} nm: means of the linear interpolant over ±{} nm",
-                decimal_half(width)
+                clean(width / 2.0)
             ),
             _ if self.smooth => format!("values every {step} nm, by Sprague's interpolation"),
             _ if self.interpolated => format!("values every {step} nm, interpolated linearly"),
@@ -362,8 +357,4 @@ impl Changes {
             notes.push(Note::Clipped { from_nm, to_nm });
         }
     }
-}
-
-fn decimal_half(number: f64) -> f64 {
-    clean(number / 2.0)
 }

@@ -62,6 +62,13 @@ pub trait FromFile: Sized + Send + Sync + 'static {
     }
 }
 
+/// For files whose failures are no more than their words.
+impl From<Unread> for String {
+    fn from(why: Unread) -> Self {
+        why.to_string()
+    }
+}
+
 /// Reason that a file was not read to its end, whatever it holds.
 #[derive(Debug, thiserror::Error)]
 pub enum Unread {
