@@ -253,7 +253,12 @@ impl Columns {
         let bare = header.names.is_empty() && header.units.is_empty() && !layout.every_column;
         let at = at.or_else(|| axes::after_count(&self.cells).filter(|_| bare));
         let at = at.or_else(|| self.cells.iter().position(|column| !is_empty(column))).unwrap_or(0);
-        self.cut_second_pass(at);
+        // Rows that go over the same wavelengths again are left to the next table.
+        if let Some(rows) = wavelengths::second_pass(&self.cells[at]) {
+            self.next = Some(self.lines[rows - 1] + 1);
+            self.lines.truncate(rows);
+            self.cells.iter_mut().for_each(|column| column.truncate(rows));
+        }
         warn_of_names_without_columns(&header, columns, log);
         let (next, rows, label_unit) = (self.next, self.lines.len(), self.label_unit);
         let values = self.cells.split_off(at + 1);
@@ -297,15 +302,6 @@ impl Columns {
         grid.wavelength_column = Some(at + 1);
         drop_without_wavelength(&mut grid, log);
         Ok(Read { grid, next, bytes: 0, note })
-    }
-
-    /// Leaves rows to the next table that go over the same wavelengths again.
-    fn cut_second_pass(&mut self, at: usize) {
-        if let Some(rows) = wavelengths::second_pass(&self.cells[at]) {
-            self.next = Some(self.lines[rows - 1] + 1);
-            self.lines.truncate(rows);
-            self.cells.iter_mut().for_each(|column| column.truncate(rows));
-        }
     }
 }
 

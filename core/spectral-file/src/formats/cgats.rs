@@ -444,7 +444,7 @@ impl Bands {
             (Some(first), Some(last)) => format!("{} from {first} to {last} nm", self.wavelengths.len()),
             _ => "none".to_owned(),
         };
-        Decision::new("Bands", &Decided::certain(value, self.why.clone()))
+        Decision::certain("Bands", value, self.why.clone())
     }
 }
 

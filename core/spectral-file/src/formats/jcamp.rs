@@ -51,7 +51,7 @@ fn read(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Result<Found, R
     }
     let dialect =
         if comma { (Delimiter::CommaSpace, DecimalMark::Comma) } else { (Delimiter::Comma, DecimalMark::Point) };
-    notes.insert(0, Decision::new("Form", &Decided::certain(form.0.description(), &*form.1)));
+    notes.insert(0, Decision::certain("Form", form.0.description(), &*form.1));
     let reader = Decided::certain(Reader::JCAMP, "The file begins with ## labels");
     Ok(Found::fixed(grid, reader, (dialect, first_line, &form.1), notes))
 }

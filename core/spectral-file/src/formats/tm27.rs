@@ -6,7 +6,9 @@ use crate::formats::Format;
 use crate::formats::spectra::{self, Found, Sample, Spectrum};
 use crate::formats::xml::{self, Element, Step, Walk};
 use crate::header::Header;
+use crate::header_terms;
 use crate::options::ReadOptions;
+use crate::text::is_one;
 use crate::warning::Warning;
 use crate::watch::Log;
 
@@ -152,15 +154,11 @@ impl Content {
 
 /// A quantity of the standard's list, if it is only one thing.
 fn named(quantity: &str) -> Option<Quantity> {
+    const AS_EVERYWHERE: &str =
+        "irradiance|exitance|radiance|reflectance|r-factor|transmittance|t-factor|absorptance|relative";
     match quantity.to_ascii_lowercase().as_str() {
         "flux" => Some(Quantity::RadiantFlux),
         "intensity" => Some(Quantity::RadiantIntensity),
-        "irradiance" | "exitance" => Some(Quantity::Irradiance),
-        "radiance" => Some(Quantity::Radiance),
-        "reflectance" | "r-factor" => Some(Quantity::Reflectance),
-        "transmittance" | "t-factor" => Some(Quantity::Transmittance),
-        "absorptance" => Some(Quantity::Absorptance),
-        "relative" => Some(Quantity::Relative),
-        _ => None,
+        other => header_terms::quantity(other).filter(|_| is_one(other, AS_EVERYWHERE)),
     }
 }

@@ -68,8 +68,7 @@ impl<'a> Draft<'a> {
             _ => sheet.channel_pieces(&mut notes),
         };
         let limits = &Limits::of(format);
-        let sampling = Sampling::of(grid);
-        let ranges = pieces.iter().map(|piece| sampling.within(piece.range()));
+        let ranges = pieces.iter().map(|piece| grid.within(piece.range()));
         let range = ranges.fold(limits.range_nm, |[a, b], [from, to]| [a.max(from), b.min(to)]);
         let (wavelengths, step) = match grid {
             Grid::Step(step) | Grid::Average(step) => (asked(step, range, limits)?, Some(step)),
@@ -87,7 +86,7 @@ impl<'a> Draft<'a> {
         if wavelengths.len().saturating_mul(pieces.len()) > MAX_SAMPLES {
             return Err(WriteError::TooLarge);
         }
-        let mut changes = Changes::new(sampling);
+        let mut changes = Changes::new(grid);
         let values = pieces.iter().map(|piece| changes.take(piece, sheet.content, &wavelengths)).collect();
         changes.note(step, [from, to], &mut notes);
         Ok(Self { sheet, format, pieces, wavelengths, values, resampling: changes.description(step), notes })
@@ -158,30 +157,6 @@ pub(super) fn check(grid: Grid) -> Result<(), WriteError> {
             Err(WriteError::Step)
         }
         Grid::Step(_) | Grid::Average(_) | Grid::Native => Ok(()),
-    }
-}
-
-/// Method for values at new wavelengths.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Sampling {
-    Points,
-    /// The mean over a band of the given width in nanometers around it.
-    Bands(f64),
-}
-
-impl Sampling {
-    pub(super) fn of(grid: Grid) -> Self {
-        match grid {
-            Grid::Average(step) => Self::Bands(step),
-            Grid::Native | Grid::Step(_) => Self::Points,
-        }
-    }
-
-    pub(super) fn within(self, [first, last]: [f64; 2]) -> [f64; 2] {
-        match self {
-            Self::Points => [first, last],
-            Self::Bands(width) => [first + width / 2.0, last - width / 2.0],
-        }
     }
 }
 
@@ -294,7 +269,7 @@ fn finite_or(value: f64, other: impl FnOnce() -> f64) -> f64 {
 
 #[derive(Debug, Default)]
 pub(super) struct Changes {
-    sampling: Option<Sampling>,
+    pub(super) grid: Grid,
     interpolated: bool,
     smooth: bool,
     finest_nm: Option<f64>,
@@ -302,8 +277,8 @@ pub(super) struct Changes {
 }
 
 impl Changes {
-    pub(super) fn new(sampling: Sampling) -> Self {
-        Self { sampling: Some(sampling), ..Self::default() }
+    pub(super) fn new(grid: Grid) -> Self {
+        Self { grid, ..Self::default() }
     }
 
     pub(super) fn take(&mut self, piece: &Piece<'_>, content: Content<'_>, wavelengths: &[f64]) -> Vec<f64> {
@@ -311,7 +286,7 @@ impl Changes {
         self.reach_nm = Some(self.reach_nm.map_or([first, last], |[a, b]| [a.min(first), b.max(last)]));
         let step = mean_step(&piece.wavelengths);
         self.finest_nm = Some(self.finest_nm.map_or(step, |finest| finest.min(step)));
-        if let Some(Sampling::Bands(width)) = self.sampling {
+        if let Grid::Average(width) = self.grid {
             return band_means(piece, wavelengths, width);
         }
         let between = Between::new(piece, content);
@@ -330,8 +305,8 @@ impl Changes {
     /// Description of the method, for the head of a file; none at a curve's own wavelengths.
     pub(super) fn description(&self, step: Option<f64>) -> Option<String> {
         let step = step?;
-        Some(match self.sampling {
-            Some(Sampling::Bands(width)) => format!(
+        Some(match self.grid {
+            Grid::Average(width) => format!(
                 "band averages every {step} nm: means of the linear interpolant over ±{} nm",
                 clean(width / 2.0)
             ),
@@ -343,7 +318,7 @@ impl Changes {
 
     /// Notes for a step (none for the curves' own wavelengths) and the range that was written.
     pub(super) fn note(&self, step: Option<f64>, [from_nm, to_nm]: [f64; 2], notes: &mut Vec<Note>) {
-        if let Some(Sampling::Bands(step_nm)) = self.sampling {
+        if let Grid::Average(step_nm) = self.grid {
             notes.push(Note::Averaged(step_nm));
         } else if let Some(step_nm) = step {
             if self.interpolated {
