@@ -67,7 +67,6 @@ pub(super) fn read(section: Section<'_>, layout: &Layout, log: &mut Log<'_>) -> 
     Ok(Read { bytes: read - section.byte, ..found })
 }
 
-/// A line inside the table that is no row.
 struct Broken {
     line: usize,
     begins_with_number: bool,

@@ -117,7 +117,6 @@ impl Run {
         self.rises.max(self.falls)
     }
 
-    /// Returns whether the first numbers look like wavelengths down a column.
     pub(super) fn looks_like_wavelengths(&self) -> bool {
         self.rows >= 3 && self.steady() + 1 == self.rows && self.is_plausible()
     }

@@ -152,10 +152,6 @@ impl<'a> Sniffer<'a> {
         Ok(trials)
     }
 
-    fn content(self) -> impl Iterator<Item = (usize, &'a str)> {
-        Lines::of(self.section).filter(|(_, line)| !line.trim_ascii().is_empty() && comment(line).is_none())
-    }
-
     /// The trial that understands most rows, then the one in best order, then the first.
     fn choose<'t>(&self, trials: &'t [Trial]) -> Option<&'t Trial> {
         let mut best: Option<&Trial> = None;
@@ -305,7 +301,8 @@ impl<'a> Sniffer<'a> {
         let step = (run.last - run.first) / run.rows.max(2).saturating_sub(1) as f64;
         let mut fragment: Option<(usize, usize)> = None; // first line, rows
         let mut stray = None;
-        for (number, line) in self.content().take_while(|(number, _)| *number < run.line) {
+        let is_content = |(_, line): &(usize, &str)| !line.trim_ascii().is_empty() && comment(line).is_none();
+        for (number, line) in Lines::of(self.section).filter(is_content).take_while(|(number, _)| *number < run.line) {
             let shape = Shape::of(trial.dialect, line);
             let steps_away = shape.first.map_or(f64::NAN, |first| (run.first - first) / step);
             let near = steps_away > 0.0 && steps_away <= 4.0 * (run.line - number) as f64;

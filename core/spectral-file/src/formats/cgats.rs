@@ -448,7 +448,6 @@ impl Bands {
     }
 }
 
-/// The digits that the name of a spectral field ends with.
 fn digits(field: &str) -> &str {
     let number = |c: char| c.is_ascii_digit() || c == '.';
     &field[field.len() - field.chars().rev().take_while(|c| number(*c)).count()..]

@@ -114,7 +114,7 @@ fn blocks(text: &str, log: &mut Log<'_>) -> Result<Vec<Block>, ReadError> {
         if let Some((key, value)) = line.trim_start().strip_prefix("##").and_then(|record| record.split_once('=')) {
             let key = label(key);
             if key == "TITLE" || all.is_empty() {
-                close(&mut all)?;
+                all.last_mut().map_or(Ok(()), Block::close)?;
                 check_curves(all.len() + 1, number)?;
                 all.push(Block::default());
             }
@@ -132,10 +132,6 @@ fn blocks(text: &str, log: &mut Log<'_>) -> Result<Vec<Block>, ReadError> {
             }
         }
     }
-    close(&mut all)?;
+    all.last_mut().map_or(Ok(()), Block::close)?;
     Ok(all)
-}
-
-fn close(all: &mut [Block]) -> Result<(), ReadError> {
-    all.last_mut().map_or(Ok(()), Block::close)
 }

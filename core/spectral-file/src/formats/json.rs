@@ -70,7 +70,6 @@ struct Document<'a> {
 }
 
 impl Document<'_> {
-    /// Reads the layout that the members are of.
     fn layout(&self, log: &mut Log<'_>) -> Result<Content, ReadError> {
         let members = &self.members;
         let spectrum = members.get("spectrum");
@@ -293,7 +292,6 @@ impl Document<'_> {
         Ok((grid, Decided::certain(Reader::ENLIGHTEN, self.says("spectrometerSettings")), notes))
     }
 
-    /// The role by the technique of the measurement.
     fn technique(&self, header: &mut Header) -> Option<Decided<Role>> {
         let technique = header.comment("Technique")?.to_owned();
         let line = self.line("Technique");

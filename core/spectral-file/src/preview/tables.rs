@@ -126,7 +126,6 @@ impl Down {
     }
 }
 
-/// A mark of a line as a whole.
 pub(super) fn line_mark(line: &str, window: &Range<usize>, what: What) -> Vec<Mark> {
     let mark = Mark { range: trimmed(line), what };
     Some(mark).filter(|mark| touches(&mark.range, window)).into_iter().collect()

@@ -115,12 +115,6 @@ struct Known<T: FromFile> {
     asked: u64,
 }
 
-impl<T: FromFile> Default for Known<T> {
-    fn default() -> Self {
-        Self { content: None, failure: None, reading: None, asked: 0 }
-    }
-}
-
 impl<T: FromFile> Known<T> {
     fn stop(&mut self) {
         if let Some(stop) = self.reading.take() {
@@ -236,7 +230,8 @@ impl<T: FromFile> Drop for FileStore<T> {
 
 impl<T: FromFile> State<T> {
     fn known_at(&mut self, path: &Path) -> &mut Known<T> {
-        self.known.entry(path.to_owned()).or_default()
+        let unknown = Known { content: None, failure: None, reading: None, asked: 0 };
+        self.known.entry(path.to_owned()).or_insert(unknown)
     }
 
     /// Handles the result of a thread; `None` for an unchanged file.
