@@ -47,6 +47,7 @@ mod plots;
 mod profiler;
 mod recompute;
 mod recorded;
+mod recorded_tables;
 mod reducer;
 mod render;
 mod render_scene;

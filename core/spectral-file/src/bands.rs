@@ -23,10 +23,6 @@ impl Band<'_> {
     fn goes_with(&self, other: &Self) -> bool {
         (self.prefix, self.suffix, self.unit) == (other.prefix, other.suffix, other.unit)
     }
-
-    fn is_plain(&self) -> bool {
-        self.prefix.is_empty() && self.suffix.is_empty()
-    }
 }
 
 /// Bands side by side whose names differ in nothing but the wavelength.
@@ -97,6 +93,7 @@ fn is_band_prefix(prefix: &str) -> bool {
 
 /// The groups of wavelengths in a header. A cell that is empty or out of order costs its column only.
 pub(super) fn groups(dialect: Dialect, line: &str) -> Vec<Group> {
+    const APART: f64 = 3.0;
     let mut named = false;
     let mut bands: Vec<(usize, Band<'_>)> = Vec::new();
     for (column, cell) in dialect.cells(line).take(MAX_CURVES + 2).enumerate() {
@@ -105,12 +102,15 @@ pub(super) fn groups(dialect: Dialect, line: &str) -> Vec<Group> {
             None => named |= bands.is_empty() && has_letter(cell) && header_terms::names_wavelengths(cell),
         }
     }
+    // A number that is set apart, and so far from the next, is none of the wavelengths that follow.
+    let is_far = |first: f64, second: f64| first > APART * second || second > APART * first;
     let mut all = Vec::new();
     let mut run: Vec<(usize, Band<'_>)> = Vec::new();
     let mut wrong = 0;
     for (index, &(column, band)) in bands.iter().enumerate() {
         let next = bands.get(index + 1).map(|(_, next)| next);
-        let (begun, beside) = (run.first().map(|(_, first)| first.wavelength), ends_at(&run, column));
+        let (begun, beside) =
+            (run.first().map(|(_, first)| first.wavelength), run.last().is_some_and(|(last, _)| last + 1 == column));
         match step(&run, &band, next) {
             Step::On => {
                 if run.len() == 1 && !beside && begun.is_some_and(|first| is_far(first, band.wavelength)) {
@@ -121,7 +121,8 @@ pub(super) fn groups(dialect: Dialect, line: &str) -> Vec<Group> {
             Step::Wrong => wrong += 1,
             Step::Anew => {
                 // Numbers that go up and down are values, unless a second spectrum begins where the first did.
-                if band.is_plain() && beside && begun != Some(band.wavelength) {
+                let plain = band.prefix.is_empty() && band.suffix.is_empty();
+                if plain && beside && begun != Some(band.wavelength) {
                     return Vec::new();
                 }
                 all.extend(group(&run, wrong));
@@ -165,16 +166,6 @@ fn step(run: &[(usize, Band<'_>)], band: &Band<'_>, next: Option<&Band<'_>>) -> 
         return Step::Wrong;
     }
     if after(last.wavelength, at) { Step::On } else { Step::Anew }
-}
-
-fn ends_at(run: &[(usize, Band<'_>)], column: usize) -> bool {
-    run.last().is_some_and(|(last, _)| last + 1 == column)
-}
-
-/// Returns whether a number that is set apart is none of the wavelengths that follow.
-fn is_far(first: f64, second: f64) -> bool {
-    const TIMES: f64 = 3.0;
-    first > TIMES * second || second > TIMES * first
 }
 
 /// False for numbers cut in pieces by a wrong separator, of which there are many: names and units of wavelengths have letters.

@@ -18,21 +18,9 @@ pub struct Source<'a> {
     pub metadata: &'a [u8],
 }
 
-impl<'a> From<&'a [u8]> for Source<'a> {
-    fn from(bytes: &'a [u8]) -> Self {
-        Self { bytes, ..Self::default() }
-    }
-}
-
-impl<'a, const N: usize> From<&'a [u8; N]> for Source<'a> {
-    fn from(bytes: &'a [u8; N]) -> Self {
-        Self::from(bytes.as_slice())
-    }
-}
-
-impl<'a> From<&'a Vec<u8>> for Source<'a> {
-    fn from(bytes: &'a Vec<u8>) -> Self {
-        Self::from(bytes.as_slice())
+impl<'a, T: AsRef<[u8]> + ?Sized> From<&'a T> for Source<'a> {
+    fn from(bytes: &'a T) -> Self {
+        Self { bytes: bytes.as_ref(), ..Self::default() }
     }
 }
 

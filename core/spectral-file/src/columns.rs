@@ -25,7 +25,7 @@ pub(super) struct Read {
 pub(super) fn read(section: Section<'_>, layout: &Layout, log: &mut Log<'_>) -> Result<Read, ReadError> {
     let header = header::read(section, layout);
     let chosen = layout.wavelength_column.map(|column| column.saturating_sub(1));
-    let mut columns = Columns::new(layout, chosen.or_else(|| wavelength_column(&header)));
+    let mut columns = Columns::new(layout, chosen.or_else(|| header_terms::axis(&header.names)));
     let header_line = header.line.and_then(|names| Lines::of(section).find(|(number, _)| *number == names));
     let header_line = header_line.map(|(_, line)| line);
     let mut commented = LineList::default();
@@ -67,11 +67,6 @@ pub(super) fn read(section: Section<'_>, layout: &Layout, log: &mut Log<'_>) -> 
     Ok(Read { bytes: read - section.byte, ..found })
 }
 
-fn wavelength_column(header: &Header) -> Option<usize> {
-    header_terms::axis(&header.names)
-}
-
-/// A line inside the table that is no row.
 struct Broken {
     line: usize,
     begins_with_number: bool,
@@ -82,6 +77,7 @@ struct Broken {
     error: ReadError,
 }
 
+#[derive(Default)]
 struct Columns {
     dialect: Dialect,
     texts: Texts,
@@ -114,14 +110,8 @@ impl Columns {
             width: layout.width,
             fewest_cells: usize::MAX,
             cells: vec![Vec::new(); layout.width.min(MAX_CURVES + 1)],
-            lines: Vec::new(),
-            row: Vec::with_capacity(layout.width.min(MAX_CURVES + 2)),
-            expected_rows: 0,
             named,
-            label_unit: None,
-            broken: None,
-            repeated_headers: LineList::default(),
-            next: None,
+            ..Self::default()
         }
     }
 
@@ -157,14 +147,8 @@ impl Columns {
     /// Takes the line of names, which some programs print again on every page.
     fn take_header(&mut self, line: usize) {
         let error = ReadError::NotANumber { line, column: 1, text: String::new() };
-        self.broken.get_or_insert(Broken {
-            line,
-            begins_with_number: false,
-            has_numbers: false,
-            is_header: true,
-            others: 0,
-            error,
-        });
+        let nothing = Broken { line, begins_with_number: false, has_numbers: false, is_header: true, others: 0, error };
+        self.broken.get_or_insert(nothing);
     }
 
     /// Returns whether a comment is a row that was commented out, or one that begins with `#` for another reason.
@@ -268,14 +252,20 @@ impl Columns {
         let bare = header.names.is_empty() && header.units.is_empty() && !layout.every_column;
         let at = at.or_else(|| axes::after_count(&self.cells).filter(|_| bare));
         let at = at.or_else(|| self.cells.iter().position(|column| !is_empty(column))).unwrap_or(0);
-        self.cut_second_pass(at);
+        // Rows that go over the same wavelengths again are left to the next table.
+        if let Some(rows) = wavelengths::second_pass(&self.cells[at]) {
+            self.next = Some(self.lines[rows - 1] + 1);
+            self.lines.truncate(rows);
+            self.cells.iter_mut().for_each(|column| column.truncate(rows));
+        }
         warn_of_names_without_columns(&header, columns, log);
         let (next, rows, label_unit) = (self.next, self.lines.len(), self.label_unit);
         let values = self.cells.split_off(at + 1);
         let wavelengths = self.cells.pop().unwrap_or_default();
         let find = || axes::find(&header, at, &wavelengths, &self.cells, &values);
         let axes = if layout.every_column { axes::Axes::default() } else { find() };
-        let texts: Vec<usize> = self.texts.left_out().filter(|&column| column < columns && column != at).collect();
+        let texts = self.texts.columns.iter().filter(|text| text.other || text.unit.is_none()).map(|text| text.column);
+        let texts: Vec<usize> = texts.filter(|&column| column < columns && column != at).collect();
         let is_left = |(column, values): &(usize, Vec<f64>)| {
             axes.more.is_empty()
                 && !is_empty(values)
@@ -291,7 +281,10 @@ impl Columns {
             let named = axes::column_list(&header, &axes.left);
             log.push(Warning::OtherAxes { named, wavelength_column: Some(at + 1) });
         }
-        warn_of_texts(&header, &texts, log);
+        if let Some(&first) = texts.first() {
+            let name = header.name(first).unwrap_or_default().to_owned();
+            log.push(Warning::TextColumns { count: texts.len(), column: first + 1, name });
+        }
         let (mut grid, note) = if axes.more.is_empty() {
             let is_curve = |column: &usize| !(texts.contains(column) || axes.left.contains(column));
             let after = (at + 1..).zip(values).filter(|(column, _)| is_curve(column));
@@ -309,15 +302,6 @@ impl Columns {
         drop_without_wavelength(&mut grid, log);
         Ok(Read { grid, next, bytes: 0, note })
     }
-
-    /// Leaves rows to the next table that go over the same wavelengths again.
-    fn cut_second_pass(&mut self, at: usize) {
-        if let Some(rows) = wavelengths::second_pass(&self.cells[at]) {
-            self.next = Some(self.lines[rows - 1] + 1);
-            self.lines.truncate(rows);
-            self.cells.iter_mut().for_each(|column| column.truncate(rows));
-        }
-    }
 }
 
 fn raw_curve(header: &Header, column: usize, only: bool, values: Vec<f64>) -> RawCurve {
@@ -329,13 +313,6 @@ fn raw_curve(header: &Header, column: usize, only: bool, values: Vec<f64>) -> Ra
     let name = given.map_or_else(|| format!("Column {}", column + 1), str::to_owned);
     let (named, label, unit) = (given.is_some(), header.label(column), header.unit(column));
     RawCurve { name, named, column: Some(column + 1), origin: column, label, unit, values }
-}
-
-fn warn_of_texts(header: &Header, texts: &[usize], log: &mut Log<'_>) {
-    if let Some(&first) = texts.first() {
-        let name = header.name(first).unwrap_or_default().to_owned();
-        log.push(Warning::TextColumns { count: texts.len(), column: first + 1, name });
-    }
 }
 
 /// A named column that is empty in every row is no column of the rows, but its absence is reported.
@@ -360,7 +337,7 @@ fn drop_without_wavelength(grid: &mut Grid, log: &mut Log<'_>) {
     }
 }
 
-#[derive(Debug)]
+#[derive(Debug, Default)]
 struct Texts {
     mask: u128,
     columns: Vec<Text>,
@@ -400,22 +377,14 @@ impl Texts {
         value
     }
 
-    fn unit(&self, column: usize) -> Option<&str> {
-        let text = self.columns.iter().find(|text| text.column == column && !text.other)?;
-        text.unit.as_deref()
-    }
-
     /// A curve with the unit that stands beside each of its values, where the header names none.
     fn united(&self, mut curve: RawCurve, column: usize) -> RawCurve {
-        if let Some(unit) = self.unit(column).filter(|_| curve.unit.is_none()) {
+        let text = self.columns.iter().find(|text| text.column == column && !text.other);
+        if let Some(unit) = text.and_then(|text| text.unit.as_deref()).filter(|_| curve.unit.is_none()) {
             let before = if curve.label.is_empty() { "" } else { " " };
             curve.label = format!("{}{before}{unit}", curve.label);
             curve.unit = Some(unit.to_owned());
         }
         curve
-    }
-
-    fn left_out(&self) -> impl Iterator<Item = usize> {
-        self.columns.iter().filter(|text| text.other || text.unit.is_none()).map(|text| text.column)
     }
 }

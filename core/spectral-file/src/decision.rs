@@ -331,6 +331,11 @@ impl Decision {
         Self { what, value: value.to_string(), certainty: *certainty, why: why.clone(), effect: Effect::Report }
     }
 
+    /// A decision that the file leaves no doubt about.
+    pub(super) fn certain(what: &'static str, value: impl fmt::Display, why: impl Into<String>) -> Self {
+        Self::new(what, &Decided::certain(value, why))
+    }
+
     pub(super) fn affecting(self, effect: Effect) -> Self {
         Self { effect, ..self }
     }

@@ -18,6 +18,12 @@ pub(super) struct Dialect {
     pub(super) thousands: bool,
 }
 
+impl Default for Dialect {
+    fn default() -> Self {
+        Self::new(Delimiter::Comma, DecimalMark::Point)
+    }
+}
+
 /// Returns whether a number with one mark may be a whole one with a mark between its thousands: `4.800`, `1,000`.
 pub(super) fn may_be_thousands(cell: &str) -> bool {
     let Some((whole, fraction)) = cell.trim_start_matches('-').split_once(['.', ',']) else { return false };
@@ -217,11 +223,7 @@ fn parse_decimal_comma(cell: &str) -> Option<f64> {
     if bytes.len() > LONGEST || bytes.last() == Some(&b',') || bytes.contains(&b'.') {
         return None;
     }
-    let mut buffer = [0; LONGEST];
-    for (to, &from) in buffer.iter_mut().zip(bytes) {
-        *to = if from == b',' { b'.' } else { from };
-    }
-    std::str::from_utf8(&buffer[..bytes.len()]).ok()?.parse().ok()
+    cell.replace(',', ".").parse().ok()
 }
 
 fn is_gap(cell: &str) -> bool {
@@ -316,7 +318,7 @@ impl<'a> Cells<'a> {
         let closed = at < bytes.len()
             && (tail.is_empty()
                 || self.delimiter.find(tail).is_some_and(|(end, _)| end == 0)
-                || self.ends_by_space(after));
+                || self.delimiter == Delimiter::Spaces && after.starts_with([' ', '\t']));
         if !closed {
             self.quotes = false;
             return None;
@@ -328,10 +330,6 @@ impl<'a> Cells<'a> {
             (_, None) => None,
         };
         Some(inner[..at].trim_ascii())
-    }
-
-    fn ends_by_space(&self, after: &str) -> bool {
-        self.delimiter == Delimiter::Spaces && after.starts_with([' ', '\t'])
     }
 }
 

@@ -117,7 +117,6 @@ impl Run {
         self.rises.max(self.falls)
     }
 
-    /// Returns whether the first numbers look like wavelengths down a column.
     pub(super) fn looks_like_wavelengths(&self) -> bool {
         self.rows >= 3 && self.steady() + 1 == self.rows && self.is_plausible()
     }
@@ -201,7 +200,7 @@ impl Across {
     }
 }
 
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub(super) struct Trial {
     pub(super) dialect: Dialect,
     /// True if rows may have columns of text.
@@ -216,7 +215,8 @@ pub(super) struct Trial {
     pub(super) quoted: usize,
     /// Those of them that may be thousands.
     grouped: usize,
-    fractions: usize,
+    /// Those that can only stand before a fraction.
+    pub(super) fractions: usize,
     pub(super) padded_line: Option<usize>,
     /// Lines of a single number: how many, and the first.
     pub(super) single: usize,
@@ -225,21 +225,15 @@ pub(super) struct Trial {
 
 impl Trial {
     pub(super) fn new(dialect: Dialect, mixed: bool) -> Self {
-        Self {
-            dialect,
-            mixed,
-            run: Run::default(),
-            best: Run::default(),
-            across: None,
-            across_tested: false,
-            marks: 0,
-            quoted: 0,
-            grouped: 0,
-            fractions: 0,
-            padded_line: None,
-            single: 0,
-            single_line: 0,
-        }
+        Self { dialect, mixed, ..Self::default() }
+    }
+
+    /// Counts the marks of a row; `quoted` tells whether they stand between quotes.
+    fn count(&mut self, shape: &Shape, quoted: bool) {
+        self.marks += shape.marks;
+        self.quoted += if quoted { shape.marks } else { 0 };
+        self.grouped += shape.grouped;
+        self.fractions += shape.fractions;
     }
 
     pub(super) fn take(&mut self, number: usize, line: &str) {
@@ -250,10 +244,7 @@ impl Trial {
                 self.run = Run::default();
             }
             self.run.push(number, &shape);
-            self.marks += shape.marks;
-            self.quoted += if shape.marks > 0 && line.contains('"') { shape.marks } else { 0 };
-            self.grouped += shape.grouped;
-            self.fractions += shape.fractions;
+            self.count(&shape, line.contains('"'));
             if shape.padded {
                 self.padded_line = self.padded_line.or(Some(number));
             }
@@ -275,9 +266,7 @@ impl Trial {
         let shape = Shape::of(self.dialect, line);
         if across.is_row(self.dialect, &shape, line) {
             across.push(number);
-            self.marks += shape.marks;
-            self.grouped += shape.grouped;
-            self.fractions += shape.fractions;
+            self.count(&shape, false);
         }
     }
 
@@ -291,30 +280,16 @@ impl Trial {
         } else if let Some(across) = self.across.as_mut().filter(|across| across.misses <= MISSES) {
             if across.is_row(self.dialect, shape, line) {
                 across.push(number);
-                self.marks += shape.marks;
-                self.quoted += if line.contains('"') { shape.marks } else { 0 };
-                self.grouped += shape.grouped;
-                self.fractions += shape.fractions;
+                self.count(shape, line.contains('"'));
             } else {
                 across.misses += 1;
             }
         }
     }
 
-    /// Returns whether every mark may group thousands: three digits after it, one to three before.
-    pub(super) fn may_be_thousands(&self) -> bool {
-        const FEWEST: usize = 4;
-        self.grouped >= FEWEST && self.grouped == self.marks
-    }
-
-    /// Returns whether a mark is seen that can only stand before a fraction.
-    pub(super) fn has_fractions(&self) -> bool {
-        self.fractions > 0
-    }
-
-    /// Also true for a single mark.
-    pub(super) fn only_grouped(&self) -> bool {
-        self.grouped > 0 && self.grouped == self.marks
+    /// Returns whether every mark may group thousands, three digits after it, one to three before, and there are so many of them.
+    pub(super) fn may_be_thousands(&self, fewest: usize) -> bool {
+        self.grouped >= fewest && self.grouped == self.marks
     }
 
     /// Rows that this dialect understands in an orientation, or in the better; a header of wavelengths counts as one.
@@ -358,11 +333,21 @@ impl Layout {
         first_line: usize,
         why: &str,
     ) -> Self {
+        let orientation = Decided::certain(orientation, why);
+        Self::new(Decided::certain(delimiter, why), Decided::certain(mark, why), orientation, first_line)
+    }
+
+    pub(super) fn new(
+        delimiter: Decided<Delimiter>,
+        decimal_mark: Decided<DecimalMark>,
+        orientation: Decided<Orientation>,
+        first_line: usize,
+    ) -> Self {
         Self {
-            delimiter: Decided::certain(delimiter, why),
-            decimal_mark: Decided::certain(mark, why),
+            delimiter,
+            decimal_mark,
             thousands: false,
-            orientation: Decided::certain(orientation, why),
+            orientation,
             first_line,
             texts: 0,
             width: 0,

@@ -2,7 +2,6 @@
 
 use crate::binary::BinaryKind;
 use crate::decision::{Family, Reader};
-use crate::options::Switch;
 
 pub(super) const MAX_PARTS: usize = 1000;
 
@@ -81,7 +80,7 @@ pub enum ReadError {
     #[error("line {line}: no rows of numbers: \"{text}\" {why}")]
     NearlyRow { line: usize, text: String, why: NearMiss },
     #[error("{error} (as chosen: {switch})")]
-    AsChosen { switch: Switch, error: Box<ReadError> },
+    AsChosen { switch: String, error: Box<ReadError> },
     #[error("this is {what}, which this program was built without: compile it with the feature {feature}")]
     NotBuilt { what: &'static str, feature: &'static str },
     #[error("line {0}: only one number in each line: expected a wavelength and at least one value")]

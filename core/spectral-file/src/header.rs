@@ -113,11 +113,15 @@ pub(super) fn read(section: Section<'_>, layout: &Layout) -> Header {
 
 impl Header {
     pub(super) fn take_comment(&mut self, line: usize, key: &str, value: &str) {
+        /// Keys of what the values are, if a quantity and a unit stand behind them.
+        const MEASURED_TOO: &str = "data|data type|value|values|y|signal|spectrum|spectra|column|columns";
         let lower = key.to_ascii_lowercase();
         if is_one(&lower, "unit|units|y unit|y units|yunit|yunits") {
             self.take_value_unit(line, value);
             self.unit = unit_text::unit_cell(value).filter(|unit| unit != "1").or(self.unit.take());
-        } else if lower == "quantity" || is_title_with_unit(value) && says_values(&lower) {
+        } else if lower == "quantity"
+            || is_title_with_unit(value) && (is_one(&lower, clues::MEASURED) || is_one(&lower, MEASURED_TOO))
+        {
             self.take_value_unit(line, value);
             let unit = unit_text::unit(value).filter(|_| unit_text::without_unit(value) != value);
             self.unit = unit.or(self.unit.take());
@@ -150,14 +154,18 @@ impl Header {
         if let Some(values) = header_terms::values(text).filter(|values| !plain_after_other(values)) {
             self.values = Some((line, values));
         }
-        // Lights have other units: `radiance paint (%)` is a sample.
-        let sample = self.values.is_some_and(|(_, values)| values == Values::Percent);
-        let role = header_terms::role(text).filter(|role| !sample || *role != Role::Illuminant);
-        self.role = role.map(|role| (line, role)).or(self.role);
+        self.take_role(line, text);
         self.quantity = match (header_terms::quantity(text), self.quantity) {
             (Some(Quantity::Relative), Some(known)) => Some(known),
             (found, known) => found.map(|quantity| (line, quantity)).or(known),
         };
+    }
+
+    fn take_role(&mut self, line: usize, text: &str) {
+        // Lights have other units: `radiance paint (%)` is a sample.
+        let sample = self.values.is_some_and(|(_, values)| values == Values::Percent);
+        let role = header_terms::role(text).filter(|role| !sample || *role != Role::Illuminant);
+        self.role = role.map(|role| (line, role)).or(self.role);
     }
 
     fn take_prose(&mut self, line: usize, text: &str) {
@@ -178,20 +186,16 @@ impl Header {
             let unit = text.split_once([':', ';', ',', '=']).and_then(|(_, value)| unit_text::unit(value));
             self.unit = unit.or_else(|| unit_text::unit(bare_title(text))).or(self.unit.take());
         }
-        self.take_mode(line, text);
-        if let Some(role) = header_terms::role_in_prose(text) {
-            (self.mentioned, self.earlier) = (Some((line, role)), self.mentioned);
-        }
-        self.clues.take(line, text);
-    }
-
-    /// A line such as `Mode/Unit-->,Irradiance[µWatt/cm²]`.
-    fn take_mode(&mut self, line: usize, text: &str) {
+        // A line such as `Mode/Unit-->,Irradiance[µWatt/cm²]`.
         if let Some((_, value)) = text.split_once("Unit-->") {
             let value = value.trim_start_matches([',', ';', '\t', ' ']);
             self.take_value_unit(line, value);
             self.unit = unit_text::unit(value).or(self.unit.take());
         }
+        if let Some(role) = header_terms::role_in_prose(text) {
+            (self.mentioned, self.earlier) = (Some((line, role)), self.mentioned);
+        }
+        self.clues.take(line, text);
     }
 
     /// The names, and units below them, from the lines just above the numbers.
@@ -208,7 +212,9 @@ impl Header {
                     self.units_line = Some(number);
                 }
                 // Rows that are named themselves go on above one of units, or one left empty.
-                if unit_alone && is_keyed(layout, rows.clone()) || cells.len() == 1 && row_key(&cells[0]).is_some() {
+                if unit_alone && keyed(layout, rows.clone()).next().is_some()
+                    || cells.len() == 1 && row_key(&cells[0]).is_some()
+                {
                     continue;
                 }
                 self.take_joined(number, line);
@@ -216,7 +222,8 @@ impl Header {
             }
             let mut number = number;
             if row_key(&cells[0]).is_some_and(|key| key != RowKey::Name)
-                && let Some(named) = name_row(layout, rows.clone())
+                && let Some(named) = keyed(layout, rows.clone())
+                    .find(|(_, cells)| cells.len() > 1 && row_key(&cells[0]) == Some(RowKey::Name))
             {
                 (number, cells) = named;
             }
@@ -258,10 +265,7 @@ impl Header {
             if let Some(values) = header_terms::values(line).filter(|values| *values != Values::Plain) {
                 self.values = Some((number, values));
             }
-            // Lights have other units: `radiance paint (%)` is a sample.
-            let sample = self.values.is_some_and(|(_, values)| values == Values::Percent);
-            let role = header_terms::role(line).filter(|role| !sample || *role != Role::Illuminant);
-            self.role = role.map(|role| (number, role)).or(self.role);
+            self.take_role(number, line);
             self.quantity = header_terms::quantity(line).map(|quantity| (number, quantity)).or(self.quantity);
         }
     }
@@ -291,20 +295,13 @@ fn row_key(cell: &str) -> Option<RowKey> {
     }
 }
 
-fn is_keyed<'a>(layout: &Layout, mut rows: impl Iterator<Item = &'a (usize, &'a str)>) -> bool {
-    let cells = rows.next().map(|(_, line)| split(layout.dialect(), line));
-    cells.is_some_and(|cells| cells.first().is_some_and(|cell| row_key(cell).is_some()))
-}
-
-fn name_row<'a>(layout: &Layout, rows: impl Iterator<Item = &'a (usize, &'a str)>) -> Option<(usize, Vec<String>)> {
+/// Rows that are named themselves.
+fn keyed<'a>(
+    layout: &Layout,
+    rows: impl Iterator<Item = &'a (usize, &'a str)>,
+) -> impl Iterator<Item = (usize, Vec<String>)> {
     let rows = rows.map(|(number, line)| (*number, split(layout.dialect(), line)));
-    let mut keyed = rows.take_while(|(_, cells)| cells.first().is_some_and(|cell| row_key(cell).is_some()));
-    keyed.find(|(_, cells)| cells.len() > 1 && row_key(&cells[0]) == Some(RowKey::Name))
-}
-
-/// Returns whether a comment with such a key tells what the values are, if it gives a quantity and a unit.
-fn says_values(key: &str) -> bool {
-    is_one(key, clues::MEASURED) || is_one(key, "data|data type|value|values|y|signal|spectrum|spectra|column|columns")
+    rows.take_while(|(_, cells)| cells.first().is_some_and(|cell| row_key(cell).is_some()))
 }
 
 /// A line that is a title, without separators that fill it up.

@@ -20,11 +20,6 @@ pub(super) fn says_percent(text: &str) -> bool {
     percent_sign(&text).is_some() || upper_end(&text) == Some(100) || has_word(&text, "percent|pct|percentage")
 }
 
-pub(super) fn says_fraction(text: &str) -> bool {
-    let text = lower(text);
-    upper_end(&text) == Some(1) || has_word(&text, "fraction|0-1|1")
-}
-
 /// The upper end of the range of values that a header gives from 0: `(0-100)`, `[0, 1]`, `(range 0 to 100)`. Only what stands in
 /// brackets is one: `soil 0-100 cm` is a name.
 fn upper_end(lower: &str) -> Option<u32> {
@@ -149,7 +144,7 @@ pub(super) fn values(text: &str) -> Option<Values> {
         Some(Values::Decibels)
     } else if says_percent(text) {
         Some(Values::Percent)
-    } else if says_fraction(text) {
+    } else if upper_end(&short) == Some(1) || has_word(&short, "fraction|0-1|1") {
         Some(Values::Plain)
     } else {
         None

@@ -36,7 +36,7 @@ pub(super) fn recognize(text: &str, grid: &mut Grid) -> Option<Decision> {
 }
 
 fn decision(program: &str, line: usize) -> Decision {
-    Decision::new("Program", &Decided::certain(format!("a file of {program}"), format!("Line {line} shows it")))
+    Decision::certain("Program", format!("a file of {program}"), format!("Line {line} shows it"))
 }
 
 /// Takes the last of the three columns of a Spectra Vista file, the target over the reference in percent; `units=` is of the others.

@@ -81,7 +81,7 @@ pub use decision::{
     Quantity, Reader, Role, Values, WavelengthUnit,
 };
 pub use error::{MAX_BYTES, MAX_CURVES, MAX_SAMPLES, NearMiss, ReadError};
-pub use options::{ReadOptions, Switch};
+pub use options::ReadOptions;
 pub use preview::{LONGEST_LINE, LeftOut, Mark, Marker, Preview, Shown, What};
 pub use read::{read, read_marked, read_watched};
 pub use report::{Curve, DroppedRow, ReadReport, SpectralFile, Steps};

@@ -1,6 +1,7 @@
 //! Numbers that are no curve: temperatures, times, counts of rows, other scales of the same samples, the counts that some
 //! instruments write beside the curve they made of them, and numbers that stand for missing values (−999, 9999, −1.23e34).
 
+use crate::decimal::extent;
 use crate::decision::{Decided, Decision};
 use crate::grid::{Grid, RawCurve, retain};
 use crate::options::ReadOptions;
@@ -142,27 +143,11 @@ fn is_raw_name(name: &str) -> bool {
 }
 
 /// Numbers that programs write for missing values, as sizes; each with either sign. (−9999 is one wherever it stands.)
-const SIZES: [f64; 19] = [
-    99.0,
-    99.9,
-    99.99,
-    999.0,
-    999.25,
-    999.9,
-    999.99,
-    8_888.0,
-    9_999.0,
-    9_999.9,
-    9_999.99,
-    99_999.0,
-    999_999.0,
-    9_999_999.0,
-    99_999_999.0,
-    32_767.0,
-    32_768.0,
-    65_535.0,
-    2_147_483_648.0,
+const SIZES: [f64; 16] = [
+    99.0, 99.9, 99.99, 999.0, 999.25, 999.9, 999.99, 8_888.0, 9_999.0, 9_999.9, 9_999.99, 99_999.0, 999_999.0,
+    32_767.0, 32_768.0, 65_535.0,
 ];
+const LARGE_SIZES: [f64; 3] = [9_999_999.0, 99_999_999.0, 2_147_483_648.0];
 
 /// Sizes far beyond what is measured: of USGS (1.23e34), netCDF (9.97e36), instruments with SCPI (9.91e37), and the largest number
 /// in single precision, each to the digits that are written; and its half.
@@ -184,40 +169,19 @@ const TIMES: [f64; 2] = [10.0, 5.0];
 fn is_candidate(value: f64) -> bool {
     let size = value.abs();
     // A reading of 99 is no rarity above zero.
-    is_huge(size) || SIZES.contains(&size) && (value < 0.0 || size >= 999.0)
+    is_huge(size) || LARGE_SIZES.contains(&size) || SIZES.contains(&size) && (value < 0.0 || size >= 999.0)
 }
 
-/// The values of a curve that stand for nothing else than themselves.
-struct Others {
-    low: f64,
-    high: f64,
-    count: usize,
-}
-
-impl Others {
-    fn of(curve: &RawCurve) -> Self {
-        let others = curve.values.iter().filter(|value| !value.is_nan() && !is_candidate(**value));
-        let none = Self { low: f64::INFINITY, high: f64::NEG_INFINITY, count: 0 };
-        others.fold(none, |all, &value| Self {
-            low: all.low.min(value),
-            high: all.high.max(value),
-            count: all.count + 1,
-        })
-    }
-
-    /// Returns whether a number stands for a missing value beside these.
-    fn leave_out(&self, value: f64) -> bool {
-        if !is_candidate(value) {
-            return false;
-        }
-        let largest = self.low.abs().max(self.high.abs());
-        match () {
-            () if self.count == 0 => value < 0.0,
+/// Returns whether a number stands for a missing value beside the others, which run from `low` to `high` if there are any.
+fn stands_for_none(value: f64, (low, high): (f64, f64)) -> bool {
+    let largest = low.abs().max(high.abs());
+    is_candidate(value)
+        && match () {
+            () if low > high => value < 0.0,
             () if is_huge(value.abs()) => largest <= COMMON,
-            () if value < 0.0 => self.low >= value / TIMES[0],
+            () if value < 0.0 => low >= value / TIMES[0],
             () => value >= TIMES[1] * largest,
         }
-    }
 }
 
 pub(super) fn take_sentinels(grid: &mut Grid, log: &mut Log<'_>) {
@@ -228,10 +192,10 @@ pub(super) fn take_sentinels(grid: &mut Grid, log: &mut Log<'_>) {
         if !curve.values.iter().any(|value| is_candidate(*value)) {
             continue;
         }
-        let others = Others::of(curve);
-        let Some(number) = curve.values.iter().copied().find(|value| others.leave_out(*value)) else { continue };
+        let others = extent(curve.values.iter().copied().filter(|value| !value.is_nan() && !is_candidate(*value)));
+        let Some(&number) = curve.values.iter().find(|value| stands_for_none(**value, others)) else { continue };
         first.get_or_insert_with(|| Sentinel { number, curve: curve.description() });
-        for value in curve.values.iter_mut().filter(|value| others.leave_out(**value)) {
+        for value in curve.values.iter_mut().filter(|value| stands_for_none(**value, others)) {
             *value = f64::NAN;
             cells += 1;
         }

@@ -35,41 +35,17 @@ pub struct ReadOptions {
 }
 
 impl ReadOptions {
-    /// Chosen settings that can cause an error, each with the options without it.
-    pub(super) fn switches(&self) -> impl Iterator<Item = (Switch, Self)> {
+    /// Chosen settings that can cause an error, each in words, with the options without it.
+    pub(super) fn switches(&self) -> impl Iterator<Item = (String, Self)> {
         macro_rules! each {
-            ($($field:ident: $switch:ident),+) => {
-                [$(self.$field.map(|chosen| (Switch::$switch(chosen), Self { $field: None, ..self.clone() }))),+]
+            ($($field:ident: $words:literal),+) => {
+                [$(self.$field.map(|chosen| (format!($words, chosen), Self { $field: None, ..self.clone() }))),+]
             };
         }
         let found = each!(
-            delimiter: Delimiter, decimal_mark: DecimalMark, orientation: Orientation, wavelength_unit: WavelengthUnit,
-            wavelength_column: WavelengthColumn, values: Values, part: Part, role: Role, reader: Reader
+            delimiter: "{}", decimal_mark: "{}", orientation: "{}", wavelength_unit: "{}",
+            wavelength_column: "wavelengths in column {}", values: "values are {}", part: "part {}", role: "{}", reader: "read as {}"
         );
         found.into_iter().flatten()
     }
-}
-
-/// A setting that was chosen, not left to the content, and causes an error.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, thiserror::Error)]
-#[allow(missing_docs, reason = "each variant is named as the option it holds")]
-pub enum Switch {
-    #[error("{0}")]
-    Delimiter(Delimiter),
-    #[error("{0}")]
-    DecimalMark(DecimalMark),
-    #[error("{0}")]
-    Orientation(Orientation),
-    #[error("{0}")]
-    WavelengthUnit(WavelengthUnit),
-    #[error("wavelengths in column {0}")]
-    WavelengthColumn(usize),
-    #[error("values are {0}")]
-    Values(Values),
-    #[error("part {0}")]
-    Part(usize),
-    #[error("{0}")]
-    Role(Role),
-    #[error("read as {0}")]
-    Reader(Reader),
 }

@@ -110,9 +110,9 @@ impl Preview {
         table: &SpectralFile,
         marker: &Marker,
     ) -> Vec<Mark> {
-        self.line(number)
-            .map(|line| marker.marks((number, self.start(number).unwrap_or(0)), line, &window, table))
-            .unwrap_or_default()
+        let start = number.checked_sub(1).and_then(|index| self.starts.get(index));
+        let marks = self.line(number).zip(start).map(|(line, start)| (line, *start as usize));
+        marks.map_or_else(Vec::new, |(line, start)| marker.marks((number, start), line, &window, table))
     }
 
     /// Place where reading failed: the line, and the bytes in it, which are the whole line where nothing closer is known.
@@ -121,9 +121,5 @@ impl Preview {
     pub fn error_range(&self, error: &ReadError) -> Option<(usize, Range<usize>)> {
         let number = error.line()?;
         Some((number, tables::of_error(self.line(number)?, error)))
-    }
-
-    fn start(&self, number: usize) -> Option<usize> {
-        self.starts.get(number.checked_sub(1)?).map(|start| *start as usize)
     }
 }

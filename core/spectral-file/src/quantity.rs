@@ -110,15 +110,6 @@ impl Conversion {
     }
 }
 
-/// The quantity of a unit of light, or of a response to photons.
-fn of_light_unit(unit: &str) -> Option<Quantity> {
-    if is_per_photon(unit) {
-        return Some(Quantity::QuantumEfficiency);
-    }
-    let unit = units::parse(unit)?;
-    Some(of_light(unit.area.is_some(), unit.steradian))
-}
-
 /// The quantity of a light that is measured on an area, into a solid angle, or neither.
 fn of_light(area: bool, steradian: bool) -> Quantity {
     match (area, steradian) {
@@ -312,17 +303,13 @@ pub(super) fn per_photon(grid: &Grid, role: Role, quantity: &Decided<Quantity>) 
     if role != Role::Camera {
         return None;
     }
-    let said = grid.header.comment("response").map(|response| response.trim().to_lowercase());
-    match said.as_deref() {
-        Some("per photon" | "per photon (stated)") => {
-            return Some(Decided::certain(true, "The comment “response” says so"));
+    let said = grid.header.comment("response").map(|response| response.trim().to_lowercase()).unwrap_or_default();
+    for (words, per_photon) in [("per photon", true), ("per energy", false)] {
+        match said.strip_prefix(words) {
+            Some("" | " (stated)") => return Some(Decided::certain(per_photon, "The comment “response” says so")),
+            Some(" (inferred)") => return Some(Decided::guess(per_photon, "The comment “response” says: inferred")),
+            _ => {}
         }
-        Some("per energy" | "per energy (stated)") => {
-            return Some(Decided::certain(false, "The comment “response” says so"));
-        }
-        Some("per photon (inferred)") => return Some(Decided::guess(true, "The comment “response” says: inferred")),
-        Some("per energy (inferred)") => return Some(Decided::guess(false, "The comment “response” says: inferred")),
-        _ => {}
     }
     if let Some(said) = response(grid) {
         return Some(said);
@@ -339,8 +326,11 @@ pub(super) fn of_unit(unit: &str) -> Option<Quantity> {
     if unit.len() > LONGEST {
         return None;
     }
-    if let Some(quantity) = of_light_unit(unit) {
-        return Some(quantity);
+    if is_per_photon(unit) {
+        return Some(Quantity::QuantumEfficiency);
+    }
+    if let Some(unit) = units::parse(unit) {
+        return Some(of_light(unit.area.is_some(), unit.steradian));
     }
     let lower: String = unit.to_lowercase().chars().filter(|c| !matches!(c, ' ' | '^' | '·' | '*' | '-')).collect();
     let lower = lower.replace("watt", "w").replace('²', "2");

@@ -1,7 +1,7 @@
 //! Reading of a file, from its bytes to its curves.
 
 use crate::beside::{self, Source};
-use crate::decision::{Certainty, Decided, Decision, Encoding, WavelengthUnit};
+use crate::decision::{Certainty, Decision, Encoding, WavelengthUnit};
 use crate::error::{MAX_DROPPED, ReadError};
 use crate::formats::spectra::Found;
 use crate::grid::Grid;
@@ -16,7 +16,7 @@ use crate::{formats, no_curve, quantity, scale, text, wavelengths};
 const LONGEST: usize = 1 << 20;
 
 /// The error, with the chosen setting without which there would be none, if there is one.
-pub(super) fn blame(source: Source<'_>, options: &ReadOptions, error: ReadError, watch: Watch<'_>) -> ReadError {
+fn blame(source: Source<'_>, options: &ReadOptions, error: ReadError, watch: Watch<'_>) -> ReadError {
     let own = matches!(
         error,
         ReadError::Stopped
@@ -31,7 +31,7 @@ pub(super) fn blame(source: Source<'_>, options: &ReadOptions, error: ReadError,
         return error;
     }
     for (switch, without) in options.switches() {
-        match read_once(source, &without, watch) {
+        match read_text(source, &without, watch, false) {
             Ok(_) => return ReadError::AsChosen { switch, error: Box::new(error) },
             Err(ReadError::Stopped) => return ReadError::Stopped,
             Err(_) => {}
@@ -62,7 +62,8 @@ pub fn read_watched<'a>(
     watch: Watch<'_>,
 ) -> Result<SpectralFile, ReadError> {
     let source = source.into();
-    read_once(source, options, watch).map_err(|error| blame(source, options, error, watch))
+    let found = read_text(source, options, watch, false).map(|(file, _)| file);
+    found.map_err(|error| blame(source, options, error, watch))
 }
 
 /// [`read_watched`], with a record of where in the text each sample stands, for a [`crate::Preview`].
@@ -82,11 +83,7 @@ pub fn read_marked<'a>(
     found.map_err(|error| blame(source, options, error, watch))
 }
 
-/// [`read_watched`], without a second look at what an error is due to.
-fn read_once(source: Source<'_>, options: &ReadOptions, watch: Watch<'_>) -> Result<SpectralFile, ReadError> {
-    read_text(source, options, watch, false).map(|(file, _)| file)
-}
-
+/// Reads without a second look at what an error is due to.
 fn read_text(
     source: Source<'_>,
     options: &ReadOptions,
@@ -152,7 +149,7 @@ fn finish(
         decimal_mark.certainty = Certainty::Certain;
     }
     warnings.look(usize::MAX)?;
-    let medium = |(line, medium)| Decision::new("Medium", &Decided::certain(medium, format!("Line {line} says so")));
+    let medium = |(line, medium)| Decision::certain("Medium", medium, format!("Line {line} says so"));
     notes.extend(grid.header.medium.map(medium));
     let (rows, wavelength_column) = (grid.rows, grid.wavelength_column);
     let (header, mut dropped_rows) = (std::mem::take(&mut grid.header), std::mem::take(&mut grid.dropped));

@@ -18,6 +18,9 @@ const SAMPLE_ROWS: usize = 8;
 const SAMPLE_BYTES: usize = 1 << 20;
 const SAMPLE_ROWS_LONG: usize = 3;
 
+/// Marks that all may group thousands, and are too many for a chance.
+const FEWEST_GROUPED: usize = 4;
+
 /// Fewer rows of numbers alone are what is left of a table with texts in it, if one is there.
 const FEW_ROWS: usize = SAMPLE_ROWS;
 
@@ -149,10 +152,6 @@ impl<'a> Sniffer<'a> {
         Ok(trials)
     }
 
-    fn content(self) -> impl Iterator<Item = (usize, &'a str)> {
-        Lines::of(self.section).filter(|(_, line)| !line.trim_ascii().is_empty() && comment(line).is_none())
-    }
-
     /// The trial that understands most rows, then the one in best order, then the first.
     fn choose<'t>(&self, trials: &'t [Trial]) -> Option<&'t Trial> {
         let mut best: Option<&Trial> = None;
@@ -166,7 +165,7 @@ impl<'a> Sniffer<'a> {
                 (Delimiter::CommaSpace, DecimalMark::Comma) => trial.marks == 0 && self.options.delimiter.is_none(),
                 // Of two marks one must be seen to stand before fractions.
                 (Delimiter::Semicolon | Delimiter::Tab | Delimiter::Spaces, _) => {
-                    trial.dialect.thousands && self.options.decimal_mark.is_none() && !trial.has_fractions()
+                    trial.dialect.thousands && self.options.decimal_mark.is_none() && trial.fractions == 0
                 }
                 _ => false,
             };
@@ -192,21 +191,11 @@ impl<'a> Sniffer<'a> {
             let groups = bands::groups(dialect, header);
             across.groups = if groups.is_empty() { across.groups } else { groups };
         }
-        Ok(Layout {
-            delimiter: Decided::or_chosen(self.options.delimiter, || {
-                Decided::certain(trial.dialect.delimiter, evidence)
-            }),
-            decimal_mark,
-            thousands,
-            orientation,
-            first_line: across.first_row,
-            texts: 0,
-            width: across.group().end(),
-            across: Some(across),
-            wavelength_column: None,
-            every_column: false,
-            warnings: warning.into_iter().collect(),
-        })
+        let certain = || Decided::certain(trial.dialect.delimiter, evidence);
+        let delimiter = Decided::or_chosen(self.options.delimiter, certain);
+        let layout = Layout::new(delimiter, decimal_mark, orientation, across.first_row);
+        let (width, warnings) = (across.group().end(), warning.into_iter().collect());
+        Ok(Layout { thousands, width, warnings, across: Some(across), ..layout })
     }
 
     /// The decimal mark, whether the other one groups thousands, and what to say of that.
@@ -222,7 +211,7 @@ impl<'a> Sniffer<'a> {
         }
         let delimiter = trial.dialect.delimiter;
         let seen = trial.dialect.thousands && delimiter != Delimiter::Comma;
-        if trial.has_fractions() && (seen || beside_fractions(self.section, delimiter, mark.value, from)) {
+        if trial.fractions > 0 && (seen || beside_fractions(self.section, delimiter, mark.value, from)) {
             return (mark, true, None);
         }
         let sign = match mark.value {
@@ -230,7 +219,7 @@ impl<'a> Sniffer<'a> {
             DecimalMark::Comma => ',',
             DecimalMark::Point => '.',
         };
-        let possible = trial.marks == 0 || trial.only_grouped();
+        let possible = trial.marks == 0 || trial.may_be_thousands(1);
         if trial.dialect.thousands || (possible && is_grouped(self.section, (delimiter, sign), from, orientation)) {
             let (mark, fractions) = match sign {
                 ',' => (DecimalMark::Point, DecimalMark::Comma),
@@ -239,7 +228,7 @@ impl<'a> Sniffer<'a> {
             let why = format!("Numbers such as 1{sign}000 stand next to whole ones of three digits");
             return (Decided::guess(mark, why), true, Some(Warning::GroupedThousands(fractions)));
         }
-        (mark, false, trial.may_be_thousands().then_some(Warning::MaybeThousands))
+        (mark, false, trial.may_be_thousands(FEWEST_GROUPED).then_some(Warning::MaybeThousands))
     }
 
     fn lay_down(self, trial: &Trial, orientation: Decided<Orientation>) -> Result<Layout, ReadError> {
@@ -262,18 +251,16 @@ impl<'a> Sniffer<'a> {
         }
         warnings.extend(warning);
         let decide = || if commas_only { Decided::guess(delimiter, why) } else { Decided::certain(delimiter, why) };
+        let delimiter = Decided::or_chosen(self.options.delimiter, decide);
+        let first_line = self.first_line(trial, &mut warnings);
         Ok(Layout {
-            delimiter: Decided::or_chosen(self.options.delimiter, decide),
-            decimal_mark,
             thousands,
-            orientation,
-            first_line: self.first_line(trial, &mut warnings),
             texts: run.texts,
             width: run.filled,
-            across: None,
             wavelength_column: self.options.wavelength_column,
             every_column: self.options.raw == Some(true) && self.options.wavelength_column.is_some(),
             warnings,
+            ..Layout::new(delimiter, decimal_mark, orientation, first_line)
         })
     }
 
@@ -286,7 +273,11 @@ impl<'a> Sniffer<'a> {
                     DecimalMark::Point => "Fractions stand after points",
                     DecimalMark::Comma => "Fractions stand after commas",
                 };
-                return if trial.may_be_thousands() { Decided::guess(mark, why) } else { Decided::certain(mark, why) };
+                return if trial.may_be_thousands(FEWEST_GROUPED) {
+                    Decided::guess(mark, why)
+                } else {
+                    Decided::certain(mark, why)
+                };
             }
             let later = Lines::of(self.section)
                 .skip_while(|(number, _)| *number < from)
@@ -310,7 +301,8 @@ impl<'a> Sniffer<'a> {
         let step = (run.last - run.first) / run.rows.max(2).saturating_sub(1) as f64;
         let mut fragment: Option<(usize, usize)> = None; // first line, rows
         let mut stray = None;
-        for (number, line) in self.content().take_while(|(number, _)| *number < run.line) {
+        let is_content = |(_, line): &(usize, &str)| !line.trim_ascii().is_empty() && comment(line).is_none();
+        for (number, line) in Lines::of(self.section).filter(is_content).take_while(|(number, _)| *number < run.line) {
             let shape = Shape::of(trial.dialect, line);
             let steps_away = shape.first.map_or(f64::NAN, |first| (run.first - first) / step);
             let near = steps_away > 0.0 && steps_away <= 4.0 * (run.line - number) as f64;

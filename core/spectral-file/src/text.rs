@@ -39,16 +39,11 @@ fn decode_utf8(bytes: &[u8]) -> Result<(Cow<'_, str>, Encoding), ReadError> {
 
 #[cfg(feature = "encodings")]
 fn decode_any(bytes: &[u8]) -> (Cow<'_, str>, Encoding) {
-    if let Some(rest) = bytes.strip_prefix(b"\xFF\xFE") {
-        return (UTF_16LE.decode_without_bom_handling(rest).0, Encoding::Utf16Le);
-    }
-    if let Some(rest) = bytes.strip_prefix(b"\xFE\xFF") {
-        return (UTF_16BE.decode_without_bom_handling(rest).0, Encoding::Utf16Be);
-    }
-    match bare_utf16(bytes) {
-        Some(Encoding::Utf16Le) => return (UTF_16LE.decode_without_bom_handling(bytes).0, Encoding::Utf16Le),
-        Some(_) => return (UTF_16BE.decode_without_bom_handling(bytes).0, Encoding::Utf16Be),
-        None => {}
+    let marked = [(b"\xFF\xFE", Encoding::Utf16Le), (b"\xFE\xFF", Encoding::Utf16Be)].into_iter();
+    let marked = marked.filter_map(|(mark, encoding)| Some((bytes.strip_prefix(mark)?, encoding))).next();
+    if let Some((rest, encoding)) = marked.or_else(|| Some((bytes, bare_utf16(bytes)?))) {
+        let utf16 = if encoding == Encoding::Utf16Le { UTF_16LE } else { UTF_16BE };
+        return (utf16.decode_without_bom_handling(rest).0, encoding);
     }
     let rest = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
     match std::str::from_utf8(rest) {

@@ -143,7 +143,6 @@ pub(super) fn tidy(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ").trim_end_matches([',', ':', ';']).to_owned()
 }
 
-/// Returns whether a text is a unit of light, or of a response to photons.
 pub(super) fn is_light_unit(text: &str) -> bool {
     units::parse(text).is_some() || is_per_photon(text) || is_per_energy(text) || is_photons(text)
 }

@@ -240,7 +240,6 @@ fn grouped(fractions: DecimalMark) -> &'static str {
     if fractions == DecimalMark::Comma { "1,000" } else { "1.000" }
 }
 
-/// Words about a number, or none.
 fn of<T>(number: Option<T>, words: impl FnOnce(T) -> String) -> String {
     number.map_or_else(String::new, words)
 }

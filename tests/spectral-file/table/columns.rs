@@ -1,7 +1,7 @@
 //! Columns of text, columns before the wavelengths, lines that begin with `#`, names that come again, thousands.
 
 use spectral_file::{
-    Certainty, DecimalMark, Delimiter, NearMiss, ReadError, ReadOptions, Switch, Warning, Watch, WavelengthUnit, read,
+    Certainty, DecimalMark, Delimiter, NearMiss, ReadError, ReadOptions, Warning, Watch, WavelengthUnit, read,
     read_watched,
 };
 
@@ -200,7 +200,7 @@ fn what_is_nearly_a_row_is_cited() {
 fn an_error_that_a_choice_caused_says_so() {
     let tab = ReadOptions { delimiter: Some(Delimiter::Tab), ..ReadOptions::default() };
     let found = read(b"400;0.1\n410;0.2\n", &tab).unwrap_err();
-    assert!(matches!(found, ReadError::AsChosen { switch: Switch::Delimiter(Delimiter::Tab), .. }), "{found:?}");
+    assert!(matches!(&found, ReadError::AsChosen { switch, .. } if switch == "tab separated"), "{found:?}");
     assert!(found.to_string().ends_with("choose other separators (as chosen: tab separated)"), "{found}");
     assert_eq!(found.line(), Some(1));
     let far = ReadOptions { wavelength_unit: Some(WavelengthUnit::Micrometer), ..ReadOptions::default() };

@@ -27,13 +27,10 @@ const BANDS: usize = 33;
 const CHANNELS: [&str; 3] = ["R", "G", "B"];
 
 fn recognize(text: &str) -> bool {
+    const LONGEST_NAME: usize = 100;
     let mut lines = Lines::new(text).map(|(_, line)| line).filter(|line| !line.trim().is_empty());
+    let is_name = |line: &str| line.len() <= LONGEST_NAME && line.contains(char::is_alphabetic);
     lines.next().is_some_and(is_name) && (0..CHANNELS.len()).all(|_| lines.next().and_then(values).is_some())
-}
-
-fn is_name(line: &str) -> bool {
-    const LONGEST: usize = 100;
-    line.len() <= LONGEST && line.contains(char::is_alphabetic)
 }
 
 fn values(line: &str) -> Option<Vec<f64>> {

@@ -46,7 +46,7 @@ fn read(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Result<Found, R
             Place::Keywords | Place::Data => tokens::of(line).collect(),
         };
         for token in tokens {
-            log.at(token.written().as_ptr() as usize - text.as_ptr() as usize)?;
+            log.at(token.written.as_ptr() as usize - text.as_ptr() as usize)?;
             place = match (place, token.bare().unwrap_or_default()) {
                 (_, "BEGIN_DATA_FORMAT") => {
                     file.begin_format(number);
@@ -164,7 +164,7 @@ impl File {
     fn field(&mut self, line: usize, token: &Token, log: &mut Log<'_>) -> Result<Place, ReadError> {
         self.fields.push(token.text().into_owned());
         if let Some(places) = log.places.as_mut().filter(|_| !self.done) {
-            let digits = digits(token.written());
+            let digits = digits(token.written);
             let place = (!digits.is_empty()).then(|| places.add(PlaceKind::Wavelength, digits));
             self.field_places.push(place.unwrap_or_default());
         }
@@ -218,11 +218,11 @@ impl File {
         }
         if bands.is_value(self.at) {
             self.values.push(number(token, line, self.at)?);
-            self.places.extend(log.places.as_mut().map(|places| places.add(PlaceKind::Value, token.written())));
-        } else if bands.is_wavelength(self.at) {
+            self.places.extend(log.places.as_mut().map(|places| places.add(PlaceKind::Value, token.written)));
+        } else if bands.kinds.get(self.at) == Some(&Kind::Wavelength) {
             self.row_wavelengths.push(number(token, line, self.at)?);
             if let Some(places) = &mut log.places {
-                places.add(PlaceKind::Wavelength, token.written());
+                places.add(PlaceKind::Wavelength, token.written);
             }
         }
         self.at += 1;
@@ -271,7 +271,10 @@ impl File {
         if let Some((line, norm)) = self.scale {
             scale = norm;
             header.values = Some((line, Values::Plain));
-            header.mentioned = by_norm(&header, line, norm).or(header.mentioned);
+            // Older versions of Argyll call every file “Spectral power/reflectance information”: other scales are of lights.
+            if header.comment("SPECTRAL_NORM").is_some() && norm != 1.0 && norm != 100.0 {
+                header.mentioned = Some((line, Role::Illuminant));
+            }
             let divided = Decided::certain(format!("divided by {norm}"), format!("Line {line} gives the scale"));
             notes.push(Decision::new("Scale", &divided));
         }
@@ -286,7 +289,10 @@ impl File {
             RawCurve { name, named, values, origin: i, unit: header.unit.clone(), ..RawCurve::default() }
         });
         let curves: Vec<RawCurve> = curves.collect();
-        warn_gaps(&curves, self.data_line, log);
+        let cells = curves.iter().flat_map(|curve| &curve.values).filter(|value| value.is_nan()).count();
+        if cells > 0 {
+            log.push(Warning::Gaps { cells, lines: [self.data_line].into_iter().collect(), sentinel: None });
+        }
         let lines = vec![self.format_line];
         let unit = Some(Decided::certain(WavelengthUnit::Nanometer, "CGATS prescribes it"));
         let part = Some(Decided::guess(self.wanted, format!("{} tables have spectral fields", parts.len())));
@@ -320,11 +326,6 @@ impl File {
     }
 }
 
-/// Older versions of Argyll call every file “Spectral power/reflectance information”: a scale of other than 1 or 100 is of lights.
-fn by_norm(header: &Header, line: usize, norm: f64) -> Option<(usize, Role)> {
-    header.comment("SPECTRAL_NORM").filter(|_| norm != 1.0 && norm != 100.0).map(|_| (line, Role::Illuminant))
-}
-
 fn measured(kind: &str) -> Option<Role> {
     match kind.split('_').next() {
         Some("EMISSION" | "AMBIENT") => Some(Role::Illuminant),
@@ -347,13 +348,6 @@ fn warn_announced(announced: &[(&'static str, usize, f64)], wavelengths: &[f64],
         if let Some(found) = found.filter(|found| (found - announced).abs() > slack) {
             log.push(Warning::HeaderDiffers { line, label, announced, found });
         }
-    }
-}
-
-fn warn_gaps(curves: &[RawCurve], line: usize, log: &mut Log<'_>) {
-    let cells = curves.iter().flat_map(|curve| &curve.values).filter(|value| value.is_nan()).count();
-    if cells > 0 {
-        log.push(Warning::Gaps { cells, lines: [line].into_iter().collect(), sentinel: None });
     }
 }
 
@@ -433,10 +427,6 @@ impl Bands {
         self.kinds.get(field) == Some(&Kind::Value)
     }
 
-    fn is_wavelength(&self, field: usize) -> bool {
-        self.kinds.get(field) == Some(&Kind::Wavelength)
-    }
-
     /// Processes the wavelengths in a row; all rows must have the same.
     fn agrees(&mut self, row: Vec<f64>) -> bool {
         if !self.in_rows {
@@ -454,11 +444,10 @@ impl Bands {
             (Some(first), Some(last)) => format!("{} from {first} to {last} nm", self.wavelengths.len()),
             _ => "none".to_owned(),
         };
-        Decision::new("Bands", &Decided::certain(value, self.why.clone()))
+        Decision::certain("Bands", value, self.why.clone())
     }
 }
 
-/// The digits that the name of a spectral field ends with.
 fn digits(field: &str) -> &str {
     let number = |c: char| c.is_ascii_digit() || c == '.';
     &field[field.len() - field.chars().rev().take_while(|c| number(*c)).count()..]

@@ -3,10 +3,10 @@
 use std::borrow::Cow;
 
 use crate::decimal::clean;
-use crate::decision::{Decided, DecimalMark, Delimiter, Reader, WavelengthUnit};
+use crate::decision::{Decided, Reader};
 use crate::error::{ReadError, check_curves, check_samples};
 use crate::formats::Format;
-use crate::formats::spectra::{self, Found, Sample, Spectrum};
+use crate::formats::spectra::{Found, Sample, Spectrum};
 use crate::formats::xml::{self, Element, Step, Walk};
 use crate::header::Header;
 use crate::options::ReadOptions;
@@ -32,13 +32,8 @@ fn read(text: &str, _: &ReadOptions, log: &mut Log<'_>) -> Result<Found, ReadErr
     }
     content.place_lists(log)?;
     let Content { header, spectra: all, .. } = content;
-    let first_line = all.iter().find_map(|spectrum| spectrum.samples.first()).map(|sample| sample.line);
-    let first_line = first_line.ok_or(ReadError::NoNumbers)?;
-    let mut grid = spectra::grid(all, header, log)?;
-    grid.unit = Some(Decided::certain(WavelengthUnit::Nanometer, "CxF prescribes it"));
-    let dialect = (Delimiter::Elements, DecimalMark::Point);
     let reader = Decided::certain(Reader::CXF, "The root element is “CxF”");
-    Ok(Found::fixed(grid, reader, (dialect, first_line, "CxF prescribes it"), Vec::new()))
+    xml::found(all, header, (reader, "CxF prescribes it"), log)
 }
 
 fn is_spectrum(name: &str) -> bool {

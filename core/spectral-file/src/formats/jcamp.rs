@@ -51,7 +51,7 @@ fn read(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Result<Found, R
     }
     let dialect =
         if comma { (Delimiter::CommaSpace, DecimalMark::Comma) } else { (Delimiter::Comma, DecimalMark::Point) };
-    notes.insert(0, Decision::new("Form", &Decided::certain(form.0.description(), &*form.1)));
+    notes.insert(0, Decision::certain("Form", form.0.description(), &*form.1));
     let reader = Decided::certain(Reader::JCAMP, "The file begins with ## labels");
     Ok(Found::fixed(grid, reader, (dialect, first_line, &form.1), notes))
 }
@@ -114,7 +114,7 @@ fn blocks(text: &str, log: &mut Log<'_>) -> Result<Vec<Block>, ReadError> {
         if let Some((key, value)) = line.trim_start().strip_prefix("##").and_then(|record| record.split_once('=')) {
             let key = label(key);
             if key == "TITLE" || all.is_empty() {
-                close(&mut all)?;
+                all.last_mut().map_or(Ok(()), Block::close)?;
                 check_curves(all.len() + 1, number)?;
                 all.push(Block::default());
             }
@@ -132,10 +132,6 @@ fn blocks(text: &str, log: &mut Log<'_>) -> Result<Vec<Block>, ReadError> {
             }
         }
     }
-    close(&mut all)?;
+    all.last_mut().map_or(Ok(()), Block::close)?;
     Ok(all)
-}
-
-fn close(all: &mut [Block]) -> Result<(), ReadError> {
-    all.last_mut().map_or(Ok(()), Block::close)
 }

@@ -70,7 +70,6 @@ struct Document<'a> {
 }
 
 impl Document<'_> {
-    /// Reads the layout that the members are of.
     fn layout(&self, log: &mut Log<'_>) -> Result<Content, ReadError> {
         let members = &self.members;
         let spectrum = members.get("spectrum");
@@ -130,7 +129,7 @@ impl Document<'_> {
             header.unit = unit_text::unit_cell(&units);
             header.values = header_terms::values(&units).map(|values| (line, values));
             header.quantity = header_terms::quantity(&units).map(|quantity| (line, quantity));
-            notes.push(Decision::new("Unit", &Decided::certain(units, self.says("units"))));
+            notes.push(Decision::certain("Unit", units, self.says("units")));
         }
         let groups = data.members("data")?.ok_or_else(|| aces.lacks_member())?;
         let mut all = Vec::with_capacity(groups.each().len());
@@ -182,7 +181,7 @@ impl Document<'_> {
                 (None, None) => return,
             },
         };
-        notes.push(Decision::new(what, &Decided::certain(title.clone(), self.says(key))));
+        notes.push(Decision::certain(what, title.clone(), self.says(key)));
         header.note(0, "title", &title);
     }
 
@@ -192,7 +191,7 @@ impl Document<'_> {
         let mut notes = vec![note];
         let name = self.members.read::<String>("camera_name")?;
         if let Some(name) = &name {
-            notes.push(Decision::new("Camera", &Decided::certain(name, self.says("camera_name"))));
+            notes.push(Decision::certain("Camera", name, self.says("camera_name")));
         }
         header.note(0, "title", &name.unwrap_or_default());
         self.note_remarks(&mut header, self.comments().iter().map(String::as_str));
@@ -221,14 +220,11 @@ impl Document<'_> {
             for value in &mut values {
                 *value = decimal::divided(*value, scale);
             }
-            notes.push(Decision::new("Scale", &Decided::certain(format!("divided by {scale}"), self.says("scale"))));
+            notes.push(Decision::certain("Scale", format!("divided by {scale}"), self.says("scale")));
         }
         let spectrum = on(&wavelengths, &values, "spectrum")?;
-        header.note(
-            0,
-            "title",
-            self.members.get("name").map_or_else(Vec::new, Value::texts).first().map_or("", String::as_str),
-        );
+        let names = self.members.get("name").map_or_else(Vec::new, Value::texts);
+        header.note(0, "title", names.first().map_or("", String::as_str));
         record_lists(bands, &[list], log);
         let grid = spectra::grid(vec![spectrum], header, log)?;
         Ok((grid, Decided::certain(Reader::DCAMPROF, self.says("spectrum")), notes))
@@ -238,17 +234,14 @@ impl Document<'_> {
     fn wavelengths(&self, bands: &[f64], key: &str) -> Result<(Vec<f64>, Decision), ReadError> {
         let said = self.says(key);
         let (grid, value, why) = match *bands {
-            [first, last, step] if step <= last && step > 0.0 => {
-                let grid = range(bands).ok_or(ReadError::NoWavelengths(1))?;
-                (
-                    grid,
-                    format!("{first} to {last} nm in steps of {step}"),
-                    format!("{said}, and three numbers are a range"),
-                )
-            }
+            [first, last, step] if step <= last && step > 0.0 => (
+                range(bands).ok_or(ReadError::NoWavelengths(1))?,
+                format!("{first} to {last} nm in steps of {step}"),
+                format!("{said}, and three numbers are a range"),
+            ),
             _ => (bands.to_vec(), format!("{} wavelengths", bands.len()), said),
         };
-        Ok((grid, Decision::new("Grid", &Decided::certain(value, why))))
+        Ok((grid, Decision::certain("Grid", value, why)))
     }
 
     /// A measurement of Wasatch ENLIGHTEN: curves by name, wavelengths among them or among the settings of the spectrometer. The
@@ -259,10 +252,8 @@ impl Document<'_> {
             curves.push((name.to_string(), list.numbers(true, log)?));
         }
         let at = curves.iter().position(|(name, _)| name.to_lowercase().starts_with("wavelength"));
-        let wavelengths = match (
-            at,
-            self.members.members("spectrometerSettings")?.and_then(|settings| settings.get("wavelengths")),
-        ) {
+        let settings = self.members.members("spectrometerSettings")?;
+        let wavelengths = match (at, settings.and_then(|settings| settings.get("wavelengths"))) {
             (Some(at), _) => curves.remove(at).1,
             (None, Some(list)) => list.numbers(false, log)?,
             (None, None) => Vec::new(),
@@ -274,15 +265,14 @@ impl Document<'_> {
         if let Some(metadata) = self.members.members("metadata")? {
             metadata.texts().for_each(|(key, value)| header.note(0, key, &value));
         }
-        let program = Decided::certain("a file of Wasatch ENLIGHTEN", self.says("spectrum"));
-        let mut notes = vec![Decision::new("Program", &program)];
+        let mut notes = vec![Decision::certain("Program", "a file of Wasatch ENLIGHTEN", self.says("spectrum"))];
         let label = header.comment("Label").map(str::to_owned);
         header.note(0, "title", label.as_deref().unwrap_or_default());
         let role = self.technique(&mut header);
         let processed = curves.iter().position(|(name, _)| name.eq_ignore_ascii_case("processed"));
         if let Some(processed) = processed.filter(|_| self.options.raw != Some(true)) {
             let left: Vec<String> = curves.iter().map(|(name, _)| format!("“{name}”")).collect();
-            let left: Vec<&str> = left.iter().map(String::as_str).filter(|name| *name != "“processed”").collect();
+            let left: Vec<String> = left.into_iter().filter(|name| name != "“processed”").collect();
             curves = vec![curves.swap_remove(processed)];
             if !left.is_empty() {
                 let why = format!("{} are raw counts", left.join(", "));
@@ -302,7 +292,6 @@ impl Document<'_> {
         Ok((grid, Decided::certain(Reader::ENLIGHTEN, self.says("spectrometerSettings")), notes))
     }
 
-    /// The role by the technique of the measurement.
     fn technique(&self, header: &mut Header) -> Option<Decided<Role>> {
         let technique = header.comment("Technique")?.to_owned();
         let line = self.line("Technique");

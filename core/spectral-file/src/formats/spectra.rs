@@ -37,7 +37,6 @@ pub(crate) struct Sample {
     pub(crate) place: PlaceId,
 }
 
-/// A spectrum as it stands in the file.
 #[derive(Debug, Default)]
 pub(crate) struct Spectrum {
     pub(crate) name: Option<String>,

@@ -56,7 +56,9 @@ fn read(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Result<Found, R
             taken = Some((layout, read));
             break;
         }
-        parts.push(part(&layout, &read.grid));
+        let name = read.grid.header.comment("title").unwrap_or_default().to_owned();
+        let (curves, rows) = (read.grid.curves.len(), read.grid.rows);
+        parts.push(Part { line: layout.first_line, name, curves, rows });
         if parts.len() == wanted {
             taken = Some((layout, read));
         } else {
@@ -101,6 +103,7 @@ fn side_by_side(grid: &mut Grid, options: &ReadOptions, log: &mut Log<'_>) {
         }
         return;
     }
+    const MOST_NAMED: usize = 4;
     let names: Vec<&str> = grid.parts.iter().map(|part| part.name.as_str()).take(MOST_NAMED).collect();
     let why = format!("{} groups of spectra stand side by side, {}", grid.parts.len(), names.join(", "));
     grid.part = Some(Decided::guess(1, why));
@@ -108,9 +111,6 @@ fn side_by_side(grid: &mut Grid, options: &ReadOptions, log: &mut Log<'_>) {
         log.push(Warning::MoreGroups { count: grid.parts.len(), second: grid.parts[1].name.clone() });
     }
 }
-
-/// Groups that are named in a decision.
-const MOST_NAMED: usize = 4;
 
 /// The first table of a section.
 fn one(
@@ -129,9 +129,4 @@ fn one(
         }
     };
     Ok((layout, read))
-}
-
-fn part(layout: &Layout, grid: &Grid) -> Part {
-    let name = grid.header.comment("title").unwrap_or_default().to_owned();
-    Part { line: layout.first_line, name, curves: grid.curves.len(), rows: grid.rows }
 }

@@ -1,12 +1,14 @@
 //! IES TM-27: spectra of light sources in XML, one element for each sample.
 
-use crate::decision::{Decided, DecimalMark, Delimiter, Part, Quantity, Reader, Role, WavelengthUnit};
+use crate::decision::{Decided, Part, Quantity, Reader, Role};
 use crate::error::{MAX_PARTS, ReadError, check_curves};
 use crate::formats::Format;
-use crate::formats::spectra::{self, Found, Sample, Spectrum};
+use crate::formats::spectra::{Found, Sample, Spectrum};
 use crate::formats::xml::{self, Element, Step, Walk};
 use crate::header::Header;
+use crate::header_terms;
 use crate::options::ReadOptions;
+use crate::text::is_one;
 use crate::warning::Warning;
 use crate::watch::Log;
 
@@ -33,9 +35,9 @@ fn read(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Result<Found, R
     let parts = content.parts();
     let quantity = content.take_part(&parts, options.part, log)?;
     let Content { header, spectra: all, .. } = content;
-    let first_line = all.first().and_then(|spectrum| spectrum.samples.first()).map(|sample| sample.line);
-    let first_line = first_line.ok_or(ReadError::NoNumbers)?;
-    let mut grid = spectra::grid(all, header, log)?;
+    let reader = Decided::certain(Reader::TM27, format!("The root element is “{}”", walk.root()));
+    let mut found = xml::found(all, header, (reader, "TM-27 prescribes it"), log)?;
+    let grid = &mut found.grid;
     let said = quantity.as_ref().and_then(|quantity| Some((quantity.value.role()?, quantity.why.clone())));
     // Most such files are of lamps, but "relative" and "other" do not say so.
     let guess = || Decided::guess(Role::Illuminant, "TM-27 is mostly used for lamps");
@@ -45,10 +47,7 @@ fn read(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Result<Found, R
         grid.part = Some(Decided::guess(1, format!("The spectra are of {} quantities", parts.len())));
         grid.parts = parts;
     }
-    grid.unit = Some(Decided::certain(WavelengthUnit::Nanometer, "TM-27 prescribes it"));
-    let dialect = (Delimiter::Elements, DecimalMark::Point);
-    let reader = Decided::certain(Reader::TM27, format!("The root element is “{}”", walk.root()));
-    Ok(Found::fixed(grid, reader, (dialect, first_line, "TM-27 prescribes it"), Vec::new()))
+    Ok(found)
 }
 
 #[derive(Default)]
@@ -152,15 +151,11 @@ impl Content {
 
 /// A quantity of the standard's list, if it is only one thing.
 fn named(quantity: &str) -> Option<Quantity> {
+    const AS_EVERYWHERE: &str =
+        "irradiance|exitance|radiance|reflectance|r-factor|transmittance|t-factor|absorptance|relative";
     match quantity.to_ascii_lowercase().as_str() {
         "flux" => Some(Quantity::RadiantFlux),
         "intensity" => Some(Quantity::RadiantIntensity),
-        "irradiance" | "exitance" => Some(Quantity::Irradiance),
-        "radiance" => Some(Quantity::Radiance),
-        "reflectance" | "r-factor" => Some(Quantity::Reflectance),
-        "transmittance" | "t-factor" => Some(Quantity::Transmittance),
-        "absorptance" => Some(Quantity::Absorptance),
-        "relative" => Some(Quantity::Relative),
-        _ => None,
+        other => header_terms::quantity(other).filter(|_| is_one(other, AS_EVERYWHERE)),
     }
 }

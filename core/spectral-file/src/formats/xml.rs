@@ -10,10 +10,12 @@ use quick_xml::events::{BytesRef, BytesStart, Event};
 use quick_xml::reader::Reader as Parser;
 use std::borrow::Cow;
 
-use crate::decision::{DecimalMark, Delimiter, Family};
+use crate::decision::{Decided, DecimalMark, Delimiter, Family, Reader, WavelengthUnit};
 use crate::dialect::Dialect;
 use crate::error::ReadError;
+use crate::formats::spectra::{self, Found, Spectrum};
 use crate::formats::{Head, recognize};
+use crate::header::Header;
 use crate::text::excerpt;
 use crate::watch::{Log, PlaceId};
 
@@ -40,7 +42,6 @@ fn root(text: &str) -> Option<&str> {
     tag.strip_prefix('<')?.split(|c: char| c.is_whitespace() || matches!(c, '>' | '/')).next().map(local)
 }
 
-/// A name without its namespace.
 fn local(name: &str) -> &str {
     name.rsplit(':').next().unwrap_or(name)
 }
@@ -135,6 +136,20 @@ fn line_ends(text: &str) -> usize {
     either - pairs
 }
 
+/// Spectra as the result of a format that prescribes nanometers.
+pub(super) fn found(
+    spectra: Vec<Spectrum>,
+    header: Header,
+    (reader, why): (Decided<Reader>, &str),
+    log: &mut Log<'_>,
+) -> Result<Found, ReadError> {
+    let first_line = spectra.iter().find_map(|spectrum| spectrum.samples.first()).map(|sample| sample.line);
+    let first_line = first_line.ok_or(ReadError::NoNumbers)?;
+    let mut grid = spectra::grid(spectra, header, log)?;
+    grid.unit = Some(Decided::certain(WavelengthUnit::Nanometer, why));
+    Ok(Found::fixed(grid, reader, ((Delimiter::Elements, DecimalMark::Point), first_line, why), Vec::new()))
+}
+
 pub(super) enum Step<'a> {
     /// An element begins: [`Walk::innermost`].
     Open,
@@ -186,7 +201,10 @@ impl<'a> Walk<'a> {
                 }
                 Event::Eof if self.open.is_empty() && self.root.is_some() => return Ok(None),
                 Event::Eof => return Err(self.malformed(self.text.len())),
-                Event::Text(text) if self.is_indent(utf8(&text)) => {}
+                // Indents.
+                Event::Text(text)
+                    if utf8(&text).trim_ascii().is_empty()
+                        && self.open.last().is_none_or(|open| open.text.is_empty()) => {}
                 Event::Text(text) => self.add(text.xml10_content().map_err(|_| self.malformed(from))?, from)?,
                 Event::CData(text) => self.add(text.xml10_content().map_err(|_| self.malformed(from))?, from)?,
                 Event::GeneralRef(reference) => {
@@ -215,10 +233,6 @@ impl<'a> Walk<'a> {
         self.root.get_or_insert_with(|| element.name().to_owned());
         self.open.push(element);
         Ok(())
-    }
-
-    fn is_indent(&self, text: &str) -> bool {
-        self.innermost().is_none_or(|element| element.text.is_empty()) && text.trim_ascii().is_empty()
     }
 
     fn add(&mut self, text: Cow<'a, str>, from: usize) -> Result<(), ReadError> {

@@ -124,7 +124,7 @@ pub struct Shown {
 
 impl Shown {
     pub(super) fn new(line: &str, from: usize, count: usize) -> Self {
-        let start = start(line, from);
+        let start = line.char_indices().nth(from).map_or(line.len(), |(at, _)| at);
         let mut text = String::new();
         let mut places = Vec::new();
         let mut end = start;
@@ -149,10 +149,6 @@ impl Shown {
         let mapped = place(range.start)..place(range.end);
         (range.is_empty() || !mapped.is_empty()).then_some(mapped)
     }
-}
-
-fn start(line: &str, character: usize) -> usize {
-    line.char_indices().nth(character).map_or(line.len(), |(at, _)| at)
 }
 
 fn visible(c: char) -> char {

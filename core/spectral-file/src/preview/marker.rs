@@ -86,8 +86,7 @@ impl Marker {
         if !marks.is_empty() || !above || self.settings.binary_search(&(number as u32)).is_err() {
             return marks;
         }
-        let setting = Mark { range: tables::trimmed(line), what: What::Setting };
-        Some(setting).filter(|mark| tables::touches(&mark.range, window)).into_iter().collect()
+        tables::line_mark(line, window, What::Setting)
     }
 }
 

@@ -60,34 +60,21 @@ impl Down {
     }
 
     pub(super) fn marks(&self, number: usize, line: &str, window: &Range<usize>, file: &SpectralFile) -> Vec<Mark> {
-        if self.names == Some(number) {
-            return self.above(line, self.shift, window, |column, cell| match self.curves.get(column) {
-                _ if self.axis(column).is_some() => {
-                    let unit = header_terms::x_unit(cell).is_some() || header_terms::names_wavelengths(cell);
-                    unit.then_some(What::Unit(None))
-                }
-                Some(Some(curve)) => Some(What::Name(*curve)),
-                _ => Some(What::LeftOut(LeftOut::Column)),
-            });
-        }
-        if self.units == Some(number) {
-            return self.above(line, 0, window, |column, _| match self.curves.get(column) {
-                _ if self.axis(column).is_some() => Some(What::Unit(None)),
-                Some(Some(curve)) => Some(What::Unit(Some(*curve))),
-                _ => Some(What::LeftOut(LeftOut::Column)),
-            });
+        let names = self.names == Some(number);
+        if names || self.units == Some(number) {
+            return self.above(line, names, window);
         }
         if number < self.first_line || !is_content(line) {
             return Vec::new();
         }
         let find = |rows: &[(u32, LeftOut)]| rows.binary_search_by_key(&number, |(line, _)| *line as usize).ok();
         if let Some(at) = find(&self.dropped) {
-            return line_mark(line, window, self.dropped[at].1);
+            return line_mark(line, window, What::LeftOut(self.dropped[at].1));
         }
         match self.rows.binary_search_by_key(&number, |(line, _)| *line as usize) {
             Ok(at) => self.values(line, self.rows[at].1, window, file),
             Err(_) if self.dialect.cells(line).all(|cell| self.dialect.parse(cell) == Cell::Gap) => Vec::new(),
-            Err(_) => line_mark(line, window, LeftOut::Line),
+            Err(_) => line_mark(line, window, What::LeftOut(LeftOut::Line)),
         }
     }
 
@@ -119,27 +106,28 @@ impl Down {
         marks
     }
 
-    /// Marks of the cells of a line above the table that are something, the first of them in a column.
-    fn above(
-        &self,
-        line: &str,
-        shift: usize,
-        window: &Range<usize>,
-        what: impl Fn(usize, &str) -> Option<What>,
-    ) -> Vec<Mark> {
-        let body = text::comment(line).unwrap_or(line);
-        let cells = self.dialect.cells(body).enumerate().filter(|(_, cell)| !cell.is_empty());
-        let marks = cells.filter_map(|(index, cell)| {
-            let range = range(line, cell);
-            let what = what(index + shift, cell).filter(|_| touches(&range, window))?;
-            Some(Mark { range, what })
+    /// Marks of the cells of a line above the table, one of names or of units.
+    fn above(&self, line: &str, names: bool, window: &Range<usize>) -> Vec<Mark> {
+        let is_unit = |cell: &str| header_terms::x_unit(cell).is_some() || header_terms::names_wavelengths(cell);
+        let shift = if names { self.shift } else { 0 };
+        let cells = self.dialect.cells(text::comment(line).unwrap_or(line)).enumerate();
+        let marks = cells.filter(|(_, cell)| !cell.is_empty()).filter_map(|(index, cell)| {
+            let what = match self.curves.get(index + shift) {
+                _ if self.axis(index + shift).is_some() => {
+                    Some(What::Unit(None)).filter(|_| !names || is_unit(cell))?
+                }
+                Some(Some(curve)) if names => What::Name(*curve),
+                Some(Some(curve)) => What::Unit(Some(*curve)),
+                _ => What::LeftOut(LeftOut::Column),
+            };
+            Some(Mark { range: range(line, cell), what }).filter(|mark| touches(&mark.range, window))
         });
         marks.collect()
     }
 }
 
-fn line_mark(line: &str, window: &Range<usize>, why: LeftOut) -> Vec<Mark> {
-    let mark = Mark { range: trimmed(line), what: What::LeftOut(why) };
+pub(super) fn line_mark(line: &str, window: &Range<usize>, what: What) -> Vec<Mark> {
+    let mark = Mark { range: trimmed(line), what };
     Some(mark).filter(|mark| touches(&mark.range, window)).into_iter().collect()
 }
 
@@ -193,7 +181,7 @@ impl Across {
         }
         match self.rows.binary_search_by_key(&number, |(line, _)| *line) {
             Ok(at) => self.row(line, self.rows[at].1, window, file),
-            Err(_) if number > self.line && is_content(line) => line_mark(line, window, LeftOut::Line),
+            Err(_) if number > self.line && is_content(line) => line_mark(line, window, What::LeftOut(LeftOut::Line)),
             Err(_) => Vec::new(),
         }
     }

@@ -140,13 +140,17 @@ fn of_quantity(grid: &Grid) -> Option<Decided<Role>> {
     })
 }
 
-/// Curves that are all named as standard illuminants, or a title that is such a name.
+/// The name of the first curve if such are all, or a title that is such a name.
+fn name_of_light(grid: &Grid, titles: &[&str], is_light: fn(&str) -> bool) -> Option<String> {
+    let all = grid.curves.iter().all(|curve| is_light(&curve.name));
+    let first = grid.curves.first().filter(|_| all).map(|curve| curve.name.as_str());
+    let mut titles = titles.iter().filter_map(|key| grid.header.comment(key));
+    first.or_else(|| titles.find(|title| is_light(title))).map(excerpt)
+}
+
 fn of_illuminants(grid: &Grid) -> Option<Decided<Role>> {
-    let title = grid.header.comment("title").into_iter().chain(grid.header.comment("name"));
-    let curves = grid.curves.iter().all(|curve| header_terms::names_illuminant(&curve.name));
-    let first = grid.curves.first().filter(|_| curves).map(|curve| curve.name.as_str());
-    let name = first.or_else(|| title.into_iter().find(|title| header_terms::names_illuminant(title)))?;
-    Some(Decided::certain(Role::Illuminant, format!("“{}” is the name of a standard illuminant", excerpt(name))))
+    let name = name_of_light(grid, &["title", "name"], header_terms::names_illuminant)?;
+    Some(Decided::certain(Role::Illuminant, format!("“{name}” is the name of a standard illuminant")))
 }
 
 /// Role that is mentioned, that settings imply, or that suits a scale that the file states.
@@ -199,13 +203,9 @@ fn suits(role: Role, values: Option<Values>) -> bool {
     }
 }
 
-/// A light that the only curve or the title is named after.
 fn lamp(grid: &Grid) -> Option<Decided<Role>> {
-    let title = grid.header.comment("title");
-    let curves = grid.curves.iter().all(|curve| header_terms::names_lamp(&curve.name));
-    let first = grid.curves.first().filter(|_| curves).map(|curve| curve.name.as_str());
-    let name = first.or(title.filter(|title| header_terms::names_lamp(title)))?;
-    Some(Decided::guess(Role::Illuminant, format!("“{}” is the name of a light", excerpt(name))))
+    let name = name_of_light(grid, &["title"], header_terms::names_lamp)?;
+    Some(Decided::guess(Role::Illuminant, format!("“{name}” is the name of a light")))
 }
 
 /// Role that settings, a weaker word or the names of file and folders suggest where no word states one. Numbers alone say nothing:
@@ -336,7 +336,7 @@ fn peak(wavelengths: &[f64], values: &[f64]) -> (f64, f64) {
 }
 
 /// Returns whether exactly three curves look like the channels of a camera: small at both ends, with peaks in order.
-pub(super) fn bells(grid: &Grid) -> Option<()> {
+fn bells(grid: &Grid) -> Option<()> {
     const ENDS: f64 = 0.3;
     const PEAKS_NM: [std::ops::RangeInclusive<f64>; 3] = [410.0..=500.0, 500.0..=580.0, 570.0..=680.0];
     if grid.curves.len() != 3 || grid.wavelengths.len() < 8 {

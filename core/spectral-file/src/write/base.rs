@@ -68,8 +68,7 @@ impl<'a> Draft<'a> {
             _ => sheet.channel_pieces(&mut notes),
         };
         let limits = &Limits::of(format);
-        let sampling = Sampling::of(grid);
-        let ranges = pieces.iter().map(|piece| sampling.within(piece.range()));
+        let ranges = pieces.iter().map(|piece| grid.within(piece.range()));
         let range = ranges.fold(limits.range_nm, |[a, b], [from, to]| [a.max(from), b.min(to)]);
         let (wavelengths, step) = match grid {
             Grid::Step(step) | Grid::Average(step) => (asked(step, range, limits)?, Some(step)),
@@ -87,7 +86,7 @@ impl<'a> Draft<'a> {
         if wavelengths.len().saturating_mul(pieces.len()) > MAX_SAMPLES {
             return Err(WriteError::TooLarge);
         }
-        let mut changes = Changes::new(sampling);
+        let mut changes = Changes::new(grid);
         let values = pieces.iter().map(|piece| changes.take(piece, sheet.content, &wavelengths)).collect();
         changes.note(step, [from, to], &mut notes);
         Ok(Self { sheet, format, pieces, wavelengths, values, resampling: changes.description(step), notes })
@@ -161,30 +160,6 @@ pub(super) fn check(grid: Grid) -> Result<(), WriteError> {
     }
 }
 
-/// Method for values at new wavelengths.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Sampling {
-    Points,
-    /// The mean over a band of the given width in nanometers around it.
-    Bands(f64),
-}
-
-impl Sampling {
-    pub(super) fn of(grid: Grid) -> Self {
-        match grid {
-            Grid::Average(step) => Self::Bands(step),
-            Grid::Native | Grid::Step(_) => Self::Points,
-        }
-    }
-
-    pub(super) fn within(self, [first, last]: [f64; 2]) -> [f64; 2] {
-        match self {
-            Self::Points => [first, last],
-            Self::Bands(width) => [first + width / 2.0, last - width / 2.0],
-        }
-    }
-}
-
 /// Means of the linear interpolant of a curve over bands of a width around ascending wavelengths, in time proportional to both.
 ///
 /// A band that goes on beyond the curve is cut off there. The mean of a constant is that constant.
@@ -247,39 +222,34 @@ pub(super) fn mean_step(wavelengths: &[f64]) -> f64 {
     }
 }
 
-pub(super) struct Between<'a> {
-    wavelengths: &'a [f64],
-    values: &'a [f64],
+struct Between<'a> {
+    piece: &'a Piece<'a>,
     sprague: Option<Sprague>,
     clamps: bool,
 }
 
 impl<'a> Between<'a> {
-    pub(super) fn new(piece: &'a Piece<'_>, content: Content<'_>) -> Self {
+    fn new(piece: &'a Piece<'_>, content: Content<'_>) -> Self {
         const SMOOTH_FROM_NM: f64 = 5.0;
-        let (wavelengths, values) = (piece.wavelengths.as_ref(), piece.values.as_ref());
         let known = !matches!(content, Content::Illuminant | Content::Other);
-        let step = even_step(wavelengths).filter(|step| known && *step >= SMOOTH_FROM_NM);
-        let sprague = step.and_then(|step| Sprague::new(piece.range()[0], step, values));
-        Self { wavelengths, values, sprague, clamps: content != Content::Observer }
-    }
-
-    pub(super) fn is_smooth(&self) -> bool {
-        self.sprague.is_some()
+        let step = even_step(&piece.wavelengths).filter(|step| known && *step >= SMOOTH_FROM_NM);
+        let sprague = step.and_then(|step| Sprague::new(piece.range()[0], step, &piece.values));
+        Self { piece, sprague, clamps: content != Content::Observer }
     }
 
     /// The value at a wavelength, and whether it is a sample; none outside the curve's range.
-    pub(super) fn at(&self, x: f64) -> Option<(f64, bool)> {
-        if let Ok(sample) = self.wavelengths.binary_search_by(|w| w.total_cmp(&x)) {
-            return Some((self.values[sample], true));
+    fn at(&self, x: f64) -> Option<(f64, bool)> {
+        let Piece { wavelengths, values, .. } = self.piece;
+        if let Ok(sample) = wavelengths.binary_search_by(|w| w.total_cmp(&x)) {
+            return Some((values[sample], true));
         }
-        let above = self.wavelengths.partition_point(|&w| w <= x + SAME_NM);
+        let above = wavelengths.partition_point(|&w| w <= x + SAME_NM);
         let below = above.checked_sub(1)?;
-        let (x0, y0) = (self.wavelengths[below], self.values[below]);
+        let (x0, y0) = (wavelengths[below], values[below]);
         if (x - x0).abs() <= SAME_NM {
             return Some((y0, true));
         }
-        let (&x1, &y1) = (self.wavelengths.get(above)?, self.values.get(above)?);
+        let (&x1, &y1) = (wavelengths.get(above)?, values.get(above)?);
         let straight = finite_or(linear(&[x0, x1], &[y0, y1], x), || {
             // The difference of huge values overflows; halves of them do not.
             let t = (x - x0) / (x1 - x0);
@@ -299,7 +269,7 @@ fn finite_or(value: f64, other: impl FnOnce() -> f64) -> f64 {
 
 #[derive(Debug, Default)]
 pub(super) struct Changes {
-    sampling: Option<Sampling>,
+    pub(super) grid: Grid,
     interpolated: bool,
     smooth: bool,
     finest_nm: Option<f64>,
@@ -307,8 +277,8 @@ pub(super) struct Changes {
 }
 
 impl Changes {
-    pub(super) fn new(sampling: Sampling) -> Self {
-        Self { sampling: Some(sampling), ..Self::default() }
+    pub(super) fn new(grid: Grid) -> Self {
+        Self { grid, ..Self::default() }
     }
 
     pub(super) fn take(&mut self, piece: &Piece<'_>, content: Content<'_>, wavelengths: &[f64]) -> Vec<f64> {
@@ -316,7 +286,7 @@ impl Changes {
         self.reach_nm = Some(self.reach_nm.map_or([first, last], |[a, b]| [a.min(first), b.max(last)]));
         let step = mean_step(&piece.wavelengths);
         self.finest_nm = Some(self.finest_nm.map_or(step, |finest| finest.min(step)));
-        if let Some(Sampling::Bands(width)) = self.sampling {
+        if let Grid::Average(width) = self.grid {
             return band_means(piece, wavelengths, width);
         }
         let between = Between::new(piece, content);
@@ -328,17 +298,17 @@ impl Changes {
         };
         let values = wavelengths.iter().map(value).collect();
         self.interpolated |= interpolated;
-        self.smooth |= interpolated && between.is_smooth();
+        self.smooth |= interpolated && between.sprague.is_some();
         values
     }
 
     /// Description of the method, for the head of a file; none at a curve's own wavelengths.
     pub(super) fn description(&self, step: Option<f64>) -> Option<String> {
         let step = step?;
-        Some(match self.sampling {
-            Some(Sampling::Bands(width)) => format!(
+        Some(match self.grid {
+            Grid::Average(width) => format!(
                 "band averages every {step} nm: means of the linear interpolant over ±{} nm",
-                decimal_half(width)
+                clean(width / 2.0)
             ),
             _ if self.smooth => format!("values every {step} nm, by Sprague's interpolation"),
             _ if self.interpolated => format!("values every {step} nm, interpolated linearly"),
@@ -348,7 +318,7 @@ impl Changes {
 
     /// Notes for a step (none for the curves' own wavelengths) and the range that was written.
     pub(super) fn note(&self, step: Option<f64>, [from_nm, to_nm]: [f64; 2], notes: &mut Vec<Note>) {
-        if let Some(Sampling::Bands(step_nm)) = self.sampling {
+        if let Grid::Average(step_nm) = self.grid {
             notes.push(Note::Averaged(step_nm));
         } else if let Some(step_nm) = step {
             if self.interpolated {
@@ -362,8 +332,4 @@ impl Changes {
             notes.push(Note::Clipped { from_nm, to_nm });
         }
     }
-}
-
-fn decimal_half(number: f64) -> f64 {
-    clean(number / 2.0)
 }

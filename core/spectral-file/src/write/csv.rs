@@ -5,7 +5,7 @@ use chromascope_text::guarded;
 use std::borrow::Cow;
 
 use crate::error::MAX_SAMPLES;
-use crate::write::base::{self, Changes, SAME_NM, Sampling, multiples};
+use crate::write::base::{self, Changes, SAME_NM, multiples};
 use crate::write::format::{Format, Grid, Note, WriteError};
 use crate::write::sheet::{Content, Piece, Sheet, one_line, push_comment, push_number, push_quoted};
 
@@ -18,8 +18,6 @@ const CELLS: usize = 1 << 20;
 pub struct Prepared<'a> {
     sheet: Sheet<'a>,
     pieces: Vec<Piece<'a>>,
-    step: Option<f64>,
-    sampling: Sampling,
     rows: Vec<f64>,
     changes: Changes,
     renamed: Vec<Note>,
@@ -37,25 +35,23 @@ impl<'a> Prepared<'a> {
         base::check(grid)?;
         let mut renamed = Vec::new();
         let pieces = sheet.pieces(&mut renamed);
-        let (step, sampling) = (grid.step_nm(), Sampling::of(grid));
-        let rows = rows(&pieces, step, sampling)?;
+        let rows = rows(&pieces, grid)?;
         if rows.len().saturating_mul(pieces.len()) > MAX_SAMPLES {
             return Err(WriteError::TooLarge);
         }
-        let is_blank = |piece: &&Piece<'_>| step.is_some() && within(&rows, sampling.within(piece.range())).is_empty();
+        let is_blank =
+            |piece: &&Piece<'_>| grid != Grid::Native && within(&rows, grid.within(piece.range())).is_empty();
         let blank = pieces.iter().filter(is_blank).count();
         if blank == pieces.len() {
             return Err(WriteError::NoOverlap);
         }
-        let changes = Changes::new(sampling);
-        Ok(Self { sheet: *sheet, pieces, step, sampling, rows, changes, renamed, blank })
+        Ok(Self { sheet: *sheet, pieces, rows, changes: Changes::new(grid), renamed, blank })
     }
 
     /// Writes wavelengths and values of one curve after the other, as long as `put` continues.
     pub fn each(&mut self, mut put: impl FnMut(&[f64], &[f64]) -> bool) {
         for piece in &self.pieces {
-            let piece =
-                part(piece, &self.rows, self.step.map(|_| self.sampling), self.sheet.content, &mut self.changes);
+            let piece = part(piece, &self.rows, self.sheet.content, &mut self.changes);
             if !put(&piece.wavelengths, &piece.values) {
                 return;
             }
@@ -70,11 +66,12 @@ impl<'a> Prepared<'a> {
     /// Passes on the table with what is known about the curves above it.
     pub(super) fn with_comments(&mut self, put: &mut dyn FnMut(&str) -> bool) {
         let mut out = String::new();
-        if self.step.is_some() {
+        let step = self.changes.grid.step_nm();
+        if step.is_some() {
             // The header describes how values were obtained, which is known only once all curves were.
             self.each(|_, _| true);
         }
-        push_comments(&mut out, &self.sheet, self.changes.description(self.step).as_deref());
+        push_comments(&mut out, &self.sheet, self.changes.description(step).as_deref());
         self.write(out, put);
     }
 
@@ -87,10 +84,9 @@ impl<'a> Prepared<'a> {
         }
         out.push('\n');
         for rows in self.rows.chunks((CELLS / self.pieces.len()).max(1)) {
-            let (sampling, content) = (self.step.map(|_| self.sampling), self.sheet.content);
-            let parts: Vec<Piece<'_>> =
-                self.pieces.iter().map(|piece| part(piece, rows, sampling, content, &mut self.changes)).collect();
-            if !push_rows(&mut out, rows, &parts, put) {
+            let (content, changes) = (self.sheet.content, &mut self.changes);
+            let parts = self.pieces.iter().map(|piece| part(piece, rows, content, changes));
+            if !push_rows(&mut out, rows, &parts.collect::<Vec<_>>(), put) {
                 return;
             }
         }
@@ -100,7 +96,8 @@ impl<'a> Prepared<'a> {
     /// All that is not as it was in the curves, known once they were passed on.
     pub fn notes(&self) -> Vec<Note> {
         let mut notes = self.renamed.clone();
-        if let (Some(step), Some(first), Some(last)) = (self.step, self.rows.first(), self.rows.last()) {
+        let step = self.changes.grid.step_nm();
+        if let (Some(step), Some(first), Some(last)) = (step, self.rows.first(), self.rows.last()) {
             self.changes.note(Some(step), [*first, *last], &mut notes);
         }
         notes.extend((self.blank > 0).then_some(Note::Blank(self.blank)));
@@ -109,21 +106,21 @@ impl<'a> Prepared<'a> {
 }
 
 /// The wavelengths of all curves, or the multiples of a step in their ranges, ascending.
-fn rows(pieces: &[Piece<'_>], step: Option<f64>, sampling: Sampling) -> Result<Vec<f64>, WriteError> {
+fn rows(pieces: &[Piece<'_>], grid: Grid) -> Result<Vec<f64>, WriteError> {
     let mut rows = Vec::new();
     let mut before: Option<&Piece<'_>> = None;
     for piece in pieces {
         // Most tables have one grid for many curves in a row.
-        match step {
+        match grid.step_nm() {
             Some(step) if before.is_none_or(|before| before.range() != piece.range()) => {
-                rows.extend(multiples(step, sampling.within(piece.range()))?);
+                rows.extend(multiples(step, grid.within(piece.range()))?);
             }
             None if before.is_none_or(|before| before.wavelengths != piece.wavelengths) => {
                 rows.extend_from_slice(&piece.wavelengths);
             }
             _ => {}
         }
-        if step.is_some() && rows.len() > MAX_SAMPLES {
+        if grid != Grid::Native && rows.len() > MAX_SAMPLES {
             return Err(WriteError::TooLarge);
         }
         before = Some(piece);
@@ -139,16 +136,10 @@ fn within(rows: &[f64], [first, last]: [f64; 2]) -> &[f64] {
     rows.get(from..to).unwrap_or_default()
 }
 
-fn part<'p>(
-    piece: &'p Piece<'_>,
-    rows: &[f64],
-    sampling: Option<Sampling>,
-    content: Content<'_>,
-    changes: &mut Changes,
-) -> Piece<'p> {
+fn part<'p>(piece: &'p Piece<'_>, rows: &[f64], content: Content<'_>, changes: &mut Changes) -> Piece<'p> {
     let name = Cow::Borrowed("");
-    if let Some(sampling) = sampling {
-        let wavelengths = within(rows, sampling.within(piece.range()));
+    if changes.grid != Grid::Native {
+        let wavelengths = within(rows, changes.grid.within(piece.range()));
         let values = changes.take(piece, content, wavelengths).into();
         return Piece { name, wavelengths: wavelengths.to_vec().into(), values };
     }

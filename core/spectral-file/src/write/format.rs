@@ -23,6 +23,12 @@ impl Grid {
             Self::Step(step) | Self::Average(step) => Some(step),
         }
     }
+
+    /// The range in which a curve of a range has values.
+    pub(super) fn within(self, [first, last]: [f64; 2]) -> [f64; 2] {
+        let half = if let Self::Average(width) = self { width / 2.0 } else { 0.0 };
+        [first + half, last - half]
+    }
 }
 
 /// A format that curves can be written in.

@@ -142,7 +142,6 @@ impl<'a> Sheet<'a> {
         matches!(self.content, Content::Camera { per_photon: Some(_), .. }).then_some("per energy")
     }
 
-    /// The title, or what stands for one.
     pub(super) fn title(&self) -> Cow<'a, str> {
         let title = one_line(self.title);
         match self.curves {

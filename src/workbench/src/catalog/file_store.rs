@@ -62,6 +62,13 @@ pub trait FromFile: Sized + Send + Sync + 'static {
     }
 }
 
+/// For files whose failures are no more than their words.
+impl From<Unread> for String {
+    fn from(why: Unread) -> Self {
+        why.to_string()
+    }
+}
+
 /// Reason that a file was not read to its end, whatever it holds.
 #[derive(Debug, thiserror::Error)]
 pub enum Unread {
@@ -106,12 +113,6 @@ struct Known<T: FromFile> {
     /// Tells the thread that reads it to stop.
     reading: Option<Arc<AtomicBool>>,
     asked: u64,
-}
-
-impl<T: FromFile> Default for Known<T> {
-    fn default() -> Self {
-        Self { content: None, failure: None, reading: None, asked: 0 }
-    }
 }
 
 impl<T: FromFile> Known<T> {
@@ -229,7 +230,8 @@ impl<T: FromFile> Drop for FileStore<T> {
 
 impl<T: FromFile> State<T> {
     fn known_at(&mut self, path: &Path) -> &mut Known<T> {
-        self.known.entry(path.to_owned()).or_default()
+        let unknown = Known { content: None, failure: None, reading: None, asked: 0 };
+        self.known.entry(path.to_owned()).or_insert(unknown)
     }
 
     /// Handles the result of a thread; `None` for an unchanged file.

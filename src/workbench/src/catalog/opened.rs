@@ -12,8 +12,8 @@ pub use reading::{Request, files_of};
 
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
@@ -70,7 +70,7 @@ pub enum Why {
     Alike,
 }
 
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Progress {
     pub name: String,
     /// Fraction done, 0 to 1.
@@ -99,11 +99,9 @@ struct State {
     lost: Vec<Fingerprint>,
 }
 
-#[derive(Default)]
 struct Job {
-    name: Mutex<String>,
-    share: AtomicU32,
-    place: [AtomicU32; 2],
+    /// Its time is known when it is asked for.
+    progress: Mutex<Progress>,
     stop: AtomicBool,
     begun: Duration,
 }
@@ -180,13 +178,7 @@ impl Opened {
     pub fn progress(&self) -> Option<Progress> {
         let state = self.monitor.lock();
         let job = state.running.first()?;
-        let [file, count] = [0, 1].map(|i| job.place[i].load(Ordering::Relaxed) as usize);
-        Some(Progress {
-            name: job.name.lock().unwrap_or_else(PoisonError::into_inner).clone(),
-            share: f32::from_bits(job.share.load(Ordering::Relaxed)),
-            file: [file, count],
-            time: self.monitor.clock().since(job.begun),
-        })
+        Some(Progress { time: self.monitor.clock().since(job.begun), ..job.progress().clone() })
     }
 
     /// Stops whatever is being read. Returns the name of a file that was.
@@ -261,8 +253,8 @@ impl Opened {
     }
 
     fn begin(&self, work: impl FnOnce(&Monitor, &Job) + Send + 'static) {
-        let (begun, place) = (self.monitor.clock().now(), [1, 1].map(AtomicU32::new));
-        let job = Arc::new(Job { place, begun, ..Job::default() });
+        let progress = Mutex::new(Progress { file: [1, 1], ..Progress::default() });
+        let job = Arc::new(Job { progress, stop: AtomicBool::new(false), begun: self.monitor.clock().now() });
         self.monitor.lock().running.push(Arc::clone(&job));
         let monitor = Arc::clone(&self.monitor);
         let theirs = Arc::clone(&job);
@@ -315,16 +307,16 @@ impl State {
 impl Job {
     /// Records the progress: file number `file` of `count`.
     fn at(&self, path: &Path, file: usize, count: usize) {
-        *self.name.lock().unwrap_or_else(PoisonError::into_inner) = file_name(path);
-        for (place, number) in self.place.iter().zip([file, count]) {
-            place.store(u32::try_from(number).unwrap_or(u32::MAX), Ordering::Relaxed);
-        }
-        self.share.store(0, Ordering::Relaxed);
+        *self.progress() = Progress { name: file_name(path), file: [file, count], ..Progress::default() };
+    }
+
+    fn progress(&self) -> MutexGuard<'_, Progress> {
+        self.progress.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// Records the share of the file read; returns whether to continue.
     fn go_on(&self, share: f32) -> bool {
-        self.share.store(share.to_bits(), Ordering::Relaxed);
+        self.progress().share = share;
         !self.stop.load(Ordering::Relaxed)
     }
 }

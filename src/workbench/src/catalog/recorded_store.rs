@@ -11,7 +11,7 @@ use chromascope_figure::Image;
 use spectral_file::{Certainty, ReadOptions, Role};
 
 use super::chart_picture::ChartPicture;
-use super::file_store::{FileStore, FromFile, Unread};
+use super::file_store::{FileStore, FromFile};
 use super::recorded::{self, Levels, RawRow};
 use crate::format::{file_name, io_reason};
 
@@ -44,12 +44,12 @@ pub struct RecordedFile {
 pub type RecordedStore = FileStore<RecordedFile>;
 
 impl FromFile for RecordedFile {
-    type Failure = RecordedFailure;
+    type Failure = String;
     type Version = ();
     const THREAD: &'static str = "recorded";
 
-    fn read_unless(path: &Path, _: Option<()>, _: &dyn Fn() -> bool) -> Result<Option<(Self, ())>, RecordedFailure> {
-        read(path).map(|file| Some((file, ()))).map_err(RecordedFailure)
+    fn read_unless(path: &Path, _: Option<()>, _: &dyn Fn() -> bool) -> Result<Option<(Self, ())>, String> {
+        read(path).map(|file| Some((file, ())))
     }
 
     fn bytes(&self) -> usize {
@@ -61,17 +61,6 @@ impl FromFile for RecordedFile {
 
     fn summary(&self) -> &str {
         &self.name
-    }
-}
-
-/// Reason that a file contains no values, with its name.
-#[derive(Debug, thiserror::Error)]
-#[error("{0}")]
-pub struct RecordedFailure(String);
-
-impl From<Unread> for RecordedFailure {
-    fn from(why: Unread) -> Self {
-        Self(why.to_string())
     }
 }
 

@@ -10,7 +10,7 @@ use std::sync::atomic::{AtomicU32, Ordering};
 use chromascope_core::render::{BandWeights, LitSamples, SpectralImageError, SpectralImageSignals, Stop};
 use spectral_image::{EnviHeader, EnviImage, ExrImage, ImageError, ImageInfo, ImageQuantity, SpectralImage};
 
-use super::file_store::{FileState, FileStore, FromFile, Stamp, Unread};
+use super::file_store::{FileState, FileStore, FromFile, Stamp};
 use crate::document::render::MeshChoice;
 use crate::format::{file_name, io_reason};
 
@@ -50,7 +50,7 @@ pub fn open(path: &Path, wanted: Option<ImageQuantity>) -> Result<ImageOnDisk, O
     if length_of(&header)? > MAX_HEADER {
         return Err(OpenImageError::Image { path: header, error: ImageError::NotEnvi });
     }
-    let bytes = fs::read(&header).map_err(|error| OpenImageError::Io { path: header.clone(), error })?;
+    let bytes = fs::read(&header).map_err(io_error(&header))?;
     let parsed = EnviHeader::parse(&bytes).map_err(|error| OpenImageError::Image { path: header.clone(), error })?;
     let data = if has_ending(path, "hdr") { data_of(&header)? } else { path.to_owned() };
     let image = EnviImage::new(parsed, opened(&data)?);
@@ -79,14 +79,18 @@ fn has_ending(path: &Path, ending: &str) -> bool {
 
 fn opened(path: &Path) -> Result<File, OpenImageError> {
     length_of(path)?;
-    File::open(path).map_err(|error| OpenImageError::Io { path: path.to_owned(), error })
+    File::open(path).map_err(io_error(path))
+}
+
+fn io_error(path: &Path) -> impl FnOnce(io::Error) -> OpenImageError {
+    move |error| OpenImageError::Io { path: path.to_owned(), error }
 }
 
 /// Length of a file; an error for pipes, sockets and devices, which may never end.
 fn length_of(path: &Path) -> Result<u64, OpenImageError> {
     let other = || io::Error::new(io::ErrorKind::InvalidInput, "not a file; copy what it delivers to one first");
     let length = fs::metadata(path).and_then(|known| if known.is_file() { Ok(known.len()) } else { Err(other()) });
-    length.map_err(|error| OpenImageError::Io { path: path.to_owned(), error })
+    length.map_err(io_error(path))
 }
 
 /// Header of some data: `cube.img.hdr` or `cube.hdr`.
@@ -184,10 +188,7 @@ pub fn load(path: &Path) -> Result<LoadedImage, OpenImageError> {
 }
 
 fn version(path: &Path) -> Result<[Stamp; 2], OpenImageError> {
-    let stamp = |path: &Path| {
-        let file = fs::metadata(path).map_err(|error| OpenImageError::Io { path: path.to_owned(), error })?;
-        Ok(Stamp::of(&file))
-    };
+    let stamp = |path: &Path| Ok(Stamp::of(&fs::metadata(path).map_err(io_error(path))?));
     if has_ending(path, "exr") {
         return Ok([stamp(path)?; 2]);
     }
@@ -211,7 +212,7 @@ impl ImageStore {
 }
 
 impl FromFile for LoadedImage {
-    type Failure = ImageFailure;
+    type Failure = String;
     type Version = [Stamp; 2];
     const THREAD: &'static str = "spectral images";
 
@@ -219,8 +220,8 @@ impl FromFile for LoadedImage {
         path: &Path,
         unless: Option<[Stamp; 2]>,
         _: &dyn Fn() -> bool,
-    ) -> Result<Option<(Self, [Stamp; 2])>, ImageFailure> {
-        let failed = |error| ImageFailure::new(path, &error);
+    ) -> Result<Option<(Self, [Stamp; 2])>, String> {
+        let failed = |error| failure(path, &error);
         let version = version(path).map_err(failed)?;
         if unless == Some(version) {
             return Ok(None);
@@ -237,37 +238,25 @@ impl FromFile for LoadedImage {
         &self.summary
     }
 
-    fn on_opening(failure: &ImageFailure) -> String {
+    fn on_opening(failure: &String) -> String {
         format!("{failure}. Nothing was changed.")
     }
 
-    fn picture_message(failure: &ImageFailure) -> String {
+    fn picture_message(failure: &String) -> String {
         format!("{failure}. Open it from where it is now, or choose a mesh.")
     }
 }
 
 /// Reason that a spectral image cannot be shown, as the beginning of a sentence.
-#[derive(Debug, thiserror::Error)]
-#[error("{0}")]
-pub struct ImageFailure(String);
-
-impl ImageFailure {
-    fn new(path: &Path, error: &OpenImageError) -> Self {
-        match error {
-            OpenImageError::Io { path, error } if error.kind() == io::ErrorKind::NotFound => {
-                let folder = path.parent().map_or_else(String::new, |folder| folder.display().to_string());
-                Self(format!("{} is not in {folder}", file_name(path)))
-            }
-            OpenImageError::Io { path, error } => Self(format!("{}: {}", file_name(path), io_reason(error))),
-            OpenImageError::Image { error, .. } => Self(format!("{}: {error}", file_name(path))),
-            other => Self(other.to_string()),
+fn failure(path: &Path, error: &OpenImageError) -> String {
+    match error {
+        OpenImageError::Io { path, error } if error.kind() == io::ErrorKind::NotFound => {
+            let folder = path.parent().map_or_else(String::new, |folder| folder.display().to_string());
+            format!("{} is not in {folder}", file_name(path))
         }
-    }
-}
-
-impl From<Unread> for ImageFailure {
-    fn from(why: Unread) -> Self {
-        Self(why.to_string())
+        OpenImageError::Io { path, error } => format!("{}: {}", file_name(path), io_reason(error)),
+        OpenImageError::Image { error, .. } => format!("{}: {error}", file_name(path)),
+        other => other.to_string(),
     }
 }
 

@@ -3,34 +3,27 @@
 use std::borrow::Cow;
 
 #[derive(Debug, Clone, Copy)]
-pub(super) enum Token<'a> {
-    Bare(&'a str),
-    /// Between quotes, doubled quotes still in it.
-    Quoted(&'a str),
+pub(super) struct Token<'a> {
+    /// The word as it is written, without the quotes around it.
+    pub(super) written: &'a str,
+    /// True if it stands between quotes, in which quotes are doubled.
+    quoted: bool,
 }
 
 impl<'a> Token<'a> {
+    fn bare_word(written: &'a str) -> Self {
+        Self { written, quoted: false }
+    }
+
     /// The word, if it was not quoted: only such a word can be a keyword of the format.
     pub(super) fn bare(&self) -> Option<&'a str> {
-        match self {
-            Self::Bare(text) => Some(text),
-            Self::Quoted(_) => None,
-        }
+        (!self.quoted).then_some(self.written)
     }
 
     /// The word as it is meant.
     pub(super) fn text(&self) -> Cow<'a, str> {
-        match self {
-            Self::Quoted(text) if text.contains("\"\"") => Cow::Owned(text.replace("\"\"", "\"")),
-            Self::Bare(text) | Self::Quoted(text) => Cow::Borrowed(text),
-        }
-    }
-
-    /// The word as it is written, without the quotes around it.
-    pub(super) fn written(&self) -> &'a str {
-        match self {
-            Self::Bare(text) | Self::Quoted(text) => text,
-        }
+        let doubled = self.quoted && self.written.contains("\"\"");
+        if doubled { self.written.replace("\"\"", "\"").into() } else { self.written.into() }
     }
 }
 
@@ -44,10 +37,10 @@ pub(super) fn of(line: &str) -> impl Iterator<Item = Token<'_>> {
         }
         let (token, after) = if let Some(inner) = rest.strip_prefix('"') {
             let end = closing(inner);
-            (Token::Quoted(&inner[..end]), inner.get(end + 1..).unwrap_or_default())
+            (Token { written: &inner[..end], quoted: true }, inner.get(end + 1..).unwrap_or_default())
         } else {
             let end = rest.find(char::is_whitespace).unwrap_or(rest.len());
-            (Token::Bare(&rest[..end]), &rest[end..])
+            (Token::bare_word(&rest[..end]), &rest[end..])
         };
         rest = after;
         Some(token)
@@ -57,15 +50,12 @@ pub(super) fn of(line: &str) -> impl Iterator<Item = Token<'_>> {
 /// The value behind a keyword: a word in quotes, or all that follows up to a comment.
 pub(super) fn value<'a>(line: &'a str, key: &Token<'a>) -> Option<Token<'a>> {
     let second = of(line).nth(1)?;
-    let Token::Bare(first) = second else { return Some(second) };
+    let Some(first) = second.bare() else { return Some(second) };
     let start = first.as_ptr().addr().saturating_sub(line.as_ptr().addr());
     let rest = line.get(start..).filter(|_| key.bare().is_some())?;
-    let end = rest.find([' ', '\t']).and_then(|_| rest.match_indices('#').find(|(at, _)| follows_blank(rest, *at)));
-    Some(Token::Bare(rest[..end.map_or(rest.len(), |(at, _)| at)].trim()))
-}
-
-fn follows_blank(text: &str, at: usize) -> bool {
-    text[..at].ends_with(char::is_whitespace)
+    let follows_blank = |(at, _): &(usize, &str)| rest[..*at].ends_with(char::is_whitespace);
+    let end = rest.find([' ', '\t']).and_then(|_| rest.match_indices('#').find(follows_blank));
+    Some(Token::bare_word(rest[..end.map_or(rest.len(), |(at, _)| at)].trim()))
 }
 
 pub(super) fn fields(line: &str) -> Vec<Token<'_>> {
@@ -73,18 +63,14 @@ pub(super) fn fields(line: &str) -> Vec<Token<'_>> {
         return of(line).collect();
     }
     // Names with an underscore, or of wavelengths, have no blanks: several of them may stand between two tabs.
-    let several =
-        |cell: &str| cell.contains('_') || cell.split_whitespace().any(|word| word.len() > 2 && ends_with_digits(word));
+    let names_band = |word: &str| word.bytes().rev().take_while(u8::is_ascii_digit).count() >= 3;
+    let several = |cell: &str| cell.contains('_') || cell.split_whitespace().any(names_band);
     let cells = between_tabs(line);
     let names = cells.into_iter().filter(|cell| !cell.is_empty()).flat_map(|cell| match unquoted(cell) {
-        Token::Bare(bare) if !bare.starts_with('#') && bare.contains(' ') && !several(bare) => vec![Token::Bare(bare)],
+        token if !token.quoted && !cell.starts_with('#') && cell.contains(' ') && !several(cell) => vec![token],
         _ => of(cell).collect(),
     });
     names.collect()
-}
-
-fn ends_with_digits(word: &str) -> bool {
-    word.bytes().rev().take_while(u8::is_ascii_digit).count() >= 3
 }
 
 /// The values of a set that takes a whole line: cells between tabs if there are as many as fields, else words.
@@ -114,11 +100,7 @@ fn between_tabs(line: &str) -> Vec<&str> {
 /// A piece as a word; an empty one counts as quoted, so that it is no keyword.
 fn unquoted(piece: &str) -> Token<'_> {
     let inner = piece.strip_prefix('"').and_then(|rest| rest.strip_suffix('"'));
-    match inner {
-        Some(inner) => Token::Quoted(inner),
-        None if piece.is_empty() => Token::Quoted(piece),
-        None => Token::Bare(piece),
-    }
+    Token { written: inner.unwrap_or(piece), quoted: inner.is_some() || piece.is_empty() }
 }
 
 fn closing(text: &str) -> usize {

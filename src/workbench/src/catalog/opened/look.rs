@@ -9,7 +9,6 @@ use spectral_file::{Marker, Preview, ReadError, ReadOptions, SpectralFile, Watch
 use crate::catalog::import::Origin;
 use crate::document::imported::Fingerprint;
 
-/// A file's contents as part of a query.
 #[derive(Clone, Debug)]
 struct Contents {
     origin: Origin,

@@ -9,6 +9,7 @@ use std::sync::Arc;
 use spectral_file::{MAX_BYTES, ReadError, Watch};
 
 use super::{Failing, Job, Monitor, OpenFile, OpenedEvent, Why};
+use crate::catalog::file_store;
 use crate::catalog::import::{Imported, Origin, import_as};
 use crate::catalog::meshes::is_mesh;
 use crate::catalog::spectral_images::{is_same_image, is_spectral_image};
@@ -36,9 +37,8 @@ struct Harvest {
     failures: Vec<String>,
     failed: Vec<Fingerprint>,
     paths: Vec<PathBuf>,
-    meshes: Vec<PathBuf>,
-    images: Vec<PathBuf>,
-    documents: Vec<PathBuf>,
+    /// Meshes, spectral images and documents, which are only named.
+    named: Vec<OpenedEvent>,
     notes: Vec<String>,
     count: usize,
     /// True if they were known before, such as the parts of one.
@@ -63,19 +63,15 @@ pub(super) fn open(
         let (origin, bytes, overrides) = match contents(request, monitor, job, (index + 1, count)) {
             Ok(Some(contents)) => contents,
             Ok(None) => continue,
-            Err(Unread::Mesh(path)) => {
-                harvest.meshes.push(path);
-                continue;
-            }
-            Err(Unread::Image(path)) => {
+            Err(Unread::Named(event)) => {
                 // Header and data are one image.
-                if !harvest.images.iter().any(|known| is_same_image(known, &path)) {
-                    harvest.images.push(path);
+                let same = |known: &OpenedEvent| match (known, &event) {
+                    (OpenedEvent::Image(known), OpenedEvent::Image(path)) => is_same_image(known, path),
+                    _ => false,
+                };
+                if !harvest.named.iter().any(same) {
+                    harvest.named.push(event);
                 }
-                continue;
-            }
-            Err(Unread::Document(path)) => {
-                harvest.documents.push(path);
                 continue;
             }
             Err(Unread::Because(sentence)) => {
@@ -135,9 +131,8 @@ pub fn files_of(folder: &Path) -> io::Result<Vec<PathBuf>> {
 }
 
 enum Unread {
-    Mesh(PathBuf),
-    Image(PathBuf),
-    Document(PathBuf),
+    /// What is to be opened by others.
+    Named(OpenedEvent),
     Because(String),
 }
 
@@ -169,13 +164,13 @@ fn contents(
             let beginning = beginning(&path);
             let is_named = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case(session::ENDING));
             if is_named && path.is_file() || is_session(&beginning) {
-                return Err(Unread::Document(path));
+                return Err(Unread::Named(OpenedEvent::Document(path)));
             }
             if is_mesh(&path, &beginning) {
-                return Err(Unread::Mesh(path));
+                return Err(Unread::Named(OpenedEvent::Mesh(path)));
             }
             if is_spectral_image(&path) {
-                return Err(Unread::Image(path));
+                return Err(Unread::Named(OpenedEvent::Image(path)));
             }
             let bytes = read_bytes(&path).map_err(Unread::Because)?;
             Ok(Some((origin(&path, &bytes), bytes, None)))
@@ -238,20 +233,19 @@ fn take(
 fn read_once(origin: &Origin, bytes: &[u8], overrides: &ImportOverrides, job: &Job) -> Result<Imported, String> {
     let go_on = |share: f32| job.go_on(share);
     let read = catch_unwind(AssertUnwindSafe(|| import_as(origin, bytes, overrides, Watch::new(&go_on))));
-    let broken = |_| {
-        let name = &origin.name;
-        Err(format!("{name} could not be read because of an error in this program; please report it with the file"))
-    };
+    let broken = |_| Err(file_store::Unread::Broken(origin.name.clone()).to_string());
     read.map_or_else(broken, |read| read.map_err(|error| unread(&origin.name, &error)))
 }
 
 impl Harvest {
     fn into_events(self) -> Vec<OpenedEvent> {
         let failure = self.failure();
-        let meshes = self.meshes.into_iter().map(OpenedEvent::Mesh);
-        let images = self.images.into_iter().map(OpenedEvent::Image);
-        let mut events: Vec<OpenedEvent> =
-            meshes.chain(images).chain(self.documents.into_iter().map(OpenedEvent::Document)).collect();
+        let mut events = self.named;
+        events.sort_by_key(|event| match event {
+            OpenedEvent::Mesh(_) => 0,
+            OpenedEvent::Image(_) => 1,
+            _ => 2,
+        });
         if self.sets.is_empty() {
             let failed = failure.map(|told| OpenedEvent::Failed(format!("{told}. Nothing was changed."), self.failed));
             events.extend(failed);
@@ -315,18 +309,14 @@ pub(super) fn reread(
         (Why::Alike, Some(file), _) => read_once(&file.origin, &file.bytes, &set.overrides, job),
         (_, _, Some(path)) => {
             job.at(path, 1, 1);
-            let bytes = read_bytes(path);
-            bytes
+            read_bytes(path)
                 .and_then(|bytes| {
                     let origin = origin(path, &bytes);
-                    if why == Why::Changed && Some(origin.fingerprint) == set.fingerprint {
-                        monitor.lock().know(OpenFile { origin, bytes, failure: None });
-                        return Ok(None);
-                    }
-                    let read = read_once(&origin, &bytes, &set.overrides, job);
-                    let file = OpenFile { origin, bytes, failure: read.as_ref().err().cloned() };
-                    monitor.lock().know(file);
-                    read.map(Some)
+                    let same = why == Why::Changed && Some(origin.fingerprint) == set.fingerprint;
+                    let read = (!same).then(|| read_once(&origin, &bytes, &set.overrides, job)).transpose();
+                    let failure = read.as_ref().err().cloned();
+                    monitor.lock().know(OpenFile { origin, bytes, failure });
+                    read
                 })
                 .transpose()?
         }
