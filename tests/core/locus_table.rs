@@ -52,7 +52,8 @@ fn measure(sensor: &Sensor, rendering: &Rendering, count: u32) -> (f64, LocusTab
 #[test]
 fn every_sensor_has_a_table_that_keeps_its_own_error() {
     let (reference, training) = (sensor(CIE_1931), training());
-    let observer = ColorTransform::Observer { reference: &reference, training: &training };
+    let observer =
+        ColorTransform::Observer { reference: &reference, training: &training, correction: Correction::default() };
     let (cameras, observers) = (sensors("cameras"), sensors("observers"));
     let all: Vec<_> = cameras.iter().chain(&observers).collect();
     let made: Vec<usize> = all

@@ -11,6 +11,7 @@ use proptest::prelude::*;
 
 mod faults;
 mod labels;
+mod number;
 mod pdf;
 
 struct Gray;
