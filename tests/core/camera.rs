@@ -6,6 +6,7 @@ use chromascope_core::camera::{
 };
 use chromascope_core::colorimetry::rgb::XYZ_FROM_SRGB;
 use chromascope_core::colorimetry::{Xy, Xyz};
+use chromascope_core::correction::Correction;
 use chromascope_core::light::RadiationConstants;
 use chromascope_core::light::planckian::black_body;
 use chromascope_core::patch_set::PatchSet;

@@ -5,6 +5,7 @@ use chromascope_core::camera::locus_table::{COLDEST_K, HOTTEST_K};
 use chromascope_core::camera::{ColorTransform, LocusEvaluator, Rendering, WhiteBalanceTarget};
 use chromascope_core::camera::{LocusTable, LocusTableError};
 use chromascope_core::colorimetry::Xy;
+use chromascope_core::correction::Correction;
 use chromascope_core::light::RadiationConstants;
 use chromascope_core::spectral::{GridSpectrum, Sensor};
 use chromascope_core::units::Kelvin;

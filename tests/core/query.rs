@@ -5,6 +5,7 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 use chromascope_core::camera::{ColorTransform, Rendering, RenderingError, WhiteBalanceTarget};
 use chromascope_core::colorimetry::rgb::{XYZ_FROM_SRGB, encode_srgb};
 use chromascope_core::colorimetry::{Metric, Xyz};
+use chromascope_core::correction::Correction;
 use chromascope_core::light::RadiationConstants;
 use chromascope_core::light::planckian::exitance;
 use chromascope_core::patch_set::PAPER_FIVE;

@@ -251,9 +251,9 @@ pub struct Sky {
 impl Sky {
     /// Adds the sky's light to the signals of all samples that see the mesh, where the measure says what the surface returns of it.
     pub(super) fn add(&self, measure: &SpectralWeights, angles: &[Angles], signals: &mut [[f32; 3]]) {
-        let Some(table) = measure.sky() else { return };
+        let Some(table) = &measure.sky else { return };
         let share = self.share as f32;
-        let through = measure.transmitted().map_or([0.0; 3], |transmitted| {
+        let through = measure.transmitted.as_ref().map_or([0.0; 3], |transmitted| {
             transmitted.signals.map(|signal| (signal * transmitted.share.under_sky()) as f32)
         });
         let add = |((signal, sample), angles): ((&mut [f32; 3], &SkySample), &Angles)| {
