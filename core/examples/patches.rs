@@ -9,7 +9,8 @@ pub(crate) fn main() -> Result<(), Box<dyn std::error::Error>> {
     let (camera, reference) = (data::camera("Nikon D850")?, data::observer("CIE 1931 2°")?);
     let (light, chart) = (data::illuminant("D65")?, data::chart("ColorChecker 24 (Ohta 1997)")?);
     let training = data::chart("Training reflectances (190)")?;
-    let transform = ColorTransform::Observer { reference: &reference, training: &training };
+    let transform =
+        ColorTransform::Observer { reference: &reference, training: &training, correction: Correction::default() };
     let renderings = [&camera, &reference].map(|sensor| {
         Rendering::new(sensor, &light, WhiteBalanceTarget::UNITY, transform).map(|rendering| (sensor, rendering))
     });

@@ -463,7 +463,7 @@ impl ChromascopeApp {
     fn file_stem(&self, pane: PaneKind) -> String {
         let title = panes::title(pane).to_lowercase();
         match (pane, self.view.shows) {
-            (PaneKind::METHODS, Shows::Bench(workload)) => workload.name().to_owned(),
+            (PaneKind::METHODS, Shows::Bench(workload)) => workload.key().to_owned(),
             (PaneKind::METHODS, Shows::Scene(subject)) => format!("{title}-{}", subject.title().to_lowercase()),
             _ => title,
         }

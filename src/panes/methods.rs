@@ -111,11 +111,11 @@ fn benchmark(ui: &mut Ui, body: Rect, workload: Workload, context: &mut PaneCont
     if widgets::numbers(ui, &PANE, body, context, |_| Some(figure.table.clone())) {
         return;
     }
-    let words = format!("{}; {}", workload.title(), report.machine.identity());
+    let words = format!("{}; {}", workload.label(), report.machine.identity());
     let about = format!("{BENCH} {MARKS} Measured on: {}; {}, {}.", report.machine, report.program, report.began);
     let body = above(ui, body, [&words, &about], &figure.legend, context);
     let mut child = widgets::clipped(ui, "bench", body);
-    ScrollArea::vertical().id_salt(workload.name()).auto_shrink(false).show(&mut child, |ui| {
+    ScrollArea::vertical().id_salt(workload.key()).auto_shrink(false).show(&mut child, |ui| {
         let across = ((body.width() / PANEL.x).floor() as usize).clamp(1, figure.panels.len());
         let down = figure.panels.len().div_ceil(across);
         let each =
@@ -127,7 +127,7 @@ fn benchmark(ui: &mut Ui, body: Rect, workload: Workload, context: &mut PaneCont
             let corner = Vec2::new((index % across) as f32 * each.x, (index / across) as f32 * each.y);
             let place = Rect::from_min_size(area.min + corner, size);
             let options = PlotOptions { zoomable: false, reset: context.view.reset_plots, ..PlotOptions::default() };
-            let id = Id::unique(("bench", workload.name(), index));
+            let id = Id::unique(("bench", workload.key(), index));
             let shown = paint::plot(ui, id, panel, &context.theme, place, options);
             let hit = shown.response.hover_pos().and_then(|at| paint::nearest(panel, &shown.view, at, REACH));
             let method = hit.and_then(|hit| report.of(workload).nth((hit.tag.0 as usize).checked_sub(1)?));
@@ -173,11 +173,11 @@ fn switches(ui: &mut Ui, context: &mut PaneContext<'_>) {
     ui.add_space(UNIT);
     let choices = Subject::ALL.map(|subject| (Shows::Scene(subject), subject.title(), subject.words()));
     let mut chosen = widgets::segmented(ui, &choices, now);
-    let words = if let Shows::Bench(workload) = now { workload.name() } else { "Bench" };
+    let words = if let Shows::Bench(workload) = now { workload.key() } else { "Bench" };
     let hint = ("Workload of the bench", "The program's methods on standard inputs, independent of the scene");
     let line = |workload: Workload| {
-        let line = Line::new(workload.name(), now == Shows::Bench(workload));
-        Line { also: workload.title().to_owned(), ..line }
+        let line = Line::new(workload.key(), now == Shows::Bench(workload));
+        Line { also: workload.label().to_owned(), ..line }
     };
     let index =
         pick_list::drop_down(ui, hint, words, 96.0, &context.theme, || Workload::ALL.into_iter().map(line).collect());

@@ -100,7 +100,7 @@ fn the_command_writes_figures_a_table_and_json() {
 fn the_command_lists_its_workloads() {
     let output = bench(&["--list"]);
     let text = String::from_utf8_lossy(&output.stdout).into_owned();
-    assert!(output.status.success() && Workload::ALL.iter().all(|workload| text.contains(workload.name())));
+    assert!(output.status.success() && Workload::ALL.iter().all(|workload| text.contains(workload.key())));
 }
 
 #[cfg(not(feature = "bench"))]

@@ -80,7 +80,7 @@ fn as_in_the_window(samples: u32, quality: Quality) -> (Pictures, [f64; 3]) {
     let size = RasterSize { width: 40, height: 30, samples };
     let finish = Finish { size, quality, shadows: Shadows::Full, compared_samples: Some(usize::MAX), open_sky: false };
     let query = scene.pictures_of(&scene.sources(), scene.mesh_of(None).unwrap(), viewpoint, finish, None).unwrap();
-    let rendering = (*results.ask(&query.sources[0].rendering)).clone().unwrap();
+    let rendering = (*results.ask(&query.sources[0])).clone().unwrap();
     let pictures = (*results.ask(&query)).clone().unwrap().unwrap();
     (pictures, rendering.white.to_array())
 }

@@ -6,6 +6,7 @@ use chromascope_core::camera::{
 };
 use chromascope_core::colorimetry::rgb::XYZ_FROM_SRGB;
 use chromascope_core::colorimetry::{Xy, Xyz};
+use chromascope_core::correction::Correction;
 use chromascope_core::light::RadiationConstants;
 use chromascope_core::light::planckian::black_body;
 use chromascope_core::patch_set::PatchSet;
@@ -43,7 +44,8 @@ fn between_checks() -> impl Iterator<Item = f64> {
 #[test]
 fn nodes_miss_the_sum_by_less_than_1e_12_in_xy() {
     let (equal_energy, reference, training) = (GridSpectrum::constant(1.0), sensor(CIE_1931), training());
-    let observer = ColorTransform::Observer { reference: &reference, training: &training };
+    let observer =
+        ColorTransform::Observer { reference: &reference, training: &training, correction: Correction::default() };
     let (mut worst, mut most) = (0.0_f64, 0);
     for (name, sensor) in everyone() {
         let (quick, sum) = (LocusEvaluator::new(&sensor, PAPER), LocusEvaluator::by_sum(&sensor, PAPER));
@@ -128,7 +130,8 @@ fn a_comb_of_a_sensor_is_evaluated_by_the_sum_or_right() {
 #[test]
 fn a_perfect_white_takes_the_reference_on_either_way() {
     let (reference, training) = (sensor(CIE_1931), training());
-    let observer = ColorTransform::Observer { reference: &reference, training: &training };
+    let observer =
+        ColorTransform::Observer { reference: &reference, training: &training, correction: Correction::default() };
     let ones = [1.0; 401];
     for path in ["illuminants/e.csv", "illuminants/a.csv", "illuminants/d65.csv"] {
         let light = light(path);
@@ -166,7 +169,8 @@ fn a_perfect_white_takes_the_reference_on_either_way() {
 fn the_balance_moves_rgb_but_not_what_a_fitted_matrix_makes_of_it() {
     let (reference, training, camera) = (sensor(CIE_1931), training(), sensor(NIKON_D70));
     let (light, chart) = (light("illuminants/d55.csv"), chart());
-    let transform = ColorTransform::Observer { reference: &reference, training: &training };
+    let transform =
+        ColorTransform::Observer { reference: &reference, training: &training, correction: Correction::default() };
     let at = |white: WhiteBalanceTarget| {
         let rendering = Rendering::new(&camera, &light, white, transform).unwrap();
         let under = under_light(&camera, &light);
@@ -185,7 +189,11 @@ fn the_balance_moves_rgb_but_not_what_a_fitted_matrix_makes_of_it() {
 #[test]
 fn fits_match_fifty_digits() {
     let (reference_observer, training) = (sensor(CIE_1931), training());
-    let transform = ColorTransform::Observer { reference: &reference_observer, training: &training };
+    let transform = ColorTransform::Observer {
+        reference: &reference_observer,
+        training: &training,
+        correction: Correction::default(),
+    };
     for row in reference("observer_fits.csv") {
         let rendering =
             Rendering::new(&sensor(&row[0]), &light(&row[1]), WhiteBalanceTarget::UNITY, transform).unwrap();
@@ -205,7 +213,7 @@ fn a_sensor_that_is_a_matrix_of_the_observer_is_the_observer() {
         &cones,
         &light,
         WhiteBalanceTarget::UNITY,
-        ColorTransform::Observer { reference: &reference, training: &training },
+        ColorTransform::Observer { reference: &reference, training: &training, correction: Correction::default() },
     )
     .unwrap();
     let direct = Rendering::new(&reference, &light, WhiteBalanceTarget::UNITY, ColorTransform::Paper).unwrap();
@@ -252,9 +260,14 @@ fn a_balance_made_of_cancellation_is_refused_or_flagged() {
 fn a_channel_that_sees_nothing_of_the_light_is_named() {
     let camera = sensor(CANON_10D);
     let dark = GridSpectrum::constant(0.0);
-    for transform in
-        [ColorTransform::Paper, ColorTransform::Observer { reference: &sensor(CIE_1931), training: &training() }]
-    {
+    for transform in [
+        ColorTransform::Paper,
+        ColorTransform::Observer {
+            reference: &sensor(CIE_1931),
+            training: &training(),
+            correction: Correction::default(),
+        },
+    ] {
         assert_eq!(
             Rendering::new(&camera, &dark, WhiteBalanceTarget::UNITY, transform),
             Err(RenderingError::BlindToLight { channel: 0 })
@@ -283,7 +296,11 @@ fn a_white_too_bright_for_a_faint_sensor_is_refused() {
     let bright = WhiteBalanceTarget([1.0, 1e100, 0.5]);
     assert_eq!(balanced(bright), Err(RenderingError::GainOverflow { channel: 1 }));
     // A matrix would divide by a white that is nearly nothing.
-    let transform = ColorTransform::Observer { reference: &sensor(CIE_1931), training: &training() };
+    let transform = ColorTransform::Observer {
+        reference: &sensor(CIE_1931),
+        training: &training(),
+        correction: Correction::default(),
+    };
     let dark = WhiteBalanceTarget([1.0, 1e-310, 1.0]);
     assert_eq!(Rendering::new(&sensor(CANON_10D), &e, dark, transform), Err(RenderingError::NoWhite));
 }
@@ -315,14 +332,14 @@ fn what_eq_13_does_not_cover_is_refused() {
             &cones,
             &e,
             WhiteBalanceTarget::UNITY,
-            ColorTransform::Observer { reference, training: &training },
+            ColorTransform::Observer { reference, training: &training, correction: Correction::default() },
         )
     };
     assert!(!fit(&xyz).unwrap().is_rgb);
     assert_eq!(fit(&rgb), Err(RenderingError::Reference));
     assert_eq!(fit(&camera), Err(RenderingError::Reference));
     let nothing = PatchSet::new([]);
-    let transform = ColorTransform::Observer { reference: &xyz, training: &nothing };
+    let transform = ColorTransform::Observer { reference: &xyz, training: &nothing, correction: Correction::default() };
     assert_eq!(
         Rendering::new(&camera, &e, WhiteBalanceTarget::UNITY, transform),
         Err(RenderingError::Fit(FitError::Dependent))
@@ -330,7 +347,8 @@ fn what_eq_13_does_not_cover_is_refused() {
     let one_channel = camera.curves()[1].clone();
     let gray =
         Sensor::new(Primaries::Camera, [one_channel.clone(), one_channel.clone(), one_channel], Response::PerEnergy);
-    let transform = ColorTransform::Observer { reference: &xyz, training: &training };
+    let transform =
+        ColorTransform::Observer { reference: &xyz, training: &training, correction: Correction::default() };
     assert_eq!(
         Rendering::new(&gray.unwrap(), &e, WhiteBalanceTarget::UNITY, transform),
         Err(RenderingError::Fit(FitError::Dependent))
@@ -340,7 +358,8 @@ fn what_eq_13_does_not_cover_is_refused() {
 #[test]
 fn a_white_that_no_matrix_can_undo_is_refused() {
     let (reference, training) = (sensor(CIE_1931), training());
-    let transform = ColorTransform::Observer { reference: &reference, training: &training };
+    let transform =
+        ColorTransform::Observer { reference: &reference, training: &training, correction: Correction::default() };
     let made = Rendering::new(
         &sensor(CANON_10D),
         &GridSpectrum::constant(1.0),
@@ -354,7 +373,8 @@ fn a_white_that_no_matrix_can_undo_is_refused() {
 fn cie_observers_are_drawn_directly_on_either_way() {
     let (observer, training, light) = (sensor(CIE_1931), training(), light("illuminants/d65.csv"));
     let other = sensor("observers/cie_1964_10deg.csv");
-    let transform = ColorTransform::Observer { reference: &other, training: &training };
+    let transform =
+        ColorTransform::Observer { reference: &other, training: &training, correction: Correction::default() };
     let a = Rendering::new(&observer, &light, WhiteBalanceTarget::UNITY, ColorTransform::Paper).unwrap();
     let b = Rendering::new(&observer, &light, WhiteBalanceTarget([9.0, 1.0, 1.0]), transform).unwrap();
     assert_eq!(a, b);
@@ -395,7 +415,7 @@ proptest! {
         let light = GridSpectrum::from_fn(|nm| l[((nm - 380.0) / 10.0) as usize]);
         let training = PatchSet::new([("a", &s), ("b", &a), ("c", &l), ("d", &c)].map(|(n, v)| (n.to_owned(), table(v))));
         let reference = sensor(CIE_1931);
-        for transform in [ColorTransform::Paper, ColorTransform::Observer { reference: &reference, training: &training }] {
+        for transform in [ColorTransform::Paper, ColorTransform::Observer { reference: &reference, training: &training, correction: Correction::default() }] {
             let Ok(rendering) = Rendering::new(&camera, &light, WhiteBalanceTarget::UNITY, transform) else { continue };
             prop_assert!(rendering.xyz_from_signals.is_finite() && rendering.srgb_from_xyz.is_finite());
             prop_assert!(rendering.white_integrals.is_finite() && rendering.locus_gain.is_finite());

@@ -5,6 +5,7 @@ use chromascope_core::camera::locus_table::{COLDEST_K, HOTTEST_K};
 use chromascope_core::camera::{ColorTransform, LocusEvaluator, Rendering, WhiteBalanceTarget};
 use chromascope_core::camera::{LocusTable, LocusTableError};
 use chromascope_core::colorimetry::Xy;
+use chromascope_core::correction::Correction;
 use chromascope_core::light::RadiationConstants;
 use chromascope_core::spectral::{GridSpectrum, Sensor};
 use chromascope_core::units::Kelvin;
@@ -52,7 +53,8 @@ fn measure(sensor: &Sensor, rendering: &Rendering, count: u32) -> (f64, LocusTab
 #[test]
 fn every_sensor_has_a_table_that_keeps_its_own_error() {
     let (reference, training) = (sensor(CIE_1931), training());
-    let observer = ColorTransform::Observer { reference: &reference, training: &training };
+    let observer =
+        ColorTransform::Observer { reference: &reference, training: &training, correction: Correction::default() };
     let (cameras, observers) = (sensors("cameras"), sensors("observers"));
     let all: Vec<_> = cameras.iter().chain(&observers).collect();
     let made: Vec<usize> = all

@@ -1,6 +1,7 @@
 //! Tests of the numerical tools: against the standard library, published nodes, 50-digit solutions, and the cases documented
 //! as exact.
 
+use chromascope_math::cbrt::cbrt;
 use chromascope_math::dot::{dot, dot_each};
 use chromascope_math::exp::exp;
 use chromascope_math::gauss::{Rule, gauss_rule, interpolatory_rule};
@@ -256,4 +257,15 @@ fn a_tiny_white_is_kept_as_exactly_as_any() {
     let (white, image) = (DVec3::new(3e-156, 0.0, 0.0), DVec3::new(0.9, 1.0, 1.1));
     let matrix = matrix_keeping(&samples, &samples, white, image).unwrap();
     assert!((matrix * white - image).abs().max_element() < 1e-14);
+}
+
+#[test]
+fn cube_roots_are_the_standard_library_s() {
+    let off = |i: i32| {
+        let x = 1.007_f64.powi(i);
+        (cbrt(x) / x.cbrt() - 1.0).abs()
+    };
+    // From 1e-300 to 1e300.
+    let worst = (-99_000..=99_000).map(off).fold(0.0, f64::max);
+    assert!(worst < 5e-16, "{worst:e}");
 }

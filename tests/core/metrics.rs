@@ -3,6 +3,7 @@
 use chromascope_core::camera::WhiteBalanceTarget;
 use chromascope_core::camera::quality::{Electrons, ElectronsError};
 use chromascope_core::colorimetry::{Metric, UvPrime};
+use chromascope_core::correction::Correction;
 use chromascope_core::light::RadiationConstants;
 use chromascope_core::patch_set::{COLOR_CHECKER_CHROMATIC, PatchSet};
 use chromascope_core::query::metrics::{
@@ -49,7 +50,11 @@ fn query(sample: Sensor, transform: &ColorTransformSpec, reference: Sensor) -> C
 }
 
 fn fitted() -> ColorTransformSpec {
-    ColorTransformSpec::Observer { reference: Shared::new(sensor(CIE_1931)), training: Shared::new(training()) }
+    ColorTransformSpec::Observer {
+        reference: Shared::new(sensor(CIE_1931)),
+        training: Shared::new(training()),
+        correction: Correction::default(),
+    }
 }
 
 fn value(metrics: &CameraMetrics, id: &str) -> Result<f64, WhyNot> {

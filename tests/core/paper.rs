@@ -3,6 +3,7 @@
 //! C. P. Huynh and A. Robles-Kelly 2007. Unity balance, Eq 13, truth Stiles & Burch 1955 2°. Numbers of ours, within 3 %, come
 //! from an independent computation.
 
+use chromascope_core::correction::Correction;
 use chromascope_core::camera::WhiteBalanceTarget;
 use chromascope_core::colorimetry::lab::lab_from_xyz;
 use chromascope_core::colorimetry::rgb::srgb_white;
@@ -264,7 +265,7 @@ fn fitted(path: &str, illuminant: &str) -> RenderingQuery {
         white: WhiteBalanceTarget::UNITY,
         transform: ColorTransformSpec::Observer {
             reference: Shared::new(sensor(CIE_1931)),
-            training: Shared::new(training()),
+            training: Shared::new(training()), correction: Correction::default(),
         },
     }
 }

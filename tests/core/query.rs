@@ -5,6 +5,7 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 use chromascope_core::camera::{ColorTransform, Rendering, RenderingError, WhiteBalanceTarget};
 use chromascope_core::colorimetry::rgb::{XYZ_FROM_SRGB, encode_srgb};
 use chromascope_core::colorimetry::{Metric, Xyz};
+use chromascope_core::correction::Correction;
 use chromascope_core::light::RadiationConstants;
 use chromascope_core::light::planckian::exitance;
 use chromascope_core::patch_set::PAPER_FIVE;
@@ -63,7 +64,11 @@ fn questions_differ_when_anything_they_depend_on_does() {
     let lit = RenderingQuery { light: Shared::new(light("illuminants/a.csv")), ..base.clone() };
     let white = RenderingQuery { white: WhiteBalanceTarget([1.1040, 0.9870, 0.8233]), ..base.clone() };
     let reference = Shared::new(sensor(CIE_1931));
-    let fitted = ColorTransformSpec::Observer { reference, training: Shared::new(training()) };
+    let fitted = ColorTransformSpec::Observer {
+        reference,
+        training: Shared::new(training()),
+        correction: Correction::default(),
+    };
     let transform = RenderingQuery { transform: fitted, ..base.clone() };
     for other in [lit, white, transform, by_paper(&Shared::new(sensor(DCS200)))] {
         assert!(base != other);
@@ -161,9 +166,14 @@ fn patch_colors_are_eq_16_and_13_written_out() {
 fn fitted_renderings_share_their_targets_and_nothing_else_changes() {
     let (reference, training) = (Shared::new(sensor(CIE_1931)), Shared::new(training()));
     let light = Shared::new(light("illuminants/a.csv"));
-    let by_hand = ColorTransform::Observer { reference: &reference, training: &training };
+    let by_hand =
+        ColorTransform::Observer { reference: &reference, training: &training, correction: Correction::default() };
     for path in [CANON_10D, REFERENCE, CIE_1931] {
-        let transform = ColorTransformSpec::Observer { reference: reference.clone(), training: training.clone() };
+        let transform = ColorTransformSpec::Observer {
+            reference: reference.clone(),
+            training: training.clone(),
+            correction: Correction::default(),
+        };
         let query = RenderingQuery {
             sensor: Shared::new(sensor(path)),
             light: light.clone(),
@@ -177,7 +187,11 @@ fn fitted_renderings_share_their_targets_and_nothing_else_changes() {
         );
     }
     let dark = Shared::new(GridSpectrum::constant(0.0));
-    let transform = ColorTransformSpec::Observer { reference: reference.clone(), training: training.clone() };
+    let transform = ColorTransformSpec::Observer {
+        reference: reference.clone(),
+        training: training.clone(),
+        correction: Correction::default(),
+    };
     let query = RenderingQuery {
         sensor: Shared::new(sensor(CANON_10D)),
         light: dark,

@@ -2,6 +2,7 @@
 
 use chromascope_core::camera::WhiteBalanceTarget;
 use chromascope_core::colorimetry::Metric;
+use chromascope_core::correction::Correction;
 use chromascope_core::query::{Ask as _, ColorTransformSpec, Direct, PatchColorsQuery, RenderingQuery, Shared};
 use chromascope_core::render::develop::{develop_signals, signal_differences};
 use chromascope_core::render::{
@@ -23,6 +24,7 @@ fn rendering(path: &str) -> RenderingQuery {
         transform: ColorTransformSpec::Observer {
             reference: Shared::new(sensor(CIE_1931)),
             training: Shared::new(training()),
+            correction: Correction::default(),
         },
     }
 }

@@ -88,7 +88,8 @@ fn at_10_nm(name: &str) -> Sensor {
 fn under(camera: Sensor, illuminant: &str, correction: Correction) -> CameraMetricsQuery {
     let observer = Shared::new(sensor(CIE_1931));
     let light_of = |path| Shared::new(light(path));
-    let transform = ColorTransformSpec::corrected(observer.clone(), Shared::new(training()), correction);
+    let transform =
+        ColorTransformSpec::Observer { reference: observer.clone(), training: Shared::new(training()), correction };
     let rendering = |sensor| RenderingQuery {
         sensor,
         light: light_of(illuminant),

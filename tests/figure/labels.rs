@@ -31,7 +31,7 @@ fn faults_of(panel: &Panel) -> Vec<String> {
     let mut figure = Figure::new("figure", [panel.area.width(), panel.area.height()]);
     figure.panels.push(panel.clone());
     let none = |_: &Image| None;
-    let style = svg::SvgStyle::new("DejaVu Sans", "DejaVu Sans Mono", &none);
+    let style = svg::SvgStyle { font_family: "DejaVu Sans", mono_family: "DejaVu Sans Mono", encode: &none };
     faults(&svg::write(&figure, &Colors, &style, &PageStyle::default()), "#ffffff", "#c8c8c8")
 }
 

@@ -11,6 +11,7 @@ use proptest::prelude::*;
 
 mod faults;
 mod labels;
+mod number;
 mod pdf;
 
 struct Gray;
@@ -31,7 +32,7 @@ fn no_image(_: &Image) -> Option<String> {
 }
 
 fn written_with(figure: &Figure, encode: &dyn Fn(&Image) -> Option<String>) -> String {
-    let style = svg::SvgStyle::new("DejaVu Sans", "DejaVu Sans Mono", encode);
+    let style = svg::SvgStyle { font_family: "DejaVu Sans", mono_family: "DejaVu Sans Mono", encode };
     svg::write(figure, &Gray, &style, &PageStyle::default())
 }
 

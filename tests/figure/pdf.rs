@@ -168,7 +168,7 @@ fn a_legend_below_and_titles_outside_enlarge_the_page() {
     assert!(!written(&figure).contains(">third<"));
     let none = PageStyle { axis_titles: AxisTitles::None, ..style };
     let svg = |style: &PageStyle| {
-        let fonts = chromascope_figure::svg::SvgStyle::new("a", "b", &super::no_image);
+        let fonts = chromascope_figure::svg::SvgStyle { font_family: "a", mono_family: "b", encode: &super::no_image };
         chromascope_figure::svg::write(&figure, &Gray, &fonts, style)
     };
     assert!(svg(&style).contains(">u′<") && !svg(&none).contains(">u′<"));

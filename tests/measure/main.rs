@@ -2,6 +2,8 @@
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on should say so by failing")]
 
+mod harness;
+mod loci;
 mod pareto;
 
 use std::sync::Arc;
@@ -108,7 +110,7 @@ fn every_workload_has_a_figure_and_rows() {
     assert!(report.table().rows.iter().all(|row| row.len() == columns) && columns >= 20);
     let csv = report.table().to_csv();
     for workload in Workload::ALL {
-        assert_eq!(csv.lines().filter(|line| line.starts_with(workload.name())).count(), 2, "{csv}");
+        assert_eq!(csv.lines().filter(|line| line.starts_with(workload.key())).count(), 2, "{csv}");
         let figure = report.figure(workload).unwrap();
         assert!(!figure.panels.is_empty() && figure.caption.contains(&report.machine.processor));
         assert!(figure.panels.iter().all(|panel| panel.marks.len() >= 2), "{workload:?}");

@@ -53,7 +53,7 @@ fn every_method_is_named_and_no_name_covers_another() {
         let mut figure = Figure::new("figure", [420.0, 320.0]);
         figure.panels.push(panel);
         let none = |_: &Image| None;
-        let style = svg::SvgStyle::new("DejaVu Sans", "DejaVu Sans Mono", &none);
+        let style = svg::SvgStyle { font_family: "DejaVu Sans", mono_family: "DejaVu Sans Mono", encode: &none };
         let svg = svg::write(&figure, &Colors, &style, &PageStyle::default());
         assert_eq!(faults::faults(&svg, "#ffffff", "#c8c8c8"), Vec::<String>::new(), "{count} methods");
     }

@@ -79,3 +79,20 @@ proptest! {
         }
     }
 }
+
+#[test]
+fn sizes_are_refused_in_the_words_of_the_format() {
+    for (name, value, words) in [
+        ("samples", "65537", "`samples` is 65537; expected 1 to 65536"),
+        ("lines", "65537", "`lines` is 65537; expected 1 to 65536"),
+        ("bands", "0", "`bands` is 0; expected 1 to 4096"),
+    ] {
+        assert_eq!(EnviHeader::parse(&header(&[(name, value)])).unwrap_err().to_string(), words);
+    }
+    // The first of the two corners of the window that is displayed, and then the second's x.
+    let mut bytes = fs::read(data("openexr_reflectance.exr")).unwrap();
+    let at = bytes.windows(11).position(|name| name == b"dataWindow\0").unwrap() + 11 + b"box2i\0".len() + 4;
+    bytes[at + 8..at + 12].copy_from_slice(&65536_i32.to_le_bytes());
+    let refused = ExrImage::new(Cursor::new(bytes), None).map(|_| ()).unwrap_err().to_string();
+    assert_eq!(refused, "`width` is 65537; expected 1 to 65536");
+}

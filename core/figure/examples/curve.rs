@@ -22,6 +22,6 @@ fn main() -> std::io::Result<()> {
     let mut figure = Figure::new("A sine", [400.0, 280.0]);
     figure.panels.push(panel);
     let no_image = |_: &Image| None;
-    let style = svg::SvgStyle::new("sans-serif", "monospace", &no_image);
+    let style = svg::SvgStyle { font_family: "sans-serif", mono_family: "monospace", encode: &no_image };
     std::io::stdout().write_all(svg::write(&figure, &Print, &style, &PageStyle::default()).as_bytes())
 }

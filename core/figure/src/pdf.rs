@@ -24,27 +24,18 @@ use super::panel::Figure;
 use super::rect::Rect;
 
 /// Reason that there is no PDF.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum PdfError {
     /// A font cannot be read.
+    #[error("a font cannot be read")]
     Font,
     /// The page has no area, or one beyond what PDF allows.
+    #[error("the page has no area, or is larger than 5 m")]
     Size,
     /// The writer refused.
+    #[error("the PDF cannot be written: {0}")]
     Write(String),
 }
-
-impl std::fmt::Display for PdfError {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Self::Font => f.write_str("a font cannot be read"),
-            Self::Size => f.write_str("the page has no area, or is larger than 5 m"),
-            Self::Write(reason) => write!(f, "the PDF cannot be written: {reason}"),
-        }
-    }
-}
-
-impl std::error::Error for PdfError {}
 
 /// `OpenType` fonts of a written figure.
 #[derive(Debug, Clone, Copy)]

@@ -22,13 +22,6 @@ pub struct SvgStyle<'a> {
     pub encode: &'a dyn Fn(&Image) -> Option<String>,
 }
 
-impl<'a> SvgStyle<'a> {
-    /// The given fonts and encoder.
-    pub fn new(font_family: &'a str, mono_family: &'a str, encode: &'a dyn Fn(&Image) -> Option<String>) -> Self {
-        Self { font_family, mono_family, encode }
-    }
-}
-
 /// Writes a figure as an SVG document.
 pub fn write(figure: &Figure, palette: &dyn Palette, style: &SvgStyle<'_>, layout: &PageStyle) -> String {
     let page = Page::new(figure, layout);

@@ -38,13 +38,7 @@ impl Report {
 
     /// The workloads that were measured, in order.
     pub fn workloads(&self) -> Vec<Workload> {
-        let mut found: Vec<Workload> = Vec::new();
-        for measurement in &self.measurements {
-            if !found.contains(&measurement.workload) {
-                found.push(measurement.workload);
-            }
-        }
-        found
+        self.measurements.chunk_by(|a, b| a.workload == b.workload).map(|of_one| of_one[0].workload).collect()
     }
 
     /// The run time of a workload's methods against their error, a panel for each case: down and to the left is better. None if it
@@ -74,15 +68,9 @@ impl Report {
 
     /// Measurements with a place, by case.
     fn cases(&self, workload: Workload) -> Vec<Vec<Numbered<'_>>> {
-        let mut cases: Vec<Vec<Numbered<'_>>> = Vec::new();
         // What gives none of the values has no error, and so no place.
-        for numbered in self.of(workload).enumerate().filter(|(_, measurement)| measurement.error.checked > 0) {
-            match cases.iter_mut().find(|case| case[0].1.case == numbered.1.case) {
-                Some(case) => case.push(numbered),
-                None => cases.push(vec![numbered]),
-            }
-        }
-        cases
+        let placed: Vec<_> = self.of(workload).enumerate().filter(|(_, m)| m.error.checked > 0).collect();
+        placed.chunk_by(|a, b| a.1.case == b.1.case).map(<[_]>::to_vec).collect()
     }
 
     fn arranged(
@@ -94,7 +82,7 @@ impl Report {
     ) -> Option<Figure> {
         let what = &cases.first()?[0].1.error.what;
         let down = cases.len().div_ceil(across);
-        let mut figure = Figure::new(workload.title(), [size[0] * across as f64, size[1] * down as f64]);
+        let mut figure = Figure::new(workload.label(), [size[0] * across as f64, size[1] * down as f64]);
         for (index, case) in cases.iter().enumerate() {
             let corner = [size[0] * (index % across) as f64, size[1] * (index / across) as f64];
             figure.panels.push(panel(case, Rect::from_min_size(corner, size)));
@@ -132,7 +120,7 @@ impl Report {
 }
 
 const COLUMNS: [Field<Measurement>; 22] = [
-    Field::new("workload", |m| m.workload.name().into()),
+    Field::new("workload", |m| m.workload.key().into()),
     Field::new("case", |m| m.case.as_str().into()),
     Field::new("method", |m| m.method.as_str().into()),
     Field::new("threads", |m| (m.threads as f64).into()),

@@ -13,7 +13,7 @@
 //! all and the faces meet at less than 60°; `s off` gives each face its own.
 //!
 //! Reading is total: it does not panic, takes time about proportional to the input (a concave polygon: to the square of its
-//! corners, a few times over), and needs about 150 bytes for each triangle beside the file's own. The limits are
+//! corners at most), and needs about 150 bytes for each triangle beside the file's own. The limits are
 //! [`MAX_BYTES`], [`MAX_VERTICES`] and [`MAX_TRIANGLES`].
 
 mod build;
@@ -42,6 +42,11 @@ pub const MAX_TRIANGLES: usize = 10_000_000;
 
 /// Statements, faces or vertices between two looks at whether to stop.
 const STOP_EVERY: usize = 4096;
+
+/// Looks from time to time at whether to stop.
+fn look(at: usize, stop: &dyn Fn() -> bool) -> Result<(), MeshReadError> {
+    if at.is_multiple_of(STOP_EVERY) && stop() { Err(MeshReadError::Stopped) } else { Ok(()) }
+}
 
 /// Consecutive triangles under one name.
 #[derive(Clone, Debug, PartialEq, Eq)]

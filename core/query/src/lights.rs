@@ -6,6 +6,7 @@ use super::patches::{ColorTransformSpec, RenderingQuery};
 use chromascope_color::camera::rendering::{raw, under_light, white_divisors};
 use chromascope_color::camera::{RenderingError, WhiteBalanceTarget};
 use chromascope_color::colorimetry::delta_e_2000;
+use chromascope_color::correction::Correction;
 use chromascope_color::light::Cct;
 use chromascope_color::patch_set::PatchSet;
 use chromascope_color::rendition::cri::rendering_indices;
@@ -142,6 +143,7 @@ impl Query for ConsistencyQuery {
             transform: ColorTransformSpec::Observer {
                 reference: self.observer.clone(),
                 training: self.training.clone(),
+                correction: Correction::default(),
             },
         };
         let rendering = ask.ask(&corrected);

@@ -16,15 +16,8 @@ use glam::DVec3;
 pub enum ColorTransformSpec {
     /// Eq 13.
     Paper,
-    /// A 3×3 matrix fitted to a reference observer.
+    /// Fitted to a reference observer.
     Observer {
-        /// The observer.
-        reference: Shared<Sensor>,
-        /// The training reflectances.
-        training: Shared<PatchSet>,
-    },
-    /// As [`Self::Observer`], which is its default, with a color correction of choice.
-    Corrected {
         /// The observer.
         reference: Shared<Sensor>,
         /// The training reflectances.
@@ -35,21 +28,11 @@ pub enum ColorTransformSpec {
 }
 
 impl ColorTransformSpec {
-    /// A correction fitted to an observer; the default one is [`Self::Observer`], so that equal queries are equal.
-    pub fn corrected(reference: Shared<Sensor>, training: Shared<PatchSet>, correction: Correction) -> Self {
-        if correction == Correction::default() {
-            Self::Observer { reference, training }
-        } else {
-            Self::Corrected { reference, training, correction }
-        }
-    }
-
     /// Observer, training reflectances and correction; none for Eq 13.
     pub fn fit(&self) -> Option<(&Shared<Sensor>, &Shared<PatchSet>, Correction)> {
         match self {
             Self::Paper => None,
-            Self::Observer { reference, training } => Some((reference, training, Correction::default())),
-            Self::Corrected { reference, training, correction } => Some((reference, training, *correction)),
+            Self::Observer { reference, training, correction } => Some((reference, training, *correction)),
         }
     }
 }

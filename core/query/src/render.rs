@@ -392,19 +392,18 @@ impl Query for PictureWeightsQuery {
         let mut own = of(&self.own)?;
         if self.untinted {
             let reflectance = Shared::new(GridSpectrum::constant(1.0));
-            own = own.with_untinted(Arc::new(of(&SpectralWeightsQuery { reflectance, ..self.own.clone() })?));
+            own.untinted = Some(Arc::new(of(&SpectralWeightsQuery { reflectance, ..self.own.clone() })?));
         }
         if let Some(surface) = self.through {
             let reflectance = (*ask.ask(&LeafTransmittanceQuery(self.own.reflectance.clone()))).clone();
             let reading = Normalization::Lambertian;
             let signals = of(&SpectralWeightsQuery { reflectance, reading, ..self.own.clone() })?.totals();
             let share = ask.ask(&ScatteredShareQuery { surface, reading: self.own.reading });
-            own = own.with_transmitted(Transmitted { signals, share });
+            own.transmitted = Some(Transmitted { signals, share });
         }
         if let Some(surface) = self.sky {
             let reflectance = ask.ask(&SkyReflectanceQuery { surface, reading: self.own.reading });
-            let signals = reflectance.signals(&own);
-            own = own.with_sky(Arc::new(signals));
+            own.sky = Some(Arc::new(reflectance.signals(&own)));
         }
         Ok(own)
     }

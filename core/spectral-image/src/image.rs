@@ -97,17 +97,3 @@ pub(crate) fn ascending(wavelengths: &[f64], field: &'static str) -> Result<Vec<
         None => Ok(order),
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn sizes_are_refused_in_the_words_of_the_format() {
-        let check =
-            |size| ImageInfo::check_size(size, ["width", "height", "spectral channels"]).map_err(|e| e.to_string());
-        assert_eq!(check([1, 1, 1]), Ok(()));
-        assert_eq!(check([MAX_SIDE + 1, 1, 1]), Err("`width` is 65537; expected 1 to 65536".to_owned()));
-        assert!(check([1, 1, 0]).is_err_and(|words| words.starts_with("`spectral channels` is 0")));
-    }
-}

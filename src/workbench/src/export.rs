@@ -64,7 +64,7 @@ pub fn json(title: &str, table: &Table) -> String {
 
 /// The figure as SVG. Figures for paper take [`Colors::LIGHT`].
 pub fn svg(figure: &Figure, colors: &Colors, paper: Paper) -> String {
-    let style = svg::SvgStyle::new(FONT_FAMILY, MONO_FAMILY, &data_uri);
+    let style = svg::SvgStyle { font_family: FONT_FAMILY, mono_family: MONO_FAMILY, encode: &data_uri };
     svg::write(figure, colors, &style, &paper.page_style())
 }
 

@@ -291,7 +291,7 @@ impl<'a> Scene<'a> {
                 let choice = &self.document.correction;
                 let reference = self.sensor(SetKind::Observer, reference)?;
                 let training = self.patch_set(&choice.training, None)?;
-                Ok(ColorTransformSpec::corrected(reference, training, choice.correction()))
+                Ok(ColorTransformSpec::Observer { reference, training, correction: choice.correction() })
             }
         }
     }

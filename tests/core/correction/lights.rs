@@ -22,7 +22,7 @@ fn query(camera: &str, illuminant: &str, correction: Correction) -> RenderingQue
         sensor: Shared::new(sensor(camera)),
         light: Shared::new(light(illuminant)),
         white: chromascope_core::camera::WhiteBalanceTarget([1.104, 0.987, 0.8233]),
-        transform: ColorTransformSpec::corrected(reference, training, correction),
+        transform: ColorTransformSpec::Observer { reference, training, correction },
     }
 }
 

@@ -111,7 +111,7 @@ fn renderings_take_cameras_and_refuse_observers_with_negative_lobes() {
     let (reference, training) = (sensor(CIE_1931), training());
     let method = CorrectionMethod::RootPolynomial(Degree::Three);
     let correction = Correction { method, ..Correction::default() };
-    let transform = ColorTransform::Corrected { reference: &reference, training: &training, correction };
+    let transform = ColorTransform::Observer { reference: &reference, training: &training, correction };
     let (d55, white) = (light("illuminants/d55.csv"), WhiteBalanceTarget([1.1, 0.987, 0.823]));
     let refused = Rendering::new(&sensor(REFERENCE), &d55, white, transform);
     assert_eq!(refused.unwrap_err(), RenderingError::NegativeLobes { is_rgb: true });

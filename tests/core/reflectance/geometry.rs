@@ -102,3 +102,17 @@ proptest! {
         prop_assert_eq!(there.vz_by_k, back.vz_by_k);
     }
 }
+
+#[test]
+fn the_quick_way_is_the_same_or_says_that_it_is_not() {
+    let unit = |i: u32| DVec3::new((1.7 * f64::from(i)).sin(), (2.3 * f64::from(i)).cos(), 0.4).normalize();
+    for i in 0..500 {
+        let (light, viewer, normal) = (unit(i), unit(3 * i + 1), unit(7 * i + 2));
+        let (quick, holds) = Geometry::from_directions_branchless(light, viewer, normal);
+        assert!(holds);
+        assert_eq!(quick, Geometry::from_directions(light, viewer, normal));
+    }
+    for (light, normal) in [(DVec3::Z, DVec3::Z), (DVec3::NAN, DVec3::Z), (DVec3::X, DVec3::INFINITY)] {
+        assert!(!Geometry::from_directions_branchless(light, DVec3::Y, normal).1);
+    }
+}

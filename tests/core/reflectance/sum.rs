@@ -153,3 +153,10 @@ fn the_logarithm_of_a_subnormal_roughness_is_a_number() {
         }
     }
 }
+
+#[test]
+fn what_has_no_piece_is_summed_directly() {
+    let mut sums = [0.5; 2];
+    diffuse_sums_into(&[f64::NAN, 1e-300], &[0.0; 2], Precision::Full, &mut sums);
+    assert!(sums == [0.0, 1e-300]);
+}

@@ -8,7 +8,7 @@ use std::sync::Arc;
 use chromascope_core::camera::WhiteBalanceTarget;
 use chromascope_core::colorimetry::Metric;
 use chromascope_core::query::render::MeshQuery;
-use chromascope_core::query::render::picture::{Pictures, PicturesQuery, SourceOf};
+use chromascope_core::query::render::picture::{Pictures, PicturesQuery};
 use chromascope_core::query::render::{GeometryQuery, Roughness, ShadingQuery, VisibilityQuery};
 use chromascope_core::query::{Ask, ColorTransformSpec, Query, RenderingQuery, Shared};
 use chromascope_core::reflectance::{Normalization, Specular, Surface};
@@ -110,7 +110,7 @@ impl FrameCase {
             reflectance: self.reflectance.clone(),
             garment: self.garment.clone(),
             reference: self.sources[0].clone(),
-            sources: self.sources.iter().map(|rendering| SourceOf { rendering: rendering.clone() }).collect(),
+            sources: self.sources.clone(),
             ev: self.ev.to_bits(),
             background: None,
             metric: self.metric,

@@ -80,7 +80,7 @@ fn no_smooth_surface_takes_many_wavelengths() {
         let shading = Direct.ask(&question.shading);
         let shading = (*shading).as_ref().unwrap();
         for source in &question.sources {
-            let measure = Direct.ask(&question.image(&source.rendering).measure);
+            let measure = Direct.ask(&question.image(source).measure);
             let integral = CoherentIntegral::in_picture(shading, (*measure).as_ref().unwrap());
             let evaluations: usize =
                 shading.coherent_samples().iter().map(|coherent| integral.evaluations(coherent)).sum();

@@ -265,7 +265,8 @@ fn picture(&[key, sigma, tau, half, index, reading, quality, kind]: &Case, v: &m
     let rough = ShadingImage::by_vertices(Arc::new(vertices), &heights, surface, reading, quality, &Stop::NEVER);
     let images = [plain, rough].map(|shading| {
         let shading = shading.expect("never stopped");
-        let measure = scene.measure.clone().with_untinted(Arc::new(scene.measure.clone()));
+        let mut measure = scene.measure.clone();
+        measure.untinted = Some(Arc::new(scene.measure.clone()));
         let plan = Arc::new(Plan::fixed(&measure, shading.fixed_quality()));
         CameraImage::new(&shading, &measure, plan, &Stop::NEVER).expect("never stopped")
     });

@@ -231,7 +231,8 @@ fn fitted(&[key, kind, size, light, ..]: &Case, v: &mut Verdict) {
         targets.as_ref().map_err(|&e| e),
         &Correction::default(),
     );
-    let transform = ColorTransform::Observer { reference: &OBSERVER, training: &TRAINING };
+    let transform =
+        ColorTransform::Observer { reference: &OBSERVER, training: &TRAINING, correction: Correction::default() };
     v.holds("two ways differ", Rendering::new(&sensor, &light, WhiteBalanceTarget::UNITY, transform) == answer);
     let Ok(rendering) = answer else { return v.refuse() };
     v.holds("not finite", rendering.xyz_from_signals.is_finite() && rendering.srgb_from_xyz.is_finite());

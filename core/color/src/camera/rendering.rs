@@ -21,18 +21,11 @@ use std::sync::Arc;
 pub enum ColorTransform<'a> {
     /// Eq 13 for cameras and RGB observers alike; CIE observers directly.
     Paper,
-    /// CIE observers directly; all else by a 3×3 matrix fitted to a reference observer over training reflectances.
+    /// CIE observers directly; all else by a transform fitted to a reference observer over training reflectances.
     Observer {
         /// The XYZ observer that is fitted to.
         reference: &'a Sensor,
         /// The reflectances that are fitted over; never the displayed ones.
-        training: &'a PatchSet,
-    },
-    /// As [`Self::Observer`], which is its default, with a color correction of choice.
-    Corrected {
-        /// The XYZ observer that is fitted to.
-        reference: &'a Sensor,
-        /// The reflectances that are fitted over.
         training: &'a PatchSet,
         /// The color correction.
         correction: Correction,
@@ -131,11 +124,7 @@ impl Rendering {
             (_, Primaries::Xyz) => direct(sensor, light),
             (ColorTransform::Paper, Primaries::Cones) => Err(RenderingError::ConesNeedObserver),
             (ColorTransform::Paper, Primaries::Camera | Primaries::Rgb) => paper(sensor, light, white),
-            (ColorTransform::Observer { reference, training }, _) => {
-                let correction = Correction::default();
-                Self::new(sensor, light, white, ColorTransform::Corrected { reference, training, correction })
-            }
-            (ColorTransform::Corrected { reference, training, correction }, _) => {
+            (ColorTransform::Observer { reference, training, correction }, _) => {
                 let targets = FitTargets::new(reference, light, training);
                 fitted(sensor, light, white, training, targets.as_ref().map_err(|&e| e), &correction)
             }

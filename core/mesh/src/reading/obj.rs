@@ -4,8 +4,8 @@
 //! first word it cannot read without reporting its position, and hashes vertices by their indices; obj 0.10 copies each
 //! line and does not support continued ones; `wavefront_obj` 11 rejects unknown statements. None can be stopped.
 
-use super::STOP_EVERY;
 use super::lines::{Cursor, Word};
+use super::look;
 use super::report::{MeshReadError, Place, Skipped};
 use super::soup::{Corner, NONE, Names, Smoothing, Soup};
 
@@ -35,19 +35,14 @@ pub(super) fn read(bytes: &[u8], stop: &dyn Fn() -> bool) -> Result<Soup, MeshRe
     let mut cursor = Cursor::new(bytes);
     let mut soup = Soup::new(Place::Line, 1);
     let mut naming = Naming::default();
-    let mut countdown = STOP_EVERY;
+    let mut lines = 0;
     while !cursor.is_done() {
         if let Some(keyword) = cursor.word() {
             statement(keyword.text, &mut cursor, &mut soup, &mut naming)?;
         }
         cursor.next_line();
-        countdown -= 1;
-        if countdown == 0 {
-            if stop() {
-                return Err(MeshReadError::Stopped);
-            }
-            countdown = STOP_EVERY;
-        }
+        lines += 1;
+        look(lines, stop)?;
     }
     soup.check()?;
     Ok(soup)

@@ -6,7 +6,7 @@
 use super::lines::Cursor;
 use super::report::{MeshReadError, Place, Quantity, Skipped};
 use super::soup::{Corner, NONE, Soup};
-use super::{MAX_TRIANGLES, STOP_EVERY};
+use super::{MAX_TRIANGLES, look};
 
 pub(super) fn read(bytes: &[u8], stop: &dyn Fn() -> bool) -> Result<Soup, MeshReadError> {
     let (header, cursor) = header(bytes)?;
@@ -33,9 +33,7 @@ fn records(
     }
     let mut record = Record::default();
     for n in 1..=element.count {
-        if n % STOP_EVERY == 0 && stop() {
-            return Err(MeshReadError::Stopped);
-        }
+        look(n, stop)?;
         data.read(element, n, &mut record)?;
         let place = data.place(element.content, n);
         match element.content {
@@ -159,21 +157,11 @@ fn value(
     rest: &mut &[u8],
     scalar: Scalar,
 ) -> Result<Option<f64>, MeshReadError> {
-    let big = match encoding {
-        Encoding::Text => return cursor.number(),
-        Encoding::Little => false,
-        Encoding::Big => true,
-    };
-    Ok(match scalar {
-        Scalar::I8 => take(rest, big).map(|bytes| f64::from(i8::from_le_bytes(bytes))),
-        Scalar::U8 => take(rest, big).map(|bytes| f64::from(u8::from_le_bytes(bytes))),
-        Scalar::I16 => take(rest, big).map(|bytes| f64::from(i16::from_le_bytes(bytes))),
-        Scalar::U16 => take(rest, big).map(|bytes| f64::from(u16::from_le_bytes(bytes))),
-        Scalar::I32 => take(rest, big).map(|bytes| f64::from(i32::from_le_bytes(bytes))),
-        Scalar::U32 => take(rest, big).map(|bytes| f64::from(u32::from_le_bytes(bytes))),
-        Scalar::F32 => take(rest, big).map(|bytes| f64::from(f32::from_le_bytes(bytes))),
-        Scalar::F64 => take(rest, big).map(f64::from_le_bytes),
-    })
+    match encoding {
+        Encoding::Text => cursor.number(),
+        Encoding::Little => Ok((scalar.0)(rest, false)),
+        Encoding::Big => Ok((scalar.0)(rest, true)),
+    }
 }
 
 /// The next bytes, the least first.
@@ -202,32 +190,24 @@ enum Encoding {
     Big,
 }
 
+/// Takes a value off the bytes of a binary file; none where they end within it. True for the greatest byte first.
 #[derive(Clone, Copy)]
-enum Scalar {
-    I8,
-    U8,
-    I16,
-    U16,
-    I32,
-    U32,
-    F32,
-    F64,
-}
+struct Scalar(fn(&mut &[u8], bool) -> Option<f64>);
 
 impl Scalar {
     /// The type of a name, of which there are two sets.
     fn named(name: &[u8]) -> Option<Self> {
-        Some(match name {
-            b"char" | b"int8" => Self::I8,
-            b"uchar" | b"uint8" => Self::U8,
-            b"short" | b"int16" => Self::I16,
-            b"ushort" | b"uint16" => Self::U16,
-            b"int" | b"int32" => Self::I32,
-            b"uint" | b"uint32" => Self::U32,
-            b"float" | b"float32" => Self::F32,
-            b"double" | b"float64" => Self::F64,
+        Some(Self(match name {
+            b"char" | b"int8" => |rest, big| take(rest, big).map(|bytes| i8::from_le_bytes(bytes).into()),
+            b"uchar" | b"uint8" => |rest, big| take(rest, big).map(|bytes| u8::from_le_bytes(bytes).into()),
+            b"short" | b"int16" => |rest, big| take(rest, big).map(|bytes| i16::from_le_bytes(bytes).into()),
+            b"ushort" | b"uint16" => |rest, big| take(rest, big).map(|bytes| u16::from_le_bytes(bytes).into()),
+            b"int" | b"int32" => |rest, big| take(rest, big).map(|bytes| i32::from_le_bytes(bytes).into()),
+            b"uint" | b"uint32" => |rest, big| take(rest, big).map(|bytes| u32::from_le_bytes(bytes).into()),
+            b"float" | b"float32" => |rest, big| take(rest, big).map(|bytes| f32::from_le_bytes(bytes).into()),
+            b"double" | b"float64" => |rest, big| take(rest, big).map(f64::from_le_bytes),
             _ => return None,
-        })
+        }))
     }
 }
 

@@ -6,7 +6,7 @@
 use super::lines::Cursor;
 use super::report::{MeshReadError, Place, Quantity};
 use super::soup::{Corner, NONE, Names, Soup};
-use super::{MAX_TRIANGLES, STOP_EVERY};
+use super::{MAX_TRIANGLES, look};
 
 /// The bytes before the first facet: a remark of 80 and the number of facets.
 const HEADER: usize = 84;
@@ -40,9 +40,7 @@ pub(super) fn read_binary(bytes: &[u8], stop: &dyn Fn() -> bool) -> Result<Soup,
     }
     let mut soup = Soup::new(Place::Face, 1);
     for (i, facet) in facets[..announced].iter().enumerate() {
-        if i % STOP_EVERY == 0 && stop() {
-            return Err(MeshReadError::Stopped);
-        }
+        look(i, stop)?;
         let (values, _) = facet.as_chunks::<4>();
         for corner in values[3..].chunks_exact(3) {
             let xyz = [corner[0], corner[1], corner[2]].map(|value| f64::from(f32::from_le_bytes(value)));
@@ -81,9 +79,7 @@ pub(super) fn read_text(bytes: &[u8], stop: &dyn Fn() -> bool) -> Result<Soup, M
         }
         cursor.next_line();
         lines += 1;
-        if lines.is_multiple_of(STOP_EVERY) && stop() {
-            return Err(MeshReadError::Stopped);
-        }
+        look(lines, stop)?;
     }
     if let Some(line) = facet {
         return Err(MeshReadError::Unfinished(line));

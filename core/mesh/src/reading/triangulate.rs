@@ -2,16 +2,13 @@
 
 use super::report::{MeshReadError, Tally};
 use super::soup::Soup;
+use earcut::{Earcut, refine};
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
-use std::iter::successors;
 use std::ops::Range;
 
-/// The most corners of a concave polygon, whose cutting takes time with their square.
+/// The most corners of a concave polygon, whose cutting may take time with their square.
 const MAX_CONCAVE: usize = 4096;
-
-/// Number of passes over all corners of a polygon when no ear is left.
-const MOST_LOOKS: u32 = 8;
 
 /// Corners between two looks at whether to stop: also how many concave polygons there can be between them.
 const STOP_EVERY: usize = 1 << 17;
@@ -120,10 +117,6 @@ struct Polygon {
     space: Vec<DVec3>,
     /// Their places in the plane, counter-clockwise.
     points: Vec<DVec2>,
-    /// Uncut rest: for each corner the one before and the one after.
-    around: Vec<[u32; 2]>,
-    /// For each corner how good an ear it is; zero where it is none.
-    ears: Vec<f64>,
     /// Distance by which rounding to single precision moves a corner.
     grain: f64,
     /// Triangles of indices among `corners`.
@@ -205,112 +198,18 @@ impl Polygon {
         true
     }
 
-    /// Cuts ear after ear (Meisters 1975), the one of the best shape first: that leaves the fewest slivers. Returns false
-    /// where at some time no ear was left: the polygon crosses itself.
+    /// Cuts ears, then turns diagonals until no two triangles would be of a better shape with the other one. Returns false
+    /// where the triangles do not cover the polygon once: it crosses itself.
     fn clip_ears(&mut self) -> bool {
-        let n = self.points.len() as u32;
-        self.around.clear();
-        self.around.extend((0..n).map(|i| [(i + n - 1) % n, (i + 1) % n]));
-        self.ears.clear();
-        self.ears.extend((0..n).map(|_| 0.0));
-        self.judge_all(0);
-        let (mut at, mut simple, mut looks) = (0_u32, true, MOST_LOOKS);
-        while self.triangles.len() as u32 + 3 < n {
-            let mut ear = self.best(at, |i| self.ears[i as usize]);
-            if self.ears[ear as usize] <= 0.0 && looks > 0 {
-                // What touched a corner that is gone may be an ear now.
-                looks -= 1;
-                self.judge_all(at);
-                ear = self.best(at, |i| self.ears[i as usize]);
-            }
-            if self.ears[ear as usize] <= 0.0 {
-                ear = self.best(at, |i| -self.area(self.triangle(i)).abs());
-                // Corners in line are no ears, but they cross nothing.
-                simple &= self.is_flat(self.triangle(ear));
-            }
-            at = self.clip(ear);
-        }
-        let last = self.triangle(at);
-        self.triangles.push(last.map(|i| i as u32));
-        simple && (self.area(last) >= 0.0 || self.is_flat(last))
+        let points: Vec<[f64; 2]> = self.points.iter().map(DVec2::to_array).collect();
+        let mut corners: Vec<u32> = Vec::new();
+        Earcut::new().earcut(points.iter().copied(), &[], &mut corners);
+        refine(&mut corners, &points);
+        self.triangles.extend_from_slice(corners.as_chunks().0);
+        let covered: f64 = self.triangles.iter().map(|t| self.area(t.map(|i| i as usize)).abs()).sum();
+        let enclosed: f64 = (2..points.len()).map(|i| self.area([0, i - 1, i])).sum();
+        let sides = self.points.iter().zip(self.points.iter().cycle().skip(1));
+        let around: f64 = sides.map(|(a, b)| a.distance(*b)).sum();
+        (covered - enclosed).abs() <= self.grain * around
     }
-
-    /// A corner that is left, with its neighbors.
-    fn triangle(&self, at: u32) -> [usize; 3] {
-        let [before, after] = self.around[at as usize];
-        [before, at, after].map(|i| i as usize)
-    }
-
-    fn ring(&self, at: u32) -> impl Iterator<Item = u32> {
-        let left = self.points.len() - self.triangles.len();
-        successors(Some(at), |&i| Some(self.around[i as usize][1])).take(left)
-    }
-
-    /// The corner of the highest value among those that are left.
-    fn best(&self, at: u32, value: impl Fn(u32) -> f64) -> u32 {
-        let mut best = (at, f64::NEG_INFINITY);
-        for corner in self.ring(at) {
-            let value = value(corner);
-            if value > best.1 {
-                best = (corner, value);
-            }
-        }
-        best.0
-    }
-
-    /// Cuts a corner off, and returns the one after it.
-    fn clip(&mut self, at: u32) -> u32 {
-        let [before, after] = self.around[at as usize];
-        self.triangles.push([before, at, after]);
-        self.around[before as usize][1] = after;
-        self.around[after as usize][0] = before;
-        self.ears[before as usize] = self.judge(before);
-        self.ears[after as usize] = self.judge(after);
-        after
-    }
-
-    fn judge_all(&mut self, at: u32) {
-        let mut corner = at;
-        loop {
-            self.ears[corner as usize] = self.judge(corner);
-            corner = self.around[corner as usize][1];
-            if corner == at {
-                break;
-            }
-        }
-    }
-
-    /// The height of a corner's triangle for its longest side, next to nothing where it is flat; zero where it turns to
-    /// the right or holds another corner.
-    fn judge(&self, at: u32) -> f64 {
-        let triangle = self.triangle(at);
-        let [a, b, c] = triangle.map(|i| self.points[i]);
-        let area = self.area(triangle);
-        if area <= 0.0 {
-            return 0.0;
-        }
-        let holds = |p: DVec2| {
-            (b - a).perp_dot(p - a) >= 0.0 && (c - b).perp_dot(p - b) >= 0.0 && (a - c).perp_dot(p - c) >= 0.0
-        };
-        // A corner met twice, as where a bridge leads to a hole, does not stop the ear that ends on it.
-        let is_held = |p: DVec2| holds(p) && p != a && p != b && p != c;
-        if self.ring(at).any(|other| is_held(self.points[other as usize])) {
-            0.0
-        } else if self.is_flat(triangle) {
-            f64::MIN_POSITIVE
-        } else {
-            area / longest(a, b, c)
-        }
-    }
-
-    /// True if a triangle's corners are collinear in single-precision coordinates.
-    fn is_flat(&self, triangle: [usize; 3]) -> bool {
-        let [a, b, c] = triangle.map(|i| self.points[i]);
-        self.area(triangle).abs() <= self.grain * longest(a, b, c).sqrt()
-    }
-}
-
-/// The square of the longest side.
-fn longest(a: DVec2, b: DVec2, c: DVec2) -> f64 {
-    a.distance_squared(b).max(b.distance_squared(c)).max(c.distance_squared(a))
 }

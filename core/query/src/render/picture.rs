@@ -94,13 +94,6 @@ impl ExposureQuery {
     }
 }
 
-/// A camera or observer to take a picture with.
-#[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub struct SourceOf {
-    /// The sensor, its light, white and color transform.
-    pub rendering: RenderingQuery,
-}
-
 /// Picture of a camera.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct PictureQuery {
@@ -150,7 +143,7 @@ pub struct PicturesQuery {
     /// The reference; exposure and differences go by it.
     pub reference: RenderingQuery,
     /// All visible sensors, the reference among them or not.
-    pub sources: Vec<SourceOf>,
+    pub sources: Vec<RenderingQuery>,
     /// Exposure in EV, as bits.
     pub ev: u64,
     /// Background in linear sRGB as bits.
@@ -229,11 +222,11 @@ impl PicturesQuery {
     fn compare(&self, ask: &impl Ask, lit: usize) -> Vec<Option<Arc<Difference>>> {
         let Some(wanted) = self.compared_samples else { return vec![None; self.sources.len()] };
         let stride = lit.div_ceil(wanted.max(1)).max(1);
-        let of = |source: &SourceOf| {
-            if source.rendering == self.reference {
+        let of = |source: &RenderingQuery| {
+            if *source == self.reference {
                 return None;
             }
-            let answer = ask.ask(&self.difference(&source.rendering, stride));
+            let answer = ask.ask(&self.difference(source, stride));
             (*answer).as_ref().ok().and_then(Clone::clone)
         };
         self.sources.iter().map(of).collect()
@@ -254,12 +247,12 @@ impl Query for PicturesQuery {
         let mut pictures = Vec::with_capacity(self.sources.len());
         let mut images = Vec::with_capacity(self.sources.len());
         for source in &self.sources {
-            match &*ask.ask(&self.picture(&source.rendering)) {
+            match &*ask.ask(&self.picture(source)) {
                 Ok(Some(picture)) => pictures.push(Ok(Arc::clone(picture))),
                 Ok(None) => return Ok(None),
                 Err(error) => pictures.push(Err(*error)),
             }
-            let image = ask.ask(&self.image(&source.rendering));
+            let image = ask.ask(&self.image(source));
             images.push((*image).as_ref().ok().and_then(Clone::clone));
         }
         let angles = Arc::clone(shading.geometry());

@@ -117,22 +117,3 @@ fn across_incidence(to_light: DVec3, normal: DVec3) -> DVec3 {
     let any = || normal.try_normalize().unwrap_or(DVec3::Z).any_orthonormal_vector();
     if cross.length_squared() < 1e-24 { any() } else { within.try_normalize().unwrap_or_else(any) }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_quick_way_is_the_same_or_says_that_it_is_not() {
-        let unit = |i: u32| DVec3::new((1.7 * f64::from(i)).sin(), (2.3 * f64::from(i)).cos(), 0.4).normalize();
-        for i in 0..500 {
-            let (light, viewer, normal) = (unit(i), unit(3 * i + 1), unit(7 * i + 2));
-            let (quick, holds) = Geometry::from_directions_branchless(light, viewer, normal);
-            assert!(holds);
-            assert_eq!(quick, Geometry::from_directions(light, viewer, normal));
-        }
-        for (light, normal) in [(DVec3::Z, DVec3::Z), (DVec3::NAN, DVec3::Z), (DVec3::X, DVec3::INFINITY)] {
-            assert!(!Geometry::from_directions_branchless(light, DVec3::Y, normal).1);
-        }
-    }
-}

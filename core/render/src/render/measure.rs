@@ -39,9 +39,13 @@ pub struct SpectralWeights {
     moments: [[f64; MOMENTS]; 3],
     totals: [f64; 3],
     coherent_rules: OnceLock<CoherentRules>,
-    untinted: Option<Arc<SpectralWeights>>,
-    transmitted: Option<Transmitted>,
-    sky: Option<Arc<SkySignals>>,
+    /// Weights of the coherent component: those of a white, where a boundary's reflection does not take the material's color
+    /// ([`crate::reflectance::Specular::Fresnel`]); none for its own.
+    pub untinted: Option<Arc<SpectralWeights>>,
+    /// Light that passes through a leaf; none where nothing does.
+    pub transmitted: Option<Transmitted>,
+    /// Signals of the surface under the whole sky, where there is one.
+    pub sky: Option<Arc<SkySignals>>,
 }
 
 /// Light that passes through a leaf, equal in all directions.
@@ -109,35 +113,6 @@ impl SpectralWeights {
             transmitted: None,
             sky: None,
         }
-    }
-
-    /// This measure with another for the coherent component: that of a white, where a boundary's reflection does not take the
-    /// material's color ([`crate::reflectance::Specular::Fresnel`]).
-    #[must_use]
-    pub fn with_untinted(self, white: Arc<SpectralWeights>) -> Self {
-        Self { untinted: Some(white), ..self }
-    }
-
-    /// This measure with the light that passes through a leaf.
-    #[must_use]
-    pub fn with_transmitted(self, transmitted: Transmitted) -> Self {
-        Self { transmitted: Some(transmitted), ..self }
-    }
-
-    /// Light that passes through a leaf; none where nothing does.
-    pub fn transmitted(&self) -> Option<&Transmitted> {
-        self.transmitted.as_ref()
-    }
-
-    /// This measure with the signals of a surface under the whole sky.
-    #[must_use]
-    pub fn with_sky(self, sky: Arc<SkySignals>) -> Self {
-        Self { sky: Some(sky), ..self }
-    }
-
-    /// Signals of the surface under the whole sky, where there is one.
-    pub fn sky(&self) -> Option<&SkySignals> {
-        self.sky.as_deref()
     }
 
     /// The weights of the coherent component: those of a white, or its own.

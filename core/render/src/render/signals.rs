@@ -102,7 +102,7 @@ impl Camera<'_> {
             Some(vertices) => vertices.mixed(&signals),
             None => signals,
         };
-        if let Some(transmitted) = self.measure.transmitted().filter(|_| shading.geometry().reach().through) {
+        if let Some(transmitted) = self.measure.transmitted.as_ref().filter(|_| shading.geometry().reach().through) {
             let angles = shading.geometry().angles();
             signals.par_iter_mut().zip(angles).with_min_len(4096).filter(|(_, angles)| angles.cos_i < 0.0).for_each(
                 |(signal, angles)| {

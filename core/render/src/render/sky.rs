@@ -25,6 +25,7 @@ use crate::reflectance::{
     Geometry, Normalization, Specular, Surface, hemispherical_directional, kappa, wavelength_power,
 };
 use chromascope_color::spectral::grid::{COUNT, FIRST_NM, LAST_NM, wavelength_nm};
+use chromascope_math::chebyshev::nodes;
 use chromascope_mesh::Mesh;
 use glam::{DVec3, Vec3};
 use lobe::Lobe;
@@ -250,9 +251,9 @@ pub struct Sky {
 impl Sky {
     /// Adds the sky's light to the signals of all samples that see the mesh, where the measure says what the surface returns of it.
     pub(super) fn add(&self, measure: &SpectralWeights, angles: &[Angles], signals: &mut [[f32; 3]]) {
-        let Some(table) = measure.sky() else { return };
+        let Some(table) = &measure.sky else { return };
         let share = self.share as f32;
-        let through = measure.transmitted().map_or([0.0; 3], |transmitted| {
+        let through = measure.transmitted.as_ref().map_or([0.0; 3], |transmitted| {
             transmitted.signals.map(|signal| (signal * transmitted.share.under_sky()) as f32)
         });
         let add = |((signal, sample), angles): ((&mut [f32; 3], &SkySample), &Angles)| {
@@ -271,22 +272,19 @@ impl Sky {
 
 /// Zeros of the Chebyshev polynomial of degree N on an interval, ascending.
 fn chebyshev<const N: usize>(from: f64, to: f64) -> [f64; N] {
-    std::array::from_fn(|k| {
-        let angle = std::f64::consts::PI * (2 * k + 1) as f64 / (2 * N) as f64;
-        f64::midpoint(from, to) - 0.5 * (to - from) * angle.cos()
-    })
+    nodes::<N>().map(|node| f64::midpoint(from, to) - 0.5 * (to - from) * node)
 }
 
 /// Weights of the values at [`chebyshev`]'s zeros in the polynomial through them, at a place.
 fn interpolated<const N: usize>(from: f64, to: f64, x: f64) -> [f64; N] {
-    let nodes = chebyshev::<N>(from, to);
-    if let Some(exact) = nodes.iter().position(|&node| node == x) {
+    let zeros = chebyshev::<N>(from, to);
+    if let Some(exact) = zeros.iter().position(|&node| node == x) {
         return std::array::from_fn(|k| f64::from(u8::from(k == exact)));
     }
     let weight = |k: usize| {
         let angle = std::f64::consts::PI * (2 * k + 1) as f64 / (2 * N) as f64;
         let sign = if k.is_multiple_of(2) { 1.0 } else { -1.0 };
-        sign * angle.sin() / (x - nodes[k])
+        sign * angle.sin() / (x - zeros[k])
     };
     let weights: [f64; N] = std::array::from_fn(weight);
     let sum: f64 = weights.iter().sum();

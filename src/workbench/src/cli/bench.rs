@@ -7,6 +7,7 @@ use chromascope_core::render::Stop;
 use chromascope_figure::Figure;
 use chromascope_measure::pareto::duration;
 use chromascope_measure::{Effort, Measurement, Progress, Report, Workload};
+use chromascope_text::Choice as _;
 use clap::{ArgMatches, Args};
 
 use super::error::{CliError, Result, refused};
@@ -55,13 +56,13 @@ pub(super) struct BenchArguments {
 }
 
 fn workload(name: &str) -> Result<Workload, String> {
-    let names = || Workload::ALL.map(Workload::name).join(", ");
-    Workload::from_name(name).ok_or_else(|| format!("there are: {}", names()))
+    let names = || Workload::ALL.map(Workload::key).join(", ");
+    Workload::parse(name).ok_or_else(|| format!("there are: {}", names()))
 }
 
 pub(super) fn run(arguments: &BenchArguments, _: &ArgMatches) -> Result<()> {
     let (false, Some(folder)) = (arguments.list, &arguments.out) else {
-        let lines = Workload::ALL.map(|workload| format!("{:<12} {}\n", workload.name(), workload.title()));
+        let lines = Workload::ALL.map(|workload| format!("{:<12} {}\n", workload.key(), workload.label()));
         return show(&lines.concat());
     };
     let measure = bench().ok_or(CliError::NoBench)?;
@@ -96,7 +97,7 @@ pub(super) fn run(arguments: &BenchArguments, _: &ArgMatches) -> Result<()> {
 }
 
 fn names(plan: &[Workload]) -> Vec<String> {
-    let figures = plan.iter().flat_map(|workload| ["svg", "png"].map(|ending| format!("{}.{ending}", workload.name())));
+    let figures = plan.iter().flat_map(|workload| ["svg", "png"].map(|ending| format!("{}.{ending}", workload.key())));
     [JSON, CSV].map(str::to_owned).into_iter().chain(figures).collect()
 }
 
@@ -118,7 +119,7 @@ fn tell(progress: Progress<'_>, case: &mut String) {
         Progress::Machine(machine) => say(&format!("{machine}\n")),
         Progress::Begins(workload) => {
             case.clear();
-            say(&format!("\n{}\n", workload.title()));
+            say(&format!("\n{}\n", workload.label()));
         }
         Progress::Measured(measurement) => {
             if *case != measurement.case {
@@ -154,7 +155,7 @@ fn files(report: &Report, folder: &Path) -> Result<Vec<(PathBuf, Vec<u8>)>> {
     ];
     let figures = report.workloads().into_iter().filter_map(|workload| Some((workload, report.figure(workload)?)));
     for (workload, figure) in figures {
-        files.extend(pictures(&folder.join(workload.name()), &figure)?);
+        files.extend(pictures(&folder.join(workload.key()), &figure)?);
     }
     Ok(files)
 }

@@ -88,7 +88,7 @@ impl<'a> Made<'a> {
         // Exposure refers to the reference, compared or not. Errors are reported before anything large is computed.
         scene.rendered(&query.reference, &document.reference)?;
         for (source, of) in sources.iter().zip(&query.sources) {
-            scene.rendered(&of.rendering, &source.name)?;
+            scene.rendered(of, &source.name)?;
         }
         let comparable = |source: &ComparedSensor| Ok(scene.comparable(source.kind, &source.name)?.err());
         let not_comparable = sources.iter().map(comparable).collect::<Result<_, SceneError>>()?;
@@ -121,7 +121,7 @@ impl<'a> Made<'a> {
         }
         let image = self.pictures.images[index].as_ref();
         let image = image.ok_or_else(|| CliError::File(format!("{name}: no picture")))?;
-        let rendering = self.scene.rendered(&self.query.sources[index].rendering, name)?;
+        let rendering = self.scene.rendered(&self.query.sources[index], name)?;
         let subject = (&self.scene.document.render, self.setup.mesh_name.as_str());
         let header = mesh_header(&rendering, name, conditions, subject, &self.query.shading);
         Ok(Content::Exr { image, rendering: Box::new(rendering), header: Box::new(header) })

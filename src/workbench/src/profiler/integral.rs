@@ -38,7 +38,7 @@ pub(super) fn trial(run: &SceneRunJob, ask: &impl Ask) -> Option<Trial> {
     let tolerances = tolerances(set.clone());
     let mut sources = Vec::new();
     for source in &pictures.sources {
-        let measure = ask.ask(&pictures.image(&source.rendering).measure);
+        let measure = ask.ask(&pictures.image(source).measure);
         let Ok(measure) = &*measure else { continue };
         sources.push(through(measure, &places, (demand, &tolerances), ask)?);
     }

@@ -2,8 +2,9 @@
 
 use chromascope_core::accuracy::RelTolerance;
 use chromascope_core::camera::RenderingError;
+use chromascope_core::query::RenderingQuery;
 use chromascope_core::query::render::PlanQuery;
-use chromascope_core::query::render::picture::{PicturesQuery, SourceOf};
+use chromascope_core::query::render::picture::PicturesQuery;
 use chromascope_core::query::{Ask, Query};
 use chromascope_core::render::plan::Explanation;
 
@@ -41,9 +42,9 @@ impl PlansQuery {
     /// Plans for other pictures' sources, in their order, as far as they are among `plans`; `None` if one is missing. A plan
     /// holds for its camera under a light with a material.
     fn plans_for(&self, pictures: &PicturesQuery, plans: &[PlanAnswer]) -> Option<Vec<PlanAnswer>> {
-        let known: Vec<_> = self.0.sources.iter().map(|source| self.0.image(&source.rendering).measure).collect();
-        let plan = |source: &SourceOf| {
-            let measure = pictures.image(&source.rendering).measure;
+        let known: Vec<_> = self.0.sources.iter().map(|source| self.0.image(source).measure).collect();
+        let plan = |source: &RenderingQuery| {
+            let measure = pictures.image(source).measure;
             plans.get(known.iter().position(|known| *known == measure)?).cloned()
         };
         pictures.sources.iter().map(plan).collect()
@@ -110,7 +111,7 @@ impl ErrorBounds {
 }
 
 /// The plan of one source; none where no tolerance was requested, and if stopped.
-pub fn planned(pictures: &PicturesQuery, source: &SourceOf, ask: &impl Ask) -> PlanAnswer {
+pub fn planned(pictures: &PicturesQuery, source: &RenderingQuery, ask: &impl Ask) -> PlanAnswer {
     let shading = ask.ask(&pictures.shading);
     let Some(shading) = (*shading).as_ref() else { return Ok(None) };
     let (Some(tolerance), Some(of_peak)) = (shading.quality().given_tolerance(), shading.plan_tolerance()) else {
@@ -119,7 +120,7 @@ pub fn planned(pictures: &PicturesQuery, source: &SourceOf, ask: &impl Ask) -> P
     let explanation = match shading.demand() {
         None => None,
         Some(demand) => {
-            let measure = pictures.image(&source.rendering).measure;
+            let measure = pictures.image(source).measure;
             let plan = ask.ask(&PlanQuery { measure, tolerance: of_peak, demand });
             Some((*plan).as_ref().map_err(|&error| error)?.explanation().clone())
         }

@@ -39,7 +39,7 @@ impl PicturesOf {
     /// Color transform of one of the sensors.
     pub fn rendering(&self, index: usize) -> Option<&RenderingQuery> {
         match self {
-            Self::Mesh(query) => query.sources.get(index).map(|source| &source.rendering),
+            Self::Mesh(query) => query.sources.get(index),
             Self::Image(query) => query.sources.get(index).map(|(rendering, _)| rendering),
         }
     }

@@ -1,6 +1,6 @@
 //! The rendered scene as a query.
 
-use chromascope_core::query::render::picture::{PicturesQuery, SourceOf};
+use chromascope_core::query::render::picture::PicturesQuery;
 use chromascope_core::query::render::{GeometryQuery, MeshQuery, ShadingQuery, VisibilityQuery};
 use chromascope_core::query::{RenderingQuery, Shared};
 use chromascope_core::render::{Quality, RasterSize, Reach, Shadows};
@@ -122,7 +122,7 @@ impl Scene<'_> {
             reflectance: self.material(&settings.material)?,
             garment: settings.worn().map(|garment| self.material(garment)).transpose()?,
             reference: self.rendered_through(SetKind::Observer, &self.document.reference)?,
-            sources: renderings.into_iter().map(|rendering| SourceOf { rendering }).collect(),
+            sources: renderings,
             ev: settings.exposure_ev.to_bits(),
             background: background.map(|color| color.map(f32::to_bits)),
             metric: self.document.difference,

@@ -269,7 +269,7 @@ fn polynomials(x: f64) -> ([f64; 4], [f64; 4]) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::reflectance::{diffuse_sums_into, ln_diffuse_sum};
+    use crate::reflectance::ln_diffuse_sum;
 
     #[test]
     fn every_instruction_set_gives_the_same_bits() {
@@ -302,8 +302,5 @@ mod tests {
         {
             assert_eq!(ln(g, b, Precision::Full), None, "g {g}, b {b}");
         }
-        let mut sums = [0.5; 2];
-        diffuse_sums_into(&[f64::NAN, 1e-300], &[0.0; 2], Precision::Full, &mut sums);
-        assert!(sums == [0.0, 1e-300]);
     }
 }

@@ -97,7 +97,7 @@ impl Bench {
     fn new(made: &Made<'_>, geometry: Arc<GeometryImage>) -> Self {
         let shading = made.scene.results.ask(&made.query.shading);
         let cameras = made.query.sources.iter().map(|source| {
-            let image = made.query.image(&source.rendering);
+            let image = made.query.image(source);
             let Some(shading) = (*shading).as_ref() else {
                 return Camera { measure: made.scene.results.ask(&image.measure), plan: None };
             };

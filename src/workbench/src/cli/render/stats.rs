@@ -132,7 +132,7 @@ fn source(made: &Made<'_>, index: usize, accuracy: Option<&Measured>) -> Value {
     let (source, pictures) = (&made.sources[index], &made.pictures);
     let difference = pictures.differences[index].as_ref().filter(|_| made.not_comparable[index].is_none());
     let measure = Measure::of(&made.query);
-    let weights = made.scene.results.ask(&made.query.image(&made.query.sources[index].rendering).measure);
+    let weights = made.scene.results.ask(&made.query.image(&made.query.sources[index]).measure);
     let of = |cost: &Cost| cost.errors[index].map(errors);
     json!({
         "name": source.name,
