@@ -217,9 +217,9 @@ impl Fade {
                 for (row, damped) in at.iter_mut().zip(&damped) {
                     let mut sums = [[0.0; 2]; 3];
                     for ((sin, cos), weights) in phases.iter().zip(damped) {
-                        for (sum, weight) in sums.iter_mut().zip(weights) {
-                            sum[0] += weight * cos;
-                            sum[1] += weight * sin;
+                        for c in 0..3 {
+                            sums[c][0] += weights[c] * cos;
+                            sums[c][1] += weights[c] * sin;
                         }
                     }
                     row[place] = sums.iter().map(|[re, im]| re.hypot(*im)).fold(0.0, f64::max) as f32;
