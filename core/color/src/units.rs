@@ -72,17 +72,20 @@ impl Kelvin {
     ///
     /// # Errors
     /// [`NotPositive`] otherwise.
+    #[inline]
     pub fn new(value: f64) -> Result<Self, NotPositive> {
         let usable = value.is_finite() && value > 0.0;
         if usable { Ok(Self(OrderedFloat(value))) } else { Err(NotPositive { value, unit: "kelvins" }) }
     }
 
     /// The bare number.
+    #[inline]
     pub const fn get(self) -> f64 {
         self.0.0
     }
 
     /// The reciprocal temperature in mired (10⁶ / T), the scale in which equal steps look alike.
+    #[inline]
     pub fn mired(self) -> f64 {
         1e6 / self.get()
     }
@@ -91,6 +94,7 @@ impl Kelvin {
     ///
     /// # Errors
     /// [`NotPositive`] unless the number is positive and finite.
+    #[inline]
     pub fn from_mired(mired: f64) -> Result<Self, NotPositive> {
         Self::new(1e6 / mired)
     }

@@ -18,6 +18,7 @@ pub const STEP_NM: f64 = 1.0;
 pub const COUNT: usize = 401;
 
 /// The wavelength of grid sample `index`, in nanometers.
+#[inline]
 pub fn wavelength_nm(index: usize) -> f64 {
     FIRST_NM + index as f64 * STEP_NM
 }

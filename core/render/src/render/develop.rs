@@ -8,6 +8,7 @@ use chromascope_color::camera::Rendering;
 use chromascope_color::colorimetry::rgb::srgb_transfer;
 use chromascope_color::colorimetry::{Metric, Stimulus, Xyz};
 use chromascope_color::correction::root_polynomial::RootPolynomial;
+use chromascope_math::array::array;
 use glam::{DMat3, DVec3, Mat3, Vec3};
 use multiversion::multiversion;
 use rayon::prelude::*;
@@ -178,7 +179,7 @@ impl Task<'_> {
             for (places, signals) in lit.chunks(RUN).zip(signals.chunks(RUN)) {
                 clipped += steps_of(&self.matrix, signals, &mut steps);
                 for (i, &sample) in places.iter().enumerate() {
-                    let [r, g, b] = [0, 1, 2].map(|c: usize| self.encoded[steps[c][i] as usize]);
+                    let [r, g, b] = array(|c| self.encoded[steps[c][i] as usize]);
                     pixels[place(sample)] = [r, g, b, 255];
                 }
             }

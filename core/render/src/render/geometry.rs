@@ -7,6 +7,7 @@ use super::stop::Stop;
 use super::visibility::{Hit, RasterSize, Rays, Visibility};
 use crate::reflectance::Geometry;
 use crate::scene::{Lighting, PlacedLight};
+use chromascope_math::array::each;
 use chromascope_mesh::{Mesh, ShadowTree};
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
@@ -312,7 +313,7 @@ impl SeenPlace {
 
 fn corners(mesh: &Mesh, hit: Hit) -> ([DVec3; 3], [DVec3; 3]) {
     let corners = mesh.triangles()[hit.triangle as usize];
-    let of = |all: &[Vec3]| corners.map(|i| all[i as usize].as_dvec3());
+    let of = |all: &[Vec3]| each(corners, |i| all[i as usize].as_dvec3());
     (of(mesh.positions()), of(mesh.normals()))
 }
 
@@ -355,20 +356,21 @@ impl Scene<'_> {
             given.rays[1][lane] = self.rays.y(row as usize);
             given.weights[0][lane] = hit.weights[0];
             given.weights[1][lane] = hit.weights[1];
-            for (corner, vertex) in triangles[hit.triangle as usize].into_iter().enumerate() {
-                let (point, normal) = (positions[vertex as usize], normals[vertex as usize]);
-                for (axis, (v, n)) in point.to_array().into_iter().zip(normal.to_array()).enumerate() {
-                    given.points[corner][axis][lane] = v;
-                    given.normals[corner][axis][lane] = n;
+            let corners = triangles[hit.triangle as usize];
+            for corner in 0..3 {
+                let vertex = corners[corner] as usize;
+                let (point, normal) = (positions[vertex].to_array(), normals[vertex].to_array());
+                for axis in 0..3 {
+                    given.points[corner][axis][lane] = point[axis];
+                    given.normals[corner][axis][lane] = normal[axis];
                 }
             }
         }
         for lane in 0..samples.len().min(LANES) {
             // Where the light stands on the surface there is none.
             let (to_light, _) = self.light.seen_from(given.point(lane)).unwrap_or((DVec3::NAN, 0.0));
-            for (row, v) in given.to_light.iter_mut().zip(to_light.to_array()) {
-                row[lane] = v;
-            }
+            let [x, y, z] = &mut given.to_light;
+            (x[lane], y[lane], z[lane]) = (to_light.x, to_light.y, to_light.z);
         }
     }
 

@@ -6,6 +6,7 @@ use super::measure::SpectralWeights;
 use super::plan::{Places, Plan, RUN};
 use super::shading::{DiffuseKind, Shade, ShadingImage};
 use super::stop::Stop;
+use chromascope_math::array::each;
 use rayon::prelude::*;
 use std::sync::Arc;
 
@@ -143,5 +144,5 @@ impl Camera<'_> {
 }
 
 fn scaled(sums: [f64; 3], front: f64) -> [f32; 3] {
-    sums.map(|sum| (sum * front) as f32)
+    each(sums, |sum| (sum * front) as f32)
 }

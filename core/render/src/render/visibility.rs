@@ -7,6 +7,7 @@
 
 use super::stop::Stop;
 use crate::scene::Eye;
+use chromascope_math::array::array;
 use chromascope_mesh::Mesh;
 use glam::DVec3;
 use multiversion::multiversion;
@@ -203,7 +204,7 @@ impl Extent {
     const EMPTY: Self = Self([0; 4]);
 
     fn new(corners: [&Corner; 3], size: RasterSize) -> Self {
-        let [Some(a), Some(b), Some(c)] = corners.map(|corner| corner.seen) else {
+        let [Some(a), Some(b), Some(c)] = [corners[0].seen, corners[1].seen, corners[2].seen] else {
             return Self::reaching_behind(corners, size);
         };
         let [left, right] = span(a[0].min(b[0]).min(c[0]), a[0].max(b[0]).max(c[0]), size.columns());
@@ -254,7 +255,7 @@ impl Extent {
     }
 
     fn tiles(self, across: usize) -> impl Iterator<Item = usize> {
-        let [left, right, top, bottom] = self.0.map(usize::from);
+        let [left, right, top, bottom] = array(|k| usize::from(self.0[k]));
         let rows = if self.is_empty() { 0..0 } else { top / TILE..bottom.div_ceil(TILE) };
         rows.flat_map(move |y| (left / TILE..right.div_ceil(TILE)).map(move |x| y * across + x))
     }
@@ -285,7 +286,7 @@ impl Outline {
     fn new(corners: [&Corner; 3], size: RasterSize) -> Self {
         let extent = Extent::new(corners, size);
         let nearest = corners.iter().map(|corner| corner.place.z).fold(f64::INFINITY, f64::min);
-        let facing = match corners.map(|corner| corner.seen) {
+        let facing = match [corners[0].seen, corners[1].seen, corners[2].seen] {
             // Rows run down, so what is counter-clockwise to the eye has a negative area here.
             [Some(a), Some(b), Some(c)] => (b[0] - a[0]) * (c[1] - a[1]) <= (b[1] - a[1]) * (c[0] - a[0]),
             _ => true,
@@ -307,7 +308,9 @@ impl Bins {
     fn new(first: usize, triangles: &[[u32; 3]], corners: &[Corner], size: RasterSize) -> Self {
         let [across, down] = size.tiles();
         let tiles = across * down;
-        let outline = |triangle: &[u32; 3]| Outline::new(triangle.map(|i| &corners[i as usize]), size);
+        let outline = |&[a, b, c]: &[u32; 3]| {
+            Outline::new([&corners[a as usize], &corners[b as usize], &corners[c as usize]], size)
+        };
         let outlines: Vec<Outline> = triangles.iter().map(outline).collect();
         let places = |outline: &Outline| {
             let side = if outline.facing { 0 } else { tiles };
@@ -422,13 +425,14 @@ impl Tile {
                 if floor * ahead > 1.0 {
                     continue;
                 }
-                let [from, to, above, below] = outline.extent.0.map(usize::from);
+                let [from, to, above, below] = array(|k| usize::from(outline.extent.0[k]));
                 let across = from.max(left) - left..to.min(left + TILE) - left;
                 let down = above.max(top) - top..below.min(top + TILE) - top;
                 if !facing && self.hides(ahead, &across, &down) {
                     continue;
                 }
-                let corners = scene.triangles[id as usize].map(|i| scene.corners[i as usize].place);
+                let corners = scene.triangles[id as usize];
+                let corners = array(|k| scene.corners[corners[k] as usize].place);
                 self.triangle(id, corners, |row| scene.rays.y(top + row), [across, down]);
             }
         }
@@ -462,19 +466,14 @@ impl Tile {
             return;
         }
         // Seen from the other side all signs are turned; a sample on an edge belongs to one side of it alone.
-        let edges = if volume < 0.0 { edges.map(|edge| -edge) } else { edges };
-        let limits = edges.map(|edge| if owns_its_border(edge) { 0.0 } else { f64::MIN_POSITIVE });
+        let edges = if volume < 0.0 { array(|k| -edges[k]) } else { edges };
+        let limits: [f64; 3] = array(|k| if owns_its_border(edges[k]) { 0.0 } else { f64::MIN_POSITIVE });
         for row in down {
             let y = y(row);
-            let bases = edges.map(|edge| edge.y * y + edge.z);
+            let bases: [f64; 3] = array(|k| edges[k].y * y + edges[k].z);
             for column in across.clone().step_by(LANES) {
-                self.four(
-                    f64::from(id),
-                    row,
-                    column,
-                    [0, 1, 2].map(|k: usize| (edges[k].x, bases[k], limits[k])),
-                    scale,
-                );
+                let lines = array(|k| (edges[k].x, bases[k], limits[k]));
+                self.four(f64::from(id), row, column, lines, scale);
             }
         }
     }
@@ -494,13 +493,12 @@ impl Tile {
         let equal = each(|i| if id < ids[i] { nearness[i] } else { -1.0 });
         let gate = each(|i| if equal[i] == nearest[i] { f64::INFINITY } else { nearness[i] });
         let [second, third, sums] = &mut self.edges;
-        for (all, new) in [&mut self.ids, second, third, sums].into_iter().zip([[id; LANES], b, c, sum]) {
-            let old = lanes(all, start);
-            let kept = each(|i| if gate[i] > nearest[i] { new[i] } else { old[i] });
-            all[start..start + LANES].copy_from_slice(&kept);
-        }
-        let kept = each(|i| if gate[i] > nearest[i] { nearness[i] } else { nearest[i] });
-        self.nearness[start..start + LANES].copy_from_slice(&kept);
+        let (ids, nearer) = (&mut self.ids, &mut self.nearness);
+        put(&mut ids[start..start + LANES], [id; LANES], gate, nearest);
+        put(&mut second[start..start + LANES], b, gate, nearest);
+        put(&mut third[start..start + LANES], c, gate, nearest);
+        put(&mut sums[start..start + LANES], sum, gate, nearest);
+        put(&mut nearer[start..start + LANES], nearness, gate, nearest);
     }
 
     fn store(&self, rows: &mut [Hit], left: usize, columns: usize) {
@@ -509,7 +507,7 @@ impl Tile {
             for (column, hit) in line[left..left + width].iter_mut().enumerate() {
                 let at = row * STRIDE + column;
                 let share = 1.0 / self.edges[2][at];
-                let weights = [0, 1].map(|k: usize| (self.edges[k][at] * share) as f32);
+                let weights = array(|k| (self.edges[k][at] * share) as f32);
                 let triangle = self.ids[at] as u32;
                 *hit = if triangle == Hit::NONE { Hit::NOTHING } else { Hit { triangle, weights } };
             }
@@ -529,16 +527,31 @@ fn least(a: f64, b: f64) -> f64 {
 
 #[inline(always)]
 fn lanes(all: &[f64], start: usize) -> [f64; LANES] {
-    let mut lanes = [0.0; LANES];
-    lanes.copy_from_slice(&all[start..start + LANES]);
-    lanes
+    let all = &all[start..start + LANES];
+    each(|i| all[i])
+}
+
+/// Replaces what is behind.
+#[inline(always)]
+fn put(all: &mut [f64], new: [f64; LANES], gate: [f64; LANES], nearest: [f64; LANES]) {
+    let kept = each(|i| if gate[i] > nearest[i] { new[i] } else { all[i] });
+    if let Some(all) = all.first_chunk_mut() {
+        *all = kept;
+    }
 }
 
 /// True if the common edge belongs to this one of two neighbors, for samples exactly on it: the one into which the
 /// edge's normal points to positive x, else y, else z; the other's normal is the opposite.
+#[inline]
 fn owns_its_border(edge: DVec3) -> bool {
-    let first = [edge.x, edge.y, edge.z].into_iter().find(|v| *v != 0.0);
-    first.is_some_and(|v| v > 0.0)
+    let first = if edge.x != 0.0 {
+        edge.x
+    } else if edge.y != 0.0 {
+        edge.y
+    } else {
+        edge.z
+    };
+    first > 0.0
 }
 
 #[cfg(test)]

@@ -1,6 +1,9 @@
 //! The inner loops: blocks of responses that stay in registers while wavelengths go by.
 
+mod ways;
+
 use multiversion::multiversion;
+use multiversion::target::match_target;
 use prefetch_index::prefetch_index;
 
 /// A type of numbers that spectra come in: `f64` or `f32`.
@@ -56,21 +59,125 @@ const LINE: usize = 64;
 /// One register of each curve of a block. Written out: a loop over the spectra or channels would be turned into one over
 /// scattered numbers.
 macro_rules! step {
-    ($sums:ident, [$($row:literal $spectrum:ident),*], $curves:ident, $lanes:literal, $count:ident) => {
-        step!(@ $sums, [$($row $spectrum),*], $curves, $lanes, 0);
+    ($sums:ident, $rows:expr, $curves:ident, $count:ident) => {
+        let rows = $rows;
+        step!(@ $sums, rows, $curves, 0);
         if $count > 1 {
-            step!(@ $sums, [$($row $spectrum),*], $curves, $lanes, 1);
+            step!(@ $sums, rows, $curves, 1);
         }
         if $count > 2 {
-            step!(@ $sums, [$($row $spectrum),*], $curves, $lanes, 2);
+            step!(@ $sums, rows, $curves, 2);
         }
         if $count > 3 {
-            step!(@ $sums, [$($row $spectrum),*], $curves, $lanes, 3);
+            step!(@ $sums, rows, $curves, 3);
         }
     };
-    (@ $sums:ident, [$($row:literal $spectrum:ident),*], $curves:ident, $lanes:literal, $n:literal) => {
-        let curve = $curves[$n].0;
-        $($sums[$row][$n] = std::array::from_fn(|k| $spectrum[k].mul_add(curve[k], $sums[$row][$n][k]));)*
+    (@ $sums:ident, $rows:ident, $curves:ident, $n:literal) => {
+        let curve = load(&$curves[$n].0);
+        $sums[0][$n] = fuse($rows[0], curve, $sums[0][$n]);
+        $sums[1][$n] = fuse($rows[1], curve, $sums[1][$n]);
+        $sums[2][$n] = fuse($rows[2], curve, $sums[2][$n]);
+    };
+}
+
+/// The loops, with the registers and instructions of one of [`ways`].
+macro_rules! way {
+    ($way:ident, $type:ident, #[$how:meta]) => {
+        pub(super) mod $way {
+            use super::super::ways::$type::$way::{fuse, load, totals, zero};
+            use super::*;
+
+            #[$how]
+            pub(in super::super) fn multiply(
+                (spectra, length): (&[$type], usize),
+                curves: &[Lanes],
+                (answers, channels): (&mut [$type], usize),
+                far: bool,
+            ) {
+                let (mut spectra, mut answers) = (spectra, answers);
+                while !spectra.is_empty() {
+                    let count = (spectra.len() / length).min(ROWS);
+                    let (these, rest) = spectra.split_at(count * length);
+                    let (places, others) = answers.split_at_mut(count * channels);
+                    // Where spectra are missing, the first stands for them.
+                    let mut all = [&these[..length]; ROWS];
+                    for row in 1..count {
+                        all[row] = &these[row * length..][..length];
+                    }
+                    let [a, b, c] = all;
+                    let rows = [a.as_chunks().0, b.as_chunks().0, c.as_chunks().0];
+                    let lasts = [Register(last(a)), Register(last(b)), Register(last(c))];
+                    let block = Block { rows, lasts, ahead: if far { rest } else { &[] }, length };
+                    channels_of(&block, curves, places, channels);
+                    (spectra, answers) = (rest, others);
+                }
+            }
+
+            /// The responses of all channels.
+            #[$how]
+            fn channels_of(spectra: &Block, curves: &[Lanes], answers: &mut [$type], channels: usize) {
+                let registers = curves.len() / channels;
+                for (block, done) in (0..channels).step_by(COLUMNS).enumerate() {
+                    let count = (channels - done).min(COLUMNS);
+                    let curves = &curves[done * registers..][..count * registers];
+                    let places = &mut answers[done..];
+                    // Each block of channels requests one of the spectra.
+                    let ahead = if block < ROWS { spectra.ahead(block) } else { &[] };
+                    match count {
+                        1 => some::<1>(spectra, curves, places, channels, ahead),
+                        2 => some::<2>(spectra, curves, places, channels, ahead),
+                        3 => some::<3>(spectra, curves, places, channels, ahead),
+                        _ => some::<COLUMNS>(spectra, curves, places, channels, ahead),
+                    }
+                }
+                for row in channels.div_ceil(COLUMNS)..ROWS {
+                    let ahead = spectra.ahead(row);
+                    for i in (0..ahead.len()).step_by(LINE / size_of::<$type>()) {
+                        prefetch_index(ahead, i);
+                    }
+                }
+            }
+
+            /// The responses of N channels; those of each spectrum are `stride` places further on.
+            #[$how]
+            fn some<const N: usize>(
+                spectra: &Block,
+                curves: &[Lanes],
+                places: &mut [$type],
+                stride: usize,
+                ahead: &[$type],
+            ) {
+                let mut sums = [[zero(); COLUMNS]; ROWS];
+                let [a, b, c] = spectra.rows;
+                let curves = curves.as_chunks::<N>().0;
+                let whole = a.len().min(b.len()).min(c.len());
+                let (a, b, c) = (&a[..whole], &b[..whole], &c[..whole]);
+                // With a pointer of its own: by index it would be recomputed in each step.
+                let mut rest = curves.iter();
+                if ahead.is_empty() {
+                    for i in 0..whole {
+                        let Some(curves) = rest.next() else { break };
+                        step!(sums, [load(&a[i]), load(&b[i]), load(&c[i])], curves, N);
+                    }
+                } else {
+                    for i in 0..whole {
+                        let Some(curves) = rest.next() else { break };
+                        prefetch_index(ahead, i * a[i].len());
+                        step!(sums, [load(&a[i]), load(&b[i]), load(&c[i])], curves, N);
+                    }
+                }
+                if let Some(curves) = rest.next() {
+                    let [a, b, c] = &spectra.lasts;
+                    step!(sums, [load(&a.0), load(&b.0), load(&c.0)], curves, N);
+                }
+                for row in 0..places.len().div_ceil(stride).min(ROWS) {
+                    let (places, totals) = (&mut places[row * stride..][..N], totals(sums[row]));
+                    for n in 0..N {
+                        places[n] = totals[n];
+                    }
+                }
+            }
+        }
     };
 }
 
@@ -116,7 +223,7 @@ macro_rules! kernel {
                 }
 
                 fn multiply(spectra: &[Self], length: usize, curves: &[Lanes], answers: &mut [Self], channels: usize, far: bool) {
-                    multiply(spectra, length, curves, answers, channels, far);
+                    multiply((spectra, length), curves, (answers, channels), far);
                 }
             }
 
@@ -136,35 +243,21 @@ macro_rules! kernel {
             /// Compiled for several instruction sets, the best chosen at run time. Each rounds a product and its sum once, if
             /// need be in software, so all of them give the same bits.
             #[multiversion(targets("x86_64+avx2+fma", "aarch64+neon"))]
-            fn multiply(spectra: &[$type], length: usize, curves: &[Lanes], answers: &mut [$type], channels: usize, far: bool) {
-                portable(spectra, length, curves, answers, channels, far);
-            }
-
-            /// Portable form for any processor.
-            #[inline(always)]
-            pub(super) fn portable(
-                spectra: &[$type],
-                length: usize,
+            fn multiply(
+                spectra: (&[$type], usize),
                 curves: &[Lanes],
-                answers: &mut [$type],
-                channels: usize,
+                answers: (&mut [$type], usize),
                 far: bool,
             ) {
-                let (mut spectra, mut answers) = (spectra, answers);
-                while !spectra.is_empty() {
-                    let count = (spectra.len() / length).min(ROWS);
-                    let (these, rest) = spectra.split_at(count * length);
-                    let (places, others) = answers.split_at_mut(count * channels);
-                    // Where spectra are missing, the first stands for them.
-                    let all = [0, 1, 2].map(|row| &these[if row < count { row * length } else { 0 }..][..length]);
-                    let [a, b, c] = all;
-                    let rows = [a.as_chunks().0, b.as_chunks().0, c.as_chunks().0];
-                    let lasts = [Register(last(a)), Register(last(b)), Register(last(c))];
-                    let block = Block { rows, lasts, ahead: if far { rest } else { &[] }, length };
-                    block.multiply(curves, places, channels);
-                    (spectra, answers) = (rest, others);
+                match_target! {
+                    "x86_64+avx2+fma" => avx2::multiply(spectra, curves, answers, far),
+                    _ => portable::multiply(spectra, curves, answers, far),
                 }
             }
+
+            way!(portable, $type, #[inline(always)]);
+            #[cfg(target_arch = "x86_64")]
+            way!(avx2, $type, #[target_feature(enable = "avx2,fma")]);
 
             /// The last register of numbers that do not fill it: some are in the one before, too.
             #[inline(always)]
@@ -178,84 +271,11 @@ macro_rules! kernel {
             }
 
             impl Block<'_> {
-                /// The responses of all channels.
-                #[inline(always)]
-                fn multiply(&self, curves: &[Lanes], answers: &mut [$type], channels: usize) {
-                    let registers = curves.len() / channels;
-                    for (block, done) in (0..channels).step_by(COLUMNS).enumerate() {
-                        let count = (channels - done).min(COLUMNS);
-                        let curves = &curves[done * registers..][..count * registers];
-                        let places = &mut answers[done..];
-                        // Each block of channels requests one of the spectra.
-                        let ahead = if block < ROWS { self.ahead(block) } else { &[] };
-                        match count {
-                            1 => self.some::<1>(curves, places, channels, ahead),
-                            2 => self.some::<2>(curves, places, channels, ahead),
-                            3 => self.some::<3>(curves, places, channels, ahead),
-                            _ => self.some::<COLUMNS>(curves, places, channels, ahead),
-                        }
-                    }
-                    for row in channels.div_ceil(COLUMNS)..ROWS {
-                        let ahead = self.ahead(row);
-                        (0..ahead.len()).step_by(LINE / size_of::<$type>()).for_each(|i| prefetch_index(ahead, i));
-                    }
-                }
-
                 /// One of the spectra after these, if it is far.
+                #[inline]
                 fn ahead(&self, row: usize) -> &[$type] {
                     self.ahead.get(row * self.length..).map_or(&[], |ahead| &ahead[..self.length.min(ahead.len())])
                 }
-
-                /// The responses of N channels; those of each spectrum are `stride` places further on.
-                #[inline(always)]
-                fn some<const N: usize>(&self, curves: &[Lanes], places: &mut [$type], stride: usize, ahead: &[$type]) {
-                    let mut sums = [[[0.0; $lanes]; N]; ROWS];
-                    let [a, b, c] = self.rows;
-                    let curves = curves.as_chunks::<N>().0;
-                    let rows = a.iter().zip(b).zip(c);
-                    // With a separate pointer: as a fourth of the zipped it would be recomputed in each step.
-                    let mut rest = curves.iter();
-                    if ahead.is_empty() {
-                        for ((a, b), c) in rows {
-                            let Some(curves) = rest.next() else { break };
-                            step!(sums, [0 a, 1 b, 2 c], curves, $lanes, N);
-                        }
-                    } else {
-                        for (i, ((a, b), c)) in rows.enumerate() {
-                            let Some(curves) = rest.next() else { break };
-                            prefetch_index(ahead, i * $lanes);
-                            step!(sums, [0 a, 1 b, 2 c], curves, $lanes, N);
-                        }
-                    }
-                    if let Some(curves) = rest.next() {
-                        let [a, b, c] = self.lasts.each_ref().map(|last| &last.0);
-                        step!(sums, [0 a, 1 b, 2 c], curves, $lanes, N);
-                    }
-                    for (places, sums) in places.chunks_mut(stride).zip(sums) {
-                        let mut four = [[0.0; $lanes]; COLUMNS];
-                        four[..N].copy_from_slice(&sums);
-                        let totals = totals(&four);
-                        places[..N].copy_from_slice(&totals[..N]);
-                    }
-                }
-            }
-
-            /// Partial sums, pairwise, where they are finite; written in the order in which registers are shuffled.
-            #[inline(always)]
-            fn totals(sums: &[[$type; $lanes]; 4]) -> [$type; 4] {
-                let mut quarters = [[0.0; 4]; 4];
-                for (quarters, sums) in quarters.iter_mut().zip(sums) {
-                    for k in 0..4 {
-                        quarters[k] = if $lanes == 8 { sums[k] + sums[(k + 4) % $lanes] } else { sums[k] };
-                    }
-                }
-                let [a, b, c, d] = quarters;
-                let [e, f] = [[a[0] + a[2], a[1] + a[3], b[0] + b[2], b[1] + b[3]], [c[0] + c[2], c[1] + c[3], d[0] + d[2], d[1] + d[3]]];
-                let mut totals = [e[0] + e[1], e[2] + e[3], f[0] + f[1], f[2] + f[3]];
-                for total in &mut totals {
-                    *total = if total.is_finite() { *total } else { 0.0 };
-                }
-                totals
             }
         }
     };
@@ -288,7 +308,7 @@ mod tests {
             <f64 as Kernel>::multiply(&spectra, length, &packed, &mut answers, channels, false);
             for far in [false, true] {
                 let mut others = vec![0.0; count * channels];
-                f64::portable(&spectra, length, &packed, &mut others, channels, far);
+                f64::portable::multiply((&spectra, length), &packed, (&mut others, channels), far);
                 assert_eq!(answers, others);
             }
             let narrow = |values: &[f64]| -> Vec<f32> { values.iter().map(|&v| v as f32).collect() };
@@ -296,7 +316,7 @@ mod tests {
             let mut answers = vec![0.0; count * channels];
             <f32 as Kernel>::multiply(&spectra, length, &packed, &mut answers, channels, true);
             let mut others = vec![0.0; count * channels];
-            f32::portable(&spectra, length, &packed, &mut others, channels, false);
+            f32::portable::multiply((&spectra, length), &packed, (&mut others, channels), false);
             assert_eq!(answers, others);
         }
     }

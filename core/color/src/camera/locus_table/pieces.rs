@@ -5,6 +5,7 @@ use crate::colorimetry::Xy;
 use crate::math::chebyshev::{coefficients, nodes};
 use crate::units::Kelvin;
 use multiversion::multiversion;
+use multiversion::target::match_target;
 use rayon::prelude::*;
 
 /// Coefficients per polynomial: degree 7.
@@ -82,7 +83,7 @@ impl Pieces {
     #[inline]
     pub(super) fn xy(&self, temperature: Kelvin) -> Result<Xy, LocusTableError> {
         let (index, t) = place(temperature, self.within_bits);
-        answer(&self.pieces, index, t, temperature)
+        answer(&self.pieces, index, temperature, |piece| evaluate(piece, t))
     }
 
     /// The chromaticities of as many as fit both slices.
@@ -95,14 +96,25 @@ impl Pieces {
 /// bits.
 #[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl+avx512bw+avx512cd", "x86_64+avx2", "aarch64+neon"))]
 fn fill(pieces: &[Piece], within_bits: u32, temperatures: &[Kelvin], answers: &mut [Result<Xy, LocusTableError>]) {
-    let (mut indices, mut ts) = ([0; LANES], [0.0; LANES]);
-    for (answers, temperatures) in answers.chunks_mut(LANES).zip(temperatures.chunks(LANES)) {
-        for ((index, t), &temperature) in indices.iter_mut().zip(&mut ts).zip(temperatures) {
-            (*index, *t) = place(temperature, within_bits);
-        }
-        for (((result, &temperature), &index), &t) in answers.iter_mut().zip(temperatures).zip(&indices).zip(&ts) {
-            *result = answer(pieces, index, t, temperature);
-        }
+    macro_rules! runs {
+        ($evaluate:path) => {{
+            let (mut indices, mut ts) = ([0; LANES], [0.0; LANES]);
+            for (answers, temperatures) in answers.chunks_mut(LANES).zip(temperatures.chunks(LANES)) {
+                let count = answers.len().min(temperatures.len()).min(LANES);
+                let (answers, temperatures) = (&mut answers[..count], &temperatures[..count]);
+                for i in 0..count {
+                    (indices[i], ts[i]) = place(temperatures[i], within_bits);
+                }
+                for i in 0..count {
+                    answers[i] = answer(pieces, indices[i], temperatures[i], |piece| $evaluate(piece, ts[i]));
+                }
+            }
+        }};
+    }
+    match_target! {
+        "x86_64+avx512f+avx512dq+avx512vl+avx512bw+avx512cd" => runs!(avx2::evaluate),
+        "x86_64+avx2" => runs!(avx2::evaluate),
+        _ => runs!(evaluate),
     }
 }
 
@@ -125,13 +137,19 @@ fn mired(index: usize, bits: u32, t: f64) -> f64 {
 }
 
 #[inline(always)]
-fn answer(pieces: &[Piece], index: u64, t: f64, temperature: Kelvin) -> Result<Xy, LocusTableError> {
-    let Some(piece) = pieces.get(index as usize).filter(|_| (COLDEST_K..=HOTTEST_K).contains(&temperature.get()))
-    else {
-        return Err(LocusTableError::Outside);
-    };
-    let xy = evaluate(piece, t);
-    if xy.x.is_nan() { Err(LocusTableError::Rough) } else { Ok(xy) }
+fn answer(
+    pieces: &[Piece],
+    index: u64,
+    temperature: Kelvin,
+    evaluate: impl Fn(&Piece) -> Xy,
+) -> Result<Xy, LocusTableError> {
+    match pieces.get(index as usize) {
+        Some(piece) if (COLDEST_K..=HOTTEST_K).contains(&temperature.get()) => {
+            let xy = evaluate(piece);
+            if xy.x.is_nan() { Err(LocusTableError::Rough) } else { Ok(xy) }
+        }
+        _ => Err(LocusTableError::Outside),
+    }
 }
 
 /// The polynomials at t: even and odd powers side by side, by Horner's rule in t².
@@ -145,6 +163,35 @@ fn evaluate(piece: &Piece, t: f64) -> Xy {
         }
     }
     Xy { x: sum[0] + t * sum[2], y: sum[1] + t * sum[3] }
+}
+
+/// The same in the instructions of AVX2, which no optimizer has to find.
+#[cfg(target_arch = "x86_64")]
+mod avx2 {
+    use super::{Piece, TERMS, Xy};
+    use std::arch::x86_64::{
+        __m256d, _mm_add_pd, _mm_cvtsd_f64, _mm_mul_pd, _mm_set1_pd, _mm_unpackhi_pd, _mm256_add_pd,
+        _mm256_castpd256_pd128, _mm256_extractf128_pd, _mm256_mul_pd, _mm256_set1_pd, _mm256_setr_pd,
+    };
+
+    #[inline]
+    #[target_feature(enable = "avx2")]
+    pub(super) fn evaluate(piece: &Piece, t: f64) -> Xy {
+        let square = _mm256_set1_pd(t * t);
+        let mut sum = load(&piece[TERMS / 2 - 1]);
+        for row in (0..TERMS / 2 - 1).rev() {
+            sum = _mm256_add_pd(_mm256_mul_pd(sum, square), load(&piece[row]));
+        }
+        let (even, odd) = (_mm256_castpd256_pd128(sum), _mm256_extractf128_pd::<1>(sum));
+        let xy = _mm_add_pd(even, _mm_mul_pd(_mm_set1_pd(t), odd));
+        Xy { x: _mm_cvtsd_f64(xy), y: _mm_cvtsd_f64(_mm_unpackhi_pd(xy, xy)) }
+    }
+
+    #[inline]
+    #[target_feature(enable = "avx2")]
+    fn load(&[a, b, c, d]: &[f64; 4]) -> __m256d {
+        _mm256_setr_pd(a, b, c, d)
+    }
 }
 
 /// Number of pieces of a doubling tried first, as a power of two: no sensor's locus is so smooth that fewer would do.

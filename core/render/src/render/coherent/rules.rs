@@ -6,6 +6,7 @@
 
 use crate::render::measure::Node;
 use chromascope_color::spectral::grid::{FIRST_NM, LAST_NM};
+use chromascope_math::array::each;
 use chromascope_math::exp::exp;
 use std::f64::consts::{LN_2, PI, TAU};
 use std::sync::{LazyLock, OnceLock};
@@ -206,7 +207,7 @@ impl Fade {
         let height = unsigned.into_iter().fold(f64::MIN_POSITIVE, f64::max);
         let damped: Vec<Vec<[f64; 3]>> = FADE_KAPPAS
             .iter()
-            .map(|kappa| dense.iter().map(|n| n.weights.map(|w| w * exp(-kappa * n.scale) / height)).collect())
+            .map(|kappa| dense.iter().map(|n| each(n.weights, |w| w * exp(-kappa * n.scale) / height)).collect())
             .collect();
         let mut at: Vec<[f32; PATHS]> = vec![[0.0; PATHS]; FADE_KAPPAS.len()];
         for step in 0..STEPS {
@@ -217,9 +218,9 @@ impl Fade {
                 for (row, damped) in at.iter_mut().zip(&damped) {
                     let mut sums = [[0.0; 2]; 3];
                     for ((sin, cos), weights) in phases.iter().zip(damped) {
-                        for (sum, weight) in sums.iter_mut().zip(weights) {
-                            sum[0] += weight * cos;
-                            sum[1] += weight * sin;
+                        for c in 0..3 {
+                            sums[c][0] += weights[c] * cos;
+                            sums[c][1] += weights[c] * sin;
                         }
                     }
                     row[place] = sums.iter().map(|[re, im]| re.hypot(*im)).fold(0.0, f64::max) as f32;

@@ -2,6 +2,7 @@
 
 use super::{Angles, mix};
 use crate::reflectance::Geometry;
+use chromascope_math::array::{array, each};
 use glam::{DMat3, DVec3};
 use multiversion::multiversion;
 
@@ -39,13 +40,15 @@ impl Given {
         to_light: [[0.0; LANES]; 3],
     };
 
+    #[inline(always)]
     fn weights(&self, lane: usize) -> [f64; 3] {
         let [b, c] = [self.weights[0][lane], self.weights[1][lane]];
-        [1.0 - b - c, b, c].map(f64::from)
+        each([1.0 - b - c, b, c], f64::from)
     }
 
+    #[inline]
     pub(super) fn point(&self, lane: usize) -> DVec3 {
-        mix(self.points.each_ref().map(|rows| at(rows, lane)), self.weights(lane))
+        mix(array(|k| at(&self.points[k], lane)), self.weights(lane))
     }
 }
 
@@ -61,12 +64,14 @@ impl Found {
     pub(super) const NOTHING: Self =
         Self { plain: [false; LANES], behind: [false; LANES], normals: [[0.0; LANES]; 3], angles: [[0.0; LANES]; 7] };
 
+    #[inline]
     pub(super) fn normal(&self, lane: usize) -> DVec3 {
         at(&self.normals, lane)
     }
 
+    #[inline]
     pub(super) fn angles(&self, lane: usize) -> Angles {
-        let [falloff, cos_i, cos_s, tan2, cos_half2, vx, vy] = self.angles.each_ref().map(|row| row[lane]);
+        let [falloff, cos_i, cos_s, tan2, cos_half2, vx, vy] = array(|k| self.angles[k][lane]);
         Angles { falloff, cos_i, cos_s, tan2, cos_half2, vx, vy }
     }
 }
@@ -86,9 +91,9 @@ fn find_portable(given: &Given, world_from_view: &DMat3, found: &mut Found) {
         let ahead = ray.normalize();
         let to_viewer = -(*world_from_view * DVec3::new(ahead.x, ahead.y, -ahead.z));
         let to_light = at(&given.to_light, lane);
-        let [a, b, c] = given.points.each_ref().map(|rows| at(rows, lane));
+        let [a, b, c]: [DVec3; 3] = array(|k| at(&given.points[k], lane));
         let flat = (b - a).cross(c - a);
-        let mixed = mix(given.normals.each_ref().map(|rows| at(rows, lane)), given.weights(lane));
+        let mixed = mix(array(|k| at(&given.normals[k], lane)), given.weights(lane));
         let shrink = mixed.length_recip();
         // The side that is seen: by the triangle itself, for its corners' normals may lie on either side of the view.
         let facing = flat.dot(to_viewer);
@@ -101,8 +106,9 @@ fn find_portable(given: &Given, world_from_view: &DMat3, found: &mut Found) {
         put(&mut found.normals, lane, normal);
         let angles = super::angles(&geometry, ahead.z);
         let Angles { falloff, cos_i, cos_s, tan2, cos_half2, vx, vy } = angles;
-        for (row, v) in found.angles.iter_mut().zip([falloff, cos_i, cos_s, tan2, cos_half2, vx, vy]) {
-            row[lane] = v;
+        let numbers = [falloff, cos_i, cos_s, tan2, cos_half2, vx, vy];
+        for k in 0..numbers.len() {
+            found.angles[k][lane] = numbers[k];
         }
     }
 }
@@ -114,9 +120,7 @@ fn at<T: Copy + Into<f64>>(rows: &Rows<T>, lane: usize) -> DVec3 {
 
 #[inline(always)]
 fn put(rows: &mut Rows<f64>, lane: usize, v: DVec3) {
-    for (row, v) in rows.iter_mut().zip(v.to_array()) {
-        row[lane] = v;
-    }
+    (rows[0][lane], rows[1][lane], rows[2][lane]) = (v.x, v.y, v.z);
 }
 
 #[cfg(test)]

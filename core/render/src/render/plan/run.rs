@@ -114,9 +114,9 @@ impl Chosen {
     }
 
     fn put(&self, found: &[[f64; RUN]; 3], sums: &mut [[f64; RUN]; 3]) {
-        for (sums, found) in sums.iter_mut().zip(found) {
-            for (&i, value) in self.which[..self.count].iter().zip(found) {
-                sums[usize::from(i)] = *value;
+        for c in 0..3 {
+            for (at, &i) in self.which[..self.count].iter().enumerate() {
+                sums[c][usize::from(i)] = found[c][at];
             }
         }
     }
@@ -306,17 +306,22 @@ fn by_moments_portable(
     }
     for first in (0..RUN).step_by(BLOCK).take(blocks) {
         let (mut k, mut b) = ([0.0; BLOCK], [0.0; BLOCK]);
-        k.copy_from_slice(&kappa[first..first + BLOCK]);
-        b.copy_from_slice(&beta[first..first + BLOCK]);
-        let least = k.iter().fold(f64::INFINITY, |least, &kappa| least.min(kappa));
+        let (kappa, beta) = (&kappa[first..first + BLOCK], &beta[first..first + BLOCK]);
+        let mut least = f64::INFINITY;
+        for i in 0..BLOCK {
+            (k[i], b[i]) = (kappa[i], beta[i]);
+            least = least.min(k[i]);
+        }
         // To what takes few, the others add nothing.
         let found = if orders <= FEW_MOMENTS || least >= few {
             block::<FEW_MOMENTS>(&kept, f64::INFINITY, &k, &b)
         } else {
             block::<MOMENTS>(&kept, few, &k, &b)
         };
-        for (sums, found) in sums.iter_mut().zip(&found) {
-            sums[first..first + BLOCK].copy_from_slice(found);
+        for c in 0..3 {
+            if let Some(sums) = sums[c][first..].first_chunk_mut() {
+                *sums = found[c];
+            }
         }
     }
 }
@@ -332,8 +337,8 @@ fn block<const N: usize>(
     for i in 0..BLOCK {
         let mut basis = rough_basis_of::<N>(kappa[i], beta[i].min(LAST_BETA));
         let rest = if kappa[i] >= few { 0.0 } else { 1.0 };
-        for value in basis.iter_mut().skip(FEW_MOMENTS) {
-            *value *= rest;
+        for k in FEW_MOMENTS..N {
+            basis[k] *= rest;
         }
         for c in 0..3 {
             let mut sum = 0.0;
@@ -362,24 +367,26 @@ fn read<const N: usize>(table: &Table, chosen: &Chosen, sums: &mut [[f64; RUN]; 
     let mut around = Around::<N>::NOTHING;
     for first in (0..RUN).step_by(BLOCK).take(chosen.blocks()) {
         let (mut kappa, mut beta, mut peaks) = ([0.0; BLOCK], [0.0; BLOCK], [0.0; BLOCK]);
-        kappa.copy_from_slice(&chosen.kappa[first..first + BLOCK]);
-        beta.copy_from_slice(&chosen.beta[first..first + BLOCK]);
+        for i in 0..BLOCK {
+            (kappa[i], beta[i]) = (chosen.kappa[first + i], chosen.beta[first + i]);
+        }
         table.around(&kappa, &beta, &mut around);
         for i in 0..BLOCK.min(chosen.count - first) {
             // Written so that NaN is dark.
             let lit = around.v[i] <= 1.0;
             let [peak, channels @ ..] = if lit { table.read(&around, i) } else { [0.0; 4] };
             peaks[i] = peak;
-            for (sums, channel) in sums.iter_mut().zip(channels) {
-                sums[first + i] = channel;
+            for c in 0..3 {
+                sums[c][first + i] = channels[c];
             }
         }
         for peak in &mut peaks {
             *peak = exp(*peak);
         }
-        for sums in sums.iter_mut() {
-            for (sum, peak) in sums[first..first + BLOCK].iter_mut().zip(&peaks) {
-                *sum *= peak;
+        for c in 0..3 {
+            let sums = &mut sums[c][first..first + BLOCK];
+            for i in 0..BLOCK {
+                sums[i] *= peaks[i];
             }
         }
     }

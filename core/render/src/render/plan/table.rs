@@ -5,7 +5,7 @@ use super::method::IntegrationMethod;
 use super::spline::{BLOCK, weights};
 use super::surface::{Cell, Surface};
 use crate::render::measure::Node;
-use chromascope_math::array::array;
+use chromascope_math::array::{array, each};
 use chromascope_math::exp::ROUNDER;
 
 /// A table's fineness: each fourth step halves its cells.
@@ -104,6 +104,7 @@ impl Table {
         self.surface.intervals[1]
     }
 
+    #[inline]
     fn width(&self) -> usize {
         self.surface.intervals[1] + self.surface.degree
     }
@@ -112,7 +113,7 @@ impl Table {
     #[inline(always)]
     pub(super) fn around<const N: usize>(&self, kappa: &[f64; BLOCK], beta: &[f64; BLOCK], around: &mut Around<N>) {
         let (mut t, mut s, width) = ([0.0; BLOCK], [0.0; BLOCK], self.width() as f64);
-        let [rows, columns] = self.surface.intervals.map(|count| count as f64);
+        let [rows, columns] = each(self.surface.intervals, |count| count as f64);
         for i in 0..BLOCK {
             let [place, v] = self.extent.place(kappa[i], beta[i]);
             let (x, y) = (0.5 * rows * (place + 1.0), columns * v);
@@ -130,10 +131,10 @@ impl Table {
     pub(super) fn read<const N: usize>(&self, around: &Around<N>, i: usize) -> Cell {
         let along: [f64; N] = array(|k| around.along[k][i]);
         let cells = self.surface.cells.get(around.start[i] as usize..).unwrap_or_default();
-        let mut rows = cells.chunks(self.width());
+        let width = self.width();
         let mut mixed = [0.0; 4];
-        for across in &around.across {
-            let Some(row) = rows.next().and_then(|row| row.first_chunk::<N>()) else { return mixed };
+        for (place, across) in around.across.iter().enumerate() {
+            let Some(row) = cells.get(place * width..).and_then(|row| row.first_chunk::<N>()) else { return mixed };
             let mut line = [0.0; 4];
             for k in 0..N {
                 for lane in 0..4 {
