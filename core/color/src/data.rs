@@ -7,19 +7,12 @@ use crate::spectral::{Dataset, DatasetError, GridSpectrum, Quantity, Sensor, Sen
 
 /// Reason that a built-in data set cannot be had.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[allow(missing_docs, reason = "each variant says in its message what is wrong")]
 pub enum DataError {
-    /// No data set of this kind has the name.
     #[error("no {folder} data set is named {name}")]
-    Unknown {
-        /// Folder that was searched.
-        folder: &'static str,
-        /// Requested name.
-        name: String,
-    },
-    /// The file cannot be read.
+    Unknown { folder: &'static str, name: String },
     #[error(transparent)]
     File(#[from] DatasetError),
-    /// The curves are not those of a sensor.
     #[error(transparent)]
     Sensor(#[from] SensorError),
 }

@@ -25,14 +25,12 @@ use super::rect::Rect;
 
 /// Reason that there is no PDF.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[allow(missing_docs, reason = "each variant says in its message what is wrong")]
 pub enum PdfError {
-    /// A font cannot be read.
     #[error("a font cannot be read")]
     Font,
-    /// The page has no area, or one beyond what PDF allows.
     #[error("the page has no area, or is larger than 5 m")]
     Size,
-    /// The writer refused.
     #[error("the PDF cannot be written: {0}")]
     Write(String),
 }

@@ -4,27 +4,18 @@ use glam::{DMat3, DVec3};
 
 /// Reason that a fit has no answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, thiserror::Error)]
+#[allow(missing_docs, reason = "each variant says in its message what is wrong")]
 pub enum FitError {
-    /// The three channels do not span three dimensions over the samples.
     #[error("the three channels are linearly dependent over the training samples")]
     Dependent,
-    /// Fewer samples than free coefficients.
     #[error(
         "{samples} training samples cannot determine {needed} coefficients a channel; choose a larger training set"
     )]
-    TooFew {
-        /// Number of samples.
-        samples: usize,
-        /// Number of free coefficients.
-        needed: usize,
-    },
-    /// The vector to be preserved is zero.
+    TooFew { samples: usize, needed: usize },
     #[error("the white has no signal")]
     NoWhite,
-    /// All weights are 0.
     #[error("all training samples have weight 0; give at least one class a weight above 0")]
     NoWeight,
-    /// The fit is a search, and the program is built without it.
     #[error("this program is built without the search for a minimum color difference (feature `fits`)")]
     NoOptimizer,
 }

@@ -24,8 +24,8 @@ pub struct Report {
 
 /// A report that cannot be written down.
 #[derive(Debug, thiserror::Error)]
+#[allow(missing_docs, reason = "each variant says in its message what is wrong")]
 pub enum ReportError {
-    /// It cannot be put as JSON.
     #[error("the measurements cannot be written as JSON: {0}")]
     Json(#[from] serde_json::Error),
 }

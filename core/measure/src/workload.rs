@@ -51,11 +51,10 @@ pub enum Progress<'a> {
 
 /// A benchmark that cannot run.
 #[derive(Debug, thiserror::Error)]
+#[allow(missing_docs, reason = "each variant says in its message what is wrong")]
 pub enum BenchError {
-    /// There are no threads to be had.
     #[error("no threads to measure on: {0}")]
     Threads(#[from] rayon::ThreadPoolBuildError),
-    /// The data cannot be computed with.
     #[error(transparent)]
     Data(#[from] DataError),
 }

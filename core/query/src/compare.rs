@@ -7,17 +7,15 @@ use chromascope_color::spectral::Primaries;
 
 /// Reason for no difference between two colors.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, thiserror::Error)]
+#[allow(missing_docs, reason = "each variant says in its message what is wrong")]
 pub enum DifferenceError {
-    /// One is drawn by Eq 13, the other directly.
     #[error(
         "a CIE observer is drawn directly while cameras and RGB observers go through Eq 13, so the two differ by construction; \
          choose a fitted color transform to compare them"
     )]
     Ways,
-    /// One of them has no chromaticity.
     #[error("chromaticity undefined (X + Y + Z = 0)")]
     NoChromaticity,
-    /// One of them has no L*a*b*.
     #[error("the adopted white has a component that is not positive, so L*a*b* is undefined")]
     NoLab,
 }

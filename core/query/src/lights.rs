@@ -122,11 +122,10 @@ pub struct Consistency {
 
 /// Reason that a camera has no consistency under a light.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[allow(missing_docs, reason = "each variant says in its message what is wrong")]
 pub enum ConsistencyError {
-    /// The camera cannot be corrected under one of the lights.
     #[error(transparent)]
     Rendering(#[from] RenderingError),
-    /// There is no patch with a color.
     #[error("no patch to compare")]
     NoPatch,
 }

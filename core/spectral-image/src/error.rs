@@ -11,20 +11,9 @@ pub enum ImageError {
     #[error("line {line}: the list of `{field}` has no closing brace")]
     Open { line: usize, field: String },
     #[error("the header has no `{field}`; add the line `{field} = {example}`")]
-    Missing {
-        field: &'static str,
-        /// A value it might have.
-        example: &'static str,
-    },
+    Missing { field: &'static str, example: &'static str },
     #[error("line {line}: `{field} = {value}`: {remedy}")]
-    Value {
-        line: usize,
-        field: &'static str,
-        /// The value, shortened.
-        value: String,
-        /// Description of valid values.
-        remedy: &'static str,
-    },
+    Value { line: usize, field: &'static str, value: String, remedy: &'static str },
     #[error("line {line}: `{field}` has {found} entries for {bands} bands")]
     Length { line: usize, field: &'static str, found: usize, bands: usize },
     #[error("`{field}` is {value}; expected 1 to {limit}")]
@@ -46,12 +35,7 @@ pub enum ImageError {
     #[error("{0}")]
     Unsupported(&'static str),
     #[error("rows {from} to {to} of an image of {height} rows")]
-    Rows {
-        from: usize,
-        /// Row after the last.
-        to: usize,
-        height: usize,
-    },
+    Rows { from: usize, to: usize, height: usize },
     #[error("OpenEXR: {0}")]
     Exr(String),
     #[error("the data cannot be read: {0}")]

@@ -17,24 +17,12 @@ const ALONE: usize = 1 << 20;
 
 /// Reason that numbers make no batch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, thiserror::Error)]
+#[allow(missing_docs, reason = "each variant says in its message what is wrong")]
 pub enum BatchError {
-    /// The samples are not whole curves.
     #[error("{samples} samples are no whole number of curves of {length}")]
-    Ragged {
-        /// Number of samples.
-        samples: usize,
-        /// Number of samples that each curve should have.
-        length: usize,
-    },
-    /// There is no room for exactly one answer for each spectrum and channel.
+    Ragged { samples: usize, length: usize },
     #[error("{answers} places for {wanted} responses")]
-    Answers {
-        /// Number of places.
-        answers: usize,
-        /// Number of places needed.
-        wanted: usize,
-    },
-    /// A sensitivity is not a finite number.
+    Answers { answers: usize, wanted: usize },
     #[error("a sensitivity is not a finite number")]
     NotFinite,
 }

@@ -14,38 +14,27 @@ pub const FEWEST_PIXELS: usize = 4;
 
 /// Reason that corners and grid mark no patches.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[allow(missing_docs, reason = "each variant says in its message what is wrong")]
 pub enum ChartGridError {
-    /// The corners do not go around a convex quadrilateral.
     #[error(
         "the four corners are not those of a convex quadrilateral; name them around the chart: top left, top right, bottom right, bottom left"
     )]
     NotConvex,
-    /// A corner beside the picture.
     #[error("corner {corner} lies outside the picture of {width} x {height} pixels")]
     Outside {
         /// The corner, from 1.
         corner: usize,
-        /// Pixels across.
         width: usize,
-        /// Pixels down.
         height: usize,
     },
-    /// A grid without patches, or with more than a picture could show.
     #[error("a grid of {columns} x {rows} patches; expected 1 to 100 each way")]
-    Grid {
-        /// Patches across.
-        columns: usize,
-        /// Patches down.
-        rows: usize,
-    },
-    /// Patches too small to average.
+    Grid { columns: usize, rows: usize },
     #[error(
         "patch {patch} has {pixels} pixels; at least {FEWEST_PIXELS} are needed, so use a larger picture or check the corners"
     )]
     TooSmall {
         /// The patch, from 1.
         patch: usize,
-        /// Number of its pixels.
         pixels: usize,
     },
 }

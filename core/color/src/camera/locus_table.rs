@@ -26,11 +26,11 @@ const CHUNK: usize = 8192;
 
 /// Reason that a table has no chromaticity for a temperature. The sum may have one: [`LocusEvaluator`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, thiserror::Error)]
+#[allow(missing_docs, reason = "each variant says in its message what is wrong")]
 pub enum LocusTableError {
     /// Colder than [`COLDEST_K`] or hotter than [`HOTTEST_K`].
     #[error("the temperature is outside the table")]
     Outside,
-    /// The sum of the signals is nearly zero there, or the curvature too large for the error bound.
     #[error("the locus has no smooth chromaticity near this temperature")]
     Rough,
 }

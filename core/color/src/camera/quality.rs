@@ -181,8 +181,8 @@ hash_by!(Electrons, |of| [of.full_well, of.read_noise].map(bits));
 
 /// Reason that numbers describe no pixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, thiserror::Error)]
+#[allow(missing_docs, reason = "each variant says in its message what is wrong")]
 pub enum ElectronsError {
-    /// The full well is not a positive number.
     #[error("the full-well capacity must be a positive number of electrons, at most 1e9")]
     FullWell,
     /// The read noise is not a number from zero up.

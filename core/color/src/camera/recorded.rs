@@ -17,17 +17,14 @@ use two_way::{Grid, rms};
 
 /// Reason that a value takes no part in a fit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, thiserror::Error)]
+#[allow(missing_docs, reason = "each variant says in its message what is wrong")]
 pub enum Exclusion {
-    /// No value was recorded.
     #[error("missing")]
     Missing,
-    /// The value is zero or negative, so that it has no logarithm.
     #[error("zero or negative")]
     NotPositive,
-    /// The value is at or above the clipping level.
     #[error("clipped")]
     Clipped,
-    /// The sensitivities predict no positive response.
     #[error("no response predicted")]
     NotPredicted,
 }
@@ -69,17 +66,12 @@ pub struct RecordedPatch {
 
 /// Reason that a camera cannot be fitted to recorded values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, thiserror::Error)]
+#[allow(missing_docs, reason = "each variant says in its message what is wrong")]
 pub enum RecordedError {
-    /// Nothing is left to judge by.
     #[error(
         "{values} usable values for {parameters} fitted parameters; record more patches, or hold the gains or the brightness"
     )]
-    TooFew {
-        /// Number of values that can be used.
-        values: usize,
-        /// Number of parameters that are fitted.
-        parameters: usize,
-    },
+    TooFew { values: usize, parameters: usize },
 }
 
 /// Fit of one camera's sensitivities to recorded values.

@@ -34,35 +34,28 @@ pub enum ColorTransform<'a> {
 
 /// Reason that a sensor cannot be rendered under a light.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, thiserror::Error)]
+#[allow(missing_docs, reason = "each variant says in its message what is wrong")]
 pub enum RenderingError {
-    /// A channel does not respond to the light: white balance would divide by nothing.
     #[error("channel {} does not respond to this light, so white cannot be balanced; choose another light", channel + 1)]
     BlindToLight {
         /// The channel, 0 to 2.
         channel: usize,
     },
-    /// Cone fundamentals are not RGB, so that Eq 13 is undefined for them.
     #[error("Eq 13 takes RGB, not cone signals; choose a fitted color transform")]
     ConesNeedObserver,
-    /// The reference of a fit must count in XYZ.
     #[error("the observer that a color transform is fitted to must be an XYZ observer")]
     Reference,
-    /// The chosen white's signal over a channel's response exceeds the range of numbers.
     #[error("channel {} responds too weakly for the chosen white; choose another white or larger sensitivities", channel + 1)]
     GainOverflow {
         /// The channel, 0 to 2.
         channel: usize,
     },
-    /// The color that white is to take leaves a channel at zero, which no matrix can undo.
     #[error("the chosen white leaves a channel at zero; choose another white")]
     NoWhite,
-    /// Eq 13 is the same matrix for all: nothing is fitted.
     #[error("the paper's matrix (Eq 13) is not fitted; choose a fitted color transform")]
     NotFitted,
-    /// The transform is no matrix that can be inverted.
     #[error("this correction is no invertible 3×3 matrix; choose a matrix")]
     NoMatrix,
-    /// A root of a negative signal has no answer.
     #[error(
         "a root polynomial needs signals that are never negative, but {} has negative lobes; choose a matrix",
         if *is_rgb { "the observer" } else { "the sensor" }
@@ -71,10 +64,8 @@ pub enum RenderingError {
         /// True for an observer's matching functions.
         is_rgb: bool,
     },
-    /// The fit to the reference observer has no answer.
     #[error(transparent)]
     Fit(#[from] FitError),
-    /// The integrals cannot be computed within the requested tolerance.
     #[error(transparent)]
     Accuracy(#[from] Unmet),
 }

@@ -34,23 +34,19 @@ pub enum IdtExposure {
 
 /// Reason that there is no IDT.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, thiserror::Error)]
+#[allow(missing_docs, reason = "each variant says in its message what is wrong")]
 pub enum IdtError {
-    /// An IDT is for camera RGB.
     #[error("an ACES IDT takes the RGB of a camera; choose a camera")]
     NotCamera,
-    /// The observer must count in XYZ.
     #[error("the observer of an ACES IDT must be an XYZ observer")]
     Reference,
-    /// A channel does not respond to the light.
     #[error("channel {} does not respond to this light; choose another light", channel + 1)]
     BlindToLight {
         /// The channel, 0 to 2.
         channel: usize,
     },
-    /// The light cannot be adapted to the ACES white.
     #[error("the light's white cannot be adapted to the ACES white; choose another light")]
     NoWhite,
-    /// The samples determine no matrix.
     #[error(transparent)]
     Fit(#[from] FitError),
 }

@@ -6,8 +6,8 @@ use std::str::FromStr;
 
 /// Reason that numbers are no neutral.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[allow(missing_docs, reason = "each variant says in its message what is wrong")]
 pub enum NeutralError {
-    /// Not three positive numbers.
     #[error("expected three positive numbers R,G,B, as 0.5,1,0.7")]
     Numbers,
     /// White-balance multipliers, whose least is green's.

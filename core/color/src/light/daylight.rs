@@ -6,11 +6,11 @@ use crate::units::Kelvin;
 
 /// Reason that there is no daylight of a temperature.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[allow(missing_docs, reason = "each variant says in its message what is wrong")]
 pub enum DaylightError {
     /// The CIE formula holds from 4000 to 25000 K.
     #[error("CIE daylight is defined from 4000 to 25000 K, not at {0}")]
     Temperature(Kelvin),
-    /// The basis does not have its three curves.
     #[error("the daylight basis needs the three curves S0, S1 and S2")]
     Basis,
 }

@@ -8,8 +8,8 @@ use crate::spectral::{Primaries, Sensor, SpectralDistribution};
 
 /// Reason that a light has no index.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[allow(missing_docs, reason = "each variant says in its message what is wrong")]
 pub enum RenditionError {
-    /// Nothing is seen of the light in the range of the index.
     #[error("the light has no power between {first_nm} and {last_nm} nm")]
     NoPower {
         /// First wavelength of the range in nanometers.
@@ -17,7 +17,6 @@ pub enum RenditionError {
         /// Last wavelength of the range in nanometers.
         last_nm: u16,
     },
-    /// Lamps of one line, such as low-pressure sodium, are outside CIE 13.3.
     #[error(
         "four fifths of the luminance lie within 20 nm of {nm} nm, and CIE 13.3 excludes lamps that are mainly monochromatic"
     )]
@@ -25,30 +24,19 @@ pub enum RenditionError {
         /// Peak of the band in nanometers.
         nm: u16,
     },
-    /// There is no temperature to take the reference illuminant at.
     #[error("no reference illuminant: {0}")]
     Temperature(#[from] CctError),
-    /// Daylight is undefined at the light's temperature.
     #[error("no reference illuminant: {0}")]
     Daylight(#[from] DaylightError),
-    /// An observer does not count in XYZ.
     #[error("the observer of the index must be an XYZ observer: {0}")]
     Observer(#[from] LocusError),
-    /// The set of test samples is another one.
     #[error("{found} test samples, but the index is defined for {expected}")]
-    Samples {
-        /// Number of samples that there are.
-        found: usize,
-        /// Number that the standard has.
-        expected: usize,
-    },
-    /// A test sample has no color coordinates under the light, which is too saturated or partly negative.
+    Samples { found: usize, expected: usize },
     #[error("test sample {sample} has no color coordinates under this light")]
     Undefined {
         /// The sample, from 1.
         sample: usize,
     },
-    /// No sample falls into a hue bin, so that there is no polygon.
     #[error("no test sample falls into hue bin {bin} under the reference illuminant")]
     EmptyBin {
         /// The bin, from 1.

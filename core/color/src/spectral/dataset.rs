@@ -85,36 +85,18 @@ impl Header {
 
 /// Reason that a data file cannot be read. Lines count from one.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[allow(missing_docs, reason = "each variant says in its message what is wrong")]
 pub enum DatasetError {
     /// A header line without `key: value`, or with a key the format does not have.
     #[error("line {line}: expected `# key: value` with a known key")]
-    Key {
-        /// The line.
-        line: usize,
-    },
+    Key { line: usize },
     /// The column heads do not begin with `wavelength_nm`, or there are none.
     #[error("line {line}: expected column heads beginning with wavelength_nm")]
-    Columns {
-        /// The line.
-        line: usize,
-    },
-    /// A row with another number of fields than the heads.
+    Columns { line: usize },
     #[error("line {line}: expected {expected} fields")]
-    Fields {
-        /// The line.
-        line: usize,
-        /// Number of fields given by the column heads.
-        expected: usize,
-    },
-    /// A field that is not a number.
+    Fields { line: usize, expected: usize },
     #[error("line {line}: no number in column {column}")]
-    Number {
-        /// The line.
-        line: usize,
-        /// The column, from one.
-        column: usize,
-    },
-    /// The figures make no spectrum.
+    Number { line: usize, column: usize },
     #[error(transparent)]
     Spectrum(#[from] DistributionError),
 }

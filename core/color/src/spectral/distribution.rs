@@ -4,19 +4,12 @@ use crate::units::{bits, hash_by};
 
 /// Reason that samples do not make a spectrum.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[allow(missing_docs, reason = "each variant says in its message what is wrong")]
 pub enum DistributionError {
-    /// No samples at all.
     #[error("a spectrum needs at least one sample")]
     Empty,
-    /// The two columns differ in length.
     #[error("{wavelengths} wavelengths but {values} values")]
-    Lengths {
-        /// Number of wavelengths.
-        wavelengths: usize,
-        /// Number of values.
-        values: usize,
-    },
-    /// A wavelength that is not above the one before it, or not a positive number.
+    Lengths { wavelengths: usize, values: usize },
     #[error("sample {index}: wavelength {wavelength} nm is not a positive number above the one before it")]
     Order {
         /// The offending sample, from zero.
@@ -24,12 +17,10 @@ pub enum DistributionError {
         /// Its wavelength in nanometers.
         wavelength: f64,
     },
-    /// A value that is not a finite number below 1e100 in magnitude.
     #[error("sample {index}: the value {value} cannot be computed with (limit 1e100)")]
     Value {
         /// The offending sample, from zero.
         index: usize,
-        /// Its value.
         value: f64,
     },
 }

@@ -82,20 +82,15 @@ pub const TAIL_BELOW_K: f64 = 2500.0;
 
 /// Reason that three curves make no sensor.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[allow(missing_docs, reason = "each variant says in its message what is wrong")]
 pub enum SensorError {
-    /// A channel has no sensitivity anywhere on the grid.
     #[error("channel {} has no sensitivity between 380 and 780 nm", channel + 1)]
     Blind {
         /// The channel, 0 to 2.
         channel: usize,
     },
-    /// A sensor has three curves.
     #[error("{found} curves, but a camera needs three: red, green and blue")]
-    NotThree {
-        /// Number of curves found.
-        found: usize,
-    },
-    /// A curve could not be converted to energy units.
+    NotThree { found: usize },
     #[error(transparent)]
     Curve(#[from] DistributionError),
 }

@@ -2,14 +2,12 @@
 
 /// The format of a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, thiserror::Error)]
+#[allow(missing_docs, reason = "each variant says in its message what is wrong")]
 pub enum Kind {
-    /// Wavefront OBJ.
     #[error("OBJ")]
     Obj,
-    /// Stanford PLY.
     #[error("PLY")]
     Ply,
-    /// Stereolithography STL.
     #[error("STL")]
     Stl,
 }
@@ -36,32 +34,24 @@ impl Tally {
 
 /// Statements that are read over, since nothing in a mesh answers to them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, thiserror::Error)]
+#[allow(missing_docs, reason = "each variant says in its message what is wrong")]
 pub enum Skipped {
-    /// Materials: their names are stored with the groups, their properties are ignored.
     #[error("material statements")]
     Materials,
-    /// Texture coordinates and maps.
     #[error("texture statements")]
     Textures,
-    /// Colors or weights of vertices.
     #[error("vertices with colors or weights")]
     VertexColors,
-    /// Points.
     #[error("point statements")]
     Points,
-    /// Lines.
     #[error("line statements")]
     Lines,
-    /// Free-form curves and surfaces.
     #[error("free-form curve and surface statements")]
     Curves,
-    /// Instructions for display and rendering.
     #[error("display statements")]
     Display,
-    /// Elements that are neither vertices nor faces.
     #[error("elements that are neither vertices nor faces")]
     Elements,
-    /// Words that the format does not have.
     #[error("unknown statements")]
     Unknown,
 }
@@ -217,37 +207,31 @@ pub enum Note {
 
 /// Unsupported contents of a file: another kind of file, or an unsupported kind of mesh.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, thiserror::Error)]
+#[allow(missing_docs, reason = "each variant says in its message what is wrong")]
 pub enum Alien {
-    /// glTF, as text or binary.
     #[error("glTF")]
     Gltf,
-    /// Autodesk FBX.
     #[error("FBX")]
     Fbx,
     /// A compressed file or archive: zip, gzip, 3MF, USDZ.
     #[error("compressed")]
     Compressed,
-    /// XML: Collada, X3D, AMF.
     #[error("XML")]
     Xml,
-    /// Geomview OFF.
     #[error("OFF")]
     Off,
-    /// Bytes that are no text and carry no known mark.
     #[error("binary data")]
     Binary,
-    /// Text without a single vertex.
     #[error("text without vertices")]
     Text,
 }
 
 /// Quantity that has a limit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, thiserror::Error)]
+#[allow(missing_docs, reason = "each variant says in its message what is wrong")]
 pub enum Quantity {
-    /// Bytes of the file.
     #[error("bytes")]
     Bytes,
-    /// Vertices or normals.
     #[error("vertices")]
     Vertices,
     /// Triangles, polygons counted as what they are cut into.
@@ -257,14 +241,13 @@ pub enum Quantity {
 
 /// Place in a file, counted from 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, thiserror::Error)]
+#[allow(missing_docs, reason = "each variant says in its message what is wrong")]
 pub enum Place {
     /// A line of a text file; of a statement continued over several lines, the first.
     #[error("line {0}")]
     Line(usize),
-    /// A face of a binary file.
     #[error("face {0}")]
     Face(usize),
-    /// A vertex of a binary file.
     #[error("vertex {0}")]
     Vertex(usize),
 }

@@ -14,17 +14,14 @@ const LARGEST_INDEX: f64 = 1000.0;
 
 /// Reason that numbers are not a surface of the model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[allow(missing_docs, reason = "each variant says in its message what is wrong")]
 pub enum SurfaceError {
-    /// The height deviation.
     #[error("the height deviation must lie between 0 and 1 m")]
     Sigma,
-    /// The correlation length.
     #[error("the correlation length must lie between 1 nm and 1 m")]
     Tau,
-    /// A half-width of the patch.
     #[error("the patch's half sides must lie between 1 nm and 1 m")]
     Patch,
-    /// The refractive index.
     #[error("the refractive index must be positive and at most 1000")]
     Index,
 }

@@ -26,29 +26,16 @@ pub enum SampleQuantity {
 
 /// Reason that an image cannot be put through cameras.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[allow(missing_docs, reason = "each variant says in its message what is wrong")]
 pub enum SpectralImageError {
-    /// The wavelengths are none.
     #[error(transparent)]
     Wavelengths(#[from] DistributionError),
-    /// No band lies within the grid.
     #[error("the bands cover {first} to {last} nm, none of 380 to 780 nm")]
-    NotVisible {
-        /// First wavelength.
-        first: f64,
-        /// Last wavelength.
-        last: f64,
-    },
-    /// Weights beyond single precision.
+    NotVisible { first: f64, last: f64 },
     #[error("the light or the sensitivities are too large for an image")]
     NotFinite,
-    /// A picture too large.
     #[error("{width} x {height} pixels; at most {MAX_SIDE} a side")]
-    Size {
-        /// Pixels across.
-        width: usize,
-        /// Pixels down.
-        height: usize,
-    },
+    Size { width: usize, height: usize },
 }
 
 /// A camera or observer: its sensitivities, and the divisors of its integrals ([`chromascope_color::camera::Rendering::white_integrals`]).

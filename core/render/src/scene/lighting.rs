@@ -9,14 +9,12 @@ pub const SUN_RADIUS: f64 = 4.65e-3;
 
 /// Reason that a light has no position.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, thiserror::Error)]
+#[allow(missing_docs, reason = "each variant says in its message what is wrong")]
 pub enum LightingError {
-    /// A coordinate is not a number.
     #[error("the light's coordinates must be finite numbers")]
     NotFinite,
-    /// A direction of length zero.
     #[error("the light's direction must not be zero")]
     NoDirection,
-    /// The disk of the light is no disk.
     #[error("the light's angular radius must lie between 0 and 0.5 rad")]
     AngularRadius,
 }

@@ -8,14 +8,12 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Reason that numbers are not an orbit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, thiserror::Error)]
+#[allow(missing_docs, reason = "each variant says in its message what is wrong")]
 pub enum ViewpointError {
-    /// An angle or distance is not a number.
     #[error("yaw, pitch, distance and field of view must be finite numbers")]
     NotFinite,
-    /// The eye would stand within the mesh or out of sight.
     #[error("the distance must lie between 0.05 and 1000 scene radii")]
     Distance,
-    /// The lens would see nothing, or half of everything.
     #[error("the field of view must lie between 0.1° and 150°")]
     FieldOfView,
 }

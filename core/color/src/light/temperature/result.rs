@@ -25,31 +25,26 @@ pub struct Cct {
 
 /// Reason that a color has no correlated color temperature.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, thiserror::Error)]
+#[allow(missing_docs, reason = "each variant says in its message what is wrong")]
 pub enum CctError {
-    /// Black, or numbers that are no chromaticity.
     #[error("the color has no chromaticity")]
     NoChromaticity,
-    /// Further than 0.05 from every blackbody, of whatever temperature.
     #[error("the color is further than 0.05 from the Planckian locus")]
     TooFar,
-    /// The nearest blackbody is hotter than the method goes.
     #[error("the nearest black body is too hot")]
     TooHot,
-    /// The nearest blackbody is colder than the method goes.
     #[error("the nearest black body is too cold")]
     TooCold,
 }
 
 /// Reason that an observer gives no locus to compare with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, thiserror::Error)]
+#[allow(missing_docs, reason = "each variant says in its message what is wrong")]
 pub enum LocusError {
-    /// The observer's channels are not X, Y and Z, so that its signals have no place in the 1960 diagram.
     #[error("the observer does not count in XYZ")]
     NotXyz,
-    /// Some blackbody has no chromaticity for this observer.
     #[error("black bodies have no chromaticity for this observer")]
     NoChromaticity,
-    /// The locus stands still or bends so sharply that colors within 0.05 of it could have two nearest points.
     #[error("the observer's Planckian locus is too crooked")]
     Crooked,
 }
