@@ -84,8 +84,8 @@ macro_rules! step {
 macro_rules! way {
     ($way:ident, $type:ident, #[$how:meta]) => {
         pub(super) mod $way {
-            use super::super::ways::$type::$way::{fuse, load, totals, zero};
             use super::*;
+            use crate::camera::batch::kernel::ways::$type::$way::{fuse, load, totals, zero};
 
             #[$how]
             pub(in super::super) fn multiply(
