@@ -121,11 +121,7 @@ impl ChromascopeApp {
             Command::SaveSet(kind, name, form) => self.save_set(kind, &name, form),
             Command::SaveCorrection(form) => self.save_correction(form),
             Command::CopyPicture(pane) => self.copy_picture(ctx, self.pictured(pane)),
-            Command::CopyCard(pane) => {
-                if let Some(card) = self.card(pane) {
-                    self.copy_image(ctx, pane, "card", card.picture());
-                }
-            }
+            Command::CopyCard(pane) => self.copy_card(ctx, pane),
             Command::SaveCard(pane) => self.save_card(pane),
             Command::CopyNumbers(pane) => self.copy_numbers(ctx, self.pictured(pane)),
             Command::Show(workspace) => self.show_workspace(workspace),
@@ -163,6 +159,12 @@ impl ChromascopeApp {
             Command::GoTo(pane) => self.go_to(ctx, pane),
             Command::Seek(pane, control) => self.seek(ctx, pane, control),
             Command::Quit => ctx.send_viewport_cmd(ViewportCommand::Close),
+        }
+    }
+
+    fn copy_card(&mut self, ctx: &egui::Context, pane: PaneKind) {
+        if let Some(card) = self.card(pane) {
+            self.copy_image(ctx, pane, "card", card.picture());
         }
     }
 

@@ -264,7 +264,7 @@ impl State {
         // After a move to another file, nothing counts as saved there yet.
         if self.moved != file.moved {
             self.saved = None;
-            self.moved = file.moved.clone();
+            self.moved.clone_from(&file.moved);
         }
         match result {
             Ok(()) => self.saved = Some(document),

@@ -112,7 +112,7 @@ fn plot(
     let view = &*context.view;
     let reference = &context.scene.document.reference;
     let emphasis = |tag| view.emphasis_of(&built.things, tag, reference);
-    let options = PlotOptions { reset: view.reset_plots, zoomable, emphasis: &emphasis, ..PlotOptions::default() };
+    let options = PlotOptions { reset: view.reset_plots, zoomable, emphasis: &emphasis };
     paint::plot(ui, id, &built.panel, &context.theme, rect, options)
 }
 

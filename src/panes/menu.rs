@@ -65,7 +65,7 @@ fn unseen_dot(ui: &Ui, tab: &egui::Response, context: &PaneContext<'_>) {
     ui.painter().circle_filled(tab.rect.right_top() + Vec2::new(-7.0, 9.0), 3.0, context.theme.warning);
     let files = if count == 1 { "1 file".to_owned() } else { format!("{count} files") };
     let words = format!("Import: {files} to check");
-    widgets::labeled(&tab, egui::Role::Button, &words);
+    widgets::labeled(tab, egui::Role::Button, &words);
     tab.clone().on_hover_text(words);
 }
 

@@ -87,7 +87,7 @@ fn mark_old(ui: &Ui, painter: &egui::Painter, response: &egui::Response, context
     let words = format!("Rendering {}, {light}…", context.scene.document.render.mesh.name());
     painter.rect_filled(response.rect, 0.0, context.theme.surround.gamma_multiply(0.6));
     say(painter, response.rect, &words, context);
-    widgets::labeled(&response, egui::Role::Canvas, &words);
+    widgets::labeled(response, egui::Role::Canvas, &words);
 }
 
 fn say(painter: &egui::Painter, body: Rect, words: &str, context: &PaneContext<'_>) {

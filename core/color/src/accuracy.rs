@@ -40,6 +40,7 @@ impl RelTolerance {
     }
 
     /// A share of it, above 0 and not above 1.
+    #[must_use]
     pub fn times(self, share: f64) -> Self {
         Self::at_best(self.max_relative_error() * share)
     }
@@ -52,6 +53,9 @@ impl RelTolerance {
     }
 
     /// Refusal of this tolerance, if a method of this error does not meet it.
+    ///
+    /// # Errors
+    /// [`Unmet`] with the method's error as the best.
     pub fn met_by(self, relative_error: f64) -> Result<(), Unmet> {
         if self.allows(relative_error) {
             Ok(())

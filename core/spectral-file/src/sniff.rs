@@ -66,7 +66,7 @@ struct Sniffer<'a> {
     options: &'a ReadOptions,
 }
 
-impl<'a> Sniffer<'a> {
+impl Sniffer<'_> {
     fn layout(self, budget: &mut usize, log: &Log<'_>) -> Result<Layout, ReadError> {
         let trials = self.try_all(false, budget, log)?;
         let best = self.choose(&trials);

@@ -39,8 +39,8 @@ fn decode_utf8(bytes: &[u8]) -> Result<(Cow<'_, str>, Encoding), ReadError> {
 
 #[cfg(feature = "encodings")]
 fn decode_any(bytes: &[u8]) -> (Cow<'_, str>, Encoding) {
-    let marked = [(b"\xFF\xFE", Encoding::Utf16Le), (b"\xFE\xFF", Encoding::Utf16Be)].into_iter();
-    let marked = marked.filter_map(|(mark, encoding)| Some((bytes.strip_prefix(mark)?, encoding))).next();
+    let mut marked = [(b"\xFF\xFE", Encoding::Utf16Le), (b"\xFE\xFF", Encoding::Utf16Be)].into_iter();
+    let marked = marked.find_map(|(mark, encoding)| Some((bytes.strip_prefix(mark)?, encoding)));
     if let Some((rest, encoding)) = marked.or_else(|| Some((bytes, bare_utf16(bytes)?))) {
         let utf16 = if encoding == Encoding::Utf16Le { UTF_16LE } else { UTF_16BE };
         return (utf16.decode_without_bom_handling(rest).0, encoding);

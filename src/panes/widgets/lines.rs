@@ -78,6 +78,10 @@ pub fn named(ui: &Ui, rect: Rect, id: egui::Id, role: egui::Role, words: &str) -
 }
 
 /// Names a control for screen readers.
+#[allow(
+    clippy::needless_pass_by_value,
+    reason = "texts and references to them, made into words only for who reads them"
+)]
 pub fn labeled(response: &Response, role: egui::Role, words: impl ToString) {
     response.widget_info(|| egui::WidgetInfo::labeled(role, true, words.to_string()));
 }

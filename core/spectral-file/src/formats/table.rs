@@ -95,6 +95,7 @@ fn read(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Result<Found, R
 
 /// Groups of columns, or rows of several quantities, in one table, one of which was taken.
 fn side_by_side(grid: &mut Grid, options: &ReadOptions, log: &mut Log<'_>) {
+    const MOST_NAMED: usize = 4;
     if let Some(part) = &grid.part {
         let taken = part.value.checked_sub(1).filter(|at| *at < grid.parts.len()).unwrap_or(0);
         let others = wide::other_names(&grid.parts, taken);
@@ -103,7 +104,6 @@ fn side_by_side(grid: &mut Grid, options: &ReadOptions, log: &mut Log<'_>) {
         }
         return;
     }
-    const MOST_NAMED: usize = 4;
     let names: Vec<&str> = grid.parts.iter().map(|part| part.name.as_str()).take(MOST_NAMED).collect();
     let why = format!("{} groups of spectra stand side by side, {}", grid.parts.len(), names.join(", "));
     grid.part = Some(Decided::guess(1, why));

@@ -186,6 +186,7 @@ pub const STRIP: f64 = 136.0;
 pub static KIND: FigureKind = FigureKind::new("chromaticity", "The chromaticity diagram with loci and patches", figure);
 
 /// The figure as it is saved: diagram, strip, legend, caption, and the numbers of all points.
+#[allow(clippy::unnecessary_wraps, reason = "other kinds of figures can have nothing to draw")]
 fn figure(scene: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Option<Figure> {
     let strip = room.strip && super::strip::build(scene, [SIZE[0], STRIP]).is_some();
     Some(figure_sized(scene, look, room, room.size(SIZE, if strip { STRIP } else { 0.0 })))

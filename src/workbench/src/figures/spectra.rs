@@ -128,6 +128,7 @@ const SIZE: [f64; 2] = [640.0, 560.0];
 pub static KIND: FigureKind = FigureKind::new("spectra", "Light, patches and sensitivities over wavelength", figure);
 
 /// The figure as it is saved, with all values on the 1 nm grid.
+#[allow(clippy::unnecessary_wraps, reason = "other kinds of figures can have nothing to draw")]
 fn figure(scene: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Option<Figure> {
     let size = room.size(SIZE, 0.0);
     let built = build(scene, look, size);

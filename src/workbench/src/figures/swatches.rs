@@ -115,6 +115,7 @@ const KEY: f64 = 18.0;
 pub static KIND: FigureKind = FigureKind::new("swatches", "Patches as each sensor renders them", figure);
 
 /// The figure as it is saved (in rows with the five patches, the paper's Figure 5), with all numbers.
+#[allow(clippy::unnecessary_wraps, reason = "other kinds of figures can have nothing to draw")]
 fn figure(scene: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Option<Figure> {
     let [width, height] = room.size(SIZE, KEY);
     // On a narrow page charts stand below each other.

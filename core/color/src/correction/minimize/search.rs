@@ -15,6 +15,7 @@ const ROUNDS: usize = 200;
 const GAIN: f64 = 1e-9;
 
 /// The matrix of the least value, from `start` or, where it is better, from `near`.
+#[allow(clippy::unnecessary_wraps, reason = "without the feature `fits` it refuses")]
 pub(super) fn minimum(
     training: Training<'_>,
     targets: &[Lab],
