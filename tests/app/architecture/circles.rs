@@ -15,7 +15,6 @@ const CRATES: &[&str] = &[
     "core/data/src",
     "core/figure/src",
     "core/math/src",
-    "core/measure/src",
     "core/mesh/src",
     "core/profile/src",
     "core/query/src",
