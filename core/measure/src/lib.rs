@@ -13,12 +13,7 @@ mod workloads;
 
 pub use data::DataError;
 pub use machine::Machine;
-pub use report::{Report, ReportError};
+pub use report::{Report, ReportError, program};
 pub use workload::{BenchError, Effort, ErrorOf, ErrorScale, Measurement, Progress, Roof, Workload};
 #[cfg(feature = "workloads")]
 pub use workloads::{exact, run};
-
-/// Program and version.
-pub fn program() -> String {
-    concat!("Chromascope ", env!("CARGO_PKG_VERSION")).to_owned()
-}

@@ -1,7 +1,8 @@
 //! All that was measured in one run, as figures, a table and JSON.
 
+use crate::machine::Machine;
 use crate::pareto::{self, Place};
-use crate::{Effort, Machine, Measurement, Workload};
+use crate::workload::{Effort, Measurement, Workload};
 use chromascope_figure::{Field, Figure, InkRole, LegendEntry, LegendPlace, Marker, Panel, Rect, Table, Tag};
 use serde::{Deserialize, Serialize};
 
@@ -193,4 +194,9 @@ fn panel(case: &[Numbered<'_>], area: Rect) -> Panel {
 /// Part of a name before the first comma, semicolon or parenthesis: the rest is in the table.
 fn short(what: &str) -> &str {
     what.split([',', '(', ';']).next().unwrap_or(what).trim_end()
+}
+
+/// Program and version.
+pub fn program() -> String {
+    concat!("Chromascope ", env!("CARGO_PKG_VERSION")).to_owned()
 }

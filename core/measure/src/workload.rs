@@ -1,7 +1,7 @@
 //! Workloads, the effort spent on them, and one method's time and error on one case of them.
 
-use crate::Machine;
 use crate::data::DataError;
+use crate::machine::Machine;
 use chromascope_text::choices;
 use serde::{Deserialize, Serialize};
 

@@ -17,7 +17,9 @@ pub(crate) mod timing;
 
 use self::timing::{Bench, Pools};
 use crate::harness::now;
-use crate::{BenchError, Effort, Machine, Progress, Report, Workload};
+use crate::machine::Machine;
+use crate::report::Report;
+use crate::workload::{BenchError, Effort, Progress, Workload};
 use chromascope_core::light::RadiationConstants;
 use chromascope_core::render::Stop;
 use chromascope_math::random::SplitMix64;
@@ -62,7 +64,7 @@ pub fn run(
         }
     }
     let Bench { machine, measurements, .. } = bench;
-    Ok(Report { program: crate::program(), began, machine, effort, whole: !stop.is_set(), measurements })
+    Ok(Report { program: crate::report::program(), began, machine, effort, whole: !stop.is_set(), measurements })
 }
 
 /// Numbers that look like chance and are the same in every run.

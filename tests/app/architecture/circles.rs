@@ -15,6 +15,7 @@ const CRATES: &[&str] = &[
     "core/data/src",
     "core/figure/src",
     "core/math/src",
+    "core/measure/src",
     "core/mesh/src",
     "core/profile/src",
     "core/query/src",

@@ -1,8 +1,8 @@
 //! The machine's limits: kernels that do nothing but read memory, or multiply and add.
 
 use super::Machine;
-use crate::Effort;
 use crate::harness::shortest_of;
+use crate::workload::Effort;
 use crate::workloads::timing::Pools;
 use multiversion::multiversion;
 use rayon::prelude::*;

@@ -2,8 +2,7 @@
 
 use super::timing::{Bench, Case, Room, each, spaced};
 use super::{Numbers, exact};
-use crate::workload::Errors;
-use crate::{ErrorScale, Workload};
+use crate::workload::{ErrorScale, Errors, Workload};
 use chromascope_core::reflectance::{Precision, diffuse_sum, diffuse_sum_by_regimes};
 use chromascope_math::double::Double;
 use rayon::prelude::*;

@@ -1,7 +1,8 @@
 //! Timing of alternating candidates by their median.
 
 use crate::harness::{Budget, Times, take_turns, timed};
-use crate::{Effort, ErrorOf, Machine, Measurement, Progress, Roof, Workload};
+use crate::machine::Machine;
+use crate::workload::{Effort, ErrorOf, Measurement, Progress, Roof, Workload};
 use chromascope_core::render::Stop;
 use rayon::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
