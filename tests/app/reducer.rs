@@ -25,6 +25,7 @@ fn own(name: &str, role: Role) -> ImportedSet {
         wavelengths: vec![400.0, 550.0, 700.0],
         values: vec![0.2, 0.9, 0.4],
         unit: None,
+        uncertainty: None,
         unknown: serde_json::Map::new(),
     };
     ImportedSet {
@@ -40,6 +41,7 @@ fn own(name: &str, role: Role) -> ImportedSet {
         per_photon: false,
         channels: [0, 1, 2],
         curves: ["r", "g", "b"].map(curve).into(),
+        covariance: None,
         decisions: Vec::new(),
     }
 }

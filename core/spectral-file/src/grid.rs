@@ -179,15 +179,16 @@ impl Grid {
 
 fn curve(raw: RawCurve, wavelengths: &[f64], missing: usize) -> Curve {
     let RawCurve { name, named, unit, mut values, .. } = raw;
+    let uncertainty = None;
     let name = on_one_line(&name).into_owned();
     if missing == 0 {
         values.shrink_to_fit();
-        return Curve { name, named, wavelengths_nm: wavelengths.to_vec(), values, missing, unit };
+        return Curve { name, named, wavelengths_nm: wavelengths.to_vec(), values, missing, unit, uncertainty };
     }
     let present = wavelengths.iter().zip(&values).filter(|(_, value)| !value.is_nan());
     let wavelengths_nm = present.map(|(wavelength, _)| *wavelength).collect();
     values.retain(|value| !value.is_nan());
-    Curve { name, named, wavelengths_nm, values, missing, unit }
+    Curve { name, named, wavelengths_nm, values, missing, unit, uncertainty }
 }
 
 fn warn_gaps(gaps: &[u32], lines: &[usize], sentinel: Option<Sentinel>, log: &mut Log<'_>) {

@@ -84,7 +84,7 @@ pub use error::{MAX_BYTES, MAX_CURVES, MAX_SAMPLES, NearMiss, ReadError};
 pub use options::ReadOptions;
 pub use preview::{LONGEST_LINE, LeftOut, Mark, Marker, Preview, Shown, What};
 pub use read::{read, read_marked, read_watched};
-pub use report::{Curve, DroppedRow, ReadReport, SpectralFile, Steps};
+pub use report::{Covariance, Curve, DroppedRow, ReadReport, SpectralFile, Steps, Uncertainty};
 pub use warning::{LineList, Sentinel, Warning};
 pub use watch::Watch;
 

@@ -187,5 +187,5 @@ fn finish(
         step_nm,
         camera_columns: scale::camera_columns(scale.role.value, &curves),
     };
-    Ok((SpectralFile { curves, role: scale.role, reading, warnings: warnings.warnings }, marker))
+    Ok((SpectralFile { curves, covariance: None, role: scale.role, reading, warnings: warnings.warnings }, marker))
 }

@@ -1,5 +1,7 @@
 //! Result of reading: curves, and the report of what was decided on the way, how sure it is, and why.
 
+use serde::{Deserialize, Serialize};
+
 use crate::decimal::clean;
 use crate::decision::{
     Certainty, Decided, DecimalMark, Decision, Delimiter, Dropped, Effect, Encoding, Orientation, Part, Quantity,
@@ -23,6 +25,26 @@ pub struct Curve {
     pub missing: usize,
     /// The unit of the values as the file names it, such as `W/m²/nm` or `counts`.
     pub unit: Option<String>,
+    /// Uncertainty of the values, where the file states it.
+    pub uncertainty: Option<Uncertainty>,
+}
+
+/// Uncertainty of a curve's values.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Uncertainty {
+    /// Standard uncertainty u of each value, in the unit of the values: finite, not negative.
+    pub standard: Vec<f64>,
+    /// Coverage factor k of the numbers in the file, which are k u.
+    pub coverage: f64,
+}
+
+/// Covariance of all samples of a file's curves, curve after curve in the order of the file.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Covariance {
+    /// Number of samples.
+    pub size: usize,
+    /// Rows of the symmetric matrix, `size` × `size`, in products of the units of the values: finite.
+    pub values: Vec<f64>,
 }
 
 /// Curves of a file, with the report of how it was read.
@@ -30,6 +52,8 @@ pub struct Curve {
 pub struct SpectralFile {
     /// The curves, in the order of the file; at least one.
     pub curves: Vec<Curve>,
+    /// Covariance of their samples, where a file beside states it.
+    pub covariance: Option<Covariance>,
     /// Role of the curves.
     pub role: Decided<Role>,
     /// Decisions made while reading.

@@ -136,6 +136,7 @@ fn own_set(origin: &Origin, table: &SpectralFile, overrides: &ImportOverrides, t
         wavelengths: curve.wavelengths_nm.clone(),
         values: curve.values.clone(),
         unit: curve.unit.clone(),
+        uncertainty: curve.uncertainty.clone(),
         unknown: serde_json::Map::new(),
     });
     let unit = table.reading.wavelength_unit.value;
@@ -146,6 +147,7 @@ fn own_set(origin: &Origin, table: &SpectralFile, overrides: &ImportOverrides, t
     let per_photon = || table.reading.per_photon.as_ref().is_some_and(|decided| decided.value);
     ImportedSet {
         curves: curves.collect(),
+        covariance: table.covariance.clone().filter(|_| taken.len() == table.curves.len()),
         name,
         file: origin.name.clone(),
         path: origin.path.clone(),

@@ -7,7 +7,7 @@ use chromascope_core::query::Shared;
 use chromascope_core::spectral::{DistributionError, Response, SpectralDistribution};
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
-pub use spectral_file::{ReadOptions, Role, WavelengthUnit};
+pub use spectral_file::{Covariance, ReadOptions, Role, Uncertainty, WavelengthUnit};
 
 /// One curve, as it was read: in the units that [`ImportedSet::read_as`] says.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -21,6 +21,9 @@ pub struct ImportedCurve {
     pub values: Vec<f64>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub unit: Option<String>,
+    /// Uncertainty of the values, where the file states it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub uncertainty: Option<Uncertainty>,
     /// Fields that this version does not know, kept as they are.
     #[serde(flatten)]
     pub unknown: Map<String, Value>,
@@ -84,6 +87,9 @@ pub struct ImportedSet {
     #[serde(default = "first_three")]
     pub channels: [usize; 3],
     pub curves: Vec<ImportedCurve>,
+    /// Covariance of their samples, curve after curve, where a file beside states it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub covariance: Option<Covariance>,
     /// Decisions made on reading, one line each, for display.
     #[serde(default)]
     pub decisions: Vec<String>,
@@ -130,7 +136,9 @@ impl Hash for ImportedSet {
         for curve in &self.curves {
             curve.name.hash(state);
             curve.wavelengths.iter().chain(&curve.values).for_each(|v| v.to_bits().hash(state));
+            curve.uncertainty.iter().flat_map(|of| &of.standard).for_each(|v| v.to_bits().hash(state));
         }
+        self.covariance.iter().flat_map(|of| &of.values).for_each(|v| v.to_bits().hash(state));
     }
 }
 
@@ -160,6 +168,7 @@ impl ImportedSet {
             per_photon: self.per_photon,
             channels: self.channels,
             curves: Vec::new(),
+            covariance: None,
             decisions: self.decisions.clone(),
         }
     }
@@ -167,7 +176,7 @@ impl ImportedSet {
     /// True if another set differs at most in the folder of its file.
     fn is_same_but_folder(&self, other: &Self) -> bool {
         let head = |set: &Self| Self { path: None, ..set.without_curves() };
-        head(self) == head(other) && self.curves == other.curves
+        head(self) == head(other) && self.curves == other.curves && self.covariance == other.covariance
     }
 
     pub fn response(&self) -> Response {
