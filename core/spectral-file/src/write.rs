@@ -101,9 +101,9 @@ pub fn write(sheet: &Sheet<'_>, format: Format, grid: Grid) -> Result<Written, W
             true
         };
         if format == Format::Csv {
-            prepared.table(put)
+            prepared.table(put);
         } else {
-            prepared.with_comments(put)
+            prepared.with_comments(put);
         }
         let metadata = (format == Format::Csv).then(|| prepared.metadata());
         return Ok(Written { text, metadata, notes: prepared.notes() });

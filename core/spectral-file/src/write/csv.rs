@@ -87,7 +87,7 @@ impl<'a> Prepared<'a> {
             // How values were obtained is known only once all curves were.
             self.each(|_, _| true);
         }
-        known(&self.sheet, self.changes.description(step))
+        known(&self.sheet, self.changes.description(step).as_deref())
     }
 
     fn write(&mut self, mut out: String, put: &mut dyn FnMut(&str) -> bool) {
@@ -167,7 +167,7 @@ fn part<'p>(piece: &'p Piece<'_>, rows: &[f64], content: Content<'_>, changes: &
     Piece { name, wavelengths: wavelengths.into(), values: values.into() }
 }
 
-fn known(sheet: &Sheet<'_>, resampling: Option<String>) -> Vec<(String, String)> {
+fn known(sheet: &Sheet<'_>, resampling: Option<&str>) -> Vec<(String, String)> {
     let (mut response, mut maker, mut camera) = (None, None, None);
     if let Content::Camera { per_photon, manufacturer, model, .. } = sheet.content {
         response = per_photon.map(|per_photon| if per_photon { "per photon" } else { "per energy" });
@@ -181,7 +181,7 @@ fn known(sheet: &Sheet<'_>, resampling: Option<String>) -> Vec<(String, String)>
         ("response", response),
         ("manufacturer", maker),
         ("model", camera),
-        ("resampling", resampling.as_deref()),
+        ("resampling", resampling),
     ];
     let own = own.into_iter().filter_map(|(key, value)| Some((key.to_owned(), one_line(value?).into_owned())));
     let comments = sheet.comments().map(|(key, value)| (key.into_owned(), value.into_owned()));
