@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use chromascope_core::query::Ask as _;
 use chromascope_figure::{Figure, FigureRoom, LegendPlace};
+use chromascope_measure::harness::now;
 
 use super::ChromascopeApp;
 use crate::document::SetKind;
@@ -37,8 +38,9 @@ impl ChromascopeApp {
         let what = format!("{name} as {}", form.name());
         self.files.make_to_save(move || {
             let refused = |error| format!("{} cannot be saved as {}: {error}.", entry.name, form.name());
-            let file = spectra::file(&entry, form, &Results::default()).map_err(refused)?;
-            let forms = vec![FileForm::of_bytes(form.format.ending(), file.text.into_bytes())];
+            let file = spectra::file(&entry, form, &Results::default(), Some(&now())).map_err(refused)?;
+            let bytes = FileForm::of_bytes(form.format.ending(), file.text.into_bytes());
+            let forms = vec![FileForm { metadata: file.metadata, ..bytes }];
             let note = spectra::notes_in_words(&file.notes);
             Ok(SaveRequest { note, ..SaveRequest::new(what, file.name, forms) })
         });

@@ -6,10 +6,10 @@ use super::Files;
 use super::dialogs::{Answer, Question};
 use super::event::{FileEvent, Note, SavedFile};
 use super::request::{self, FileForm, PathPrompt, SaveRequest};
-use crate::atomic::write_atomically;
+use crate::atomic::{metadata_path, write_atomically, write_described};
 use crate::document::SessionFile;
 use crate::document::imported::Fingerprint;
-use crate::format::io_reason;
+use crate::format::{file_name, io_reason};
 
 pub(super) struct Waiting {
     ticket: u64,
@@ -155,6 +155,10 @@ impl Files {
             Ok(target) => target,
             Err(why) => return self.ask_again(prompt.refused(why)),
         };
+        if !path.exists() && form.metadata.is_some() && metadata_path(&path).exists() {
+            let why = format!("{} exists: choose another name.", metadata_path(&path).display());
+            return self.ask_again(prompt.refused(why));
+        }
         if path.exists() && prompt.replaces.as_ref() != Some(&path) {
             let prompt = PathPrompt { failure: None, candidates: Vec::new(), focus: true, ..prompt };
             return self.ask_again(PathPrompt { replaces: Some(path), ..prompt });
@@ -206,12 +210,15 @@ fn write(path: &Path, form: &FileForm, SaveRequest { what, note, .. }: &SaveRequ
         Ok(bytes) => bytes,
         Err(sentence) => return FileEvent::Failed(sentence),
     };
-    match write_atomically(path, &bytes) {
+    let beside = form.metadata.as_ref().map(|metadata| (metadata_path(path), metadata.text(&file_name(path))));
+    let described = beside.as_ref().map(|(path, text)| (path.as_path(), text.as_bytes()));
+    match write_described(described, |error| error, || write_atomically(path, &bytes)) {
         Ok(()) => {
             let note = if note.is_empty() { String::new() } else { format!(": {note}") };
             let absolute = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
             let file = SessionFile { path: absolute, fingerprint: Fingerprint::of(&bytes) };
-            let message = format!("Saved {}{note}.", file.path.display());
+            let beside = beside.map(|(path, _)| format!(", described in {}", file_name(&path))).unwrap_or_default();
+            let message = format!("Saved {}{beside}{note}.", file.path.display());
             FileEvent::Saved(SavedFile { message, what: what.clone(), file })
         }
         Err(error) => {

@@ -7,6 +7,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use spectral_file::write::Metadata;
+
 use crate::format::io_failure;
 
 /// Most completions that are listed.
@@ -125,12 +127,14 @@ pub type MakeBytes = Arc<dyn Fn() -> Result<Vec<u8>, String> + Send + Sync>;
 pub struct FileForm {
     pub extension: &'static str,
     pub make: MakeBytes,
+    /// What is known about the contents, for a file beside it.
+    pub metadata: Option<Metadata>,
 }
 
 impl FileForm {
     /// A format whose bytes are computed on demand, in the background; the error is a message.
     pub fn new(extension: &'static str, make: impl Fn() -> Result<Vec<u8>, String> + Send + Sync + 'static) -> Self {
-        Self { extension, make: Arc::new(make) }
+        Self { extension, make: Arc::new(make), metadata: None }
     }
 
     pub fn of_bytes(extension: &'static str, bytes: Vec<u8>) -> Self {

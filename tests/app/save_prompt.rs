@@ -6,7 +6,10 @@ use std::fs;
 use chromascope::action::history::History;
 use chromascope::app::ChromascopeApp;
 
+use chromascope::atomic::write_described;
+use chromascope::catalog::import::{Origin, import_as};
 use chromascope::command::Command;
+use chromascope::document::imported::ImportOverrides;
 use chromascope::document::{Document, SetKind};
 use chromascope::export::FigureForm;
 use chromascope::export::spectra::Form;
@@ -18,6 +21,7 @@ use chromascope_measure::Workload;
 use egui::accesskit::Role;
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
+use spectral_file::Watch;
 
 use crate::cpu_renderer::Cpu;
 use crate::import_switches::{Window, says, until};
@@ -51,6 +55,11 @@ fn until_asked(window: &mut Window, question: &str) {
     window.run_steps(2);
 }
 
+/// CSV at the wavelengths of a set, or on the first of the grids.
+fn csv(index: usize) -> Form {
+    Form::all().nth(index).unwrap()
+}
+
 fn typed(window: &Window) -> String {
     window.get_by_role_and_label(Role::TextInput, "Path").value().unwrap_or_default()
 }
@@ -73,7 +82,7 @@ fn enter_saves_and_what_exists_is_asked_about() {
     let path = folder.path().join("camera.csv");
     fs::write(&path, "mine").unwrap();
     let mut window = window();
-    save_as(&mut window, "Nikon D70 (2007 figure)", Form::ALL[0]);
+    save_as(&mut window, "Nikon D70 (2007 figure)", csv(0));
     assert_eq!(typed(&window), "Nikon D70 (2007 figure).csv");
     type_path(&mut window, path.to_str().unwrap());
     window.key_press(egui::Key::Enter);
@@ -82,18 +91,52 @@ fn enter_saves_and_what_exists_is_asked_about() {
     assert_eq!(fs::read_to_string(&path).unwrap(), "mine");
     window.key_press(egui::Key::Enter);
     said(&mut window, "Saved ");
-    assert!(fs::read_to_string(&path).unwrap().contains("# source: "));
+    assert!(fs::read_to_string(&path).unwrap().starts_with("wavelength_nm,"));
+    let beside = folder.path().join("camera.csv-metadata.json");
+    assert!(fs::read_to_string(&beside).unwrap().contains("\"source\": "));
+    let set = import_as(
+        &Origin::on_disk("camera.csv", &path, b""),
+        &fs::read(&path).unwrap(),
+        &ImportOverrides::default(),
+        Watch::none(),
+    );
+    assert_eq!(set.unwrap().set.name, "Nikon D70 (2007 figure)");
     assert!(window.query_by_role_and_label(Role::TextInput, "Path").is_none());
+}
+
+/// A table and its metadata are written both or neither, and no other's metadata is lost.
+#[test]
+fn a_set_and_what_describes_it_go_together() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("camera.csv");
+    let beside = folder.path().join("camera.csv-metadata.json");
+    fs::write(&beside, "another's").unwrap();
+    let mut window = window();
+    save_as(&mut window, "Nikon D70 (2007 figure)", csv(0));
+    type_path(&mut window, path.to_str().unwrap());
+    window.key_press(egui::Key::Enter);
+    window.run_steps(4);
+    assert!(says(&window, "camera.csv-metadata.json exists: choose another name."));
+    assert!(!path.exists() && fs::read_to_string(&beside).unwrap() == "another's");
+    for before in [Some("another's"), None] {
+        if before.is_none() {
+            fs::remove_file(&beside).unwrap();
+        }
+        let failed =
+            write_described(Some((&beside, b"new")), |error| error, || Err(std::io::ErrorKind::StorageFull.into()));
+        assert!(failed.is_err());
+        assert_eq!(fs::read_to_string(&beside).ok().as_deref(), before);
+    }
 }
 
 #[test]
 fn a_second_question_keeps_what_was_typed() {
     let mut window = window();
-    save_as(&mut window, "Nikon D70 (2007 figure)", Form::ALL[0]);
-    save_as(&mut window, "Canon EOS 10D (2007 figure)", Form::ALL[0]);
+    save_as(&mut window, "Nikon D70 (2007 figure)", csv(0));
+    save_as(&mut window, "Canon EOS 10D (2007 figure)", csv(0));
     assert_eq!(typed(&window), "Canon EOS 10D (2007 figure).csv", "what was only offered goes");
     type_path(&mut window, "/somewhere/x.csv");
-    save_as(&mut window, "Kodak DCS200", Form::ALL[1]);
+    save_as(&mut window, "Kodak DCS200", csv(1));
     assert_eq!(typed(&window), "/somewhere/x.csv");
     // The field has the keyboard: typing goes on.
     window.event(egui::Event::Text("y".to_owned()));
@@ -146,7 +189,7 @@ fn what_could_not_be_written_can_be_typed_again() {
     let folder = tempfile::tempdir().unwrap();
     let wrong = folder.path().join("no such folder").join("x.csv");
     let mut window = window();
-    save_as(&mut window, "Nikon D70 (2007 figure)", Form::ALL[0]);
+    save_as(&mut window, "Nikon D70 (2007 figure)", csv(0));
     type_path(&mut window, wrong.to_str().unwrap());
     window.key_press(egui::Key::Enter);
     said(&mut window, "Cannot write ");
@@ -163,7 +206,7 @@ fn what_could_not_be_written_can_be_typed_again() {
 fn escape_closes_the_question_and_a_folder_is_no_file() {
     let folder = tempfile::tempdir().unwrap();
     let mut window = window();
-    save_as(&mut window, "Nikon D70 (2007 figure)", Form::ALL[0]);
+    save_as(&mut window, "Nikon D70 (2007 figure)", csv(0));
     type_path(&mut window, folder.path().to_str().unwrap());
     window.key_press(egui::Key::Enter);
     window.run_steps(4);

@@ -1,15 +1,16 @@
 //! Sets of the library as files: what is written reads back, what does not fit says why, the menu is there.
 
-use chromascope::catalog::import::import;
+use chromascope::catalog::import::{Imported, Origin, import, import_as};
 use chromascope::catalog::{Catalog, Entry};
 use chromascope::document::SetKind;
-use chromascope::document::imported::{ImportedSet, Role};
-use chromascope::export::spectra::{Form, file, fits, notes_in_words};
+use chromascope::document::imported::{ImportOverrides, ImportedSet, Role};
+use chromascope::export::spectra::{Form, SpectraFile, file, fits, notes_in_words};
 use chromascope::results::Results;
 use chromascope_core::query::Shared;
 use egui::accesskit;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use spectral_file::write::{Format, Grid};
+use spectral_file::{ReadError, Watch};
 
 use crate::screenshots::open;
 
@@ -19,6 +20,14 @@ fn built_in(kind: SetKind, name: &str) -> Entry {
 
 fn own(file: &str, text: &str, role: Role) -> ImportedSet {
     import(file, text.as_bytes(), Some(role)).unwrap().set
+}
+
+/// A written file as it is opened again, with what is beside it.
+fn reopened(written: &SpectraFile) -> Result<Imported, ReadError> {
+    let bytes = written.text.as_bytes();
+    let metadata = written.metadata.as_ref().map(|metadata| metadata.text(&written.name)).unwrap_or_default();
+    let origin = Origin { metadata: metadata.into_bytes().into(), ..Origin::named(&written.name, bytes) };
+    import_as(&origin, bytes, &ImportOverrides::default(), Watch::none())
 }
 
 fn form(format: Format, step_nm: Option<f64>) -> Form {
@@ -49,25 +58,32 @@ fn every_format_reads_back_as_the_same_set() {
     ];
     let mut count = 0;
     for (entry, role, curve) in sets {
-        let measured = file(&entry, form(Format::Csv, None), &results).unwrap();
+        let measured = file(&entry, form(Format::Csv, None), &results, None).unwrap();
         assert!(measured.notes.is_empty(), "{:?}", measured.notes);
-        let measured = import("measured.csv", measured.text.as_bytes(), None).unwrap().set;
+        let measured = reopened(&measured).unwrap().set;
         let index = measured.curves.iter().position(|known| known.name == curve).unwrap_or(0);
         let known = &measured.curves[index];
         let known: Vec<(f64, f64)> = known.wavelengths.iter().copied().zip(known.values.iter().copied()).collect();
-        for form in Form::ALL.into_iter().filter(|form| fits(&entry, *form).is_ok()) {
-            let written = file(&entry, form, &results).unwrap_or_else(|e| panic!("{} {form:?}: {e}", entry.name));
-            let read = import(&written.name, written.text.as_bytes(), None)
-                .unwrap_or_else(|error| panic!("{} {form:?}: {error}\n{}", entry.name, written.text));
-            if form.format == Format::Csv {
+        for form in Form::all().filter(|form| fits(&entry, *form).is_ok()) {
+            let written = file(&entry, form, &results, None).unwrap_or_else(|e| panic!("{} {form:?}: {e}", entry.name));
+            let read =
+                reopened(&written).unwrap_or_else(|error| panic!("{} {form:?}: {error}\n{}", entry.name, written.text));
+            let beside = written.metadata.as_ref().map(|metadata| metadata.text(&written.name));
+            if matches!(form.format, Format::Csv | Format::CommentedCsv) {
                 assert_eq!(read.set.role, role, "{} {form:?}", entry.name);
                 assert_eq!(read.set.name, entry.name);
-                assert!(written.text.contains("# source: ") && written.text.contains("# license: "));
+                let [source, license] = match &beside {
+                    Some(_) => ["\"source\": ", "\"dc:license\": "],
+                    None => ["# source: ", "# license: "],
+                };
+                let known = beside.as_ref().unwrap_or(&written.text);
+                assert!(known.contains(source) && known.contains(license), "{known}");
+                assert_eq!(written.text.starts_with("wavelength_nm,"), form.format == Format::Csv);
             }
             if let Grid::Average(step) = form.grid {
                 let told =
-                    format!("# resampling: band averages every {step} nm: means of the linear interpolant over ±");
-                assert!(written.text.contains(&told), "{}", written.text);
+                    format!("\"resampling\": \"band averages every {step} nm: means of the linear interpolant over ±");
+                assert!(beside.as_ref().unwrap().contains(&told), "{beside:?}");
                 assert!(notes_in_words(&written.notes).contains(&format!("averaged over bands of {step} nm")));
             } else {
                 agree(&read.set, curve, index, &known);
@@ -82,10 +98,10 @@ fn every_format_reads_back_as_the_same_set() {
 fn what_happened_on_the_way_is_said() {
     let results = Results::default();
     let camera = built_in(SetKind::Camera, "Nikon D70 (2007 figure)");
-    let written = file(&camera, form(Format::Csv, Some(5.0)), &results).unwrap();
+    let written = file(&camera, form(Format::Csv, Some(5.0)), &results, None).unwrap();
     assert!(notes_in_words(&written.notes).contains("resampled to 5 nm"), "{:?}", written.notes);
     assert_eq!(written.name, "Nikon D70 (2007 figure).csv");
-    let json = file(&camera, form(Format::RawtoacesJson, None), &results).unwrap().text;
+    let json = file(&camera, form(Format::RawtoacesJson, None), &results, None).unwrap().text;
     assert!(json.contains("\"manufacturer\": \"Nikon\"") && json.contains("\"model\": \"D70\""), "{json}");
 }
 
@@ -96,12 +112,13 @@ fn own_sets_keep_all_curves_and_say_how_they_were_read() {
     let mut camera = own("mine.csv", text, Role::Camera);
     camera.per_photon = true;
     let entry = Entry::from_own(&Shared::new(camera.clone()));
-    let written = file(&entry, form(Format::Csv, None), &results).unwrap();
-    let read = import("again.csv", written.text.as_bytes(), None).unwrap().set;
+    let written = file(&entry, form(Format::Csv, None), &results, None).unwrap();
+    let read = reopened(&written).unwrap().set;
     assert_eq!((read.role, read.per_photon, read.channels), (Role::Camera, true, camera.channels));
     assert_eq!(read.curves, camera.curves);
-    assert!(written.text.contains("# source: mine.csv\n") && written.text.contains("# reading: "), "{}", written.text);
-    let written = file(&entry, form(Format::DcamprofJson, None), &results).unwrap();
+    let beside = written.metadata.unwrap().text("again.csv");
+    assert!(beside.contains("{ \"source\": \"mine.csv\" }") && beside.contains("{ \"reading\": \""), "{beside}");
+    let written = file(&entry, form(Format::DcamprofJson, None), &results, None).unwrap();
     assert!(notes_in_words(&written.notes).contains("one curve beside red, green and blue"), "{:?}", written.notes);
 
     // Percent on the way in, fractions ever after, whatever the comments say of percent.
@@ -109,8 +126,8 @@ fn own_sets_keep_all_curves_and_say_how_they_were_read() {
         let leaf = own("leaf.txt", "nm\tleaf (%)\n400\t5.5\n500\t10\n600\t99\n700\t80\n", role);
         assert!(leaf.percent);
         let entry = Entry::from_own(&Shared::new(leaf.clone()));
-        for form in Form::ALL.into_iter().filter(|form| fits(&entry, *form).is_ok() && form.grid == Grid::Native) {
-            let written = file(&entry, form, &results).unwrap();
+        for form in Form::all().filter(|form| fits(&entry, *form).is_ok() && form.grid == Grid::Native) {
+            let written = file(&entry, form, &results, None).unwrap();
             let again = import(&written.name, written.text.as_bytes(), Some(role)).unwrap().set;
             let values: Vec<f64> =
                 again.curves[0].values.iter().step_by(again.curves[0].values.len() / 3).copied().collect();
@@ -126,7 +143,7 @@ fn what_does_not_fit_says_why() {
     let cmf = form(Format::ArgyllCmf, None);
     let why = fits(&light, cmf).unwrap_err().to_string();
     assert!(why.contains("not for curves of this kind"), "{why}");
-    assert!(file(&light, cmf, &results).is_err());
+    assert!(file(&light, cmf, &results, None).is_err());
     let chart = built_in(SetKind::Chart, "ColorChecker 24 (Ohta 1997)");
     assert!(fits(&chart, form(Format::DcamprofJson, None)).unwrap_err().to_string().contains("24"));
     assert!(fits(&chart, form(Format::Cgats, None)).is_ok());
@@ -149,7 +166,7 @@ fn every_row_has_a_menu_with_all_forms() {
         assert_eq!(window.query_by_role_and_label(accesskit::Role::Button, "Remove").is_some(), own);
         window.get_by(|node| node.label().is_some_and(|label| label.starts_with("Save as"))).click();
         window.run();
-        for form in Form::ALL {
+        for form in Form::all() {
             let name = form.name();
             let item = window.get_by_role_and_label(accesskit::Role::Button, &name);
             assert!(!item.accesskit_node().is_disabled(), "{}", form.name());

@@ -8,7 +8,7 @@ mod round_trip;
 mod streamed;
 
 use spectral_file::write::{Content, Format, Grid, Note, Sheet, Trace, Written, write};
-use spectral_file::{ReadOptions, SpectralFile, read};
+use spectral_file::{ReadOptions, Source, SpectralFile, read};
 
 const CAMERA: Content<'static> =
     Content::Camera { channels: [0, 1, 2], per_photon: Some(false), manufacturer: Some("Nobody"), model: Some("N1") };
@@ -52,6 +52,13 @@ fn written(sheet: &Sheet<'_>, format: Format, grid: Grid) -> Written {
 fn back(text: &str) -> SpectralFile {
     let start: String = text.chars().take(2000).collect();
     read(text.as_bytes(), &ReadOptions::default()).unwrap_or_else(|error| panic!("{error}\n{start}"))
+}
+
+/// What is read with the metadata beside it.
+fn beside(written: &Written) -> SpectralFile {
+    let metadata = written.metadata.as_ref().map(|metadata| metadata.text("a.csv")).unwrap_or_default();
+    let source = Source { bytes: written.text.as_bytes(), path: "", metadata: metadata.as_bytes() };
+    read(source, &ReadOptions::default()).unwrap_or_else(|error| panic!("{error}\n{}", written.text))
 }
 
 fn has(notes: &[Note], wanted: fn(&Note) -> bool) -> bool {

@@ -97,10 +97,12 @@ fn role_of_word(word: &str) -> Option<Role> {
 mod metadata {
     //! Metadata of a table in JSON, as the CIE delivers them (`datatableInfo.columnHeaders`) and as CSV on the Web has them.
 
+    use chromascope_text::on_one_line;
     use serde_json::Value;
 
     use crate::decision::{Decided, Quantity, WavelengthUnit};
     use crate::grid::Grid;
+    use crate::header::Header;
     use crate::header_terms;
     use crate::text::excerpt;
 
@@ -134,10 +136,32 @@ mod metadata {
             let words = columns.iter().filter_map(|column| text(column, &["quantity", "description"]));
             said = words.into_iter().find(|words| header_terms::quantity(words).is_some());
         }
+        let noted = note(&found, &mut grid.header);
+        let noted = |key: &str| Some(noted.iter().find(|(noted, _)| noted == key)?.1.clone());
+        if let Some(unit) = noted("unit").filter(|unit| unit != "1") {
+            let lacking = grid.curves.iter_mut().filter(|curve| curve.unit.is_none());
+            lacking.for_each(|curve| curve.unit = Some(unit.clone()));
+        }
+        let said = said.or_else(|| noted("quantity").filter(|_| grid.header.quantity.is_none()));
         let Some(words) = said.or_else(|| title.filter(|title| header_terms::role(title).is_some())) else { return };
         let why = format!("The metadata beside the file say “{}”", excerpt(&words));
         grid.beside = header_terms::role(&words).map(|role| Decided::certain(role, &*why));
         let quantity = header_terms::quantity(&words).filter(|quantity| *quantity != Quantity::Relative);
         grid.quantity = grid.quantity.take().or_else(|| Some(Decided::certain(quantity?, why)));
+    }
+
+    /// Takes the notes and the Dublin Core terms, such as `dc:license`, whose keys the table has no comments of; returns them.
+    fn note(found: &Value, header: &mut Header) -> Vec<(String, String)> {
+        let notes = found["notes"].as_array().into_iter().flatten().filter_map(Value::as_object).flatten();
+        let notes = notes.map(|(key, value)| (key.as_str(), value));
+        let terms = found.as_object().into_iter().flatten();
+        let terms = terms.filter_map(|(key, value)| Some((key.strip_prefix("dc:")?, value)));
+        let texts = notes.chain(terms).filter_map(|(key, value)| Some((key, value.as_str()?)));
+        let lacking = texts.filter(|(key, _)| *key != "title" && header.comment(key).is_none());
+        let noted: Vec<_> = lacking.map(|(key, text)| (key.to_owned(), on_one_line(text).into_owned())).collect();
+        for (key, text) in &noted {
+            header.note(0, key, text);
+        }
+        noted
     }
 }

@@ -1,8 +1,8 @@
 //! The way out: spectral curves as text in the formats that other programs open.
 //!
 //! [`write()`] takes borrowed curves with what is known about them ([`Sheet`]) and gives the text of a file, together with
-//! [`Note`]s on all that differs from the curves as they were given: another grid, a shorter range, another scale.
-//! [`canonical_csv`] gives the plain table of the command line.
+//! [`Note`]s on all that differs from the curves as they were given: another grid, a shorter range, another scale. CSV begins with
+//! its header, as other programs expect; title, source and the like are in [`Metadata`] for a file beside it, which is read back.
 //!
 //! Numbers are the shortest decimals that read back as the same double. Reflectances and transmittances are fractions.
 //!
@@ -31,7 +31,8 @@
 //! let leaf = Trace { name: "leaf", wavelengths_nm: &[400.0, 410.0], values: &[0.055, 0.06] };
 //! let sheet = Sheet { title: "Leaf", content: Content::Reflectance, curves: &[leaf], ..Sheet::default() };
 //! let written = write(&sheet, Format::Csv, Grid::Native)?;
-//! assert!(written.text.ends_with("wavelength_nm,leaf [reflectance factor in 1]\n400,0.055\n410,0.06\n"));
+//! assert_eq!(written.text, "wavelength_nm,leaf [reflectance factor in 1]\n400,0.055\n410,0.06\n");
+//! assert!(written.metadata.is_some_and(|metadata| metadata.text("leaf.csv").contains(r#""dc:title": "Leaf""#)));
 //! assert!(written.notes.is_empty());
 //! # Ok::<(), spectral_file::write::WriteError>(())
 //! ```
@@ -43,7 +44,7 @@ mod format;
 mod json;
 mod sheet;
 
-pub use csv::Prepared;
+pub use csv::{Metadata, Prepared};
 pub use format::{Format, Grid, Note, WriteError};
 pub use sheet::{Content, Sheet, Trace};
 
@@ -77,6 +78,8 @@ impl Format {
 pub struct Written {
     /// The text, with a line feed after each line.
     pub text: String,
+    /// What is known about the curves and is not in the text, for a file beside it.
+    pub metadata: Option<Metadata>,
     /// Differences from the curves as they were given.
     pub notes: Vec<Note>,
 }
@@ -91,37 +94,25 @@ pub struct Written {
 pub fn write(sheet: &Sheet<'_>, format: Format, grid: Grid) -> Result<Written, WriteError> {
     format.fits(sheet)?;
     base::check(grid)?;
-    if format == Format::Csv {
-        let mut prepared = Prepared::new(sheet, grid)?;
-        let text = collected(|put| prepared.with_comments(put));
-        return Ok(Written { text, notes: prepared.notes() });
+    if matches!(format, Format::Csv | Format::CommentedCsv) {
+        let (mut prepared, mut text) = (Prepared::new(sheet, grid)?, String::new());
+        let put = &mut |part: &str| {
+            text.push_str(part);
+            true
+        };
+        if format == Format::Csv {
+            prepared.table(put);
+        } else {
+            prepared.with_comments(put);
+        }
+        let metadata = (format == Format::Csv).then(|| prepared.metadata());
+        return Ok(Written { text, metadata, notes: prepared.notes() });
     }
     let mut draft = base::Draft::new(sheet, format, grid)?;
     let text = match format {
         Format::RawtoacesJson => json::rawtoaces(&mut draft),
         Format::DcamprofJson => json::dcamprof(&mut draft),
-        Format::Csv | Format::ArgyllSp | Format::ArgyllCmf | Format::Cgats => cgats::write(&mut draft),
+        _ => cgats::write(&mut draft),
     };
-    Ok(Written { text, notes: draft.notes })
-}
-
-/// The table of the command line: `wavelength_nm,<curve> [<quantity> in <unit>]…` and nothing above it.
-///
-/// Has a row for every wavelength of any curve; a cell is blank where its curve has no sample.
-///
-/// # Errors
-/// [`WriteError`] for curves that are none, or over the limits on such a grid.
-pub fn canonical_csv(sheet: &Sheet<'_>, grid: Grid) -> Result<Written, WriteError> {
-    let mut prepared = Prepared::new(sheet, grid)?;
-    let text = collected(|put| prepared.table(put));
-    Ok(Written { text, notes: prepared.notes() })
-}
-
-fn collected(write: impl FnOnce(&mut dyn FnMut(&str) -> bool)) -> String {
-    let mut text = String::new();
-    write(&mut |part| {
-        text.push_str(part);
-        true
-    });
-    text
+    Ok(Written { text, metadata: None, notes: draft.notes })
 }

@@ -284,7 +284,7 @@ pub(super) fn show_inspector(context: &mut PaneContext<'_>) {
 pub(super) fn save_as(ui: &mut Ui, kind: SetKind, name: &str, context: &mut PaneContext<'_>) {
     ui.menu_button("Save as", |ui| {
         let Ok(entry) = context.scene.entry(kind, name) else { return };
-        for form in Form::ALL {
+        for form in Form::all() {
             let fitting = fits(&entry, form);
             let button = ui.add_enabled(fitting.is_ok(), egui::Button::new(form.name()));
             if button.clicked() {

@@ -3,9 +3,10 @@
 use std::ffi::OsStr;
 use std::fs;
 use std::io::{self, Seek as _};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::{Duration, SystemTime};
 
+use spectral_file::write::Metadata;
 use tempfile::NamedTempFile;
 
 /// The beginning of names of files that are being written.
@@ -45,6 +46,31 @@ pub fn write_atomically_with(path: &Path, write: impl FnOnce(&mut dyn io::Write)
         log::debug!("{} is not flushed: {error}", folder.display());
     }
     Ok(())
+}
+
+/// Path of the file with the metadata of a table.
+pub fn metadata_path(table: &Path) -> PathBuf {
+    let mut path = table.as_os_str().to_owned();
+    path.push(Metadata::ENDING);
+    path.into()
+}
+
+/// Writes a file and before it the one that describes it: both or neither.
+pub fn write_described<E>(
+    description: Option<(&Path, &[u8])>,
+    failed: impl Fn(io::Error) -> E,
+    write: impl FnOnce() -> Result<(), E>,
+) -> Result<(), E> {
+    let Some((path, bytes)) = description else { return write() };
+    let before = match fs::read(path) {
+        Err(error) if error.kind() == io::ErrorKind::NotFound => None,
+        before => Some(before.map_err(&failed)?),
+    };
+    write_atomically(path, bytes).map_err(failed)?;
+    write().inspect_err(|_| {
+        // The first failure is the one to report.
+        let _undone = before.map_or_else(|| fs::remove_file(path), |before| write_atomically(path, &before));
+    })
 }
 
 /// Makes a file that is to take the place of another, and locks it: it is being written.

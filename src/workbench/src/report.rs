@@ -16,6 +16,7 @@ use std::sync::{Arc, LazyLock, OnceLock};
 
 use chromascope_core::query::Ask as _;
 use chromascope_figure::{Field, Table};
+use spectral_file::write::Metadata;
 
 pub use claim::{Claim, FURTHER, Find, Finding, Subject, Value, Verdict};
 pub use figures::{FIGURES, PaperFigure};
@@ -31,12 +32,19 @@ use crate::results::Results;
 
 pub const PAGE: &str = "report.html";
 pub const NUMBERS: &str = "claims.csv";
-/// Header of the table of claims.
-const SOURCE: &str = concat!(
-    "# title: Claims of Huynh and Robles-Kelly 2007, with what is found\n# source: computed by Chromascope ",
-    env!("CARGO_PKG_VERSION"),
-    " from its public data; claims are paraphrased but for words in quotation marks\n# terms: those of the program, MIT or Apache-2.0\n",
-);
+/// What is known about the table of claims.
+const KNOWN: [(&str, &str); 3] = [
+    ("title", "Claims of Huynh and Robles-Kelly 2007, with what is found"),
+    ("license", "MIT OR Apache-2.0, as the program"),
+    (
+        "source",
+        concat!(
+            "computed by Chromascope ",
+            env!("CARGO_PKG_VERSION"),
+            " from its public data; claims are paraphrased but for words in quotation marks"
+        ),
+    ),
+];
 /// Side of a rendered picture in pixels unless the user says otherwise.
 pub const PIXELS: u32 = 480;
 
@@ -136,7 +144,7 @@ impl Report {
 
     pub fn names() -> Vec<String> {
         let figures = FIGURES.iter().flat_map(|figure| FORMS.map(|form| file_name(figure, form)));
-        figures.chain([NUMBERS, PAGE].map(str::to_owned)).collect()
+        figures.chain([NUMBERS, PAGE].map(str::to_owned)).chain([format!("{NUMBERS}{}", Metadata::ENDING)]).collect()
     }
 
     /// The files of a step; the error is a message.
@@ -168,9 +176,13 @@ impl Report {
         let judged = self.judged(subject.results);
         let drawn = |step: usize| self.figures[step].get().map(String::as_str);
         let page = page::page(subject, &judged, &drawn);
-        let numbers = SOURCE.to_owned() + &numbers(&judged).to_csv();
+        let known = KNOWN.map(|(key, value)| (key.to_owned(), value.to_owned())).to_vec();
         let file = |name: &str, text: String| ReportFile { name: name.to_owned(), bytes: text.into_bytes() };
-        vec![file(NUMBERS, numbers), file(PAGE, page)]
+        vec![
+            file(NUMBERS, numbers(&judged).to_csv()),
+            file(&format!("{NUMBERS}{}", Metadata::ENDING), Metadata::from(known).text(NUMBERS)),
+            file(PAGE, page),
+        ]
     }
 }
 

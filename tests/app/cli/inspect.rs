@@ -97,6 +97,50 @@ fn the_table_is_fractions_and_reads_back() {
     assert!(report.contains("  Written: resampled to 5 nm"), "{report}");
 }
 
+/// Every format that the window has, and what is known about the curves in each: here a camera of 611 bands.
+#[test]
+fn every_format_is_written_and_read_back() {
+    let folder = folder("formats");
+    let rows: String = (300..=910).map(|nm| format!("{nm},{0},0.5,0.25\n", f64::from(nm) / 1000.0)).collect();
+    let head = "# title: Nikon D1\n# license: CC0-1.0\n# response: per energy\nwavelength_nm,R,G,B\n";
+    let camera = put(&folder, "camera.csv", &format!("{head}{rows}"));
+    for (format, out) in [
+        ("csv", "a.csv"),
+        ("rawtoaces", "a.json"),
+        ("dcamprof", "b.json"),
+        ("sp", "a.sp"),
+        ("cmf", "a.cmf"),
+        ("cgats", "a.txt"),
+    ] {
+        let out = folder.join(out).to_str().unwrap().to_owned();
+        let output = inspect(&[&camera, "--role", "camera", "--format", format, "--out", &out]);
+        let (_, told) = said(&output);
+        assert!(output.status.success(), "{format}: {told}");
+        assert_eq!(told.contains("only 310 to 910 nm is written"), ["sp", "cmf"].contains(&format), "{format}: {told}");
+        let again = json(&[&out]);
+        assert_eq!(again["kind"], "camera", "{format}");
+        let of = |what: &str| again["curves"][0][what].as_array().unwrap().clone();
+        for (nm, value) in of("wavelengths_nm").iter().zip(of("values")) {
+            assert_eq!(value.as_f64().unwrap(), nm.as_f64().unwrap() / 1000.0, "{format} {nm}");
+        }
+        assert!(of("values").len() >= 601, "{format}");
+    }
+    let rawtoaces = std::fs::read_to_string(folder.join("a.json")).unwrap();
+    assert!(rawtoaces.contains("\"manufacturer\": \"Nikon\"") && rawtoaces.contains("\"license\": \"CC0-1.0\""));
+    let csv = folder.join("a.csv").to_str().unwrap().to_owned();
+    assert!(std::fs::read_to_string(&csv).unwrap().starts_with("wavelength_nm,R ["));
+    let comments = json(&[&csv])["reading"]["comments"].to_string();
+    assert!(["Nikon D1", "CC0-1.0", "per energy"].iter().all(|known| comments.contains(known)), "{comments}");
+    // Metadata of another table are not replaced, nor left beside one that they do not describe.
+    std::fs::remove_file(&csv).unwrap();
+    let taken = ["inspect", &camera, "--role", "camera", "--csv", &csv];
+    refused(&taken, &["a.csv-metadata.json", "exists", "--force"]);
+    assert!(run(&[&taken[..], &["--force", "--notes"]].concat()).status.success());
+    assert!(!folder.join("a.csv-metadata.json").exists());
+    assert!(std::fs::read_to_string(&csv).unwrap().starts_with("# title: Nikon D1\n"));
+    refused(&["inspect", &camera, "--notes", "--format", "sp", "--out", "x.sp"], &["--notes is for CSV"]);
+}
+
 #[test]
 fn averages_stand_beside_points() {
     let rows: Vec<String> = (400..=430).map(|nm| format!("{nm},{}\n", if nm == 407 { 11 } else { 1 })).collect();

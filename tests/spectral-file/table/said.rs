@@ -1,7 +1,7 @@
 //! Quantities, units and responses in headers, and the effect of each switch.
 
 use proptest::prelude::*;
-use spectral_file::write::{Grid, Sheet, Trace, canonical_csv};
+use spectral_file::write::{Format, Grid, Sheet, Trace, write};
 use spectral_file::{
     Certainty, Delimiter, Medium, Orientation, Quantity, ReadOptions, Role, Values, WavelengthUnit, read,
 };
@@ -94,7 +94,7 @@ fn converted_values_have_other_names_and_units() {
         assert_eq!((curve.name.as_str(), curve.unit.as_deref()), (name, unit), "{head}");
         let trace = Trace::from(curve);
         let sheet = Sheet { curves: &[trace], ..Sheet::default() };
-        let again = ok(&canonical_csv(&sheet, Grid::Native).unwrap().text);
+        let again = ok(&write(&sheet, Format::Csv, Grid::Native).unwrap().text);
         assert_eq!(again.curves[0].values, curve.values, "{head}");
     }
     let plain = ReadOptions { values: Some(Values::Plain), ..ReadOptions::default() };

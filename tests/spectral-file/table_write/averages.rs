@@ -17,11 +17,13 @@ fn averages_keep_what_points_lose() {
     let traces = [Trace { name: "lamp", wavelengths_nm: &wavelengths_nm, values: &values }];
     let points = written(&sheet(Content::Illuminant, &traces), Format::Csv, Grid::Step(5.0));
     assert!(back(&points.text).curves[0].values.iter().all(|value| *value == 1.0));
-    assert!(points.text.contains("# resampling: values every 5 nm, samples picked\n"), "{}", points.text);
+    let known = points.metadata.unwrap().text("lamp.csv");
+    assert!(known.contains("{ \"resampling\": \"values every 5 nm, samples picked\" }"), "{known}");
     assert!(has(&points.notes, |note| matches!(note, Note::Thinned { .. })));
     let bands = written(&sheet(Content::Illuminant, &traces), Format::Csv, Grid::Average(5.0));
-    let told = "# resampling: band averages every 5 nm: means of the linear interpolant over ±2.5 nm\n";
-    assert!(bands.text.contains(told), "{}", bands.text);
+    let told = "\"band averages every 5 nm: means of the linear interpolant over ±2.5 nm\"";
+    let known = bands.metadata.unwrap().text("lamp.csv");
+    assert!(known.contains(told), "{known}");
     assert!(has(&bands.notes, |note| matches!(note, Note::Averaged(5.0))));
     assert!(!has(&bands.notes, |note| matches!(note, Note::Thinned { .. })));
     let curve = &back(&bands.text).curves[0];
@@ -64,7 +66,8 @@ fn every_format_says_which_was_used() {
         let sheet = if camera { sheet(CAMERA, &three) } else { sheet(Content::Illuminant, &one) };
         for (grid, told) in [(Grid::Average(5.0), "band averages every 5 nm"), (Grid::Step(5.0), "values every 5 nm")] {
             let out = write(&sheet, format, grid).unwrap();
-            assert!(out.text.contains(told), "{format}: {}", out.text);
+            let known = out.metadata.map(|metadata| metadata.text("a.csv")).unwrap_or_default();
+            assert!(out.text.contains(told) || known.contains(told), "{format}: {}", out.text);
             let curve = &back(&out.text).curves[0];
             assert!(curve.values.contains(&1.0), "{format}");
             assert_eq!(curve.values.iter().any(|value| *value > 2.0), grid == Grid::Average(5.0), "{format} {grid:?}");

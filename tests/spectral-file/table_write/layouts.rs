@@ -2,7 +2,7 @@
 
 use super::{CAMERA, Curves, has, sheet, written};
 use chromascope_core::spectral::{Dataset, Response};
-use spectral_file::write::{Content, Format, Grid, Note, Sheet, Trace, canonical_csv};
+use spectral_file::write::{Content, Format, Grid, Note, Sheet, Trace, write};
 
 const W: [f64; 3] = [400.0, 410.0, 420.0];
 
@@ -20,15 +20,16 @@ fn comments() -> Vec<(String, String)> {
 fn csv() {
     let (curves, comments) = (three(), comments());
     let sheet = Sheet { comments: &comments, ..sheet(CAMERA, &curves) };
-    let out = written(&sheet, Format::Csv, Grid::Native);
+    let out = written(&sheet, Format::CommentedCsv, Grid::Native);
+    assert_eq!(out.metadata, None);
     let names = ["red", "green", "blue"].map(|name| format!("{name} [relative spectral sensitivity per energy in 1]"));
     let table = format!("wavelength_nm,{}\n400,0,0.1,1\n410,0.25,1,0.5\n420,1,1e-7,-0\n", names.join(","));
     let head = "# title: Made up\n# quantity: relative spectral sensitivity\n# unit: 1\n# response: per energy\n";
     let more = "# manufacturer: Nobody\n# model: N1\n# source: made up\n# license: CC0-1.0\n";
     assert_eq!(out.text, format!("{head}{more}{table}"));
-    assert_eq!(canonical_csv(&sheet, Grid::Native).unwrap().text, table);
+    assert_eq!(write(&sheet, Format::Csv, Grid::Native).unwrap().text, table);
     let content = Content::Camera { channels: [0, 1, 2], per_photon: Some(true), manufacturer: None, model: None };
-    let own = written(&Sheet { content, ..sheet }, Format::Csv, Grid::Native);
+    let own = written(&Sheet { content, ..sheet }, Format::CommentedCsv, Grid::Native);
     let data = Dataset::read(&own.text).unwrap();
     assert_eq!((data.header.response(), data.header.title.as_str()), (Response::PerPhoton, "Made up"));
 }
@@ -39,7 +40,7 @@ fn what_is_known_goes_along() {
     let pair = |key: &str, value: &str| (key.to_owned(), value.to_owned());
     let comments = [pair("license", "CC0-1.0"), pair("License", "MIT"), pair("a: b", "c"), pair("empty", " \n")];
     let lamp = Sheet { title: "", unit: Some("W/m²/nm"), comments: &comments, ..sheet(Content::Illuminant, &curves) };
-    let csv = written(&lamp, Format::Csv, Grid::Native).text;
+    let csv = written(&lamp, Format::CommentedCsv, Grid::Native).text;
     let head = "# title: lamp\n# quantity: spectral irradiance\n# unit: W/m²/nm\n# license: CC0-1.0\n# License: MIT\n";
     assert!(
         csv.starts_with(&format!("{head}# a  b: c\nwavelength_nm,lamp [spectral irradiance in W/m²/nm]\n")),
@@ -48,7 +49,7 @@ fn what_is_known_goes_along() {
     let json = written(&lamp, Format::RawtoacesJson, Grid::Native);
     assert!(json.text.contains("\"license\": \"CC0-1.0; MIT\"") && json.notes.is_empty());
     assert!(json.text.contains("\"comments\": \"quantity: spectral irradiance; unit: W/m²/nm; a: b: c\""));
-    let leaf = written(&Sheet { content: Content::Reflectance, ..lamp }, Format::Csv, Grid::Native).text;
+    let leaf = written(&Sheet { content: Content::Reflectance, ..lamp }, Format::CommentedCsv, Grid::Native).text;
     assert!(leaf.starts_with("# title: lamp\n# quantity: reflectance factor\n# unit: 1\n"), "a fraction has no unit");
 }
 
@@ -59,12 +60,12 @@ fn csv_of_several_grids_and_odd_names() {
     let c = Trace { name: "", wavelengths_nm: &[411.0, 412.0], values: &[1.0, 2.0] };
     let curves = [a, b, c];
     let sheet = sheet(Content::Other, &curves);
-    let out = canonical_csv(&sheet, Grid::Native).unwrap();
+    let out = write(&sheet, Format::Csv, Grid::Native).unwrap();
     let no = "[unspecified quantity]";
     let rows = "401,0.1,,\n405,0.5,0.25,\n411,,,1\n412,0.2,,2\n500.5,,1,\n";
     assert_eq!(out.text, format!("wavelength_nm,\"say \"\"a, b\"\" {no}\",two  lines {no},Curve 3 {no}\n{rows}"));
     assert_eq!(out.notes, [Note::Renamed(2)]);
-    let out = canonical_csv(&sheet, Grid::Step(7.0)).unwrap();
+    let out = write(&sheet, Format::Csv, Grid::Step(7.0)).unwrap();
     let rows: Vec<&str> = out.text.lines().skip(1).collect();
     assert_eq!((rows.len(), rows[0].split(',').next(), rows[13].split(',').next()), (14, Some("406"), Some("497")));
     assert!(rows[0].ends_with(','), "the third begins at 411: {}", rows[0]);
@@ -113,6 +114,78 @@ fn rawtoaces() {
 }
 "#;
     assert_eq!(out.text, wanted);
+}
+
+/// The metadata beside a table, in the vocabulary of CSV on the Web.
+#[test]
+fn metadata_beside() {
+    let comments: Vec<_> = [("license", "CC0-1.0"), ("License", "MIT"), ("note", "say \"a\"\nb")].to_vec();
+    let comments: Vec<_> = comments.iter().map(|(key, value)| ((*key).to_owned(), (*value).to_owned())).collect();
+    let curves = three();
+    let sheet = Sheet { comments: &comments, ..sheet(CAMERA, &curves) };
+    let wanted = r#"{
+    "@context": "http://www.w3.org/ns/csvw",
+    "url": "my%20%C3%A9.csv",
+    "dc:title": "Made up",
+    "dc:license": "CC0-1.0; MIT",
+    "notes": [
+        { "quantity": "relative spectral sensitivity" },
+        { "unit": "1" },
+        { "response": "per energy" },
+        { "manufacturer": "Nobody" },
+        { "model": "N1" },
+        { "note": "say \"a\" b" }
+    ]
+}
+"#;
+    assert_eq!(written(&sheet, Format::Csv, Grid::Native).metadata.unwrap().text("my é.csv"), wanted);
+}
+
+/// A table of the schema of rawtoaces-data 1.0.0: members that it requires, their types, and texts that are not empty.
+#[test]
+fn rawtoaces_by_its_schema() {
+    let header = [
+        ("schema_version", true),
+        ("description", true),
+        ("document_creation_date", true),
+        ("document_creator", true),
+        ("license", true),
+        ("comments", false),
+        ("laboratory", false),
+        ("manufacturer", false),
+        ("measurement_equipment", false),
+        ("model", false),
+        ("type", false),
+        ("unique_identifier", false),
+    ];
+    let units = ["transmittance", "reflectance", "relative", "other"];
+    let curves = three();
+    for content in [CAMERA, Content::Observer, Content::Reflectance, Content::Transmittance, Content::Illuminant] {
+        let curves = if content == Content::Illuminant { &curves[..1] } else { &curves };
+        for title in ["", "Made up"] {
+            let sheet = Sheet { title, created: Some("2026-01-01T00:00:00Z"), ..sheet(content, curves) };
+            let out = written(&sheet, Format::RawtoacesJson, Grid::Native).text;
+            let json: serde_json::Value = serde_json::from_str(&out).unwrap();
+            let found = json["header"].as_object().unwrap();
+            assert_eq!(found.len(), header.len(), "{content:?}");
+            for (key, required) in header {
+                let text = found[key].as_str();
+                assert!(if required { text.is_some_and(|text| !text.is_empty()) } else { text != Some("") }, "{key}");
+            }
+            let data = &json["spectral_data"];
+            assert!(units.contains(&data["units"].as_str().unwrap()), "{out}");
+            let geometry = |key: &str| data[key].as_str();
+            let (reflected, transmitted) = (geometry("reflection_geometry"), geometry("transmission_geometry"));
+            assert_eq!(reflected, (content == Content::Reflectance).then_some("other"));
+            assert_eq!(transmitted, (content == Content::Transmittance).then_some("other"));
+            assert!(["bandwidth_FWHM", "bandwidth_corrected"].iter().all(|key| data[key].is_null()));
+            let names = data["index"]["main"].as_array().unwrap();
+            let rows = data["data"]["main"].as_object().unwrap();
+            assert!(rows.values().all(|row| row.as_array().unwrap().len() == names.len()));
+            let places: Vec<_> = ["400", "410", "420"].iter().map(|key| out.find(&format!("\"{key}\": ["))).collect();
+            assert!(places.is_sorted() && places[0].is_some(), "in the order of wavelengths: {out}");
+        }
+    }
 }
 
 /// The keys are taken in the order of their text, and distances compared exactly in single precision.

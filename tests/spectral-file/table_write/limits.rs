@@ -1,7 +1,7 @@
 //! Limits of writing: curves that cannot be written, extreme ones, and many at once.
 
 use super::{CAMERA, Curves, back, has, sheet, written};
-use spectral_file::write::{Content, Format, Grid, Note, Trace, WriteError, canonical_csv, write};
+use spectral_file::write::{Content, Format, Grid, Note, Trace, WriteError, write};
 
 const W: [f64; 4] = [400.0, 410.0, 420.0, 430.0];
 const V: [f64; 4] = [0.1, 0.2, 0.3, 0.4];
@@ -61,17 +61,40 @@ fn steps_that_a_format_does_not_take() {
     }
     let (format, step_nm) = (Format::RawtoacesJson, 0.1);
     assert_eq!(error(format, step_nm), WriteError::StepOfFormat { format, step_nm });
-    let bands = WriteError::Bands { format: Format::ArgyllSp, found: 801, most: 601 };
-    assert_eq!(error(Format::ArgyllSp, 1.0), bands);
-    let native = written(&sheet(Content::Other, &traces), Format::ArgyllSp, Grid::Native);
-    assert_eq!(native.notes[0], Note::Thinned { from_nm: 1.0, to_nm: 5.0 });
-    assert_eq!(back(&native.text).curves[0].values.len(), 161);
     assert_eq!(error(Format::Cgats, 2000.0), WriteError::NoOverlap);
     assert_eq!(error(Format::Csv, 2000.0), WriteError::NoOverlap);
     assert_eq!(
-        canonical_csv(&sheet(Content::Other, &traces), Grid::Step(0.001)).unwrap().text.lines().count(),
+        write(&sheet(Content::Other, &traces), Format::Csv, Grid::Step(0.001)).unwrap().text.lines().count(),
         800_002
     );
+}
+
+/// Argyll takes 601 bands: the ends go that hold least, and never a band of 380 to 780 nm.
+#[test]
+fn more_bands_than_argyll_takes_lose_their_ends() {
+    let kept = |range: [f64; 2], peak: f64, grid| {
+        let wavelengths: Vec<f64> = (0..=(range[1] - range[0]) as u32).map(|i| range[0] + f64::from(i)).collect();
+        let values: Vec<f64> = wavelengths.iter().map(|w| if *w == peak { 1.0 } else { 0.0 }).collect();
+        let curve = Trace { name: "a", wavelengths_nm: &wavelengths, values: &values };
+        let out = written(&sheet(Content::Illuminant, &[curve]), Format::ArgyllSp, grid);
+        let back = back(&out.text);
+        let [from_nm, to_nm] = back.reading.range_nm;
+        let clipped = Note::Clipped { from_nm, to_nm };
+        assert!(out.notes.contains(&clipped) && !has(&out.notes, |note| matches!(note, Note::Thinned { .. })));
+        let read = &back.curves[0];
+        let same = |(w, value): (&f64, &f64)| *value == f64::from(*w == peak);
+        assert!(read.wavelengths_nm.iter().zip(&read.values).all(same));
+        (from_nm, to_nm)
+    };
+    for grid in [Grid::Native, Grid::Step(1.0)] {
+        assert_eq!(kept([300.0, 1100.0], 500.0, grid), (300.0, 900.0), "the middle nearest to 580 nm");
+        assert_eq!(kept([200.0, 1000.0], 500.0, grid), (280.0, 880.0));
+        assert_eq!(kept([200.0, 1000.0], 950.0, grid), (350.0, 950.0), "what carries most stays");
+        assert_eq!(kept([170.0, 1000.0], 170.0, grid), (280.0, 880.0), "out of reach of 780 nm");
+        assert_eq!(kept([170.0, 1000.0], 185.0, grid), (185.0, 785.0));
+        assert_eq!(kept([350.0, 960.0], 350.0, grid), (350.0, 950.0));
+        assert_eq!(kept([1000.0, 2500.0], 2000.0, grid), (1000.0, 1600.0));
+    }
 }
 
 #[test]
@@ -110,7 +133,7 @@ fn a_camera_with_more_channels_and_per_photon() {
             assert!(curve.values.iter().enumerate().all(near), "{format}");
         }
     }
-    let csv = written(&sheet(content, &traces), Format::Csv, Grid::Native);
+    let csv = written(&sheet(content, &traces), Format::CommentedCsv, Grid::Native);
     assert!(csv.notes.is_empty() && csv.text.contains("# response: per photon\n"));
     assert_eq!(back(&csv.text).curves.len(), 4);
 }
@@ -152,6 +175,6 @@ fn twenty_thousand_curves() {
         assert_eq!((table.curves.len(), table.curves[19_999].name.as_str()), (20_000, "patch 19999"), "{format}");
         assert_eq!(table.curves[777].values, values, "{format}");
     }
-    let too_large = canonical_csv(&sheet(Content::Reflectance, &curves), Grid::Step(0.01));
+    let too_large = write(&sheet(Content::Reflectance, &curves), Format::Csv, Grid::Step(0.01));
     assert_eq!(too_large.unwrap_err(), WriteError::TooLarge);
 }

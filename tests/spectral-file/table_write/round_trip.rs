@@ -1,8 +1,8 @@
 //! Every format, content and grid, there and back.
 
-use super::{CAMERA, Curves, Sheet, back, bell, has, sheet, written};
+use super::{CAMERA, Curves, Sheet, back, bell, beside, has, sheet, written};
 use chromascope_core::spectral::{GridSpectrum, Quantity, SpectralDistribution};
-use spectral_file::write::{Content, Format, Grid, Note, Trace, canonical_csv};
+use spectral_file::write::{Content, Format, Grid, Note, Trace, Written, write};
 use spectral_file::{Certainty, Curve, Role};
 
 const CONTENTS: [Content<'static>; 6] =
@@ -48,7 +48,7 @@ fn own_wavelengths_come_back_to_the_last_bit() {
             count += 1;
         }
     });
-    assert_eq!(count, 51 * 4);
+    assert_eq!(count, 62 * 4);
 }
 
 /// The largest errors so far: by polynomials inside, by polynomials in the two cells at each end, and linearly.
@@ -110,7 +110,7 @@ fn resampling_is_what_the_program_computes_with() {
                 *value *= if index % 3 == 0 { 1.0 } else { 0.4 };
             }
             let traces = curves.traces();
-            let table = back(&canonical_csv(&sheet(content, &traces), Grid::Step(1.0)).unwrap().text);
+            let table = back(&write(&sheet(content, &traces), Format::Csv, Grid::Step(1.0)).unwrap().text);
             for (curve, trace) in table.curves.iter().zip(&traces) {
                 let distribution = SpectralDistribution::new(trace.wavelengths_nm.to_vec(), trace.values.to_vec());
                 let ours = GridSpectrum::resample(&distribution.unwrap(), quantity);
@@ -124,7 +124,7 @@ fn resampling_is_what_the_program_computes_with() {
 fn what_they_are_comes_back() {
     let curves = Curves::bells(&["R", "G", "B"], [400.0, 700.0], 10.0);
     let (three, one) = (curves.traces(), &curves.traces()[2..]);
-    let camera = back(&written(&sheet(CAMERA, &three), Format::Csv, Grid::Native).text);
+    let camera = beside(&written(&sheet(CAMERA, &three), Format::Csv, Grid::Native));
     assert_eq!((camera.role.value, camera.reading.camera_columns), (Role::Camera, Some([0, 1, 2])));
     assert_eq!(camera.reading.comment("manufacturer"), Some("Nobody"));
     assert_eq!(camera.reading.comment("response"), Some("per energy"));
@@ -165,17 +165,24 @@ fn what_curves_are_is_certain_in_every_format() {
         let units = units.into_iter().filter(|_| content == Content::Illuminant).map(|(unit, is)| (Some(unit), is));
         for (unit, quantity) in units.chain([(None, quantity)]) {
             let sheet = Sheet { unit, ..sheet(content, &traces) };
-            let mut texts = vec![written(&sheet, format, Grid::Native).text];
+            let mut texts = vec![written(&sheet, format, Grid::Native)];
             if format == Format::Csv {
-                // Without the lines above the table, its heads say it; without its heads, those lines.
-                texts.push(canonical_csv(&sheet, Grid::Native).unwrap().text);
+                // Without the lines above the table, its heads say it; without its heads, those lines or the metadata beside.
+                let full = written(&sheet, Format::CommentedCsv, Grid::Native).text;
                 let bare = format!("wavelength_nm,{}\n", names.join(","));
-                let above = texts[0].lines().filter(|line| line.starts_with('#')).map(|line| format!("{line}\n"));
-                let rows = texts[1].split_once('\n').unwrap().1;
-                texts.push(above.chain([bare, rows.to_owned()]).collect());
+                let above = full.lines().filter(|line| line.starts_with('#')).map(|line| format!("{line}\n"));
+                let plain = texts[0].clone();
+                let rows = plain.text.split_once('\n').unwrap().1;
+                let alone = |text| Written { text, metadata: None, notes: Vec::new() };
+                let below = above.chain([bare.clone(), rows.to_owned()]).collect();
+                texts.extend([below, full.clone(), plain.text.clone()].map(alone));
+                // An open question has no words that metadata could give.
+                if content != Content::Other {
+                    texts.push(Written { text: format!("{bare}{rows}"), ..plain.clone() });
+                }
             }
-            for text in texts {
-                let table = back(&text);
+            for written in texts {
+                let (table, text) = (beside(&written), &written.text);
                 let found = (table.role.value, table.role.certainty);
                 assert_eq!(
                     found,
@@ -199,11 +206,36 @@ fn what_curves_are_is_certain_in_every_format() {
     });
 }
 
+/// What stood above a table comes back from the metadata beside it; the table's own words come first.
+#[test]
+fn metadata_are_what_comments_were() {
+    let pair = |key: &str, value: &str| (key.to_owned(), value.to_owned());
+    let comments = [pair("source", "here"), pair("license", "CC0-1.0"), pair("note", "one"), pair("note", "two")];
+    let curves = Curves::bells(&["R", "G", "B"], [400.0, 700.0], 10.0);
+    let traces = curves.traces();
+    for (content, unit) in [(CAMERA, None), (Content::Illuminant, Some("W/m²/nm")), (Content::Reflectance, None)] {
+        let sheet = Sheet { unit, comments: &comments, ..sheet(content, &traces) };
+        for grid in [Grid::Native, Grid::Average(20.0)] {
+            let [plain, above] = [Format::Csv, Format::CommentedCsv].map(|format| written(&sheet, format, grid));
+            assert!(plain.text.starts_with("wavelength_nm,R ["), "{}", plain.text);
+            let (mut plain, mut above) = (beside(&plain), beside(&above));
+            plain.reading.header.sort();
+            above.reading.header.sort();
+            assert_eq!(plain.reading.header, above.reading.header);
+            assert_eq!((&plain.curves, plain.role.value), (&above.curves, above.role.value));
+        }
+        let stale = written(&Sheet { content: Content::Transmittance, ..sheet }, Format::Csv, Grid::Native).metadata;
+        let read = beside(&Written { metadata: stale, ..written(&sheet, Format::Csv, Grid::Native) });
+        let own = beside(&written(&sheet, Format::Csv, Grid::Native));
+        assert_eq!((read.role.value, read.reading.quantity), (own.role.value, own.reading.quantity));
+    }
+}
+
 #[test]
 fn a_read_file_goes_out_and_comes_back() {
     let table = back("wavelength_nm,a,b\n400,0.1,\n405,0.2,0.7\n410.5,,0.3\n420,0.25,0.2\n");
     let traces: Vec<Trace<'_>> = table.curves.iter().map(Trace::from).collect();
-    let again = back(&canonical_csv(&sheet(Content::Reflectance, &traces), Grid::Native).unwrap().text);
+    let again = back(&write(&sheet(Content::Reflectance, &traces), Format::Csv, Grid::Native).unwrap().text);
     let bare = |curve: &Curve| (curve.name.clone(), curve.wavelengths_nm.clone(), curve.values.clone());
     assert!(again.curves.iter().map(bare).eq(table.curves.iter().map(bare)));
 }
@@ -214,7 +246,7 @@ fn names_that_mean_other_values_are_replaced() {
         Curves::bells(&["wavelength x", "leaf %", "Absorbance", "dBm", "nm", "50% gray"], [400.0, 700.0], 10.0);
     let traces = curves.traces();
     for content in [Content::Reflectance, Content::Transmittance, Content::Illuminant, Content::Other] {
-        let plain = canonical_csv(&sheet(content, &traces), Grid::Native).unwrap();
+        let plain = write(&sheet(content, &traces), Format::Csv, Grid::Native).unwrap();
         let full = written(&sheet(content, &traces), Format::Csv, Grid::Native);
         let sp = written(&sheet(content, &traces), Format::Cgats, Grid::Native);
         for written in [plain, full, sp] {

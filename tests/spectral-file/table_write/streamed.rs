@@ -1,7 +1,7 @@
 //! Tables that are passed on in parts, and cells that no program takes for anything but text.
 
 use super::{Curves, back, sheet};
-use spectral_file::write::{Content, Grid, Prepared, Trace, canonical_csv};
+use spectral_file::write::{Content, Format, Grid, Prepared, Trace, write};
 use spectral_file::{ReadOptions, guarded, read};
 
 /// More than a hundred parts of text are passed on, none longer than a part and a row, and together they are the table.
@@ -19,7 +19,7 @@ fn a_long_table_is_passed_on_in_short_parts() {
     });
     assert_eq!(text.lines().count(), 100_002);
     assert!(parts > 100 && longest < 70_000, "{parts} parts, the longest of {longest} bytes");
-    let whole = canonical_csv(&sheet, Grid::Step(0.004)).unwrap();
+    let whole = write(&sheet, Format::Csv, Grid::Step(0.004)).unwrap();
     assert_eq!((whole.text, whole.notes), (text, prepared.notes()));
 }
 
@@ -55,7 +55,7 @@ fn curves_are_those_of_the_table() {
     let traces = curves.traces();
     for grid in [Grid::Native, Grid::Step(3.0), Grid::Step(0.01)] {
         let sheet = sheet(Content::Other, &traces);
-        let table = read(canonical_csv(&sheet, grid).unwrap().text.as_bytes(), &ReadOptions::default()).unwrap();
+        let table = read(write(&sheet, Format::Csv, grid).unwrap().text.as_bytes(), &ReadOptions::default()).unwrap();
         let mut prepared = Prepared::new(&sheet, grid).unwrap();
         let mut index = 0;
         prepared.each(|wavelengths, values| {
@@ -92,7 +92,7 @@ fn no_name_runs_in_a_spreadsheet_and_each_is_read_back() {
     ];
     let curves = Curves::bells(&names, [400.0, 700.0], 10.0);
     let traces = curves.traces();
-    let text = canonical_csv(&sheet(Content::Other, &traces), Grid::Native).unwrap().text;
+    let text = write(&sheet(Content::Other, &traces), Format::Csv, Grid::Native).unwrap().text;
     let mut cells = csv_cells(text.lines().next().unwrap());
     assert_eq!(cells.remove(0), "wavelength_nm");
     assert!(!cells.iter().any(|cell| runs(cell)), "{cells:?}");
@@ -136,6 +136,6 @@ fn names_are_read_on_one_line_without_control_characters() {
 fn what_is_written_of_a_name_stays_on_its_line() {
     let (wavelengths, values) = ([400.0, 500.0], [0.1, 0.2]);
     let trace = Trace { name: "a\u{0}b\r\nc\u{202e}d", wavelengths_nm: &wavelengths, values: &values };
-    let text = canonical_csv(&sheet(Content::Other, &[trace]), Grid::Native).unwrap().text;
+    let text = write(&sheet(Content::Other, &[trace]), Format::Csv, Grid::Native).unwrap().text;
     assert_eq!(text, "wavelength_nm,a b  cd [unspecified quantity]\n400,0.1\n500,0.2\n");
 }

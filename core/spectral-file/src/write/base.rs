@@ -1,5 +1,7 @@
 //! What all formats but CSV share: the curves that they hold on one grid, and values at other wavelengths than those of a curve.
 
+use std::ops::Range;
+
 use chromascope_math::interpolation::{Sprague, linear};
 
 use crate::decimal::clean;
@@ -30,7 +32,7 @@ impl Limits {
             // Keys of three digits before the point: those alone are in the order of wavelengths when sorted as text.
             Format::RawtoacesJson => ([100.0, 999.999], usize::MAX, even_in_single),
             // The most bands that dcamprof takes for a range.
-            Format::DcamprofJson | Format::Csv => ([0.0, f64::MAX], 1_000_000, |_| true),
+            Format::DcamprofJson | Format::Csv | Format::CommentedCsv => ([0.0, f64::MAX], 1_000_000, |_| true),
             // Argyll has room for as many.
             Format::ArgyllSp | Format::ArgyllCmf => ([1.0, 99_999.0], 601, even_bands),
             Format::Cgats => ([1.0, 99_999.0], usize::MAX, even_bands),
@@ -39,7 +41,29 @@ impl Limits {
     }
 
     fn take(&self, wavelengths: &[f64]) -> bool {
-        wavelengths.len() > 1 && wavelengths.len() <= self.bands && (self.reads)(wavelengths)
+        wavelengths.len() > 1 && !self.starts(wavelengths).is_empty() && (self.reads)(wavelengths)
+    }
+
+    /// The first bands of those among these that can be kept, if they are too many: with all of 380 to 780 nm that is covered, or
+    /// nearest to it. Empty if the format has no room for these.
+    fn starts(&self, wavelengths: &[f64]) -> Range<usize> {
+        let visible = [380.0 - SAME_NM, 780.0 + SAME_NM].map(|end| wavelengths.partition_point(|&w| w < end));
+        let spare = wavelengths.len().saturating_sub(self.bands);
+        visible[1].saturating_sub(self.bands)..visible[0].min(spare) + 1
+    }
+
+    /// The bands to keep of too many: those that hold most of the values, and of several such nearest to the middle.
+    fn kept(&self, wavelengths: &[f64], values: &[Vec<f64>]) -> Range<usize> {
+        let count = wavelengths.len().min(self.bands);
+        let mut before = vec![0.0];
+        for band in 0..wavelengths.len() {
+            before.push(before[band] + values.iter().map(|values| values[band].abs()).sum::<f64>());
+        }
+        let held = |start: usize| before[start + count] - before[start];
+        let off = |start: usize| (wavelengths[start] + wavelengths[start + count - 1] - 380.0 - 780.0).abs();
+        let starts = self.starts(wavelengths);
+        let best = starts.max_by(|&a, &b| held(a).total_cmp(&held(b)).then(off(b).total_cmp(&off(a))));
+        best.map_or(0..count, |start| start..start + count)
     }
 }
 
@@ -77,9 +101,6 @@ impl<'a> Draft<'a> {
                 None => sensible(&pieces, range, limits).map(|(wavelengths, step)| (wavelengths, Some(step)))?,
             },
         };
-        let (Some(&from), Some(&to)) = (wavelengths.first(), wavelengths.last()) else {
-            return Err(WriteError::NoOverlap);
-        };
         if wavelengths.len() < 2 {
             return Err(WriteError::NoOverlap);
         }
@@ -87,8 +108,15 @@ impl<'a> Draft<'a> {
             return Err(WriteError::TooLarge);
         }
         let mut changes = Changes::new(grid);
-        let values = pieces.iter().map(|piece| changes.take(piece, sheet.content, &wavelengths)).collect();
-        changes.note(step, [from, to], &mut notes);
+        let take = |piece: &Piece<'a>| changes.take(piece, sheet.content, &wavelengths);
+        let mut values: Vec<Vec<f64>> = pieces.iter().map(take).collect();
+        let kept = limits.kept(&wavelengths, &values);
+        for values in &mut values {
+            *values = values[kept.clone()].to_vec();
+        }
+        let wavelengths = wavelengths[kept].to_vec();
+        let ends = [wavelengths.first(), wavelengths.last()].map(|end| end.copied().unwrap_or_default());
+        changes.note(step, ends, &mut notes);
         Ok(Self { sheet, format, pieces, wavelengths, values, resampling: changes.description(step), notes })
     }
 
@@ -113,7 +141,8 @@ fn asked(step: f64, range: [f64; 2], limits: &Limits) -> Result<Vec<f64>, WriteE
     if found > 1 && !(limits.reads)(&wavelengths) {
         return Err(WriteError::StepOfFormat { format, step_nm: step });
     }
-    if found > most { Err(WriteError::Bands { format, found, most }) } else { Ok(wavelengths) }
+    let fits = !limits.starts(&wavelengths).is_empty();
+    if fits { Ok(wavelengths) } else { Err(WriteError::Bands { format, found, most }) }
 }
 
 /// The wavelengths in a range, if they are the same in all curves.

@@ -1,12 +1,14 @@
-//! Comma-separated values, with or without comments above them, and samples at the wavelengths they are written at: a part at a
-//! time, so that memory does not grow with what is written.
+//! Comma-separated values, with what is known about them in comments above or in metadata beside, and samples at the wavelengths
+//! they are written at: a part at a time, so that memory does not grow with what is written.
 
 use chromascope_text::guarded;
 use std::borrow::Cow;
 
+use crate::beside::METADATA;
 use crate::error::MAX_SAMPLES;
 use crate::write::base::{self, Changes, SAME_NM, multiples};
 use crate::write::format::{Format, Grid, Note, WriteError};
+use crate::write::json::{push_list_of, push_member, quoted};
 use crate::write::sheet::{Content, Piece, Sheet, one_line, push_comment, push_number, push_quoted};
 
 /// Block size of text; a longer row is written alone.
@@ -63,16 +65,29 @@ impl<'a> Prepared<'a> {
         self.write(String::new(), put);
     }
 
-    /// Passes on the table with what is known about the curves above it.
-    pub(super) fn with_comments(&mut self, put: &mut dyn FnMut(&str) -> bool) {
+    /// Writes the table below comments `# key: value` with what is known about the curves.
+    pub fn with_comments(&mut self, put: &mut dyn FnMut(&str) -> bool) {
         let mut out = String::new();
+        for (key, value) in self.known() {
+            // The first colon ends the key.
+            push_comment(&mut out, &key.replace(':', " "), &value);
+        }
+        self.write(out, put);
+    }
+
+    /// What is known about the curves, for a file beside the table.
+    pub fn metadata(&mut self) -> Metadata {
+        Metadata(self.known())
+    }
+
+    /// All that is known about the curves, as keys and values on a line each.
+    fn known(&mut self) -> Vec<(String, String)> {
         let step = self.changes.grid.step_nm();
         if step.is_some() {
-            // The header describes how values were obtained, which is known only once all curves were.
+            // How values were obtained is known only once all curves were.
             self.each(|_, _| true);
         }
-        push_comments(&mut out, &self.sheet, self.changes.description(step).as_deref());
-        self.write(out, put);
+        known(&self.sheet, self.changes.description(step).as_deref())
     }
 
     fn write(&mut self, mut out: String, put: &mut dyn FnMut(&str) -> bool) {
@@ -152,32 +167,70 @@ fn part<'p>(piece: &'p Piece<'_>, rows: &[f64], content: Content<'_>, changes: &
     Piece { name, wavelengths: wavelengths.into(), values: values.into() }
 }
 
-fn push_comments(out: &mut String, sheet: &Sheet<'_>, resampling: Option<&str>) {
-    let mut push = |key: &str, value: &str| push_comment(out, key, value);
+fn known(sheet: &Sheet<'_>, resampling: Option<&str>) -> Vec<(String, String)> {
+    let (mut response, mut maker, mut camera) = (None, None, None);
+    if let Content::Camera { per_photon, manufacturer, model, .. } = sheet.content {
+        response = per_photon.map(|per_photon| if per_photon { "per photon" } else { "per energy" });
+        (maker, camera) = (manufacturer, model);
+    }
     let title = sheet.title();
-    if !title.is_empty() {
-        push("title", &title);
+    let own = [
+        ("title", Some(&*title)),
+        ("quantity", Some(sheet.quantity())),
+        ("unit", sheet.unit()),
+        ("response", response),
+        ("manufacturer", maker),
+        ("model", camera),
+        ("resampling", resampling),
+    ];
+    let own = own.into_iter().filter_map(|(key, value)| Some((key.to_owned(), one_line(value?).into_owned())));
+    let comments = sheet.comments().map(|(key, value)| (key.into_owned(), value.into_owned()));
+    own.filter(|(_, value)| !value.is_empty()).chain(comments).collect()
+}
+
+/// What is known about the curves of a CSV file, for the file beside it whose name ends in [`Metadata::ENDING`].
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Metadata(Vec<(String, String)>);
+
+impl From<Vec<(String, String)>> for Metadata {
+    /// Keys, such as `title`, `source` and `license`, with their values.
+    fn from(known: Vec<(String, String)>) -> Self {
+        Self(known)
     }
-    push("quantity", sheet.quantity());
-    if let Some(unit) = sheet.unit() {
-        push("unit", &one_line(unit));
-    }
-    if let Content::Camera { per_photon: Some(per_photon), .. } = sheet.content {
-        push("response", if per_photon { "per photon" } else { "per energy" });
-    }
-    if let Content::Camera { manufacturer, model, .. } = sheet.content {
-        for (key, value) in [("manufacturer", manufacturer), ("model", model)] {
-            if let Some(value) = value.map(one_line).filter(|value| !value.is_empty()) {
-                push(key, &value);
+}
+
+impl Metadata {
+    /// Ending of the file's name, after the whole name of the table.
+    pub const ENDING: &'static str = METADATA[1];
+
+    /// JSON in the vocabulary of CSV on the Web (W3C 2015), for the table in the file of this name: title and license, and the rest as
+    /// its notes.
+    pub fn text(&self, table: &str) -> String {
+        const TERMS: [&str; 2] = ["title", "license"];
+        let mut out = String::from("{\n");
+        push_member(&mut out, 4, "@context", Some("http://www.w3.org/ns/csvw"));
+        let plain = |byte: u8| byte.is_ascii_alphanumeric() || b"-._~".contains(&byte);
+        let encode = |byte| if plain(byte) { char::from(byte).to_string() } else { format!("%{byte:02X}") };
+        push_member(&mut out, 4, "url", Some(&table.bytes().map(encode).collect::<String>()));
+        let (mut terms, mut rest) = ([Vec::new(), Vec::new()], Vec::new());
+        for (key, value) in &self.0 {
+            match TERMS.iter().position(|term| key.eq_ignore_ascii_case(term)) {
+                Some(term) => terms[term].push(value.as_str()),
+                None => rest.push((key, value)),
             }
         }
-    }
-    if let Some(resampling) = resampling {
-        push("resampling", resampling);
-    }
-    for (key, value) in sheet.comments() {
-        // The first colon ends the key.
-        push(&key.replace(':', " "), &value);
+        for (term, values) in TERMS.iter().zip(terms).filter(|(_, values)| !values.is_empty()) {
+            push_member(&mut out, 4, &format!("dc:{term}"), Some(&values.join("; ")));
+        }
+        let rest = rest.into_iter();
+        push_list_of(
+            &mut out,
+            4,
+            "notes",
+            rest.map(|(key, value)| format!("{{ {}: {} }}", quoted(key), quoted(value))),
+        );
+        out.push_str("\n}\n");
+        out
     }
 }
 

@@ -34,17 +34,21 @@ impl Grid {
 /// A format that curves can be written in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Format {
-    /// Wavelengths down the first column, curves beside it, comments `# key: value` above. Curves keep their own
-    /// wavelengths; a cell is blank where a curve has no sample. Names are quoted as in RFC 4180.
+    /// Wavelengths down the first column, curves beside it, below a header `wavelength_nm,<curve> [<quantity> in <unit>],...`. Curves
+    /// keep their own wavelengths; a cell is blank where a curve has no sample. Names are quoted as in RFC 4180.
     Csv,
-    /// JSON of rawtoaces (schema 1.0.0 of rawtoaces-data): wavelengths as keys, a value for each curve.
+    /// The same table below comments `# key: value`, without a file beside it.
+    CommentedCsv,
+    /// JSON of rawtoaces (schema 1.0.0 of rawtoaces-data): wavelengths as keys, a value for each curve. The schema requires
+    /// [`Sheet::created`](super::Sheet::created).
     ///
     /// rawtoaces takes the keys in the order of their text and compares their distances in single precision, so that they
     /// must stay below 1000 nm, and be even to the last bit.
     RawtoacesJson,
     /// JSON of dcamprof: the sensitivities of a camera, or one spectrum of any other kind. The grid may be uneven.
     DcamprofJson,
-    /// `.sp` of Argyll: one or several spectra. At most 601 bands, evenly spaced, at least 1 nm apart.
+    /// `.sp` of Argyll: one or several spectra. At most 601 bands, evenly spaced, at least 1 nm apart; of more, those that cover 380 to
+    /// 780 nm and leave out the least.
     ArgyllSp,
     /// `.cmf` of Argyll: three curves for the place of an observer, on a grid like that of `.sp`. Has no names.
     ArgyllCmf,
@@ -54,17 +58,25 @@ pub enum Format {
 
 impl Format {
     /// Every format, in the order of a menu.
-    pub const ALL: [Self; 6] =
-        [Self::Csv, Self::RawtoacesJson, Self::DcamprofJson, Self::ArgyllSp, Self::ArgyllCmf, Self::Cgats];
+    pub const ALL: [Self; 7] = [
+        Self::Csv,
+        Self::CommentedCsv,
+        Self::RawtoacesJson,
+        Self::DcamprofJson,
+        Self::ArgyllSp,
+        Self::ArgyllCmf,
+        Self::Cgats,
+    ];
 
-    fn words(self) -> [&'static str; 2] {
+    fn words(self) -> [&'static str; 3] {
         match self {
-            Self::Csv => ["CSV", "csv"],
-            Self::RawtoacesJson => ["rawtoaces JSON", "json"],
-            Self::DcamprofJson => ["dcamprof JSON", "json"],
-            Self::ArgyllSp => ["Argyll spectrum", "sp"],
-            Self::ArgyllCmf => ["Argyll color matching functions", "cmf"],
-            Self::Cgats => ["CGATS", "txt"],
+            Self::Csv => ["CSV", "csv", "csv"],
+            Self::CommentedCsv => ["CSV with comments", "csv", "commented-csv"],
+            Self::RawtoacesJson => ["rawtoaces JSON", "json", "rawtoaces"],
+            Self::DcamprofJson => ["dcamprof JSON", "json", "dcamprof"],
+            Self::ArgyllSp => ["Argyll spectrum", "sp", "sp"],
+            Self::ArgyllCmf => ["Argyll color matching functions", "cmf", "cmf"],
+            Self::Cgats => ["CGATS", "txt", "cgats"],
         }
     }
 
@@ -76,6 +88,11 @@ impl Format {
     /// The usual ending of the file's name, without the point.
     pub fn ending(self) -> &'static str {
         self.words()[1]
+    }
+
+    /// The name for a command line.
+    pub fn key(self) -> &'static str {
+        self.words()[2]
     }
 }
 

@@ -4,7 +4,7 @@ use crate::write::base::{Draft, even_step};
 use crate::write::format::Note;
 use crate::write::sheet::{Content, one_line, push, push_number};
 
-/// Writes a document of rawtoaces, whose schema wants all of these members.
+/// Writes a document of rawtoaces, by schema 1.0.0 of rawtoaces-data.
 pub(super) fn rawtoaces(draft: &mut Draft<'_>) -> String {
     let content = draft.sheet.content;
     if content == Content::Illuminant {
@@ -44,14 +44,12 @@ fn push_header(out: &mut String, draft: &mut Draft<'_>) {
         }
         camera = camera.or_else(|| Some(title.to_string()));
     }
+    let title = if title.is_empty() { sheet.quantity().into() } else { title };
     let kind = (!matches!(sheet.content, Content::Camera { .. })).then_some(&*title);
     push_member(out, 8, "schema_version", Some("1.0.0"));
     push_member(out, 8, "manufacturer", maker.as_deref());
     push_member(out, 8, "model", camera.as_deref());
     push_member(out, 8, "type", kind);
-    if sheet.content == Content::Illuminant {
-        push_member(out, 8, "illuminant", kind);
-    }
     push_member(out, 8, "description", Some(&title));
     push_member(out, 8, "document_creator", Some("Chromascope"));
     push_member(out, 8, "unique_identifier", None);
@@ -60,7 +58,9 @@ fn push_header(out: &mut String, draft: &mut Draft<'_>) {
     push_member(out, 8, "document_creation_date", Some(sheet.created.unwrap_or_default()));
     let comments = draft.remarks();
     push_member(out, 8, "comments", (!comments.is_empty()).then_some(comments.join("; ")).as_deref());
-    push_last(out, 8, "license", &quoted(&sheet.license()));
+    // The schema allows no empty text.
+    let license = sheet.license();
+    push_last(out, 8, "license", &quoted(if license.is_empty() { "not stated" } else { &license }));
 }
 
 fn push_index(out: &mut String, draft: &mut Draft<'_>) {
@@ -106,8 +106,8 @@ pub(super) fn dcamprof(draft: &mut Draft<'_>) -> String {
     let mut comments = draft.remarks();
     comments.extend(Some(sheet.license()).filter(|text| !text.is_empty()).map(|license| format!("license: {license}")));
     if !comments.is_empty() {
-        let list: Vec<String> = comments.iter().map(|comment| format!("\n        {}", quoted(comment))).collect();
-        push(&mut out, format_args!("    \"comments\": [{}\n    ],\n", list.join(",")));
+        push_list_of(&mut out, 4, "comments", comments.iter().map(|comment| quoted(comment)));
+        out.push_str(",\n");
     }
     let lists = if camera { ["red_ssf", "green_ssf", "blue_ssf"].as_slice() } else { ["spectrum"].as_slice() };
     out.push_str(if camera { "    \"ssf_bands\": [" } else { "    \"bands\": [" });
@@ -137,7 +137,7 @@ fn push_bands(out: &mut String, wavelengths: &[f64]) {
 }
 
 /// A text between quotes, escaped as in RFC 8259.
-fn quoted(text: &str) -> String {
+pub(super) fn quoted(text: &str) -> String {
     let mut out = String::with_capacity(text.len() + 2);
     out.push('"');
     for c in text.chars() {
@@ -156,7 +156,7 @@ fn quoted(text: &str) -> String {
     out
 }
 
-fn push_member(out: &mut String, indent: usize, key: &str, value: Option<&str>) {
+pub(super) fn push_member(out: &mut String, indent: usize, key: &str, value: Option<&str>) {
     push_last(out, indent, key, &value.map_or_else(|| "null".to_owned(), quoted));
     out.truncate(out.len() - 1);
     out.push_str(",\n");
@@ -164,6 +164,12 @@ fn push_member(out: &mut String, indent: usize, key: &str, value: Option<&str>) 
 
 fn push_last(out: &mut String, indent: usize, key: &str, value: &str) {
     push(out, format_args!("{:indent$}\"{key}\": {value}\n", ""));
+}
+
+/// Appends a member with a list of texts that are JSON, each on a line of its own, without the end of its line.
+pub(super) fn push_list_of(out: &mut String, indent: usize, key: &str, items: impl Iterator<Item = String>) {
+    let items: Vec<String> = items.map(|item| format!("\n{:indent$}    {item}", "")).collect();
+    push(out, format_args!("{:indent$}\"{key}\": [{}\n{:indent$}]", "", items.join(","), ""));
 }
 
 fn push_list(out: &mut String, values: impl Iterator<Item = f64>) {

@@ -1,6 +1,7 @@
 //! `inspect`: contents of spectral files, their interpretation, and their curves as plain tables.
 
 mod output;
+mod written;
 
 use std::collections::HashSet;
 use std::fs;
@@ -11,12 +12,13 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 use std::time::Duration;
 
+use chromascope_measure::harness::now;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{ArgMatches, Args};
 use serde::Deserialize as _;
 use serde::de::IntoDeserializer as _;
 use serde::de::value::{Error, StrDeserializer};
-use spectral_file::write::{Grid, Prepared, Sheet, Trace};
+use spectral_file::write::{Format, Grid, Prepared, Trace, write};
 use spectral_file::{
     Certainty, Decided, DecimalMark, Delimiter, Orientation, ReadError, ReadOptions, Reader, Role, SpectralFile,
     Values, WavelengthUnit,
@@ -24,9 +26,9 @@ use spectral_file::{
 
 use super::arguments::{named, values};
 use super::error::{CliError, Result, refused};
-use super::outputs::{self, Stop, is_standard_output, put, show, stream};
+use super::outputs::{self, is_standard_output, put, show, stream};
 use super::request::read;
-use crate::atomic::fitting;
+use crate::atomic::{fitting, metadata_path};
 use crate::catalog::import::Origin;
 use crate::catalog::opened::files_of;
 use crate::format::{io_failure, io_reason};
@@ -38,6 +40,8 @@ const EXAMPLES: &str = "Examples:
   chromascope inspect measured/ --step 5 --csv tables
   chromascope inspect lamp.txt --step 5 --average --csv -
   chromascope inspect lamp.spdx --csv - | head
+  chromascope inspect camera.txt --format rawtoaces --out camera.json
+  chromascope inspect charts/ --format sp --out argyll
   chromascope inspect *.sp --json | jq '.[].kind'
 
 Reports the decisions made for each file, one line each: value, confidence (certain, a guess, chosen) and reason. An option of the
@@ -46,6 +50,10 @@ same name overrides a decision. A folder stands for the files in it, `-` for sta
 --csv writes `wavelength_nm,<curve> [<quantity> in <unit>],...`: nanometers, reflectances and transmittances as fractions, a cell left blank where a
 curve has no sample. With `--csv -` the table goes to standard output and the report to standard error. OUT is a
 folder where several files or a folder are named.
+
+--out writes a file in a --format, all of which the window has too: csv, which has the same table and, in a file beside it whose name goes on
+with `-metadata.json` (W3C, CSV on the Web), title, source, license and other notes, which are read back; rawtoaces and dcamprof JSON;
+sp and cmf of Argyll; cgats. What is not in it as it was read is said on standard error.
 
 --json prints an object for a file, an array for several: file, kind (camera, reflectance, transmittance, illuminant, unknown),
 curves [{name, unit, quantity, wavelengths_nm, values, missing}], channels [red, green, blue] as places in curves from 0,
@@ -67,10 +75,19 @@ pub(super) struct InspectArguments {
     /// Writes the curves as CSV: a file, a folder for several files, or `-` for standard output
     #[arg(long, value_name = "OUT")]
     csv: Option<PathBuf>,
-    /// Overwrites existing files named by --csv, but never an input file
+    /// Writes the curves in a format, with what is known about them: a file, a folder for several files, or `-` for standard output
+    #[arg(long, value_name = "OUT", conflicts_with = "csv")]
+    out: Option<PathBuf>,
+    /// Format of the file that --out names
+    #[arg(long, value_name = "FORMAT", requires = "out", value_parser = written::format(), default_value = "csv")]
+    format: Format,
+    /// Writes title, source, license and other notes of a CSV table above it, as comments
+    #[arg(long)]
+    notes: bool,
+    /// Overwrites existing files named by --csv or --out, but never an input file
     #[arg(long)]
     force: bool,
-    /// Resamples the curves, in CSV and JSON, to whole multiples of a step in nanometers
+    /// Resamples the curves to whole multiples of a step in nanometers
     #[arg(long, value_name = "NM", value_parser = step)]
     step: Option<f64>,
     /// With --step, averages the curves over bands of that width around each wavelength, which preserves the energy of
@@ -163,6 +180,12 @@ impl InspectArguments {
         self.per.as_ref().map(|per| per == "photon")
     }
 
+    /// Format of what is written, if anything is.
+    fn format(&self) -> Option<Format> {
+        let format = if self.notes { Format::CommentedCsv } else { self.format };
+        (self.csv.is_some() || self.out.is_some()).then_some(format)
+    }
+
     fn grid(&self) -> Grid {
         self.step.map_or(Grid::Native, if self.average { Grid::Average } else { Grid::Step })
     }
@@ -232,14 +255,19 @@ fn answer(file: &Path, (index, end): (usize, &str), out: &Out, arguments: &Inspe
     let told = spectral_file::on_one_line(&name);
     let table = inspect(file, &name, arguments);
     let curves: Vec<Trace<'_>> = table.iter().flat_map(|table| &table.curves).map(Trace::from).collect();
-    let wanted = arguments.csv.is_some() || arguments.step.is_some();
+    let (format, now) = (arguments.format(), now());
+    let known = table.as_ref().map_or_else(|_| Vec::new(), |table| written::known(table, file));
     let prepared = table.as_ref().map_err(Clone::clone).and_then(|table| {
-        let sheet = Sheet { content: output::content(table), curves: &curves, ..Sheet::default() };
+        let sheet = written::sheet(table, &curves, &known, &now);
+        let text =
+            format.filter(|format| !written::is_csv(*format)).map(|format| write(&sheet, format, arguments.grid()));
+        let text = text.transpose().map_err(|error| Failure::Other(error.to_string()))?;
+        let wanted = format.is_some_and(written::is_csv) || arguments.step.is_some() && text.is_none();
         let prepared = wanted.then(|| Prepared::new(&sheet, arguments.grid())).transpose();
         let prepared = prepared.map_err(|error| Failure::Other(error.to_string()))?;
-        Ok((table, prepared))
+        Ok((table, prepared, text))
     });
-    let (table, mut prepared) = match prepared {
+    let (table, mut prepared, text) = match prepared {
         Ok(prepared) => prepared,
         Err(failure) => {
             if arguments.json {
@@ -254,7 +282,7 @@ fn answer(file: &Path, (index, end): (usize, &str), out: &Out, arguments: &Inspe
             Ok(out.write_all(end.as_bytes())?)
         })?;
     } else {
-        let notes = prepared.as_mut().map_or_else(Vec::new, output::notes);
+        let notes = prepared.as_mut().filter(|_| arguments.out.is_none()).map_or_else(Vec::new, output::notes);
         let gap = if index > 0 { "\n" } else { "" };
         let text = format!("{gap}{}", output::report(&told, table, &notes));
         if out.is_standard_output() { say(&text) } else { show(&text)? }
@@ -262,10 +290,8 @@ fn answer(file: &Path, (index, end): (usize, &str), out: &Out, arguments: &Inspe
     if let Some(question) = question(table) {
         say(&format!("chromascope: {told}: {question}\n"));
     }
-    Ok(match (&mut prepared, out.place(index)) {
-        (Some(prepared), Some(place)) => stream(Some(place), |out| output::table(prepared, out)),
-        _ => Ok(()),
-    })
+    let Some((format, place)) = format.zip(out.place(index)) else { return Ok(Ok(())) };
+    Ok(written::put(&told, place, (format, arguments.out.is_some()), prepared.as_mut(), text.as_ref()))
 }
 
 fn inspect(file: &Path, name: &str, arguments: &InspectArguments) -> Result<SpectralFile, Failure> {
@@ -389,8 +415,12 @@ impl Out {
     /// Writes the tables as requested; a missing folder is created. Nothing is created or written if one of the tables
     /// may not be.
     fn new(arguments: &InspectArguments, files: &[PathBuf], several: bool) -> Result<Self> {
-        let wrong = |reason: &str| refused("--csv", reason);
-        let Some(path) = arguments.csv.as_deref() else { return Ok(Self::Nowhere) };
+        let wrong = |reason: &str| refused(if arguments.csv.is_some() { "--csv" } else { "--out" }, reason);
+        if arguments.notes && !written::is_csv(arguments.format) {
+            return refused("--notes", "the format has notes of its own; --notes is for CSV");
+        }
+        let path = arguments.csv.as_deref().or(arguments.out.as_deref());
+        let Some((path, format)) = path.zip(arguments.format()) else { return Ok(Self::Nowhere) };
         if is_standard_output(path) {
             return match (arguments.json, several) {
                 (true, _) => wrong("JSON goes to standard output already; name a file"),
@@ -404,11 +434,13 @@ impl Out {
         }
         let mut taken = HashSet::new();
         let tables: Vec<PathBuf> = if folder {
-            files.iter().map(|file| path.join(free_name(file, &mut taken))).collect()
+            files.iter().map(|file| path.join(free_name(file, format.ending(), &mut taken))).collect()
         } else {
             vec![path.to_owned()]
         };
-        outputs::check(tables.iter().map(PathBuf::as_path), &inputs(files), arguments.force)?;
+        let beside = tables.iter().filter(|table| written::is_csv(format) && !outputs::is_stream(table));
+        let all: Vec<PathBuf> = beside.map(|table| metadata_path(table)).chain(tables.iter().cloned()).collect();
+        outputs::check(all.iter().map(PathBuf::as_path), &inputs(files), arguments.force)?;
         if folder {
             fs::create_dir_all(path).map_err(|error| CliError::Output { path: path.to_owned(), error })?;
         }
@@ -437,14 +469,14 @@ fn inputs(files: &[PathBuf]) -> Vec<PathBuf> {
 }
 
 /// The file's name with another ending, and a number where another file has that name already.
-fn free_name(source: &Path, taken: &mut HashSet<String>) -> String {
+fn free_name(source: &Path, ending: &str, taken: &mut HashSet<String>) -> String {
     let stem = source.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
     let stem = if stem.is_empty() || stem == "-" { "table".to_owned() } else { stem };
-    let mut name = fitting(&stem, ".csv");
+    let mut name = fitting(&stem, &format!(".{ending}"));
     let mut number = 2;
     // Some file systems do not distinguish `A.csv` from `a.csv`.
     while !taken.insert(name.to_lowercase()) {
-        name = fitting(&stem, &format!("-{number}.csv"));
+        name = fitting(&stem, &format!("-{number}.{ending}"));
         number += 1;
     }
     name

@@ -76,7 +76,7 @@ pub(super) fn is_descriptor(path: &Path) -> bool {
 }
 
 /// True if bytes that are written to a path replace nothing.
-fn is_stream(path: &Path) -> bool {
+pub(super) fn is_stream(path: &Path) -> bool {
     let no_file = || fs::metadata(path).is_ok_and(|known| !known.is_file() && !known.is_dir());
     is_standard_output(path) || is_descriptor(path) || no_file()
 }

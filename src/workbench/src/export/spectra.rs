@@ -3,7 +3,7 @@
 use chromascope_core::query::Ask;
 use chromascope_core::spectral::{Header, Response, SpectralDistribution};
 use chromascope_figure::{Cell, Column, Table};
-use spectral_file::write::{Content, Format, Grid, Note, Sheet, Trace, WriteError, write};
+use spectral_file::write::{Content, Format, Grid, Metadata, Note, Sheet, Trace, WriteError, write};
 
 use crate::atomic::fitting;
 use crate::catalog::load::{self, LoadError};
@@ -20,29 +20,18 @@ pub struct Form {
 }
 
 impl Form {
-    /// All that are offered, in the order of a menu.
-    pub const ALL: [Self; 11] = [
-        Self::new(Format::Csv, Grid::Native),
-        Self::new(Format::Csv, Grid::Step(1.0)),
-        Self::new(Format::Csv, Grid::Step(5.0)),
-        Self::new(Format::Csv, Grid::Step(10.0)),
-        Self::new(Format::Csv, Grid::Average(5.0)),
-        Self::new(Format::Csv, Grid::Average(10.0)),
-        Self::new(Format::RawtoacesJson, Grid::Native),
-        Self::new(Format::DcamprofJson, Grid::Native),
-        Self::new(Format::ArgyllSp, Grid::Native),
-        Self::new(Format::ArgyllCmf, Grid::Native),
-        Self::new(Format::Cgats, Grid::Native),
-    ];
-
-    const fn new(format: Format, grid: Grid) -> Self {
-        Self { format, grid }
+    /// All that are offered, in the order of a menu: each format, and CSV on other grids too.
+    pub fn all() -> impl Iterator<Item = Self> {
+        const GRIDS: [Grid; 6] =
+            [Grid::Native, Grid::Step(1.0), Grid::Step(5.0), Grid::Step(10.0), Grid::Average(5.0), Grid::Average(10.0)];
+        let grids = |format| &GRIDS[..if format == Format::Csv { GRIDS.len() } else { 1 }];
+        Format::ALL.into_iter().flat_map(move |format| grids(format).iter().map(move |&grid| Self { format, grid }))
     }
 
     /// The words of a menu.
     pub fn name(self) -> String {
         match (self.format, self.grid) {
-            (Format::Csv, Grid::Native) => "CSV, as measured".to_owned(),
+            (Format::Csv | Format::CommentedCsv, Grid::Native) => format!("{}, as measured", self.format.name()),
             (format, Grid::Native) => format.to_string(),
             (format, Grid::Step(step)) => format!("{}, every {step} nm", format.name()),
             (format, Grid::Average(step)) => format!("{}, averages over {step} nm", format.name()),
@@ -63,6 +52,8 @@ pub struct SpectraFile {
     /// The name offered for it.
     pub name: String,
     pub text: String,
+    /// What is known about the set, for a file beside it.
+    pub metadata: Option<Metadata>,
     /// Differences from the set.
     pub notes: Vec<Note>,
 }
@@ -80,7 +71,8 @@ pub fn fits(entry: &Entry, form: Form) -> Result<(), WriteError> {
     form.format.fits(&Sheet { content: content(entry), curves: &curves, ..Sheet::default() })
 }
 
-pub fn file(entry: &Entry, form: Form, ask: &impl Ask) -> Result<SpectraFile, SpectraError> {
+/// Writes a set; `created` is the time of that, as in RFC 3339.
+pub fn file(entry: &Entry, form: Form, ask: &impl Ask, created: Option<&str>) -> Result<SpectraFile, SpectraError> {
     let curves = curves(&entry.place, ask)?;
     let traces: Vec<Trace<'_>> = curves
         .iter()
@@ -92,10 +84,10 @@ pub fn file(entry: &Entry, form: Form, ask: &impl Ask) -> Result<SpectraFile, Sp
         (None, Place::BuiltIn { .. }) => (None, Vec::new()),
     };
     let (title, content, unit) = (entry.name.as_str(), content(entry), unit.as_deref());
-    let sheet = Sheet { title, content, curves: &traces, unit, created: None, comments: &comments };
+    let sheet = Sheet { title, content, curves: &traces, unit, created, comments: &comments };
     let written = write(&sheet, form.format, form.grid)?;
     let name = fitting(&file_name(&entry.name), &format!(".{}", form.format.ending()));
-    Ok(SpectraFile { name, text: written.text, notes: written.notes })
+    Ok(SpectraFile { name, text: written.text, metadata: written.metadata, notes: written.notes })
 }
 
 /// A set's curves as a table over all of their wavelengths, as measured: a cell is empty where a curve has no sample.
@@ -186,7 +178,7 @@ fn own_unit(set: &ImportedSet) -> Option<String> {
 
 /// Maker and model of a camera, where its name begins with a maker. A final parenthesis distinguishes measurements, not
 /// cameras.
-fn maker_and_model(name: &str) -> (Option<&str>, Option<&str>) {
+pub(crate) fn maker_and_model(name: &str) -> (Option<&str>, Option<&str>) {
     const MAKERS: &str = "ARRI,Blackmagic,Canon,DJI,Fujifilm,Hasselblad,Kodak,Leica,Nikon,Olympus,Panasonic,Pentax,Phase One,RED,\
                           Sigma,Sony";
     let name = model_of(name).trim();

@@ -1,13 +1,13 @@
-//! What was read: as lines for the user, as JSON for programs, and as a plain table of the curves.
+//! What was read: as lines for the user and as JSON for programs.
 
 use std::fmt::{Display, Write as _};
 use std::io::{self, Write};
 
 use serde_json::{Value, json};
-use spectral_file::write::{Content, Note, Prepared};
-use spectral_file::{Certainty, Curve, ReadError, ReadReport, Role, SpectralFile};
+use spectral_file::write::{Note, Prepared};
+use spectral_file::{Certainty, Curve, ReadError, ReadReport, SpectralFile};
 
-use super::{Failure, Stop};
+use super::Failure;
 use crate::format;
 use crate::terminal::shown_json;
 
@@ -193,28 +193,4 @@ fn error(failure: &Failure) -> Value {
 pub(super) fn notes(prepared: &mut Prepared<'_>) -> Vec<Note> {
     prepared.each(|_, _| true);
     prepared.notes()
-}
-
-pub(super) fn table(prepared: &mut Prepared<'_>, out: &mut dyn Write) -> Result<(), Stop> {
-    let mut done = Ok(());
-    prepared.table(&mut |part| {
-        done = out.write_all(part.as_bytes());
-        done.is_ok()
-    });
-    Ok(done?)
-}
-
-pub(super) fn content(table: &SpectralFile) -> Content<'_> {
-    match table.role.value {
-        Role::Camera => table.reading.camera_columns.map_or(Content::Observer, |channels| Content::Camera {
-            channels,
-            per_photon: table.reading.per_photon.as_ref().map(|decided| decided.value),
-            manufacturer: None,
-            model: None,
-        }),
-        Role::Reflectance => Content::Reflectance,
-        Role::Transmittance => Content::Transmittance,
-        Role::Illuminant => Content::Illuminant,
-        Role::Unknown => Content::Other,
-    }
 }
