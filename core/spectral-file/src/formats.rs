@@ -11,6 +11,7 @@ mod lamp_meter;
 mod macam;
 pub(super) mod spectra;
 mod table;
+mod tidy;
 #[cfg(feature = "xml")]
 mod tm27;
 #[cfg(feature = "xml")]
@@ -60,6 +61,7 @@ impl<'a> Head<'a> {
 /// Every format, in the order of a list of choices. The last that fits reads a text.
 const FORMATS: &[Format] = &[
     table::FORMAT,
+    tidy::FORMAT,
     cgats::FORMAT,
     jcamp::FORMAT,
     #[cfg(feature = "xml")]
