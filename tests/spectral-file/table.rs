@@ -439,6 +439,13 @@ fn whole_files_that_are_no_tables() {
     for (start, kind) in [
         (&b"PK\x03\x04\x14"[..], BinaryKind::Zip),
         (b"\xD0\xCF\x11\xE0\xA1\xB1\x1A\xE1", BinaryKind::Ole2),
+        (b"PK\x03\x04\x14\0ps_0.xmlPK\x01\x02OOISignatures.xml", BinaryKind::ProcSpec),
+        (b"PK\x03\x04\x14\0xl/workbook.xml", BinaryKind::Xlsx),
+        (b"PK\x03\x04\x14\0mimetypeapplication/vnd.oasis.opendocument.spreadsheet", BinaryKind::Ods),
+        (b"\xD0\xCF\x11\xE0\xA1\xB1\x1A\xE1\0\0W\0o\0r\0k\0b\0o\0o\0k\0", BinaryKind::Xls),
+        (b"\xD0\xCF\x11\xE0\xA1\xB1\x1A\xE1\0\0D\0a\0t\0a\0S\0t\0o\0r\0", BinaryKind::Shimadzu),
+        (b"\xD0\xCF\x11\xE0\xA1\xB1\x1A\xE1\0\0Y\0-\0D\0a\0t\0a\0", BinaryKind::Jasco),
+        (&[0, 0xCA, 0x8F, 0x3E].repeat(20)[..], BinaryKind::Unknown),
         (b"\x89PNG\r\n", BinaryKind::Png),
         (b"\xFF\xD8\xFF\xE0", BinaryKind::Jpeg),
         (b"%PDF-1.4", BinaryKind::Pdf),

@@ -1,7 +1,7 @@
 //! Small sound files of every family, with made-up numbers.
 
 /// Each file with a name for it.
-pub const ALL: [(&str, &str); 27] = [
+pub const ALL: [(&str, &str); 29] = [
     ("commas", "# title: a\n# unit: percent\nwavelength_nm,R,G,B\n380,0.1,0.2,0.3\n390,0.2,0.3,0.4\n400,,0.4,0.5\n"),
     (
         "semicolons",
@@ -91,4 +91,11 @@ pub const ALL: [(&str, &str); 27] = [
         0 0.1 0.5 1 0.9 0.8 0.7 0.6 0.5 0.4 0.3 0.2 0.1 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0\r\n",
     ),
     ("latin", "nm;R (µm);°\n0,4;1;2\n0,5;3;4\n0,6;5;−6\n"),
+    ("svc",
+    "/*** Spectra Vista SIG Data ***/\nname= a.sig\nunits= Radiance, Radiance\ndata= \n400.0  1.0  2.0  5.0\n420.0  1.0  2.0  6.0\n\
+     410.0  1.0  2,0  NaN\n430.0  1.0  2.0  8.0\n"
+    ),("perkinelmer",
+    "PE UV       SUBTECH     SPECTRUM    ASCII       PEDS        4.00        \n  -1\na.asc\n#HDR\n-1\n#GR\nnm\n%R\n1.0\n0.0\n410.0\n-10.0\n2\n\
+     #DATA\n410.0\t5.0\n400,0\t6.0\n"
+    ),
 ];

@@ -37,9 +37,7 @@ const fn program_of(start: &'static str, name: &'static str, percent: bool) -> P
 
 pub(super) const THORLABS: &str = "Thorlabs (read as described, no real file was at hand)";
 
-pub(super) const SVC: &str = "/*** Spectra Vista SIG Data";
-
-const PROGRAMS: [Program; 15] = [
+const PROGRAMS: [Program; 14] = [
     program_of("SpectraSuite Data File", "Ocean SpectraSuite", true),
     program_of("OOIBase32 Version", "Ocean OOIBase32", true),
     program_of("Jaz Data File", "Ocean Jaz", true),
@@ -54,7 +52,6 @@ const PROGRAMS: [Program; 15] = [
     program_of("#Thorlabs", THORLABS, false),
     program_of("Thorlabs", THORLABS, false),
     program_of("X Units:", "the ECOSTRESS library", false),
-    program_of(SVC, "Spectra Vista", false),
 ];
 
 pub(super) fn program(line: &str) -> Option<&'static Program> {

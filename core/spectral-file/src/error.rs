@@ -83,7 +83,10 @@ pub enum ReadError {
     AsChosen { switch: String, error: Box<ReadError> },
     #[error("this is {what}, which this program was built without: compile it with the feature {feature}")]
     NotBuilt { what: &'static str, feature: &'static str },
-    #[error("line {0}: only one number in each line: expected a wavelength and at least one value")]
+    #[error(
+        "line {0}: only one number in each line: expected a wavelength and at least one value; where a file of its own holds the \
+         wavelengths, as in the USGS spectral library, put them beside the values"
+    )]
     OneColumn(usize),
     #[error("line {line}: no number in column {column} (\"{text}\"): correct it, or leave it empty if it is missing")]
     NotANumber { line: usize, column: usize, text: String },

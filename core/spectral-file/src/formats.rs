@@ -9,7 +9,9 @@ mod jcamp;
 mod json;
 mod lamp_meter;
 mod macam;
+mod perkin_elmer;
 pub(super) mod spectra;
+mod svc;
 mod table;
 mod tidy;
 #[cfg(feature = "xml")]
@@ -77,6 +79,8 @@ const FORMATS: &[Format] = &[
     lamp_meter::FORMAT,
     macam::FORMAT,
     camspec::FORMAT,
+    svc::FORMAT,
+    perkin_elmer::FORMAT,
 ];
 
 impl Reader {
@@ -127,7 +131,7 @@ fn family(text: &str) -> Option<Family> {
     if start.starts_with("<?xml") || (start.starts_with('<') && start.trim_end().ends_with('>')) {
         return Some(Family::Xml);
     }
-    if start.starts_with("##") && start[..floor(start)].contains("DATA TYPE=") || start.starts_with("##TITLE=") {
+    if jcamp::recognize(&start[..floor(start)]) {
         return Some(Family::Jcamp);
     }
     let list = start.starts_with('[') && start.trim_end().ends_with(']');

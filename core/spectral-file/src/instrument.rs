@@ -1,6 +1,6 @@
 //! Program that wrote a table, and its own words about the values.
 
-use crate::clues::{self, Program, SVC, THORLABS};
+use crate::clues::{self, Program, THORLABS};
 use crate::decision::{Decided, Decision, Quantity, Role, Values};
 use crate::grid::Grid;
 use crate::text::Lines;
@@ -20,9 +20,6 @@ pub(super) fn recognize(text: &str, grid: &mut Grid) -> Option<Decision> {
         grid.role
             .get_or_insert_with(|| Decided::guess(Role::Illuminant, format!("Line {line} is of an analyzer of light")));
     }
-    if text.starts_with(SVC) {
-        take_ratio(line, grid);
-    }
     if let Some((at, name)) = lines().find_map(|(at, line)| Some((at, library_name(line)?))) {
         grid.header.note(at, "title", name);
         if let [only] = grid.curves.as_mut_slice()
@@ -37,19 +34,6 @@ pub(super) fn recognize(text: &str, grid: &mut Grid) -> Option<Decision> {
 
 fn decision(program: &str, line: usize) -> Decision {
     Decision::certain("Program", format!("a file of {program}"), format!("Line {line} shows it"))
-}
-
-/// Takes the last of the three columns of a Spectra Vista file, the target over the reference in percent; `units=` is of the others.
-fn take_ratio(line: usize, grid: &mut Grid) {
-    if grid.curves.len() != 3 {
-        return;
-    }
-    let why = "Its fourth column is the target over the reference in percent";
-    grid.curves.drain(..2);
-    grid.role = Some(Decided::certain(Role::Reflectance, why));
-    grid.quantity = Some(Decided::certain(Quantity::Reflectance, why));
-    grid.header.values = Some((line, Values::Percent));
-    (grid.header.role, grid.header.unit, grid.curves[0].unit) = (None, None, None);
 }
 
 fn library_name(line: &str) -> Option<&str> {

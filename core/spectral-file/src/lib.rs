@@ -13,8 +13,8 @@
 //! "Spectral unit" says with the factor.
 //!
 //! Families with a grammar of their own are recognized by content and read too: CGATS (Argyll, X-Rite), JCAMP-DX, XML
-//! (TM-27, `CxF`), JSON (rawtoaces, dcamprof with comments, Wasatch ENLIGHTEN), lamp meters that write wavelengths into labels, and files
-//! that put wavelengths and values on alternate lines.
+//! (TM-27, `CxF`), JSON (rawtoaces, dcamprof with comments, Wasatch ENLIGHTEN), lamp meters that write wavelengths into labels, files
+//! that put wavelengths and values on alternate lines, Spectra Vista `.sig`, and ASCII of `PerkinElmer`.
 //!
 //! Not read: binary files, and XML or JSON of other layouts. The error names them, with a remedy.
 //!

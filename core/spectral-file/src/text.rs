@@ -95,7 +95,7 @@ fn gbk(bytes: &[u8]) -> Option<Cow<'_, str>> {
 }
 
 /// Text of two bytes for each character, most of which are of the first 256, without a byte order mark.
-fn bare_utf16(bytes: &[u8]) -> Option<Encoding> {
+pub(super) fn bare_utf16(bytes: &[u8]) -> Option<Encoding> {
     const LOOK: usize = 4096;
     const FEWEST: usize = 8;
     let start = &bytes[..bytes.len().min(LOOK) & !1];

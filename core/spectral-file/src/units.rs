@@ -313,5 +313,5 @@ pub(super) const RANGE_NM: std::ops::RangeInclusive<f64> = 100.0..=25_000.0;
 
 /// Returns whether numbers can be wavelengths at all: in range as nanometers, or as micrometers with fractions.
 pub(super) fn plausible(min: f64, max: f64, fractions: bool) -> bool {
-    (RANGE_NM.contains(&min) && RANGE_NM.contains(&max)) || (fractions && min >= 0.2 && max <= 20.0)
+    (RANGE_NM.contains(&min) && RANGE_NM.contains(&max)) || (fractions && min >= 0.1 && max <= 25.0)
 }

@@ -31,8 +31,12 @@ pub(super) fn unit(grid: &Grid, options: &ReadOptions) -> Result<Decided<Wavelen
 
 /// The unit that a range suggests. If both ångströms and wave numbers fit, only the user knows.
 fn unit_from_range(grid: &Grid) -> Result<Decided<WavelengthUnit>, ReadError> {
+    /// Fewer small numbers in no order, such as the rows of a matrix, are no wavelengths in micrometers.
+    const FEWEST: usize = 4;
+    let listed = &grid.wavelengths;
+    let in_order = listed.len() >= FEWEST || listed.is_sorted() || listed.is_sorted_by(|a, b| a >= b);
     let (min, max) = extent(grid.wavelengths.iter().copied());
-    let unit = if min >= 0.2 && max <= 20.0 {
+    let unit = if min >= 0.1 && max <= 25.0 && in_order {
         WavelengthUnit::Micrometer
     } else if (2000.0..=4000.0).contains(&min) && (7000.0..=12_000.0).contains(&max) && is_named(grid) {
         // The word excludes wave numbers.

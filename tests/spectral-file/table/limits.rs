@@ -9,7 +9,7 @@ use super::damage::{SOUND, check};
 use super::*;
 
 /// A file for each reader, as short as its traps allow.
-const FAMILIES: [&str; 13] = [
+const FAMILIES: [&str; 15] = [
     "CGATS.17\nSPECTRAL_NORM \"100\"\nBEGIN_DATA_FORMAT\nSAMPLE_NAME nm400 nm410\nEND_DATA_FORMAT\nBEGIN_DATA\n\
      \"a \"\"b\" 5 -9999 # c\nd 5,5 6,5\nEND_DATA\nCAL\n",
     "CGATS.17\nBEGIN_DATA_FORMAT\nSAMPLE_ID SPECTRAL_NM SPECTRAL_PCT SPECTRAL_NM SPECTRAL_PCT\nEND_DATA_FORMAT\nBEGIN_DATA\n\
@@ -35,6 +35,10 @@ const FAMILIES: [&str; 13] = [
     "A 1D\r\n0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 1\r\n\
      0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 1 0\r\n\
      1 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0\r\n",
+    "/*** Spectra Vista SIG Data ***/\nname= a.sig\nunits= Radiance, Radiance\ndata= \n400.0  1.0  2.0  5.0\n420.0  1.0  2.0  6.0\n\
+     410.0  1.0  2,0  NaN\n430.0  1.0  2.0  8.0\n",
+    "PE UV       SUBTECH     SPECTRUM    ASCII       PEDS        4.00        \n  -1\na.asc\n#HDR\n-1\n#GR\nnm\n%R\n1.0\n0.0\n410.0\n-10.0\n2\n\
+     #DATA\n410.0\t5.0\n400,0\t6.0\n",
 ];
 
 /// All files in UTF-8, the short ones in UTF-16 and with NUL bytes and letters of Windows-1252 among them too.

@@ -140,3 +140,14 @@ fn headers_of_numbers_and_labels() {
     assert_eq!((table.reading.orientation.value, table.role.value), (Orientation::Across, Role::Reflectance));
     assert_eq!(table.curves[0].values[0], 28.4 / 100.0);
 }
+
+#[test]
+fn raw_radiances_of_a_field_spectrometer() {
+    let text = include_str!("../corpus/svc_overlap.sig");
+    let raw = ReadOptions { raw: Some(true), ..ReadOptions::default() };
+    let table = read(text.as_bytes(), &raw).unwrap();
+    assert_eq!(names(&table), ["Reference", "Target", "Reflectance (%)"]);
+    let wanted = [(400.0, 50.0), (600.0, 200.0), (990.0, 1000.0), (1000.0, 2240.0), (1020.0, 2400.0), (1910.0, 330.0)];
+    assert_eq!(samples(&table, 1), wanted);
+    assert_eq!(table.role.value, Role::Illuminant, "{:?}", table.role);
+}

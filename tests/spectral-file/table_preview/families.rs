@@ -52,7 +52,15 @@ const DCAMPROF: &str = "// made 2024\n{\n\"camera_name\": \"C 400\",\n\"ssf_band
 
 const SPECTRUM: &str = "{\n\"bands\": [400, 410, 420, 430],\n\"scale\": 2,\n\"spectrum\": [0.1, 0.2, 0.3, 0.5]\n}\n";
 
-pub(super) const ALL: [&str; 13] = [
+const SVC: &str = "/*** Spectra Vista SIG Data ***/\nname= leaf 400.sig\ndata= \n400.0  9.0  8.0  5.0\n420.0  9.0  8.0  6.0\n\
+410.0  9.0  8.0  7.0\n430.0  9.0  8.0  8.0\n";
+
+const PERKIN_ELMER: &str = "PE UV       SUBTECH     SPECTRUM    ASCII       PEDS        4.00        \n400\n#GR\nnm\n%T\n1.0\n0.0\n\
+420.0\n-10.0\n3\n#DATA\n420.0\t5.0\n410.0\t6.0\n400.0\t7.0\n";
+
+pub(super) const ALL: [&str; 15] = [
+    SVC,
+    PERKIN_ELMER,
     CGATS,
     PAIRS,
     LABELS,
@@ -100,6 +108,22 @@ fn alternate_lines() {
     let seen = whole(ALTERNATE.as_bytes());
     assert_eq!(seen.pieces(4), [("400", What::Wavelength(400.0))]);
     assert_eq!(seen.pieces(2), [("@400", What::Setting)]);
+}
+
+#[test]
+fn the_ratio_of_a_field_spectrometer() {
+    let seen = whole(SVC.as_bytes());
+    let value = What::Value { curve: 0, nm: 400.0, value: 0.05, written: 5.0 };
+    assert_eq!(seen.pieces(4), [("400.0", What::Wavelength(400.0)), ("5.0", value)]);
+    assert_eq!(seen.pieces(6), [], "its detector's range is left to the other");
+    assert_eq!(seen.table.curves[0].wavelengths_nm, [400.0, 430.0]);
+}
+
+#[test]
+fn pairs_below_a_header_without_labels() {
+    let seen = whole(PERKIN_ELMER.as_bytes());
+    assert_eq!((seen.pieces(2), seen.pieces(8)), (vec![("400", What::Setting)], vec![]));
+    assert_eq!(seen.pieces(12)[1].1, What::Value { curve: 0, nm: 420.0, value: 0.05, written: 5.0 });
 }
 
 #[test]

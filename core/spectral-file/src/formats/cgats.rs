@@ -142,8 +142,10 @@ impl File {
                 self.header.mentioned = self.header.mentioned.or(Some((line, role)));
             }
             "CCSS" => self.header.role = Some((line, Role::Illuminant)),
-            "MEAS_TYPE" => self.header.role = measured(&value).map(|role| (line, role)).or(self.header.role),
-            "DESCRIPTOR" => {
+            "MEAS_TYPE" | "SPECTRUM_TYPE" => {
+                self.header.role = measured(&value).map(|role| (line, role)).or(self.header.role);
+            }
+            "DESCRIPTOR" | "FILE_DESCRIPTOR" => {
                 self.header.mentioned = header_terms::role(&value).map(|role| (line, role)).or(self.header.mentioned);
                 self.header.note(line, "title", &value);
             }
@@ -189,7 +191,10 @@ impl File {
         (self.done, self.open, self.width, self.data_line) = (true, true, self.fields.len(), line);
         self.bands = Some(bands);
         let named = |wanted: &&str| self.fields.iter().position(|field| field.eq_ignore_ascii_case(wanted));
-        self.name_fields = ["SAMPLE_NAME", "SAMPLE_LOC", "SAMPLE_ID", "SampleID"].iter().filter_map(named).collect();
+        let one = ["SAMPLE_NAME", "SAMPLE_LOC", "SAMPLE_ID", "SampleID"].iter().find_map(named);
+        // SpectraShop tells samples apart by up to three names.
+        let parts = || ["SAMPLE_ID1", "SAMPLE_ID2", "SAMPLE_ID3"].iter().filter_map(named).collect();
+        self.name_fields = one.map_or_else(parts, |field| vec![field]);
     }
 
     /// Ends a table, whether or not the file marks its end.
@@ -213,8 +218,10 @@ impl File {
             return Ok(Place::Data);
         };
         self.last_line = line;
-        if self.name_fields.first() == Some(&self.at) {
-            self.row_name = token.text().into_owned();
+        if self.name_fields.contains(&self.at) {
+            let text = token.text();
+            let apart = if self.row_name.is_empty() || text.is_empty() { "" } else { " " };
+            self.row_name.extend([apart, &*text]);
         }
         if bands.is_value(self.at) {
             self.values.push(number(token, line, self.at)?);
@@ -327,8 +334,8 @@ impl File {
 }
 
 fn measured(kind: &str) -> Option<Role> {
-    match kind.split('_').next() {
-        Some("EMISSION" | "AMBIENT") => Some(Role::Illuminant),
+    match kind.to_ascii_uppercase().split(['_', '-']).next() {
+        Some("EMISSION" | "AMBIENT" | "EMISSIVE") => Some(Role::Illuminant),
         Some("REFLECTIVE") => Some(Role::Reflectance),
         Some("TRANSMISSIVE") => Some(Role::Transmittance),
         Some("SENSITIVITY") => Some(Role::Camera),
@@ -408,7 +415,7 @@ impl Bands {
         for at in 1..fields.len() {
             let value = fields[at].to_ascii_uppercase();
             if fields[at - 1].eq_ignore_ascii_case("SPECTRAL_NM")
-                && matches!(value.as_str(), "SPECTRAL_PCT" | "SPECTRAL_DEC")
+                && matches!(value.as_str(), "SPECTRAL_PCT" | "SPECTRAL_DEC" | "SPECTRAL_VAL")
             {
                 kinds[at - 1] = Kind::Wavelength;
                 kinds[at] = Kind::Value;

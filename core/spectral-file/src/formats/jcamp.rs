@@ -22,6 +22,12 @@ impl Reader {
 pub(super) const FORMAT: Format =
     Format { reader: Reader::JCAMP, fits: |head| head.is(Family::Jcamp) || head.is_chosen_for("##"), read };
 
+/// Returns whether a text begins with the label `##TITLE=`, with blanks in it or not, or with another one before `##DATA TYPE=`.
+pub(super) fn recognize(start: &str) -> bool {
+    let Some((key, _)) = start.strip_prefix("##").and_then(|record| record.split_once('=')) else { return false };
+    !key.contains('\n') && label(key) == "TITLE" || start.contains("DATA TYPE=")
+}
+
 /// Reads the processed spectrum, or all spectra if none is a raw one beside it.
 fn read(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Result<Found, ReadError> {
     let mut blocks = blocks(text, log)?;

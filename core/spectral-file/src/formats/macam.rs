@@ -16,20 +16,29 @@ impl Reader {
 }
 
 pub(super) const FORMAT: Format =
-    Format { reader: Reader::ALTERNATE, fits: |head| head.is_plain() && recognize(head.text), read };
+    Format { reader: Reader::ALTERNATE, fits: |head| head.is_plain() && recognize(head.text, head.chosen), read };
 
 /// Lines of numbers that are looked at.
-const LOOK: usize = 4;
+const LOOK: usize = 16;
 
-/// Returns whether the first lines begin with `@` and the next ones are single numbers.
-fn recognize(text: &str) -> bool {
-    let mut lines = Lines::new(text).map(|(_, line)| line.trim()).filter(|line| !line.is_empty());
-    let marked = |line: &str| line.starts_with(['@', '#']);
-    if !lines.next().is_some_and(|line| line.starts_with('@')) {
-        return false;
-    }
-    let mut numbers = lines.skip_while(|line| marked(line)).take(LOOK);
-    numbers.by_ref().all(|line| number(line).is_some())
+/// Returns whether single numbers stand in the lines, below one that begins with `@`, or every other one a wavelength.
+fn recognize(text: &str, chosen: bool) -> bool {
+    let mut lines = Lines::new(text).map(|(_, line)| line.trim()).filter(|line| !line.is_empty()).peekable();
+    let marked = lines.peek().is_some_and(|line| line.starts_with('@'));
+    let numbers = lines.skip_while(|line| line.starts_with(['@', '#'])).take(LOOK).map(number);
+    let Some(numbers) = numbers.collect::<Option<Vec<f64>>>() else { return false };
+    marked || chosen || numbers.len() == LOOK && alternates(&numbers)
+}
+
+/// Returns whether every other number is a wavelength, in equal steps, and the ones between them are no wavelengths.
+fn alternates(numbers: &[f64]) -> bool {
+    const CLOSE: f64 = 1e-6;
+    let wavelengths: Vec<f64> = numbers.iter().step_by(2).copied().collect();
+    let step = wavelengths[1] - wavelengths[0];
+    wavelengths.iter().all(|nm| (100.0..=25_000.0).contains(nm))
+        && step > 0.0
+        && wavelengths.windows(2).all(|pair| (pair[1] - pair[0] - step).abs() <= CLOSE * pair[1])
+        && numbers.windows(2).any(|pair| pair[1] < pair[0])
 }
 
 fn number(cell: &str) -> Option<f64> {
@@ -72,7 +81,13 @@ fn read(text: &str, _: &ReadOptions, log: &mut Log<'_>) -> Result<Found, ReadErr
     let mut grid = spectra::grid(vec![Spectrum { samples, ..Spectrum::default() }], header, log)?;
     grid.role = Some(Decided::guess(Role::Illuminant, "Meters that write such files measure light"));
     let mark = if comma { DecimalMark::Comma } else { DecimalMark::Point };
-    let why = "The first line begins with @, and single numbers follow";
-    let (dialect, reader) = ((Delimiter::Elements, mark), Decided::certain(Reader::ALTERNATE, why));
-    Ok(Found::fixed(grid, reader, (dialect, first_line, why), Vec::new()))
+    let why = "Single numbers stand in the lines, every other one a wavelength";
+    let marked = "The first line begins with @, and single numbers follow";
+    let reader = if text.trim_start().starts_with('@') {
+        Decided::certain(Reader::ALTERNATE, marked)
+    } else {
+        Decided::guess(Reader::ALTERNATE, why)
+    };
+    let why = reader.why.clone();
+    Ok(Found::fixed(grid, reader, ((Delimiter::Elements, mark), first_line, &why), Vec::new()))
 }

@@ -1,11 +1,13 @@
 //! What readers of formats give, and spectra that each have wavelengths of their own, brought onto one grid.
 
 use crate::decision::{Decided, DecimalMark, Decision, Delimiter, Orientation, Reader};
+use crate::dialect::Dialect;
 use crate::dialect_trial::Layout;
 use crate::error::{MAX_CURVES, ReadError, check_samples};
 use crate::grid::{Grid, RawCurve};
 use crate::header::Header;
-use crate::warning::Warning;
+use crate::text::excerpt;
+use crate::warning::{LineList, Warning};
 use crate::watch::{Log, PlaceId, PlaceKind};
 
 /// Result of a reader, before units, order and scale are settled.
@@ -147,6 +149,48 @@ pub(crate) fn grid(mut spectra: Vec<Spectrum>, header: Header, log: &mut Log<'_>
         grid.reorder(&order);
     }
     Ok(grid)
+}
+
+/// Columns of such rows that are looked at, more than any has.
+const MAX_COLUMNS: usize = 100;
+
+/// Rows of numbers with blanks between them: a wavelength first, of the others those in the given columns, from 1. Returns the
+/// samples of each column.
+pub(crate) fn rows<'a>(
+    lines: impl Iterator<Item = (usize, &'a str)>,
+    columns: &[usize],
+    log: &mut Log<'_>,
+) -> Result<Vec<Vec<Sample>>, ReadError> {
+    let mut all = vec![Vec::new(); columns.len()];
+    let (mut width, mut missing) = (None, LineList::default());
+    for (line, text) in lines.filter(|(_, line)| !line.trim().is_empty()) {
+        log.work(text.len() + 1, 0)?;
+        let cells: Vec<&str> = text.split_whitespace().take(MAX_COLUMNS).collect();
+        let expected = *width.get_or_insert(cells.len());
+        if cells.len() != expected || cells.len() < 2 {
+            return Err(ReadError::UnevenRow { line, found: cells.len(), expected: expected.max(2) });
+        }
+        let number = |column: usize| {
+            let wrong = || ReadError::NotANumber { line, column: column + 1, text: excerpt(cells[column]) };
+            Dialect::of_number(cells[column]).value(cells[column]).ok_or_else(wrong)
+        };
+        let wavelength = number(0)?;
+        log.places.as_mut().map(|places| places.add(PlaceKind::Wavelength, cells[0]));
+        for (samples, &column) in all.iter_mut().zip(columns) {
+            let value = number(column)?;
+            if value.is_nan() || wavelength.is_nan() {
+                missing.add(line);
+                continue;
+            }
+            let place = log.places.as_mut().map(|places| places.add(PlaceKind::Value, cells[column]));
+            samples.push(Sample { wavelength, value, line, place: place.unwrap_or_default() });
+        }
+    }
+    let cells = missing.count();
+    if cells > 0 {
+        log.push(Warning::Gaps { cells, lines: missing, sentinel: None });
+    }
+    Ok(all)
 }
 
 /// The values at the wavelengths of a grid that holds all wavelengths of the samples.

@@ -75,6 +75,9 @@ fn mixed(grid: &Grid) -> Option<Decided<Role>> {
     (named("a") && (named("r") || named("t"))).then(|| Decided::open(Role::Unknown, why))
 }
 
+/// Curves, of which one alone says what it is, up to which it speaks for all.
+const MOST_OTHERS: usize = 4;
+
 /// The role that the columns name. What only a sample is called, such as `radiance paint` among others or against a line
 /// above, decides nothing.
 fn named(grid: &Grid) -> Option<Decided<Role>> {
@@ -97,6 +100,11 @@ fn named(grid: &Grid) -> Option<Decided<Role>> {
         let stated = only && (role != Role::Illuminant || ends());
         let said = if stated { Decided::certain(role, why) } else { Decided::guess(role, why) };
         return Some(said).filter(|_| !denied && (only || role.is_fraction()));
+    }
+    // One quantity beside many others, as a detector's efficiency beside the lamps it sees, says nothing of these.
+    let count = grid.curves.iter().filter(|curve| header_terms::role(&curve.label).is_some()).count();
+    if count == 1 && grid.curves.len() > MOST_OTHERS {
+        return Some(Decided::open(Role::Unknown, format!("{why}, alone of {}", grid.curves.len())));
     }
     Some(if agree { Decided::certain(role, why) } else { Decided::guess(role, why) })
 }
