@@ -5,6 +5,7 @@ use crate::decision::WavelengthUnit;
 use crate::dialect::{Cell, Dialect};
 use crate::error::MAX_CURVES;
 use crate::header_terms;
+use crate::text::is_one;
 use crate::units::plausible;
 
 /// The fewest bands that are taken for a spectrum.
@@ -63,7 +64,8 @@ fn band(dialect: Dialect, name: &str) -> Option<Band<'_>> {
         let Cell::Number(wavelength) = dialect.parse(&name[start..end]) else { continue };
         let (unit, suffix) = unit(&name[end..]);
         let prefix = name[..start].trim();
-        let before = prefix.to_ascii_lowercase().ends_with("nm").then_some(WavelengthUnit::Nanometer);
+        let bare = prefix.trim_end_matches(['_', '.', ' ', '-']).to_ascii_lowercase();
+        let before = bare.ends_with("nm").then_some(WavelengthUnit::Nanometer);
         let one = Band { prefix, suffix, wavelength, unit: unit.or(before) };
         // A number with a unit, else the last.
         if found.is_none_or(|found| found.unit.is_none()) {
@@ -84,11 +86,10 @@ fn unit(text: &str) -> (Option<WavelengthUnit>, &str) {
 
 /// Returns whether a text before a number without unit makes it a wavelength, and no name of a sample.
 fn is_band_prefix(prefix: &str) -> bool {
-    const WHOLE: [&str; 14] =
-        ["r", "t", "s", "x", "w", "wl", "refl", "ref", "trans", "sci", "sce", "lambda", "λ", "%r"];
+    const WHOLE: &str = "r|t|s|x|w|a|b|l|wl|wv|wvl|wave|band|spc|refl|ref|trans|sci|sce|lambda|λ|%r";
     let lower = prefix.to_lowercase();
     let bare = lower.trim_end_matches(|c: char| !c.is_alphanumeric());
-    WHOLE.contains(&bare) || bare.contains("spec") || bare.contains("wavelength") || bare.contains("reflectance")
+    is_one(bare, WHOLE) || bare.contains("spec") || bare.contains("wavelength") || bare.contains("reflectance")
 }
 
 /// The groups of wavelengths in a header. A cell that is empty or out of order costs its column only.
@@ -189,10 +190,19 @@ fn head(dialect: Dialect, cell: &str) -> Option<Band<'_>> {
 fn group(run: &[(usize, Band<'_>)], wrong: usize) -> Option<Group> {
     /// Sound wavelengths for each that is out of order; more of those are values.
     const SOUND: usize = 5;
+    const LEAST_RANGE: f64 = 150.0;
     let ((start, first), (end, _)) = (run.first().filter(|_| run.len() >= FEWEST)?, run.last()?);
     let values = || run.iter().map(|(_, band)| band.wavelength);
     let (min, max) = extent(values());
     if !plausible(min, max, values().any(|w| w.fract() != 0.0)) || run.len() < SOUND * wrong {
+        return None;
+    }
+    // What a letter may count as well, such as patches or bands, counts by ones.
+    let counted = values().zip(values().skip(1)).all(|(a, b)| b - a == 1.0) && max - min < LEAST_RANGE;
+    if counted
+        && first.unit.is_none()
+        && is_one(first.prefix.trim_end_matches(['_', '.', ' ']).to_lowercase().as_str(), "a|b|l|band")
+    {
         return None;
     }
     let mut wavelengths = vec![f64::NAN; end + 1 - start];

@@ -2,7 +2,7 @@
 
 pub(super) mod axes;
 
-use crate::decision::{Decision, Dropped, WavelengthUnit};
+use crate::decision::{Decision, Delimiter, Dropped, WavelengthUnit};
 use crate::dialect::{Cell, Dialect};
 use crate::dialect_trial::Layout;
 use crate::error::{MAX_CURVES, MAX_SAMPLES, ReadError, check_curves, check_samples};
@@ -86,6 +86,8 @@ struct Columns {
     fewest_cells: usize,
     cells: Vec<Vec<f64>>,
     lines: Vec<usize>,
+    /// Rows that end before the last columns, as spreadsheets write them where only gaps would follow: each with its cells.
+    short: Vec<(usize, usize)>,
     row: Vec<f64>,
     expected_rows: usize,
     named: Option<usize>,
@@ -214,7 +216,11 @@ impl Columns {
             self.width = filled;
         }
         if cells < self.width {
-            return Err(ReadError::UnevenRow { line: number, found: cells, expected: self.width });
+            if rows == 0 || cells < 2 || self.dialect.delimiter == Delimiter::Spaces {
+                return Err(ReadError::UnevenRow { line: number, found: cells, expected: self.width });
+            }
+            self.short.push((rows, cells));
+            self.row.resize(self.width, f64::NAN);
         }
         check_curves(self.width - 1, number)?;
         check_samples((rows + 1) * (self.width - 1), number)?;
@@ -230,6 +236,30 @@ impl Columns {
         }
         self.lines.push(number);
         Ok(())
+    }
+
+    /// Refuses short rows that may be torn: all but two or more at the end of the table, each as short as the one before or shorter,
+    /// and runs beside a row with a gap, as where columns of several wavelengths are merged.
+    fn check_short(&self, at: usize) -> Result<(), ReadError> {
+        const MERGED: usize = 3;
+        let rows = self.lines.len();
+        let short = &self.short[..self.short.partition_point(|(row, _)| *row < rows)];
+        let nm = |row: usize| self.cells[at][row];
+        let gap = |row: usize| row < rows && self.cells.iter().any(|column| column[row].is_nan());
+        let sound = |run: &[(usize, usize)]| {
+            let (first, last) = (run[0].0, run[run.len() - 1].0);
+            let ordered = |(row, cells): &(usize, usize)| {
+                (nm(*row) - nm(row - 1)) * (nm(rows - 1) - nm(0)) > 0.0 && *cells > at + 1
+            };
+            let ends = run.len() > 1 && last + 1 == rows && run.windows(2).all(|pair| pair[1].1 <= pair[0].1);
+            run.iter().all(ordered) && (ends || short.len() >= MERGED && (gap(first - 1) || gap(last + 1)))
+        };
+        match short.chunk_by(|a, b| a.0 + 1 == b.0).find(|run| !sound(run)) {
+            Some(&[(row, found), ..]) => {
+                Err(ReadError::UnevenRow { line: self.lines[row], found, expected: self.width })
+            }
+            _ => Ok(()),
+        }
     }
 
     /// Makes room for the rows still to come if they are as long as the first.
@@ -258,6 +288,7 @@ impl Columns {
             self.lines.truncate(rows);
             self.cells.iter_mut().for_each(|column| column.truncate(rows));
         }
+        self.check_short(at)?;
         warn_of_names_without_columns(&header, columns, log);
         let (next, rows, label_unit) = (self.next, self.lines.len(), self.label_unit);
         let values = self.cells.split_off(at + 1);

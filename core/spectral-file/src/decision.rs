@@ -79,6 +79,8 @@ choices! {
         /// `380;0.05`
         Semicolon = "semicolon separated", "Semicolon";
         Tab = "tab separated", "Tab";
+        /// `380|0.05`, also with a bar at both ends of the line.
+        Bar = "separated by vertical bars", "Vertical bar";
         /// Any run of spaces and tabs.
         Spaces = "separated by spaces", "Spaces";
         /// None: each value stands in an element of its own, as in XML.
@@ -141,6 +143,8 @@ choices! {
         Windows1252 = "Windows-1252";
         /// Shift-JIS, as Windows writes it.
         ShiftJis = "Shift-JIS";
+        /// GBK, which holds GB 2312: simplified Chinese.
+        Gbk = "GBK";
     }
 
     /// A family of text files with a grammar of its own.
@@ -163,6 +167,7 @@ choices! {
     /// Reason that a row is in no curve.
     Dropped {
         NoWavelength = "no wavelength";
+        OutOfRange = "beyond the wavelengths that are read";
         Repeated = "the same as an earlier row";
         Averaged = "merged with rows of the same wavelength, of which the mean was taken";
     }

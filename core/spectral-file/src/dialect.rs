@@ -132,7 +132,8 @@ impl Dialect {
         }
         let (sign, digits) = cell.strip_prefix('-').map_or((1.0, cell), |rest| (-1.0, rest));
         let (whole, fraction) = digits.split_once(mark).unwrap_or((digits, ""));
-        let spaced = matches!(self.delimiter, Delimiter::Semicolon | Delimiter::Tab | Delimiter::Comma);
+        let spaced =
+            matches!(self.delimiter, Delimiter::Semicolon | Delimiter::Tab | Delimiter::Bar | Delimiter::Comma);
         let separates =
             |c: char| c == other || (spaced && matches!(c, ' ' | '\u{a0}' | '\u{202f}' | '\'' | '\u{2019}'));
         let separator = whole.chars().find(|&c| separates(c))?;
@@ -340,6 +341,7 @@ impl Delimiter {
             Self::Comma => b',',
             Self::Semicolon => b';',
             Self::Tab => b'\t',
+            Self::Bar => b'|',
             Self::CommaSpace => return text.find(", ").map(|at| (at, 2)),
             Self::Elements => return None,
             Self::Spaces => return text.bytes().position(|b| b.is_ascii_whitespace()).map(|at| (at, 1)),

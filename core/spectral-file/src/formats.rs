@@ -13,6 +13,7 @@ mod perkin_elmer;
 pub(super) mod spectra;
 mod svc;
 mod table;
+mod tidy;
 #[cfg(feature = "xml")]
 mod tm27;
 #[cfg(feature = "xml")]
@@ -62,6 +63,7 @@ impl<'a> Head<'a> {
 /// Every format, in the order of a list of choices. The last that fits reads a text.
 const FORMATS: &[Format] = &[
     table::FORMAT,
+    tidy::FORMAT,
     cgats::FORMAT,
     jcamp::FORMAT,
     #[cfg(feature = "xml")]

@@ -105,7 +105,7 @@ pub(super) fn read(section: Section<'_>, layout: &Layout) -> Header {
         }
     }
     if layout.orientation.value == Orientation::Down {
-        header.take_names(&near, layout);
+        header.take_names(&near, layout, &|| has_row_names(section, layout));
         take_heads(&mut header);
     }
     header
@@ -199,11 +199,24 @@ impl Header {
     }
 
     /// The names, and units below them, from the lines just above the numbers.
-    fn take_names(&mut self, near: &[(usize, &str)], layout: &Layout) {
+    fn take_names(&mut self, near: &[(usize, &str)], layout: &Layout, row_names: &dyn Fn() -> bool) {
         let mut rows = near.iter().rev();
         while let Some(&(number, line)) = rows.next() {
             let is_comment = comment(line).is_some();
             let mut cells = split(layout.dialect(), comment(line).unwrap_or(line));
+            if let Some(names) = by_blanks(layout, line).filter(|_| cells.len() != layout.width && !is_comment) {
+                cells = names;
+            }
+            // A rule between names and numbers.
+            if cells.len() > 1 && cells.iter().all(|cell| cell.bytes().all(|byte| matches!(byte, b'-' | b':'))) {
+                continue;
+            }
+            let headed = |cells: &[String]| cells.iter().any(|name| header_terms::names_wavelengths(name));
+            // R's names of rows have no head.
+            if cells.len() > 1 && cells.len() + 1 == layout.width && headed(&cells) && row_names() {
+                cells.insert(0, String::new());
+                self.shifted = true;
+            }
             let exact = is_comment || layout.delimiter.value == Delimiter::Spaces;
             if cells.len() < 2 || (exact && cells.len() != layout.width) {
                 let unit_alone = cells.len() == 1 && self.units.is_empty() && is_unit(&cells[0]);
@@ -248,13 +261,61 @@ impl Header {
             let above = self.earlier.filter(|_| self.mentioned.is_some_and(|(line, _)| line == number));
             self.mentioned = above.or(self.mentioned);
             // Some programs name only the curves.
-            let headed = row_key(&self.names[0]).is_some()
-                || self.names.iter().any(|name| header_terms::names_wavelengths(name));
-            if self.names.len() + 1 == layout.width && !headed {
+            if self.names.len() + 1 == layout.width && row_key(&self.names[0]).is_none() && !headed(&self.names) {
                 self.names.insert(0, String::new());
                 self.shifted = true;
             }
+            if self.units.is_empty() && !is_comment {
+                self.take_samples(rows.next(), rows.next().is_none() && self.comments.is_empty(), layout);
+            }
             return;
+        }
+    }
+
+    /// Takes the names of samples from the line above one that only says what was measured, `Wavelength (nm),%T,Wavelength (nm),%T`:
+    /// each above its values, or above its wavelengths.
+    fn take_samples(&mut self, above: Option<&(usize, &str)>, first: bool, layout: &Layout) {
+        let Some(&(number, line)) = above.filter(|(_, line)| comment(line).is_none()) else { return };
+        let is_axis = |name: &String| header_terms::names_axis(name);
+        let columns = |axes: bool| {
+            let names =
+                self.names.iter().enumerate().filter(move |(_, name)| is_axis(name) == axes && !name.is_empty());
+            names.map(|(column, _)| column).collect::<Vec<_>>()
+        };
+        let (axes, values) = (columns(true), columns(false));
+        if axes.is_empty() || values.is_empty() || !values.iter().all(|&column| says_only_measure(&self.names[column]))
+        {
+            return;
+        }
+        let cells = split(layout.dialect(), line);
+        let mut above: Vec<String> = vec![String::new(); self.names.len()];
+        // Shimadzu names its only curve so.
+        if let [title] = cells.as_slice()
+            && let (Some(name), [column]) = (title.strip_suffix(" - RawData"), values.as_slice())
+        {
+            name.clone_into(&mut above[*column]);
+        } else {
+            let filled: Vec<usize> = (0..cells.len()).filter(|&column| !cells[column].is_empty()).collect();
+            let split = layout.dialect().cells(line).count();
+            let names = filled.iter().all(|&column| layout.dialect().parse(&cells[column]) == Cell::Text);
+            let over_axes = filled.first() == axes.first() && filled.iter().all(|column| axes.contains(column));
+            let title = layout.width == 2 && !first;
+            if !names || title || split < 2 || !(over_axes || filled == values) {
+                return;
+            }
+            let mut name = "";
+            for (column, above) in above.iter_mut().enumerate() {
+                name = if over_axes && axes.contains(&column) { "" } else { name };
+                name = cells.get(column).filter(|cell| !cell.is_empty()).map_or(name, String::as_str);
+                if values.contains(&column) {
+                    name.clone_into(above);
+                }
+            }
+        }
+        self.units_line = self.line.replace(number);
+        self.units = vec![String::new(); self.names.len()];
+        for (column, name) in above.into_iter().enumerate().filter(|(_, name)| !name.is_empty()) {
+            self.units[column] = std::mem::replace(&mut self.names[column], name);
         }
     }
 
@@ -277,6 +338,33 @@ impl Header {
             self.x_unit = Some((number, unit));
         }
     }
+}
+
+/// Names that blanks separate, above numbers that other signs do.
+fn by_blanks(layout: &Layout, line: &str) -> Option<Vec<String>> {
+    let names: Vec<String> = line.split_whitespace().take(layout.width + 1).map(str::to_owned).collect();
+    let wanted = layout.delimiter.value == Delimiter::Tab && names.len() == layout.width && layout.width > 1;
+    (wanted && header_terms::names_axis(&names[0])).then_some(names)
+}
+
+/// Returns whether the first rows begin with a name or with their number, as R writes.
+fn has_row_names(section: Section<'_>, layout: &Layout) -> bool {
+    const LOOK: usize = 3;
+    let rows = Lines::of(section).skip_while(|(number, _)| *number < layout.first_line);
+    let rows = rows.filter(|(_, line)| !line.trim_ascii().is_empty() && comment(line).is_none()).take(LOOK);
+    let mut firsts = rows.map(|(_, line)| layout.dialect().cells(line).next().unwrap_or_default()).zip(1..);
+    firsts.all(|(cell, count)| match layout.dialect().parse(cell) {
+        Cell::Number(number) => number == f64::from(count),
+        Cell::Text => layout.texts & 1 == 1,
+        Cell::Gap => false,
+    })
+}
+
+/// Returns whether a name says what was measured and nothing of which sample: `%T`, `Abs`, `Reflectance (%)`.
+fn says_only_measure(name: &str) -> bool {
+    let bare = unit_text::without_unit(name).to_lowercase();
+    let bare = bare.trim_matches(|c: char| !c.is_alphanumeric());
+    is_one(bare, "|r|t|a|abs|refl|trans|transmission") || header_terms::is_quantity(bare)
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]

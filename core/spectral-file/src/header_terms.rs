@@ -428,6 +428,7 @@ pub(super) fn names_wavelengths(text: &str) -> bool {
         || (text.contains("frequency") && has_word(&text, "thz"))
         || symbol("lambda")
         || symbol("λ")
+        || ["w.length", "w_length"].iter().any(|name| text.starts_with(name))
         || words(&text).next().is_some_and(|word| is_one(word, "wave|wl|nm|um|µm|μm|cm-1|1/cm|thz"))
 }
 

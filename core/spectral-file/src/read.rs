@@ -121,9 +121,12 @@ fn finish(
     check(&grid, layout.first_line)?;
     let (parts, part) = grid.settle_parts(options.part, layout.first_line)?;
     let wavelength_unit = wavelengths::unit(&grid, options)?;
-    wavelengths::to_nanometers(&mut grid, wavelength_unit.value)?;
+    wavelengths::to_nanometers(&mut grid, &wavelength_unit, &mut warnings)?;
     if (wavelength_unit.value, wavelength_unit.certainty) == (WavelengthUnit::Wavenumber, Certainty::Guess) {
         warnings.push(Warning::MaybeWavelengths);
+    }
+    if (wavelength_unit.value, wavelength_unit.certainty) == (WavelengthUnit::Angstrom, Certainty::Guess) {
+        warnings.push(Warning::MaybeNanometers);
     }
     warnings.look(usize::MAX)?;
     let descending = wavelengths::sort(&mut grid, &mut warnings);

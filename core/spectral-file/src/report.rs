@@ -228,6 +228,9 @@ impl ReadReport {
             Encoding::Utf16Le | Encoding::Utf16Be => certain("A byte order mark, or zeros in every other byte, say so"),
             Encoding::Windows1252 => certain("The bytes are not UTF-8"),
             Encoding::ShiftJis => Decided::guess(self.encoding, "The bytes are not UTF-8, but sound Japanese"),
+            Encoding::Gbk => {
+                Decided::guess(self.encoding, "The bytes are not UTF-8, but hold Chinese words of spectra")
+            }
         }
     }
 }

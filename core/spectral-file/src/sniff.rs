@@ -35,7 +35,7 @@ pub(super) const SAMPLE_BUDGET: usize = 1 << 20;
 const LEAST_LATER: usize = 512;
 
 /// All ways to split a line; where several fit equally, the first is taken.
-const CANDIDATES: [(Delimiter, DecimalMark); 9] = [
+const CANDIDATES: [(Delimiter, DecimalMark); 11] = [
     (Delimiter::Semicolon, DecimalMark::Point),
     (Delimiter::Semicolon, DecimalMark::Comma),
     (Delimiter::Tab, DecimalMark::Point),
@@ -43,6 +43,8 @@ const CANDIDATES: [(Delimiter, DecimalMark); 9] = [
     (Delimiter::CommaSpace, DecimalMark::Comma),
     (Delimiter::Comma, DecimalMark::Point),
     (Delimiter::Comma, DecimalMark::Comma),
+    (Delimiter::Bar, DecimalMark::Point),
+    (Delimiter::Bar, DecimalMark::Comma),
     (Delimiter::Spaces, DecimalMark::Point),
     (Delimiter::Spaces, DecimalMark::Comma),
 ];
@@ -101,8 +103,11 @@ impl Sniffer<'_> {
     }
 
     fn try_all(self, mixed: bool, budget: &mut usize, log: &Log<'_>) -> Result<Vec<Trial>, ReadError> {
+        let look = if self.section.line == 1 { SAMPLE_BYTES } else { LONGEST_HEADER_LATER };
+        let start = &self.section.text[..self.section.text.floor_char_boundary(look)];
+        let bars = start.contains('|');
         let wanted = |(delimiter, mark): &(Delimiter, DecimalMark)| {
-            self.options.delimiter.is_none_or(|chosen| chosen == *delimiter)
+            self.options.delimiter.map_or(bars || *delimiter != Delimiter::Bar, |chosen| chosen == *delimiter)
                 && self.options.decimal_mark.is_none_or(|chosen| chosen == *mark)
         };
         let dialects = CANDIDATES.iter().filter(|candidate| wanted(candidate));
@@ -114,8 +119,6 @@ impl Sniffer<'_> {
         let dialects = dialects.map(|&(delimiter, mark)| Dialect { delimiter, mark, thousands: chosen });
         let grouped = Dialect { delimiter: Delimiter::Comma, mark: DecimalMark::Point, thousands: true };
         let dialects = dialects.chain(quoted.then_some(grouped));
-        let look = if self.section.line == 1 { SAMPLE_BYTES } else { LONGEST_HEADER_LATER };
-        let start = &self.section.text[..self.section.text.floor_char_boundary(look)];
         let told = self.options.decimal_mark.is_none() && has_grouped(start);
         let others = CANDIDATES.iter().filter(|candidate| told && wanted(candidate) && candidate.0 != Delimiter::Comma);
         let others = others.filter(|candidate| candidate.0 != Delimiter::CommaSpace);
@@ -164,7 +167,7 @@ impl Sniffer<'_> {
                 }
                 (Delimiter::CommaSpace, DecimalMark::Comma) => trial.marks == 0 && self.options.delimiter.is_none(),
                 // Of two marks one must be seen to stand before fractions.
-                (Delimiter::Semicolon | Delimiter::Tab | Delimiter::Spaces, _) => {
+                (Delimiter::Semicolon | Delimiter::Tab | Delimiter::Bar | Delimiter::Spaces, _) => {
                     trial.dialect.thousands && self.options.decimal_mark.is_none() && trial.fractions == 0
                 }
                 _ => false,

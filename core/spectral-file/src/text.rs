@@ -1,7 +1,7 @@
 //! Bytes to text: limits, binary files, encodings, line ends.
 
 #[cfg(feature = "encodings")]
-use encoding_rs::{SHIFT_JIS, UTF_16BE, UTF_16LE, WINDOWS_1252};
+use encoding_rs::{GBK, SHIFT_JIS, UTF_16BE, UTF_16LE, WINDOWS_1252};
 use std::borrow::Cow;
 
 use crate::binary::binary;
@@ -48,9 +48,10 @@ fn decode_any(bytes: &[u8]) -> (Cow<'_, str>, Encoding) {
     let rest = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
     match std::str::from_utf8(rest) {
         Ok(text) => (Cow::Borrowed(text), Encoding::Utf8),
-        Err(_) => match shift_jis(rest) {
-            Some(text) => (text, Encoding::ShiftJis),
-            None => (WINDOWS_1252.decode_without_bom_handling(rest).0, Encoding::Windows1252),
+        Err(_) => match (shift_jis(rest), gbk(rest)) {
+            (Some(text), _) => (text, Encoding::ShiftJis),
+            (None, Some(text)) => (text, Encoding::Gbk),
+            (None, None) => (WINDOWS_1252.decode_without_bom_handling(rest).0, Encoding::Windows1252),
         },
     }
 }
@@ -79,6 +80,18 @@ fn shift_jis(bytes: &[u8]) -> Option<Cow<'_, str>> {
         return None;
     }
     SHIFT_JIS.decode_without_bom_handling_and_without_replacement(bytes)
+}
+
+/// Bytes that are sound GBK and hold one of its words for spectra or colors, which no two accented letters make.
+#[cfg(feature = "encodings")]
+fn gbk(bytes: &[u8]) -> Option<Cow<'_, str>> {
+    const WORDS: &str = "波长|波数|反射|透射|透过|吸收|吸光|强度|光谱|辐射|照度|响应|灵敏|光源|样品|样本|数据|测量|测试|名称|编号|日期|\
+        时间|平均|红|绿|蓝|黄|黑|灰|紫";
+    let is_lead = |byte: &u8| (0xA1..=0xFE).contains(byte);
+    // Most files in Windows-1252 have one such byte alone, as in µm or °C.
+    let paired = bytes.split(u8::is_ascii).all(|run| run.len() % 2 == 0 && run.iter().all(is_lead));
+    let text = paired.then(|| GBK.decode_without_bom_handling_and_without_replacement(bytes))??;
+    has_part(&text, WORDS).then_some(text)
 }
 
 /// Text of two bytes for each character, most of which are of the first 256, without a byte order mark.

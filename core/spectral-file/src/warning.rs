@@ -110,9 +110,12 @@ pub enum Warning {
     GroupedThousands(DecimalMark),
     #[error("There is nothing between 380 and 780 nm, the light that is seen")]
     Invisible,
-    /// Neighboring wavelengths far further apart than the others: more than 20 nm and ten times the median step.
-    #[error("{}nothing between {from_nm} and {to_nm} nm, far more than the other steps", of(*.lines, |[a, b]| format!("lines {a} and {b}: ")))]
+    /// Neighboring wavelengths far further apart than the others: more than 20 nm and ten times the median step. Of several, the
+    /// widest.
+    #[error("{}nothing between {from_nm} and {to_nm} nm, far more than the other steps{}", of(*.lines, |[a, b]| format!("lines {a} and {b}: ")), narrower(*.count))]
     Hole {
+        /// Number of such steps.
+        count: usize,
         from_nm: f64,
         to_nm: f64,
         /// The lines of both, where each wavelength has its own.
@@ -120,6 +123,14 @@ pub enum Warning {
     },
     #[error("{0}: no wavelength: left out")]
     NoWavelength(LineList),
+    #[error("{count} sample{} at {from_nm} to {to_nm} nm, beyond the wavelengths that are read (100 nm to 25 µm){}: left out", if *.count == 1 { "" } else { "s" }, if .lines.is_empty() { String::new() } else { format!(", {lines}") })]
+    OutOfRange {
+        count: usize,
+        from_nm: f64,
+        to_nm: f64,
+        /// Lines; empty where all wavelengths stand in one.
+        lines: LineList,
+    },
     #[error("line {0}: numbers above the table: left out")]
     NumbersAbove(usize),
     #[error("line {0}: text after the table: left out")]
@@ -134,6 +145,8 @@ pub enum Warning {
     MoreGroups { count: usize, second: String },
     #[error("Nothing names the unit of wave numbers: if they are wavelengths, choose nanometers")]
     MaybeWavelengths,
+    #[error("Nothing names the unit of the wavelengths, taken as ångströms: if they are nanometers, choose these")]
+    MaybeNanometers,
     #[error("{}{}", of(*.line, |line| format!("line {line}: ")), below_zero(*.count, .first, *.min))]
     BelowZero {
         count: usize,
@@ -190,6 +203,7 @@ impl Warning {
             | Self::RepeatedRows(lines)
             | Self::AveragedRows(lines)
             | Self::NoWavelength(lines)
+            | Self::OutOfRange { lines, .. }
             | Self::CommentedRows(lines)
             | Self::RepeatedHeader(lines)
             | Self::PlacedByAbscissa(lines)
@@ -246,6 +260,14 @@ fn of<T>(number: Option<T>, words: impl FnOnce(T) -> String) -> String {
 
 fn and_more(count: usize) -> String {
     if count == 1 { String::new() } else { format!(" and {} more", count - 1) }
+}
+
+fn narrower(count: usize) -> String {
+    match count {
+        1 => String::new(),
+        2 => ", as in another place".to_owned(),
+        _ => format!(", as in {} other places", count - 1),
+    }
 }
 
 fn other_groups(count: usize) -> String {

@@ -1,10 +1,10 @@
 //! Wavelengths: their unit, their range, their order, and repeats.
 
 use crate::decimal::extent;
-use crate::decision::{Decided, Dropped, WavelengthUnit};
+use crate::decision::{Certainty, Decided, Dropped, WavelengthUnit};
 use crate::error::ReadError;
 use crate::grid::Grid;
-use crate::header_terms::XUnit;
+use crate::header_terms::{self, XUnit};
 use crate::options::ReadOptions;
 use crate::report::Steps;
 use crate::units::RANGE_NM;
@@ -38,9 +38,12 @@ fn unit_from_range(grid: &Grid) -> Result<Decided<WavelengthUnit>, ReadError> {
     let (min, max) = extent(grid.wavelengths.iter().copied());
     let unit = if min >= 0.1 && max <= 25.0 && in_order {
         WavelengthUnit::Micrometer
+    } else if (2000.0..=4000.0).contains(&min) && (7000.0..=12_000.0).contains(&max) && is_named(grid) {
+        // The word excludes wave numbers.
+        WavelengthUnit::Angstrom
     } else if (2000.0..=20_000.0).contains(&min) && (3000.0..=20_000.0).contains(&max) {
         return Err(ReadError::AmbiguousUnit { line: grid.line(0), min, max });
-    } else if is_bare(grid) && min >= 400.0 && max > 3300.0 && min < 2000.0 && max <= 10_000.0 {
+    } else if is_bare(grid) && min >= 390.0 && max > 3300.0 && min < 2000.0 && max <= 10_000.0 {
         // No spectrometer for light reaches so far from there, but those for the infrared all do.
         WavelengthUnit::Wavenumber
     } else if min >= 10_000.0 && max > 20_000.0 && max <= 50_000.0 {
@@ -51,19 +54,49 @@ fn unit_from_range(grid: &Grid) -> Result<Decided<WavelengthUnit>, ReadError> {
     Ok(Decided::guess(unit, format!("Wavelengths run from {min} to {max}")))
 }
 
+/// Returns whether the column of the wavelengths is named so, without a unit.
+fn is_named(grid: &Grid) -> bool {
+    let column = grid.wavelength_column.unwrap_or(1).saturating_sub(1);
+    grid.header.name(column).is_some_and(header_terms::begins_with_wavelengths)
+}
+
 fn is_bare(grid: &Grid) -> bool {
     let named = !grid.header.names.is_empty() || !grid.header.comments.is_empty() || grid.header.mentioned.is_some();
     grid.curves.len() == 1 && !named
 }
 
-pub(super) fn to_nanometers(grid: &mut Grid, unit: WavelengthUnit) -> Result<(), ReadError> {
-    for i in 0..grid.wavelengths.len() {
-        let wavelength_nm = unit.nanometers(grid.wavelengths[i]);
-        if !RANGE_NM.contains(&wavelength_nm) {
-            return Err(ReadError::WavelengthOutOfRange { line: grid.line(i), wavelength_nm });
-        }
-        grid.wavelengths[i] = wavelength_nm;
+/// Converts wavelengths to nanometers. Those beyond the range at one end of the table, where they go on in its order, are left out if
+/// the unit is no guess and most are within.
+pub(super) fn to_nanometers(
+    grid: &mut Grid,
+    unit: &Decided<WavelengthUnit>,
+    log: &mut Log<'_>,
+) -> Result<(), ReadError> {
+    grid.wavelengths.iter_mut().for_each(|wavelength| *wavelength = unit.value.nanometers(*wavelength));
+    let nm = &grid.wavelengths;
+    let out = |wavelength: &f64| !RANGE_NM.contains(wavelength);
+    let Some(first) = nm.iter().position(out) else { return Ok(()) };
+    let error = ReadError::WavelengthOutOfRange { line: grid.line(first), wavelength_nm: nm[first] };
+    let marked: Vec<bool> = nm.iter().map(out).collect();
+    let count = marked.iter().filter(|out| **out).count();
+    let within = marked.iter().position(|out| !out).unwrap_or(0);
+    let within = within..within + nm.len() - count;
+    let ordered = nm.windows(2).all(|pair| pair[0] < pair[1]) || nm.windows(2).all(|pair| pair[0] > pair[1]);
+    let sound = ordered && within.len() > 1 && within.len() >= count && nm.iter().all(|nm| *nm > 0.0);
+    let guessed = (unit.value, unit.certainty) == (WavelengthUnit::Nanometer, Certainty::Guess);
+    if guessed || !sound || marked[within].contains(&true) {
+        return Err(error);
     }
+    let (from_nm, to_nm) = extent(nm.iter().copied().filter(out));
+    let mut lines = LineList::default();
+    if grid.lines.len() == marked.len() {
+        for at in (0..marked.len()).filter(|at| marked[*at]) {
+            lines.add(grid.lines[at]);
+            grid.drop_row(grid.lines[at], Dropped::OutOfRange);
+        }
+    }
+    grid.remove(&marked);
+    log.push(Warning::OutOfRange { count, from_nm, to_nm, lines });
     Ok(())
 }
 
@@ -102,12 +135,14 @@ pub(super) fn warn(grid: &Grid, step: Steps, log: &mut Log<'_>) {
     if grid.own_wavelengths && !own {
         return;
     }
-    for (at, pair) in wavelengths.windows(2).enumerate() {
-        if pair[1] - pair[0] > LEAST_NM.max(TIMES * step.median) {
-            let mut lines = [grid.line(at), grid.line(at + 1)];
-            lines.sort_unstable();
-            log.push(Warning::Hole { from_nm: pair[0], to_nm: pair[1], lines: own.then_some(lines) });
-        }
+    let width = |at: usize| wavelengths[at + 1] - wavelengths[at];
+    let holes = (0..wavelengths.len() - 1).filter(|at| width(*at) > LEAST_NM.max(TIMES * step.median));
+    // The first of the widest.
+    if let Some(at) = holes.clone().rev().max_by(|a, b| width(*a).total_cmp(&width(*b))) {
+        let mut lines = [grid.line(at), grid.line(at + 1)];
+        lines.sort_unstable();
+        let (from_nm, to_nm, count) = (wavelengths[at], wavelengths[at + 1], holes.count());
+        log.push(Warning::Hole { count, from_nm, to_nm, lines: own.then_some(lines) });
     }
 }
 

@@ -7,7 +7,7 @@ use crate::dialect_trial::{Across, Layout};
 use crate::error::{MAX_PARTS, ReadError, check_curves, check_samples};
 use crate::grid::{Grid, RawCurve};
 use crate::header::{self, Header};
-use crate::text::{Lines, Section, comment, excerpt, listed};
+use crate::text::{Lines, Section, comment, excerpt, is_one, listed};
 use crate::warning::{LineList, Warning};
 use crate::watch::Log;
 use crate::{header_terms, no_curve, unit_text};
@@ -40,6 +40,7 @@ pub(super) fn read(section: Section<'_>, layout: &Layout, log: &mut Log<'_>) -> 
     }
     rows.warn(&heads, log)?;
     header.mentioned = rows.mentioned.or(header.mentioned);
+    rows.tell_specular_apart();
     let count = rows.curves.len();
     for curve in &mut rows.curves {
         group.suffix.clone_into(&mut curve.label);
@@ -150,6 +151,8 @@ struct Rows<'a> {
     kind_column: Option<usize>,
     /// Rows that hold no spectrum but another scale, in words.
     scales: Vec<String>,
+    /// Cell of each curve that says how specular reflection was treated, if there is one.
+    specular: Vec<Option<&'a str>>,
 }
 
 impl<'a> Rows<'a> {
@@ -159,6 +162,7 @@ impl<'a> Rows<'a> {
             labels: Vec::new(),
             kind_column: kind_column(leading),
             scales: Vec::new(),
+            specular: Vec::new(),
             dialect,
             across,
             name_column: name_column(leading),
@@ -193,7 +197,21 @@ impl<'a> Rows<'a> {
         Ok(())
     }
 
-    fn take(&mut self, number: usize, line: &str) -> Result<(), ReadError> {
+    /// Completes the names of curves by SCI or SCE, where both are in the table.
+    fn tell_specular_apart(&mut self) {
+        let mut seen = self.specular.iter().flatten();
+        let Some(first) = seen.next().filter(|first| seen.any(|other| !other.eq_ignore_ascii_case(first))) else {
+            return;
+        };
+        debug_assert!(!first.is_empty());
+        for (curve, cell) in self.curves.iter_mut().zip(&self.specular) {
+            if let Some(cell) = cell.filter(|_| !header_terms::says_specular(&curve.name)) {
+                curve.name = format!("{} ({cell})", curve.name);
+            }
+        }
+    }
+
+    fn take(&mut self, number: usize, line: &'a str) -> Result<(), ReadError> {
         match self.parse(number, line) {
             Err((error, is_row)) => {
                 self.broken.get_or_insert((number, error, is_row));
@@ -215,6 +233,7 @@ impl<'a> Rows<'a> {
                     None => leading().map(|cell| Label::of(cell, number)).find(Label::is_said),
                 };
                 self.mentioned = self.mentioned.or(role);
+                self.specular.push(leading().find(|cell| is_one(&cell.to_ascii_lowercase(), "sci|sce|spin|spex")));
                 self.labels.push(label);
                 if !self.suspects.is_empty() {
                     self.look_at_suspects(line);

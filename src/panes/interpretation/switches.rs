@@ -194,6 +194,7 @@ fn header(shown: &ImportSelection) -> Vec<String> {
         Delimiter::CommaSpace => line.split(", ").take(COLUMNS).collect(),
         Delimiter::Semicolon => line.split(';').take(COLUMNS).collect(),
         Delimiter::Tab => line.split('\t').take(COLUMNS).collect(),
+        Delimiter::Bar => line.split('|').take(COLUMNS).collect(),
         // Names may hold spaces too.
         Delimiter::Spaces | Delimiter::Elements => Vec::new(),
     };

@@ -182,7 +182,7 @@ fn columns_of_text_are_left_out() {
 fn what_is_nearly_a_row_is_cited() {
     for (text, line, why) in [
         ("hello\nnm;R\n400: 0.1\n410: 0.2\n", 3, NearMiss::Between(':')),
-        ("400|0.1\n410|0.2\n420|0.3\n", 1, NearMiss::Between('|')),
+        ("400/0.1\n410/0.2\n420/0.3\n", 1, NearMiss::Between('/')),
         ("nm R\n400 abc\n410 def\n420 x\n", 2, NearMiss::TextAfter),
         ("nm;R\n400;\"\n", 2, NearMiss::TextAfter),
     ] {

@@ -59,7 +59,9 @@ fn sound() -> Vec<Vec<u8>> {
 #[test]
 fn every_format_is_recognized_and_has_words() {
     let table = "400,1\n410,2\n420,3\n";
-    let readers: Vec<Reader> = FAMILIES.iter().chain(&[table]).map(|text| ok(text).reading.reader.value).collect();
+    let tidy = "sample,nm,R\nleaf,400,1\nleaf,410,2\nleaf,420,3\nbark,400,4\nbark,410,5\nbark,420,6\n";
+    let readers: Vec<Reader> =
+        FAMILIES.iter().chain(&[table, tidy]).map(|text| ok(text).reading.reader.value).collect();
     for reader in Reader::ALL {
         let (key, label) = (reader.key, reader.label);
         assert!(readers.contains(&reader), "no file is {reader}");

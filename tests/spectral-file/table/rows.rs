@@ -78,8 +78,11 @@ fn one_wavelength_with_several_values_has_their_mean() {
 fn rows_that_begin_anew_are_another_spectrum() {
     let below = "nm,A\n400,10\n410,20\n420,30\n400,20\n410,30\n420,40\n";
     let named = "sample,nm,R\nleaf,400,0.1\nleaf,410,0.2\nleaf,420,0.3\nbark,400,0.2\nbark,410,0.3\nbark,420,0.4\n";
+    // Rows of named samples are read as curves of one table, and part by part where a part is chosen.
+    assert_eq!((ok(named).curves.len(), ok(named).reading.parts.len()), (2, 1));
     for text in [below, named] {
-        let table = ok(text);
+        let options = ReadOptions { part: Some(1), ..ReadOptions::default() };
+        let table = read(text.as_bytes(), &options).unwrap();
         assert_eq!((table.reading.parts.len(), table.curves[0].values.len()), (2, 3), "{text}");
         let second = read(text.as_bytes(), &ReadOptions { part: Some(2), ..ReadOptions::default() }).unwrap();
         assert_eq!(second.curves[0].wavelengths_nm, [400.0, 410.0, 420.0]);
@@ -101,7 +104,7 @@ fn a_sign_of_percent_behind_a_name_is_its_unit() {
 fn holes_and_what_nobody_sees_are_told() {
     let rows = |nm: std::ops::Range<usize>| nm.step_by(2).fold(String::new(), |text, nm| format!("{text}{nm},0.5\n"));
     let holed = ok(&format!("nm,A\n{}{}", rows(400..440), rows(500..540)));
-    assert_eq!(holed.warnings, [Warning::Hole { from_nm: 438.0, to_nm: 500.0, lines: Some([21, 22]) }]);
+    assert_eq!(holed.warnings, [Warning::Hole { count: 1, from_nm: 438.0, to_nm: 500.0, lines: Some([21, 22]) }]);
     assert_eq!(ok(&format!("nm,A\n{}", rows(800..840))).warnings, [Warning::Invisible]);
     assert_eq!(ok(&format!("nm,A\n{}", rows(780..840))).warnings, []);
 }

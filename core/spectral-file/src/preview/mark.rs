@@ -59,6 +59,8 @@ pub enum LeftOut {
     Averaged,
     #[error("no wavelength")]
     NoWavelength,
+    #[error("beyond the wavelengths that are read")]
+    OutOfRange,
     /// Text below the table, another table, or a curve of fewer than two values.
     #[error("no row of this table")]
     Line,

@@ -142,6 +142,7 @@ pub(super) fn value(written: f64, curve: usize, nm: f64, file: &SpectralFile) ->
 fn left_out(why: Dropped) -> LeftOut {
     match why {
         Dropped::NoWavelength => LeftOut::NoWavelength,
+        Dropped::OutOfRange => LeftOut::OutOfRange,
         Dropped::Repeated => LeftOut::Repeated,
         Dropped::Averaged => LeftOut::Averaged,
     }
