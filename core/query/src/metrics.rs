@@ -14,8 +14,8 @@ use super::ask::{Ask, Query};
 
 pub use differences::{PatchDifferences, Statistic, WORST};
 pub use evidence::{LocusDeviationQuery, MetamerismIndexQuery, ReferenceLocusQuery, SpaceQualityQuery};
-pub use table::{Better, CameraMetric, Difference, MetricGroup, rank_ranges};
 pub use stimulus::LightUncertainty;
+pub use table::{Better, CameraMetric, Difference, MetricGroup, rank_ranges};
 pub use uncertainty::{MetricUncertaintiesQuery, OwnUncertainties};
 pub use value::{
     CameraMetricsQuery, Contributions, IndexConditions, MetricUncertainty, MetricValue, UncertaintySource, WhyNot,

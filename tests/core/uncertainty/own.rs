@@ -1,7 +1,7 @@
 //! Uncertainties that files state, against plain sampling of whole tables.
 
-use chromascope_core::camera::quality::Electrons;
 use chromascope_core::camera::ChannelRatio;
+use chromascope_core::camera::quality::Electrons;
 use chromascope_core::correction::Correction;
 use chromascope_core::patch_set::PatchSet;
 use chromascope_core::query::metrics::{LightUncertainty, MetricGroup, OwnUncertainties, UncertaintySource};
@@ -165,11 +165,17 @@ fn uncertainties_of_curves_scale_and_diagonal_covariances_are_uncorrelated() {
     let diagonal = by_camera(&asked, stated(small(1.0)).with_covariance(&covariance).unwrap());
     for (at, metric) in CameraMetric::ALL.iter().enumerate() {
         assert_eq!(zero[at].standard, 0.0, "{}", metric.id);
-        assert_near(metric.id, two[at].contributions.curves / one[at].contributions.curves, 2.0, 0.02);
+        // Two patches that are all but equal change places in a percentile, which then is not linear: its mean shifts.
+        let is_linear = one[at].bias.abs() < 0.01 * one[at].contributions.curves;
+        assert!(is_linear || metric.id == "uv-prime-p95", "{}", metric.id);
+        if is_linear {
+            assert_near(metric.id, two[at].contributions.curves / one[at].contributions.curves, 2.0, 1e-4);
+        }
         let [diagonal, larger] = [diagonal[at], one[at]].map(|one| one.contributions.curves);
         let is_uncorrelated = one[at].source == UncertaintySource::Own(Correlation::None);
-        assert!(diagonal <= larger * (1.0 + 1e-9), "{}: {diagonal} {larger}", metric.id);
-        assert!(!is_uncorrelated || diagonal >= larger * (1.0 - 1e-3), "{}: {diagonal} {larger}", metric.id);
+        // What stimuli beyond the leading ones add is drawn at random.
+        assert!(diagonal <= larger * 1.005, "{}: {diagonal} {larger}", metric.id);
+        assert!(!is_uncorrelated || diagonal >= larger * 0.995, "{}: {diagonal} {larger}", metric.id);
     }
 }
 
@@ -192,7 +198,8 @@ fn impossible_covariances_are_refused() {
 fn uncertainties_per_photon_are_converted_with_their_curves() {
     let table = table(D70);
     let per_photon = [0, 1, 2].map(|c: usize| table[c].iter().zip(nm()).map(|(v, nm)| v * 550.0 / nm).collect());
-    let curves = per_photon.each_ref().map(|values: &Vec<f64>| SpectralDistribution::new(nm(), values.clone()).unwrap());
+    let curves =
+        per_photon.each_ref().map(|values: &Vec<f64>| SpectralDistribution::new(nm(), values.clone()).unwrap());
     let photons = Sensor::new(Primaries::Camera, curves, Response::PerPhoton).unwrap();
     let u = standard(&table);
     let of_photons = u.iter().map(|u| u.iter().zip(nm()).map(|(u, nm)| u * 550.0 / nm).collect()).collect();
@@ -217,7 +224,7 @@ fn light_and_patches_have_parts_of_their_own() {
     let asked = under(on_grid(&measured));
     let chart = chart();
     let u: Vec<f64> = measured.values().iter().map(|v| 0.02 * v).collect();
-    let light = LightUncertainty { measured: measured.clone(), stated: stated(vec![u.clone()]) };
+    let light = LightUncertainty { measured: measured.clone(), stated: stated(vec![u.clone()]), transmittance: None };
     let of_patches: Vec<Vec<f64>> = chart.patches().iter().map(|p| vec![0.004; p.measured.values().len()]).collect();
     let own = OwnUncertainties {
         camera: None,
@@ -240,11 +247,16 @@ fn light_and_patches_have_parts_of_their_own() {
     };
     let [none, full] = [lights(false), lights(true)];
     let mut normal = Normal(0x9A7C);
-    let mut charts = |is_common: bool| {
+    let mut charts = |alike: &str| {
         let draw = |_| {
             let common = normal.next();
             let patches = chart.patches().iter().map(|patch| {
-                let mut z = || if is_common { common } else { normal.next() };
+                let own = normal.next();
+                let mut z = || match alike {
+                    "all" => common,
+                    "each" => own,
+                    _ => normal.next(),
+                };
                 (patch.name.clone(), moved(&patch.measured, &mut z, &|_| 0.004))
             });
             let patches = Shared::new(PatchSet::new(patches.collect::<Vec<_>>()));
@@ -252,7 +264,7 @@ fn light_and_patches_have_parts_of_their_own() {
         };
         deviations(&(0..200).map(draw).collect::<Vec<_>>())
     };
-    let [apart, together] = [charts(false), charts(true)];
+    let [none_alike, each, all] = ["none", "each", "all"].map(&mut charts);
     for (at, metric) in CameraMetric::ALL.iter().enumerate() {
         let parts = found[at].contributions;
         let is_by_light = !matches!(metric.group, MetricGroup::Sensitivities);
@@ -263,8 +275,8 @@ fn light_and_patches_have_parts_of_their_own() {
             assert_eq!(parts.light, 0.0, "{}", metric.id);
         }
         if metric.group == MetricGroup::Differences {
-            let expected = apart[at].max(together[at]);
-            assert!(parts.patches >= 0.8 * expected, "{}: {} {expected}", metric.id, parts.patches);
+            let expected = none_alike[at].max(each[at]).max(all[at]);
+            assert_near(&format!("{} patches", metric.id), parts.patches / expected, 1.0, 0.2);
         } else {
             assert_eq!(parts.patches, 0.0, "{}", metric.id);
         }

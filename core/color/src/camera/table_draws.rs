@@ -6,9 +6,7 @@ use crate::math::dot::dot;
 use crate::math::random::SplitMix64;
 use crate::spectral::grid::COUNT;
 use crate::spectral::stated_uncertainty::Errors;
-use crate::spectral::{
-    GridSpectrum, Primaries, Quantity, Response, Sensor, SpectralDistribution, StatedUncertainty,
-};
+use crate::spectral::{GridSpectrum, Primaries, Quantity, Response, Sensor, SpectralDistribution, StatedUncertainty};
 
 /// Spectra that responses are drawn with their exact covariance to, at most.
 pub const MOST_SPECTRA: usize = 33;
@@ -57,54 +55,63 @@ impl<'a> TableDraws<'a> {
         self.stated.errors()
     }
 
-    /// Cameras whose tables have these errors: in pairs of opposite sign, the same at each call; none for a table that makes no sensor.
-    ///
-    /// ```text
-    /// A z,   z = ±(Vᵀ q + w − Vᵀ V w),   V an orthonormal basis of Aᵀ times the kernels, q of exactly unit covariance, w random
-    /// ```
-    /// What depends linearly on responses to the spectra thus has exactly its linearized uncertainty.
+    /// Cameras whose tables have these errors, see [`shifts`]; none for a table that makes no sensor. What depends linearly on responses to
+    /// the spectra has exactly its linearized uncertainty.
     pub fn cameras(&self, errors: Errors<'_>) -> impl Iterator<Item = Option<Sensor>> {
-        let dimensions = errors.dimensions();
-        let basis = (dimensions > 3 * MOST_SPECTRA).then(|| self.basis(errors));
-        let count = basis.as_ref().map_or(dimensions, Vec::len);
-        let mut random = SplitMix64::new(1);
-        cubature(count.max(FEWEST)).into_iter().flat_map(move |point| {
-            let numbers = basis.as_ref().map(|basis| {
-                let free: Vec<f64> = (0..dimensions).map(|_| nearly_normal(&mut random)).collect();
-                let mut numbers = remove(&free, basis);
-                for (axis, by) in basis.iter().zip(&point) {
-                    numbers.iter_mut().zip(axis).for_each(|(number, part)| *number += by * part);
-                }
-                numbers
-            });
-            let numbers = numbers.unwrap_or(point);
-            let shift = errors.of(&numbers);
-            [1.0, -1.0].map(|sign| self.shifted(&shift, sign))
-        })
+        shifts(errors, &self.kernels, 0).map(|shift| self.shifted(&shift))
     }
 
-    fn basis(&self, errors: Errors<'_>) -> Vec<Vec<f64>> {
-        let mut found: Vec<Vec<f64>> = Vec::new();
-        for kernel in self.kernels.iter().map(|kernel| errors.transposed(kernel)) {
-            let rest = remove(&remove(&kernel, &found), &found);
-            let [length, left] = [&kernel, &rest].map(|of| dot(of, of).sqrt());
-            if left > DEPENDENT * length {
-                found.push(rest.iter().map(|v| v / left).collect());
-            }
-        }
-        found
-    }
-
-    fn shifted(&self, shift: &[f64], sign: f64) -> Option<Sensor> {
+    fn shifted(&self, shift: &[f64]) -> Option<Sensor> {
         let mut shift = shift.iter();
         let mut curve = |of: &SpectralDistribution| {
-            let values = of.values().iter().zip(&mut shift).map(|(value, by)| value + sign * by).collect();
+            let values = of.values().iter().zip(&mut shift).map(|(value, by)| value + by).collect();
             SpectralDistribution::new(of.wavelengths_nm().to_vec(), values).ok()
         };
         let [red, green, blue] = self.sensor.curves();
         let curves = [curve(red)?, curve(green)?, curve(blue)?];
         Sensor::new(Primaries::Camera, curves, Response::PerEnergy).ok()
     }
+}
+
+/// Errors of samples in pairs of opposite sign, at least `pairs` of them where there are many independent ones, the same at each call.
+///
+/// ```text
+/// A z,   z = ±(V q + w − V Vᵀ w),   V an orthonormal basis of Aᵀ kernels, q of exactly unit covariance, w random
+/// ```
+/// What depends linearly on the errors by the kernels thus has exactly its linearized uncertainty; of few errors all does.
+pub fn shifts<'a>(errors: Errors<'a>, kernels: &[Vec<f64>], pairs: usize) -> impl Iterator<Item = Vec<f64>> + use<'a> {
+    let dimensions = errors.dimensions();
+    let basis = (dimensions > 3 * MOST_SPECTRA).then(|| basis(errors, kernels));
+    let exact = basis.as_ref().map_or(dimensions.max(FEWEST), Vec::len);
+    let count = if basis.is_some() { exact.max(pairs) } else { exact };
+    let mut random = SplitMix64::new(1);
+    cubature(exact).into_iter().chain(std::iter::repeat(Vec::new())).take(count).flat_map(move |point| {
+        let numbers = basis.as_ref().map(|basis| {
+            let free: Vec<f64> = (0..dimensions).map(|_| nearly_normal(&mut random)).collect();
+            let mut numbers = remove(&free, basis);
+            for (at, axis) in basis.iter().enumerate() {
+                // Beyond the exact points errors are random in all directions.
+                let along = point.get(at).copied().unwrap_or_else(|| dot(&free, axis));
+                numbers.iter_mut().zip(axis).for_each(|(number, part)| *number += along * part);
+            }
+            numbers
+        });
+        let shift = errors.of(&numbers.unwrap_or(point));
+        let opposite = shift.iter().map(|by| -by).collect();
+        [shift, opposite]
+    })
+}
+
+fn basis(errors: Errors<'_>, kernels: &[Vec<f64>]) -> Vec<Vec<f64>> {
+    let mut found: Vec<Vec<f64>> = Vec::new();
+    for kernel in kernels.iter().map(|kernel| errors.transposed(kernel)) {
+        let rest = remove(&remove(&kernel, &found), &found);
+        let [length, left] = [&kernel, &rest].map(|of| dot(of, of).sqrt());
+        if left > DEPENDENT * length {
+            found.push(rest.iter().map(|v| v / left).collect());
+        }
+    }
+    found
 }
 
 /// Change of a curve on the grid by 1 at one sample; none beyond the grid.

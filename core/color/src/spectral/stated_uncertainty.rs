@@ -39,7 +39,9 @@ impl Correlation {
 pub enum StatedUncertaintyError {
     #[error("the covariance has {found} numbers for {samples} samples")]
     Size { samples: usize, found: usize },
-    #[error("the covariance is not positive semidefinite: some errors would be correlated beyond ±1; correct it, or state more digits")]
+    #[error(
+        "the covariance is not positive semidefinite: some errors would be correlated beyond ±1; correct it, or state more digits"
+    )]
     Indefinite,
     #[error("more than {MOST_SAMPLES} samples with an uncertainty; resample the curves to fewer")]
     Samples,
@@ -115,12 +117,6 @@ impl StatedUncertainty {
         }
     }
 
-    /// Standard uncertainty of what has these derivatives by the samples, curve after curve: under the correlation that gives most.
-    pub fn propagated(&self, derivatives: &[f64]) -> f64 {
-        let square = |errors: Errors<'_>| errors.transposed(derivatives).iter().map(|v| v * v).sum::<f64>();
-        self.errors().map(square).fold(0.0, f64::max).sqrt()
-    }
-
     /// Errors of the samples under each correlation that is possible: the stated one; or none, full among all, and full within each curve.
     pub fn errors(&self) -> impl Iterator<Item = Errors<'_>> {
         let kinds: &[_] = match &self.root {
@@ -191,7 +187,13 @@ fn root(covariance: &[f64], count: usize) -> Option<Vec<Vec<f64>>> {
     let correlation = |i: usize, j: usize| match (covariance[i * count + j], scale[i] * scale[j]) {
         (value, product) if product > 0.0 => value / product,
         // A sample without variance has no covariance either.
-        (value, _) => if value == 0.0 { 0.0 } else { f64::INFINITY },
+        (value, _) => {
+            if value == 0.0 {
+                0.0
+            } else {
+                f64::INFINITY
+            }
+        }
     };
     let mut rest: Vec<Vec<f64>> = (0..count).map(|i| (0..count).map(|j| correlation(i, j)).collect()).collect();
     if !rest.iter().flatten().all(|value| value.abs() <= 1.0 + IMPOSSIBLE) {

@@ -1,7 +1,7 @@
 //! Uncertainty of metrics: the spread of sensitivities between laboratories, propagated through the camera's own curves.
 
 use super::perturbed::{LeadingStimuliQuery, Perturbed, StimuliQuery};
-use super::stimulus::{LightUncertainty, light_parts, patch_parts};
+use super::stimulus::{LightDraws, LightUncertainty, PatchDraws};
 use super::table::{CameraMetric, MetricGroup};
 use super::value::{CameraMetricsQuery, Contributions, MetricUncertainty, UncertaintySource, WhyNot};
 use crate::ask::{Ask, Query, Shared};
@@ -13,7 +13,9 @@ use chromascope_color::camera::{ChannelRatio, CurveSpread};
 use chromascope_color::light::RadiationConstants;
 use chromascope_color::light::planckian::black_body;
 use chromascope_color::spectral::grid::COUNT;
-use chromascope_color::spectral::{Evidence, GridSpectrum, Primaries, Response, Sensor, StatedUncertainty};
+use chromascope_color::spectral::{
+    Correlation, Evidence, GridSpectrum, Primaries, Response, Sensor, StatedUncertainty,
+};
 
 /// Student's t for 95 % and the 14 degrees of freedom of the spread.
 const T_95: f64 = 2.144_787;
@@ -56,7 +58,7 @@ const fn relative(ratio: ChannelRatio) -> f64 {
 /// reweighted least squares with L\*a\*b\* linearized at the unperturbed fit; all other fits are made anew.
 ///
 /// A camera whose own file states uncertainties is drawn from these in place of the spread, at the wavelengths of its table: see
-/// [`TableDraws`] and [`Correlation`](chromascope_color::spectral::Correlation).
+/// [`TableDraws`] and [`Correlation`].
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct MetricUncertaintiesQuery {
     /// Camera and conditions.
@@ -117,7 +119,14 @@ impl Query for MetricUncertaintiesQuery {
             TableDraws::new(sensor, stated, &spectra)
         });
         let found = match &own_draws {
-            Some(tables) => own_spreads(tables, &perturbed, &nominal.values, ask),
+            Some(tables) => {
+                let values = |camera: Option<Sensor>| match camera {
+                    Some(camera) => perturbed.values_through(&camera),
+                    None => vec![Err(WhyNot::NoChannels); nominal.values.len()],
+                };
+                let all = tables.errors().map(|errors| (errors.correlation, tables.cameras(errors).map(values)));
+                largest_spreads(all, &nominal.values, ask)
+            }
             None => {
                 let draws = ask.ask(&DrawsQuery(self.spread.clone()));
                 let values = draws.iter().map(|draw| perturbed.values(&clipped(draw, &own)));
@@ -129,8 +138,14 @@ impl Query for MetricUncertaintiesQuery {
         let response = self.response_parts(&nominal.values, ask);
         let is_own = own_draws.is_some();
         let ratio = if is_own { vec![0.0; nominal.values.len()] } else { perturbed.ratio_parts(relative(self.ratio)) };
-        let light = light_parts(of, self.own.light.as_deref(), &nominal.values, ask);
-        let patches = patch_parts(of, self.own.patches.as_deref(), ask);
+        let light = self.own.light.as_ref().and_then(|stated| LightDraws::new(of, stated, ask));
+        let light = light.and_then(|draws| largest_spreads(draws.values(), &nominal.values, ask));
+        let patches = self.own.patches.as_ref().and_then(|stated| PatchDraws::new(of, stated, ask));
+        let patches = patches.and_then(|draws| largest_spreads(draws.values(), &nominal.values, ask));
+        if ask.stop().is_set() {
+            return nothing;
+        }
+        let part = |of: &Option<Vec<Found>>, at: usize| of.as_ref().and_then(|of| of[at]).map_or(0.0, |((u, _), _)| u);
         let [first, last] = sensor.support_nm();
         let is_unlike = if is_own { first > 400.0 || last < 700.0 } else { !self.spread.is_of_kind(&own) };
         let outside = if is_own { [0.0; 4] } else { outside(of) };
@@ -145,8 +160,8 @@ impl Query for MetricUncertaintiesQuery {
                 curves,
                 response: response[at],
                 channel_ratio: ratio[at],
-                light: light[at],
-                patches: patches[at],
+                light: part(&light, at),
+                patches: part(&patches, at),
             };
             let standard = contributions.combined();
             let group = CameraMetric::ALL[at].group;
@@ -179,24 +194,18 @@ fn spreads(
 /// Spread and bias of a metric with their origin.
 type Found = Option<((f64, f64), UncertaintySource)>;
 
-/// The same over tables drawn from the camera's own uncertainty: of each metric under the correlation that gives most.
-fn own_spreads(
-    tables: &TableDraws<'_>,
-    perturbed: &Perturbed<'_>,
+/// The same for draws under several correlations: of each metric under the one that gives most.
+fn largest_spreads(
+    all: impl Iterator<Item = (Correlation, impl Iterator<Item = Vec<Result<f64, WhyNot>>>)>,
     nominal: &[Result<f64, WhyNot>],
     ask: &impl Ask,
 ) -> Option<Vec<Found>> {
     let mut most: Vec<Found> = vec![None; nominal.len()];
-    for errors in tables.errors() {
-        let source = UncertaintySource::Own(errors.correlation);
-        let values = |camera: Option<Sensor>| match camera {
-            Some(camera) => perturbed.values_through(&camera),
-            None => vec![Err(WhyNot::NoChannels); nominal.len()],
-        };
-        let found = spreads(tables.cameras(errors).map(values), nominal, ask)?;
+    for (correlation, draws) in all {
+        let found = spreads(draws, nominal, ask)?;
         for (most, found) in most.iter_mut().zip(found) {
             let is_more = |found: &(f64, f64)| most.is_none_or(|((spread, _), _)| found.0 > spread);
-            *most = found.filter(is_more).map(|found| (found, source)).or(*most);
+            *most = found.filter(is_more).map(|found| (found, UncertaintySource::Own(correlation))).or(*most);
         }
     }
     Some(most)
