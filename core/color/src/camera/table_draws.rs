@@ -29,10 +29,7 @@ impl<'a> TableDraws<'a> {
     /// uncertainty is not one of the camera's three curves.
     pub fn new(sensor: &'a Sensor, stated: &StatedUncertainty, spectra: &[Vec<f64>]) -> Option<Self> {
         let curves = sensor.curves();
-        stated.is_of(curves.iter().map(|curve| curve.values().len())).then_some(())?;
-        let is_per_photon = sensor.response() == Response::PerPhoton;
-        let factor = |c: usize, j: usize| if is_per_photon { curves[c].wavelengths_nm()[j] / 550.0 } else { 1.0 };
-        let stated = stated.scaled(factor);
+        let stated = stated.per_energy(sensor)?;
         let spectra = &spectra[..spectra.len().min(MOST_SPECTRA)];
         let lengths = curves.each_ref().map(|curve| curve.values().len());
         let mut kernels = Vec::new();

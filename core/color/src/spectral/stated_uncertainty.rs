@@ -1,5 +1,6 @@
 //! Uncertainty that a file states for the samples of its curves, and its propagation (JCGM 100:2008, 5.1 and 5.2).
 
+use super::sensor::{Response, Sensor, per_energy};
 use crate::math::dot::dot;
 use crate::units::{bits, hash_by};
 
@@ -115,6 +116,15 @@ impl StatedUncertainty {
             root: self.root.as_ref().map(|root| root.iter().map(column).collect()),
             coverage: self.coverage,
         }
+    }
+
+    /// Uncertainty of a sensor's curves per unit energy, of one as the sensor's file states it; none of other curves.
+    pub fn per_energy(&self, sensor: &Sensor) -> Option<Self> {
+        let curves = sensor.curves();
+        self.is_of(curves.iter().map(|curve| curve.values().len())).then_some(())?;
+        let is_per_photon = sensor.response() == Response::PerPhoton;
+        let factor = |c: usize, j: usize| if is_per_photon { per_energy(curves[c].wavelengths_nm()[j], 1.0) } else { 1.0 };
+        Some(self.scaled(factor))
     }
 
     /// Errors of the samples under each correlation that is possible: the stated one; or none, full among all, and full within each curve.

@@ -3,7 +3,8 @@
 use chromascope_core::query::Ask as _;
 use chromascope_core::query::metrics::{Better, Contributions, OwnUncertainties, UncertaintySource};
 use chromascope_core::query::{CameraMetric, MetricUncertainty, MetricValue};
-use chromascope_core::spectral::Correlation;
+use chromascope_core::query::Shared;
+use chromascope_core::spectral::{Correlation, Sensor, StatedUncertainty};
 use chromascope_figure::{Cell, Column, Table};
 
 use super::{Result, Scene};
@@ -169,9 +170,20 @@ impl Scene<'_> {
 
     /// Uncertainties that the files of the light and the chart state; the camera's is not among them.
     pub(super) fn own_uncertainties(&self) -> Result<OwnUncertainties> {
-        let chart = StatedQuery { place: self.find_chart(&self.document.chart)?.place.clone(), names: self.subset() };
-        let patches = self.results.ask(&chart).uncertainty.clone();
-        Ok(OwnUncertainties { camera: None, light: self.light()?.stated, patches })
+        Ok(OwnUncertainties { camera: None, light: self.light()?.stated, patches: self.stated_of_chart() })
+    }
+
+    /// Uncertainty of the patches that are compared, where their file states one.
+    pub fn stated_of_chart(&self) -> Option<Shared<StatedUncertainty>> {
+        let place = self.find_chart(&self.document.chart).ok()?.place.clone();
+        self.results.ask(&StatedQuery { place, names: self.subset() }).uncertainty.clone()
+    }
+
+    /// Uncertainty of a sensor's curves per unit energy, where its file states one.
+    pub fn stated_of_sensor(&self, kind: SetKind, name: &str, sensor: &Sensor) -> Option<StatedUncertainty> {
+        let place = self.entry(kind, name).ok()?.place;
+        let stated = self.results.ask(&StatedQuery { place, names: None }).uncertainty.clone()?;
+        stated.per_energy(sensor)
     }
 
     /// Sentences on uncertainties that files of the light, the chart and some cameras state, and that are not used.
