@@ -279,6 +279,17 @@ pub(super) fn text_inside(painter: &Painter, at: Pos2, words: &str, style: TextS
 
 fn fill_polygon(painter: &Painter, corners: &[Pos2], color: Color32) {
     let mut corners = corners.to_vec();
+    if is_band(&corners) {
+        let count = corners.len() as u32;
+        let mut mesh = Mesh::default();
+        corners.iter().for_each(|corner| mesh.colored_vertex(*corner, color));
+        for i in 1..count / 2 {
+            mesh.add_triangle(i - 1, i, count - i);
+            mesh.add_triangle(i, count - i, count - 1 - i);
+        }
+        painter.add(mesh);
+        return;
+    }
     corners.dedup();
     if corners.len() < 3 {
         return;
@@ -295,6 +306,12 @@ fn fill_polygon(painter: &Painter, corners: &[Pos2], color: Color32) {
         mesh.add_triangle(a, b, c);
     }
     painter.add(mesh);
+}
+
+/// True for an outline that runs along an upper edge to the right and back along a lower edge at the same places: a strip of triangles.
+fn is_band(corners: &[Pos2]) -> bool {
+    let n = corners.len();
+    n > 8 && n.is_multiple_of(2) && (0..n / 2).all(|i| corners[i].x == corners[n - 1 - i].x)
 }
 
 fn cross(a: Pos2, b: Pos2, c: Pos2) -> f32 {

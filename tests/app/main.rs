@@ -41,6 +41,7 @@ mod metrics;
 mod opened;
 mod opening;
 mod own_data;
+mod own_uncertainty;
 mod panes;
 mod path_box;
 mod plots;

@@ -1,5 +1,7 @@
 //! Uncertainties of metrics against simulations that perturb whole tables with an independent generator.
 
+mod own;
+
 use std::any::{Any, TypeId};
 use std::cell::RefCell;
 use std::collections::BTreeMap;
@@ -11,7 +13,7 @@ use chromascope_core::correction::minimize::Objective;
 use chromascope_core::correction::{Correction, CorrectionMethod};
 use chromascope_core::data;
 use chromascope_core::patch_set::COLOR_CHECKER_CHROMATIC;
-use chromascope_core::query::metrics::{MetricGroup, UncertaintySource};
+use chromascope_core::query::metrics::{MetricGroup, OwnUncertainties, UncertaintySource};
 use chromascope_core::query::{
     Ask, CameraMetric, CameraMetricsQuery, ColorTransformSpec, Direct, IndexConditions, MetricUncertaintiesQuery,
     MetricUncertainty, Query, RenderingQuery, Shared,
@@ -116,7 +118,8 @@ fn query(camera: Sensor) -> CameraMetricsQuery {
 
 fn ask_all(of: &CameraMetricsQuery, response: Evidence, ask: &impl Ask) -> Vec<Option<MetricUncertainty>> {
     let (metrics, spread, ratio) = (of.clone(), spread(), ChannelRatio::Unchecked);
-    (*ask.ask(&MetricUncertaintiesQuery { metrics, spread, response, ratio })).clone()
+    let own = OwnUncertainties::default();
+    (*ask.ask(&MetricUncertaintiesQuery { metrics, spread, response, ratio, own })).clone()
 }
 
 fn of(all: &[Option<MetricUncertainty>], id: &str) -> MetricUncertainty {

@@ -7,8 +7,10 @@ pub mod dataset;
 pub mod distribution;
 pub mod grid;
 pub mod sensor;
+pub mod stated_uncertainty;
 
 pub use dataset::{Dataset, DatasetError, Header};
 pub use distribution::{DistributionError, SpectralDistribution};
 pub use grid::{Assumed, GridSpectrum, Interpolation, Quantity};
 pub use sensor::{Evidence, Primaries, Response, Sensor, SensorError};
+pub use stated_uncertainty::{Correlation, StatedUncertainty, StatedUncertaintyError};

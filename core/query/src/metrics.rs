@@ -5,6 +5,7 @@
 mod differences;
 mod evidence;
 mod perturbed;
+mod stimulus;
 mod table;
 mod uncertainty;
 mod value;
@@ -13,8 +14,9 @@ use super::ask::{Ask, Query};
 
 pub use differences::{PatchDifferences, Statistic, WORST};
 pub use evidence::{LocusDeviationQuery, MetamerismIndexQuery, ReferenceLocusQuery, SpaceQualityQuery};
+pub use stimulus::LightUncertainty;
 pub use table::{Better, CameraMetric, Difference, MetricGroup, rank_ranges};
-pub use uncertainty::MetricUncertaintiesQuery;
+pub use uncertainty::{MetricUncertaintiesQuery, OwnUncertainties};
 pub use value::{
     CameraMetricsQuery, Contributions, IndexConditions, MetricUncertainty, MetricValue, UncertaintySource, WhyNot,
 };

@@ -47,6 +47,18 @@ pub struct Covariance {
     pub values: Vec<f64>,
 }
 
+impl Covariance {
+    /// The covariance of some of the samples, in the order of their indices; `None` if one of them is not in it.
+    pub fn among(&self, samples: &[usize]) -> Option<Self> {
+        if self.values.len() != self.size * self.size || samples.iter().any(|&sample| sample >= self.size) {
+            return None;
+        }
+        let rows = samples.iter().map(|row| &self.values[row * self.size..][..self.size]);
+        let values = rows.flat_map(|row| samples.iter().map(|&column| row[column])).collect();
+        Some(Self { size: samples.len(), values })
+    }
+}
+
 /// Curves of a file, with the report of how it was read.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SpectralFile {

@@ -28,6 +28,7 @@
 //! `chromascope figure gamut` then draws it, and its help lists it. A pane whose figure it is names its `KIND`.
 
 pub mod accuracy;
+pub mod band;
 pub mod chromaticity;
 pub mod correction;
 pub mod curves;

@@ -235,8 +235,13 @@ impl<'a> Scene<'a> {
     }
 
     pub fn patches(&self) -> Result<Shared<PatchSet>> {
+        self.patch_set(&self.document.chart, self.subset())
+    }
+
+    /// Names of the chart's patches that are compared; none for all.
+    fn subset(&self) -> Option<&'static [&'static str]> {
         let five = self.document.subset == Subset::Five && self.has_five();
-        self.patch_set(&self.document.chart, five.then_some(PAPER_FIVE.as_slice()))
+        five.then_some(PAPER_FIVE.as_slice())
     }
 
     /// True if the chart has the paper's five patches and more.

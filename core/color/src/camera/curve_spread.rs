@@ -79,15 +79,14 @@ impl CurveSpread {
     /// What depends linearly on the curves thus has exactly its linearized uncertainty (spherical cubature of degree 3).
     pub fn draws(&self) -> Vec<Deviation> {
         let count = MODES + 3 * SITES;
-        let length = (count as f64).sqrt();
         let mut draws = Vec::with_capacity(2 * count);
-        for axis in orthogonal(count) {
+        for point in cubature(count) {
             let mut deviation = [[0.0; SITES]; 3];
-            for (mode, z) in self.modes.iter().zip(&axis) {
-                add(&mut deviation, mode, z * length);
+            for (mode, z) in self.modes.iter().zip(&point) {
+                add(&mut deviation, mode, *z);
             }
-            let rest = deviation.iter_mut().flatten().zip(&axis[MODES..]);
-            rest.for_each(|(value, z)| *value += self.rest * z * length);
+            let rest = deviation.iter_mut().flatten().zip(&point[MODES..]);
+            rest.for_each(|(value, z)| *value += self.rest * z);
             draws.push(deviation);
             draws.push(deviation.map(|channel| channel.map(|value| -value)));
         }
@@ -109,19 +108,25 @@ fn add(to: &mut Deviation, mode: &Deviation, factor: f64) {
     to.iter_mut().flatten().zip(mode.iter().flatten()).for_each(|(value, part)| *value += factor * part);
 }
 
-/// Rows of a random orthogonal matrix, always the same: Gram and Schmidt's method, done twice.
-fn orthogonal(count: usize) -> Vec<Vec<f64>> {
+/// Points of a standard normal distribution of so many dimensions, always the same: with their opposites they have mean 0 and exactly the
+/// covariance 1. Rows of a random orthogonal matrix by Gram and Schmidt's method, done twice, times the root of their number.
+pub(super) fn cubature(count: usize) -> Vec<Vec<f64>> {
     let mut random = SplitMix64::new(0);
-    // Directions need no exact normal numbers: sums of twelve uniform ones round alike on every machine.
-    let mut number = || (0..12).map(|_| random.unit()).sum::<f64>() - 6.0;
     let mut rows: Vec<Vec<f64>> = Vec::with_capacity(count);
     while rows.len() < count {
-        let row: Vec<f64> = (0..count).map(|_| number()).collect();
+        let row: Vec<f64> = (0..count).map(|_| nearly_normal(&mut random)).collect();
         let rest = super::quality::remove(&super::quality::remove(&row, &rows), &rows);
         let length = rest.iter().map(|v| v * v).sum::<f64>().sqrt();
         rows.push(rest.iter().map(|v| v / length).collect());
     }
+    let length = (count as f64).sqrt();
+    rows.iter_mut().flatten().for_each(|value| *value *= length);
     rows
+}
+
+/// A number of mean 0 and variance 1: directions need no exact normal numbers, and sums of twelve uniform ones round alike on every machine.
+pub(super) fn nearly_normal(random: &mut SplitMix64) -> f64 {
+    (0..12).map(|_| random.unit()).sum::<f64>() - 6.0
 }
 
 /// The deviation of 1 at one site and 0 at all others on the grid, brought there as tables at 10 nm are (CIE 167).

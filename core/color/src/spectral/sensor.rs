@@ -207,7 +207,7 @@ impl Sensor {
 }
 
 /// From a response per photon to one per energy.
-fn per_energy(wavelength_nm: f64, value: f64) -> f64 {
+pub(super) fn per_energy(wavelength_nm: f64, value: f64) -> f64 {
     value * wavelength_nm / 550.0
 }
 

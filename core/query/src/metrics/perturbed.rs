@@ -8,6 +8,7 @@ use crate::ask::{Ask, Query, Shared};
 use crate::patches::{FitTargetsQuery, PatchColor, PatchColorsQuery, color};
 use chromascope_color::camera::curve_spread::{Deviation, SITE_RANGE, SITES, site_curve};
 use chromascope_color::camera::quality::{IndexSamples, MetamerismIndex, SpaceQuality, curves};
+use chromascope_color::camera::table_draws::{MOST_SPECTRA, leading};
 use chromascope_color::camera::{FitTargets, LocusDeviation, ReferenceLocus, Rendering, RenderingError};
 use chromascope_color::correction::minimize::Refit;
 use chromascope_color::correction::{CorrectionMethod, RgbTransform};
@@ -90,6 +91,22 @@ impl Query for StimuliQuery {
         let matching = curves(&self.observer);
         let of_sites = spectra.iter().map(|spectrum| of_sites(spectrum)).collect();
         Stimuli { spectra, of_sites, patches, training, index, sites, matching }
+    }
+}
+
+/// Spectra that the stimuli are nearly combinations of.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub(super) struct LeadingStimuliQuery(pub(super) StimuliQuery);
+
+impl Query for LeadingStimuliQuery {
+    type Answer = Vec<Vec<f64>>;
+    const NAME: &'static str = "leading stimuli of metrics";
+
+    fn answer(&self, ask: &impl Ask) -> Self::Answer {
+        let stimuli = ask.ask(&self.0);
+        let curves = stimuli.matching.iter().filter_map(|curve| <[f64; COUNT]>::try_from(&curve[..]).ok());
+        let spectra: Vec<[f64; COUNT]> = curves.chain(stimuli.spectra.iter().copied()).collect();
+        leading(&spectra, MOST_SPECTRA - 3)
     }
 }
 
@@ -184,6 +201,14 @@ impl<'a> Perturbed<'a> {
         CameraMetric::ALL.iter().map(|metric| metric.evaluate(&evidence)).collect()
     }
 
+    /// Metrics through another table of the camera.
+    pub(super) fn values_through(&self, sensor: &Sensor) -> Vec<Result<f64, WhyNot>> {
+        let raw: Vec<DVec3> =
+            self.stimuli.spectra.iter().map(|spectrum| DVec3::from_array(sensor.integrate(spectrum))).collect();
+        let evidence = self.evidence_of(&raw, SpaceQuality::of(&curves(sensor), &self.stimuli.matching));
+        CameraMetric::ALL.iter().map(|metric| metric.evaluate(&evidence)).collect()
+    }
+
     fn evidence(&self, deviation: &Deviation) -> Evidence {
         let moved = deviation.map(|channel| padded(channel.into_iter()));
         let shift = |of_sites: &[f64; PADDED]| {
@@ -191,16 +216,20 @@ impl<'a> Perturbed<'a> {
         };
         let raw: Vec<DVec3> =
             self.raw.iter().zip(&self.stimuli.of_sites).map(|(own, sites)| *own + shift(sites)).collect();
-        let (patches, locus, (noise, snr_db)) = match self.rendering(&raw) {
+        self.evidence_of(&raw, self.space(deviation))
+    }
+
+    fn evidence_of(&self, raw: &[DVec3], space: Option<SpaceQuality>) -> Evidence {
+        let (patches, locus, (noise, snr_db)) = match self.rendering(raw) {
             Ok(rendering) => (
-                self.patches(&rendering, &raw),
+                self.patches(&rendering, raw),
                 self.locus(&rendering, raw[BLACKBODY]),
                 noise_of(&rendering, self.of.electrons, self.scale),
             ),
             Err(error) => (Err(error.into()), Err(error.into()), (Err(error.into()), Err(error.into()))),
         };
-        let index = self.index(&raw).map_err(WhyNot::from);
-        let space = self.space(deviation).ok_or(WhyNot::Dependent);
+        let index = self.index(raw).map_err(WhyNot::from);
+        let space = space.ok_or(WhyNot::Dependent);
         Evidence { patches, locus, space, index, noise, scale: self.scale, snr_db }
     }
 

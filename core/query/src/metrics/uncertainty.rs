@@ -1,16 +1,21 @@
 //! Uncertainty of metrics: the spread of sensitivities between laboratories, propagated through the camera's own curves.
 
-use super::perturbed::{Perturbed, StimuliQuery};
+use super::perturbed::{LeadingStimuliQuery, Perturbed, StimuliQuery};
+use super::stimulus::{LightDraws, LightUncertainty, PatchDraws};
 use super::table::{CameraMetric, MetricGroup};
 use super::value::{CameraMetricsQuery, Contributions, MetricUncertainty, UncertaintySource, WhyNot};
 use crate::ask::{Ask, Query, Shared};
 use crate::patches::RenderingQuery;
 use chromascope_color::camera::curve_spread::{Deviation, at_sites};
+use chromascope_color::camera::quality::curves;
+use chromascope_color::camera::table_draws::TableDraws;
 use chromascope_color::camera::{ChannelRatio, CurveSpread};
 use chromascope_color::light::RadiationConstants;
 use chromascope_color::light::planckian::black_body;
 use chromascope_color::spectral::grid::COUNT;
-use chromascope_color::spectral::{Evidence, GridSpectrum, Primaries, Response, Sensor};
+use chromascope_color::spectral::{
+    Correlation, Evidence, GridSpectrum, Primaries, Response, Sensor, StatedUncertainty,
+};
 
 /// Student's t for 95 % and the 14 degrees of freedom of the spread.
 const T_95: f64 = 2.144_787;
@@ -21,6 +26,8 @@ const T_95: f64 = 2.144_787;
 /// uncertainties of their difference. 1.96 / 1.15 = 1.70 covers 91 % of a normal distribution.
 const WIDENED: f64 = 1.15;
 const COVERAGE: f64 = WIDENED * T_95;
+/// Quantile of the normal distribution for 95 %: of uncertainties that files state.
+const NORMAL_95: f64 = 1.959_964;
 
 /// Probability that a table is per photon although its use by the source's programs says per energy, or the reverse. An assumption:
 /// in 12 of 18 pairs of tables of one model a factor of wavelength brings one nearer to the other.
@@ -49,6 +56,9 @@ const fn relative(ratio: ChannelRatio) -> f64 {
 /// Draws keep the curves from being negative at the sites. Of each draw only the linear responses are computed: of the chart, the training
 /// reflectances, the blackbody and the index's patches; then all metrics from those. A fit that minimizes a color difference follows by
 /// reweighted least squares with L\*a\*b\* linearized at the unperturbed fit; all other fits are made anew.
+///
+/// A camera whose own file states uncertainties is drawn from these in place of the spread, at the wavelengths of its table: see
+/// [`TableDraws`] and [`Correlation`].
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct MetricUncertaintiesQuery {
     /// Camera and conditions.
@@ -59,6 +69,19 @@ pub struct MetricUncertaintiesQuery {
     pub response: Evidence,
     /// Credibility of the ratio between its channels.
     pub ratio: ChannelRatio,
+    /// Uncertainties that files state.
+    pub own: OwnUncertainties,
+}
+
+/// Uncertainties that files state for what metrics are computed from; none where a file states none.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Hash)]
+pub struct OwnUncertainties {
+    /// The camera's three curves, in place of the prior and of the channel ratio's part.
+    pub camera: Option<Shared<StatedUncertainty>>,
+    /// The light, for camera and reference.
+    pub light: Option<Shared<LightUncertainty>>,
+    /// The chart's patches, in the order of the chart, for camera and reference.
+    pub patches: Option<Shared<StatedUncertainty>>,
 }
 
 /// Draws of a spread, shared by all cameras.
@@ -90,32 +113,102 @@ impl Query for MetricUncertaintiesQuery {
         let stimuli = ask.ask(&StimuliQuery::new(of));
         let (own, peaks) = at_sites(sensor);
         let Some(perturbed) = Perturbed::new(of, &stimuli, peaks, ask) else { return nothing };
-        let mut moments = vec![Moments::default(); CameraMetric::ALL.len()];
-        for draw in ask.ask(&DrawsQuery(self.spread.clone())).iter() {
-            let values = perturbed.values(&clipped(draw, &own));
-            for ((moments, value), nominal) in moments.iter_mut().zip(values).zip(&nominal.values) {
-                moments.add(value, *nominal);
+        let own_draws = self.own.camera.as_ref().and_then(|stated| {
+            let mut spectra: Vec<Vec<f64>> = curves(sensor).into();
+            spectra.extend((*ask.ask(&LeadingStimuliQuery(StimuliQuery::new(of)))).clone());
+            TableDraws::new(sensor, stated, &spectra)
+        });
+        let found = match &own_draws {
+            Some(tables) => {
+                let values = |camera: Option<Sensor>| match camera {
+                    Some(camera) => perturbed.values_through(&camera),
+                    None => vec![Err(WhyNot::NoChannels); nominal.values.len()],
+                };
+                let all = tables.errors().map(|errors| (errors.correlation, tables.cameras(errors).map(values)));
+                largest_spreads(all, &nominal.values, ask)
             }
-            if ask.stop().is_set() {
-                return nothing;
+            None => {
+                let draws = ask.ask(&DrawsQuery(self.spread.clone()));
+                let values = draws.iter().map(|draw| perturbed.values(&clipped(draw, &own)));
+                let of_prior = |spread: Option<_>| spread.map(|spread| (spread, UncertaintySource::Prior));
+                spreads(values, &nominal.values, ask).map(|all| all.into_iter().map(of_prior).collect())
             }
-        }
+        };
+        let Some(found) = found else { return nothing };
         let response = self.response_parts(&nominal.values, ask);
-        let ratio = perturbed.ratio_parts(relative(self.ratio));
-        let is_unlike = !self.spread.is_of_kind(&own);
-        let outside = outside(of);
-        let parts = CameraMetric::ALL.iter().zip(moments).zip(response.into_iter().zip(ratio));
-        let uncertainty = |((metric, moments), (response, channel_ratio)): ((&CameraMetric, Moments), (f64, f64))| {
-            let (curves, bias) = moments.spread()?;
-            let contributions = Contributions { curves, response, channel_ratio };
-            let standard = curves.hypot(response).hypot(channel_ratio);
-            let place = MetricGroup::ALL.iter().position(|group| *group == metric.group).unwrap_or(0);
+        let is_own = own_draws.is_some();
+        let ratio = if is_own { vec![0.0; nominal.values.len()] } else { perturbed.ratio_parts(relative(self.ratio)) };
+        let light = self.own.light.as_ref().and_then(|stated| LightDraws::new(of, stated, ask));
+        let light = light.and_then(|draws| largest_spreads(draws.values(), &nominal.values, ask));
+        let patches = self.own.patches.as_ref().and_then(|stated| PatchDraws::new(of, stated, ask));
+        let patches = patches.and_then(|draws| largest_spreads(draws.values(), &nominal.values, ask));
+        if ask.stop().is_set() {
+            return nothing;
+        }
+        let part = |of: &Option<Vec<Found>>, at: usize| of.as_ref().and_then(|of| of[at]).map_or(0.0, |((u, _), _)| u);
+        let [first, last] = sensor.support_nm();
+        let is_unlike = if is_own { first > 400.0 || last < 700.0 } else { !self.spread.is_of_kind(&own) };
+        let outside = if is_own { [0.0; 4] } else { outside(of) };
+        let stated = [&self.own.camera, &self.own.patches].map(|of| of.as_ref().map(|of| of.coverage()));
+        let stated = stated.into_iter().chain([self.own.light.as_ref().map(|of| of.stated.coverage())]);
+        let stated = stated.flatten().fold(NORMAL_95, f64::max);
+        let (freedom, coverage) =
+            if is_own { (f64::INFINITY, stated) } else { (CurveSpread::FREEDOM, COVERAGE.max(stated)) };
+        let uncertainty = |(at, found): (usize, Option<((f64, f64), UncertaintySource)>)| {
+            let ((curves, bias), source) = found?;
+            let contributions = Contributions {
+                curves,
+                response: response[at],
+                channel_ratio: ratio[at],
+                light: part(&light, at),
+                patches: part(&patches, at),
+            };
+            let standard = contributions.combined();
+            let group = CameraMetric::ALL[at].group;
+            let place = MetricGroup::ALL.iter().position(|other| *other == group).unwrap_or(0);
             let is_extrapolated = is_unlike || outside[place] > OUTSIDE;
-            let (freedom, coverage, source) = (CurveSpread::FREEDOM, COVERAGE, UncertaintySource::Prior);
             Some(MetricUncertainty { standard, contributions, freedom, coverage, source, is_extrapolated, bias })
         };
-        parts.map(uncertainty).collect()
+        found.into_iter().enumerate().map(uncertainty).collect()
     }
+}
+
+/// Spread and bias of each metric over draws; none of all when stopped.
+fn spreads(
+    draws: impl Iterator<Item = Vec<Result<f64, WhyNot>>>,
+    nominal: &[Result<f64, WhyNot>],
+    ask: &impl Ask,
+) -> Option<Vec<Option<(f64, f64)>>> {
+    let mut moments = vec![Moments::default(); nominal.len()];
+    for values in draws {
+        for ((moments, value), nominal) in moments.iter_mut().zip(values).zip(nominal) {
+            moments.add(value, *nominal);
+        }
+        if ask.stop().is_set() {
+            return None;
+        }
+    }
+    Some(moments.into_iter().map(Moments::spread).collect())
+}
+
+/// Spread and bias of a metric with their origin.
+type Found = Option<((f64, f64), UncertaintySource)>;
+
+/// The same for draws under several correlations: of each metric under the one that gives most.
+fn largest_spreads(
+    all: impl Iterator<Item = (Correlation, impl Iterator<Item = Vec<Result<f64, WhyNot>>>)>,
+    nominal: &[Result<f64, WhyNot>],
+    ask: &impl Ask,
+) -> Option<Vec<Found>> {
+    let mut most: Vec<Found> = vec![None; nominal.len()];
+    for (correlation, draws) in all {
+        let found = spreads(draws, nominal, ask)?;
+        for (most, found) in most.iter_mut().zip(found) {
+            let is_more = |found: &(f64, f64)| most.is_none_or(|((spread, _), _)| found.0 > spread);
+            *most = found.filter(is_more).map(|found| (found, UncertaintySource::Own(correlation))).or(*most);
+        }
+    }
+    Some(most)
 }
 
 impl MetricUncertaintiesQuery {

@@ -6,7 +6,7 @@ use crate::patches::RenderingQuery;
 use chromascope_color::camera::RenderingError;
 use chromascope_color::camera::quality::Electrons;
 use chromascope_color::patch_set::PatchSet;
-use chromascope_color::spectral::{GridSpectrum, Sensor};
+use chromascope_color::spectral::{Correlation, GridSpectrum, Sensor};
 use chromascope_color::units::Kelvin;
 
 /// Reason for no value of a metric.
@@ -41,8 +41,8 @@ pub enum WhyNot {
 /// Origin of an uncertainty.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum UncertaintySource {
-    /// Stated in the camera's own file.
-    Own,
+    /// Stated in the camera's own file; where it does not state the correlation, the one that gives most.
+    Own(Correlation),
     /// The spread of other models' tables between laboratories.
     Prior,
 }
@@ -51,8 +51,16 @@ impl UncertaintySource {
     /// Word in tables.
     pub const fn word(self) -> &'static str {
         match self {
-            Self::Own => "own",
+            Self::Own(_) => "own",
             Self::Prior => "prior",
+        }
+    }
+
+    /// Correlation of the errors; the prior has its own.
+    pub const fn correlation(self) -> Option<Correlation> {
+        match self {
+            Self::Own(correlation) => Some(correlation),
+            Self::Prior => None,
         }
     }
 }
@@ -64,14 +72,27 @@ pub struct Contributions {
     pub curves: f64,
     /// Whether the table is per energy or per photon, where its source does not state it.
     pub response: f64,
-    /// The ratio between the channels.
+    /// The ratio between the channels, where the curves' part does not hold it.
     pub channel_ratio: f64,
+    /// The light's own file.
+    pub light: f64,
+    /// The chart's own file.
+    pub patches: f64,
+}
+
+impl Contributions {
+    /// Root of the sum of their squares.
+    pub fn combined(self) -> f64 {
+        let parts = [self.response, self.channel_ratio, self.light, self.patches];
+        parts.into_iter().fold(self.curves, f64::hypot)
+    }
 }
 
 /// Uncertainty of a metric's value, in the metric's unit.
 ///
 /// ```text
-/// u² = u²(curves) + u²(response) + u²(channel ratio),   95 %: x ± k u,   k = 1.15 t₀.₉₇₅(14) = 2.47
+/// u² = u²(curves) + u²(response) + u²(channel ratio) + u²(light) + u²(patches),   95 %: x ± k u
+/// prior: k = 1.15 t₀.₉₇₅(14) = 2.47;   own: k = 1.96, or that of the file if larger
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MetricUncertainty {
@@ -79,13 +100,14 @@ pub struct MetricUncertainty {
     pub standard: f64,
     /// Its parts.
     pub contributions: Contributions,
-    /// Degrees of freedom of the curves' part; those of the whole are not fewer.
+    /// Degrees of freedom of the curves' part; those of the whole are not fewer. Infinite for uncertainties of files.
     pub freedom: f64,
     /// Coverage factor k for 95 %.
     pub coverage: f64,
     /// Origin.
     pub source: UncertaintySource,
-    /// True where the prior is stretched: the sensor is unlike the models of the prior, or what the metric uses reaches beyond 400–700 nm.
+    /// True where the prior is stretched: the sensor is unlike the models of the prior, or what the metric uses reaches beyond 400–700 nm;
+    /// and where the camera's own table, with its uncertainties, does not reach over 400–700 nm.
     pub is_extrapolated: bool,
     /// Mean of the metric over perturbed curves, less its value: how much errors of curves move the metric on average. Not corrected for,
     /// not part of [`Self::standard`].

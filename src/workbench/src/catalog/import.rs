@@ -147,7 +147,7 @@ fn own_set(origin: &Origin, table: &SpectralFile, overrides: &ImportOverrides, t
     let per_photon = || table.reading.per_photon.as_ref().is_some_and(|decided| decided.value);
     ImportedSet {
         curves: curves.collect(),
-        covariance: table.covariance.clone().filter(|_| taken.len() == table.curves.len()),
+        covariance: table.covariance.as_ref().and_then(|all| all.among(&samples(table, taken))),
         name,
         file: origin.name.clone(),
         path: origin.path.clone(),
@@ -161,6 +161,15 @@ fn own_set(origin: &Origin, table: &SpectralFile, overrides: &ImportOverrides, t
         channels: channels(table, overrides, taken),
         decisions,
     }
+}
+
+/// Indices of the samples of the curves that are taken, among those of all curves.
+fn samples(table: &SpectralFile, taken: &[usize]) -> Vec<usize> {
+    let of = |index: &usize| {
+        let from = table.curves[..*index].iter().map(|curve| curve.values.len()).sum::<usize>();
+        from..from + table.curves[*index].values.len()
+    };
+    taken.iter().flat_map(of).collect()
 }
 
 /// Name of the part of a file that the user chose of several.

@@ -4,15 +4,17 @@ use chromascope_core::camera::{CurveSpread, CurveSpreadError};
 use chromascope_core::light::filter::{filtered, transmittance};
 use chromascope_core::light::{DaylightBasis, DaylightError, RadiationConstants, planckian::black_body};
 use chromascope_core::patch_set::PatchSet;
+use chromascope_core::query::metrics::LightUncertainty;
 use chromascope_core::query::{Ask, Query, Shared};
 use chromascope_core::rendition::Standards;
 use chromascope_core::spectral::{
     Dataset, DatasetError, DistributionError, Evidence, GridSpectrum, Primaries, Quantity, Sensor, SensorError,
-    SpectralDistribution,
+    SpectralDistribution, StatedUncertainty, StatedUncertaintyError,
 };
 use chromascope_core::units::Kelvin;
 
 use super::{BuiltInFile, Place};
+use crate::document::imported::Role;
 
 pub const DAYLIGHT_BASIS: &str = "illuminants/cie_daylight_basis.csv";
 
@@ -110,6 +112,61 @@ pub fn response_evidence(place: &Place, ask: &impl Ask) -> Evidence {
     }
 }
 
+/// Uncertainty that the file of a set of the user's states for its curves, or for those of some names, in their order.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct StatedQuery {
+    pub place: Place,
+    pub names: Option<&'static [&'static str]>,
+}
+
+#[derive(Clone, Debug, Default)]
+pub struct Stated {
+    /// None where the file states none; for a camera, none unless it states one for each channel.
+    pub uncertainty: Option<Shared<StatedUncertainty>>,
+    /// Reason that what the file states is not used, or not its covariance.
+    pub refused: Option<StatedUncertaintyError>,
+}
+
+impl Query for StatedQuery {
+    type Answer = Stated;
+    const NAME: &'static str = "stated uncertainty";
+
+    fn answer(&self, _: &impl Ask) -> Stated {
+        let Place::Own(set) = &self.place else { return Stated::default() };
+        let (mut stated, covariance) = (set.uncertainties_in_nm(), set.covariance_in_nm());
+        let known = stated.iter().filter(|of| of.is_some()).count();
+        let is_used = if set.role == Role::Camera { known == stated.len() } else { known > 0 };
+        let Ok(curves) = set.curves_in_nm() else { return Stated::default() };
+        if !is_used && covariance.is_none() || stated.len() != curves.len() {
+            return Stated::default();
+        }
+        let index = |name: &&str| curves.iter().position(|(of, _)| of == name);
+        let indices = self
+            .names
+            .map_or_else(|| (0..curves.len()).collect(), |names| names.iter().filter_map(index).collect::<Vec<_>>());
+        let length = |at: usize| curves[at].1.values().len();
+        let samples = |at: &usize| {
+            let first: usize = (0..*at).map(length).sum();
+            first..first + length(*at)
+        };
+        let covariance = covariance.and_then(|of| of.among(&indices.iter().flat_map(samples).collect::<Vec<_>>()));
+        let standard = indices.iter().map(|&at| stated[at].take().unwrap_or_else(|| vec![0.0; length(at)])).collect();
+        let coverage = set.curves.iter().filter_map(|curve| curve.uncertainty.as_ref()).map(|of| of.coverage);
+        let uncertainty = match StatedUncertainty::new(standard, coverage.fold(1.0, f64::max)) {
+            Ok(uncertainty) => uncertainty,
+            Err(refused) => return Stated { uncertainty: None, refused: Some(refused) },
+        };
+        match covariance.map(|of| uncertainty.clone().with_covariance(&of.values)) {
+            Some(Err(refused)) => {
+                let uncertainty = is_used.then(|| Shared::new(uncertainty));
+                Stated { uncertainty, refused: Some(refused) }
+            }
+            Some(Ok(decided)) => Stated { uncertainty: Some(Shared::new(decided)), refused: None },
+            None => Stated { uncertainty: Some(Shared::new(uncertainty)), refused: None },
+        }
+    }
+}
+
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct CurveSpreadQuery;
 
@@ -127,12 +184,14 @@ pub struct LoadedLight {
     /// As measured, or as the formula gives it.
     pub measured: SpectralDistribution,
     pub grid: Shared<GridSpectrum>,
+    /// Uncertainty that its file states.
+    pub stated: Option<Shared<LightUncertainty>>,
 }
 
 impl LoadedLight {
     fn new(measured: SpectralDistribution) -> Self {
         let grid = Shared::new(GridSpectrum::resample(&measured, Quantity::Light));
-        Self { measured, grid }
+        Self { measured, grid, stated: None }
     }
 }
 
@@ -151,7 +210,12 @@ impl Query for LightQuery {
         match self {
             Self::Set(place) => {
                 let (_, measured) = curves(place, ask)?.into_iter().next().ok_or(LoadError::NoCurve)?;
-                Ok(LoadedLight::new(measured))
+                let stated = ask.ask(&StatedQuery { place: place.clone(), names: None }).uncertainty.clone();
+                let stated = stated.map(|stated| {
+                    let (measured, stated) = (measured.clone(), (*stated).clone());
+                    Shared::new(LightUncertainty { measured, stated, transmittance: None })
+                });
+                Ok(LoadedLight { stated, ..LoadedLight::new(measured) })
             }
             Self::BlackBody(temperature) => {
                 let grid = black_body(*temperature, RadiationConstants::Paper);
@@ -195,7 +259,14 @@ impl Query for FilteredLightQuery {
         let light = ask.ask(&self.light);
         let light = (*light).as_ref().map_err(Clone::clone)?;
         let all = transmittance(self.filters.iter().map(|filter| &**filter));
-        Ok(LoadedLight { measured: filtered(&light.measured, &all)?, grid: Shared::new(light.grid.times(&all)) })
+        let behind = |of: &Shared<LightUncertainty>| {
+            Shared::new(LightUncertainty { transmittance: Some(all.clone()), ..(**of).clone() })
+        };
+        Ok(LoadedLight {
+            measured: filtered(&light.measured, &all)?,
+            grid: Shared::new(light.grid.times(&all)),
+            stated: light.stated.as_ref().map(behind),
+        })
     }
 }
 

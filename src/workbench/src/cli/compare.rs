@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 use chromascope_core::colorimetry::Metric;
 use chromascope_core::query::metrics::{Better, rank_ranges};
 use chromascope_core::query::{Ask as _, CameraMetric, CameraMetricsQuery, MetricUncertainty, MetricValue, WhyNot};
+use chromascope_core::spectral::Correlation;
 use chromascope_figure::number::significant;
 use chromascope_figure::{Cell, Column, Table};
 use clap::builder::PossibleValuesParser;
@@ -79,8 +80,8 @@ Without --camera and --observer: all built-in cameras. Metrics of the chart's pa
 Other metrics:
 {list}
 
-The number after ± is the standard uncertainty that errors of the sensitivities cause: the spread between laboratories, propagated
-through the camera's own curves. A rank is a range where values do not differ at 95 %. A value that is undefined is –, with the reason
+The number after ± is the standard uncertainty that errors of the sensitivities cause: those that the camera's file states, otherwise
+the spread between laboratories, propagated through the camera's own curves; with those that the files of light and chart state. A rank is a range where values do not differ at 95 %. A value that is undefined is –, with the reason
 below.
 
 CSV: sensor, rank_first, rank_last (by the metric of --sort); for each metric its column and the same with _uncertainty; origin of the
@@ -103,6 +104,8 @@ struct Comparison {
     patches: Vec<String>,
     /// Conditions by their heads, the temperature among them.
     conditions: Vec<(Column, String)>,
+    /// Sentences on uncertainties that files state and that are not used.
+    refused: Vec<String>,
 }
 
 struct Row {
@@ -168,7 +171,9 @@ fn compared(scene: &Scene<'_>, request: &Request, arguments: &CompareArguments) 
     let mut conditions = scene.conditions();
     conditions.extend(scene.metrics_constants(temperature));
     let patches = scene.patches()?.patches().iter().map(|patch| patch.name.clone()).collect();
-    Ok(Comparison { rows: rows(&found, &metrics, sorted_by), metrics, sorted_by, patches, conditions })
+    let cameras = request.sources.iter().filter(|(kind, _)| *kind == SetKind::Camera);
+    let refused = scene.refused_uncertainties(cameras.map(|(_, name)| name.as_str()));
+    Ok(Comparison { rows: rows(&found, &metrics, sorted_by), metrics, sorted_by, patches, conditions, refused })
 }
 
 fn rows(
@@ -243,6 +248,7 @@ fn notes(comparison: &Comparison) -> String {
     }
     let all: Vec<MetricUncertainty> = comparison.rows.iter().flat_map(uncertainties).collect();
     text.extend(Some(in_words(all)).filter(|words| !words.is_empty()).map(|words| words + "\n"));
+    text.extend(comparison.refused.iter().map(|sentence| format!("{sentence}\n")));
     let mut reasons: Vec<(String, Vec<&str>)> = Vec::new();
     for row in &comparison.rows {
         for (metric, value) in comparison.metrics.iter().zip(&row.values) {
@@ -278,12 +284,16 @@ fn csv(comparison: &Comparison) -> String {
 fn budget(of: MetricUncertainty) -> Value {
     json!({
         "source": of.source.word(),
+        "correlation": of.source.correlation().map(Correlation::word),
         "coverage_factor_95": of.coverage,
+        // JSON has no infinity: null.
         "degrees_of_freedom": of.freedom,
         "extrapolated": of.is_extrapolated,
         "curves": of.contributions.curves,
         "response": of.contributions.response,
         "channel_ratio": of.contributions.channel_ratio,
+        "light": of.contributions.light,
+        "patches": of.contributions.patches,
         "bias": of.bias,
     })
 }

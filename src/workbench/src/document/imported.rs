@@ -145,11 +145,47 @@ impl Hash for ImportedSet {
 impl ImportedSet {
     /// The curves that its role uses, in nanometers and, for reflectances, as fractions.
     pub fn curves_in_nm(&self) -> Result<Vec<(String, SpectralDistribution)>, DistributionError> {
-        let used: Vec<&ImportedCurve> = match self.role {
-            Role::Camera => self.channels.iter().filter_map(|&index| self.curves.get(index)).collect(),
-            _ => self.curves.iter().collect(),
+        self.used()
+            .into_iter()
+            .map(|index| &self.curves[index])
+            .map(|curve| Ok((curve.name.clone(), self.spectrum(curve)?)))
+            .collect()
+    }
+
+    /// Standard uncertainties of the values of [`Self::curves_in_nm`], in their units; `None` for a curve whose file states none.
+    pub fn uncertainties_in_nm(&self) -> Vec<Option<Vec<f64>>> {
+        let of = |index: usize| {
+            let curve = &self.curves[index];
+            let stated = curve.uncertainty.as_ref().filter(|of| of.standard.len() == curve.values.len())?;
+            let mut standard = self.scaled(&stated.standard);
+            if self.is_reversed(curve) {
+                standard.reverse();
+            }
+            Some(standard)
         };
-        used.into_iter().map(|curve| Ok((curve.name.clone(), self.spectrum(curve)?))).collect()
+        self.used().into_iter().map(of).collect()
+    }
+
+    /// Covariance of the samples of [`Self::curves_in_nm`], curve after curve, in products of their units.
+    pub fn covariance_in_nm(&self) -> Option<Covariance> {
+        let covariance = self.covariance.as_ref()?;
+        let mut samples = Vec::with_capacity(covariance.size);
+        for index in self.used() {
+            let from = self.curves[..index].iter().map(|curve| curve.values.len()).sum::<usize>();
+            let own = from..from + self.curves[index].values.len();
+            if self.is_reversed(&self.curves[index]) { samples.extend(own.rev()) } else { samples.extend(own) }
+        }
+        let among = covariance.among(&samples)?;
+        Some(Covariance { values: self.scaled(&self.scaled(&among.values)), ..among })
+    }
+
+    /// Indices of the curves that its role uses.
+    fn used(&self) -> Vec<usize> {
+        let all = 0..self.curves.len();
+        match self.role {
+            Role::Camera => self.channels.into_iter().filter(|index| all.contains(index)).collect(),
+            _ => all.collect(),
+        }
     }
 
     /// All but the curves, which may be millions of numbers.
@@ -185,23 +221,32 @@ impl ImportedSet {
 
     /// A curve with the units that the user has it in. Unchanged units change no bit.
     fn spectrum(&self, curve: &ImportedCurve) -> Result<SpectralDistribution, DistributionError> {
-        let mut values: Vec<f64> = match (self.percent, self.read_as.percent) {
-            (true, false) => curve.values.iter().map(|v| v / 100.0).collect(),
-            (false, true) => curve.values.iter().map(|v| v * 100.0).collect(),
-            _ => curve.values.clone(),
-        };
-        let mut wavelengths = curve.wavelengths.clone();
-        if self.unit != self.read_as.unit {
-            for nm in &mut wavelengths {
-                *nm = self.unit.nanometers(self.read_as.unit.from_nanometers(*nm));
-            }
-            // Wave numbers and frequencies are in the opposite order.
-            if wavelengths.first() > wavelengths.last() {
-                wavelengths.reverse();
-                values.reverse();
-            }
+        let mut values = self.scaled(&curve.values);
+        let mut wavelengths: Vec<f64> = curve.wavelengths.iter().map(|nm| self.nanometers(*nm)).collect();
+        if self.is_reversed(curve) {
+            wavelengths.reverse();
+            values.reverse();
         }
         SpectralDistribution::new(wavelengths, values)
+    }
+
+    /// Numbers of the curves, on the scale that the user has them on.
+    fn scaled(&self, numbers: &[f64]) -> Vec<f64> {
+        match (self.percent, self.read_as.percent) {
+            (true, false) => numbers.iter().map(|v| v / 100.0).collect(),
+            (false, true) => numbers.iter().map(|v| v * 100.0).collect(),
+            _ => numbers.to_vec(),
+        }
+    }
+
+    fn nanometers(&self, nm: f64) -> f64 {
+        if self.unit == self.read_as.unit { nm } else { self.unit.nanometers(self.read_as.unit.from_nanometers(nm)) }
+    }
+
+    /// True if the wavelengths of a curve come in the opposite order in the user's unit: wave numbers and frequencies.
+    fn is_reversed(&self, curve: &ImportedCurve) -> bool {
+        let end = |nm: Option<&f64>| nm.map(|nm| self.nanometers(*nm));
+        self.unit != self.read_as.unit && end(curve.wavelengths.first()) > end(curve.wavelengths.last())
     }
 }
 

@@ -14,9 +14,10 @@ use chromascope_figure::{
 pub use drawn::{Curve, Curves, DRAWN};
 pub use import_selection::{ImportItem, ImportSelection, places};
 
+use super::band;
 use super::kind::{FigureKind, Need};
 use super::look::FigureLook;
-use crate::format::number;
+use crate::format::{capitalized, number};
 use crate::plot_item::PickIndex;
 use crate::scene::Scene;
 
@@ -44,6 +45,12 @@ pub fn panel(curves: &Curves, size: [f64; 2], hovered: Option<usize>) -> Panel {
     panel.note = curves.beyond().map_or_else(|| curves.note.clone(), |beyond| format!("{}; {beyond}", curves.note));
     panel.marks.push(visible(range));
     panel.marks.push(zero(curves.range_nm()));
+    let count = curves.drawn.len();
+    let within = |at: &&([f64; 2], f64)| !clipped || (low..=high).contains(&at.0[1]);
+    panel.marks.extend(curves.drawn.iter().filter_map(|curve| {
+        let points: Vec<_> = curve.band.0.iter().filter(within).copied().collect();
+        band::mark(&curve.name, &points, ink(curve, count, false))
+    }));
     let last = curves.drawn.iter().filter(|curve| Some(curve.place) == hovered);
     for curve in curves.drawn.iter().filter(|curve| Some(curve.place) != hovered).chain(last) {
         let on = Some(curve.place) == hovered;
@@ -159,7 +166,8 @@ fn figure(_: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Option<Figure> 
         figure.legend = drawn.drawn.iter().map(entry).collect();
         figure.legend_place = LegendPlace::Outside;
     }
-    figure.caption = format!("{}: {}.", curves.title, curves.quantity);
+    let band = curves.band_words().map_or_else(String::new, |words| format!(" {}.", capitalized(&words)));
+    figure.caption = format!("{}: {}.{band}", curves.title, curves.quantity);
     figure.table = numbers(if room.numbers == Numbers::Visible { &drawn } else { &curves });
     Some(figure)
 }

@@ -133,7 +133,8 @@ pub fn difference(a: MetricValue, b: MetricValue) -> Option<MetricValue> {
     let difference = Difference::new(a, b)?;
     let of_either = a.uncertainty.or(b.uncertainty).zip(difference.standard);
     let is_extrapolated = [a, b].iter().any(|value| value.uncertainty.is_some_and(|by| by.is_extrapolated));
-    let uncertainty = of_either.map(|(one, standard)| MetricUncertainty { standard, is_extrapolated, ..one });
+    let coverage = difference.coverage;
+    let uncertainty = of_either.map(|(one, standard)| MetricUncertainty { standard, coverage, is_extrapolated, ..one });
     Some(MetricValue { value: Ok(difference.value), uncertainty })
 }
 

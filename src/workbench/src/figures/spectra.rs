@@ -18,6 +18,7 @@ use super::data_set::Name;
 use super::kind::FigureKind;
 use super::look::{FigureLook, SpectraLayout};
 use crate::document::{FIT_TARGET, SetKind};
+use crate::format::capitalized;
 use crate::plot_item::{PickIndex, PlotItem};
 use crate::scene::{Scene, SceneError};
 
@@ -29,6 +30,8 @@ pub struct Built {
     pub things: PickIndex,
     /// Items that could not be drawn, with the reasons.
     pub refused: Vec<String>,
+    /// Words for the bands that are drawn.
+    pub bands: Vec<String>,
 }
 
 impl Built {
@@ -42,7 +45,8 @@ impl Built {
 const FOOT: f64 = 4.0 + Projection::BOTTOM + Projection::TITLE;
 
 pub fn build(scene: &Scene<'_>, look: &FigureLook, size: [f64; 2]) -> Built {
-    let mut built = Built { panels: Vec::new(), things: PickIndex::default(), refused: Vec::new() };
+    let mut built =
+        Built { panels: Vec::new(), things: PickIndex::default(), refused: Vec::new(), bands: Vec::new() };
     let sources = scene.visible_sources();
     let mut contents: Vec<Content> = content::light(scene, &mut built).into_iter().collect();
     contents.extend(content::patches(scene, &mut built));
@@ -56,6 +60,9 @@ pub fn build(scene: &Scene<'_>, look: &FigureLook, size: [f64; 2]) -> Built {
     } else if !sources.is_empty() {
         let all = content::sensitivities(scene, &sources, None, &mut built);
         contents.push(Content { note: "scaled to peak 1".to_owned(), weight: 1.7, ..all });
+    }
+    if let Some(first) = contents.first_mut().filter(|_| !built.bands.is_empty()) {
+        first.note = format!("{}; {}", first.note, built.bands.join(", "));
     }
     let weights: f64 = contents.iter().map(|content| content.weight).sum();
     let large = size[0] > 500.0;
@@ -136,7 +143,8 @@ fn figure(scene: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Option<Figu
     figure.panels = built.panels;
     figure.legend = scene.visible_sources().iter().map(|source| key(source, source.label.clone())).collect();
     figure.legend_place = LegendPlace::Outside;
-    figure.caption = format!("Dotted: beyond the data, the end value is held. {}", caption(scene));
+    let bands: String = built.bands.iter().map(|words| format!("{}. ", capitalized(words))).collect();
+    figure.caption = format!("Dotted: beyond the data, the end value is held. {bands}{}", caption(scene));
     figure.table = table(scene);
     Some(figure)
 }

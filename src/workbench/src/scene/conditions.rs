@@ -3,7 +3,7 @@
 use chromascope_figure::Column;
 
 use super::Scene;
-use crate::document::{CHART, FIVE, Subset, TransformChoice, WhiteBalanceChoice};
+use crate::document::{CHART, FIVE, SetKind, Subset, TransformChoice, WhiteBalanceChoice};
 
 impl WhiteBalanceChoice {
     pub fn name(&self) -> String {
@@ -58,7 +58,11 @@ impl Scene<'_> {
     /// Conditions of figures of merit that no other figure has, in sentences.
     pub fn metrics_words(&self) -> String {
         let pixel = self.document.pixel.map_or_else(String::new, |pixel| format!(" Pixel: {}.", pixel.describe()));
-        format!("Locus metrics at {} K.{pixel}", self.document.temperature_k)
+        let compared = self.document.compared.iter().filter(|of| of.kind == SetKind::Camera);
+        let refused = self.refused_uncertainties(compared.map(|of| of.name.as_str()));
+        format!("Locus metrics at {} K.{pixel} {}", self.document.temperature_k, refused.join(" "))
+            .trim_end()
+            .to_owned()
     }
 
     /// Columns with the conditions of a table under the document's light.

@@ -6,6 +6,7 @@ use chromascope_core::camera::ChannelRatio;
 use chromascope_core::camera::quality::Electrons;
 use chromascope_core::metamers::{Confusion, MetamerLimits, MetamerPair};
 use chromascope_core::patch_set::{COLOR_CHECKER_CHROMATIC, PatchSet};
+use chromascope_core::query::metrics::OwnUncertainties;
 use chromascope_core::query::{
     Ask, CameraMetric, CameraMetrics, CameraMetricsQuery, IndexConditions, MetamersQuery, MetricUncertaintiesQuery,
     MetricUncertainty, MetricValue, Query, RenderingQuery, Shared,
@@ -17,7 +18,9 @@ use serde::{Deserialize, Serialize};
 
 use super::correction::ChannelRatioQuery;
 use super::{Result, Scene, SceneError};
-use crate::catalog::load::{CurveSpreadQuery, LightQuery, LoadError, PatchesQuery, SensorQuery, response_evidence};
+use crate::catalog::load::{
+    CurveSpreadQuery, LightQuery, LoadError, PatchesQuery, SensorQuery, StatedQuery, response_evidence,
+};
 use crate::catalog::{Entry, Place};
 use crate::document::{CHART, CIE_1931, Document, SensorId, SetKind};
 use crate::jobs::{Later, Waiting};
@@ -36,6 +39,8 @@ pub struct MetricsConditions {
     temperature: Kelvin,
     index: IndexConditions,
     electrons: Option<Electrons>,
+    /// Uncertainties that the files of light and chart state.
+    own: OwnUncertainties,
 }
 
 impl MetricsConditions {
@@ -98,7 +103,8 @@ impl Query for CatalogMetricsQuery {
         let query = self.conditions.query((*ask.ask(&SensorQuery(self.place.clone()))).clone()?);
         let metrics = ask.ask(&query);
         let uncertainties = if self.with_uncertainties {
-            Some(ask.ask(&uncertainties_query(query, &self.place, self.ratio.as_ref(), ask)?))
+            let own = self.conditions.own.clone();
+            Some(ask.ask(&uncertainties_query(query, &self.place, (self.ratio.as_ref(), own), ask)?))
         } else {
             None
         };
@@ -106,14 +112,16 @@ impl Query for CatalogMetricsQuery {
     }
 }
 
-/// The question for the uncertainties of a camera's figures of merit.
+/// The question for the uncertainties of a camera's figures of merit, with those that the files of light and chart state.
 fn uncertainties_query(
     metrics: CameraMetricsQuery,
     place: &Place,
-    ratio: Option<&ChannelRatioQuery>,
+    (ratio, conditions): (Option<&ChannelRatioQuery>, OwnUncertainties),
     ask: &impl Ask,
 ) -> Result<MetricUncertaintiesQuery, LoadError> {
+    let camera = ask.ask(&StatedQuery { place: place.clone(), names: None }).uncertainty.clone();
     Ok(MetricUncertaintiesQuery {
+        own: OwnUncertainties { camera, ..conditions },
         metrics,
         spread: (*ask.ask(&CurveSpreadQuery)).clone()?,
         response: response_evidence(place, ask),
@@ -339,7 +347,8 @@ impl Scene<'_> {
     ) -> Result<MetricUncertaintiesQuery> {
         let failed = |error| SceneError::Load { name: name.to_owned(), error };
         let ratio = self.channel_ratio_query(name).ok().filter(|_| kind == SetKind::Camera);
-        uncertainties_query(metrics, &self.entry(kind, name)?.place, ratio.as_ref(), self.results).map_err(failed)
+        let (place, own) = (self.entry(kind, name)?.place, self.own_uncertainties()?);
+        uncertainties_query(metrics, &place, (ratio.as_ref(), own), self.results).map_err(failed)
     }
 
     pub fn camera_figures(&self, kind: SetKind, name: &str) -> Result<CameraFigures> {
@@ -391,6 +400,7 @@ impl Scene<'_> {
             temperature: Kelvin::new(temperature_k)?,
             index: self.index_conditions()?,
             electrons: self.document.pixel.and_then(|pixel| pixel.electrons().ok()),
+            own: self.own_uncertainties()?,
         })
     }
 

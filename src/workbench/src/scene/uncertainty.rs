@@ -1,10 +1,16 @@
 //! Uncertainties of figures of merit as they are written: the same in tables, figures and files.
 
-use chromascope_core::query::metrics::{Better, UncertaintySource};
+use chromascope_core::query::Ask as _;
+use chromascope_core::query::metrics::{Better, Contributions, OwnUncertainties, UncertaintySource};
 use chromascope_core::query::{CameraMetric, MetricUncertainty, MetricValue};
+use chromascope_core::query::Shared;
+use chromascope_core::spectral::{Correlation, Sensor, StatedUncertainty};
 use chromascope_figure::{Cell, Column, Table};
 
-use super::Scene;
+use super::{Result, Scene};
+use crate::catalog::Entry;
+use crate::catalog::load::StatedQuery;
+use crate::document::{Light, SetKind};
 use crate::format::{behind, decimals_by, rank_in_words, rounded, whole};
 
 /// Heads of the columns that tell what uncertainties are.
@@ -76,19 +82,26 @@ pub fn with_nature<I: IntoIterator<Item = MetricUncertainty>>(mut table: Table, 
     table.columns.extend(UNCERTAINTY_HEADS.map(Column::from));
     for (row, cells) in table.rows.iter_mut().enumerate() {
         cells.extend(nature(of(row)).map_or_else(Default::default, |(source, coverage, freedom, extrapolated)| {
-            [source.word().into(), coverage.into(), freedom.into(), extrapolated.to_string().into()]
+            let freedom = if freedom.is_finite() { freedom.into() } else { "inf".into() };
+            [source.into(), coverage.into(), freedom, extrapolated.to_string().into()]
         }));
     }
     table
 }
 
-/// Source, coverage factor and degrees of freedom of uncertainties under the same conditions, and whether any is extrapolated; none
-/// where there are none.
-fn nature(of: impl IntoIterator<Item = MetricUncertainty>) -> Option<(UncertaintySource, f64, f64, bool)> {
-    let mut of = of.into_iter();
-    let first = of.next()?;
-    let extrapolated = first.is_extrapolated || of.any(|next| next.is_extrapolated);
-    Some((first.source, first.coverage, first.freedom, extrapolated))
+/// Sources of uncertainties, their largest coverage factor and fewest degrees of freedom, and whether any is extrapolated; none where
+/// there are none.
+fn nature(of: impl IntoIterator<Item = MetricUncertainty>) -> Option<(String, f64, f64, bool)> {
+    let (mut sources, mut found): (Vec<&str>, Option<(f64, f64, bool)>) = (Vec::new(), None);
+    for by in of {
+        if !sources.contains(&by.source.word()) {
+            sources.push(by.source.word());
+        }
+        let (coverage, freedom, extrapolated) = found.unwrap_or((0.0, f64::INFINITY, false));
+        let extrapolated = extrapolated || by.is_extrapolated;
+        found = Some((by.coverage.max(coverage), by.freedom.min(freedom), extrapolated));
+    }
+    found.map(|(coverage, freedom, extrapolated)| (sources.join(" and "), coverage, freedom, extrapolated))
 }
 
 /// Decimals of a value: those of its uncertainty, else the metric's.
@@ -105,28 +118,89 @@ pub fn uncertainty(value: MetricValue) -> Option<String> {
     value.uncertainty.and_then(|by| behind(by.standard, by.is_extrapolated))
 }
 
-/// What ± is, in sentences: coverage factor, degrees of freedom, origin, and the dagger where one stands.
+/// What ± is, in sentences: origin, coverage factor and degrees of freedom of each kind, and the dagger where one stands.
 pub fn in_words(of: impl IntoIterator<Item = MetricUncertainty> + Clone) -> String {
-    let Some((_, coverage, freedom, extrapolated)) = nature(of.clone()) else { return String::new() };
-    let is_prior = of.into_iter().all(|by| by.source == UncertaintySource::Prior);
-    let origin = if is_prior {
-        "prior: the spread of tables between laboratories"
-    } else {
-        "own where the camera's file states it, otherwise prior"
+    let Some((.., extrapolated)) = nature(of.clone()) else { return String::new() };
+    let kind = |is_prior: bool| {
+        let of = of.clone().into_iter().filter(|by| (by.source == UncertaintySource::Prior) == is_prior);
+        let (_, coverage, freedom, _) = nature(of)?;
+        let freedom = if freedom.is_finite() { format!("{freedom:.0}") } else { "∞".to_owned() };
+        Some(format!("95 %: ± {coverage:.2} u, {freedom} degrees of freedom"))
     };
+    let is_decided = |by: MetricUncertainty| by.source == UncertaintySource::Own(Correlation::Stated);
+    let correlation = if of.clone().into_iter().filter(|by| by.source != UncertaintySource::Prior).all(is_decided) {
+        "with its covariance"
+    } else {
+        "uncorrelated or fully correlated, whichever gives more"
+    };
+    let prior = "prior: the spread of tables between laboratories";
+    let kinds = match (kind(true), kind(false)) {
+        (Some(of_prior), None) => format!("({prior}); {of_prior}."),
+        (None, Some(own)) => format!("(own: as the camera's file states it, {correlation}); {own}."),
+        (of_prior, own) => {
+            let [of_prior, own] = [of_prior, own].map(Option::unwrap_or_default);
+            format!("(own: as the camera's file states it, {correlation}; {own}. Without: {prior}; {of_prior}).")
+        }
+    };
+    let parts = [(LIGHT, "light"), (PATCHES, "patches")];
+    let stated =
+        |(part, _): &(fn(&Contributions) -> f64, _)| of.clone().into_iter().any(|by| part(&by.contributions) > 0.0);
+    let parts: String = parts.iter().filter(|part| stated(part)).map(|(_, name)| format!(" and the {name}")).collect();
     let dagger = if extrapolated {
-        " † Extrapolated: the sensor is unlike the models of the prior, or the metric uses more than 400–700 nm."
+        match kind(true) {
+            Some(_) => {
+                " † Extrapolated: the sensor is unlike the models of the prior, or the metric uses more than 400–700 nm."
+            }
+            None => " † Extrapolated: the camera's table does not reach over 400–700 nm.",
+        }
     } else {
         ""
     };
-    format!(
-        "±: standard uncertainty u by the sensitivities ({origin}); 95 %: ± {coverage:.2} u, {freedom:.0} degrees of freedom.{dagger}"
-    )
+    format!("±: standard uncertainty u by the sensitivities{parts} {kinds}{dagger}")
 }
+
+const LIGHT: fn(&Contributions) -> f64 = |of| of.light;
+const PATCHES: fn(&Contributions) -> f64 = |of| of.patches;
 
 impl Scene<'_> {
     /// Conditions of figures of merit and what ± is, in sentences.
     pub fn metrics_words_with(&self, of: impl IntoIterator<Item = MetricUncertainty> + Clone) -> String {
         format!("{} {}", self.metrics_words(), in_words(of)).trim_end().to_owned()
+    }
+
+    /// Uncertainties that the files of the light and the chart state; the camera's is not among them.
+    pub(super) fn own_uncertainties(&self) -> Result<OwnUncertainties> {
+        Ok(OwnUncertainties { camera: None, light: self.light()?.stated, patches: self.stated_of_chart() })
+    }
+
+    /// Uncertainty of the patches that are compared, where their file states one.
+    pub fn stated_of_chart(&self) -> Option<Shared<StatedUncertainty>> {
+        let place = self.find_chart(&self.document.chart).ok()?.place.clone();
+        self.results.ask(&StatedQuery { place, names: self.subset() }).uncertainty.clone()
+    }
+
+    /// Uncertainty of a sensor's curves per unit energy, where its file states one.
+    pub fn stated_of_sensor(&self, kind: SetKind, name: &str, sensor: &Sensor) -> Option<StatedUncertainty> {
+        let place = self.entry(kind, name).ok()?.place;
+        let stated = self.results.ask(&StatedQuery { place, names: None }).uncertainty.clone()?;
+        stated.per_energy(sensor)
+    }
+
+    /// Sentences on uncertainties that files of the light, the chart and some cameras state, and that are not used.
+    pub fn refused_uncertainties<'a>(&self, cameras: impl IntoIterator<Item = &'a str>) -> Vec<String> {
+        let light = match &self.document.light {
+            Light::Set(name) => self.entry(SetKind::Illuminant, name).ok(),
+            _ => None,
+        };
+        let cameras = cameras.into_iter().filter_map(|name| self.entry(SetKind::Camera, name).ok());
+        let sentence = |entry: Entry| {
+            let stated = self.results.ask(&StatedQuery { place: entry.place, names: None });
+            let instead = match stated.uncertainty {
+                Some(_) => "Its uncertainties are used without",
+                None => "No uncertainty of its own is used",
+            };
+            stated.refused.map(|refused| format!("{}: {refused}. {instead}.", entry.name))
+        };
+        light.into_iter().chain(self.chart_entry(&self.document.chart)).chain(cameras).filter_map(sentence).collect()
     }
 }

@@ -1,12 +1,13 @@
 //! Conversion of read curves to drawn lines.
 
-use spectral_file::{Quantity, Role, SpectralFile};
+use spectral_file::{Quantity, Role, SpectralFile, Uncertainty};
 
 use chromascope_core::spectral::grid::{FIRST_NM, LAST_NM};
 
 use super::import_selection::{ImportSelection, places};
 use crate::catalog::import::taken;
 use crate::document::imported::ImportedSet;
+use crate::figures::band::{coverage, words};
 use crate::format::{capitalized, number, sentence};
 
 pub const DRAWN: usize = 200;
@@ -22,6 +23,8 @@ pub struct Curve {
     pub channel: Option<usize>,
     /// Wavelengths in nanometers and values; a value that is not finite marks a gap.
     pub points: Vec<[f64; 2]>,
+    /// Samples with the half-width of the band of their uncertainty, and the coverage factor of that; empty where the file states none.
+    pub band: (Vec<([f64; 2], f64)>, f64),
 }
 
 #[derive(Clone, Debug, PartialEq)]
@@ -64,7 +67,9 @@ impl Curves {
         let drawn = kept.iter().take(most).enumerate().map(|(order, &place)| {
             let curve = &table.curves[place];
             let points = points(&curve.wavelengths_nm, &curve.values, (curve.missing > 0).then_some(&grid));
-            Curve { place, order, name: curve.name.clone(), channel: channel(role, &channels, place), points }
+            let standard = curve.uncertainty.as_ref().map(|of| &of.standard[..]);
+            let band = band(&curve.wavelengths_nm, &curve.values, standard, curve.uncertainty.as_ref());
+            Curve { place, order, name: curve.name.clone(), channel: channel(role, &channels, place), points, band }
         });
         let title = shown.file.as_ref().map_or_else(String::new, |file| file.origin.name.clone());
         let unit = common(kept.iter().map(|&place| table.curves[place].unit.as_deref()));
@@ -85,7 +90,13 @@ impl Curves {
             ..set.clone()
         };
         let curves = head.curves_in_nm().map_err(|error| format!("{}: {error}", set.name))?;
+        let stated = head.uncertainties_in_nm();
         let drawn = curves.into_iter().zip(places).enumerate().map(|(order, ((name, curve), place))| Curve {
+            band: {
+                let standard = stated.get(order).and_then(Option::as_deref);
+                let uncertainty = head.curves.get(order).and_then(|curve| curve.uncertainty.as_ref());
+                band(curve.wavelengths_nm(), curve.values(), standard, uncertainty)
+            },
             place,
             order,
             name,
@@ -131,11 +142,20 @@ impl Curves {
     }
 
     fn noted(&self) -> String {
-        match (self.count, self.drawn.len()) {
+        let count = match (self.count, self.drawn.len()) {
             (1, _) => self.drawn.first().map_or_else(String::new, |curve| curve.name.clone()),
             (all, drawn) if drawn < all => format!("the first {drawn} of {all} curves"),
             (all, _) => format!("{all} curves"),
-        }
+        };
+        self.band_words().map_or_else(|| count.clone(), |words| format!("{count}; {words}"))
+    }
+
+    /// Words for the bands, if there are any.
+    pub fn band_words(&self) -> Option<String> {
+        let mut factors: Vec<f64> = self.drawn.iter().filter(|of| !of.band.0.is_empty()).map(|of| of.band.1).collect();
+        factors.dedup();
+        let [first] = factors[..] else { return (!factors.is_empty()).then(|| "bands: ±U of the file".to_owned()) };
+        Some(words(first))
     }
 
     /// The wavelengths that any curve covers.
@@ -180,6 +200,18 @@ fn height([low, high]: [f64; 2]) -> f64 {
 
 fn channel(role: Role, channels: &[usize; 3], place: usize) -> Option<usize> {
     channels.iter().position(|channel| *channel == place).filter(|_| role == Role::Camera)
+}
+
+/// Samples with the half-widths of their band, and its coverage factor.
+fn band(
+    nm: &[f64],
+    values: &[f64],
+    standard: Option<&[f64]>,
+    of: Option<&Uncertainty>,
+) -> (Vec<([f64; 2], f64)>, f64) {
+    let factor = coverage(of.map_or(1.0, |of| of.coverage));
+    let samples = nm.iter().zip(values).zip(standard.unwrap_or_default());
+    (samples.map(|((nm, value), u)| ([*nm, *value], factor * u)).collect(), factor)
 }
 
 /// Unit that all curves share, if they do.

@@ -1,11 +1,12 @@
 //! Curves of the panels: light, patches, sensitivities, with the labels that name them.
 
-use chromascope_core::spectral::SpectralDistribution;
+use chromascope_core::spectral::{SpectralDistribution, StatedUncertainty};
 use chromascope_core::spectral::grid::{FIRST_NM, LAST_NM};
 use chromascope_figure::{Dash, Ink, InkRole, Mark, Shape, Tag};
 
 use super::Built;
 use crate::document::{SetKind, Subset};
+use crate::figures::band;
 use crate::figures::chromaticity::id;
 use crate::figures::data_set::{Name, channel_symbol};
 use crate::plot_item::PlotItem;
@@ -35,7 +36,9 @@ pub(super) fn light(scene: &Scene<'_>, built: &mut Built) -> Option<Content> {
     let within = |nm: f64| (FIRST_NM..=LAST_NM).contains(&nm);
     let samples = light.measured.wavelengths_nm().iter().zip(light.measured.values());
     let peak = samples.filter(|(nm, _)| within(**nm)).map(|(_, v)| v.abs()).fold(0.0, f64::max);
-    let marks = curve(tag, "light", &light.measured, peak, InkRole::Text.into(), 2.0, true);
+    let mut marks = curve(tag, "light", &light.measured, peak, InkRole::Text.into(), 2.0, true);
+    let stated = light.stated.as_ref().filter(|of| of.transmittance.is_none());
+    marks.splice(0..0, stated.and_then(|of| banded(built, "light", &light.measured, (peak, InkRole::Text.into()), (&of.stated, 0))));
     let name = if scene.light_name() == "E" { "E, equal energy".to_owned() } else { scene.light_name() };
     Some(Content {
         quantity: "relative power",
@@ -54,6 +57,7 @@ pub(super) fn patches(scene: &Scene<'_>, built: &mut Built) -> Option<Content> {
     let colors = scene.patch_colors(SetKind::Observer, &scene.document.reference).unwrap_or_default();
     let mut top = 1.0_f64;
     let (mut marks, mut names) = (Vec::new(), Vec::new());
+    let stated = scene.stated_of_chart();
     for (index, patch) in patches.patches().iter().enumerate() {
         let tag = built.things.tag(PlotItem::Patch { source: None, patch: patch.name.clone() });
         let color = colors.get(index).map(|color| color.srgb.bytes);
@@ -64,6 +68,8 @@ pub(super) fn patches(scene: &Scene<'_>, built: &mut Built) -> Option<Content> {
             Some(stroke) if stroke.dash == Dash::Solid => mark.with_halo(casing),
             _ => mark,
         };
+        let band = stated.as_ref().and_then(|of| banded(built, &patch.name, &patch.measured, (1.0, ink), (of, index)));
+        marks.splice(0..0, band);
         marks.extend(curve(tag, &patch.name, &patch.measured, 1.0, ink, 1.5, true).into_iter().map(cased));
         if patches.patches().len() <= NAMED {
             let points = along(&patch.measured, 1.0);
@@ -113,7 +119,8 @@ pub(super) fn sensitivities(
     {
         let Some(sensor) = built.known(scene.sensor(source.kind, &source.name)) else { continue };
         let tag = built.things.tag(PlotItem::Sensor(id(source)));
-        for (channel, spectrum) in sensor.primaries().channels().iter().zip(sensor.curves()) {
+        let stated = scene.stated_of_sensor(source.kind, &source.name, &sensor);
+        for (c, (channel, spectrum)) in sensor.primaries().channels().iter().zip(sensor.curves()).enumerate() {
             let peak = spectrum.values().iter().copied().fold(0.0, f64::max).max(f64::MIN_POSITIVE);
             let name = format!("{} {channel}", source.label);
             if is_ghost {
@@ -124,6 +131,8 @@ pub(super) fn sensitivities(
             let least = spectrum.values().iter().copied().fold(0.0, f64::min);
             low = low.min(1.1 * least / peak);
             let width = if source.is_reference { 3.0 } else { source.width };
+            let band = |of| banded(built, &name, spectrum, (peak, source.role.into()), (of, c));
+            marks.splice(0..0, stated.as_ref().and_then(band));
             marks.extend(curve(tag, &name, spectrum, peak, source.role.into(), width, false));
             names.push(Name {
                 text: channel_symbol(channel),
@@ -188,6 +197,27 @@ fn sign(tag: Tag, source: &ComparedSensor, spectrum: &SpectralDistribution, peak
     let shape = Shape::Points { points: vec![at], marker: source.marker, radius: 3.5 };
     let mark = Mark::new(tag, &source.label, shape).with_stroke(source.role, 1.5);
     Some(if source.marker.has_inside() { mark.with_fill(source.role) } else { mark })
+}
+
+/// Band of the uncertainty of one of the curves that a file states it for, divided by the curve's peak.
+fn banded(
+    built: &mut Built,
+    name: &str,
+    spectrum: &SpectralDistribution,
+    (peak, ink): (f64, Ink),
+    (stated, place): (&StatedUncertainty, usize),
+) -> Option<Mark> {
+    let scale = if peak > 0.0 { peak } else { 1.0 };
+    let factor = band::coverage(stated.coverage());
+    let samples = spectrum.wavelengths_nm().iter().zip(spectrum.values()).zip(stated.standard().get(place)?);
+    let samples = samples.filter(|((nm, _), _)| (FIRST_NM - 20.0..=LAST_NM + 20.0).contains(*nm));
+    let points: Vec<_> = samples.map(|((nm, value), u)| ([*nm, value / scale], factor * u / scale)).collect();
+    let mark = band::mark(name, &points, ink)?;
+    let words = band::words(factor);
+    if !built.bands.contains(&words) {
+        built.bands.push(words);
+    }
+    Some(mark)
 }
 
 /// A curve as measured, divided by its peak; where its end values are held beyond it, dotted.
