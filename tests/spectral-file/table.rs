@@ -12,6 +12,7 @@ mod limits;
 mod parts;
 mod rows;
 mod said;
+mod uncertainties;
 
 use spectral_file::{
     BinaryKind, Certainty, Curve, DecimalMark, Delimiter, Dropped, Encoding, Family, MAX_BYTES, Orientation, ReadError,
