@@ -77,7 +77,8 @@ fn a_camera_that_states_uncertainties_is_its_own() {
     assert_eq!(u(&figures(&set), "vora").source, UncertaintySource::Prior);
     with(vec![camera(true)], |scene| {
         let ranked = scene.ranked(RankedCameras::Yours);
-        let csv = with_nature(metrics::table(&ranked), |camera| metrics::uncertainties(&ranked, [camera])).csv(significant);
+        let csv =
+            with_nature(metrics::table(&ranked), |camera| metrics::uncertainties(&ranked, [camera])).csv(significant);
         assert!(csv.lines().last().unwrap().ends_with(",own,2.00000000000000,inf,false"), "{csv}");
     });
 }
@@ -118,7 +119,8 @@ fn light_and_chart_have_parts_and_bands() {
     let leaves = stated("leaves.csv", "nm,dry,wet\n380,0.1,0.1\n550,0.5,0.3\n780,0.8,0.4\n", Role::Reflectance);
     let mut document = Document::colorimetry();
     crate::import_sets(vec![lamp, leaves]).apply(&mut document);
-    (document.light, document.chart, document.subset) = (Light::Set("lamp".to_owned()), "leaves".to_owned(), Subset::All);
+    (document.light, document.chart, document.subset) =
+        (Light::Set("lamp".to_owned()), "leaves".to_owned(), Subset::All);
     within(&document, |scene| {
         let found = u(&scene.camera_figures(SetKind::Camera, "Nikon D850").unwrap(), "delta-e2000-mean");
         assert_eq!(found.source, UncertaintySource::Prior);

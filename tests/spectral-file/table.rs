@@ -13,6 +13,7 @@ mod parts;
 mod rows;
 mod said;
 mod shapes;
+mod uncertainties;
 
 use spectral_file::{
     BinaryKind, Certainty, Curve, DecimalMark, Delimiter, Dropped, Encoding, Family, MAX_BYTES, Orientation, ReadError,

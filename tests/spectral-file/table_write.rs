@@ -57,7 +57,7 @@ fn back(text: &str) -> SpectralFile {
 /// What is read with the metadata beside it.
 fn beside(written: &Written) -> SpectralFile {
     let metadata = written.metadata.as_ref().map(|metadata| metadata.text("a.csv")).unwrap_or_default();
-    let source = Source { bytes: written.text.as_bytes(), path: "", metadata: metadata.as_bytes() };
+    let source = Source { bytes: written.text.as_bytes(), metadata: metadata.as_bytes(), ..Source::default() };
     read(source, &ReadOptions::default()).unwrap_or_else(|error| panic!("{error}\n{}", written.text))
 }
 

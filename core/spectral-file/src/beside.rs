@@ -16,6 +16,8 @@ pub struct Source<'a> {
     pub path: &'a str,
     /// Contents of the file's metadata: its own name with an ending of [`METADATA`]. May be empty.
     pub metadata: &'a [u8],
+    /// Contents of the file with its covariance, whose name ends in [`COVARIANCE`](crate::COVARIANCE). May be empty.
+    pub covariance: &'a [u8],
 }
 
 impl<'a, T: AsRef<[u8]> + ?Sized> From<&'a T> for Source<'a> {

@@ -343,7 +343,7 @@ fn raw_curve(header: &Header, column: usize, only: bool, values: Vec<f64>) -> Ra
     let given = named.or(title);
     let name = given.map_or_else(|| format!("Column {}", column + 1), str::to_owned);
     let (named, label, unit) = (given.is_some(), header.label(column), header.unit(column));
-    RawCurve { name, named, column: Some(column + 1), origin: column, label, unit, values }
+    RawCurve { name, named, column: Some(column + 1), origin: column, label, unit, values, ..RawCurve::default() }
 }
 
 /// A named column that is empty in every row is no column of the rows, but its absence is reported.

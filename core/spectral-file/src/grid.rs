@@ -5,7 +5,7 @@ use chromascope_text::on_one_line;
 use crate::decision::{Decided, Dropped, Part, Quantity, Role, WavelengthUnit};
 use crate::error::ReadError;
 use crate::header::Header;
-use crate::report::{Curve, DroppedRow};
+use crate::report::{Curve, DroppedRow, Uncertainty};
 use crate::warning::{Sentinel, Warning};
 use crate::watch::Log;
 
@@ -55,9 +55,48 @@ pub(super) struct RawCurve {
     pub(super) label: String,
     pub(super) unit: Option<String>,
     pub(super) values: Vec<f64>,
+    pub(super) uncertainty: Option<Stated>,
+    /// Derivatives of the values by those that the file has, where a covariance has to follow them; else empty.
+    pub(super) slopes: Vec<f64>,
+}
+
+/// Uncertainties of a curve as a column states them: k u for each value.
+#[derive(Debug)]
+pub(super) struct Stated {
+    pub(super) numbers: Vec<f64>,
+    /// The column, for messages.
+    pub(super) named: String,
+    /// Its place, as in [`RawCurve::origin`].
+    pub(super) origin: usize,
+    pub(super) coverage: Decided<f64>,
+    pub(super) scale: StatedScale,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum StatedScale {
+    /// The unit of the values.
+    Unit,
+    /// Percent, of the value or as the values are.
+    Percent,
+    /// Percent as the values are, if they are percent.
+    SamePercent,
+    /// Percent of the value.
+    Relative,
+    /// A part of the value, in one or in percent.
+    Part,
 }
 
 impl RawCurve {
+    /// Converts small differences of the values, by a function of a difference, the value before its conversion, and its index.
+    pub(super) fn convert_differences(&mut self, by: impl Fn(f64, f64, usize) -> f64) {
+        let stated = self.uncertainty.as_mut().map(|stated| &mut stated.numbers);
+        for differences in stated.into_iter().chain(Some(&mut self.slopes)) {
+            for (index, (difference, value)) in differences.iter_mut().zip(&self.values).enumerate() {
+                *difference = by(*difference, *value, index);
+            }
+        }
+    }
+
     /// The name between quotes, and the column if the name does not say it.
     pub(super) fn description(&self) -> String {
         match self.column.filter(|_| self.named) {
@@ -141,13 +180,13 @@ impl Grid {
         }
     }
 
-    /// The curves without their gaps, and their origins. A curve of fewer than two values is left
+    /// The curves without their gaps, their origins and those of their uncertainties, and their slopes, curve after curve. A curve of fewer than two values is left
     /// out; it is worth a warning only if it has a name or a value.
-    pub(super) fn into_curves(mut self, log: &mut Log<'_>) -> (Vec<Curve>, Vec<usize>) {
+    pub(super) fn into_curves(mut self, log: &mut Log<'_>) -> (Vec<Curve>, Origins, Vec<f64>) {
         let mut gaps = vec![0_u32; self.wavelengths.len()];
-        let (mut curves, mut origins) = (Vec::new(), Vec::new());
+        let (mut curves, mut origins, mut slopes) = (Vec::new(), Origins::default(), Vec::new());
         let (mut empty, mut first_empty) = (0, None);
-        for raw in std::mem::take(&mut self.curves) {
+        for mut raw in std::mem::take(&mut self.curves) {
             let missing = raw.values.iter().filter(|value| value.is_nan()).count();
             let left = raw.values.len() - missing;
             if left < 2 {
@@ -160,7 +199,14 @@ impl Grid {
             for (count, value) in gaps.iter_mut().zip(&raw.values) {
                 *count += u32::from(value.is_nan());
             }
-            origins.push(raw.origin);
+            if let Some(stated) = &mut raw.uncertainty {
+                stated.fill(&raw.values, log);
+                origins.uncertain.push((stated.origin, origins.curves.len()));
+            }
+            origins.curves.push(raw.origin);
+            slopes.extend(
+                raw.slopes.iter().zip(&raw.values).filter(|(_, value)| !value.is_nan()).map(|(slope, _)| *slope),
+            );
             curves.push(curve(raw, &self.wavelengths, missing));
         }
         if self.own_wavelengths {
@@ -173,13 +219,47 @@ impl Grid {
         if let Some(first) = first_empty {
             log.push(Warning::EmptyCurves { count: empty, first });
         }
-        (curves, origins)
+        (curves, origins, slopes)
+    }
+}
+
+/// Places of curves in a file, in their order, and of the columns of uncertainties, with the index of their curve.
+#[derive(Debug, Default)]
+pub(super) struct Origins {
+    pub(super) curves: Vec<usize>,
+    pub(super) uncertain: Vec<(usize, usize)>,
+}
+
+impl Stated {
+    /// Puts the larger of the neighbors' uncertainties where a value has none.
+    fn fill(&mut self, values: &[f64], log: &mut Log<'_>) {
+        let lacks = |(number, value): (&f64, &f64)| !number.is_finite() && !value.is_nan();
+        let count = self.numbers.iter().zip(values).filter(|pair| lacks(*pair)).count();
+        if count == 0 {
+            return;
+        }
+        log.push(Warning::UncertaintyGaps { named: self.named.clone(), count });
+        let known = |number: &f64| if number.is_finite() { number.abs() } else { 0.0 };
+        let mut after = vec![0.0; self.numbers.len()];
+        let mut next = 0.0;
+        for (after, number) in after.iter_mut().zip(&self.numbers).rev() {
+            next = if number.is_finite() { known(number) } else { next };
+            *after = next;
+        }
+        let mut before: f64 = 0.0;
+        for (number, after) in self.numbers.iter_mut().zip(after) {
+            if number.is_finite() { before = known(number) } else { *number = before.max(after) }
+        }
     }
 }
 
 fn curve(raw: RawCurve, wavelengths: &[f64], missing: usize) -> Curve {
-    let RawCurve { name, named, unit, mut values, .. } = raw;
-    let uncertainty = None;
+    let RawCurve { name, named, unit, mut values, uncertainty, .. } = raw;
+    let uncertainty = uncertainty.map(|Stated { numbers, coverage, .. }| {
+        let present = numbers.iter().zip(&values).filter(|(_, value)| !value.is_nan());
+        let standard = present.map(|(number, _)| number.abs() / coverage.value).collect();
+        Uncertainty { standard, coverage: coverage.value }
+    });
     let name = on_one_line(&name).into_owned();
     if missing == 0 {
         values.shrink_to_fit();

@@ -11,7 +11,7 @@ use crate::dialect_trial::Layout;
 use crate::error::MAX_CURVES;
 use crate::header_terms::{self, UNSPECIFIED, XUnit};
 use crate::text::{Lines, Section, comment, is_one};
-use crate::{unit_text, units};
+use crate::{uncertainty_terms, unit_text, units};
 
 const MAX_COMMENTS: usize = 1000;
 
@@ -36,6 +36,8 @@ pub(super) struct Header {
     pub(super) photons: Option<usize>,
     pub(super) per_photon: Option<usize>,
     pub(super) medium: Option<(usize, Medium)>,
+    /// Coverage factor k of the uncertainties in the table.
+    pub(super) coverage: Option<(usize, f64)>,
     pub(super) role: Option<(usize, Role)>,
     /// Role that free text mentions; only good for a guess.
     pub(super) mentioned: Option<(usize, Role)>,
@@ -116,6 +118,9 @@ impl Header {
         /// Keys of what the values are, if a quantity and a unit stand behind them.
         const MEASURED_TOO: &str = "data|data type|value|values|y|signal|spectrum|spectra|column|columns";
         let lower = key.to_ascii_lowercase();
+        if is_one(&lower, "k|coverage factor|coverage|uncertainty|uncertainties|note") {
+            self.take_coverage(line, &format!("{key}: {value}"));
+        }
         if is_one(&lower, "unit|units|y unit|y units|yunit|yunits") {
             self.take_value_unit(line, value);
             self.unit = unit_text::unit_cell(value).filter(|unit| unit != "1").or(self.unit.take());
@@ -161,6 +166,14 @@ impl Header {
         };
     }
 
+    fn take_coverage(&mut self, line: usize, text: &str) {
+        const LONGEST: usize = 400;
+        if text.len() <= LONGEST && (text.contains(['k', 'K']) || text.contains("overage")) {
+            let found = uncertainty_terms::coverage(&text.to_lowercase());
+            self.coverage = found.map(|k| (line, k)).or(self.coverage);
+        }
+    }
+
     fn take_role(&mut self, line: usize, text: &str) {
         // Lights have other units: `radiance paint (%)` is a sample.
         let sample = self.values.is_some_and(|(_, values)| values == Values::Percent);
@@ -173,6 +186,7 @@ impl Header {
         if let Some(unit) = header_terms::x_unit_in_prose(text) {
             self.x_unit = Some((line, unit));
         }
+        self.take_coverage(line, text);
         self.medium = header_terms::medium(text).map(|medium| (line, medium)).or(self.medium);
         self.take_photons(line, text);
         let start = text.trim_start().as_bytes();

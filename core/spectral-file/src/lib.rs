@@ -33,7 +33,7 @@
 //!
 //! Stages of reading, in order: `text` (bytes to text), `formats` (choice of the reader), for numbers in columns `sniff`
 //! (separators, first row of numbers), `header` (names, units, comments), `columns` or `wide` (text to numbers), then
-//! `wavelengths` (unit, order, repeats), `gaps`, `no_curve`, `scale` (role, percent), `quantity` (photons to energies), and in `read` the
+//! `wavelengths` (unit, order, repeats), `gaps`, `no_curve`, `uncertainty`, `scale` (role, percent), `quantity` (photons to energies), and in `read` the
 //! curves. Another format is one file in `formats` and its line in `FORMATS`: it fills the same `Grid`, and all after it is shared.
 
 #![cfg_attr(
@@ -46,6 +46,7 @@ mod beside;
 mod binary;
 mod clues;
 mod columns;
+mod covariance;
 mod decimal;
 mod decision;
 mod dialect;
@@ -65,6 +66,8 @@ mod report;
 mod scale;
 mod sniff;
 mod text;
+mod uncertainty;
+mod uncertainty_terms;
 mod unit_text;
 mod units;
 mod warning;
@@ -76,6 +79,7 @@ pub mod write;
 pub use beside::{METADATA, Source};
 pub use binary::BinaryKind;
 pub use chromascope_text::{cell, guarded, lowered, on_one_line, quoted, turns_text};
+pub use covariance::COVARIANCE;
 pub use decision::{
     Certainty, Decided, DecimalMark, Decision, Delimiter, Dropped, Effect, Encoding, Family, Medium, Orientation, Part,
     Quantity, Reader, Role, Values, WavelengthUnit,

@@ -196,6 +196,7 @@ pub(super) fn to_energy(
     let decision = Decision::new(DECISION, &decided).affecting(Effect::Data);
     for (curve, conversion) in grid.curves.iter_mut().zip(&found) {
         let Some(conversion) = conversion else { continue };
+        curve.convert_differences(|difference, _, index| conversion.apply(difference, grid.wavelengths[index]));
         for (value, nm) in curve.values.iter_mut().zip(&grid.wavelengths) {
             let converted = conversion.apply(*value, *nm);
             *value = if converted.is_finite() { converted } else { f64::NAN };

@@ -1,7 +1,7 @@
 //! Reading of a file, from its bytes to its curves.
 
 use crate::beside::{self, Source};
-use crate::decision::{Certainty, Decision, Encoding, WavelengthUnit};
+use crate::decision::{Certainty, Decision, Encoding, Part, WavelengthUnit};
 use crate::error::{MAX_DROPPED, ReadError};
 use crate::formats::spectra::Found;
 use crate::grid::Grid;
@@ -10,7 +10,7 @@ use crate::preview::Marker;
 use crate::report::{ReadReport, SpectralFile, Steps};
 use crate::warning::Warning;
 use crate::watch::{Log, Places, Watch};
-use crate::{formats, no_curve, quantity, scale, text, wavelengths};
+use crate::{covariance, formats, no_curve, quantity, scale, text, uncertainty, wavelengths};
 
 /// Files up to this size are read again to find what an error is due to.
 const LONGEST: usize = 1 << 20;
@@ -97,7 +97,7 @@ fn read_text(
     let mut found = formats::read(&text, options, &mut log)?;
     log.look(text.len())?;
     beside::take(source, &mut found.grid);
-    finish(found, encoding, options, log)
+    finish(found, encoding, options, source.covariance, log)
 }
 
 /// Refuses fewer than two samples, and numbers beyond all that 64 bits hold.
@@ -110,16 +110,30 @@ fn check(grid: &Grid, first_line: usize) -> Result<(), ReadError> {
     at.map_or(Ok(()), |at| Err(ReadError::TooGreat(grid.line(at))))
 }
 
+/// Takes the columns that are no curves from them, unless they are requested. A file's only part counts its curves alone.
+fn take_columns_beside(grid: &mut Grid, parts: &mut [Part], options: &ReadOptions, log: &mut Log<'_>) {
+    if options.raw == Some(true) {
+        return;
+    }
+    no_curve::leave_out(grid, log);
+    uncertainty::take(grid, log);
+    if let [only] = parts {
+        let uncertain = grid.curves.iter().filter(|curve| curve.uncertainty.is_some()).count();
+        only.curves = only.curves.saturating_sub(uncertain);
+    }
+}
+
 /// Stages that all readers share: units, order, role, scale, curves.
 fn finish(
     found: Found,
     encoding: Encoding,
     options: &ReadOptions,
+    covariance: &[u8],
     mut warnings: Log<'_>,
 ) -> Result<(SpectralFile, Option<Marker>), ReadError> {
     let Found { mut grid, layout, reader, mut notes } = found;
     check(&grid, layout.first_line)?;
-    let (parts, part) = grid.settle_parts(options.part, layout.first_line)?;
+    let (mut parts, part) = grid.settle_parts(options.part, layout.first_line)?;
     let wavelength_unit = wavelengths::unit(&grid, options)?;
     wavelengths::to_nanometers(&mut grid, &wavelength_unit, &mut warnings)?;
     if (wavelength_unit.value, wavelength_unit.certainty) == (WavelengthUnit::Wavenumber, Certainty::Guess) {
@@ -135,32 +149,33 @@ fn finish(
     warnings.look(usize::MAX)?;
     no_curve::take_sentinels(&mut grid, &mut warnings);
     quantity::suggest_role(&mut grid);
-    if options.raw != Some(true) {
-        no_curve::leave_out(&mut grid, &mut warnings);
-    }
+    take_columns_beside(&mut grid, &mut parts, options, &mut warnings);
+    covariance::prepare(covariance, &mut grid);
     let scale = scale::decide(&grid, options, &mut warnings);
     let quantity = quantity::decide(&grid, &scale.role, &mut warnings);
     let per_photon = quantity::per_photon(&grid, scale.role.value, &quantity);
+    notes.extend(uncertainty::settle(&mut grid, scale.role.value, &scale.columns, &mut warnings));
     scale::convert(&mut grid, &scale);
     notes.extend(quantity::to_energy(&mut grid, scale.role.value, &wavelength_unit, options));
     scale::warn(&scale, &grid, &mut warnings);
     let marker = |places| Marker::new(places, &grid, &layout, reader.value, wavelength_unit.value);
     let mut marker = warnings.places.take().map(marker);
     let mut decimal_mark = layout.decimal_mark;
-    if scale.denies_thousands() && warnings.warnings.contains(&Warning::MaybeThousands) {
-        warnings.warnings.retain(|warning| *warning != Warning::MaybeThousands);
+    if scale.denies_thousands() && warnings.drop_doubt_of_thousands() {
         decimal_mark.certainty = Certainty::Certain;
     }
     warnings.look(usize::MAX)?;
     let medium = |(line, medium)| Decision::certain("Medium", medium, format!("Line {line} says so"));
     notes.extend(grid.header.medium.map(medium));
     let (rows, wavelength_column) = (grid.rows, grid.wavelength_column);
+    let order = [grid.own_wavelengths || !grid.dropped.is_empty() || warnings.has_sorted(), descending];
     let (header, mut dropped_rows) = (std::mem::take(&mut grid.header), std::mem::take(&mut grid.dropped));
     dropped_rows.truncate(MAX_DROPPED);
-    let (curves, origins) = grid.into_curves(&mut warnings);
+    let (mut curves, origins, slopes) = grid.into_curves(&mut warnings);
     if curves.is_empty() {
         return Err(ReadError::TooFewSamples(layout.first_line));
     }
+    let covariance = covariance::take(covariance, &mut curves, &slopes, order, &mut notes, &mut warnings);
     if let Some(marker) = &mut marker {
         marker.take_curves(&origins);
     }
@@ -190,5 +205,5 @@ fn finish(
         step_nm,
         camera_columns: scale::camera_columns(scale.role.value, &curves),
     };
-    Ok((SpectralFile { curves, covariance: None, role: scale.role, reading, warnings: warnings.warnings }, marker))
+    Ok((SpectralFile { curves, covariance, role: scale.role, reading, warnings: warnings.warnings }, marker))
 }

@@ -10,6 +10,8 @@ mod values;
 
 pub(super) use role::camera_columns;
 
+use std::f64::consts::LN_10;
+
 use crate::decision::{Certainty, Decided, Role, Values};
 use crate::grid::{Grid, RawCurve};
 use crate::options::ReadOptions;
@@ -35,7 +37,8 @@ pub(super) struct Scale {
     /// The role by content and surroundings, where another was chosen.
     pub(super) content: Decided<Role>,
     pub(super) values: Decided<Values>,
-    columns: Vec<Values>,
+    /// Those of each curve.
+    pub(super) columns: Vec<Values>,
 }
 
 impl Scale {
@@ -62,6 +65,12 @@ pub(super) fn convert(grid: &mut Grid, scale: &Scale) {
             Values::Absorbance => 10_f64.powf(-value),
             Values::Decibels => 10_f64.powf(value / 10.0),
         };
+        curve.convert_differences(|difference, value, _| match values {
+            Values::Plain => difference,
+            Values::Percent => decimal::shifted(difference, -2),
+            Values::Absorbance => -difference * LN_10 * plain(value),
+            Values::Decibels => difference * LN_10 / 10.0 * plain(value),
+        });
         // A value outside the range of doubles is a gap.
         let finite = |value: f64| if value.is_finite() { value } else { f64::NAN };
         curve.values.iter_mut().for_each(|value| *value = finite(plain(*value)));

@@ -190,6 +190,17 @@ pub enum Warning {
     /// The file states percent, but its values would be fractions. Holds the largest value as written, in words.
     #[error("The file says percent, but no value exceeds {0}: if they are fractions, choose plain numbers")]
     SmallPercent(String),
+    #[error("{named} is an uncertainty by its name, but {why}: left out. To read it as a curve, include raw columns")]
+    NotUncertainty { named: String, why: &'static str },
+    #[error(
+        "{named} is read as an uncertainty{how}, which nothing says: if it is not, write “relative” and “%”, or neither, into its name"
+    )]
+    UncertaintyScale { named: String, how: &'static str },
+    #[error("{named} has no uncertainty for {}: the larger of the neighbors' is taken", if *.count == 1 { "one value".to_owned() } else { format!("{count} values") })]
+    UncertaintyGaps { named: String, count: usize },
+    /// Holds the reason why the covariance beside a file is not taken.
+    #[error("The covariance beside the file is left out: {0}")]
+    NoCovariance(String),
     /// Warnings of kinds that are listed often enough: only counted. Stands last.
     #[error("{} more warning{} like these", .0, if *.0 == 1 { "" } else { "s" })]
     More(usize),

@@ -66,6 +66,18 @@ impl<'a> Log<'a> {
         warnings.into_iter().for_each(|warning| self.push(warning));
     }
 
+    /// Takes back the warning of thousands; returns whether there was one.
+    pub(super) fn drop_doubt_of_thousands(&mut self) -> bool {
+        let count = self.warnings.len();
+        self.warnings.retain(|warning| *warning != Warning::MaybeThousands);
+        self.warnings.len() < count
+    }
+
+    /// Returns whether rows were put in another order.
+    pub(super) fn has_sorted(&self) -> bool {
+        self.warnings.iter().any(|warning| matches!(warning, Warning::Sorted(_)))
+    }
+
     /// Reports that the reader is at a byte of the text; an error if the caller stops it.
     #[inline]
     pub(super) fn at(&mut self, byte: usize) -> Result<(), ReadError> {

@@ -10,7 +10,7 @@ use crate::header::{self, Header};
 use crate::text::{Lines, Section, comment, excerpt, is_one, listed};
 use crate::warning::{LineList, Warning};
 use crate::watch::Log;
-use crate::{header_terms, no_curve, unit_text};
+use crate::{header_terms, no_curve, uncertainty_terms, unit_text};
 
 pub(super) fn read(section: Section<'_>, layout: &Layout, log: &mut Log<'_>) -> Result<Grid, ReadError> {
     debug_assert_eq!(layout.orientation.value, Orientation::Across);
@@ -218,7 +218,7 @@ impl<'a> Rows<'a> {
                 Ok(())
             }
             Ok(None) => Ok(()),
-            Ok(Some(curve)) => {
+            Ok(Some(mut curve)) => {
                 if let Some((_, error, _)) = self.broken.take() {
                     return Err(error);
                 }
@@ -226,6 +226,11 @@ impl<'a> Rows<'a> {
                 if no_curve::is_scale_row(leading(), &self.across.group().wavelengths, &curve) {
                     self.scales.push(format!("line {number} (“{}”)", excerpt(&curve.name)));
                     return Ok(());
+                }
+                // `leaf, sd, …` below `leaf, mean, …`.
+                let is_other = |cell: &&str| *cell != curve.name && uncertainty_terms::term(cell, cell).is_some();
+                if let Some(cell) = leading().find(is_other).filter(|_| curve.named) {
+                    curve.name = format!("{} {cell}", curve.name);
                 }
                 let role = leading().find_map(header_terms::role).map(|role| (number, role));
                 let label = match self.kind_column {

@@ -7,11 +7,11 @@ use super::{names, ok};
 const BARE: &str = "400,0.12\n500,0.55\n600,0.91\n700,0.30\n";
 
 fn at(path: &str, text: &str) -> SpectralFile {
-    read(Source { bytes: text.as_bytes(), path, metadata: b"" }, &ReadOptions::default()).unwrap()
+    read(Source { bytes: text.as_bytes(), path, ..Source::default() }, &ReadOptions::default()).unwrap()
 }
 
 fn with(metadata: &str, text: &str) -> SpectralFile {
-    let source = Source { bytes: text.as_bytes(), path: "", metadata: metadata.as_bytes() };
+    let source = Source { bytes: text.as_bytes(), metadata: metadata.as_bytes(), ..Source::default() };
     read(source, &ReadOptions::default()).unwrap()
 }
 

@@ -123,7 +123,8 @@ impl StatedUncertainty {
         let curves = sensor.curves();
         self.is_of(curves.iter().map(|curve| curve.values().len())).then_some(())?;
         let is_per_photon = sensor.response() == Response::PerPhoton;
-        let factor = |c: usize, j: usize| if is_per_photon { per_energy(curves[c].wavelengths_nm()[j], 1.0) } else { 1.0 };
+        let factor =
+            |c: usize, j: usize| if is_per_photon { per_energy(curves[c].wavelengths_nm()[j], 1.0) } else { 1.0 };
         Some(self.scaled(factor))
     }
 

@@ -138,9 +138,8 @@ pub(crate) fn grid(mut spectra: Vec<Spectrum>, header: Header, log: &mut Log<'_>
         name,
         named,
         label: spectrum.label,
-        column: None,
-        unit: None,
         values: onto(&wavelengths, &spectrum.samples),
+        ..RawCurve::default()
     });
     let curves = curves.collect();
     let mut grid = Grid { wavelengths, lines, curves, header, rows, own_wavelengths: true, ..Grid::default() };

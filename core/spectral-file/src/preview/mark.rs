@@ -42,6 +42,8 @@ pub enum What {
     Gap(usize),
     /// A line of values so compressed that single numbers have no place in it.
     Block(usize),
+    /// An uncertainty of a curve.
+    Uncertainty(usize),
     /// Something that is in no curve.
     LeftOut(LeftOut),
 }
@@ -70,7 +72,11 @@ impl What {
     /// The curve it belongs to, from 0, if it belongs to one.
     pub fn curve(self) -> Option<usize> {
         match self {
-            Self::Value { curve, .. } | Self::Name(curve) | Self::Gap(curve) | Self::Block(curve) => Some(curve),
+            Self::Value { curve, .. }
+            | Self::Name(curve)
+            | Self::Gap(curve)
+            | Self::Block(curve)
+            | Self::Uncertainty(curve) => Some(curve),
             Self::Unit(curve) => curve,
             Self::Wavelength(..) | Self::Setting | Self::LeftOut(..) => None,
         }
@@ -95,6 +101,7 @@ impl What {
             Self::Setting => "kept as a setting".to_owned(),
             Self::Gap(curve) => format!("{}: no value here", name(curve)),
             Self::Block(curve) => format!("{}: compressed values", name(curve)),
+            Self::Uncertainty(curve) => format!("{}: uncertainty", name(curve)),
             Self::LeftOut(why) => format!("left out: {why}"),
         }
     }

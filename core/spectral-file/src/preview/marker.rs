@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use crate::decision::{Orientation, Reader, WavelengthUnit};
 use crate::dialect_trial::Layout;
-use crate::grid::Grid;
+use crate::grid::{Grid, Origins};
 use crate::preview::mark::{LeftOut, Mark, What};
 use crate::preview::tables::{self, Across, Down};
 use crate::report::SpectralFile;
@@ -46,17 +46,20 @@ impl Marker {
         Self { settings, first_line: layout.first_line, curves: 0, unit, plan }
     }
 
-    pub(crate) fn take_curves(&mut self, origins: &[usize]) {
+    pub(crate) fn take_curves(&mut self, origins: &Origins) {
+        let uncertain = origins.uncertain.clone();
+        let origins = &origins.curves;
         self.curves = origins.len();
         let by_curve = origins.iter().enumerate().map(|(curve, origin)| (*origin, curve));
         if let Plan::Across(across) = &mut self.plan {
             across.rows = by_curve.collect();
+            across.uncertain = uncertain;
             return;
         }
         let mut curves = vec![None; origins.iter().max().map_or(0, |last| last + 1)];
         by_curve.for_each(|(origin, curve)| curves[origin] = Some(curve));
         match &mut self.plan {
-            Plan::Down(down) => down.curves = curves,
+            Plan::Down(down) => (down.curves, down.uncertain) = (curves, uncertain.into_iter().collect()),
             Plan::Placed(all) => all.retain_mut(|place| {
                 let curve = curves.get(place.origin as usize).copied().flatten();
                 place.origin = curve.unwrap_or_default() as u32;

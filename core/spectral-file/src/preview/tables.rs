@@ -1,7 +1,7 @@
 //! Cells of a line with their places, the place at which reading failed, and marks of tables: wavelengths run down a column, or
 //! across a header row.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
 use crate::decision::{DecimalMark, Delimiter, Dropped, WavelengthUnit};
@@ -20,6 +20,8 @@ pub(super) struct Down {
     dialect: Dialect,
     axes: Vec<(usize, WavelengthUnit)>,
     pub(super) curves: Vec<Option<usize>>,
+    /// The columns of uncertainties, with the index of their curve.
+    pub(super) uncertain: BTreeMap<usize, usize>,
     /// The line of names, and how many columns it omits at its beginning.
     names: Option<usize>,
     shift: usize,
@@ -46,6 +48,7 @@ impl Down {
             dialect: layout.dialect(),
             axes: axes.map(|(column, own)| (column, own.unwrap_or(unit))).collect(),
             curves: Vec::new(),
+            uncertain: BTreeMap::new(),
             names: header.line.filter(|_| !header.names.is_empty()),
             shift: usize::from(header.shifted),
             units: header.units_line,
@@ -53,6 +56,10 @@ impl Down {
             rows,
             dropped,
         }
+    }
+
+    fn no_curve(&self, column: usize) -> What {
+        self.uncertain.get(&column).map_or(What::LeftOut(LeftOut::Column), |curve| What::Uncertainty(*curve))
     }
 
     fn axis(&self, column: usize) -> Option<WavelengthUnit> {
@@ -97,7 +104,7 @@ impl Down {
                 _ if axis.is_some() && nm.is_nan() => continue,
                 _ if axis.is_some() => What::Wavelength(nm),
                 (None, Cell::Gap) if cell.is_empty() => continue,
-                (None, _) => What::LeftOut(LeftOut::Column),
+                (None, _) => self.no_curve(column),
                 (Some(curve), Cell::Number(written)) => value(written, curve, nm, file),
                 (Some(curve), Cell::Gap | Cell::Text) => What::Gap(curve),
             };
@@ -118,7 +125,7 @@ impl Down {
                 }
                 Some(Some(curve)) if names => What::Name(*curve),
                 Some(Some(curve)) => What::Unit(Some(*curve)),
-                _ => What::LeftOut(LeftOut::Column),
+                _ => self.no_curve(index + shift),
             };
             Some(Mark { range: range(line, cell), what }).filter(|mark| touches(&mark.range, window))
         });
@@ -158,6 +165,8 @@ pub(super) struct Across {
     names: usize,
     /// The line of each curve, in ascending order, and the curve.
     pub(super) rows: Vec<(usize, usize)>,
+    /// The lines of uncertainties, with the index of their curve.
+    pub(super) uncertain: Vec<(usize, usize)>,
 }
 
 impl Across {
@@ -173,10 +182,14 @@ impl Across {
             wavelengths: written.map(|nm| Some(nm).filter(|nm| !nm.is_nan() && seen.insert(nm.to_bits()))).collect(),
             names: wide::name_column(&heads),
             rows: Vec::new(),
+            uncertain: Vec::new(),
         }
     }
 
     pub(super) fn marks(&self, number: usize, line: &str, window: &Range<usize>, file: &SpectralFile) -> Vec<Mark> {
+        if let Some((_, curve)) = self.uncertain.iter().find(|(line, _)| *line == number) {
+            return line_mark(line, window, What::Uncertainty(*curve));
+        }
         if number == self.line {
             return self.header(line, window);
         }

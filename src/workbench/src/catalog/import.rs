@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use spectral_file::{Certainty, Effect, METADATA, ReadError, Role, Source, SpectralFile, Values, Watch};
+use spectral_file::{COVARIANCE, Certainty, Effect, METADATA, ReadError, Role, Source, SpectralFile, Values, Watch};
 
 use crate::document::imported::{Fingerprint, ImportOverrides, ImportedCurve, ImportedSet, ReadAs};
 
@@ -27,21 +27,25 @@ pub struct Origin {
     pub fingerprint: Fingerprint,
     /// Contents of the metadata file beside it; may be empty.
     pub metadata: Arc<[u8]>,
+    /// Contents of the file with the covariance beside it; may be empty.
+    pub covariance: Arc<[u8]>,
 }
 
 impl Origin {
     pub fn named(name: &str, bytes: &[u8]) -> Self {
-        Self { name: name.to_owned(), path: None, fingerprint: Fingerprint::of(bytes), metadata: Arc::default() }
+        let (metadata, covariance) = (Arc::default(), Arc::default());
+        Self { name: name.to_owned(), path: None, fingerprint: Fingerprint::of(bytes), metadata, covariance }
     }
 
     pub fn on_disk(name: &str, path: &Path, bytes: &[u8]) -> Self {
-        Self { path: Some(path.to_owned()), metadata: metadata_beside(path), ..Self::named(name, bytes) }
+        let (metadata, covariance) = (metadata_beside(path), covariance_beside(path));
+        Self { path: Some(path.to_owned()), metadata, covariance, ..Self::named(name, bytes) }
     }
 
     /// The bytes with what stands beside them, for the reader.
     pub fn source<'a>(&'a self, bytes: &'a [u8]) -> Source<'a> {
         let path = self.path.as_deref().and_then(Path::to_str).unwrap_or(&self.name);
-        Source { bytes, path, metadata: &self.metadata }
+        Source { bytes, path, metadata: &self.metadata, covariance: &self.covariance }
     }
 }
 
@@ -51,10 +55,22 @@ fn metadata_beside(path: &Path) -> Arc<[u8]> {
     let found = METADATA.iter().find_map(|ending| {
         let mut name = path.as_os_str().to_owned();
         name.push(ending);
-        let known = fs::metadata(&name).ok()?;
-        if known.is_file() && known.len() <= MOST_BYTES { fs::read(&name).ok() } else { None }
+        contents(Path::new(&name), MOST_BYTES)
     });
     found.unwrap_or_default().into()
+}
+
+/// Contents of the file with the covariance of a table's samples; empty if there is none.
+fn covariance_beside(path: &Path) -> Arc<[u8]> {
+    /// Room for the most samples that are read, with 24 characters for each number.
+    const MOST_BYTES: u64 = 64 << 20;
+    let beside = path.with_extension(COVARIANCE);
+    contents(&beside, MOST_BYTES).filter(|_| beside != path).unwrap_or_default().into()
+}
+
+fn contents(path: &Path, most_bytes: u64) -> Option<Vec<u8>> {
+    let known = fs::metadata(path).ok()?;
+    if known.is_file() && known.len() <= most_bytes { fs::read(path).ok() } else { None }
 }
 
 /// Reads a file's bytes; `file` names it. A role that is given is not guessed.

@@ -45,8 +45,7 @@ impl Built {
 const FOOT: f64 = 4.0 + Projection::BOTTOM + Projection::TITLE;
 
 pub fn build(scene: &Scene<'_>, look: &FigureLook, size: [f64; 2]) -> Built {
-    let mut built =
-        Built { panels: Vec::new(), things: PickIndex::default(), refused: Vec::new(), bands: Vec::new() };
+    let mut built = Built { panels: Vec::new(), things: PickIndex::default(), refused: Vec::new(), bands: Vec::new() };
     let sources = scene.visible_sources();
     let mut contents: Vec<Content> = content::light(scene, &mut built).into_iter().collect();
     contents.extend(content::patches(scene, &mut built));

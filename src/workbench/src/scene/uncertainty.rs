@@ -1,9 +1,9 @@
 //! Uncertainties of figures of merit as they are written: the same in tables, figures and files.
 
 use chromascope_core::query::Ask as _;
+use chromascope_core::query::Shared;
 use chromascope_core::query::metrics::{Better, Contributions, OwnUncertainties, UncertaintySource};
 use chromascope_core::query::{CameraMetric, MetricUncertainty, MetricValue};
-use chromascope_core::query::Shared;
 use chromascope_core::spectral::{Correlation, Sensor, StatedUncertainty};
 use chromascope_figure::{Cell, Column, Table};
 

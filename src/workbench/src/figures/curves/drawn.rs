@@ -203,12 +203,7 @@ fn channel(role: Role, channels: &[usize; 3], place: usize) -> Option<usize> {
 }
 
 /// Samples with the half-widths of their band, and its coverage factor.
-fn band(
-    nm: &[f64],
-    values: &[f64],
-    standard: Option<&[f64]>,
-    of: Option<&Uncertainty>,
-) -> (Vec<([f64; 2], f64)>, f64) {
+fn band(nm: &[f64], values: &[f64], standard: Option<&[f64]>, of: Option<&Uncertainty>) -> (Vec<([f64; 2], f64)>, f64) {
     let factor = coverage(of.map_or(1.0, |of| of.coverage));
     let samples = nm.iter().zip(values).zip(standard.unwrap_or_default());
     (samples.map(|((nm, value), u)| ([*nm, *value], factor * u)).collect(), factor)

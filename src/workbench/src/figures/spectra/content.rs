@@ -1,7 +1,7 @@
 //! Curves of the panels: light, patches, sensitivities, with the labels that name them.
 
-use chromascope_core::spectral::{SpectralDistribution, StatedUncertainty};
 use chromascope_core::spectral::grid::{FIRST_NM, LAST_NM};
+use chromascope_core::spectral::{SpectralDistribution, StatedUncertainty};
 use chromascope_figure::{Dash, Ink, InkRole, Mark, Shape, Tag};
 
 use super::Built;
@@ -38,7 +38,10 @@ pub(super) fn light(scene: &Scene<'_>, built: &mut Built) -> Option<Content> {
     let peak = samples.filter(|(nm, _)| within(**nm)).map(|(_, v)| v.abs()).fold(0.0, f64::max);
     let mut marks = curve(tag, "light", &light.measured, peak, InkRole::Text.into(), 2.0, true);
     let stated = light.stated.as_ref().filter(|of| of.transmittance.is_none());
-    marks.splice(0..0, stated.and_then(|of| banded(built, "light", &light.measured, (peak, InkRole::Text.into()), (&of.stated, 0))));
+    marks.splice(
+        0..0,
+        stated.and_then(|of| banded(built, "light", &light.measured, (peak, InkRole::Text.into()), (&of.stated, 0))),
+    );
     let name = if scene.light_name() == "E" { "E, equal energy".to_owned() } else { scene.light_name() };
     Some(Content {
         quantity: "relative power",

@@ -1,0 +1,227 @@
+//! Uncertainties in the words of a header: standard deviations, standard errors, standard and expanded uncertainties.
+
+use crate::header_terms;
+use crate::text::{is_one, lower, spaced};
+
+/// Kinds of stated uncertainties, the least telling first.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Kind {
+    /// Standard deviation of repeated measurements.
+    Deviation,
+    /// Standard error of their mean.
+    Error,
+    /// Nothing says which.
+    Unsaid,
+    /// Standard uncertainty u.
+    Standard,
+    /// Expanded uncertainty U = k u.
+    Expanded,
+}
+
+/// What a column's header says of an uncertainty.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Term {
+    pub(super) kind: Kind,
+    /// True if the words mean nothing else; `SE` may be a direction or a sample.
+    pub(super) clear: bool,
+    /// The words about the curve it belongs to, as [`key`] has them; empty if there are none.
+    pub(super) of: String,
+    /// Coverage factor, if it is named.
+    pub(super) coverage: Option<f64>,
+    /// Coverage factor of a normal distribution at the level of confidence, if that is named.
+    pub(super) level: Option<f64>,
+    pub(super) relative: bool,
+    pub(super) percent: bool,
+}
+
+/// Words for uncertainties with their kind, and whether they mean nothing else.
+const WORDS: [(Kind, bool, &str); 10] = [
+    (
+        Kind::Deviation,
+        true,
+        "standard deviation|standard deviations|std dev|stddev|stdev|st dev|stdv|stddevs|std deviation|sdev|rsd|stand dev|\
+         standardabweichung|écart type|ecart type|desviación estándar|deviazione standard|desvio padrão|標準偏差|标准偏差",
+    ),
+    (Kind::Deviation, false, "sd|s d|std|sigma|σ"),
+    (
+        Kind::Error,
+        true,
+        "standard error of the mean|standard error of mean|standard error|standard errors|std error|std err|stderr|standardfehler",
+    ),
+    (Kind::Error, false, "se|s e|sem|s e m"),
+    (
+        Kind::Expanded,
+        true,
+        "expanded uncertainty|expanded uncertainties|expanded unc|exp unc|erweiterte messunsicherheit|erweiterte unsicherheit|\
+         incertitude élargie|incertezza estesa|incertidumbre expandida|拡張不確かさ",
+    ),
+    (
+        Kind::Standard,
+        true,
+        "standard uncertainty|standard uncertainties|std unc|std uncertainty|standardunsicherheit|incertitude type|標準不確かさ",
+    ),
+    (
+        Kind::Unsaid,
+        true,
+        "uncertainty|uncertainties|uncert|messunsicherheit|unsicherheit|incertitude|incertidumbre|incertezza|incerteza|\
+         不確かさ|不确定度",
+    ),
+    (Kind::Unsaid, false, "unc|err|error|errors|error bar|±"),
+    // By the letters of the GUM, U is expanded.
+    (Kind::Standard, false, "u|uc|u c"),
+    (Kind::Error, false, "mean se|mean sem"),
+];
+
+/// Words beside those for an uncertainty that say no more than they do.
+const BESIDE: &str = "combined|measurement|total|estimated|spectral|of|in|for|the|on";
+
+/// Uncertainty that the header of a column names, with its name without a unit and its whole label.
+pub(super) fn term(name: &str, label: &str) -> Option<Term> {
+    if !may_name(name) {
+        return None;
+    }
+    let text = lower(label);
+    let level = level(&text);
+    let symbol = name.split(|c: char| !c.is_alphanumeric()).any(|word| matches!(word, "U" | "U95"));
+    let words = key(name);
+    let padded = format!(" {words} ");
+    let found = WORDS.iter().flat_map(|(kind, clear, list)| list.split('|').map(|word| (*kind, *clear, word)));
+    let found = found.filter(|(_, _, word)| padded.contains(&format!(" {word} ")));
+    let (kind, clear, word) = found.max_by_key(|(_, _, word)| word.len())?;
+    let (before, after) = padded.split_once(&format!(" {word} "))?;
+    let is_relative = |word: &str| is_one(word, "relative|rel|fractional|percent|percentage");
+    let mut before: Vec<&str> = before.split_whitespace().collect();
+    let mut relative = word == "rsd";
+    while let Some(last) = before.last().filter(|word| is_relative(word) || is_one(word, BESIDE)) {
+        relative |= is_relative(last);
+        before.pop();
+    }
+    let after: Vec<&str> = after.split_whitespace().skip_while(|word| is_one(word, BESIDE)).collect();
+    // Words on both sides are a sentence.
+    if !before.is_empty() && !after.is_empty() {
+        return None;
+    }
+    let kind = if kind == Kind::Standard && symbol && word == "u" { Kind::Expanded } else { kind };
+    let of = without_mean(&[before, after].concat().join(" "));
+    let percent = header_terms::says_percent(&without_level(&text));
+    Some(Term { kind, clear, of, coverage: coverage(&text), level, relative, percent })
+}
+
+/// A test without memory for names that hold no word for an uncertainty, as most do.
+fn may_name(name: &str) -> bool {
+    const LONGEST: usize = 80;
+    let pair = |pair: &[u8]| {
+        let (a, b) = (pair[0].to_ascii_lowercase(), pair[1].to_ascii_lowercase());
+        matches!((a, b), (b's', b'd' | b't' | b'e' | b'i' | b'.' | b' ' | b'_') | (b'e', b'r') | (b'u', b'n'))
+            || pair[0].eq_ignore_ascii_case(&b'u') && !pair[1].is_ascii_alphabetic()
+            || matches!(pair, [b'u', b'A'..=b'Z'])
+            || matches!((a, b), (b'u', b'c' | b'.') | (b'/', b'-'))
+    };
+    name.len() <= LONGEST
+        && (name.eq_ignore_ascii_case("u")
+            || !name.is_ascii()
+            || name.as_bytes().windows(2).any(pair)
+            || name.ends_with(['u', 'U']) && name.len() > 1 && !name[..name.len() - 1].ends_with(char::is_alphabetic)
+            || name.to_ascii_lowercase().contains("incert"))
+}
+
+/// The words of a name in lower case, those joined by capitals or figures apart, without what is said of a coverage factor.
+pub(super) fn key(name: &str) -> String {
+    let mut text = String::with_capacity(name.len() + 8);
+    let mut digits = false;
+    for c in without_level(&spaced(name).replace("+/-", "±")).chars() {
+        if c.is_ascii_digit() != digits && !text.ends_with(' ') {
+            text.push(' ');
+        }
+        digits = c.is_ascii_digit();
+        if c == '±' || c == '=' {
+            text.extend([' ', c, ' ']);
+        } else {
+            text.push(if c.is_alphanumeric() { c } else { ' ' });
+        }
+    }
+    let mut words: Vec<&str> = text.split_whitespace().collect();
+    // `k = 2` and its decimals, or `2 σ`.
+    if let Some(at) = words.windows(2).position(|pair| is_one(pair[0], "k|factor") && pair[1] == "=") {
+        let figures = words[at + 2..].iter().take_while(|word| word.bytes().all(|b| b.is_ascii_digit())).count();
+        words.drain(at..at + 2 + figures);
+    }
+    if let Some(at) = words.windows(2).position(|pair| is_one(pair[1], "σ|sigma") && is_one(pair[0], "1|2|3")) {
+        words.remove(at);
+    }
+    words.retain(|word| *word != "=");
+    words.join(" ")
+}
+
+/// Words of a curve's name without those for a mean.
+pub(super) fn without_mean(key: &str) -> String {
+    let words = key.split(' ').filter(|word| !is_one(word, MEAN));
+    words.collect::<Vec<_>>().join(" ")
+}
+
+const MEAN: &str = "mean|avg|average|median|averaged|mittelwert|moyenne|media";
+
+/// Returns whether words of a curve's name say that it is the mean of others.
+pub(super) fn names_mean(key: &str) -> bool {
+    key.split(' ').any(|word| is_one(word, MEAN))
+}
+
+/// The coverage factor k in a text in lower case: `k=2`, `k = 1.96`, `coverage factor: 2`, `2σ`.
+pub(super) fn coverage(lower: &str) -> Option<f64> {
+    const LONGEST: usize = 400;
+    if lower.len() > LONGEST {
+        return None;
+    }
+    let number = |text: &str| {
+        let text = text.trim_start_matches([' ', ':', '=', '(']).trim_start_matches("of ").trim_start_matches("is ");
+        let text = text.trim_start_matches("k =").trim_start_matches("k=").trim_start();
+        let end = text.find(|c: char| !(c.is_ascii_digit() || matches!(c, '.' | ','))).unwrap_or(text.len());
+        text[..end].trim_end_matches(['.', ',']).replace(',', ".").parse::<f64>().ok()
+    };
+    let letter = || {
+        lower.match_indices('k').find_map(|(at, _)| {
+            let rest = lower[at + 1..].trim_start();
+            let alone = !lower[..at].ends_with(char::is_alphanumeric) && rest.starts_with(['=', ':']);
+            number(rest).filter(|_| alone)
+        })
+    };
+    let named = || lower.split_once("coverage factor").and_then(|(_, rest)| number(rest));
+    let sigmas = || {
+        let at = lower.find('σ').or_else(|| lower.find("sigma"))?;
+        let before = lower[..at].trim_end_matches([' ', '-']);
+        let digit = before.chars().next_back()?.to_digit(10)?;
+        let alone = !before[..before.len() - 1].ends_with(char::is_alphanumeric);
+        Some(f64::from(digit)).filter(|_| alone)
+    };
+    letter().or_else(named).or_else(sigmas).filter(|k| (0.5..=10.0).contains(k))
+}
+
+/// Levels of confidence with their coverage factors, that of 95 % as laboratories round it.
+const LEVELS: [(&str, f64); 3] = [("95", 2.0), ("99", 2.576), ("90", 1.645)];
+
+fn level(lower: &str) -> Option<f64> {
+    if without_level(lower) == lower {
+        return None;
+    }
+    LEVELS.iter().find(|(level, _)| lower.contains(level)).map(|(_, k)| *k)
+}
+
+/// A text in lower case without a level of confidence: `95 %`, `95%`, `U95`.
+fn without_level(lower: &str) -> String {
+    let Some((level, at)) = LEVELS.iter().find_map(|(level, _)| Some((*level, lower.find(level)?))) else {
+        return lower.to_owned();
+    };
+    let (before, after) = (&lower[..at], &lower[at + level.len()..]);
+    let after_sign = after.trim_start().strip_prefix('%');
+    let symbol = before.ends_with(['u', 'U']) || before.ends_with("u_");
+    match after_sign.or(Some(after).filter(|after| symbol && !after.starts_with(char::is_alphanumeric))) {
+        Some(rest) if !before.ends_with(|c: char| c.is_ascii_digit() || c == '.') => {
+            let rest = ["confidence level", "confidence", "level of confidence"]
+                .iter()
+                .find_map(|words| rest.trim_start().strip_prefix(words))
+                .unwrap_or(rest);
+            format!("{before} {rest}")
+        }
+        _ => lower.to_owned(),
+    }
+}

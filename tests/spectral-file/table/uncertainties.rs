@@ -1,0 +1,116 @@
+//! Columns and rows that are uncertainties of curves, and covariances beside files.
+
+use super::{names, ok};
+use spectral_file::{Certainty, ReadOptions, Source, SpectralFile, Warning, read};
+
+#[track_caller]
+fn uncertain(text: &str, curves: &[&str], k: f64, standard: &[f64]) -> SpectralFile {
+    let table = ok(text);
+    assert_eq!(names(&table), curves, "{text}");
+    let stated = table.curves[0].uncertainty.as_ref().expect(text);
+    assert_eq!((stated.coverage, &*stated.standard), (k, standard), "{text}");
+    table
+}
+
+fn certainty(table: &SpectralFile) -> Certainty {
+    table.decisions().into_iter().find(|decision| decision.what == "Uncertainty").unwrap().certainty
+}
+
+#[test]
+fn a_column_behind_its_curve_follows_it_and_its_scale() {
+    let agilent = "Wavelength (nm);Transmittance(%);Std.Dev.\n400;79;0.38\n410;80;0.5\n420;81;0.7\n";
+    let table = uncertain(agilent, &["Transmittance"], 1.0, &[0.0038, 0.005, 0.007]);
+    assert_eq!(certainty(&table), Certainty::Certain);
+    assert_eq!(table.reading.parts[0].curves, 1);
+    for word in ["StdDev", "sd", "SD", "std_err", "SE", "s.e.", "SEM", "sigma", "u(R)", "R_sd", "R_std", "± R", "sd_R"]
+    {
+        uncertain(&format!("nm,R,{word}\n400,0.5,0.02\n410,0.6,0.01\n"), &["R"], 1.0, &[0.02, 0.01]);
+    }
+    // Rows that descend, and one without an uncertainty.
+    let table = uncertain("nm,R,SD\n420,0.5,0.02\n410,0.6,\n400,0.7,0.01\n", &["R"], 1.0, &[0.01, 0.02, 0.02]);
+    assert!(table.warnings.iter().any(|warning| matches!(warning, Warning::UncertaintyGaps { count: 1, .. })));
+}
+
+#[test]
+fn the_coverage_factor_comes_from_the_header_a_line_above_or_is_a_guess() {
+    let rows = "400,0.5,0.02\n410,0.6,0.01\n";
+    let certain = uncertain(&format!("nm,R,U (k=2)\n{rows}"), &["R"], 2.0, &[0.01, 0.005]);
+    assert_eq!(certainty(&certain), Certainty::Certain);
+    uncertain(&format!("# k = 2.5\nnm,R,Expanded uncertainty\n{rows}"), &["R"], 2.5, &[0.008, 0.004]);
+    uncertain(&format!("# coverage factor: 2\nnm,R,Uncertainty\n{rows}"), &["R"], 2.0, &[0.01, 0.005]);
+    let guess = uncertain(&format!("nm,R,Expanded uncertainty (95 %)\n{rows}"), &["R"], 2.0, &[0.01, 0.005]);
+    assert_eq!(certainty(&guess), Certainty::Guess);
+}
+
+#[test]
+fn percent_of_the_value_and_percent_as_the_values_are() {
+    let nist = "Wavelength (nm),Spectral irradiance (W/cm^3),Expanded uncertainty (%)\n400,50,4\n410,80,2\n";
+    assert_eq!(ok(nist).curves.len(), 1);
+    let stated = ok(nist).curves[0].uncertainty.clone().unwrap();
+    let relative = |at: usize| stated.standard[at] / ok(nist).curves[0].values[at];
+    assert!((relative(0) - 0.02).abs() < 1e-12 && (relative(1) - 0.01).abs() < 1e-12);
+    let both = "nm,Reflectance (%),Uncertainty (%)\n400,50,4\n410,80,2\n";
+    let table = uncertain(both, &["Reflectance"], 1.0, &[0.04, 0.02]);
+    assert!(table.warnings.iter().any(|warning| matches!(warning, Warning::UncertaintyScale { .. })));
+}
+
+#[test]
+fn absorbances_carry_theirs_by_the_derivative() {
+    let table = ok("nm,Absorbance,SD\n400,1,0.01\n410,0.5,0.02\n");
+    let stated = table.curves[0].uncertainty.clone().unwrap().standard;
+    let wanted = [0.01 * 10_f64.ln() * 0.1, 0.02 * 10_f64.ln() * 10_f64.powf(-0.5)];
+    assert!(stated.iter().zip(wanted).all(|(a, b)| (a / b - 1.0).abs() < 1e-12), "{stated:?}");
+}
+
+#[test]
+fn several_curves_by_turns_by_name_or_as_many_behind() {
+    for header in ["nm,R,sd,G,sd,B,sd", "nm,R,G,B,R_sd,G_sd,B_sd", "nm,R,G,B,sd,sd,sd"] {
+        let table = ok(&format!("{header}\n400,0.5,0.02,0.4,0.03,0.3,0.01\n410,0.6,0.02,0.5,0.03,0.3,0.01\n"));
+        let expected = if header.contains("R,sd") { 3 } else { table.curves.len() };
+        assert_eq!(table.curves.len(), expected, "{header}");
+        assert!(names(&table).iter().zip(["R", "G", "B"]).all(|(a, b)| *a == b), "{header}");
+    }
+    let bands = "400,410,420,430,440,450,460,470,480,490";
+    let row = |value: &str| [value; 10].join(",");
+    let named = format!("sample,{bands}\nleaf,{}\nleaf sd,{}\n", row("0.5"), row("0.01"));
+    let kinds = format!("sample,kind,{bands}\nleaf,mean,{}\nleaf,sd,{}\n", row("0.5"), row("0.01"));
+    for text in [named, kinds] {
+        uncertain(&text, &["leaf"], 1.0, &[0.01; 10]);
+    }
+}
+
+#[test]
+fn curves_stay_curves() {
+    for header in ["SD1,SD2,SD3", "N,SE,S", "E,SE,S", "Ref,SE Asia,Error bay", "SE,NE,E", "u,g,r", "Sample,Ref,Std"] {
+        let table = ok(&format!("nm,{header}\n400,0.5,0.45,0.4\n410,0.6,0.5,0.5\n"));
+        assert_eq!(table.curves.len(), 3, "{header}");
+        assert!(table.curves.iter().all(|curve| curve.uncertainty.is_none()), "{header}");
+    }
+    let negative = ok("nm,R,error\n400,0.5,-0.02\n410,0.6,0.01\n");
+    assert_eq!(names(&negative), ["R", "error"]);
+    let all = ReadOptions { raw: Some(true), ..ReadOptions::default() };
+    assert_eq!(read("nm,R,Std.Dev.\n400,0.5,0.02\n410,0.6,0.01\n", &all).unwrap().curves.len(), 2);
+}
+
+fn with_covariance(text: &str, covariance: &str) -> SpectralFile {
+    let source = Source { bytes: text.as_bytes(), covariance: covariance.as_bytes(), ..Source::default() };
+    read(source, &ReadOptions::default()).unwrap()
+}
+
+#[test]
+fn a_covariance_beside_a_file_follows_order_and_scale_or_is_left_out_with_its_fault() {
+    let percent = "nm,Reflectance (%)\n410,50\n400,60\n";
+    for text in ["4,1\n1,9\n", ",a,b\na,4,1\nb,1,9\n", "a;b\n4;1\n1;9\n"] {
+        let table = with_covariance(percent, text);
+        let covariance = table.covariance.as_ref().expect(text);
+        let wanted = [9e-4, 1e-4, 1e-4, 4e-4];
+        assert!(covariance.values.iter().zip(wanted).all(|(a, b)| (a / b - 1.0).abs() < 1e-12), "{covariance:?}");
+        assert!((table.curves[0].uncertainty.as_ref().unwrap().standard[0] - 0.03).abs() < 1e-15);
+    }
+    let faults = [("4,1\n2,9\n", "symmetric"), ("-4,1\n1,9\n", "below zero"), ("4\n", "1 rows"), ("4,1\n1,x\n", "“x”")];
+    for (text, fault) in faults {
+        let table = with_covariance(percent, text);
+        let said = table.warnings.iter().map(ToString::to_string).collect::<String>();
+        assert!(table.covariance.is_none() && said.contains(fault), "{said}");
+    }
+}
