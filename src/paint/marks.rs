@@ -282,7 +282,9 @@ fn fill_polygon(painter: &Painter, corners: &[Pos2], color: Color32) {
     if is_band(&corners) {
         let count = corners.len() as u32;
         let mut mesh = Mesh::default();
-        corners.iter().for_each(|corner| mesh.colored_vertex(*corner, color));
+        for corner in &corners {
+            mesh.colored_vertex(*corner, color);
+        }
         for i in 1..count / 2 {
             mesh.add_triangle(i - 1, i, count - i);
             mesh.add_triangle(i, count - i, count - 1 - i);

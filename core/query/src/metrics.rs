@@ -4,60 +4,19 @@
 
 mod differences;
 mod evidence;
+mod figures;
 mod perturbed;
 mod stimulus;
 mod table;
 mod uncertainty;
 mod value;
 
-use super::ask::{Ask, Query};
-
 pub use differences::{PatchDifferences, Statistic, WORST};
 pub use evidence::{LocusDeviationQuery, MetamerismIndexQuery, ReferenceLocusQuery, SpaceQualityQuery};
+pub use figures::CameraMetrics;
 pub use stimulus::LightUncertainty;
 pub use table::{Better, CameraMetric, Difference, MetricGroup, rank_ranges};
 pub use uncertainty::{MetricUncertaintiesQuery, OwnUncertainties};
 pub use value::{
     CameraMetricsQuery, Contributions, IndexConditions, MetricUncertainty, MetricValue, UncertaintySource, WhyNot,
 };
-
-/// All figures of merit of one camera, without their uncertainties, which take longer: see [`MetricUncertaintiesQuery`].
-#[derive(Clone, Debug, PartialEq)]
-pub struct CameraMetrics {
-    /// Values in the order of [`CameraMetric::ALL`], or reasons for none.
-    pub values: Vec<Result<f64, WhyNot>>,
-    /// Differences of each patch from the reference, in the order of the chart; empty where the camera cannot be shown.
-    pub patches: Vec<PatchDifferences>,
-    /// For each metric of `Metric::ALL` the patches with the largest differences, largest first, at most [`WORST`].
-    pub worst: Vec<Vec<usize>>,
-}
-
-impl CameraMetrics {
-    /// Value of a metric.
-    pub fn of(&self, metric: CameraMetric) -> Option<Result<f64, WhyNot>> {
-        self.values.get(metric.place).copied()
-    }
-
-    /// Value of a metric with its uncertainty among those of all metrics, where they are known.
-    pub fn with(
-        &self,
-        uncertainties: Option<&[Option<MetricUncertainty>]>,
-        metric: CameraMetric,
-    ) -> Option<MetricValue> {
-        let value = self.of(metric)?;
-        let uncertainty = uncertainties.and_then(|all| *all.get(metric.place)?).filter(|_| value.is_ok());
-        Some(MetricValue { value, uncertainty })
-    }
-}
-
-impl Query for CameraMetricsQuery {
-    type Answer = CameraMetrics;
-    const NAME: &'static str = "camera metrics";
-
-    fn answer(&self, ask: &impl Ask) -> CameraMetrics {
-        let own = evidence::Evidence::new(self, ask);
-        let values = CameraMetric::ALL.iter().map(|metric| metric.evaluate(&own)).collect();
-        let patches = own.patches.unwrap_or_default();
-        CameraMetrics { values, worst: differences::worst(&patches), patches }
-    }
-}

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use crate::text::bare_utf16;
+use crate::decision::Encoding;
 
 const SHEET: &str = "save the sheet with the spectra as CSV";
 const PICTURE: &str = "a picture has no spectra; open the table they came from";
@@ -156,4 +156,20 @@ fn looks_binary(bytes: &[u8]) -> bool {
         && (strange * 10 > start.len() || numbers)
         && !start.starts_with(b"\xFF\xFE")
         && !start.starts_with(b"\xFE\xFF")
+}
+
+/// Text of two bytes for each character, most of which are of the first 256, without a byte order mark.
+pub(super) fn bare_utf16(bytes: &[u8]) -> Option<Encoding> {
+    const LOOK: usize = 4096;
+    const FEWEST: usize = 8;
+    let start = &bytes[..bytes.len().min(LOOK) & !1];
+    let zeros = |from: usize| start.iter().skip(from).step_by(2).filter(|byte| **byte == 0).count();
+    let (even, odd, half) = (zeros(0), zeros(1), start.len() / 2);
+    // Padding leaves zeros in both places.
+    let only = |these: usize, others: usize| half >= FEWEST && these * 2 > half && others == 0;
+    match () {
+        () if only(odd, even) => Some(Encoding::Utf16Le),
+        () if only(even, odd) => Some(Encoding::Utf16Be),
+        () => None,
+    }
 }

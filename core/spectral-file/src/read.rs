@@ -1,7 +1,7 @@
 //! Reading of a file, from its bytes to its curves.
 
 use crate::beside::{self, Source};
-use crate::decision::{Certainty, Decision, Encoding, Part, WavelengthUnit};
+use crate::decision::{Certainty, Decided, Decision, Encoding, Part, WavelengthUnit};
 use crate::error::{MAX_DROPPED, ReadError};
 use crate::formats::spectra::Found;
 use crate::grid::Grid;
@@ -123,6 +123,15 @@ fn take_columns_beside(grid: &mut Grid, parts: &mut [Part], options: &ReadOption
     }
 }
 
+/// Warns of a guessed unit whose numbers may be nanometers.
+fn warn_of_unit(unit: &Decided<WavelengthUnit>, warnings: &mut Log<'_>) {
+    match (unit.value, unit.certainty) {
+        (WavelengthUnit::Wavenumber, Certainty::Guess) => warnings.push(Warning::MaybeWavelengths),
+        (WavelengthUnit::Angstrom, Certainty::Guess) => warnings.push(Warning::MaybeNanometers),
+        _ => {}
+    }
+}
+
 /// Stages that all readers share: units, order, role, scale, curves.
 fn finish(
     found: Found,
@@ -136,12 +145,7 @@ fn finish(
     let (mut parts, part) = grid.settle_parts(options.part, layout.first_line)?;
     let wavelength_unit = wavelengths::unit(&grid, options)?;
     wavelengths::to_nanometers(&mut grid, &wavelength_unit, &mut warnings)?;
-    if (wavelength_unit.value, wavelength_unit.certainty) == (WavelengthUnit::Wavenumber, Certainty::Guess) {
-        warnings.push(Warning::MaybeWavelengths);
-    }
-    if (wavelength_unit.value, wavelength_unit.certainty) == (WavelengthUnit::Angstrom, Certainty::Guess) {
-        warnings.push(Warning::MaybeNanometers);
-    }
+    warn_of_unit(&wavelength_unit, &mut warnings);
     warnings.look(usize::MAX)?;
     let descending = wavelengths::sort(&mut grid, &mut warnings);
     let (range_nm, step_nm) = (grid.range_nm(), Steps::of(&grid.wavelengths));

@@ -4,7 +4,7 @@
 use encoding_rs::{GBK, SHIFT_JIS, UTF_16BE, UTF_16LE, WINDOWS_1252};
 use std::borrow::Cow;
 
-use crate::binary::binary;
+use crate::binary::{bare_utf16, binary};
 use crate::decision::Encoding;
 use crate::error::{MAX_BYTES, ReadError};
 
@@ -92,22 +92,6 @@ fn gbk(bytes: &[u8]) -> Option<Cow<'_, str>> {
     let paired = bytes.split(u8::is_ascii).all(|run| run.len() % 2 == 0 && run.iter().all(is_lead));
     let text = paired.then(|| GBK.decode_without_bom_handling_and_without_replacement(bytes))??;
     has_part(&text, WORDS).then_some(text)
-}
-
-/// Text of two bytes for each character, most of which are of the first 256, without a byte order mark.
-pub(super) fn bare_utf16(bytes: &[u8]) -> Option<Encoding> {
-    const LOOK: usize = 4096;
-    const FEWEST: usize = 8;
-    let start = &bytes[..bytes.len().min(LOOK) & !1];
-    let zeros = |from: usize| start.iter().skip(from).step_by(2).filter(|byte| **byte == 0).count();
-    let (even, odd, half) = (zeros(0), zeros(1), start.len() / 2);
-    // Padding leaves zeros in both places.
-    let only = |these: usize, others: usize| half >= FEWEST && these * 2 > half && others == 0;
-    match () {
-        () if only(odd, even) => Some(Encoding::Utf16Le),
-        () if only(even, odd) => Some(Encoding::Utf16Be),
-        () => None,
-    }
 }
 
 /// A part of a text that knows where in the text it stands.

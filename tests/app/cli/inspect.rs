@@ -101,7 +101,8 @@ fn the_table_is_fractions_and_reads_back() {
 #[test]
 fn every_format_is_written_and_read_back() {
     let folder = folder("formats");
-    let rows: String = (300..=910).map(|nm| format!("{nm},{0},0.5,0.25\n", f64::from(nm) / 1000.0)).collect();
+    let rows =
+        (300..=910).map(|nm| format!("{nm},{0},0.5,0.25\n", f64::from(nm) / 1000.0)).collect::<Vec<_>>().concat();
     let head = "# title: Nikon D1\n# license: CC0-1.0\n# response: per energy\nwavelength_nm,R,G,B\n";
     let camera = put(&folder, "camera.csv", &format!("{head}{rows}"));
     for (format, out) in [

@@ -1,8 +1,8 @@
 //! Uncertainty of light and patches by draws: of the light with first derivatives, of patches with their colors made anew.
 
-use super::CameraMetrics;
 use super::differences::{DifferenceConditions, PatchDifferences};
 use super::evidence::Evidence;
+use super::figures::CameraMetrics;
 use super::table::{CameraMetric, MetricGroup};
 use super::value::{CameraMetricsQuery, WhyNot};
 use crate::ask::{Ask, Shared};

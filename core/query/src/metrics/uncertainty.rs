@@ -118,21 +118,18 @@ impl Query for MetricUncertaintiesQuery {
             spectra.extend((*ask.ask(&LeadingStimuliQuery(StimuliQuery::new(of)))).clone());
             TableDraws::new(sensor, stated, &spectra)
         });
-        let found = match &own_draws {
-            Some(tables) => {
-                let values = |camera: Option<Sensor>| match camera {
-                    Some(camera) => perturbed.values_through(&camera),
-                    None => vec![Err(WhyNot::NoChannels); nominal.values.len()],
-                };
-                let all = tables.errors().map(|errors| (errors.correlation, tables.cameras(errors).map(values)));
-                largest_spreads(all, &nominal.values, ask)
-            }
-            None => {
-                let draws = ask.ask(&DrawsQuery(self.spread.clone()));
-                let values = draws.iter().map(|draw| perturbed.values(&clipped(draw, &own)));
-                let of_prior = |spread: Option<_>| spread.map(|spread| (spread, UncertaintySource::Prior));
-                spreads(values, &nominal.values, ask).map(|all| all.into_iter().map(of_prior).collect())
-            }
+        let found = if let Some(tables) = &own_draws {
+            let none = vec![Err(WhyNot::NoChannels); nominal.values.len()];
+            let values = |camera: Option<Sensor>| {
+                camera.map_or_else(|| none.clone(), |camera| perturbed.values_through(&camera))
+            };
+            let all = tables.errors().map(|errors| (errors.correlation, tables.cameras(errors).map(values)));
+            largest_spreads(all, &nominal.values, ask)
+        } else {
+            let draws = ask.ask(&DrawsQuery(self.spread.clone()));
+            let values = draws.iter().map(|draw| perturbed.values(&clipped(draw, &own)));
+            let of_prior = |spread: Option<_>| spread.map(|spread| (spread, UncertaintySource::Prior));
+            spreads(values, &nominal.values, ask).map(|all| all.into_iter().map(of_prior).collect())
         };
         let Some(found) = found else { return nothing };
         let response = self.response_parts(&nominal.values, ask);
@@ -154,7 +151,7 @@ impl Query for MetricUncertaintiesQuery {
         let stated = stated.flatten().fold(NORMAL_95, f64::max);
         let (freedom, coverage) =
             if is_own { (f64::INFINITY, stated) } else { (CurveSpread::FREEDOM, COVERAGE.max(stated)) };
-        let uncertainty = |(at, found): (usize, Option<((f64, f64), UncertaintySource)>)| {
+        let uncertainty = |(at, found): (usize, Found)| {
             let ((curves, bias), source) = found?;
             let contributions = Contributions {
                 curves,

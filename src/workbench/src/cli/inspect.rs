@@ -63,6 +63,7 @@ decisions [{what, value, certainty, why}], warnings [{line, text}], reading {...
 A file that cannot be read is reported on standard error; the others are still read, and the exit code is 1.";
 
 /// Contents of files of spectra and the decisions made when reading them; curves as CSV or JSON
+#[allow(clippy::struct_excessive_bools, reason = "each is a flag of the command line")]
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct InspectArguments {

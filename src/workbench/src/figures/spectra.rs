@@ -142,7 +142,7 @@ fn figure(scene: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Option<Figu
     figure.panels = built.panels;
     figure.legend = scene.visible_sources().iter().map(|source| key(source, source.label.clone())).collect();
     figure.legend_place = LegendPlace::Outside;
-    let bands: String = built.bands.iter().map(|words| format!("{}. ", capitalized(words))).collect();
+    let bands: String = built.bands.iter().flat_map(|words| [capitalized(words), ". ".to_owned()]).collect();
     figure.caption = format!("Dotted: beyond the data, the end value is held. {bands}{}", caption(scene));
     figure.table = table(scene);
     Some(figure)

@@ -119,6 +119,7 @@ pub fn uncertainty(value: MetricValue) -> Option<String> {
 }
 
 /// What ± is, in sentences: origin, coverage factor and degrees of freedom of each kind, and the dagger where one stands.
+#[allow(clippy::needless_pass_by_value, reason = "an iterator that is cloned for each of its uses")]
 pub fn in_words(of: impl IntoIterator<Item = MetricUncertainty> + Clone) -> String {
     let Some((.., extrapolated)) = nature(of.clone()) else { return String::new() };
     let kind = |is_prior: bool| {
@@ -145,7 +146,7 @@ pub fn in_words(of: impl IntoIterator<Item = MetricUncertainty> + Clone) -> Stri
     let parts = [(LIGHT, "light"), (PATCHES, "patches")];
     let stated =
         |(part, _): &(fn(&Contributions) -> f64, _)| of.clone().into_iter().any(|by| part(&by.contributions) > 0.0);
-    let parts: String = parts.iter().filter(|part| stated(part)).map(|(_, name)| format!(" and the {name}")).collect();
+    let parts: String = parts.iter().filter(|part| stated(part)).flat_map(|(_, name)| [" and the ", *name]).collect();
     let dagger = if extrapolated {
         match kind(true) {
             Some(_) => {
