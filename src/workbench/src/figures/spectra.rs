@@ -23,7 +23,7 @@ use crate::plot_item::{PickIndex, PlotItem};
 use crate::scene::{Scene, SceneError};
 
 /// The panels with the items of their curves.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Built {
     /// The panels, from the light down, the wavelengths written under the last.
     pub panels: Vec<Panel>,
@@ -32,6 +32,8 @@ pub struct Built {
     pub refused: Vec<String>,
     /// Words for the bands that are drawn.
     pub bands: Vec<String>,
+    /// Those of the panel that is being made.
+    new_bands: Vec<String>,
 }
 
 impl Built {
@@ -39,29 +41,40 @@ impl Built {
     fn known<T>(&mut self, answer: Result<T, SceneError>) -> Option<T> {
         answer.map_err(|error| self.refused.push(error.to_string())).ok()
     }
+
+    /// A panel whose note names the bands that are drawn in it.
+    fn noted(&mut self, mut content: Content) -> Content {
+        for words in self.new_bands.drain(..) {
+            content.note = format!("{}; {words}", content.note);
+            if !self.bands.contains(&words) {
+                self.bands.push(words);
+            }
+        }
+        content
+    }
 }
 
 /// The height of the band of colors with its labels.
 const FOOT: f64 = 4.0 + Projection::BOTTOM + Projection::TITLE;
 
 pub fn build(scene: &Scene<'_>, look: &FigureLook, size: [f64; 2]) -> Built {
-    let mut built = Built { panels: Vec::new(), things: PickIndex::default(), refused: Vec::new(), bands: Vec::new() };
+    let mut built = Built::default();
     let sources = scene.visible_sources();
-    let mut contents: Vec<Content> = content::light(scene, &mut built).into_iter().collect();
-    contents.extend(content::patches(scene, &mut built));
+    let mut contents = Vec::new();
+    for make in [content::light, content::patches] {
+        let made = make(scene, &mut built);
+        contents.extend(made.map(|content| built.noted(content)));
+    }
     if look.spectra_layout == SpectraLayout::Each {
         let reference = sources.iter().find(|source| source.is_reference);
         for source in &sources {
             let ghost = reference.filter(|_| !source.is_reference);
             let own = content::sensitivities(scene, std::slice::from_ref(source), ghost, &mut built);
-            contents.push(Content { note: source.label.clone(), ..own });
+            contents.push(built.noted(Content { note: source.label.clone(), ..own }));
         }
     } else if !sources.is_empty() {
         let all = content::sensitivities(scene, &sources, None, &mut built);
-        contents.push(Content { note: "scaled to peak 1".to_owned(), weight: 1.7, ..all });
-    }
-    if let Some(first) = contents.first_mut().filter(|_| !built.bands.is_empty()) {
-        first.note = format!("{}; {}", first.note, built.bands.join(", "));
+        contents.push(built.noted(Content { note: "scaled to peak 1".to_owned(), weight: 1.7, ..all }));
     }
     let weights: f64 = contents.iter().map(|content| content.weight).sum();
     let large = size[0] > 500.0;

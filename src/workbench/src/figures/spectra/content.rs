@@ -217,8 +217,8 @@ fn banded(
     let points: Vec<_> = samples.map(|((nm, value), u)| ([*nm, value / scale], factor * u / scale)).collect();
     let mark = band::mark(name, &points, ink)?;
     let words = band::words(factor);
-    if !built.bands.contains(&words) {
-        built.bands.push(words);
+    if !built.new_bands.contains(&words) {
+        built.new_bands.push(words);
     }
     Some(mark)
 }
