@@ -130,6 +130,9 @@ fn light_and_chart_have_parts_and_bands() {
         let figure = spectra::KIND.figure(scene, &FigureLook::default(), FigureRoom::default()).unwrap();
         assert_eq!(marks(&figure, "±U").len(), 3);
         assert!(figure.caption.contains("Band: ±U, k = 2. "), "{}", figure.caption);
+        // The light and the patches have bands, the sensitivities have none.
+        let named: Vec<bool> = figure.panels.iter().map(|panel| panel.note.contains("band: ±U, k = 2")).collect();
+        assert_eq!(named[..3], [true, true, false], "{:?}", figure.panels.iter().map(|p| &p.note).collect::<Vec<_>>());
         let svg = export::svg(&figure, &Colors::LIGHT, export::Paper::default());
         assert!(svg.contains("dry ±U") && export::png(&svg, 1.0).is_ok());
     });
