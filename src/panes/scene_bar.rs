@@ -7,11 +7,10 @@ use crate::action::{Action, SceneAction};
 use crate::document::render::{BALANCE, SUN};
 use crate::document::{Light, SetKind, Subset, TransformChoice, WhiteBalanceChoice};
 use crate::format::signed;
-use crate::panes::widgets::conditions::{self, Alternative};
+use crate::panes::widgets::conditions::{self, Listing};
 use crate::panes::widgets::number_field::NumberField;
 use crate::panes::widgets::pick_list::{self, Line};
 use crate::panes::widgets::{self, Icon};
-use crate::scene::Scene;
 use crate::theme::{ROW, UNIT};
 use crate::view::View;
 use crate::workspaces::PaneKind;
@@ -161,13 +160,7 @@ fn choice(
 }
 
 /// A list of the alternatives of a condition. Pushes the action of the one that was chosen.
-fn actions(
-    ui: &mut Ui,
-    (name, hint): (&str, &str),
-    shown: &str,
-    context: &mut PaneContext<'_>,
-    all: fn(&Scene<'_>) -> Vec<Alternative>,
-) {
+fn actions(ui: &mut Ui, (name, hint): (&str, &str), shown: &str, context: &mut PaneContext<'_>, all: Listing) {
     let mut made = Vec::new();
     let chosen = choice(ui, name, hint, shown, context, || {
         let (lines, actions): (Vec<_>, Vec<_>) = all(&context.scene).into_iter().unzip();

@@ -234,7 +234,7 @@ pub(super) fn choosers(ui: &mut Ui, layout: &PictureLayout, sources: &[ComparedS
     child.spacing_mut().button_padding.y = 1.0;
     let offered = || sources.iter().filter(|source| layout.mode == RenderMode::One || !source.is_reference);
     let words = ("Visible sensor", "The sensor whose picture is shown");
-    let chosen = pick_list::drop_down(&mut child, words, &title(&now), place.width(), &context.theme, || {
+    let chosen = pick_list::drop_down(&mut child, words, title(&now), place.width(), &context.theme, || {
         offered().map(|source| Line::new(title(source), source.kind == now.kind && source.name == now.name)).collect()
     });
     if let Some(source) = chosen.and_then(|index| offered().nth(index)) {

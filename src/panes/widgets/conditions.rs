@@ -12,8 +12,11 @@ use crate::scene::Scene;
 /// A line with its action; a heading has none.
 pub type Alternative = (Line, Option<Action>);
 
+/// Lists the alternatives of a condition.
+pub type Listing = fn(&Scene<'_>) -> Vec<Alternative>;
+
 /// All conditions but the temperature, by name.
-pub const ALL: [(&str, fn(&Scene<'_>) -> Vec<Alternative>); 6] = [
+pub const ALL: [(&str, Listing); 6] = [
     ("Reference", references),
     ("Light", lights),
     ("Patches", patches),
