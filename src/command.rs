@@ -10,9 +10,8 @@ use crate::export::FigureForm;
 use crate::export::profile::CorrectionForm;
 use crate::export::spectra::Form;
 use crate::plot_item::{PlotItem, SensorId};
-use crate::theme::Surround;
+use crate::view::ReportOn;
 use crate::view::import::ImportItem;
-use crate::view::{ReportOn, ViewChoice};
 use crate::workspaces::{PaneKind, Workspace};
 
 /// Something to do at the start of the next frame.
@@ -70,8 +69,8 @@ pub enum Command {
     ResetView,
     ResetLayout,
     SetTheme(egui::ThemePreference),
-    SetSurround(Surround),
-    Look(ViewChoice),
+    /// Take an alternative of a setting of the layout, by its place.
+    Look(&'static str, usize),
     Select(PlotItem),
     Help(&'static str, usize),
     Tour(TourMove),

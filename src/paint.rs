@@ -17,7 +17,7 @@ use egui_plot::{Plot, PlotUi};
 use crate::theme::Theme;
 
 pub use marks::key;
-pub use pictures::{PictureQuery, PictureTextures, draw as picture};
+pub use pictures::{PictureQuery, draw as picture};
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Emphasis {

@@ -1,35 +1,6 @@
 //! Panes: each reads the document, requests answers and issues commands. None depends on another.
 //!
-//! A new pane is one file and its line in [`ALL`] (with its `mod` line):
-//!
-//! ```diff
-//! --- /dev/null
-//! +++ b/src/panes/gamut.rs
-//! +//! Gamut of each sensor.
-//! +
-//! +use egui::{Rect, Ui};
-//! +
-//! +use super::context::{Pane, PaneContext};
-//! +use crate::panes::widgets;
-//! +use crate::workspaces::PaneKind;
-//! +
-//! +#[derive(Default)]
-//! +struct Chosen(Option<usize>);
-//! +
-//! +pub const PANE: Pane = Pane::new(PaneKind::new("Gamut"), "Gamut", show);
-//! +
-//! +fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
-//! +    let body = widgets::body(ui, &PANE, rect, context, |_, _| {});
-//! +    let chosen = context.states.of::<Chosen>().0;
-//! +    let volumes = context.later.ask(PANE.kind, vec![VolumesQuery { … }]).current();
-//! +    …
-//! +}
-//! --- a/src/panes.rs
-//! +++ b/src/panes.rs
-//! +pub mod gamut;
-//!      &tolerance::PANE,
-//! +    &gamut::PANE,
-//! ```
+//! A new pane is one file and its line in [`ALL`] (with its `mod` line), as the help page on the architecture shows.
 //!
 //! What it keeps from frame to frame is a struct in its file, and a slow answer is asked for in each frame: nothing is to be
 //! registered, ended or waited for (`tests/app/panes.rs` has a whole one). It is then in View, Panes, in the title menu of every

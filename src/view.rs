@@ -12,7 +12,7 @@ use std::path::PathBuf;
 
 use chromascope_core::metamers::Confusion;
 use chromascope_figure::Tag;
-use chromascope_text::{Settings as _, choices};
+use chromascope_text::{Look, Pick, Setting, Settings, choices, place, settings, words_of};
 use correction::CorrectionView;
 use import::{ImportItem, ImportMemory, ImportView};
 use recorded::RecordedView;
@@ -159,13 +159,29 @@ impl Default for SavedView {
     }
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ViewChoice {
-    Diagram(DiagramFit),
-    Swatches(SwatchLayout),
-    SwatchStyle(SwatchStyle),
-    Spectra(SpectraLayout),
-    Pictures(RenderMode),
+impl Settings for SavedView {
+    const ALL: &'static [Setting<Self>] = settings! {
+        "diagram_fit" "Diagram" in Setting::DEFAULT, by "zoom range whole", "Ranges of the diagram",
+            pick(diagram_fit: DiagramFit, Row), none();
+        "swatch_layout" "Swatches" in Setting::DEFAULT, by "layout", "Arrangement of the swatches",
+            pick(swatch_layout: SwatchLayout, Row), none();
+        "swatch_style" "Swatches" in Setting::DEFAULT, by "style half", "Sensor and reference within a swatch",
+            pick(swatch_style: SwatchStyle, Row), none();
+        "difference_bars" "Bars under swatches" in Setting::DEFAULT, by "difference", "Differences as bars",
+            switch(|look| look.difference_bars, |look, on| look.difference_bars = on), none();
+        "spectra_layout" "Spectra" in Setting::DEFAULT, by "layout", "Plots of the spectra",
+            pick(spectra_layout: SpectraLayout, Row), none();
+        "mode" "Pictures" in Setting::DEFAULT, by "render mode maps", "Pictures that are shown", choice(Pick {
+            get: |look| place(look.render.mode),
+            set: |look, to| look.render.mode = RenderMode::ALL[to],
+            all: words_of::<RenderMode>,
+            look: Look::Row,
+        }), none();
+        "surround" "Surround of swatches" in Setting::DEFAULT, by "background grey", "The gray around colors",
+            pick(surround: Surround, List), none();
+        "reduced_motion" "Reduce motion" in Setting::DEFAULT, by "animation", "Nothing moves by itself",
+            switch(|look| look.reduced_motion, |look, on| look.reduced_motion = on), none();
+    };
 }
 
 /// Fields that stay with the window when a session is opened or saved.
@@ -195,22 +211,6 @@ impl SavedView {
     /// View of the first start, under the system's wish for motion.
     pub fn first(reduced_motion: bool) -> Self {
         Self { reduced_motion, draws_in: !reduced_motion, ..Self::default() }
-    }
-
-    pub fn has(&self, choice: ViewChoice) -> bool {
-        let mut chosen = self.clone();
-        chosen.choose(choice);
-        chosen == *self
-    }
-
-    fn choose(&mut self, choice: ViewChoice) {
-        match choice {
-            ViewChoice::Diagram(to) => self.diagram_fit = to,
-            ViewChoice::Swatches(to) => self.swatch_layout = to,
-            ViewChoice::SwatchStyle(to) => self.swatch_style = to,
-            ViewChoice::Spectra(to) => self.spectra_layout = to,
-            ViewChoice::Pictures(to) => self.render.mode = to,
-        }
     }
 }
 
@@ -281,9 +281,12 @@ impl View {
         }
     }
 
-    pub fn choose(&mut self, choice: ViewChoice) {
-        self.reset_plots |= matches!(choice, ViewChoice::Diagram(_));
-        self.saved.choose(choice);
+    /// Takes an alternative of a setting of the layout, by its place.
+    pub fn choose(&mut self, key: &str, place: usize) {
+        self.reset_plots |= key == "diagram_fit";
+        if let Some(setting) = SavedView::ALL.iter().find(|setting| setting.key == key) {
+            setting.value.choose(&mut self.saved, place);
+        }
     }
 
     /// The pane that keys and menus mean: the one with the keyboard, else the first of the workspace.

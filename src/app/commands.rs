@@ -136,8 +136,7 @@ impl ChromascopeApp {
                 self.view.maximized = None;
             }
             Command::SetTheme(preference) => ctx.set_theme(preference),
-            Command::SetSurround(surround) => self.view.saved.surround = surround,
-            Command::Look(choice) => self.view.choose(choice),
+            Command::Look(key, place) => self.view.choose(key, place),
             Command::Select(item) => self.view.selected = Some(item),
             Command::Help(page, block) => self.view.help.open(page, block),
             Command::Tour(to) => self.tour(to),

@@ -17,6 +17,7 @@ use crate::document::imported::ImportOverrides;
 use crate::figures::curves::ImportSelection;
 use crate::format::sentence;
 use crate::panes::widgets;
+use crate::panes::widgets::pick_list::{self, Line};
 use crate::theme::{ROW, SMALL, TEXT, Theme, UNIT};
 use crate::view::import::{ImportItem, Stop};
 use crate::workspaces::PaneKind;
@@ -126,10 +127,6 @@ struct Closed {
 }
 
 impl Closed {
-    fn words(&self) -> String {
-        if self.how.is_empty() { self.value.clone() } else { format!("{} ({})", self.value, self.how) }
-    }
-
     fn job(&self, theme: &Theme) -> LayoutJob {
         let format = |size: f32, color| TextFormat {
             font_id: FontId::proportional(size),
@@ -155,41 +152,22 @@ fn list(
     entries: &[(String, bool)],
     width: f32,
 ) -> Option<usize> {
-    let mut clicked = None;
-    ui.allocate_ui(Vec2::new(width, 2.0 * ROW), |ui| {
+    let column = ui.allocate_ui(Vec2::new(width, 2.0 * ROW), |ui| {
         ui.set_width(width);
         ui.vertical(|ui| {
             ui.spacing_mut().item_spacing.y = 1.0;
             caption(ui, theme, words, closed.guess);
-            let combo = ComboBox::from_id_salt(words).width(width).truncate().selected_text(closed.job(theme));
-            let response = combo
-                .show_ui(ui, |ui| {
-                    let on = entries.iter().position(|(_, on)| *on).unwrap_or(0);
-                    let shown: Vec<Response> =
-                        entries.iter().map(|(entry, on)| ui.selectable_label(*on, entry)).collect();
-                    within(ui, &shown, on);
-                    clicked = shown.iter().position(Response::clicked);
-                    if clicked.is_some() {
-                        // Enter is no click that would close the list by itself.
-                        ui.close();
-                    }
-                })
-                .response;
-            let left = is_left(ui, response.id, ComboBox::is_open(ui.ctx(), response.id));
-            if clicked.is_some() || left || first(ui) {
+            let lines = || entries.iter().map(|(entry, on)| Line::new(entry, *on)).collect();
+            let hint = if closed.why.is_empty() { String::new() } else { format!("{}.", closed.why) };
+            let (response, chosen) = pick_list::combo(ui, (words, &hint), closed.job(theme), width, theme, lines);
+            if is_left(ui, response.id) || first(ui) {
                 response.request_focus();
             }
-            let label = format!("{words}: {}", closed.words());
-            widgets::labeled(&response, egui::Role::ComboBox, &label);
-            response.on_hover_ui(|ui| {
-                ui.strong(closed.words());
-                if !closed.why.is_empty() {
-                    ui.label(format!("{}.", closed.why));
-                }
-            });
-        });
+            chosen
+        })
+        .inner
     });
-    clicked
+    column.inner
 }
 
 fn first_switch() -> Id {
@@ -205,13 +183,10 @@ fn first(ui: &Ui) -> bool {
     ui.data_mut(|data| data.remove_temp::<bool>(first_switch())).unwrap_or(false)
 }
 
-/// True if a list closed since the last frame by a click on another control.
-fn is_left(ui: &Ui, list: Id, open: bool) -> bool {
-    let key = list.with("was open");
-    let was: bool = ui.data(|data| data.get_temp(key)).unwrap_or(false);
-    if was != open {
-        ui.data_mut(|data| data.insert_temp(key, open));
-    }
+/// True if a list closed since the last frame, but not by a click on another control.
+fn is_left(ui: &Ui, list: Id) -> bool {
+    let (key, open) = (list.with("was open"), ComboBox::is_open(ui.ctx(), list));
+    let was = ui.data_mut(|data| std::mem::replace(data.get_temp_mut_or_default::<bool>(key), open));
     was && !open && !ui.input(|input| input.pointer.any_click())
 }
 
@@ -223,28 +198,6 @@ fn step(ui: &Ui) -> isize {
 fn hold(ui: &Ui, entry: &Response) {
     let filter = EventFilter { vertical_arrows: true, ..EventFilter::default() };
     ui.memory_mut(|memory| memory.set_focus_lock_filter(entry.id, filter));
-}
-
-/// The entries of an open list: the one that is on has the keyboard first.
-fn within(ui: &Ui, entries: &[Response], on: usize) {
-    let pass = ui.ctx().cumulative_pass_nr();
-    let left = Id::unique("list that was left");
-    if entries.iter().any(Response::clicked) {
-        ui.data_mut(|data| data.insert_temp(left, pass));
-    }
-    let Some(now) = entries.iter().position(Response::has_focus) else {
-        // A list in which something was chosen is drawn again before it closes.
-        let closes = ui.data(|data| data.get_temp::<u64>(left)).is_some_and(|left| pass <= left + 2);
-        if let Some(entry) = entries.get(on).filter(|_| !closes) {
-            entry.request_focus();
-        }
-        return;
-    };
-    hold(ui, &entries[now]);
-    if let Some(next) = now.checked_add_signed(step(ui)).and_then(|next| entries.get(next)).filter(|_| step(ui) != 0) {
-        next.request_focus();
-        next.scroll_to_me(None);
-    }
 }
 
 /// Below this width the three buttons of a set take one more row.

@@ -3,13 +3,13 @@
 use egui::{Align, Atom, Button, Layout, Rect, Ui, UiBuilder, Vec2};
 
 use super::context::{Pane, PaneContext};
+use crate::action::Action;
 use crate::action::history::History;
-use crate::action::{Action, SceneAction};
 use crate::command::{Command, REPORTS, SessionCommand, THEMES, TourMove, shortcut_of};
 use crate::document::start::Start;
 use crate::export::FigureForm;
 use crate::export::profile::CorrectionForm;
-use crate::panes::widgets::{self, Icon, icon_button, pick_list};
+use crate::panes::widgets::{self, Icon, conditions, icon_button, pick_list};
 use crate::theme::{Surround, UNIT};
 use crate::view::template::TEMPLATES;
 use crate::workspaces::{Layout as PaneLayout, PaneKind, Workspace};
@@ -293,12 +293,10 @@ fn view(ui: &mut Ui, context: &mut PaneContext<'_>) {
     ticked(ui, false, "Reset layout", "", Command::ResetLayout, context);
     ui.separator();
     ui.menu_button((gutter(false), "Difference"), |ui| {
-        let now = context.scene.document.difference;
-        let transform = &context.scene.document.transform;
-        for metric in transform.metrics() {
-            let name = metric.name(transform.is_eq_13());
-            let action = Action::Scene(SceneAction::SetDifference(metric));
-            ticked(ui, now == metric, name, metric.label, action, context);
+        for (line, action) in conditions::differences(&context.scene) {
+            if let Some(action) = action {
+                ticked(ui, line.on, &line.words, &line.note, action, context);
+            }
         }
         ui.separator();
         let bars = context.view.saved.difference_bars;
@@ -311,16 +309,11 @@ fn view(ui: &mut Ui, context: &mut PaneContext<'_>) {
         }
     });
     let still = context.view.saved.reduced_motion;
-    let line = ui.add(Button::new((gutter(still), "Reduce motion")));
-    line.widget_info(|| egui::WidgetInfo::selected(egui::Role::Button, true, still, "Reduce motion"));
-    if line.clicked() {
-        context.view.saved.reduced_motion = !still;
-        ui.close();
-    }
+    ticked(ui, still, "Reduce motion", "", Command::Look("reduced_motion", usize::from(!still)), context);
     ui.menu_button((gutter(false), "Surround of swatches"), |ui| {
-        for surround in Surround::ALL {
+        for (place, surround) in Surround::ALL.into_iter().enumerate() {
             let on = context.view.saved.surround == surround;
-            ticked(ui, on, surround.label(), "", Command::SetSurround(surround), context);
+            ticked(ui, on, surround.label(), "", Command::Look("surround", place), context);
         }
     });
 }

@@ -12,7 +12,6 @@ use super::context::{Pane, PaneContext};
 use crate::action::{Action, RenderAction};
 use crate::document::render::SUN;
 use crate::figures;
-use crate::paint::PictureTextures;
 use crate::panes::widgets;
 use crate::render_service::REST_AFTER;
 use crate::scene::orbit::Orbit;
@@ -27,7 +26,6 @@ pub const PANE: Pane =
 struct RenderPane {
     /// Time of egui in seconds since which the pictures are of something else than what is chosen.
     old_since: Option<f64>,
-    textures: PictureTextures,
 }
 
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {

@@ -1,15 +1,13 @@
 //! All conditions in one bar: reference, light, temperature, patches, white balance, color transform, difference.
 
-use chromascope_core::colorimetry::Metric;
-use chromascope_core::correction::CorrectionMethod;
 use egui::{Align, Layout, Rect, Sense, Slider, Ui, UiBuilder, Vec2};
 
 use super::context::PaneContext;
-use crate::action::{Action, CompareAction, SceneAction};
-use crate::document::correction::CorrectionChoice;
+use crate::action::{Action, SceneAction};
 use crate::document::render::{BALANCE, SUN};
 use crate::document::{Light, SetKind, Subset, TransformChoice, WhiteBalanceChoice};
 use crate::format::signed;
+use crate::panes::widgets::conditions::{self, Listing};
 use crate::panes::widgets::number_field::NumberField;
 use crate::panes::widgets::pick_list::{self, Line};
 use crate::panes::widgets::{self, Icon};
@@ -161,17 +159,11 @@ fn choice(
     chosen
 }
 
-/// A list of what can be set, each with its action. Pushes the one that was chosen.
-fn actions(
-    ui: &mut Ui,
-    (name, hint): (&str, &str),
-    shown: &str,
-    context: &mut PaneContext<'_>,
-    all: impl FnOnce(&PaneContext<'_>) -> Vec<(Line, Option<Action>)>,
-) {
+/// A list of the alternatives of a condition. Pushes the action of the one that was chosen.
+fn actions(ui: &mut Ui, (name, hint): (&str, &str), shown: &str, context: &mut PaneContext<'_>, all: Listing) {
     let mut made = Vec::new();
     let chosen = choice(ui, name, hint, shown, context, || {
-        let (lines, actions): (Vec<_>, Vec<_>) = all(context).into_iter().unzip();
+        let (lines, actions): (Vec<_>, Vec<_>) = all(&context.scene).into_iter().unzip();
         made = actions;
         lines
     });
@@ -185,14 +177,7 @@ fn reference(ui: &mut Ui, context: &mut PaneContext<'_>) {
     // A truncated name distinguishes two observers less well than a short one.
     let entry = context.scene.entry(SetKind::Observer, &now).ok().filter(|_| ui.available_width() < 180.0);
     let shown = entry.map_or_else(|| now.clone(), |entry| entry.short);
-    actions(ui, ("Reference", "The observer that cameras are compared with."), &shown, context, |context| {
-        let observers = context.scene.entries(SetKind::Observer).map(|entry| {
-            let counts_in_xyz = entry.counts_in_xyz();
-            let line = Line::of_set(&entry, entry.name == now);
-            (line, Some(Action::Compare(CompareAction::SetReference { name: entry.name, counts_in_xyz })))
-        });
-        observers.collect()
-    });
+    actions(ui, ("Reference", "The observer that cameras are compared with."), &shown, context, conditions::references);
 }
 
 fn light_caption(context: &PaneContext<'_>) -> String {
@@ -249,24 +234,7 @@ fn light(ui: &mut Ui, context: &mut PaneContext<'_>) {
     if let Ok(Ok(cct)) = context.scene.light_temperature() {
         hint.extend(["\nDuv ", &signed(cct.duv)]);
     }
-    actions(ui, ("Light", &hint), &shown, context, |context| {
-        let offer = |light: Light, words: String| {
-            (Line::new(words, now == light), Some(Action::Scene(SceneAction::SetLight(light))))
-        };
-        let mut all = Vec::new();
-        if !context.scene.document.filters.is_empty() {
-            all.push((Line::new("Remove filters", false), Some(Action::Scene(SceneAction::ClearFilters))));
-        }
-        all.push((Line::heading("At the temperature"), None));
-        all.push(offer(Light::BlackBody, "Blackbody at the temperature".to_owned()));
-        all.push(offer(Light::Daylight, "Daylight at the temperature, 4000–20000 K".to_owned()));
-        all.push((Line::heading("Illuminants"), None));
-        all.extend(context.scene.entries(SetKind::Illuminant).map(|entry| {
-            let light = Light::Set(entry.name.clone());
-            (Line::of_set(&entry, now == light), Some(Action::Scene(SceneAction::SetLight(light))))
-        }));
-        all
-    });
+    actions(ui, ("Light", &hint), &shown, context, conditions::lights);
 }
 
 fn temperature_caption(context: &PaneContext<'_>, wide: bool) -> &'static str {
@@ -336,24 +304,7 @@ fn patches(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let short = context.scene.chart_entry(&now).map_or_else(|_| now.clone(), |entry| entry.short);
     let shown = if five { format!("Five of {short}") } else { short };
     let hint = "The reflectances shown: charts, skin, leaves, yours.";
-    actions(ui, ("Patches", hint), &shown, context, |context| {
-        let set = |action: SceneAction| Some(Action::Scene(action));
-        let mut all = Vec::new();
-        if context.scene.has_five() {
-            all.push((Line::new("The paper's five", five), set(SceneAction::SetSubset(Subset::Five))));
-            all.push((Line::new("All of the chart", !five), set(SceneAction::SetSubset(Subset::All))));
-        }
-        for (kind, words) in [(SetKind::Chart, "Charts"), (SetKind::Material, "Single reflectances")] {
-            all.push((Line::heading(words), None));
-            all.extend(
-                context
-                    .scene
-                    .entries(kind)
-                    .map(|entry| (Line::of_set(&entry, entry.name == now), set(SceneAction::SetChart(entry.name)))),
-            );
-        }
-        all
-    });
+    actions(ui, ("Patches", hint), &shown, context, conditions::patches);
 }
 
 fn white(ui: &mut Ui, context: &mut PaneContext<'_>) {
@@ -367,24 +318,7 @@ fn white(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let shown = if shows_sunlight(context) { BALANCE.to_owned() } else { shown };
     let hint = "White-balance target: the RGB that a perfect diffuser under the light is mapped to (Eq 11). With a \
                 fitted color transform it changes camera RGB only; the matrix compensates for it.";
-    actions(ui, ("White balance", hint), &shown, context, |context| {
-        let offer = |white: WhiteBalanceChoice, words: String| {
-            (Line::new(words, now == white), Some(Action::Scene(SceneAction::SetWhite(white))))
-        };
-        let kelvin = context.scene.document.temperature_k;
-        let daylight = kelvin.max(4000.0);
-        let mut all = vec![
-            offer(WhiteBalanceChoice::Unity, "Unity, 1 : 1 : 1 (the paper's experiments 1 and 2)".to_owned()),
-            offer(WhiteBalanceChoice::Daylight(daylight), format!("Daylight {daylight:.0} K")),
-            offer(WhiteBalanceChoice::BlackBody(kelvin), format!("Blackbody {kelvin:.0} K")),
-            (Line::heading("Illuminants"), None),
-        ];
-        all.extend(context.scene.entries(SetKind::Illuminant).map(|entry| {
-            let white = WhiteBalanceChoice::Light(entry.name.clone());
-            (Line::of_set(&entry, now == white), Some(Action::Scene(SceneAction::SetWhite(white))))
-        }));
-        all
-    });
+    actions(ui, ("White balance", hint), &shown, context, conditions::whites);
 }
 
 fn transform(ui: &mut Ui, context: &mut PaneContext<'_>) {
@@ -400,24 +334,7 @@ fn transform(ui: &mut Ui, context: &mut PaneContext<'_>) {
                 matrix of Eq 13, CIE observers directly. Fitted: a 3×3 matrix for each sensor, fitted to a CIE \
                 observer over 190 training reflectances under the light, or another correction; training \
                 reflectances and weights are chosen in the pane Correction.";
-    actions(ui, ("Color transform", hint), &shown, context, |context| {
-        let set = |action: SceneAction| Some(Action::Scene(action));
-        let paper = Line::new("Paper matrix (Eq 13)", now == TransformChoice::Paper);
-        let mut all = vec![(paper, set(SceneAction::SetTransform(TransformChoice::Paper)))];
-        all.push((Line::heading("Fitted to an observer"), None));
-        for entry in context.scene.entries(SetKind::Observer).filter(crate::catalog::Entry::counts_in_xyz) {
-            let transform = TransformChoice::Observer(entry.name.clone());
-            let line = Line::new(format!("Fitted to {}", entry.name), now == transform);
-            all.push((line, set(SceneAction::SetTransform(transform))));
-        }
-        all.push((Line::heading("Method of the fit"), None));
-        for method in CorrectionMethod::ALL {
-            let chosen = !now.is_eq_13() && correction.method == method;
-            let correction = CorrectionChoice { method, ..correction.clone() };
-            all.push((Line::new(method.label(), chosen), set(SceneAction::SetCorrection(correction))));
-        }
-        all
-    });
+    actions(ui, ("Color transform", hint), &shown, context, conditions::transforms);
 }
 
 fn difference(ui: &mut Ui, context: &mut PaneContext<'_>) {
@@ -430,15 +347,5 @@ fn difference(ui: &mut Ui, context: &mut PaneContext<'_>) {
         }
         TransformChoice::Observer(_) => "Metric of the difference from the reference.",
     };
-    actions(ui, ("Difference", hint), now.name(transform.is_eq_13()), context, |_| {
-        let offer = |metric: Metric| {
-            let line = Line::new(metric.name(transform.is_eq_13()), now == metric);
-            let also = format!("delta E {} {}", metric.id, metric.label);
-            (
-                Line { note: metric.label.to_owned(), also, ..line },
-                Some(Action::Scene(SceneAction::SetDifference(metric))),
-            )
-        };
-        transform.metrics().into_iter().map(offer).collect()
-    });
+    actions(ui, ("Difference", hint), now.name(transform.is_eq_13()), context, conditions::differences);
 }

@@ -1,5 +1,6 @@
 //! Parts that more than one pane uses.
 
+pub mod conditions;
 pub mod facts;
 pub mod lines;
 pub mod number_field;

@@ -3,7 +3,7 @@
 use chromascope::view::import::{ImportItem, Stop};
 use chromascope::workspaces::{PaneKind, Workspace};
 use egui::Key;
-use egui::accesskit::Role;
+use egui::accesskit::{Role, Toggled};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use spectral_file::{Delimiter, Role as Kinds};
 
@@ -62,7 +62,8 @@ fn files_switches_and_curves_are_reached_and_changed_by_keys_alone() {
     for _ in 0..4 {
         press(&mut window, Key::ArrowDown);
     }
-    assert_eq!(focus(&window), "Illuminant");
+    let picked = window.get_by_role_and_label(Role::Button, "Illuminant");
+    assert_eq!(picked.accesskit_node().toggled(), Some(Toggled::True), "it is highlighted");
     press(&mut window, Key::Enter);
     until(&mut window, "a role", |app| app.history.document().own[1].role == Kinds::Illuminant);
     assert!(focus(&window).starts_with("This is a: "), "the list has the keyboard again: {}", focus(&window));

@@ -19,7 +19,7 @@ use chromascope::results::Results;
 use chromascope::scene::Scene;
 use chromascope::view::import::ImportItem;
 use chromascope::view::template::TEMPLATES;
-use chromascope::view::{SavedView, ViewChoice, Weight};
+use chromascope::view::{SavedView, Weight};
 use chromascope::view::{Sorting, TableLook};
 use chromascope::workspaces::Workspace;
 use egui::accesskit::Role;
@@ -128,7 +128,7 @@ fn a_session_made_here_opens_in_a_fresh_home() {
     until(&mut here, "the leaf", |app| !app.history.document().own.is_empty());
     push(&mut here, temperature(3210.0));
     push(&mut here, Command::Show(Workspace::Spectra));
-    push(&mut here, Command::Look(ViewChoice::Spectra(chromascope::view::SpectraLayout::Each)));
+    push(&mut here, Command::Look("spectra_layout", 1));
     assert_eq!(here.state().title(), "*Untitled – Chromascope");
     let path = folder.join("fig3.chromascope");
     save_as(&mut here, &folder.join("fig3"));

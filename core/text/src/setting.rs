@@ -84,6 +84,9 @@ pub enum Value<D: 'static> {
     Own,
 }
 
+/// Words of a switch.
+static SWITCH: [Words; 2] = [Words::new("off", "off", ""), Words::new("on", "on", "")];
+
 impl<D> Value<D> {
     /// Numbers of the value.
     pub fn numbers(&self) -> Vec<&Number<D>> {
@@ -91,6 +94,24 @@ impl<D> Value<D> {
             Self::Number(number) => vec![number],
             Self::Pair([(.., a), (.., b)]) => vec![a, b],
             Self::Switch(..) | Self::Choice(_) | Self::Own => Vec::new(),
+        }
+    }
+
+    /// Words of its alternatives: those of a choice, off and on for a switch.
+    pub fn alternatives(&self) -> Vec<&'static Words> {
+        match self {
+            Self::Switch(..) => SWITCH.iter().collect(),
+            Self::Choice(pick) => (pick.all)(),
+            Self::Number(_) | Self::Pair(_) | Self::Own => Vec::new(),
+        }
+    }
+
+    /// Takes one of its alternatives, by place.
+    pub fn choose(&self, of: &mut D, place: usize) {
+        match self {
+            Self::Switch(_, set) => set(of, place > 0),
+            Self::Choice(pick) => (pick.set)(of, place),
+            Self::Number(_) | Self::Pair(_) | Self::Own => {}
         }
     }
 }

@@ -5,8 +5,8 @@ use std::path::PathBuf;
 
 use chromascope_figure::{Cell, Table};
 use egui::{
-    Color32, ComboBox, Event, Id, Key, Painter, Pos2, Rect, Response, ScrollArea, Sense, Shape, Stroke, TextStyle, Ui,
-    UiBuilder, Vec2,
+    Color32, Event, Id, Key, Painter, Pos2, Rect, Response, ScrollArea, Sense, Shape, Stroke, TextStyle, Ui, UiBuilder,
+    Vec2,
 };
 
 use crate::action::{Action, ImportedAction};
@@ -14,13 +14,14 @@ use crate::catalog::opened::OpenFile;
 use crate::command::Command;
 use crate::document::imported::{ImportedSet, Role};
 use crate::panes::context::PaneContext;
+use crate::panes::widgets::pick_list::{self, Line};
 use crate::panes::widgets::{self, focus_rim, lines};
 use crate::theme::{ROW, Theme, UNIT};
 use crate::view::import::{ImportItem, Stop};
 use crate::workspaces::PaneKind;
 
 const HEIGHT: f32 = 38.0;
-const LINE: f32 = 14.0;
+const REASON: f32 = 14.0;
 const MARK: f32 = 16.0;
 const SCROLL_BAR: f32 = 8.0;
 
@@ -61,7 +62,7 @@ pub(super) fn column(ui: &mut Ui, rect: Rect, entries: &[Entry], context: &mut P
 fn tops(entries: &[Entry]) -> Vec<f32> {
     let mut tops = vec![0.0];
     for entry in entries {
-        let line = if entry.state == State::Failed { LINE } else { 0.0 };
+        let line = if entry.state == State::Failed { REASON } else { 0.0 };
         tops.push(tops[tops.len() - 1] + HEIGHT + line);
     }
     tops
@@ -99,23 +100,19 @@ pub(super) fn drop_down(ui: &mut Ui, rect: Rect, entries: &[Entry], context: &mu
     draw_mark(ui.painter(), egui::pos2(head.left() + 6.0, head.center().y), entry.state, false, &context.theme);
     let list = Rect::from_min_max(head.min + Vec2::new(MARK, 0.0), head.max - Vec2::new(lines::DOTS + UNIT, 0.0));
     let mut child = ui.new_child(UiBuilder::new().id_salt("files list").max_rect(list));
-    let combo = ComboBox::from_id_salt("visible file").width(list.width()).truncate();
-    let words = format!("{}  ({})", entry.name, entry.note);
-    let mut chosen = None;
-    let response = combo.selected_text(words).show_ui(&mut child, |ui| {
-        for (index, entry) in entries.iter().enumerate() {
+    let shown = format!("{}  ({})", entry.name, entry.note);
+    let words = ("Visible file", entry.state.words());
+    let (response, chosen) = pick_list::combo(&mut child, words, shown, list.width(), &context.theme, || {
+        let line = |entry: &Entry| {
             // A reason is too long for a list.
             let note = if entry.state == State::Failed { entry.state.words() } else { &entry.note };
-            let words = format!("{}  ({note})", entry.name);
-            if ui.selectable_label(Some(&entry.item) == selected.as_ref(), words).clicked() {
-                chosen = Some(index);
-            }
-        }
+            Line::new(format!("{}  ({note})", entry.name), Some(&entry.item) == selected.as_ref())
+        };
+        entries.iter().map(line).collect()
     });
-    let name = format!("Visible file: {}, {}", entry.name, entry.state.words());
-    widgets::labeled(&response.response, egui::Role::ComboBox, &name);
+    widgets::labeled(&response, egui::Role::ComboBox, format!("Visible file: {}, {}", entry.name, entry.state.words()));
     if context.view.import.takes_keyboard(Stop::Files) {
-        response.response.request_focus();
+        response.request_focus();
     }
     if let Some(index) = chosen {
         select(ui, entries, index, context);

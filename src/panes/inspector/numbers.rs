@@ -14,11 +14,8 @@ use crate::plot_item::{PlotItem, SensorId};
 use crate::scene::{Scene, SceneError};
 use crate::workspaces::PaneKind;
 
-pub(super) struct Row {
-    pub(super) name: &'static str,
-    pub(super) decimals: usize,
-    pub(super) cells: Vec<Option<f64>>,
-}
+const CCT: &str = "CCT";
+const DUV: &str = "Duv";
 
 /// Color of a patch or a blackbody through one sensor, under its head.
 #[derive(Clone, Debug, Default)]
@@ -46,49 +43,42 @@ impl Point {
     }
 }
 
-pub(super) fn heads(points: &[Point]) -> Vec<String> {
-    points.iter().map(|point| point.head.clone()).collect()
-}
-
-/// The rows that points have: difference, RGB, both diagrams, L*a*b*, CCT and Duv; rows that no point has are omitted.
-pub(super) fn rows_of(scene: &Scene<'_>, points: &[Point]) -> Vec<Row> {
-    let row = |name, decimals, take: &dyn Fn(&Point) -> Option<f64>| Row {
-        name,
-        decimals,
-        cells: points.iter().map(take).collect(),
-    };
-    let mut rows = vec![
-        row(scene.difference_name(), scene.document.difference.decimals, &|p| p.difference),
-        row("R", 4, &|p| p.rgb.map(|rgb| rgb[0])),
-        row("G", 4, &|p| p.rgb.map(|rgb| rgb[1])),
-        row("B", 4, &|p| p.rgb.map(|rgb| rgb[2])),
-        row("x", 4, &|p| p.xy.map(|xy| xy.x)),
-        row("y", 4, &|p| p.xy.map(|xy| xy.y)),
-        row("u′", 4, &|p| p.uv.map(|uv| uv.u)),
-        row("v′", 4, &|p| p.uv.map(|uv| uv.v)),
-        row("L*", 2, &|p| p.lab.map(|lab| lab.l)),
-        row("a*", 2, &|p| p.lab.map(|lab| lab.a)),
-        row("b*", 2, &|p| p.lab.map(|lab| lab.b)),
+/// A column for each point, with the rows that points have: difference, RGB, both diagrams, L*a*b*; CCT in kelvins and Duv for the
+/// CIE 1931 observer.
+pub(super) fn table(scene: &Scene<'_>, points: &[Point]) -> Table {
+    let ccts: Vec<Option<Cct>> = points.iter().map(|point| scene.temperature_of(point.xyz).ok()?.ok()).collect();
+    let of = |take: &dyn Fn(&Point) -> Option<f64>| points.iter().map(take).collect::<Vec<_>>();
+    let rows = [
+        (scene.difference_name(), scene.document.difference.decimals, of(&|p| p.difference)),
+        ("R", 4, of(&|p| p.rgb.map(|rgb| rgb[0]))),
+        ("G", 4, of(&|p| p.rgb.map(|rgb| rgb[1]))),
+        ("B", 4, of(&|p| p.rgb.map(|rgb| rgb[2]))),
+        ("x", 4, of(&|p| p.xy.map(|xy| xy.x))),
+        ("y", 4, of(&|p| p.xy.map(|xy| xy.y))),
+        ("u′", 4, of(&|p| p.uv.map(|uv| uv.u))),
+        ("v′", 4, of(&|p| p.uv.map(|uv| uv.v))),
+        ("L*", 2, of(&|p| p.lab.map(|lab| lab.l))),
+        ("a*", 2, of(&|p| p.lab.map(|lab| lab.a))),
+        ("b*", 2, of(&|p| p.lab.map(|lab| lab.b))),
+        (CCT, 0, ccts.iter().map(|cct| cct.map(|cct| cct.temperature.get())).collect()),
+        (DUV, 4, ccts.iter().map(|cct| cct.map(|cct| cct.duv)).collect()),
     ];
-    rows.retain(|row| row.cells.iter().any(Option::is_some));
-    rows.extend(temperatures(scene, points.iter().map(|point| point.xyz)));
-    rows
-}
-
-/// Correlated color temperature in kelvins and Duv, for the CIE 1931 observer; none where it is undefined.
-fn temperatures(scene: &Scene<'_>, colors: impl Iterator<Item = Option<Xyz>>) -> [Row; 2] {
-    let found: Vec<Option<Cct>> = colors.map(|color| scene.temperature_of(color).ok()?.ok()).collect();
-    let row = |name, decimals, take: fn(Cct) -> f64| Row {
-        name,
-        decimals,
-        cells: found.iter().map(|cct| cct.map(take)).collect(),
+    let is_shown = |(name, _, cells): &(&str, usize, Vec<Option<f64>>)| {
+        [CCT, DUV].contains(name) || cells.iter().any(Option::is_some)
     };
-    [row("CCT", 0, |cct| cct.temperature.get()), row("Duv", 4, |cct| cct.duv)]
+    let rows: Vec<_> = rows.into_iter().filter(is_shown).collect();
+    let decimals = rows.iter().map(|(_, decimals, _)| *decimals).max();
+    let heads = points.iter().map(|point| Column { decimals, ..Column::from(point.head.as_str()) });
+    let mut table = Table::new(std::iter::once(Column::from("quantity")).chain(heads));
+    for (name, decimals, cells) in rows {
+        let cells = cells.into_iter().map(|cell| Cell::from(cell).with(|note| note.decimals = Some(decimals)));
+        table.push(std::iter::once(Cell::from(name)).chain(cells));
+    }
+    table
 }
 
-/// Writes rows below the columns' headers; `id` distinguishes tables of one pane.
-pub(super) fn show(ui: &mut Ui, id: &str, heads: &[String], rows: &[Row], context: &PaneContext<'_>) {
-    let mut table = table(heads, rows);
+/// Writes a table of points; `id` distinguishes tables of one pane.
+pub(super) fn show(ui: &mut Ui, id: &str, mut table: Table, context: &PaneContext<'_>) {
     table.columns[0] = Column::default();
     let shown = DataTable::new(PaneKind::INSPECTOR, id, &table);
     ScrollArea::horizontal().id_salt(id).auto_shrink([false, true]).show(ui, |ui| {
@@ -96,29 +86,15 @@ pub(super) fn show(ui: &mut Ui, id: &str, heads: &[String], rows: &[Row], contex
     });
 }
 
-pub(super) fn to_tsv(heads: &[String], rows: &[Row]) -> String {
-    table(heads, rows).to_tsv()
-}
-
-fn table(heads: &[String], rows: &[Row]) -> Table {
-    let decimals = rows.iter().map(|row| row.decimals).max();
-    let heads = heads.iter().map(|head| Column { decimals, ..Column::from(head.as_str()) });
-    let mut table = Table::new(std::iter::once(Column::from("quantity")).chain(heads));
-    for row in rows {
-        let cells = row.cells.iter().map(|cell| Cell::from(*cell).with(|note| note.decimals = Some(row.decimals)));
-        table.push(std::iter::once(Cell::from(row.name)).chain(cells));
-    }
-    table
-}
-
 /// The table of a page, with the pinned items as columns A, B, …, and the page's buttons.
 pub(super) fn points_table(ui: &mut Ui, mut points: Vec<Point>, page: &PlotItem, context: &mut PaneContext<'_>) {
     let scene = context.scene;
     points.extend(points_of(&scene, &context.view.pinned, Some(page)));
-    let (heads, rows) = (heads(&points), rows_of(&scene, &points));
-    show(ui, "points", &heads, &rows, context);
+    let table = table(&scene, &points);
+    let text = table.to_tsv();
+    show(ui, "points", table, context);
     if buttons(ui, context) {
-        copy_text(ui, to_tsv(&heads, &rows), context);
+        copy_text(ui, text, context);
     }
 }
 

@@ -166,7 +166,7 @@ fn buttons_without_copy(ui: &mut Ui, context: &mut PaneContext<'_>) {
             Point { difference, ..Point::of_patch(&s.label, color_of(&scene, &id, &patch).ok().flatten()) }
         };
         let points: Vec<Point> = shown.iter().map(point).collect();
-        copy_text(ui, numbers::to_tsv(&numbers::heads(&points), &numbers::rows_of(&scene, &points)), context);
+        copy_text(ui, numbers::table(&scene, &points).to_tsv(), context);
     }
 }
 

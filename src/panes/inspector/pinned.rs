@@ -2,8 +2,8 @@
 
 use egui::Ui;
 
-use super::numbers::{Point, letter, point_of, points_of};
-use super::{label_of, numbers, reference_id};
+use super::numbers::{self, Point, letter, point_of, points_of};
+use super::{label_of, reference_id};
 use crate::figures::chromaticity::id;
 use crate::figures::render::headline::{Detail, Measure};
 use crate::figures::render::{NO_VALUE, facts, index_of, pixel_of};
@@ -44,7 +44,7 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
         let mut points: Vec<Point> = reference_of(&scene, &pinned).into_iter().collect();
         points.extend(points_of(&scene, &pinned, None));
         if !points.is_empty() {
-            numbers::show(ui, "pinned", &numbers::heads(&points), &numbers::rows_of(&scene, &points), context);
+            numbers::show(ui, "pinned", numbers::table(&scene, &points), context);
         }
     }
     if pinned.iter().any(|thing| point_of(&context.scene, thing).is_none()) {

@@ -70,18 +70,17 @@ fn picture(
             let sharp = [made.width, made.height] == layout.pixels.map(|side| side as usize)
                 || (shot.query.image().is_some() && made.width < layout.pixels[0] as usize / 2);
             let name = format!("{} {}", source.kind.label(), source.name);
-            let textures = &mut context.states.of::<super::RenderPane>().textures;
             match scale {
                 None => {
                     let of = PictureQuery { name: &name, version: shot.serial, rect, clip, sharp };
-                    textures.draw(painter, of, || ([made.width, made.height], made.rgba.clone()));
+                    of.draw(painter, || ([made.width, made.height], &made.rgba));
                 }
                 Some(maps::Scale { end, .. }) => {
                     let name = format!("{name}, difference");
                     // The same map in another scale is another picture.
                     let version = (shot.serial << 16) ^ u64::from(end.to_bits() >> 8);
                     let of = PictureQuery { name: &name, version, rect, clip, sharp };
-                    textures.draw(painter, of, || maps::map(shot, at, end));
+                    of.draw(painter, || maps::map(shot, at, end));
                 }
             }
             return;
@@ -235,7 +234,7 @@ pub(super) fn choosers(ui: &mut Ui, layout: &PictureLayout, sources: &[ComparedS
     child.spacing_mut().button_padding.y = 1.0;
     let offered = || sources.iter().filter(|source| layout.mode == RenderMode::One || !source.is_reference);
     let words = ("Visible sensor", "The sensor whose picture is shown");
-    let chosen = pick_list::drop_down(&mut child, words, &title(&now), place.width(), &context.theme, || {
+    let chosen = pick_list::drop_down(&mut child, words, title(&now), place.width(), &context.theme, || {
         offered().map(|source| Line::new(title(source), source.kind == now.kind && source.name == now.name)).collect()
     });
     if let Some(source) = chosen.and_then(|index| offered().nth(index)) {

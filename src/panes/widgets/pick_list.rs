@@ -3,7 +3,7 @@
 use egui::containers::menu::{MenuButton, MenuConfig};
 use egui::{
     Align2, ComboBox, Id, Key, Modifiers, PopupCloseBehavior, Rect, Response, Role, ScrollArea, Sense, Stroke,
-    TextEdit, TextStyle, Ui, Vec2, WidgetInfo,
+    TextEdit, TextStyle, Ui, Vec2, WidgetInfo, WidgetText,
 };
 
 use super::lines;
@@ -191,7 +191,7 @@ pub fn tick(painter: &egui::Painter, at: egui::Pos2, color: egui::Color32) {
 pub fn drop_down(
     ui: &mut Ui,
     words: (&str, &str),
-    shown: &str,
+    shown: impl Into<WidgetText>,
     width: f32,
     theme: &Theme,
     lines: impl FnOnce() -> Vec<Line>,
@@ -203,11 +203,13 @@ pub fn drop_down(
 pub fn combo(
     ui: &mut Ui,
     (name, hint): (&str, &str),
-    shown: &str,
+    shown: impl Into<WidgetText>,
     width: f32,
     theme: &Theme,
     lines: impl FnOnce() -> Vec<Line>,
 ) -> (Response, Option<usize>) {
+    let shown = shown.into();
+    let words = shown.text().to_owned();
     let key = ui.make_persistent_id((name, "filter"));
     let combo = ComboBox::from_id_salt(name)
         .width(width)
@@ -220,8 +222,9 @@ pub fn combo(
         ui.data_mut(|data| data.remove::<PickState>(key));
     }
     let response = opened.response;
-    lines::labeled(&response, Role::ComboBox, format!("{name}: {shown}"));
-    (response.on_hover_text(format!("{hint}\nNow: {shown}")), opened.inner.flatten())
+    lines::labeled(&response, Role::ComboBox, format!("{name}: {words}"));
+    let told = if hint.is_empty() { format!("Now: {words}") } else { format!("{hint}\nNow: {words}") };
+    (response.on_hover_text(told), opened.inner.flatten())
 }
 
 /// A button that opens a list filtered as one types, with a heading of what it chooses. Returns the line that was chosen.

@@ -1,31 +1,7 @@
 //! The scene as figures: the same value is drawn on screen, saved as SVG and PNG, and written as numbers.
 //!
-//! A new kind of figure is one file and its line in [`FIGURES`] (with its `mod` line):
-//!
-//! ```diff
-//! --- /dev/null
-//! +++ b/src/workbench/src/figures/gamut.rs
-//! +//! Gamut of each sensor.
-//! +
-//! +use chromascope_figure::{Figure, FigureRoom};
-//! +
-//! +use super::kind::FigureKind;
-//! +use super::look::FigureLook;
-//! +use crate::scene::Scene;
-//! +
-//! +pub static KIND: FigureKind = FigureKind::new("gamut", "Gamut of each sensor", figure);
-//! +
-//! +fn figure(scene: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Option<Figure> {
-//! +    …
-//! +}
-//! --- a/src/workbench/src/figures.rs
-//! +++ b/src/workbench/src/figures.rs
-//! +pub mod gamut;
-//!      &accuracy::KIND,
-//! +    &gamut::KIND,
-//! ```
-//!
-//! `chromascope figure gamut` then draws it, and its help lists it. A pane whose figure it is names its `KIND`.
+//! A new kind of figure is one file and its line in [`FIGURES`] (with its `mod` line), as the help page on the architecture shows:
+//! `chromascope figure` then draws it, and its help lists it. A pane whose figure it is names its `KIND`.
 
 pub mod accuracy;
 pub mod band;

@@ -1,6 +1,5 @@
 //! `bench`: run time against error, as figures, a table and JSON.
 
-use std::fs;
 use std::path::{Path, PathBuf};
 
 use chromascope_core::render::Stop;
@@ -10,8 +9,9 @@ use chromascope_measure::{Effort, Measurement, Progress, Report, Workload};
 use chromascope_text::Choice as _;
 use clap::{ArgMatches, Args};
 
-use super::error::{CliError, Result, refused};
+use super::error::{CliError, Result};
 use super::outputs::{show, write_to};
+use super::render::make_folder;
 use crate::export::{Paper, png, png_file, svg};
 use crate::palette::Colors;
 use crate::profiler::bench;
@@ -66,8 +66,9 @@ pub(super) fn run(arguments: &BenchArguments, _: &ArgMatches) -> Result<()> {
         return show(&lines.concat());
     };
     let measure = bench().ok_or(CliError::NoBench)?;
-    // Better now than after a quarter of an hour.
     make_folder(folder)?;
+    // Better now than after a quarter of an hour.
+    tempfile::tempfile_in(folder).map_err(|error| CliError::Output { path: folder.clone(), error })?;
     let plan: Vec<Workload> = Workload::ALL
         .into_iter()
         .filter(|workload| arguments.only.is_empty() || arguments.only.contains(workload))
@@ -99,18 +100,6 @@ pub(super) fn run(arguments: &BenchArguments, _: &ArgMatches) -> Result<()> {
 fn names(plan: &[Workload]) -> Vec<String> {
     let figures = plan.iter().flat_map(|workload| ["svg", "png"].map(|ending| format!("{}.{ending}", workload.key())));
     [JSON, CSV].map(str::to_owned).into_iter().chain(figures).collect()
-}
-
-/// The folder, made if need be, in which a file can be made.
-fn make_folder(folder: &Path) -> Result<()> {
-    if folder.exists() && !folder.is_dir() {
-        let reason = format!("{} is a file; name a folder (files are named automatically)", folder.display());
-        return refused("--out", reason);
-    }
-    let failed = |error| CliError::Output { path: folder.to_owned(), error };
-    fs::create_dir_all(folder).map_err(failed)?;
-    tempfile::tempfile_in(folder).map_err(failed)?;
-    Ok(())
 }
 
 /// A line for each measurement, under its case.

@@ -36,23 +36,22 @@ pub(super) struct Given<D> {
 #[derive(Clone, Debug)]
 enum To {
     Numbers(Vec<f64>),
-    Switch(bool),
-    Choice(usize),
+    /// An alternative, by place.
+    Place(usize),
 }
 
 impl<D: Settings> Given<D> {
     /// Settings with those given in place of theirs.
     pub(super) fn applied_to(&self, mut to: D) -> D {
         for (index, value) in &self.given {
-            match (&D::ALL[*index].value, value) {
-                (Value::Switch(_, set), To::Switch(on)) => set(&mut to, *on),
-                (Value::Choice(pick), To::Choice(index)) => (pick.set)(&mut to, *index),
-                (value, To::Numbers(numbers)) => {
-                    for (number, typed) in value.numbers().into_iter().zip(numbers) {
+            let setting = &D::ALL[*index].value;
+            match value {
+                To::Place(place) => setting.choose(&mut to, *place),
+                To::Numbers(numbers) => {
+                    for (number, typed) in setting.numbers().into_iter().zip(numbers) {
                         (number.set)(&mut to, *typed);
                     }
                 }
-                _ => {}
             }
         }
         to
@@ -126,11 +125,11 @@ impl<D: Settings> FromArgMatches for Given<D> {
         let given = flagged::<D>().filter(|(_, setting)| is_given(setting.flag.long)).filter_map(|(index, setting)| {
             let long = setting.flag.long;
             let to = match &setting.value {
-                Value::Switch(..) => To::Switch(*matches.get_one::<bool>(long)? != long.starts_with("no-")),
+                Value::Switch(..) => To::Place(usize::from(*matches.get_one::<bool>(long)? != long.starts_with("no-"))),
                 Value::Choice(pick) => {
                     let key = matches.get_one::<String>(long)?.as_str();
                     let is_named = |words: &&Words| words.key == key || words.aliases.contains(&key);
-                    To::Choice((pick.all)().iter().position(is_named)?)
+                    To::Place((pick.all)().iter().position(is_named)?)
                 }
                 _ if setting.flag.whole => To::Numbers(vec![f64::from(*matches.get_one::<u32>(long)?)]),
                 _ => To::Numbers(matches.get_one::<Vec<f64>>(long)?.clone()),

@@ -38,7 +38,7 @@ pub(in crate::cli) fn make_folder(folder: &Path) -> Result<()> {
         return Ok(());
     }
     if folder.exists() && !folder.is_dir() {
-        let reason = format!("{} is a file; name a folder (pictures are named automatically)", folder.display());
+        let reason = format!("{} is a file; name a folder (files are named automatically)", folder.display());
         return refused("--out", reason);
     }
     fs::create_dir_all(folder).map_err(|error| CliError::Output { path: folder.to_owned(), error })
