@@ -3,7 +3,7 @@
 use crate::dot::dot;
 use crate::random::SplitMix64;
 
-/// Most numbers that are drawn with exactly their covariance; and pairs of draws of more, whose spread is known to 6 %.
+/// Pairs of draws where nothing tells which directions matter: a spread is known to 6 %.
 const PAIRS: usize = 128;
 /// Fewest pairs of draws.
 const FEWEST: usize = 31;
@@ -78,11 +78,12 @@ impl CovarianceRoot {
     /// ```text
     /// z = ±(V q + w − V Vᵀ w),   V an orthonormal basis of Aᵀ kernels, q of exactly unit covariance, w random
     /// ```
-    /// What depends linearly on them by the kernels thus has exactly its linearized uncertainty (spherical cubature of degree 3); of no more
-    /// than 128 independent numbers all does. Without kernels z is random beyond.
+    /// What depends linearly on them by the kernels thus has exactly its linearized uncertainty (spherical cubature of degree 3). Of no more
+    /// independent numbers than kernels, or than 128 without any, all has.
     pub fn draws(self, kernels: &[Vec<f64>]) -> impl Iterator<Item = Vec<f64>> + use<> {
         let dimensions = self.columns.len();
-        let basis = (dimensions > PAIRS).then(|| self.basis(kernels));
+        let most = if kernels.is_empty() { PAIRS } else { kernels.len() };
+        let basis = (dimensions > most).then(|| self.basis(kernels));
         let count = match &basis {
             Some(basis) if basis.is_empty() => PAIRS,
             Some(basis) => basis.len(),

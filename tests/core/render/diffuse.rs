@@ -127,7 +127,6 @@ fn tables_are_as_small_as_splines_allow() {
                 Plan::new(&measure, RelTolerance::new(tolerance).unwrap(), Demand::of_picture([0.3, 90.0], samples));
             let found = plan.unwrap().method(5.0, 0.1);
             let IntegrationMethod::Table { kappas, betas, .. } = found else { panic!("{found}, to {tolerance:e}") };
-            eprintln!("TABLE {tolerance:e} {samples} {found:?}");
             assert!(kappas * betas <= most, "{found}, to {tolerance:e}");
         }
     }

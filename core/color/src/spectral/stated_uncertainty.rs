@@ -96,27 +96,21 @@ impl StatedUncertainty {
         self.coverage
     }
 
-    /// Uncertainty of the curves with each sample multiplied by a factor, by curve and sample.
-    #[must_use]
-    pub fn scaled(&self, factor: impl Fn(usize, usize) -> f64) -> Self {
-        let curve = |(c, own): (usize, &Vec<f64>)| (0..own.len()).map(|j| factor(c, j)).collect();
-        let factors: Vec<Vec<f64>> = self.standard.iter().enumerate().map(curve).collect();
-        let product = |(own, by): (&Vec<f64>, &Vec<f64>)| own.iter().zip(by).map(|(u, by)| u * by.abs()).collect();
-        Self {
+    /// Uncertainty of a sensor's curves per unit energy, of one as the sensor's file states it; none of other curves.
+    pub fn per_energy(&self, sensor: &Sensor) -> Option<Self> {
+        self.is_of(sensor.curves()).then_some(())?;
+        if sensor.response() != Response::PerPhoton {
+            return Some(self.clone());
+        }
+        let factors =
+            |curve: &SpectralDistribution| curve.wavelengths_nm().iter().map(|nm| per_energy(*nm, 1.0)).collect();
+        let factors: [Vec<f64>; 3] = sensor.curves().each_ref().map(factors);
+        let product = |(own, by): (&Vec<f64>, &Vec<f64>)| own.iter().zip(by).map(|(u, by)| u * by).collect();
+        Some(Self {
             standard: self.standard.iter().zip(&factors).map(product).collect(),
             root: self.root.as_ref().map(|root| root.scaled(&factors.concat())),
             coverage: self.coverage,
-        }
-    }
-
-    /// Uncertainty of a sensor's curves per unit energy, of one as the sensor's file states it; none of other curves.
-    pub fn per_energy(&self, sensor: &Sensor) -> Option<Self> {
-        let curves = sensor.curves();
-        self.is_of(curves).then_some(())?;
-        let is_per_photon = sensor.response() == Response::PerPhoton;
-        let factor =
-            |c: usize, j: usize| if is_per_photon { per_energy(curves[c].wavelengths_nm()[j], 1.0) } else { 1.0 };
-        Some(self.scaled(factor))
+        })
     }
 
     fn is_of<'a>(&self, curves: impl IntoIterator<Item = &'a SpectralDistribution>) -> bool {
@@ -126,8 +120,8 @@ impl StatedUncertainty {
     /// The curves with errors drawn under each correlation that is possible: the stated one; or none, full among all, and full within each
     /// curve. None unless the uncertainty is of these curves; no draw where an error is too large for a spectrum.
     ///
-    /// What depends linearly on integrals of the curves with some spectra on the grid has exactly its linearized uncertainty, but for curves
-    /// of more than 128 samples together at other wavelengths than the grid's.
+    /// What depends linearly on integrals of the curves with some spectra on the grid has exactly its linearized uncertainty; for curves of
+    /// many samples at other wavelengths than the grid's all but exactly.
     pub fn draws<'a>(
         &self,
         curves: &'a [SpectralDistribution],
