@@ -7,7 +7,7 @@ use chromascope_math::exp::exp;
 use chromascope_math::gauss::{Rule, gauss_rule, interpolatory_rule};
 use chromascope_math::interpolation::{Sprague, linear};
 use chromascope_math::least_squares::{FitError, matrix_keeping};
-use chromascope_math::ln::{ln, ln_1p};
+use chromascope_math::ln::{ln, ln_1p, short_ln};
 use glam::{DMat3, DVec3};
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -56,6 +56,15 @@ fn logarithms_agree_with_the_standard_library() {
     assert!(worst <= 2 && worst_1p <= 2, "{worst} {worst_1p}");
     assert_eq!((ln(1.0), ln_1p(0.0), ln_1p(-3.0)), (0.0, 0.0, 0.0));
     assert_eq!((ln(0.0), ln(f64::INFINITY)), (ln(f64::MIN_POSITIVE), ln(f64::MAX)));
+}
+
+#[test]
+fn short_logarithms_are_near_enough() {
+    let off = |i: i32| {
+        let x = 1.003_f64.powi(i);
+        (short_ln(x) - x.ln()).abs() / x.ln().abs().max(1.0)
+    };
+    assert!((-60_000..=60_000).map(off).fold(0.0, f64::max) < 2e-14);
 }
 
 proptest! {

@@ -132,7 +132,6 @@ fn integrals_are_trapezoids_over_the_support() {
         for integral in sensor.integrals() {
             assert_near("width", integral, width, 1e-9);
         }
-        assert_eq!(sensor.integrals(), sensor.absolute_integrals());
         let [first, last] = sensor.support_nm();
         assert_near("support", last - first, width, 1e-12);
         for (index, nm) in [(first, 0.5), (last, 0.5), (first + 1.0, 1.0)].map(|(nm, w)| ((nm - 380.0) as usize, w)) {
@@ -142,7 +141,8 @@ fn integrals_are_trapezoids_over_the_support() {
     }
     let truth = sensor(REFERENCE);
     assert_eq!(truth.support_nm(), [390.0, 730.0]);
-    assert!(truth.absolute_integrals()[0] > truth.integrals()[0], "the negative lobe counts");
+    let unsigned: f64 = truth.weighted(0).iter().map(|v| v.abs()).sum();
+    assert!(unsigned > truth.integrals()[0], "the negative lobe counts");
     let ones = [1.0; COUNT];
     let apart = truth.integrate(&ones).iter().zip(truth.integrals()).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
     assert!(apart < 1e-13);
@@ -327,7 +327,7 @@ proptest! {
         for response in [Response::PerEnergy, Response::PerPhoton] {
             let curves = [spectrum.clone(), spectrum.clone(), spectrum.clone()];
             if let Ok(sensor) = Sensor::new(Primaries::Rgb, curves, response) {
-                prop_assert!(sensor.integrals().iter().chain(&sensor.absolute_integrals()).all(|v| v.is_finite()));
+                prop_assert!(sensor.integrals().iter().all(|v| v.is_finite()));
             }
         }
     }

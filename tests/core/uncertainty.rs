@@ -126,9 +126,23 @@ fn of(all: &[Option<MetricUncertainty>], id: &str) -> MetricUncertainty {
     all[CameraMetric::ALL.iter().position(|metric| metric.id == id).unwrap()].unwrap()
 }
 
+/// A deviation from 101 independent standard normal numbers, by the columns of the spread's file.
+fn deviation(mut normal: impl FnMut() -> f64) -> Deviation {
+    let columns = dataset("uncertainty/curve_spread.csv").curves;
+    let mut deviation = [[0.0; SITES]; 3];
+    for mode in columns[..24].chunks(3) {
+        let by = normal();
+        for (channel, mode) in deviation.iter_mut().zip(mode) {
+            channel.iter_mut().zip(mode.values()).for_each(|(value, part)| *value += by * part);
+        }
+    }
+    deviation.as_flattened_mut().iter_mut().for_each(|value| *value += columns[24].values()[0] * normal());
+    deviation
+}
+
 /// The same conditions with a table that deviates.
 fn with_deviation(of: &CameraMetricsQuery, normal: &mut Normal) -> CameraMetricsQuery {
-    let deviation = spread().deviation(|| normal.next());
+    let deviation = deviation(|| normal.next());
     let sensor = Shared::new(deviated(&of.rendering.sensor, &deviation));
     CameraMetricsQuery { rendering: RenderingQuery { sensor, ..of.rendering.clone() }, ..of.clone() }
 }
@@ -140,7 +154,7 @@ fn draws_have_the_covariance_of_the_spread() {
     // A unit normal number at one place gives one mode, or the rest of one sample.
     let root = |place: usize| {
         let mut at = 0..;
-        spread.deviation(|| if at.next() == Some(place) { 1.0 } else { 0.0 })
+        deviation(|| if at.next() == Some(place) { 1.0 } else { 0.0 })
     };
     let roots: Vec<Deviation> = (0..8 + 3 * SITES).map(root).collect();
     let value = |of: &Deviation, at: [usize; 2]| of[at[0]][at[1]];

@@ -10,7 +10,6 @@ pub mod locus_table;
 pub mod quality;
 pub mod recorded;
 pub mod rendering;
-pub mod table_draws;
 pub mod white_balance;
 
 pub use batch::{Batch, BatchError};

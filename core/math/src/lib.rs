@@ -1,5 +1,5 @@
 //! Numerical tools with no knowledge of color: interpolation, Chebyshev polynomials, Gauss rules, least squares, dot products,
-//! exponentials and logarithms that vectorize, and numbers of twice the digits to judge such things by.
+//! correlated normal numbers, exponentials and logarithms that vectorize, and numbers of twice the digits to judge such things by.
 
 #![allow(clippy::inline_always, reason = "each instruction set needs a copy of its own inside the caller")]
 
@@ -14,5 +14,6 @@ pub mod interpolation;
 pub mod least_squares;
 pub mod ln;
 pub mod minimum;
+pub mod normal;
 pub mod quantile;
 pub mod random;

@@ -6,7 +6,8 @@ use chromascope_core::correction::Correction;
 use chromascope_core::patch_set::PatchSet;
 use chromascope_core::query::metrics::{LightUncertainty, MetricGroup, OwnUncertainties, UncertaintySource};
 use chromascope_core::query::{
-    Ask, CameraMetric, CameraMetricsQuery, Direct, MetricUncertaintiesQuery, MetricUncertainty, RenderingQuery, Shared,
+    Ask, CameraMetric, CameraMetricsQuery, ColorTransformSpec, Direct, MetricUncertaintiesQuery, MetricUncertainty,
+    RenderingQuery, Shared,
 };
 use chromascope_core::spectral::{
     Correlation, Evidence, GridSpectrum, Primaries, Quantity, Response, Sensor, SpectralDistribution,
@@ -284,4 +285,69 @@ fn light_and_patches_have_parts_of_their_own() {
         assert_eq!(found[at].source, UncertaintySource::Prior);
     }
     assert!(of(&found.iter().copied().map(Some).collect::<Vec<_>>(), "delta-e2000-mean").contributions.patches > 0.0);
+}
+
+/// Uncertainty of red alone, with the covariance of its samples in parts of the product of their standard uncertainties.
+fn of_red(u: &[f64], correlation: impl Fn(usize, usize) -> f64) -> StatedUncertainty {
+    let size = 3 * COUNT;
+    let mut covariance = vec![0.0; size * size];
+    for at in 0..COUNT * COUNT {
+        let [a, b] = [at / COUNT, at % COUNT];
+        covariance[a * size + b] = u[a] * u[b] * correlation(a, b);
+    }
+    stated(vec![u.to_vec(), vec![0.0; COUNT], vec![0.0; COUNT]]).with_covariance(&covariance).unwrap()
+}
+
+/// Relative uncertainty of the noise gain of red by Eq 13: RGB are those of sRGB, so it is `∫g L dλ / ∫r L dλ`.
+fn of_gain(of: &CameraMetricsQuery, stated: StatedUncertainty) -> f64 {
+    let [rendering, reference] =
+        [&of.rendering, &of.reference].map(|of| RenderingQuery { transform: ColorTransformSpec::Paper, ..of.clone() });
+    let metrics = CameraMetricsQuery { rendering, reference, ..of.clone() };
+    let own = OwnUncertainties { camera: Some(Shared::new(stated)), ..OwnUncertainties::default() };
+    let value = Direct.ask(&metrics).of(CameraMetric::by_id("noise-red").unwrap()).unwrap().unwrap();
+    let (spread, response, ratio) = (spread(), Evidence::Stated, ChannelRatio::Unchecked);
+    let all = Direct.ask(&MetricUncertaintiesQuery { metrics, spread, response, ratio, own });
+    super::of(&all, "noise-red").contributions.curves / value
+}
+
+/// A factor that red is known to: white balance divides it out, and the gain of red has all of it.
+#[test]
+fn a_factor_of_one_channel_moves_gains_alone() {
+    let table = table(D70);
+    let asked = query(sensor(&table));
+    let u: Vec<f64> = table[0].iter().map(|value| 1e-3 * value).collect();
+    let decided = by_camera(&asked, of_red(&u, |_, _| 1.0));
+    let either = by_camera(&asked, stated(vec![u.clone(), vec![0.0; COUNT], vec![0.0; COUNT]]));
+    for (at, metric) in CameraMetric::ALL.iter().enumerate() {
+        let [found, larger] = [decided[at], either[at]].map(|of| of.contributions.curves);
+        let by_gain = ["noise-red", "noise-green", "noise-blue", "condition", "gray-snr"].contains(&metric.id);
+        if by_gain {
+            assert!(found > 0.0 && larger >= 0.999 * found, "{}: {found} {larger}", metric.id);
+        } else {
+            assert!(found < 1e-9 * larger, "{}: {found} {larger}", metric.id);
+            assert_eq!(either[at].source, UncertaintySource::Own(Correlation::None), "{}", metric.id);
+        }
+    }
+    assert_near("gain", of_gain(&asked, of_red(&u, |_, _| 1.0)), 1e-3, 1e-8);
+}
+
+/// Of uncorrelated errors a sum has the root of the sum of squares, of partly correlated ones that with the products of two.
+#[test]
+fn a_gain_has_the_uncertainty_of_a_weighted_sum() {
+    let table = table(D70);
+    let asked = query(sensor(&table));
+    let u: Vec<f64> = (0..COUNT).map(|j| 1e-3 * table[0][j] + 1e-5 * (j % 7) as f64).collect();
+    let light = &asked.rendering.light.values()[20..20 + COUNT];
+    let weighted = |of: &[f64], j: usize| light[j] * of[j] * if j % (COUNT - 1) == 0 { 0.5 } else { 1.0 };
+    let sum: f64 = (0..COUNT).map(|j| weighted(&table[0], j)).sum();
+    let uncorrelated = |a: usize, b: usize| f64::from(u8::from(a == b));
+    let alike = |a: usize, b: usize| (-((a as f64 - b as f64) / 25.0).powi(2)).exp() * 0.7 + 0.3 * uncorrelated(a, b);
+    for correlation in [&uncorrelated as &dyn Fn(usize, usize) -> f64, &alike] {
+        let terms = (0..COUNT * COUNT).map(|at| {
+            let [a, b] = [at / COUNT, at % COUNT];
+            weighted(&u, a) * weighted(&u, b) * correlation(a, b)
+        });
+        let expected = terms.sum::<f64>().sqrt() / sum;
+        assert_near("gain", of_gain(&asked, of_red(&u, correlation)) / expected, 1.0, 1e-3);
+    }
 }

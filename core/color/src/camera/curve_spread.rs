@@ -1,7 +1,7 @@
 //! Spread of published sensitivities of one camera model between laboratories: what a table of an unknown laboratory may be off by.
 
 use crate::math::interpolation::Sprague;
-use crate::math::random::SplitMix64;
+use crate::math::normal::CovarianceRoot;
 use crate::spectral::grid::{COUNT, FIRST_NM};
 use crate::spectral::{Dataset, Sensor};
 use crate::units::{bits, hash_by};
@@ -72,61 +72,14 @@ impl CurveSpread {
     }
 
     /// Draws of the deviation: in pairs of opposite sign, with mean zero and exactly the covariance of the spread, the same at each call.
-    ///
-    /// ```text
-    /// ±√n Q_i,   Q a random orthogonal n × n matrix, n = 8 modes + 93 samples of the rest
-    /// ```
-    /// What depends linearly on the curves thus has exactly its linearized uncertainty (spherical cubature of degree 3).
+    /// What depends linearly on the curves thus has exactly its linearized uncertainty.
     pub fn draws(&self) -> Vec<Deviation> {
-        let count = MODES + 3 * SITES;
-        let mut draws = Vec::with_capacity(2 * count);
-        for point in cubature(count) {
-            let mut deviation = [[0.0; SITES]; 3];
-            for (mode, z) in self.modes.iter().zip(&point) {
-                add(&mut deviation, mode, *z);
-            }
-            let rest = deviation.iter_mut().flatten().zip(&point[MODES..]);
-            rest.for_each(|(value, z)| *value += self.rest * z);
-            draws.push(deviation);
-            draws.push(deviation.map(|channel| channel.map(|value| -value)));
-        }
-        draws
+        let modes = self.modes.iter().map(|mode| (0, mode.concat()));
+        let rest = (0..3 * SITES).map(|sample| (sample, vec![self.rest]));
+        let root = CovarianceRoot::new(3 * SITES, modes.chain(rest).collect());
+        let deviation = |draw: Vec<f64>| [0, 1, 2].map(|c: usize| std::array::from_fn(|site| draw[c * SITES + site]));
+        root.draws(&[]).map(deviation).collect()
     }
-
-    /// A deviation from 101 independent standard normal numbers: for simulations.
-    pub fn deviation(&self, mut normal: impl FnMut() -> f64) -> Deviation {
-        let mut deviation = [[0.0; SITES]; 3];
-        for mode in &self.modes {
-            add(&mut deviation, mode, normal());
-        }
-        deviation.iter_mut().flatten().for_each(|value| *value += self.rest * normal());
-        deviation
-    }
-}
-
-fn add(to: &mut Deviation, mode: &Deviation, factor: f64) {
-    to.iter_mut().flatten().zip(mode.iter().flatten()).for_each(|(value, part)| *value += factor * part);
-}
-
-/// Points of a standard normal distribution of so many dimensions, always the same: with their opposites they have mean 0 and exactly the
-/// covariance 1. Rows of a random orthogonal matrix by Gram and Schmidt's method, done twice, times the root of their number.
-pub(super) fn cubature(count: usize) -> Vec<Vec<f64>> {
-    let mut random = SplitMix64::new(0);
-    let mut rows: Vec<Vec<f64>> = Vec::with_capacity(count);
-    while rows.len() < count {
-        let row: Vec<f64> = (0..count).map(|_| nearly_normal(&mut random)).collect();
-        let rest = super::quality::remove(&super::quality::remove(&row, &rows), &rows);
-        let length = rest.iter().map(|v| v * v).sum::<f64>().sqrt();
-        rows.push(rest.iter().map(|v| v / length).collect());
-    }
-    let length = (count as f64).sqrt();
-    rows.iter_mut().flatten().for_each(|value| *value *= length);
-    rows
-}
-
-/// A number of mean 0 and variance 1: directions need no exact normal numbers, and sums of twelve uniform ones round alike on every machine.
-pub(super) fn nearly_normal(random: &mut SplitMix64) -> f64 {
-    (0..12).map(|_| random.unit()).sum::<f64>() - 6.0
 }
 
 /// The deviation of 1 at one site and 0 at all others on the grid, brought there as tables at 10 nm are (CIE 167).

@@ -10,6 +10,7 @@ use crate::correction::minimize::{Objective, Refit};
 use crate::correction::{Correction, CorrectionMethod, RgbTransform, Training};
 use crate::math::dot::dot;
 use crate::math::least_squares::FitError;
+use crate::math::normal::without;
 use crate::patch_set::PatchSet;
 use crate::spectral::grid::COUNT;
 use crate::spectral::{GridSpectrum, Sensor};
@@ -291,7 +292,7 @@ pub fn basis(curves: &[Vec<f64>; 3]) -> Option<Vec<Vec<f64>>> {
     let mut found: Vec<Vec<f64>> = Vec::with_capacity(3);
     for curve in curves {
         let length = dot(curve, curve).sqrt();
-        let rest = remove(&remove(curve, &found), &found);
+        let rest = without(&without(curve, &found), &found);
         let left = dot(&rest, &rest).sqrt();
         if left.is_nan() || left <= DEPENDENT * length {
             return None;
@@ -301,16 +302,6 @@ pub fn basis(curves: &[Vec<f64>; 3]) -> Option<Vec<Vec<f64>>> {
     Some(found)
 }
 
-/// A curve without its components in a space.
-pub fn remove(curve: &[f64], space: &[Vec<f64>]) -> Vec<f64> {
-    let mut rest = curve.to_vec();
-    for axis in space {
-        let along = dot(&rest, axis);
-        rest.iter_mut().zip(axis).for_each(|(v, a)| *v -= along * a);
-    }
-    rest
-}
-
 /// Squared length of a curve's projection onto a space.
 fn inside(curve: &[f64], space: &[Vec<f64>]) -> f64 {
     space.iter().map(|axis| dot(curve, axis).powi(2)).sum()
@@ -318,6 +309,6 @@ fn inside(curve: &[f64], space: &[Vec<f64>]) -> f64 {
 
 /// Squared length of what a projection onto a space leaves of a curve; by subtraction, so that it is exact where little is left.
 fn outside(curve: &[f64], space: &[Vec<f64>]) -> f64 {
-    let rest = remove(curve, space);
+    let rest = without(curve, space);
     dot(&rest, &rest)
 }

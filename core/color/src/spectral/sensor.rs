@@ -106,7 +106,6 @@ pub struct Sensor {
     curves: [SpectralDistribution; 3],
     weighted: [Box<[f64; COUNT]>; 3],
     integrals: [f64; 3],
-    absolute: [f64; 3],
 }
 
 hash_by!(Sensor, |of| (of.primaries, &of.curves));
@@ -130,10 +129,9 @@ impl Sensor {
         };
         let weighted = [0, 1, 2].map(|c| weighted_on_grid(&curves[c], primaries.quantity()));
         let integrals = [0, 1, 2].map(|c: usize| weighted[c].iter().sum());
-        let absolute: [f64; 3] = [0, 1, 2].map(|c: usize| weighted[c].iter().map(|v| v.abs()).sum());
-        match absolute.iter().position(|&a| a <= 0.0) {
+        match weighted.iter().position(|curve| curve.iter().all(|v| *v == 0.0)) {
             Some(channel) => Err(SensorError::Blind { channel }),
-            None => Ok(Self { primaries, response, curves, weighted, integrals, absolute }),
+            None => Ok(Self { primaries, response, curves, weighted, integrals }),
         }
     }
 
@@ -170,11 +168,6 @@ impl Sensor {
     /// `∫ C_c dλ` for each channel, in nanometers.
     pub fn integrals(&self) -> [f64; 3] {
         self.integrals
-    }
-
-    /// `∫ |C_c| dλ` for each channel, in nanometers.
-    pub fn absolute_integrals(&self) -> [f64; 3] {
-        self.absolute
     }
 
     /// `∫ C_c f dλ` for each channel, with f on the grid.

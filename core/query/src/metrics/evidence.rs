@@ -1,6 +1,7 @@
 //! Inputs of the metrics, as separate queries, so that each is computed once whatever else changes.
 
 use super::differences::{DifferenceConditions, PatchDifferences, Statistic};
+use super::table::CameraMetric;
 use super::value::{CameraMetricsQuery, IndexConditions, WhyNot};
 use crate::ask::{Ask, Query, Shared};
 use crate::compare::DifferenceError;
@@ -10,7 +11,7 @@ use chromascope_color::camera::channel_ratio::has_equal_maxima;
 use chromascope_color::camera::quality::{
     Electrons, IndexSamples, MetamerismIndex, NoiseAmplification, SpaceQuality, gray_snr_db,
 };
-use chromascope_color::camera::{LocusDeviation, ReferenceLocus, Rendering, RenderingError};
+use chromascope_color::camera::{LocusDeviation, LocusEvaluator, ReferenceLocus, Rendering, RenderingError};
 use chromascope_color::light::RadiationConstants;
 use chromascope_color::spectral::{Primaries, Sensor};
 use chromascope_color::units::Kelvin;
@@ -77,13 +78,9 @@ impl Query for ReferenceLocusQuery {
     fn answer(&self, ask: &impl Ask) -> Self::Answer {
         let rendering = ask.ask(&self.0);
         let rendering = (*rendering).as_ref().map_err(|&e| e)?;
-        let rules = rules(&self.0.sensor);
+        let rules = LocusRulesQuery { sensor: self.0.sensor.clone(), constants: RadiationConstants::Paper };
         Ok(ReferenceLocus::new((*ask.ask(&rules)).clone(), rendering.clone()))
     }
-}
-
-fn rules(sensor: &Shared<Sensor>) -> LocusRulesQuery {
-    LocusRulesQuery { sensor: sensor.clone(), constants: RadiationConstants::Paper }
 }
 
 /// Error of a sensor's Planckian locus at a temperature, relative to the reference's own.
@@ -107,15 +104,11 @@ impl Query for LocusDeviationQuery {
         let locus = (*locus).as_ref().map_err(|&e| e)?;
         let rendering = ask.ask(&self.rendering);
         let rendering = (*rendering).as_ref().map_err(|&e| e)?;
-        let raw = locus_signals(&self.rendering.sensor, self.temperature);
+        // One temperature is cheaper by the sum than by rules made for it.
+        let raw = LocusEvaluator::by_sum(&*self.rendering.sensor, RadiationConstants::Paper).raw(self.temperature);
         let color = rendering.blackbody(raw).uv_prime().ok_or(WhyNot::NoLocus)?;
         locus.deviation(self.temperature, color).ok_or(WhyNot::NoLocus)
     }
-}
-
-/// Raw integrals of one blackbody: by the sum, which is cheaper than making rules for one temperature.
-fn locus_signals(sensor: &Sensor, temperature: Kelvin) -> [f64; 3] {
-    chromascope_color::camera::LocusEvaluator::by_sum(sensor, RadiationConstants::Paper).raw(temperature)
 }
 
 /// All that metrics of one sensor are computed from.
@@ -148,6 +141,11 @@ impl Evidence {
             scale,
             snr_db,
         }
+    }
+
+    /// All metrics, in the order of [`CameraMetric::ALL`].
+    pub(super) fn values(&self) -> Vec<Result<f64, WhyNot>> {
+        CameraMetric::ALL.iter().map(|metric| metric.evaluate(self)).collect()
     }
 
     /// Statistic of the differences by the metric at this place of `Metric::ALL`.

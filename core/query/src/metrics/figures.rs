@@ -41,7 +41,7 @@ impl Query for CameraMetricsQuery {
 
     fn answer(&self, ask: &impl Ask) -> CameraMetrics {
         let own = Evidence::new(self, ask);
-        let values = CameraMetric::ALL.iter().map(|metric| metric.evaluate(&own)).collect();
+        let values = own.values();
         let patches = own.patches.unwrap_or_default();
         CameraMetrics { values, worst: differences::worst(&patches), patches }
     }

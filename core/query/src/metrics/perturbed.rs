@@ -8,7 +8,6 @@ use crate::ask::{Ask, Query, Shared};
 use crate::patches::{FitTargetsQuery, PatchColor, PatchColorsQuery, color};
 use chromascope_color::camera::curve_spread::{Deviation, SITE_RANGE, SITES, site_curve};
 use chromascope_color::camera::quality::{IndexSamples, MetamerismIndex, SpaceQuality, curves};
-use chromascope_color::camera::table_draws::{MOST_SPECTRA, leading};
 use chromascope_color::camera::{FitTargets, LocusDeviation, ReferenceLocus, Rendering, RenderingError};
 use chromascope_color::correction::minimize::Refit;
 use chromascope_color::correction::{CorrectionMethod, RgbTransform};
@@ -31,6 +30,8 @@ const FLAT: usize = 1;
 const BLACKBODY: usize = 2;
 const INDEX_LIGHT: usize = 3;
 const SINGLE: usize = 4;
+/// Patches under their lights that tables are drawn with their exact covariance to.
+const PATCHES: usize = 24;
 
 /// Spectra that a camera's responses to determine its metrics.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
@@ -91,22 +92,6 @@ impl Query for StimuliQuery {
         let matching = curves(&self.observer);
         let of_sites = spectra.iter().map(|spectrum| of_sites(spectrum)).collect();
         Stimuli { spectra, of_sites, patches, training, index, sites, matching }
-    }
-}
-
-/// Spectra that the stimuli are nearly combinations of.
-#[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub(super) struct LeadingStimuliQuery(pub(super) StimuliQuery);
-
-impl Query for LeadingStimuliQuery {
-    type Answer = Vec<Vec<f64>>;
-    const NAME: &'static str = "leading stimuli of metrics";
-
-    fn answer(&self, ask: &impl Ask) -> Self::Answer {
-        let stimuli = ask.ask(&self.0);
-        let curves = stimuli.matching.iter().filter_map(|curve| <[f64; COUNT]>::try_from(&curve[..]).ok());
-        let spectra: Vec<[f64; COUNT]> = curves.chain(stimuli.spectra.iter().copied()).collect();
-        leading(&spectra, MOST_SPECTRA - 3)
     }
 }
 
@@ -197,29 +182,32 @@ impl<'a> Perturbed<'a> {
     }
 
     pub(super) fn values(&self, deviation: &Deviation) -> Vec<Result<f64, WhyNot>> {
-        let evidence = self.evidence(deviation);
-        CameraMetric::ALL.iter().map(|metric| metric.evaluate(&evidence)).collect()
-    }
-
-    /// Metrics through another table of the camera.
-    pub(super) fn values_through(&self, sensor: &Sensor) -> Vec<Result<f64, WhyNot>> {
-        let raw: Vec<DVec3> =
-            self.stimuli.spectra.iter().map(|spectrum| DVec3::from_array(sensor.integrate(spectrum))).collect();
-        let evidence = self.evidence_of(&raw, SpaceQuality::of(&curves(sensor), &self.stimuli.matching));
-        CameraMetric::ALL.iter().map(|metric| metric.evaluate(&evidence)).collect()
-    }
-
-    fn evidence(&self, deviation: &Deviation) -> Evidence {
         let moved = deviation.map(|channel| padded(channel.into_iter()));
         let shift = |of_sites: &[f64; PADDED]| {
             self.peaks * DVec3::from_array([0, 1, 2].map(|c: usize| dot(of_sites, &moved[c])))
         };
         let raw: Vec<DVec3> =
             self.raw.iter().zip(&self.stimuli.of_sites).map(|(own, sites)| *own + shift(sites)).collect();
-        self.evidence_of(&raw, self.space(deviation))
+        self.evidence(&raw, self.space(deviation)).values()
     }
 
-    fn evidence_of(&self, raw: &[DVec3], space: Option<SpaceQuality>) -> Evidence {
+    /// Metrics through another table of the camera.
+    pub(super) fn values_through(&self, sensor: &Sensor) -> Vec<Result<f64, WhyNot>> {
+        let raw: Vec<DVec3> =
+            self.stimuli.spectra.iter().map(|spectrum| DVec3::from_array(sensor.integrate(spectrum))).collect();
+        self.evidence(&raw, SpaceQuality::of(&curves(sensor), &self.stimuli.matching)).values()
+    }
+
+    /// Some spectra that the camera's responses to all but determine its metrics: its own curves, the observer's, single stimuli and some of
+    /// the patches.
+    pub(super) fn leading(&self) -> Vec<Vec<f64>> {
+        let (single, patches) = self.stimuli.spectra.split_at(SINGLE);
+        let patches = patches.iter().step_by(patches.len().div_ceil(PATCHES).max(1));
+        let stimuli = single.iter().chain(patches).map(|spectrum| spectrum.to_vec());
+        self.curves.iter().chain(&self.stimuli.matching).cloned().chain(stimuli).collect()
+    }
+
+    fn evidence(&self, raw: &[DVec3], space: Option<SpaceQuality>) -> Evidence {
         let (patches, locus, (noise, snr_db)) = match self.rendering(raw) {
             Ok(rendering) => (
                 self.patches(&rendering, raw),
@@ -294,8 +282,7 @@ impl<'a> Perturbed<'a> {
             let (noise, snr_db) = noise_of(&scaled, self.of.electrons, self.scale);
             let none = WhyNot::NoPatches;
             let (patches, locus, space, index) = (Err(none), Err(none), Err(none), Err(none));
-            let evidence = Evidence { patches, locus, space, index, noise, scale: self.scale, snr_db };
-            CameraMetric::ALL.iter().map(|metric| metric.evaluate(&evidence)).collect()
+            Evidence { patches, locus, space, index, noise, scale: self.scale, snr_db }.values()
         };
         let ends = [DVec3::X, DVec3::Z].map(|channel| [relative, -relative].map(|step| values((channel * step).exp())));
         let part = |at: usize| {

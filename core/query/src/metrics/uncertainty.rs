@@ -1,20 +1,18 @@
 //! Uncertainty of metrics: the spread of sensitivities between laboratories, propagated through the camera's own curves.
 
-use super::perturbed::{LeadingStimuliQuery, Perturbed, StimuliQuery};
-use super::stimulus::{LightDraws, LightUncertainty, PatchDraws};
+use super::perturbed::{Perturbed, StimuliQuery};
+use super::stimulus::{LightUncertainty, bands};
 use super::table::{CameraMetric, MetricGroup};
 use super::value::{CameraMetricsQuery, Contributions, MetricUncertainty, UncertaintySource, WhyNot};
 use crate::ask::{Ask, Query, Shared};
 use crate::patches::RenderingQuery;
 use chromascope_color::camera::curve_spread::{Deviation, at_sites};
-use chromascope_color::camera::quality::curves;
-use chromascope_color::camera::table_draws::TableDraws;
 use chromascope_color::camera::{ChannelRatio, CurveSpread};
 use chromascope_color::light::RadiationConstants;
 use chromascope_color::light::planckian::black_body;
 use chromascope_color::spectral::grid::COUNT;
 use chromascope_color::spectral::{
-    Correlation, Evidence, GridSpectrum, Primaries, Response, Sensor, StatedUncertainty,
+    Evidence, GridSpectrum, Primaries, Response, Sensor, SpectralDistribution, StatedUncertainty,
 };
 
 /// Student's t for 95 % and the 14 degrees of freedom of the spread.
@@ -58,7 +56,7 @@ const fn relative(ratio: ChannelRatio) -> f64 {
 /// reweighted least squares with L\*a\*b\* linearized at the unperturbed fit; all other fits are made anew.
 ///
 /// A camera whose own file states uncertainties is drawn from these in place of the spread, at the wavelengths of its table: see
-/// [`TableDraws`] and [`Correlation`].
+/// [`StatedUncertainty::draws`].
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct MetricUncertaintiesQuery {
     /// Camera and conditions.
@@ -113,32 +111,26 @@ impl Query for MetricUncertaintiesQuery {
         let stimuli = ask.ask(&StimuliQuery::new(of));
         let (own, peaks) = at_sites(sensor);
         let Some(perturbed) = Perturbed::new(of, &stimuli, peaks, ask) else { return nothing };
-        let own_draws = self.own.camera.as_ref().and_then(|stated| {
-            let mut spectra: Vec<Vec<f64>> = curves(sensor).into();
-            spectra.extend((*ask.ask(&LeadingStimuliQuery(StimuliQuery::new(of)))).clone());
-            TableDraws::new(sensor, stated, &spectra)
-        });
-        let found = if let Some(tables) = &own_draws {
-            let none = vec![Err(WhyNot::NoChannels); nominal.values.len()];
-            let values = |camera: Option<Sensor>| {
-                camera.map_or_else(|| none.clone(), |camera| perturbed.values_through(&camera))
+        let of_camera = self.own.camera.as_ref().and_then(|stated| {
+            let values = |curves: Vec<SpectralDistribution>| {
+                let camera = Sensor::new(Primaries::Camera, curves.try_into().ok()?, Response::PerEnergy).ok()?;
+                Some(perturbed.values_through(&camera))
             };
-            let all = tables.errors().map(|errors| (errors.correlation, tables.cameras(errors).map(values)));
-            largest_spreads(all, &nominal.values, ask)
-        } else {
+            let (stated, spectra) = (stated.per_energy(sensor)?, perturbed.leading());
+            largest_spreads((sensor.curves(), &stated), &spectra, values, &nominal.values, ask)
+        });
+        let is_own = of_camera.is_some();
+        let of_prior = || {
             let draws = ask.ask(&DrawsQuery(self.spread.clone()));
             let values = draws.iter().map(|draw| perturbed.values(&clipped(draw, &own)));
             let of_prior = |spread: Option<_>| spread.map(|spread| (spread, UncertaintySource::Prior));
-            spreads(values, &nominal.values, ask).map(|all| all.into_iter().map(of_prior).collect())
+            Some(spreads(values.map(Some), &nominal.values, ask)?.into_iter().map(of_prior).collect())
         };
-        let Some(found) = found else { return nothing };
+        let Some(found) = of_camera.or_else(of_prior) else { return nothing };
         let response = self.response_parts(&nominal.values, ask);
-        let is_own = own_draws.is_some();
         let ratio = if is_own { vec![0.0; nominal.values.len()] } else { perturbed.ratio_parts(relative(self.ratio)) };
-        let light = self.own.light.as_ref().and_then(|stated| LightDraws::new(of, stated, ask));
-        let light = light.and_then(|draws| largest_spreads(draws.values(), &nominal.values, ask));
-        let patches = self.own.patches.as_ref().and_then(|stated| PatchDraws::new(of, stated, ask));
-        let patches = patches.and_then(|draws| largest_spreads(draws.values(), &nominal.values, ask));
+        let light = self.light_parts(&nominal.values, ask);
+        let patches = self.patches_parts(&nominal.values, ask);
         if ask.stop().is_set() {
             return nothing;
         }
@@ -146,9 +138,9 @@ impl Query for MetricUncertaintiesQuery {
         let [first, last] = sensor.support_nm();
         let is_unlike = if is_own { first > 400.0 || last < 700.0 } else { !self.spread.is_of_kind(&own) };
         let outside = if is_own { [0.0; 4] } else { outside(of) };
-        let stated = [&self.own.camera, &self.own.patches].map(|of| of.as_ref().map(|of| of.coverage()));
-        let stated = stated.into_iter().chain([self.own.light.as_ref().map(|of| of.stated.coverage())]);
-        let stated = stated.flatten().fold(NORMAL_95, f64::max);
+        let (camera, of_light) = (self.own.camera.as_deref(), self.own.light.as_ref().map(|of| &of.stated));
+        let stated = [camera, self.own.patches.as_deref(), of_light].into_iter().flatten();
+        let stated = stated.map(StatedUncertainty::coverage).fold(NORMAL_95, f64::max);
         let (freedom, coverage) =
             if is_own { (f64::INFINITY, stated) } else { (CurveSpread::FREEDOM, COVERAGE.max(stated)) };
         let uncertainty = |(at, found): (usize, Found)| {
@@ -170,16 +162,21 @@ impl Query for MetricUncertaintiesQuery {
     }
 }
 
-/// Spread and bias of each metric over draws; none of all when stopped.
+/// Values of all metrics, or reasons for none.
+type Values = Vec<Result<f64, WhyNot>>;
+/// Spread and bias of a metric with their origin.
+type Found = Option<((f64, f64), UncertaintySource)>;
+
+/// Spread and bias of each metric over draws, some of which have no values; none of all when stopped.
 fn spreads(
-    draws: impl Iterator<Item = Vec<Result<f64, WhyNot>>>,
+    draws: impl Iterator<Item = Option<Values>>,
     nominal: &[Result<f64, WhyNot>],
     ask: &impl Ask,
 ) -> Option<Vec<Option<(f64, f64)>>> {
     let mut moments = vec![Moments::default(); nominal.len()];
     for values in draws {
-        for ((moments, value), nominal) in moments.iter_mut().zip(values).zip(nominal) {
-            moments.add(value, *nominal);
+        for (at, (moments, nominal)) in moments.iter_mut().zip(nominal).enumerate() {
+            moments.add(values.as_ref().and_then(|values| values[at].ok()), *nominal);
         }
         if ask.stop().is_set() {
             return None;
@@ -188,18 +185,18 @@ fn spreads(
     Some(moments.into_iter().map(Moments::spread).collect())
 }
 
-/// Spread and bias of a metric with their origin.
-type Found = Option<((f64, f64), UncertaintySource)>;
-
-/// The same for draws under several correlations: of each metric under the one that gives most.
+/// The same with curves drawn from an uncertainty in place of theirs, of each metric under the correlation that gives most; none unless the
+/// uncertainty is of these curves.
 fn largest_spreads(
-    all: impl Iterator<Item = (Correlation, impl Iterator<Item = Vec<Result<f64, WhyNot>>>)>,
+    (curves, stated): (&[SpectralDistribution], &StatedUncertainty),
+    spectra: &[Vec<f64>],
+    values: impl Fn(Vec<SpectralDistribution>) -> Option<Values>,
     nominal: &[Result<f64, WhyNot>],
     ask: &impl Ask,
 ) -> Option<Vec<Found>> {
     let mut most: Vec<Found> = vec![None; nominal.len()];
-    for (correlation, draws) in all {
-        let found = spreads(draws, nominal, ask)?;
+    for (correlation, draws) in stated.draws(curves, spectra)? {
+        let found = spreads(draws.map(|curves| values(curves?)), nominal, ask)?;
         for (most, found) in most.iter_mut().zip(found) {
             let is_more = |found: &(f64, f64)| most.is_none_or(|((spread, _), _)| found.0 > spread);
             *most = found.filter(is_more).map(|found| (found, UncertaintySource::Own(correlation))).or(*most);
@@ -209,6 +206,22 @@ fn largest_spreads(
 }
 
 impl MetricUncertaintiesQuery {
+    fn light_parts(&self, nominal: &[Result<f64, WhyNot>], ask: &impl Ask) -> Option<Vec<Found>> {
+        let light = self.own.light.as_ref()?;
+        let curves = std::slice::from_ref(&light.measured);
+        let values = |measured: Vec<_>| {
+            let under = self.metrics.under(measured.first()?, light.transmittance.as_ref());
+            Some(under.answer(ask).values)
+        };
+        largest_spreads((curves, &light.stated), &bands(), values, nominal, ask)
+    }
+
+    fn patches_parts(&self, nominal: &[Result<f64, WhyNot>], ask: &impl Ask) -> Option<Vec<Found>> {
+        let curves: Vec<_> = self.metrics.patches.patches().iter().map(|patch| patch.measured.clone()).collect();
+        let values = |measured| Some(self.metrics.of_patches(measured).answer(ask).values);
+        largest_spreads((&curves, self.own.patches.as_ref()?), &[], values, nominal, ask)
+    }
+
     /// What each metric may be off by because the table's stimulus is not stated: the root of the probability of the other one, times the
     /// change that it makes.
     fn response_parts(&self, nominal: &[Result<f64, WhyNot>], ask: &impl Ask) -> Vec<f64> {
@@ -278,9 +291,9 @@ struct Moments {
 }
 
 impl Moments {
-    fn add(&mut self, value: Result<f64, WhyNot>, nominal: Result<f64, WhyNot>) {
+    fn add(&mut self, value: Option<f64>, nominal: Result<f64, WhyNot>) {
         self.draws += 1;
-        if let (Ok(value), Ok(nominal)) = (value, nominal) {
+        if let (Some(value), Ok(nominal)) = (value, nominal) {
             let off = value - nominal;
             self.known += 1.0;
             self.sum += off;

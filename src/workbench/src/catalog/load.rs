@@ -152,18 +152,15 @@ impl Query for StatedQuery {
         let covariance = covariance.and_then(|of| of.among(&indices.iter().flat_map(samples).collect::<Vec<_>>()));
         let standard = indices.iter().map(|&at| stated[at].take().unwrap_or_else(|| vec![0.0; length(at)])).collect();
         let coverage = set.curves.iter().filter_map(|curve| curve.uncertainty.as_ref()).map(|of| of.coverage);
-        let uncertainty = match StatedUncertainty::new(standard, coverage.fold(1.0, f64::max)) {
-            Ok(uncertainty) => uncertainty,
-            Err(refused) => return Stated { uncertainty: None, refused: Some(refused) },
+        let (uncertainty, refused) = match StatedUncertainty::new(standard, coverage.fold(1.0, f64::max)) {
+            Err(refused) => (None, Some(refused)),
+            Ok(own) => match covariance.map(|of| own.clone().with_covariance(&of.values)) {
+                None => (Some(own), None),
+                Some(Ok(decided)) => (Some(decided), None),
+                Some(Err(refused)) => (is_used.then_some(own), Some(refused)),
+            },
         };
-        match covariance.map(|of| uncertainty.clone().with_covariance(&of.values)) {
-            Some(Err(refused)) => {
-                let uncertainty = is_used.then(|| Shared::new(uncertainty));
-                Stated { uncertainty, refused: Some(refused) }
-            }
-            Some(Ok(decided)) => Stated { uncertainty: Some(Shared::new(decided)), refused: None },
-            None => Stated { uncertainty: Some(Shared::new(uncertainty)), refused: None },
-        }
+        Stated { uncertainty: uncertainty.map(Shared::new), refused }
     }
 }
 

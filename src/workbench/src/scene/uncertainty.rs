@@ -2,7 +2,7 @@
 
 use chromascope_core::query::Ask as _;
 use chromascope_core::query::Shared;
-use chromascope_core::query::metrics::{Better, Contributions, OwnUncertainties, UncertaintySource};
+use chromascope_core::query::metrics::{Better, OwnUncertainties, UncertaintySource};
 use chromascope_core::query::{CameraMetric, MetricUncertainty, MetricValue};
 use chromascope_core::spectral::{Correlation, Sensor, StatedUncertainty};
 use chromascope_figure::{Cell, Column, Table};
@@ -119,53 +119,40 @@ pub fn uncertainty(value: MetricValue) -> Option<String> {
 }
 
 /// What ± is, in sentences: origin, coverage factor and degrees of freedom of each kind, and the dagger where one stands.
-#[allow(clippy::needless_pass_by_value, reason = "an iterator that is cloned for each of its uses")]
-pub fn in_words(of: impl IntoIterator<Item = MetricUncertainty> + Clone) -> String {
-    let Some((.., extrapolated)) = nature(of.clone()) else { return String::new() };
-    let kind = |is_prior: bool| {
-        let of = of.clone().into_iter().filter(|by| (by.source == UncertaintySource::Prior) == is_prior);
-        let (_, coverage, freedom, _) = nature(of)?;
+pub fn in_words(of: impl IntoIterator<Item = MetricUncertainty>) -> String {
+    let (prior, own): (Vec<_>, Vec<_>) = of.into_iter().partition(|by| by.source == UncertaintySource::Prior);
+    let interval = |of: &[MetricUncertainty]| {
+        let (_, coverage, freedom, _) = nature(of.iter().copied())?;
         let freedom = if freedom.is_finite() { format!("{freedom:.0}") } else { "∞".to_owned() };
         Some(format!("95 %: ± {coverage:.2} u, {freedom} degrees of freedom"))
     };
-    let is_decided = |by: MetricUncertainty| by.source == UncertaintySource::Own(Correlation::Stated);
-    let correlation = if of.clone().into_iter().filter(|by| by.source != UncertaintySource::Prior).all(is_decided) {
-        "with its covariance"
-    } else {
-        "uncorrelated or fully correlated, whichever gives more"
+    let is_decided = own.iter().all(|by| by.source == UncertaintySource::Own(Correlation::Stated));
+    let correlation =
+        if is_decided { "with its covariance" } else { "uncorrelated or fully correlated, whichever gives more" };
+    let of_prior = "prior: the spread of tables between laboratories";
+    let of_own = format!("own: as the camera's file states it, {correlation}");
+    let kinds = match (interval(&prior), interval(&own)) {
+        (None, None) => return String::new(),
+        (Some(prior), None) => format!("({of_prior}); {prior}."),
+        (None, Some(own)) => format!("({of_own}); {own}."),
+        (Some(prior), Some(own)) => format!("({of_own}; {own}. Without: {of_prior}; {prior})."),
     };
-    let prior = "prior: the spread of tables between laboratories";
-    let kinds = match (kind(true), kind(false)) {
-        (Some(of_prior), None) => format!("({prior}); {of_prior}."),
-        (None, Some(own)) => format!("(own: as the camera's file states it, {correlation}); {own}."),
-        (of_prior, own) => {
-            let [of_prior, own] = [of_prior, own].map(Option::unwrap_or_default);
-            format!("(own: as the camera's file states it, {correlation}; {own}. Without: {prior}; {of_prior}).")
+    let any = |is: fn(&MetricUncertainty) -> bool| prior.iter().chain(&own).any(is);
+    let light = if any(|by| by.contributions.light > 0.0) { " and the light" } else { "" };
+    let patches = if any(|by| by.contributions.patches > 0.0) { " and the patches" } else { "" };
+    let dagger = match any(|by| by.is_extrapolated) {
+        false => "",
+        true if prior.is_empty() => " † Extrapolated: the camera's table does not reach over 400–700 nm.",
+        true => {
+            " † Extrapolated: the sensor is unlike the models of the prior, or the metric uses more than 400–700 nm."
         }
     };
-    let parts = [(LIGHT, "light"), (PATCHES, "patches")];
-    let stated =
-        |(part, _): &(fn(&Contributions) -> f64, _)| of.clone().into_iter().any(|by| part(&by.contributions) > 0.0);
-    let parts: String = parts.iter().filter(|part| stated(part)).flat_map(|(_, name)| [" and the ", *name]).collect();
-    let dagger = if extrapolated {
-        match kind(true) {
-            Some(_) => {
-                " † Extrapolated: the sensor is unlike the models of the prior, or the metric uses more than 400–700 nm."
-            }
-            None => " † Extrapolated: the camera's table does not reach over 400–700 nm.",
-        }
-    } else {
-        ""
-    };
-    format!("±: standard uncertainty u by the sensitivities{parts} {kinds}{dagger}")
+    format!("±: standard uncertainty u by the sensitivities{light}{patches} {kinds}{dagger}")
 }
-
-const LIGHT: fn(&Contributions) -> f64 = |of| of.light;
-const PATCHES: fn(&Contributions) -> f64 = |of| of.patches;
 
 impl Scene<'_> {
     /// Conditions of figures of merit and what ± is, in sentences.
-    pub fn metrics_words_with(&self, of: impl IntoIterator<Item = MetricUncertainty> + Clone) -> String {
+    pub fn metrics_words_with(&self, of: impl IntoIterator<Item = MetricUncertainty>) -> String {
         format!("{} {}", self.metrics_words(), in_words(of)).trim_end().to_owned()
     }
 

@@ -288,15 +288,11 @@ kernel!(f32, 8);
 mod tests {
     use super::sealed::Kernel;
     use super::*;
+    use crate::math::random::SplitMix64;
 
-    /// Numbers without any order.
     fn numbers(count: usize, seed: u64) -> Vec<f64> {
-        let mut state = seed;
-        let next = |_| {
-            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            (state >> 11) as f64 / (1_u64 << 53) as f64 - 0.3
-        };
-        (0..count).map(next).collect()
+        let mut random = SplitMix64::new(seed);
+        (0..count).map(|_| random.unit() - 0.3).collect()
     }
 
     #[test]

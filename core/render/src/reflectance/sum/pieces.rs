@@ -295,12 +295,4 @@ mod tests {
             }
         }
     }
-
-    #[test]
-    fn what_has_no_piece_is_left_to_others() {
-        for (g, b) in [(1e-4, 1.0), (1e13, 0.0), (1.0, 1e6), (f64::NAN, 1.0), (-1.0, 1.0), (1.0, f64::NAN), (0.0, 0.0)]
-        {
-            assert_eq!(ln(g, b, Precision::Full), None, "g {g}, b {b}");
-        }
-    }
 }

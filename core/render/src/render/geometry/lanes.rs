@@ -126,27 +126,19 @@ fn put(rows: &mut Rows<f64>, lane: usize, v: DVec3) {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    /// Numbers between -1 and 1 without any order.
-    fn number(seed: usize) -> f64 {
-        let mixed = (seed as u64).wrapping_add(1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
-        ((mixed ^ (mixed >> 29)).wrapping_mul(0xbf58_476d_1ce4_e5b9) >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-    }
+    use chromascope_math::random::SplitMix64;
 
     #[test]
     fn every_instruction_set_gives_the_same_bits() {
-        let mut given = Given::NOTHING;
+        let (mut given, mut random) = (Given::NOTHING, SplitMix64::new(1));
+        let mut number = || 2.0 * random.unit() - 1.0;
         for lane in 0..LANES {
-            let numbers = |start: usize| [0, 1, 2].map(|k: usize| number(lane * 64 + start + k));
-            (given.rays[0][lane], given.rays[1][lane]) = (number(lane * 64), number(lane * 64 + 1));
+            (given.rays[0][lane], given.rays[1][lane]) = (number(), number());
             given.weights.iter_mut().for_each(|row| row[lane] = 0.01 * lane as f32);
-            put(&mut given.to_light, lane, DVec3::from(numbers(2)).normalize());
-            for corner in 0..3 {
-                for axis in 0..3 {
-                    given.points[corner][axis][lane] = numbers(5 + 3 * corner)[axis] as f32;
-                    given.normals[corner][axis][lane] = numbers(20 + 3 * corner)[axis] as f32;
-                }
-            }
+            put(&mut given.to_light, lane, DVec3::new(number(), number(), number()).normalize());
+        }
+        for value in given.points.as_flattened_mut().iter_mut().chain(given.normals.as_flattened_mut()).flatten() {
+            *value = number() as f32;
         }
         // Some that need care: no normal, no light.
         given.normals.iter_mut().flatten().for_each(|row| row[7] = 0.0);
