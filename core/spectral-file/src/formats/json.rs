@@ -9,13 +9,13 @@ use crate::error::{MAX_PARTS, ReadError};
 use crate::formats::Format;
 use crate::formats::json::document::{Members, Value, without_comments};
 use crate::formats::json::walk::{Around, Walk};
-use crate::formats::spectra::{self, Found, Sample, Spectrum};
+use crate::formats::spectra::{self, Found};
 use crate::grid::Grid;
 use crate::header::Header;
 use crate::options::ReadOptions;
 use crate::text::excerpt;
-use crate::watch::{Log, PlaceId};
-use crate::{header_terms, unit_text};
+use crate::watch::Log;
+use crate::{header_terms, no_curve, unit_text};
 
 impl Reader {
     /// JSON of rawtoaces.
@@ -55,9 +55,6 @@ fn read(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Result<Found, R
         }
         other => other,
     })?;
-    if log.places.is_some() {
-        note_lines(text, &mut grid.header);
-    }
     if reader.value != Reader::JSON {
         grid.unit = Some(Decided::certain(WavelengthUnit::Nanometer, "The layout prescribes it"));
     }
@@ -92,7 +89,7 @@ impl<'a> Document<'a> {
         {
             self.aces(&data, log)
         } else if let Some(curves) = curves.filter(|_| self.members.get("spectrometerSettings").is_some()) {
-            self.enlighten(&curves.members()?, log)
+            self.enlighten(curves, log)
         } else {
             self.any(log)
         }
@@ -125,12 +122,12 @@ impl<'a> Document<'a> {
 
     /// Wavelengths are the keys of one object, each with a value for every name of the index.
     fn aces(&self, data: &Members<'a>, log: &mut Log<'_>) -> Result<Content, ReadError> {
-        let (mut header, mut notes) = (Header::default(), Vec::new());
-        if let Some(comments) = self.members.members("header")? {
-            comments.texts().for_each(|(key, value)| header.note(0, key, &value));
-            if let Some((_, remarks)) = comments.texts().find(|(key, _)| *key == "comments") {
-                self.note_remarks(&mut header, remarks.split("; "));
-            }
+        let mut walk = Walk::new(self, log);
+        let mut around = Around { alone: true, ..Around::default() };
+        walk.hear(&self.members, &mut around);
+        let (mut header, mut notes) = (std::mem::take(&mut walk.header), Vec::new());
+        if let Some(remarks) = header.comment("comments").map(str::to_owned) {
+            self.note_remarks(&mut header, remarks.split("; "));
         }
         self.title(&mut header, &mut notes);
         if let Some(units) = data.read::<String>("units")?.filter(|units| !units.is_empty()) {
@@ -156,9 +153,8 @@ impl<'a> Document<'a> {
             index.as_ref().and_then(|index| index.get(name).or_else(|| index.each().next().map(|(_, names)| names)));
         let names: Vec<String> = named.map(Value::read).transpose()?.unwrap_or_default();
         let title = header.comment("title").unwrap_or_default().to_owned();
-        let mut walk = Walk::new(self, log);
         let group = group.members()?;
-        let around = Around { name: title, columns: names.clone().into(), alone: true, ..Around::default() };
+        (around.name, around.columns) = (title, names.clone().into());
         let read = walk.keyed(&group, &around, true)?;
         if let Some(text) = walk.left.pop().or_else(|| Some(excerpt(group.each().next()?.0)).filter(|_| !read)) {
             return Err(ReadError::NotANumber { line: 1, column: 1, text });
@@ -236,49 +232,29 @@ impl<'a> Document<'a> {
 
     /// A measurement of Wasatch ENLIGHTEN: curves by name, wavelengths among them or among the settings of the spectrometer. The
     /// processed curve is read, or all of them where raw ones are requested.
-    fn enlighten(&self, spectrum: &Members<'_>, log: &mut Log<'_>) -> Result<Content, ReadError> {
-        let mut curves: Vec<(String, Vec<f64>)> = Vec::new();
-        for (name, list) in spectrum.each().filter(|(_, list)| list.written != "null") {
-            curves.push((name.to_string(), list.numbers(log)?));
-        }
-        let at = curves.iter().position(|(name, _)| name.to_lowercase().starts_with("wavelength"));
+    fn enlighten(&self, spectrum: Value<'a>, log: &mut Log<'_>) -> Result<Content, ReadError> {
+        let mut walk = Walk::new(self, log);
+        let mut around = Around { alone: true, ..Around::default() };
+        walk.hear(&self.members, &mut around);
         let settings = self.members.members("spectrometerSettings")?;
-        let wavelengths = match (at, settings.and_then(|settings| settings.get("wavelengths"))) {
-            (Some(at), _) => curves.remove(at).1,
-            (None, Some(list)) => list.numbers(log)?,
-            (None, None) => Vec::new(),
-        };
-        if wavelengths.is_empty() {
+        if let Some(list) = settings.and_then(|settings| settings.get("wavelengths")) {
+            around.wavelengths = walk.axis("wavelengths", list)?.unwrap_or_default().into();
+        }
+        walk.take(spectrum, around)?;
+        let Walk { spectra, mut header, mut notes, .. } = walk;
+        if spectra.is_empty() {
             return Err(ReadError::NoWavelengths(self.line("spectrum")));
         }
-        let mut header = Header::default();
-        if let Some(metadata) = self.members.members("metadata")? {
-            metadata.texts().for_each(|(key, value)| header.note(0, key, &value));
-        }
-        let mut notes = vec![Decision::certain("Program", "a file of Wasatch ENLIGHTEN", self.says("spectrum"))];
-        let label = header.comment("Label").map(str::to_owned);
-        header.note(0, "title", label.as_deref().unwrap_or_default());
+        let label = header.comment("Label").unwrap_or_default().to_owned();
+        header.note(0, "title", &label);
         let role = self.technique(&mut header);
-        let processed = curves.iter().position(|(name, _)| name.eq_ignore_ascii_case("processed"));
-        if let Some(processed) = processed.filter(|_| self.options.raw != Some(true)) {
-            let left: Vec<String> = curves.iter().map(|(name, _)| format!("“{name}”")).collect();
-            let left: Vec<String> = left.into_iter().filter(|name| name != "“processed”").collect();
-            curves = vec![curves.swap_remove(processed)];
-            if !left.is_empty() {
-                let why = format!("{} are raw counts", left.join(", "));
-                let decided = Decided::or_chosen(self.options.raw.map(|_| "“processed”"), || {
-                    Decided::certain("“processed”", why)
-                });
-                notes.push(Decision::new("Columns", &decided));
-            }
+        let mut grid = Grid { role, ..spectra::grid(spectra, header, log)? };
+        notes.extend(no_curve::leave_out_raw(&mut grid, self.options));
+        if let [only] = grid.curves.as_mut_slice()
+            && !label.is_empty()
+        {
+            only.name = label;
         }
-        let label = label.filter(|_| curves.len() == 1);
-        let named = |(name, values): (String, Vec<f64>)| {
-            let spectrum = on(&wavelengths, &values, &name)?;
-            Ok(Spectrum { name: Some(label.clone().unwrap_or(name)), ..spectrum })
-        };
-        let all: Result<Vec<Spectrum>, ReadError> = curves.into_iter().map(named).collect();
-        let grid = Grid { role, ..spectra::grid(all?, header, log)? };
         Ok((grid, Decided::certain(Reader::ENLIGHTEN, self.says("spectrometerSettings")), notes))
     }
 
@@ -295,26 +271,4 @@ impl<'a> Document<'a> {
             other => header_terms::role(other).map(|role| Decided::certain(role, why)),
         }
     }
-}
-
-/// Lines of a header's members, each sought behind the one before.
-fn note_lines(text: &str, header: &mut Header) {
-    let (mut from, mut line) = (0, 1);
-    for ((key, _), noted) in header.comments.iter().zip(&mut header.noted) {
-        let Some(at) = text[from..].find(&format!("\"{key}\"")) else { continue };
-        line += text[from..from + at].bytes().filter(|byte| *byte == b'\n').count();
-        from += at;
-        *noted = line as u32;
-    }
-}
-
-/// A curve of as many values as there are wavelengths, gaps among neither.
-fn on(wavelengths: &[f64], values: &[f64], name: &str) -> Result<Spectrum, ReadError> {
-    if values.len() != wavelengths.len() {
-        let (found, expected) = (values.len(), wavelengths.len());
-        return Err(ReadError::WrongCount { line: 1, name: name.to_owned(), found, expected });
-    }
-    let present = wavelengths.iter().zip(values).filter(|(wavelength, value)| !wavelength.is_nan() && !value.is_nan());
-    let sample = |(&wavelength, &value)| Sample { wavelength, value, line: 1, place: PlaceId::default() };
-    Ok(Spectrum { samples: present.map(sample).collect(), ..Spectrum::default() })
 }

@@ -71,16 +71,6 @@ impl<'a> Value<'a> {
         piece.parse().ok().filter(|number: &f64| number.is_finite()).ok_or_else(wrong)
     }
 
-    /// The numbers of a list.
-    pub(super) fn numbers(self, log: &Log<'_>) -> Result<Vec<f64>, ReadError> {
-        let mut numbers = Vec::new();
-        for (at, piece) in self.pieces().enumerate() {
-            log.work(piece.len() + 1, self.offset(piece))?;
-            numbers.push(self.number(piece, at)?);
-        }
-        Ok(numbers)
-    }
-
     pub(super) fn items(self) -> Result<Vec<Self>, ReadError> {
         let items: Vec<&'a RawValue> = self.read()?;
         Ok(items.into_iter().map(|item| Self { written: item.get(), ..self }).collect())
@@ -120,11 +110,6 @@ impl<'a> Members<'a> {
 
     pub(super) fn members(&self, name: &str) -> Result<Option<Members<'a>>, ReadError> {
         self.get(name).map(Value::members).transpose()
-    }
-
-    pub(super) fn texts(&self) -> impl Iterator<Item = (&str, String)> {
-        let texts = self.each().filter_map(|(name, value)| Some((&**name, serde_json::from_str(value.written).ok()?)));
-        texts.take(MAX_TEXTS)
     }
 }
 

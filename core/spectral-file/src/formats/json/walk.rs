@@ -136,9 +136,10 @@ impl<'d, 'a, 'l, 'w> Walk<'d, 'a, 'l, 'w> {
             }
         }
         others.retain(|(key, _)| !is_one(&words(key), BESIDE) && !is_one(&words(key), ABOUT));
-        if let Some((_, wavelengths)) = own {
-            here.wavelengths = wavelengths.into();
-            self.leave_out(&lists, here.wavelengths.len(), others.is_empty())?;
+        let all = own.is_some() && others.is_empty();
+        here.wavelengths = own.map_or(here.wavelengths, |(_, wavelengths)| wavelengths.into());
+        if !here.wavelengths.is_empty() {
+            self.leave_out(&lists, here.wavelengths.len(), all)?;
         }
         lists.retain(|(_, pieces)| pieces.len() == here.wavelengths.len());
         let row = |(at, wavelength): (usize, &(f64, &'a str))| {
@@ -181,7 +182,7 @@ impl<'d, 'a, 'l, 'w> Walk<'d, 'a, 'l, 'w> {
     }
 
     /// Takes the texts of an object, and of those in it that are about it.
-    fn hear(&mut self, members: &Members<'a>, here: &mut Around<'a>) {
+    pub(super) fn hear(&mut self, members: &Members<'a>, here: &mut Around<'a>) {
         let mut texts = Vec::new();
         for (key, value) in members.each() {
             let said = words(key);
@@ -243,7 +244,7 @@ impl<'d, 'a, 'l, 'w> Walk<'d, 'a, 'l, 'w> {
     }
 
     /// Wavelengths in a list, in a range, or in a member of an object.
-    fn axis(&mut self, key: &str, value: Value<'a>) -> Result<Option<Vec<(f64, &'a str)>>, ReadError> {
+    pub(super) fn axis(&mut self, key: &str, value: Value<'a>) -> Result<Option<Vec<(f64, &'a str)>>, ReadError> {
         if let Some(pieces) = numbers(value).filter(|pieces| pieces.len() > 1) {
             let numbers = pieces.iter().enumerate().map(|(at, piece)| Ok((value.number(piece, at)?, *piece)));
             let numbers = numbers.collect::<Result<Vec<_>, ReadError>>()?;
