@@ -164,6 +164,7 @@ fn what_holds_no_spectrum_is_no_broken_json() {
         "[]",
         "{}",
         "{\"wavelengths\": [400, 500, 600]}",
+        "{\"columnHeaders\": [{\"title\": \"lambda\", \"nm\": 1, \"decimals\": 0}, {\"title\": \"S\", \"nm\": 1, \"decimals\": 1}]}",
     ];
     for other in others {
         assert_eq!(error(other), ReadError::Unsupported(Family::Json), "{other}");

@@ -197,7 +197,8 @@ impl<'a> Document<'a> {
         let mut walk = Walk::new(self, log);
         walk.take(self.whole, Around { alone: true, ..Around::default() })?;
         let Walk { mut spectra, mut header, mut notes, evidence, .. } = walk;
-        let (key, named) = evidence.filter(|_| !spectra.is_empty()).ok_or(ReadError::Unsupported(Family::Json))?;
+        let some = spectra.iter().any(|spectrum| spectrum.samples.len() > 1);
+        let (key, named) = evidence.filter(|_| some).ok_or(ReadError::Unsupported(Family::Json))?;
         let camera = key == "ssf_bands";
         let light = key == "bands" && self.members.get("spectrum").is_some();
         if !camera && !light {

@@ -71,9 +71,15 @@ impl<'a> Value<'a> {
         piece.parse().ok().filter(|number: &f64| number.is_finite()).ok_or_else(wrong)
     }
 
-    pub(super) fn items(self) -> Result<Vec<Self>, ReadError> {
+    /// The members of a list.
+    pub(super) fn items(self) -> Result<Vec<&'a str>, ReadError> {
         let items: Vec<&'a RawValue> = self.read()?;
-        Ok(items.into_iter().map(|item| Self { written: item.get(), ..self }).collect())
+        Ok(items.into_iter().map(RawValue::get).collect())
+    }
+
+    /// Another value of the document.
+    pub(super) fn with(self, written: &'a str) -> Self {
+        Self { written, ..self }
     }
 
     /// The text, or the texts among the members of a list; what is none is passed over.

@@ -13,7 +13,7 @@ use crate::formats::json::document::{Members, Value};
 use crate::formats::spectra::{Sample, Spectrum};
 use crate::header::Header;
 use crate::header_terms::{self, XUnit};
-use crate::text::{excerpt, has_word, is_one, listed, spaced};
+use crate::text::{has_word, is_one, listed, spaced};
 use crate::watch::{Log, PlaceKind};
 use crate::{uncertainty_terms, units};
 
@@ -108,16 +108,17 @@ impl<'d, 'a, 'l, 'w> Walk<'d, 'a, 'l, 'w> {
 
     fn list(&mut self, value: Value<'a>, mut around: Around<'a>, depth: usize) -> Result<(), ReadError> {
         let items = value.items()?;
-        if items[0].written.starts_with('[') {
+        if items[0].starts_with('[') {
             return self.rows(&items, around);
         }
         if self.records(&items, &around)? {
             return Ok(());
         }
+        check_curves(items.len(), 1)?;
         if items.len() > 1 {
             (around.alone, around.name) = (false, String::new());
         }
-        items.into_iter().try_for_each(|item| self.value(item, around.clone(), depth + 1))
+        items.into_iter().try_for_each(|item| self.value(value.with(item), around.clone(), depth + 1))
     }
 
     fn object(&mut self, value: Value<'a>, mut here: Around<'a>, depth: usize) -> Result<(), ReadError> {
@@ -144,7 +145,7 @@ impl<'d, 'a, 'l, 'w> Walk<'d, 'a, 'l, 'w> {
         lists.retain(|(_, pieces)| pieces.len() == here.wavelengths.len());
         let row = |(at, wavelength): (usize, &(f64, &'a str))| {
             let cells = lists.iter().map(|(key, pieces)| (key.clone(), pieces[at])).collect();
-            Row { sample: String::new(), wavelength: *wavelength, cells }
+            Ok(Row { sample: String::new(), wavelength: *wavelength, cells })
         };
         self.table(here.wavelengths.iter().enumerate().map(row), &here, true)?;
         // Each is marked where it is first used.
@@ -315,13 +316,16 @@ impl<'d, 'a, 'l, 'w> Walk<'d, 'a, 'l, 'w> {
         // Members have no order.
         rows.sort_by(|a, b| a.wavelength.0.total_cmp(&b.wavelength.0));
         self.begin(rows[0].wavelength.1, known);
-        self.table(rows.into_iter(), here, true)?;
+        self.table(rows.into_iter().map(Ok), here, true)?;
         Ok(true)
     }
 
     /// Takes a list of lists: curves or rows at the wavelengths around, or rows that begin with their wavelength.
-    fn rows(&mut self, items: &[Value<'a>], mut here: Around<'a>) -> Result<(), ReadError> {
-        let Some(mut rows) = items.iter().map(|item| numbers(*item)).collect::<Option<Vec<_>>>() else { return Ok(()) };
+    fn rows(&mut self, items: &[&'a str], mut here: Around<'a>) -> Result<(), ReadError> {
+        let whole = self.document.whole;
+        let Some(mut rows) = items.iter().map(|item| numbers(whole.with(item))).collect::<Option<Vec<_>>>() else {
+            return Ok(());
+        };
         let width = rows[0].len();
         if rows.iter().any(|row| row.len() != width) {
             return Ok(());
@@ -329,7 +333,7 @@ impl<'d, 'a, 'l, 'w> Walk<'d, 'a, 'l, 'w> {
         if width == here.wavelengths.len() {
             rows = (0..width).map(|at| rows.iter().map(|row| row[at]).collect()).collect();
         } else if rows.len() != here.wavelengths.len() {
-            let first = rows.iter_mut().zip(items).map(|(row, item)| Ok((item.number(row[0], 0)?, row.remove(0))));
+            let first = rows.iter_mut().map(|row| Ok((whole.number(row[0], 0)?, row.remove(0))));
             let first = first.collect::<Result<Vec<_>, ReadError>>()?;
             let numbers: Vec<f64> = first.iter().map(|(nm, _)| *nm).collect();
             let named = here.columns.first().is_some_and(|name| header_terms::names_wavelengths(&words(name)));
@@ -343,13 +347,14 @@ impl<'d, 'a, 'l, 'w> Walk<'d, 'a, 'l, 'w> {
         }
         let cells = |row: Vec<&'a str>| row.into_iter().map(|piece| (Cow::Borrowed(""), piece)).collect();
         let rows = here.wavelengths.iter().zip(rows);
-        let rows = rows.map(|(at, row)| Row { sample: String::new(), wavelength: *at, cells: cells(row) });
+        let rows = rows.map(|(at, row)| Ok(Row { sample: String::new(), wavelength: *at, cells: cells(row) }));
         self.table(rows, &here, true)
     }
 
     /// Takes a list of objects that each have a wavelength, if it is one.
-    fn records(&mut self, items: &[Value<'a>], here: &Around<'a>) -> Result<bool, ReadError> {
-        let first = items[0].members()?;
+    fn records(&mut self, items: &[&'a str], here: &Around<'a>) -> Result<bool, ReadError> {
+        let whole = self.document.whole;
+        let first = whole.with(items[0]).members()?;
         let keys: Vec<Cow<'a, str>> = of_numbers(&first).into_iter().map(|(key, _)| key).collect();
         let names: Vec<String> = keys.iter().map(|key| words(key)).collect();
         let other = || names.iter().position(|name| is_one(name, AXES));
@@ -360,31 +365,35 @@ impl<'d, 'a, 'l, 'w> Walk<'d, 'a, 'l, 'w> {
         self.hear(&first, &mut around);
         (around.name, around.alone) = (here.name.clone(), here.alone);
         self.begin(&keys[axis], true);
-        let mut rows = Vec::with_capacity(items.len());
-        for item in items {
+        let row = |written: &&'a str| {
+            let item = whole.with(written);
             let members = item.members()?;
             let mut cells = of_numbers(&members);
             let at = cells.iter().position(|(key, piece)| *key == keys[axis] && *piece != "null");
-            let Some(at) = at else {
-                let text = excerpt(item.written);
-                return Err(ReadError::NotANumber { line: self.line(*item), column: 1, text });
-            };
-            let written = cells.remove(at).1;
+            // An object is no number.
+            let written = at.map_or(item.written, |at| cells.remove(at).1);
+            let wavelength = (item.number(written, 0)?, written);
             let texts = members.each().filter(|(key, _)| is_one(&words(key), NAMES));
             let texts: Vec<String> = texts.filter_map(|(_, value)| value.read().ok()).collect();
-            rows.push(Row { sample: texts.join(" "), wavelength: (item.number(written, 0)?, written), cells });
-        }
-        self.table(rows.into_iter(), &around, false)?;
+            Ok(Row { sample: texts.join(" "), wavelength, cells })
+        };
+        self.table(items.iter().map(row), &around, false)?;
         Ok(true)
     }
 
     /// Takes rows of values; where all have to be of one length, one of another is an error.
-    fn table(&mut self, rows: impl Iterator<Item = Row<'a>>, here: &Around<'a>, even: bool) -> Result<(), ReadError> {
+    fn table(
+        &mut self,
+        rows: impl Iterator<Item = Result<Row<'a>, ReadError>>,
+        here: &Around<'a>,
+        even: bool,
+    ) -> Result<(), ReadError> {
         let mut columns: Vec<Column<'a>> = Vec::new();
         let mut known = BTreeMap::new();
         let mut width = None;
         let whole = self.document.whole;
-        for Row { sample, wavelength: (nm, written), cells } in rows {
+        for row in rows {
+            let Row { sample, wavelength: (nm, written), cells } = row?;
             let (found, expected) = (cells.len(), *width.get_or_insert(cells.len()));
             if even && found != expected {
                 return Err(ReadError::WrongCount { line: 1, name: nm.to_string(), found, expected });
@@ -401,6 +410,7 @@ impl<'d, 'a, 'l, 'w> Walk<'d, 'a, 'l, 'w> {
                     let next = columns.len();
                     let index = *known.entry((sample.clone(), key.clone(), place)).or_insert(next);
                     if index == next {
+                        check_curves(next + 1, 1)?;
                         columns.push(Column { sample: sample.clone(), key, at, samples: Vec::new() });
                     }
                     index
