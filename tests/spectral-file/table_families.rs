@@ -4,6 +4,7 @@
 
 mod hostile;
 mod instruments;
+mod json;
 mod layouts;
 mod xml;
 
@@ -207,7 +208,7 @@ fn rawtoaces() {
     let cut = &layouts::RAWTOACES[..layouts::RAWTOACES.len() - 4];
     assert!(matches!(error(cut), ReadError::Malformed { family: Family::Json, line: 9, .. }));
     let text = layouts::RAWTOACES.replace("0.04,", "\"x\",");
-    assert!(matches!(error(&text), ReadError::Malformed { family: Family::Json, line: 7, .. }));
+    assert!(matches!(error(&text), ReadError::NotANumber { line: 7, column: 1, .. }));
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Small sound files of every family, with made-up numbers.
 
 /// Each file with a name for it.
-pub const ALL: [(&str, &str); 29] = [
+pub const ALL: [(&str, &str); 31] = [
     ("commas", "# title: a\n# unit: percent\nwavelength_nm,R,G,B\n380,0.1,0.2,0.3\n390,0.2,0.3,0.4\n400,,0.4,0.5\n"),
     (
         "semicolons",
@@ -77,6 +77,16 @@ pub const ALL: [(&str, &str); 29] = [
                   \"green_ssf\": [ 0.1, 0.3, 0.2 ], \"blue_ssf\": [ 1.0, 0.0045, 0.2 ] }\n",
     ),
     ("dcamprof light", "{ \"bands\": [ 400, 420, 10 ], \"scale\": 0.5, \"spectrum\": [ 0.1, 0.5, 1 ] }\n"),
+    (
+        "json lists",
+        "{\"units\": {\"wavelength\": \"um\"}, \"leaf\": {\"wavelength\": [0.4, 0.5, 0.6], \"reflectance\": [0.1, null, 0.3], \"sd\": [0, 0, 0]},\n\
+                    \"lamp\": {\"start\": 400, \"end\": 420, \"step\": 10, \"values\": [[1, 2], [3, 4], [5, 6]]}}\n",
+    ),
+    (
+        "json records",
+        "[{\"sample\": \"a\", \"wavelength\": 400, \"R\": 1}, {\"sample\": \"a\", \"wavelength\": 410, \"R\": 2}, {\"sample\": \"b\", \
+                    \"wavelength\": 400, \"R\": 1e1}, {\"sample\": \"b\", \"wavelength\": 410, \"R\": 2}]\n",
+    ),
     (
         "labels",
         "Title,lamp\nTcp [K],3262\n\nSpectral Data 380[nm],0.1\nSpectral Data 381[nm],0.2\nSpectral Data 382[nm],0.3\n\

@@ -76,6 +76,8 @@ const FORMATS: &[Format] = &[
     json::DCAMPROF,
     #[cfg(feature = "json")]
     json::ENLIGHTEN,
+    #[cfg(feature = "json")]
+    json::JSON,
     lamp_meter::FORMAT,
     macam::FORMAT,
     camspec::FORMAT,

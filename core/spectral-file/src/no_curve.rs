@@ -108,7 +108,7 @@ pub(super) fn leave_out_raw(grid: &mut Grid, options: &ReadOptions) -> Option<De
     };
     let (kept, left) = (list(false), list(true));
     let decided = Decided::or_chosen(options.raw.map(|_| kept.clone()), || {
-        Decided::certain(kept, format!("Its header calls {left} raw counts"))
+        Decided::certain(kept, format!("By the header {left} are what it was computed from"))
     });
     retain(&mut grid.curves, &raw);
     Some(Decision::new("Columns", &decided))
@@ -130,16 +130,22 @@ fn raw_marks(curves: &[RawCurve]) -> Option<Vec<bool>> {
 
 /// Returns whether a header describes a column computed from others.
 fn is_processed(curve: &RawCurve) -> bool {
-    let counts = curve.label.to_lowercase().contains("count");
-    let said = header_terms::role(&curve.label).is_some() || header_terms::says_percent(&curve.label);
-    !counts && (said || curve.name.eq_ignore_ascii_case("processed"))
+    let lower = curve.label.to_lowercase();
+    let said = header_terms::role(&curve.label).is_some()
+        || header_terms::says_percent(&lower)
+        || lower.starts_with("tgt./ref");
+    let measured = lower.contains("count") || is_side(&lower);
+    !measured && (said || curve.name.eq_ignore_ascii_case("processed"))
 }
 
 fn is_raw_name(name: &str) -> bool {
-    // Spectral Evolution: `Norm. DN (Ref.)`, `Rad. (Target)`.
     let lower = name.to_lowercase();
-    let measured = lower.starts_with("norm. dn") || lower.starts_with("rad. (");
-    measured || is_one(&name.to_ascii_lowercase(), "raw|dark|ref|reference|sample|scope")
+    is_side(&lower) || is_one(&lower, "raw|dark|ref|reference|sample|scope")
+}
+
+/// Returns whether a header is that of one side of a ratio, as Spectral Evolution writes: `Norm. DN (Ref.)`, `Rad. (Target)`.
+fn is_side(lower: &str) -> bool {
+    lower.ends_with(" (ref.)") || lower.ends_with(" (target)")
 }
 
 /// Numbers that programs write for missing values, as sizes; each with either sign. (−9999 is one wherever it stands.)

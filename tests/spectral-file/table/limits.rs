@@ -9,7 +9,8 @@ use super::damage::{SOUND, check};
 use super::*;
 
 /// A file for each reader, as short as its traps allow.
-const FAMILIES: [&str; 15] = [
+const FAMILIES: [&str; 16] = [
+    "{\"wavelengths\": [400, 410, 420], \"reflectance\": [0.1, 0.2, 0.3]}",
     "CGATS.17\nSPECTRAL_NORM \"100\"\nBEGIN_DATA_FORMAT\nSAMPLE_NAME nm400 nm410\nEND_DATA_FORMAT\nBEGIN_DATA\n\
      \"a \"\"b\" 5 -9999 # c\nd 5,5 6,5\nEND_DATA\nCAL\n",
     "CGATS.17\nBEGIN_DATA_FORMAT\nSAMPLE_ID SPECTRAL_NM SPECTRAL_PCT SPECTRAL_NM SPECTRAL_PCT\nEND_DATA_FORMAT\nBEGIN_DATA\n\

@@ -58,7 +58,13 @@ const SVC: &str = "/*** Spectra Vista SIG Data ***/\nname= leaf 400.sig\ndata= \
 const PERKIN_ELMER: &str = "PE UV       SUBTECH     SPECTRUM    ASCII       PEDS        4.00        \n400\n#GR\nnm\n%T\n1.0\n0.0\n\
 420.0\n-10.0\n3\n#DATA\n420.0\t5.0\n410.0\t6.0\n400.0\t7.0\n";
 
-pub(super) const ALL: [&str; 15] = [
+const LISTS: &str = "{\n\"wavelengths\": [400, 410, 420, 430],\n\"reflectance\": [0.1, 0.2, 0.3, 0.5],\n\"leaf\": {\"reflectance\": [0.3, 0.2, 0.3, 0.4]}\n}\n";
+const RECORDS: &str =
+    "[{\"wavelength\": 400, \"R\": 0.1},\n{\"wavelength\": 410, \"R\": 0.2},\n{\"wavelength\": 420, \"R\": 0.4}]\n";
+
+pub(super) const ALL: [&str; 17] = [
+    LISTS,
+    RECORDS,
     SVC,
     PERKIN_ELMER,
     CGATS,
@@ -173,6 +179,10 @@ fn json_keys_and_lists() {
     let seen = whole(SPECTRUM.as_bytes());
     assert_eq!(seen.pieces(2).len(), 4);
     assert_eq!(seen.pieces(3), []);
+    let seen = whole(LISTS.as_bytes());
+    assert_eq!([2, 3, 4].map(|line| seen.pieces(line).len()), [4, 4, 4]);
+    let seen = whole(RECORDS.as_bytes());
+    assert_eq!([1, 2, 3].map(|line| seen.pieces(line).len()), [2, 2, 2]);
 }
 
 #[test]

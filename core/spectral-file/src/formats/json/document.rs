@@ -8,6 +8,7 @@ use std::fmt;
 
 use crate::decision::Family;
 use crate::error::ReadError;
+use crate::text::excerpt;
 use crate::watch::Log;
 
 /// Bytes between two looks at the watch: some milliseconds.
@@ -23,14 +24,14 @@ pub(super) struct Value<'a> {
 
 impl<'a> Value<'a> {
     pub(super) fn whole(document: &'a str) -> Self {
-        Self { document, written: document }
+        Self { document, written: document.trim() }
     }
 
     pub(super) fn offset(self, piece: &str) -> usize {
         piece.as_ptr().addr().saturating_sub(self.document.as_ptr().addr())
     }
 
-    /// The value as a type; that it is of another breaks the rules of the layouts.
+    /// The value as a type. JSON in which it is of another holds no spectra where they are looked for.
     pub(super) fn read<T: Deserialize<'a>>(self) -> Result<T, ReadError> {
         serde_json::from_str(self.written).map_err(|error| {
             // A reader of bytes finds the very end of what is sound.
@@ -38,27 +39,14 @@ impl<'a> Value<'a> {
             let error = broken.err().unwrap_or(error);
             let lines = self.written.split_inclusive('\n').take(error.line().saturating_sub(1));
             let end = lines.map(str::len).sum::<usize>() + error.column();
-            self.malformed(error.is_data(), self.offset(self.written) + end)
+            if error.is_data() {
+                return ReadError::Unsupported(Family::Json);
+            }
+            let before = &self.document.as_bytes()[..(self.offset(self.written) + end).min(self.document.len())];
+            let start = before.iter().rposition(|byte| *byte == b'\n').map_or(0, |at| at + 1);
+            let line = before.split(|byte| *byte == b'\n').count();
+            ReadError::Malformed { family: Family::Json, line, column: (before.len() - start).max(1) }
         })
-    }
-
-    pub(super) fn lacks_member(self) -> ReadError {
-        self.malformed(true, self.offset(self.written) + self.written.len())
-    }
-
-    /// An error, in what ends at a byte of the document.
-    fn malformed(self, is_json: bool, end: usize) -> ReadError {
-        const MARKS: [&str; 3] = ["\"spectral_data\"", "\"ssf_bands\"", "\"spectrum\""];
-        // A list at the top, or members of other types than the known layouts have, is sound JSON of another layout.
-        let other =
-            self.document.trim_start().starts_with('[') || !MARKS.iter().any(|mark| self.document.contains(mark));
-        if is_json && other {
-            return ReadError::Unsupported(Family::Json);
-        }
-        let before = &self.document.as_bytes()[..end.min(self.document.len())];
-        let start = before.iter().rposition(|byte| *byte == b'\n').map_or(0, |at| at + 1);
-        let line = before.split(|byte| *byte == b'\n').count();
-        ReadError::Malformed { family: Family::Json, line, column: (before.len() - start).max(1) }
     }
 
     pub(super) fn members(self) -> Result<Members<'a>, ReadError> {
@@ -72,21 +60,26 @@ impl<'a> Value<'a> {
         inner.split(',').map(str::trim).filter(move |_| !inner.is_empty())
     }
 
-    /// The numbers of a list; NaN for `null`, where gaps are allowed.
-    pub(super) fn numbers(self, gaps: bool, log: &Log<'_>) -> Result<Vec<f64>, ReadError> {
-        let other_type = |piece: &str| self.malformed(true, self.offset(piece) + piece.len());
-        if !self.written.starts_with('[') {
-            return Err(other_type(self.written));
+    /// A number of a list, by its place there; NaN for `null`.
+    pub(super) fn number(self, piece: &str, at: usize) -> Result<f64, ReadError> {
+        if piece == "null" {
+            return Ok(f64::NAN);
         }
-        let mut numbers = Vec::new();
-        for piece in self.pieces() {
-            log.work(piece.len() + 1, self.offset(piece))?;
-            let gap = (gaps && piece == "null").then_some(f64::NAN);
-            let number = || piece.parse().ok().filter(|number: &f64| number.is_finite());
-            numbers.push(gap.or_else(number).ok_or_else(|| other_type(piece))?);
-        }
-        numbers.shrink_to_fit();
-        Ok(numbers)
+        let before = self.document.get(..self.offset(piece)).unwrap_or_default();
+        let line = || 1 + before.bytes().filter(|byte| *byte == b'\n').count();
+        let wrong = || ReadError::NotANumber { line: line(), column: at + 1, text: excerpt(piece) };
+        piece.parse().ok().filter(|number: &f64| number.is_finite()).ok_or_else(wrong)
+    }
+
+    /// The members of a list.
+    pub(super) fn items(self) -> Result<Vec<&'a str>, ReadError> {
+        let items: Vec<&'a RawValue> = self.read()?;
+        Ok(items.into_iter().map(RawValue::get).collect())
+    }
+
+    /// Another value of the document.
+    pub(super) fn with(self, written: &'a str) -> Self {
+        Self { written, ..self }
     }
 
     /// The text, or the texts among the members of a list; what is none is passed over.
@@ -105,6 +98,10 @@ pub(super) struct Members<'a> {
 }
 
 impl<'a> Members<'a> {
+    pub(super) fn none(whole: Value<'a>) -> Self {
+        Self { whole, entries: Vec::new() }
+    }
+
     pub(super) fn each(&self) -> impl ExactSizeIterator<Item = (&Cow<'a, str>, Value<'a>)> {
         self.entries.iter().map(|(name, written)| (name, Value { written, ..self.whole }))
     }
@@ -119,11 +116,6 @@ impl<'a> Members<'a> {
 
     pub(super) fn members(&self, name: &str) -> Result<Option<Members<'a>>, ReadError> {
         self.get(name).map(Value::members).transpose()
-    }
-
-    pub(super) fn texts(&self) -> impl Iterator<Item = (&str, String)> {
-        let texts = self.each().filter_map(|(name, value)| Some((&**name, serde_json::from_str(value.written).ok()?)));
-        texts.take(MAX_TEXTS)
     }
 }
 
