@@ -79,7 +79,9 @@ fn band(dialect: Dialect, name: &str) -> Option<Band<'_>> {
             found = Some(one);
         }
     }
-    found.filter(|band| band.is_known() || band.suffix.is_empty() && is_word(band.prefix))
+    // Other words, but no numbers cut in pieces.
+    let word = |band: &Band<'_>| band.prefix.starts_with(char::is_alphabetic) && !band.prefix.contains(digit);
+    found.filter(|band| band.is_known() || band.suffix.is_empty() && word(band))
 }
 
 fn unit(text: &str) -> (Option<WavelengthUnit>, &str) {
@@ -89,11 +91,6 @@ fn unit(text: &str) -> (Option<WavelengthUnit>, &str) {
         Some(unit) => (Some(unit), rest[end..].trim_start_matches([']', ')']).trim()),
         None => (None, text.trim()),
     }
-}
-
-/// Returns whether a text is a word, and no number cut in pieces.
-fn is_word(prefix: &str) -> bool {
-    prefix.starts_with(char::is_alphabetic) && !prefix.contains(|c: char| c.is_ascii_digit())
 }
 
 /// Returns whether a text before a number without unit makes it a wavelength, and no name of a sample.
