@@ -62,6 +62,11 @@ pub(super) fn counts(column: &[f64]) -> bool {
         && column.windows(2).all(|pair| (pair[1] - pair[0]).abs() == 1.0 && pair[1] - pair[0] == column[1] - column[0])
 }
 
+/// True for numbers that count their rows from the first, whatever they are called.
+pub(super) fn counts_from_start(column: &[f64], fewest: usize) -> bool {
+    column.len() >= fewest && counts(column) && matches!(column[0], 0.0 | 1.0)
+}
+
 /// True for numbers that may identify or mark rows: all equal, or flags, or a count of the rows.
 pub(super) fn tells_rows_apart(column: &[f64]) -> bool {
     let whole = column.iter().all(|value| value.fract() == 0.0);

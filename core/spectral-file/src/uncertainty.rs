@@ -3,7 +3,7 @@
 //! Stated numbers are k u, with u the standard uncertainty and k the coverage factor (JCGM 100:2008, 6.2), in the unit of the values,
 //! in percent, or as a part of the value.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use crate::decision::{Certainty, Decided, Decision, Effect, Role, Values};
 use crate::grid::{Grid, RawCurve, Stated, StatedScale, retain};
@@ -59,13 +59,25 @@ pub(super) fn take(grid: &mut Grid, log: &mut Log<'_>) {
 fn settle_uses(grid: &Grid, terms: &mut [Option<Term>]) -> Vec<Use> {
     let curves = &grid.curves;
     let keys: Vec<String> = curves.iter().map(|curve| uncertainty_terms::key(&curve.name)).collect();
+    let bare: Vec<String> = keys.iter().map(|key| uncertainty_terms::without_mean(key)).collect();
     let mut uses = vec![Use::Curve; curves.len()];
-    let (mut known, mut last) = (BTreeMap::new(), None);
+    let mut known: BTreeMap<&str, BTreeSet<usize>> = BTreeMap::new();
+    for index in (0..curves.len()).filter(|index| terms[*index].is_none()) {
+        known.entry(&bare[index]).or_default().insert(index);
+    }
+    let mut last = None;
     for index in 0..curves.len() {
         if let Some(term) = &terms[index] {
-            let named = known.get(&term.of).filter(|_| !term.of.is_empty());
+            // The nearest before it, else the first behind.
+            let named = known.get(&*term.of).filter(|_| !term.of.is_empty());
+            let named = named.and_then(|all| all.range(..index).next_back().or_else(|| all.first()));
             let is_about_last = || {
-                last.is_some_and(|last: usize| is_about(term, &curves[last].label, &keys[last])) || term.of.is_empty()
+                last.is_some_and(|last: usize| {
+                    // `SD 1, SD 2` behind two curves.
+                    let counts =
+                        |at: usize| terms.get(at).into_iter().flatten().any(|term| term.of == (at - last).to_string());
+                    counts(index) && (counts(last + 2)) || is_about(term, &curves[last].label, &keys[last])
+                }) || term.of.is_empty()
             };
             match named {
                 Some(&curve) => uses[index] = Use::Of(curve),
@@ -74,7 +86,7 @@ fn settle_uses(grid: &Grid, terms: &mut [Option<Term>]) -> Vec<Use> {
             }
         }
         if terms[index].is_none() {
-            known.insert(uncertainty_terms::without_mean(&keys[index]), index);
+            known.entry(&bare[index]).or_default().insert(index);
             last = Some(index);
         }
     }
@@ -190,17 +202,18 @@ fn stated(grid: &mut Grid, index: usize, term: &Term) -> Stated {
     let line = grid.header.coverage.map(|(line, k)| Decided::certain(k, format!("Line {line} says so")));
     let own = term.coverage.map(said);
     let level = || term.level.map(|k| Decided::guess(k, "By the level of confidence in the header"));
-    let coverage = match term.kind {
-        Kind::Deviation => own.unwrap_or_else(|| Decided::certain(1.0, "The header names a standard deviation")),
-        Kind::Error => own.unwrap_or_else(|| Decided::certain(1.0, "The header names a standard error")),
-        Kind::Standard => own.unwrap_or_else(|| Decided::certain(1.0, "The header names a standard uncertainty")),
-        Kind::Expanded => own.or(line).or_else(level).unwrap_or_else(|| {
-            Decided::guess(2.0, "An expanded uncertainty without a coverage factor, taken as one of 95 %")
-        }),
-        Kind::Unsaid => {
-            own.or(line).or_else(level).unwrap_or_else(|| Decided::guess(1.0, "Nothing names a coverage factor"))
-        }
-    };
+    let one = |what: &str| Decided::certain(1.0, format!("The header names a {what}"));
+    let coverage = own
+        .or_else(|| line.or_else(level).filter(|_| matches!(term.kind, Kind::Expanded | Kind::Unsaid)))
+        .unwrap_or_else(|| match term.kind {
+            Kind::Deviation => one("standard deviation"),
+            Kind::Error => one("standard error"),
+            Kind::Standard => one("standard uncertainty"),
+            Kind::Expanded => {
+                Decided::guess(2.0, "An expanded uncertainty without a coverage factor, taken as one of 95 %")
+            }
+            Kind::Unsaid => Decided::guess(1.0, "Nothing names a coverage factor"),
+        });
     let scale = match (term.relative, term.percent) {
         (false, false) => StatedScale::Unit,
         (true, true) => StatedScale::Relative,

@@ -1,7 +1,7 @@
 //! Uncertainties in the words of a header: standard deviations, standard errors, standard and expanded uncertainties.
 
 use crate::header_terms;
-use crate::text::{is_one, lower, spaced};
+use crate::text::{has_part, is_one, lower, spaced};
 
 /// Kinds of stated uncertainties, the least telling first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -40,9 +40,9 @@ const WORDS: [(Kind, bool, &str); 10] = [
         Kind::Deviation,
         true,
         "standard deviation|standard deviations|std dev|stddev|stdev|st dev|stdv|stddevs|std deviation|sdev|rsd|stand dev|\
-         standardabweichung|écart type|ecart type|desviación estándar|deviazione standard|desvio padrão|標準偏差|标准偏差",
+         coefficient of variation|standardabweichung|standardabw|stabw|écart type|ecart type|desviación estándar|desv est|desv estándar|deviazione standard|desvio padrão|標準偏差|标准偏差",
     ),
-    (Kind::Deviation, false, "sd|s d|std|sigma|σ"),
+    (Kind::Deviation, false, "sd|s d|std|sigma|σ|cv"),
     (
         Kind::Error,
         true,
@@ -73,7 +73,7 @@ const WORDS: [(Kind, bool, &str); 10] = [
 ];
 
 /// Words beside those for an uncertainty that say no more than they do.
-const BESIDE: &str = "combined|measurement|total|estimated|spectral|of|in|for|the|on";
+const BESIDE: &str = "combined|measurement|total|estimated|spectral|confidence|level|of|in|for|the|on";
 
 /// Uncertainty that the header of a column names, with its name without a unit and its whole label.
 pub(super) fn term(name: &str, label: &str) -> Option<Term> {
@@ -90,13 +90,13 @@ pub(super) fn term(name: &str, label: &str) -> Option<Term> {
     let (kind, clear, word) = found.max_by_key(|(_, _, word)| word.len())?;
     let (before, after) = padded.split_once(&format!(" {word} "))?;
     let is_relative = |word: &str| is_one(word, "relative|rel|fractional|percent|percentage");
-    let mut before: Vec<&str> = before.split_whitespace().collect();
-    let mut relative = word == "rsd";
-    while let Some(last) = before.last().filter(|word| is_relative(word) || is_one(word, BESIDE)) {
-        relative |= is_relative(last);
-        before.pop();
-    }
-    let after: Vec<&str> = after.split_whitespace().skip_while(|word| is_one(word, BESIDE)).collect();
+    let beside = |word: &&&str| is_relative(word) || is_one(word, BESIDE);
+    let [before, after] = [before, after].map(|part| part.split_whitespace().collect::<Vec<_>>());
+    let about = before.iter().rev().take_while(beside).count();
+    let (before, last) = before.split_at(before.len() - about);
+    let (first, after) = after.split_at(after.iter().take_while(beside).count());
+    let relative =
+        is_one(word, "rsd|cv|coefficient of variation") || [last, first].concat().iter().any(|word| is_relative(word));
     // Words on both sides are a sentence.
     if !before.is_empty() && !after.is_empty() {
         return None;
@@ -107,22 +107,11 @@ pub(super) fn term(name: &str, label: &str) -> Option<Term> {
     Some(Term { kind, clear, of, coverage: coverage(&text), level, relative, percent })
 }
 
-/// A test without memory for names that hold no word for an uncertainty, as most do.
+/// A quick test for names that hold no word for an uncertainty, as most do.
 fn may_name(name: &str) -> bool {
     const LONGEST: usize = 80;
-    let pair = |pair: &[u8]| {
-        let (a, b) = (pair[0].to_ascii_lowercase(), pair[1].to_ascii_lowercase());
-        matches!((a, b), (b's', b'd' | b't' | b'e' | b'i' | b'.' | b' ' | b'_') | (b'e', b'r') | (b'u', b'n'))
-            || pair[0].eq_ignore_ascii_case(&b'u') && !pair[1].is_ascii_alphabetic()
-            || matches!(pair, [b'u', b'A'..=b'Z'])
-            || matches!((a, b), (b'u', b'c' | b'.') | (b'/', b'-'))
-    };
-    name.len() <= LONGEST
-        && (name.eq_ignore_ascii_case("u")
-            || !name.is_ascii()
-            || name.as_bytes().windows(2).any(pair)
-            || name.ends_with(['u', 'U']) && name.len() > 1 && !name[..name.len() - 1].ends_with(char::is_alphabetic)
-            || name.to_ascii_lowercase().contains("incert"))
+    const PARTS: &str = "sd|s.d|s d|s_d|st|se|s.e|s e|s_e|sig|desv|er|ec|u|cv|/-";
+    name.len() <= LONGEST && (!name.is_ascii() || has_part(&name.to_ascii_lowercase(), PARTS))
 }
 
 /// The words of a name in lower case, those joined by capitals or figures apart, without what is said of a coverage factor.
@@ -161,6 +150,11 @@ pub(super) fn without_mean(key: &str) -> String {
 
 const MEAN: &str = "mean|avg|average|median|averaged|mittelwert|moyenne|media";
 
+/// Returns whether a name says that values are means or uncertainties and nothing of which sample.
+pub(super) fn is_statistic(name: &str) -> bool {
+    term(name, name).map_or_else(|| without_mean(&key(name)).is_empty(), |term| term.of.is_empty())
+}
+
 /// Returns whether words of a curve's name say that it is the mean of others.
 pub(super) fn names_mean(key: &str) -> bool {
     key.split(' ').any(|word| is_one(word, MEAN))
@@ -168,10 +162,6 @@ pub(super) fn names_mean(key: &str) -> bool {
 
 /// The coverage factor k in a text in lower case: `k=2`, `k = 1.96`, `coverage factor: 2`, `2σ`.
 pub(super) fn coverage(lower: &str) -> Option<f64> {
-    const LONGEST: usize = 400;
-    if lower.len() > LONGEST {
-        return None;
-    }
     let number = |text: &str| {
         let text = text.trim_start_matches([' ', ':', '=', '(']).trim_start_matches("of ").trim_start_matches("is ");
         let text = text.trim_start_matches("k =").trim_start_matches("k=").trim_start();
@@ -216,10 +206,6 @@ fn without_level(lower: &str) -> String {
     let symbol = before.ends_with(['u', 'U']) || before.ends_with("u_");
     match after_sign.or(Some(after).filter(|after| symbol && !after.starts_with(char::is_alphanumeric))) {
         Some(rest) if !before.ends_with(|c: char| c.is_ascii_digit() || c == '.') => {
-            let rest = ["confidence level", "confidence", "level of confidence"]
-                .iter()
-                .find_map(|words| rest.trim_start().strip_prefix(words))
-                .unwrap_or(rest);
             format!("{before} {rest}")
         }
         _ => lower.to_owned(),
