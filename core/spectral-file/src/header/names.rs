@@ -77,21 +77,24 @@ impl Header {
             if self.units.is_empty() || self.x_unit.is_none() {
                 self.take_unit_cell(number, &cells, layout);
             }
-            self.names = cells;
-            self.line = Some(number);
-            // Names of samples say less than a line above them.
-            let above = self.earlier.filter(|_| self.mentioned.is_some_and(|(line, _)| line == number));
-            self.mentioned = above.or(self.mentioned);
             // Some programs name only the curves.
-            if self.names.len() + 1 == layout.width && !is_row_key(&self.names[0]) && !headed(&self.names) {
-                self.names.insert(0, String::new());
+            if cells.len() + 1 == layout.width && !is_row_key(&cells[0]) && !headed(&cells) {
+                cells.insert(0, String::new());
                 self.shifted = true;
             }
+            self.set_names(number, cells);
             if self.units.is_empty() && !is_comment {
                 self.take_samples(rows.next(), rows.next().is_none() && self.comments.is_empty(), layout);
             }
             return;
         }
+    }
+
+    fn set_names(&mut self, number: usize, names: Vec<String>) {
+        (self.names, self.line) = (names, Some(number));
+        // Names of samples say less than a line above them.
+        let above = self.earlier.filter(|_| self.mentioned.is_some_and(|(line, _)| line == number));
+        self.mentioned = above.or(self.mentioned);
     }
 
     /// Takes the names of samples from the line above one that only says what was measured, `Wavelength (nm),%T,Wavelength (nm),%T`:
