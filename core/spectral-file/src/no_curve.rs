@@ -98,7 +98,7 @@ pub(super) fn is_scale_row<'a>(leading: impl Iterator<Item = &'a str>, wavelengt
 
 /// Removes raw columns if a processed one exists, unless they are requested.
 pub(super) fn leave_out_raw(grid: &mut Grid, options: &ReadOptions) -> Option<Decision> {
-    if options.raw == Some(true) {
+    if options.raw == Some(true) || !grid.header.own.is_empty() {
         return None;
     }
     let raw = raw_marks(&grid.curves)?;
