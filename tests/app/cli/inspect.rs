@@ -389,12 +389,10 @@ fn a_pipe_with_a_name_is_refused_and_standard_input_is_read_by_any_name() {
         let mut input = child.stdin.take().unwrap();
         if name == "-" {
             // While nothing comes, it says what it waits for.
-            let mut notice = [0; 65];
+            let wanted = "chromascope: waiting for standard input to end; Ctrl+C stops.\n";
+            let mut notice = vec![0; wanted.len()];
             child.stderr.as_mut().unwrap().read_exact(&mut notice).unwrap();
-            assert_eq!(
-                str::from_utf8(&notice).unwrap(),
-                "chromascope: waiting for standard input to end; Ctrl+C stops.\n".get(..65).unwrap()
-            );
+            assert_eq!(String::from_utf8(notice).unwrap(), wanted);
         }
         input.write_all(LEAF.as_bytes()).unwrap();
         drop(input);
