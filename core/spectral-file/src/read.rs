@@ -115,9 +115,7 @@ fn take_columns_beside(grid: &mut Grid, parts: &mut [Part], options: &ReadOption
     if options.raw == Some(true) {
         return;
     }
-    if grid.header.own.is_empty() {
-        no_curve::leave_out(grid, log);
-    }
+    no_curve::leave_out(grid, log);
     uncertainty::take(grid, log);
     if let [only] = parts {
         let uncertain = grid.curves.iter().filter(|curve| curve.uncertainty.is_some()).count();
@@ -153,10 +151,7 @@ fn finish(
     let (range_nm, step_nm) = (grid.range_nm(), Steps::of(&grid.wavelengths));
     wavelengths::warn(&grid, step_nm, &mut warnings);
     warnings.look(usize::MAX)?;
-    // The program itself writes neither numbers for gaps nor columns that are no curves.
-    if grid.header.own.is_empty() {
-        no_curve::take_sentinels(&mut grid, &mut warnings);
-    }
+    no_curve::take_sentinels(&mut grid, &mut warnings);
     quantity::suggest_role(&mut grid);
     take_columns_beside(&mut grid, &mut parts, options, &mut warnings);
     covariance::prepare(covariance, &mut grid);
