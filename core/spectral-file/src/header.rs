@@ -1,19 +1,17 @@
-//! Header above the numbers: comments, names of columns, units; and the heads of the columns in the program's own tables, such as
-//! `leaf [reflectance factor in 1]`, so that a table says what it holds without a line above it.
+//! Header above the numbers: comments, names of columns, units.
 
 mod names;
 
 use chromascope_text::unguarded;
-use std::fmt::Write as _;
 
 use crate::clues::{self, Clues};
 use crate::decision::{Medium, Orientation, Quantity, Role, Values};
 use crate::dialect::Dialect;
 use crate::dialect_trial::Layout;
 use crate::error::MAX_CURVES;
-use crate::header_terms::{self, UNSPECIFIED, XUnit};
+use crate::header_terms::{self, XUnit};
 use crate::text::{Lines, Section, comment, is_one, lower};
-use crate::{uncertainty_terms, unit_text, units};
+use crate::{heads, uncertainty_terms, unit_text, units};
 
 const MAX_COMMENTS: usize = 1000;
 
@@ -46,6 +44,8 @@ pub(super) struct Header {
     /// The one mentioned before it.
     pub(super) earlier: Option<(usize, Role)>,
     pub(super) clues: Clues,
+    /// In the program's own tables, for each column behind that of the wavelengths: the coverage factor, if it holds uncertainties.
+    pub(super) own: Vec<Option<f64>>,
 }
 
 impl Header {
@@ -110,7 +110,7 @@ pub(super) fn read(section: Section<'_>, layout: &Layout) -> Header {
     }
     if layout.orientation.value == Orientation::Down {
         header.take_names(&near, layout, section);
-        take_heads(&mut header);
+        heads::take(&mut header);
     }
     header
 }
@@ -265,66 +265,4 @@ pub(super) fn split(dialect: Dialect, line: &str) -> Vec<String> {
         cells.pop();
     }
     cells
-}
-
-const QUANTITIES: [(&str, Quantity); 13] = [
-    ("relative spectral sensitivity", Quantity::Sensitivity),
-    ("spectral sensitivity", Quantity::Sensitivity),
-    ("color matching functions", Quantity::Sensitivity),
-    ("reflectance factor", Quantity::Reflectance),
-    ("transmittance", Quantity::Transmittance),
-    ("relative spectral power", Quantity::SpectralPower),
-    ("spectral power", Quantity::SpectralPower),
-    ("spectral irradiance", Quantity::Irradiance),
-    ("spectral radiance", Quantity::Radiance),
-    ("spectral flux", Quantity::RadiantFlux),
-    ("radiant intensity", Quantity::RadiantIntensity),
-    ("counts", Quantity::Counts),
-    (UNSPECIFIED, Quantity::Unknown),
-];
-
-pub(super) fn quantity_of_light(quantity: Quantity) -> &'static str {
-    let mut named = QUANTITIES.iter().filter(|(_, known)| *known == quantity && quantity != Quantity::SpectralPower);
-    named.next().map_or("spectral power", |(name, _)| name)
-}
-
-pub(super) fn head_tail(quantity: &str, per_photon: Option<bool>, unit: Option<&str>) -> String {
-    let mut tail = format!(" [{quantity}");
-    tail.push_str(per_photon.map_or("", |photon| if photon { " per photon" } else { " per energy" }));
-    if let Some(unit) = unit {
-        // Writing to a string cannot fail.
-        let _infallible = write!(tail, " in {unit}");
-    }
-    tail + "]"
-}
-
-/// Takes quantity, scale, unit and response from names that all end alike in such a bracket, and leaves the names.
-fn take_heads(header: &mut Header) {
-    let names = header.names.get(1..).unwrap_or_default();
-    let heads = names.iter().map(|name| name.strip_suffix(']')?.rsplit_once(" ["));
-    let (Some(line), Some(heads)) = (header.line, heads.collect::<Option<Vec<_>>>()) else { return };
-    let Some((_, tail)) = heads.first().copied().filter(|(_, tail)| heads.iter().all(|(_, other)| other == tail))
-    else {
-        return;
-    };
-    let (said, unit) = tail.split_once(" in ").map_or((tail, None), |(said, unit)| (said, Some(unit)));
-    let mut responses = ["per photon", "per energy"].into_iter();
-    let response = responses.find_map(|response| Some((said.strip_suffix(response)?.trim_end(), response)));
-    let name = response.map_or(said, |(name, _)| name);
-    let Some((_, quantity)) = QUANTITIES.iter().find(|(known, _)| *known == name) else { return };
-    let role = quantity.role().unwrap_or(Role::Unknown);
-    // Without a unit nothing says that fractions are no percent: such a bracket is another program's.
-    if role.is_fraction() && unit.is_none() {
-        return;
-    }
-    let bare: Vec<String> = heads.iter().map(|(bare, _)| (*bare).to_owned()).collect();
-    let (unit, response) = (unit.map(str::to_owned), response.map(|(_, response)| response));
-    if let Some(response) = response.filter(|_| header.comment("response").is_none()) {
-        header.note(line, "response", response);
-    }
-    header.values = unit.as_ref().filter(|unit| *unit == "1").map(|_| (line, Values::Plain)).or(header.values);
-    (header.role, header.quantity) = (Some((line, role)), Some((line, *quantity)));
-    header.unit = unit.filter(|unit| unit != "1").or(header.unit.take());
-    header.names.truncate(1);
-    header.names.extend(bare);
 }

@@ -31,7 +31,17 @@ const FEW: &str = "most of its cells are empty";
 
 /// Takes the columns that are uncertainties of other curves from the curves, and gives them to these.
 pub(super) fn take(grid: &mut Grid, log: &mut Log<'_>) {
+    let is_own = !grid.header.own.is_empty();
     let term = |curve: &RawCurve| {
+        if is_own {
+            return grid
+                .header
+                .own
+                .get(curve.column?.checked_sub(2)?)
+                .copied()
+                .flatten()
+                .map(uncertainty_terms::expanded);
+        }
         let named = curve.named && grid.curves.len() > 1;
         named.then(|| uncertainty_terms::term(&curve.name, &curve.label)).flatten()
     };
@@ -39,7 +49,7 @@ pub(super) fn take(grid: &mut Grid, log: &mut Log<'_>) {
     if terms.iter().all(Option::is_none) {
         return;
     }
-    let uses = settle_uses(grid, &mut terms);
+    let uses = if is_own { own_uses(&grid.curves, &terms) } else { settle_uses(grid, &mut terms) };
     let mut marks = vec![false; grid.curves.len()];
     for (index, place) in uses.iter().enumerate() {
         match *place {
@@ -54,6 +64,16 @@ pub(super) fn take(grid: &mut Grid, log: &mut Log<'_>) {
         marks[index] = true;
     }
     retain(&mut grid.curves, &marks);
+}
+
+/// The uses that the heads of the program's own tables state: each uncertainty stands behind its curve.
+fn own_uses(curves: &[RawCurve], terms: &[Option<Term>]) -> Vec<Use> {
+    let of = |index: usize| {
+        let before =
+            index.checked_sub(1).filter(|before| curves[*before].column.map(|at| at + 1) == curves[index].column);
+        before.map_or(Use::LeftOut(NO_CURVE), Use::Of)
+    };
+    terms.iter().enumerate().map(|(index, term)| term.as_ref().map_or(Use::Curve, |_| of(index))).collect()
 }
 
 fn settle_uses(grid: &Grid, terms: &mut [Option<Term>]) -> Vec<Use> {

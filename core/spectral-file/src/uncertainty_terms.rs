@@ -34,6 +34,12 @@ pub(super) struct Term {
     pub(super) percent: bool,
 }
 
+/// What a head of the program's own says: that numbers are U = k u.
+pub(super) fn expanded(coverage: f64) -> Term {
+    let (kind, coverage) = (Kind::Expanded, Some(coverage));
+    Term { kind, clear: true, of: String::new(), coverage, level: None, relative: false, percent: false }
+}
+
 /// Words for uncertainties with their kind, and whether they mean nothing else.
 const WORDS: [(Kind, bool, &str); 10] = [
     (

@@ -28,10 +28,10 @@ use super::arguments::{named, values};
 use super::error::{CliError, Result, refused};
 use super::outputs::{self, is_standard_output, put, show, stream};
 use super::request::read;
-use crate::atomic::{fitting, metadata_path};
+use crate::atomic::{fitting, paths_beside};
 use crate::catalog::import::Origin;
 use crate::catalog::opened::files_of;
-use crate::format::{io_failure, io_reason};
+use crate::format::{file_name, io_failure, io_reason};
 use crate::terminal::{say, shown_json};
 
 const EXAMPLES: &str = "Examples:
@@ -48,7 +48,8 @@ Reports the decisions made for each file, one line each: value, confidence (cert
 same name overrides a decision. A folder stands for the files in it, `-` for standard input; named pipes are not supported.
 
 --csv writes `wavelength_nm,<curve> [<quantity> in <unit>],...`: nanometers, reflectances and transmittances as fractions, a cell left blank where a
-curve has no sample. With `--csv -` the table goes to standard output and the report to standard error. OUT is a
+curve has no sample. Behind a curve whose file states its uncertainty stands `<curve> [expanded uncertainty (k=2) in <unit>]`; the
+covariance of a file goes into NAME.cov.csv beside. Other formats have no place for either. With `--csv -` the table goes to standard output and the report to standard error. OUT is a
 folder where several files or a folder are named.
 
 --out writes a file in a --format, all of which the window has too: csv, which has the same table and, in a file beside it whose name goes on
@@ -56,7 +57,7 @@ with `-metadata.json` (W3C, CSV on the Web), title, source, license and other no
 sp and cmf of Argyll; cgats. What is not in it as it was read is said on standard error.
 
 --json prints an object for a file, an array for several: file, kind (camera, reflectance, transmittance, illuminant, unknown),
-curves [{name, unit, quantity, wavelengths_nm, values, missing}], channels [red, green, blue] as places in curves from 0,
+curves [{name, unit, quantity, wavelengths_nm, values, standard_uncertainty, coverage_factor, missing}], channels [red, green, blue] as places in curves from 0,
 decisions [{what, value, certainty, why}], warnings [{line, text}], reading {...}, notes on resampling; or file and error
 {line, column, text}. Lines and columns count from 1.
 
@@ -260,10 +261,9 @@ fn answer(file: &Path, (index, end): (usize, &str), out: &Out, arguments: &Inspe
     let known = table.as_ref().map_or_else(|_| Vec::new(), |table| written::known(table, file));
     let prepared = table.as_ref().map_err(Clone::clone).and_then(|table| {
         let sheet = written::sheet(table, &curves, &known, &now);
-        let text =
-            format.filter(|format| !written::is_csv(*format)).map(|format| write(&sheet, format, arguments.grid()));
+        let text = format.filter(|format| !format.is_csv()).map(|format| write(&sheet, format, arguments.grid()));
         let text = text.transpose().map_err(|error| Failure::Other(error.to_string()))?;
-        let wanted = format.is_some_and(written::is_csv) || arguments.step.is_some() && text.is_none();
+        let wanted = format.is_some_and(Format::is_csv) || arguments.step.is_some() && text.is_none();
         let prepared = wanted.then(|| Prepared::new(&sheet, arguments.grid())).transpose();
         let prepared = prepared.map_err(|error| Failure::Other(error.to_string()))?;
         Ok((table, prepared, text))
@@ -346,12 +346,14 @@ fn contents(file: &Path) -> io::Result<Vec<u8>> {
     if io::stdin().is_terminal() {
         say("Type or paste the data; Ctrl+D ends the input.\n");
     } else {
-        let patience = || thread::sleep(PATIENCE);
         let done = Arc::clone(&done);
         // Without a thread it waits without a word.
-        let _silent = thread::Builder::new()
-            .name("patience".to_owned())
-            .spawn(move || say_if_waiting(patience, || done.load(Ordering::Relaxed), say));
+        let _silent = thread::Builder::new().name("patience".to_owned()).spawn(move || {
+            thread::sleep(PATIENCE);
+            if !done.load(Ordering::Relaxed) {
+                say("chromascope: waiting for standard input to end; Ctrl+C stops.\n");
+            }
+        });
     }
     let mut bytes = Vec::new();
     let read = io::stdin().lock().take(spectral_file::MAX_BYTES as u64 + 1).read_to_end(&mut bytes);
@@ -364,16 +366,8 @@ fn is_standard_input(file: &Path) -> bool {
     [STANDARD_INPUT, "/dev/stdin", "/dev/fd/0", "/proc/self/fd/0"].iter().any(|name| file == Path::new(name))
 }
 
-/// Time without an end of standard input after which a notice says what is waited for.
+/// Time without an end of standard input, which may not be redirected by mistake, after which a notice says what is waited for.
 const PATIENCE: Duration = Duration::from_secs(2);
-
-/// Writes a notice if, once `patience` returns, standard input has not ended: it may have been left unredirected by mistake.
-fn say_if_waiting(patience: impl FnOnce(), has_ended: impl FnOnce() -> bool, say: impl FnOnce(&str)) {
-    patience();
-    if !has_ended() {
-        say("chromascope: waiting for standard input to end; Ctrl+C stops.\n");
-    }
-}
 
 /// A title, or the file's name, says more about a curve than "Column 2" does.
 fn name_the_only_curve(table: &mut SpectralFile, file: &str) {
@@ -417,7 +411,7 @@ impl Out {
     /// may not be.
     fn new(arguments: &InspectArguments, files: &[PathBuf], several: bool) -> Result<Self> {
         let wrong = |reason: &str| refused(if arguments.csv.is_some() { "--csv" } else { "--out" }, reason);
-        if arguments.notes && !written::is_csv(arguments.format) {
+        if arguments.notes && !arguments.format.is_csv() {
             return refused("--notes", "the format has notes of its own; --notes is for CSV");
         }
         let path = arguments.csv.as_deref().or(arguments.out.as_deref());
@@ -439,8 +433,8 @@ impl Out {
         } else {
             vec![path.to_owned()]
         };
-        let beside = tables.iter().filter(|table| written::is_csv(format) && !outputs::is_stream(table));
-        let all: Vec<PathBuf> = beside.map(|table| metadata_path(table)).chain(tables.iter().cloned()).collect();
+        let beside = tables.iter().filter(|table| format.is_csv() && !outputs::is_stream(table));
+        let all: Vec<PathBuf> = beside.flat_map(|table| paths_beside(table)).chain(tables.iter().cloned()).collect();
         outputs::check(all.iter().map(PathBuf::as_path), &inputs(files), arguments.force)?;
         if folder {
             fs::create_dir_all(path).map_err(|error| CliError::Output { path: path.to_owned(), error })?;
@@ -463,42 +457,25 @@ impl Out {
     }
 }
 
-/// Files that are read; standard input too, which may be redirected from a file.
+/// Files that are read, with those beside them; standard input too, which may be redirected from a file.
 fn inputs(files: &[PathBuf]) -> Vec<PathBuf> {
     let place = |file: &PathBuf| if is_standard_input(file) { PathBuf::from("/dev/stdin") } else { file.clone() };
-    files.iter().map(place).collect()
+    files.iter().map(place).flat_map(|file| paths_beside(&file).into_iter().chain([file])).collect()
 }
 
-/// The file's name with another ending, and a number where another file has that name already.
+/// The file's name with another ending, and a number where it or the file with its covariance has the name of another.
 fn free_name(source: &Path, ending: &str, taken: &mut HashSet<String>) -> String {
     let stem = source.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
     let stem = if stem.is_empty() || stem == "-" { "table".to_owned() } else { stem };
-    let mut name = fitting(&stem, &format!(".{ending}"));
-    let mut number = 2;
+    let named = |number: &str| fitting(&stem, &format!("{number}.{ending}"));
     // Some file systems do not distinguish `A.csv` from `a.csv`.
-    while !taken.insert(name.to_lowercase()) {
-        name = fitting(&stem, &format!("-{number}.{ending}"));
+    let both =
+        |name: &str| [Path::new(name), &paths_beside(Path::new(name))[1]].map(|path| file_name(path).to_lowercase());
+    let (mut name, mut number) = (named(""), 2);
+    while both(&name).iter().any(|name| taken.contains(name)) {
+        name = named(&format!("-{number}"));
         number += 1;
     }
+    taken.extend(both(&name));
     name
-}
-
-#[cfg(test)]
-mod tests {
-    use std::cell::{Cell, RefCell};
-
-    use super::*;
-
-    /// The notice after waiting, if standard input ends while it is waited, or later.
-    fn notice(ends_meanwhile: bool) -> String {
-        let (ended, said) = (Cell::new(false), RefCell::new(String::new()));
-        say_if_waiting(|| ended.set(ends_meanwhile), || ended.get(), |text| said.borrow_mut().push_str(text));
-        said.into_inner()
-    }
-
-    #[test]
-    fn a_notice_comes_only_while_standard_input_is_open() {
-        assert_eq!(notice(false), "chromascope: waiting for standard input to end; Ctrl+C stops.\n");
-        assert_eq!(notice(true), "");
-    }
 }
