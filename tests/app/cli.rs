@@ -15,6 +15,7 @@ mod presets;
 mod radiance;
 mod reference;
 mod report;
+mod sets;
 
 use std::path::PathBuf;
 use std::process::{Command, Output};
