@@ -55,7 +55,8 @@ impl FolderFiles {
 
 /// Removes files that belong to another of them: its metadata or its covariance.
 pub fn leave_companions_out<T>(files: &mut Vec<T>, path: impl Fn(&T) -> Option<PathBuf>, skipped: &mut Tally) {
-    let companions: HashSet<PathBuf> = files.iter().filter_map(&path).flat_map(|file| companions(&file)).collect();
+    let named = files.iter().filter_map(&path).filter(|file| file.file_name().is_some());
+    let companions: HashSet<PathBuf> = named.flat_map(|file| companions(&file)).collect();
     for file in files.extract_if(.., |file| path(file).is_some_and(|path| companions.contains(&path))) {
         skipped.add("beside their tables", path(&file).as_deref().map(file_name).unwrap_or_default());
     }
