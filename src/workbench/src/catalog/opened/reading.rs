@@ -259,9 +259,10 @@ impl Harvest {
             _ => 2,
         });
         if self.sets.is_empty() {
-            let notes: String = self.notes.iter().map(|note| format!(" {note}")).collect();
+            let notes = self.notes.join(" ");
             let none = Some("No spectra were found".to_owned()).filter(|_| events.is_empty() && !notes.is_empty());
-            let failed = |told| OpenedEvent::Failed(format!("{told}.{notes} Nothing was changed."), self.failed);
+            let told = |told| format!("{told}. {notes}").trim_end().to_owned() + " Nothing was changed.";
+            let failed = |sentence| OpenedEvent::Failed(told(sentence), self.failed);
             events.extend(failure.or(none).map(failed));
             return events;
         }
