@@ -15,6 +15,7 @@ mod presets;
 mod radiance;
 mod reference;
 mod report;
+mod sets;
 mod written;
 
 use std::path::PathBuf;

@@ -29,10 +29,10 @@ use super::error::{CliError, Result, refused};
 use super::outputs::{self, is_standard_output, put, show, stream};
 use super::request::read;
 use crate::atomic::{fitting, paths_beside};
+use crate::catalog::folders::{FolderFiles, NO_SPECTRA, leave_companions_out};
 use crate::catalog::import::Origin;
-use crate::catalog::opened::files_of;
-use crate::format::{file_name, io_failure, io_reason};
-use crate::terminal::{say, shown_json};
+use crate::format::{Tally, display_path, file_name, io_failure, io_reason};
+use crate::terminal::{Remarks, say, shown_json};
 
 const EXAMPLES: &str = "Examples:
   chromascope inspect leaf.txt
@@ -45,7 +45,7 @@ const EXAMPLES: &str = "Examples:
   chromascope inspect *.sp --json | jq '.[].kind'
 
 Reports the decisions made for each file, one line each: value, confidence (certain, a guess, chosen) and reason. An option of the
-same name overrides a decision. A folder stands for the files in it, `-` for standard input; named pipes are not supported.
+same name overrides a decision. A folder stands for the files in it at any depth, `-` for standard input; named pipes are not supported.
 
 --csv writes `wavelength_nm,<curve> [<quantity> in <unit>],...`: nanometers, reflectances and transmittances as fractions, a cell left blank where a
 curve has no sample. Behind a curve whose file states its uncertainty stands `<curve> [expanded uncertainty (k=2) in <unit>]`; the
@@ -61,7 +61,8 @@ curves [{name, unit, quantity, wavelengths_nm, values, standard_uncertainty, cov
 decisions [{what, value, certainty, why}], warnings [{line, text}], reading {...}, notes on resampling; or file and error
 {line, column, text}. Lines and columns count from 1.
 
-A file that cannot be read is reported on standard error; the others are still read, and the exit code is 1.";
+A file that cannot be read is reported on standard error; the others are still read, and the exit code is 1. Of several files, those
+that hold no spectra, hidden ones, and metadata and covariance beside a table are skipped and counted in one line.";
 
 /// Contents of files of spectra and the decisions made when reading them; curves as CSV or JSON
 #[allow(clippy::struct_excessive_bools, reason = "each is a flag of the command line")]
@@ -208,6 +209,13 @@ impl Failure {
         }
     }
 
+    fn refusal(&self, name: &str) -> CliError {
+        match self {
+            Self::Read(error) => CliError::unread(self.sentence(name), error),
+            Self::Other(_) => CliError::File(self.sentence(name)),
+        }
+    }
+
     /// One sentence: where, what, and what helps.
     fn sentence(&self, name: &str) -> String {
         let text = self.reason();
@@ -224,35 +232,52 @@ impl Failure {
 
 /// Reads the files one by one and writes the requested output of each. A failed file does not stop the others.
 pub(super) fn run(arguments: &InspectArguments, _: &ArgMatches) -> Result<()> {
-    let (files, several) = files(&arguments.files)?;
+    let (files, mut skipped) = files(&arguments.files)?;
+    let several = arguments.files.len() > 1 || arguments.files[0].is_dir();
     let out = Out::new(arguments, &files, several)?;
-    let mut failures = Vec::new();
+    let (mut read, mut failures, mut remarks) = (0, Vec::new(), Remarks::default());
     if arguments.json && several {
         put("[\n", None)?;
     }
     for (index, file) in files.iter().enumerate() {
         let end = if several && index + 1 < files.len() { ",\n" } else { "\n" };
-        if let Err(error) = answer(file, (index, end), &out, arguments)? {
-            failures.push(error);
-            if files.len() > 1
-                && let Some(error) = failures.last()
-            {
-                say(&format!("chromascope: {error}\n"));
+        match answer(file, (index, end), &out, arguments, &mut remarks)? {
+            Ok(()) => read += 1,
+            // Of several files, the text beside them is no failure.
+            Err(CliError::NoSpectra(_)) if several => skipped.add(NO_SPECTRA, display_path(file)),
+            Err(error) => {
+                if files.len() > 1 {
+                    say(&format!("chromascope: {error}\n"));
+                }
+                failures.push(error);
             }
         }
     }
     if arguments.json && several {
         put("]\n", None)?;
     }
+    let failed = failures.len();
+    if several && failed + read == 0 {
+        return Err(CliError::NoSpectra(format!("no spectra were found; skipped: {skipped}")));
+    }
+    if !skipped.is_empty() {
+        say(&format!("chromascope: skipped: {skipped}\n"));
+    }
     match failures.pop() {
         None => Ok(()),
         Some(only) if files.len() == 1 => Err(only),
-        Some(_) => Err(CliError::Failed { failed: failures.len() + 1, count: files.len() }),
+        Some(_) => Err(CliError::Failed { failed, count: failed + read }),
     }
 }
 
 /// Writes the requested output of a file. The outer error ends the whole run.
-fn answer(file: &Path, (index, end): (usize, &str), out: &Out, arguments: &InspectArguments) -> Result<Result<()>> {
+fn answer(
+    file: &Path,
+    (index, end): (usize, &str),
+    out: &Out,
+    arguments: &InspectArguments,
+    remarks: &mut Remarks,
+) -> Result<Result<()>> {
     let name = if is_standard_input(file) { "standard input".to_owned() } else { file.display().to_string() };
     let told = spectral_file::on_one_line(&name);
     let table = inspect(file, &name, arguments);
@@ -274,7 +299,7 @@ fn answer(file: &Path, (index, end): (usize, &str), out: &Out, arguments: &Inspe
             if arguments.json {
                 put(&shown_json(&format!("{}{end}", output::failure(&name, &failure))), None)?;
             }
-            return Ok(Err(CliError::File(failure.sentence(&told))));
+            return Ok(Err(failure.refusal(&told)));
         }
     };
     if arguments.json {
@@ -289,7 +314,7 @@ fn answer(file: &Path, (index, end): (usize, &str), out: &Out, arguments: &Inspe
         if out.is_standard_output() { say(&text) } else { show(&text)? }
     }
     if let Some(question) = question(table) {
-        say(&format!("chromascope: {told}: {question}\n"));
+        remarks.0.add(&question, told.to_string());
     }
     let Some((format, place)) = format.zip(out.place(index)) else { return Ok(Ok(())) };
     Ok(written::put(&told, place, (format, arguments.out.is_some()), prepared.as_mut(), text.as_ref()))
@@ -380,23 +405,21 @@ fn name_the_only_curve(table: &mut SpectralFile, file: &str) {
     }
 }
 
-/// The files that are meant, and whether there may be several: folders become what is in them, in order of name.
-fn files(named: &[PathBuf]) -> Result<(Vec<PathBuf>, bool)> {
-    let mut files = Vec::new();
-    let mut several = named.len() > 1;
+/// The files that are meant: folders become what is in them, in order of path. And what was skipped.
+fn files(named: &[PathBuf]) -> Result<(Vec<PathBuf>, Tally)> {
+    let (mut files, mut skipped) = (Vec::new(), Tally::default());
     for path in named {
-        if !path.is_dir() {
+        if path.is_dir() {
+            let found = FolderFiles::new(path, &|| true);
+            let mut found = found.map_err(|error| CliError::File(io_failure(path, &error)))?;
+            files.append(&mut found.files);
+            skipped.0.append(&mut found.skipped.0);
+        } else {
             files.push(path.clone());
-            continue;
         }
-        several = true;
-        let within = files_of(path).map_err(|error| CliError::File(io_failure(path, &error)))?;
-        if within.is_empty() {
-            return Err(CliError::File(format!("{}: no files in it", path.display())));
-        }
-        files.extend(within);
     }
-    Ok((files, several))
+    leave_companions_out(&mut files, |file| Some(file.clone()), &mut skipped);
+    Ok((files, skipped))
 }
 
 enum Out {
