@@ -2,7 +2,7 @@
 //! instruments write beside the curve they made of them, and numbers that stand for missing values (−999, 9999, −1.23e34).
 
 use crate::decimal::extent;
-use crate::decision::{Decided, Decision};
+use crate::decision::{Decided, Decision, Values};
 use crate::grid::{Grid, RawCurve, retain};
 use crate::options::ReadOptions;
 use crate::text::is_one;
@@ -16,7 +16,7 @@ pub(super) const FEWEST_ROWS: usize = 3;
 /// Names of what is recorded beside spectra, without their units.
 const NAMES: &str = "temperature|temp|temp.|t_amb|ambient temperature|detector temperature|ccd temperature|temperatur|\
     température|temperatura|time|elapsed time|elapsed|timestamp|time stamp|date|day|hour|zeit|temps|tiempo|integration time|\
-    exposure|exposure time|humidity|relative humidity|rel. humidity|rh|pressure|air pressure|voltage|battery|battery voltage|\
+    exposure|exposure time|humidity|relative humidity|rel. humidity|imgs|bandwidth|fwhm|pressure|air pressure|voltage|battery|battery voltage|\
     altitude|latitude|longitude";
 
 const UNITS: &str = "°c|℃|deg c|degc|°f|℉|° c|celsius|kelvin|seconds|ms|hpa|mbar|kpa|%rh|% rh|rh";
@@ -131,7 +131,9 @@ fn raw_marks(curves: &[RawCurve]) -> Option<Vec<bool>> {
 /// Returns whether a header describes a column computed from others.
 fn is_processed(curve: &RawCurve) -> bool {
     let counts = curve.label.to_lowercase().contains("count");
-    let said = header_terms::role(&curve.label).is_some() || header_terms::says_percent(&curve.label);
+    let said = header_terms::role(&curve.label).is_some()
+        || header_terms::says_percent(&curve.label)
+        || header_terms::values(&curve.label) == Some(Values::Absorbance);
     !counts && (said || curve.name.eq_ignore_ascii_case("processed"))
 }
 
@@ -139,7 +141,7 @@ fn is_raw_name(name: &str) -> bool {
     // Spectral Evolution: `Norm. DN (Ref.)`, `Rad. (Target)`.
     let lower = name.to_lowercase();
     let measured = lower.starts_with("norm. dn") || lower.starts_with("rad. (");
-    measured || is_one(&name.to_ascii_lowercase(), "raw|dark|ref|reference|sample|scope")
+    measured || is_one(&lower, "raw|dark|ref|reference|sample|scope|reference_corrected|sample_corrected")
 }
 
 /// Numbers that programs write for missing values, as sizes; each with either sign. (−9999 is one wherever it stands.)
