@@ -164,6 +164,8 @@ impl Document<'_> {
         let mut grid = rows.grid(&names, header, log)?;
         if names == ["power"] {
             grid.role = Some(Decided::certain(Role::Illuminant, format!("{} as its only value", self.says("power"))));
+        } else if names == ["R", "G", "B"] {
+            grid.role = Some(Decided::certain(Role::Camera, "By channels, rawtoaces holds sensitivities of cameras"));
         }
         let part = Decided::certain(part, format!("{} groups of data, of which “main” comes first", parts.len()));
         (grid.parts, grid.part) = (parts, Some(part));
