@@ -26,8 +26,10 @@ impl Header {
             if cells.first().is_some_and(String::is_empty) {
                 axis.clone_into(&mut cells[0]);
             }
-            // A rule between names and numbers.
-            if cells.len() > 1 && cells.iter().all(|cell| cell.bytes().all(|byte| matches!(byte, b'-' | b':'))) {
+            // A rule, or the key of a section such as `[LAMPDATA]`, between names and numbers.
+            let key = |cell: &String| cell.starts_with('[') && cell.ends_with(']') && !is_unit(cell);
+            let rule = cells.len() > 1 && cells.iter().all(|cell| cell.bytes().all(|byte| matches!(byte, b'-' | b':')));
+            if rule || cells.len() == 1 && key(&cells[0]) {
                 continue;
             }
             let headed = |cells: &[String]| cells.iter().any(|name| header_terms::names_wavelengths(name));
@@ -169,7 +171,8 @@ impl Header {
                 self.values = Some((number, values));
             }
             self.take_role(number, line);
-            self.quantity = header_terms::quantity(line).map(|quantity| (number, quantity)).or(self.quantity);
+            let quantity = header_terms::quantity(line).filter(|_| !self.calibration);
+            self.quantity = quantity.map(|quantity| (number, quantity)).or(self.quantity);
         }
     }
 
