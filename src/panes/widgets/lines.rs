@@ -1,9 +1,11 @@
 //! One line of text that never runs over its place, keys of sources, small marks, numbers.
 
+use std::sync::Arc;
+
 use chromascope_figure::{Ink, LegendEntry, Stroke};
 use egui::{
-    Align, Color32, Layout, Painter, Pos2, Rect, Response, Sense, Shape, TextStyle, TextWrapMode, Ui, UiBuilder, Vec2,
-    WidgetText,
+    Align, Color32, Galley, Layout, Painter, Pos2, Rect, Response, Sense, Shape, TextStyle, TextWrapMode, Ui,
+    UiBuilder, Vec2, WidgetText,
 };
 
 use crate::action::{Action, SceneAction};
@@ -19,16 +21,20 @@ pub const DOTS: f32 = 18.0;
 
 /// Draws a line of text into a rectangle, with an ellipsis if it does not fit. Returns whether it was cut.
 pub fn elided(ui: &Ui, rect: Rect, words: &str, style: TextStyle, color: Color32) -> bool {
-    let galley = WidgetText::from(words).into_galley(ui, Some(TextWrapMode::Truncate), rect.width().max(0.0), style);
+    let galley = truncated(ui, rect, words, style);
     let at = Pos2::new(rect.left(), rect.center().y - galley.size().y / 2.0);
     let cut = galley.elided;
     ui.painter().galley(at, galley, color);
     cut
 }
 
+fn truncated(ui: &Ui, rect: Rect, words: &str, style: TextStyle) -> Arc<Galley> {
+    WidgetText::from(words).into_galley(ui, Some(TextWrapMode::Truncate), rect.width().max(0.0), style)
+}
+
 /// Draws a name into a rectangle, with an ellipsis in its middle if it does not fit. Returns whether it was cut.
 pub fn name(ui: &Ui, rect: Rect, words: &str, style: TextStyle, color: Color32) -> bool {
-    let shown = cut_in_middle(words, |words| width(ui, words, style.clone()) <= rect.width());
+    let shown = cut_in_middle(words, |words| !truncated(ui, rect, words, style.clone()).elided);
     elided(ui, rect, &shown, style, color) || *shown != *words
 }
 

@@ -112,14 +112,15 @@ impl fmt::Display for Tally {
     }
 }
 
-/// A name as it fits, with an ellipsis in its middle if it is too long: many names differ only at their ends.
+/// A name as it fits, with an ellipsis behind two thirds of it if it is too long: makers and models stand first, and many names of
+/// files differ only at their ends.
 pub fn cut_in_middle(name: &str, fits: impl Fn(&str) -> bool) -> Cow<'_, str> {
     if fits(name) {
         return Cow::Borrowed(name);
     }
     let letters: Vec<char> = name.chars().collect();
     let cut = |kept: usize| {
-        let ends = [&letters[..kept.div_ceil(2)], &letters[letters.len() - kept / 2..]];
+        let ends = [&letters[..kept - kept / 3], &letters[letters.len() - kept / 3..]];
         let [head, tail] = ends.map(|end| end.iter().collect::<String>());
         format!("{}…{}", head.trim_end(), tail.trim_start())
     };
