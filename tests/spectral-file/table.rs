@@ -7,6 +7,7 @@ mod columns;
 mod damage;
 mod doubts;
 mod evidence;
+mod judged;
 mod light_units;
 mod limits;
 mod parts;

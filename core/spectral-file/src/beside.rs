@@ -12,7 +12,7 @@ pub const METADATA: [&str; 2] = ["_metadata.json", "-metadata.json"];
 pub struct Source<'a> {
     /// The file's bytes.
     pub bytes: &'a [u8],
-    /// The file's path; the names of the file and of the two folders around it are the reason for a guess. May be empty.
+    /// The file's path; the name of the file, else that of its folder, is the reason for a guess. May be empty.
     pub path: &'a str,
     /// Contents of the file's metadata: its own name with an ending of [`METADATA`]. May be empty.
     pub metadata: &'a [u8],
@@ -33,16 +33,18 @@ pub(super) fn take(source: Source<'_>, grid: &mut Grid) {
     grid.beside = grid.beside.take().or_else(|| of_path(source.path));
 }
 
-/// The role that the name of a file suggests, else that of the folder it is in, else of the folder around.
+/// The role that the name of a file suggests, else that of the folder it is in.
 fn of_path(path: &str) -> Option<Decided<Role>> {
     let mut names = path.rsplit(['/', '\\']);
     let file = names.next()?;
     let stem = file.rsplit_once('.').map_or(file, |(stem, _)| stem);
-    let folders = names.filter(|name| !name.is_empty()).take(2).map(|name| ("folder", name));
+    let folder = names.find(|name| !name.is_empty()).map(|name| ("folder", name));
     let (what, name, (role, agree)) =
-        std::iter::once(("file", stem)).chain(folders).find_map(|(what, name)| Some((what, name, of_name(name)?)))?;
+        std::iter::once(("file", stem)).chain(folder).find_map(|(what, name)| Some((what, name, of_name(name)?)))?;
     let name = excerpt(name);
-    Some(if agree {
+    Some(if role == Role::Unknown {
+        Decided::open(role, format!("The {what} is named “{name}”, as optical constants are"))
+    } else if agree {
         Decided::guess(role, format!("The {what} is named “{name}”"))
     } else {
         Decided::open(Role::Unknown, format!("The name of the {what}, “{name}”, may mean several things"))
@@ -55,7 +57,15 @@ fn of_name(name: &str) -> Option<(Role, bool)> {
     if name.len() > LONGEST {
         return None;
     }
-    let mut roles = words(name).into_iter().filter_map(|word| role_of_word(&word));
+    if [".n", ".k", "_k"].iter().any(|constant| name.ends_with(constant)) {
+        return Some((Role::Unknown, true));
+    }
+    let mut words = words(name);
+    // The pigment is no lamp.
+    if let Some(at) = words.windows(2).position(|pair| pair == ["lamp", "black"]) {
+        words.remove(at);
+    }
+    let mut roles = words.iter().filter_map(|word| role_of_word(word));
     let first = roles.next()?;
     Some((first, roles.all(|role| role == first)))
 }
@@ -76,18 +86,19 @@ fn words(name: &str) -> Vec<String> {
 /// The role that a word in the name of a file or a folder suggests: a quantity, or a thing that has only one spectrum.
 fn role_of_word(word: &str) -> Option<Role> {
     /// How words begin, and whole words.
-    const WORDS: [(Role, &str, &str); 4] = [
+    const WORDS: [(Role, &str, &str); 5] = [
+        (Role::Unknown, "refractive", "eta|nk|ior"),
         (
             Role::Illuminant,
-            "illumin|irradian|radian|luminaire",
-            "illum|irrad|spd|spds|lamp|lamps|led|leds|lights|bulb|bulbs|daylight|sunlight|skylight|halogen|xenon|tungsten|\
+            "illumin|irradian|radian|luminaire|phosphor",
+            "display|displays|monitor|monitors|projector|projectors|primaries|illum|irrad|spd|spds|lamp|lamps|led|leds|lights|bulb|bulbs|daylight|sunlight|skylight|halogen|xenon|tungsten|\
              incandescent|fluorescent|emission",
         ),
-        (Role::Reflectance, "reflect|remission", "refl|rfl|colorchecker|colourchecker|munsell"),
+        (Role::Reflectance, "reflec|remission|albedo", "refl|rfl|colorchecker|colourchecker|munsell"),
         (Role::Transmittance, "transmi", "filter|filters|trans|gel|gels|wratten"),
         (
             Role::Camera,
-            "sensitiv|responsiv|quantum|camera",
+            "sensitiv|responsiv|quantum|efficien|camera",
             "ssf|ssfs|qe|cmf|cmfs|cmos|response|responses|photopic|scotopic|melanopic|observer|observers",
         ),
     ];

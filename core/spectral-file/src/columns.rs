@@ -8,8 +8,8 @@ use crate::dialect_trial::Layout;
 use crate::error::{MAX_CURVES, MAX_SAMPLES, ReadError, check_curves, check_samples};
 use crate::grid::{Grid, RawCurve};
 use crate::header::{self, Header};
-use crate::no_curve::is_empty;
-use crate::text::{Lines, Section, comment, excerpt};
+use crate::no_curve::{FEWEST_ROWS, is_empty};
+use crate::text::{Lines, Section, comment, excerpt, has_word, lower};
 use crate::warning::{LineList, Warning};
 use crate::watch::Log;
 use crate::{header_terms, unit_text, wavelengths};
@@ -26,16 +26,23 @@ pub(super) fn read(section: Section<'_>, layout: &Layout, log: &mut Log<'_>) -> 
     let header = header::read(section, layout);
     let chosen = layout.wavelength_column.map(|column| column.saturating_sub(1));
     let mut columns = Columns::new(layout, chosen.or_else(|| header_terms::axis(&header.names)));
+    // A column with a name of its own holds no notes.
+    let named = (0..layout.width.min(128)).filter(|column| header.name(*column).is_some());
+    columns.notes.gaps = named.fold(layout.gaps, |gaps, column| gaps & !(1 << column));
     let header_line = header.line.and_then(|names| Lines::of(section).find(|(number, _)| *number == names));
     let header_line = header_line.map(|(_, line)| line);
     let mut commented = LineList::default();
+    let head = table_head(section, layout);
     let mut read = section.byte;
     for (number, line) in Lines::of(section).skip_while(|(number, _)| *number < layout.first_line) {
         read += line.len() + 1;
         log.work(line.len() + 1, read)?;
         if comment(line).is_some() {
-            if columns.is_marked_row(line) {
+            let again = head.is_some_and(|head| head != line && without_digits(head) == without_digits(line));
+            if !again && columns.is_marked_row(line) {
                 commented.add(number);
+            } else {
+                columns.comment = Some(again || columns.comment == Some(true));
             }
         } else if header_line.is_some_and(|header| header == line) {
             columns.take_header(number);
@@ -67,6 +74,18 @@ pub(super) fn read(section: Section<'_>, layout: &Layout, log: &mut Log<'_>) -> 
     Ok(Read { bytes: read - section.byte, ..found })
 }
 
+/// The comment above a table that names it as one of several.
+pub(super) fn table_head<'a>(section: Section<'a>, layout: &Layout) -> Option<&'a str> {
+    const ONE_OF: &str = "band|channel|filter|sample|spectrum|curve|table";
+    let above = Lines::of(section).take_while(|(number, _)| *number < layout.first_line);
+    let mut comments = above.filter(|(_, line)| comment(line).is_some());
+    comments.find(|(_, line)| has_word(&lower(line), ONE_OF)).map(|(_, line)| line)
+}
+
+fn without_digits(text: &str) -> String {
+    text.chars().filter(|c| !c.is_ascii_digit()).collect()
+}
+
 struct Broken {
     line: usize,
     begins_with_number: bool,
@@ -81,6 +100,7 @@ struct Broken {
 struct Columns {
     dialect: Dialect,
     texts: Texts,
+    notes: Notes,
     /// Rows must have this many cells; a row with more must not have been preceded by one with fewer.
     width: usize,
     fewest_cells: usize,
@@ -94,6 +114,8 @@ struct Columns {
     label_unit: Option<WavelengthUnit>,
     broken: Option<Broken>,
     repeated_headers: LineList,
+    /// True if a comment since the last row is the head of the table but for its number; `None` without a comment.
+    comment: Option<bool>,
     /// The line after the last row, once another table is seen.
     next: Option<usize>,
 }
@@ -109,6 +131,7 @@ impl Columns {
         Self {
             dialect: layout.dialect(),
             texts: Texts::new(layout.texts),
+            notes: Notes { width: layout.width, ..Notes::default() },
             width: layout.width,
             fewest_cells: usize::MAX,
             cells: vec![Vec::new(); layout.width.min(MAX_CURVES + 1)],
@@ -118,7 +141,16 @@ impl Columns {
     }
 
     fn take(&mut self, number: usize, line: &str) -> Result<(), ReadError> {
-        match self.parse(number, line) {
+        let row = self.parse(number, line);
+        // Below a comment, wavelengths that start again are those of another table, and so are all below its head.
+        if let (Row::Numbers { .. }, Some(headed)) = (&row, self.comment) {
+            self.comment = None;
+            if (headed || self.restarts()) && self.lines.len() >= FEWEST_ROWS {
+                self.end(true);
+                return Ok(());
+            }
+        }
+        match row {
             Row::Blank => Ok(()),
             Row::Broken(broken) => {
                 self.broken.get_or_insert(broken);
@@ -171,6 +203,7 @@ impl Columns {
     fn parse(&mut self, number: usize, line: &str) -> Row {
         self.row.clear();
         let (mut cells, mut filled, mut numbers) = (0, 0, 0);
+        let mut noted = None;
         for cell in self.dialect.cells(line).take(MAX_CURVES + 2) {
             let value = match self.dialect.parse(cell) {
                 _ if self.texts.contains(cells) => self.texts.take(cells, self.dialect, cell),
@@ -181,6 +214,10 @@ impl Columns {
                         self.label_unit = Some(unit);
                         value
                     }
+                    _ if self.notes.may_stand(cells, self.lines.len(), self.dialect) => {
+                        noted = noted.or(Some((cells, cell)));
+                        f64::NAN
+                    }
                     _ => return Row::Broken(self.broken(number, line, cells, cell)),
                 },
             };
@@ -188,6 +225,15 @@ impl Columns {
             numbers += usize::from(!value.is_nan());
             filled = if cell.is_empty() { filled } else { cells };
             self.row.push(value);
+        }
+        if let Some((column, cell)) = noted {
+            if numbers < 2 {
+                return Row::Broken(self.broken(number, line, column, cell));
+            }
+            self.row.truncate(self.notes.width);
+            (cells, filled) = (self.row.len(), filled.min(self.row.len()));
+            self.notes.rows += 1;
+            self.notes.first = Some(self.notes.first.map_or(column, |first| first.min(column)));
         }
         if numbers == 0 { Row::Blank } else { Row::Numbers { cells, filled } }
     }
@@ -289,7 +335,12 @@ impl Columns {
             self.cells.iter_mut().for_each(|column| column.truncate(rows));
         }
         self.check_short(at)?;
-        warn_of_names_without_columns(&header, columns, log);
+        if let Some(column) = self.notes.first {
+            let name = header.name(column).unwrap_or_default().to_owned();
+            log.push(Warning::TextColumns { count: 1, column: column + 1, name });
+        } else {
+            warn_of_names_without_columns(&header, columns, log);
+        }
         let (next, rows, label_unit) = (self.next, self.lines.len(), self.label_unit);
         let values = self.cells.split_off(at + 1);
         let wavelengths = self.cells.pop().unwrap_or_default();
@@ -365,6 +416,23 @@ fn drop_without_wavelength(grid: &mut Grid, log: &mut Log<'_>) {
     if !list.is_empty() {
         grid.remove(&marked);
         log.push(Warning::NoWavelength(list));
+    }
+}
+
+/// Notes beside rows: texts in columns that are empty but for them, or right of the table beside its first rows.
+#[derive(Debug, Default)]
+struct Notes {
+    gaps: u128,
+    width: usize,
+    rows: usize,
+    /// The first column of notes in a row, over all rows.
+    first: Option<usize>,
+}
+
+impl Notes {
+    fn may_stand(&self, column: usize, row: usize, dialect: Dialect) -> bool {
+        let beside = column >= self.width && row == self.rows && dialect.delimiter != Delimiter::Spaces;
+        beside || column < self.width.min(128) && self.gaps >> column & 1 == 1
     }
 }
 

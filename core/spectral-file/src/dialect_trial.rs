@@ -98,7 +98,7 @@ pub(super) struct Run {
     pub(super) filled: usize,
     /// Bit masks of the columns that are text, and of those that are empty in all rows.
     pub(super) texts: u128,
-    gaps: u128,
+    pub(super) gaps: u128,
     united: u128,
     /// Rows that start again with the first wavelength.
     restarts: usize,
@@ -316,6 +316,8 @@ pub(super) struct Layout {
     pub(super) orientation: Decided<Orientation>,
     pub(super) first_line: usize,
     pub(super) texts: u128,
+    /// Bit mask of the first columns that are empty in all rows, but for notes.
+    pub(super) gaps: u128,
     /// Columns, as far as seen.
     pub(super) width: usize,
     pub(super) across: Option<Across>,
@@ -350,6 +352,7 @@ impl Layout {
             orientation,
             first_line,
             texts: 0,
+            gaps: 0,
             width: 0,
             across: None,
             wavelength_column: None,

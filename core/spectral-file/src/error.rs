@@ -108,6 +108,8 @@ pub enum ReadError {
     AmbiguousCommas(usize),
     #[error("line {0}: the header gives neither wavelengths nor wave numbers nor THz: convert to wavelengths in nm")]
     NotWavelengths(usize),
+    #[error("line {line}: “{kind}” is no spectrum of light over wavelengths, wave numbers or frequencies")]
+    NotLight { line: usize, kind: String },
     #[error("line {0}: a value times the factor of the file is beyond the largest number, 1.8e308: correct the factor")]
     TooGreat(usize),
     #[error("line {0}: a curve needs values at two wavelengths or more: check the columns")]
@@ -145,6 +147,7 @@ impl ReadError {
             | Self::ScaleContradicts { line, .. }
             | Self::NotANumber { line, .. }
             | Self::UnevenRow { line, .. }
+            | Self::NotLight { line, .. }
             | Self::SecondTable(line)
             | Self::AmbiguousCommas(line)
             | Self::AmbiguousUnit { line, .. }

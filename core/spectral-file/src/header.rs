@@ -38,6 +38,8 @@ pub(super) struct Header {
     pub(super) medium: Option<(usize, Medium)>,
     /// Coverage factor k of the uncertainties in the table.
     pub(super) coverage: Option<(usize, f64)>,
+    /// True if the table is one of calibration coefficients, which no word makes spectra.
+    pub(super) calibration: bool,
     pub(super) role: Option<(usize, Role)>,
     /// Role that free text mentions; only good for a guess.
     pub(super) mentioned: Option<(usize, Role)>,
@@ -177,7 +179,7 @@ impl Header {
     fn take_role(&mut self, line: usize, text: &str) {
         // Lights have other units: `radiance paint (%)` is a sample.
         let sample = self.values.is_some_and(|(_, values)| values == Values::Percent);
-        let role = header_terms::role(text).filter(|role| !sample || *role != Role::Illuminant);
+        let role = header_terms::role(text).filter(|role| !(self.calibration || sample && *role == Role::Illuminant));
         self.role = role.map(|role| (line, role)).or(self.role);
     }
 
@@ -206,7 +208,8 @@ impl Header {
             self.take_value_unit(line, value);
             self.unit = unit_text::unit(value).or(self.unit.take());
         }
-        if let Some(role) = header_terms::role_in_prose(text) {
+        self.calibration |= header_terms::says_calibration(text);
+        if let Some(role) = header_terms::role_in_prose(text).filter(|_| !self.calibration) {
             (self.mentioned, self.earlier) = (Some((line, role)), self.mentioned);
         }
         self.clues.take(line, text);
@@ -221,8 +224,10 @@ impl Header {
             if let Some(names) = by_blanks(layout, line).filter(|_| cells.len() != layout.width && !is_comment) {
                 cells = names;
             }
-            // A rule between names and numbers.
-            if cells.len() > 1 && cells.iter().all(|cell| cell.bytes().all(|byte| matches!(byte, b'-' | b':'))) {
+            // A rule, or the key of a section such as `[LAMPDATA]`, between names and numbers.
+            let key = |cell: &String| cell.starts_with('[') && cell.ends_with(']') && !is_unit(cell);
+            let rule = cells.len() > 1 && cells.iter().all(|cell| cell.bytes().all(|byte| matches!(byte, b'-' | b':')));
+            if rule || cells.len() == 1 && key(&cells[0]) {
                 continue;
             }
             let headed = |cells: &[String]| cells.iter().any(|name| header_terms::names_wavelengths(name));
@@ -341,7 +346,8 @@ impl Header {
                 self.values = Some((number, values));
             }
             self.take_role(number, line);
-            self.quantity = header_terms::quantity(line).map(|quantity| (number, quantity)).or(self.quantity);
+            let quantity = header_terms::quantity(line).filter(|_| !self.calibration);
+            self.quantity = quantity.map(|quantity| (number, quantity)).or(self.quantity);
         }
     }
 
@@ -416,7 +422,7 @@ fn is_title_with_unit(text: &str) -> bool {
     const LONGEST: usize = 80;
     let title = bare_title(text);
     title.len() <= LONGEST
-        && !title.contains([',', ';'])
+        && !title.contains([',', ';', '='])
         && title.ends_with([']', ')'])
         && unit_text::without_unit(title) != title
         && (header_terms::quantity(title).is_some()

@@ -1,7 +1,7 @@
 //! Units, quantities and roles in the words of a header.
 
 use crate::decision::{Medium, Quantity, Role, Values, WavelengthUnit};
-use crate::text::{begins, has_word, is_one, lower, slashed, spaced, words};
+use crate::text::{begins, has_part, has_word, is_one, lower, slashed, spaced, words};
 use crate::unit_text::percent_sign;
 
 /// Quantity of curves that state none, in the heads of the program's own tables.
@@ -174,7 +174,7 @@ const QUANTITIES: [(Quantity, &str, &str); 14] = [
     (
         Quantity::Reflectance,
         "reflect|reflekt|reflexi|refletâ|réflect|réflexi|riflett|rifless|remission|r-factor|反射率|反射比",
-        "rfr|rpc|rfl",
+        "rfr|rpc|rfl|reflec",
     ),
     (Quantity::Transmittance, "transmit|transmiss|trasmitt|trasmiss|t-factor|透過率|透射", "tfr|tpc"),
     (
@@ -229,6 +229,12 @@ pub(super) fn role_in_prose(text: &str) -> Option<Role> {
     // A luminance is measured of lights.
     let light = key.len() < text.len() && lower(key.trim()) == "luminance";
     if light { Some(Role::Illuminant) } else { role(text).filter(|_| !condition) }
+}
+
+/// Returns whether a line says that the numbers below are coefficients for the calibration of an instrument.
+pub(super) fn says_calibration(text: &str) -> bool {
+    const PHRASES: &str = "calibration file|calibration coef|characterization results|characterisation results";
+    has_part(&lower(text), PHRASES)
 }
 
 /// Returns whether a name is that of a standard illuminant: `D65`, `FL2`, `Illuminant A`. `A`, `E` and `F2` alone are fields of charts too.

@@ -2,7 +2,7 @@
 //! instruments write beside the curve they made of them, and numbers that stand for missing values (−999, 9999, −1.23e34).
 
 use crate::decimal::extent;
-use crate::decision::{Decided, Decision};
+use crate::decision::{Decided, Decision, Values};
 use crate::grid::{Grid, RawCurve, retain};
 use crate::options::ReadOptions;
 use crate::text::is_one;
@@ -16,7 +16,7 @@ pub(super) const FEWEST_ROWS: usize = 3;
 /// Names of what is recorded beside spectra, without their units.
 const NAMES: &str = "temperature|temp|temp.|t_amb|ambient temperature|detector temperature|ccd temperature|temperatur|\
     température|temperatura|time|elapsed time|elapsed|timestamp|time stamp|date|day|hour|zeit|temps|tiempo|integration time|\
-    exposure|exposure time|humidity|relative humidity|rel. humidity|rh|pressure|air pressure|voltage|battery|battery voltage|\
+    exposure|exposure time|humidity|relative humidity|rel. humidity|imgs|bandwidth|fwhm|pressure|air pressure|voltage|battery|battery voltage|\
     altitude|latitude|longitude";
 
 const UNITS: &str = "°c|℃|deg c|degc|°f|℉|° c|celsius|kelvin|seconds|ms|hpa|mbar|kpa|%rh|% rh|rh";
@@ -133,6 +133,7 @@ fn is_processed(curve: &RawCurve) -> bool {
     let lower = curve.label.to_lowercase();
     let said = header_terms::role(&curve.label).is_some()
         || header_terms::says_percent(&lower)
+        || header_terms::values(&curve.label) == Some(Values::Absorbance)
         || lower.starts_with("tgt./ref");
     let measured = lower.contains("count") || is_side(&lower);
     !measured && (said || curve.name.eq_ignore_ascii_case("processed"))
@@ -140,7 +141,7 @@ fn is_processed(curve: &RawCurve) -> bool {
 
 fn is_raw_name(name: &str) -> bool {
     let lower = name.to_lowercase();
-    is_side(&lower) || is_one(&lower, "raw|dark|ref|reference|sample|scope")
+    is_side(&lower) || is_one(&lower, "raw|dark|ref|reference|sample|scope|reference_corrected|sample_corrected")
 }
 
 /// Returns whether a header is that of one side of a ratio, as Spectral Evolution writes: `Norm. DN (Ref.)`, `Rad. (Target)`.

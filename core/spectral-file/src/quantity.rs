@@ -226,7 +226,7 @@ fn unsaid(grid: &Grid, axis: &Decided<WavelengthUnit>) -> Option<Decision> {
 /// A name that does not say photons, or a unit that the values have no longer.
 fn renamed(name: &str) -> String {
     let start = units::parse(name).map_or(name.len(), |unit| unit.start);
-    let bare = name[..start].trim_end_matches(['(', '[', ',', ' ', '/']);
+    let bare = name[..start].trim_end_matches(['(', '[', ',', ' ', '/', '_']);
     if !names_photons(bare) && !bare.is_empty() {
         return bare.to_owned();
     }
@@ -335,7 +335,7 @@ pub(super) fn of_unit(unit: &str) -> Option<Quantity> {
     }
     let lower: String = unit.to_lowercase().chars().filter(|c| !matches!(c, ' ' | '^' | '·' | '*' | '-')).collect();
     let lower = lower.replace("watt", "w").replace('²', "2");
-    let power = has_part(&lower, "w/|w.|wm|wcm|mol/|photons/|j/");
+    let power = has_part(&lower, "w/|w.|wm|wcm|mol/|photons/|j/") && !lower.contains("mol/mol");
     match () {
         () if power => Some(of_light(has_part(&lower, "m2|m²"), lower.contains("sr"))),
         () if is_one(&lower, "w|mw|µw|μw|uw|nw") => Some(Quantity::RadiantFlux),

@@ -259,6 +259,7 @@ impl Sniffer<'_> {
         Ok(Layout {
             thousands,
             texts: run.texts,
+            gaps: run.gaps,
             width: run.filled,
             wavelength_column: self.options.wavelength_column,
             every_column: self.options.raw == Some(true) && self.options.wavelength_column.is_some(),

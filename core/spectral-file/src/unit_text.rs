@@ -50,7 +50,7 @@ pub(super) fn without_unit(name: &str) -> &str {
         Some(bare).filter(|bare| !bare.is_empty())
     });
     let behind_slash = || slashed(name).filter(|(_, unit)| is_quotient(unit)).map(|(bare, _)| bare);
-    ends.map(|bare| bare.trim_end_matches(['/', ' ']))
+    ends.map(|bare| bare.trim_end_matches(['/', ',', ' ']))
         .or_else(|| percent_name(name))
         .or_else(behind_slash)
         .filter(|bare| !bare.is_empty())

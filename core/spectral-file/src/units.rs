@@ -71,7 +71,8 @@ struct Word<'a> {
 pub(super) fn parse(text: &str) -> Option<Unit> {
     const LONGEST: usize = 200;
     const MOST: usize = 24;
-    if text.len() > LONGEST {
+    // An amount of an amount is none of light.
+    if text.len() > LONGEST || text.contains("mol/mol") {
         return None;
     }
     let words: Vec<Word<'_>> = words(text).take(MOST).collect();

@@ -161,6 +161,8 @@ pub enum Warning {
     BrokenTable { line: usize, error: Box<ReadError> },
     #[error("{0}: not where the line before ends: placed by the wavelength at the head of the line")]
     PlacedByAbscissa(LineList),
+    #[error("{0}: up to one step off the wavelength at the head of the line: placed by FIRSTX, LASTX and NPOINTS")]
+    PlacedByEnds(LineList),
     #[error("{0}: fewer values than places before the next line: left out. Which is missing is not known")]
     ShortLines(LineList),
     #[error("line {line}: {label} announces {announced}, but the data give {found}")]
@@ -218,6 +220,7 @@ impl Warning {
             | Self::CommentedRows(lines)
             | Self::RepeatedHeader(lines)
             | Self::PlacedByAbscissa(lines)
+            | Self::PlacedByEnds(lines)
             | Self::ShortLines(lines)
             | Self::Averaged { lines, .. } => lines.first().first().copied(),
             Self::Sorted(line)

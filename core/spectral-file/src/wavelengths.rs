@@ -31,10 +31,11 @@ pub(super) fn unit(grid: &Grid, options: &ReadOptions) -> Result<Decided<Wavelen
 
 /// The unit that a range suggests. If both ångströms and wave numbers fit, only the user knows.
 fn unit_from_range(grid: &Grid) -> Result<Decided<WavelengthUnit>, ReadError> {
-    /// Fewer small numbers in no order, such as the rows of a matrix, are no wavelengths in micrometers.
-    const FEWEST: usize = 4;
-    let listed = &grid.wavelengths;
-    let in_order = listed.len() >= FEWEST || listed.is_sorted() || listed.is_sorted_by(|a, b| a >= b);
+    // Small numbers in no order, or that only count, are no wavelengths in micrometers.
+    let steps = || grid.wavelengths.windows(2);
+    let (rises, falls) = (steps().filter(|w| w[1] > w[0]).count(), steps().filter(|w| w[1] < w[0]).count());
+    let steady = 4 * rises.max(falls) >= 3 * steps().count();
+    let in_order = is_named(grid) || steady && grid.wavelengths.iter().any(|wavelength| wavelength.fract() != 0.0);
     let (min, max) = extent(grid.wavelengths.iter().copied());
     let unit = if min >= 0.1 && max <= 25.0 && in_order {
         WavelengthUnit::Micrometer

@@ -88,12 +88,12 @@ fn names_with_numbers_are_no_bands() {
 fn rows_named_after_channels_make_a_camera() {
     let text = "Name,400,410,420,430,440\nR,.1,.2,.3,.4,.5\nG,.2,.3,.4,.5,.6\nB,.2,.3,.4,.5,.6\n";
     let camera = ok(text);
-    assert_eq!((camera.role.value, camera.role.certainty), (Role::Camera, Certainty::Certain));
+    assert_eq!((camera.role.value, camera.role.certainty), (Role::Camera, Certainty::Guess));
     assert_eq!(camera.reading.camera_columns, Some([0, 1, 2]));
     let leaves = ok("nm,leaf r,leaf g,leaf b\n400,.1,.2,.3\n410,.2,.3,.4\n420,.3,.4,.5\n");
     assert_eq!(leaves.role.certainty, Certainty::Guess);
     let units = ok("nm,R (a.u.),G (a.u.),B (a.u.)\n400,.1,.2,.3\n410,.2,.3,.4\n420,.3,.4,.5\n");
-    assert_eq!((units.role.value, units.role.certainty), (Role::Camera, Certainty::Certain));
+    assert_eq!((units.role.value, units.role.certainty), (Role::Camera, Certainty::Guess));
 }
 
 #[test]

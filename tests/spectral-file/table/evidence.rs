@@ -30,7 +30,10 @@ fn names_of_files_and_folders_are_a_reason_for_a_guess() {
     use Role as Is;
     for (path, role) in [
         ("filters/Lee_239.csv", Is::Transmittance),
-        ("filters/Lee/239.csv", Is::Transmittance),
+        ("filters/239.csv", Is::Transmittance),
+        ("lamps/albedo.dat", Is::Reflectance),
+        ("SoT/Lamp_Black_reflectance.txt", Is::Reflectance),
+        ("CCD efficiency.txt", Is::Camera),
         (r"C:\data\illum\brendel.csv", Is::Illuminant),
         ("CIE_illum_FLs.csv", Is::Illuminant),
         ("x/warmLED5000.csv", Is::Illuminant),
@@ -44,8 +47,18 @@ fn names_of_files_and_folders_are_a_reason_for_a_guess() {
         assert_eq!((table.role.value, table.role.certainty), (role, Certainty::Guess), "{path}");
         assert!(table.role.why.contains("is named “"), "{path}: {}", table.role.why);
     }
-    for path in ["leaf.csv", "filtered/../oak.csv", "filters/a/b/c.csv", "compiled.csv", "led_filter.csv", "", "/", "."]
-    {
+    for path in [
+        "leaf.csv",
+        "filtered/../oak.csv",
+        "filters/a/c.csv",
+        "spds/Ag.k.spd",
+        "spds/Ag.eta.spd",
+        "compiled.csv",
+        "led_filter.csv",
+        "",
+        "/",
+        ".",
+    ] {
         assert_eq!(at(path, BARE).role.certainty, Certainty::Open, "{path}");
     }
     let said = at("filters/lamp.csv", "nm,Reflectance\n400,0.1\n500,0.2\n").role;

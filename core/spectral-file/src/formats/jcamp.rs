@@ -31,7 +31,11 @@ pub(super) fn recognize(start: &str) -> bool {
 /// Reads the processed spectrum, or all spectra if none is a raw one beside it.
 fn read(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Result<Found, ReadError> {
     let mut blocks = blocks(text, log)?;
+    let foreign = blocks.iter().find_map(|block| block.foreign.clone());
     blocks.retain(|block| !block.samples.is_empty());
+    if let Some((line, kind)) = foreign.filter(|_| blocks.is_empty()) {
+        return Err(ReadError::NotLight { line, kind: excerpt(&kind) });
+    }
     let parts: Vec<Part> = blocks.iter().take(MAX_PARTS).map(Block::part).collect();
     let mut notes = Vec::new();
     let ratio = block::settle(&mut blocks, options, log);
@@ -129,7 +133,7 @@ fn blocks(text: &str, log: &mut Log<'_>) -> Result<Vec<Block>, ReadError> {
             }
             continue;
         }
-        if let Some(block) = all.last_mut().filter(|block| block.form.is_some()) {
+        if let Some(block) = all.last_mut().filter(|block| block.form.is_some() && block.foreign.is_none()) {
             let before = block.samples.len() + block.ordinates.len();
             block.data(number, line, log)?;
             total += block.samples.len() + block.ordinates.len() - before;

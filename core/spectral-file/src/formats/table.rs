@@ -7,7 +7,7 @@ use crate::formats::Format;
 use crate::formats::spectra::Found;
 use crate::grid::Grid;
 use crate::options::ReadOptions;
-use crate::text::Section;
+use crate::text::{Section, comment};
 use crate::warning::Warning;
 use crate::watch::Log;
 use crate::{columns, instrument, no_curve, sniff, wide};
@@ -56,7 +56,8 @@ fn read(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Result<Found, R
             taken = Some((layout, read));
             break;
         }
-        let name = read.grid.header.comment("title").unwrap_or_default().to_owned();
+        let head = || columns::table_head(section, &layout).and_then(comment);
+        let name = read.grid.header.comment("title").or_else(head).unwrap_or_default().to_owned();
         let (curves, rows) = (read.grid.curves.len(), read.grid.rows);
         parts.push(Part { line: layout.first_line, name, curves, rows });
         if parts.len() == wanted {

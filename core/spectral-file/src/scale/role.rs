@@ -18,8 +18,9 @@ pub(super) fn said(grid: &Grid, chosen: Option<Values>) -> Option<Decided<Role>>
 
 /// Role that the format, the header, the names of columns or a setting state.
 fn stated(grid: &Grid) -> Option<Decided<Role>> {
-    if let Some(role) = grid.role.as_ref().filter(|role| role.certainty == Certainty::Certain) {
-        return Some(role.clone());
+    let of_format = || grid.role.clone().filter(|role| role.certainty == Certainty::Certain);
+    if let Some(role) = several(grid).or_else(of_format) {
+        return Some(role);
     }
     if let Some((line, role)) = grid.header.role {
         return Some(Decided::certain(role, format!("Line {line} says so")));
@@ -30,7 +31,9 @@ fn stated(grid: &Grid) -> Option<Decided<Role>> {
     let names: Vec<&str> = grid.curves.iter().take(MOST_CHANNELS + 1).map(|curve| curve.name.as_str()).collect();
     let channels = channels(&names).map(|(_, letters)| {
         let why = format!("The curves are named {}", names.join(", "));
-        if letters { Decided::certain(Role::Camera, why) } else { Decided::guess(Role::Camera, why) }
+        // Primaries of displays are called R, G and B too.
+        let said = letters && !names.iter().any(|name| name.eq_ignore_ascii_case("r"));
+        if said { Decided::certain(Role::Camera, why) } else { Decided::guess(Role::Camera, why) }
     });
     if let Some(mixed) = mixed(grid) {
         return Some(mixed);
@@ -55,8 +58,26 @@ fn other_than_camera(grid: &Grid) -> Option<Decided<Role>> {
     if let Some(found) = found {
         return Some(found).filter(|found| other(found.value));
     }
-    let (line, role) = grid.header.mentioned.filter(|(_, role)| other(*role))?;
-    Some(Decided::guess(role, format!("Line {line} mentions it, whatever the names of the columns")))
+    if let Some((line, role)) = grid.header.mentioned.filter(|(_, role)| other(*role)) {
+        return Some(Decided::guess(role, format!("Line {line} mentions it, whatever the names of the columns")));
+    }
+    grid.beside.clone().filter(|beside| beside.value == Role::Illuminant)
+}
+
+/// Columns that each name a quantity, of lights beside sensitivities or fractions of light: only the user knows which are meant.
+fn several(grid: &Grid) -> Option<Decided<Role>> {
+    if grid.header.role.is_some() {
+        return None;
+    }
+    let role = |curve: &RawCurve| {
+        let unit = || quantity::of_unit(curve.unit.as_deref()?)?.role();
+        header_terms::role(&curve.label).or_else(unit)
+    };
+    let roles: Vec<Role> = grid.curves.iter().filter_map(role).collect();
+    let kind = |role: Role| if role.is_fraction() { Role::Reflectance } else { role };
+    let other = roles.iter().position(|other| kind(*other) != kind(roles[0]))?;
+    let why = format!("The columns hold several quantities, {} beside {}", roles[0], roles[other]);
+    (roles.len() > 2 && 2 * roles.len() > grid.curves.len()).then(|| Decided::open(Role::Unknown, why))
 }
 
 /// Columns named A beside R or T: absorbances or absorptances beside reflectances and transmittances.
@@ -250,10 +271,6 @@ pub(super) fn suggested(grid: &Grid, evidence: &Evidence) -> Decided<Role> {
     if let Some(beside) = &grid.beside {
         return beside.clone();
     }
-    if bells(grid).is_some() {
-        let why = "Three bells, one in each third of the visible range: a camera, or three lights or filters";
-        return Decided::open(Role::Unknown, why);
-    }
     let (min, max) = evidence.range();
     let reflectances = if min >= -0.2 && max <= 1.2 { "reflectances" } else { "reflectances in percent" };
     let why =
@@ -341,25 +358,4 @@ fn by_peak(curves: &[Curve]) -> Option<[usize; 3]> {
 fn peak(wavelengths: &[f64], values: &[f64]) -> (f64, f64) {
     let start = (f64::NAN, f64::NEG_INFINITY);
     wavelengths.iter().zip(values).fold(start, |best, (&w, &value)| if value > best.1 { (w, value) } else { best })
-}
-
-/// Returns whether exactly three curves look like the channels of a camera: small at both ends, with peaks in order.
-fn bells(grid: &Grid) -> Option<()> {
-    const ENDS: f64 = 0.3;
-    const PEAKS_NM: [std::ops::RangeInclusive<f64>; 3] = [410.0..=500.0, 500.0..=580.0, 570.0..=680.0];
-    if grid.curves.len() != 3 || grid.wavelengths.len() < 8 {
-        return None;
-    }
-    let mut peaks = Vec::with_capacity(3);
-    for curve in &grid.curves {
-        let (at, max) = peak(&grid.wavelengths, &curve.values);
-        let ends = [curve.values.first()?, curve.values.last()?];
-        if max <= 0.0 || ends.iter().any(|&&end| end.is_nan() || end > ENDS * max) {
-            return None;
-        }
-        peaks.push(at);
-    }
-    peaks.sort_by(f64::total_cmp);
-    let in_place = peaks.iter().zip(&PEAKS_NM).all(|(peak, range)| range.contains(peak));
-    (in_place && peaks[1] - peaks[0] > 20.0 && peaks[2] - peaks[1] > 20.0).then_some(())
 }

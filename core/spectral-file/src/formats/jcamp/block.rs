@@ -9,7 +9,7 @@ use crate::formats::spectra::{Sample, Spectrum};
 use crate::header::Header;
 use crate::header_terms::{self, XUnit};
 use crate::options::ReadOptions;
-use crate::text::excerpt;
+use crate::text::{excerpt, has_part};
 use crate::warning::Warning;
 use crate::watch::{Log, PlaceId};
 
@@ -37,6 +37,8 @@ pub(super) struct Block {
     pub(super) records: Vec<(usize, String, String)>,
     pub(super) x_units: (usize, String),
     pub(super) y_units: (usize, String),
+    /// The line that says that this is no spectrum of light, and how it calls it. The data are passed over.
+    pub(super) foreign: Option<(usize, String)>,
     pub(super) points: (usize, Option<usize>),
     /// Numbers that the header announces, by label, with their lines.
     pub(super) announced: Vec<(&'static str, usize, Written)>,
@@ -64,10 +66,24 @@ pub(super) fn label(written: &str) -> String {
     written.chars().filter(char::is_ascii_alphanumeric).map(|c| c.to_ascii_uppercase()).take(64).collect()
 }
 
+/// Returns whether a data type, as a label, is of no light. Raman shifts are differences of wave numbers.
+fn is_foreign(kind: &str) -> bool {
+    const KINDS: &str = "NMR|MASS|MOBILITY|RAMAN|XRAY|XPS|EPR|NEUTRON|TGA|ISOTHERM|VOLTAMM|TITRATION|CHROMATOGRAM";
+    has_part(kind, KINDS)
+}
+
+/// Returns whether units are stated, but none of wavelengths or what can be converted to them.
+fn is_foreign_unit(units: &str) -> bool {
+    let light = matches!(header_terms::x_unit(units), Some(XUnit::Wavelength(_)));
+    !units.is_empty() && !light && !header_terms::names_wavelengths(units)
+}
+
 impl Block {
     pub(super) fn record(&mut self, line: usize, key: &str, value: &str) {
         const MAX_RECORDS: usize = 1000;
         self.form = None;
+        let foreign = key == "DATATYPE" && is_foreign(&label(value)) || key == "XUNITS" && is_foreign_unit(value);
+        self.foreign = self.foreign.take().or_else(|| foreign.then(|| (line, value.to_owned())));
         match key {
             "TITLE" => value.clone_into(&mut self.title),
             "XUNITS" => self.x_units = (line, value.to_owned()),

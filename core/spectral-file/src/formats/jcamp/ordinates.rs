@@ -143,7 +143,27 @@ impl Data<'_> {
             return Ok(placed);
         }
         let error = error.unwrap_or(ReadError::NoWavelengths(line));
-        self.points(axis).ok_or(error)
+        self.points(axis).or_else(|| self.by_ends(axis)).ok_or(error)
+    }
+
+    /// The ordinates in equal steps between the ends of the header, where their number is the announced one and the heads of lines
+    /// are those of the values there or of the neighbors, as far as all are rounded.
+    fn by_ends(&self, axis: &Axis) -> Option<Placed> {
+        let (last, points) = (axis.last?, axis.points.filter(|points| *points == self.ordinates.len())?);
+        let step = (last.value - axis.first.value) / points.saturating_sub(1) as f64;
+        let grid = Grid { axis, step, digits: Digits::Loose };
+        let off = |row: &Row| (row.head.value * axis.factor - grid.abscissa(row.from as f64)).abs();
+        let digits = |row: &Row| row.head.digit * axis.factor.abs() + axis.first.digit + last.digit;
+        let near = |row: &Row| off(row).min((off(row) - step.abs()).abs()) <= digits(row);
+        if self.rows.len() < 2 || !self.rows.iter().all(near) {
+            return None;
+        }
+        let moved: LineList = self.rows.iter().filter(|row| off(row) > digits(row)).map(|row| row.line).collect();
+        let head = |row: &Row| Written { value: grid.abscissa(row.from as f64) / axis.factor, ..row.head };
+        let rows: Vec<Row> = self.rows.iter().map(|row| Row { head: head(row), ..*row }).collect();
+        let mut placed = grid.place(&Data { rows: &rows, ordinates: self.ordinates }).ok()?;
+        placed.warnings.extend((!moved.is_empty()).then_some(Warning::PlacedByEnds(moved)));
+        Some(placed)
     }
 
     /// The ordinates where all lines and both ends agree with their number, and only the announced number does not.
