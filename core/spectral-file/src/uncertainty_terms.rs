@@ -35,7 +35,7 @@ pub(super) struct Term {
 }
 
 /// Words for uncertainties with their kind, and whether they mean nothing else.
-const WORDS: [(Kind, bool, &str); 10] = [
+const WORDS: [(Kind, bool, &str); 11] = [
     (
         Kind::Deviation,
         true,
@@ -67,6 +67,7 @@ const WORDS: [(Kind, bool, &str); 10] = [
          不確かさ|不确定度",
     ),
     (Kind::Unsaid, false, "unc|err|error|errors|error bar|±"),
+    (Kind::Standard, true, "urel|u rel"),
     // By the letters of the GUM, U is expanded.
     (Kind::Standard, false, "u|uc|u c"),
     (Kind::Error, false, "mean se|mean sem"),
@@ -82,7 +83,7 @@ pub(super) fn term(name: &str, label: &str) -> Option<Term> {
     }
     let text = lower(label);
     let level = level(&text);
-    let symbol = name.split(|c: char| !c.is_alphanumeric()).any(|word| matches!(word, "U" | "U95"));
+    let symbol = name.split(|c: char| !c.is_alphanumeric()).any(|word| matches!(word, "U" | "U95" | "Urel"));
     let words = key(name);
     let padded = format!(" {words} ");
     let found = WORDS.iter().flat_map(|(kind, clear, list)| list.split('|').map(|word| (*kind, *clear, word)));
@@ -91,19 +92,24 @@ pub(super) fn term(name: &str, label: &str) -> Option<Term> {
     let (before, after) = padded.split_once(&format!(" {word} "))?;
     let is_relative = |word: &str| is_one(word, "relative|rel|fractional|percent|percentage");
     let mut before: Vec<&str> = before.split_whitespace().collect();
-    let mut relative = word == "rsd";
+    // A deviation divided by the mean.
+    let quotient = || text.split_once('/').is_some_and(|(_, mean)| is_one(mean.trim(), MEAN));
+    let mut relative = is_one(word, "rsd|urel|u rel") || quotient();
     while let Some(last) = before.last().filter(|word| is_relative(word) || is_one(word, BESIDE)) {
         relative |= is_relative(last);
         before.pop();
     }
-    let after: Vec<&str> = after.split_whitespace().skip_while(|word| is_one(word, BESIDE)).collect();
+    let (beside, after): (Vec<&str>, Vec<&str>) =
+        after.split_whitespace().partition(|word| is_one(word, BESIDE) || is_relative(word));
+    relative |= beside.into_iter().any(is_relative);
     // Words on both sides are a sentence.
     if !before.is_empty() && !after.is_empty() {
         return None;
     }
-    let kind = if kind == Kind::Standard && symbol && word == "u" { Kind::Expanded } else { kind };
+    let kind = if kind == Kind::Standard && symbol && is_one(word, "u|urel") { Kind::Expanded } else { kind };
     let of = without_mean(&[before, after].concat().join(" "));
     let percent = header_terms::says_percent(&without_level(&text));
+    let clear = clear || percent && kind == Kind::Unsaid;
     Some(Term { kind, clear, of, coverage: coverage(&text), level, relative, percent })
 }
 
@@ -115,7 +121,7 @@ fn may_name(name: &str) -> bool {
         matches!((a, b), (b's', b'd' | b't' | b'e' | b'i' | b'.' | b' ' | b'_') | (b'e', b'r') | (b'u', b'n'))
             || pair[0].eq_ignore_ascii_case(&b'u') && !pair[1].is_ascii_alphabetic()
             || matches!(pair, [b'u', b'A'..=b'Z'])
-            || matches!((a, b), (b'u', b'c' | b'.') | (b'/', b'-'))
+            || matches!((a, b), (b'u', b'c' | b'r' | b'.') | (b'/', b'-'))
     };
     name.len() <= LONGEST
         && (name.eq_ignore_ascii_case("u")
@@ -141,13 +147,14 @@ pub(super) fn key(name: &str) -> String {
         }
     }
     let mut words: Vec<&str> = text.split_whitespace().collect();
-    // `k = 2` and its decimals, or `2 σ`.
+    // `k = 2` and its decimals, `2 σ`, or `one sigma uncertainty`.
     if let Some(at) = words.windows(2).position(|pair| is_one(pair[0], "k|factor") && pair[1] == "=") {
         let figures = words[at + 2..].iter().take_while(|word| word.bytes().all(|b| b.is_ascii_digit())).count();
         words.drain(at..at + 2 + figures);
     }
-    if let Some(at) = words.windows(2).position(|pair| is_one(pair[1], "σ|sigma") && is_one(pair[0], "1|2|3")) {
-        words.remove(at);
+    if let Some(at) = words.windows(2).position(|pair| is_one(pair[1], "σ|sigma") && is_one(pair[0], SIGMAS)) {
+        let told = words.get(at + 2).is_some_and(|word| is_one(word, "uncertainty|uncertainties|unc|error"));
+        words.drain(at..=at + usize::from(told));
     }
     words.retain(|word| *word != "=");
     words.join(" ")
@@ -159,12 +166,14 @@ pub(super) fn without_mean(key: &str) -> String {
     words.collect::<Vec<_>>().join(" ")
 }
 
-const MEAN: &str = "mean|avg|average|median|averaged|mittelwert|moyenne|media";
+const MEAN: &str = "mean|avg|ave|average|median|averaged|mittelwert|moyenne|media";
 
 /// Returns whether words of a curve's name say that it is the mean of others.
 pub(super) fn names_mean(key: &str) -> bool {
     key.split(' ').any(|word| is_one(word, MEAN))
 }
+
+const SIGMAS: &str = "1|2|3|one|two|three";
 
 /// The coverage factor k in a text in lower case: `k=2`, `k = 1.96`, `coverage factor: 2`, `2σ`.
 pub(super) fn coverage(lower: &str) -> Option<f64> {
@@ -189,9 +198,9 @@ pub(super) fn coverage(lower: &str) -> Option<f64> {
     let sigmas = || {
         let at = lower.find('σ').or_else(|| lower.find("sigma"))?;
         let before = lower[..at].trim_end_matches([' ', '-']);
-        let digit = before.chars().next_back()?.to_digit(10)?;
-        let alone = !before[..before.len() - 1].ends_with(char::is_alphanumeric);
-        Some(f64::from(digit)).filter(|_| alone)
+        let word = before.rsplit(|c: char| !c.is_alphanumeric()).next()?;
+        let place = SIGMAS.split('|').position(|sigmas| sigmas == word)?;
+        Some((place % 3 + 1) as f64)
     };
     letter().or_else(named).or_else(sigmas).filter(|k| (0.5..=10.0).contains(k))
 }
