@@ -96,7 +96,11 @@ pub(super) fn read(section: Section<'_>, layout: &Layout) -> Header {
         if line.trim().is_empty() {
             continue;
         }
-        let body = comment(line);
+        if let Some((key, cells)) = listed_fields(line) {
+            header.take_fields(number, key, cells, layout);
+            continue;
+        }
+        let body = comment(line).or_else(|| marked(line));
         let line = body.map_or_else(|| whole(section, line, layout.dialect(), &mut lines), |_| line);
         if let Some((key, value)) = body.and_then(|body| body.split_once(':')) {
             header.take_comment(number, key.trim(), value.trim());
@@ -109,7 +113,9 @@ pub(super) fn read(section: Section<'_>, layout: &Layout) -> Header {
         }
     }
     if layout.orientation.value == Orientation::Down {
-        header.take_names(&near, layout, &|| has_row_names(section, layout));
+        if header.names.is_empty() {
+            header.take_names(&near, layout, &|| has_row_names(section, layout));
+        }
         take_heads(&mut header);
     }
     header
@@ -219,14 +225,18 @@ impl Header {
     fn take_names(&mut self, near: &[(usize, &str)], layout: &Layout, row_names: &dyn Fn() -> bool) {
         let mut rows = near.iter().rev();
         while let Some(&(number, line)) = rows.next() {
-            let is_comment = comment(line).is_some();
-            let mut cells = split(layout.dialect(), comment(line).unwrap_or(line));
-            if let Some(names) = by_blanks(layout, line).filter(|_| cells.len() != layout.width && !is_comment) {
+            let body = comment(line).or_else(|| marked(line));
+            let (is_comment, line) = (body.is_some(), body.unwrap_or(line));
+            let mut cells = split(layout.dialect(), line);
+            if cells.len() != layout.width
+                && let Some(names) = split_otherwise(layout, line, is_comment)
+            {
                 cells = names;
             }
             // A rule, or the key of a section such as `[LAMPDATA]`, between names and numbers.
             let key = |cell: &String| cell.starts_with('[') && cell.ends_with(']') && !is_unit(cell);
-            let rule = cells.len() > 1 && cells.iter().all(|cell| cell.bytes().all(|byte| matches!(byte, b'-' | b':')));
+            let rule = cells.len() > 1
+                && cells.iter().all(|cell| cell.bytes().all(|byte| matches!(byte, b'-' | b'_' | b'=' | b':')));
             if rule || cells.len() == 1 && key(&cells[0]) {
                 continue;
             }
@@ -302,8 +312,10 @@ impl Header {
             names.map(|(column, _)| column).collect::<Vec<_>>()
         };
         let (axes, values) = (columns(true), columns(false));
-        if axes.is_empty() || values.is_empty() || !values.iter().all(|&column| says_only_measure(&self.names[column]))
-        {
+        // Neither does one name of all.
+        let alike = values.len() > 1 && values.iter().all(|&column| self.names[column] == self.names[values[0]]);
+        let measure = |column: &usize| alike || says_only_measure(&self.names[*column]);
+        if axes.is_empty() || values.is_empty() || !values.iter().all(measure) {
             return;
         }
         let cells = split(layout.dialect(), line);
@@ -351,6 +363,19 @@ impl Header {
         }
     }
 
+    /// Takes the names or the units of all columns from a line of `SeaBASS`.
+    fn take_fields(&mut self, number: usize, key: &str, cells: Vec<String>, layout: &Layout) {
+        if cells.len() != layout.width || layout.orientation.value != Orientation::Down {
+            return;
+        }
+        if key == "fields" {
+            (self.names, self.line) = (cells, Some(number));
+        } else {
+            self.take_unit_cell(number, &cells, layout);
+            (self.units, self.units_line) = (cells, Some(number));
+        }
+    }
+
     fn take_unit_cell(&mut self, number: usize, cells: &[String], layout: &Layout) {
         let chosen = layout.wavelength_column.map(|column| column.saturating_sub(1));
         let column = chosen.or_else(|| header_terms::axis(cells)).unwrap_or(0);
@@ -360,11 +385,36 @@ impl Header {
     }
 }
 
-/// Names that blanks separate, above numbers that other signs do.
-fn by_blanks(layout: &Layout, line: &str) -> Option<Vec<String>> {
-    let names: Vec<String> = line.split_whitespace().take(layout.width + 1).map(str::to_owned).collect();
-    let wanted = layout.delimiter.value == Delimiter::Tab && names.len() == layout.width && layout.width > 1;
-    (wanted && header_terms::names_axis(&names[0])).then_some(names)
+/// Names that other signs separate than the numbers below: tabs, commas or wide gaps above columns between blanks or in a comment, and
+/// single blanks above columns between tabs.
+fn split_otherwise(layout: &Layout, line: &str, is_comment: bool) -> Option<Vec<String>> {
+    let wanted = |names: &Vec<String>| {
+        let worded = names.iter().all(|name| name.contains(char::is_alphabetic));
+        worded && names.len() == layout.width && layout.width > 1 && header_terms::names_axis(&names[0])
+    };
+    let names = |cells: &mut dyn Iterator<Item = &str>| -> Vec<String> {
+        cells.take(layout.width + 1).map(|cell| cell.trim().to_owned()).collect()
+    };
+    if is_comment || layout.delimiter.value == Delimiter::Spaces {
+        let signs = ["\t", ",", ";"].iter().map(|sign| names(&mut line.split(sign)));
+        let wide = names(&mut line.split("  ").filter(|cell| !cell.trim().is_empty()));
+        return signs.chain([wide]).find(wanted);
+    }
+    let single = || names(&mut line.split_whitespace());
+    (layout.delimiter.value == Delimiter::Tab).then(single).filter(wanted)
+}
+
+/// What a line such as `/fields=wavelength,Es` lists, with its key: names or units.
+fn listed_fields(line: &str) -> Option<(&str, Vec<String>)> {
+    let (key, list) = line.trim_start().strip_prefix('/')?.split_once('=')?;
+    is_one(key, "fields|units").then(|| (key, list.split(',').map(|cell| cell.trim().to_owned()).collect()))
+}
+
+/// The names behind a sign of a comment that no blank follows: `%Wavelength, leaf`.
+fn marked(line: &str) -> Option<&str> {
+    const WORD: &str = "wavelength";
+    let rest = line.trim_start().strip_prefix('%')?;
+    rest.get(..WORD.len()).filter(|start| start.eq_ignore_ascii_case(WORD)).map(|_| rest)
 }
 
 /// Returns whether the first rows begin with a name or with their number, as R writes.
