@@ -292,7 +292,7 @@ fn roles() {
         text
     };
     for (text, role, certainty) in [
-        ("nm,R,G,B\n400,1,2,3\n500,2,3,4\n".to_owned(), Is::Camera, Sure::Certain),
+        ("nm,R,G,B\n400,1,2,3\n500,2,3,4\n".to_owned(), Is::Camera, Sure::Guess),
         ("nm,red,green,blue\n400,1,2,3\n500,2,3,4\n".to_owned(), Is::Camera, Sure::Guess),
         ("nm,x,y,z\n400,1,2,3\n500,2,3,4\n".to_owned(), Is::Camera, Sure::Certain),
         (bells([600.0, 540.0, 450.0]), Is::Unknown, Sure::Open),

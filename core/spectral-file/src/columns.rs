@@ -38,7 +38,7 @@ pub(super) fn read(section: Section<'_>, layout: &Layout, log: &mut Log<'_>) -> 
         read += line.len() + 1;
         log.work(line.len() + 1, read)?;
         if comment(line).is_some() {
-            let again = head.is_some_and(|head| head != line && without_digits(head) == without_digits(line));
+            let again = head.is_some_and(|head| head != line && without_last_word(head) == without_last_word(line));
             if !again && columns.is_marked_row(line) {
                 commented.add(number);
             } else {
@@ -79,11 +79,11 @@ pub(super) fn table_head<'a>(section: Section<'a>, layout: &Layout) -> Option<&'
     const ONE_OF: &str = "band|channel|filter|sample|spectrum|curve|table";
     let above = Lines::of(section).take_while(|(number, _)| *number < layout.first_line);
     let mut comments = above.filter(|(_, line)| comment(line).is_some());
-    comments.find(|(_, line)| has_word(&lower(line), ONE_OF)).map(|(_, line)| line)
+    comments.find(|(_, line)| has_word(&lower(without_last_word(line)), ONE_OF)).map(|(_, line)| line)
 }
 
-fn without_digits(text: &str) -> String {
-    text.chars().filter(|c| !c.is_ascii_digit()).collect()
+fn without_last_word(text: &str) -> &str {
+    text.trim_end().rsplit_once([' ', '\t']).map_or("", |(before, _)| before)
 }
 
 struct Broken {
@@ -114,7 +114,7 @@ struct Columns {
     label_unit: Option<WavelengthUnit>,
     broken: Option<Broken>,
     repeated_headers: LineList,
-    /// True if a comment since the last row is the head of the table but for its number; `None` without a comment.
+    /// True if a comment since the last row is the head of the table but for its last word; `None` without a comment.
     comment: Option<bool>,
     /// The line after the last row, once another table is seen.
     next: Option<usize>,

@@ -163,6 +163,8 @@ impl<'a> Document<'a> {
         let mut grid = spectra::grid(spectra, header, log)?;
         if names == ["power"] {
             grid.role = Some(Decided::certain(Role::Illuminant, format!("{} as its only value", self.says("power"))));
+        } else if names == ["R", "G", "B"] {
+            grid.role = Some(Decided::certain(Role::Camera, "By channels, rawtoaces holds sensitivities of cameras"));
         }
         let part = Decided::certain(part, format!("{} groups of data, of which “main” comes first", parts.len()));
         (grid.parts, grid.part) = (parts, Some(part));
