@@ -2,7 +2,7 @@
 //! instruments write beside the curve they made of them, and numbers that stand for missing values (−999, 9999, −1.23e34).
 
 use crate::decimal::extent;
-use crate::decision::{Decided, Decision, Quantity, Values};
+use crate::decision::{Decided, Decision, Values};
 use crate::grid::{Grid, RawCurve, retain};
 use crate::options::ReadOptions;
 use crate::text::is_one;
@@ -120,16 +120,17 @@ fn raw_marks(curves: &[RawCurve]) -> Option<Vec<bool>> {
     let letters = curves.iter().all(|curve| curve.name == "P" || LETTERS.contains(&curve.name.as_str()));
     let jaz = letters && curves.len() >= 2 && curves.iter().any(|curve| curve.name == "P");
     let processed = curves.iter().any(is_processed);
-    let measure =
-        |curve: &RawCurve| header_terms::quantity(&curve.label).filter(|_| header_terms::is_quantity(&curve.name));
-    let reflected = curves.iter().any(|curve| measure(curve) == Some(Quantity::Reflectance));
+    let is = |curve: &RawCurve, names: &str| is_one(&curve.name.to_lowercase(), names);
+    let reflected = curves.iter().any(|curve| is(curve, "reflectance"));
     let raw = |curve: &RawCurve| {
-        // Light that came from the sample, beside its reflectance.
-        if reflected && matches!(measure(curve), Some(Quantity::Radiance | Quantity::Irradiance)) {
-            return true;
-        }
         let counts = curve.label.to_lowercase().contains("count");
-        if jaz { curve.name != "P" } else { processed && !is_processed(curve) && (counts || is_raw_name(&curve.name)) }
+        // Light that came from the sample is recorded beside its reflectance.
+        let light = reflected && is(curve, "radiance|irradiance");
+        if jaz {
+            curve.name != "P"
+        } else {
+            light || processed && !is_processed(curve) && (counts || is_raw_name(&curve.name))
+        }
     };
     let marks: Vec<bool> = curves.iter().map(raw).collect();
     (marks.contains(&true) && marks.contains(&false)).then_some(marks)
