@@ -1,15 +1,17 @@
-//! Header above the numbers: comments, names of columns, units; and the heads of the columns in the program's own tables, such as
-//! `leaf [reflectance factor in 1]`, so that a table says what it holds without a line above it.
+//! Header above the numbers: comments, names of columns, units.
+
+mod own_heads;
+
+pub(super) use own_heads::{head_tail, quantity_of_light};
 
 use chromascope_text::unguarded;
-use std::fmt::Write as _;
 
 use crate::clues::{self, Clues};
 use crate::decision::{Delimiter, Medium, Orientation, Quantity, Role, Values, WavelengthUnit};
 use crate::dialect::{Cell, Dialect};
 use crate::dialect_trial::Layout;
 use crate::error::MAX_CURVES;
-use crate::header_terms::{self, UNSPECIFIED, XUnit};
+use crate::header_terms::{self, XUnit};
 use crate::text::{Lines, Section, comment, is_one};
 use crate::{uncertainty_terms, unit_text, units};
 
@@ -96,8 +98,7 @@ pub(super) fn read(section: Section<'_>, layout: &Layout) -> Header {
         if line.trim().is_empty() {
             continue;
         }
-        if let Some((key, cells)) = listed_fields(line) {
-            header.take_fields(number, key, cells, layout);
+        if header.take_fields(number, line, layout).is_some() {
             continue;
         }
         let body = comment(line).or_else(|| marked(line));
@@ -116,7 +117,7 @@ pub(super) fn read(section: Section<'_>, layout: &Layout) -> Header {
         if header.names.is_empty() {
             header.take_names(&near, layout, &|| has_row_names(section, layout));
         }
-        take_heads(&mut header);
+        own_heads::take_heads(&mut header);
     }
     header
 }
@@ -228,9 +229,8 @@ impl Header {
             let body = comment(line).or_else(|| marked(line));
             let (is_comment, line) = (body.is_some(), body.unwrap_or(line));
             let mut cells = split(layout.dialect(), line);
-            if cells.len() != layout.width
-                && let Some(names) = split_otherwise(layout, line, is_comment)
-            {
+            let other = cells.len() != layout.width || cells.first().is_some_and(|cell| cell.ends_with(','));
+            if other && let Some(names) = split_otherwise(layout, line, is_comment) {
                 cells = names;
             }
             // A rule, or the key of a section such as `[LAMPDATA]`, between names and numbers.
@@ -363,17 +363,20 @@ impl Header {
         }
     }
 
-    /// Takes the names or the units of all columns from a line of `SeaBASS`.
-    fn take_fields(&mut self, number: usize, key: &str, cells: Vec<String>, layout: &Layout) {
-        if cells.len() != layout.width || layout.orientation.value != Orientation::Down {
-            return;
+    /// Takes names or units of all columns from a line of `SeaBASS`: `/fields=wavelength,Es`.
+    fn take_fields(&mut self, number: usize, line: &str, layout: &Layout) -> Option<()> {
+        let (key, list) = line.trim_start().strip_prefix('/')?.split_once('=')?;
+        let cells: Vec<String> = list.split(',').map(|cell| cell.trim().to_owned()).collect();
+        match key {
+            _ if cells.len() != layout.width => return None,
+            "fields" => (self.names, self.line) = (cells, Some(number)),
+            "units" => {
+                self.take_unit_cell(number, &cells, layout);
+                (self.units, self.units_line) = (cells, Some(number));
+            }
+            _ => return None,
         }
-        if key == "fields" {
-            (self.names, self.line) = (cells, Some(number));
-        } else {
-            self.take_unit_cell(number, &cells, layout);
-            (self.units, self.units_line) = (cells, Some(number));
-        }
+        Some(())
     }
 
     fn take_unit_cell(&mut self, number: usize, cells: &[String], layout: &Layout) {
@@ -388,26 +391,17 @@ impl Header {
 /// Names that other signs separate than the numbers below: tabs, commas or wide gaps above columns between blanks or in a comment, and
 /// single blanks above columns between tabs.
 fn split_otherwise(layout: &Layout, line: &str, is_comment: bool) -> Option<Vec<String>> {
-    let wanted = |names: &Vec<String>| {
-        let worded = names.iter().all(|name| name.contains(char::is_alphabetic));
-        worded && names.len() == layout.width && layout.width > 1 && header_terms::names_axis(&names[0])
+    let (line, signs) = match layout.delimiter.value {
+        delimiter if is_comment || delimiter == Delimiter::Spaces => (line.to_owned(), &["\t", ",", ";", "  "][..]),
+        Delimiter::Tab => (line.replace('\t', " "), &[" "][..]),
+        _ => return None,
     };
-    let names = |cells: &mut dyn Iterator<Item = &str>| -> Vec<String> {
-        cells.take(layout.width + 1).map(|cell| cell.trim().to_owned()).collect()
-    };
-    if is_comment || layout.delimiter.value == Delimiter::Spaces {
-        let signs = ["\t", ",", ";"].iter().map(|sign| names(&mut line.split(sign)));
-        let wide = names(&mut line.split("  ").filter(|cell| !cell.trim().is_empty()));
-        return signs.chain([wide]).find(wanted);
-    }
-    let single = || names(&mut line.split_whitespace());
-    (layout.delimiter.value == Delimiter::Tab).then(single).filter(wanted)
-}
-
-/// What a line such as `/fields=wavelength,Es` lists, with its key: names or units.
-fn listed_fields(line: &str) -> Option<(&str, Vec<String>)> {
-    let (key, list) = line.trim_start().strip_prefix('/')?.split_once('=')?;
-    is_one(key, "fields|units").then(|| (key, list.split(',').map(|cell| cell.trim().to_owned()).collect()))
+    signs.iter().find_map(|sign| {
+        let cells = line.split(sign).map(str::trim).filter(|cell| !cell.is_empty());
+        let names: Vec<String> = cells.take(layout.width + 1).map(str::to_owned).collect();
+        let worded = names.len() > 1 && names.iter().all(|name| name.contains(char::is_alphabetic));
+        (worded && names.len() == layout.width && header_terms::names_axis(&names[0])).then_some(names)
+    })
 }
 
 /// The names behind a sign of a comment that no blank follows: `%Wavelength, leaf`.
@@ -566,66 +560,4 @@ fn looks_like_unit(cell: &str) -> bool {
             || cell.starts_with(['[', '('])
             || (cell.contains(['%', '/']) && !begins_with_figure(cell))
             || is_one(&cell.to_ascii_lowercase(), "a.u.|counts|1|-"))
-}
-
-const QUANTITIES: [(&str, Quantity); 13] = [
-    ("relative spectral sensitivity", Quantity::Sensitivity),
-    ("spectral sensitivity", Quantity::Sensitivity),
-    ("color matching functions", Quantity::Sensitivity),
-    ("reflectance factor", Quantity::Reflectance),
-    ("transmittance", Quantity::Transmittance),
-    ("relative spectral power", Quantity::SpectralPower),
-    ("spectral power", Quantity::SpectralPower),
-    ("spectral irradiance", Quantity::Irradiance),
-    ("spectral radiance", Quantity::Radiance),
-    ("spectral flux", Quantity::RadiantFlux),
-    ("radiant intensity", Quantity::RadiantIntensity),
-    ("counts", Quantity::Counts),
-    (UNSPECIFIED, Quantity::Unknown),
-];
-
-pub(super) fn quantity_of_light(quantity: Quantity) -> &'static str {
-    let mut named = QUANTITIES.iter().filter(|(_, known)| *known == quantity && quantity != Quantity::SpectralPower);
-    named.next().map_or("spectral power", |(name, _)| name)
-}
-
-pub(super) fn head_tail(quantity: &str, per_photon: Option<bool>, unit: Option<&str>) -> String {
-    let mut tail = format!(" [{quantity}");
-    tail.push_str(per_photon.map_or("", |photon| if photon { " per photon" } else { " per energy" }));
-    if let Some(unit) = unit {
-        // Writing to a string cannot fail.
-        let _infallible = write!(tail, " in {unit}");
-    }
-    tail + "]"
-}
-
-/// Takes quantity, scale, unit and response from names that all end alike in such a bracket, and leaves the names.
-fn take_heads(header: &mut Header) {
-    let names = header.names.get(1..).unwrap_or_default();
-    let heads = names.iter().map(|name| name.strip_suffix(']')?.rsplit_once(" ["));
-    let (Some(line), Some(heads)) = (header.line, heads.collect::<Option<Vec<_>>>()) else { return };
-    let Some((_, tail)) = heads.first().copied().filter(|(_, tail)| heads.iter().all(|(_, other)| other == tail))
-    else {
-        return;
-    };
-    let (said, unit) = tail.split_once(" in ").map_or((tail, None), |(said, unit)| (said, Some(unit)));
-    let mut responses = ["per photon", "per energy"].into_iter();
-    let response = responses.find_map(|response| Some((said.strip_suffix(response)?.trim_end(), response)));
-    let name = response.map_or(said, |(name, _)| name);
-    let Some((_, quantity)) = QUANTITIES.iter().find(|(known, _)| *known == name) else { return };
-    let role = quantity.role().unwrap_or(Role::Unknown);
-    // Without a unit nothing says that fractions are no percent: such a bracket is another program's.
-    if role.is_fraction() && unit.is_none() {
-        return;
-    }
-    let bare: Vec<String> = heads.iter().map(|(bare, _)| (*bare).to_owned()).collect();
-    let (unit, response) = (unit.map(str::to_owned), response.map(|(_, response)| response));
-    if let Some(response) = response.filter(|_| header.comment("response").is_none()) {
-        header.note(line, "response", response);
-    }
-    header.values = unit.as_ref().filter(|unit| *unit == "1").map(|_| (line, Values::Plain)).or(header.values);
-    (header.role, header.quantity) = (Some((line, role)), Some((line, *quantity)));
-    header.unit = unit.filter(|unit| unit != "1").or(header.unit.take());
-    header.names.truncate(1);
-    header.names.extend(bare);
 }
