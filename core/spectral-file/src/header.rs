@@ -101,7 +101,7 @@ pub(super) fn read(section: Section<'_>, layout: &Layout) -> Header {
         if header.take_fields(number, line, layout).is_some() {
             continue;
         }
-        let body = comment(line).or_else(|| marked(line));
+        let (line, body) = (unmarked(line), comment(line));
         let line = body.map_or_else(|| whole(section, line, layout.dialect(), &mut lines), |_| line);
         if let Some((key, value)) = body.and_then(|body| body.split_once(':')) {
             header.take_comment(number, key.trim(), value.trim());
@@ -226,8 +226,8 @@ impl Header {
     fn take_names(&mut self, near: &[(usize, &str)], layout: &Layout, row_names: &dyn Fn() -> bool) {
         let mut rows = near.iter().rev();
         while let Some(&(number, line)) = rows.next() {
-            let body = comment(line).or_else(|| marked(line));
-            let (is_comment, line) = (body.is_some(), body.unwrap_or(line));
+            let is_comment = comment(line).is_some();
+            let line = comment(line).unwrap_or(line);
             let mut cells = split(layout.dialect(), line);
             let other = cells.len() != layout.width || cells.first().is_some_and(|cell| cell.ends_with(','));
             if other && let Some(names) = split_otherwise(layout, line, is_comment) {
@@ -404,11 +404,10 @@ fn split_otherwise(layout: &Layout, line: &str, is_comment: bool) -> Option<Vec<
     })
 }
 
-/// The names behind a sign of a comment that no blank follows: `%Wavelength, leaf`.
-fn marked(line: &str) -> Option<&str> {
-    const WORD: &str = "wavelength";
-    let rest = line.trim_start().strip_prefix('%')?;
-    rest.get(..WORD.len()).filter(|start| start.eq_ignore_ascii_case(WORD)).map(|_| rest)
+/// A line of names without the sign of a comment that no blank follows: `%Wavelength, leaf`.
+fn unmarked(line: &str) -> &str {
+    let names = line.trim_start().strip_prefix('%').filter(|names| names.to_lowercase().starts_with("wavelength"));
+    names.unwrap_or(line)
 }
 
 /// Returns whether the first rows begin with a name or with their number, as R writes.

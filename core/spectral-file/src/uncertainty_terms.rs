@@ -78,7 +78,8 @@ const BESIDE: &str = "combined|measurement|total|estimated|spectral|of|in|for|th
 
 /// Uncertainty that the header of a column names, with its name without a unit and its whole label.
 pub(super) fn term(name: &str, label: &str) -> Option<Term> {
-    if !may_name(name) {
+    const LONGEST: usize = 80;
+    if name.len() > LONGEST {
         return None;
     }
     let text = lower(label);
@@ -87,7 +88,8 @@ pub(super) fn term(name: &str, label: &str) -> Option<Term> {
     let words = key(name);
     let padded = format!(" {words} ");
     let found = WORDS.iter().flat_map(|(kind, clear, list)| list.split('|').map(|word| (*kind, *clear, word)));
-    let found = found.filter(|(_, _, word)| padded.contains(&format!(" {word} ")));
+    let whole = |at: usize, word: &str| padded[..at].ends_with(' ') && padded[at + word.len()..].starts_with(' ');
+    let found = found.filter(|(.., word)| padded.match_indices(word).any(|(at, _)| whole(at, word)));
     let (kind, clear, word) = found.max_by_key(|(_, _, word)| word.len())?;
     let (before, after) = padded.split_once(&format!(" {word} "))?;
     let is_relative = |word: &str| is_one(word, "relative|rel|fractional|percent|percentage");
@@ -111,24 +113,6 @@ pub(super) fn term(name: &str, label: &str) -> Option<Term> {
     let percent = header_terms::says_percent(&without_level(&text));
     let clear = clear || percent && kind == Kind::Unsaid;
     Some(Term { kind, clear, of, coverage: coverage(&text), level, relative, percent })
-}
-
-/// A test without memory for names that hold no word for an uncertainty, as most do.
-fn may_name(name: &str) -> bool {
-    const LONGEST: usize = 80;
-    let pair = |pair: &[u8]| {
-        let (a, b) = (pair[0].to_ascii_lowercase(), pair[1].to_ascii_lowercase());
-        matches!((a, b), (b's', b'd' | b't' | b'e' | b'i' | b'.' | b' ' | b'_') | (b'e', b'r') | (b'u', b'n'))
-            || pair[0].eq_ignore_ascii_case(&b'u') && !pair[1].is_ascii_alphabetic()
-            || matches!(pair, [b'u', b'A'..=b'Z'])
-            || matches!((a, b), (b'u', b'c' | b'r' | b'.') | (b'/', b'-'))
-    };
-    name.len() <= LONGEST
-        && (name.eq_ignore_ascii_case("u")
-            || !name.is_ascii()
-            || name.as_bytes().windows(2).any(pair)
-            || name.ends_with(['u', 'U']) && name.len() > 1 && !name[..name.len() - 1].ends_with(char::is_alphabetic)
-            || name.to_ascii_lowercase().contains("incert"))
 }
 
 /// The words of a name in lower case, those joined by capitals or figures apart, without what is said of a coverage factor.

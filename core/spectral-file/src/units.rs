@@ -118,7 +118,7 @@ fn unit(text: &str, words: &[Word<'_>]) -> Option<Unit> {
     let (ten, start) = power_of_ten(text, first.start);
     let size = ergs.map_or(1.0, |(_, size)| size);
     let mut unit = Unit { amount, area: None, steradian: false, time: None, per: Per::None, ten, size, start };
-    let bare = unit.clone();
+    let mut bare = unit.clone();
     if amount == Amount::Energy("W") && ergs.is_some() {
         (unit.area, unit.per) = (Some("m²"), Per::Frequency(1e-12));
     }
@@ -129,12 +129,10 @@ fn unit(text: &str, words: &[Word<'_>]) -> Option<Unit> {
         let lower = word.letters.to_lowercase();
         let known =
             matches!(lower.as_str(), "per" | "photon" | "photons" | "quanta") || unit.take(&lower, word.exponent);
-        // What is divided by one kind of thing twice, such as `ergs/cm^s/s/nm`, is misspelt.
-        if !known && text[..word.start].ends_with(['/', '.', '·', '*']) && bare.clone().take(&lower, word.exponent) {
-            return None;
-        }
         if !known {
-            break;
+            // What is divided by one kind of thing twice, such as `ergs/cm^s/s/nm`, is misspelt.
+            let divided = text[..word.start].ends_with(['/', '.', '·', '*']);
+            return (!(divided && bare.take(&lower, word.exponent))).then_some(unit);
         }
     }
     Some(unit)

@@ -47,9 +47,9 @@ pub(super) fn find(header: &Header, at: usize, wavelengths: &[f64], before: &[Ve
     let mut kinds: Vec<Kind> = columns.iter().enumerate().map(kind).collect();
     axes.guessed = guess_pairs(header, at, wavelengths, columns, &mut kinds);
     // Tables side by side repeat the name of their first column.
-    for (index, column) in columns.iter().enumerate().filter(|(index, _)| header.name(at + 1 + index).is_some()) {
-        let plausible = || ends(column).is_some_and(|(low, high)| units::plausible(low, high, false));
-        if kinds[index] == Kind::Value && header.name(at + 1 + index) == header.name(at) && plausible() {
+    for index in (0..columns.len()).filter(|index| header.name(at + 1 + index).is_some()) {
+        let again = kinds[index] == Kind::Value && header.name(at + 1 + index) == header.name(at);
+        if again && ends(&columns[index]).is_some_and(|(low, high)| units::plausible(low, high, false)) {
             (kinds[index], axes.guessed) = (Kind::Wavelengths, true);
         }
     }
