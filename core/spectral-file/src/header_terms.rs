@@ -73,14 +73,12 @@ fn percent_letter(lower: &str) -> Option<char> {
 
 /// Returns whether a header says decadic absorbance. `Abs. irradiance` is absolute.
 fn says_absorbance(lower: &str) -> bool {
-    const OTHER_WORDS: &str = "length|depth|coefficient|coeff|coef";
-    const OTHERS: [&str; 7] = ["radian", "power", "flux", "energ", "reflect", "transmi", "sensiti"];
+    const OTHERS: &str = "radian|power|flux|energ|reflect|transmi|sensiti";
     let short = || {
         let name = crate::unit_text::without_unit(lower);
         is_one(name, "abs|abs.|od|o.d.|a.u. (abs)") || lower.ends_with("(od)") || lower.ends_with("[od]")
     };
-    let other = || has_word(lower, OTHER_WORDS) || OTHERS.iter().any(|other| lower.contains(other));
-    let abs = || has_word(lower, "abs") && !other();
+    let abs = || has_word(lower, "abs") && !has_part(lower, OTHERS) && !begins(lower, "length|depth|coef");
     let culture = |word: &str| {
         word.strip_prefix("od").is_some_and(|nm| nm.len() == 3 && nm.bytes().all(|digit| digit.is_ascii_digit()))
     };
@@ -434,9 +432,7 @@ pub(super) fn names_wavelengths(text: &str) -> bool {
     let symbol = |symbol| {
         text.match_indices(symbol).any(|(at, _)| !text[..at].ends_with(|c: char| c.is_alphanumeric() || c == '_'))
     };
-    text.contains("wavelength")
-        || text.contains("wavenumber")
-        || text.contains("wave number")
+    has_part(&text, "wavelength|wavenumber|wave number")
         || (text.contains("frequency") && has_word(&text, "thz"))
         || symbol("lambda")
         || symbol("λ")

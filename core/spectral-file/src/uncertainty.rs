@@ -79,6 +79,7 @@ fn settle_uses(grid: &Grid, terms: &mut [Option<Term>]) -> Vec<Use> {
         }
     }
     place_unnamed(curves, &keys, terms, &mut uses);
+    let names = |term: &Term, key: &str| !term.of.is_empty() && uncertainty_terms::without_mean(key) == term.of;
     let fits = |curve: usize, index: usize| !is_too_large(&curves[curve].values, &curves[index].values);
     let mut covered: Vec<bool> = terms.iter().map(Option::is_some).collect();
     for place in &uses {
@@ -122,10 +123,6 @@ fn settle_uses(grid: &Grid, terms: &mut [Option<Term>]) -> Vec<Use> {
     }
     // Nothing is left out for words that may mean something else, where no curve would be left.
     if uses.iter().all(|place| *place != Use::Curve) { vec![Use::Curve; curves.len()] } else { uses }
-}
-
-fn names(term: &Term, key: &str) -> bool {
-    !term.of.is_empty() && uncertainty_terms::without_mean(key) == term.of
 }
 
 /// Returns whether the words about a curve are those of one with a label and words of its own: its quantity, or the figures at its end.
