@@ -40,7 +40,8 @@ impl ChromascopeApp {
             let refused = |error| format!("{} cannot be saved as {}: {error}.", entry.name, form.name());
             let file = spectra::file(&entry, form, &Results::default(), Some(&now())).map_err(refused)?;
             let bytes = FileForm::of_bytes(form.format.ending(), file.text.into_bytes());
-            let forms = vec![FileForm { metadata: file.metadata, ..bytes }];
+            let beside = form.format.is_csv().then_some(file.beside);
+            let forms = vec![FileForm { beside, ..bytes }];
             let note = spectra::notes_in_words(&file.notes);
             Ok(SaveRequest { note, ..SaveRequest::new(what, file.name, forms) })
         });

@@ -253,7 +253,7 @@ impl ChromascopeApp {
         let name = document.session.as_ref().map(|file| crate::format::file_name(&file.path));
         self.session.named = Some(document);
         let name = name.unwrap_or_else(session_name);
-        let forms = vec![FileForm { extension: session::ENDING, make, metadata: None }];
+        let forms = vec![FileForm { extension: session::ENDING, make, beside: None }];
         self.files.ask_to_save(SaveRequest::new(SESSION, name, forms));
     }
 

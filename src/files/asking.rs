@@ -1,12 +1,12 @@
 //! Path requests: in the system's dialog, or in the window where there is none.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use super::Files;
 use super::dialogs::{Answer, Question};
 use super::event::{FileEvent, Note, SavedFile};
 use super::request::{self, FileForm, PathPrompt, SaveRequest};
-use crate::atomic::{metadata_path, write_atomically, write_described};
+use crate::atomic::{files_beside, paths_beside, write_atomically, write_with};
 use crate::document::SessionFile;
 use crate::document::imported::Fingerprint;
 use crate::format::{file_name, io_reason};
@@ -155,8 +155,9 @@ impl Files {
             Ok(target) => target,
             Err(why) => return self.ask_again(prompt.refused(why)),
         };
-        if !path.exists() && form.metadata.is_some() && metadata_path(&path).exists() {
-            let why = format!("{} exists: choose another name.", metadata_path(&path).display());
+        let taken = paths_beside(&path).into_iter().find(|beside| beside.exists());
+        if let Some(taken) = taken.filter(|_| form.beside.is_some() && !path.exists()) {
+            let why = format!("{} exists: choose another name.", taken.display());
             return self.ask_again(prompt.refused(why));
         }
         if path.exists() && prompt.replaces.as_ref() != Some(&path) {
@@ -210,15 +211,19 @@ fn write(path: &Path, form: &FileForm, SaveRequest { what, note, .. }: &SaveRequ
         Ok(bytes) => bytes,
         Err(sentence) => return FileEvent::Failed(sentence),
     };
-    let beside = form.metadata.as_ref().map(|metadata| (metadata_path(path), metadata.text(&file_name(path))));
-    let described = beside.as_ref().map(|(path, text)| (path.as_path(), text.as_bytes()));
-    match write_described(described, |error| error, || write_atomically(path, &bytes)) {
+    let beside = form.beside.as_ref().map_or_else(Vec::new, |beside| files_beside(path, beside).into());
+    let listed = |words: &str, is_there: bool| {
+        let of = |(path, text): &&(PathBuf, Option<String>)| text.is_some() == is_there && (is_there || path.exists());
+        let names: Vec<String> = beside.iter().filter(of).map(|(path, _)| file_name(path)).collect();
+        if names.is_empty() { String::new() } else { format!(", {words} {}", names.join(" and ")) }
+    };
+    let words = listed("described in", true) + &listed("without the former", false);
+    match write_with(&beside, |_, error| error, || write_atomically(path, &bytes)) {
         Ok(()) => {
             let note = if note.is_empty() { String::new() } else { format!(": {note}") };
             let absolute = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
             let file = SessionFile { path: absolute, fingerprint: Fingerprint::of(&bytes) };
-            let beside = beside.map(|(path, _)| format!(", described in {}", file_name(&path))).unwrap_or_default();
-            let message = format!("Saved {}{beside}{note}.", file.path.display());
+            let message = format!("Saved {}{words}{note}.", file.path.display());
             FileEvent::Saved(SavedFile { message, what: what.clone(), file })
         }
         Err(error) => {

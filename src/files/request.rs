@@ -7,7 +7,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use spectral_file::write::Metadata;
+use spectral_file::write::Beside;
 
 use crate::format::io_failure;
 
@@ -127,14 +127,14 @@ pub type MakeBytes = Arc<dyn Fn() -> Result<Vec<u8>, String> + Send + Sync>;
 pub struct FileForm {
     pub extension: &'static str,
     pub make: MakeBytes,
-    /// What is known about the contents, for a file beside it.
-    pub metadata: Option<Metadata>,
+    /// What goes into files beside a table.
+    pub beside: Option<Beside>,
 }
 
 impl FileForm {
     /// A format whose bytes are computed on demand, in the background; the error is a message.
     pub fn new(extension: &'static str, make: impl Fn() -> Result<Vec<u8>, String> + Send + Sync + 'static) -> Self {
-        Self { extension, make: Arc::new(make), metadata: None }
+        Self { extension, make: Arc::new(make), beside: None }
     }
 
     pub fn of_bytes(extension: &'static str, bytes: Vec<u8>) -> Self {

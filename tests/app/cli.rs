@@ -15,6 +15,8 @@ mod presets;
 mod radiance;
 mod reference;
 mod report;
+mod sets;
+mod written;
 
 use std::path::PathBuf;
 use std::process::{Command, Output};

@@ -48,18 +48,44 @@ fn a_folder_is_one_step_and_what_fails_is_named() {
     for (name, text) in [("b.csv", other.as_str()), ("a.csv", LEAF), (".hidden", LEAF), ("c.csv", BROKEN)] {
         fs::write(folder.path().join(name), text).unwrap();
     }
-    fs::create_dir(folder.path().join("within")).unwrap();
+    let deep = folder.path().join("within/and/within");
+    fs::create_dir_all(&deep).unwrap();
+    let further = [("d.csv", LEAF.replace("50,0", "70,0")), ("d.cov.csv", "1,0\n0,1\n".to_owned())];
+    let words = [("README.md", "Measured with care.\n".to_owned()), ("notes.txt", "And again.\n".to_owned())];
+    for (name, text) in further.into_iter().chain(words) {
+        fs::write(deep.join(name), text).unwrap();
+    }
+    fs::write(deep.join("square.obj"), "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n").unwrap();
     let mut window = window();
     open_path(&mut window, folder.path());
     until(&mut window, "a folder", |app| !app.view.status.text.is_empty());
     let names: Vec<String> = own(&window).into_iter().map(|set| set.name).collect();
-    assert_eq!(names, ["a", "b"]);
+    assert_eq!(names, ["a", "b", "d"]);
     let said = window.state().view.status.text.clone();
-    assert!(said.starts_with("1 of 3 files could not be read: c.csv, line 4: no number in column 2"), "{said}");
-    assert!(said.contains("2 files read."), "{said}");
+    assert!(said.starts_with("1 of 4 files could not be read: c.csv, line 4: no number in column 2"), "{said}");
+    assert!(
+        said.contains("3 files read. Not opened: 1 meshes, images or sessions. Skipped: 1 hidden (.hidden)"),
+        "{said}"
+    );
+    assert!(said.contains("1 beside their tables") && said.contains("2 without readable spectra ("), "{said}");
+    assert_eq!(window.state().opened.failing().len(), 1, "texts are not listed as failures");
     window.state_mut().push(Command::Undo);
     window.run();
     assert_eq!(*window.state().history.document(), Document::paper());
+}
+
+#[test]
+fn a_folder_without_spectra_says_what_is_in_it() {
+    let folder = tempfile::tempdir().unwrap();
+    for name in ["README.md", "notes.txt", ".hidden"] {
+        fs::write(folder.path().join(name), "Nothing but words.\n").unwrap();
+    }
+    let mut window = window();
+    open_path(&mut window, folder.path());
+    until(&mut window, "a folder", |app| !app.view.status.text.is_empty());
+    let said = &window.state().view.status.text;
+    let words = "1 hidden (.hidden), 2 without readable spectra (README.md, notes.txt)";
+    assert_eq!(*said, format!("No spectra were found. Skipped: {words}. Nothing was changed."));
 }
 
 #[test]

@@ -6,7 +6,7 @@ use std::fs;
 use chromascope::action::history::History;
 use chromascope::app::ChromascopeApp;
 
-use chromascope::atomic::write_described;
+use chromascope::atomic::write_with;
 use chromascope::catalog::import::{Origin, import_as};
 use chromascope::command::Command;
 use chromascope::document::imported::ImportOverrides;
@@ -122,10 +122,22 @@ fn a_set_and_what_describes_it_go_together() {
         if before.is_none() {
             fs::remove_file(&beside).unwrap();
         }
-        let failed =
-            write_described(Some((&beside, b"new")), |error| error, || Err(std::io::ErrorKind::StorageFull.into()));
+        // Whether the other file is written or removed, it comes back; one that cannot be written ends it before that.
+        let other = folder.path().join("camera.cov.csv");
+        for text in [Some("new".to_owned()), None] {
+            fs::write(&other, "4").unwrap();
+            let files = [(beside.clone(), Some("new".to_owned())), (other.clone(), text)];
+            let failed = write_with(&files, |_, error| error, || Err(std::io::ErrorKind::StorageFull.into()));
+            assert_eq!(failed.map_err(|error| error.kind()), Err(std::io::ErrorKind::StorageFull));
+            assert_eq!(fs::read_to_string(&beside).ok().as_deref(), before);
+            assert_eq!(fs::read_to_string(&other).unwrap(), "4");
+        }
+        let nowhere = (folder.path().join("none/camera.cov.csv"), Some("4".to_owned()));
+        let files = [(beside.clone(), Some("new".to_owned())), nowhere];
+        let failed = write_with(&files, |_, error| error, || panic!("the table of files that cannot be written"));
         assert!(failed.is_err());
         assert_eq!(fs::read_to_string(&beside).ok().as_deref(), before);
+        fs::remove_file(&other).unwrap();
     }
 }
 

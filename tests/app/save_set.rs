@@ -25,7 +25,7 @@ fn own(file: &str, text: &str, role: Role) -> ImportedSet {
 /// A written file as it is opened again, with what is beside it.
 fn reopened(written: &SpectraFile) -> Result<Imported, ReadError> {
     let bytes = written.text.as_bytes();
-    let metadata = written.metadata.as_ref().map(|metadata| metadata.text(&written.name)).unwrap_or_default();
+    let metadata = written.beside.metadata.as_ref().map(|metadata| metadata.text(&written.name)).unwrap_or_default();
     let origin = Origin { metadata: metadata.into_bytes().into(), ..Origin::named(&written.name, bytes) };
     import_as(&origin, bytes, &ImportOverrides::default(), Watch::none())
 }
@@ -68,7 +68,7 @@ fn every_format_reads_back_as_the_same_set() {
             let written = file(&entry, form, &results, None).unwrap_or_else(|e| panic!("{} {form:?}: {e}", entry.name));
             let read =
                 reopened(&written).unwrap_or_else(|error| panic!("{} {form:?}: {error}\n{}", entry.name, written.text));
-            let beside = written.metadata.as_ref().map(|metadata| metadata.text(&written.name));
+            let beside = written.beside.metadata.as_ref().map(|metadata| metadata.text(&written.name));
             if matches!(form.format, Format::Csv | Format::CommentedCsv) {
                 assert_eq!(read.set.role, role, "{} {form:?}", entry.name);
                 assert_eq!(read.set.name, entry.name);
@@ -116,7 +116,7 @@ fn own_sets_keep_all_curves_and_say_how_they_were_read() {
     let read = reopened(&written).unwrap().set;
     assert_eq!((read.role, read.per_photon, read.channels), (Role::Camera, true, camera.channels));
     assert_eq!(read.curves, camera.curves);
-    let beside = written.metadata.unwrap().text("again.csv");
+    let beside = written.beside.metadata.unwrap().text("again.csv");
     assert!(beside.contains("{ \"source\": \"mine.csv\" }") && beside.contains("{ \"reading\": \""), "{beside}");
     let written = file(&entry, form(Format::DcamprofJson, None), &results, None).unwrap();
     assert!(notes_in_words(&written.notes).contains("one curve beside red, green and blue"), "{:?}", written.notes);

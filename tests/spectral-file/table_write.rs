@@ -6,6 +6,7 @@ mod limits;
 mod random;
 mod round_trip;
 mod streamed;
+mod uncertain;
 
 use spectral_file::write::{Content, Format, Grid, Note, Sheet, Trace, Written, write};
 use spectral_file::{ReadOptions, Source, SpectralFile, read};
@@ -30,7 +31,10 @@ impl Curves {
     }
 
     fn traces(&self) -> Vec<Trace<'_>> {
-        self.0.iter().map(|(name, wavelengths_nm, values)| Trace { name, wavelengths_nm, values }).collect()
+        self.0
+            .iter()
+            .map(|(name, wavelengths_nm, values)| Trace { name, wavelengths_nm, values, uncertainty: None })
+            .collect()
     }
 }
 
@@ -54,10 +58,12 @@ fn back(text: &str) -> SpectralFile {
     read(text.as_bytes(), &ReadOptions::default()).unwrap_or_else(|error| panic!("{error}\n{start}"))
 }
 
-/// What is read with the metadata beside it.
+/// What is read with what is beside it.
 fn beside(written: &Written) -> SpectralFile {
-    let metadata = written.metadata.as_ref().map(|metadata| metadata.text("a.csv")).unwrap_or_default();
-    let source = Source { bytes: written.text.as_bytes(), metadata: metadata.as_bytes(), ..Source::default() };
+    let metadata = written.beside.metadata.as_ref().map(|metadata| metadata.text("a.csv")).unwrap_or_default();
+    let covariance = written.beside.covariance.as_deref().unwrap_or_default().as_bytes();
+    let source =
+        Source { bytes: written.text.as_bytes(), metadata: metadata.as_bytes(), covariance, ..Source::default() };
     read(source, &ReadOptions::default()).unwrap_or_else(|error| panic!("{error}\n{}", written.text))
 }
 

@@ -3,7 +3,7 @@
 
 use spectral_file::write::{Content, Format, Grid, Sheet, Trace, write};
 use spectral_file::{
-    DecimalMark, Delimiter, Orientation, ReadError, ReadOptions, Reader, Role, SpectralFile, Values, WavelengthUnit, read,
+    Curve,    DecimalMark, Delimiter, Orientation, ReadError, ReadOptions, Reader, Role, SpectralFile, Values, WavelengthUnit, read,
 };
 use chromascope_core_fuzz::check;
 use libfuzzer_sys::fuzz_target;
@@ -14,7 +14,8 @@ fuzz_target!(|input: &[u8]| {
     let traces: Vec<Trace<'_>> = table.curves.iter().map(Trace::from).collect();
     let title = table.reading.comment("title").unwrap_or_default();
     let comments = &table.reading.header;
-    let sheet = Sheet { title, content: content(&table), curves: &traces, comments, ..Sheet::default() };
+    let covariance = table.covariance.as_ref();
+    let sheet = Sheet { title, content: content(&table), curves: &traces, covariance, comments, ..Sheet::default() };
     let grid = if step == 0 { Grid::Native } else { Grid::Step(f64::from(step) / 2.0) };
     for format in Format::ALL {
         let Ok(written) = write(&sheet, format, grid) else { continue };
@@ -50,7 +51,6 @@ fn as_written(role: Role) -> ReadOptions {
         wavelength_column: Some(1),
         values: Some(Values::Plain),
         role: Some(role),
-        raw: Some(true),
         ..ReadOptions::default()
     }
 }
@@ -64,7 +64,8 @@ fn same(table: &SpectralFile, again: &Result<SpectralFile, ReadError>, text: &st
     for (a, b) in table.curves.iter().zip(&again.curves) {
         // What means "not measured" is omitted when it is read.
         if !a.values.contains(&-9999.0) {
-            assert_eq!((&a.wavelengths_nm, &a.values), (&b.wavelengths_nm, &b.values), "{text}");
+            let of = |curve: &Curve| (curve.wavelengths_nm.clone(), curve.values.clone(), curve.uncertainty.clone().map(|of| of.standard));
+            assert_eq!(of(a), of(b), "{text}");
         }
     }
 }

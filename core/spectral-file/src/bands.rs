@@ -4,9 +4,9 @@ use crate::decimal::extent;
 use crate::decision::WavelengthUnit;
 use crate::dialect::{Cell, Dialect};
 use crate::error::MAX_CURVES;
-use crate::header_terms;
+use crate::header_terms::{self, XUnit};
 use crate::text::is_one;
-use crate::units::plausible;
+use crate::units::{RANGE_NM, plausible};
 
 /// The fewest bands that are taken for a spectrum.
 pub(super) const FEWEST: usize = 5;
@@ -21,6 +21,11 @@ struct Band<'a> {
 }
 
 impl Band<'_> {
+    /// Returns whether its name says that the number is a wavelength.
+    fn is_known(&self) -> bool {
+        self.unit.is_some() || is_band_prefix(self.prefix)
+    }
+
     fn goes_with(&self, other: &Self) -> bool {
         (self.prefix, self.suffix, self.unit) == (other.prefix, other.suffix, other.unit)
     }
@@ -36,6 +41,8 @@ pub(super) struct Group {
     pub(super) unit: Option<WavelengthUnit>,
     pub(super) prefix: String,
     pub(super) suffix: String,
+    /// True if the names say that their numbers are wavelengths, and not only the numbers.
+    pub(super) known: bool,
 }
 
 impl Group {
@@ -72,7 +79,9 @@ fn band(dialect: Dialect, name: &str) -> Option<Band<'_>> {
             found = Some(one);
         }
     }
-    found.filter(|band| band.unit.is_some() || is_band_prefix(band.prefix))
+    // Other words, but no numbers cut in pieces.
+    let word = |band: &Band<'_>| band.prefix.starts_with(char::is_alphabetic) && !band.prefix.contains(digit);
+    found.filter(|band| band.is_known() || band.suffix.is_empty() && word(band))
 }
 
 fn unit(text: &str) -> (Option<WavelengthUnit>, &str) {
@@ -95,12 +104,20 @@ fn is_band_prefix(prefix: &str) -> bool {
 /// The groups of wavelengths in a header. A cell that is empty or out of order costs its column only.
 pub(super) fn groups(dialect: Dialect, line: &str) -> Vec<Group> {
     const APART: f64 = 3.0;
-    let mut named = false;
+    let (mut named, mut stated) = (false, None);
     let mut bands: Vec<(usize, Band<'_>)> = Vec::new();
     for (column, cell) in dialect.cells(line).take(MAX_CURVES + 2).enumerate() {
-        match head(dialect, cell) {
-            Some(band) => bands.push((column, band)),
-            None => named |= bands.is_empty() && has_letter(cell) && header_terms::names_wavelengths(cell),
+        let band = head(dialect, cell);
+        if bands.is_empty()
+            && has_letter(cell)
+            && header_terms::names_wavelengths(cell)
+            && !band.is_some_and(|band| band.is_known())
+        {
+            named = true;
+            stated = header_terms::x_unit(cell)
+                .and_then(|unit| if let XUnit::Wavelength(unit) = unit { Some(unit) } else { None });
+        } else if let Some(band) = band {
+            bands.push((column, band));
         }
     }
     // A number that is set apart, and so far from the next, is none of the wavelengths that follow.
@@ -126,16 +143,16 @@ pub(super) fn groups(dialect: Dialect, line: &str) -> Vec<Group> {
                 if plain && beside && begun != Some(band.wavelength) {
                     return Vec::new();
                 }
-                all.extend(group(&run, wrong));
+                all.extend(group(&run, wrong, stated));
                 (run, wrong) = (vec![(column, band)], 0);
             }
             Step::Other => {
-                all.extend(group(&run, wrong));
+                all.extend(group(&run, wrong, stated));
                 (run, wrong) = (vec![(column, band)], 0);
             }
         }
     }
-    all.extend(group(&run, wrong));
+    all.extend(group(&run, wrong, stated));
     // A table that names the column of its wavelengths has them there.
     if named && all.first().is_some_and(|group| !(group.prefix.is_empty() && group.suffix.is_empty())) {
         return Vec::new();
@@ -187,22 +204,26 @@ fn head(dialect: Dialect, cell: &str) -> Option<Band<'_>> {
     }
 }
 
-fn group(run: &[(usize, Band<'_>)], wrong: usize) -> Option<Group> {
+fn group(run: &[(usize, Band<'_>)], wrong: usize, stated: Option<WavelengthUnit>) -> Option<Group> {
     /// Sound wavelengths for each that is out of order; more of those are values.
     const SOUND: usize = 5;
     const LEAST_RANGE: f64 = 150.0;
     let ((start, first), (end, _)) = (run.first().filter(|_| run.len() >= FEWEST)?, run.last()?);
     let values = || run.iter().map(|(_, band)| band.wavelength);
     let (min, max) = extent(values());
-    if !plausible(min, max, values().any(|w| w.fract() != 0.0)) || run.len() < SOUND * wrong {
+    // Some of those with a known unit may be out of range.
+    let in_range = first.unit.or(stated).is_some_and(|unit| {
+        let (a, b) = (unit.nanometers(min), unit.nanometers(max));
+        a.max(b) > *RANGE_NM.start() && a.min(b) < *RANGE_NM.end()
+    });
+    if !in_range && !plausible(min, max, values().any(|w| w.fract() != 0.0)) || run.len() < SOUND * wrong {
         return None;
     }
     // What a letter may count as well, such as patches or bands, counts by ones.
     let counted = values().zip(values().skip(1)).all(|(a, b)| b - a == 1.0) && max - min < LEAST_RANGE;
-    if counted
-        && first.unit.is_none()
-        && is_one(first.prefix.trim_end_matches(['_', '.', ' ']).to_lowercase().as_str(), "a|b|l|band")
-    {
+    let letter = is_one(first.prefix.trim_end_matches(['_', '.', ' ']).to_lowercase().as_str(), "a|b|l|band");
+    let known = first.is_known() || first.prefix.is_empty();
+    if counted && first.unit.is_none() && (letter || !known) {
         return None;
     }
     let mut wavelengths = vec![f64::NAN; end + 1 - start];
@@ -210,5 +231,5 @@ fn group(run: &[(usize, Band<'_>)], wrong: usize) -> Option<Group> {
         wavelengths[column - start] = band.wavelength;
     }
     let (prefix, suffix) = (first.prefix.to_owned(), first.suffix.to_owned());
-    Some(Group { start: *start, wavelengths, unit: first.unit, prefix, suffix })
+    Some(Group { start: *start, wavelengths, unit: first.unit, prefix, suffix, known })
 }

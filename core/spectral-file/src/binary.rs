@@ -29,6 +29,11 @@ macro_rules! kinds {
             pub(super) fn remedy(self) -> &'static str {
                 match self { $(Self::$kind => $remedy,)+ }
             }
+
+            /// Returns whether such files hold something else than measurements.
+            pub(super) fn is_of_no_spectra(self) -> bool {
+                matches!(self, Self::Pdf | Self::Icc | Self::Unknown) || [PICTURE, UNPACK].contains(&self.remedy())
+            }
         }
 
         const MAGIC: &[(&[u8], BinaryKind)] = &[$($(($magic, BinaryKind::$kind),)*)+];

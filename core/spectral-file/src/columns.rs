@@ -345,7 +345,8 @@ impl Columns {
         let values = self.cells.split_off(at + 1);
         let wavelengths = self.cells.pop().unwrap_or_default();
         let find = || axes::find(&header, at, &wavelengths, &self.cells, &values);
-        let axes = if layout.every_column { axes::Axes::default() } else { find() };
+        let is_told = layout.every_column || !header.own.is_empty();
+        let axes = if is_told { axes::Axes::default() } else { find() };
         let texts = self.texts.columns.iter().filter(|text| text.other || text.unit.is_none()).map(|text| text.column);
         let texts: Vec<usize> = texts.filter(|&column| column < columns && column != at).collect();
         let is_left = |(column, values): &(usize, Vec<f64>)| {

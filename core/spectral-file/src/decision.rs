@@ -141,6 +141,8 @@ choices! {
         Utf16Be = "UTF-16 BE";
         /// Windows-1252, which holds Latin-1: taken for all that is none of the others.
         Windows1252 = "Windows-1252";
+        /// None of those here, such as Big5, EUC-KR or Windows-1251.
+        Unknown = "an unknown encoding, read as Windows-1252";
         /// Shift-JIS, as Windows writes it.
         ShiftJis = "Shift-JIS";
         /// GBK, which holds GB 2312: simplified Chinese.

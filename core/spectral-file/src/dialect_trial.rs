@@ -5,7 +5,7 @@ use crate::bands::{self, Group};
 use crate::decision::{Decided, DecimalMark, Delimiter, Orientation};
 use crate::dialect::{Cell, Dialect, may_be_thousands};
 use crate::error::MAX_CURVES;
-use crate::units::plausible;
+use crate::units::{RANGE_NM, plausible};
 use crate::warning::Warning;
 
 /// Lines that may not fit below such a header before it is rejected: the reader then reports their errors.
@@ -176,9 +176,17 @@ pub(super) struct Across {
     pub(super) groups: Vec<Group>,
     /// The part that is read, from 0: one of several groups, else of the quantities of the rows.
     pub(super) part: usize,
+    /// True if the names of the rows have no head, as R writes them.
+    pub(super) headless: bool,
 }
 
 impl Across {
+    /// Moves the wavelengths behind names of rows that have no head.
+    pub(super) fn behind_names(mut self) -> Self {
+        self.groups.iter_mut().for_each(|group| group.start += 1);
+        Self { cells: self.cells + 1, headless: true, ..self }
+    }
+
     pub(super) fn group(&self) -> &Group {
         self.groups.get(self.part).unwrap_or(&self.groups[0])
     }
@@ -209,6 +217,8 @@ pub(super) struct Trial {
     pub(super) best: Run,
     pub(super) across: Option<Across>,
     across_tested: bool,
+    /// Cells of the last line of names.
+    heads: usize,
     /// Cells with the decimal mark, in rows of numbers.
     pub(super) marks: usize,
     /// Those between quotes, which cannot separate.
@@ -272,12 +282,24 @@ impl Trial {
 
     fn take_across(&mut self, number: usize, shape: &Shape, line: &str) {
         if !self.across_tested && shape.cells >= bands::FEWEST {
-            let groups = bands::groups(self.dialect, line);
+            let mut groups = bands::groups(self.dialect, line);
+            // Small numbers below names are values.
+            let small = |group: &Group| {
+                group.unit.is_none()
+                    && group.prefix.is_empty()
+                    && group.wavelengths.iter().all(|nm| *nm < *RANGE_NM.start())
+            };
+            groups.retain(|group| self.heads != shape.cells || !small(group));
+            self.heads = if shape.numbers == 0 { shape.filled } else { self.heads };
             self.across_tested = shape.numbers >= bands::FEWEST || !groups.is_empty();
             if !groups.is_empty() {
                 self.across = Some(Across { line: number, cells: shape.cells, groups, ..Across::default() });
             }
         } else if let Some(across) = self.across.as_mut().filter(|across| across.misses <= MISSES) {
+            let first = across.rows == 0 && across.group().start == 0;
+            if first && shape.filled == across.cells + 1 && shape.texts == 1 {
+                *across = std::mem::take(across).behind_names();
+            }
             if across.is_row(self.dialect, shape, line) {
                 across.push(number);
                 self.count(shape, line.contains('"'));

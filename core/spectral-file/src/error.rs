@@ -161,6 +161,16 @@ impl ReadError {
         }
     }
 
+    /// Returns whether the file is of another kind than spectra, such as a text, a picture or a program, and not a table that
+    /// is broken or that another program has to export.
+    pub fn is_of_no_spectra(&self) -> bool {
+        match self {
+            Self::Binary(kind) => kind.is_of_no_spectra(),
+            Self::Unsupported(_) | Self::Empty | Self::NoNumbers | Self::NearlyRow { .. } => true,
+            _ => false,
+        }
+    }
+
     /// The column the error is about, from 1, where known.
     pub fn column(&self) -> Option<usize> {
         match *self {

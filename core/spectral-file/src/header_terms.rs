@@ -173,10 +173,15 @@ const QUANTITIES: [(Quantity, &str, &str); 14] = [
     (Quantity::Unknown, "ln(1/|ln 1/|-ln(", ""),
     (
         Quantity::Reflectance,
-        "reflect|reflekt|reflexi|refletâ|réflect|réflexi|riflett|rifless|remission|r-factor|反射率|反射比",
+        "reflect|reflekt|reflexi|refletâ|réflect|réflexi|riflett|rifless|remission|odbici|odrazivost|\
+         отражени|r-factor|反射率|反射比|반사율",
         "rfr|rpc|rfl|reflec",
     ),
-    (Quantity::Transmittance, "transmit|transmiss|trasmitt|trasmiss|t-factor|透過率|透射", "tfr|tpc"),
+    (
+        Quantity::Transmittance,
+        "transmit|transmiss|trasmitt|trasmiss|propustnost|пропускани|t-factor|透過率|透过率|透射|투과율",
+        "tfr|tpc",
+    ),
     (
         Quantity::Irradiance,
         "irradian|irr. (|irradiân|irraggiam|exitance|bestrahlungsst|éclairement énerg|放射照度",
@@ -283,7 +288,10 @@ pub(super) fn is_quantity(text: &str) -> bool {
 pub(super) fn is_count(name: &str) -> bool {
     let name = lower(name);
     let first = words(&name).next();
-    name == "#" || first.is_some_and(|word| is_one(word, "pixel|pixels|px|index|no|nr|number|row|line|id|n|i"))
+    name == "#"
+        || first.is_some_and(|word| {
+            is_one(word, "pixel|pixels|px|index|idx|no|nr|nº|num|number|row|line|obs|id|n|i|番号|序号")
+        })
 }
 
 /// Returns whether a column's header names what tells rows apart and nothing else: samples, channels, scans, flags.
@@ -342,12 +350,12 @@ pub(super) fn x_unit(text: &str) -> Option<XUnit> {
 const NAMES: &str = "wavelength|wavelengths|wave|wl|wvl|lambda|λ|wavenumber|wave number|frequency|freq|ν";
 
 /// As other languages call them.
-const CALLED: [&str; 7] =
-    ["wellenl", "longueur d", "longitud de onda", "lunghezza d", "comprimento de onda", "波長", "波长"];
+const CALLED: &str = "wellenl|longueur d|longitud de onda|lunghezza d|comprimento de onda|golflengte|våglängd|bølgel|długość fal|\
+    vlnová délka|длина волны|波長|波长|파장";
 
 /// Returns whether a name is that of wavelengths and nothing else.
 fn is_axis_name(name: &str) -> bool {
-    is_one(name, NAMES) || CALLED.iter().any(|start| name.starts_with(start))
+    is_one(name, NAMES) || CALLED.split('|').any(|start| name.starts_with(start))
 }
 
 /// A header in lower case with its unit in brackets, if it stands behind a slash: `frequency (thz)` of `frequency/thz`.
@@ -423,9 +431,9 @@ pub(super) fn begins_with_wavelengths(text: &str) -> bool {
 /// Returns whether a column's header names wavelengths, wave numbers or frequencies of light.
 pub(super) fn names_wavelengths(text: &str) -> bool {
     // As their unit alone does.
-    const UNITS: [&str; 10] = ["[nm]", "(nm)", "[µm]", "(µm)", "[μm]", "(μm)", "[um]", "(um)", "[cm-1]", "(cm-1)"];
+    const UNITS: &str = "[nm]|(nm)|[µm]|(µm)|[μm]|(μm)|[um]|(um)|[cm-1]|(cm-1)";
     let text = without_argument(&bracketed(lower(text)));
-    if CALLED.iter().chain(&UNITS).any(|part| text.contains(part)) {
+    if has_part(&text, CALLED) || has_part(&text, UNITS) {
         return true;
     }
     // As an index, such as in `E_λ`, it names no wavelengths.

@@ -56,6 +56,7 @@ mod formats;
 mod grid;
 mod header;
 mod header_terms;
+mod heads;
 mod instrument;
 mod no_curve;
 mod options;

@@ -23,6 +23,9 @@ const UNITS: &str = "°c|℃|deg c|degc|°f|℉|° c|celsius|kelvin|seconds|ms|h
 
 /// Removes curves that are no spectra, unless there are no others.
 pub(super) fn leave_out(grid: &mut Grid, log: &mut Log<'_>) {
+    if is_own(grid) {
+        return;
+    }
     let marks: Vec<bool> = grid.curves.iter().map(is_companion).collect();
     let count = marks.iter().filter(|mark| **mark).count();
     if count == grid.curves.len() {
@@ -31,6 +34,11 @@ pub(super) fn leave_out(grid: &mut Grid, log: &mut Log<'_>) {
     let Some(first) = marks.iter().position(|mark| *mark) else { return };
     log.push(Warning::NotSpectra { count, first: grid.curves[first].description() });
     retain(&mut grid.curves, &marks);
+}
+
+/// True for the program's own tables, which hold neither numbers for gaps nor columns that are no curves.
+fn is_own(grid: &Grid) -> bool {
+    !grid.header.own.is_empty()
 }
 
 fn is_companion(curve: &RawCurve) -> bool {
@@ -60,6 +68,11 @@ pub(super) fn is_empty(column: &[f64]) -> bool {
 pub(super) fn counts(column: &[f64]) -> bool {
     column.len() > 1
         && column.windows(2).all(|pair| (pair[1] - pair[0]).abs() == 1.0 && pair[1] - pair[0] == column[1] - column[0])
+}
+
+/// True for numbers that count their rows from the first, whatever they are called.
+pub(super) fn counts_from_start(column: &[f64], fewest: usize) -> bool {
+    column.len() >= fewest && counts(column) && matches!(column[0], 0.0 | 1.0)
 }
 
 /// True for numbers that may identify or mark rows: all equal, or flags, or a count of the rows.
@@ -98,7 +111,7 @@ pub(super) fn is_scale_row<'a>(leading: impl Iterator<Item = &'a str>, wavelengt
 
 /// Removes raw columns if a processed one exists, unless they are requested.
 pub(super) fn leave_out_raw(grid: &mut Grid, options: &ReadOptions) -> Option<Decision> {
-    if options.raw == Some(true) {
+    if options.raw == Some(true) || is_own(grid) {
         return None;
     }
     let raw = raw_marks(&grid.curves)?;
@@ -195,6 +208,9 @@ fn stands_for_none(value: f64, (low, high): (f64, f64)) -> bool {
 }
 
 pub(super) fn take_sentinels(grid: &mut Grid, log: &mut Log<'_>) {
+    if is_own(grid) {
+        return;
+    }
     let own_lines = grid.lines.len() == grid.wavelengths.len() && !grid.own_wavelengths;
     let mut cells = 0;
     let mut first: Option<Sentinel> = None;

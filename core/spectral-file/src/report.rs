@@ -239,6 +239,10 @@ impl ReadReport {
             Encoding::Utf8 => certain("The bytes are valid UTF-8"),
             Encoding::Utf16Le | Encoding::Utf16Be => certain("A byte order mark, or zeros in every other byte, say so"),
             Encoding::Windows1252 => certain("The bytes are not UTF-8"),
+            Encoding::Unknown => Decided::guess(
+                self.encoding,
+                "The bytes are no text in a known encoding: save the file as UTF-8 for its names",
+            ),
             Encoding::ShiftJis => Decided::guess(self.encoding, "The bytes are not UTF-8, but sound Japanese"),
             Encoding::Gbk => {
                 Decided::guess(self.encoding, "The bytes are not UTF-8, but hold Chinese words of spectra")

@@ -192,7 +192,11 @@ impl Sniffer<'_> {
         {
             // The header too may hold marks that group thousands.
             let groups = bands::groups(dialect, header);
-            across.groups = if groups.is_empty() { across.groups } else { groups };
+            if !groups.is_empty() {
+                let headless = across.headless;
+                across.groups = groups;
+                across = if headless { across.behind_names() } else { across };
+            }
         }
         let certain = || Decided::certain(trial.dialect.delimiter, evidence);
         let delimiter = Decided::or_chosen(self.options.delimiter, certain);
@@ -362,10 +366,11 @@ fn orientation(trial: &Trial) -> Decided<Orientation> {
     let rows = trial.best.rows;
     let down = trial.best.looks_like_wavelengths();
     match trial.across.as_ref().filter(|across| across.rows > 0) {
-        Some(across) if !down && across.rows + 1 >= rows => Decided::certain(
-            Orientation::Across,
-            format!("Line {} holds {} wavelengths", across.line, across.group().count()),
-        ),
+        Some(across) if !down && across.rows + 1 >= rows => {
+            let why = format!("Line {} holds {} wavelengths", across.line, across.group().count());
+            let decide = if across.group().known { Decided::certain } else { Decided::guess };
+            decide(Orientation::Across, why)
+        }
         Some(_) => Decided::guess(Orientation::Down, "The first numbers of the rows are in order"),
         None => Decided::certain(Orientation::Down, "No line holds wavelengths side by side"),
     }

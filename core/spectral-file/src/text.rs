@@ -51,7 +51,14 @@ fn decode_any(bytes: &[u8]) -> (Cow<'_, str>, Encoding) {
         Err(_) => match (shift_jis(rest), gbk(rest)) {
             (Some(text), _) => (text, Encoding::ShiftJis),
             (None, Some(text)) => (text, Encoding::Gbk),
-            (None, None) => (WINDOWS_1252.decode_without_bom_handling(rest).0, Encoding::Windows1252),
+            (None, None) => {
+                // No western language has so many accented letters side by side.
+                let pair = |run: &&[u8]| run.len() > 1 && run.iter().any(|byte| *byte >= 0xC0);
+                let pairs = rest.split(u8::is_ascii).filter(pair).count();
+                let unknown = pairs > 2 || rest.split(u8::is_ascii).any(|run| run.len() > 2);
+                let encoding = if unknown { Encoding::Unknown } else { Encoding::Windows1252 };
+                (WINDOWS_1252.decode_without_bom_handling(rest).0, encoding)
+            }
         },
     }
 }
@@ -85,7 +92,7 @@ fn shift_jis(bytes: &[u8]) -> Option<Cow<'_, str>> {
 /// Bytes that are sound GBK and hold one of its words for spectra or colors, which no two accented letters make.
 #[cfg(feature = "encodings")]
 fn gbk(bytes: &[u8]) -> Option<Cow<'_, str>> {
-    const WORDS: &str = "波长|波数|反射|透射|透过|吸收|吸光|强度|光谱|辐射|照度|响应|灵敏|光源|样品|样本|数据|测量|测试|名称|编号|日期|\
+    const WORDS: &str = "波长|波長|波数|反射|透射|透过|吸收|吸光|强度|光谱|辐射|照度|响应|灵敏|光源|样品|样本|数据|测量|测试|名称|编号|日期|\
         时间|平均|红|绿|蓝|黄|黑|灰|紫";
     let is_lead = |byte: &u8| (0xA1..=0xFE).contains(byte);
     // Most files in Windows-1252 have one such byte alone, as in µm or °C.
@@ -162,7 +169,9 @@ pub(super) fn comment(line: &str) -> Option<&str> {
     }
     let rest = line.strip_prefix('#')?;
     let error_cell = ["N/A", "DIV/0!", "NUM!", "VALUE!", "REF!", "NAME?"].iter().any(|cell| rest.starts_with(cell));
-    (!error_cell).then(|| rest.trim())
+    // As the name of a column that counts the rows it is none.
+    let heads = |sign: &str| rest.starts_with(sign) && rest.matches(sign).count() > 1;
+    (!error_cell && ![",", ";", "\t"].into_iter().any(heads)).then(|| rest.trim())
 }
 
 /// Longer header lines are prose, or hostile.

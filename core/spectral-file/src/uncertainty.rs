@@ -3,7 +3,7 @@
 //! Stated numbers are k u, with u the standard uncertainty and k the coverage factor (JCGM 100:2008, 6.2), in the unit of the values,
 //! in percent, or as a part of the value.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use crate::decision::{Certainty, Decided, Decision, Effect, Role, Values};
 use crate::grid::{Grid, RawCurve, Stated, StatedScale, retain};
@@ -31,7 +31,17 @@ const FEW: &str = "most of its cells are empty";
 
 /// Takes the columns that are uncertainties of other curves from the curves, and gives them to these.
 pub(super) fn take(grid: &mut Grid, log: &mut Log<'_>) {
+    let is_own = !grid.header.own.is_empty();
     let term = |curve: &RawCurve| {
+        if is_own {
+            return grid
+                .header
+                .own
+                .get(curve.column?.checked_sub(2)?)
+                .copied()
+                .flatten()
+                .map(uncertainty_terms::expanded);
+        }
         let named = curve.named && grid.curves.len() > 1;
         named.then(|| uncertainty_terms::term(&curve.name, &curve.label)).flatten()
     };
@@ -39,7 +49,7 @@ pub(super) fn take(grid: &mut Grid, log: &mut Log<'_>) {
     if terms.iter().all(Option::is_none) {
         return;
     }
-    let uses = settle_uses(grid, &mut terms);
+    let uses = if is_own { own_uses(&grid.curves, &terms) } else { settle_uses(grid, &mut terms) };
     let mut marks = vec![false; grid.curves.len()];
     for (index, place) in uses.iter().enumerate() {
         match *place {
@@ -56,16 +66,38 @@ pub(super) fn take(grid: &mut Grid, log: &mut Log<'_>) {
     retain(&mut grid.curves, &marks);
 }
 
+/// The uses that the heads of the program's own tables state: each uncertainty stands behind its curve.
+fn own_uses(curves: &[RawCurve], terms: &[Option<Term>]) -> Vec<Use> {
+    let of = |index: usize| {
+        let before =
+            index.checked_sub(1).filter(|before| curves[*before].column.map(|at| at + 1) == curves[index].column);
+        before.map_or(Use::LeftOut(NO_CURVE), Use::Of)
+    };
+    terms.iter().enumerate().map(|(index, term)| term.as_ref().map_or(Use::Curve, |_| of(index))).collect()
+}
+
 fn settle_uses(grid: &Grid, terms: &mut [Option<Term>]) -> Vec<Use> {
     let curves = &grid.curves;
     let keys: Vec<String> = curves.iter().map(|curve| uncertainty_terms::key(&curve.name)).collect();
+    let bare: Vec<String> = keys.iter().map(|key| uncertainty_terms::without_mean(key)).collect();
     let mut uses = vec![Use::Curve; curves.len()];
-    let (mut known, mut last) = (BTreeMap::new(), None);
+    let mut known: BTreeMap<&str, BTreeSet<usize>> = BTreeMap::new();
+    for index in (0..curves.len()).filter(|index| terms[*index].is_none()) {
+        known.entry(&bare[index]).or_default().insert(index);
+    }
+    let mut last = None;
     for index in 0..curves.len() {
         if let Some(term) = &terms[index] {
-            let named = known.get(&term.of).filter(|_| !term.of.is_empty());
+            // The nearest before it, else the first behind.
+            let named = known.get(&*term.of).filter(|_| !term.of.is_empty());
+            let named = named.and_then(|all| all.range(..index).next_back().or_else(|| all.first()));
             let is_about_last = || {
-                last.is_some_and(|last: usize| is_about(term, &curves[last].label, &keys[last])) || term.of.is_empty()
+                last.is_some_and(|last: usize| {
+                    // `SD 1, SD 2` behind two curves.
+                    let counts =
+                        |at: usize| terms.get(at).into_iter().flatten().any(|term| term.of == (at - last).to_string());
+                    counts(index) && (counts(last + 2)) || is_about(term, &curves[last].label, &keys[last])
+                }) || term.of.is_empty()
             };
             match named {
                 Some(&curve) => uses[index] = Use::Of(curve),
@@ -74,7 +106,7 @@ fn settle_uses(grid: &Grid, terms: &mut [Option<Term>]) -> Vec<Use> {
             }
         }
         if terms[index].is_none() {
-            known.insert(uncertainty_terms::without_mean(&keys[index]), index);
+            known.entry(&bare[index]).or_default().insert(index);
             last = Some(index);
         }
     }
@@ -191,17 +223,18 @@ fn stated(grid: &mut Grid, index: usize, term: &Term) -> Stated {
     let line = grid.header.coverage.map(|(line, k)| Decided::certain(k, format!("Line {line} says so")));
     let own = term.coverage.map(said);
     let level = || term.level.map(|k| Decided::guess(k, "By the level of confidence in the header"));
-    let coverage = match term.kind {
-        Kind::Deviation => own.unwrap_or_else(|| Decided::certain(1.0, "The header names a standard deviation")),
-        Kind::Error => own.unwrap_or_else(|| Decided::certain(1.0, "The header names a standard error")),
-        Kind::Standard => own.unwrap_or_else(|| Decided::certain(1.0, "The header names a standard uncertainty")),
-        Kind::Expanded => own.or(line).or_else(level).unwrap_or_else(|| {
-            Decided::guess(2.0, "An expanded uncertainty without a coverage factor, taken as one of 95 %")
-        }),
-        Kind::Unsaid => {
-            own.or(line).or_else(level).unwrap_or_else(|| Decided::guess(1.0, "Nothing names a coverage factor"))
-        }
-    };
+    let one = |what: &str| Decided::certain(1.0, format!("The header names a {what}"));
+    let coverage = own
+        .or_else(|| line.or_else(level).filter(|_| matches!(term.kind, Kind::Expanded | Kind::Unsaid)))
+        .unwrap_or_else(|| match term.kind {
+            Kind::Deviation => one("standard deviation"),
+            Kind::Error => one("standard error"),
+            Kind::Standard => one("standard uncertainty"),
+            Kind::Expanded => {
+                Decided::guess(2.0, "An expanded uncertainty without a coverage factor, taken as one of 95 %")
+            }
+            Kind::Unsaid => Decided::guess(1.0, "Nothing names a coverage factor"),
+        });
     let scale = match (term.relative, term.percent) {
         (false, false) => StatedScale::Unit,
         (true, true) => StatedScale::Relative,

@@ -34,15 +34,21 @@ pub(super) struct Term {
     pub(super) percent: bool,
 }
 
+/// What a head of the program's own says: that numbers are U = k u.
+pub(super) fn expanded(coverage: f64) -> Term {
+    let (kind, coverage) = (Kind::Expanded, Some(coverage));
+    Term { kind, clear: true, of: String::new(), coverage, level: None, relative: false, percent: false }
+}
+
 /// Words for uncertainties with their kind, and whether they mean nothing else.
 const WORDS: [(Kind, bool, &str); 11] = [
     (
         Kind::Deviation,
         true,
         "standard deviation|standard deviations|std dev|stddev|stdev|st dev|stdv|stddevs|std deviation|sdev|rsd|stand dev|\
-         standardabweichung|écart type|ecart type|desviación estándar|deviazione standard|desvio padrão|標準偏差|标准偏差",
+         coefficient of variation|standardabweichung|standardabw|stabw|écart type|ecart type|desviación estándar|desv est|desv estándar|deviazione standard|desvio padrão|標準偏差|标准偏差",
     ),
-    (Kind::Deviation, false, "sd|s d|std|sigma|σ"),
+    (Kind::Deviation, false, "sd|s d|std|sigma|σ|cv"),
     (
         Kind::Error,
         true,
@@ -74,7 +80,7 @@ const WORDS: [(Kind, bool, &str); 11] = [
 ];
 
 /// Words beside those for an uncertainty that say no more than they do.
-const BESIDE: &str = "combined|measurement|total|estimated|spectral|of|in|for|the|on";
+const BESIDE: &str = "combined|measurement|total|estimated|spectral|confidence|level|of|in|for|the|on";
 
 /// Uncertainty that the header of a column names, with its name without a unit and its whole label.
 pub(super) fn term(name: &str, label: &str) -> Option<Term> {
@@ -93,17 +99,16 @@ pub(super) fn term(name: &str, label: &str) -> Option<Term> {
     let (kind, clear, word) = found.max_by_key(|(_, _, word)| word.len())?;
     let (before, after) = padded.split_once(&format!(" {word} "))?;
     let is_relative = |word: &str| is_one(word, "relative|rel|fractional|percent|percentage");
-    let mut before: Vec<&str> = before.split_whitespace().collect();
+    let beside = |word: &&&str| is_relative(word) || is_one(word, BESIDE);
+    let [before, after] = [before, after].map(|part| part.split_whitespace().collect::<Vec<_>>());
+    let about = before.iter().rev().take_while(beside).count();
+    let (before, last) = before.split_at(before.len() - about);
+    let (first, after) = after.split_at(after.iter().take_while(beside).count());
     // A deviation divided by the mean.
     let quotient = || text.split_once('/').is_some_and(|(_, mean)| is_one(mean.trim(), MEAN));
-    let mut relative = is_one(word, "rsd|urel|u rel") || quotient();
-    while let Some(last) = before.last().filter(|word| is_relative(word) || is_one(word, BESIDE)) {
-        relative |= is_relative(last);
-        before.pop();
-    }
-    let (beside, after): (Vec<&str>, Vec<&str>) =
-        after.split_whitespace().partition(|word| is_one(word, BESIDE) || is_relative(word));
-    relative |= beside.into_iter().any(is_relative);
+    let relative = is_one(word, "rsd|cv|coefficient of variation|urel|u rel")
+        || quotient()
+        || [last, first].concat().iter().any(|word| is_relative(word));
     // Words on both sides are a sentence.
     if !before.is_empty() && !after.is_empty() {
         return None;
@@ -152,6 +157,11 @@ pub(super) fn without_mean(key: &str) -> String {
 
 const MEAN: &str = "mean|avg|ave|average|median|averaged|mittelwert|moyenne|media";
 
+/// Returns whether a name says that values are means or uncertainties and nothing of which sample.
+pub(super) fn is_statistic(name: &str) -> bool {
+    term(name, name).map_or_else(|| without_mean(&key(name)).is_empty(), |term| term.of.is_empty())
+}
+
 /// Returns whether words of a curve's name say that it is the mean of others.
 pub(super) fn names_mean(key: &str) -> bool {
     key.split(' ').any(|word| is_one(word, MEAN))
@@ -161,10 +171,6 @@ const SIGMAS: &str = "1|2|3|one|two|three";
 
 /// The coverage factor k in a text in lower case: `k=2`, `k = 1.96`, `coverage factor: 2`, `2σ`.
 pub(super) fn coverage(lower: &str) -> Option<f64> {
-    const LONGEST: usize = 400;
-    if lower.len() > LONGEST {
-        return None;
-    }
     let number = |text: &str| {
         let text = text.trim_start_matches([' ', ':', '=', '(']).trim_start_matches("of ").trim_start_matches("is ");
         let text = text.trim_start_matches("k =").trim_start_matches("k=").trim_start();
@@ -209,10 +215,6 @@ fn without_level(lower: &str) -> String {
     let symbol = before.ends_with(['u', 'U']) || before.ends_with("u_");
     match after_sign.or(Some(after).filter(|after| symbol && !after.starts_with(char::is_alphanumeric))) {
         Some(rest) if !before.ends_with(|c: char| c.is_ascii_digit() || c == '.') => {
-            let rest = ["confidence level", "confidence", "level of confidence"]
-                .iter()
-                .find_map(|words| rest.trim_start().strip_prefix(words))
-                .unwrap_or(rest);
             format!("{before} {rest}")
         }
         _ => lower.to_owned(),

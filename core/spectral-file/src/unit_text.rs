@@ -1,6 +1,6 @@
 //! Units, and mentions of photons, in the words of a header.
 
-use crate::text::{has_part, is_one, slashed};
+use crate::text::{has_part, is_one, lower, slashed};
 use crate::{header_terms, units};
 
 /// The unit in a piece of a header, if it holds one: in brackets, or alone.
@@ -149,32 +149,26 @@ pub(super) fn is_light_unit(text: &str) -> bool {
 
 /// Returns whether a unit is one of a response to power or energy.
 pub(super) fn is_per_energy(unit: &str) -> bool {
-    const LONGEST: usize = 8;
-    unit.len() <= LONGEST && is_one(&unit.to_lowercase(), "a/w|ma/w|v/w|mv/w|1/w|1/j")
+    is_one(&lower(unit), "a/w|ma/w|v/w|mv/w|1/w|1/j")
 }
 
 pub(super) fn is_photons(text: &str) -> bool {
-    is_one(&text.trim().to_lowercase(), "photon|photons|quanta|qntm")
+    is_one(lower(text).trim(), "photon|photons|quanta|qntm")
 }
 
 pub(super) fn is_per_photon(unit: &str) -> bool {
-    const LONGEST: usize = 40;
-    if unit.len() > LONGEST {
-        return false;
-    }
-    let lower = unit.to_lowercase().replace(" per ", "/").replace(' ', "");
+    let lower = lower(unit).replace(" per ", "/").replace(' ', "");
     ["/photon", "/photons", "/quantum", "photon-1", "photon^-1", "photon⁻¹"].iter().any(|end| lower.ends_with(end))
 }
 
 /// Returns whether a text names a quantity of photons, and not only a lamp.
 pub(super) fn names_photons(text: &str) -> bool {
-    const LONGEST: usize = 400;
     const PHRASES: &str = "photon flux|photon irradian|photon radian|photon exitan|photon fluence|photon intensity|\
         quantum flux|quantum irradian|(qntm)|s.q.irrad";
-    if text.len() > LONGEST || header_terms::says_counts(text) {
+    if header_terms::says_counts(text) {
         return false;
     }
-    let lower = text.to_lowercase().replace('_', " ");
+    let lower = lower(text).replace('_', " ");
     let word = |word: &str| is_one(word, "ppfd|pfd|spfd|photons|quanta|qntm");
     has_part(&lower, PHRASES) || lower.split(|c: char| !c.is_alphanumeric()).any(word) && !lower.contains("/photon")
 }
@@ -182,11 +176,7 @@ pub(super) fn names_photons(text: &str) -> bool {
 /// Returns whether a line of free text states that all values are photons: LI-COR's `(QNTM)`, or a sentence on all
 /// values.
 pub(super) fn said_in_prose(line: &str) -> bool {
-    const LONGEST: usize = 400;
-    if line.len() > LONGEST {
-        return false;
-    }
-    let lower = line.to_lowercase();
+    let lower = lower(line);
     let values = has_part(&lower, "values are in |values in |units are ");
     let photons = has_part(&lower, "photons per |moles of photons|mol of photons");
     line.contains("(QNTM)") || values && photons && !header_terms::says_counts(&lower)
@@ -195,11 +185,7 @@ pub(super) fn said_in_prose(line: &str) -> bool {
 /// Returns whether a title or a line of free text states that sensitivities are quantum efficiencies or responses per
 /// photon.
 pub(super) fn says_per_photon(text: &str) -> bool {
-    const LONGEST: usize = 400;
-    if text.len() > LONGEST {
-        return false;
-    }
-    let lower = text.to_lowercase();
+    let lower = lower(text);
     let qe = lower.split(|c: char| !c.is_alphanumeric()).any(|word| word == "qe");
     (qe || has_part(&lower, "quantum eff|quantal|per photon|/photon|per quantum")) && !lower.contains("energ")
 }

@@ -98,13 +98,7 @@ fn words(text: &str) -> impl Iterator<Item = Word<'_>> {
 /// The size of the exponent that a text begins with (1 if there is none), and its length in bytes.
 fn exponent(text: &str) -> (u32, usize) {
     let before = text.trim_start_matches(['^', '*', '(', '-', '\u{2212}', '\u{2013}', '⁻', '+']);
-    let digit = |c: char| match c {
-        '0'..='9' => c.to_digit(10),
-        '¹' => Some(1),
-        '²' => Some(2),
-        '³' => Some(3),
-        _ => None,
-    };
+    let digit = |c: char| plain(c).to_digit(10);
     let digits: u32 = before.chars().map_while(digit).take(3).fold(0, |number, digit| number * 10 + digit);
     let length: usize = before.chars().take_while(|c| digit(*c).is_some()).take(3).map(char::len_utf8).sum();
     if length == 0 { (1, 0) } else { (digits, text.len() - before.len() + length) }
@@ -199,14 +193,17 @@ fn plain_amount(word: &str) -> Option<Amount> {
 impl Unit {
     /// Parses a denominator; returns whether it is one.
     fn take(&mut self, word: &str, exponent: u32) -> bool {
-        let bare = word.trim_end_matches("meters").trim_end_matches("metres");
+        let known = match WavelengthUnit::from_symbol(word) {
+            Some(WavelengthUnit::Nanometer) => Some(Per::Nanometer),
+            Some(WavelengthUnit::Terahertz) => Some(Per::Frequency(1.0)),
+            Some(WavelengthUnit::Wavenumber) => Some(Per::Wavenumber),
+            unit => unit.map(|unit| Per::Length(unit.nanometers(1.0))),
+        };
+        if let Some(per) = known {
+            return self.take_per(per);
+        }
         let (symbol, length_nm, areas) = match word {
-            "nm" | "nanometer" | "nanometre" => return self.take_per(Per::Nanometer),
-            "um" | "µm" | "μm" | "micron" | "microns" | "micrometer" | "micrometre" => {
-                return self.take_per(Per::Length(1e3));
-            }
-            "a" | "å" | "ang" | "angstrom" | "angstroms" => return self.take_per(Per::Length(0.1)),
-            "thz" => return self.take_per(Per::Frequency(1.0)),
+            "a" | "ang" => return self.take_per(Per::Length(0.1)),
             "ghz" => return self.take_per(Per::Frequency(1e-3)),
             "mhz" => return self.take_per(Per::Frequency(1e-6)),
             "hz" => return self.take_per(Per::Frequency(1e-12)),
@@ -219,7 +216,7 @@ impl Unit {
             "m" | "meter" | "metre" => ("m", 1e9, "m²"),
             "cm" => ("cm", 1e7, "cm²"),
             "mm" => ("mm", 1e6, "mm²"),
-            _ => return bare != word && bare == "nano" && self.take_per(Per::Nanometer),
+            _ => return false,
         };
         match exponent {
             2 => self.area.replace(areas).is_none(),
@@ -242,9 +239,7 @@ impl Unit {
 /// The power of ten that stands right before a unit, and where it begins: `10^15 photons`, `1e13 photons`.
 fn power_of_ten(text: &str, start: usize) -> (f64, usize) {
     let before = text[..start].trim_end_matches([' ', '*', '·', '×']);
-    let number = |c: char| {
-        c.is_ascii_digit() || matches!(c, 'e' | 'E' | '^' | '-' | '+' | '⁰' | '¹' | '²' | '³' | '⁴'..='⁹' | '⁻')
-    };
+    let number = |c: char| matches!(plain(c), '0'..='9' | 'e' | 'E' | '^' | '-' | '+');
     let at =
         before.rfind(|c: char| !number(c)).map_or(0, |at| at + before[at..].chars().next().map_or(1, char::len_utf8));
     let written: String = before[at..].chars().map(plain).collect();

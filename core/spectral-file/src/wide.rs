@@ -1,5 +1,7 @@
 //! Reads tables whose wavelengths run across a header row: every row is a curve.
 
+use std::collections::{BTreeMap, BTreeSet};
+
 use crate::bands::Group;
 use crate::decision::{Decided, Orientation, Part, Quantity, Role, Values};
 use crate::dialect::{Cell, Dialect};
@@ -7,7 +9,7 @@ use crate::dialect_trial::{Across, Layout};
 use crate::error::{MAX_PARTS, ReadError, check_curves, check_samples};
 use crate::grid::{Grid, RawCurve};
 use crate::header::{self, Header};
-use crate::text::{Lines, Section, comment, excerpt, is_one, listed};
+use crate::text::{Lines, Section, comment, excerpt, listed};
 use crate::warning::{LineList, Warning};
 use crate::watch::Log;
 use crate::{header_terms, no_curve, uncertainty_terms, unit_text};
@@ -19,7 +21,8 @@ pub(super) fn read(section: Section<'_>, layout: &Layout, log: &mut Log<'_>) -> 
     let Some((_, header_line)) = lines.next() else { return Err(ReadError::NoNumbers) };
     let dialect = layout.dialect();
     let group = across.group();
-    let heads: Vec<&str> = dialect.cells(header_line).collect();
+    let bare = across.headless.then_some("");
+    let heads: Vec<&str> = bare.into_iter().chain(dialect.cells(header_line)).collect();
     let leading = &heads[..group.start.min(heads.len())];
     let mut header = header::read(section, layout);
     let named_unit =
@@ -40,7 +43,6 @@ pub(super) fn read(section: Section<'_>, layout: &Layout, log: &mut Log<'_>) -> 
     }
     rows.warn(&heads, log)?;
     header.mentioned = rows.mentioned.or(header.mentioned);
-    rows.tell_specular_apart();
     let count = rows.curves.len();
     for curve in &mut rows.curves {
         group.suffix.clone_into(&mut curve.label);
@@ -60,6 +62,7 @@ pub(super) fn read(section: Section<'_>, layout: &Layout, log: &mut Log<'_>) -> 
     // Where columns are parts, only the first quantity of the rows can be read.
     let wanted = if parts.is_empty() { across.part } else { 0 };
     let kinds = settle_kinds(&mut rows.curves, &rows.labels, wanted, &mut header);
+    rows.tell_apart(leading);
     if !kinds.is_empty() && !parts.is_empty() {
         log.push(Warning::MoreQuantities { taken: kinds[0].name.clone(), others: other_names(&kinds, 0) });
     } else if !kinds.is_empty() {
@@ -151,8 +154,8 @@ struct Rows<'a> {
     kind_column: Option<usize>,
     /// Rows that hold no spectrum but another scale, in words.
     scales: Vec<String>,
-    /// Cell of each curve that says how specular reflection was treated, if there is one.
-    specular: Vec<Option<&'a str>>,
+    /// The lines of the curves by their numbers.
+    lines: BTreeMap<usize, &'a str>,
 }
 
 impl<'a> Rows<'a> {
@@ -162,7 +165,7 @@ impl<'a> Rows<'a> {
             labels: Vec::new(),
             kind_column: kind_column(leading),
             scales: Vec::new(),
-            specular: Vec::new(),
+            lines: BTreeMap::new(),
             dialect,
             across,
             name_column: name_column(leading),
@@ -197,17 +200,30 @@ impl<'a> Rows<'a> {
         Ok(())
     }
 
-    /// Completes the names of curves by SCI or SCE, where both are in the table.
-    fn tell_specular_apart(&mut self) {
-        let mut seen = self.specular.iter().flatten();
-        let Some(first) = seen.next().filter(|first| seen.any(|other| !other.eq_ignore_ascii_case(first))) else {
+    /// Completes names that several rows have by the first column that tells these apart; what counts the rows comes last.
+    fn tell_apart(&mut self, leading: &[&str]) {
+        let mut rows: BTreeMap<&str, Vec<usize>> = BTreeMap::new();
+        for (index, curve) in self.curves.iter().enumerate().filter(|(_, curve)| curve.named) {
+            rows.entry(&curve.name).or_default().push(index);
+        }
+        rows.retain(|_, rows| rows.len() > 1);
+        if rows.keys().any(|name| uncertainty_terms::term(name, name).is_some()) {
             return;
+        }
+        let cell = |row: usize, column: usize| {
+            self.dialect.cells(self.lines[&self.curves[row].origin]).nth(column).unwrap_or_default()
         };
-        debug_assert!(!first.is_empty());
-        for (curve, cell) in self.curves.iter_mut().zip(&self.specular) {
-            if let Some(cell) = cell.filter(|_| !header_terms::says_specular(&curve.name)) {
-                curve.name = format!("{} ({cell})", curve.name);
-            }
+        let tells = |column: &usize| {
+            rows.values().all(|rows| {
+                let cells: BTreeSet<&str> = rows.iter().map(|row| cell(*row, *column)).collect();
+                cells.len() == rows.len() && !cells.contains("")
+            })
+        };
+        let columns = (0..leading.len()).partition::<Vec<_>, _>(|column| !header_terms::is_count(leading[*column]));
+        let Some(column) = columns.0.into_iter().chain(columns.1).find(tells) else { return };
+        let told = |row: usize| (row, format!("{} ({})", self.curves[row].name, cell(row, column)));
+        for (row, name) in rows.values().flatten().map(|row| told(*row)).collect::<Vec<_>>() {
+            self.curves[row].name = name;
         }
     }
 
@@ -238,7 +254,7 @@ impl<'a> Rows<'a> {
                     None => leading().map(|cell| Label::of(cell, number)).find(Label::is_said),
                 };
                 self.mentioned = self.mentioned.or(role);
-                self.specular.push(leading().find(|cell| is_one(&cell.to_ascii_lowercase(), "sci|sce|spin|spex")));
+                self.lines.insert(number, line);
                 self.labels.push(label);
                 if !self.suspects.is_empty() {
                     self.look_at_suspects(line);

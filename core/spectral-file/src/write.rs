@@ -2,7 +2,9 @@
 //!
 //! [`write()`] takes borrowed curves with what is known about them ([`Sheet`]) and gives the text of a file, together with
 //! [`Note`]s on all that differs from the curves as they were given: another grid, a shorter range, another scale. CSV begins with
-//! its header, as other programs expect; title, source and the like are in [`Metadata`] for a file beside it, which is read back.
+//! its header, as other programs expect; title, source and the like are in [`Metadata`] for a file beside it, which is read back. A
+//! column of uncertainties stands behind its curve, and a covariance goes into a file beside ([`Beside`]); other formats have no place
+//! for either.
 //!
 //! Numbers are the shortest decimals that read back as the same double. Reflectances and transmittances are fractions.
 //!
@@ -28,11 +30,11 @@
 //! ```
 //! use spectral_file::write::{Content, Format, Grid, Sheet, Trace, write};
 //!
-//! let leaf = Trace { name: "leaf", wavelengths_nm: &[400.0, 410.0], values: &[0.055, 0.06] };
+//! let leaf = Trace { name: "leaf", wavelengths_nm: &[400.0, 410.0], values: &[0.055, 0.06], uncertainty: None };
 //! let sheet = Sheet { title: "Leaf", content: Content::Reflectance, curves: &[leaf], ..Sheet::default() };
 //! let written = write(&sheet, Format::Csv, Grid::Native)?;
 //! assert_eq!(written.text, "wavelength_nm,leaf [reflectance factor in 1]\n400,0.055\n410,0.06\n");
-//! assert!(written.metadata.is_some_and(|metadata| metadata.text("leaf.csv").contains(r#""dc:title": "Leaf""#)));
+//! assert!(written.beside.metadata.is_some_and(|metadata| metadata.text("leaf.csv").contains(r#""dc:title": "Leaf""#)));
 //! assert!(written.notes.is_empty());
 //! # Ok::<(), spectral_file::write::WriteError>(())
 //! ```
@@ -44,7 +46,7 @@ mod format;
 mod json;
 mod sheet;
 
-pub use csv::{Metadata, Prepared};
+pub use csv::{Beside, Metadata, Prepared};
 pub use format::{Format, Grid, Note, WriteError};
 pub use sheet::{Content, Sheet, Trace};
 
@@ -78,8 +80,8 @@ impl Format {
 pub struct Written {
     /// The text, with a line feed after each line.
     pub text: String,
-    /// What is known about the curves and is not in the text, for a file beside it.
-    pub metadata: Option<Metadata>,
+    /// What is known about the curves and is not in the text, for files beside it.
+    pub beside: Beside,
     /// Differences from the curves as they were given.
     pub notes: Vec<Note>,
 }
@@ -94,7 +96,7 @@ pub struct Written {
 pub fn write(sheet: &Sheet<'_>, format: Format, grid: Grid) -> Result<Written, WriteError> {
     format.fits(sheet)?;
     base::check(grid)?;
-    if matches!(format, Format::Csv | Format::CommentedCsv) {
+    if format.is_csv() {
         let (mut prepared, mut text) = (Prepared::new(sheet, grid)?, String::new());
         let put = &mut |part: &str| {
             text.push_str(part);
@@ -105,8 +107,8 @@ pub fn write(sheet: &Sheet<'_>, format: Format, grid: Grid) -> Result<Written, W
         } else {
             prepared.with_comments(put);
         }
-        let metadata = (format == Format::Csv).then(|| prepared.metadata());
-        return Ok(Written { text, metadata, notes: prepared.notes() });
+        let beside = prepared.beside(format == Format::Csv);
+        return Ok(Written { text, beside, notes: prepared.notes() });
     }
     let mut draft = base::Draft::new(sheet, format, grid)?;
     let text = match format {
@@ -114,5 +116,5 @@ pub fn write(sheet: &Sheet<'_>, format: Format, grid: Grid) -> Result<Written, W
         Format::DcamprofJson => json::dcamprof(&mut draft),
         _ => cgats::write(&mut draft),
     };
-    Ok(Written { text, metadata: None, notes: draft.notes })
+    Ok(Written { text, beside: Beside::default(), notes: draft.notes })
 }

@@ -203,7 +203,7 @@ fn row(ui: &mut Ui, rect: Rect, index: usize, entries: &[Entry], context: &mut P
     let left = rect.left() + MARK + 2.0;
     let upper = Rect::from_min_max(egui::pos2(left, rect.top() + 1.0), egui::pos2(rect.right() - lines::DOTS, middle));
     let lower = Rect::from_min_max(egui::pos2(left, middle), egui::pos2(rect.right() - UNIT, rect.bottom() - 2.0));
-    lines::elided(ui, upper, &entry.name, TextStyle::Body, theme.text);
+    lines::name(ui, upper, &entry.name, TextStyle::Body, theme.text);
     let color = match (on, entry.state) {
         // Neither gray nor red would be readable on the selection background.
         (true, _) => theme.text,

@@ -193,7 +193,7 @@ fn source_row(ui: &mut Ui, source: &ComparedSensor, patch: &str, seen: &PatchCol
     let swatches =
         Rect::from_min_max(egui::pos2(rect.right() - 122.0, rect.top() + 1.0), rect.max - Vec2::new(62.0, 1.0));
     let label = Rect::from_x_y_ranges(key.right() + 2.0 * UNIT..=swatches.left() - UNIT, rect.y_range());
-    lines::elided(ui, label, &source.label, TextStyle::Body, theme.text);
+    lines::name(ui, label, &source.label, TextStyle::Body, theme.text);
     if let Ok(Some(own)) = &own {
         let mut place =
             ui.new_child(egui::UiBuilder::new().id_salt(("pair", source.kind, &source.name)).max_rect(swatches));

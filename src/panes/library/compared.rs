@@ -123,7 +123,7 @@ fn label(ui: &Ui, rect: Rect, row: Rect, id: Id, source: &ComparedSensor, contex
         ui.painter().rect_stroke(row, 3.0, stroke, egui::StrokeKind::Inside);
     }
     let color = context.theme.text.gamma_multiply(if source.visible { 1.0 } else { FADED + 0.25 });
-    let cut = lines::elided(ui, rect, &source.label, TextStyle::Body, color);
+    let cut = lines::name(ui, rect, &source.label, TextStyle::Body, color);
     if response.clicked() {
         context.view.click(Some(&thing));
     }

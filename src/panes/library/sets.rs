@@ -177,7 +177,7 @@ fn set(ui: &mut Ui, entry: &Entry, context: &mut PaneContext<'_>) {
     }
     let color = if enabled { context.theme.text } else { context.theme.weak };
     let shown = if entry.kind == SetKind::Illuminant && entry.name == "E" { "E, equal energy" } else { &entry.name };
-    let cut = lines::elided(ui, words, shown, TextStyle::Body, color);
+    let cut = lines::name(ui, words, shown, TextStyle::Body, color);
     if enabled && response.clicked() && (ticks || !on) {
         choose(entry, !on, context);
     }

@@ -8,6 +8,7 @@ use egui::{
 
 use crate::action::{Action, SceneAction};
 use crate::document::TransformChoice;
+use crate::format::cut_in_middle;
 use crate::paint;
 use crate::panes::context::PaneContext;
 use crate::scene::ComparedSensor;
@@ -23,6 +24,12 @@ pub fn elided(ui: &Ui, rect: Rect, words: &str, style: TextStyle, color: Color32
     let cut = galley.elided;
     ui.painter().galley(at, galley, color);
     cut
+}
+
+/// Draws a name into a rectangle, with an ellipsis in its middle if it does not fit. Returns whether it was cut.
+pub fn name(ui: &Ui, rect: Rect, words: &str, style: TextStyle, color: Color32) -> bool {
+    let shown = cut_in_middle(words, |words| width(ui, words, style.clone()) <= rect.width());
+    elided(ui, rect, &shown, style, color) || *shown != *words
 }
 
 /// Draws small text into a rectangle, in at most so many rows, with an ellipsis if it does not fit.
@@ -65,7 +72,7 @@ pub fn key_and_label(ui: &mut Ui, source: &ComparedSensor, theme: &Theme) -> Res
     let (rect, response) = ui.allocate_exact_size(Vec2::new(ui.available_width(), ROW), Sense::hover());
     key(ui.painter(), Rect::from_min_size(rect.min, Vec2::new(KEY, ROW)), source, theme);
     let words = rect.with_min_x(rect.left() + KEY + 8.0);
-    let cut = elided(ui, words, &source.label, TextStyle::Body, theme.text);
+    let cut = name(ui, words, &source.label, TextStyle::Body, theme.text);
     labeled(&response, egui::Role::Label, &source.label);
     if cut { response.on_hover_text(&source.label) } else { response }
 }

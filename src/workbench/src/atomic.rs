@@ -6,8 +6,11 @@ use std::io::{self, Seek as _};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, SystemTime};
 
-use spectral_file::write::Metadata;
+use spectral_file::COVARIANCE;
+use spectral_file::write::{Beside, Metadata};
 use tempfile::NamedTempFile;
+
+use crate::format::file_name;
 
 /// The beginning of names of files that are being written.
 pub const TEMPORARY: &str = ".chromascope-";
@@ -48,29 +51,51 @@ pub fn write_atomically_with(path: &Path, write: impl FnOnce(&mut dyn io::Write)
     Ok(())
 }
 
-/// Path of the file with the metadata of a table.
-pub fn metadata_path(table: &Path) -> PathBuf {
-    let mut path = table.as_os_str().to_owned();
-    path.push(Metadata::ENDING);
-    path.into()
+/// Paths of the files beside a table, with its metadata and its covariance.
+pub fn paths_beside(table: &Path) -> [PathBuf; 2] {
+    let mut metadata = table.as_os_str().to_owned();
+    metadata.push(Metadata::ENDING);
+    [metadata.into(), table.with_extension(COVARIANCE)]
 }
 
-/// Writes a file and before it the one that describes it: both or neither.
-pub fn write_described<E>(
-    description: Option<(&Path, &[u8])>,
-    failed: impl Fn(io::Error) -> E,
+/// Files beside a table, each with its text; none for one that would describe the table before it.
+pub fn files_beside(table: &Path, beside: &Beside) -> [(PathBuf, Option<String>); 2] {
+    let [metadata, covariance] = paths_beside(table);
+    let text = beside.metadata.as_ref().map(|known| known.text(&file_name(table)));
+    [(metadata, text), (covariance, beside.covariance.clone())]
+}
+
+/// Writes a file and before it those beside it, or removes these: all or none.
+pub fn write_with<E>(
+    beside: &[(PathBuf, Option<String>)],
+    failed: impl Fn(&Path, io::Error) -> E,
     write: impl FnOnce() -> Result<(), E>,
 ) -> Result<(), E> {
-    let Some((path, bytes)) = description else { return write() };
-    let before = match fs::read(path) {
-        Err(error) if error.kind() == io::ErrorKind::NotFound => None,
-        before => Some(before.map_err(&failed)?),
+    let mut undo = Vec::with_capacity(beside.len());
+    let mut put_beside = || {
+        for (path, text) in beside {
+            let put = fs::read(path).map(Some).or_else(if_absent).and_then(|before| {
+                undo.push((path, before));
+                put_or_remove(path, text.as_deref().map(str::as_bytes))
+            });
+            put.map_err(|error| failed(path, error))?;
+        }
+        Ok(())
     };
-    write_atomically(path, bytes).map_err(failed)?;
-    write().inspect_err(|_| {
-        // The first failure is the one to report.
-        let _undone = before.map_or_else(|| fs::remove_file(path), |before| write_atomically(path, &before));
+    put_beside().and_then(|()| write()).inspect_err(|_| {
+        for (path, before) in undo {
+            // The first failure is the one to report.
+            let _undone = put_or_remove(path, before.as_deref());
+        }
     })
+}
+
+fn if_absent<T: Default>(error: io::Error) -> io::Result<T> {
+    if error.kind() == io::ErrorKind::NotFound { Ok(T::default()) } else { Err(error) }
+}
+
+fn put_or_remove(path: &Path, bytes: Option<&[u8]>) -> io::Result<()> {
+    bytes.map_or_else(|| fs::remove_file(path).or_else(if_absent), |bytes| write_atomically(path, bytes))
 }
 
 /// Makes a file that is to take the place of another, and locks it: it is being written.
@@ -141,9 +166,10 @@ fn is_temporary(name: &OsStr) -> bool {
     random.is_some_and(|random| random.len() == RANDOM && random.bytes().all(|byte| byte.is_ascii_alphanumeric()))
 }
 
-/// A file's name of a stem and an ending, the stem cut where both together are longer than file systems take: 255 bytes.
+/// A file's name of a stem and an ending, the stem cut where both together are longer than file systems take: 255 bytes, with those of a
+/// file beside it.
 pub fn fitting(stem: &str, ending: &str) -> String {
-    const LONGEST: usize = 255;
+    const LONGEST: usize = 255 - Metadata::ENDING.len();
     let room = LONGEST.saturating_sub(ending.len());
     format!("{}{ending}", &stem[..stem.floor_char_boundary(room)])
 }

@@ -5,6 +5,7 @@
 
 pub mod chart_picture;
 pub mod file_store;
+pub mod folders;
 pub mod import;
 pub mod likeness;
 pub mod load;

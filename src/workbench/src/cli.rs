@@ -105,12 +105,12 @@ pub enum Outcome {
 
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Outcome {
     let arguments: Vec<OsString> = arguments.into_iter().collect();
-    let matches = match Arguments::command().try_get_matches_from(&arguments) {
+    let matches = match command().try_get_matches_from(&arguments) {
         Ok(matches) => matches,
         Err(error) => {
             // Help was asked of a command that does not exist.
             let word = arguments.get(1).filter(|_| error.kind() == clap::error::ErrorKind::DisplayHelp);
-            let is_command = |word: &OsString| Arguments::command().find_subcommand(word).is_some();
+            let is_command = |word: &OsString| command().find_subcommand(word).is_some();
             let word =
                 word.filter(|word| !word.to_string_lossy().starts_with('-') && *word != "help" && !is_command(word));
             return Outcome::Done(match word.filter(|word| is_mistyped_command(Path::new(word))) {
@@ -135,6 +135,15 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Outcome {
             say(&format!("chromascope: {error}\n"));
             error.code()
         }
+    })
+}
+
+/// The command line. One `--camera` takes several values, as shells make them of `*.csv`, where no other file can follow.
+fn command() -> clap::Command {
+    let is_camera = |argument: &clap::Arg| argument.get_id() == "camera" && argument.get_long().is_some();
+    Arguments::command().mut_subcommands(|command| {
+        let takes_several = command.get_positionals().next().is_none() && command.get_arguments().any(is_camera);
+        if takes_several { command.mut_arg("camera", |camera| camera.num_args(1..)) } else { command }
     })
 }
 

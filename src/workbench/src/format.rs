@@ -1,5 +1,7 @@
 //! Ranks, names and messages of libraries as text for display; numbers are those of the figures.
 
+use std::borrow::Cow;
+use std::fmt;
 use std::path::Path;
 
 pub use chromascope_figure::number::{aligned, behind, decimals_by, fixed, number, rounded, signed, whole};
@@ -27,6 +29,11 @@ pub fn sentence(words: &str) -> String {
 /// The last part of a path; the whole path if it has none.
 pub fn file_name(path: &Path) -> String {
     path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
+}
+
+/// A path for people, on one line.
+pub fn display_path(path: &Path) -> String {
+    spectral_file::on_one_line(&path.to_string_lossy()).into_owned()
 }
 
 /// The system's reason for a failure at a path, after the path.
@@ -64,11 +71,60 @@ fn rows_of(count: usize) -> String {
     if count == 1 { "1 row".to_owned() } else { format!("{count} rows") }
 }
 
-fn listed(rows: &[&DroppedRow], most: usize, one: impl Fn(&DroppedRow) -> String) -> String {
-    let words: Vec<String> = rows.iter().take(most).map(|row| one(row)).collect();
-    let more = rows.len().saturating_sub(most);
+/// The first of some things in words, at most so many, and the number of the others.
+pub fn listed<T>(all: &[T], most: usize, one: impl Fn(&T) -> String) -> String {
+    let words: Vec<String> = all.iter().take(most).map(one).collect();
+    let more = all.len().saturating_sub(most);
     let rest = if more > 0 { format!(" and {more} more") } else { String::new() };
     words.join(", ") + &rest
+}
+
+/// Files by what is said of them. What differs in numbers and quoted names alone is said once, in the words of the first.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Tally(pub Vec<(String, Vec<String>)>);
+
+impl Tally {
+    pub fn add(&mut self, words: &str, file: String) {
+        fn kind(words: &str) -> impl Iterator<Item = char> {
+            let unquoted = words.split(['"', '“', '”']).step_by(2).flat_map(str::chars);
+            unquoted.filter(|c| !c.is_ascii_digit() && *c != '.')
+        }
+        match self.0.iter_mut().find(|(known, _)| kind(known).eq(kind(words))) {
+            Some((_, files)) => files.push(file),
+            None => self.0.push((words.to_owned(), vec![file])),
+        }
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+}
+
+impl fmt::Display for Tally {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.is_empty() {
+            return f.write_str("nothing");
+        }
+        let counted = |(words, files): &(String, Vec<String>)| {
+            format!("{} {words} ({})", files.len(), listed(files, 3, String::clone))
+        };
+        f.write_str(&self.0.iter().map(counted).collect::<Vec<_>>().join(", "))
+    }
+}
+
+/// A name as it fits, with an ellipsis in its middle if it is too long: many names differ only at their ends.
+pub fn cut_in_middle(name: &str, fits: impl Fn(&str) -> bool) -> Cow<'_, str> {
+    if fits(name) {
+        return Cow::Borrowed(name);
+    }
+    let letters: Vec<char> = name.chars().collect();
+    let cut = |kept: usize| {
+        let ends = [&letters[..kept.div_ceil(2)], &letters[letters.len() - kept / 2..]];
+        let [head, tail] = ends.map(|end| end.iter().collect::<String>());
+        format!("{}…{}", head.trim_end(), tail.trim_start())
+    };
+    let counts: Vec<usize> = (1..letters.len()).collect();
+    Cow::Owned(cut(counts.partition_point(|kept| fits(&cut(*kept)))))
 }
 
 /// A name that any file system takes: letters and digits, small, other signs as single hyphens.

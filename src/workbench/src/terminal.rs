@@ -5,6 +5,8 @@ use std::io::{self, IsTerminal as _, Write};
 
 use spectral_file::turns_text;
 
+use crate::format::{Tally, listed};
+
 /// A text as it may go to a terminal. Names come from files, and control characters in them could change what the terminal does or
 /// shows: all but line feeds and tabs become escapes such as `\u{1b}`, and so do characters that turn the direction of text.
 pub fn shown(text: &str) -> Cow<'_, str> {
@@ -28,6 +30,22 @@ fn escaped(text: &str, escape: impl Fn(char) -> String) -> Cow<'_, str> {
 pub fn say(text: &str) {
     // No message can be written once the terminal is closed.
     let _gone = io::stderr().lock().write_all(shown(text).as_bytes());
+}
+
+/// Remarks on files, said when all of them are read and used: those of one kind in one line.
+#[derive(Debug, Default)]
+pub struct Remarks(pub Tally);
+
+impl Drop for Remarks {
+    fn drop(&mut self) {
+        for (words, files) in &self.0.0 {
+            let more = match files.len() - 1 {
+                0 => String::new(),
+                count => format!("; likewise {count} more: {}", listed(&files[1..], 3, String::clone)),
+            };
+            say(&format!("chromascope: {}: {words}{more}\n", files[0]));
+        }
+    }
 }
 
 /// Draws a bar of progress on standard error, over the one before; at the end it is wiped. Only for terminals: none elsewhere.

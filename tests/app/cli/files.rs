@@ -6,7 +6,7 @@ use std::process::{Command, Stdio};
 
 use super::{file, number, refused, run, table};
 
-fn asset(path: &str) -> String {
+pub(super) fn asset(path: &str) -> String {
     format!("{}/assets/{path}", env!("CARGO_MANIFEST_DIR"))
 }
 
@@ -16,7 +16,7 @@ fn figures(path: &str) -> String {
     text.lines().filter(|line| !line.starts_with('#')).flat_map(|line| [line, "\n"]).collect()
 }
 
-fn text(path: &Path) -> &str {
+pub(super) fn text(path: &Path) -> &str {
     path.to_str().unwrap()
 }
 
@@ -152,7 +152,7 @@ fn files_that_do_not_fit_say_which_and_why() {
         &["patches", "--illuminant", &asset("cameras/nikon_d70_2007_figure.csv")],
         &["nikon_d70_2007_figure.csv: the file states", "--camera"],
     );
-    refused(&["locus", "--camera", env!("CARGO_TARGET_TMPDIR")], &[env!("CARGO_TARGET_TMPDIR"), "directory"]);
+    refused(&["locus", "--illuminant", env!("CARGO_TARGET_TMPDIR")], &[env!("CARGO_TARGET_TMPDIR"), "directory"]);
     refused(&["locus", "--camera", "missing.csv"], &["chromascope: missing.csv: no such file or directory\n"]);
     #[cfg(unix)]
     refused(&["locus", "--camera", "/dev/zero"], &["/dev/zero: named pipes, sockets and devices are not supported"]);

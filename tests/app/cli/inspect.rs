@@ -11,28 +11,28 @@ use super::{refused, run};
 const LEAF: &str = "nm;Reflectance (%)\n400;5,5\n410;6,0\n420;---\n430;8,25\n";
 
 /// A folder of a test's own, empty.
-fn folder(name: &str) -> PathBuf {
+pub(super) fn folder(name: &str) -> PathBuf {
     let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("inspect_{name}"));
     let _absent = std::fs::remove_dir_all(&path);
     std::fs::create_dir(&path).unwrap();
     path
 }
 
-fn put(folder: &Path, name: &str, text: &str) -> String {
+pub(super) fn put(folder: &Path, name: &str, text: &str) -> String {
     let path = folder.join(name);
     std::fs::write(&path, text).unwrap();
     path.to_str().unwrap().to_owned()
 }
 
-fn inspect(arguments: &[&str]) -> Output {
+pub(super) fn inspect(arguments: &[&str]) -> Output {
     run(&[&["inspect"], arguments].concat())
 }
 
-fn said(output: &Output) -> (String, String) {
+pub(super) fn said(output: &Output) -> (String, String) {
     (String::from_utf8(output.stdout.clone()).unwrap(), String::from_utf8(output.stderr.clone()).unwrap())
 }
 
-fn done(arguments: &[&str]) -> String {
+pub(super) fn done(arguments: &[&str]) -> String {
     let output = inspect(arguments);
     let (out, err) = said(&output);
     // What a file leaves open is named beside what was read.
@@ -41,7 +41,7 @@ fn done(arguments: &[&str]) -> String {
     out
 }
 
-fn json(arguments: &[&str]) -> Value {
+pub(super) fn json(arguments: &[&str]) -> Value {
     serde_json::from_str(&done(&[arguments, &["--json"]].concat())).unwrap()
 }
 
@@ -372,7 +372,7 @@ fn responses_can_be_taken_otherwise() {
 #[cfg(unix)]
 #[test]
 fn a_pipe_with_a_name_is_refused_and_standard_input_is_read_by_any_name() {
-    use std::io::Write as _;
+    use std::io::{Read as _, Write as _};
     let folder = folder("pipe");
     let pipe = folder.join("pipe");
     let made = std::process::Command::new("mkfifo").arg(&pipe).status().unwrap();
@@ -387,6 +387,13 @@ fn a_pipe_with_a_name_is_refused_and_standard_input_is_read_by_any_name() {
             .spawn()
             .unwrap();
         let mut input = child.stdin.take().unwrap();
+        if name == "-" {
+            // While nothing comes, it says what it waits for.
+            let wanted = "chromascope: waiting for standard input to end; Ctrl+C stops.\n";
+            let mut notice = vec![0; wanted.len()];
+            child.stderr.as_mut().unwrap().read_exact(&mut notice).unwrap();
+            assert_eq!(String::from_utf8(notice).unwrap(), wanted);
+        }
         input.write_all(LEAF.as_bytes()).unwrap();
         drop(input);
         let (out, _) = said(&child.wait_with_output().unwrap());

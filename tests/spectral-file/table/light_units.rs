@@ -76,7 +76,7 @@ fn what_was_converted_is_not_converted_again() {
         }
     }
     // A light is not converted merely because of its name.
-    let named = [Trace { name: "PPFD lamp", wavelengths_nm: &[400.0, 500.0], values: &[1.0, 2.0] }];
+    let named = [Trace { name: "PPFD lamp", wavelengths_nm: &[400.0, 500.0], values: &[1.0, 2.0], uncertainty: None }];
     let sheet = Sheet { content: Content::Illuminant, curves: &named, ..Sheet::default() };
     let text = write(&sheet, Format::Csv, Grid::Native).unwrap().text;
     assert_eq!(ok(&text).curves[0].values, [1.0, 2.0], "{text}");

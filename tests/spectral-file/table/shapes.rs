@@ -46,6 +46,25 @@ fn tidy_tables_in_both_orders() {
 }
 
 #[test]
+fn tidy_tables_with_rows_counted_and_with_uncertainties() {
+    let count = |table: String| table.lines().zip(1..).map(|(row, at)| format!("\"{at}\",{row}\n")).collect::<String>();
+    let plain = rows(true, |name, nm, value| format!("{nm},\"{name}\",{value}\n"));
+    is_whole(&ok(&format!("\"\",\"wl\",\"variable\",\"value\"\n{}", count(plain.clone()))), ["leaf", "bark", "soil"]);
+    let blanks = count(plain).replace(',', " ");
+    is_whole(&ok(&format!("\"wl\" \"variable\" \"value\"\n{blanks}")), ["leaf", "bark", "soil"]);
+    for spread in ["sd", "std_err", "R_sd"] {
+        let uncertain = rows(false, |name, nm, value| format!("{name},{nm},{value},0.01,5\n"));
+        let table = ok(&format!("sample,wavelength,R,{spread},n\n{uncertain}"));
+        is_whole(&table, ["leaf", "bark", "soil"]);
+        assert!(table.curves.iter().all(|curve| curve.uncertainty.as_ref().unwrap().standard == [0.01; 9]), "{spread}");
+    }
+    let two = rows(true, |name, nm, value| format!("{name},{nm},{value},0.01,{},0.02\n", value / 2.0));
+    let table = ok(&format!("sample,wavelength,R,R_sd,T,T_sd\n{two}"));
+    assert_eq!(names(&table)[..3], ["leaf R", "leaf T", "bark R"]);
+    assert_eq!(table.curves[1].uncertainty.as_ref().unwrap().standard[0], 0.02);
+}
+
+#[test]
 fn tidy_names_are_joined_of_the_columns_that_vary() {
     let two = rows(true, |name, nm, value| format!("{name},1,{nm},{value}\n{name},2,{nm},{}\n", value / 2.0));
     let table = ok(&format!("species,replicate,wl,refl\n{two}"));
@@ -70,6 +89,10 @@ fn tidy_tables_without_names_and_with_doubts() {
     let table = ok(&rows(true, |name, nm, value| format!("{}, {nm}, {value} \n", number(name))));
     is_whole(&table, ["157", "158", "9"]);
     assert_eq!(table.reading.reader.certainty, Certainty::Guess);
+    for by_sample in [true, false] {
+        is_whole(&ok(&rows(by_sample, |name, nm, value| format!("{name}\t{nm}\t{value}\n"))), ["leaf", "bark", "soil"]);
+    }
+    is_whole(&ok(&rows(false, |name, nm, value| format!("{},{nm},{value}\n", number(name)))), ["157", "158", "9"]);
     // Two values of one sample at one wavelength, or a torn row, are left to the general reader.
     let torn = rows(true, |name, nm, value| format!("{name},{nm},{value}\n")).replace("bark,450,0.45\n", "bark,45\n");
     let table = read(format!("species,wl,refl\n{torn}").as_bytes(), &ReadOptions::default());
@@ -88,6 +111,19 @@ fn prefixes_of_wavelengths_and_counters() {
         assert_eq!(names(&table), ["leaf", "bark"], "{prefix}");
         assert_eq!(samples(&table.curves[0])[0], (400.0, 1.0), "{prefix}");
     }
+    // A word that says nothing of wavelengths is a guess; small numbers below it are no wavelengths.
+    for prefix in ["nir", "Reflect_", "V"] {
+        let text = format!(
+            "id,{prefix}400,{prefix}410,{prefix}420,{prefix}430,{prefix}440\nleaf,.1,.2,.3,.4,.5\nbark,.2,.3,.4,.5,.6\n"
+        );
+        let table = ok(&text);
+        assert_eq!((names(&table), samples(&table.curves[0])[0]), (vec!["leaf", "bark"], (400.0, 0.1)), "{prefix}");
+        assert_eq!(table.reading.orientation.certainty, Certainty::Guess, "{prefix}");
+    }
+    let counted = "id,V1,V2,V3,V4,V5,V6\nleaf,.31,.32,.33,.34,.35,.36\nbark,.2,.3,.4,.5,.6,.7\n";
+    assert!(matches!(error(counted), ReadError::NearlyRow { .. }));
+    let hash = ok("#,Name,400,410,420,430,440\n1,leaf,.1,.2,.3,.4,.5\n2,bark,.2,.3,.4,.5,.6\n");
+    assert_eq!((names(&hash), hash.reading.range_nm), (vec!["leaf", "bark"], [400.0, 440.0]));
     for prefix in ["b", "A", "L"] {
         let heads: Vec<String> = (301..307).map(|count| format!("{prefix}{count}")).collect();
         let text = format!("nm,{}\n400,1,2,3,4,5,6\n410,1,2,3,4,5,6\n420,1,2,3,4,5,7\n", heads.join(","));
@@ -105,6 +141,21 @@ fn names_above_what_was_measured() {
     assert_eq!((names(&above), above.curves[0].values[0]), (vec!["Leaf", "Bark"], 0.1));
     let shimadzu = ok("\"Leaf A - RawData\"\n\"Wavelength nm.\",\"R%\"\n400,10\n410,20\n420,30\n");
     assert_eq!((names(&shimadzu), shimadzu.curves[0].values[0]), (vec!["Leaf A"], 0.1));
+    let shimadzu =
+        ok("\"\",\"Leaf - RawData\",\"Bark - RawData\"\n\"Wavelength nm.\",\"R%\",\"R%\"\n400,10,30\n410,20,40\n");
+    assert_eq!(names(&shimadzu), ["Leaf", "Bark"]);
+    // Names above means and uncertainties, each above both or above the first.
+    let rows = "400,.5,.01,.3,.02\n410,.6,.01,.4,.02\n420,.7,.01,.5,.02\n";
+    for head in [
+        ",Leaf,,Bark,\nWavelength,mean,sd,mean,sd\n",
+        ",Leaf,Leaf,Bark,Bark\nWavelength (nm),R,U (k=1),R,U (k=1)\n",
+        "Wavelength,Leaf,,Bark,\n,mean,sd,mean,sd\n",
+        ",Leaf,Leaf,Bark,Bark\n,mean,std,mean,std\nwavelength,,,,\n",
+    ] {
+        let table = ok(&format!("{head}{rows}"));
+        assert_eq!(names(&table), ["Leaf", "Bark"], "{head}");
+        assert_eq!(table.curves[1].uncertainty.as_ref().expect(head).standard, [0.02; 3], "{head}");
+    }
     // A setting above them is no name.
     let setting = ok("Operator,Smith\nWavelength (nm),%R\n400,10\n410,20\n420,30\n");
     assert!(!names(&setting).contains(&"Smith"), "{:?}", names(&setting));
@@ -119,14 +170,38 @@ fn names_of_rows_and_names_between_blanks() {
         let table = ok(text);
         assert_eq!((names(&table), samples(&table.curves[1])[0]), (vec!["leaf", "bark"], (400.0, 0.2)), "{text}");
     }
+    let wide = ok("\"X400\" \"X410\" \"X420\" \"X430\" \"X440\"\n\"leaf\" .1 .2 .3 .4 .5\n\"bark\" .2 .3 .4 .5 .6\n");
+    assert_eq!((names(&wide), samples(&wide.curves[1])[4]), (vec!["leaf", "bark"], (440.0, 0.6)));
+    let axis = ok("\"leaf\" \"bark\"\n\"400\" 0.1 0.2\n\"410\" 0.2 0.3\n\"420\" 0.3 0.4\n");
+    assert_eq!((names(&axis), samples(&axis.curves[1])[0]), (vec!["leaf", "bark"], (400.0, 0.2)));
+    for (head, sign) in
+        [("nm leaf bark", ","), ("nm,leaf,bark", " "), ("nm\tleaf\tbark", " "), ("nm leaf bark", "\t\t\t")]
+    {
+        let rows = "400,0.1,0.2\n410,0.2,0.3\n420,0.3,0.4\n".replace(',', sign);
+        let table = ok(&format!("{head}\n{rows}"));
+        assert_eq!((names(&table), table.curves[1].values[0]), (vec!["leaf", "bark"], 0.2), "{head:?} {sign:?}");
+    }
+    let named = ok("nm,leaf one,bark two\n400 0.1 0.2\n410 0.2 0.3\n420 0.3 0.4\n");
+    assert_eq!(names(&named), ["leaf one", "bark two"]);
+    let absent = ok("\"Wavelength, µm\",\"n\",\"k\"\n0.43,1.61\n0.44,1.62\n0.45,1.63\n");
+    assert_eq!((names(&absent), absent.curves[0].values[0]), (vec!["n"], 1.61));
     let blanks = ok("w.length.1 leaf\tw.length.2 bark\n400\t0.1\t400\t0.2\n410\t0.2\t410\t0.3\n420\t0.3\t420\t0.4\n");
     assert_eq!((names(&blanks), blanks.curves[1].values[0]), (vec!["leaf", "bark"], 0.2));
     let specular = ok("Name,Mode,400nm,410nm,420nm,430nm,440nm\nWhite,SCI,90,91,92,93,94\nWhite,SCE,80,81,82,83,84\n");
     assert_eq!(names(&specular), ["White (SCI)", "White (SCE)"]);
+    let rows = "1,White,SCI,90,91,92,93,94\n2,White,SCE,80,81,82,83,84\n";
+    assert_eq!(names(&ok(&format!("No.,Name,Specular,400,410,420,430,440\n{rows}"))), ["White (SCI)", "White (SCE)"]);
+    let rows = rows.replace("SCI", "x").replace("SCE", "x");
+    assert_eq!(names(&ok(&format!("No.,Name,Mode,400,410,420,430,440\n{rows}"))), ["White (1)", "White (2)"]);
     let instrument = ok("Irradiance [µW/cm2/nm],\nTime,10:00,10:01\nIndex,1,2\n[nm],\n400,1,2\n410,2,3\n420,3,4\n");
     assert_eq!(names(&instrument), ["1", "2"]);
     let counted = ok("No.,Wavelength,Reflectance\n1,400,0.1\n2,410,0.2\n3,420,0.3\n");
     assert_eq!((counted.curves.len(), samples(&counted.curves[0])[0]), (1, (400.0, 0.1)));
+    for head in ["Point", "S.No", "Unnamed: 0", "Nº"] {
+        let rows: String = (0..9).map(|at| format!("{at},{},0.1,0.2\n", 400 + 10 * at)).collect();
+        let table = ok(&format!("{head},Wavelength,leaf,bark\n{rows}"));
+        assert_eq!((names(&table), table.curves[0].values.len()), (vec!["leaf", "bark"], 9), "{head}");
+    }
     let last = ok("Wavelength,Reflectance,No.\n400,0.1,1\n410,0.2,2\n420,0.3,3\n");
     assert_eq!((last.curves.len(), samples(&last.curves[0])[0]), (1, (400.0, 0.1)));
 }
@@ -157,6 +232,9 @@ fn samples_out_of_range_are_left_out_at_the_ends_only() {
     assert_eq!(far.reading.dropped_rows[0].line, 5);
     let infrared = ok("1/cm,R\n4000,0.1\n2000,0.2\n1000,0.3\n399,0.4\n");
     assert_eq!(infrared.curves[0].values, [0.1, 0.2, 0.3]);
+    let heads: Vec<String> = (0..50).map(|at| (33_000 - 500 * at).to_string()).collect();
+    let across = ok(&format!("Wavenumber (cm-1),{}\nleaf,{}\n", heads.join(","), vec!["0.5"; 50].join(",")));
+    assert_eq!((across.curves[0].values.len(), across.reading.range_nm[1].round()), (50, 1176.0));
     let outside = |text: &str| matches!(error(text), ReadError::WavelengthOutOfRange { .. });
     assert!(outside("nm,R\n400,0.1\n41,0.2\n420,0.3\n430,0.4\n"));
     assert!(outside("nm,R\n400,0.1\n410,0.2\n420,0.3\n43,0.4\n"));
@@ -184,9 +262,34 @@ fn chinese_and_western_bytes() {
     assert_eq!((chinese.reading.encoding, names(&chinese)), (Encoding::Gbk, vec!["红", "绿"]));
     let encoding = chinese.decisions().into_iter().find(|decision| decision.what == "Encoding").unwrap();
     assert_eq!((encoding.value.as_str(), encoding.certainty), ("GBK", Certainty::Guess));
+    // Big5, EUC-KR and Windows-1251 are none of these.
+    for unknown in [&b"nm,\xA4\xCF\xAEg\xB2v\n400,1\n410,2\n420,3\n"[..], b"nm,\xB9\xDD\xBB\xE7\n400,1\n410,2\n420,3\n"]
+    {
+        let table = read(unknown);
+        let encoding = table.decisions().into_iter().find(|decision| decision.what == "Encoding").unwrap();
+        assert_eq!((table.reading.encoding, encoding.certainty), (Encoding::Unknown, Certainty::Guess));
+        assert!(encoding.why.contains("UTF-8"), "{encoding}");
+    }
     for western in [&b"nm,W\xB7m\xB2\xB7nm\n400,1\n410,2\n420,3\n"[..], b"nm,S\xE4ure 20 \xB0C\n400,1\n410,2\n420,3\n"]
     {
         assert_eq!(read(western).reading.encoding, Encoding::Windows1252);
+    }
+}
+
+#[test]
+fn words_of_other_languages() {
+    for (text, role) in [
+        ("Golflengte (nm);Reflectie", Role::Reflectance),
+        ("Długość fali [nm];Odbicie", Role::Reflectance),
+        ("Vlnová délka (nm);Propustnost", Role::Transmittance),
+        ("Длина волны, нм;Коэффициент отражения", Role::Reflectance),
+        ("Longueur d'onde (nm);Facteur de réflexion", Role::Reflectance),
+        ("Lunghezza d'onda;Trasmissione", Role::Transmittance),
+        ("波长;透过率", Role::Transmittance),
+        ("파장;반사율", Role::Reflectance),
+    ] {
+        let table = ok(&format!("{text}\n400;0.1\n410;0.2\n420;0.3\n"));
+        assert_eq!((table.role.value, table.role.certainty), (role, Certainty::Certain), "{text}");
     }
 }
 

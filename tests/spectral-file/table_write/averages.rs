@@ -14,15 +14,15 @@ fn line() -> (Vec<f64>, Vec<f64>) {
 #[test]
 fn averages_keep_what_points_lose() {
     let (wavelengths_nm, values) = line();
-    let traces = [Trace { name: "lamp", wavelengths_nm: &wavelengths_nm, values: &values }];
+    let traces = [Trace { name: "lamp", wavelengths_nm: &wavelengths_nm, values: &values, uncertainty: None }];
     let points = written(&sheet(Content::Illuminant, &traces), Format::Csv, Grid::Step(5.0));
     assert!(back(&points.text).curves[0].values.iter().all(|value| *value == 1.0));
-    let known = points.metadata.unwrap().text("lamp.csv");
+    let known = points.beside.metadata.unwrap().text("lamp.csv");
     assert!(known.contains("{ \"resampling\": \"values every 5 nm, samples picked\" }"), "{known}");
     assert!(has(&points.notes, |note| matches!(note, Note::Thinned { .. })));
     let bands = written(&sheet(Content::Illuminant, &traces), Format::Csv, Grid::Average(5.0));
     let told = "\"band averages every 5 nm: means of the linear interpolant over ±2.5 nm\"";
-    let known = bands.metadata.unwrap().text("lamp.csv");
+    let known = bands.beside.metadata.unwrap().text("lamp.csv");
     assert!(known.contains(told), "{known}");
     assert!(has(&bands.notes, |note| matches!(note, Note::Averaged(5.0))));
     assert!(!has(&bands.notes, |note| matches!(note, Note::Thinned { .. })));
@@ -40,7 +40,7 @@ fn averages_of_straight_pieces_are_exact() {
     // Uneven steps; between them straight: v = λ up to 450 nm, then 900 − λ.
     let wavelengths = [400.0, 403.5, 420.25, 450.0, 471.0, 500.0];
     let values: Vec<f64> = wavelengths.iter().map(|&nm| if nm <= 450.0 { nm } else { 900.0 - nm }).collect();
-    let traces = [Trace { name: "a", wavelengths_nm: &wavelengths, values: &values }];
+    let traces = [Trace { name: "a", wavelengths_nm: &wavelengths, values: &values, uncertainty: None }];
     let out = written(&sheet(Content::Other, &traces), Format::Csv, Grid::Average(10.0));
     for (nm, value) in back(&out.text).curves[0].wavelengths_nm.iter().zip(&back(&out.text).curves[0].values) {
         let mean = match *nm {
@@ -51,7 +51,7 @@ fn averages_of_straight_pieces_are_exact() {
         assert!((value - mean).abs() < 1e-9, "{nm}: {value}, not {mean}");
     }
     let huge = [f64::MAX, -f64::MAX, f64::MAX];
-    let traces = [Trace { name: "a", wavelengths_nm: &[400.0, 410.0, 420.0], values: &huge }];
+    let traces = [Trace { name: "a", wavelengths_nm: &[400.0, 410.0, 420.0], values: &huge, uncertainty: None }];
     let out = written(&sheet(Content::Other, &traces), Format::Csv, Grid::Average(4.0));
     assert!(back(&out.text).curves[0].values.iter().all(|value| value.is_finite()));
 }
@@ -59,14 +59,14 @@ fn averages_of_straight_pieces_are_exact() {
 #[test]
 fn every_format_says_which_was_used() {
     let (wavelengths_nm, values) = line();
-    let one = [Trace { name: "a", wavelengths_nm: &wavelengths_nm, values: &values }];
+    let one = [Trace { name: "a", wavelengths_nm: &wavelengths_nm, values: &values, uncertainty: None }];
     let three = [one[0], Trace { name: "b", ..one[0] }, Trace { name: "c", ..one[0] }];
     for format in Format::ALL {
         let camera = matches!(format, Format::ArgyllCmf);
         let sheet = if camera { sheet(CAMERA, &three) } else { sheet(Content::Illuminant, &one) };
         for (grid, told) in [(Grid::Average(5.0), "band averages every 5 nm"), (Grid::Step(5.0), "values every 5 nm")] {
             let out = write(&sheet, format, grid).unwrap();
-            let known = out.metadata.map(|metadata| metadata.text("a.csv")).unwrap_or_default();
+            let known = out.beside.metadata.map(|metadata| metadata.text("a.csv")).unwrap_or_default();
             assert!(out.text.contains(told) || known.contains(told), "{format}: {}", out.text);
             let curve = &back(&out.text).curves[0];
             assert!(curve.values.contains(&1.0), "{format}");

@@ -2,12 +2,12 @@
 
 use super::{CAMERA, Curves, has, sheet, written};
 use chromascope_core::spectral::{Dataset, Response};
-use spectral_file::write::{Content, Format, Grid, Note, Sheet, Trace, write};
+use spectral_file::write::{Beside, Content, Format, Grid, Note, Sheet, Trace, write};
 
 const W: [f64; 3] = [400.0, 410.0, 420.0];
 
 fn three() -> [Trace<'static>; 3] {
-    let trace = |name, values| Trace { name, wavelengths_nm: &W, values };
+    let trace = |name, values| Trace { name, wavelengths_nm: &W, values, uncertainty: None };
     [trace("red", &[0.0, 0.25, 1.0]), trace("green", &[0.1, 1.0, 1e-7]), trace("blue", &[1.0, 0.5, -0.0])]
 }
 
@@ -21,11 +21,12 @@ fn csv() {
     let (curves, comments) = (three(), comments());
     let sheet = Sheet { comments: &comments, ..sheet(CAMERA, &curves) };
     let out = written(&sheet, Format::CommentedCsv, Grid::Native);
-    assert_eq!(out.metadata, None);
+    assert_eq!(out.beside, Beside::default());
     let names = ["red", "green", "blue"].map(|name| format!("{name} [relative spectral sensitivity per energy in 1]"));
     let table = format!("wavelength_nm,{}\n400,0,0.1,1\n410,0.25,1,0.5\n420,1,1e-7,-0\n", names.join(","));
-    let head = "# title: Made up\n# quantity: relative spectral sensitivity\n# unit: 1\n# response: per energy\n";
-    let more = "# manufacturer: Nobody\n# model: N1\n# source: made up\n# license: CC0-1.0\n";
+    let head =
+        "# title: Made up\n# manufacturer: Nobody\n# model: N1\n# quantity: relative spectral sensitivity\n# unit: 1\n";
+    let more = "# response: per energy\n# source: made up\n# license: CC0-1.0\n";
     assert_eq!(out.text, format!("{head}{more}{table}"));
     assert_eq!(write(&sheet, Format::Csv, Grid::Native).unwrap().text, table);
     let content = Content::Camera { channels: [0, 1, 2], per_photon: Some(true), manufacturer: None, model: None };
@@ -55,9 +56,14 @@ fn what_is_known_goes_along() {
 
 #[test]
 fn csv_of_several_grids_and_odd_names() {
-    let a = Trace { name: "say \"a, b\"", wavelengths_nm: &[401.0, 405.0, 412.0], values: &[0.1, 0.5, 0.2] };
-    let b = Trace { name: " two\r\nlines ", wavelengths_nm: &[405.0, 500.5], values: &[0.25, 1.0] };
-    let c = Trace { name: "", wavelengths_nm: &[411.0, 412.0], values: &[1.0, 2.0] };
+    let a = Trace {
+        name: "say \"a, b\"",
+        wavelengths_nm: &[401.0, 405.0, 412.0],
+        values: &[0.1, 0.5, 0.2],
+        uncertainty: None,
+    };
+    let b = Trace { name: " two\r\nlines ", wavelengths_nm: &[405.0, 500.5], values: &[0.25, 1.0], uncertainty: None };
+    let c = Trace { name: "", wavelengths_nm: &[411.0, 412.0], values: &[1.0, 2.0], uncertainty: None };
     let curves = [a, b, c];
     let sheet = sheet(Content::Other, &curves);
     let out = write(&sheet, Format::Csv, Grid::Native).unwrap();
@@ -129,16 +135,16 @@ fn metadata_beside() {
     "dc:title": "Made up",
     "dc:license": "CC0-1.0; MIT",
     "notes": [
+        { "manufacturer": "Nobody" },
+        { "model": "N1" },
         { "quantity": "relative spectral sensitivity" },
         { "unit": "1" },
         { "response": "per energy" },
-        { "manufacturer": "Nobody" },
-        { "model": "N1" },
         { "note": "say \"a\" b" }
     ]
 }
 "#;
-    assert_eq!(written(&sheet, Format::Csv, Grid::Native).metadata.unwrap().text("my é.csv"), wanted);
+    assert_eq!(written(&sheet, Format::Csv, Grid::Native).beside.metadata.unwrap().text("my é.csv"), wanted);
 }
 
 /// A table of the schema of rawtoaces-data 1.0.0: members that it requires, their types, and texts that are not empty.
@@ -240,7 +246,12 @@ fn dcamprof() {
     assert!(light.text.starts_with("{\n    \"description\": \"Made up\",\n"), "{}", light.text);
     assert!(light.text.contains("    \"bands\": [380, 780, 5],\n    \"spectrum\": ["));
     assert_eq!(light.notes, [Note::NoNames]);
-    let uneven = Trace { name: "a", wavelengths_nm: &[400.0, 401.5, 420.0, 430.0], values: &[1.0, 2.0, 3.0, 4.0] };
+    let uneven = Trace {
+        name: "a",
+        wavelengths_nm: &[400.0, 401.5, 420.0, 430.0],
+        values: &[1.0, 2.0, 3.0, 4.0],
+        uncertainty: None,
+    };
     let uneven = written(&sheet(Content::Other, &[uneven]), Format::DcamprofJson, Grid::Native);
     assert!(uneven.text.contains("\"bands\": [400, 401.5, 420, 430]"), "{}", uneven.text);
 }

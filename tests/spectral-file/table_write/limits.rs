@@ -7,7 +7,7 @@ const W: [f64; 4] = [400.0, 410.0, 420.0, 430.0];
 const V: [f64; 4] = [0.1, 0.2, 0.3, 0.4];
 
 fn trace<'a>(wavelengths_nm: &'a [f64], values: &'a [f64]) -> Trace<'a> {
-    Trace { name: "a", wavelengths_nm, values }
+    Trace { name: "a", wavelengths_nm, values, uncertainty: None }
 }
 
 fn error(content: Content<'_>, curves: &[Trace<'_>], format: Format, grid: Grid) -> WriteError {
@@ -75,7 +75,7 @@ fn more_bands_than_argyll_takes_lose_their_ends() {
     let kept = |range: [f64; 2], peak: f64, grid| {
         let wavelengths: Vec<f64> = (0..=(range[1] - range[0]) as u32).map(|i| range[0] + f64::from(i)).collect();
         let values: Vec<f64> = wavelengths.iter().map(|w| if *w == peak { 1.0 } else { 0.0 }).collect();
-        let curve = Trace { name: "a", wavelengths_nm: &wavelengths, values: &values };
+        let curve = Trace { name: "a", wavelengths_nm: &wavelengths, values: &values, uncertainty: None };
         let out = written(&sheet(Content::Illuminant, &[curve]), Format::ArgyllSp, grid);
         let back = back(&out.text);
         let [from_nm, to_nm] = back.reading.range_nm;
@@ -168,8 +168,10 @@ fn twenty_thousand_curves() {
     let names: Vec<String> = (0..20_000).map(|i| format!("patch {i}")).collect();
     let wavelengths: Vec<f64> = (0..31).map(|i| 400.0 + 10.0 * f64::from(i)).collect();
     let values: Vec<f64> = (0..31).map(|i| 0.01 + f64::from(i) / 40.0).collect();
-    let curves: Vec<Trace<'_>> =
-        names.iter().map(|name| Trace { name, wavelengths_nm: &wavelengths, values: &values }).collect();
+    let curves: Vec<Trace<'_>> = names
+        .iter()
+        .map(|name| Trace { name, wavelengths_nm: &wavelengths, values: &values, uncertainty: None })
+        .collect();
     for format in [Format::Csv, Format::Cgats] {
         let table = back(&written(&sheet(Content::Reflectance, &curves), format, Grid::Native).text);
         assert_eq!((table.curves.len(), table.curves[19_999].name.as_str()), (20_000, "patch 19999"), "{format}");

@@ -55,7 +55,7 @@ proptest! {
         curves in (2_usize..40).prop_flat_map(|bands| vec(vec(value(), bands), 1..4)),
     ) {
         let wavelengths: Vec<f64> = (0..curves[0].len() as u32).map(|i| f64::from(start + step * i)).collect();
-        let trace = |values| Trace { name: "a", wavelengths_nm: &wavelengths, values };
+        let trace = |values| Trace { name: "a", wavelengths_nm: &wavelengths, values, uncertainty: None };
         let traces: Vec<Trace<'_>> = curves.iter().map(|values| trace(values.as_slice())).collect();
         for format in Format::ALL {
             let sheet = sheet(Content::Other, &traces);

@@ -2,7 +2,7 @@
 
 use super::{CAMERA, Curves, Sheet, back, bell, beside, has, sheet, written};
 use chromascope_core::spectral::{GridSpectrum, Quantity, SpectralDistribution};
-use spectral_file::write::{Content, Format, Grid, Note, Trace, Written, write};
+use spectral_file::write::{Beside, Content, Format, Grid, Note, Trace, Written, write};
 use spectral_file::{Certainty, Curve, Role};
 
 const CONTENTS: [Content<'static>; 6] =
@@ -173,7 +173,7 @@ fn what_curves_are_is_certain_in_every_format() {
                 let above = full.lines().filter(|line| line.starts_with('#')).map(|line| format!("{line}\n"));
                 let plain = texts[0].clone();
                 let rows = plain.text.split_once('\n').unwrap().1;
-                let alone = |text| Written { text, metadata: None, notes: Vec::new() };
+                let alone = |text| Written { text, beside: Beside::default(), notes: Vec::new() };
                 let below = above.chain([bare.clone(), rows.to_owned()]).collect();
                 texts.extend([below, full.clone(), plain.text.clone()].map(alone));
                 // An open question has no words that metadata could give.
@@ -224,8 +224,8 @@ fn metadata_are_what_comments_were() {
             assert_eq!(plain.reading.header, above.reading.header);
             assert_eq!((&plain.curves, plain.role.value), (&above.curves, above.role.value));
         }
-        let stale = written(&Sheet { content: Content::Transmittance, ..sheet }, Format::Csv, Grid::Native).metadata;
-        let read = beside(&Written { metadata: stale, ..written(&sheet, Format::Csv, Grid::Native) });
+        let stale = written(&Sheet { content: Content::Transmittance, ..sheet }, Format::Csv, Grid::Native).beside;
+        let read = beside(&Written { beside: stale, ..written(&sheet, Format::Csv, Grid::Native) });
         let own = beside(&written(&sheet, Format::Csv, Grid::Native));
         assert_eq!((read.role.value, read.reading.quantity), (own.role.value, own.reading.quantity));
     }

@@ -37,7 +37,7 @@ fn who_has_enough_gets_no_more() {
     });
     assert_eq!(calls, 3);
     calls = 0;
-    prepared.each(|_, _| {
+    prepared.each(|_, _, _| {
         calls += 1;
         false
     });
@@ -58,7 +58,7 @@ fn curves_are_those_of_the_table() {
         let table = read(write(&sheet, Format::Csv, grid).unwrap().text.as_bytes(), &ReadOptions::default()).unwrap();
         let mut prepared = Prepared::new(&sheet, grid).unwrap();
         let mut index = 0;
-        prepared.each(|wavelengths, values| {
+        prepared.each(|wavelengths, values, _| {
             assert_eq!(wavelengths, table.curves[index].wavelengths_nm, "{grid:?} {index}");
             assert_eq!(values, table.curves[index].values, "{grid:?} {index}");
             index += 1;
@@ -135,7 +135,8 @@ fn names_are_read_on_one_line_without_control_characters() {
 #[test]
 fn what_is_written_of_a_name_stays_on_its_line() {
     let (wavelengths, values) = ([400.0, 500.0], [0.1, 0.2]);
-    let trace = Trace { name: "a\u{0}b\r\nc\u{202e}d", wavelengths_nm: &wavelengths, values: &values };
+    let trace =
+        Trace { name: "a\u{0}b\r\nc\u{202e}d", wavelengths_nm: &wavelengths, values: &values, uncertainty: None };
     let text = write(&sheet(Content::Other, &[trace]), Format::Csv, Grid::Native).unwrap().text;
     assert_eq!(text, "wavelength_nm,a b  cd [unspecified quantity]\n400,0.1\n500,0.2\n");
 }

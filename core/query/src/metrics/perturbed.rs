@@ -17,7 +17,7 @@ use chromascope_color::patch_set::PatchSet;
 use chromascope_color::spectral::grid::COUNT;
 use chromascope_color::spectral::{GridSpectrum, Sensor};
 use chromascope_color::units::Kelvin;
-use chromascope_math::dot::dot;
+use chromascope_math::dot::{dot, dot_each};
 use glam::{DMat3, DVec3};
 use std::ops::Range;
 use std::sync::Arc;
@@ -184,7 +184,7 @@ impl<'a> Perturbed<'a> {
     pub(super) fn values(&self, deviation: &Deviation) -> Vec<Result<f64, WhyNot>> {
         let moved = deviation.map(|channel| padded(channel.into_iter()));
         let shift = |of_sites: &[f64; PADDED]| {
-            self.peaks * DVec3::from_array([0, 1, 2].map(|c: usize| dot(of_sites, &moved[c])))
+            self.peaks * DVec3::from_array(dot_each([&moved[0], &moved[1], &moved[2]], of_sites))
         };
         let raw: Vec<DVec3> =
             self.raw.iter().zip(&self.stimuli.of_sites).map(|(own, sites)| *own + shift(sites)).collect();

@@ -8,10 +8,13 @@ use crate::formats::spectra::{self, Sample, Spectrum};
 use crate::grid::Grid;
 use crate::header::Header;
 use crate::header_terms::{self, XUnit};
-use crate::no_curve::{FEWEST_ROWS, counts, is_empty, is_other_scale, tells_rows_apart};
+use crate::no_curve::{FEWEST_ROWS, counts, counts_from_start, is_empty, is_other_scale, tells_rows_apart};
 use crate::text::listed;
 use crate::units;
 use crate::watch::{Log, PlaceId};
+
+/// The fewest rows that a column counts whose name says nothing of it.
+const FEWEST_COUNTED: usize = 8;
 
 #[derive(Debug, Default)]
 pub(super) struct Axes {
@@ -40,10 +43,14 @@ pub(super) fn find(header: &Header, at: usize, wavelengths: &[f64], before: &[Ve
         let scale = named
             || header_terms::is_label(name)
             || header_terms::names_time(name)
+            || counts_from_start(values, FEWEST_COUNTED)
             || is_other_scale(wavelengths, values);
         axes.left.extend((scale && !is_empty(values)).then_some(column));
     }
-    let kind = |(index, column): (usize, &Vec<f64>)| kind(header, at, index, wavelengths, column);
+    let kind = |(index, column): (usize, &Vec<f64>)| match kind(header, at, index, wavelengths, column) {
+        Kind::Value if columns.len() > 1 && counts_from_start(column, FEWEST_COUNTED) => Kind::Scale,
+        kind => kind,
+    };
     let mut kinds: Vec<Kind> = columns.iter().enumerate().map(kind).collect();
     axes.guessed = guess_pairs(header, at, wavelengths, columns, &mut kinds);
     // Tables side by side repeat the name of their first column.
@@ -186,8 +193,7 @@ fn guess_pairs(header: &Header, at: usize, first: &[f64], columns: &[Vec<f64>], 
 /// The column of wavelengths in a table without names whose first column counts its rows.
 pub(super) fn after_count(cells: &[Vec<f64>]) -> Option<usize> {
     let [count, wavelengths, _, ..] = cells else { return None };
-    let from_start = count.len() > FEWEST_ROWS && counts(count) && matches!(count[0], 0.0 | 1.0);
-    let (low, high) = ends(wavelengths).filter(|_| from_start)?;
+    let (low, high) = ends(wavelengths).filter(|_| counts_from_start(count, FEWEST_ROWS + 1))?;
     units::plausible(low, high, false).then_some(1)
 }
 

@@ -11,6 +11,7 @@ use crate::formats::{Format, table};
 use crate::no_curve::FEWEST_ROWS;
 use crate::options::ReadOptions;
 use crate::text::{Lines, Section, comment, excerpt, has_word, listed, lower};
+use crate::uncertainty_terms::{self, Term};
 use crate::units::plausible;
 use crate::warning::{LineList, Warning};
 use crate::watch::{Log, PlaceId, PlaceKind};
@@ -76,6 +77,10 @@ impl Plan {
         let commas = rows.iter().any(|(_, row)| dialect.cells(row).take(MOST_COLUMNS).any(is_comma));
         let dialect = if commas { comma } else { dialect };
         let (first_line, first) = *rows.first()?;
+        // R's names of rows have no head.
+        let bare = dialect.cells(first).take(names.len() + 2).count() == names.len() + 1;
+        let names = if bare { [vec![String::new()], names].concat() } else { names };
+        let axis = axis + usize::from(bare);
         let is_key = |(column, cell): &(usize, &str)| {
             let text = dialect.parse(cell) == Cell::Text && dialect.parse_united(cell).is_none();
             let name = lower(names.get(*column).map_or("", String::as_str)).replace(['_', '.'], " ");
@@ -92,29 +97,26 @@ impl Plan {
         (enough && rows.iter().all(is_row)).then_some(Self { dialect, first_line, names, axis, keys })
     }
 
-    /// The plan of rows `sample, wavelength, value` without names, whose first column stays the same while the second runs.
+    /// The plan of rows `sample, wavelength, value` without names, in which the wavelengths of each sample run one way.
     fn bare(rows: &[(usize, &str)]) -> Option<Self> {
         let (first_line, first) = *rows.first().filter(|_| rows.len() >= LOOK)?;
         let dialects = DELIMITERS.into_iter().map(|delimiter| Dialect::new(delimiter, DecimalMark::Point));
         let dialect = dialects.into_iter().find(|dialect| dialect.cells(first).take(4).count() == 3)?;
-        let key = dialect.cells(first).next()?;
-        let same = rows.iter().map(|(_, row)| dialect.cells(row).take(4).collect::<Vec<_>>());
-        let same = same.take_while(|cells| cells.first() == Some(&key));
-        let wavelength = |cells: Vec<&str>| match (cells.as_slice(), dialect.parse(cells.get(1)?)) {
-            ([_, _, value], Cell::Number(nm)) if dialect.parse(value) != Cell::Text => Some(nm),
-            _ => None,
+        let sample = |(_, row): &(usize, &'_ str)| {
+            let [key, nm, value] = dialect.cells(row).take(4).collect::<Vec<_>>().try_into().ok()?;
+            let nm = dialect.value(nm).filter(|nm| !nm.is_nan())?;
+            (dialect.value(value).is_some() && !key.is_empty()).then(|| (key.to_owned(), nm))
         };
-        let wavelengths: Vec<f64> = same.map(wavelength).collect::<Option<_>>()?;
-        let ordered = |sign: f64| wavelengths.windows(2).all(|pair| sign * (pair[1] - pair[0]) > 0.0);
-        let (low, high) = decimal::extent(wavelengths.iter().copied());
-        let sound = wavelengths.len() >= LOOK && (ordered(1.0) || ordered(-1.0)) && plausible(low, high, true);
-        (sound && !key.is_empty()).then(|| Self {
-            dialect,
-            first_line,
-            names: vec![String::new(); 3],
-            axis: 1,
-            keys: vec![0],
-        })
+        let rows: Vec<(String, f64)> = rows[..LOOK].iter().map(sample).collect::<Option<_>>()?;
+        let pairs = || rows.iter().enumerate().flat_map(|(at, a)| rows[at + 1..].iter().map(move |b| (a, b)));
+        let ordered = |sign: f64| pairs().filter(|(a, b)| a.0 == b.0).all(|(a, b)| sign * (b.1 - a.1) > 0.0);
+        // Numbers may be anything else, unless each stands there again.
+        let named = rows.iter().all(|(key, _)| dialect.parse(key) == Cell::Text);
+        let again = |key: &String| rows[LOOK / 2..].iter().any(|(other, _)| other == key);
+        let told = named || rows[..LOOK / 2].iter().all(|(key, _)| again(key));
+        let (low, high) = decimal::extent(rows.iter().map(|(_, nm)| *nm));
+        let sound = told && (ordered(1.0) || ordered(-1.0)) && plausible(low, high, true);
+        sound.then(|| Self { dialect, first_line, names: vec![String::new(); 3], axis: 1, keys: vec![0] })
     }
 
     fn is_named(&self) -> bool {
@@ -162,7 +164,8 @@ impl Plan {
             let name = &self.names[*column];
             let beside =
                 header_terms::names_time(name) || header_terms::names_axis(name) || header_terms::is_count(name);
-            !beside && rows.varies(&groups, *column)
+            let nameless = name.is_empty() && self.is_named();
+            !(beside || nameless) && (rows.varies(&groups, *column) || self.term(*column).is_some())
         };
         let numbers = (0..self.names.len()).filter(|column| *column != self.axis && !self.keys.contains(column));
         let (taken, left): (Vec<usize>, Vec<usize>) = numbers.partition(is_value);
@@ -180,12 +183,13 @@ impl Plan {
         let mut spectra: Vec<Spectrum> = Vec::new();
         spectra.resize_with(count * taken.len(), Spectrum::default);
         let (mut gaps, mut lines) = (0, LineList::default());
+        let own = self.own_names(&taken);
         for (row, &group) in groups.iter().enumerate() {
             for (index, &column) in taken.iter().enumerate() {
                 let spectrum = &mut spectra[group as usize * taken.len() + index];
                 if spectrum.name.is_none() {
                     let texts = keys.iter().map(|key| rows.text(*key, row));
-                    let texts = texts.chain((taken.len() > 1).then(|| self.names[column].as_str()));
+                    let texts = texts.chain([own[index].as_str()]);
                     spectrum.name = Some(texts.filter(|text| !text.is_empty()).collect::<Vec<_>>().join(" "));
                     spectrum.label = header.label(column);
                 }
@@ -214,6 +218,24 @@ impl Plan {
         let decide = if self.is_named() { Decided::certain } else { Decided::guess };
         let reader = decide(Reader::TIDY, format!("{count} samples are told apart by {told}"));
         Ok(Some(Found { grid, layout, reader, notes: Vec::new() }))
+    }
+
+    fn term(&self, column: usize) -> Option<Term> {
+        uncertainty_terms::term(&self.names[column], &self.names[column])
+    }
+
+    /// What the columns of values add to the names of the samples: nothing where there is one, and its `R_sd` is ` sd` then.
+    fn own_names(&self, taken: &[usize]) -> Vec<String> {
+        let mut values = taken.iter().filter(|column| self.term(**column).is_none());
+        let only = values.next().filter(|_| values.next().is_none()).map(|only| self.names[*only].as_str());
+        let own = |&column: &usize| match (only, self.term(column)) {
+            (Some(_), None) => String::new(),
+            (Some(only), Some(term)) if term.of == uncertainty_terms::key(only) => {
+                self.names[column].replacen(only, "", 1)
+            }
+            _ => self.names[column].clone(),
+        };
+        taken.iter().map(own).collect()
     }
 
     fn description(&self, column: usize) -> String {

@@ -87,6 +87,9 @@ impl<'a> Draft<'a> {
     /// Brings the curves that a format holds onto one grid within the range that all of them cover.
     pub(super) fn new(sheet: &'a Sheet<'a>, format: Format, grid: Grid) -> Result<Self, WriteError> {
         let mut notes = Vec::new();
+        if sheet.curves.iter().any(|curve| curve.uncertainty.is_some()) || sheet.covariance.is_some() {
+            notes.push(Note::NoUncertainty);
+        }
         let pieces = match format {
             Format::ArgyllSp | Format::Cgats => sheet.energy_pieces(&mut notes),
             _ => sheet.channel_pieces(&mut notes),
@@ -127,11 +130,21 @@ impl<'a> Draft<'a> {
         }
     }
 
-    /// All that a format with few members of its own has no other place for, each as `key: value`, licenses aside.
-    pub(super) fn remarks(&self) -> Vec<String> {
-        let mut remarks = self.sheet.remarks();
-        remarks.extend(self.resampling.iter().map(|resampling| format!("resampling: {resampling}")));
-        remarks
+    /// What is known about the curves as they are written; that numbers are numbers is not said.
+    pub(super) fn known(&self) -> Vec<(String, String)> {
+        let per_energy =
+            matches!(self.sheet.content, Content::Camera { per_photon: Some(_), .. }).then_some("per energy");
+        let mut known = self.sheet.known(per_energy, self.resampling.as_deref());
+        known.retain(|(key, value)| key != "unit" || value != "1");
+        known
+    }
+
+    /// The same for formats with few members of their own, each as `key: value`; and the licenses in one text.
+    pub(super) fn remarks(&self) -> (Vec<String>, String) {
+        let is_license = |(key, _): &(String, String)| key.eq_ignore_ascii_case("license");
+        let (licenses, rest): (Vec<_>, Vec<_>) = self.known().into_iter().partition(is_license);
+        let licenses: Vec<String> = licenses.into_iter().map(|(_, value)| value).collect();
+        (rest.into_iter().map(|(key, value)| format!("{key}: {value}")).collect(), licenses.join("; "))
     }
 }
 
@@ -303,6 +316,8 @@ pub(super) struct Changes {
     smooth: bool,
     finest_nm: Option<f64>,
     reach_nm: Option<[f64; 2]>,
+    /// True if an uncertainty is between samples, or that of an average.
+    pub(super) alike: bool,
 }
 
 impl Changes {
@@ -329,6 +344,16 @@ impl Changes {
         self.interpolated |= interpolated;
         self.smooth |= interpolated && between.sprague.is_some();
         values
+    }
+
+    /// Standard uncertainties of values between samples or averaged ones, of samples that err alike: none can be larger.
+    pub(super) fn take_alike(&mut self, piece: &Piece<'_>, standard: &[f64], wavelengths: &[f64]) -> Vec<f64> {
+        let own = (piece.wavelengths.as_ref().into(), standard.into());
+        let piece = Piece { name: "".into(), wavelengths: own.0, values: own.1, uncertainty: None };
+        let mut changes = Self::new(self.grid);
+        let taken = changes.take(&piece, Content::Other, wavelengths);
+        self.alike |= changes.interpolated || matches!(self.grid, Grid::Average(_));
+        taken
     }
 
     /// Description of the method, for the head of a file; none at a curve's own wavelengths.

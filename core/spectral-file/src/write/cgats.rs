@@ -34,17 +34,8 @@ fn push_keywords(out: &mut String, draft: &Draft<'_>) {
     if let Some(created) = sheet.created.map(one_line).filter(|created| !created.is_empty()) {
         push_keyword(out, "CREATED", &created);
     }
-    let unit = sheet.unit().filter(|unit| *unit != "1");
     // Keywords are a closed list in CGATS; what is not in it stands in comments.
-    for (key, value) in [("quantity", Some(sheet.quantity())), ("unit", unit), ("response", sheet.energy_response())] {
-        if let Some(value) = value {
-            push_comment(out, key, &one_line(value));
-        }
-    }
-    if let Some(resampling) = &draft.resampling {
-        push_comment(out, "resampling", &one_line(resampling));
-    }
-    for (key, value) in sheet.comments() {
+    for (key, value) in draft.known() {
         push_comment(out, &key, &value);
     }
     out.push('\n');

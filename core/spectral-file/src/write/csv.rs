@@ -5,11 +5,12 @@ use chromascope_text::guarded;
 use std::borrow::Cow;
 
 use crate::beside::METADATA;
-use crate::error::MAX_SAMPLES;
+use crate::error::{MAX_CURVES, MAX_SAMPLES};
+use crate::report::Covariance;
 use crate::write::base::{self, Changes, SAME_NM, multiples};
 use crate::write::format::{Format, Grid, Note, WriteError};
 use crate::write::json::{push_list_of, push_member, quoted};
-use crate::write::sheet::{Content, Piece, Sheet, one_line, push_comment, push_number, push_quoted};
+use crate::write::sheet::{Content, Piece, Sheet, Stated, expanded, one_line, push_comment, push_number, push_quoted};
 
 /// Block size of text; a longer row is written alone.
 const CHUNK: usize = 1 << 16;
@@ -38,7 +39,8 @@ impl<'a> Prepared<'a> {
         let mut renamed = Vec::new();
         let pieces = sheet.pieces(&mut renamed);
         let rows = rows(&pieces, grid)?;
-        if rows.len().saturating_mul(pieces.len()) > MAX_SAMPLES {
+        let columns = pieces.len() + pieces.iter().filter(|piece| piece.uncertainty.is_some()).count();
+        if columns > MAX_CURVES || rows.len().saturating_mul(columns) > MAX_SAMPLES {
             return Err(WriteError::TooLarge);
         }
         let is_blank =
@@ -50,11 +52,12 @@ impl<'a> Prepared<'a> {
         Ok(Self { sheet: *sheet, pieces, rows, changes: Changes::new(grid), renamed, blank })
     }
 
-    /// Writes wavelengths and values of one curve after the other, as long as `put` continues.
-    pub fn each(&mut self, mut put: impl FnMut(&[f64], &[f64]) -> bool) {
+    /// Writes wavelengths, values and standard uncertainties of one curve after the other, as long as `put` continues.
+    pub fn each(&mut self, mut put: impl FnMut(&[f64], &[f64], Option<&[f64]>) -> bool) {
         for piece in &self.pieces {
             let piece = part(piece, &self.rows, self.sheet.content, &mut self.changes);
-            if !put(&piece.wavelengths, &piece.values) {
+            let standard = piece.uncertainty.as_ref().map(|stated| &*stated.standard);
+            if !put(&piece.wavelengths, &piece.values, standard) {
                 return;
             }
         }
@@ -75,9 +78,15 @@ impl<'a> Prepared<'a> {
         self.write(out, put);
     }
 
-    /// What is known about the curves, for a file beside the table.
-    pub fn metadata(&mut self) -> Metadata {
-        Metadata(self.known())
+    /// What stands in files beside the table; without metadata, if what is known stands in comments.
+    pub fn beside(&mut self, has_metadata: bool) -> Beside {
+        let metadata = has_metadata.then(|| Metadata(self.known()));
+        Beside { metadata, covariance: self.covariance().map(covariance_text) }
+    }
+
+    /// The covariance of the samples, if they are written as they are.
+    fn covariance(&self) -> Option<&'a Covariance> {
+        self.sheet.covariance.filter(|_| self.changes.grid == Grid::Native)
     }
 
     /// All that is known about the curves, as keys and values on a line each.
@@ -85,7 +94,7 @@ impl<'a> Prepared<'a> {
         let step = self.changes.grid.step_nm();
         if step.is_some() {
             // How values were obtained is known only once all curves were.
-            self.each(|_, _| true);
+            self.each(|_, _, _| true);
         }
         known(&self.sheet, self.changes.description(step).as_deref())
     }
@@ -96,6 +105,10 @@ impl<'a> Prepared<'a> {
         for piece in &self.pieces {
             out.push(',');
             push_name(&mut out, &format!("{}{head}", piece.name));
+            if let Some(Stated { coverage, .. }) = piece.uncertainty {
+                out.push(',');
+                push_name(&mut out, &format!("{}{}", piece.name, self.sheet.head_of_uncertainty(coverage)));
+            }
         }
         out.push('\n');
         for rows in self.rows.chunks((CELLS / self.pieces.len()).max(1)) {
@@ -116,6 +129,8 @@ impl<'a> Prepared<'a> {
             self.changes.note(Some(step), [*first, *last], &mut notes);
         }
         notes.extend((self.blank > 0).then_some(Note::Blank(self.blank)));
+        notes.extend(self.changes.alike.then_some(Note::Alike));
+        notes.extend((self.sheet.covariance.is_some() && self.covariance().is_none()).then_some(Note::NoCovariance));
         notes
     }
 }
@@ -152,19 +167,24 @@ fn within(rows: &[f64], [first, last]: [f64; 2]) -> &[f64] {
 }
 
 fn part<'p>(piece: &'p Piece<'_>, rows: &[f64], content: Content<'_>, changes: &mut Changes) -> Piece<'p> {
-    let name = Cow::Borrowed("");
+    let stated = piece.uncertainty.as_ref();
+    let with = |wavelengths: Cow<'p, [f64]>, values: Cow<'p, [f64]>, standard: Option<Cow<'p, [f64]>>| {
+        let uncertainty = stated.zip(standard).map(|(of, standard)| Stated { standard, ..*of });
+        Piece { name: Cow::Borrowed(""), wavelengths, values, uncertainty }
+    };
     if changes.grid != Grid::Native {
         let wavelengths = within(rows, changes.grid.within(piece.range()));
         let values = changes.take(piece, content, wavelengths).into();
-        return Piece { name, wavelengths: wavelengths.to_vec().into(), values };
+        let standard = stated.map(|of| changes.take_alike(piece, &of.standard, wavelengths).into());
+        return with(wavelengths.to_vec().into(), values, standard);
     }
     let [Some(first), Some(last)] = [rows.first(), rows.last()] else {
-        return Piece { name, wavelengths: Cow::default(), values: Cow::default() };
+        return with(Cow::default(), Cow::default(), Some(Cow::default()));
     };
     let from = piece.wavelengths.partition_point(|own| own < first);
     let own = from..piece.wavelengths.partition_point(|own| own <= last);
-    let (wavelengths, values) = (&piece.wavelengths[own.clone()], &piece.values[own]);
-    Piece { name, wavelengths: wavelengths.into(), values: values.into() }
+    let standard = stated.map(|of| of.standard[own.clone()].into());
+    with(piece.wavelengths[own.clone()].into(), piece.values[own].into(), standard)
 }
 
 fn known(sheet: &Sheet<'_>, resampling: Option<&str>) -> Vec<(String, String)> {
@@ -174,18 +194,30 @@ fn known(sheet: &Sheet<'_>, resampling: Option<&str>) -> Vec<(String, String)> {
         (maker, camera) = (manufacturer, model);
     }
     let title = sheet.title();
-    let own = [
-        ("title", Some(&*title)),
-        ("quantity", Some(sheet.quantity())),
-        ("unit", sheet.unit()),
-        ("response", response),
-        ("manufacturer", maker),
-        ("model", camera),
-        ("resampling", resampling),
-    ];
+    let own = [("title", Some(&*title)), ("manufacturer", maker), ("model", camera)];
     let own = own.into_iter().filter_map(|(key, value)| Some((key.to_owned(), one_line(value?).into_owned())));
-    let comments = sheet.comments().map(|(key, value)| (key.into_owned(), value.into_owned()));
-    own.filter(|(_, value)| !value.is_empty()).chain(comments).collect()
+    own.filter(|(_, value)| !value.is_empty()).chain(sheet.known(response, resampling)).collect()
+}
+
+fn covariance_text(of: &Covariance) -> String {
+    let mut out = String::new();
+    for row in of.values.chunks(of.size) {
+        for (index, value) in row.iter().enumerate() {
+            out.push_str(if index > 0 { "," } else { "" });
+            push_number(&mut out, *value);
+        }
+        out.push('\n');
+    }
+    out
+}
+
+/// What stands in files beside a table.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Beside {
+    /// What is known about the curves, unless it stands in the table.
+    pub metadata: Option<Metadata>,
+    /// Covariance of the samples, for the file whose name ends in [`crate::COVARIANCE`] in place of the table's ending.
+    pub covariance: Option<String>,
 }
 
 /// What is known about the curves of a CSV file, for the file beside it whose name ends in [`Metadata::ENDING`].
@@ -250,10 +282,17 @@ fn push_rows(out: &mut String, rows: &[f64], parts: &[Piece<'_>], put: &mut dyn 
         push_number(out, wavelength);
         for (piece, next) in parts.iter().zip(&mut next) {
             out.push(',');
-            if piece.wavelengths.get(*next) == Some(&wavelength) {
+            let has_sample = piece.wavelengths.get(*next) == Some(&wavelength);
+            if has_sample {
                 push_number(out, piece.values[*next]);
-                *next += 1;
             }
+            if let Some(stated) = &piece.uncertainty {
+                out.push(',');
+                if has_sample {
+                    push_number(out, expanded(stated.standard[*next], stated.coverage));
+                }
+            }
+            *next += usize::from(has_sample);
         }
         out.push('\n');
         if out.len() >= CHUNK {

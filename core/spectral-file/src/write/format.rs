@@ -80,6 +80,11 @@ impl Format {
         }
     }
 
+    /// True for tables of CSV, which have files beside them.
+    pub const fn is_csv(self) -> bool {
+        matches!(self, Self::Csv | Self::CommentedCsv)
+    }
+
     /// The name for a menu.
     pub fn name(self) -> &'static str {
         self.words()[0]
@@ -126,6 +131,14 @@ pub enum Note {
     Renamed(usize),
     #[error("names of curves are not in the file: the format has no place for them")]
     NoNames,
+    #[error("uncertainties of the values are not in the file: the format has no place for them")]
+    NoUncertainty,
+    #[error("uncertainties between samples and of averages are as if all samples erred alike")]
+    Alike,
+    #[error(
+        "the covariance of the samples is not written: it goes into a file beside CSV, and is that of the curves as measured"
+    )]
+    NoCovariance,
     #[error("rawtoaces finds a camera by maker and model, and both are not known")]
     Unidentified,
 }
@@ -148,6 +161,10 @@ pub enum WriteError {
     Wavelengths(usize),
     #[error("curve {0} has a value that is no finite number")]
     NotFinite(usize),
+    #[error("curve {0} has not one uncertainty of at least zero for each value, and a coverage factor above zero")]
+    Uncertainty(usize),
+    #[error("the covariance is not one of the samples of all curves")]
+    Covariance,
     #[error("red, green and blue are not three of the curves")]
     Channels,
     #[error("the step must be a number of at least 0.001 nm")]

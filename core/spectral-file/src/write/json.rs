@@ -56,10 +56,9 @@ fn push_header(out: &mut String, draft: &mut Draft<'_>) {
     push_member(out, 8, "measurement_equipment", None);
     push_member(out, 8, "laboratory", None);
     push_member(out, 8, "document_creation_date", Some(sheet.created.unwrap_or_default()));
-    let comments = draft.remarks();
+    let (comments, license) = draft.remarks();
     push_member(out, 8, "comments", (!comments.is_empty()).then_some(comments.join("; ")).as_deref());
     // The schema allows no empty text.
-    let license = sheet.license();
     push_last(out, 8, "license", &quoted(if license.is_empty() { "not stated" } else { &license }));
 }
 
@@ -103,8 +102,8 @@ pub(super) fn dcamprof(draft: &mut Draft<'_>) -> String {
         draft.note_lone_name();
     }
     push_member(&mut out, 4, if camera { "camera_name" } else { "description" }, Some(&title));
-    let mut comments = draft.remarks();
-    comments.extend(Some(sheet.license()).filter(|text| !text.is_empty()).map(|license| format!("license: {license}")));
+    let (mut comments, license) = draft.remarks();
+    comments.extend((!license.is_empty()).then(|| format!("license: {license}")));
     if !comments.is_empty() {
         push_list_of(&mut out, 4, "comments", comments.iter().map(|comment| quoted(comment)));
         out.push_str(",\n");

@@ -5,12 +5,12 @@ use std::fmt::{Arguments, Write};
 
 use crate::decision::{Quantity, Values};
 use crate::error::{MAX_CURVES, MAX_SAMPLES};
-use crate::report::Curve;
+use crate::report::{Covariance, Curve, Uncertainty};
 use crate::write::format::{Note, WriteError};
-use crate::{header, header_terms, quantity, unit_text};
+use crate::{header_terms, heads, quantity, unit_text};
 
 /// A curve to be written: values over wavelength.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Trace<'a> {
     /// Its name. Line breaks become spaces, and a name that is blank, or that would be read as one of wavelengths, absorbances
     /// or decibels, becomes `Curve` and a number; signs of percent go where values are fractions.
@@ -19,11 +19,14 @@ pub struct Trace<'a> {
     pub wavelengths_nm: &'a [f64],
     /// Values, one for each wavelength: finite.
     pub values: &'a [f64],
+    /// Uncertainty of the values, where it is known, with a coverage factor above zero.
+    pub uncertainty: Option<&'a Uncertainty>,
 }
 
 impl<'a> From<&'a Curve> for Trace<'a> {
     fn from(curve: &'a Curve) -> Self {
-        Self { name: &curve.name, wavelengths_nm: &curve.wavelengths_nm, values: &curve.values }
+        let uncertainty = curve.uncertainty.as_ref();
+        Self { name: &curve.name, wavelengths_nm: &curve.wavelengths_nm, values: &curve.values, uncertainty }
     }
 }
 
@@ -74,6 +77,8 @@ pub struct Sheet<'a> {
     pub content: Content<'a>,
     /// The curves, in the order in which they are written.
     pub curves: &'a [Trace<'a>],
+    /// Covariance of the samples of all curves, curve after curve, where it is known.
+    pub covariance: Option<&'a Covariance>,
     /// The unit of the values. Not looked at for reflectances and transmittances, which have none.
     pub unit: Option<&'a str>,
     /// Creation time of the file, as in RFC 3339, for the formats that have a field for it.
@@ -101,7 +106,7 @@ impl<'a> Sheet<'a> {
             Content::Illuminant if relative => "relative spectral power",
             Content::Illuminant => {
                 let quantity = self.unit().and_then(quantity::of_unit).unwrap_or(Quantity::SpectralPower);
-                header::quantity_of_light(quantity)
+                heads::quantity_of_light(quantity)
             }
             Content::Other => header_terms::UNSPECIFIED,
         }
@@ -109,37 +114,28 @@ impl<'a> Sheet<'a> {
 
     pub(super) fn head(&self) -> String {
         let per_photon = if let Content::Camera { per_photon, .. } = self.content { per_photon } else { None };
-        let unit = self.unit().map(one_line);
-        header::head_tail(self.quantity(), per_photon, unit.as_deref())
+        heads::of_curve(self.quantity(), per_photon, self.unit_in_head().as_deref())
     }
 
-    /// The comments on one line each, without those that repeat the rest of the sheet.
-    pub(super) fn comments(&self) -> impl Iterator<Item = (Cow<'a, str>, Cow<'a, str>)> + use<'a> {
+    pub(super) fn head_of_uncertainty(&self, coverage: f64) -> String {
+        heads::of_uncertainty(coverage, self.unit_in_head().as_deref())
+    }
+
+    /// The unit on a line, without the brackets that it stands in.
+    fn unit_in_head(&self) -> Option<String> {
+        self.unit().map(|unit| one_line(unit).replace('[', "(").replace(']', ")"))
+    }
+
+    /// What is known about the curves besides their title, as keys and values on a line each, none of them blank.
+    pub(super) fn known(&self, response: Option<&str>, resampling: Option<&str>) -> Vec<(String, String)> {
         const SAID: [&str; 4] = ["title", "quantity", "unit", "response"];
-        let lines = self.comments.iter().map(|(key, value)| (one_line(key), one_line(value)));
-        lines.filter(|(key, value)| {
-            !key.is_empty() && !value.is_empty() && !SAID.iter().any(|said| key.eq_ignore_ascii_case(said))
-        })
-    }
-
-    /// The licenses among the comments, in one text; may be empty.
-    pub(super) fn license(&self) -> String {
-        let licenses = self.comments().filter(|(key, _)| is_license(key)).map(|(_, value)| value);
-        licenses.collect::<Vec<_>>().join("; ")
-    }
-
-    /// All that formats with few members of their own have no other place for, each as `key: value`, licenses aside.
-    pub(super) fn remarks(&self) -> Vec<String> {
-        let own = [("quantity", Some(self.quantity())), ("unit", self.unit().filter(|unit| *unit != "1"))];
-        let own = own.iter().filter_map(|(key, value)| Some(format!("{key}: {}", one_line((*value)?))));
-        let rest = self.comments().filter(|(key, _)| !is_license(key)).map(|(key, value)| format!("{key}: {value}"));
-        let response = self.energy_response().map(|response| format!("response: {response}"));
-        own.chain(response).chain(rest).collect()
-    }
-
-    /// Remark on sensitivities in formats for responses per energy, if it is known what they were made of.
-    pub(super) fn energy_response(&self) -> Option<&'static str> {
-        matches!(self.content, Content::Camera { per_photon: Some(_), .. }).then_some("per energy")
+        let (quantity, unit) = (Some(self.quantity()), self.unit());
+        let own = [("quantity", quantity), ("unit", unit), ("response", response), ("resampling", resampling)];
+        let own = own.into_iter().filter_map(|(key, value)| Some((one_line(key), one_line(value?))));
+        let comments = self.comments.iter().map(|(key, value)| (one_line(key), one_line(value)));
+        let comments = comments.filter(|(key, _)| !SAID.iter().any(|said| key.eq_ignore_ascii_case(said)));
+        let lines = own.chain(comments).filter(|(key, value)| !key.is_empty() && !value.is_empty());
+        lines.map(|(key, value)| (key.into_owned(), value.into_owned())).collect()
     }
 
     pub(super) fn title(&self) -> Cow<'a, str> {
@@ -160,6 +156,10 @@ impl<'a> Sheet<'a> {
         for (index, trace) in self.curves.iter().enumerate() {
             check(trace, index + 1)?;
         }
+        let samples = self.curves.iter().map(|trace| trace.values.len()).sum::<usize>();
+        if self.covariance.is_some_and(|of| of.size != samples || of.values.len() != samples * samples) {
+            return Err(WriteError::Covariance);
+        }
         if let Content::Camera { channels, .. } = self.content {
             let [r, g, b] = channels;
             if channels.iter().any(|&channel| channel >= self.curves.len()) || r == g || g == b || r == b {
@@ -176,7 +176,7 @@ impl<'a> Sheet<'a> {
             let name = name(trace.name, index, self.content);
             renamed += usize::from(name != trace.name);
             let (wavelengths, values) = (Cow::Borrowed(trace.wavelengths_nm), Cow::Borrowed(trace.values));
-            Piece { name, wavelengths, values }
+            Piece { name, wavelengths, values, uncertainty: trace.uncertainty.map(Stated::of) }
         });
         let pieces = pieces.collect();
         if renamed > 0 {
@@ -209,10 +209,6 @@ impl<'a> Sheet<'a> {
     }
 }
 
-fn is_license(key: &str) -> bool {
-    key.eq_ignore_ascii_case("license")
-}
-
 /// The wavelength in nanometers where sensitivities per photon and per energy have the same value.
 const PER_ENERGY_NM: f64 = 550.0;
 
@@ -221,6 +217,31 @@ pub(super) struct Piece<'a> {
     pub(super) name: Cow<'a, str>,
     pub(super) wavelengths: Cow<'a, [f64]>,
     pub(super) values: Cow<'a, [f64]>,
+    pub(super) uncertainty: Option<Stated<'a>>,
+}
+
+/// Standard uncertainties of values, and the factor of the numbers that are written for them.
+#[derive(Debug, Clone)]
+pub(super) struct Stated<'a> {
+    pub(super) coverage: f64,
+    pub(super) standard: Cow<'a, [f64]>,
+}
+
+impl<'a> Stated<'a> {
+    /// Those of a curve with its own factor, unless a number times it does not come back to the last bit.
+    fn of(uncertainty: &'a Uncertainty) -> Self {
+        let (standard, k) = (&uncertainty.standard, uncertainty.coverage);
+        let exact = standard.iter().all(|u| expanded(*u, k) / k == *u);
+        Self { coverage: if exact { k } else { 1.0 }, standard: standard.into() }
+    }
+}
+
+/// The number that is written for a standard uncertainty: of those that come back as it, the one with the fewest digits.
+pub(super) fn expanded(standard: f64, coverage: f64) -> f64 {
+    let product = standard * coverage;
+    let near = [product, product.next_up(), product.next_down()].into_iter();
+    let exact = near.filter(|number| number / coverage == standard);
+    exact.min_by_key(|number| number.to_string().len()).unwrap_or(product)
 }
 
 impl Piece<'_> {
@@ -244,7 +265,14 @@ fn check(trace: &Trace<'_>, curve: usize) -> Result<(), WriteError> {
     if !(ascending && wavelengths[0] > 0.0 && wavelengths.iter().all(|w| w.is_finite())) {
         return Err(WriteError::Wavelengths(curve));
     }
-    if values.iter().all(|value| value.is_finite()) { Ok(()) } else { Err(WriteError::NotFinite(curve)) }
+    if !values.iter().all(|value| value.is_finite()) {
+        return Err(WriteError::NotFinite(curve));
+    }
+    let is_uncertainty = |of: &Uncertainty| {
+        let known = of.standard.iter().all(|u| u.is_finite() && *u >= 0.0);
+        known && of.standard.len() == values.len() && of.coverage.is_finite() && of.coverage > 0.0
+    };
+    if trace.uncertainty.is_none_or(is_uncertainty) { Ok(()) } else { Err(WriteError::Uncertainty(curve)) }
 }
 
 pub(super) use chromascope_text::on_one_line as one_line;

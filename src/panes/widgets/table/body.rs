@@ -353,7 +353,7 @@ impl Body<'_> {
                 self.number(ui, rect, cell, value, column);
                 false
             }
-            CellValue::Text(text) => lines::elided(ui, rect, text, style, ink),
+            CellValue::Text(text) => lines::name(ui, rect, text, style, ink),
             CellValue::Nothing if layout.form == Form::Text => lines::elided(ui, rect, "–", style, self.theme.weak),
             CellValue::Nothing => {
                 let mut place = rect;

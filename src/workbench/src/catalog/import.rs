@@ -38,7 +38,12 @@ impl Origin {
     }
 
     pub fn on_disk(name: &str, path: &Path, bytes: &[u8]) -> Self {
-        let (metadata, covariance) = (metadata_beside(path), covariance_beside(path));
+        /// Room for the most samples that are read, with 24 characters for each number.
+        const MOST_OF_COVARIANCE: u64 = 64 << 20;
+        const MOST_OF_METADATA: u64 = 1 << 20;
+        let [covariance, metadata @ ..] = companions(path);
+        let covariance = contents(&covariance, MOST_OF_COVARIANCE).unwrap_or_default().into();
+        let metadata = metadata.iter().find_map(|path| contents(path, MOST_OF_METADATA)).unwrap_or_default().into();
         Self { path: Some(path.to_owned()), metadata, covariance, ..Self::named(name, bytes) }
     }
 
@@ -49,23 +54,14 @@ impl Origin {
     }
 }
 
-/// Contents of the metadata file beside a table; empty if there is none.
-fn metadata_beside(path: &Path) -> Arc<[u8]> {
-    const MOST_BYTES: u64 = 1 << 20;
-    let found = METADATA.iter().find_map(|ending| {
-        let mut name = path.as_os_str().to_owned();
+/// Places of the files beside a table: its covariance, then its metadata.
+pub fn companions(table: &Path) -> [PathBuf; 3] {
+    let [first, second] = METADATA.map(|ending| {
+        let mut name = table.as_os_str().to_owned();
         name.push(ending);
-        contents(Path::new(&name), MOST_BYTES)
+        PathBuf::from(name)
     });
-    found.unwrap_or_default().into()
-}
-
-/// Contents of the file with the covariance of a table's samples; empty if there is none.
-fn covariance_beside(path: &Path) -> Arc<[u8]> {
-    /// Room for the most samples that are read, with 24 characters for each number.
-    const MOST_BYTES: u64 = 64 << 20;
-    let beside = path.with_extension(COVARIANCE);
-    contents(&beside, MOST_BYTES).filter(|_| beside != path).unwrap_or_default().into()
+    [table.with_extension(COVARIANCE), first, second]
 }
 
 fn contents(path: &Path, most_bytes: u64) -> Option<Vec<u8>> {

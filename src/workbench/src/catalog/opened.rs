@@ -8,7 +8,7 @@ mod look;
 mod reading;
 
 pub use look::{FilePreview, FilePreviewQuery, OpenFile};
-pub use reading::{Request, files_of};
+pub use reading::Request;
 
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};

@@ -27,7 +27,7 @@ pub(super) struct SourceArguments {
     /// An observer; may be repeated. Without any sensor: those of the preset
     #[arg(long, value_name = "NAME")]
     pub(super) observer: Vec<String>,
-    /// A camera, or a file with three sensitivities; may be repeated
+    /// A camera, a file with three sensitivities, or a folder of such files; may be repeated
     #[arg(long, value_name = "NAME|FILE")]
     pub(super) camera: Vec<OsString>,
     /// Unit of the sensitivities in camera files, overriding the files: response per energy or per photon

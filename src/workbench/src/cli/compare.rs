@@ -16,6 +16,7 @@ use super::arguments::{ChartArguments, CommonArguments, Form, LOCUS_K, PixelArgu
 use super::error::{Result, refused};
 use super::request::Request;
 use crate::document::SetKind;
+use crate::format::cut_in_middle;
 use crate::results::Results;
 use crate::scene::metrics::CameraFigures;
 use crate::scene::uncertainty::{self, cell, in_words, rank_cell, with_nature};
@@ -218,11 +219,10 @@ fn rows(
 const VERSION: u32 = 1;
 const LONGEST_NAME: usize = 40;
 
-/// A row for each sensor; a name is cut after a number of characters.
+/// A row for each sensor; a name is cut in its middle to a number of characters.
 fn table(comparison: &Comparison, longest: usize) -> Table {
     let rows = &comparison.rows;
-    let names =
-        rows.iter().map(|row| row.name.char_indices().nth(longest).map_or(&*row.name, |(end, _)| &row.name[..end]));
+    let names = rows.iter().map(|row| cut_in_middle(&row.name, |name| name.chars().count() <= longest).into_owned());
     uncertainty::table(("sensor", names), &comparison.metrics, |row, metric| {
         rows[row].all.of(metric).map_or(Cell::Empty, cell)
     })

@@ -4,6 +4,7 @@ use std::io;
 use std::path::PathBuf;
 
 use chromascope_core::camera::RenderingError;
+use spectral_file::ReadError;
 
 use crate::scene::SceneError;
 
@@ -15,6 +16,9 @@ pub(super) enum CliError {
     Name(#[from] crate::catalog::names::NameError),
     #[error("{}", .0)]
     File(String),
+    /// A file of another kind than spectra.
+    #[error("{}", .0)]
+    NoSpectra(String),
     #[error("{failed} of {count} files failed")]
     Failed { failed: usize, count: usize },
     #[error(transparent)]
@@ -50,6 +54,11 @@ impl CliError {
     /// 2 where the arguments themselves are wrong, as for those that clap refuses; 1 where data, names or disk say no.
     pub(super) fn code(&self) -> u8 {
         if matches!(self, Self::Argument { .. }) { 2 } else { 1 }
+    }
+
+    /// Refusal of a file that could not be read, as a sentence with its name.
+    pub(super) fn unread(sentence: String, error: &ReadError) -> Self {
+        if error.is_of_no_spectra() { Self::NoSpectra(sentence) } else { Self::File(sentence) }
     }
 }
 

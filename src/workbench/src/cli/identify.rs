@@ -17,12 +17,12 @@ use spectral_file::Values;
 use super::arguments::{Form, Per, form, values};
 use super::error::{CliError, Result, refused};
 use super::outputs::{self, put};
-use super::request::{Request, display_path, in_file};
+use super::request::{Request, in_file};
 use crate::catalog::chart_picture::ChartPicture;
 use crate::catalog::recorded::{self, Levels, RawRow, RawTable, lit};
 use crate::document::imported::Role;
 use crate::document::start::Start;
-use crate::format::{fixed, rank_in_words};
+use crate::format::{display_path, fixed, rank_in_words};
 use crate::results::Results;
 use crate::scene::Scene;
 use crate::scene::recorded::{CHANNELS, RANK_CAUTION, RankedCamera, cause_in_words, range_in_words};
@@ -79,7 +79,7 @@ pub(super) struct IdentifyArguments {
     /// Scale of the values in a file of reflectances that does not state it
     #[arg(long, value_name = "VALUES", value_parser = values())]
     values: Option<Values>,
-    /// A camera, or a file with three sensitivities; may be repeated [default: all of the library]
+    /// A camera, a file with three sensitivities, or a folder of such files; may be repeated [default: all of the library]
     #[arg(long, value_name = "NAME|FILE")]
     camera: Vec<OsString>,
     /// Unit of the sensitivities in camera files, overriding the files: response per energy or per photon

@@ -28,11 +28,11 @@ use super::arguments::{named, values};
 use super::error::{CliError, Result, refused};
 use super::outputs::{self, is_standard_output, put, show, stream};
 use super::request::read;
-use crate::atomic::{fitting, metadata_path};
+use crate::atomic::{fitting, paths_beside};
+use crate::catalog::folders::{FolderFiles, NO_SPECTRA, leave_companions_out};
 use crate::catalog::import::Origin;
-use crate::catalog::opened::files_of;
-use crate::format::{io_failure, io_reason};
-use crate::terminal::{say, shown_json};
+use crate::format::{Tally, display_path, file_name, io_failure, io_reason};
+use crate::terminal::{Remarks, say, shown_json};
 
 const EXAMPLES: &str = "Examples:
   chromascope inspect leaf.txt
@@ -45,10 +45,11 @@ const EXAMPLES: &str = "Examples:
   chromascope inspect *.sp --json | jq '.[].kind'
 
 Reports the decisions made for each file, one line each: value, confidence (certain, a guess, chosen) and reason. An option of the
-same name overrides a decision. A folder stands for the files in it, `-` for standard input; named pipes are not supported.
+same name overrides a decision. A folder stands for the files in it at any depth, `-` for standard input; named pipes are not supported.
 
 --csv writes `wavelength_nm,<curve> [<quantity> in <unit>],...`: nanometers, reflectances and transmittances as fractions, a cell left blank where a
-curve has no sample. With `--csv -` the table goes to standard output and the report to standard error. OUT is a
+curve has no sample. Behind a curve whose file states its uncertainty stands `<curve> [expanded uncertainty (k=2) in <unit>]`; the
+covariance of a file goes into NAME.cov.csv beside. Other formats have no place for either. With `--csv -` the table goes to standard output and the report to standard error. OUT is a
 folder where several files or a folder are named.
 
 --out writes a file in a --format, all of which the window has too: csv, which has the same table and, in a file beside it whose name goes on
@@ -56,11 +57,12 @@ with `-metadata.json` (W3C, CSV on the Web), title, source, license and other no
 sp and cmf of Argyll; cgats. What is not in it as it was read is said on standard error.
 
 --json prints an object for a file, an array for several: file, kind (camera, reflectance, transmittance, illuminant, unknown),
-curves [{name, unit, quantity, wavelengths_nm, values, missing}], channels [red, green, blue] as places in curves from 0,
+curves [{name, unit, quantity, wavelengths_nm, values, standard_uncertainty, coverage_factor, missing}], channels [red, green, blue] as places in curves from 0,
 decisions [{what, value, certainty, why}], warnings [{line, text}], reading {...}, notes on resampling; or file and error
 {line, column, text}. Lines and columns count from 1.
 
-A file that cannot be read is reported on standard error; the others are still read, and the exit code is 1.";
+A file that cannot be read is reported on standard error; the others are still read, and the exit code is 1. Of several files, those
+that hold no spectra, hidden ones, and metadata and covariance beside a table are skipped and counted in one line.";
 
 /// Contents of files of spectra and the decisions made when reading them; curves as CSV or JSON
 #[allow(clippy::struct_excessive_bools, reason = "each is a flag of the command line")]
@@ -207,6 +209,13 @@ impl Failure {
         }
     }
 
+    fn refusal(&self, name: &str) -> CliError {
+        match self {
+            Self::Read(error) => CliError::unread(self.sentence(name), error),
+            Self::Other(_) => CliError::File(self.sentence(name)),
+        }
+    }
+
     /// One sentence: where, what, and what helps.
     fn sentence(&self, name: &str) -> String {
         let text = self.reason();
@@ -223,35 +232,52 @@ impl Failure {
 
 /// Reads the files one by one and writes the requested output of each. A failed file does not stop the others.
 pub(super) fn run(arguments: &InspectArguments, _: &ArgMatches) -> Result<()> {
-    let (files, several) = files(&arguments.files)?;
+    let (files, mut skipped) = files(&arguments.files)?;
+    let several = arguments.files.len() > 1 || arguments.files[0].is_dir();
     let out = Out::new(arguments, &files, several)?;
-    let mut failures = Vec::new();
+    let (mut read, mut failures, mut remarks) = (0, Vec::new(), Remarks::default());
     if arguments.json && several {
         put("[\n", None)?;
     }
     for (index, file) in files.iter().enumerate() {
         let end = if several && index + 1 < files.len() { ",\n" } else { "\n" };
-        if let Err(error) = answer(file, (index, end), &out, arguments)? {
-            failures.push(error);
-            if files.len() > 1
-                && let Some(error) = failures.last()
-            {
-                say(&format!("chromascope: {error}\n"));
+        match answer(file, (index, end), &out, arguments, &mut remarks)? {
+            Ok(()) => read += 1,
+            // Of several files, the text beside them is no failure.
+            Err(CliError::NoSpectra(_)) if several => skipped.add(NO_SPECTRA, display_path(file)),
+            Err(error) => {
+                if files.len() > 1 {
+                    say(&format!("chromascope: {error}\n"));
+                }
+                failures.push(error);
             }
         }
     }
     if arguments.json && several {
         put("]\n", None)?;
     }
+    let failed = failures.len();
+    if several && failed + read == 0 {
+        return Err(CliError::NoSpectra(format!("no spectra were found; skipped: {skipped}")));
+    }
+    if !skipped.is_empty() {
+        say(&format!("chromascope: skipped: {skipped}\n"));
+    }
     match failures.pop() {
         None => Ok(()),
         Some(only) if files.len() == 1 => Err(only),
-        Some(_) => Err(CliError::Failed { failed: failures.len() + 1, count: files.len() }),
+        Some(_) => Err(CliError::Failed { failed, count: failed + read }),
     }
 }
 
 /// Writes the requested output of a file. The outer error ends the whole run.
-fn answer(file: &Path, (index, end): (usize, &str), out: &Out, arguments: &InspectArguments) -> Result<Result<()>> {
+fn answer(
+    file: &Path,
+    (index, end): (usize, &str),
+    out: &Out,
+    arguments: &InspectArguments,
+    remarks: &mut Remarks,
+) -> Result<Result<()>> {
     let name = if is_standard_input(file) { "standard input".to_owned() } else { file.display().to_string() };
     let told = spectral_file::on_one_line(&name);
     let table = inspect(file, &name, arguments);
@@ -260,10 +286,9 @@ fn answer(file: &Path, (index, end): (usize, &str), out: &Out, arguments: &Inspe
     let known = table.as_ref().map_or_else(|_| Vec::new(), |table| written::known(table, file));
     let prepared = table.as_ref().map_err(Clone::clone).and_then(|table| {
         let sheet = written::sheet(table, &curves, &known, &now);
-        let text =
-            format.filter(|format| !written::is_csv(*format)).map(|format| write(&sheet, format, arguments.grid()));
+        let text = format.filter(|format| !format.is_csv()).map(|format| write(&sheet, format, arguments.grid()));
         let text = text.transpose().map_err(|error| Failure::Other(error.to_string()))?;
-        let wanted = format.is_some_and(written::is_csv) || arguments.step.is_some() && text.is_none();
+        let wanted = format.is_some_and(Format::is_csv) || arguments.step.is_some() && text.is_none();
         let prepared = wanted.then(|| Prepared::new(&sheet, arguments.grid())).transpose();
         let prepared = prepared.map_err(|error| Failure::Other(error.to_string()))?;
         Ok((table, prepared, text))
@@ -274,7 +299,7 @@ fn answer(file: &Path, (index, end): (usize, &str), out: &Out, arguments: &Inspe
             if arguments.json {
                 put(&shown_json(&format!("{}{end}", output::failure(&name, &failure))), None)?;
             }
-            return Ok(Err(CliError::File(failure.sentence(&told))));
+            return Ok(Err(failure.refusal(&told)));
         }
     };
     if arguments.json {
@@ -289,7 +314,7 @@ fn answer(file: &Path, (index, end): (usize, &str), out: &Out, arguments: &Inspe
         if out.is_standard_output() { say(&text) } else { show(&text)? }
     }
     if let Some(question) = question(table) {
-        say(&format!("chromascope: {told}: {question}\n"));
+        remarks.0.add(&question, told.to_string());
     }
     let Some((format, place)) = format.zip(out.place(index)) else { return Ok(Ok(())) };
     Ok(written::put(&told, place, (format, arguments.out.is_some()), prepared.as_mut(), text.as_ref()))
@@ -346,12 +371,14 @@ fn contents(file: &Path) -> io::Result<Vec<u8>> {
     if io::stdin().is_terminal() {
         say("Type or paste the data; Ctrl+D ends the input.\n");
     } else {
-        let patience = || thread::sleep(PATIENCE);
         let done = Arc::clone(&done);
         // Without a thread it waits without a word.
-        let _silent = thread::Builder::new()
-            .name("patience".to_owned())
-            .spawn(move || say_if_waiting(patience, || done.load(Ordering::Relaxed), say));
+        let _silent = thread::Builder::new().name("patience".to_owned()).spawn(move || {
+            thread::sleep(PATIENCE);
+            if !done.load(Ordering::Relaxed) {
+                say("chromascope: waiting for standard input to end; Ctrl+C stops.\n");
+            }
+        });
     }
     let mut bytes = Vec::new();
     let read = io::stdin().lock().take(spectral_file::MAX_BYTES as u64 + 1).read_to_end(&mut bytes);
@@ -364,16 +391,8 @@ fn is_standard_input(file: &Path) -> bool {
     [STANDARD_INPUT, "/dev/stdin", "/dev/fd/0", "/proc/self/fd/0"].iter().any(|name| file == Path::new(name))
 }
 
-/// Time without an end of standard input after which a notice says what is waited for.
+/// Time without an end of standard input, which may not be redirected by mistake, after which a notice says what is waited for.
 const PATIENCE: Duration = Duration::from_secs(2);
-
-/// Writes a notice if, once `patience` returns, standard input has not ended: it may have been left unredirected by mistake.
-fn say_if_waiting(patience: impl FnOnce(), has_ended: impl FnOnce() -> bool, say: impl FnOnce(&str)) {
-    patience();
-    if !has_ended() {
-        say("chromascope: waiting for standard input to end; Ctrl+C stops.\n");
-    }
-}
 
 /// A title, or the file's name, says more about a curve than "Column 2" does.
 fn name_the_only_curve(table: &mut SpectralFile, file: &str) {
@@ -386,23 +405,21 @@ fn name_the_only_curve(table: &mut SpectralFile, file: &str) {
     }
 }
 
-/// The files that are meant, and whether there may be several: folders become what is in them, in order of name.
-fn files(named: &[PathBuf]) -> Result<(Vec<PathBuf>, bool)> {
-    let mut files = Vec::new();
-    let mut several = named.len() > 1;
+/// The files that are meant: folders become what is in them, in order of path. And what was skipped.
+fn files(named: &[PathBuf]) -> Result<(Vec<PathBuf>, Tally)> {
+    let (mut files, mut skipped) = (Vec::new(), Tally::default());
     for path in named {
-        if !path.is_dir() {
+        if path.is_dir() {
+            let found = FolderFiles::new(path, &|| true);
+            let mut found = found.map_err(|error| CliError::File(io_failure(path, &error)))?;
+            files.append(&mut found.files);
+            skipped.0.append(&mut found.skipped.0);
+        } else {
             files.push(path.clone());
-            continue;
         }
-        several = true;
-        let within = files_of(path).map_err(|error| CliError::File(io_failure(path, &error)))?;
-        if within.is_empty() {
-            return Err(CliError::File(format!("{}: no files in it", path.display())));
-        }
-        files.extend(within);
     }
-    Ok((files, several))
+    leave_companions_out(&mut files, |file| Some(file.clone()), &mut skipped);
+    Ok((files, skipped))
 }
 
 enum Out {
@@ -417,7 +434,7 @@ impl Out {
     /// may not be.
     fn new(arguments: &InspectArguments, files: &[PathBuf], several: bool) -> Result<Self> {
         let wrong = |reason: &str| refused(if arguments.csv.is_some() { "--csv" } else { "--out" }, reason);
-        if arguments.notes && !written::is_csv(arguments.format) {
+        if arguments.notes && !arguments.format.is_csv() {
             return refused("--notes", "the format has notes of its own; --notes is for CSV");
         }
         let path = arguments.csv.as_deref().or(arguments.out.as_deref());
@@ -439,8 +456,8 @@ impl Out {
         } else {
             vec![path.to_owned()]
         };
-        let beside = tables.iter().filter(|table| written::is_csv(format) && !outputs::is_stream(table));
-        let all: Vec<PathBuf> = beside.map(|table| metadata_path(table)).chain(tables.iter().cloned()).collect();
+        let beside = tables.iter().filter(|table| format.is_csv() && !outputs::is_stream(table));
+        let all: Vec<PathBuf> = beside.flat_map(|table| paths_beside(table)).chain(tables.iter().cloned()).collect();
         outputs::check(all.iter().map(PathBuf::as_path), &inputs(files), arguments.force)?;
         if folder {
             fs::create_dir_all(path).map_err(|error| CliError::Output { path: path.to_owned(), error })?;
@@ -463,42 +480,25 @@ impl Out {
     }
 }
 
-/// Files that are read; standard input too, which may be redirected from a file.
+/// Files that are read, with those beside them; standard input too, which may be redirected from a file.
 fn inputs(files: &[PathBuf]) -> Vec<PathBuf> {
     let place = |file: &PathBuf| if is_standard_input(file) { PathBuf::from("/dev/stdin") } else { file.clone() };
-    files.iter().map(place).collect()
+    files.iter().map(place).flat_map(|file| paths_beside(&file).into_iter().chain([file])).collect()
 }
 
-/// The file's name with another ending, and a number where another file has that name already.
+/// The file's name with another ending, and a number where it or the file with its covariance has the name of another.
 fn free_name(source: &Path, ending: &str, taken: &mut HashSet<String>) -> String {
     let stem = source.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
     let stem = if stem.is_empty() || stem == "-" { "table".to_owned() } else { stem };
-    let mut name = fitting(&stem, &format!(".{ending}"));
-    let mut number = 2;
+    let named = |number: &str| fitting(&stem, &format!("{number}.{ending}"));
     // Some file systems do not distinguish `A.csv` from `a.csv`.
-    while !taken.insert(name.to_lowercase()) {
-        name = fitting(&stem, &format!("-{number}.{ending}"));
+    let both =
+        |name: &str| [Path::new(name), &paths_beside(Path::new(name))[1]].map(|path| file_name(path).to_lowercase());
+    let (mut name, mut number) = (named(""), 2);
+    while both(&name).iter().any(|name| taken.contains(name)) {
+        name = named(&format!("-{number}"));
         number += 1;
     }
+    taken.extend(both(&name));
     name
-}
-
-#[cfg(test)]
-mod tests {
-    use std::cell::{Cell, RefCell};
-
-    use super::*;
-
-    /// The notice after waiting, if standard input ends while it is waited, or later.
-    fn notice(ends_meanwhile: bool) -> String {
-        let (ended, said) = (Cell::new(false), RefCell::new(String::new()));
-        say_if_waiting(|| ended.set(ends_meanwhile), || ended.get(), |text| said.borrow_mut().push_str(text));
-        said.into_inner()
-    }
-
-    #[test]
-    fn a_notice_comes_only_while_standard_input_is_open() {
-        assert_eq!(notice(false), "chromascope: waiting for standard input to end; Ctrl+C stops.\n");
-        assert_eq!(notice(true), "");
-    }
 }

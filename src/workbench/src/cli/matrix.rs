@@ -125,7 +125,9 @@ pub(super) fn run(arguments: &MatrixArguments, _: &ArgMatches) -> Result<()> {
 }
 
 fn written(arguments: &MatrixArguments, request: &Request, scene: &Scene<'_>) -> Result<Vec<u8>> {
-    let [(kind, name)] = request.sources.as_slice() else { return Ok(Vec::new()) };
+    let [(kind, name)] = request.sources.as_slice() else {
+        return refused("CAMERA", format!("the folder has {} cameras; name the file of one", request.sources.len()));
+    };
     let exposure = if arguments.white_at_one { IdtExposure::WhiteAtOne } else { IdtExposure::Rawtoaces };
     let neutral = arguments.neutral;
     if arguments.format == Format::Clf {

@@ -31,7 +31,7 @@ pub(super) struct ReportArguments {
     /// A folder, made if it is not there
     #[arg(long, value_name = "FOLDER")]
     out: PathBuf,
-    /// A camera in place of the paper's, or a file with three sensitivities; may be repeated
+    /// A camera in place of the paper's, a file with three sensitivities, or a folder of such files; may be repeated
     #[arg(long, value_name = "NAME|FILE")]
     camera: Vec<OsString>,
     /// Unit of the sensitivities in camera files, overriding the files: response per energy or per photon

@@ -15,6 +15,7 @@ use spectral_file::{Certainty, MAX_BYTES, ReadError, SpectralFile, Values, Warni
 use super::arguments::{CommonArguments, FitArguments, Per, SourceArguments, Transform};
 use super::error::{CliError, Result, refused};
 use super::outputs::is_descriptor;
+use crate::catalog::folders::{FolderFiles, NO_SPECTRA, leave_companions_out};
 use crate::catalog::import::{Origin, imported};
 use crate::catalog::names::{Found, find, telling_words};
 use crate::catalog::{Catalog, Entry};
@@ -23,9 +24,9 @@ use crate::document::imported::{ImportOverrides, ImportedSet, Role};
 use crate::document::render::{LEAF, MeshChoice, SKIN};
 use crate::document::start::Start;
 use crate::document::{CHART, CIE_1931, Document, FIVE, Light, SetKind, Subset, TransformChoice, WhiteBalanceChoice};
-use crate::format::io_reason;
+use crate::format::{Tally, display_path, io_reason};
 use crate::scene::{Caution, Scene, SceneError};
-use crate::terminal::say;
+use crate::terminal::{Remarks, say};
 
 const REFLECTANCES: [SetKind; 2] = [SetKind::Chart, SetKind::Material];
 
@@ -39,6 +40,7 @@ pub(super) struct Request {
     pub(super) values: Option<Values>,
     per: Option<Per>,
     read: Vec<PathBuf>,
+    remarks: Remarks,
 }
 
 impl Request {
@@ -75,8 +77,12 @@ impl Request {
         per: Option<Per>,
     ) -> Result<Self> {
         let mut request = Self::of_preset(preset, per);
-        let camera = |name: &OsString| Ok((SetKind::Camera, request.camera(argument, name)?));
-        request.sources = cameras.iter().map(camera).collect::<Result<_>>()?;
+        let mut cameras: Vec<&OsString> = cameras.iter().collect();
+        leave_companions_out(&mut cameras, |camera| Some(camera.into()), &mut Tally::default());
+        for given in cameras {
+            let named = request.cameras(argument, given)?.into_iter();
+            request.sources.extend(named.map(|name| (SetKind::Camera, name)));
+        }
         request.check_per(argument)?;
         Ok(request)
     }
@@ -85,7 +91,7 @@ impl Request {
     fn of_preset(preset: Start, per: Option<Per>) -> Self {
         let document = Document { compared: Vec::new(), ..preset.document() };
         let (catalog, sources, read) = (Catalog::built_in(), Vec::new(), Vec::new());
-        Self { document, catalog, sources, preset, values: None, per, read }
+        Self { document, catalog, sources, preset, values: None, per, read, remarks: Remarks::default() }
     }
 
     /// Refuses a unit of sensitivities where none are from a file.
@@ -143,16 +149,17 @@ impl Request {
         let cameras = places("camera").into_iter().zip(cameras).map(|(at, name)| (at, SetKind::Camera, name));
         let mut named: Vec<_> = observers.chain(cameras).collect();
         named.sort_by_key(|(at, ..)| *at);
-        named
-            .into_iter()
-            .map(|(_, kind, name)| {
-                let found = match kind {
-                    SetKind::Camera => self.camera("--camera", name)?,
-                    _ => self.name("--observer", &[kind], &name.to_string_lossy())?,
-                };
-                Ok((kind, found))
-            })
-            .collect()
+        // A list that the shell made of a pattern has them too.
+        leave_companions_out(&mut named, |(.., name)| Some(name.into()), &mut Tally::default());
+        let mut sources = Vec::new();
+        for (_, kind, name) in named {
+            let found = match kind {
+                SetKind::Camera => self.cameras("--camera", name)?,
+                _ => vec![self.name("--observer", &[kind], &name.to_string_lossy())?],
+            };
+            sources.extend(found.into_iter().map(|name| (kind, name)));
+        }
+        Ok(sources)
     }
 
     fn set_transform(&mut self, arguments: &SourceArguments) -> Result<()> {
@@ -182,8 +189,30 @@ impl Request {
         Ok(())
     }
 
-    fn camera(&mut self, argument: &'static str, given: &OsStr) -> Result<String> {
-        self.set_or_file(argument, &[SetKind::Camera], Role::Camera, given)
+    /// The name of a camera, or of the file of one; those of all files of cameras in a folder.
+    fn cameras(&mut self, argument: &'static str, given: &OsStr) -> Result<Vec<String>> {
+        let folder = Path::new(given);
+        if !folder.is_dir() || self.catalog.get(SetKind::Camera, &given.to_string_lossy()).is_some() {
+            return Ok(vec![self.set_or_file(argument, &[SetKind::Camera], Role::Camera, given)?]);
+        }
+        let found = FolderFiles::new(folder, &|| true);
+        let FolderFiles { files, mut skipped, .. } = found.map_err(|error| in_file(folder, io_reason(&error)))?;
+        let mut names = Vec::new();
+        for file in &files {
+            match self.open(file, Role::Camera) {
+                Ok(set) => names.push(set.name.clone()),
+                Err(CliError::NoSpectra(_)) => skipped.add(NO_SPECTRA, display_path(file)),
+                Err(error) => skipped.add("refused", error.to_string()),
+            }
+        }
+        let told = format!("{} of {} files used; skipped: {skipped}", names.len(), files.len());
+        if names.is_empty() {
+            return Err(in_file(folder, told));
+        }
+        if !skipped.is_empty() {
+            say(&format!("chromascope: {}: {told}\n", display_path(folder)));
+        }
+        Ok(names)
     }
 
     /// The name of a set of these kinds, or of the file of one.
@@ -353,7 +382,10 @@ impl Request {
 
     /// Reads a file as a set of the document's own, under a name that no other set has; says what had to be guessed.
     fn open(&mut self, path: &Path, role: Role) -> Result<Shared<ImportedSet>> {
-        let known = self.document.own.iter().find(|own| own.path.as_deref() == Some(path) && own.role == role);
+        let known =
+            self.document.own.iter().find(|own| {
+                own.role == role && own.path.as_deref().is_some_and(|own| own.as_os_str() == path.as_os_str())
+            });
         if let Some(known) = known {
             return Ok(known.clone());
         }
@@ -385,9 +417,10 @@ impl Request {
         let mut overrides = ImportOverrides::for_role(Some(role));
         overrides.options.values = self.values.filter(|_| role.is_fraction());
         let origin = Origin::on_disk(&file, path, bytes);
-        let table = spectral_file::read(origin.source(bytes), &overrides.options).map_err(|why| in_file(path, why))?;
-        check_quantity(&file, role, &table)?;
-        let table = table.usable().map_err(|why| in_file(path, why))?;
+        let unread = |error: ReadError| CliError::unread(format!("{file}: {error}"), &error);
+        let table = spectral_file::read(origin.source(bytes), &overrides.options).map_err(unread)?;
+        check_quantity(&file, role, &table, &mut self.remarks)?;
+        let table = table.usable().map_err(unread)?;
         check_channels(&file, role, &table)?;
         overrides.taken = Some((0..table.curves.len()).collect());
         if role == Role::Camera {
@@ -395,14 +428,14 @@ impl Request {
         }
         let imported = imported(&origin, &table, &overrides);
         if imported.guessed || !table.warnings.is_empty() {
-            say(&format!("chromascope: {}\n", imported.message));
+            let words = imported.message.strip_prefix(&*file).and_then(|rest| rest.strip_prefix(": "));
+            self.remarks.0.add(words.unwrap_or(&imported.message), file.clone());
         }
         let response = table.reading.per_photon.as_ref().filter(|_| role == Role::Camera && self.per.is_none());
         if let Some(response) = response.filter(|response| response.certainty == Certainty::Guess) {
             let what = if response.value { "photon" } else { "energy" };
-            say(&format!(
-                "chromascope: {file}: assumed to be responses per {what}; set --per energy or --per photon\n"
-            ));
+            let words = format!("assumed to be responses per {what}; set --per energy or --per photon");
+            self.remarks.0.add(&words, file.clone());
         }
         Ok(imported.set)
     }
@@ -411,11 +444,6 @@ impl Request {
 /// Reason that a file is of no use, after its path.
 pub(super) fn in_file(path: &Path, why: impl Display) -> CliError {
     CliError::File(format!("{}: {why}", display_path(path)))
-}
-
-/// A path for people, on one line.
-pub(super) fn display_path(path: &Path) -> String {
-    spectral_file::on_one_line(&path.to_string_lossy()).into_owned()
 }
 
 fn tell(argument: &str, typed: &str, found: &Found<'_>) {
@@ -491,7 +519,7 @@ pub(super) fn say_light(scene: &Scene<'_>) -> Result<(), SceneError> {
 
 /// Rejects a file that states another quantity than its option takes, values of unknown scale, and values that no such quantity has;
 /// reports the use of a file that states none.
-fn check_quantity(path: &str, role: Role, table: &SpectralFile) -> Result<()> {
+fn check_quantity(path: &str, role: Role, table: &SpectralFile, remarks: &mut Remarks) -> Result<()> {
     let refuse = |why: String| Err(CliError::File(format!("{path}: {why}")));
     let content = &table.reading.content_role;
     let other = content.value != role && !(content.value.is_fraction() && role.is_fraction());
@@ -524,7 +552,7 @@ fn check_quantity(path: &str, role: Role, table: &SpectralFile) -> Result<()> {
             Certainty::Guess => format!("{}, which suggests {}", content.why, content.value),
             _ => "the file does not state its quantity".to_owned(),
         };
-        say(&format!("chromascope: {path}: {why}; used as {role} because of the option\n"));
+        remarks.0.add(&format!("{why}; used as {role} because of the option"), path.to_owned());
     }
     Ok(())
 }

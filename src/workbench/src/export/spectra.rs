@@ -3,14 +3,14 @@
 use chromascope_core::query::Ask;
 use chromascope_core::spectral::{Header, Response, SpectralDistribution};
 use chromascope_figure::{Cell, Column, Table};
-use spectral_file::write::{Content, Format, Grid, Metadata, Note, Sheet, Trace, WriteError, write};
+use spectral_file::write::{Beside, Content, Format, Grid, Note, Sheet, Trace, WriteError, write};
 
 use crate::atomic::fitting;
 use crate::catalog::load::{self, LoadError};
 use crate::catalog::names::model_of;
 use crate::catalog::{Entry, Place};
 use crate::document::SetKind;
-use crate::document::imported::{ImportedSet, Role};
+use crate::document::imported::{ImportedSet, Role, Uncertainty};
 
 /// A format, and the wavelengths that curves are brought to.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -52,8 +52,8 @@ pub struct SpectraFile {
     /// The name offered for it.
     pub name: String,
     pub text: String,
-    /// What is known about the set, for a file beside it.
-    pub metadata: Option<Metadata>,
+    /// What is known about the set and is not in the text, for files beside it.
+    pub beside: Beside,
     /// Differences from the set.
     pub notes: Vec<Note>,
 }
@@ -66,7 +66,7 @@ pub fn fits(entry: &Entry, form: Form) -> Result<(), WriteError> {
         Place::Own(set) => set.curves.len(),
     };
     // The sample values are irrelevant; a menu calls this in every frame.
-    let curve = Trace { name: "", wavelengths_nm: &[400.0, 700.0], values: &[0.0, 0.0] };
+    let curve = Trace { name: "", wavelengths_nm: &[400.0, 700.0], values: &[0.0, 0.0], uncertainty: None };
     let curves = vec![curve; count];
     form.format.fits(&Sheet { content: content(entry), curves: &curves, ..Sheet::default() })
 }
@@ -74,9 +74,18 @@ pub fn fits(entry: &Entry, form: Form) -> Result<(), WriteError> {
 /// Writes a set; `created` is the time of that, as in RFC 3339.
 pub fn file(entry: &Entry, form: Form, ask: &impl Ask, created: Option<&str>) -> Result<SpectraFile, SpectraError> {
     let curves = curves(&entry.place, ask)?;
+    let own = if let Place::Own(set) = &entry.place { Some(whole(set)) } else { None };
+    let stated: Vec<Option<Uncertainty>> = own.as_ref().map_or_else(Vec::new, stated);
+    let covariance = own.as_ref().and_then(ImportedSet::covariance_in_nm);
     let traces: Vec<Trace<'_>> = curves
         .iter()
-        .map(|(name, curve)| Trace { name, wavelengths_nm: curve.wavelengths_nm(), values: curve.values() })
+        .enumerate()
+        .map(|(index, (name, curve))| Trace {
+            name,
+            wavelengths_nm: curve.wavelengths_nm(),
+            values: curve.values(),
+            uncertainty: stated.get(index).and_then(Option::as_ref),
+        })
         .collect();
     let (unit, comments) = match (&entry.header, &entry.place) {
         (Some(header), _) => (Some(header.unit.clone()), header_comments(entry.kind, header)),
@@ -84,10 +93,11 @@ pub fn file(entry: &Entry, form: Form, ask: &impl Ask, created: Option<&str>) ->
         (None, Place::BuiltIn { .. }) => (None, Vec::new()),
     };
     let (title, content, unit) = (entry.name.as_str(), content(entry), unit.as_deref());
-    let sheet = Sheet { title, content, curves: &traces, unit, created, comments: &comments };
+    let covariance = covariance.as_ref();
+    let sheet = Sheet { title, content, curves: &traces, covariance, unit, created, comments: &comments };
     let written = write(&sheet, form.format, form.grid)?;
     let name = fitting(&file_name(&entry.name), &format!(".{}", form.format.ending()));
-    Ok(SpectraFile { name, text: written.text, metadata: written.metadata, notes: written.notes })
+    Ok(SpectraFile { name, text: written.text, beside: written.beside, notes: written.notes })
 }
 
 /// A set's curves as a table over all of their wavelengths, as measured: a cell is empty where a curve has no sample.
@@ -114,11 +124,20 @@ pub fn table(entry: &Entry, ask: &impl Ask) -> Result<Table, LoadError> {
 fn curves(place: &Place, ask: &impl Ask) -> Result<Vec<(String, SpectralDistribution)>, LoadError> {
     match place {
         // A camera would give its red, green and blue alone.
-        Place::Own(set) if set.role == Role::Camera => {
-            Ok(ImportedSet { role: Role::Unknown, ..ImportedSet::clone(set) }.curves_in_nm()?)
-        }
+        Place::Own(set) if set.role == Role::Camera => Ok(whole(set).curves_in_nm()?),
         place => load::curves(place, ask),
     }
+}
+
+/// A set that uses all of its curves.
+fn whole(set: &ImportedSet) -> ImportedSet {
+    ImportedSet { role: Role::Unknown, ..set.clone() }
+}
+
+/// Uncertainties of all curves of a set, in nanometers and fractions.
+fn stated(set: &ImportedSet) -> Vec<Option<Uncertainty>> {
+    let all = set.curves.iter().zip(set.uncertainties_in_nm());
+    all.map(|(curve, standard)| Some(Uncertainty { standard: standard?, ..curve.uncertainty.clone()? })).collect()
 }
 
 fn content(entry: &Entry) -> Content<'_> {

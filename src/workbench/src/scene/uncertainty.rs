@@ -65,8 +65,8 @@ pub fn rank_cell(rank: Option<[usize; 2]>) -> Cell {
 }
 
 /// A row for each name, a column for each metric.
-pub fn table<'a>(
-    names: (&str, impl IntoIterator<Item = &'a str>),
+pub fn table(
+    names: (&str, impl IntoIterator<Item: Into<Cell>>),
     metrics: &[CameraMetric],
     cell: impl Fn(usize, CameraMetric) -> Cell,
 ) -> Table {

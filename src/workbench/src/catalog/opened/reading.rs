@@ -10,12 +10,13 @@ use spectral_file::{MAX_BYTES, ReadError, Watch};
 
 use super::{Failing, Job, Monitor, OpenFile, OpenedEvent, Why};
 use crate::catalog::file_store;
+use crate::catalog::folders::{FolderFiles, NO_SPECTRA, leave_companions_out};
 use crate::catalog::import::{Imported, Origin, import_as};
 use crate::catalog::meshes::is_mesh;
 use crate::catalog::spectral_images::{is_same_image, is_spectral_image};
 use crate::document::imported::{Fingerprint, ImportOverrides, ImportedSet};
 use crate::document::session::{self, is_session};
-use crate::format::{file_name, io_failure, io_reason};
+use crate::format::{Tally, file_name, io_failure, io_reason};
 
 /// Number of bytes examined to distinguish a mesh from spectra.
 const LOOK: usize = 1 << 16;
@@ -40,7 +41,10 @@ struct Harvest {
     /// Meshes, spectral images and documents, which are only named.
     named: Vec<OpenedEvent>,
     notes: Vec<String>,
+    skipped: Tally,
     count: usize,
+    /// True if there is a folder among them, of which only spectra are opened if it has any.
+    has_folder: bool,
     /// True if they were known before, such as the parts of one.
     from_memory: bool,
 }
@@ -53,7 +57,7 @@ pub(super) fn open(
     job: &Job,
 ) -> Vec<OpenedEvent> {
     let mut harvest = Harvest::default();
-    let requests = expand(requests, &mut harvest);
+    let requests = expand(requests, &|| job.go_on(0.0), &mut harvest);
     let count = requests.len();
     harvest.count = count;
     for (index, request) in requests.into_iter().enumerate() {
@@ -88,8 +92,8 @@ pub(super) fn open(
     if job.go_on(0.0) { harvest.into_events() } else { Vec::new() }
 }
 
-/// Folders become their files, in order of name; hidden ones and folders within are omitted.
-fn expand(requests: Vec<Request>, harvest: &mut Harvest) -> Vec<Request> {
+/// Folders become the files in them, at any depth.
+fn expand(requests: Vec<Request>, go_on: &dyn Fn() -> bool, harvest: &mut Harvest) -> Vec<Request> {
     let mut all = Vec::new();
     for request in requests {
         let Request::Path(path) = request else {
@@ -102,32 +106,22 @@ fn expand(requests: Vec<Request>, harvest: &mut Harvest) -> Vec<Request> {
             all.push(Request::Path(path));
             continue;
         }
-        match files_of(&path) {
-            Ok(files) if files.is_empty() => harvest.failures.push(format!("{}: no files in it", path.display())),
-            Ok(files) => {
-                if files.len() > MAX_FILES {
-                    harvest.notes.push(format!("Of {} files the first {MAX_FILES} were read.", files.len()));
+        harvest.has_folder = true;
+        match FolderFiles::new(&path, go_on) {
+            Ok(mut found) => {
+                if found.files.len() > MAX_FILES {
+                    let note = format!("Of {} files the first {MAX_FILES} were read.", found.files.len());
+                    harvest.notes.push(note);
                 }
-                all.extend(files.into_iter().take(MAX_FILES).map(Request::Path));
+                harvest.skipped.0.append(&mut found.skipped.0);
+                all.extend(found.files.into_iter().take(MAX_FILES).map(Request::Path));
             }
             Err(error) => harvest.failures.push(io_failure(&path, &error)),
         }
     }
+    let path = |request: &Request| if let Request::Path(path) = request { Some(path.clone()) } else { None };
+    leave_companions_out(&mut all, path, &mut harvest.skipped);
     all
-}
-
-/// Files of a folder in order of name, without hidden files and subfolders.
-pub fn files_of(folder: &Path) -> io::Result<Vec<PathBuf>> {
-    let mut files = Vec::new();
-    for entry in fs::read_dir(folder)? {
-        let entry = entry?;
-        let hidden = entry.file_name().to_string_lossy().starts_with('.');
-        if !hidden && entry.path().is_file() {
-            files.push(entry.path());
-        }
-    }
-    files.sort();
-    Ok(files)
 }
 
 enum Unread {
@@ -199,7 +193,7 @@ fn take(
     harvest: &mut Harvest,
 ) {
     let fingerprint = origin.fingerprint;
-    let mut read = read_once(&origin, &bytes, overrides, job);
+    let mut read = try_once(&origin, &bytes, overrides, job);
     if !job.go_on(0.0) {
         return;
     }
@@ -210,17 +204,22 @@ fn take(
                 imported.guessed = true;
             }
             // What fitted another file does not fit this one.
-            Err(_) => read = read_once(&origin, &bytes, &ImportOverrides::default(), job),
+            Err(_) => read = try_once(&origin, &bytes, &ImportOverrides::default(), job),
         }
     }
-    let failure = read.as_ref().err().cloned();
+    let failure = read.as_ref().err().map(|(sentence, _)| sentence.clone());
     match read {
         Ok(imported) => {
             log::info!("opened {}", imported.message);
             harvest.sets.push(imported);
             harvest.paths.extend(origin.path.clone());
         }
-        Err(sentence) => {
+        // Of several files, the text beside them is no failure.
+        Err((_, true)) if harvest.count > 1 => {
+            harvest.skipped.add(NO_SPECTRA, origin.name);
+            return;
+        }
+        Err((sentence, _)) => {
             log::warn!("{sentence}");
             harvest.failures.push(sentence);
             harvest.failed.push(fingerprint);
@@ -229,26 +228,42 @@ fn take(
     monitor.lock().know(OpenFile { origin, bytes, failure });
 }
 
-/// Reads; a panic comes out as a failure of this file alone.
 fn read_once(origin: &Origin, bytes: &[u8], overrides: &ImportOverrides, job: &Job) -> Result<Imported, String> {
+    try_once(origin, bytes, overrides, job).map_err(|(sentence, _)| sentence)
+}
+
+/// Reads; a panic comes out as a failure of this file alone. A failure is a sentence, and whether the file is of another kind than
+/// spectra.
+fn try_once(origin: &Origin, bytes: &[u8], with: &ImportOverrides, job: &Job) -> Result<Imported, (String, bool)> {
     let go_on = |share: f32| job.go_on(share);
-    let read = catch_unwind(AssertUnwindSafe(|| import_as(origin, bytes, overrides, Watch::new(&go_on))));
-    let broken = |_| Err(file_store::Unread::Broken(origin.name.clone()).to_string());
-    read.map_or_else(broken, |read| read.map_err(|error| unread(&origin.name, &error)))
+    let read = catch_unwind(AssertUnwindSafe(|| import_as(origin, bytes, with, Watch::new(&go_on))));
+    let broken = |_| Err((file_store::Unread::Broken(origin.name.clone()).to_string(), false));
+    let failure = |error: ReadError| (unread(&origin.name, &error), error.is_of_no_spectra());
+    read.map_or_else(broken, |read| read.map_err(failure))
 }
 
 impl Harvest {
-    fn into_events(self) -> Vec<OpenedEvent> {
+    fn into_events(mut self) -> Vec<OpenedEvent> {
         let failure = self.failure();
         let mut events = self.named;
+        if self.has_folder && !self.sets.is_empty() && !events.is_empty() {
+            self.notes.push(format!("Not opened: {} meshes, images or sessions.", events.len()));
+            events.clear();
+        }
+        if !self.skipped.is_empty() || self.has_folder && self.sets.is_empty() {
+            self.notes.push(format!("Skipped: {}.", self.skipped));
+        }
         events.sort_by_key(|event| match event {
             OpenedEvent::Mesh(_) => 0,
             OpenedEvent::Image(_) => 1,
             _ => 2,
         });
         if self.sets.is_empty() {
-            let failed = failure.map(|told| OpenedEvent::Failed(format!("{told}. Nothing was changed."), self.failed));
-            events.extend(failed);
+            let notes = self.notes.join(" ");
+            let none = Some("No spectra were found".to_owned()).filter(|_| events.is_empty() && !notes.is_empty());
+            let told = |told| format!("{told}. {notes}").trim_end().to_owned() + " Nothing was changed.";
+            let failed = |sentence| OpenedEvent::Failed(told(sentence), self.failed);
+            events.extend(failure.or(none).map(failed));
             return events;
         }
         let mut message = match self.sets.as_slice() {
@@ -267,8 +282,8 @@ impl Harvest {
     /// Number of files that could not be read, and the reason for the first.
     fn failure(&self) -> Option<String> {
         let first = self.failures.first()?;
-        // A folder without files is one of those requested.
-        let count = self.count.max(self.failures.len() + self.sets.len());
+        // A folder that cannot be read is one of those requested.
+        let count = self.failures.len() + self.sets.len();
         if count == 1 {
             return Some(first.clone());
         }

@@ -86,16 +86,17 @@ pub(super) fn json(
     put(out, &format!("{{\"file\":{},\"kind\":{},\"curves\":[", json!(name), json!(table.role.value)))?;
     let notes = if let Some(prepared) = prepared {
         let (mut curves, mut done) = (table.curves.iter().enumerate(), Ok(()));
-        prepared.each(|wavelengths, values| {
+        prepared.each(|wavelengths, values, standard| {
             let Some((index, one)) = curves.next() else { return false };
-            done = curve(out, (index, one), table, (wavelengths, values));
+            done = curve(out, (index, one), table, (wavelengths, values, standard));
             done.is_ok()
         });
         done?;
         prepared.notes()
     } else {
         for (index, one) in table.curves.iter().enumerate() {
-            curve(out, (index, one), table, (&one.wavelengths_nm, &one.values))?;
+            let standard = one.uncertainty.as_ref().map(|of| &*of.standard);
+            curve(out, (index, one), table, (&one.wavelengths_nm, &one.values, standard))?;
         }
         Vec::new()
     };
@@ -123,7 +124,7 @@ fn curve(
     out: &mut dyn Write,
     (index, curve): (usize, &Curve),
     table: &SpectralFile,
-    (wavelengths, values): (&[f64], &[f64]),
+    (wavelengths, values, standard): (&[f64], &[f64], Option<&[f64]>),
 ) -> io::Result<()> {
     let unit = if table.role.value.is_fraction() { Some("1") } else { curve.unit.as_deref() };
     let start = format!(
@@ -137,7 +138,10 @@ fn curve(
     serde_json::to_writer(&mut *out, wavelengths)?;
     out.write_all(b",\"values\":")?;
     serde_json::to_writer(&mut *out, values)?;
-    write!(out, ",\"missing\":{}}}", curve.missing)
+    out.write_all(b",\"standard_uncertainty\":")?;
+    serde_json::to_writer(&mut *out, &standard)?;
+    let coverage = curve.uncertainty.as_ref().map(|of| of.coverage);
+    write!(out, ",\"coverage_factor\":{},\"missing\":{}}}", json!(coverage), curve.missing)
 }
 
 const fn certainty(certainty: Certainty) -> &'static str {
@@ -191,6 +195,6 @@ fn error(failure: &Failure) -> Value {
 
 /// The differences between curves that are written and those that were read, found by resampling all of them.
 pub(super) fn notes(prepared: &mut Prepared<'_>) -> Vec<Note> {
-    prepared.each(|_, _| true);
+    prepared.each(|_, _, _| true);
     prepared.notes()
 }

@@ -1,14 +1,13 @@
 //! Files of the curves that were read, in every format.
 
-use std::fs;
 use std::io::Write;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
-use spectral_file::write::{Content, Format, Prepared, Sheet, Trace, Written};
+use spectral_file::write::{Content, Format, Note, Prepared, Sheet, Trace, Written};
 use spectral_file::{Role, SpectralFile};
 
-use crate::atomic::{metadata_path, write_described};
+use crate::atomic::{files_beside, write_with};
 use crate::cli::error::{CliError, Result};
 use crate::cli::outputs::{Stop, is_stream, stream};
 use crate::export::spectra::{maker_and_model, notes_in_words};
@@ -20,10 +19,6 @@ pub(super) fn format() -> impl TypedValueParser<Value = Format> {
     let all = || Format::ALL.into_iter().filter(|format| *format != Format::CommentedCsv);
     let of = move |key: String| all().find(|format| format.key() == key).unwrap_or(Format::Csv);
     PossibleValuesParser::new(all().map(Format::key)).map(of)
-}
-
-pub(super) const fn is_csv(format: Format) -> bool {
-    matches!(format, Format::Csv | Format::CommentedCsv)
 }
 
 /// What the file says about its curves, its name as their source unless it names another, and how it was read.
@@ -46,7 +41,8 @@ pub(super) fn sheet<'a>(
     let title = table.reading.comment("title").unwrap_or_default().trim();
     let units = || table.curves.iter().map(|curve| curve.unit.as_deref());
     let unit = units().next().flatten().filter(|unit| units().all(|other| other == Some(unit)));
-    Sheet { title, content: content(table, title), curves, unit, created: Some(created), comments }
+    let covariance = table.covariance.as_ref();
+    Sheet { title, content: content(table, title), curves, covariance, unit, created: Some(created), comments }
 }
 
 fn content<'a>(table: &'a SpectralFile, title: &'a str) -> Content<'a> {
@@ -68,7 +64,7 @@ fn content<'a>(table: &'a SpectralFile, title: &'a str) -> Content<'a> {
     }
 }
 
-/// Writes curves to a place: the text of another format, or the table with its metadata beside it if it is described.
+/// Writes curves to a place: the text of another format, or the table, with its files beside it unless it is a stream.
 pub(super) fn put(
     name: &str,
     place: &Path,
@@ -76,23 +72,31 @@ pub(super) fn put(
     mut prepared: Option<&mut Prepared<'_>>,
     text: Option<&Written>,
 ) -> Result<()> {
-    let metadata = metadata_path(place);
-    let beside = prepared.as_mut().filter(|_| format == Format::Csv && is_described && !is_stream(place));
-    let beside = beside.map(|prepared| prepared.metadata().text(&file_name(place)));
-    let description = beside.as_ref().map(|text| (metadata.as_path(), text.as_bytes()));
-    let failed = |error| CliError::Output { path: metadata.clone(), error };
-    write_described(description, failed, || {
-        stream(Some(place), |out| table(out, format, prepared.as_deref_mut(), text))
-    })?;
-    if is_csv(format) && beside.is_none() && !is_stream(place) {
-        // It described the table that was replaced.
-        let _none = fs::remove_file(&metadata);
+    let described = is_described && format == Format::Csv && !is_stream(place);
+    let beside = prepared.as_mut().map(|prepared| prepared.beside(described)).unwrap_or_default();
+    let mut notes = Vec::new();
+    if is_stream(place) || !format.is_csv() {
+        notes.extend(beside.covariance.is_some().then_some(Note::NoCovariance));
+        table_to(place, format, prepared.as_deref_mut(), text)?;
+    } else {
+        let files = files_beside(place, &beside);
+        let former = |(path, text): &&(PathBuf, Option<String>)| text.is_none() && path.exists();
+        for (path, _) in files.iter().filter(former) {
+            say(&format!("chromascope: {name}: {} of the former table is removed\n", path.display()));
+        }
+        let failed = |path: &Path, error| CliError::Output { path: path.to_owned(), error };
+        write_with(&files, failed, || table_to(place, format, prepared.as_deref_mut(), text))?;
     }
-    let notes = text.map_or_else(|| prepared.map_or_else(Vec::new, |made| made.notes()), |text| text.notes.clone());
-    if is_described && !notes.is_empty() {
+    let made = text.map_or_else(|| prepared.map_or_else(Vec::new, |made| made.notes()), |text| text.notes.clone());
+    notes.extend(made.into_iter().filter(|_| is_described));
+    if !notes.is_empty() {
         say(&format!("chromascope: {name}: written: {}\n", notes_in_words(&notes)));
     }
     Ok(())
+}
+
+fn table_to(place: &Path, format: Format, prepared: Option<&mut Prepared<'_>>, text: Option<&Written>) -> Result<()> {
+    stream(Some(place), |out| table(out, format, prepared, text))
 }
 
 fn table(

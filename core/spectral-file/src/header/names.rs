@@ -1,0 +1,340 @@
+//! Names of the columns, and the units below them, in the lines above the numbers.
+
+use super::{Header, split};
+use crate::decision::{Delimiter, Values, WavelengthUnit};
+use crate::dialect::{Cell, Dialect};
+use crate::dialect_trial::Layout;
+use crate::header_terms::{self, XUnit};
+use crate::text::{Lines, Section, comment, is_one, lower};
+use crate::{uncertainty_terms, unit_text};
+
+impl Header {
+    /// The names, and units below them, from the lines just above the numbers.
+    pub(super) fn take_names(&mut self, near: &[(usize, &str)], layout: &Layout, section: Section<'_>) {
+        let mut axis = String::new();
+        let mut rows = near.iter().rev();
+        while let Some(&(number, line)) = rows.next() {
+            let is_comment = comment(line).is_some();
+            let mut cells = cells(layout, line, section);
+            // The name of wavelengths alone, below those of the curves.
+            let filled_up = cells.len() == 1 && layout.dialect().cells(line).count() == layout.width;
+            if filled_up && header_terms::names_axis(&cells[0]) && !is_unit(&cells[0]) && axis.is_empty() {
+                self.take_joined(number, line);
+                axis = cells.swap_remove(0);
+                continue;
+            }
+            if cells.first().is_some_and(String::is_empty) {
+                axis.clone_into(&mut cells[0]);
+            }
+            // A rule, or the key of a section such as `[LAMPDATA]`, between names and numbers.
+            let key = |cell: &String| cell.starts_with('[') && cell.ends_with(']') && !is_unit(cell);
+            let rule = cells.len() > 1
+                && cells.iter().all(|cell| cell.bytes().all(|byte| matches!(byte, b'-' | b'_' | b'=' | b':')));
+            if rule || cells.len() == 1 && key(&cells[0]) {
+                continue;
+            }
+            let headed = |cells: &[String]| cells.iter().any(|name| header_terms::names_wavelengths(name));
+            // R's names of rows have no head.
+            let short = cells.len() > 1 && cells.len() + 1 == layout.width;
+            if short && headed(&cells) && has_row_names(section, layout) {
+                cells.insert(0, String::new());
+                self.shifted = true;
+            }
+            let quoted = short && line.trim_start().starts_with('"');
+            let exact = is_comment || layout.delimiter.value == Delimiter::Spaces && !quoted;
+            if cells.len() < 2 || (exact && cells.len() != layout.width) {
+                let unit_alone = cells.len() == 1 && self.units.is_empty() && is_unit(&cells[0]);
+                if unit_alone {
+                    self.x_unit = header_terms::x_unit(&cells[0]).map(|unit| (number, unit));
+                    self.units_line = Some(number);
+                }
+                // Rows that are named themselves go on above one of units, or one left empty.
+                if unit_alone && keyed(layout, rows.clone()).next().is_some()
+                    || cells.len() == 1 && is_row_key(&cells[0])
+                {
+                    continue;
+                }
+                self.take_joined(number, line);
+                return;
+            }
+            let mut number = number;
+            if is_row_key(&cells[0])
+                && !names_row(&cells[0])
+                && let Some(named) =
+                    keyed(layout, rows.clone()).find(|(_, cells)| cells.len() > 1 && names_row(&cells[0]))
+            {
+                (number, cells) = named;
+            }
+            if is_key_and_value(layout, &cells) {
+                return;
+            }
+            if self.units.is_empty() && is_unit_row(&cells) {
+                self.take_unit_cell(number, &cells, layout);
+                self.units = cells;
+                self.units_line = Some(number);
+                continue;
+            }
+            if is_measured(layout, &cells) {
+                continue;
+            }
+            if self.units.is_empty() || self.x_unit.is_none() {
+                self.take_unit_cell(number, &cells, layout);
+            }
+            // Some programs name only the curves.
+            if cells.len() + 1 == layout.width && !is_row_key(&cells[0]) && !headed(&cells) {
+                cells.insert(0, String::new());
+                self.shifted = true;
+            }
+            self.set_names(number, cells);
+            if self.units.is_empty() && !is_comment {
+                self.take_samples(rows.next(), rows.next().is_none() && self.comments.is_empty(), layout);
+            }
+            return;
+        }
+    }
+
+    fn set_names(&mut self, number: usize, names: Vec<String>) {
+        (self.names, self.line) = (names, Some(number));
+        // Names of samples say less than a line above them.
+        let above = self.earlier.filter(|_| self.mentioned.is_some_and(|(line, _)| line == number));
+        self.mentioned = above.or(self.mentioned);
+    }
+
+    /// Takes the names of samples from the line above one that only says what was measured, `Wavelength (nm),%T,Wavelength (nm),%T`:
+    /// each above its values, or above its wavelengths.
+    fn take_samples(&mut self, above: Option<&(usize, &str)>, first: bool, layout: &Layout) {
+        let Some(&(number, line)) = above.filter(|(_, line)| comment(line).is_none()) else { return };
+        let cells = split(layout.dialect(), line);
+        let is_axis = |column: usize| {
+            let own = self.names.get(column).filter(|name| !name.is_empty());
+            own.or(cells.get(column)).is_some_and(|name| header_terms::names_axis(name))
+        };
+        let columns: Vec<usize> =
+            (0..self.names.len()).filter(|&column| is_axis(column) || !self.names[column].is_empty()).collect();
+        let (axes, values): (Vec<usize>, Vec<usize>) = columns.into_iter().partition(|&column| is_axis(column));
+        let is_statistic = |column: &&usize| uncertainty_terms::is_statistic(&self.names[**column]);
+        let statistics = values.iter().filter(is_statistic).count();
+        // Nor does one name of all.
+        let alike = values.len() > 1 && values.iter().all(|&column| self.names[column] == self.names[values[0]]);
+        let measure = |column: &usize| alike || is_statistic(&column) || says_only_measure(&self.names[*column]);
+        if axes.is_empty() || values.is_empty() || !values.iter().all(measure) {
+            return;
+        }
+        let mut above: Vec<String> = vec![String::new(); self.names.len()];
+        // Shimadzu names its only curve so.
+        if let [title] = cells.as_slice()
+            && let (Some(name), [column]) = (title.strip_suffix(" - RawData"), values.as_slice())
+        {
+            name.clone_into(&mut above[*column]);
+        } else {
+            let nameless = |column: usize| self.names.get(column).is_some_and(String::is_empty);
+            let is_own = |column: &usize| !(is_axis(*column) && nameless(*column));
+            let filled: Vec<usize> =
+                (0..cells.len()).filter(|column| !cells[*column].is_empty()).filter(is_own).collect();
+            let split = layout.dialect().cells(line).count();
+            let names = filled.iter().all(|&column| layout.dialect().parse(&cells[column]) == Cell::Text);
+            let over_axes = filled.first() == axes.first() && filled.iter().all(|column| axes.contains(column));
+            let title = layout.width == 2 && !first;
+            // A name over its mean and its uncertainty.
+            let over_first = statistics > 1 && filled.first() == values.first();
+            let over_values = over_first && filled.iter().all(|column| values.contains(column));
+            if !names || title || split < 2 || !(over_axes || over_values || filled == values) {
+                return;
+            }
+            let mut name = "";
+            for (column, above) in above.iter_mut().enumerate() {
+                name = if over_axes && axes.contains(&column) { "" } else { name };
+                name = cells.get(column).filter(|cell| !cell.is_empty()).map_or(name, String::as_str);
+                if values.contains(&column) {
+                    name.clone_into(above);
+                }
+            }
+        }
+        if let Some(axis) = cells.first().filter(|_| self.names[0].is_empty()) {
+            axis.clone_into(&mut self.names[0]);
+        }
+        self.units_line = self.line.replace(number);
+        self.units = vec![String::new(); self.names.len()];
+        for (column, name) in above.into_iter().enumerate().filter(|(_, name)| !name.is_empty()) {
+            let name = name.trim_end_matches(" - RawData");
+            let own = std::mem::take(&mut self.names[column]);
+            let uncertain = uncertainty_terms::term(&own, &own).is_some();
+            self.names[column] = if uncertain { format!("{name} {own}") } else { name.to_owned() };
+            self.units[column] = if uncertain { String::new() } else { own };
+        }
+    }
+
+    /// Takes names or units of all columns from a line of `SeaBASS`: `/fields=wavelength,Es`.
+    pub(super) fn take_fields(&mut self, number: usize, line: &str, layout: &Layout) -> Option<()> {
+        let (key, list) = line.trim_start().strip_prefix('/')?.split_once('=')?;
+        let cells: Vec<String> = list.split(',').map(|cell| cell.trim().to_owned()).collect();
+        match key {
+            _ if cells.len() != layout.width => return None,
+            "fields" => (self.names, self.line) = (cells, Some(number)),
+            "units" => {
+                self.take_unit_cell(number, &cells, layout);
+                (self.units, self.units_line) = (cells, Some(number));
+            }
+            _ => return None,
+        }
+        Some(())
+    }
+
+    /// Names that do not split into the columns of the table still say something about it as a whole.
+    fn take_joined(&mut self, number: usize, line: &str) {
+        if header_terms::names_wavelengths(line) && self.values.is_none() {
+            self.line = self.line.or(Some(number));
+            if let Some(values) = header_terms::values(line).filter(|values| *values != Values::Plain) {
+                self.values = Some((number, values));
+            }
+            self.take_role(number, line);
+            let quantity = header_terms::quantity(line).filter(|_| !self.calibration);
+            self.quantity = quantity.map(|quantity| (number, quantity)).or(self.quantity);
+        }
+    }
+
+    fn take_unit_cell(&mut self, number: usize, cells: &[String], layout: &Layout) {
+        let chosen = layout.wavelength_column.map(|column| column.saturating_sub(1));
+        let column = chosen.or_else(|| header_terms::axis(cells)).unwrap_or(0);
+        if let Some(unit) = cells.get(column).and_then(|cell| header_terms::x_unit(cell)) {
+            self.x_unit = Some((number, unit));
+        }
+    }
+}
+
+/// The cells of a line above the numbers. Names of wavelengths and curves may be separated by other signs than these, and be one for
+/// each column that is not empty in the first row.
+fn cells(layout: &Layout, line: &str, section: Section<'_>) -> Vec<String> {
+    let (line, is_comment) = comment(line).map_or((line, false), |line| (line, true));
+    let cells = split(layout.dialect(), line);
+    let blanks = layout.delimiter.value == Delimiter::Spaces;
+    let other = cells.len() != layout.width || cells.first().is_some_and(|cell| cell.ends_with(','));
+    if (is_comment || blanks)
+        && let Some(names) = split_otherwise(layout, line).filter(|_| other)
+    {
+        return names;
+    }
+    if cells.len() >= layout.width && !blanks || is_comment {
+        return cells;
+    }
+    let row = first_rows(section, layout).next().unwrap_or_default();
+    let filled = layout.dialect().cells(row).enumerate().filter(|(_, cell)| !cell.is_empty());
+    let filled: Vec<usize> = filled.map(|(column, _)| column).take(layout.width).collect();
+    let others = [Delimiter::Tab, Delimiter::Semicolon, Delimiter::Comma, Delimiter::Spaces].into_iter();
+    let others = others.filter(|delimiter| *delimiter != layout.delimiter.value);
+    let mut others = others.map(|delimiter| split(Dialect { delimiter, ..layout.dialect() }, line));
+    let fit = |names: &Vec<String>| [layout.width, filled.len()].contains(&names.len()) && names.len() > 1;
+    let Some(names) = others.find(|names| fit(names) && header_terms::names_axis(&names[0])) else { return cells };
+    if names.len() == layout.width {
+        return names;
+    }
+    let mut cells = vec![String::new(); layout.width];
+    filled.into_iter().zip(names).for_each(|(column, name)| cells[column] = name);
+    cells
+}
+
+/// Names that tabs, commas or wide gaps separate above columns between blanks, or in a comment.
+fn split_otherwise(layout: &Layout, line: &str) -> Option<Vec<String>> {
+    ["\t", ",", ";", "  "].iter().find_map(|sign| {
+        let cells = line.split(sign).map(str::trim).filter(|cell| !cell.is_empty());
+        let names: Vec<String> = cells.take(layout.width + 1).map(str::to_owned).collect();
+        let worded = names.len() > 1 && names.iter().all(|name| name.contains(char::is_alphabetic));
+        (worded && names.len() == layout.width && header_terms::names_axis(&names[0])).then_some(names)
+    })
+}
+
+fn first_rows<'a>(section: Section<'a>, layout: &Layout) -> impl Iterator<Item = &'a str> {
+    let rows = Lines::of(section).skip_while(|(number, _)| *number < layout.first_line);
+    rows.filter(|(_, line)| !line.trim_ascii().is_empty() && comment(line).is_none()).map(|(_, line)| line)
+}
+
+/// Returns whether the first rows begin with a name or with their number, as R writes.
+fn has_row_names(section: Section<'_>, layout: &Layout) -> bool {
+    const LOOK: usize = 3;
+    let rows = first_rows(section, layout).take(LOOK);
+    let mut firsts = rows.map(|line| layout.dialect().cells(line).next().unwrap_or_default()).zip(1..);
+    firsts.all(|(cell, count)| match layout.dialect().parse(cell) {
+        Cell::Number(number) => number == f64::from(count),
+        Cell::Text => layout.texts & 1 == 1,
+        Cell::Gap => false,
+    })
+}
+
+/// Returns whether a name says what was measured and nothing of which sample: `%T`, `Abs`, `Reflectance (%)`.
+fn says_only_measure(name: &str) -> bool {
+    let bare = unit_text::without_unit(name).to_lowercase();
+    let bare = bare.trim_matches(|c: char| !c.is_alphanumeric());
+    is_one(bare, "|r|t|a|abs|refl|trans|transmission") || header_terms::is_quantity(bare)
+}
+
+/// Returns whether a cell says that the names of the curves stand beside it.
+fn names_row(cell: &str) -> bool {
+    is_one(lower(cell).trim().trim_end_matches(':'), "name|names|sample|sample name|label")
+}
+
+/// Returns whether a cell says what stands beside it: names, numbers or times of the curves.
+fn is_row_key(cell: &str) -> bool {
+    const KEYS: &str = "index|no|no.|nr|number|id|time|date|date/time|timestamp";
+    names_row(cell) || is_one(lower(cell).trim().trim_end_matches(':'), KEYS)
+}
+
+/// Rows that are named themselves.
+fn keyed<'a>(
+    layout: &Layout,
+    rows: impl Iterator<Item = &'a (usize, &'a str)>,
+) -> impl Iterator<Item = (usize, Vec<String>)> {
+    let rows = rows.map(|(number, line)| (*number, split(layout.dialect(), line)));
+    rows.take_while(|(_, cells)| cells.first().is_some_and(|cell| is_row_key(cell)))
+}
+
+/// Returns whether a line above two columns is a setting of the instrument, such as `LUX 695`, and no pair of names.
+fn is_key_and_value(layout: &Layout, cells: &[String]) -> bool {
+    if layout.width != 2 || cells.len() != 2 {
+        return false;
+    }
+    let key = cells[0].to_ascii_lowercase();
+    let numeric = matches!(layout.dialect().parse(&cells[1]), Cell::Number(_));
+    ["xaxis", "yaxis", "x unit", "y unit"].iter().any(|start| key.starts_with(start))
+        || (numeric && !header_terms::names_wavelengths(&cells[0]))
+}
+
+/// Returns whether a line above several curves gives a number of each, such as a chromaticity, and no names: names have no fractions.
+fn is_measured(layout: &Layout, cells: &[String]) -> bool {
+    let Some((key, values)) = cells.split_first().filter(|(key, _)| !key.is_empty()) else { return false };
+    let number = |cell: &String| match layout.dialect().parse(cell) {
+        Cell::Number(value) => Some(value),
+        _ => None,
+    };
+    let mut numbers = values.iter().map(number);
+    layout.width > 2
+        && !header_terms::names_wavelengths(key)
+        && number(key).is_none()
+        && numbers.all(|value| value.is_some())
+        && values.iter().filter_map(number).any(|value| value.fract() != 0.0)
+}
+
+fn is_unit(cell: &str) -> bool {
+    let bare = cell.trim_start_matches(['[', '(']).trim_end_matches([']', ')']);
+    WavelengthUnit::from_symbol(bare).is_some() || header_terms::x_unit(bare) == Some(XUnit::Other)
+}
+
+fn is_unit_row(cells: &[String]) -> bool {
+    let bracketed = cells.iter().filter(|cell| cell.starts_with(['[', '('])).count();
+    bracketed * 2 >= cells.len() || (is_unit(&cells[0]) && cells[1..].iter().all(|cell| looks_like_unit(cell)))
+}
+
+/// Returns whether a cell begins with a number that no unit begins with, as names do: `10% gray`, `5R 4/14`.
+fn begins_with_figure(cell: &str) -> bool {
+    let inverse = cell.strip_prefix('1').is_some_and(|rest| rest.trim_start().starts_with('/'));
+    cell.starts_with(|c: char| c.is_ascii_digit()) && !inverse && !cell.contains("10^")
+}
+
+fn looks_like_unit(cell: &str) -> bool {
+    // `leaf (%)` is a name with its unit, `(%)` a unit.
+    let named = !cell.starts_with(['[', '(']) && cell.contains(['[', '(']);
+    !named
+        && (cell.is_empty()
+            || cell.starts_with(['[', '('])
+            || (cell.contains(['%', '/']) && !begins_with_figure(cell))
+            || is_one(&cell.to_ascii_lowercase(), "a.u.|counts|1|-"))
+}
