@@ -28,8 +28,7 @@ impl Header {
             }
             // A rule, or the key of a section such as `[LAMPDATA]`, between names and numbers.
             let key = |cell: &String| cell.starts_with('[') && cell.ends_with(']') && !is_unit(cell);
-            let rule = cells.len() > 1
-                && cells.iter().all(|cell| cell.bytes().all(|byte| matches!(byte, b'-' | b'_' | b'=' | b':')));
+            let rule = cells.len() > 1 && cells.iter().all(|cell| cell.bytes().all(|byte| b"-_=:".contains(&byte)));
             if rule || cells.len() == 1 && key(&cells[0]) {
                 continue;
             }
@@ -158,7 +157,7 @@ impl Header {
         for (column, name) in above.into_iter().enumerate().filter(|(_, name)| !name.is_empty()) {
             let name = name.trim_end_matches(" - RawData");
             let own = std::mem::take(&mut self.names[column]);
-            let uncertain = uncertainty_terms::term(&own, &own).is_some();
+            let uncertain = uncertainty_terms::term(unit_text::without_unit(&own), &own).is_some();
             self.names[column] = if uncertain { format!("{name} {own}") } else { name.to_owned() };
             self.units[column] = if uncertain { String::new() } else { own };
         }
