@@ -8,6 +8,7 @@ mod damage;
 mod doubts;
 mod evidence;
 mod judged;
+mod judged_columns;
 mod light_units;
 mod limits;
 mod parts;

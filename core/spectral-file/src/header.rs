@@ -98,7 +98,10 @@ pub(super) fn read(section: Section<'_>, layout: &Layout) -> Header {
         if line.trim().is_empty() {
             continue;
         }
-        let body = comment(line);
+        if header.take_fields(number, line, layout).is_some() {
+            continue;
+        }
+        let (line, body) = (unmarked(line), comment(line));
         let line = body.map_or_else(|| whole(section, line, layout.dialect(), &mut lines), |_| line);
         if let Some((key, value)) = body.and_then(|body| body.split_once(':')) {
             header.take_comment(number, key.trim(), value.trim());
@@ -111,10 +114,18 @@ pub(super) fn read(section: Section<'_>, layout: &Layout) -> Header {
         }
     }
     if layout.orientation.value == Orientation::Down {
-        header.take_names(&near, layout, section);
+        if header.names.is_empty() {
+            header.take_names(&near, layout, section);
+        }
         heads::take(&mut header);
     }
     header
+}
+
+/// A line of names without the sign of a comment that no blank follows: `%Wavelength, leaf`.
+fn unmarked(line: &str) -> &str {
+    let names = line.trim_start().strip_prefix('%').filter(|names| names.to_lowercase().starts_with("wavelength"));
+    names.unwrap_or(line)
 }
 
 impl Header {

@@ -73,12 +73,12 @@ fn percent_letter(lower: &str) -> Option<char> {
 
 /// Returns whether a header says decadic absorbance. `Abs. irradiance` is absolute.
 fn says_absorbance(lower: &str) -> bool {
-    const OTHERS: [&str; 7] = ["radian", "power", "flux", "energ", "reflect", "transmi", "sensiti"];
+    const OTHERS: &str = "radian|power|flux|energ|reflect|transmi|sensiti";
     let short = || {
         let name = crate::unit_text::without_unit(lower);
         is_one(name, "abs|abs.|od|o.d.|a.u. (abs)") || lower.ends_with("(od)") || lower.ends_with("[od]")
     };
-    let abs = || has_word(lower, "abs") && !OTHERS.iter().any(|other| lower.contains(other));
+    let abs = || has_word(lower, "abs") && !has_part(lower, OTHERS) && !begins(lower, "length|depth|coef");
     let culture = |word: &str| {
         word.strip_prefix("od").is_some_and(|nm| nm.len() == 3 && nm.bytes().all(|digit| digit.is_ascii_digit()))
     };
@@ -347,7 +347,7 @@ pub(super) fn x_unit(text: &str) -> Option<XUnit> {
 }
 
 /// Words for wavelengths and what stands for them.
-const NAMES: &str = "wavelength|wavelengths|wave|wl|lambda|λ|wavenumber|wave number|frequency|freq|ν";
+const NAMES: &str = "wavelength|wavelengths|wave|wl|wvl|lambda|λ|wavenumber|wave number|frequency|freq|ν";
 
 /// As other languages call them.
 const CALLED: &str = "wellenl|longueur d|longitud de onda|lunghezza d|comprimento de onda|golflengte|våglängd|bølgel|długość fal|\
@@ -397,10 +397,10 @@ pub(super) fn medium(text: &str) -> Option<Medium> {
 
 /// The unit that a line of free text gives for wavelengths: the first unit after the word.
 pub(super) fn x_unit_in_prose(text: &str) -> Option<XUnit> {
+    const WORDS: &str =
+        "wavelength|lambda is in|lambda\" is in|lambda in|wavenumber|wave number|x unit|xunit|x axis|xaxis";
     let text = lower(text);
-    let start = ["wavelength", "wavenumber", "wave number", "x unit", "xunit", "x axis", "xaxis"]
-        .iter()
-        .find_map(|word| text.find(word))?;
+    let start = WORDS.split('|').find_map(|word| text.find(word))?;
     x_unit(&text[start..])
 }
 
@@ -420,7 +420,7 @@ fn without_argument(lower: &str) -> String {
 
 /// Returns whether a column's header is about wavelengths before all: it begins or ends with their name, units aside.
 pub(super) fn begins_with_wavelengths(text: &str) -> bool {
-    const NAMES: &str = "wavelength|wavelengths|wl|λ|lambda|wavenumber";
+    const NAMES: &str = "wavelength|wavelengths|wl|wvl|λ|lambda|wavenumber";
     let text = without_argument(&lower(text));
     let mut words = words(&text).filter(|word| WavelengthUnit::from_symbol(word).is_none());
     let first = words.next();
@@ -440,14 +440,12 @@ pub(super) fn names_wavelengths(text: &str) -> bool {
     let symbol = |symbol| {
         text.match_indices(symbol).any(|(at, _)| !text[..at].ends_with(|c: char| c.is_alphanumeric() || c == '_'))
     };
-    text.contains("wavelength")
-        || text.contains("wavenumber")
-        || text.contains("wave number")
+    has_part(&text, "wavelength|wavenumber|wave number")
         || (text.contains("frequency") && has_word(&text, "thz"))
         || symbol("lambda")
         || symbol("λ")
         || ["w.length", "w_length"].iter().any(|name| text.starts_with(name))
-        || words(&text).next().is_some_and(|word| is_one(word, "wave|wl|nm|um|µm|μm|cm-1|1/cm|thz"))
+        || words(&text).next().is_some_and(|word| is_one(word, "wave|wl|wvl|nm|um|µm|μm|cm-1|1/cm|thz"))
 }
 
 /// Returns whether a column's header names times and nothing else, such as `Time (s)` or `Integration time [ms]`.

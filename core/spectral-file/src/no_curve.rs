@@ -133,9 +133,12 @@ fn raw_marks(curves: &[RawCurve]) -> Option<Vec<bool>> {
     let letters = curves.iter().all(|curve| curve.name == "P" || LETTERS.contains(&curve.name.as_str()));
     let jaz = letters && curves.len() >= 2 && curves.iter().any(|curve| curve.name == "P");
     let processed = curves.iter().any(is_processed);
+    let reflected = curves.iter().any(|curve| curve.name.eq_ignore_ascii_case("reflectance"));
     let raw = |curve: &RawCurve| {
-        let counts = curve.label.to_lowercase().contains("count");
-        if jaz { curve.name != "P" } else { processed && !is_processed(curve) && (counts || is_raw_name(&curve.name)) }
+        let raw = curve.label.to_lowercase().contains("count") || is_raw_name(&curve.name);
+        // Light that came from the sample is recorded beside its reflectance.
+        let light = reflected && is_one(&curve.name.to_lowercase(), "radiance|irradiance");
+        if jaz { curve.name != "P" } else { light || processed && !is_processed(curve) && raw }
     };
     let marks: Vec<bool> = curves.iter().map(raw).collect();
     (marks.contains(&true) && marks.contains(&false)).then_some(marks)

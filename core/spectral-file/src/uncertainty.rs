@@ -111,6 +111,7 @@ fn settle_uses(grid: &Grid, terms: &mut [Option<Term>]) -> Vec<Use> {
         }
     }
     place_unnamed(curves, &keys, terms, &mut uses);
+    let names = |term: &Term, key: &str| !term.of.is_empty() && uncertainty_terms::without_mean(key) == term.of;
     let fits = |curve: usize, index: usize| !is_too_large(&curves[curve].values, &curves[index].values);
     let mut covered: Vec<bool> = terms.iter().map(Option::is_some).collect();
     for place in &uses {
@@ -121,7 +122,8 @@ fn settle_uses(grid: &Grid, terms: &mut [Option<Term>]) -> Vec<Use> {
     let all = !covered.contains(&false);
     for index in 0..curves.len() {
         let Some(term) = &terms[index] else { continue };
-        uses[index] = match (uses[index], fault(&curves[index].values)) {
+        let owner = if let Use::Of(curve) = uses[index] { curve } else { index };
+        uses[index] = match (uses[index], fault(&curves[index].values, &curves[owner].values)) {
             // Short words are names too, such as SE of a direction: they need a table in which every curve has one.
             (Use::Of(curve), why) if !term.clear && !names(term, &keys[curve]) => {
                 let mean = uncertainty_terms::names_mean(&keys[curve]);
@@ -142,7 +144,8 @@ fn settle_uses(grid: &Grid, terms: &mut [Option<Term>]) -> Vec<Use> {
     let mut best: BTreeMap<usize, usize> = BTreeMap::new();
     for index in 0..curves.len() {
         let Use::Of(curve) = uses[index] else { continue };
-        let kind = |at: usize| terms[at].as_ref().map(|term| term.kind);
+        // Of the same in percent and in the unit of the values, the latter.
+        let kind = |at: usize| terms[at].as_ref().map(|term| (term.kind, !(term.relative || term.percent)));
         let other = best.insert(curve, index);
         if let Some(other) = other {
             let worse = if kind(index) > kind(other) { other } else { index };
@@ -152,10 +155,6 @@ fn settle_uses(grid: &Grid, terms: &mut [Option<Term>]) -> Vec<Use> {
     }
     // Nothing is left out for words that may mean something else, where no curve would be left.
     if uses.iter().all(|place| *place != Use::Curve) { vec![Use::Curve; curves.len()] } else { uses }
-}
-
-fn names(term: &Term, key: &str) -> bool {
-    !term.of.is_empty() && uncertainty_terms::without_mean(key) == term.of
 }
 
 /// Returns whether the words about a curve are those of one with a label and words of its own: its quantity, or the figures at its end.
@@ -174,14 +173,15 @@ fn place_unnamed(curves: &[RawCurve], keys: &[String], terms: &[Option<Term>], u
         let end = (start..curves.len()).find(|at| !is_curve(*at)).unwrap_or(curves.len());
         let next = (end..curves.len()).find(|at| is_curve(*at)).unwrap_or(curves.len());
         let open: Vec<usize> = (end..next).filter(|at| is_open(*at, uses)).collect();
-        let kind = |at: &usize| terms[*at].as_ref().map(|term| (term.kind, term.clear));
+        let kind = |at: &usize| terms[*at].as_ref().map(|term| (term.kind, term.clear, term.relative || term.percent));
         let alike = open.iter().all(|at| kind(at) == kind(&open[0]));
         let several = open.len() > 1 && alike;
+        let is_meant = |at: &usize| end - start == 1 || uncertainty_terms::names_mean(&keys[*at]);
         if end - start == open.len() && (several || open.len() == 1) {
             open.iter().zip(start..end).for_each(|(at, curve)| uses[*at] = Use::Of(curve));
-        } else if end > start && !several && (end - start == 1 || uncertainty_terms::names_mean(&keys[end - 1])) {
+        } else if let Some(curve) = (start..end).rev().find(is_meant).filter(|_| !several) {
             for at in open {
-                uses[at] = Use::Of(end - 1);
+                uses[at] = Use::Of(curve);
             }
         }
         start = next;
@@ -189,11 +189,12 @@ fn place_unnamed(curves: &[RawCurve], keys: &[String], terms: &[Option<Term>], u
 }
 
 /// Reason why numbers are no uncertainties.
-fn fault(numbers: &[f64]) -> Option<&'static str> {
+fn fault(numbers: &[f64], values: &[f64]) -> Option<&'static str> {
+    let stated = values.iter().filter(|value| !value.is_nan()).count();
     let present = || numbers.iter().filter(|number| !number.is_nan());
     match () {
         () if present().any(|number| *number < 0.0) => Some(NEGATIVE),
-        () if present().count() * 2 < numbers.len() => Some(FEW),
+        () if present().count() * 2 < stated.max(1) => Some(FEW),
         () if present().all(|number| *number == 0.0) => Some(ZERO),
         () => None,
     }

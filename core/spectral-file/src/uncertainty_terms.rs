@@ -1,7 +1,7 @@
 //! Uncertainties in the words of a header: standard deviations, standard errors, standard and expanded uncertainties.
 
 use crate::header_terms;
-use crate::text::{has_part, is_one, lower, spaced};
+use crate::text::{is_one, lower, spaced};
 
 /// Kinds of stated uncertainties, the least telling first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -41,7 +41,7 @@ pub(super) fn expanded(coverage: f64) -> Term {
 }
 
 /// Words for uncertainties with their kind, and whether they mean nothing else.
-const WORDS: [(Kind, bool, &str); 10] = [
+const WORDS: [(Kind, bool, &str); 11] = [
     (
         Kind::Deviation,
         true,
@@ -73,6 +73,7 @@ const WORDS: [(Kind, bool, &str); 10] = [
          不確かさ|不确定度",
     ),
     (Kind::Unsaid, false, "unc|err|error|errors|error bar|±"),
+    (Kind::Standard, true, "urel|u rel"),
     // By the letters of the GUM, U is expanded.
     (Kind::Standard, false, "u|uc|u c"),
     (Kind::Error, false, "mean se|mean sem"),
@@ -83,16 +84,18 @@ const BESIDE: &str = "combined|measurement|total|estimated|spectral|confidence|l
 
 /// Uncertainty that the header of a column names, with its name without a unit and its whole label.
 pub(super) fn term(name: &str, label: &str) -> Option<Term> {
-    if !may_name(name) {
+    const LONGEST: usize = 80;
+    if name.len() > LONGEST {
         return None;
     }
     let text = lower(label);
     let level = level(&text);
-    let symbol = name.split(|c: char| !c.is_alphanumeric()).any(|word| matches!(word, "U" | "U95"));
+    let symbol = name.split(|c: char| !c.is_alphanumeric()).any(|word| matches!(word, "U" | "U95" | "Urel"));
     let words = key(name);
     let padded = format!(" {words} ");
     let found = WORDS.iter().flat_map(|(kind, clear, list)| list.split('|').map(|word| (*kind, *clear, word)));
-    let found = found.filter(|(_, _, word)| padded.contains(&format!(" {word} ")));
+    let whole = |at: usize, word: &str| padded[..at].ends_with(' ') && padded[at + word.len()..].starts_with(' ');
+    let found = found.filter(|(.., word)| padded.match_indices(word).any(|(at, _)| whole(at, word)));
     let (kind, clear, word) = found.max_by_key(|(_, _, word)| word.len())?;
     let (before, after) = padded.split_once(&format!(" {word} "))?;
     let is_relative = |word: &str| is_one(word, "relative|rel|fractional|percent|percentage");
@@ -101,23 +104,20 @@ pub(super) fn term(name: &str, label: &str) -> Option<Term> {
     let about = before.iter().rev().take_while(beside).count();
     let (before, last) = before.split_at(before.len() - about);
     let (first, after) = after.split_at(after.iter().take_while(beside).count());
-    let relative =
-        is_one(word, "rsd|cv|coefficient of variation") || [last, first].concat().iter().any(|word| is_relative(word));
+    // A deviation divided by the mean.
+    let quotient = || text.split_once('/').is_some_and(|(_, mean)| is_one(mean.trim(), MEAN));
+    let relative = is_one(word, "rsd|cv|coefficient of variation|urel|u rel")
+        || quotient()
+        || [last, first].concat().iter().any(|word| is_relative(word));
     // Words on both sides are a sentence.
     if !before.is_empty() && !after.is_empty() {
         return None;
     }
-    let kind = if kind == Kind::Standard && symbol && word == "u" { Kind::Expanded } else { kind };
+    let kind = if kind == Kind::Standard && symbol && is_one(word, "u|urel") { Kind::Expanded } else { kind };
     let of = without_mean(&[before, after].concat().join(" "));
     let percent = header_terms::says_percent(&without_level(&text));
+    let clear = clear || percent && kind == Kind::Unsaid;
     Some(Term { kind, clear, of, coverage: coverage(&text), level, relative, percent })
-}
-
-/// A quick test for names that hold no word for an uncertainty, as most do.
-fn may_name(name: &str) -> bool {
-    const LONGEST: usize = 80;
-    const PARTS: &str = "sd|s.d|s d|s_d|st|se|s.e|s e|s_e|sig|desv|er|ec|u|cv|/-";
-    name.len() <= LONGEST && (!name.is_ascii() || has_part(&name.to_ascii_lowercase(), PARTS))
 }
 
 /// The words of a name in lower case, those joined by capitals or figures apart, without what is said of a coverage factor.
@@ -136,13 +136,14 @@ pub(super) fn key(name: &str) -> String {
         }
     }
     let mut words: Vec<&str> = text.split_whitespace().collect();
-    // `k = 2` and its decimals, or `2 σ`.
+    // `k = 2` and its decimals, `2 σ`, or `one sigma uncertainty`.
     if let Some(at) = words.windows(2).position(|pair| is_one(pair[0], "k|factor") && pair[1] == "=") {
         let figures = words[at + 2..].iter().take_while(|word| word.bytes().all(|b| b.is_ascii_digit())).count();
         words.drain(at..at + 2 + figures);
     }
-    if let Some(at) = words.windows(2).position(|pair| is_one(pair[1], "σ|sigma") && is_one(pair[0], "1|2|3")) {
-        words.remove(at);
+    if let Some(at) = words.windows(2).position(|pair| is_one(pair[1], "σ|sigma") && is_one(pair[0], SIGMAS)) {
+        let told = words.get(at + 2).is_some_and(|word| is_one(word, "uncertainty|uncertainties|unc|error"));
+        words.drain(at..=at + usize::from(told));
     }
     words.retain(|word| *word != "=");
     words.join(" ")
@@ -154,7 +155,7 @@ pub(super) fn without_mean(key: &str) -> String {
     words.collect::<Vec<_>>().join(" ")
 }
 
-const MEAN: &str = "mean|avg|average|median|averaged|mittelwert|moyenne|media";
+const MEAN: &str = "mean|avg|ave|average|median|averaged|mittelwert|moyenne|media";
 
 /// Returns whether a name says that values are means or uncertainties and nothing of which sample.
 pub(super) fn is_statistic(name: &str) -> bool {
@@ -165,6 +166,8 @@ pub(super) fn is_statistic(name: &str) -> bool {
 pub(super) fn names_mean(key: &str) -> bool {
     key.split(' ').any(|word| is_one(word, MEAN))
 }
+
+const SIGMAS: &str = "1|2|3|one|two|three";
 
 /// The coverage factor k in a text in lower case: `k=2`, `k = 1.96`, `coverage factor: 2`, `2σ`.
 pub(super) fn coverage(lower: &str) -> Option<f64> {
@@ -185,9 +188,9 @@ pub(super) fn coverage(lower: &str) -> Option<f64> {
     let sigmas = || {
         let at = lower.find('σ').or_else(|| lower.find("sigma"))?;
         let before = lower[..at].trim_end_matches([' ', '-']);
-        let digit = before.chars().next_back()?.to_digit(10)?;
-        let alone = !before[..before.len() - 1].ends_with(char::is_alphanumeric);
-        Some(f64::from(digit)).filter(|_| alone)
+        let word = before.rsplit(|c: char| !c.is_alphanumeric()).next()?;
+        let place = SIGMAS.split('|').position(|sigmas| sigmas == word)?;
+        Some((place % 3 + 1) as f64)
     };
     letter().or_else(named).or_else(sigmas).filter(|k| (0.5..=10.0).contains(k))
 }

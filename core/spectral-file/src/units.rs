@@ -112,6 +112,7 @@ fn unit(text: &str, words: &[Word<'_>]) -> Option<Unit> {
     let (ten, start) = power_of_ten(text, first.start);
     let size = ergs.map_or(1.0, |(_, size)| size);
     let mut unit = Unit { amount, area: None, steradian: false, time: None, per: Per::None, ten, size, start };
+    let mut bare = unit.clone();
     if amount == Amount::Energy("W") && ergs.is_some() {
         (unit.area, unit.per) = (Some("m²"), Per::Frequency(1e-12));
     }
@@ -123,7 +124,9 @@ fn unit(text: &str, words: &[Word<'_>]) -> Option<Unit> {
         let known =
             matches!(lower.as_str(), "per" | "photon" | "photons" | "quanta") || unit.take(&lower, word.exponent);
         if !known {
-            break;
+            // What is divided by one kind of thing twice, such as `ergs/cm^s/s/nm`, is misspelt.
+            let divided = text[..word.start].ends_with(['/', '.', '·', '*']);
+            return (!(divided && bare.take(&lower, word.exponent))).then_some(unit);
         }
     }
     Some(unit)
@@ -206,6 +209,7 @@ impl Unit {
             "hz" => return self.take_per(Per::Frequency(1e-12)),
             "ev" | "electronvolt" | "electronvolts" => return self.take_per(Per::Electronvolt),
             "sr" | "steradian" | "steradians" => return !std::mem::replace(&mut self.steradian, true),
+            "sqm" | "sm" => return self.area.replace("m²").is_none(),
             "s" | "sec" | "second" | "seconds" => return self.take_time("s"),
             "h" | "hr" | "hour" => return self.take_time("h"),
             "d" | "day" => return self.take_time("d"),
@@ -272,7 +276,7 @@ impl WavelengthUnit {
             | "micrometre" | "micrometres" => Some(Self::Micrometer),
             "cm-1" | "cm^-1" | "1/cm" | "cm⁻¹" | "wavenumbers" => Some(Self::Wavenumber),
             "thz" | "terahertz" => Some(Self::Terahertz),
-            "å" | "ångström" | "ångströms" | "angstrom" | "angstroms" => Some(Self::Angstrom),
+            "å" | "aa" | "ångström" | "ångströms" | "angstrom" | "angstroms" => Some(Self::Angstrom),
             _ => None,
         }
     }

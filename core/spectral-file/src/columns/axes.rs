@@ -53,6 +53,13 @@ pub(super) fn find(header: &Header, at: usize, wavelengths: &[f64], before: &[Ve
     };
     let mut kinds: Vec<Kind> = columns.iter().enumerate().map(kind).collect();
     axes.guessed = guess_pairs(header, at, wavelengths, columns, &mut kinds);
+    // Tables side by side repeat the name of their first column.
+    for index in (0..columns.len()).filter(|index| header.name(at + 1 + index).is_some()) {
+        let again = kinds[index] == Kind::Value && header.name(at + 1 + index) == header.name(at);
+        if again && ends(&columns[index]).is_some_and(|(low, high)| units::plausible(low, high, false)) {
+            (kinds[index], axes.guessed) = (Kind::Wavelengths, true);
+        }
+    }
     let mut values = 0;
     for (index, kind) in kinds.iter().enumerate() {
         let followed = || kinds[index + 1..].iter().find(|kind| matches!(kind, Kind::Value | Kind::Wavelengths));
@@ -105,10 +112,11 @@ pub(super) fn unit(header: &Header, column: usize) -> Option<XUnit> {
     unit.or_else(|| header_terms::x_unit(header.name(column)?))
 }
 
-/// The ends of numbers that rise or fall all the way, up to the last one.
+/// The ends of numbers that rise or fall all the way, from the first to the last one.
 fn ends(values: &[f64]) -> Option<(f64, f64)> {
-    let end = values.iter().rposition(|value| !value.is_nan()).map_or(0, |at| at + 1);
-    let values = &values[..end];
+    let start = values.iter().position(|value| !value.is_nan())?;
+    let end = values.iter().rposition(|value| !value.is_nan())?;
+    let values = &values[start..=end];
     let ordered = |sign: f64| values.windows(2).all(|pair| sign * (pair[1] - pair[0]) > 0.0);
     let (a, b) = (*values.first()?, *values.last()?);
     (a.is_finite() && b.is_finite() && (ordered(1.0) || ordered(-1.0))).then_some((a.min(b), a.max(b)))
@@ -121,7 +129,9 @@ fn runs_like_axis(header: &Header, [first, column]: [usize; 2], wavelengths: &[f
     if name.is_some() && name == header.name(first) {
         return true;
     }
-    let Some((low, high)) = ends(values).filter(|(low, _)| *low > 0.0) else { return false };
+    let mut distinct = values.to_vec();
+    distinct.dedup();
+    let Some((low, high)) = ends(&distinct).filter(|(low, _)| *low > 0.0) else { return false };
     let (shared, own) = (unit(header, first), unit(header, column));
     let (from, to) = match (own.or(shared), shared) {
         (Some(XUnit::Other), _) => return true,

@@ -28,7 +28,7 @@ impl Header {
             }
             // A rule, or the key of a section such as `[LAMPDATA]`, between names and numbers.
             let key = |cell: &String| cell.starts_with('[') && cell.ends_with(']') && !is_unit(cell);
-            let rule = cells.len() > 1 && cells.iter().all(|cell| cell.bytes().all(|byte| matches!(byte, b'-' | b':')));
+            let rule = cells.len() > 1 && cells.iter().all(|cell| cell.bytes().all(|byte| b"-_=:".contains(&byte)));
             if rule || cells.len() == 1 && key(&cells[0]) {
                 continue;
             }
@@ -113,10 +113,10 @@ impl Header {
         let (axes, values): (Vec<usize>, Vec<usize>) = columns.into_iter().partition(|&column| is_axis(column));
         let is_statistic = |column: &&usize| uncertainty_terms::is_statistic(&self.names[**column]);
         let statistics = values.iter().filter(is_statistic).count();
-        if axes.is_empty()
-            || values.is_empty()
-            || !values.iter().all(|column| is_statistic(&column) || says_only_measure(&self.names[*column]))
-        {
+        // Nor does one name of all.
+        let alike = values.len() > 1 && values.iter().all(|&column| self.names[column] == self.names[values[0]]);
+        let measure = |column: &usize| alike || is_statistic(&column) || says_only_measure(&self.names[*column]);
+        if axes.is_empty() || values.is_empty() || !values.iter().all(measure) {
             return;
         }
         let mut above: Vec<String> = vec![String::new(); self.names.len()];
@@ -157,10 +157,26 @@ impl Header {
         for (column, name) in above.into_iter().enumerate().filter(|(_, name)| !name.is_empty()) {
             let name = name.trim_end_matches(" - RawData");
             let own = std::mem::take(&mut self.names[column]);
-            let uncertain = uncertainty_terms::term(&own, &own).is_some();
+            let uncertain = uncertainty_terms::term(unit_text::without_unit(&own), &own).is_some();
             self.names[column] = if uncertain { format!("{name} {own}") } else { name.to_owned() };
             self.units[column] = if uncertain { String::new() } else { own };
         }
+    }
+
+    /// Takes names or units of all columns from a line of `SeaBASS`: `/fields=wavelength,Es`.
+    pub(super) fn take_fields(&mut self, number: usize, line: &str, layout: &Layout) -> Option<()> {
+        let (key, list) = line.trim_start().strip_prefix('/')?.split_once('=')?;
+        let cells: Vec<String> = list.split(',').map(|cell| cell.trim().to_owned()).collect();
+        match key {
+            _ if cells.len() != layout.width => return None,
+            "fields" => (self.names, self.line) = (cells, Some(number)),
+            "units" => {
+                self.take_unit_cell(number, &cells, layout);
+                (self.units, self.units_line) = (cells, Some(number));
+            }
+            _ => return None,
+        }
+        Some(())
     }
 
     /// Names that do not split into the columns of the table still say something about it as a whole.
@@ -188,9 +204,16 @@ impl Header {
 /// The cells of a line above the numbers. Names of wavelengths and curves may be separated by other signs than these, and be one for
 /// each column that is not empty in the first row.
 fn cells(layout: &Layout, line: &str, section: Section<'_>) -> Vec<String> {
-    let cells = split(layout.dialect(), comment(line).unwrap_or(line));
-    let fits = cells.len() >= layout.width && layout.delimiter.value != Delimiter::Spaces;
-    if fits || comment(line).is_some() {
+    let (line, is_comment) = comment(line).map_or((line, false), |line| (line, true));
+    let cells = split(layout.dialect(), line);
+    let blanks = layout.delimiter.value == Delimiter::Spaces;
+    let other = cells.len() != layout.width || cells.first().is_some_and(|cell| cell.ends_with(','));
+    if (is_comment || blanks)
+        && let Some(names) = split_otherwise(layout, line).filter(|_| other)
+    {
+        return names;
+    }
+    if cells.len() >= layout.width && !blanks || is_comment {
         return cells;
     }
     let row = first_rows(section, layout).next().unwrap_or_default();
@@ -207,6 +230,16 @@ fn cells(layout: &Layout, line: &str, section: Section<'_>) -> Vec<String> {
     let mut cells = vec![String::new(); layout.width];
     filled.into_iter().zip(names).for_each(|(column, name)| cells[column] = name);
     cells
+}
+
+/// Names that tabs, commas or wide gaps separate above columns between blanks, or in a comment.
+fn split_otherwise(layout: &Layout, line: &str) -> Option<Vec<String>> {
+    ["\t", ",", ";", "  "].iter().find_map(|sign| {
+        let cells = line.split(sign).map(str::trim).filter(|cell| !cell.is_empty());
+        let names: Vec<String> = cells.take(layout.width + 1).map(str::to_owned).collect();
+        let worded = names.len() > 1 && names.iter().all(|name| name.contains(char::is_alphabetic));
+        (worded && names.len() == layout.width && header_terms::names_axis(&names[0])).then_some(names)
+    })
 }
 
 fn first_rows<'a>(section: Section<'a>, layout: &Layout) -> impl Iterator<Item = &'a str> {
