@@ -47,7 +47,9 @@ fn tidy_tables_in_both_orders() {
 
 #[test]
 fn tidy_tables_with_rows_counted_and_with_uncertainties() {
-    let count = |table: String| table.lines().zip(1..).map(|(row, at)| format!("\"{at}\",{row}\n")).collect::<String>();
+    let count = |table: String| {
+        table.lines().zip(1..).map(|(row, at)| format!("\"{at}\",{row}\n")).collect::<Vec<_>>().concat()
+    };
     let plain = rows(true, |name, nm, value| format!("{nm},\"{name}\",{value}\n"));
     is_whole(&ok(&format!("\"\",\"wl\",\"variable\",\"value\"\n{}", count(plain.clone()))), ["leaf", "bark", "soil"]);
     let blanks = count(plain).replace(',', " ");
@@ -198,7 +200,7 @@ fn names_of_rows_and_names_between_blanks() {
     let counted = ok("No.,Wavelength,Reflectance\n1,400,0.1\n2,410,0.2\n3,420,0.3\n");
     assert_eq!((counted.curves.len(), samples(&counted.curves[0])[0]), (1, (400.0, 0.1)));
     for head in ["Point", "S.No", "Unnamed: 0", "Nº"] {
-        let rows: String = (0..9).map(|at| format!("{at},{},0.1,0.2\n", 400 + 10 * at)).collect();
+        let rows = (0..9).map(|at| format!("{at},{},0.1,0.2\n", 400 + 10 * at)).collect::<Vec<_>>().concat();
         let table = ok(&format!("{head},Wavelength,leaf,bark\n{rows}"));
         assert_eq!((names(&table), table.curves[0].values.len()), (vec!["leaf", "bark"], 9), "{head}");
     }

@@ -26,10 +26,7 @@ impl Header {
             if cells.first().is_some_and(String::is_empty) {
                 axis.clone_into(&mut cells[0]);
             }
-            // A rule, or the key of a section such as `[LAMPDATA]`, between names and numbers.
-            let key = |cell: &String| cell.starts_with('[') && cell.ends_with(']') && !is_unit(cell);
-            let rule = cells.len() > 1 && cells.iter().all(|cell| cell.bytes().all(|byte| b"-_=:".contains(&byte)));
-            if rule || cells.len() == 1 && key(&cells[0]) {
+            if is_rule(&cells) {
                 continue;
             }
             let headed = |cells: &[String]| cells.iter().any(|name| header_terms::names_wavelengths(name));
@@ -201,6 +198,15 @@ impl Header {
     }
 }
 
+/// Returns whether a line is a rule, or the key of a section such as `[LAMPDATA]`, between names and numbers.
+fn is_rule(cells: &[String]) -> bool {
+    match cells {
+        [] => false,
+        [key] => key.starts_with('[') && key.ends_with(']') && !is_unit(key),
+        _ => cells.iter().all(|cell| cell.bytes().all(|byte| b"-_=:".contains(&byte))),
+    }
+}
+
 /// The cells of a line above the numbers. Names of wavelengths and curves may be separated by other signs than these, and be one for
 /// each column that is not empty in the first row.
 fn cells(layout: &Layout, line: &str, section: Section<'_>) -> Vec<String> {
@@ -318,7 +324,8 @@ fn is_unit(cell: &str) -> bool {
 }
 
 fn is_unit_row(cells: &[String]) -> bool {
-    let bracketed = cells.iter().filter(|cell| cell.starts_with(['[', '('])).count();
+    // A name that begins so goes on in a bracket of its own: `[x] [transmittance in 1]`.
+    let bracketed = cells.iter().filter(|cell| cell.starts_with(['[', '(']) && !cell.contains(" [")).count();
     bracketed * 2 >= cells.len() || (is_unit(&cells[0]) && cells[1..].iter().all(|cell| looks_like_unit(cell)))
 }
 
