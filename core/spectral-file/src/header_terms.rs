@@ -342,7 +342,7 @@ pub(super) fn x_unit(text: &str) -> Option<XUnit> {
         "hz" | "ghz" | "phz" | "1/nm" | "1/m" | "m-1" => Some(XUnit::Other),
         _ => WavelengthUnit::from_symbol(word).map(XUnit::Wavelength),
     });
-    let wave_numbers = text.contains("wavenumber") || text.contains("wave number");
+    let wave_numbers = text.contains("wavenumber") || text.contains("wave number") || text == "wn";
     unit.or_else(|| wave_numbers.then_some(XUnit::Wavelength(WavelengthUnit::Wavenumber)))
 }
 
@@ -455,6 +455,16 @@ pub(super) fn names_time(text: &str) -> bool {
         "s|sec|seconds|ms|us|µs|min|h|hours|utc|local|stamp|integration|exposure|acquisition|elapsed|measurement";
     let text = lower(text);
     has_word(&text, TIMES) && words(&text).all(|word| is_one(word, TIMES) || is_one(word, BESIDE))
+}
+
+/// Returns whether a column's header names a quantity over which no spectrum runs: a time, a temperature, an angle, a place.
+pub(super) fn names_other_axis(text: &str) -> bool {
+    const QUANTITIES: &str = "time|temperature|temp|theta|2theta|angle|lon|longitude|lat|latitude|current|voltage";
+    const UNITS: &str = "s|sec|ms|msec|min|h|k|°c|°|deg|degree|degrees|ma|mg/kg";
+    let text = lower(text);
+    let unit =
+        || text.rsplit_once(['(', '[']).is_some_and(|(_, unit)| is_one(unit.trim_end_matches([')', ']']), UNITS));
+    !names_wavelengths(&text) && (words(&text).next().is_some_and(|word| is_one(word, QUANTITIES)) || unit())
 }
 
 /// Index of the column header that names the wavelengths: those in nanometers before those in other units.

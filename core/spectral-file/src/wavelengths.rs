@@ -25,7 +25,7 @@ pub(super) fn unit(grid: &Grid, options: &ReadOptions) -> Result<Decided<Wavelen
     match grid.header.x_unit {
         Some((line, XUnit::Wavelength(unit))) => Ok(Decided::certain(unit, format!("Line {line} names the unit"))),
         Some((line, XUnit::Other)) => Err(ReadError::NotWavelengths(line)),
-        None => unit_from_range(grid),
+        None => no_other_axis(grid).and_then(|()| unit_from_range(grid)),
     }
 }
 
@@ -42,17 +42,26 @@ fn unit_from_range(grid: &Grid) -> Result<Decided<WavelengthUnit>, ReadError> {
     } else if (2000.0..=4000.0).contains(&min) && (7000.0..=12_000.0).contains(&max) && is_named(grid) {
         // The word excludes wave numbers.
         WavelengthUnit::Angstrom
-    } else if (2000.0..=20_000.0).contains(&min) && (3000.0..=20_000.0).contains(&max) {
+    } else if min >= 10_000.0 && max <= 100_000.0 || min >= 2000.0 && (3000.0..=20_000.0).contains(&max) {
         return Err(ReadError::AmbiguousUnit { line: grid.line(0), min, max });
     } else if is_bare(grid) && min >= 390.0 && max > 3300.0 && min < 2000.0 && max <= 10_000.0 {
         // No spectrometer for light reaches so far from there, but those for the infrared all do.
-        WavelengthUnit::Wavenumber
-    } else if min >= 10_000.0 && max > 20_000.0 && max <= 50_000.0 {
         WavelengthUnit::Wavenumber
     } else {
         WavelengthUnit::Nanometer
     };
     Ok(Decided::guess(unit, format!("Wavelengths run from {min} to {max}")))
+}
+
+/// Refuses a first column whose head names another quantity than wavelengths.
+fn no_other_axis(grid: &Grid) -> Result<(), ReadError> {
+    let Some(column) = grid.wavelength_column.map(|column| column.saturating_sub(1)) else { return Ok(()) };
+    let names = grid.header.names.get(column..).unwrap_or_default();
+    let tristimulus = names.len() > 2 && names.iter().zip(["X", "Y", "Z"]).all(|(name, letter)| name == letter);
+    // A line such as `temperature,32.4` is a setting.
+    let setting = names.iter().skip(1).all(|name| name.is_empty() || name.starts_with(|c: char| c.is_ascii_digit()));
+    let other = names.first().is_some_and(|name| header_terms::names_other_axis(name) && !setting) || tristimulus;
+    if other { Err(ReadError::NoWavelengths(grid.header.line.unwrap_or(1))) } else { Ok(()) }
 }
 
 /// Returns whether the column of the wavelengths is named so, without a unit.

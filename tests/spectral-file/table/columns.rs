@@ -157,9 +157,38 @@ fn a_row_of_measured_numbers_names_nothing() {
 }
 
 #[test]
-fn visible_wave_numbers_are_guessed() {
-    let table = ok("14000,1\n20000,2\n25000,3\n");
-    assert_eq!(table.reading.wavelength_unit.value, WavelengthUnit::Wavenumber);
+fn ångströms_of_the_infrared_look_like_visible_wave_numbers() {
+    for text in [
+        "14000,1\n20000,2\n25000,3\n",
+        "23478.9 0\n25000 0.4\n27526.1 0\n",
+        "# the pass band\n30000 0\n35000 1\n45000 0\n",
+    ] {
+        assert!(matches!(error(text), ReadError::AmbiguousUnit { .. }), "{text}");
+    }
+    let text = "#   wavelength in AA\n23478.9 0\n25000 0.4\n27526.1 0\n";
+    assert_eq!(ok(text).reading.wavelength_unit.value, WavelengthUnit::Angstrom);
+}
+
+#[test]
+fn a_first_column_of_another_quantity_is_no_wavelength() {
+    let heads = [
+        "Time(msec)",
+        "T (K)",
+        "# T_surf (K)",
+        "Theta (degrees)",
+        "2theta",
+        "lon (deg)",
+        "P conc. (mg/kg)",
+        "Temperature",
+    ];
+    for head in heads {
+        let text = format!("{head},signal\n400,1.5\n410,2.5\n420,3.5\n430,3\n");
+        assert!(matches!(error(&text), ReadError::NoWavelengths(_)), "{text}");
+    }
+    assert!(matches!(error("X,Y,Z\n400,1.5,2\n410,2,3\n420,3,2\n"), ReadError::NoWavelengths(_)));
+    assert_eq!(ok("device,1F00145\ntime,00:21:33\n400,1.5\n410,2\n420,3\n").curves.len(), 1);
+    let innocent = ok("x,y\n400,1.5\n410,2\n420,3\n");
+    assert_eq!(names(&innocent).len(), 1);
 }
 
 #[test]

@@ -117,3 +117,33 @@ fn small_numbers_that_count_or_turn_are_no_micrometers() {
     assert_eq!(ok("0.4,0.2\n0.5,0.3\n0.6,0.4\n").curves[0].wavelengths_nm, [400.0, 500.0, 600.0]);
     assert_eq!(ok("nm,sc,rh\n400,.1,.2\n410,.2,.3\n420,.3,.4\n").curves.len(), 2);
 }
+
+#[test]
+fn an_emissivity_is_neither_reflectance_nor_transmittance() {
+    for head in ["wavelength reflection emissivity", "wavelength transmission emissivity"] {
+        let table = ok(&format!("{head}\n400 0.9 0.1\n500 0.8 0.2\n600 0.7 0.3\n"));
+        assert_eq!((table.role.value, table.role.certainty), (Role::Unknown, Certainty::Open), "{head}");
+    }
+}
+
+#[test]
+fn white_beside_red_green_and_blue_is_a_display_s() {
+    let table = ok(
+        "Wavelength,W,R,G,B\n400,358.5,181.4,157.3,202.1\n500,349.6,193.7,144.4,201.8\n600,374.4,206.4,161.6,218.4\n",
+    );
+    assert_eq!((table.role.value, table.role.certainty), (Role::Illuminant, Certainty::Guess));
+}
+
+#[test]
+fn intensities_over_small_wave_numbers_may_be_of_raman_shifts() {
+    let table = ok("wavenumber,intensity\n450.5,26\n454.1,50\n1200,48\n3150,45\n");
+    assert_eq!((table.role.value, table.role.certainty), (Role::Unknown, Certainty::Open));
+}
+
+#[test]
+fn small_numbers_of_a_program_that_writes_percent_are_asked() {
+    let table = ok(
+        "Data from black_Reflection_00001.txt Node\nXAxis mode: Wavelengths\n>>>>>Begin Spectral Data<<<<<\n400\t1.5\n500\t2.1\n600\t1.9\n",
+    );
+    assert_eq!((table.role.value, table.reading.values.certainty), (Role::Reflectance, Certainty::Open));
+}

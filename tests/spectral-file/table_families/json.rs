@@ -13,17 +13,26 @@ const THREE: [(f64, f64); 3] = [(400.0, 0.1), (500.0, 0.2), (600.0, 0.4)];
 /// The three samples, read from a document with single quotes.
 #[track_caller]
 fn three(text: &str, wanted: &[&str]) -> SpectralFile {
+    these(text, wanted, &THREE)
+}
+
+#[track_caller]
+fn these(text: &str, wanted: &[&str], all: &[(f64, f64)]) -> SpectralFile {
     let table = ok(&text.replace('\'', "\""));
     assert_eq!(names(&table), wanted, "{text}");
     for curve in 0..wanted.len() {
-        assert_eq!(samples(&table, curve), THREE, "{text}");
+        assert_eq!(samples(&table, curve), all, "{text}");
     }
     assert_eq!(table.reading.reader.value, Reader::JSON);
     table
 }
 
 const LISTS: &str = "'wavelengths': [400, 500, 600], 'reflectance': [0.1, 0.2, 0.4]";
-const KEYED: &str = "{'400': 0.1, '500': 0.2, '600': 0.4}";
+
+/// Ten samples: fewer numbers are no wavelengths where no word says so.
+fn ten() -> Vec<(f64, f64)> {
+    (0..10).map(|at| (400.0 + 20.0 * f64::from(at), 0.5 + f64::from(at) / 64.0)).collect()
+}
 
 #[test]
 fn lists_side_by_side() {
@@ -69,7 +78,10 @@ fn records_and_rows() {
             .join(",")
     };
     three(&format!("[{},{}]", tidy("leaf"), tidy("bark")), &["leaf", "bark"]);
-    three("[[400, 0.1], [500, 0.2], [600, 0.4]]", &["Spectrum 1"]);
+    let rows: Vec<String> = ten().iter().map(|(nm, value)| format!("[{nm}, {value}]")).collect();
+    these(&format!("[{}]", rows.join(",")), &["Spectrum 1"], &ten());
+    let band = |id: &str| format!("{{'band_id': '{id}', 'width': 20, 'definition': {{{LISTS}}}}}");
+    three(&format!("{{'sensor_id': 'S', 'bands': [{}, {}]}}", band("blue"), band("red")), &["blue", "red"]);
     three(
         "{'columns': ['wavelength', 'R', 'G'], 'index': [0, 1, 2], 'data': [[400, 0.1, 0.1], [500, 0.2, 0.2], [600, 0.4, 0.4]]}",
         &["R", "G"],
@@ -82,12 +94,17 @@ fn records_and_rows() {
 
 #[test]
 fn wavelengths_as_keys() {
-    let channels = three(&format!("{{'R': {KEYED}, 'G': {KEYED}, 'B': {KEYED}}}"), &["R", "G", "B"]);
+    let object = |value: fn(f64) -> String| {
+        let members: Vec<String> = ten().iter().rev().map(|(nm, v)| format!("'{nm}': {}", value(*v))).collect();
+        format!("{{{}}}", members.join(", "))
+    };
+    let keyed = object(|value| value.to_string());
+    let channels = these(&format!("{{'R': {keyed}, 'G': {keyed}, 'B': {keyed}}}"), &["R", "G", "B"], &ten());
     assert_eq!(channels.role.value, Role::Camera);
     assert_eq!(channels.reading.reader.certainty, Certainty::Guess);
-    three(KEYED, &["Spectrum 1"]);
-    three("{'600': {'R': 0.4, 'G': 0.4}, '500': {'R': 0.2, 'G': 0.2}, '400': {'R': 0.1, 'G': 0.1}}", &["R", "G"]);
-    let lamp = three(&format!("{{'name': 'lamp 3', 'unit': 'W/m2/nm', 'spd': {KEYED}}}"), &["lamp 3"]);
+    these(&keyed, &["Spectrum 1"], &ten());
+    these(&object(|value| format!("{{'R': {value}, 'G': {value}}}")), &["R", "G"], &ten());
+    let lamp = these(&format!("{{'name': 'lamp 3', 'unit': 'W/m2/nm', 'spd': {keyed}}}"), &["lamp 3"], &ten());
     assert_eq!((lamp.role.value, lamp.curves[0].unit.as_deref()), (Role::Illuminant, Some("W/m2/nm")));
     // Numbers of people.
     assert_eq!(error("{\"101\": {\"age\": 5}, \"205\": {\"age\": 7}}"), ReadError::Unsupported(Family::Json));
@@ -164,6 +181,8 @@ fn what_holds_no_spectrum_is_no_broken_json() {
         "[]",
         "{}",
         "{\"wavelengths\": [400, 500, 600]}",
+        "{\"bad_bands\": [[300, 400], [1320, 1430], [1800, 1960], [2450, 2600]]}",
+        "{\"windows\": {\"400\": 1250, \"1450\": 1750, \"2050\": 2450}}",
         "{\"columnHeaders\": [{\"title\": \"lambda\", \"nm\": 1, \"decimals\": 0}, {\"title\": \"S\", \"nm\": 1, \"decimals\": 1}]}",
     ];
     for other in others {

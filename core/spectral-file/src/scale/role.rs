@@ -1,11 +1,11 @@
 //! Role of the curves: as stated in the file, as suggested by its settings, or by its numbers; the channels of a camera.
 
-use crate::decision::{Certainty, Decided, Quantity, Role, Values};
+use crate::decision::{Certainty, Decided, Quantity, Role, Values, WavelengthUnit};
 use crate::grid::{Grid, RawCurve};
-use crate::header_terms::{self, Channel};
+use crate::header_terms::{self, Channel, XUnit};
 use crate::report::Curve;
 use crate::scale::values::{Evidence, LARGEST_PERCENT, Looks};
-use crate::text::excerpt;
+use crate::text::{excerpt, has_word, lower};
 use crate::{quantity, unit_text};
 
 /// Counts of detectors are larger, irradiances and radiances in the usual units smaller.
@@ -32,8 +32,15 @@ fn stated(grid: &Grid) -> Option<Decided<Role>> {
     let channels = channels(&names).map(|(_, letters)| {
         let why = format!("The curves are named {}", names.join(", "));
         // Primaries of displays are called R, G and B too.
-        let said = letters && !names.iter().any(|name| name.eq_ignore_ascii_case("r"));
-        if said { Decided::certain(Role::Camera, why) } else { Decided::guess(Role::Camera, why) }
+        let named = |wanted: &str| names.iter().any(|name| name.eq_ignore_ascii_case(wanted));
+        let said = letters && !named("r");
+        if named("w") || named("white") {
+            Decided::guess(Role::Illuminant, format!("{why}, as a display's white and its primaries are"))
+        } else if said {
+            Decided::certain(Role::Camera, why)
+        } else {
+            Decided::guess(Role::Camera, why)
+        }
     });
     if let Some(mixed) = mixed(grid) {
         return Some(mixed);
@@ -83,6 +90,9 @@ fn several(grid: &Grid) -> Option<Decided<Role>> {
 /// Columns named A beside R or T: absorbances or absorptances beside reflectances and transmittances.
 fn mixed(grid: &Grid) -> Option<Decided<Role>> {
     const MOST: usize = 4;
+    if grid.curves.iter().any(|curve| has_word(&lower(&curve.label), "emissivity")) {
+        return Some(Decided::open(Role::Unknown, "An emissivity is neither a reflectance nor a transmittance"));
+    }
     if grid.header.mentioned.is_some() || grid.curves.len() > MOST {
         return None;
     }
@@ -254,7 +264,12 @@ pub(super) fn suggested(grid: &Grid, evidence: &Evidence) -> Decided<Role> {
         return Decided::guess(Role::Illuminant, "Values are 100 at 560 nm");
     }
     if let Some(label) = labels().find(|label| header_terms::names_light_scale(label)) {
-        return if evidence.high() > COUNTS {
+        // Shifts of a Raman spectrum are written as wave numbers too.
+        const SHIFTS_NM: f64 = 2500.0;
+        let wave_numbers = matches!(grid.header.x_unit, Some((_, XUnit::Wavelength(WavelengthUnit::Wavenumber))));
+        return if wave_numbers && grid.wavelengths.iter().all(|nm| *nm >= SHIFTS_NM) {
+            Decided::open(Role::Unknown, format!("“{}” over such wave numbers may be of Raman shifts", excerpt(label)))
+        } else if evidence.high() > COUNTS {
             Decided::open(Role::Unknown, format!("“{}” may be of light or of counts", excerpt(label)))
         } else {
             let power = header_terms::is_power(label);

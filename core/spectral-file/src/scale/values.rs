@@ -111,12 +111,13 @@ fn by_numbers(grid: &Grid, trusted: bool, evidence: &Evidence, log: &mut Log<'_>
         None => evidence.words(),
     };
     let same = |values: Values| vec![values; grid.curves.len()];
-    if percent == 0 && neither > 0 || percent > 0 && !trusted {
-        let why = format!("{}, and nothing says whether they are percent", evidence.words());
+    if percent == 0 && (neither > 0 || writer.is_some()) || percent > 0 && !trusted {
+        let unsaid = || format!("{}, and nothing says whether they are percent", evidence.words());
+        let why = writer.map_or_else(unsaid, |_| format!("{}, but the numbers do not show it", why()));
         return (Decided::open(Values::Plain, why), same(Values::Plain));
     }
     if percent == 0 {
-        return (Decided::guess(Values::Plain, why()), same(Values::Plain));
+        return (Decided::guess(Values::Plain, evidence.words()), same(Values::Plain));
     }
     // Dark samples in percent look like fractions: where most curves are percent, all are.
     let others = if plain > percent { Values::Plain } else { Values::Percent };

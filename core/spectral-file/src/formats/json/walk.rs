@@ -18,7 +18,8 @@ use crate::watch::{Log, PlaceKind};
 use crate::{uncertainty_terms, units};
 
 /// Keys of names, the most telling first.
-const NAMES: &str = "title|name|sample name|sample|label|camera name|camera|model|sample id|id|channel|material";
+const NAMES: &str =
+    "title|name|sample name|sample|label|camera name|camera|model|sample id|band id|id|channel|material";
 const QUANTITIES: &str = "measurement type|quantity|measurement|spectrum type|data type|type|kind|mode|y label";
 const UNITS: &str = "unit|units|y unit|y units|value unit|values unit|scale";
 /// Keys of objects whose texts are about the object around.
@@ -32,6 +33,9 @@ const AXES: &str = "wvl|wvls|wls|nm|bands|ssf bands";
 const ENDS: &str = "domain|span|range|extent|limits";
 /// Keys of spectra that are conditions of the measurement.
 const BESIDE: &str = "color science|colour science|white reference|provenance|calibration";
+
+/// The fewest numbers that look like wavelengths where no word says that they are: settings hold some too.
+const FEWEST_GUESSED: usize = 10;
 
 /// What stands around a value.
 #[derive(Clone, Default)]
@@ -153,7 +157,8 @@ impl<'d, 'a, 'l, 'w> Walk<'d, 'a, 'l, 'w> {
         let only = others.len() == 1 && lists.is_empty();
         for (key, value) in others {
             let said = words(key);
-            let generic = is_one(&said, VALUES);
+            // The only member of one among many that has a name says no more of it.
+            let generic = is_one(&said, VALUES) || only && !here.alone && !here.name.is_empty();
             let mut inner = Around { alone: here.alone && only && generic, ..here.clone() };
             if header_terms::role(&said).is_some() && inner.quantity.is_empty() {
                 inner.quantity.clone_from(&said);
@@ -292,11 +297,10 @@ impl<'d, 'a, 'l, 'w> Walk<'d, 'a, 'l, 'w> {
 
     /// Takes an object whose keys are wavelengths, if it is one. Where nothing says that it is, it has to look so.
     pub(super) fn keyed(&mut self, members: &Members<'a>, here: &Around<'a>, known: bool) -> Result<bool, ReadError> {
-        const FEWEST: usize = 3;
         let number =
             |key: &str| key.trim().trim_end_matches("nm").trim_end().parse().ok().filter(|nm: &f64| nm.is_finite());
         let keys: Vec<f64> = members.each().filter_map(|(key, _)| number(key)).collect();
-        if keys.is_empty() || !known && (keys.len() < FEWEST || !is_plausible(&keys)) {
+        if keys.is_empty() || !known && (keys.len() < FEWEST_GUESSED || !is_plausible(&keys)) {
             return Ok(false);
         }
         let mut rows = Vec::with_capacity(keys.len());
@@ -338,7 +342,8 @@ impl<'d, 'a, 'l, 'w> Walk<'d, 'a, 'l, 'w> {
             let numbers: Vec<f64> = first.iter().map(|(nm, _)| *nm).collect();
             let named = here.columns.first().is_some_and(|name| header_terms::names_wavelengths(&words(name)));
             let sorted = numbers.is_sorted() || numbers.is_sorted_by(|a, b| a >= b);
-            if numbers.len() < 3 || width < 2 || !sorted || !(named || is_plausible(&numbers)) {
+            let likely = named || numbers.len() >= FEWEST_GUESSED && is_plausible(&numbers);
+            if numbers.len() < 3 || width < 2 || !sorted || !likely {
                 return Ok(());
             }
             self.begin(here.columns.first().filter(|_| named).map_or(first[0].1, String::as_str), named);
