@@ -20,7 +20,7 @@ fn put(folder: &Path, name: &str, contents: &str) {
 fn cameras(name: &str) -> std::path::PathBuf {
     let folder = folder(name);
     let table = std::fs::read_to_string(asset(CAMERA)).unwrap();
-    let table: String = table.lines().filter(|line| !line.starts_with('#')).map(|line| format!("{line}\n")).collect();
+    let table = table.lines().filter(|line| !line.starts_with('#')).collect::<Vec<_>>().join("\n");
     for name in ["b/deep/er/two.csv", "a/one.csv", "three.csv"] {
         put(&folder, name, &table);
     }

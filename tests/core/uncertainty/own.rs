@@ -338,7 +338,7 @@ fn a_gain_has_the_uncertainty_of_a_weighted_sum() {
     let asked = query(sensor(&table));
     let u: Vec<f64> = (0..COUNT).map(|j| 1e-3 * table[0][j] + 1e-5 * (j % 7) as f64).collect();
     let light = &asked.rendering.light.values()[20..20 + COUNT];
-    let weighted = |of: &[f64], j: usize| light[j] * of[j] * if j % (COUNT - 1) == 0 { 0.5 } else { 1.0 };
+    let weighted = |of: &[f64], j: usize| light[j] * of[j] * if j.is_multiple_of(COUNT - 1) { 0.5 } else { 1.0 };
     let sum: f64 = (0..COUNT).map(|j| weighted(&table[0], j)).sum();
     let uncorrelated = |a: usize, b: usize| f64::from(u8::from(a == b));
     let alike = |a: usize, b: usize| (-((a as f64 - b as f64) / 25.0).powi(2)).exp() * 0.7 + 0.3 * uncorrelated(a, b);
