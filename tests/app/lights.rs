@@ -144,6 +144,8 @@ fn the_pane_says_all_and_why_not() {
         let workspace = window.state().view.saved.workspace;
         window.state_mut().view.saved.layout.replace(workspace, PaneKind::SPECTRA, PaneKind::new("Light"));
         window.run();
+        window.state().later.wait();
+        window.run();
         window
     };
     let mut document = Document::colorimetry();
