@@ -8,13 +8,17 @@
 
 use std::process::ExitCode;
 
-use spectral_file::{ReadOptions, SpectralFile, read};
+use spectral_file::{ReadOptions, Source, SpectralFile, read};
 
 fn main() -> ExitCode {
     let mut failed = false;
     for path in std::env::args().skip(1) {
         let read = std::fs::read(&path).map_err(|error| error.to_string());
-        match read.and_then(|bytes| self::read(&bytes, &ReadOptions::default()).map_err(|error| error.to_string())) {
+        let parse = |bytes: Vec<u8>| {
+            let source = Source { bytes: &bytes, path: &path, ..Source::default() };
+            self::read(source, &ReadOptions::default()).map_err(|error| error.to_string())
+        };
+        match read.and_then(parse) {
             Ok(file) => print(&path, &file),
             Err(error) => {
                 eprintln!("{path}: {error}");

@@ -81,7 +81,9 @@ fn band(dialect: Dialect, name: &str) -> Option<Band<'_>> {
     }
     // Other words, but no numbers cut in pieces.
     let word = |band: &Band<'_>| band.prefix.starts_with(char::is_alphabetic) && !band.prefix.contains(digit);
-    found.filter(|band| band.is_known() || band.suffix.is_empty() && word(band))
+    // `400_refl`
+    let measured = |band: &Band<'_>| band.prefix.is_empty() && header_terms::role_of_bands(band.suffix).is_some();
+    found.filter(|band| band.is_known() || band.suffix.is_empty() && word(band) || measured(band))
 }
 
 fn unit(text: &str) -> (Option<WavelengthUnit>, &str) {

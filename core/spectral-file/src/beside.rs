@@ -3,6 +3,7 @@
 use crate::decision::{Decided, Role};
 use crate::grid::Grid;
 use crate::text::{excerpt, is_one};
+use crate::uncertainty_terms;
 
 /// Endings, after the whole name of a table, of files with its metadata: of the CIE, and of the W3C's CSV on the Web.
 pub const METADATA: [&str; 2] = ["_metadata.json", "-metadata.json"];
@@ -31,19 +32,30 @@ pub(super) fn take(source: Source<'_>, grid: &mut Grid) {
     #[cfg(feature = "json")]
     metadata::take(source.metadata, grid);
     grid.beside = grid.beside.take().or_else(|| of_path(source.path));
+    let stem = file_stem(source.path).map(words).unwrap_or_default();
+    let clues = &mut grid.header.clues;
+    clues.uncertainties = clues.uncertainties.or(uncertainty_terms::is_title(&stem.join(" ")).then_some(0));
+    clues.quantum = stem.iter().any(|word| is_one(word, "qe|eqe|quantum"));
+}
+
+fn file_stem(path: &str) -> Option<&str> {
+    let file = path.rsplit(['/', '\\']).next()?;
+    Some(file.rsplit_once('.').map_or(file, |(stem, _)| stem))
 }
 
 /// The role that the name of a file suggests, else that of the folder it is in.
 fn of_path(path: &str) -> Option<Decided<Role>> {
-    let mut names = path.rsplit(['/', '\\']);
-    let file = names.next()?;
-    let stem = file.rsplit_once('.').map_or(file, |(stem, _)| stem);
+    let stem = file_stem(path)?;
+    let mut names = path.rsplit(['/', '\\']).skip(1);
     let folder = names.find(|name| !name.is_empty()).map(|name| ("folder", name));
     let (what, name, (role, agree)) =
         std::iter::once(("file", stem)).chain(folder).find_map(|(what, name)| Some((what, name, of_name(name)?)))?;
     let name = excerpt(name);
     Some(if role == Role::Unknown {
-        Decided::open(role, format!("The {what} is named “{name}”, as optical constants are"))
+        Decided::open(
+            role,
+            format!("The {what} is named “{name}”, as what has none of these roles is: optical constants, gratings"),
+        )
     } else if agree {
         Decided::guess(role, format!("The {what} is named “{name}”"))
     } else {
@@ -70,15 +82,18 @@ fn of_name(name: &str) -> Option<(Role, bool)> {
     Some((first, roles.all(|role| role == first)))
 }
 
-/// The words of a name in lower case, those joined by capitals or digits apart: `CanonSSF_2` is canon and ssf.
+/// The words of a name in lower case, those joined by capitals or digits apart: `CanonSSF_2` is canon and ssf. Letters between
+/// digits are of a code, `SG01DA18SPD07`, and no words.
 fn words(name: &str) -> Vec<String> {
-    let (mut words, mut word, mut small) = (Vec::new(), String::new(), false);
+    let (mut words, mut word, mut last, mut begun) = (Vec::new(), String::new(), ' ', ' ');
     for c in name.chars().chain(Some(' ')) {
-        if !c.is_alphabetic() || (small && c.is_uppercase()) {
-            words.extend((!word.is_empty()).then(|| std::mem::take(&mut word)));
+        if !c.is_alphabetic() || (last.is_lowercase() && c.is_uppercase()) {
+            let coded = begun.is_ascii_digit() && c.is_ascii_digit();
+            words.extend(Some(std::mem::take(&mut word)).filter(|word| !word.is_empty() && !coded));
         }
+        begun = if word.is_empty() { last } else { begun };
         word.extend(c.to_lowercase().filter(|c| c.is_alphabetic()));
-        small = c.is_lowercase();
+        last = c;
     }
     words
 }
@@ -87,7 +102,7 @@ fn words(name: &str) -> Vec<String> {
 fn role_of_word(word: &str) -> Option<Role> {
     /// How words begin, and whole words.
     const WORDS: [(Role, &str, &str); 5] = [
-        (Role::Unknown, "refractive", "eta|nk|ior"),
+        (Role::Unknown, "refractive|grating|diffract", "eta|nk|ior"),
         (
             Role::Illuminant,
             "illumin|irradian|radian|luminaire|phosphor",

@@ -1,8 +1,8 @@
 //! Instrument settings above the numbers that indicate the measured quantity and its scale.
 
 use crate::decision::{Role, Values};
-use crate::header_terms;
 use crate::text::is_one;
+use crate::{header_terms, uncertainty_terms};
 
 /// Longer lines are no settings.
 pub(super) const LONGEST: usize = 400;
@@ -18,6 +18,12 @@ pub(super) struct Clues {
     pub(super) values: Option<(usize, Values)>,
     /// A title or a name of data mentions absorbances.
     pub(super) absorbance: Option<usize>,
+    /// A title or a line says that the values are uncertainties; line 0 stands for the name of the file.
+    pub(super) uncertainties: Option<usize>,
+    /// The name of the file says quantum efficiency.
+    pub(super) quantum: bool,
+    /// A title or a line names what has none of the roles, and the reason.
+    pub(super) other: Option<(usize, &'static str)>,
 }
 
 pub(super) const MEASURED: &str = "quantity|spectral quantity|measured quantity|technique|mode|data mode|photometric mode|\
@@ -63,6 +69,8 @@ impl Clues {
         // The name of a file may join its words.
         let spaced = text.replace('_', " ");
         self.absorbance = self.absorbance.or_else(|| header_terms::mentions_absorbance(&spaced).then_some(line));
+        self.uncertainties = self.uncertainties.or_else(|| uncertainty_terms::is_title(&spaced).then_some(line));
+        self.other = self.other.or_else(|| Some((line, header_terms::not_converted(&spaced)?)));
     }
 
     pub(super) fn take(&mut self, line: usize, text: &str) {

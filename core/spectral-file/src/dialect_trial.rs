@@ -55,13 +55,15 @@ impl Shape {
 
     fn label_or_text(&mut self, index: usize, dialect: Dialect, cell: &str) {
         self.text |= index > 0;
-        if let Some((value, _)) = dialect.parse_label(cell) {
+        // What a wrong separator leaves of numbers has no unit.
+        let united = cell.bytes().any(|b| b.is_ascii_alphabetic() || b == b'%' || !b.is_ascii());
+        if let Some((value, _)) = united.then(|| dialect.parse_label(cell)).flatten() {
             self.number(index, value, dialect.has_mark(cell), "");
             return;
         }
         self.text = true;
         self.texts |= bit(index).unwrap_or(u128::MAX);
-        self.united |= bit(index).filter(|_| dialect.parse_united(cell).is_some()).unwrap_or(0);
+        self.united |= bit(index).filter(|_| united && dialect.parse_united(cell).is_some()).unwrap_or(0);
     }
 
     fn number(&mut self, index: usize, value: f64, marked: bool, cell: &str) {

@@ -42,6 +42,8 @@ pub enum ReadError {
     Unsupported(Family),
     #[error("line {line}: from column {column} on this breaks the rules of {family}: is the file cut short or edited?")]
     Malformed { family: Family, line: usize, column: usize },
+    #[error("line {line}: {text} is no number of JSON: write null for a missing value")]
+    NoJsonNumber { line: usize, text: &'static str },
     #[error("line {0}: the file does not say at which wavelengths these values are: export them with wavelengths")]
     NoWavelengths(usize),
     #[error(
@@ -106,7 +108,9 @@ pub enum ReadError {
     AmbiguousUnit { line: usize, min: f64, max: f64 },
     #[error("line {0}: commas separate numbers and seem to mark fractions: choose decimal commas, or points if not")]
     AmbiguousCommas(usize),
-    #[error("line {0}: the header gives neither wavelengths nor wave numbers nor THz: convert to wavelengths in nm")]
+    #[error(
+        "line {0}: the header gives neither wavelengths nor wave numbers nor THz: convert to wavelengths in nm, or choose the unit"
+    )]
     NotWavelengths(usize),
     #[error("line {line}: “{kind}” is no spectrum of light over wavelengths, wave numbers or frequencies")]
     NotLight { line: usize, kind: String },
@@ -138,6 +142,7 @@ impl ReadError {
             Self::OneColumn(line)
             | Self::NearlyRow { line, .. }
             | Self::Malformed { line, .. }
+            | Self::NoJsonNumber { line, .. }
             | Self::WrongCount { line, .. }
             | Self::NoWavelengths(line)
             | Self::Misplaced { line, .. }

@@ -45,6 +45,10 @@ pub(super) struct Header {
     pub(super) mentioned: Option<(usize, Role)>,
     /// The one mentioned before it.
     pub(super) earlier: Option<(usize, Role)>,
+    /// Light or fractions of light, as a quantity in free text says, and the other of the two.
+    pub(super) measured: [Option<(usize, Role)>; 2],
+    /// Units that comments give to columns by their names.
+    pub(super) named_units: Vec<(usize, String, String)>,
     pub(super) clues: Clues,
     /// In the program's own tables, for each column behind that of the wavelengths: the coverage factor, if it holds uncertainties.
     pub(super) own: Vec<Option<f64>>,
@@ -93,6 +97,7 @@ impl Header {
 pub(super) fn read(section: Section<'_>, layout: &Layout) -> Header {
     let mut header = Header::default();
     let mut near: Vec<(usize, &str)> = Vec::with_capacity(NEAR + 1);
+    let mut named_above = None;
     let mut lines = Lines::of(section).take_while(|(number, _)| *number < layout.header_end());
     while let Some((number, line)) = lines.next() {
         if line.trim().is_empty() {
@@ -102,6 +107,13 @@ pub(super) fn read(section: Section<'_>, layout: &Layout) -> Header {
             continue;
         }
         let (line, body) = (unmarked(line), comment(line));
+        if let Some((name, unit)) = body.and_then(ecsv_column) {
+            header.named_units.push((number, name.to_owned(), unit.to_owned()));
+            continue;
+        }
+        if layout.width > 2 && named_above.is_none() {
+            named_above = names::split_otherwise(layout, line).map(|names| (number, names));
+        }
         let line = body.map_or_else(|| whole(section, line, layout.dialect(), &mut lines), |_| line);
         if let Some((key, value)) = body.and_then(|body| body.split_once(':')) {
             header.take_comment(number, key.trim(), value.trim());
@@ -117,9 +129,19 @@ pub(super) fn read(section: Section<'_>, layout: &Layout) -> Header {
         if header.names.is_empty() {
             header.take_names(&near, layout, section);
         }
+        if let Some((line, names)) = named_above.filter(|_| header.names.is_empty()) {
+            (header.line, header.names) = (Some(line), names);
+        }
+        header.settle_units(layout);
         heads::take(&mut header);
     }
     header
+}
+
+/// Name and unit of a column in the head of an ECSV: `- {name: flux, unit: W / m2, datatype: float64}`.
+fn ecsv_column(body: &str) -> Option<(&str, &str)> {
+    let (name, rest) = body.strip_prefix("- {name: ")?.split_once(", unit: ")?;
+    Some((name, rest[..rest.find([',', '}'])?].trim()))
 }
 
 /// A line of names without the sign of a comment that no blank follows: `%Wavelength, leaf`.
@@ -132,11 +154,12 @@ impl Header {
     pub(super) fn take_comment(&mut self, line: usize, key: &str, value: &str) {
         /// Keys of what the values are, if a quantity and a unit stand behind them.
         const MEASURED_TOO: &str = "data|data type|value|values|y|signal|spectrum|spectra|column|columns";
-        let lower = key.to_ascii_lowercase();
+        let lower = key.to_ascii_lowercase().replace('_', " ");
         if is_one(&lower, "k|coverage factor|coverage|uncertainty|uncertainties|note") {
             self.take_coverage(line, &format!("{key}: {value}"));
         }
-        if is_one(&lower, "unit|units|y unit|y units|yunit|yunits") {
+        // An object of YAML is no unit of the values.
+        if is_one(&lower, "unit|units|y unit|y units|yunit|yunits") && !value.starts_with(['!', '{']) {
             self.take_value_unit(line, value);
             self.unit = unit_text::unit_cell(value).filter(|unit| unit != "1").or(self.unit.take());
         } else if lower == "quantity"
@@ -152,13 +175,34 @@ impl Header {
             self.clues.mention(line, value);
         }
         // `wavelength_unit`, `x unit` and the like; a plain `unit` is that of the values.
-        let about_x = header_terms::x_unit_in_prose(&format!("{} {value}", lower.replace('_', " ")));
-        if let Some(unit) = about_x.filter(|_| lower.starts_with(['w', 'x'])) {
+        let about_x = header_terms::x_unit_in_prose(&format!("{lower} {value}"));
+        let about_columns = is_one(&lower, "columns|column|fields");
+        if let Some(unit) = about_x.filter(|_| lower.starts_with(['w', 'x']) || about_columns) {
             self.x_unit = Some((line, unit));
+        } else if let Some(name) = lower.strip_suffix(" unit").or_else(|| lower.strip_suffix(" units")) {
+            self.named_units.push((line, name.to_owned(), value.to_owned()));
         }
         if self.comments.len() < MAX_COMMENTS {
             self.comments.push((key.to_owned(), value.to_owned()));
             self.noted.push(line as u32);
+        }
+    }
+
+    /// Gives columns the units that comments give to their names; in a table of one curve to that.
+    fn settle_units(&mut self, layout: &Layout) {
+        let bare = |name: &str| lower(name).replace(['_', '-'], " ");
+        for (line, name, unit) in std::mem::take(&mut self.named_units) {
+            let column = self.names.iter().position(|own| bare(own) == bare(&name));
+            if column == Some(0) || column.is_none() && header_terms::names_axis(&name) {
+                self.x_unit = header_terms::x_unit(&unit).map(|unit| (line, unit)).or(self.x_unit);
+            } else if let Some(column) = column {
+                self.units.resize(self.units.len().max(column + 1), String::new());
+                let own = &mut self.units[column];
+                *own = if own.is_empty() { format!("[{unit}]") } else { std::mem::take(own) };
+            } else if layout.width == 2 {
+                self.take_value_unit(line, &format!("{name} [{unit}]"));
+                self.unit = unit_text::unit_cell(&unit).or(self.unit.take());
+            }
         }
     }
 
@@ -222,6 +266,11 @@ impl Header {
         self.calibration |= header_terms::says_calibration(text);
         if let Some(role) = header_terms::role_in_prose(text).filter(|_| !self.calibration) {
             (self.mentioned, self.earlier) = (Some((line, role)), self.mentioned);
+            let told = role == Role::Illuminant || role.is_fraction();
+            if header_terms::quantity(text).is_some() && told && self.measured[1].is_none() {
+                let other = self.measured[0].is_some_and(|(_, first)| first.is_fraction() != role.is_fraction());
+                self.measured[usize::from(other)].get_or_insert((line, role));
+            }
         }
         self.clues.take(line, text);
     }

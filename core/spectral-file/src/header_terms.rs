@@ -89,15 +89,26 @@ fn says_absorbance(lower: &str) -> bool {
         || ((short() || abs()) && !says_percent(lower))
 }
 
-/// Scale in a header that is not converted, with its remedy.
+/// Reason why what a header names is read as none of the roles, with its remedy.
 pub(super) fn not_converted(text: &str) -> Option<&'static str> {
-    let text = lower(text);
-    if has_word(&text, "mau|mabs|milliabsorbance") || text.contains("(mod)") || text.contains("[mod]") {
-        Some("mAU, thousandths of absorbances, are not converted: divide them by 1000 first")
-    } else if has_word(&text, "db") && ["attenuation", "loss", "dämpfung"].iter().any(|part| text.contains(part)) {
-        Some("losses in dB are not converted: negate them first")
-    } else {
-        None
+    let text = lower(text).replace('_', " ");
+    let has = |part: &str| has_part(&text, part);
+    let word = |words: &str| has_word(&text, words);
+    match () {
+        () if word("mau|mabs|milliabsorbance") || has("(mod)|[mod]") => {
+            Some("mAU, thousandths of absorbances, are not converted: divide them by 1000 first")
+        }
+        () if word("db") && has("attenuation|loss|dämpfung") => {
+            Some("losses in dB are not converted: negate them first")
+        }
+        () if has("internal transm|transmittance internal|reintransm|transmittance interne") => Some(
+            "Internal transmittances lack the reflections at the surfaces: multiply them by the factor of these first",
+        ),
+        () if has("diffraction|grating") && has("efficienc") => {
+            Some("The efficiency of a grating is that of no camera: it is one factor of an instrument")
+        }
+        () if begins(&text, "emissivit") => Some("An emissivity is neither a reflectance nor a transmittance"),
+        () => None,
     }
 }
 
@@ -336,7 +347,7 @@ pub(super) fn x_unit(text: &str) -> Option<XUnit> {
     if let Some(unit) = bracketed_letter(&text) {
         return Some(unit);
     }
-    let energies = text.contains("energ") || words(&text).count() == 1;
+    let energies = has_part(&text, "energ|(ev)|[ev]") || words(&text).count() == 1;
     let unit = words(&text).find_map(|word| match word {
         "ev" | "kev" | "mev" if energies => Some(XUnit::Other),
         "hz" | "ghz" | "phz" | "1/nm" | "1/m" | "m-1" => Some(XUnit::Other),

@@ -317,6 +317,8 @@ pub(super) fn per_photon(grid: &Grid, role: Role, quantity: &Decided<Quantity>) 
     }
     Some(if quantity.value == Quantity::QuantumEfficiency {
         Decided::certain(true, "Quantum efficiencies are counted per photon")
+    } else if grid.header.clues.quantum {
+        Decided::guess(true, "The file is named after a quantum efficiency")
     } else {
         Decided::guess(false, "Nothing says that they are per photon")
     })
@@ -331,7 +333,7 @@ pub(super) fn of_unit(unit: &str) -> Option<Quantity> {
         return Some(Quantity::QuantumEfficiency);
     }
     if let Some(unit) = units::parse(unit) {
-        return Some(of_light(unit.area.is_some(), unit.steradian));
+        return Some(of_light(unit.area.is_some(), unit.angle.is_some()));
     }
     let lower: String = unit.to_lowercase().chars().filter(|c| !matches!(c, ' ' | '^' | '·' | '*' | '-')).collect();
     let lower = lower.replace("watt", "w").replace('²', "2");

@@ -79,6 +79,21 @@ const WORDS: [(Kind, bool, &str); 11] = [
     (Kind::Error, false, "mean se|mean sem"),
 ];
 
+/// Returns whether a title or the name of a file is that of uncertainties, and no remark on their size: `Expanded uncertainty (k=2)`,
+/// `k2 uncertainty`, `Standard uncertainties of the reflectances`.
+pub(super) fn is_title(text: &str) -> bool {
+    const REMARKS: &str = "is|are|was|were|has|have|with|and|without|see|not|about|less|than|below|percent";
+    const MOST_WORDS: usize = 12;
+    let text = lower(text);
+    let words = || text.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty());
+    // `Uncertainty: 2 %` tells how large they are.
+    let remark =
+        text.contains([':', '=', '%', '±']) && !text.contains("k=") || words().any(|word| is_one(word, REMARKS));
+    let mut at = words().take(MOST_WORDS + 1).enumerate().filter(|(_, word)| word.starts_with("uncertaint"));
+    // Behind what they are of, or before it.
+    at.next().is_some_and(|(at, _)| at < 3 || at + 1 == words().count()) && !remark && words().count() <= MOST_WORDS
+}
+
 /// Words beside those for an uncertainty that say no more than they do.
 const BESIDE: &str = "combined|measurement|total|estimated|spectral|confidence|level|of|in|for|the|on";
 

@@ -161,25 +161,31 @@ pub(super) fn is_per_photon(unit: &str) -> bool {
     ["/photon", "/photons", "/quantum", "photon-1", "photon^-1", "photon⁻¹"].iter().any(|end| lower.ends_with(end))
 }
 
+/// Quantities of photons.
+const PHOTON_PHRASES: &str = "photon flux|photon irradian|photon radian|photon exitan|photon fluence|photon intensity|\
+    quantum flux|quantum irradian|(qntm)|s.q.irrad";
+
 /// Returns whether a text names a quantity of photons, and not only a lamp.
 pub(super) fn names_photons(text: &str) -> bool {
-    const PHRASES: &str = "photon flux|photon irradian|photon radian|photon exitan|photon fluence|photon intensity|\
-        quantum flux|quantum irradian|(qntm)|s.q.irrad";
     if header_terms::says_counts(text) {
         return false;
     }
     let lower = lower(text).replace('_', " ");
     let word = |word: &str| is_one(word, "ppfd|pfd|spfd|photons|quanta|qntm");
-    has_part(&lower, PHRASES) || lower.split(|c: char| !c.is_alphanumeric()).any(word) && !lower.contains("/photon")
+    has_part(&lower, PHOTON_PHRASES)
+        || lower.split(|c: char| !c.is_alphanumeric()).any(word) && !lower.contains("/photon")
 }
 
 /// Returns whether a line of free text states that all values are photons: LI-COR's `(QNTM)`, or a sentence on all
-/// values.
+/// values, or a title that is one of their quantities.
 pub(super) fn said_in_prose(line: &str) -> bool {
     let lower = lower(line);
     let values = has_part(&lower, "values are in |values in |units are ");
     let photons = has_part(&lower, "photons per |moles of photons|mol of photons");
-    line.contains("(QNTM)") || values && photons && !header_terms::says_counts(&lower)
+    // A figure is that of a sum: `Photon flux 400-700 nm: 12.3`.
+    let title = !lower.contains([':', '=', ',', ';', '\t']) && !lower.contains(|c: char| c.is_ascii_digit());
+    line.contains("(QNTM)")
+        || (values && photons || title && has_part(&lower, PHOTON_PHRASES)) && !header_terms::says_counts(&lower)
 }
 
 /// Returns whether a title or a line of free text states that sensitivities are quantum efficiencies or responses per

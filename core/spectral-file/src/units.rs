@@ -15,7 +15,8 @@ pub(super) struct Unit {
     pub(super) amount: Amount,
     /// The area, such as `m²`.
     pub(super) area: Option<&'static str>,
-    pub(super) steradian: bool,
+    /// The solid angle, such as `sr`.
+    pub(super) angle: Option<&'static str>,
     time: Option<&'static str>,
     pub(super) per: Per,
     pub(super) ten: f64,
@@ -54,8 +55,7 @@ impl Unit {
             (Amount::Energy(symbol), time) => (symbol, time),
         };
         let spectral = (self.per != Per::None).then_some("nm");
-        let steradian = self.steradian.then_some("sr");
-        let parts = [time, self.area, steradian, spectral].into_iter().flatten();
+        let parts = [time, self.area, self.angle, spectral].into_iter().flatten();
         parts.fold(symbol.to_owned(), |unit, part| unit + "/" + part)
     }
 }
@@ -78,7 +78,7 @@ pub(super) fn parse(text: &str) -> Option<Unit> {
     let words: Vec<Word<'_>> = words(text).take(MOST).collect();
     (0..words.len()).find_map(|at| {
         let unit = unit(text, &words[at..])?;
-        let told = unit.area.is_some() || unit.steradian || unit.per != Per::None;
+        let told = unit.area.is_some() || unit.angle.is_some() || unit.per != Per::None;
         let photons = matches!(unit.amount, Amount::Photons(_)) && unit.time.is_some();
         (told || photons).then_some(unit)
     })
@@ -111,7 +111,7 @@ fn unit(text: &str, words: &[Word<'_>]) -> Option<Unit> {
     let (amount, joined) = if let Some((symbol, _)) = ergs { (Amount::Energy(symbol), None) } else { amount(&lower)? };
     let (ten, start) = power_of_ten(text, first.start);
     let size = ergs.map_or(1.0, |(_, size)| size);
-    let mut unit = Unit { amount, area: None, steradian: false, time: None, per: Per::None, ten, size, start };
+    let mut unit = Unit { amount, area: None, angle: None, time: None, per: Per::None, ten, size, start };
     let mut bare = unit.clone();
     if amount == Amount::Energy("W") && ergs.is_some() {
         (unit.area, unit.per) = (Some("m²"), Per::Frequency(1e-12));
@@ -180,6 +180,7 @@ fn plain_amount(word: &str) -> Option<Amount> {
             // Microeinsteins; a lone E is a quantity.
             "e" if *scale == 1e-6 => return Some(Amount::Photons(scale * AVOGADRO)),
             "photon" | "photons" | "quanta" | "quantum" => return Some(Amount::Photons(*scale)),
+            "ph" | "phot" if *scale == 1.0 => return Some(Amount::Photons(1.0)),
             "watt" | "watts" => "w",
             "joule" | "joules" => "j",
             other => other,
@@ -208,7 +209,9 @@ impl Unit {
             "mhz" => return self.take_per(Per::Frequency(1e-6)),
             "hz" => return self.take_per(Per::Frequency(1e-12)),
             "ev" | "electronvolt" | "electronvolts" => return self.take_per(Per::Electronvolt),
-            "sr" | "steradian" | "steradians" => return !std::mem::replace(&mut self.steradian, true),
+            "sr" | "steradian" | "steradians" => return self.angle.replace("sr").is_none(),
+            // As astronomers leave out its exponent, too.
+            "arcsec" | "arcsecond" | "arcseconds" => return self.angle.replace("arcsec²").is_none(),
             "sqm" | "sm" => return self.area.replace("m²").is_none(),
             "s" | "sec" | "second" | "seconds" => return self.take_time("s"),
             "h" | "hr" | "hour" => return self.take_time("h"),

@@ -7,6 +7,7 @@ use crate::grid::Grid;
 use crate::header_terms::{self, XUnit};
 use crate::options::ReadOptions;
 use crate::report::Steps;
+use crate::text::is_one;
 use crate::units::RANGE_NM;
 use crate::warning::{LineList, Warning};
 use crate::watch::Log;
@@ -25,8 +26,18 @@ pub(super) fn unit(grid: &Grid, options: &ReadOptions) -> Result<Decided<Wavelen
     match grid.header.x_unit {
         Some((line, XUnit::Wavelength(unit))) => Ok(Decided::certain(unit, format!("Line {line} names the unit"))),
         Some((line, XUnit::Other)) => Err(ReadError::NotWavelengths(line)),
-        None => no_other_axis(grid).and_then(|()| unit_from_range(grid)),
+        None => no_other_axis(grid).and_then(|()| unit_from_frequencies(grid).unwrap_or_else(|| unit_from_range(grid))),
     }
+}
+
+/// The unit of a column that is headed frequencies and no unit: MODTRAN means wave numbers by FREQ, else only the user knows.
+fn unit_from_frequencies(grid: &Grid) -> Option<Result<Decided<WavelengthUnit>, ReadError>> {
+    let name = grid.header.name(grid.wavelength_column?.saturating_sub(1))?;
+    is_one(&name.to_lowercase(), "freq|freq.|frequency|frequencies").then(|| {
+        let why = "MODTRAN writes wave numbers under FREQ";
+        let guess = Decided::guess(WavelengthUnit::Wavenumber, why);
+        if name == "FREQ" { Ok(guess) } else { Err(ReadError::NotWavelengths(grid.header.line.unwrap_or(1))) }
+    })
 }
 
 /// The unit that a range suggests. If both ångströms and wave numbers fit, only the user knows.
@@ -57,10 +68,21 @@ fn unit_from_range(grid: &Grid) -> Result<Decided<WavelengthUnit>, ReadError> {
 fn no_other_axis(grid: &Grid) -> Result<(), ReadError> {
     let Some(column) = grid.wavelength_column.map(|column| column.saturating_sub(1)) else { return Ok(()) };
     let names = grid.header.names.get(column..).unwrap_or_default();
-    let tristimulus = names.len() > 2 && names.iter().zip(["X", "Y", "Z"]).all(|(name, letter)| name == letter);
+    // Of colors, also behind the names or numbers of their samples.
+    let samples = names.first().is_some_and(|name| !header_terms::names_wavelengths(name));
+    let colors = |letters: [&str; 3]| names.windows(3).any(|names| names.iter().zip(letters).all(|(a, b)| a == b));
+    let tristimulus = samples && [["X", "Y", "Z"], ["L*", "a*", "b*"], ["L", "a", "b"]].into_iter().any(colors);
     // A line such as `temperature,32.4` is a setting.
     let setting = names.iter().skip(1).all(|name| name.is_empty() || name.starts_with(|c: char| c.is_ascii_digit()));
-    let other = names.first().is_some_and(|name| header_terms::names_other_axis(name) && !setting) || tristimulus;
+    // Bands of which none is read, `400-410nm`, stand across.
+    let is_band = |name: &String| {
+        name.starts_with(|c: char| c.is_ascii_digit())
+            && name.contains(char::is_alphabetic)
+            && name.parse::<f64>().is_err()
+    };
+    let bands = names.len() > 2 && names.iter().all(is_band);
+    let named = names.first().is_some_and(|name| header_terms::names_other_axis(name) && !setting);
+    let other = named || tristimulus || bands;
     if other { Err(ReadError::NoWavelengths(grid.header.line.unwrap_or(1))) } else { Ok(()) }
 }
 

@@ -50,6 +50,7 @@ pub(super) fn read(section: Section<'_>, layout: &Layout, log: &mut Log<'_>) -> 
     }
     let specular = header_terms::says_specular(&group.prefix).then_some(Role::Reflectance);
     let role = specular.or_else(|| header_terms::role_of_bands(&group.prefix));
+    let role = role.or_else(|| header_terms::role_of_bands(&group.suffix).filter(|_| group.prefix.is_empty()));
     let role = role.map(|role| Decided::guess(role, format!("The bands are named {}", group.prefix)));
     let parts = across.groups.iter().filter(|_| across.groups.len() > 1).map(|group| Part {
         line: across.first_row,

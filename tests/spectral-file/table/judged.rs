@@ -1,6 +1,6 @@
 //! What an independent judge found misread in public files, on small files of the same make.
 
-use spectral_file::{Certainty, ReadError, ReadOptions, Role, Warning, read};
+use spectral_file::{Certainty, ReadError, ReadOptions, Role, Source, Warning, read};
 
 use super::{error, names, ok, samples};
 
@@ -146,4 +146,101 @@ fn small_numbers_of_a_program_that_writes_percent_are_asked() {
         "Data from black_Reflection_00001.txt Node\nXAxis mode: Wavelengths\n>>>>>Begin Spectral Data<<<<<\n400\t1.5\n500\t2.1\n600\t1.9\n",
     );
     assert_eq!((table.role.value, table.reading.values.certainty), (Role::Reflectance, Certainty::Open));
+}
+
+#[test]
+fn what_has_none_of_the_roles_is_asked() {
+    let bare = "400,0.1\n500,0.2\n600,0.3\n";
+    let asked = [
+        ("", "nm,Internal transmittance\n", "Internal transmittances lack"),
+        ("", "# internal transmittance of BG40 at 1 mm\n", "By line 1: internal"),
+        ("", "nm,Grating quantum efficiency\n", "The efficiency of a grating"),
+        ("", "nm,Diffraction efficiency (%)\n", "The efficiency of a grating"),
+        ("grating_efficiency_300.csv", "nm,Order 1\n", "The file is named"),
+        ("", "nm,Expanded uncertainty (k=2)\n", "The header says that these are uncertainties"),
+        ("", "# title: Expanded uncertainty\nnm,Reflectance\n", "Line 1 says that these are uncertainties"),
+        ("", "# Standard uncertainties of the reflectances\nnm,leaf\n", "Line 1 says that these are uncertainties"),
+        ("lamp_k2uncertainty.csv", "nm,Lamp 1\n", "The name of the file says that these are uncertainties"),
+        (
+            "",
+            "# Transmission of the air\n# computed from sky radiances\n",
+            "Line 1 mentions transmittances, but line 2",
+        ),
+        ("SG01DA18SPD07.csv", "nm,REF(A)\n", "Values reach"),
+    ];
+    for (path, head, why) in asked {
+        let text = format!("{head}{bare}");
+        let source = Source { bytes: text.as_bytes(), path, ..Source::default() };
+        let table = read(source, &ReadOptions::default()).unwrap();
+        assert_eq!((table.role.value, table.role.certainty), (Role::Unknown, Certainty::Open), "{path} {head}");
+        assert!(table.role.why.starts_with(why), "{}", table.role.why);
+    }
+    // Remarks on uncertainties, conditions of measurement and settings change nothing.
+    for head in [
+        "# Reflectances with uncertainties below 1 percent\nnm,Reflectance\n",
+        "# Uncertainty: 2 %\nnm,Reflectance\n",
+        "# Grating: 600 lines\nnm,Reflectance\n",
+        "# Reflectance\n# Light source: halogen\nnm,leaf\n",
+    ] {
+        assert_eq!(ok(&format!("{head}{bare}")).role.value, Role::Reflectance, "{head}");
+    }
+    let named = Source { bytes: bare.as_bytes(), path: "e2v_QE.csv", ..Source::default() };
+    assert!(read(named, &ReadOptions::default()).unwrap().reading.per_photon.unwrap().value);
+}
+
+#[test]
+fn comments_give_units_to_columns_by_their_names() {
+    /// The energy of a photon of 500 nm, h c/λ by the constants of the SI.
+    const PHOTON_J: f64 = 3.972_891_714_297_857e-19;
+    let per_um =
+        "# lam_unit : um\n# emission_unit : ph s-1 m-2 um-1 arcsec-2\nlam emission\n0.4 1000\n0.5 1000\n0.6 1000\n";
+    let table = ok(per_um);
+    let (nm, value) = samples(&table.curves[0])[1];
+    assert_eq!((nm, table.curves[0].unit.as_deref()), (500.0, Some("W/m²/arcsec²/nm")));
+    assert!((value / PHOTON_J - 1.0).abs() < 1e-12, "{value}");
+    let ecsv = "# %ECSV 0.9\n# ---\n# datatype:\n# - {name: wavelength, unit: Angstrom, datatype: float64}\n\
+                # - {name: flux, unit: erg / (Angstrom cm2 s), datatype: float64}\nwavelength flux\n1000 1\n5000 2\n20000 3\n";
+    let object =
+        ok(&ecsv.replace("# - {name: flux, unit: erg / (Angstrom cm2 s)", "# unit: !unit {unit: nm}\n# - {name: flux"));
+    assert_eq!(object.curves[0].unit, None);
+    let table = ok(ecsv);
+    // An erg is 1e-7 J, and ten ångströms are a nanometer.
+    assert_eq!(samples(&table.curves[0])[1], (500.0, 2e-6));
+    assert_eq!((table.role.value, table.role.certainty), (Role::Illuminant, Certainty::Certain));
+    let sky = ok("# Columns: wavelength (micron) and equivalent sky radiance (MJy/SR)\n0.5,1\n20,2\n31,3\n");
+    // A jansky is 1e-26 W/m²/Hz, of which c/λ² are in a nanometer; what is beyond 25 µm is left out.
+    let expected = 1e6 * 1e-26 * 299_792_458.0 / (500e-9 * 500e-9) * 1e-9;
+    assert!((sky.curves[0].values[0] / expected - 1.0).abs() < 1e-12 && sky.curves[0].values.len() == 2);
+    let one = ok("# wavelength_unit: nm\n# y_unit: percent\n# transmission_unit: percent\n400 10\n500 0.5\n600 0.4\n");
+    assert_eq!(samples(&one.curves[0])[0], (400.0, 0.1));
+    assert_eq!(ok("# Spectral photon flux\n500 1\n550 1\n").curves[0].values, [1.1, 1.0]);
+}
+
+#[test]
+fn names_and_axes_of_libraries_and_models() {
+    let usgs = "USGS Digital Spectral Library\n3-columns of data:\n     wavelength    reflectance    standard deviation\n\n\
+                (standard deviation of 0.000000 means not measured)\n-----\nAcmite W1R1Bb AREF\ncopy of splib05a r 58\nx\ny\nz\n\
+                \u{20}  0.4051    -1.23e+34    -1.23e+34\n   0.5131    0.0551    0.00012\n   0.6131    0.0561    0.00013\n";
+    let table = ok(usgs);
+    assert_eq!((names(&table), table.role.value), (vec!["reflectance"], Role::Reflectance));
+    let uncertainty = table.curves[0].uncertainty.as_ref().unwrap();
+    assert_eq!((samples(&table.curves[0])[0], uncertainty.standard[0]), ((513.1, 0.0551), 0.00012));
+    let modtran = ok("   FREQ TOT_TRANS TOTAL_RAD\n 12500. 0.5 1E-8\n 20000. 0.6 2E-8\n 25000. 0.7 3E-8\n");
+    assert_eq!((modtran.reading.range_nm, modtran.role.certainty), ([400.0, 800.0], Certainty::Open));
+    assert_eq!(error("frequency,a\n400,1\n500,2\n"), ReadError::NotWavelengths(1));
+    assert_eq!(error("Bandgap (eV),PCE (%)\n0.32,5.9\n0.33,6.1\n0.34,6.2\n"), ReadError::NotWavelengths(1));
+    for head in ["Patch,X,Y,Z", "Sample,L*,a*,b*"] {
+        assert_eq!(error(&format!("{head}\n401,10,9,7\n402,20,19,17\n403,30,29,27\n")), ReadError::NoWavelengths(1));
+    }
+    let wide =
+        |heads: &str| format!("sample,{heads}\na,0.1,0.2,0.3,0.4,0.5\nb,0.2,0.3,0.4,0.5,0.6\nc,0.3,0.4,0.5,0.6,0.7\n");
+    let table = ok(&wide("400_refl,410_refl,420_refl,430_refl,440_refl"));
+    assert_eq!((names(&table), table.role.value), (vec!["a", "b", "c"], Role::Reflectance));
+    assert_eq!(samples(&table.curves[0])[0], (400.0, 0.1));
+    let intervals = wide("400-410nm,410-420nm,420-430nm,430-440nm,440-450nm");
+    assert_eq!(error(&intervals), ReadError::NoWavelengths(1));
+    for (number, text) in [("NaN", "NaN"), ("-Infinity", "Infinity")] {
+        let json = format!("{{\n\"wavelengths\": [400, 410, 420],\n\"values\": [0.1, {number}, 0.3]\n}}\n");
+        assert_eq!(error(&json), ReadError::NoJsonNumber { line: 3, text });
+    }
 }

@@ -94,6 +94,7 @@ impl Header {
         // Names of samples say less than a line above them.
         let above = self.earlier.filter(|_| self.mentioned.is_some_and(|(line, _)| line == number));
         self.mentioned = above.or(self.mentioned);
+        self.measured = self.measured.map(|measured| measured.filter(|(line, _)| *line != number));
     }
 
     /// Takes the names of samples from the line above one that only says what was measured, `Wavelength (nm),%T,Wavelength (nm),%T`:
@@ -239,7 +240,7 @@ fn cells(layout: &Layout, line: &str, section: Section<'_>) -> Vec<String> {
 }
 
 /// Names that tabs, commas or wide gaps separate above columns between blanks, or in a comment.
-fn split_otherwise(layout: &Layout, line: &str) -> Option<Vec<String>> {
+pub(super) fn split_otherwise(layout: &Layout, line: &str) -> Option<Vec<String>> {
     ["\t", ",", ";", "  "].iter().find_map(|sign| {
         let cells = line.split(sign).map(str::trim).filter(|cell| !cell.is_empty());
         let names: Vec<String> = cells.take(layout.width + 1).map(str::to_owned).collect();

@@ -5,8 +5,8 @@ use crate::grid::{Grid, RawCurve};
 use crate::header_terms::{self, Channel, XUnit};
 use crate::report::Curve;
 use crate::scale::values::{Evidence, LARGEST_PERCENT, Looks};
-use crate::text::{excerpt, has_word, lower};
-use crate::{quantity, unit_text};
+use crate::text::excerpt;
+use crate::{quantity, uncertainty_terms, unit_text};
 
 /// Counts of detectors are larger, irradiances and radiances in the usual units smaller.
 const COUNTS: f64 = 1000.0;
@@ -18,6 +18,9 @@ pub(super) fn said(grid: &Grid, chosen: Option<Values>) -> Option<Decided<Role>>
 
 /// Role that the format, the header, the names of columns or a setting state.
 fn stated(grid: &Grid) -> Option<Decided<Role>> {
+    if let Some(why) = none_of_the_roles(grid) {
+        return Some(Decided::open(Role::Unknown, why));
+    }
     let of_format = || grid.role.clone().filter(|role| role.certainty == Certainty::Certain);
     if let Some(role) = several(grid).or_else(of_format) {
         return Some(role);
@@ -58,6 +61,29 @@ fn stated(grid: &Grid) -> Option<Decided<Role>> {
         .or_else(|| of_illuminants(grid))
 }
 
+/// Reason why the curves have none of the roles: their heads, a line above them or the file's name say that they are something else.
+fn none_of_the_roles(grid: &Grid) -> Option<String> {
+    if let Some(why) = grid.curves.iter().find_map(|curve| header_terms::not_converted(&curve.label)) {
+        return Some(why.to_owned());
+    }
+    let clues = &grid.header.clues;
+    if let Some((line, why)) = clues.other.filter(|_| grid.header.role.is_none()) {
+        return Some(format!("By line {line}: {}", chromascope_text::lowered(why)));
+    }
+    let is_term = |curve: &RawCurve| {
+        uncertainty_terms::term(unit_text::without_unit(&curve.label), &curve.label).is_some_and(|term| term.clear)
+    };
+    let alone = grid.curves.iter().all(|curve| curve.uncertainty.is_none()) && grid.header.own.is_empty();
+    let who = match clues.uncertainties {
+        _ if !alone => return None,
+        _ if grid.curves.iter().all(is_term) => "The header".to_owned(),
+        Some(0) => "The name of the file".to_owned(),
+        Some(line) => format!("Line {line}"),
+        None => return None,
+    };
+    Some(format!("{who} says that these are uncertainties: put them into a column behind that of their values"))
+}
+
 /// A quantity, unit or mode that outweighs the names of channels: of lights, or of fractions of light.
 fn other_than_camera(grid: &Grid) -> Option<Decided<Role>> {
     let other = |role: Role| role == Role::Illuminant || role.is_fraction();
@@ -90,9 +116,6 @@ fn several(grid: &Grid) -> Option<Decided<Role>> {
 /// Columns named A beside R or T: absorbances or absorptances beside reflectances and transmittances.
 fn mixed(grid: &Grid) -> Option<Decided<Role>> {
     const MOST: usize = 4;
-    if grid.curves.iter().any(|curve| has_word(&lower(&curve.label), "emissivity")) {
-        return Some(Decided::open(Role::Unknown, "An emissivity is neither a reflectance nor a transmittance"));
-    }
     if grid.header.mentioned.is_some() || grid.curves.len() > MOST {
         return None;
     }
@@ -202,6 +225,12 @@ fn hinted(grid: &Grid, chosen: Option<Values>) -> Option<Decided<Role>> {
             (headed.filter(|values| *values != Values::Plain), "The header says what the values stand for".to_owned())
         }
     };
+    if let [Some((first, role)), Some((second, other))] = grid.header.measured
+        && chosen.is_none()
+    {
+        let why = format!("Line {first} mentions {role}, but line {second} {other}");
+        return Some(Decided::open(Role::Unknown, why));
+    }
     // Other information on the content outweighs its scale.
     if let Some((line, role)) = grid.header.mentioned.filter(|(_, role)| suits(*role, values)) {
         return Some(Decided::guess(role, format!("Line {line} mentions it")));
@@ -253,9 +282,6 @@ pub(super) fn suggested(grid: &Grid, evidence: &Evidence) -> Decided<Role> {
     // Lights scaled the usual way are exactly 100 at 560 nm.
     const ANCHOR: (f64, f64) = (560.0, 100.0);
     let labels = || grid.curves.iter().map(|curve| &*curve.label);
-    if let Some(why) = labels().find_map(header_terms::not_converted) {
-        return Decided::open(Role::Unknown, why);
-    }
     if let Some(role) = by_reference(grid, evidence) {
         return role;
     }

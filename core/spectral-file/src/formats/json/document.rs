@@ -45,6 +45,13 @@ impl<'a> Value<'a> {
             let before = &self.document.as_bytes()[..(self.offset(self.written) + end).min(self.document.len())];
             let start = before.iter().rposition(|byte| *byte == b'\n').map_or(0, |at| at + 1);
             let line = before.split(|byte| *byte == b'\n').count();
+            // As Python writes them.
+            let at = before.len().saturating_sub(2).max(start);
+            let mut names = ["NaN", "Infinity"].into_iter();
+            let rest = self.document.get(at..).unwrap_or_default();
+            if let Some(text) = names.find(|name| rest.find(*name).is_some_and(|at| at < 3)) {
+                return ReadError::NoJsonNumber { line, text };
+            }
             ReadError::Malformed { family: Family::Json, line, column: (before.len() - start).max(1) }
         })
     }
